@@ -1,0 +1,131 @@
+#ifndef WIIMOTE_TRACKER_MSGS_PARAMETER_READER_H
+#define WIIMOTE_TRACKER_MSGS_PARAMETER_READER_H
+
+#include <ros/node_handle.h>
+
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// A parameter is missing, of the wrong type, out of range, or unknown; what() names it in full.
+struct ParameterError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Reads a node's parameters and refuses what it does not understand, so that a typing error in a
+/// YAML file is an error and not a default. Every read names a key below the given namespace;
+/// refuseUnknown() then throws for keys that are set there and that nobody read.
+class ParameterReader {
+ public:
+  explicit ParameterReader(const ros::NodeHandle& nh) : nh_(nh) {}
+
+  /// @throws ParameterError when the key is absent or of the wrong type.
+  template <typename T>
+  T required(const std::string& key, const std::string& what_to_set) {
+    used_.insert(nh_.resolveName(key));
+    if (!nh_.hasParam(key))
+      throw ParameterError("set " + nh_.resolveName(key) + ": " + what_to_set);
+    return get<T>(key);
+  }
+
+  /// @throws ParameterError when the key is present with the wrong type.
+  template <typename T>
+  T optional(const std::string& key, const T& default_value) {
+    used_.insert(nh_.resolveName(key));
+    return nh_.hasParam(key) ? get<T>(key) : default_value;
+  }
+
+  /// A number within [minimum, maximum]. @throws ParameterError when it is not.
+  template <typename T>
+  T bounded(const std::string& key, T default_value, T minimum, T maximum) {
+    return checkRange(key, optional<T>(key, default_value), minimum, maximum);
+  }
+
+  /// A number within [minimum, maximum] that has no default. @throws ParameterError.
+  template <typename T>
+  T requiredBounded(const std::string& key, const std::string& what_to_set, T minimum, T maximum) {
+    return checkRange(key, required<T>(key, what_to_set), minimum, maximum);
+  }
+
+  /// One of the given words. @throws ParameterError when it is another.
+  std::string choice(const std::string& key,
+                     const std::string& default_value,
+                     const std::vector<std::string>& words) {
+    const std::string value = optional<std::string>(key, default_value);
+    std::string list;
+    for (const std::string& word : words) {
+      if (word == value)
+        return value;
+      list += (list.empty() ? "" : ", ") + word;
+    }
+    throw ParameterError(nh_.resolveName(key) + " is '" + value + "', but must be one of: " + list);
+  }
+
+  /// Declares a key, and everything below it, as known without reading it.
+  void allow(const std::string& key) { used_.insert(nh_.resolveName(key)); }
+
+  /// @throws ParameterError naming every key below the namespace that was not read.
+  void refuseUnknown() const {
+    std::vector<std::string> all;
+    nh_.getParamNames(all);
+    const std::string prefix = nh_.getNamespace() + "/";
+    std::string unknown;
+    for (const std::string& name : all) {
+      if (name.compare(0, prefix.size(), prefix) == 0 && !isUsed(name))
+        unknown += (unknown.empty() ? "" : ", ") + name;
+    }
+    if (!unknown.empty())
+      throw ParameterError("unknown parameter " + unknown + ": remove it or correct its spelling");
+  }
+
+ private:
+  template <typename T>
+  T get(const std::string& key) const {
+    T value;
+    if (!nh_.getParam(key, value))
+      throw ParameterError(nh_.resolveName(key) + " has the wrong type: expected " + typeName(T()));
+    return value;
+  }
+
+  template <typename T>
+  T checkRange(const std::string& key, T value, T minimum, T maximum) const {
+    if (minimum <= value && value <= maximum)  // false for NaN
+      return value;
+    std::ostringstream text;
+    text << nh_.resolveName(key) << " is " << value << ", but must be within " << minimum << " and "
+         << maximum;
+    throw ParameterError(text.str());
+  }
+
+  bool isUsed(const std::string& name) const {
+    for (const std::string& used : used_) {
+      if (name == used || name.compare(0, used.size() + 1, used + "/") == 0)
+        return true;
+    }
+    return false;
+  }
+
+  static std::string typeName(double) { return "a number"; }
+  static std::string typeName(int) { return "a whole number"; }
+  static std::string typeName(bool) { return "true or false"; }
+  static std::string typeName(const std::string&) { return "a text"; }
+  template <typename T>
+  static std::string typeName(const std::vector<T>&) {
+    return "a list, each entry " + typeName(T());
+  }
+  template <typename T>
+  static std::string typeName(const T&) {
+    return "another type";
+  }
+
+  ros::NodeHandle nh_;
+  std::set<std::string> used_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_MSGS_PARAMETER_READER_H

@@ -1,0 +1,75 @@
+// What a user gets to read when a parameter is missing, wrong, out of range or misspelt.
+#include "wiimote_tracker_msgs/parameter_reader.h"
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+
+namespace wiimote_tracker {
+namespace {
+
+template <typename F>
+std::string errorOf(F f) {
+  try {
+    f();
+  } catch (const ParameterError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(ParameterReader, ReadsWhatIsSet) {
+  ParameterReader reader(ros::NodeHandle("~good"));
+  EXPECT_EQ(2.5, reader.required<double>("side", "the side length [m]"));
+  EXPECT_EQ(3, reader.bounded("count", 1, 0, 5));
+  EXPECT_EQ("square", reader.choice("name", "circle", {"circle", "square"}));
+  EXPECT_EQ((std::vector<std::string>{"a", "b"}),
+            reader.optional("list", std::vector<std::string>{}));
+  EXPECT_TRUE(reader.optional("flag", false));
+  EXPECT_NO_THROW(reader.refuseUnknown());
+}
+
+TEST(ParameterReader, DefaultsApplyWhenAbsent) {
+  ParameterReader reader(ros::NodeHandle("~good"));
+  EXPECT_EQ(7.0, reader.bounded("absent", 7.0, 0.0, 10.0));
+  EXPECT_EQ("circle", reader.choice("absent", "circle", {"circle", "square"}));
+}
+
+TEST(ParameterReader, ErrorsNameTheFullKey) {
+  ParameterReader reader(ros::NodeHandle("~good"));
+  const std::string ns = ros::this_node::getName() + "/good/";
+  EXPECT_TRUE(contains(errorOf([&] { reader.required<double>("absent", "the side [m]"); }),
+                       ns + "absent: the side [m]"));
+  EXPECT_TRUE(contains(errorOf([&] { reader.optional<int>("name", 1); }), ns + "name"));
+  EXPECT_TRUE(contains(errorOf([&] { reader.bounded("side", 1.0, 3.0, 9.0); }),
+                       ns + "side is 2.5, but must be within 3 and 9"));
+  EXPECT_TRUE(contains(errorOf([&] { reader.choice("name", "circle", {"circle", "line"}); }),
+                       "must be one of: circle, line"));
+}
+
+TEST(ParameterReader, UnknownKeyIsRefusedByName) {
+  ParameterReader reader(ros::NodeHandle("~typo"));
+  reader.required<double>("side", "the side length [m]");
+  const std::string error = errorOf([&] { reader.refuseUnknown(); });
+  EXPECT_TRUE(contains(error, ros::this_node::getName() + "/typo/sied")) << error;
+  EXPECT_FALSE(contains(error, "/typo/side")) << error;
+}
+
+TEST(ParameterReader, AllowedGroupIsNotUnknown) {
+  ParameterReader reader(ros::NodeHandle("~nested"));
+  EXPECT_NE("", errorOf([&] { reader.refuseUnknown(); }));
+  reader.allow("group");
+  EXPECT_NO_THROW(reader.refuseUnknown());
+}
+
+}  // namespace
+}  // namespace wiimote_tracker
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "parameter_reader");
+  return RUN_ALL_TESTS();
+}

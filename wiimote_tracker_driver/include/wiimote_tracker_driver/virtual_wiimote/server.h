@@ -1,0 +1,39 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_SERVER_H
+#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_SERVER_H
+
+#include "wiimote_tracker_driver/virtual_wiimote/device.h"
+
+#include <memory>
+#include <string>
+
+namespace wiimote_tracker::virtual_wiimote {
+
+/// Makes a Device reachable at a local socket (AF_UNIX, SOCK_SEQPACKET, one report a packet), as
+/// the kernel makes a Wii Remote reachable at a hidraw node. One host at a time; a host may come
+/// and go. A driver opens it as device "virtual:PATH". Thread-safe; owns one thread.
+class Server {
+ public:
+  /// Listens at `path` at once; a stale socket file is replaced. `identity` is what the host sees
+  /// as the Bluetooth address ("00:1f:32:00:00:01").
+  /// @throws std::system_error when the path cannot be used.
+  Server(const std::string& path, const std::string& identity, const Device::Options& options);
+  ~Server();
+
+  /// Lets the device sense this instant and sends the resulting report, if any, to the host.
+  void sample(const Senses& senses);
+
+  /// Whether a host is connected.
+  bool connected() const;
+
+  /// Takes the device away (out of range) or brings it back power-cycled. While away, a connected
+  /// host is cut off and nobody can connect.
+  void setPresent(bool present);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace wiimote_tracker::virtual_wiimote
+
+#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_SERVER_H

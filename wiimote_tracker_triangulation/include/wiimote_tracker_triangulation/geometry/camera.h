@@ -1,0 +1,75 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_CAMERA_H
+#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_CAMERA_H
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace wiimote_tracker::geometry {
+
+/// Pinhole camera with plumb_bob distortion (Brown 1966; REP 104 order k1, k2, p1, p2, k3).
+/// Pixels: u right, v down, (0, 0) is the centre of the top left pixel.
+struct Intrinsics {
+  int width = 1024;         ///< Image size [px].
+  int height = 768;         ///< Image size [px].
+  double fx = 1306.3;       ///< Focal length [px]; the default is the paper's K (2).
+  double fy = 1302.3;       ///< Focal length [px].
+  double cx = 535.0;        ///< Principal point [px].
+  double cy = 401.7;        ///< Principal point [px].
+  std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3 [1].
+
+  /// Pixel of a point on the normalised image plane (x/z, y/z) [1].
+  Eigen::Vector2d pixelFromNormalized(const Eigen::Vector2d& normalized) const;
+
+  /// Same, with the 2x2 derivative d pixel / d normalized.
+  Eigen::Vector2d pixelFromNormalized(const Eigen::Vector2d& normalized,
+                                      Eigen::Matrix2d* jacobian) const;
+
+  /// Inverse of pixelFromNormalized (Newton's method), exact to 1e-12 where the lens model is
+  /// invertible. Nothing where it is not: beyond the fold of a strong negative k1, or NaN.
+  std::optional<Eigen::Vector2d> normalizedFromPixel(const Eigen::Vector2d& pixel) const;
+
+  /// @throws InvalidRigError naming the value that is out of range or not finite.
+  void check() const;
+};
+
+/// One calibrated camera. Optical frame: z forward, x right, y down (REP 103).
+struct Camera {
+  std::string name;      ///< Namespace of the camera and prefix of its frames.
+  std::string identity;  ///< Bluetooth address, lower case with colons; empty if unknown.
+  Intrinsics intrinsics;
+  Eigen::Isometry3d world_from_camera = Eigen::Isometry3d::Identity();  ///< [m]
+
+  /// Optical centre in the world [m].
+  Eigen::Vector3d center() const { return world_from_camera.translation(); }
+
+  /// Pixel of a world point [m]. Nothing when the point is not in front of the camera. The pixel
+  /// may lie outside the image.
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const;
+
+  /// Whether the point is in front of the camera and its pixel inside the image.
+  bool sees(const Eigen::Vector3d& point) const;
+};
+
+/// Half line in the world.
+struct Ray {
+  Eigen::Vector3d origin;     ///< Optical centre [m].
+  Eigen::Vector3d direction;  ///< Unit length, into the scene.
+};
+
+/// Ray of a pixel. Nothing when the pixel has none (see Intrinsics::normalizedFromPixel).
+std::optional<Ray> rayFromPixel(const Camera& camera, const Eigen::Vector2d& pixel);
+
+/// World-from-camera rotation and position of a camera at `position` [m] whose optical axis passes
+/// through `target` [m], image x axis horizontal. `up` need not be a unit vector.
+/// @throws InvalidRigError when the optical axis would be parallel to `up`.
+Eigen::Isometry3d lookAt(const Eigen::Vector3d& position,
+                         const Eigen::Vector3d& target,
+                         const Eigen::Vector3d& up);
+
+}  // namespace wiimote_tracker::geometry
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_CAMERA_H

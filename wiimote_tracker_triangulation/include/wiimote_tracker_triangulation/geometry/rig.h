@@ -1,0 +1,75 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_RIG_H
+#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_RIG_H
+
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::geometry {
+
+enum class RayModel { kCalibrated, kImageCenter };
+enum class TimeOffsetRule { kNone, kAlways, kOneEpoch };
+
+/// A round region of the image in which light is ignored.
+struct ImageMask {
+  Eigen::Vector2d center;  ///< [px]
+  double radius;           ///< [px, > 0]
+};
+
+/// A named box of the world.
+struct Zone {
+  std::string name;
+  Eigen::Vector3d minimum;  ///< [m]
+  Eigen::Vector3d maximum;  ///< [m]
+};
+
+/// A camera of a rig, and how it came to be known. Fields as in CameraCalibration.msg; NaN and
+/// empty mean unknown.
+struct RigCamera {
+  Camera camera;
+  double time_offset = std::numeric_limits<double>::quiet_NaN();  ///< [s]
+  TimeOffsetRule time_offset_rule = TimeOffsetRule::kNone;
+  std::uint32_t time_offset_epoch = 0;
+  std::optional<Eigen::Vector3d> gravity;  ///< Specific force at rest, optical frame [m/s^2].
+  std::vector<ImageMask> masks;
+  double residual_px = std::numeric_limits<double>::quiet_NaN();
+  double residual_m = std::numeric_limits<double>::quiet_NaN();
+  std::uint32_t observations = 0;
+  std::uint32_t inliers = 0;
+};
+
+/// All cameras of a rig, calibrated together. Fields as in RigCalibration.msg.
+struct Rig {
+  std::string world_frame = "world";
+  double solved_at = 0.0;  ///< When it was solved [s since 1970].
+  std::string method;
+  RayModel ray_model = RayModel::kCalibrated;
+  double virtual_hfov = std::numeric_limits<double>::quiet_NaN();  ///< [rad]
+  std::vector<double> square_sides;                                ///< Along x, along y [m].
+  double led_height = std::numeric_limits<double>::quiet_NaN();    ///< [m]
+  std::vector<RigCamera> cameras;
+  Eigen::MatrixXd covariance;  ///< Order as in RigCalibration.msg; 0x0 when unknown.
+  std::vector<Zone> zones;
+  std::string verdict;
+
+  /// Nothing when there is no camera of that name.
+  const RigCamera* find(const std::string& name) const;
+
+  /// Hash (16 hexadecimal digits) over everything that changes a triangulated point: names,
+  /// identities, intrinsics, poses, ray model, time offsets, masks. Equal rigs have equal ids on
+  /// every machine, also after a round trip through a file or a message.
+  std::string id() const;
+
+  /// @throws InvalidRigError: no camera, two of one name, values out of range or not finite.
+  void check() const;
+};
+
+}  // namespace wiimote_tracker::geometry
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_RIG_H

@@ -1,0 +1,47 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_TRIANGULATE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_TRIANGULATE_H
+
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::geometry {
+
+/// One camera's view of the point.
+struct Observation {
+  const Camera* camera = nullptr;  ///< Not owned.
+  Eigen::Vector2d pixel;           ///< As observed, distorted [px].
+};
+
+enum class TriangulationMethod {
+  kMeanClosest,        ///< Mean of the closest points of all ray pairs (the paper, section IV.B).
+  kLeastSquares,       ///< Point with the least sum of squared distances to all rays.
+  kMaximumLikelihood,  ///< Least sum of squared pixel residuals (Gauss-Newton).
+};
+
+struct TriangulationOptions {
+  TriangulationMethod method = TriangulationMethod::kMaximumLikelihood;
+  double pixel_stddev = 0.5;    ///< Of each pixel coordinate [px, > 0]; scales the covariance.
+  double minimum_angle = 0.02;  ///< Largest angle between any two rays must reach this [rad].
+};
+
+struct TriangulatedPoint {
+  Eigen::Vector3d position;    ///< World [m].
+  Eigen::Matrix3d covariance;  ///< World [m^2], of the chosen method, for exact cameras.
+  double reprojection_error;   ///< sqrt(mean(du^2 + dv^2)) over the observations [px].
+};
+
+/// Point from two or more observations of exact cameras. Does not allocate.
+/// @returns nothing when it is not determined: fewer than two observations, all rays (nearly)
+/// parallel, a pixel without a ray, the point behind any of the cameras, not finite.
+/// kMaximumLikelihood: for pixel noise that is Gaussian, independent and equal in both axes.
+/// The covariance of the two linear methods is propagated to first order from the same noise.
+std::optional<TriangulatedPoint> triangulate(const std::vector<Observation>& observations,
+                                             const TriangulationOptions& options);
+
+}  // namespace wiimote_tracker::geometry
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_TRIANGULATE_H

@@ -1,0 +1,28 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_ROS_CONVERSIONS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_ROS_CONVERSIONS_H
+
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+
+#include <geometry_msgs/TransformStamped.h>
+#include <wiimote_tracker_msgs/RigCalibration.h>
+
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// Message of a rig; sets id and format_version. @throws geometry::InvalidRigError.
+wiimote_tracker_msgs::RigCalibration toMessage(const geometry::Rig& rig);
+
+/// Rig of a message. @throws geometry::InvalidRigError: unknown format_version or distortion model,
+/// values out of range or not finite.
+geometry::Rig fromMessage(const wiimote_tracker_msgs::RigCalibration& message);
+
+/// Optical frame of a camera: its name without slashes, + "_optical_frame".
+std::string opticalFrame(const std::string& camera_name);
+
+/// world -> <camera>_optical_frame of every camera, for /tf_static.
+std::vector<geometry_msgs::TransformStamped> staticTransforms(const geometry::Rig& rig);
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_ROS_CONVERSIONS_H

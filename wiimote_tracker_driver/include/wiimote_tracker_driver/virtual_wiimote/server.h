@@ -3,6 +3,7 @@
 
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -10,7 +11,9 @@ namespace wiimote_tracker::virtual_wiimote {
 
 /// Makes a Device reachable at a local socket (AF_UNIX, SOCK_SEQPACKET, one report a packet), as
 /// the kernel makes a Wii Remote reachable at a hidraw node. One host at a time; a host may come
-/// and go. A driver opens it as device "virtual:PATH". Thread-safe; owns one thread.
+/// and go; the device keeps its state meanwhile. The first packet a host gets is the identity as
+/// text; a second host is cut off before that. A driver opens it as device "virtual:PATH".
+/// Thread-safe; owns one thread.
 class Server {
  public:
   /// Listens at `path` at once; a stale socket file is replaced. `identity` is what the host sees
@@ -25,8 +28,12 @@ class Server {
   /// Whether a host is connected.
   bool connected() const;
 
+  /// Player LEDs 1..4 in bits 0..3, as last set by a host.
+  std::uint8_t leds() const;
+
   /// Takes the device away (out of range) or brings it back power-cycled. While away, a connected
   /// host is cut off and nobody can connect.
+  /// @throws std::system_error when the path cannot be used any more.
   void setPresent(bool present);
 
  private:

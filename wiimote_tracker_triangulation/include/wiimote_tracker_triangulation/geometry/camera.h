@@ -13,12 +13,12 @@ namespace wiimote_tracker::geometry {
 /// Pinhole camera with plumb_bob distortion (Brown 1966; REP 104 order k1, k2, p1, p2, k3).
 /// Pixels: u right, v down, (0, 0) is the centre of the top left pixel.
 struct Intrinsics {
-  int width = 1024;         ///< Image size [px].
-  int height = 768;         ///< Image size [px].
-  double fx = 1306.3;       ///< Focal length [px]; the default is the paper's K (2).
-  double fy = 1302.3;       ///< Focal length [px].
-  double cx = 535.0;        ///< Principal point [px].
-  double cy = 401.7;        ///< Principal point [px].
+  int width = 1024;                    ///< Image size [px].
+  int height = 768;                    ///< Image size [px].
+  double fx = 1306.3;                  ///< Focal length [px]; the default is the paper's K (2).
+  double fy = 1302.3;                  ///< Focal length [px].
+  double cx = 535.0;                   ///< Principal point [px].
+  double cy = 401.7;                   ///< Principal point [px].
   std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3 [1].
 
   /// Pixel of a point on the normalised image plane (x/z, y/z) [1].
@@ -30,7 +30,12 @@ struct Intrinsics {
 
   /// Inverse of pixelFromNormalized (Newton's method), exact to 1e-12 where the lens model is
   /// invertible. Nothing where it is not: beyond the fold of a strong negative k1, or NaN.
+  /// Brown's model is a polynomial: it maps the image plane one to one only up to the fold, the
+  /// radius at which its derivative reaches zero; further out it comes back into the image.
   std::optional<Eigen::Vector2d> normalizedFromPixel(const Eigen::Vector2d& pixel) const;
+
+  /// Whether the lens model is one to one from the principal point out to this normalised point.
+  bool isBeforeFold(const Eigen::Vector2d& normalized) const;
 
   /// @throws InvalidRigError naming the value that is out of range or not finite.
   void check() const;
@@ -46,9 +51,14 @@ struct Camera {
   /// Optical centre in the world [m].
   Eigen::Vector3d center() const { return world_from_camera.translation(); }
 
-  /// Pixel of a world point [m]. Nothing when the point is not in front of the camera. The pixel
-  /// may lie outside the image.
+  /// Pixel of a world point [m]. Nothing when the point is not in front of the camera, or so far
+  /// off its axis that the lens model does not hold (Intrinsics::isBeforeFold). The pixel may lie
+  /// outside the image.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const;
+
+  /// Same, with the 2x3 derivative d pixel / d point [px/m].
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point,
+                                         Eigen::Matrix<double, 2, 3>* jacobian) const;
 
   /// Whether the point is in front of the camera and its pixel inside the image.
   bool sees(const Eigen::Vector3d& point) const;
@@ -62,6 +72,11 @@ struct Ray {
 
 /// Ray of a pixel. Nothing when the pixel has none (see Intrinsics::normalizedFromPixel).
 std::optional<Ray> rayFromPixel(const Camera& camera, const Eigen::Vector2d& pixel);
+
+/// Same, with the 3x2 derivative d direction / d pixel [1/px].
+std::optional<Ray> rayFromPixel(const Camera& camera,
+                                const Eigen::Vector2d& pixel,
+                                Eigen::Matrix<double, 3, 2>* jacobian);
 
 /// World-from-camera rotation and position of a camera at `position` [m] whose optical axis passes
 /// through `target` [m], image x axis horizontal. `up` need not be a unit vector.

@@ -54,21 +54,32 @@ struct Rig {
   std::vector<double> square_sides;                                ///< Along x, along y [m].
   double led_height = std::numeric_limits<double>::quiet_NaN();    ///< [m]
   std::vector<RigCamera> cameras;
-  Eigen::MatrixXd covariance;  ///< Order as in RigCalibration.msg; 0x0 when unknown.
+  Eigen::MatrixXd covariance;  ///< Order as in RigCalibration.msg, 16 per camera; 0x0: unknown.
   std::vector<Zone> zones;
   std::string verdict;
 
   /// Nothing when there is no camera of that name.
   const RigCamera* find(const std::string& name) const;
 
-  /// Hash (16 hexadecimal digits) over everything that changes a triangulated point: names,
-  /// identities, intrinsics, poses, ray model, time offsets, masks. Equal rigs have equal ids on
-  /// every machine, also after a round trip through a file or a message.
+  /// The camera to build rays with: the calibrated one or, with RayModel::kImageCenter, the paper's
+  /// virtual model at the same place: a pinhole without distortion whose principal point is the
+  /// image centre (width / 2, height / 2) and whose focal length is the calibrated one, or
+  /// (width / 2) / tan(virtual_hfov / 2) in both axes when virtual_hfov is not NaN.
+  Camera rayCamera(const RigCamera& camera) const;
+
+  /// Hash (16 hexadecimal digits) over everything that changes a triangulated point: world frame,
+  /// ray model, and each camera's name, identity, intrinsics, pose, time offset and masks, in the
+  /// order of cameras. Equal rigs have equal ids on every machine, also after a round trip through
+  /// a file or a message: poses are compared as canonicalQuaternion (rotation.h) stores them.
   std::string id() const;
 
   /// @throws InvalidRigError: no camera, two of one name, values out of range or not finite.
   void check() const;
 };
+
+/// Optical frame of a camera: its name without a leading slash, other slashes as underscores,
+/// + "_optical_frame".
+std::string opticalFrame(const std::string& camera_name);
 
 }  // namespace wiimote_tracker::geometry
 

@@ -17,7 +17,8 @@ struct Observation {
 };
 
 enum class TriangulationMethod {
-  kMeanClosest,        ///< Mean of the closest points of all ray pairs (the paper, section IV.B).
+  kMeanClosest,        ///< Mean of the closest points of all ray pairs (the paper, section IV.B);
+                       ///< pairs below minimum_angle are left out.
   kLeastSquares,       ///< Point with the least sum of squared distances to all rays.
   kMaximumLikelihood,  ///< Least sum of squared pixel residuals (Gauss-Newton).
 };
@@ -34,7 +35,8 @@ struct TriangulatedPoint {
   double reprojection_error;   ///< sqrt(mean(du^2 + dv^2)) over the observations [px].
 };
 
-/// Point from two or more observations of exact cameras. Does not allocate.
+/// Point from two or more observations of exact cameras. Does not allocate for up
+/// to 16 observations.
 /// @returns nothing when it is not determined: fewer than two observations, all rays (nearly)
 /// parallel, a pixel without a ray, the point behind any of the cameras, not finite.
 /// kMaximumLikelihood: for pixel noise that is Gaussian, independent and equal in both axes.

@@ -17,8 +17,7 @@ wiimote_tracker_msgs::RigCalibration toMessage(const geometry::Rig& rig);
 /// values out of range or not finite.
 geometry::Rig fromMessage(const wiimote_tracker_msgs::RigCalibration& message);
 
-/// Optical frame of a camera: its name without slashes, + "_optical_frame".
-std::string opticalFrame(const std::string& camera_name);
+using geometry::opticalFrame;
 
 /// world -> <camera>_optical_frame of every camera, for /tf_static.
 std::vector<geometry_msgs::TransformStamped> staticTransforms(const geometry::Rig& rig);

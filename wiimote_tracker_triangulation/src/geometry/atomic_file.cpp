@@ -1,0 +1,100 @@
+#include "atomic_file.h"
+
+#include "wiimote_tracker_triangulation/geometry/error.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace wiimote_tracker::geometry {
+namespace {
+
+[[noreturn]] void fail(const std::string& what, const std::string& path, int error) {
+  throw RigFileError("cannot " + what + " " + path + " (" + std::strerror(error) +
+                     "); choose another place or repair this one");
+}
+
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(int fd) : fd_(fd) {}
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+  ~FileDescriptor() {
+    if (fd_ >= 0)
+      ::close(fd_);
+  }
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+void writeAndSync(const std::string& path, const std::string& content) {
+  const FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (file.get() < 0)
+    fail("create", path, errno);
+  for (std::size_t done = 0; done < content.size();) {
+    const ssize_t n = ::write(file.get(), content.data() + done, content.size() - done);
+    if (n < 0 && errno == EINTR)
+      continue;
+    if (n < 0)
+      fail("write", path, errno);
+    done += static_cast<std::size_t>(n);
+  }
+  if (::fsync(file.get()) != 0)
+    fail("write", path, errno);
+}
+
+/// Puts content in the place of path by a rename, which is atomic within a folder.
+void replace(const std::filesystem::path& path, const std::string& content) {
+  const std::string fresh = path.string() + ".new" + std::to_string(::getpid());
+  try {
+    writeAndSync(fresh, content);
+    if (::rename(fresh.c_str(), path.c_str()) != 0)
+      fail("replace", path.string(), errno);
+  } catch (const RigFileError&) {
+    ::unlink(fresh.c_str());
+    throw;
+  }
+  // Makes the rename itself last through a power cut, where the file system can.
+  const FileDescriptor folder(
+      ::open(path.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.get() >= 0)
+    ::fsync(folder.get());
+}
+
+}  // namespace
+
+void writeFileAtomically(const std::string& path, const std::string& content) {
+  namespace fs = std::filesystem;
+  try {
+    fs::path target = fs::absolute(path);
+    if (fs::is_symlink(target))
+      target = fs::weakly_canonical(target);
+    fs::create_directories(target.parent_path());
+    if (fs::exists(target))
+      replace(target.string() + ".bak", readFile(target.string()));
+    replace(target, content);
+  } catch (const fs::filesystem_error& e) {
+    fail("write", path, e.code().value());
+  }
+}
+
+std::string readFile(const std::string& path) {
+  if (std::filesystem::is_directory(path))
+    throw RigFileError("cannot read " + path + ", it is a folder; name a file");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream)
+    fail("read", path, errno);
+  std::string content((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  if (stream.bad())
+    fail("read", path, errno);
+  return content;
+}
+
+}  // namespace wiimote_tracker::geometry

@@ -1,0 +1,18 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_ATOMIC_FILE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_ATOMIC_FILE_H
+
+#include <string>
+
+namespace wiimote_tracker::geometry {
+
+/// Writes a file such that a reader, or a crash, meets the old content or the new one, never a mix;
+/// what was there before is kept as path + ".bak". Creates folders; follows a symbolic link.
+/// @throws RigFileError; then the file at `path` is as it was.
+void writeFileAtomically(const std::string& path, const std::string& content);
+
+/// @throws RigFileError: missing or unreadable.
+std::string readFile(const std::string& path);
+
+}  // namespace wiimote_tracker::geometry
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_ATOMIC_FILE_H

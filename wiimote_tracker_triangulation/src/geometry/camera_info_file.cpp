@@ -1,0 +1,32 @@
+#include "atomic_file.h"
+#include "camera_yaml.h"
+#include "wiimote_tracker_triangulation/geometry/rig_file.h"
+
+#include <algorithm>
+
+namespace wiimote_tracker::geometry {
+
+void writeCameraInfoFile(const Camera& camera, const std::string& path) {
+  const Intrinsics& intrinsics = camera.intrinsics;
+  // camera_calibration_parsers allows letters, digits and underscores.
+  std::string name = camera.name.substr(camera.name.find_first_not_of('/') == std::string::npos
+                                            ? 0
+                                            : camera.name.find_first_not_of('/'));
+  std::replace(name.begin(), name.end(), '/', '_');
+  Eigen::Matrix<double, 3, 4> P = Eigen::Matrix<double, 3, 4>::Zero();
+  P(0, 0) = intrinsics.fx;
+  P(1, 1) = intrinsics.fy;
+  P(0, 2) = intrinsics.cx;
+  P(1, 2) = intrinsics.cy;
+  P(2, 2) = 1.0;
+
+  YAML::Emitter out;
+  out << YAML::BeginMap;
+  emitIntrinsics(name, intrinsics, out);
+  emitMatrix("rectification_matrix", Eigen::Matrix3d::Identity(), out);
+  emitMatrix("projection_matrix", P, out);
+  out << YAML::EndMap;
+  writeFileAtomically(path, std::string(out.c_str()) + "\n");
+}
+
+}  // namespace wiimote_tracker::geometry

@@ -1,0 +1,75 @@
+#include "camera_yaml.h"
+
+#include <cmath>
+#include <limits>
+#include <locale>
+#include <sstream>
+
+namespace wiimote_tracker::geometry {
+
+std::string yamlNumber(double value) {
+  if (std::isnan(value))
+    return ".nan";
+  if (std::isinf(value))
+    return value > 0.0 ? ".inf" : "-.inf";
+  std::ostringstream text;
+  text.imbue(std::locale::classic());  // a decimal point in every country
+  text.precision(std::numeric_limits<double>::max_digits10);
+  text << value;
+  return text.str();
+}
+
+void emitIntrinsics(const std::string& camera_name,
+                    const Intrinsics& intrinsics,
+                    YAML::Emitter& out) {
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  K(0, 0) = intrinsics.fx;
+  K(1, 1) = intrinsics.fy;
+  K(0, 2) = intrinsics.cx;
+  K(1, 2) = intrinsics.cy;
+  const Eigen::Map<const Eigen::Matrix<double, 1, 5>> D(intrinsics.distortion.data());
+  out << YAML::Key << "image_width" << YAML::Value << intrinsics.width;
+  out << YAML::Key << "image_height" << YAML::Value << intrinsics.height;
+  out << YAML::Key << "camera_name" << YAML::Value << camera_name;
+  emitMatrix("camera_matrix", K, out);
+  out << YAML::Key << "distortion_model" << YAML::Value << "plumb_bob";
+  emitMatrix("distortion_coefficients", D, out);
+}
+
+void readIntrinsics(YamlMap& map, std::string* camera_name, Intrinsics* intrinsics) {
+  constexpr int kMaximumSize = std::numeric_limits<int>::max();
+  intrinsics->width = map.whole<int>("image_width", 0, kMaximumSize);
+  intrinsics->height = map.whole<int>("image_height", 0, kMaximumSize);
+  *camera_name = map.get<std::string>("camera_name");
+
+  const Eigen::MatrixXd K = readMatrix(map.map("camera_matrix"));
+  if (K.rows() != 3 || K.cols() != 3 || K(0, 1) != 0.0 || K(1, 0) != 0.0 || K(2, 0) != 0.0 ||
+      K(2, 1) != 0.0 || K(2, 2) != 1.0)
+    throw RigFileError(map.at("camera_matrix") + " is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]");
+  intrinsics->fx = K(0, 0);
+  intrinsics->fy = K(1, 1);
+  intrinsics->cx = K(0, 2);
+  intrinsics->cy = K(1, 2);
+
+  if (map.get<std::string>("distortion_model") != "plumb_bob")
+    throw RigFileError(map.at("distortion_model") + " is not plumb_bob, the only one understood");
+  const Eigen::MatrixXd D = readMatrix(map.map("distortion_coefficients"));
+  if (D.rows() != 1 || D.cols() != 5)
+    throw RigFileError(map.at("distortion_coefficients") + " is not one row of k1, k2, p1, p2, k3");
+  for (int i = 0; i < 5; ++i)
+    intrinsics->distortion[i] = D(0, i);
+}
+
+Eigen::MatrixXd readMatrix(YamlMap map) {
+  constexpr int kMaximumSize = 10000;
+  const int rows = map.whole<int>("rows", 0, kMaximumSize);
+  const int cols = map.whole<int>("cols", 0, kMaximumSize);
+  const std::vector<double> data = map.numbers("data");
+  map.refuseUnknown();
+  if (data.size() != static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols))
+    throw RigFileError(map.at("data") + " does not have rows * cols numbers");
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const RowMajor>(data.data(), rows, cols);
+}
+
+}  // namespace wiimote_tracker::geometry

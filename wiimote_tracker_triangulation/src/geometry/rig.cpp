@@ -1,0 +1,111 @@
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+
+#include "wiimote_tracker_triangulation/geometry/error.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+namespace wiimote_tracker::geometry {
+namespace {
+
+void require(bool good, const std::string& message) {
+  if (!good)
+    throw InvalidRigError(message);
+}
+
+bool isName(const std::string& name) {
+  return !name.empty() && name != "/" && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return (c < 128 && std::isalnum(c)) || c == '_' || c == '/';
+  });
+}
+
+void checkPose(const Eigen::Isometry3d& pose) {
+  require(pose.matrix().allFinite(), "its pose is not finite; calibrate again");
+  const Eigen::Matrix3d rotation = pose.linear();
+  require((rotation * rotation.transpose()).isIdentity(1e-6) && rotation.determinant() > 0.0,
+          "its orientation is not a rotation; calibrate again");
+}
+
+void checkCamera(const RigCamera& rig_camera) {
+  const Camera& camera = rig_camera.camera;
+  camera.intrinsics.check();
+  checkPose(camera.world_from_camera);
+  if (rig_camera.time_offset_rule != TimeOffsetRule::kNone)
+    require(std::isfinite(rig_camera.time_offset), "its time_offset is not finite");
+  if (rig_camera.gravity)
+    require(rig_camera.gravity->allFinite(), "its gravity is not finite");
+  for (const ImageMask& mask : rig_camera.masks) {
+    require(mask.center.allFinite() && std::isfinite(mask.radius) && mask.radius > 0.0,
+            "a mask needs a finite centre and a radius above 0 px");
+  }
+}
+
+}  // namespace
+
+const RigCamera* Rig::find(const std::string& name) const {
+  const auto it = std::find_if(cameras.begin(), cameras.end(),
+                               [&](const RigCamera& c) { return c.camera.name == name; });
+  return it == cameras.end() ? nullptr : &*it;
+}
+
+Camera Rig::rayCamera(const RigCamera& rig_camera) const {
+  Camera camera = rig_camera.camera;
+  if (ray_model == RayModel::kCalibrated)
+    return camera;
+  Intrinsics& intrinsics = camera.intrinsics;
+  intrinsics.distortion = {};
+  intrinsics.cx = 0.5 * intrinsics.width;
+  intrinsics.cy = 0.5 * intrinsics.height;
+  if (!std::isnan(virtual_hfov))
+    intrinsics.fx = intrinsics.fy = 0.5 * intrinsics.width / std::tan(0.5 * virtual_hfov);
+  return camera;
+}
+
+void Rig::check() const {
+  require(!cameras.empty(), "the rig has no camera; calibrate at least two");
+  require(!world_frame.empty(), "the rig has no world frame; name one, e.g. world");
+  require(std::isfinite(solved_at), "the time at which the rig was solved is not finite");
+  require(std::isnan(virtual_hfov) || (virtual_hfov > 0.0 && virtual_hfov < M_PI),
+          "virtual_hfov must lie between 0 and pi rad");
+  for (const double side : square_sides)
+    require(std::isfinite(side) && side > 0.0, "every side of the square must be above 0 m");
+
+  std::set<std::string> frames;
+  for (const RigCamera& camera : cameras) {
+    const std::string& name = camera.camera.name;
+    require(isName(name), "'" + name +
+                              "' is no name for a camera; use letters, digits, underscores and "
+                              "slashes only");
+    require(frames.insert(opticalFrame(name)).second,
+            "two cameras share the name '" + name + "'; rename one");
+    try {
+      checkCamera(camera);
+    } catch (const InvalidRigError& e) {
+      throw InvalidRigError("camera '" + name + "': " + e.what());
+    }
+  }
+
+  // Rotation, position, fx fy cx cy, distortion, time offset.
+  const auto parameters = static_cast<Eigen::Index>(cameras.size()) * (3 + 3 + 4 + 5 + 1);
+  require(covariance.size() == 0 ||
+              (covariance.rows() == parameters && covariance.cols() == parameters),
+          "the rig's covariance must have 16 rows and columns per camera, or none");
+  require(covariance.size() == 0 || covariance.allFinite(), "the rig's covariance is not finite");
+  for (const Zone& zone : zones) {
+    require(zone.minimum.allFinite() && zone.maximum.allFinite() &&
+                (zone.minimum.array() <= zone.maximum.array()).all(),
+            "zone '" + zone.name + "': minimum must not be above maximum");
+  }
+}
+
+std::string opticalFrame(const std::string& camera_name) {
+  std::string frame = camera_name.substr(camera_name.find_first_not_of('/') == std::string::npos
+                                             ? camera_name.size()
+                                             : camera_name.find_first_not_of('/'));
+  std::replace(frame.begin(), frame.end(), '/', '_');
+  return frame + "_optical_frame";
+}
+
+}  // namespace wiimote_tracker::geometry

@@ -1,0 +1,151 @@
+#include "camera_yaml.h"
+#include "rig_yaml.h"
+#include "wiimote_tracker_triangulation/geometry/rotation.h"
+
+#include <cmath>
+#include <limits>
+
+namespace wiimote_tracker::geometry {
+namespace {
+
+template <typename Enum, std::size_t N>
+Enum readWord(YamlMap& map, const std::string& key, const std::array<const char*, N>& words) {
+  const std::string word = map.get<std::string>(key);
+  std::string list;
+  for (std::size_t i = 0; i < N; ++i) {
+    if (word == words[i])
+      return static_cast<Enum>(i);
+    list += std::string(i == 0 ? "" : ", ") + words[i];
+  }
+  throw RigFileError(map.at(key) + " is '" + word + "', but must be one of: " + list);
+}
+
+Eigen::Vector3d readVector(YamlMap& map, const std::string& key) {
+  const std::vector<double> numbers = map.numbers(key);
+  if (numbers.size() != 3)
+    throw RigFileError(map.at(key) + " is not a list of three numbers");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+Eigen::Isometry3d readTransform(YamlMap map) {
+  YamlMap translation = map.map("translation");
+  YamlMap rotation = map.map("rotation");
+  const Eigen::Quaterniond q(rotation.get<double>("w"), rotation.get<double>("x"),
+                             rotation.get<double>("y"), rotation.get<double>("z"));
+  // Room for hand-written digits, none for a lost one.
+  if (!(std::abs(q.norm() - 1.0) < 1e-3))
+    throw RigFileError(map.at("rotation") + " is not a quaternion of unit length");
+  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+  transform.linear() = matrixFromQuaternion(q);
+  transform.translation() << translation.get<double>("x"), translation.get<double>("y"),
+      translation.get<double>("z");
+  translation.refuseUnknown();
+  rotation.refuseUnknown();
+  map.refuseUnknown();
+  return transform;
+}
+
+Eigen::Isometry3d readExtrinsics(YamlMap map, const std::string& camera, const std::string& world) {
+  YamlMap header = map.map("header");
+  if (header.get<std::string>("frame_id") != world)
+    throw RigFileError(header.at("frame_id") + " is not the world_frame '" + world + "'");
+  if (map.get<std::string>("child_frame_id") != opticalFrame(camera))
+    throw RigFileError(map.at("child_frame_id") + " is not '" + opticalFrame(camera) + "'");
+  const Eigen::Isometry3d transform = readTransform(map.map("transform"));
+  header.refuseUnknown();
+  map.refuseUnknown();
+  return transform;
+}
+
+std::vector<ImageMask> readMasks(YamlMap& map) {
+  std::vector<ImageMask> masks;
+  for (YamlMap& mask : map.maps("masks")) {
+    masks.push_back({{mask.get<double>("x"), mask.get<double>("y")}, mask.get<double>("radius")});
+    mask.refuseUnknown();
+  }
+  return masks;
+}
+
+RigCamera readCamera(YamlMap map, const std::string& name, const std::string& world_frame) {
+  constexpr auto kMaximumCount = std::numeric_limits<std::uint32_t>::max();
+  RigCamera camera;
+  camera.camera.identity = map.get<std::string>("identity");
+  readIntrinsics(map, &camera.camera.name, &camera.camera.intrinsics);
+  if (camera.camera.name != name)
+    throw RigFileError(map.at("camera_name") + " is '" + camera.camera.name +
+                       "', but must be as its key, '" + name + "'");
+  camera.camera.world_from_camera = readExtrinsics(map.map("extrinsics"), name, world_frame);
+  camera.time_offset = map.get<double>("time_offset");
+  camera.time_offset_rule = readWord<TimeOffsetRule>(map, "time_offset_rule", kTimeOffsetRuleWords);
+  camera.time_offset_epoch = map.whole<std::uint32_t>("time_offset_epoch", 0, kMaximumCount);
+  if (!map.numbers("gravity").empty())
+    camera.gravity = readVector(map, "gravity");
+  camera.masks = readMasks(map);
+  camera.residual_px = map.get<double>("residual_px");
+  camera.residual_m = map.get<double>("residual_m");
+  camera.observations = map.whole<std::uint32_t>("observations", 0, kMaximumCount);
+  camera.inliers = map.whole<std::uint32_t>("inliers", 0, kMaximumCount);
+  map.refuseUnknown();
+  return camera;
+}
+
+YAML::Node parse(const std::string& text, const std::string& where) {
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::Exception& e) {
+    throw RigFileError(where + " is not readable as YAML (" + e.what() +
+                       "); restore it from its backup or calibrate again");
+  }
+}
+
+void checkFormat(const YAML::Node& root, const std::string& where) {
+  const YAML::Node format = root.IsMap() ? root["format"] : YAML::Node();
+  if (!format.IsDefined() || !format.IsScalar() || format.Scalar() != kRigFormat)
+    throw RigFileError(where + " is not a rig file: its key 'format' is not '" + kRigFormat +
+                       "'; name another file");
+}
+
+}  // namespace
+
+Rig rigFromYaml(const std::string& text, const std::string& where) {
+  const YAML::Node root = parse(text, where);
+  checkFormat(root, where);
+  YamlMap map(root, where);
+  map.get<std::string>("format");
+  const std::string version = map.get<std::string>("version");
+  if (version != std::to_string(kRigFormatVersion))
+    throw RigFileError(map.at("version") + " is " + version + ", but this program reads only " +
+                       std::to_string(kRigFormatVersion) + "; use the program that wrote it");
+  if (map.get<std::string>("complete") != "true")
+    throw RigFileError(map.at("complete") + " is not true: the file was cut off; restore it from " +
+                       "its backup or calibrate again");
+
+  Rig rig;
+  rig.world_frame = map.get<std::string>("world_frame");
+  rig.solved_at = map.get<double>("solved_at");
+  rig.method = map.get<std::string>("method");
+  rig.verdict = map.get<std::string>("verdict");
+  rig.ray_model = readWord<RayModel>(map, "ray_model", kRayModelWords);
+  rig.virtual_hfov = map.get<double>("virtual_hfov");
+  rig.square_sides = map.numbers("square_sides");
+  rig.led_height = map.get<double>("led_height");
+  YamlMap cameras = map.map("cameras");
+  for (const std::string& name : map.get<std::vector<std::string>>("camera_order"))
+    rig.cameras.push_back(readCamera(cameras.map(name), name, rig.world_frame));
+  cameras.refuseUnknown();
+  for (YamlMap& zone : map.maps("zones")) {
+    rig.zones.push_back(
+        {zone.get<std::string>("name"), readVector(zone, "minimum"), readVector(zone, "maximum")});
+    zone.refuseUnknown();
+  }
+  rig.covariance = readMatrix(map.map("covariance"));
+  map.refuseUnknown();
+  try {
+    rig.check();
+  } catch (const InvalidRigError& e) {
+    throw InvalidRigError(where + ": " + e.what());
+  }
+  return rig;
+}
+
+}  // namespace wiimote_tracker::geometry

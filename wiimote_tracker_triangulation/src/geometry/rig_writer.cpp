@@ -1,0 +1,141 @@
+#include "camera_yaml.h"
+#include "rig_yaml.h"
+#include "wiimote_tracker_triangulation/geometry/rotation.h"
+
+#include <ctime>
+
+namespace wiimote_tracker::geometry {
+namespace {
+
+template <typename Values>
+void emitNumbers(const std::string& key, const Values& values, YAML::Emitter& out) {
+  out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
+  for (const double value : values)
+    out << yamlNumber(value);
+  out << YAML::EndSeq;
+}
+
+void emitVector(const std::string& key, const Eigen::Vector3d& v, YAML::Emitter& out) {
+  emitNumbers(key, std::array<double, 3>{v.x(), v.y(), v.z()}, out);
+}
+
+void emitNumber(const std::string& key, double value, YAML::Emitter& out) {
+  out << YAML::Key << key << YAML::Value << yamlNumber(value);
+}
+
+void emitText(const std::string& key, const std::string& text, YAML::Emitter& out) {
+  out << YAML::Key << key << YAML::Value << YAML::DoubleQuoted << text;
+}
+
+/// The layout of a geometry_msgs/TransformStamped.
+void emitExtrinsics(const Camera& camera, const std::string& world_frame, YAML::Emitter& out) {
+  const Eigen::Vector3d t = camera.center();
+  const Eigen::Quaterniond q = canonicalQuaternion(camera.world_from_camera.linear());
+  out << YAML::Key << "extrinsics" << YAML::Value << YAML::BeginMap;
+  out << YAML::Key << "header" << YAML::Value << YAML::BeginMap;
+  emitText("frame_id", world_frame, out);
+  out << YAML::EndMap;
+  emitText("child_frame_id", opticalFrame(camera.name), out);
+  out << YAML::Key << "transform" << YAML::Value << YAML::BeginMap;
+  out << YAML::Key << "translation" << YAML::Value << YAML::BeginMap;
+  emitNumber("x", t.x(), out);
+  emitNumber("y", t.y(), out);
+  emitNumber("z", t.z(), out);
+  out << YAML::EndMap;
+  out << YAML::Key << "rotation" << YAML::Value << YAML::BeginMap;
+  emitNumber("x", q.x(), out);
+  emitNumber("y", q.y(), out);
+  emitNumber("z", q.z(), out);
+  emitNumber("w", q.w(), out);
+  out << YAML::EndMap << YAML::EndMap << YAML::EndMap;
+}
+
+void emitMasks(const std::vector<ImageMask>& masks, YAML::Emitter& out) {
+  out << YAML::Key << "masks" << YAML::Value << YAML::BeginSeq;
+  for (const ImageMask& mask : masks) {
+    out << YAML::Flow << YAML::BeginMap;
+    emitNumber("x", mask.center.x(), out);
+    emitNumber("y", mask.center.y(), out);
+    emitNumber("radius", mask.radius, out);
+    out << YAML::EndMap;
+  }
+  out << YAML::EndSeq;
+}
+
+void emitCamera(const RigCamera& camera, const std::string& world_frame, YAML::Emitter& out) {
+  out << YAML::BeginMap;
+  emitText("identity", camera.camera.identity, out);
+  emitIntrinsics(camera.camera.name, camera.camera.intrinsics, out);
+  emitExtrinsics(camera.camera, world_frame, out);
+  emitNumber("time_offset", camera.time_offset, out);
+  out << YAML::Key << "time_offset_rule" << YAML::Value
+      << kTimeOffsetRuleWords[static_cast<std::size_t>(camera.time_offset_rule)];
+  out << YAML::Key << "time_offset_epoch" << YAML::Value << camera.time_offset_epoch;
+  if (camera.gravity)
+    emitVector("gravity", *camera.gravity, out);
+  else
+    emitNumbers("gravity", std::array<double, 0>{}, out);
+  emitMasks(camera.masks, out);
+  emitNumber("residual_px", camera.residual_px, out);
+  emitNumber("residual_m", camera.residual_m, out);
+  out << YAML::Key << "observations" << YAML::Value << camera.observations;
+  out << YAML::Key << "inliers" << YAML::Value << camera.inliers;
+  out << YAML::EndMap;
+}
+
+std::string dateOf(double seconds) {
+  const auto time = static_cast<std::time_t>(seconds);
+  std::tm utc{};
+  char text[64];
+  if (!gmtime_r(&time, &utc) ||
+      std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S UTC", &utc) == 0)
+    return "";
+  return text;
+}
+
+}  // namespace
+
+std::string yamlFromRig(const Rig& rig) {
+  YAML::Emitter out;
+  out << YAML::BeginMap;
+  out << YAML::Key << "format" << YAML::Value << kRigFormat;
+  out << YAML::Key << "version" << YAML::Value << kRigFormatVersion;
+  emitText("world_frame", rig.world_frame, out);
+  emitNumber("solved_at", rig.solved_at, out);
+  out << YAML::Comment(dateOf(rig.solved_at));
+  emitText("method", rig.method, out);
+  emitText("verdict", rig.verdict, out);
+  out << YAML::Key << "ray_model" << YAML::Value
+      << kRayModelWords[static_cast<std::size_t>(rig.ray_model)];
+  emitNumber("virtual_hfov", rig.virtual_hfov, out);
+  emitNumbers("square_sides", rig.square_sides, out);
+  emitNumber("led_height", rig.led_height, out);
+
+  out << YAML::Key << "camera_order" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+  for (const RigCamera& camera : rig.cameras)
+    out << camera.camera.name;
+  out << YAML::EndSeq;
+  out << YAML::Key << "cameras" << YAML::Value << YAML::BeginMap;
+  for (const RigCamera& camera : rig.cameras) {
+    out << YAML::Key << camera.camera.name << YAML::Value;
+    emitCamera(camera, rig.world_frame, out);
+  }
+  out << YAML::EndMap;
+
+  out << YAML::Key << "zones" << YAML::Value << YAML::BeginSeq;
+  for (const Zone& zone : rig.zones) {
+    out << YAML::BeginMap;
+    emitText("name", zone.name, out);
+    emitVector("minimum", zone.minimum, out);
+    emitVector("maximum", zone.maximum, out);
+    out << YAML::EndMap;
+  }
+  out << YAML::EndSeq;
+  emitMatrix("covariance", rig.covariance, out);
+  // The last key: without it, the file was cut off.
+  out << YAML::Key << "complete" << YAML::Value << true;
+  out << YAML::EndMap;
+  return std::string(out.c_str()) + "\n";
+}
+
+}  // namespace wiimote_tracker::geometry

@@ -1,0 +1,213 @@
+#include "wiimote_tracker_triangulation/ros/conversions.h"
+
+#include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/geometry/rotation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace wiimote_tracker {
+namespace {
+
+using wiimote_tracker_msgs::CameraCalibration;
+using wiimote_tracker_msgs::RigCalibration;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+static_assert(static_cast<int>(geometry::RayModel::kCalibrated) ==
+                      RigCalibration::RAY_MODEL_CALIBRATED &&
+                  static_cast<int>(geometry::RayModel::kImageCenter) ==
+                      RigCalibration::RAY_MODEL_IMAGE_CENTER &&
+                  static_cast<int>(geometry::TimeOffsetRule::kNone) ==
+                      CameraCalibration::TIME_OFFSET_NONE &&
+                  static_cast<int>(geometry::TimeOffsetRule::kAlways) ==
+                      CameraCalibration::TIME_OFFSET_ALWAYS &&
+                  static_cast<int>(geometry::TimeOffsetRule::kOneEpoch) ==
+                      CameraCalibration::TIME_OFFSET_ONE_EPOCH,
+              "enumerations of core and messages must agree");
+
+template <typename Message>  // Point, Vector3
+void set(const Eigen::Vector3d& v, Message* message) {
+  message->x = v.x();
+  message->y = v.y();
+  message->z = v.z();
+}
+
+Eigen::Vector3d vectorOf(const geometry_msgs::Point& p) {
+  return {p.x, p.y, p.z};
+}
+
+void set(const Eigen::Matrix3d& rotation, geometry_msgs::Quaternion* message) {
+  const Eigen::Quaterniond q = geometry::canonicalQuaternion(rotation);
+  message->w = q.w();
+  message->x = q.x();
+  message->y = q.y();
+  message->z = q.z();
+}
+
+Eigen::Isometry3d poseOf(const geometry_msgs::Pose& pose, const std::string& camera) {
+  const geometry_msgs::Quaternion& o = pose.orientation;
+  const Eigen::Quaterniond q(o.w, o.x, o.y, o.z);
+  if (!(std::abs(q.norm() - 1.0) < 1e-3))
+    throw geometry::InvalidRigError("camera '" + camera +
+                                    "': its orientation is not a quaternion of unit length; "
+                                    "publish the rig again");
+  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
+  isometry.linear() = geometry::matrixFromQuaternion(q);
+  isometry.translation() = vectorOf(pose.position);
+  return isometry;
+}
+
+CameraCalibration cameraToMessage(const geometry::RigCamera& rig_camera) {
+  const geometry::Camera& camera = rig_camera.camera;
+  const geometry::Intrinsics& intrinsics = camera.intrinsics;
+  CameraCalibration message;
+  message.name = camera.name;
+  message.identity = camera.identity;
+  message.frame_id = opticalFrame(camera.name);
+  message.width = static_cast<std::uint32_t>(intrinsics.width);
+  message.height = static_cast<std::uint32_t>(intrinsics.height);
+  message.distortion_model = "plumb_bob";
+  message.fx = intrinsics.fx;
+  message.fy = intrinsics.fy;
+  message.cx = intrinsics.cx;
+  message.cy = intrinsics.cy;
+  message.distortion.assign(intrinsics.distortion.begin(), intrinsics.distortion.end());
+  set(camera.center(), &message.world_from_camera.position);
+  set(camera.world_from_camera.linear(), &message.world_from_camera.orientation);
+  message.time_offset = rig_camera.time_offset;
+  message.time_offset_rule = static_cast<std::uint8_t>(rig_camera.time_offset_rule);
+  message.time_offset_epoch = rig_camera.time_offset_epoch;
+  if (rig_camera.gravity) {
+    const Eigen::Vector3d& g = *rig_camera.gravity;
+    message.gravity = {g.x(), g.y(), g.z()};
+  }
+  for (const geometry::ImageMask& mask : rig_camera.masks) {
+    wiimote_tracker_msgs::IrMask m;
+    m.x = mask.center.x();
+    m.y = mask.center.y();
+    m.radius = mask.radius;
+    message.masks.push_back(m);
+  }
+  message.residual_px = rig_camera.residual_px;
+  message.residual_m = rig_camera.residual_m;
+  message.observations = rig_camera.observations;
+  message.inliers = rig_camera.inliers;
+  return message;
+}
+
+geometry::RigCamera cameraFromMessage(const CameraCalibration& message) {
+  const std::string who = "camera '" + message.name + "': ";
+  if (message.distortion_model != "plumb_bob" || message.distortion.size() != 5)
+    throw geometry::InvalidRigError(who + "distortion model '" + message.distortion_model +
+                                    "' with " + std::to_string(message.distortion.size()) +
+                                    " coefficients; use plumb_bob with five");
+  if (message.time_offset_rule > CameraCalibration::TIME_OFFSET_ONE_EPOCH)
+    throw geometry::InvalidRigError(who + "unknown time_offset_rule; publish the rig again");
+  if (!message.gravity.empty() && message.gravity.size() != 3)
+    throw geometry::InvalidRigError(who + "gravity needs three values or none");
+
+  geometry::RigCamera rig_camera;
+  geometry::Camera& camera = rig_camera.camera;
+  camera.name = message.name;
+  camera.identity = message.identity;
+  camera.intrinsics.width = static_cast<int>(message.width);
+  camera.intrinsics.height = static_cast<int>(message.height);
+  camera.intrinsics.fx = message.fx;
+  camera.intrinsics.fy = message.fy;
+  camera.intrinsics.cx = message.cx;
+  camera.intrinsics.cy = message.cy;
+  std::copy(message.distortion.begin(), message.distortion.end(),
+            camera.intrinsics.distortion.begin());
+  camera.world_from_camera = poseOf(message.world_from_camera, message.name);
+  rig_camera.time_offset = message.time_offset;
+  rig_camera.time_offset_rule = static_cast<geometry::TimeOffsetRule>(message.time_offset_rule);
+  rig_camera.time_offset_epoch = message.time_offset_epoch;
+  if (!message.gravity.empty())
+    rig_camera.gravity = Eigen::Vector3d(message.gravity.data());
+  for (const wiimote_tracker_msgs::IrMask& mask : message.masks)
+    rig_camera.masks.push_back({{mask.x, mask.y}, mask.radius});
+  rig_camera.residual_px = message.residual_px;
+  rig_camera.residual_m = message.residual_m;
+  rig_camera.observations = message.observations;
+  rig_camera.inliers = message.inliers;
+  return rig_camera;
+}
+
+}  // namespace
+
+RigCalibration toMessage(const geometry::Rig& rig) {
+  rig.check();
+  RigCalibration message;
+  message.header.frame_id = rig.world_frame;
+  message.header.stamp.fromSec(rig.solved_at);
+  message.format_version = RigCalibration::FORMAT_VERSION;
+  message.id = rig.id();
+  message.method = rig.method;
+  message.ray_model = static_cast<std::uint8_t>(rig.ray_model);
+  message.virtual_hfov = rig.virtual_hfov;
+  message.square_sides = rig.square_sides;
+  message.led_height = rig.led_height;
+  for (const geometry::RigCamera& camera : rig.cameras)
+    message.cameras.push_back(cameraToMessage(camera));
+  const RowMajor covariance = rig.covariance;
+  message.covariance.assign(covariance.data(), covariance.data() + covariance.size());
+  for (const geometry::Zone& zone : rig.zones) {
+    wiimote_tracker_msgs::Zone z;
+    z.name = zone.name;
+    set(zone.minimum, &z.minimum);
+    set(zone.maximum, &z.maximum);
+    message.zones.push_back(z);
+  }
+  message.verdict = rig.verdict;
+  return message;
+}
+
+geometry::Rig fromMessage(const RigCalibration& message) {
+  if (message.format_version != RigCalibration::FORMAT_VERSION)
+    throw geometry::InvalidRigError("the rig calibration has format version " +
+                                    std::to_string(message.format_version) + ", but only " +
+                                    std::to_string(RigCalibration::FORMAT_VERSION) +
+                                    " is understood; use the program that made it");
+  if (message.ray_model > RigCalibration::RAY_MODEL_IMAGE_CENTER)
+    throw geometry::InvalidRigError(
+        "the rig calibration has an unknown ray model; calibrate again");
+
+  geometry::Rig rig;
+  rig.world_frame = message.header.frame_id;
+  rig.solved_at = message.header.stamp.toSec();
+  rig.method = message.method;
+  rig.ray_model = static_cast<geometry::RayModel>(message.ray_model);
+  rig.virtual_hfov = message.virtual_hfov;
+  rig.square_sides = message.square_sides;
+  rig.led_height = message.led_height;
+  for (const CameraCalibration& camera : message.cameras)
+    rig.cameras.push_back(cameraFromMessage(camera));
+  const auto n = static_cast<Eigen::Index>(std::lround(std::sqrt(message.covariance.size())));
+  if (n * n != static_cast<Eigen::Index>(message.covariance.size()))
+    throw geometry::InvalidRigError("the rig's covariance is not square; publish the rig again");
+  rig.covariance = Eigen::Map<const RowMajor>(message.covariance.data(), n, n);
+  for (const wiimote_tracker_msgs::Zone& zone : message.zones)
+    rig.zones.push_back({zone.name, vectorOf(zone.minimum), vectorOf(zone.maximum)});
+  rig.verdict = message.verdict;
+  rig.check();
+  return rig;
+}
+
+std::vector<geometry_msgs::TransformStamped> staticTransforms(const geometry::Rig& rig) {
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  for (const geometry::RigCamera& rig_camera : rig.cameras) {
+    const geometry::Camera& camera = rig_camera.camera;
+    geometry_msgs::TransformStamped transform;
+    transform.header.frame_id = rig.world_frame;
+    transform.header.stamp.fromSec(rig.solved_at);
+    transform.child_frame_id = opticalFrame(camera.name);
+    set(camera.center(), &transform.transform.translation);
+    set(camera.world_from_camera.linear(), &transform.transform.rotation);
+    transforms.push_back(transform);
+  }
+  return transforms;
+}
+
+}  // namespace wiimote_tracker

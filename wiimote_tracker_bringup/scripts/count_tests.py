@@ -1,0 +1,118 @@
+#!/usr/bin/python3
+"""Counts the tests of catkin build folders and says which failed.
+
+    count_tests.py BUILD [--sanitized BUILD]
+
+Reads the JUnit files in BUILD/test_results. A test that the build folder's makefiles would run but
+that left no result counts as failed. The last line is "N passed, N failed, N skipped"; the exit
+status is 0 only when something passed and nothing failed.
+"""
+
+import argparse
+import glob
+import os
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+
+# A rostest also writes one "rosunit-" file for each test program in it; its own "rostest-" file
+# repeats those as one case each, and matters only when the rostest itself went wrong.
+LEAF_KINDS = ('gtest-', 'rosunit-', 'pytest-', 'roslaunch-')
+WRAPPER_KINDS = ('rostest-', 'MISSING-')
+
+PASSED, FAILED, SKIPPED = 'passed', 'failed', 'skipped'
+
+
+class Case(object):
+    """One test case: where it is from, its name, its verdict, and the text of its failure."""
+
+    def __init__(self, name, verdict, text=''):
+        self.name = name
+        self.verdict = verdict
+        self.text = text
+
+
+def verdict_of(testcase):
+    """Verdict and failure text of a <testcase> element."""
+    for tag in ('failure', 'error'):
+        problems = testcase.findall(tag)
+        if problems:
+            return FAILED, '\n'.join((p.text or p.get('message') or '').strip() for p in problems)
+    if testcase.find('skipped') is not None or testcase.get('status') in ('notrun', 'skipped'):
+        return SKIPPED, ''
+    return PASSED, ''
+
+
+def read_cases(path, package):
+    """All cases of one result file. A file that is damaged or holds no test is a failed case."""
+    source = '%s/%s' % (package, os.path.splitext(os.path.basename(path))[0])
+    try:
+        root = ElementTree.parse(path).getroot()
+    except (ElementTree.ParseError, OSError) as error:
+        return [Case(source, FAILED, 'unreadable result: %s' % error)]
+    cases = []
+    for testcase in root.iter('testcase'):
+        verdict, text = verdict_of(testcase)
+        name = '.'.join(part for part in (testcase.get('classname'), testcase.get('name')) if part)
+        cases.append(Case('%s: %s' % (source, name), verdict, text))
+    return cases or [Case(source, FAILED, 'no test ran')]
+
+
+def expected_results(build, kinds):
+    """Result files that the makefiles of a build folder would write, as "package/file.xml"."""
+    expected = set()
+    for makefile in glob.glob(os.path.join(build, '*', 'CMakeFiles', 'run_tests_*.dir',
+                                           'build.make')):
+        with open(makefile) as file:
+            found = re.findall(r'run_tests\.py"?\s+"?\S*?/test_results/([^/\s"]+/[^/\s"]+\.xml)',
+                               file.read())
+        expected.update(f for f in found if os.path.basename(f).startswith(kinds))
+    return expected
+
+
+def count(build, kinds=LEAF_KINDS + WRAPPER_KINDS):
+    """All cases of one build folder, those of missing results included."""
+    results = os.path.join(build, 'test_results')
+    cases = []
+    found = set()
+    for path in sorted(glob.glob(os.path.join(results, '**', '*.xml'), recursive=True)):
+        name = os.path.basename(path)
+        package = os.path.relpath(os.path.dirname(path), results)
+        found.add('%s/%s' % (package, name))
+        if name.startswith(LEAF_KINDS):
+            cases += read_cases(path, package)
+        elif name.startswith(WRAPPER_KINDS):
+            cases += [case for case in read_cases(path, package) if case.verdict == FAILED]
+    # A "MISSING-" file stands for the result of the same name and is reported above.
+    found |= set(f.replace('/MISSING-', '/') for f in found)
+    for missing in sorted(expected_results(build, kinds) - found):
+        cases.append(Case(missing, FAILED, 'left no result'))
+    return cases
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('build', help='build folder whose tests all ran')
+    parser.add_argument('--sanitized', metavar='BUILD',
+                        help='build folder whose gtests ran under sanitizers')
+    options = parser.parse_args(arguments)
+
+    cases = count(options.build)
+    if options.sanitized:
+        for case in count(options.sanitized, ('gtest-',)):
+            cases.append(Case('with sanitizers: ' + case.name, case.verdict, case.text))
+
+    totals = {verdict: 0 for verdict in (PASSED, FAILED, SKIPPED)}
+    for case in cases:
+        totals[case.verdict] += 1
+        if case.verdict != PASSED:
+            print('%s  %s' % (case.verdict.upper(), case.name))
+            for line in case.text.splitlines()[:30]:
+                print('    ' + line)
+    print('{passed} passed, {failed} failed, {skipped} skipped'.format(**totals))
+    return 0 if totals[PASSED] and not totals[FAILED] else 1
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,133 @@
+# What demo and test have in common: the packages they need, and the workspace they build in.
+# To be sourced; sets strict mode and ends every child when the script ends, however it ends.
+# shellcheck shell=bash
+
+set -euo pipefail
+
+# Another python3 or another ROS workspace in the environment breaks catkin and ROS scripts.
+export PATH="/usr/bin:/usr/sbin:/bin:/sbin:$PATH"
+unset PYTHONHOME PYTHONPATH CMAKE_PREFIX_PATH ROS_PACKAGE_PATH ROS_IP ROS_NAMESPACE
+export PYTHONDONTWRITEBYTECODE=1
+export ROS_HOSTNAME=localhost
+# Message code in languages that nothing here speaks.
+export ROS_LANG_DISABLE=genlisp:geneus:gennodejs
+
+bringup=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+clone=$(dirname "$bringup")
+workspace=${WIIMOTE_TRACKER_WORKSPACE:-$clone/.workspace}
+
+say() { printf '%s\n' "$*"; }
+step() { printf '\n== %s\n' "$*"; }
+fail() {
+  printf '%s: %s\n' "$(basename "$0")" "$*" >&2
+  exit 1
+}
+
+# --- Children: each step runs in a process group of its own, so that all of it can be ended.
+
+child=
+run() {
+  set -m
+  "$@" </dev/null 9>&- &
+  child=$!
+  set +m
+  local status=0
+  wait "$child" || status=$?
+  child=
+  return "$status"
+}
+
+signal_child() {
+  kill "-$1" -- "-$child" 2>/dev/null && return
+  # A step that runs as root can only be signalled by root.
+  [[ $EUID -ne 0 && -d /proc/$child ]] && sudo -n kill "-$1" -- "-$child" 2>/dev/null
+}
+
+# Whether any process of the step's group is left.
+child_alive() { kill -0 -- "-$child" 2>/dev/null || [[ -d /proc/$child ]]; }
+
+end_child() {
+  [[ -n $child ]] || return 0
+  local signal
+  for signal in INT TERM KILL; do
+    signal_child "$signal" || true
+    for _ in $(seq 100); do
+      child_alive || { child=; return 0; }
+      sleep 0.1
+    done
+  done
+}
+
+on_signal() {
+  trap '' INT TERM HUP
+  say ""
+  say "Interrupted: ending what was started."
+  exit "$1"  # The exit trap does the rest.
+}
+trap 'on_signal 130' INT
+trap 'on_signal 143' TERM
+trap 'on_signal 129' HUP
+trap end_child EXIT
+
+# --- Packages
+
+install_missing_packages() {
+  command -v apt-get >/dev/null && command -v dpkg-query >/dev/null ||
+    fail "this needs apt-get (Debian 12); on another system install what package.xml names and use catkin_make"
+  local wanted installed missing root=()
+  wanted=$(grep -v '^#' "$bringup/scripts/debian_packages.txt" | sort -u)
+  # shellcheck disable=SC2086
+  installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null |
+    awk '$2 == "installed" { print $1 }' | sort -u)
+  missing=$(comm -23 <(echo "$wanted") <(echo "$installed"))
+  [[ -n $missing ]] || return 0
+
+  # shellcheck disable=SC2086
+  step "Installing $(wc -w <<<"$missing") Debian packages:" $missing
+  if [[ $EUID -ne 0 ]]; then
+    command -v sudo >/dev/null && { sudo -n true 2>/dev/null || { [[ -t 0 ]] && sudo -v; }; } ||
+      fail "Debian packages are missing and need root; run as root: apt-get install --no-install-recommends" $missing
+    root=(sudo -n)
+  fi
+  local apt=("${root[@]}" env DEBIAN_FRONTEND=noninteractive)
+  run "${apt[@]}" dpkg --configure -a || true  # mends an installation that was interrupted
+  run "${apt[@]}" apt-get update ||
+    fail "apt-get update failed (see above); check the network and /etc/apt/sources.list"
+  # shellcheck disable=SC2086
+  run "${apt[@]}" apt-get install -y --no-install-recommends $missing ||
+    fail "apt-get could not install the missing packages (see above); on Debian 12 all of them are in main"
+}
+
+# --- Workspace
+
+# Jobs: one per processor, but no more than memory allows (1.5 GB for the largest compiler run).
+jobs_that_fit() {
+  awk -v cpus="$(nproc)" '/^MemAvailable/ { n = int($2 / 1.5e6); print n < 1 ? 1 : n < cpus ? n : cpus }' /proc/meminfo
+}
+
+# Makes the workspace and takes hold of it until the script ends.
+prepare_workspace() {
+  mkdir -p "$workspace/src" || fail "cannot write to $workspace; set WIIMOTE_TRACKER_WORKSPACE to a folder that can be written"
+  workspace=$(cd "$workspace" && pwd -P)
+  exec 9>"$workspace/.lock"
+  flock -n 9 || fail "another demo or test uses $workspace; wait for it, or set WIIMOTE_TRACKER_WORKSPACE to another folder"
+  # The clone may lie in the src folder of another workspace, which must not find ours in it.
+  touch "$workspace/CATKIN_IGNORE"
+  local package
+  find "$workspace/src" -maxdepth 1 -type l -name 'wiimote_tracker_*' -delete
+  for package in "$clone"/wiimote_tracker_*/package.xml; do
+    ln -s "$(dirname "$package")" "$workspace/src/"
+  done
+}
+
+# build_workspace [CMake arguments]
+build_workspace() {
+  run catkin_make -C "$workspace" -j"$(jobs_that_fit)" "$@"
+}
+
+use_workspace() {
+  set +u
+  # shellcheck disable=SC1091
+  source "$workspace/devel/setup.bash"
+  set -u
+}

@@ -1,0 +1,59 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
+#define WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
+
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::simulation {
+
+/// A description cannot be used; what() names the file and the key, and says what is wrong.
+struct DescriptionError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// When a camera exposes, and how long its reports travel.
+struct Timing {
+  double period = 0.01;  ///< Between exposures [s].
+  double phase = 0.0;    ///< Of the first exposure [s].
+  double delay = 0.0;    ///< Least time from exposure to delivery [s].
+  double jitter = 0.0;   ///< Mean of the exponential that is added to it [s].
+};
+
+/// A camera as it truly is; its optical frame by position and look_at, image x axis horizontal.
+struct CameraDescription {
+  geometry::Camera camera;
+  Timing timing;
+};
+
+/// An LED before it is moved.
+struct LedDescription {
+  std::string name;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  double size = 3.0;                                   ///< As the sensor reports it [0..15].
+  double brightness = 1.0;                             ///< Any scale [> 0].
+  bool on = true;
+};
+
+/// A rig that does not exist. The world has z up.
+struct Description {
+  std::string world_frame = "world";
+  std::uint32_t seed = 1;
+  double pixel_noise = 0.3;   ///< Standard deviation of each pixel coordinate [px].
+  double truth_rate = 200.0;  ///< [Hz]
+  std::vector<CameraDescription> cameras;
+  std::vector<LedDescription> leds;
+};
+
+/// Reads a description (layout: paper_rig.yaml). Unknown keys are refused.
+/// @throws DescriptionError.
+Description readDescription(const std::string& path);
+
+}  // namespace wiimote_tracker::simulation
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H

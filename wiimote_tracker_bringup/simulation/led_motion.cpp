@@ -1,0 +1,37 @@
+#include "led_motion.h"
+
+#include <cmath>
+
+namespace wiimote_tracker::simulation {
+
+Eigen::Vector3d LedMotion::position(double time) const {
+  if (time <= begin_ && time < arrival_)
+    return from_;
+  if (time < arrival_)
+    return from_ + (time - begin_) / (arrival_ - begin_) * (to_ - from_);
+  const double angle = angular_speed_ * (time - arrival_);
+  return to_ + radius_ * Eigen::Vector3d(std::cos(angle) - 1.0, std::sin(angle), 0.0);
+}
+
+void LedMotion::hold(double time) {
+  line(time, position(time), 0.0);
+}
+
+double LedMotion::line(double time, const Eigen::Vector3d& target, double speed) {
+  from_ = position(time);
+  to_ = target;
+  begin_ = time;
+  arrival_ = speed > 0.0 ? time + (to_ - from_).norm() / speed : time;
+  radius_ = 0.0;
+  angular_speed_ = 0.0;
+  return arrival_;
+}
+
+double LedMotion::circle(double time, const Eigen::Vector3d& center, double radius, double speed) {
+  line(time, center + radius * Eigen::Vector3d::UnitX(), speed);
+  radius_ = radius;
+  angular_speed_ = speed / radius;
+  return arrival_;
+}
+
+}  // namespace wiimote_tracker::simulation

@@ -1,0 +1,40 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_LED_MOTION_H
+#define WIIMOTE_TRACKER_BRINGUP_SIMULATION_LED_MOTION_H
+
+#include <Eigen/Core>
+
+namespace wiimote_tracker::simulation {
+
+/// Where an LED is, as a function of time: it lies, goes straight to a place, or circles. A new
+/// motion begins where the LED is at that moment. Positions [m], times [s], speeds [m/s].
+class LedMotion {
+ public:
+  explicit LedMotion(const Eigen::Vector3d& position) : from_(position), to_(position) {}
+
+  /// Position at `time`; before the beginning of the present motion: where it began.
+  Eigen::Vector3d position(double time) const;
+
+  /// From `time` on it stays where it is.
+  void hold(double time);
+
+  /// From `time` on it goes straight to `target` and stays there. Speed 0: it is there at once.
+  /// @returns when it is there.
+  double line(double time, const Eigen::Vector3d& target, double speed);
+
+  /// From `time` on it goes straight to the +x side of the horizontal circle around `center`, then
+  /// circles for ever, counter-clockwise seen from above. `radius` [m, > 0], `speed` [m/s, > 0].
+  /// @returns when its first lap begins.
+  double circle(double time, const Eigen::Vector3d& center, double radius, double speed);
+
+ private:
+  double begin_ = 0.0;    ///< Of the straight part [s].
+  double arrival_ = 0.0;  ///< End of the straight part [s].
+  Eigen::Vector3d from_;
+  Eigen::Vector3d to_;
+  double radius_ = 0.0;         ///< Of the circle that follows; 0: none.
+  double angular_speed_ = 0.0;  ///< [rad/s]
+};
+
+}  // namespace wiimote_tracker::simulation
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_SIMULATION_LED_MOTION_H

@@ -1,0 +1,79 @@
+#include "rig.h"
+
+#include <utility>
+
+namespace wiimote_tracker::simulation {
+
+Rig::Rig(const Description& description, Deliver deliver, Truth truth)
+    : deliver_(std::move(deliver)),
+      truth_(std::move(truth)),
+      truth_period_(1.0 / description.truth_rate) {
+  for (const LedDescription& led : description.leds)
+    leds_.push_back({led, LedMotion(led.position), led.on});
+  for (const CameraDescription& camera : description.cameras) {
+    // A seed of its own for each camera's pixels and each camera's link.
+    const auto number = static_cast<std::uint32_t>(cameras_.size());
+    std::seed_seq sequence{description.seed, number};
+    std::uint32_t seeds[2];
+    sequence.generate(seeds, seeds + 2);
+    CameraClock clock(camera.timing, seeds[1]);
+    const Exposure first = clock.next();
+    cameras_.push_back(
+        {VirtualCamera(camera.camera, description.pixel_noise, seeds[0]), clock, first, {}});
+    push(first.time, Event::kExposure, number);
+  }
+  push(0.0, Event::kTruth, 0);
+}
+
+void Rig::runUntil(double time) {
+  while (events_.top().time <= time) {
+    const Event event = events_.top();
+    events_.pop();
+    switch (event.kind) {
+      case Event::kExposure:
+        expose(event.camera);
+        break;
+      case Event::kDelivery:
+        deliver_(event.camera, cameras_[event.camera].travelling.front());
+        cameras_[event.camera].travelling.pop();
+        break;
+      case Event::kTruth:
+        tellTruth(event.time);
+        break;
+    }
+  }
+}
+
+Rig::Led* Rig::findLed(const std::string& name) {
+  for (Led& led : leds_) {
+    if (led.description.name == name)
+      return &led;
+  }
+  return nullptr;
+}
+
+void Rig::push(double time, Event::Kind kind, std::size_t camera) {
+  events_.push({time, kind, camera, event_count_++});
+}
+
+void Rig::expose(std::size_t number) {
+  Camera& camera = cameras_[number];
+  lamps_.clear();
+  for (const Led& led : leds_) {
+    if (led.on)
+      lamps_.push_back({led.motion.position(camera.exposure.time), led.description.size,
+                        led.description.brightness});
+  }
+  camera.travelling.push(camera.optics.sense(lamps_));
+  push(camera.exposure.delivery, Event::kDelivery, number);
+  camera.exposure = camera.clock.next();
+  push(camera.exposure.time, Event::kExposure, number);
+}
+
+void Rig::tellTruth(double time) {
+  for (std::size_t i = 0; i < leds_.size(); ++i)
+    truth_(i, time, leds_[i].motion.position(time));
+  push(static_cast<double>(++truths_) * truth_period_, Event::kTruth, 0);
+}
+
+}  // namespace wiimote_tracker::simulation

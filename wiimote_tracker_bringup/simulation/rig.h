@@ -1,0 +1,81 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_RIG_H
+#define WIIMOTE_TRACKER_BRINGUP_SIMULATION_RIG_H
+
+#include "camera_clock.h"
+#include "description.h"
+#include "led_motion.h"
+#include "virtual_camera.h"
+
+#include <cstddef>
+#include <functional>
+#include <queue>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::simulation {
+
+/// All cameras and LEDs of a description as a queue of events: exposures, deliveries of reports,
+/// instants of truth. Reads no clock: whoever owns it says how far time has come. The same
+/// description and the same motions give the same events, however time is cut into steps.
+class Rig {
+ public:
+  /// Receives what camera number `camera` senses, when its report is due.
+  using Deliver = std::function<void(std::size_t camera, const virtual_wiimote::Senses& senses)>;
+  /// Receives the true position [m] of LED number `led` at `time` [s].
+  using Truth = std::function<void(std::size_t led, double time, const Eigen::Vector3d& position)>;
+
+  Rig(const Description& description, Deliver deliver, Truth truth);
+
+  /// Carries out every event up to and including `time` [s since the start], in order.
+  void runUntil(double time);
+
+  /// Time of the next event [s].
+  double nextEvent() const { return events_.top().time; }
+
+  /// Motion and switch of an LED. Run until the moment of the change first.
+  /// Nothing (nullptr) when there is no LED of that name.
+  struct Led {
+    LedDescription description;
+    LedMotion motion;
+    bool on;
+  };
+  Led* findLed(const std::string& name);
+
+ private:
+  struct Event {
+    enum Kind { kExposure, kDelivery, kTruth };
+    double time;
+    Kind kind;
+    std::size_t camera;
+    std::uint64_t number;  ///< Order among events of one time.
+
+    bool operator>(const Event& other) const {
+      return time != other.time ? time > other.time : number > other.number;
+    }
+  };
+
+  struct Camera {
+    VirtualCamera optics;
+    CameraClock clock;
+    Exposure exposure;  ///< The next one.
+    std::queue<virtual_wiimote::Senses> travelling;
+  };
+
+  void push(double time, Event::Kind kind, std::size_t camera);
+  void expose(std::size_t number);
+  void tellTruth(double time);
+
+  Deliver deliver_;
+  Truth truth_;
+  double truth_period_;
+  std::uint64_t truths_ = 0;
+  std::vector<Camera> cameras_;
+  std::vector<Led> leds_;
+  std::vector<Lamp> lamps_;
+  std::priority_queue<Event, std::vector<Event>, std::greater<Event>> events_;
+  std::uint64_t event_count_ = 0;
+};
+
+}  // namespace wiimote_tracker::simulation
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_SIMULATION_RIG_H

@@ -1,0 +1,119 @@
+#include "simulated_rig.h"
+
+#include <geometry_msgs/PointStamped.h>
+
+#include <cmath>
+#include <sstream>
+#include <thread>
+
+namespace wiimote_tracker::simulation {
+
+using wiimote_tracker_msgs::SetLed;
+
+SimulatedRig::SimulatedRig(ros::NodeHandle nh,
+                           const Description& description,
+                           const std::string& socket_directory)
+    : world_frame_(description.world_frame),
+      rig_(
+          description,
+          [this](std::size_t camera, const virtual_wiimote::Senses& senses) {
+            servers_[camera]->sample(senses);
+          },
+          [this](std::size_t led, double time, const Eigen::Vector3d& position) {
+            publishTruth(led, time, position);
+          }) {
+  for (const CameraDescription& camera : description.cameras) {
+    servers_.push_back(std::make_unique<virtual_wiimote::Server>(
+        socket_directory + "/" + camera.camera.name + ".sock", camera.camera.identity,
+        virtual_wiimote::Device::Options()));
+  }
+  for (const LedDescription& led : description.leds)
+    truth_.push_back(
+        nh.advertise<geometry_msgs::PointStamped>("simulation/truth/" + led.name, 1000));
+  start_ = std::chrono::steady_clock::now();
+  start_stamp_ = ros::Time::now();
+  set_led_ = nh.advertiseService("simulation/set_led", &SimulatedRig::setLed, this);
+}
+
+void SimulatedRig::run() {
+  while (ros::ok()) {
+    double next;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      rig_.runUntil(now());
+      next = rig_.nextEvent();
+    }
+    std::this_thread::sleep_until(start_ + std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                               std::chrono::duration<double>(next)));
+  }
+}
+
+bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) {
+  response.message = refusal(request);
+  if (!response.message.empty())
+    return true;
+
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Rig::Led* led = rig_.findLed(request.led);
+  if (!led) {
+    response.message = "there is no LED '" + request.led + "' in the rig's description";
+    return true;
+  }
+  const double time = now();
+  rig_.runUntil(time);
+  const Eigen::Vector3d target(request.target.x, request.target.y, request.target.z);
+  double arrival = time;
+  if (request.motion == SetLed::Request::HOLD)
+    led->motion.hold(time);
+  else if (request.motion == SetLed::Request::LINE)
+    arrival = led->motion.line(time, target, request.speed);
+  else
+    arrival = led->motion.circle(time, target, request.radius, request.speed);
+  led->on = request.on;
+
+  response.success = true;
+  response.arrival = stamp(arrival);
+  std::ostringstream text;
+  text << "LED '" << request.led << "' " << (request.on ? "shines" : "is dark") << ", there in "
+       << arrival - time << " s";
+  response.message = text.str();
+  return true;
+}
+
+/// Why a request cannot be carried out; empty when it can.
+std::string SimulatedRig::refusal(const SetLed::Request& request) const {
+  const bool line = request.motion == SetLed::Request::LINE;
+  const bool circle = request.motion == SetLed::Request::CIRCLE;
+  if (!line && !circle && request.motion != SetLed::Request::HOLD)
+    return "motion must be HOLD, LINE or CIRCLE";
+  if ((line || circle) && !(std::isfinite(request.target.x) && std::isfinite(request.target.y) &&
+                            std::isfinite(request.target.z)))
+    return "target must be finite";
+  if (line && !(request.speed >= 0.0 && std::isfinite(request.speed)))
+    return "speed must be 0 (at once) or more";
+  if (circle && !(request.speed > 0.0 && std::isfinite(request.speed)))
+    return "speed must be more than 0";
+  if (circle && !(request.radius > 0.0 && std::isfinite(request.radius)))
+    return "radius must be more than 0";
+  return "";
+}
+
+double SimulatedRig::now() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+ros::Time SimulatedRig::stamp(double time) const {
+  return start_stamp_ + ros::Duration(time);
+}
+
+void SimulatedRig::publishTruth(std::size_t led, double time, const Eigen::Vector3d& position) {
+  geometry_msgs::PointStamped truth;
+  truth.header.stamp = stamp(time);
+  truth.header.frame_id = world_frame_;
+  truth.point.x = position.x();
+  truth.point.y = position.y();
+  truth.point.z = position.z();
+  truth_[led].publish(truth);
+}
+
+}  // namespace wiimote_tracker::simulation

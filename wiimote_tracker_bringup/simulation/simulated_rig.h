@@ -1,0 +1,52 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_SIMULATED_RIG_H
+#define WIIMOTE_TRACKER_BRINGUP_SIMULATION_SIMULATED_RIG_H
+
+#include "description.h"
+#include "rig.h"
+
+#include "wiimote_tracker_driver/virtual_wiimote/server.h"
+
+#include <ros/ros.h>
+#include <wiimote_tracker_msgs/SetLed.h>
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::simulation {
+
+/// A Rig in real time: every camera as a virtual Wii Remote at <socket_directory>/<camera>.sock,
+/// service simulation/set_led, truth on simulation/truth/<led>.
+class SimulatedRig {
+ public:
+  /// @throws std::system_error when a socket cannot be made.
+  SimulatedRig(ros::NodeHandle nh,
+               const Description& description,
+               const std::string& socket_directory);
+
+  /// Runs until ROS shuts down.
+  void run();
+
+ private:
+  bool setLed(wiimote_tracker_msgs::SetLed::Request& request,
+              wiimote_tracker_msgs::SetLed::Response& response);
+  std::string refusal(const wiimote_tracker_msgs::SetLed::Request& request) const;
+  double now() const;                  ///< [s since the start]
+  ros::Time stamp(double time) const;  ///< Of a time since the start.
+  void publishTruth(std::size_t led, double time, const Eigen::Vector3d& position);
+
+  std::string world_frame_;
+  std::chrono::steady_clock::time_point start_;
+  ros::Time start_stamp_;
+  std::vector<std::unique_ptr<virtual_wiimote::Server>> servers_;
+  std::vector<ros::Publisher> truth_;
+  std::mutex mutex_;  ///< Of rig_.
+  Rig rig_;
+  ros::ServiceServer set_led_;
+};
+
+}  // namespace wiimote_tracker::simulation
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_SIMULATION_SIMULATED_RIG_H

@@ -1,0 +1,34 @@
+#include "simulated_rig.h"
+
+#include <ros/ros.h>
+#include <wiimote_tracker_msgs/parameter_reader.h>
+
+#include <sys/stat.h>
+
+#include <string>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "simulated_rig");
+  try {
+    ros::NodeHandle nh;
+    wiimote_tracker::ParameterReader parameters(ros::NodeHandle("~"));
+    const auto path = parameters.required<std::string>(
+        "description", "the path of a rig description such as simulation/paper_rig.yaml");
+    const auto directory =
+        parameters.optional<std::string>("socket_directory", "/tmp/wiimote_tracker_simulation");
+    parameters.refuseUnknown();
+    const auto description = wiimote_tracker::simulation::readDescription(path);
+
+    mkdir(directory.c_str(), 0700);  // when it cannot be made, the first socket says why
+    wiimote_tracker::simulation::SimulatedRig rig(nh, description, directory);
+    ROS_INFO_STREAM("Simulating " << description.cameras.size() << " virtual Wii Remotes in "
+                                  << directory);
+    ros::AsyncSpinner spinner(1);
+    spinner.start();
+    rig.run();
+    return 0;
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM(error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,15 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_BUNDLE_ERROR_H
+#define WIIMOTE_TRACKER_CALIBRATION_BUNDLE_ERROR_H
+
+#include <stdexcept>
+
+namespace wiimote_tracker::bundle {
+
+/// The observations do not determine the cameras. what() is one sentence that says what to do.
+struct BundleError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace wiimote_tracker::bundle
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_BUNDLE_ERROR_H

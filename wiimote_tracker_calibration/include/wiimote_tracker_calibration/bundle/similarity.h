@@ -1,0 +1,34 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_BUNDLE_SIMILARITY_H
+#define WIIMOTE_TRACKER_CALIBRATION_BUNDLE_SIMILARITY_H
+
+#include "wiimote_tracker_calibration/bundle/reconstruction.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace wiimote_tracker::bundle {
+
+/// to = scale * rotation * from + translation.
+struct Similarity {
+  double scale = 1.0;
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d operator*(const Eigen::Vector3d& from) const {
+    return scale * (rotation * from) + translation;
+  }
+};
+
+/// Similarity with the least sum of squared distances between scale * R * from + t and to
+/// (Umeyama 1991). @throws BundleError: sizes differ, fewer than three points, or points (nearly)
+/// on one line.
+Similarity fitSimilarity(const std::vector<Eigen::Vector3d>& from,
+                         const std::vector<Eigen::Vector3d>& to);
+
+/// Moves cameras and points; no reprojection changes.
+void transform(const Similarity& similarity, Reconstruction* reconstruction);
+
+}  // namespace wiimote_tracker::bundle
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_BUNDLE_SIMILARITY_H

@@ -1,0 +1,30 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_BUNDLE_STATISTICS_H
+#define WIIMOTE_TRACKER_CALIBRATION_BUNDLE_STATISTICS_H
+
+#include "wiimote_tracker_calibration/bundle/reconstruction.h"
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace wiimote_tracker::bundle {
+
+/// Figures of a set of reprojection errors. All but the counts are NaN when there are none.
+struct Statistics {
+  std::size_t observations = 0;                            ///< All, also those that are no inliers.
+  std::size_t inliers = 0;                                 ///< The figures below are over these.
+  double rms = std::numeric_limits<double>::quiet_NaN();   ///< sqrt(mean(du^2 + dv^2)) [px].
+  double mean = std::numeric_limits<double>::quiet_NaN();  ///< [px]
+  double median = std::numeric_limits<double>::quiet_NaN();  ///< [px]
+  double rms_m = std::numeric_limits<double>::quiet_NaN();   ///< At the points' distance [m].
+};
+
+/// Over all cameras.
+Statistics statistics(const Reconstruction& reconstruction);
+
+/// Of one camera.
+Statistics statistics(const Reconstruction& reconstruction, std::size_t camera);
+
+}  // namespace wiimote_tracker::bundle
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_BUNDLE_STATISTICS_H

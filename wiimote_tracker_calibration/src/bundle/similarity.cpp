@@ -1,0 +1,56 @@
+#include "wiimote_tracker_calibration/bundle/similarity.h"
+
+#include "wiimote_tracker_calibration/bundle/error.h"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+
+namespace wiimote_tracker::bundle {
+
+namespace {
+
+Eigen::Matrix3Xd columns(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    result.col(static_cast<Eigen::Index>(i)) = points[i];
+  return result;
+}
+
+bool onOneLine(const Eigen::Matrix3Xd& points) {
+  const Eigen::Matrix3Xd centered = points.colwise() - points.rowwise().mean();
+  const Eigen::Vector3d spread = centered.jacobiSvd().singularValues();
+  return !(spread(1) > 1e-6 * spread(0));  // also true for NaN
+}
+
+}  // namespace
+
+Similarity fitSimilarity(const std::vector<Eigen::Vector3d>& from,
+                         const std::vector<Eigen::Vector3d>& to) {
+  if (from.size() != to.size() || from.size() < 3)
+    throw BundleError("an alignment needs three or more points, as many in both frames");
+  const Eigen::Matrix3Xd from_columns = columns(from);
+  const Eigen::Matrix3Xd to_columns = columns(to);
+  if (onOneLine(from_columns) || onOneLine(to_columns))
+    throw BundleError("the points of an alignment must not lie on one line");
+  const Eigen::Matrix4d transform = Eigen::umeyama(from_columns, to_columns, true);
+  Similarity similarity;
+  similarity.scale = std::cbrt(transform.topLeftCorner<3, 3>().determinant());
+  similarity.rotation = transform.topLeftCorner<3, 3>() / similarity.scale;
+  similarity.translation = transform.topRightCorner<3, 1>();
+  return similarity;
+}
+
+void transform(const Similarity& similarity, Reconstruction* reconstruction) {
+  for (geometry::Camera& camera : reconstruction->cameras) {
+    const Eigen::Vector3d center = similarity * camera.center();
+    camera.world_from_camera.linear() = similarity.rotation * camera.world_from_camera.linear();
+    camera.world_from_camera.translation() = center;
+  }
+  for (auto& point : reconstruction->points) {
+    if (point)
+      point = similarity * *point;
+  }
+}
+
+}  // namespace wiimote_tracker::bundle

@@ -1,0 +1,53 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CAMERA_MONITOR_H
+#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CAMERA_MONITOR_H
+
+#include <Eigen/Core>
+
+#include <deque>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::capture {
+
+/// Spots of one image [px], lens distortion still in them.
+using Blobs = std::vector<Eigen::Vector2d>;
+
+/// What one camera shows at the moment.
+struct CameraView {
+  bool connected = false;                                  ///< Images arrive.
+  double rate = std::numeric_limits<double>::quiet_NaN();  ///< [Hz]; NaN until two images came.
+  std::size_t blobs = 0;                                   ///< In the latest image.
+  bool sees_led = false;  ///< Exactly one spot, in nearly all images of the window.
+  Eigen::Vector2d pixel =
+      Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());  ///< Of that spot.
+  std::string problem;  ///< One sentence that says what to do; empty when all is well.
+};
+
+/// Watches the images of one camera through a sliding window of time.
+/// Times [s] are of any one steady clock.
+class CameraMonitor {
+ public:
+  /// @param window length of the window [s, > 0].
+  explicit CameraMonitor(double window = 1.0) : window_(window) {}
+
+  void add(double time, const Blobs& blobs);
+  CameraView view(double now) const;
+
+ private:
+  struct Image {
+    double time;
+    std::size_t blobs;
+  };
+
+  double window_;
+  std::deque<Image> images_;
+  Eigen::Vector2d first_blob_ = Eigen::Vector2d::Zero();
+};
+
+/// Why a camera that shows this many spots does not see the LED, and what to do.
+std::string spotCountProblem(std::size_t blobs);
+
+}  // namespace wiimote_tracker::capture
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CAMERA_MONITOR_H

@@ -1,0 +1,44 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_BRANCHES_H
+#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_BRANCHES_H
+
+#include "wiimote_tracker_calibration/square/rig_model.h"
+
+#include <Eigen/Geometry>
+
+#include <vector>
+
+namespace wiimote_tracker::square {
+
+/// One way of standing that explains what a camera saw.
+struct Branch {
+  Eigen::Isometry3d world_from_camera;  ///< Least reprojection error at the starting intrinsics.
+  double reprojection_error;            ///< sqrt(mean(du^2 + dv^2)) there [px].
+  double cost;  ///< RigModel::refineAll() of this camera alone, from here (-2 log likelihood).
+};
+
+/// The branches of one camera of the model: one or two, the more probable first; gravity is
+/// weighed in where it is known. Empty when nothing explains what it saw.
+std::vector<Branch> findBranches(const RigModel& model, std::size_t camera);
+
+/// Which branch each camera stands on, decided for all cameras together.
+struct BranchChoice {
+  RigState state;                   ///< Most probable rig on the chosen branches.
+  double cost;                      ///< RigModel::refineAll() of it.
+  std::vector<std::size_t> chosen;  ///< Index into the branches, per camera.
+  /// Cameras for which another branch is nearly as probable.
+  std::vector<std::size_t> undecided;
+};
+
+/// Weighs all combinations of branches that are not clear from one camera alone: the cameras saw
+/// the same four places, so that a branch which needs other displacements of the corners than the
+/// other cameras do is less probable.
+/// @param branches per camera, from findBranches(), none empty.
+/// @param odds least ratio of probabilities between the chosen branch and the other [> 1].
+/// @throws SquareError: too many cameras are ambiguous, or nothing can be evaluated.
+BranchChoice chooseBranches(const RigModel& model,
+                            const std::vector<std::vector<Branch>>& branches,
+                            double odds);
+
+}  // namespace wiimote_tracker::square
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_BRANCHES_H

@@ -1,0 +1,26 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_CORNER_ORDER_H
+#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_CORNER_ORDER_H
+
+#include <Eigen/Core>
+
+#include <array>
+
+namespace wiimote_tracker::square {
+
+/// How the four corners lie in one image.
+enum class CornerOrder {
+  kCounterClockwise,  ///< As a viewer sees them who looks at the floor from the camera.
+  kClockwise,
+  kCoincident,  ///< Two corners in one place.
+  kCollinear,   ///< Three corners on one line.
+  kCrossing,    ///< The sides cross: the corners were not taken round the square.
+  kNotConvex,   ///< One corner inside the triangle of the others: no view of a rectangle.
+};
+
+/// @param pixels places without lens distortion, v down [px].
+/// @param tolerance distances below this are taken for zero [px, > 0].
+CornerOrder cornerOrder(const std::array<Eigen::Vector2d, 4>& pixels, double tolerance);
+
+}  // namespace wiimote_tracker::square
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_CORNER_ORDER_H

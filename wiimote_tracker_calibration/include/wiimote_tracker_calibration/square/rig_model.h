@@ -1,0 +1,94 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_RIG_MODEL_H
+#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_RIG_MODEL_H
+
+#include "wiimote_tracker_calibration/square/sightings.h"
+#include "wiimote_tracker_calibration/square/square_layout.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera.h>
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::square {
+
+/// How well things are known before the cameras are solved (standard deviations, all > 0).
+struct Uncertainty {
+  double pixel = 0.2;             ///< Of a captured corner in an image, per axis [px].
+  double placement = 0.005;       ///< Of the LED put on a corner, per horizontal axis [m].
+  double focal = 0.03;            ///< Of the focal length, relative [1].
+  double aspect = 0.005;          ///< Of fx / fy, relative [1].
+  double principal_point = 15.0;  ///< Per axis [px].
+  double k1 = 0.02;               ///< Of the first distortion coefficient [1].
+  double gravity = 0.0524;        ///< Of the accelerometer's up against the floor's normal [rad].
+
+  /// @throws SquareError naming the value that is not greater than 0.
+  void check() const;
+};
+
+/// Cameras that all saw the four corners, and the corners.
+struct RigState {
+  std::vector<geometry::Camera> cameras;  ///< In the order of the sightings.
+  Corners corners;                        ///< Where the LED was put [m].
+};
+
+/// All that was observed of one square, and the statistical model of it: Gaussian errors of the
+/// pixels, of the placement of the LED, of the starting intrinsics, and of the accelerometers.
+/// Every camera must have seen all four corners.
+class RigModel {
+ public:
+  /// @param z_up as in SquareLayout::corners().
+  RigModel(std::vector<CameraSightings> sightings,
+           const SquareLayout& layout,
+           bool z_up,
+           const Uncertainty& uncertainty);
+
+  const std::vector<CameraSightings>& sightings() const { return sightings_; }
+  const Corners& nominalCorners() const { return nominal_corners_; }
+  bool zUp() const { return z_up_; }
+
+  /// A model of one of the cameras alone.
+  RigModel only(std::size_t camera) const;
+
+  /// Starting intrinsics, corners as laid out, and the given poses.
+  RigState start(const std::vector<Eigen::Isometry3d>& world_from_camera) const;
+
+  /// Least reprojection error over the poses, intrinsics and corners held (the paper, IV.B:
+  /// Levenberg-Marquardt). Nothing when it cannot be evaluated at the start: a corner lies behind
+  /// a camera.
+  std::optional<RigState> refinePoses(RigState start) const;
+
+  /// Most probable poses, intrinsics and corners (Levenberg-Marquardt, in place).
+  /// @returns the sum of the squared whitened residuals; nothing as for refinePoses().
+  std::optional<double> refineAll(RigState* state) const;
+
+  /// Residuals beyond the number of parameters of refineAll(): what its cost is on average.
+  int degreesOfFreedom() const;
+
+  /// Covariance of refineAll(), order and units as in RigCalibration.msg.
+  Eigen::MatrixXd covarianceOfAll(const RigState& state) const;
+
+  /// Covariance of refinePoses() to first order, from the same uncertainties, order and units as
+  /// in RigCalibration.msg. The cameras are correlated through the corners.
+  Eigen::MatrixXd covarianceOfPoses(const RigState& state) const;
+
+  /// sqrt(mean(du^2 + dv^2)) of one camera [px].
+  double reprojectionError(const RigState& state, std::size_t camera) const;
+
+  /// Angle between the floor's up and the accelerometer's [rad]; nothing without accelerometer.
+  std::optional<double> tiltAgainstGravity(const RigState& state, std::size_t camera) const;
+
+ private:
+  class Problem;
+
+  std::vector<CameraSightings> sightings_;
+  SquareLayout layout_;
+  bool z_up_;
+  Uncertainty uncertainty_;
+  Corners nominal_corners_;
+};
+
+}  // namespace wiimote_tracker::square
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_RIG_MODEL_H

@@ -1,0 +1,25 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_SIGHTINGS_H
+#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SIGHTINGS_H
+
+#include <wiimote_tracker_triangulation/geometry/camera.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace wiimote_tracker::square {
+
+/// What one camera saw of the square, and what is known of it before.
+struct CameraSightings {
+  std::string name;
+  std::string identity;                                   ///< Empty if unknown.
+  geometry::Intrinsics intrinsics;                        ///< Starting values.
+  std::array<std::optional<Eigen::Vector2d>, 4> corners;  ///< Distorted [px]; nothing: not seen.
+  std::optional<Eigen::Vector3d> gravity;  ///< Specific force at rest, optical frame [m/s^2].
+};
+
+}  // namespace wiimote_tracker::square
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_SIGHTINGS_H

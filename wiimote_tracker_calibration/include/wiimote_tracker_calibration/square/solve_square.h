@@ -1,0 +1,49 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_SOLVE_SQUARE_H
+#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SOLVE_SQUARE_H
+
+#include "wiimote_tracker_calibration/square/rig_model.h"
+#include "wiimote_tracker_calibration/square/sightings.h"
+#include "wiimote_tracker_calibration/square/square_layout.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::square {
+
+enum class Method {
+  kJoint,      ///< Poses, intrinsics and placement of the corners together, each with its prior.
+  kPerCamera,  ///< Each camera's pose alone, intrinsics and corners taken as exact (the paper).
+};
+
+struct SolveOptions {
+  Method method = Method::kJoint;
+  Uncertainty uncertainty;
+  /// Least ratio of probabilities between the two poses a camera can have [> 1].
+  double branch_odds = 100.0;
+};
+
+/// A solved square.
+struct SquareSolution {
+  /// Poses, intrinsics, residuals, joint covariance, verdict; without solved_at and world_frame.
+  geometry::Rig rig;
+  bool z_up = true;
+  /// Displacement of the corners from the layout, as estimated [m]; zero with kPerCamera.
+  Corners corner_offsets;
+  /// One sentence each. They are part of rig.verdict too.
+  std::vector<std::string> warnings;
+};
+
+/// Solves where the cameras stand. Cameras that did not see all four corners are left out with a
+/// warning that names them.
+/// @throws SquareError: fewer than two cameras saw all corners; corners not captured, in one place,
+/// on one line, in crossing order; order not the same for all cameras; a pose that can be on either
+/// branch of the planar ambiguity; cameras that contradict the square, gravity or one another.
+SquareSolution solveSquare(const SquareLayout& layout,
+                           const std::vector<CameraSightings>& cameras,
+                           const SolveOptions& options);
+
+}  // namespace wiimote_tracker::square
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_SOLVE_SQUARE_H

@@ -1,0 +1,68 @@
+#include "wiimote_tracker_calibration/capture/camera_monitor.h"
+
+#include <algorithm>
+
+namespace wiimote_tracker::capture {
+
+namespace {
+
+// An LED at the edge of a camera's sight drops out now and then; that is not "sees the LED".
+constexpr double kShareWithOneSpot = 0.9;
+
+}  // namespace
+
+std::string spotCountProblem(std::size_t blobs) {
+  if (blobs == 0)
+    return "sees no spot: turn the camera or the LED towards each other and clear the way between "
+           "them";
+  if (blobs > 1)
+    return "sees " + std::to_string(blobs) +
+           " spots: switch off other lights and cover reflections until one is left";
+  return "";
+}
+
+void CameraMonitor::add(double time, const Blobs& blobs) {
+  images_.push_back({time, blobs.size()});
+  if (!blobs.empty())
+    first_blob_ = blobs.front();
+  while (images_.front().time < time - window_)
+    images_.pop_front();
+}
+
+CameraView CameraMonitor::view(double now) const {
+  CameraView view;
+  std::size_t count = 0;
+  std::size_t with_one_spot = 0;
+  double first = 0.0;
+  for (const Image& image : images_) {
+    if (image.time < now - window_)
+      continue;
+    if (count == 0)
+      first = image.time;
+    ++count;
+    with_one_spot += image.blobs == 1;
+  }
+  if (count == 0) {
+    view.problem = "sends no images: check its battery, its connection and its driver";
+    return view;
+  }
+
+  view.connected = true;
+  const double duration = images_.back().time - first;
+  if (duration > 0.0)
+    view.rate = static_cast<double>(count - 1) / duration;
+  view.blobs = images_.back().blobs;
+  if (view.blobs != 1) {
+    view.problem = spotCountProblem(view.blobs);
+  } else if (static_cast<double>(with_one_spot) < kShareWithOneSpot * static_cast<double>(count)) {
+    view.problem = "sees exactly one spot in " + std::to_string(100 * with_one_spot / count) +
+                   " % of its images only: bring the LED nearer or turn it towards the camera, and "
+                   "remove other lights";
+  } else {
+    view.sees_led = true;
+    view.pixel = first_blob_;
+  }
+  return view;
+}
+
+}  // namespace wiimote_tracker::capture

@@ -1,0 +1,158 @@
+#include "wiimote_tracker_calibration/capture/corner_capture.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace wiimote_tracker::capture {
+
+namespace {
+
+// A camera holds up the capture only while it keeps giving samples.
+constexpr double kHold = 0.5;  // [s]
+// Fewer samples say nothing about stillness.
+constexpr std::size_t kSamplesToJudge = 10;
+
+std::string pixels(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f px", value);
+  return text;
+}
+
+}  // namespace
+
+CornerCapture::CornerCapture(const std::vector<std::string>& cameras,
+                             const CornerCaptureOptions& options,
+                             double start_time)
+    : options_(options), start_time_(start_time), now_(start_time) {
+  for (const std::string& name : cameras)
+    cameras_[name];
+}
+
+void CornerCapture::add(const std::string& name, double time, const Blobs& blobs) {
+  const auto found = cameras_.find(name);
+  if (found == cameras_.end() || state_ != State::kCollecting || time < start_time_)
+    return;
+  Camera& camera = found->second;
+  camera.seen = true;
+  camera.blobs = blobs.size();
+  if (blobs.size() == 1 && blobs.front().allFinite()) {
+    camera.spot.add(blobs.front());
+    camera.last_sample = time;
+    const std::string moved = movement(camera.spot);
+    if (!moved.empty())
+      refuse(name + ": " + moved);
+  }
+  update(time);
+}
+
+CornerCapture::State CornerCapture::update(double now) {
+  now_ = std::max(now_, now);
+  if (state_ != State::kCollecting)
+    return state_;
+  int complete = 0;
+  bool waits = false;
+  for (const auto& entry : cameras_) {
+    if (isComplete(entry.second))
+      ++complete;
+    else if (entry.second.last_sample > now_ - kHold)
+      waits = true;
+  }
+  const bool timed_out = now_ - start_time_ >= options_.timeout;
+  if (complete >= options_.minimum_cameras && (!waits || timed_out)) {
+    state_ = State::kDone;
+    message_ = "captured by " + std::to_string(complete) + " of " +
+               std::to_string(cameras_.size()) + " cameras";
+    const std::string left_out = leftOut();
+    if (!left_out.empty())
+      message_ += "; left out: " + left_out;
+  } else if (timed_out) {
+    refuse(std::to_string(complete) + " of at least " + std::to_string(options_.minimum_cameras) +
+           " cameras saw the LED long enough before the time was up: " + leftOut());
+  }
+  return state_;
+}
+
+std::string CornerCapture::message() const {
+  if (state_ != State::kCollecting)
+    return message_;
+  const std::string left_out = leftOut();
+  return left_out.empty() ? "collecting" : "waits for: " + left_out;
+}
+
+double CornerCapture::progress() const {
+  if (state_ == State::kDone)
+    return 1.0;
+  const double needed = options_.minimum_samples;
+  double slowest = 1.0;
+  int counted = 0;
+  for (const auto& entry : cameras_) {
+    if (entry.second.last_sample > now_ - kHold || isComplete(entry.second)) {
+      slowest = std::min(slowest, static_cast<double>(entry.second.spot.samples()) / needed);
+      ++counted;
+    }
+  }
+  return counted >= options_.minimum_cameras ? slowest : 0.0;
+}
+
+std::string CornerCapture::problem(const std::string& name) const {
+  const auto found = cameras_.find(name);
+  if (found == cameras_.end())
+    return "takes no part in this calibration";
+  const Camera& camera = found->second;
+  const std::string moved = movement(camera.spot);
+  if (!moved.empty())
+    return moved;
+  if (isComplete(camera))
+    return "";
+  if (!camera.seen)
+    return "sends no images: check its battery, its connection and its driver";
+  if (camera.blobs != 1)
+    return spotCountProblem(camera.blobs);
+  return "has " + std::to_string(camera.spot.samples()) + " of " +
+         std::to_string(options_.minimum_samples) + " samples: keep the LED still";
+}
+
+CapturedCorner CornerCapture::result() const {
+  CapturedCorner corner;
+  for (const auto& entry : cameras_) {
+    const StillSpot& spot = entry.second.spot;
+    if (isComplete(entry.second))
+      corner[entry.first] = CornerView{spot.mean(), spot.spread(), spot.samples()};
+  }
+  return corner;
+}
+
+bool CornerCapture::isComplete(const Camera& camera) const {
+  return camera.spot.samples() >= static_cast<std::size_t>(options_.minimum_samples);
+}
+
+std::string CornerCapture::movement(const StillSpot& spot) const {
+  if (spot.samples() < kSamplesToJudge)
+    return "";
+  const char* advice = "; keep the LED still and capture this corner again";
+  if (spot.spread() > options_.spread_limit)
+    return "the LED moved, its spot is spread over " + pixels(spot.spread()) + ", at most " +
+           pixels(options_.spread_limit) + " are allowed" + advice;
+  // Thirds of a half-filled sample are too short to tell drift from noise.
+  if (2 * spot.samples() >= static_cast<std::size_t>(options_.minimum_samples) &&
+      spot.drift() > options_.drift_limit)
+    return "the LED moved slowly, its spot went " + pixels(spot.drift()) + ", at most " +
+           pixels(options_.drift_limit) + " are allowed" + advice;
+  return "";
+}
+
+std::string CornerCapture::leftOut() const {
+  std::string list;
+  for (const auto& entry : cameras_) {
+    if (!isComplete(entry.second))
+      list += (list.empty() ? "" : "; ") + entry.first + " " + problem(entry.first);
+  }
+  return list;
+}
+
+void CornerCapture::refuse(const std::string& message) {
+  state_ = State::kRefused;
+  message_ = message;
+}
+
+}  // namespace wiimote_tracker::capture

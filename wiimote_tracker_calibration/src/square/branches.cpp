@@ -1,0 +1,106 @@
+#include "wiimote_tracker_calibration/square/branches.h"
+
+#include "wiimote_tracker_calibration/square/error.h"
+#include "wiimote_tracker_calibration/square/planar_pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace wiimote_tracker::square {
+
+namespace {
+
+// Difference of costs of one camera alone beyond which nothing the others say can matter.
+constexpr double kClear = 60.0;
+constexpr std::size_t kMostAmbiguous = 8;
+
+struct Combination {
+  std::vector<std::size_t> chosen;
+  RigState state;
+  double cost;
+};
+
+std::optional<Combination> evaluate(const RigModel& model,
+                                    const std::vector<std::vector<Branch>>& branches,
+                                    const std::vector<std::size_t>& chosen) {
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::size_t i = 0; i < branches.size(); ++i)
+    poses.push_back(branches[i][chosen[i]].world_from_camera);
+  Combination combination{chosen, model.start(poses), 0.0};
+  const std::optional<double> cost = model.refineAll(&combination.state);
+  if (!cost)
+    return std::nullopt;
+  combination.cost = *cost;
+  return combination;
+}
+
+}  // namespace
+
+std::vector<Branch> findBranches(const RigModel& model, std::size_t camera) {
+  const RigModel alone = model.only(camera);
+  std::vector<Branch> branches;
+  for (const Eigen::Isometry3d& pose :
+       planarPoses(alone.sightings().front(), alone.nominalCorners())) {
+    const std::optional<RigState> refined = alone.refinePoses(alone.start({pose}));
+    if (!refined)
+      continue;
+    const Eigen::Isometry3d& world_from_camera = refined->cameras.front().world_from_camera;
+    const bool known = std::any_of(branches.begin(), branches.end(), [&](const Branch& branch) {
+      return isSamePose(branch.world_from_camera, world_from_camera, alone.nominalCorners());
+    });
+    RigState probable = *refined;
+    const std::optional<double> cost = alone.refineAll(&probable);
+    if (!known && cost)
+      branches.push_back({world_from_camera, alone.reprojectionError(*refined, 0), *cost});
+  }
+  std::sort(branches.begin(), branches.end(),
+            [](const Branch& a, const Branch& b) { return a.cost < b.cost; });
+  return branches;
+}
+
+BranchChoice chooseBranches(const RigModel& model,
+                            const std::vector<std::vector<Branch>>& branches,
+                            double odds) {
+  std::vector<std::size_t> ambiguous;
+  for (std::size_t i = 0; i < branches.size(); ++i) {
+    if (branches[i].size() > 1 && branches[i][1].cost - branches[i][0].cost < kClear)
+      ambiguous.push_back(i);
+  }
+  if (ambiguous.size() > kMostAmbiguous)
+    throw SquareError(
+        "too many cameras have two possible places: use a larger square or cameras that look at "
+        "it less steeply, or connect their accelerometers");
+
+  std::vector<Combination> combinations;
+  for (std::size_t bits = 0; bits < std::size_t{1} << ambiguous.size(); ++bits) {
+    std::vector<std::size_t> chosen(branches.size(), 0);
+    for (std::size_t k = 0; k < ambiguous.size(); ++k)
+      chosen[ambiguous[k]] = (bits >> k) & 1U;
+    if (auto combination = evaluate(model, branches, chosen))
+      combinations.push_back(std::move(*combination));
+  }
+  if (combinations.empty())
+    throw SquareError("the cameras cannot be solved together: capture the corners again");
+  const Combination& best =
+      *std::min_element(combinations.begin(), combinations.end(),
+                        [](const auto& a, const auto& b) { return a.cost < b.cost; });
+
+  BranchChoice choice{best.state, best.cost, best.chosen, {}};
+  for (const std::size_t i : ambiguous) {
+    double other = std::numeric_limits<double>::infinity();
+    for (const Combination& combination : combinations) {
+      // Two branches may run into one when the intrinsics are free; then there is no choice.
+      if (combination.chosen[i] != best.chosen[i] &&
+          !isSamePose(combination.state.cameras[i].world_from_camera,
+                      best.state.cameras[i].world_from_camera, model.nominalCorners()))
+        other = std::min(other, combination.cost);
+    }
+    if (other - best.cost < 2.0 * std::log(odds))
+      choice.undecided.push_back(i);
+  }
+  return choice;
+}
+
+}  // namespace wiimote_tracker::square

@@ -1,0 +1,47 @@
+#include "wiimote_tracker_calibration/square/square_layout.h"
+
+#include "wiimote_tracker_calibration/square/error.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <string>
+
+namespace wiimote_tracker::square {
+
+namespace {
+
+void checkSide(const std::string& which, double length) {
+  if (!std::isfinite(length) || length <= 0.0)
+    throw SquareError("the side of the square from the " + which + " corner is " +
+                      std::to_string(length) +
+                      " m, but must be greater than 0: measure it and give it in metres");
+}
+
+}  // namespace
+
+void SquareLayout::check() const {
+  checkSide("first to the second", side_x);
+  checkSide("second to the third", side_y);
+  if (!std::isfinite(led_height) || led_height < 0.0)
+    throw SquareError("the height of the LED above the floor is " + std::to_string(led_height) +
+                      " m, but must be 0 or greater: measure it and give it in metres");
+  if (!origin.allFinite() || !std::isfinite(yaw))
+    throw SquareError("the offset of the world to the square is not a number: correct the offset");
+}
+
+Corners SquareLayout::corners(bool z_up) const {
+  const double z = z_up ? led_height : -led_height;
+  const Eigen::Rotation2Dd world_from_square(-yaw);
+  const std::array<Eigen::Vector2d, 4> in_square = {
+      Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(side_x, 0.0), Eigen::Vector2d(side_x, side_y),
+      Eigen::Vector2d(0.0, side_y)};
+  Corners corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d in_world = world_from_square * (in_square[i] - origin);
+    corners[i] = Eigen::Vector3d(in_world.x(), in_world.y(), z);
+  }
+  return corners;
+}
+
+}  // namespace wiimote_tracker::square

@@ -1,0 +1,120 @@
+#include "usable_cameras.h"
+
+#include "wiimote_tracker_calibration/square/corner_order.h"
+#include "wiimote_tracker_calibration/square/error.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace wiimote_tracker::square {
+
+namespace {
+
+// Nearer than this in an image, points are one point or one line.
+constexpr double kTolerance = 3.0;  // [px]
+
+std::vector<std::string> missingCorners(const CameraSightings& camera) {
+  std::vector<std::string> missing;
+  for (std::size_t c = 0; c < camera.corners.size(); ++c) {
+    if (!camera.corners[c])
+      missing.push_back(std::to_string(c + 1));
+  }
+  return missing;
+}
+
+CornerOrder orderSeenBy(const CameraSightings& camera) {
+  const geometry::Intrinsics& lens = camera.intrinsics;
+  std::array<Eigen::Vector2d, 4> pixels;
+  for (std::size_t c = 0; c < pixels.size(); ++c) {
+    const auto normalized = lens.normalizedFromPixel(*camera.corners[c]);
+    if (!normalized)
+      throw SquareError("corner " + std::to_string(c + 1) + " lies where the lens of " +
+                        camera.name +
+                        " cannot image anything: correct the distortion coefficients of its "
+                        "starting intrinsics");
+    pixels[c] =
+        Eigen::Vector2d(lens.fx * normalized->x() + lens.cx, lens.fy * normalized->y() + lens.cy);
+  }
+  return cornerOrder(pixels, kTolerance);
+}
+
+std::string refusal(CornerOrder order, const std::string& cameras) {
+  switch (order) {
+    case CornerOrder::kCoincident:
+      return "two corners are in one place as seen by " + cameras +
+             ": carry the LED to a new corner before each capture, and place the camera so that no "
+             "corner hides behind another";
+    case CornerOrder::kCollinear:
+      return "three corners are on one line as seen by " + cameras +
+             ": put the LED on the four corners of a square, and raise the camera if it looks "
+             "along the floor";
+    case CornerOrder::kCrossing:
+      return "the corners are out of order, the sides of the square cross as seen by " + cameras +
+             ": capture the corners one after the other round the square";
+    default:
+      return "the corners do not look like a square from above as seen by " + cameras +
+             ": capture the corners again, round the square";
+  }
+}
+
+}  // namespace
+
+std::string listOf(const std::vector<std::string>& words) {
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0)
+      list += i + 1 == words.size() ? " and " : ", ";
+    list += words[i];
+  }
+  return list;
+}
+
+UsableCameras usableCameras(const std::vector<CameraSightings>& cameras) {
+  UsableCameras usable;
+  std::array<bool, 4> seen{};
+  std::vector<std::string> missing;
+  for (const CameraSightings& camera : cameras) {
+    for (std::size_t c = 0; c < seen.size(); ++c)
+      seen[c] = seen[c] || camera.corners[c].has_value();
+    const std::vector<std::string> corners = missingCorners(camera);
+    if (corners.empty())
+      usable.cameras.push_back(camera);
+    else if (corners.size() == 4)
+      missing.push_back(camera.name + " saw no corner");
+    else
+      missing.push_back(camera.name + " did not see corner " + listOf(corners));
+  }
+  const auto captured = std::count(seen.begin(), seen.end(), true);
+  if (captured < 4)
+    throw SquareError("only " + std::to_string(captured) +
+                      " of 4 corners are captured: capture the others first");
+  if (usable.cameras.size() < 2)
+    throw SquareError("at least two cameras must see all four corners, but " + listOf(missing) +
+                      ": turn the cameras so that they see the whole square, or capture those "
+                      "corners again");
+  for (const std::string& camera : missing)
+    usable.warnings.push_back(camera + " and was left out");
+
+  std::map<CornerOrder, std::vector<std::string>> names;
+  for (const CameraSightings& camera : usable.cameras)
+    names[orderSeenBy(camera)].push_back(camera.name);
+  for (const auto& entry : names) {
+    if (entry.first != CornerOrder::kCounterClockwise && entry.first != CornerOrder::kClockwise)
+      throw SquareError(refusal(entry.first, listOf(entry.second)));
+  }
+  if (names.size() > 1)
+    throw SquareError("the corners go round counter-clockwise for " +
+                      listOf(names[CornerOrder::kCounterClockwise]) + " but clockwise for " +
+                      listOf(names[CornerOrder::kClockwise]) +
+                      ": an image is mirrored, a camera is below the floor, or a spot was not the "
+                      "LED; check these cameras and capture the corners again");
+  usable.z_up = names.count(CornerOrder::kCounterClockwise) > 0;
+  if (!usable.z_up)
+    usable.warnings.push_back(
+        "z points down, because the corners were taken clockwise seen from above; take them "
+        "counter-clockwise to get z up");
+  return usable;
+}
+
+}  // namespace wiimote_tracker::square

@@ -1,0 +1,28 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_USABLE_CAMERAS_H
+#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_USABLE_CAMERAS_H
+
+#include "wiimote_tracker_calibration/square/sightings.h"
+
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::square {
+
+/// The cameras that saw all four corners, and which way round.
+struct UsableCameras {
+  std::vector<CameraSightings> cameras;
+  bool z_up = true;  ///< The corners go round counter-clockwise seen from above.
+  std::vector<std::string> warnings;
+};
+
+/// Leaves out cameras that miss corners (with a warning), and checks the order of the corners in
+/// every image, on the grounds that all cameras are above the floor.
+/// @throws SquareError as solveSquare().
+UsableCameras usableCameras(const std::vector<CameraSightings>& cameras);
+
+/// "a", "a and b", "a, b and c".
+std::string listOf(const std::vector<std::string>& words);
+
+}  // namespace wiimote_tracker::square
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_USABLE_CAMERAS_H

@@ -1,0 +1,139 @@
+#include "description.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+namespace wiimote_tracker::simulation {
+namespace {
+
+const char kGood[] = R"(
+world_frame: room
+seed: 3
+pixel_noise: 0.25
+truth_rate: 120.0
+cameras:
+  second:
+    identity: "00:1f:32:00:00:02"
+    intrinsics: {width: 640, height: 480, fx: 600, fy: 610, cx: 320, cy: 240, distortion: [0.1, 0, 0, 0, 0]}
+    position: [1, 2, 3]
+    look_at: [1, 7, 3]
+    clock: {period: 0.02, phase: 0.001}
+    delay: {constant: 0.005, jitter: 0.0}
+  first:
+    identity: "00:1f:32:00:00:01"
+    intrinsics: {fx: 1300, fy: 1300, cx: 512, cy: 384, distortion: [0, 0, 0, 0, 0]}
+    position: [0, 0, 1]
+    look_at: [1, 0, 1]
+    clock: {period: 0.01, phase: 0.0}
+    delay: {constant: 0.0, jitter: 0.0}
+leds:
+  led: {position: [1, 1, 0], size: 5, on: false}
+)";
+
+class DescriptionFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    char path[] = "/tmp/wiimote_tracker_description_XXXXXX";
+    const int file = mkstemp(path);
+    ASSERT_NE(file, -1);
+    close(file);
+    path_ = path;
+  }
+  void TearDown() override { std::remove(path_.c_str()); }
+
+  Description read(const std::string& text) {
+    std::ofstream(path_) << text;
+    return readDescription(path_);
+  }
+
+  /// What reading says about the good file in which `from` is replaced by `to`.
+  std::string complaint(const std::string& from, const std::string& to) {
+    std::string text = kGood;
+    const auto place = text.find(from);
+    EXPECT_NE(place, std::string::npos) << from;
+    text.replace(place, from.size(), to);
+    try {
+      read(text);
+    } catch (const DescriptionError& error) {
+      EXPECT_NE(std::string(error.what()).find(path_), std::string::npos) << error.what();
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::string path_;
+};
+
+TEST_F(DescriptionFile, holds_what_was_written_in_the_order_of_the_file) {
+  const Description d = read(kGood);
+  EXPECT_EQ(d.world_frame, "room");
+  EXPECT_EQ(d.seed, 3u);
+  EXPECT_EQ(d.pixel_noise, 0.25);
+  EXPECT_EQ(d.truth_rate, 120.0);
+  ASSERT_EQ(d.cameras.size(), 2u);
+  EXPECT_EQ(d.cameras[0].camera.name, "second");
+  EXPECT_EQ(d.cameras[1].camera.name, "first");
+  EXPECT_EQ(d.cameras[0].camera.identity, "00:1f:32:00:00:02");
+  EXPECT_EQ(d.cameras[0].camera.intrinsics.width, 640);
+  EXPECT_EQ(d.cameras[1].camera.intrinsics.width, 1024);
+  EXPECT_EQ(d.cameras[0].camera.intrinsics.distortion[0], 0.1);
+  EXPECT_EQ(d.cameras[0].camera.center(), Eigen::Vector3d(1, 2, 3));
+  // The optical axis points to look_at, image x is level, image y points down.
+  const Eigen::Matrix3d rotation = d.cameras[0].camera.world_from_camera.linear();
+  EXPECT_LT((rotation.col(2) - Eigen::Vector3d::UnitY()).norm(), 1e-12);
+  EXPECT_LT((rotation.col(0) - Eigen::Vector3d::UnitX()).norm(), 1e-12);
+  EXPECT_LT((rotation.col(1) + Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+  EXPECT_EQ(d.cameras[0].timing.period, 0.02);
+  EXPECT_EQ(d.cameras[0].timing.phase, 0.001);
+  EXPECT_EQ(d.cameras[0].timing.delay, 0.005);
+  ASSERT_EQ(d.leds.size(), 1u);
+  EXPECT_EQ(d.leds[0].name, "led");
+  EXPECT_EQ(d.leds[0].size, 5.0);
+  EXPECT_EQ(d.leds[0].brightness, 1.0);
+  EXPECT_FALSE(d.leds[0].on);
+}
+
+TEST_F(DescriptionFile, errors_name_file_key_and_reason) {
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  std::string said = complaint("period: 0.02", "period: 0");
+  EXPECT_TRUE(has(said, "cameras/second/clock/period is 0, but must be within")) << said;
+  said = complaint("phase: 0.001", "phase: soon");
+  EXPECT_TRUE(has(said, "cameras/second/clock/phase has the wrong type")) << said;
+  said = complaint("phase: 0.001", "phase: .nan");
+  EXPECT_TRUE(has(said, "cameras/second/clock/phase is nan")) << said;
+  said = complaint("pixel_noise: 0.25", "");
+  EXPECT_TRUE(has(said, "pixel_noise is missing")) << said;
+  said = complaint("pixel_noise", "pixel_nosie: 1\npixel_noise");
+  EXPECT_TRUE(has(said, "pixel_nosie is not known")) << said;
+  said = complaint("on: false", "of: false");
+  EXPECT_TRUE(has(said, "leds/led/of is not known")) << said;
+  said = complaint("position: [1, 1, 0]", "position: [1, 1]");
+  EXPECT_TRUE(has(said, "leds/led/position must have three numbers")) << said;
+  said = complaint("fx: 600", "fx: -600");
+  EXPECT_TRUE(has(said, "cameras/second/intrinsics cannot be used")) << said;
+  said = complaint("[0.1, 0, 0, 0, 0]", "[0.1, 0]");
+  EXPECT_TRUE(has(said, "cameras/second/intrinsics/distortion must have five")) << said;
+  said = complaint("look_at: [1, 7, 3]", "look_at: [1, 2, 9]");  // straight up
+  EXPECT_TRUE(has(said, "cameras/second/look_at cannot be used")) << said;
+  said = complaint("leds:", "leds: {}\nlets:");
+  EXPECT_TRUE(has(said, "leds is empty")) << said;
+  said = complaint("  first:", "  second:");
+  EXPECT_TRUE(has(said, "second is there twice") || has(said, "not valid YAML")) << said;
+}
+
+TEST_F(DescriptionFile, a_missing_foreign_or_damaged_file_is_refused) {
+  EXPECT_THROW(readDescription("/nonexistent/rig.yaml"), DescriptionError);
+  EXPECT_THROW(read("just text"), DescriptionError);
+  EXPECT_THROW(read(""), DescriptionError);
+  EXPECT_THROW(read("cameras: {a: [1, 2"), DescriptionError);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::simulation

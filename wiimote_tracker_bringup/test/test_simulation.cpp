@@ -1,0 +1,288 @@
+#include "camera_clock.h"
+#include "led_motion.h"
+#include "rig.h"
+#include "virtual_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <vector>
+
+namespace wiimote_tracker::simulation {
+namespace {
+
+using Eigen::Vector3d;
+
+// --- Motions
+
+TEST(LedMotion, lies_until_it_is_moved) {
+  const LedMotion motion(Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(motion.position(-1.0), Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(motion.position(100.0), Vector3d(1.0, 2.0, 3.0));
+}
+
+TEST(LedMotion, goes_straight_at_the_given_speed_and_stays) {
+  LedMotion motion(Vector3d(0.0, 0.0, 0.0));
+  const double arrival = motion.line(10.0, Vector3d(3.0, 4.0, 0.0), 2.0);
+  EXPECT_DOUBLE_EQ(arrival, 12.5);  // 5 m at 2 m/s
+  EXPECT_EQ(motion.position(10.0), Vector3d(0.0, 0.0, 0.0));
+  EXPECT_LT((motion.position(11.25) - Vector3d(1.5, 2.0, 0.0)).norm(), 1e-12);
+  EXPECT_EQ(motion.position(arrival), Vector3d(3.0, 4.0, 0.0));
+  EXPECT_EQ(motion.position(1000.0), Vector3d(3.0, 4.0, 0.0));
+}
+
+TEST(LedMotion, is_there_at_once_with_speed_zero) {
+  LedMotion motion(Vector3d(1.0, 0.0, 0.0));
+  EXPECT_EQ(motion.line(5.0, Vector3d(0.0, 1.0, 0.0), 0.0), 5.0);
+  EXPECT_EQ(motion.position(4.999), Vector3d(1.0, 0.0, 0.0));
+  EXPECT_EQ(motion.position(5.0), Vector3d(0.0, 1.0, 0.0));
+}
+
+TEST(LedMotion, holds_in_the_middle_of_a_line) {
+  LedMotion motion(Vector3d(0.0, 0.0, 0.0));
+  motion.line(0.0, Vector3d(1.0, 0.0, 0.0), 1.0);
+  motion.hold(0.25);
+  EXPECT_LT((motion.position(0.9) - Vector3d(0.25, 0.0, 0.0)).norm(), 1e-12);
+}
+
+TEST(LedMotion, a_new_line_begins_where_the_old_one_was_left) {
+  LedMotion motion(Vector3d(0.0, 0.0, 0.0));
+  motion.line(0.0, Vector3d(1.0, 0.0, 0.0), 1.0);
+  const double arrival = motion.line(0.5, Vector3d(0.5, 2.0, 0.0), 1.0);
+  EXPECT_DOUBLE_EQ(arrival, 2.5);
+  EXPECT_LT((motion.position(1.5) - Vector3d(0.5, 1.0, 0.0)).norm(), 1e-12);
+}
+
+TEST(LedMotion, circles_counter_clockwise_from_the_x_side_at_constant_speed) {
+  LedMotion motion(Vector3d(1.0, 1.0, 0.5));
+  const Vector3d center(1.0, 1.0, 0.5);
+  const double arrival = motion.circle(2.0, center, 0.75, 1.5);
+  EXPECT_DOUBLE_EQ(arrival, 2.5);  // 0.75 m to the +x side at 1.5 m/s
+  const double lap = 2.0 * M_PI * 0.75 / 1.5;
+  EXPECT_LT((motion.position(arrival) - (center + Vector3d(0.75, 0.0, 0.0))).norm(), 1e-12);
+  EXPECT_LT((motion.position(arrival + lap / 4) - (center + Vector3d(0.0, 0.75, 0.0))).norm(),
+            1e-12);
+  EXPECT_LT((motion.position(arrival + lap / 2) - (center - Vector3d(0.75, 0.0, 0.0))).norm(),
+            1e-12);
+  EXPECT_LT((motion.position(arrival + 7 * lap) - (center + Vector3d(0.75, 0.0, 0.0))).norm(),
+            1e-9);
+  // Leaving the circle starts from the circle.
+  const Vector3d left = motion.position(arrival + lap / 3);
+  motion.line(arrival + lap / 3, Vector3d::Zero(), 1.0);
+  EXPECT_LT((motion.position(arrival + lap / 3) - left).norm(), 1e-12);
+}
+
+// --- Clock and link
+
+TEST(CameraClock, exposes_at_its_own_phase_and_period) {
+  CameraClock clock({0.0101, 0.003, 0.006, 0.0}, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const Exposure exposure = clock.next();
+    ASSERT_NEAR(exposure.time, 0.003 + i * 0.0101, 1e-12);
+    ASSERT_NEAR(exposure.delivery, exposure.time + 0.006, 1e-12);
+  }
+}
+
+TEST(CameraClock, delays_by_constant_plus_mean_jitter_and_never_overtakes) {
+  // Mean jitter far beyond the period, so that reports would overtake each other.
+  CameraClock clock({0.01, 0.0, 0.005, 0.03}, 7);
+  double last = 0.0;
+  for (int i = 0; i < 10000; ++i) {
+    const Exposure exposure = clock.next();
+    ASSERT_GE(exposure.delivery, last);
+    ASSERT_GE(exposure.delivery, exposure.time + 0.005);
+    last = exposure.delivery;
+  }
+
+  CameraClock rare({10.0, 0.0, 0.005, 0.002}, 7);  // so rare that order plays no part
+  double sum = 0.0;
+  for (int i = 0; i < 10000; ++i) {
+    const Exposure exposure = rare.next();
+    sum += exposure.delivery - exposure.time;
+  }
+  EXPECT_NEAR(sum / 10000, 0.007, 5 * 0.002 / 100);  // 5 standard errors
+}
+
+// --- Optics and mounting
+
+geometry::Camera cameraAt(const Vector3d& position, const Vector3d& target) {
+  geometry::Camera camera;
+  camera.name = "camera";
+  camera.intrinsics.fx = camera.intrinsics.fy = 1300.0;
+  camera.intrinsics.cx = 500.0;
+  camera.intrinsics.cy = 400.0;
+  camera.world_from_camera = geometry::lookAt(position, target, Vector3d::UnitZ());
+  return camera;
+}
+
+TEST(VirtualCamera, puts_a_lamp_where_a_pinhole_would_and_lets_y_grow_upwards) {
+  VirtualCamera optics(cameraAt(Vector3d(0, 0, 1), Vector3d(5, 0, 1)), 0.0, 1);
+  // Camera looks along +x: its right is -y, its down is -z.
+  const auto senses = optics.sense({{Vector3d(5.0, -0.5, 1.2), 4.0, 2.0}});
+  ASSERT_EQ(senses.lights.size(), 1u);
+  EXPECT_NEAR(senses.lights[0].x, 500.0 + 1300.0 * 0.1, 1e-9);
+  EXPECT_NEAR(senses.lights[0].y, 767.0 - (400.0 - 1300.0 * 0.04), 1e-9);
+  EXPECT_EQ(senses.lights[0].size, 4.0);
+  EXPECT_EQ(senses.lights[0].brightness, 2.0);
+}
+
+TEST(VirtualCamera, applies_the_lens_distortion) {
+  geometry::Camera camera = cameraAt(Vector3d(0, 0, 1), Vector3d(5, 0, 1));
+  camera.intrinsics.distortion[0] = 0.1;
+  VirtualCamera optics(camera, 0.0, 1);
+  const auto senses = optics.sense({{Vector3d(5.0, -1.0, 1.0), 1.0, 1.0}});
+  EXPECT_NEAR(senses.lights.at(0).x, 500.0 + 1300.0 * 0.2 * (1.0 + 0.1 * 0.04), 1e-9);
+}
+
+TEST(VirtualCamera, does_not_sense_what_is_behind_it) {
+  VirtualCamera optics(cameraAt(Vector3d(0, 0, 1), Vector3d(5, 0, 1)), 0.3, 1);
+  EXPECT_TRUE(optics.sense({{Vector3d(-5.0, 0.0, 1.0), 1.0, 1.0}}).lights.empty());
+}
+
+TEST(VirtualCamera, adds_noise_of_the_given_size) {
+  VirtualCamera optics(cameraAt(Vector3d(0, 0, 1), Vector3d(5, 0, 1)), 0.3, 3);
+  const int n = 20000;
+  double sum_x = 0.0, sum_xx = 0.0, sum_yy = 0.0, sum_xy = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const auto light = optics.sense({{Vector3d(5.0, 0.0, 1.0), 1.0, 1.0}}).lights.at(0);
+    const double x = light.x - 500.0, y = light.y - 367.0;
+    sum_x += x;
+    sum_xx += x * x;
+    sum_yy += y * y;
+    sum_xy += x * y;
+  }
+  EXPECT_NEAR(sum_x / n, 0.0, 5 * 0.3 / std::sqrt(n));
+  EXPECT_NEAR(sum_xx / n, 0.09, 5 * 0.09 * std::sqrt(2.0 / n));
+  EXPECT_NEAR(sum_yy / n, 0.09, 5 * 0.09 * std::sqrt(2.0 / n));
+  EXPECT_NEAR(sum_xy / n, 0.0, 5 * 0.09 / std::sqrt(n));
+}
+
+TEST(VirtualCamera, feels_gravity_as_it_is_mounted) {
+  // Level: the remote reads +1 g along its own up axis.
+  VirtualCamera level(cameraAt(Vector3d(0, 0, 1), Vector3d(5, 0, 1)), 0.0, 1);
+  const auto at_rest = level.sense({}).acceleration;
+  EXPECT_NEAR(at_rest[0], 0.0, 1e-12);
+  EXPECT_NEAR(at_rest[1], 0.0, 1e-12);
+  EXPECT_NEAR(at_rest[2], 1.0, 1e-12);
+  // Nose down by 30 degrees: its rear end (+y) points up by as much.
+  VirtualCamera pitched(cameraAt(Vector3d(0, 0, 1), Vector3d(std::sqrt(3.0), 0, 0)), 0.0, 1);
+  const auto down = pitched.sense({}).acceleration;
+  EXPECT_NEAR(down[0], 0.0, 1e-12);
+  EXPECT_NEAR(down[1], 0.5, 1e-12);
+  EXPECT_NEAR(down[2], std::sqrt(0.75), 1e-12);
+}
+
+// --- The whole
+
+Description twoCameras() {
+  Description description;
+  description.seed = 5;
+  description.pixel_noise = 0.3;
+  description.truth_rate = 100.0;
+  description.cameras = {
+      {cameraAt(Vector3d(-3, 0, 1), Vector3d(0, 0, 1)), {0.01, 0.002, 0.005, 0.001}},
+      {cameraAt(Vector3d(0, -3, 1), Vector3d(0, 0, 1)), {0.0101, 0.007, 0.004, 0.003}}};
+  LedDescription led;
+  led.name = "led";
+  led.position = Vector3d(0, 0, 1);
+  description.leds = {led};
+  return description;
+}
+
+struct Delivered {
+  std::size_t camera;
+  double x, y;
+  bool operator==(const Delivered& other) const {
+    return camera == other.camera && x == other.x && y == other.y;
+  }
+};
+
+std::vector<Delivered> deliveries(const Description& description, double step) {
+  std::vector<Delivered> all;
+  Rig rig(
+      description,
+      [&](std::size_t camera, const virtual_wiimote::Senses& senses) {
+        all.push_back({camera, senses.lights.at(0).x, senses.lights.at(0).y});
+      },
+      [](std::size_t, double, const Vector3d&) {});
+  for (double time = 0.0; time < 0.5; time += step)
+    rig.runUntil(time);
+  rig.runUntil(0.5);
+  rig.findLed("led")->motion.line(0.5, Vector3d(0.1, 0.2, 1.3), 1.0);
+  rig.runUntil(1.0);
+  return all;
+}
+
+TEST(Rig, gives_the_same_events_however_time_is_cut) {
+  const auto once = deliveries(twoCameras(), 10.0);
+  EXPECT_GT(once.size(), 190u);
+  EXPECT_EQ(once, deliveries(twoCameras(), 0.0007));
+  Description other = twoCameras();
+  other.seed = 6;
+  EXPECT_FALSE(once == deliveries(other, 10.0));
+}
+
+TEST(Rig, cameras_do_not_share_their_noise) {
+  std::map<std::size_t, double> first_x;
+  for (const Delivered& delivered : deliveries(twoCameras(), 1.0))
+    first_x.emplace(delivered.camera, delivered.x);
+  ASSERT_EQ(first_x.size(), 2u);
+  EXPECT_NE(first_x[0], first_x[1]);  // both see the LED on their axis
+}
+
+TEST(Rig, a_moving_led_is_seen_where_it_was_at_the_exposure_not_at_the_delivery) {
+  Description description = twoCameras();
+  description.pixel_noise = 0.0;
+  description.cameras.resize(1);
+  description.cameras[0].timing = {0.01, 0.0, 0.2, 0.0};  // on its way for 0.2 s
+  std::vector<double> x;
+  Rig rig(
+      description,
+      [&](std::size_t, const virtual_wiimote::Senses& senses) { x.push_back(senses.lights[0].x); },
+      [](std::size_t, double, const Vector3d&) {});
+  rig.findLed("led")->motion.line(0.0, Vector3d(0.0, -10.0, 1.0), 1.0);
+  rig.runUntil(0.3001);
+  ASSERT_EQ(x.size(), 11u);  // exposures 0.00 .. 0.10
+  for (std::size_t i = 0; i < x.size(); ++i)
+    EXPECT_NEAR(x[i], 500.0 + 1300.0 * (0.01 * static_cast<double>(i)) / 3.0, 1e-6);
+}
+
+TEST(Rig, tells_the_truth_at_its_rate) {
+  std::vector<double> times;
+  std::vector<Vector3d> positions;
+  Rig rig(
+      twoCameras(), [](std::size_t, const virtual_wiimote::Senses&) {},
+      [&](std::size_t led, double time, const Vector3d& position) {
+        EXPECT_EQ(led, 0u);
+        times.push_back(time);
+        positions.push_back(position);
+      });
+  rig.findLed("led")->motion.line(0.0, Vector3d(1.0, 0.0, 1.0), 1.0);
+  rig.runUntil(0.5);
+  ASSERT_EQ(times.size(), 51u);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    EXPECT_NEAR(times[i], 0.01 * static_cast<double>(i), 1e-12);
+    EXPECT_NEAR(positions[i].x(), times[i], 1e-12);
+  }
+}
+
+TEST(Rig, a_dark_led_is_not_seen_but_images_go_on) {
+  int images = 0, lights = 0;
+  Rig rig(
+      twoCameras(),
+      [&](std::size_t, const virtual_wiimote::Senses& senses) {
+        ++images;
+        lights += static_cast<int>(senses.lights.size());
+      },
+      [](std::size_t, double, const Vector3d&) {});
+  rig.findLed("led")->on = false;
+  rig.runUntil(1.0);
+  EXPECT_GT(images, 190);
+  EXPECT_EQ(lights, 0);
+  EXPECT_EQ(rig.findLed("lamp"), nullptr);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::simulation

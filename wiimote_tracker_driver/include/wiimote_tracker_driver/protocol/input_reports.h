@@ -1,0 +1,75 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_PROTOCOL_INPUT_REPORTS_H
+#define WIIMOTE_TRACKER_DRIVER_PROTOCOL_INPUT_REPORTS_H
+
+#include "wiimote_tracker_driver/protocol/report.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+/// What the remote says. Each decoder returns nothing for a report of another id or one that is
+/// too short; longer ones are accepted, since some stacks pad reports.
+namespace wiimote_tracker::protocol {
+
+/// Sensor size in the units of IrSpot.
+constexpr int kSensorWidth = 1024;
+constexpr int kSensorHeight = 768;
+
+/// Buttons: first byte in bits 8..15, second in 0..7, other bits cleared.
+std::uint16_t decodeButtons(const Report& report);
+
+/// 0x20.
+struct Status {
+  std::uint16_t buttons = 0;
+  bool battery_low = false;
+  bool extension = false;  ///< Also set by an active built-in MotionPlus.
+  bool speaker = false;
+  bool camera = false;
+  std::uint8_t leds = 0;     ///< Player LEDs 1..4 in bits 0..3.
+  std::uint8_t battery = 0;  ///< Raw level.
+};
+std::optional<Status> decodeStatus(const Report& report);
+
+/// Charge [0..1] of a raw battery level; an empirical line, at 1 from about 0x69 up.
+double batteryCharge(std::uint8_t raw);
+
+/// 0x21: up to 16 bytes of memory.
+struct MemoryPacket {
+  std::uint16_t address = 0;  ///< Low 16 bits of the address of the first byte.
+  std::uint8_t error = 0;     ///< 0: none; any other: the read has failed and data is void.
+  std::size_t size = 0;       ///< Valid bytes in data, 1..16; 0 on error.
+  std::array<std::uint8_t, 16> data{};
+};
+std::optional<MemoryPacket> decodeMemoryPacket(const Report& report);
+
+/// 0x22. It does not say which of several reports of the same id it answers.
+struct Acknowledgement {
+  std::uint8_t report_id = 0;  ///< Of the output report that is answered.
+  std::uint8_t error = 0;      ///< 0: none.
+};
+std::optional<Acknowledgement> decodeAcknowledgement(const Report& report);
+
+enum class IrFormat : std::uint8_t { kNone = 0, kBasic = 1, kExtended = 3 };
+
+/// One slot of infrared data. The sensor's axes: x to the camera's right, y UP.
+struct IrSpot {
+  bool seen = false;
+  int x = 0;     ///< [px] 0..1023
+  int y = 0;     ///< [px] 0..767
+  int size = 0;  ///< 0..15 in the extended format, else 0.
+};
+
+/// 0x30..0x37.
+struct DataReport {
+  std::uint8_t id = 0;
+  std::uint16_t buttons = 0;
+  /// x, y, z as converted [0..1023]; y and z have no lowest bit.
+  std::optional<std::array<int, 3>> acceleration;
+  IrFormat ir_format = IrFormat::kNone;
+  std::array<IrSpot, 4> spots{};
+};
+std::optional<DataReport> decodeDataReport(const Report& report);
+
+}  // namespace wiimote_tracker::protocol
+
+#endif  // WIIMOTE_TRACKER_DRIVER_PROTOCOL_INPUT_REPORTS_H

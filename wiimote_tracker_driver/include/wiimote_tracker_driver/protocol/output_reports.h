@@ -1,0 +1,47 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_PROTOCOL_OUTPUT_REPORTS_H
+#define WIIMOTE_TRACKER_DRIVER_PROTOCOL_OUTPUT_REPORTS_H
+
+#include "wiimote_tracker_driver/protocol/report.h"
+
+#include <cstdint>
+#include <initializer_list>
+
+/// What the host says. Every output report carries the state of the motor; all reports here ask for
+/// an acknowledgement (0x22) where the remote does not send one anyway.
+namespace wiimote_tracker::protocol {
+
+constexpr std::uint8_t kLedsId = 0x11;
+constexpr std::uint8_t kReportModeId = 0x12;
+constexpr std::uint8_t kIrClockId = 0x13;
+constexpr std::uint8_t kStatusRequestId = 0x15;
+constexpr std::uint8_t kWriteMemoryId = 0x16;
+constexpr std::uint8_t kReadMemoryId = 0x17;
+constexpr std::uint8_t kIrLogicId = 0x1a;
+
+enum class Space : std::uint8_t { kEeprom = 0x00, kRegisters = 0x04 };
+
+/// Player LEDs 1..4 in bits 0..3.
+Report setLeds(std::uint8_t leds, bool rumble = false);
+
+/// Which data report to send: `continuous` at every instant, else on changes only.
+Report setReportMode(std::uint8_t data_report_id, bool continuous, bool rumble = false);
+
+Report setIrClock(bool on, bool rumble = false);
+Report setIrLogic(bool on, bool rumble = false);
+
+/// Answered by a Status.
+Report requestStatus(bool rumble = false);
+
+/// Answered by MemoryPackets of up to 16 bytes.
+Report readMemory(Space space, std::uint32_t address, std::uint16_t size, bool rumble = false);
+
+/// Answered by an Acknowledgement. `data`: 1..16 bytes. @throws std::invalid_argument otherwise.
+Report writeMemory(Space space,
+                   std::uint32_t address,
+                   const std::uint8_t* data,
+                   std::size_t size,
+                   bool rumble = false);
+
+}  // namespace wiimote_tracker::protocol
+
+#endif  // WIIMOTE_TRACKER_DRIVER_PROTOCOL_OUTPUT_REPORTS_H

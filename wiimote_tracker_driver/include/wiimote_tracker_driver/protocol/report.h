@@ -1,0 +1,36 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_PROTOCOL_REPORT_H
+#define WIIMOTE_TRACKER_DRIVER_PROTOCOL_REPORT_H
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+
+namespace wiimote_tracker::protocol {
+
+/// One HID report as hidraw carries it: report id first, no 0xa1/0xa2 before it. Holds its bytes in
+/// place, so that reports can be passed about without allocation.
+struct Report {
+  static constexpr std::size_t kCapacity = 22;
+
+  std::array<std::uint8_t, kCapacity> bytes{};
+  std::size_t size = 0;
+
+  Report() = default;
+  /// At most kCapacity bytes; more are cut off.
+  Report(std::initializer_list<std::uint8_t> values) : size(std::min(values.size(), kCapacity)) {
+    std::copy_n(values.begin(), size, bytes.begin());
+  }
+
+  std::uint8_t id() const { return size > 0 ? bytes[0] : 0; }
+
+  friend bool operator==(const Report& a, const Report& b) {
+    return a.size == b.size &&
+           std::equal(a.bytes.begin(), a.bytes.begin() + a.size, b.bytes.begin());
+  }
+};
+
+}  // namespace wiimote_tracker::protocol
+
+#endif  // WIIMOTE_TRACKER_DRIVER_PROTOCOL_REPORT_H

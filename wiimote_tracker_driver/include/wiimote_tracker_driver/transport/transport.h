@@ -1,0 +1,75 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_TRANSPORT_TRANSPORT_H
+#define WIIMOTE_TRACKER_DRIVER_TRANSPORT_TRANSPORT_H
+
+#include "wiimote_tracker_driver/protocol/report.h"
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace wiimote_tracker::transport {
+
+/// What goes wrong between host and remote; what() is one sentence that says what to do.
+struct TransportError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+/// The text naming the device can never name one.
+struct BadDeviceName : TransportError {
+  using TransportError::TransportError;
+};
+struct NoSuchDevice : TransportError {
+  using TransportError::TransportError;
+};
+struct PermissionDenied : TransportError {
+  using TransportError::TransportError;
+};
+/// Another driver has the remote.
+struct DeviceTaken : TransportError {
+  using TransportError::TransportError;
+};
+/// The remote was there and is gone.
+struct Disconnected : TransportError {
+  using TransportError::TransportError;
+};
+
+/// An open remote: HID reports out, HID reports in. Closed on destruction. Not thread-safe.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+
+  /// Waits up to `timeout` [s] for a report; 0 takes only what is there. @returns false when there
+  /// was none. @throws Disconnected.
+  virtual bool read(protocol::Report& report, double timeout) = 0;
+
+  /// @throws Disconnected.
+  virtual void write(const protocol::Report& report) = 0;
+
+  /// Where the remote is, for people: "/dev/hidraw3", "virtual:/tmp/wiimote_1.sock".
+  virtual std::string description() const = 0;
+
+  /// Bluetooth address, lower case with colons; empty when not known.
+  virtual std::string identity() const = 0;
+
+  /// The kernel driver that is attached to the remote beside us ("wiimote", "hid-generic"); empty
+  /// when there is none.
+  virtual std::string kernelDriver() const { return ""; }
+};
+
+/// How a device is named: "" (the first free remote), a Bluetooth address, /dev/hidrawN, or
+/// virtual:SOCKET_PATH.
+struct DeviceName {
+  enum class Kind { kAny, kAddress, kPath, kVirtual };
+  Kind kind = Kind::kAny;
+  std::string value;  ///< Address in lower case with colons, or path.
+};
+
+/// @throws BadDeviceName.
+DeviceName parseDeviceName(const std::string& text);
+
+/// Opens the remote for this process alone. @throws NoSuchDevice, PermissionDenied, DeviceTaken,
+/// TransportError.
+std::unique_ptr<Transport> open(const DeviceName& name);
+
+}  // namespace wiimote_tracker::transport
+
+#endif  // WIIMOTE_TRACKER_DRIVER_TRANSPORT_TRANSPORT_H

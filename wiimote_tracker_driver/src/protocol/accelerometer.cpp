@@ -1,0 +1,31 @@
+#include "wiimote_tracker_driver/protocol/accelerometer.h"
+
+#include <numeric>
+
+namespace wiimote_tracker::protocol {
+
+std::array<double, 3> AccelerometerCalibration::toG(const std::array<int, 3>& raw) const {
+  std::array<double, 3> result{};
+  for (std::size_t i = 0; i < 3; ++i)
+    result[i] = static_cast<double>(raw[i] - at_zero_g[i]) / (at_one_g[i] - at_zero_g[i]);
+  return result;
+}
+
+std::optional<AccelerometerCalibration> decodeAccelerometerBlock(
+    const std::array<std::uint8_t, kAccelerometerBlockSize>& block) {
+  const int sum = std::accumulate(block.begin(), block.end() - 1, 0x55);
+  if ((sum & 0xff) != block.back())
+    return std::nullopt;
+  AccelerometerCalibration calibration;
+  for (std::size_t i = 0; i < 3; ++i) {
+    // The fourth byte of either half holds the low bits of x, y, z as 00xxyyzz.
+    const int shift = 4 - 2 * static_cast<int>(i);
+    calibration.at_zero_g[i] = block[i] << 2 | (block[3] >> shift & 3);
+    calibration.at_one_g[i] = block[4 + i] << 2 | (block[7] >> shift & 3);
+    if (calibration.at_zero_g[i] == calibration.at_one_g[i])
+      return std::nullopt;
+  }
+  return calibration;
+}
+
+}  // namespace wiimote_tracker::protocol

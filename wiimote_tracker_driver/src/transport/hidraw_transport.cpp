@@ -1,0 +1,194 @@
+#include "wiimote_tracker_driver/transport/hidraw_transport.h"
+
+#include "file_descriptor.h"
+
+#include <fcntl.h>
+#include <hidapi/hidapi.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <climits>
+#include <cmath>
+#include <cstring>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace wiimote_tracker::transport {
+namespace {
+
+constexpr unsigned short kNintendo = 0x057e;
+constexpr unsigned short kRemote = 0x0306;
+constexpr unsigned short kRemotePlus = 0x0330;
+
+/// A remote that the kernel knows.
+struct Found {
+  std::string path;
+  std::string address;
+};
+
+std::string narrowLowerCase(const wchar_t* text) {
+  std::string result;
+  for (; text != nullptr && *text != L'\0'; ++text) {
+    const auto c = static_cast<unsigned char>(*text & 0x7f);
+    result.push_back(static_cast<char>(std::tolower(c)));
+  }
+  return result;
+}
+
+// hidapi's enumeration and opening share state within a process.
+std::mutex& hidapiMutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+std::vector<Found> enumerate() {
+  const std::lock_guard<std::mutex> lock(hidapiMutex());
+  std::vector<Found> found;
+  hid_device_info* const list = hid_enumerate(kNintendo, 0);
+  for (const hid_device_info* i = list; i != nullptr; i = i->next) {
+    if (i->path != nullptr && (i->product_id == kRemote || i->product_id == kRemotePlus))
+      found.push_back({i->path, narrowLowerCase(i->serial_number)});
+  }
+  hid_free_enumeration(list);
+  // The kernel's order is not that of plugging in.
+  std::sort(found.begin(), found.end(),
+            [](const Found& a, const Found& b) { return a.path < b.path; });
+  return found;
+}
+
+std::string kernelDriverOf(const std::string& path) {
+  const std::string name = path.substr(path.rfind('/') + 1);
+  const std::string link = "/sys/class/hidraw/" + name + "/device/driver";
+  char target[PATH_MAX];
+  const ssize_t size = ::readlink(link.c_str(), target, sizeof(target));
+  if (size <= 0)
+    return "";
+  const std::string driver(target, static_cast<std::size_t>(size));
+  return driver.substr(driver.rfind('/') + 1);
+}
+
+class HidrawTransport : public Transport {
+ public:
+  HidrawTransport(hid_device* device, FileDescriptor lock, Found found)
+      : lock_(std::move(lock)), device_(device), found_(std::move(found)) {}
+  ~HidrawTransport() override { hid_close(device_); }
+  HidrawTransport(const HidrawTransport&) = delete;
+  HidrawTransport& operator=(const HidrawTransport&) = delete;
+
+  bool read(protocol::Report& report, double timeout) override {
+    const int size = hid_read_timeout(device_, report.bytes.data(), report.bytes.size(),
+                                      static_cast<int>(std::ceil(timeout * 1e3)));
+    if (size < 0)
+      throwDisconnected();
+    report.size = static_cast<std::size_t>(size);
+    return size > 0;
+  }
+
+  void write(const protocol::Report& report) override {
+    if (hid_write(device_, report.bytes.data(), report.size) < 0)
+      throwDisconnected();
+  }
+
+  std::string description() const override { return found_.path; }
+  std::string identity() const override { return found_.address; }
+  std::string kernelDriver() const override { return kernelDriverOf(found_.path); }
+
+ private:
+  [[noreturn]] void throwDisconnected() const {
+    throw Disconnected("the Wii Remote " + found_.address + " (" + found_.path +
+                       ") has disconnected: press one of its buttons to bring it back");
+  }
+
+  FileDescriptor lock_;
+  hid_device* device_;
+  Found found_;
+};
+
+std::unique_ptr<Transport> openFound(const Found& found) {
+  // The lock goes with an own descriptor, since hidapi does not show its own; it also tells why
+  // opening fails, which hidapi does not.
+  FileDescriptor lock(::open(found.path.c_str(), O_RDWR | O_CLOEXEC));
+  if (lock.get() < 0)
+    throwOpenError(errno, found.path);
+  if (::flock(lock.get(), LOCK_EX | LOCK_NB) != 0)
+    throw DeviceTaken("the Wii Remote " + found.address + " (" + found.path +
+                      ") is in use by another driver: stop that one or choose another device");
+  hid_device* device = nullptr;
+  {
+    const std::lock_guard<std::mutex> hidapi_lock(hidapiMutex());
+    device = hid_open_path(found.path.c_str());
+  }
+  if (device == nullptr)
+    throwOpenError(errno, found.path);
+  return std::make_unique<HidrawTransport>(device, std::move(lock), found);
+}
+
+std::unique_ptr<Transport> openFirstFree(const std::vector<Found>& all) {
+  std::optional<PermissionDenied> denied;
+  for (const Found& found : all) {
+    try {
+      return openFound(found);
+    } catch (const PermissionDenied& e) {
+      denied = e;
+    } catch (const TransportError&) {
+      // Taken, or gone since it was listed: try the next.
+    }
+  }
+  if (denied)
+    throw PermissionDenied(*denied);
+  throw DeviceTaken("all " + std::to_string(all.size()) +
+                    " connected Wii Remotes are in use: connect another one");
+}
+
+}  // namespace
+
+void throwOpenError(int error_number, const std::string& path) {
+  switch (error_number) {
+    case EACCES:
+    case EPERM:
+      throw PermissionDenied("permission denied on " + path + ": install the udev rule " +
+                             kUdevRule + " of wiimote_tracker_driver in /etc/udev/rules.d, run " +
+                             "'udevadm control --reload', and reconnect the Wii Remote");
+    case ENOENT:
+    case ENODEV:
+    case ENXIO:
+      throw NoSuchDevice("there is no " + path +
+                         ": connect the Wii Remote or correct the device name");
+    default:
+      throw TransportError("cannot open " + path + " (" + std::strerror(error_number) +
+                           "): reconnect the Wii Remote");
+  }
+}
+
+std::unique_ptr<Transport> openHidraw(const DeviceName& name) {
+  const std::vector<Found> all = enumerate();
+  switch (name.kind) {
+    case DeviceName::Kind::kAddress:
+      for (const Found& found : all) {
+        if (found.address == name.value)
+          return openFound(found);
+      }
+      throw NoSuchDevice("no Wii Remote with address " + name.value +
+                         " is connected: press one of its buttons, or pair it first");
+    case DeviceName::Kind::kPath:
+      for (const Found& found : all) {
+        if (found.path == name.value)
+          return openFound(found);
+      }
+      if (::access(name.value.c_str(), F_OK) != 0)
+        throwOpenError(errno, name.value);
+      throw NoSuchDevice(name.value + " is not a Wii Remote: choose the right device");
+    default:
+      if (all.empty())
+        throw NoSuchDevice(
+            "no Wii Remote is connected: press a button of a paired one, or pair one first");
+      return openFirstFree(all);
+  }
+}
+
+}  // namespace wiimote_tracker::transport

@@ -1,0 +1,101 @@
+#include "wiimote_tracker_driver/transport/socket_transport.h"
+
+#include "file_descriptor.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace wiimote_tracker::transport {
+namespace {
+
+// How long the other side may take to say who it is [s].
+constexpr double kGreetingTimeout = 1.0;
+
+class SocketTransport : public Transport {
+ public:
+  SocketTransport(FileDescriptor fd, const std::string& path)
+      : fd_(std::move(fd)), description_("virtual:" + path) {}
+
+  /// The first packet. @returns false when the other side hung up or said nothing.
+  bool receiveIdentity() {
+    char text[64];
+    if (!waitReadable(kGreetingTimeout))
+      return false;
+    const ssize_t size = ::recv(fd_.get(), text, sizeof(text), 0);
+    if (size <= 0)
+      return false;
+    identity_.assign(text, static_cast<std::size_t>(size));
+    return true;
+  }
+
+  bool read(protocol::Report& report, double timeout) override {
+    if (!waitReadable(timeout))
+      return false;
+    const ssize_t size = ::recv(fd_.get(), report.bytes.data(), report.bytes.size(), MSG_DONTWAIT);
+    if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR))
+      return false;
+    if (size <= 0)
+      throwDisconnected();
+    report.size = static_cast<std::size_t>(size);
+    return true;
+  }
+
+  void write(const protocol::Report& report) override {
+    if (::send(fd_.get(), report.bytes.data(), report.size, MSG_NOSIGNAL) < 0)
+      throwDisconnected();
+  }
+
+  std::string description() const override { return description_; }
+  std::string identity() const override { return identity_; }
+
+ private:
+  bool waitReadable(double timeout) const {
+    pollfd fd{};
+    fd.fd = fd_.get();
+    fd.events = POLLIN;
+    return ::poll(&fd, 1, static_cast<int>(std::ceil(timeout * 1e3))) > 0;
+  }
+
+  [[noreturn]] void throwDisconnected() const {
+    throw Disconnected("the virtual Wii Remote at " + description_ + " has gone away");
+  }
+
+  FileDescriptor fd_;
+  std::string description_;
+  std::string identity_;
+};
+
+}  // namespace
+
+std::unique_ptr<Transport> openSocket(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof(address.sun_path))
+    throw BadDeviceName("the socket path " + path + " is too long: use one of at most " +
+                        std::to_string(sizeof(address.sun_path) - 1) + " characters");
+  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+
+  FileDescriptor fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  if (fd.get() < 0)
+    throw TransportError(std::string("cannot make a socket: ") + std::strerror(errno));
+  if (::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    if (errno == EACCES)
+      throw PermissionDenied("permission denied on " + path +
+                             ": run as the user who started the virtual Wii Remote");
+    throw NoSuchDevice("no virtual Wii Remote listens at " + path +
+                       ": start the simulation or correct the path");
+  }
+  auto transport = std::make_unique<SocketTransport>(std::move(fd), path);
+  if (!transport->receiveIdentity())
+    throw DeviceTaken("the virtual Wii Remote at " + path +
+                      " is in use by another driver: stop that one or choose another device");
+  return transport;
+}
+
+}  // namespace wiimote_tracker::transport

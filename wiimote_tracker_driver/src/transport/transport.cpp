@@ -1,0 +1,63 @@
+#include "wiimote_tracker_driver/transport/transport.h"
+
+#include "wiimote_tracker_driver/transport/hidraw_transport.h"
+#include "wiimote_tracker_driver/transport/socket_transport.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace wiimote_tracker::transport {
+namespace {
+
+constexpr char kVirtualPrefix[] = "virtual:";
+
+bool startsWith(const std::string& text, const std::string& prefix) {
+  return text.compare(0, prefix.size(), prefix) == 0;
+}
+
+std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+bool isAddress(const std::string& text) {
+  if (text.size() != 17)
+    return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    if (i % 3 == 2 ? c != ':' : std::isxdigit(c) == 0)
+      return false;
+  }
+  return true;
+}
+
+bool isHidrawPath(const std::string& text) {
+  static const std::string kPrefix = "/dev/hidraw";
+  return startsWith(text, kPrefix) && text.size() > kPrefix.size() &&
+         std::all_of(text.begin() + static_cast<std::ptrdiff_t>(kPrefix.size()), text.end(),
+                     [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+}  // namespace
+
+DeviceName parseDeviceName(const std::string& text) {
+  if (text.empty())
+    return {DeviceName::Kind::kAny, ""};
+  if (isAddress(text))
+    return {DeviceName::Kind::kAddress, lowerCase(text)};
+  if (isHidrawPath(text))
+    return {DeviceName::Kind::kPath, text};
+  const std::size_t prefix = sizeof(kVirtualPrefix) - 1;
+  if (startsWith(text, kVirtualPrefix) && text.size() > prefix)
+    return {DeviceName::Kind::kVirtual, text.substr(prefix)};
+  throw BadDeviceName("device '" + text +
+                      "' must be empty (the first free Wii Remote), a Bluetooth address such as "
+                      "00:1f:32:12:34:56, a path such as /dev/hidraw0, or virtual:SOCKET_PATH");
+}
+
+std::unique_ptr<Transport> open(const DeviceName& name) {
+  return name.kind == DeviceName::Kind::kVirtual ? openSocket(name.value) : openHidraw(name);
+}
+
+}  // namespace wiimote_tracker::transport

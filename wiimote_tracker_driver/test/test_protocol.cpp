@@ -1,0 +1,271 @@
+// Bytes and their meaning, from hand-written vectors and from lines sent by real remotes.
+#include "wiimote_tracker_driver/protocol/accelerometer.h"
+#include "wiimote_tracker_driver/protocol/input_reports.h"
+#include "wiimote_tracker_driver/protocol/ir_camera.h"
+#include "wiimote_tracker_driver/protocol/output_reports.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+namespace wiimote_tracker::protocol {
+namespace {
+
+void expectSpot(const IrSpot& spot, int x, int y, int size) {
+  EXPECT_TRUE(spot.seen);
+  EXPECT_EQ(x, spot.x);
+  EXPECT_EQ(y, spot.y);
+  EXPECT_EQ(size, spot.size);
+}
+
+/// Report 0x33 with these infrared bytes.
+DataReport extended(const std::vector<std::uint8_t>& infrared) {
+  Report report{0x33, 0x00, 0x00, 0x80, 0x80, 0x80};
+  std::copy(infrared.begin(), infrared.end(), report.bytes.begin() + 6);
+  report.size = 18;
+  return *decodeDataReport(report);
+}
+
+/// Report 0x37 with these infrared bytes.
+DataReport basic(const std::vector<std::uint8_t>& infrared) {
+  Report report{0x37, 0x00, 0x00, 0x80, 0x80, 0x80};
+  std::copy(infrared.begin(), infrared.end(), report.bytes.begin() + 6);
+  report.size = 22;
+  return *decodeDataReport(report);
+}
+
+TEST(Infrared, ExtendedGoldenVector) {
+  const DataReport data =
+      extended({0x23, 0x45, 0x13, 0xff, 0xff, 0xb1, 0x00, 0x80, 0x6f, 0xff, 0xff, 0xff});
+  EXPECT_EQ(IrFormat::kExtended, data.ir_format);
+  expectSpot(data.spots[0], 291, 69, 3);
+  expectSpot(data.spots[1], 1023, 767, 1);
+  expectSpot(data.spots[2], 512, 384, 15);
+  EXPECT_FALSE(data.spots[3].seen);
+}
+
+TEST(Infrared, BasicGoldenVector) {
+  const DataReport data = basic({0x23, 0x45, 0x1b, 0xff, 0xff, 0x00, 0x80, 0x6f, 0xff, 0xff});
+  EXPECT_EQ(IrFormat::kBasic, data.ir_format);
+  expectSpot(data.spots[0], 291, 69, 0);
+  expectSpot(data.spots[1], 1023, 767, 0);
+  expectSpot(data.spots[2], 512, 384, 0);
+  EXPECT_FALSE(data.spots[3].seen);
+}
+
+TEST(Infrared, FullReport33) {
+  // Buttons 20 60, accelerometer 80 80 80, third object absent.
+  const std::optional<DataReport> data =
+      decodeDataReport({0x33, 0x20, 0x60, 0x80, 0x80, 0x80, 0x55, 0xaa, 0x9d, 0xfe, 0x01, 0x35,
+                        0xff, 0xff, 0xff, 0x23, 0x21, 0xdf});
+  ASSERT_TRUE(data);
+  EXPECT_EQ((std::array<int, 3>{0x201, 0x202, 0x202}), *data->acceleration);
+  EXPECT_EQ(0, data->buttons);
+  expectSpot(data->spots[0], 0x155, 0x2aa, 13);
+  expectSpot(data->spots[1], 0x3fe, 0x001, 5);
+  EXPECT_FALSE(data->spots[2].seen);
+  // y = 0x321 = 801 is below the last line of the sensor, so this is no spot either.
+  EXPECT_FALSE(data->spots[3].seen);
+}
+
+TEST(Infrared, LowByteFfOfXIsAPlainPosition) {
+  const DataReport data =
+      extended({0xff, 0x10, 0x02, 0xff, 0x10, 0x12, 0xff, 0x10, 0x22, 0xff, 0x10, 0x32});
+  expectSpot(data.spots[0], 255, 16, 2);
+  expectSpot(data.spots[1], 511, 16, 2);
+  expectSpot(data.spots[2], 767, 16, 2);
+  expectSpot(data.spots[3], 1023, 16, 2);
+}
+
+TEST(Infrared, LastLineIsSeenTheNextIsNot) {
+  const DataReport data =
+      extended({0x00, 0xff, 0x80, 0x00, 0x00, 0xc0, 0x01, 0x00, 0x00, 0x00, 0x01, 0x00});
+  expectSpot(data.spots[0], 0, 767, 0);
+  EXPECT_FALSE(data.spots[1].seen);
+  expectSpot(data.spots[2], 1, 0, 0);
+  expectSpot(data.spots[3], 0, 1, 0);
+}
+
+TEST(Infrared, ZerosAreASlotThatNeverHadALight) {
+  EXPECT_FALSE(extended(std::vector<std::uint8_t>(12, 0)).spots[2].seen);
+  EXPECT_FALSE(basic(std::vector<std::uint8_t>(10, 0)).spots[3].seen);
+  // With a size it is a light in the corner.
+  expectSpot(extended({0, 0, 0x04, 0, 0, 0, 0, 0, 0, 0, 0, 0}).spots[0], 0, 0, 4);
+}
+
+TEST(Infrared, Report36CarriesItRightAfterTheButtons) {
+  Report report{0x36, 0x00, 0x08, 0x23, 0x45, 0x1b, 0xff, 0xff, 0x00, 0x80, 0x6f, 0xff, 0xff};
+  report.size = 22;
+  const std::optional<DataReport> data = decodeDataReport(report);
+  ASSERT_TRUE(data);
+  EXPECT_FALSE(data->acceleration);
+  EXPECT_EQ(0x0008, data->buttons);
+  expectSpot(data->spots[0], 291, 69, 0);
+  expectSpot(data->spots[1], 1023, 767, 0);
+}
+
+TEST(Accelerometer, GoldenVector) {
+  const std::optional<DataReport> data = decodeDataReport({0x31, 0x60, 0x60, 0x86, 0x7f, 0x9a});
+  ASSERT_TRUE(data);
+  EXPECT_EQ((std::array<int, 3>{0x21b, 0x1fe, 0x26a}), *data->acceleration);
+  EXPECT_EQ(0, data->buttons);
+  EXPECT_EQ(IrFormat::kNone, data->ir_format);
+}
+
+TEST(Accelerometer, CalibrationBlockOfARealRemote) {
+  const std::optional<AccelerometerCalibration> calibration =
+      decodeAccelerometerBlock({{0x84, 0x82, 0x86, 0x30, 0x9f, 0x9d, 0x9f, 0x02, 0x40, 0x2e}});
+  ASSERT_TRUE(calibration);
+  EXPECT_EQ((std::array<int, 3>{531, 520, 536}), calibration->at_zero_g);
+  EXPECT_EQ((std::array<int, 3>{636, 628, 638}), calibration->at_one_g);
+  const std::array<double, 3> g = calibration->toG({531, 466, 638});
+  EXPECT_DOUBLE_EQ(0.0, g[0]);
+  EXPECT_DOUBLE_EQ(-0.5, g[1]);
+  EXPECT_DOUBLE_EQ(1.0, g[2]);
+}
+
+TEST(Accelerometer, DamagedBlockIsRefused) {
+  const std::array<std::uint8_t, 10> good{
+      {0x84, 0x82, 0x86, 0x30, 0x9f, 0x9d, 0x9f, 0x02, 0x40, 0x2e}};
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    std::array<std::uint8_t, 10> damaged = good;
+    damaged[i] ^= 0x04;
+    EXPECT_FALSE(decodeAccelerometerBlock(damaged)) << "byte " << i;
+  }
+  EXPECT_FALSE(decodeAccelerometerBlock({{0, 0, 0, 0, 0, 0, 0, 0, 0, 0}}));
+  // A right checksum but no difference between 0 g and 1 g would divide by zero.
+  EXPECT_FALSE(decodeAccelerometerBlock({{0, 0, 0, 0, 0, 0, 0, 0, 0, 0x55}}));
+}
+
+TEST(Status, RealLines) {
+  std::optional<Status> status = decodeStatus({0x20, 0x00, 0x00, 0x02, 0x00, 0x00, 0x95});
+  ASSERT_TRUE(status);
+  EXPECT_TRUE(status->extension);
+  EXPECT_FALSE(status->battery_low);
+  EXPECT_FALSE(status->camera);
+  EXPECT_FALSE(status->speaker);
+  EXPECT_EQ(0, status->leds);
+  EXPECT_EQ(0x95, status->battery);
+
+  status = decodeStatus({0x20, 0x00, 0x00, 0x42, 0x00, 0x00, 0x8f});
+  ASSERT_TRUE(status);
+  EXPECT_EQ(0x04, status->leds);  // LED 3
+  EXPECT_EQ(0x8f, status->battery);
+
+  status = decodeStatus({0x20, 0x00, 0x80, 0x19, 0x00, 0x00, 0x10});
+  ASSERT_TRUE(status);
+  EXPECT_TRUE(status->camera);
+  EXPECT_TRUE(status->battery_low);
+  EXPECT_EQ(0x01, status->leds);
+  EXPECT_EQ(0x0080, status->buttons);
+}
+
+TEST(Status, BatteryChargeStaysWithinItsRange) {
+  EXPECT_EQ(0.0, batteryCharge(0));
+  EXPECT_EQ(1.0, batteryCharge(0x8f));
+  EXPECT_EQ(1.0, batteryCharge(0xff));
+  EXPECT_NEAR(0.5, batteryCharge(53), 0.01);
+}
+
+TEST(Acknowledgement, RealLines) {
+  std::optional<Acknowledgement> acknowledgement = decodeAcknowledgement({0x22, 0, 0, 0x16, 0x00});
+  ASSERT_TRUE(acknowledgement);
+  EXPECT_EQ(0x16, acknowledgement->report_id);
+  EXPECT_EQ(0, acknowledgement->error);
+  acknowledgement = decodeAcknowledgement({0x22, 0, 0, 0x12, 0x02});
+  ASSERT_TRUE(acknowledgement);
+  EXPECT_EQ(0x12, acknowledgement->report_id);
+  EXPECT_EQ(2, acknowledgement->error);
+}
+
+TEST(Memory, RealLine) {
+  const std::optional<MemoryPacket> packet =
+      decodeMemoryPacket({0x21, 0x00, 0x00, 0xf0, 0x00, 0x40, 0xa0, 0x20, 0x10, 0x00, 0xff,
+                          0xff, 0,    0,    0,    0,    0,    0,    0,    0,    0,    0});
+  ASSERT_TRUE(packet);
+  EXPECT_EQ(0, packet->error);
+  EXPECT_EQ(16u, packet->size);
+  EXPECT_EQ(0x0040, packet->address);
+  EXPECT_EQ(0xa0, packet->data[0]);
+  EXPECT_EQ(0xff, packet->data[5]);
+}
+
+TEST(Memory, ErrorHasNoData) {
+  Report report{0x21, 0x00, 0x00, 0xf7, 0x00, 0xfa};
+  report.size = 22;
+  const std::optional<MemoryPacket> packet = decodeMemoryPacket(report);
+  ASSERT_TRUE(packet);
+  EXPECT_EQ(7, packet->error);
+  EXPECT_EQ(0u, packet->size);
+  EXPECT_EQ(0x00fa, packet->address);
+}
+
+TEST(Input, EveryDecoderRefusesOtherIdsAndShortReports) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 20000; ++i) {
+    Report report;
+    report.size = random() % (Report::kCapacity + 1);
+    for (std::size_t j = 0; j < report.size; ++j)
+      report.bytes[j] = static_cast<std::uint8_t>(random());
+    if (report.size > 0 && i % 2 == 0)
+      report.bytes[0] = static_cast<std::uint8_t>(0x20 + random() % 0x20);
+    const bool is_data = report.size > 0 && report.bytes[0] >= 0x30 && report.bytes[0] <= 0x37;
+    const std::size_t data_sizes[] = {3, 6, 11, 18, 22, 22, 22, 22};
+    EXPECT_EQ(is_data && report.size >= data_sizes[report.bytes[0] & 7],
+              decodeDataReport(report).has_value());
+    EXPECT_EQ(report.id() == 0x20 && report.size >= 7, decodeStatus(report).has_value());
+    EXPECT_EQ(report.id() == 0x21 && report.size >= 22, decodeMemoryPacket(report).has_value());
+    EXPECT_EQ(report.id() == 0x22 && report.size >= 5, decodeAcknowledgement(report).has_value());
+    const std::optional<DataReport> data = decodeDataReport(report);
+    for (std::size_t j = 0; data && j < 4; ++j) {
+      EXPECT_TRUE(data->spots[j].x >= 0 && data->spots[j].x < 1024);
+      EXPECT_TRUE(data->spots[j].y >= 0 && data->spots[j].y < 768);
+    }
+  }
+}
+
+TEST(Output, Bytes) {
+  EXPECT_EQ((Report{0x11, 0x12}), setLeds(0x1));
+  EXPECT_EQ((Report{0x11, 0x83}), setLeds(0x8, true));
+  EXPECT_EQ((Report{0x12, 0x06, 0x33}), setReportMode(0x33, true));
+  EXPECT_EQ((Report{0x12, 0x03, 0x30}), setReportMode(0x30, false, true));
+  EXPECT_EQ((Report{0x13, 0x06}), setIrClock(true));
+  EXPECT_EQ((Report{0x13, 0x02}), setIrClock(false));
+  EXPECT_EQ((Report{0x1a, 0x06}), setIrLogic(true));
+  EXPECT_EQ((Report{0x1a, 0x07}), setIrLogic(true, true));
+  EXPECT_EQ((Report{0x15, 0x00}), requestStatus());
+  EXPECT_EQ((Report{0x15, 0x01}), requestStatus(true));
+  EXPECT_EQ((Report{0x17, 0x00, 0x00, 0x00, 0x16, 0x00, 0x0a}),
+            readMemory(Space::kEeprom, 0x16, 10));
+  EXPECT_EQ((Report{0x17, 0x05, 0xa6, 0x00, 0xfa, 0x01, 0x06}),
+            readMemory(Space::kRegisters, 0xa600fa, 0x106, true));
+  const std::uint8_t data[] = {0x63, 0x03};
+  EXPECT_EQ((Report{0x16, 0x04, 0xb0, 0x00, 0x1a, 0x02, 0x63, 0x03, 0, 0, 0,
+                    0,    0,    0,    0,    0,    0,    0,    0,    0, 0, 0}),
+            writeMemory(Space::kRegisters, 0xb0001a, data, 2));
+  EXPECT_THROW(writeMemory(Space::kEeprom, 0, data, 0), std::invalid_argument);
+  EXPECT_THROW(writeMemory(Space::kEeprom, 0, data, 17), std::invalid_argument);
+}
+
+TEST(Sensitivity, Blocks) {
+  const std::optional<IrSensitivity> wii3 = irSensitivity("wii_3");
+  ASSERT_TRUE(wii3);
+  EXPECT_EQ((std::array<std::uint8_t, 9>{{0x02, 0, 0, 0x71, 0x01, 0, 0xaa, 0, 0x64}}),
+            wii3->block1);
+  EXPECT_EQ((std::array<std::uint8_t, 2>{{0x63, 0x03}}), wii3->block2);
+  EXPECT_FALSE(irSensitivity("wii_6"));
+  EXPECT_EQ(7u, irSensitivityNames().size());
+}
+
+TEST(Sensitivity, GainLimitIsBelowGain) {
+  for (const std::string& name : irSensitivityNames()) {
+    const std::optional<IrSensitivity> sensitivity = irSensitivity(name);
+    ASSERT_TRUE(sensitivity) << name;
+    EXPECT_LT(sensitivity->block2[0], sensitivity->block1[8]) << name;
+  }
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::protocol

@@ -1,0 +1,230 @@
+// Device names, error sentences, and the socket transport against the virtual remote.
+#include "wiimote_tracker_driver/transport/hidraw_transport.h"
+#include "wiimote_tracker_driver/transport/transport.h"
+#include "wiimote_tracker_driver/virtual_wiimote/server.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+#include <thread>
+
+namespace wiimote_tracker::transport {
+namespace {
+
+using protocol::Report;
+using virtual_wiimote::Server;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+template <typename Error, typename F>
+std::string sentenceOf(F f) {
+  try {
+    f();
+  } catch (const Error& e) {
+    return e.what();
+  } catch (const std::exception& e) {
+    ADD_FAILURE() << "another error: " << e.what();
+    return "";
+  }
+  ADD_FAILURE() << "no error";
+  return "";
+}
+
+TEST(DeviceNames, AllKinds) {
+  EXPECT_EQ(DeviceName::Kind::kAny, parseDeviceName("").kind);
+  const DeviceName address = parseDeviceName("00:1F:32:AB:cd:09");
+  EXPECT_EQ(DeviceName::Kind::kAddress, address.kind);
+  EXPECT_EQ("00:1f:32:ab:cd:09", address.value);
+  const DeviceName path = parseDeviceName("/dev/hidraw12");
+  EXPECT_EQ(DeviceName::Kind::kPath, path.kind);
+  EXPECT_EQ("/dev/hidraw12", path.value);
+  const DeviceName socket = parseDeviceName("virtual:/tmp/a:b.sock");
+  EXPECT_EQ(DeviceName::Kind::kVirtual, socket.kind);
+  EXPECT_EQ("/tmp/a:b.sock", socket.value);
+}
+
+TEST(DeviceNames, MalformedOnesAreRefusedByName) {
+  for (const char* text : {"00:1f:32:ab:cd", "00:1f:32:ab:cd:0g", "00-1f-32-ab-cd-09", "hidraw0",
+                           "/dev/hidraw", "/dev/hidraw1x", "/dev/ttyUSB0", "virtual:", "any"}) {
+    EXPECT_TRUE(contains(sentenceOf<BadDeviceName>([&] { parseDeviceName(text); }), text));
+  }
+}
+
+TEST(OpenErrors, PermissionNamesTheUdevRule) {
+  const std::string sentence =
+      sentenceOf<PermissionDenied>([] { throwOpenError(EACCES, "/dev/hidraw3"); });
+  EXPECT_TRUE(contains(sentence, "/dev/hidraw3"));
+  EXPECT_TRUE(contains(sentence, kUdevRule));
+}
+
+TEST(OpenErrors, NamedRuleIsShipped) {
+  std::ifstream file(std::string(UDEV_DIRECTORY) + "/" + kUdevRule);
+  std::string all((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  EXPECT_TRUE(contains(all, "KERNELS==\"*057E:0306*\""));
+  EXPECT_TRUE(contains(all, "KERNELS==\"*057E:0330*\""));
+}
+
+TEST(OpenErrors, MissingNode) {
+  EXPECT_TRUE(contains(sentenceOf<NoSuchDevice>([] { throwOpenError(ENOENT, "/dev/hidraw3"); }),
+                       "/dev/hidraw3"));
+  EXPECT_TRUE(contains(sentenceOf<TransportError>([] { throwOpenError(EIO, "/dev/hidraw3"); }),
+                       "/dev/hidraw3"));
+}
+
+TEST(OpenErrors, HidrawThatIsNotThere) {
+  const std::string address = "00:00:00:00:00:00";
+  EXPECT_TRUE(contains(sentenceOf<NoSuchDevice>([&] { open(parseDeviceName(address)); }), address));
+  const std::string path = "/dev/hidraw98765";
+  EXPECT_TRUE(contains(sentenceOf<NoSuchDevice>([&] { open(parseDeviceName(path)); }), path));
+}
+
+/// A directory of its own for the sockets of one test.
+class Sockets : public testing::Test {
+ protected:
+  void SetUp() override {
+    char pattern[] = "/tmp/wiimote_tracker_transport_XXXXXX";
+    ASSERT_NE(nullptr, ::mkdtemp(pattern));
+    directory_ = pattern;
+    path_ = directory_ + "/remote.sock";
+  }
+  void TearDown() override {
+    ::unlink(path_.c_str());
+    ::rmdir(directory_.c_str());
+  }
+
+  std::unique_ptr<Server> serve() const {
+    return std::make_unique<Server>(path_, "00:1f:32:00:00:01", virtual_wiimote::Device::Options());
+  }
+  std::unique_ptr<Transport> connect() const { return open(parseDeviceName("virtual:" + path_)); }
+
+  /// The next report, which must come.
+  static Report next(Transport& transport) {
+    Report report;
+    EXPECT_TRUE(transport.read(report, 10.0));
+    return report;
+  }
+
+  template <typename Condition>
+  static bool eventually(Condition condition) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > deadline)
+        return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+  }
+
+  std::string directory_;
+  std::string path_;
+};
+
+TEST_F(Sockets, ReportsPassInBothDirections) {
+  const auto server = serve();
+  const auto transport = connect();
+  EXPECT_EQ("00:1f:32:00:00:01", transport->identity());
+  EXPECT_EQ("virtual:" + path_, transport->description());
+  EXPECT_EQ("", transport->kernelDriver());
+  transport->write({0x15, 0x00});
+  EXPECT_EQ((Report{0x20, 0, 0, 0, 0, 0, 0xa0}), next(*transport));
+  transport->write({0x12, 0x06, 0x31});
+  EXPECT_EQ((Report{0x22, 0, 0, 0x12, 0x00}), next(*transport));
+  EXPECT_EQ(0x31, next(*transport).id());
+  virtual_wiimote::Senses senses;
+  senses.buttons = 0x0008;
+  server->sample(senses);
+  EXPECT_EQ((Report{0x31, 0x60, 0x48, 0x84, 0x82, 0x9f}), next(*transport));
+}
+
+TEST_F(Sockets, ReadReturnsEmptyHandedAtItsTimeout) {
+  const auto server = serve();
+  const auto transport = connect();
+  Report report;
+  EXPECT_FALSE(transport->read(report, 0.0));
+  EXPECT_FALSE(transport->read(report, 0.01));
+}
+
+TEST_F(Sockets, NobodyListens) {
+  EXPECT_TRUE(contains(sentenceOf<NoSuchDevice>([&] { connect(); }), path_));
+  std::ofstream(path_) << "not a socket";
+  EXPECT_TRUE(contains(sentenceOf<NoSuchDevice>([&] { connect(); }), path_));
+}
+
+TEST_F(Sockets, TooLongPath) {
+  const std::string path = "/tmp/" + std::string(200, 'x');
+  EXPECT_TRUE(
+      contains(sentenceOf<BadDeviceName>([&] { open(parseDeviceName("virtual:" + path)); }), path));
+  EXPECT_THROW(Server(path, "a", virtual_wiimote::Device::Options()), std::system_error);
+}
+
+TEST_F(Sockets, SecondHostIsRefusedUntilTheFirstHasGone) {
+  const auto server = serve();
+  auto first = connect();
+  EXPECT_TRUE(contains(sentenceOf<DeviceTaken>([&] { connect(); }), path_));
+  EXPECT_TRUE(server->connected());
+  first.reset();
+  EXPECT_TRUE(eventually([&] { return !server->connected(); }));
+  EXPECT_EQ("00:1f:32:00:00:01", connect()->identity());
+}
+
+TEST_F(Sockets, DeviceGoesAwayAndComesBackPowerCycled) {
+  const auto server = serve();
+  const auto transport = connect();
+  transport->write({0x11, 0x12});
+  EXPECT_EQ((Report{0x22, 0, 0, 0x11, 0x00}), next(*transport));
+  EXPECT_EQ(0x01, server->leds());
+  server->setPresent(false);
+  Report report;
+  EXPECT_TRUE(contains(sentenceOf<Disconnected>([&] { transport->read(report, 10.0); }), path_));
+  EXPECT_THROW(transport->write({0x15, 0x00}), Disconnected);
+  EXPECT_THROW(connect(), NoSuchDevice);
+  EXPECT_FALSE(server->connected());
+  server->sample(virtual_wiimote::Senses());
+  server->setPresent(true);
+  const auto again = connect();
+  EXPECT_EQ(0x00, server->leds());
+  again->write({0x15, 0x00});
+  EXPECT_EQ(0x20, next(*again).id());
+}
+
+TEST_F(Sockets, HostThatDoesNotReadBlocksNobody) {
+  const auto server = serve();
+  const auto transport = connect();
+  transport->write({0x12, 0x06, 0x30});
+  EXPECT_EQ(0x22, next(*transport).id());
+  for (int i = 0; i < 20000; ++i)
+    server->sample(virtual_wiimote::Senses());
+  EXPECT_EQ(0x30, next(*transport).id());
+}
+
+TEST_F(Sockets, StaleFileIsReplacedALiveOneIsNot) {
+  {
+    const int fd = ::socket(AF_UNIX, SOCK_SEQPACKET, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strcpy(address.sun_path, path_.c_str());
+    ASSERT_EQ(0, ::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)));
+    ::close(fd);
+  }
+  const auto server = serve();
+  EXPECT_EQ("00:1f:32:00:00:01", connect()->identity());
+  EXPECT_THROW(serve(), std::system_error);
+}
+
+TEST_F(Sockets, DirectoryThatIsNotThere) {
+  EXPECT_THROW(Server(directory_ + "/none/remote.sock", "a", virtual_wiimote::Device::Options()),
+               std::system_error);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::transport

@@ -1,6 +1,7 @@
 #include "wiimote_tracker_calibration/capture/corner_capture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace wiimote_tracker::capture {
@@ -133,9 +134,10 @@ std::string CornerCapture::movement(const StillSpot& spot) const {
   if (spot.spread() > options_.spread_limit)
     return "the LED moved, its spot is spread over " + pixels(spot.spread()) + ", at most " +
            pixels(options_.spread_limit) + " are allowed" + advice;
-  // Thirds of a half-filled sample are too short to tell drift from noise.
-  if (2 * spot.samples() >= static_cast<std::size_t>(options_.minimum_samples) &&
-      spot.drift() > options_.drift_limit)
+  // Of a noisy spot the thirds differ by chance; four standard deviations of that are no motion.
+  const double chance = spot.spread() * std::sqrt(6.0 / static_cast<double>(spot.samples()));
+  if (spot.samples() >= static_cast<std::size_t>(options_.minimum_samples) &&
+      spot.drift() > std::max(options_.drift_limit, 4.0 * chance))
     return "the LED moved slowly, its spot went " + pixels(spot.drift()) + ", at most " +
            pixels(options_.drift_limit) + " are allowed" + advice;
   return "";

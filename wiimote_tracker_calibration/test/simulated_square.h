@@ -1,0 +1,136 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_SQUARE_H
+#define WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_SQUARE_H
+
+#include "wiimote_tracker_calibration/square/sightings.h"
+#include "wiimote_tracker_calibration/square/square_layout.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::square {
+
+/// How far the truth is from what the solver starts from (standard deviations).
+struct Errors {
+  double pixel = 0.0;            // [px]
+  double placement = 0.0;        // [m] per horizontal axis
+  double focal = 0.0;            // relative
+  double aspect = 0.0;           // relative
+  double principal_point = 0.0;  // [px]
+  double k1 = 0.0;
+  double gravity = 0.0;  // [rad] per axis
+};
+
+/// True cameras and what they saw of a square.
+struct SimulatedSquare {
+  std::vector<geometry::Camera> truth;
+  std::vector<CameraSightings> sightings;
+};
+
+using Random = std::mt19937_64;
+
+inline double uniform(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+inline double normal(Random& random, double stddev) {
+  return stddev > 0.0 ? std::normal_distribution<double>(0.0, stddev)(random) : 0.0;
+}
+
+/// Cameras with the given poses in front of the square; their starting intrinsics are the default.
+inline SimulatedSquare simulateSquare(const std::vector<Eigen::Isometry3d>& world_from_camera,
+                                      const SquareLayout& layout,
+                                      bool z_up,
+                                      const Errors& errors,
+                                      bool with_gravity,
+                                      Random& random) {
+  SimulatedSquare result;
+  Corners corners = layout.corners(z_up);
+  for (Eigen::Vector3d& corner : corners)
+    corner +=
+        Eigen::Vector3d(normal(random, errors.placement), normal(random, errors.placement), 0);
+  for (std::size_t i = 0; i < world_from_camera.size(); ++i) {
+    geometry::Camera camera;
+    camera.name = "camera_" + std::to_string(i + 1);
+    camera.world_from_camera = world_from_camera[i];
+    const double scale = std::exp(normal(random, errors.focal));
+    const double aspect = std::exp(0.5 * normal(random, errors.aspect));
+    camera.intrinsics.fx *= scale * aspect;
+    camera.intrinsics.fy *= scale / aspect;
+    camera.intrinsics.cx += normal(random, errors.principal_point);
+    camera.intrinsics.cy += normal(random, errors.principal_point);
+    camera.intrinsics.distortion[0] += normal(random, errors.k1);
+    result.truth.push_back(camera);
+
+    CameraSightings sightings;
+    sightings.name = camera.name;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Eigen::Vector2d noise(normal(random, errors.pixel), normal(random, errors.pixel));
+      sightings.corners[c] = camera.project(corners[c]).value() + noise;
+    }
+    if (with_gravity) {
+      const Eigen::Vector3d up(normal(random, errors.gravity), normal(random, errors.gravity),
+                               z_up ? 1.0 : -1.0);
+      sightings.gravity = 9.81 * (camera.world_from_camera.linear().transpose() * up).normalized();
+    }
+    result.sightings.push_back(sightings);
+  }
+  return result;
+}
+
+/// Poses round the square, above the floor, that look at its middle.
+inline std::vector<Eigen::Isometry3d> posesAround(const SquareLayout& layout,
+                                                  bool z_up,
+                                                  std::size_t count,
+                                                  Random& random) {
+  const double z = z_up ? 1.0 : -1.0;
+  const Corners corners = layout.corners(z_up);
+  const Eigen::Vector3d middle = 0.5 * (corners[0] + corners[2]);
+  const double size = (corners[2] - corners[0]).norm();
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = uniform(random, -M_PI, M_PI);
+    const double distance = size * uniform(random, 1.4, 2.2);
+    const Eigen::Vector3d position(middle.x() + distance * std::cos(angle),
+                                   middle.y() + distance * std::sin(angle),
+                                   middle.z() + z * size * uniform(random, 0.4, 1.2));
+    const Eigen::Vector3d target =
+        middle + 0.05 * size * Eigen::Vector3d(uniform(random, -1, 1), uniform(random, -1, 1), 0.0);
+    Eigen::Isometry3d pose = geometry::lookAt(position, target, Eigen::Vector3d(0.0, 0.0, z));
+    pose.linear() =
+        pose.linear() * Eigen::AngleAxisd(uniform(random, -0.3, 0.3), Eigen::Vector3d::UnitZ());
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+/// The rig of the paper's Fig. 1, z up: 2.5 m cube, cameras on its diagonals, 4.5 m from the edges.
+inline std::vector<Eigen::Isometry3d> paperRig() {
+  std::vector<Eigen::Isometry3d> poses;
+  const Eigen::Vector3d center(1.25, 1.25, 1.25);
+  const double distance = 4.5 + 1.25 * std::sqrt(2.0);
+  for (int i = 0; i < 4; ++i) {
+    const double angle = M_PI / 4.0 + i * M_PI / 2.0;
+    const Eigen::Vector3d position(1.25 + distance * std::cos(angle),
+                                   1.25 + distance * std::sin(angle), 2.0);
+    poses.push_back(geometry::lookAt(position, center, Eigen::Vector3d::UnitZ()));
+  }
+  return poses;
+}
+
+inline double rotationBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  const Eigen::Matrix3d difference = a.linear().transpose() * b.linear();
+  const Eigen::Vector3d vector(difference(2, 1) - difference(1, 2),
+                               difference(0, 2) - difference(2, 0),
+                               difference(1, 0) - difference(0, 1));
+  return std::atan2(0.5 * vector.norm(), 0.5 * (difference.trace() - 1.0));
+}
+
+}  // namespace wiimote_tracker::square
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_SQUARE_H

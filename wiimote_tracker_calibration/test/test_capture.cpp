@@ -1,0 +1,249 @@
+#include "wiimote_tracker_calibration/capture/camera_monitor.h"
+#include "wiimote_tracker_calibration/capture/corner_capture.h"
+#include "wiimote_tracker_calibration/capture/rest_gravity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace wiimote_tracker::capture {
+namespace {
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+using State = CornerCapture::State;
+using Image = std::function<Blobs(double)>;
+
+constexpr double kPeriod = 0.01;  // [s]
+
+Blobs one(double x, double y) {
+  return {Eigen::Vector2d(x, y)};
+}
+
+/// Feeds cameras in turn at 100 Hz until the capture ends or the time is up.
+void feed(CornerCapture* capture,
+          const std::map<std::string, Image>& cameras,
+          double from,
+          double until) {
+  for (double t = from; t < until && capture->state() == State::kCollecting; t += kPeriod) {
+    for (const auto& camera : cameras)
+      capture->add(camera.first, t, camera.second(t));
+    capture->update(t);
+  }
+}
+
+Image still(double x, double y, unsigned seed, double noise = 0.3) {
+  auto random = std::make_shared<std::mt19937>(seed);
+  return [=](double) {
+    std::normal_distribution<double> error(0.0, noise);
+    return one(std::round(x + error(*random)), std::round(y + error(*random)));
+  };
+}
+
+Image blind() {
+  return [](double) { return Blobs(); };
+}
+
+const std::vector<std::string> kThree = {"a", "b", "c"};
+
+TEST(CornerCapture, a_still_led_is_captured_by_all_cameras_that_see_it) {
+  CornerCapture capture(kThree, CornerCaptureOptions(), 0.0);
+  feed(&capture, {{"a", still(100, 200, 1)}, {"b", still(500.5, 300, 2)}, {"c", still(9, 9, 3)}},
+       0.0, 9.0);
+  ASSERT_EQ(capture.state(), State::kDone);
+  EXPECT_EQ(capture.progress(), 1.0);
+  EXPECT_EQ(capture.message(), "captured by 3 of 3 cameras");
+  const CapturedCorner corner = capture.result();
+  ASSERT_EQ(corner.size(), 3U);
+  EXPECT_NEAR(corner.at("b").pixel.x(), 500.5, 0.3);
+  EXPECT_NEAR(corner.at("a").pixel.y(), 200.0, 0.3);
+  EXPECT_GE(corner.at("a").samples, 50U);
+  EXPECT_LT(corner.at("a").spread, 1.0);
+  EXPECT_GT(corner.at("a").spread, 0.0);
+}
+
+TEST(CornerCapture, mean_and_spread_are_those_of_the_samples) {
+  CornerCaptureOptions options;
+  options.minimum_cameras = 1;
+  CornerCapture capture({"a"}, options, 0.0);
+  for (int i = 0; i < 50; ++i)
+    capture.add("a", i * kPeriod, one(10.0 + i % 2, 20.0));
+  ASSERT_EQ(capture.state(), State::kDone);
+  EXPECT_NEAR(capture.result().at("a").pixel.x(), 10.5, 1e-12);
+  EXPECT_NEAR(capture.result().at("a").pixel.y(), 20.0, 1e-12);
+  EXPECT_NEAR(capture.result().at("a").spread, std::sqrt(0.25 * 50.0 / 49.0), 1e-12);
+  EXPECT_EQ(capture.result().at("a").samples, 50U);
+}
+
+TEST(CornerCapture, a_blind_camera_is_left_out_and_named) {
+  CornerCapture capture(kThree, CornerCaptureOptions(), 0.0);
+  feed(&capture, {{"a", still(100, 200, 1)}, {"b", still(500, 300, 2)}, {"c", blind()}}, 0.0, 9.0);
+  ASSERT_EQ(capture.state(), State::kDone);
+  EXPECT_EQ(capture.result().count("c"), 0U);
+  EXPECT_SAYS(capture.message(), "2 of 3 cameras");
+  EXPECT_SAYS(capture.message(), "c sees no spot");
+}
+
+TEST(CornerCapture, a_camera_with_two_spots_is_left_out_and_named) {
+  CornerCapture capture(kThree, CornerCaptureOptions(), 0.0);
+  const Image two = [](double) { return Blobs{Eigen::Vector2d(5, 5), Eigen::Vector2d(800, 90)}; };
+  feed(&capture, {{"a", still(100, 200, 1)}, {"b", two}, {"c", still(3, 3, 3)}}, 0.0, 9.0);
+  ASSERT_EQ(capture.state(), State::kDone);
+  EXPECT_EQ(capture.result().count("b"), 0U);
+  EXPECT_SAYS(capture.message(), "b sees 2 spots");
+}
+
+TEST(CornerCapture, a_camera_that_is_slower_is_waited_for) {
+  CornerCapture capture({"a", "b"}, CornerCaptureOptions(), 0.0);
+  const Image fast = still(100, 200, 1);
+  const Image slow = still(300, 200, 2);
+  for (int i = 0; i < 400 && capture.state() == State::kCollecting; ++i) {
+    capture.add("a", i * kPeriod, fast(0.0));
+    if (i % 5 == 0)
+      capture.add("b", i * kPeriod, slow(0.0));
+  }
+  ASSERT_EQ(capture.state(), State::kDone);
+  EXPECT_EQ(capture.result().size(), 2U);
+  EXPECT_GE(capture.result().at("a").samples, 200U);
+}
+
+TEST(CornerCapture, a_moved_led_is_refused) {
+  CornerCapture capture({"a", "b"}, CornerCaptureOptions(), 0.0);
+  const Image jump = [](double t) { return t < 0.3 ? one(100, 100) : one(120, 100); };
+  feed(&capture, {{"a", jump}, {"b", still(300, 200, 2)}}, 0.0, 9.0);
+  ASSERT_EQ(capture.state(), State::kRefused);
+  EXPECT_SAYS(capture.message(), "a: the LED moved");
+  EXPECT_SAYS(capture.message(), "keep the LED still");
+  EXPECT_LT(capture.progress(), 1.0);
+}
+
+TEST(CornerCapture, a_slow_drift_within_the_spread_is_refused) {
+  CornerCaptureOptions options;
+  CornerCapture capture({"a", "b"}, options, 0.0);
+  // 4 px/s: two pixels within the fifty samples, spread 0.6 px.
+  const Image drift = [](double t) { return one(100 + 4.0 * t, 100); };
+  feed(&capture, {{"a", drift}, {"b", still(300, 200, 2)}}, 0.0, 9.0);
+  ASSERT_EQ(capture.state(), State::kRefused);
+  EXPECT_SAYS(capture.message(), "a: the LED moved slowly");
+}
+
+TEST(CornerCapture, noise_of_a_still_led_is_hardly_ever_taken_for_motion) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    CornerCapture capture({"a", "b"}, CornerCaptureOptions(), 0.0);
+    feed(&capture,
+         {{"a", still(100, 200, 2 * seed, 0.5)}, {"b", still(300, 200, 2 * seed + 1, 0.5)}}, 0.0,
+         9.0);
+    EXPECT_EQ(capture.state(), State::kDone) << capture.message();
+  }
+}
+
+TEST(CornerCapture, too_few_samples_until_the_time_is_up_are_refused_with_the_reason) {
+  CornerCaptureOptions options;
+  options.timeout = 2.0;
+  CornerCapture capture({"a", "b", "c"}, options, 10.0);
+  for (int i = 0; i < 30; ++i)
+    capture.add("a", 10.0 + i * kPeriod, one(10, 10));
+  capture.add("b", 10.1, Blobs());
+  EXPECT_EQ(capture.update(11.99), State::kCollecting);
+  EXPECT_SAYS(capture.problem("a"), "has 30 of 50 samples");
+  EXPECT_SAYS(capture.problem("b"), "sees no spot");
+  EXPECT_SAYS(capture.problem("c"), "sends no images");
+  EXPECT_EQ(capture.update(12.0), State::kRefused);
+  EXPECT_SAYS(capture.message(), "0 of at least 2 cameras");
+  EXPECT_SAYS(capture.message(), "c sends no images");
+}
+
+TEST(CornerCapture, one_camera_is_not_enough) {
+  CornerCaptureOptions options;
+  options.timeout = 1.0;
+  CornerCapture capture({"a", "b"}, options, 0.0);
+  feed(&capture, {{"a", still(100, 200, 1)}, {"b", blind()}}, 0.0, 1.5);
+  ASSERT_EQ(capture.state(), State::kRefused);
+  EXPECT_SAYS(capture.message(), "1 of at least 2 cameras");
+}
+
+TEST(CornerCapture, progress_is_that_of_the_slowest_camera_that_sees_the_led) {
+  CornerCapture capture(kThree, CornerCaptureOptions(), 0.0);
+  EXPECT_EQ(capture.progress(), 0.0);
+  for (int i = 0; i < 20; ++i) {
+    capture.add("a", i * kPeriod, one(10, 10));
+    if (i % 2 == 0)
+      capture.add("b", i * kPeriod, one(10, 10));
+    capture.add("c", i * kPeriod, Blobs());
+  }
+  EXPECT_DOUBLE_EQ(capture.progress(), 0.2);
+}
+
+TEST(CornerCapture, images_before_the_start_and_of_other_cameras_are_ignored) {
+  CornerCapture capture({"a", "b"}, CornerCaptureOptions(), 5.0);
+  for (int i = 0; i < 100; ++i) {
+    capture.add("a", 4.0, one(10, 10));
+    capture.add("x", 5.0 + i * kPeriod, one(10, 10));
+  }
+  EXPECT_EQ(capture.spot("a").samples(), 0U);
+  EXPECT_EQ(capture.state(), State::kCollecting);
+}
+
+TEST(CameraMonitor, rate_and_spot_of_a_camera_that_sees_the_led) {
+  CameraMonitor monitor(1.0);
+  EXPECT_FALSE(monitor.view(0.0).connected);
+  EXPECT_SAYS(monitor.view(0.0).problem, "sends no images");
+  for (int i = 0; i <= 300; ++i)
+    monitor.add(i * kPeriod, one(i, 7));
+  const CameraView view = monitor.view(3.0);
+  EXPECT_TRUE(view.connected);
+  EXPECT_TRUE(view.sees_led);
+  EXPECT_NEAR(view.rate, 100.0, 1e-6);
+  EXPECT_EQ(view.pixel, Eigen::Vector2d(300, 7));
+  EXPECT_EQ(view.problem, "");
+  EXPECT_FALSE(monitor.view(4.5).connected);  // the images stopped
+}
+
+TEST(CameraMonitor, says_what_is_wrong) {
+  CameraMonitor two;
+  two.add(0.0, {Eigen::Vector2d(1, 1), Eigen::Vector2d(2, 2)});
+  EXPECT_EQ(two.view(0.0).blobs, 2U);
+  EXPECT_SAYS(two.view(0.0).problem, "sees 2 spots");
+  CameraMonitor none;
+  none.add(0.0, {});
+  EXPECT_SAYS(none.view(0.0).problem, "sees no spot");
+  CameraMonitor flicker;
+  for (int i = 0; i < 50; ++i)
+    flicker.add(i * kPeriod, i % 2 == 0 ? Blobs() : one(1, 1));
+  EXPECT_FALSE(flicker.view(0.5).sees_led);
+  EXPECT_SAYS(flicker.view(0.5).problem, "50 % of its images only");
+  EXPECT_TRUE(std::isnan(flicker.view(0.5).pixel.x()));
+}
+
+TEST(RestGravity, mean_of_a_camera_at_rest_only) {
+  RestGravity rest;
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_FALSE(rest.mean());
+    rest.add(Eigen::Vector3d(0.1 * (i % 2), -9.8, 1.0));
+  }
+  ASSERT_TRUE(rest.mean());
+  EXPECT_LT((*rest.mean() - Eigen::Vector3d(0.05, -9.8, 1.0)).norm(), 1e-12);
+
+  RestGravity shaken;
+  for (int i = 0; i < 100; ++i)
+    shaken.add(Eigen::Vector3d(3.0 * std::sin(0.7 * i), -9.8, 0.0));
+  EXPECT_FALSE(shaken.mean());
+
+  RestGravity falling;
+  for (int i = 0; i < 100; ++i)
+    falling.add(Eigen::Vector3d(0.0, -4.0, 0.0));
+  EXPECT_FALSE(falling.mean());
+
+  rest.add(Eigen::Vector3d::Constant(std::nan("")));
+  EXPECT_TRUE(rest.mean());
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::capture
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

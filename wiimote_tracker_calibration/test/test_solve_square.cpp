@@ -1,0 +1,254 @@
+#include "wiimote_tracker_calibration/square/error.h"
+#include "wiimote_tracker_calibration/square/solve_square.h"
+
+#include "simulated_square.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <utility>
+
+namespace wiimote_tracker::square {
+namespace {
+
+SquareLayout rectangle(double side_x, double side_y) {
+  SquareLayout layout;
+  layout.side_x = side_x;
+  layout.side_y = side_y;
+  return layout;
+}
+
+std::string refusalOf(const SquareLayout& layout,
+                      const std::vector<CameraSightings>& sightings,
+                      const SolveOptions& options = SolveOptions()) {
+  try {
+    solveSquare(layout, sightings, options);
+  } catch (const SquareError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+/// Four cameras around a 2.5 m square, exact.
+class FourCameras : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    Random random(5);
+    simulated_ = simulateSquare(paperRig(), layout_, true, Errors(), false, random);
+  }
+
+  SquareLayout layout_ = rectangle(2.5, 2.5);
+  SimulatedSquare simulated_;
+};
+
+struct Setup {
+  Method method;
+  bool z_up;
+};
+
+class NoiseFree : public ::testing::TestWithParam<Setup> {};
+
+TEST_P(NoiseFree, random_rigs_are_solved_exactly) {
+  Random random(17);
+  SolveOptions options;
+  options.method = GetParam().method;
+  for (int trial = 0; trial < 60; ++trial) {
+    SquareLayout layout = rectangle(uniform(random, 0.5, 3.0), uniform(random, 0.5, 3.0));
+    layout.led_height = uniform(random, 0.0, 0.3);
+    layout.origin = Eigen::Vector2d(uniform(random, -2, 2), uniform(random, -2, 2));
+    layout.yaw = uniform(random, -M_PI, M_PI);
+    const auto count = static_cast<std::size_t>(2 + trial % 7);
+    const auto poses = posesAround(layout, GetParam().z_up, count, random);
+    const SimulatedSquare simulated =
+        simulateSquare(poses, layout, GetParam().z_up, Errors(), true, random);
+    const SquareSolution solution = solveSquare(layout, simulated.sightings, options);
+    ASSERT_EQ(solution.rig.cameras.size(), count);
+    EXPECT_EQ(solution.z_up, GetParam().z_up);
+    for (std::size_t i = 0; i < count; ++i) {
+      const geometry::Camera& camera = solution.rig.cameras[i].camera;
+      EXPECT_LT((camera.center() - poses[i].translation()).norm(), 1e-7) << trial;
+      EXPECT_LT(rotationBetween(camera.world_from_camera, poses[i]), 1e-8) << trial;
+      EXPECT_LT(solution.rig.cameras[i].residual_px, 1e-6);
+    }
+    EXPECT_NO_THROW(solution.rig.check());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(MethodsAndDirections,
+                         NoiseFree,
+                         ::testing::Values(Setup{Method::kJoint, true},
+                                           Setup{Method::kJoint, false},
+                                           Setup{Method::kPerCamera, true},
+                                           Setup{Method::kPerCamera, false}));
+
+TEST(Layout, corners_follow_height_offset_and_yaw) {
+  SquareLayout layout = rectangle(2.0, 1.0);
+  layout.led_height = 0.1;
+  layout.origin = Eigen::Vector2d(2.0, 0.0);  // the second corner
+  layout.yaw = M_PI / 2.0;                    // world x along the square's y
+  const Corners up = layout.corners(true);
+  EXPECT_LT((up[1] - Eigen::Vector3d(0, 0, 0.1)).norm(), 1e-12);
+  EXPECT_LT((up[2] - Eigen::Vector3d(1, 0, 0.1)).norm(), 1e-12);
+  EXPECT_LT((up[0] - Eigen::Vector3d(0, 2, 0.1)).norm(), 1e-12);
+  EXPECT_LT((layout.corners(false)[2] - Eigen::Vector3d(1, 0, -0.1)).norm(), 1e-12);
+}
+
+TEST_F(FourCameras, clockwise_corners_put_z_down_with_one_warning) {
+  // Seen from above: first, fourth, third, second corner of the same square.
+  for (CameraSightings& camera : simulated_.sightings)
+    std::swap(camera.corners[1], camera.corners[3]);
+  const SquareSolution solution = solveSquare(layout_, simulated_.sightings, SolveOptions());
+  EXPECT_FALSE(solution.z_up);
+  ASSERT_EQ(solution.warnings.size(), 1U);
+  EXPECT_SAYS(solution.warnings[0], "counter-clockwise to get z up");
+  EXPECT_SAYS(solution.rig.verdict, solution.warnings[0]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    // Mirror at x = y, and z down: the same places in the other world.
+    const Eigen::Vector3d p = simulated_.truth[i].center();
+    EXPECT_LT(
+        (solution.rig.cameras[i].camera.center() - Eigen::Vector3d(p.y(), p.x(), -p.z())).norm(),
+        1e-7);
+  }
+}
+
+TEST_F(FourCameras, a_camera_that_misses_a_corner_is_left_out_and_named) {
+  simulated_.sightings[1].corners[2].reset();
+  simulated_.sightings[3].corners = {};
+  const SquareSolution solution = solveSquare(layout_, simulated_.sightings, SolveOptions());
+  ASSERT_EQ(solution.rig.cameras.size(), 2U);
+  EXPECT_EQ(solution.rig.cameras[0].camera.name, "camera_1");
+  EXPECT_EQ(solution.rig.cameras[1].camera.name, "camera_3");
+  ASSERT_EQ(solution.warnings.size(), 2U);
+  EXPECT_SAYS(solution.warnings[0], "camera_2 did not see corner 3");
+  EXPECT_SAYS(solution.warnings[1], "camera_4 saw no corner");
+}
+
+TEST_F(FourCameras, fewer_than_two_cameras_are_refused_by_name) {
+  for (std::size_t i = 1; i < 4; ++i)
+    simulated_.sightings[i].corners[i].reset();
+  const std::string text = refusalOf(layout_, simulated_.sightings);
+  EXPECT_SAYS(text, "at least two cameras");
+  EXPECT_SAYS(text, "camera_2 did not see corner 2");
+  EXPECT_SAYS(refusalOf(layout_, {simulated_.sightings[0]}), "at least two cameras");
+}
+
+TEST_F(FourCameras, fewer_than_four_corners_are_refused) {
+  for (CameraSightings& camera : simulated_.sightings)
+    camera.corners[3].reset();
+  EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "only 3 of 4 corners");
+  EXPECT_SAYS(refusalOf(layout_, {}), "only 0 of 4 corners");
+}
+
+TEST_F(FourCameras, crossing_corners_are_refused) {
+  for (CameraSightings& camera : simulated_.sightings)
+    std::swap(camera.corners[2], camera.corners[3]);
+  EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "out of order");
+}
+
+TEST_F(FourCameras, corners_on_a_line_or_in_one_place_are_refused) {
+  std::vector<CameraSightings> line = simulated_.sightings;
+  for (std::size_t i = 0; i < 4; ++i)
+    line[i].corners[2] = simulated_.truth[i].project(Eigen::Vector3d(1.25, 0.0, 0.0)).value();
+  EXPECT_SAYS(refusalOf(layout_, line), "on one line");
+  std::vector<CameraSightings> twice = simulated_.sightings;
+  for (std::size_t i = 0; i < 4; ++i)
+    twice[i].corners[2] = *twice[i].corners[1] + Eigen::Vector2d(0.5, 0.5);
+  EXPECT_SAYS(refusalOf(layout_, twice), "in one place");
+}
+
+TEST_F(FourCameras, a_corner_inside_the_others_is_refused) {
+  for (std::size_t i = 0; i < 4; ++i)
+    simulated_.sightings[i].corners[2] =
+        simulated_.truth[i].project(Eigen::Vector3d(0.6, 0.6, 0.0)).value();
+  EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "do not look like a square");
+}
+
+TEST_F(FourCameras, bad_sides_and_heights_are_refused) {
+  for (const double side : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                            std::numeric_limits<double>::infinity()}) {
+    EXPECT_SAYS(refusalOf(rectangle(side, 1.0), simulated_.sightings), "first to the second");
+    EXPECT_SAYS(refusalOf(rectangle(1.0, side), simulated_.sightings), "second to the third");
+  }
+  layout_.led_height = -0.1;
+  EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "height of the LED");
+}
+
+TEST_F(FourCameras, a_mirrored_image_is_refused_and_named) {
+  // Raw pixels whose y axis grows upwards fit a square just as well.
+  for (auto& corner : simulated_.sightings[2].corners)
+    corner->y() = 767.0 - corner->y();
+  const std::string text = refusalOf(layout_, simulated_.sightings);
+  EXPECT_SAYS(text, "clockwise for camera_3");
+}
+
+TEST_F(FourCameras, a_world_mirrored_in_all_cameras_is_refused_by_gravity) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    CameraSightings& camera = simulated_.sightings[i];
+    const Eigen::Vector3d up = simulated_.truth[i].world_from_camera.linear().row(2);
+    camera.gravity = 9.81 * up;
+    for (auto& corner : camera.corners)
+      corner->y() = 767.0 - corner->y();
+  }
+  EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "against its accelerometer");
+}
+
+TEST_F(FourCameras, one_camera_that_contradicts_the_others_is_named) {
+  // The camera was bumped between the first and the second corner.
+  for (std::size_t c = 1; c < 4; ++c)
+    *simulated_.sightings[1].corners[c] += Eigen::Vector2d(60.0, 25.0);
+  EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "camera_2 alone contradicts");
+}
+
+TEST_F(FourCameras, sides_that_are_not_those_of_the_square_are_refused) {
+  EXPECT_SAYS(refusalOf(rectangle(2.5, 2.0), simulated_.sightings), "check the sides");
+}
+
+TEST_F(FourCameras, a_corner_put_down_far_off_is_named) {
+  for (std::size_t i = 0; i < 4; ++i)
+    simulated_.sightings[i].corners[2] =
+        simulated_.truth[i].project(Eigen::Vector3d(2.56, 2.56, 0.0)).value();
+  const SquareSolution solution = solveSquare(layout_, simulated_.sightings, SolveOptions());
+  ASSERT_EQ(solution.warnings.size(), 1U) << solution.rig.verdict;
+  EXPECT_SAYS(solution.warnings[0], "most at corner 3");
+}
+
+TEST_F(FourCameras, the_same_sightings_give_the_same_rig) {
+  const auto once = solveSquare(layout_, simulated_.sightings, SolveOptions());
+  const auto again = solveSquare(layout_, simulated_.sightings, SolveOptions());
+  EXPECT_EQ(once.rig.id(), again.rig.id());
+}
+
+TEST_F(FourCameras, residuals_are_in_pixels_and_metres) {
+  SolveOptions options;
+  options.method = Method::kPerCamera;
+  Random random(3);
+  for (CameraSightings& camera : simulated_.sightings) {
+    for (auto& corner : camera.corners)
+      *corner += Eigen::Vector2d(normal(random, 0.5), normal(random, 0.5));
+  }
+  const SquareSolution solution = solveSquare(layout_, simulated_.sightings, options);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const geometry::RigCamera& camera = solution.rig.cameras[i];
+    double sum = 0.0;
+    double distance = 0.0;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Eigen::Vector3d corner = layout_.corners(true)[c];
+      sum += (*camera.camera.project(corner) - *simulated_.sightings[i].corners[c]).squaredNorm();
+      distance += (corner - camera.camera.center()).norm() / 4.0;
+    }
+    EXPECT_NEAR(camera.residual_px, std::sqrt(sum / 4.0), 1e-9);
+    EXPECT_GT(camera.residual_px, 0.0);
+    EXPECT_NEAR(camera.residual_m, camera.residual_px * distance / 1304.3, 1e-6);
+    EXPECT_EQ(camera.observations, 4U);
+  }
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::square
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,35 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_IMPORT_NUMBER_TABLE_H
+#define WIIMOTE_TRACKER_BRINGUP_IMPORT_NUMBER_TABLE_H
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::import {
+
+/// A recording cannot be read or used. what() names the file, and line and column where there are
+/// any, in one sentence.
+struct ImportError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+using NumberTable = std::vector<std::vector<double>>;  ///< Rows of equal length.
+
+/// Numbers separated by blanks, one row per line; NaN is allowed, empty lines are skipped.
+/// @throws ImportError: missing, empty, not a number, infinite, rows of different length.
+NumberTable readNumberTable(const std::string& path);
+
+/// Same, and the size must be rows x columns; 0 allows any.
+NumberTable readNumberTable(const std::string& path, std::size_t rows, std::size_t columns);
+
+/// Lines that are not empty, without blanks at their ends. @throws ImportError: missing.
+std::vector<std::string> readLines(const std::string& path);
+
+bool fileExists(const std::string& path);
+
+/// The whole text as a number; nothing else may follow. @throws ImportError naming `where`.
+double parseNumber(const std::string& text, const std::string& where);
+
+}  // namespace wiimote_tracker::import
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_IMPORT_NUMBER_TABLE_H

@@ -1,0 +1,38 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_IMPORT_RECORDING_H
+#define WIIMOTE_TRACKER_BRINGUP_IMPORT_RECORDING_H
+
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::import {
+
+using ProjectionMatrix = Eigen::Matrix<double, 3, 4>;
+using Pixels = std::vector<std::optional<Eigen::Vector2d>>;  ///< Per camera [px]; nothing: unseen.
+
+struct RecordedCamera {
+  std::string name;                            ///< Fit for a ROS name.
+  geometry::Intrinsics intrinsics;             ///< Of basenameN.rad and Res.dat.
+  std::optional<ProjectionMatrix> projection;  ///< World to undistorted pixels.
+  std::optional<Eigen::Vector3d> center;       ///< As shipped [m].
+};
+
+/// What synchronised cameras saw of one moving light, and what was shipped with it.
+struct Recording {
+  std::vector<RecordedCamera> cameras;
+  std::vector<Pixels> frames;
+  std::vector<Eigen::Vector3d> points;  ///< One per frame, frame of the centres [m]; or empty.
+};
+
+/// Reads a folder in the layout of MultiCamSelfCal (points.dat) or flydra (camN.points4cal.dat);
+/// see README.md. The unit of lengths is that of calibration_units.txt, else the metre.
+/// @throws ImportError: a file is missing, damaged, or does not fit to the others.
+Recording readRecording(const std::string& folder);
+
+}  // namespace wiimote_tracker::import
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_IMPORT_RECORDING_H

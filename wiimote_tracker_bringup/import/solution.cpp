@@ -1,0 +1,166 @@
+#include "solution.h"
+
+#include "number_table.h"
+#include "pinhole.h"
+
+#include "wiimote_tracker_calibration/bundle/error.h"
+#include "wiimote_tracker_calibration/bundle/similarity.h"
+#include "wiimote_tracker_calibration/bundle/solve.h"
+#include "wiimote_tracker_calibration/bundle/statistics.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace wiimote_tracker::import {
+
+namespace {
+
+using bundle::Reconstruction;
+
+Reconstruction reconstructionOf(const std::vector<geometry::Camera>& cameras,
+                                const std::vector<Pixels>& frames) {
+  Reconstruction reconstruction;
+  reconstruction.cameras = cameras;
+  reconstruction.points.resize(frames.size());
+  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+    for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
+      if (frames[frame][camera])
+        reconstruction.observations.push_back({camera, frame, *frames[frame][camera]});
+    }
+  }
+  reconstruction.inliers.assign(reconstruction.observations.size(), false);
+  return reconstruction;
+}
+
+/// Points of the cameras as they stand; how many observations agree.
+std::size_t triangulate(const bundle::Options& options, Reconstruction* reconstruction) {
+  bundle::triangulatePoints(reconstruction, std::vector<bool>(reconstruction->cameras.size(), true),
+                            options.maximum_error, options.minimum_angle);
+  return static_cast<std::size_t>(
+      std::count(reconstruction->inliers.begin(), reconstruction->inliers.end(), true));
+}
+
+bool hasCenters(const Recording& recording) {
+  return std::all_of(recording.cameras.begin(), recording.cameras.end(),
+                     [](const RecordedCamera& camera) { return camera.center.has_value(); });
+}
+
+void alignToCenters(const Recording& recording, Reconstruction* reconstruction) {
+  std::vector<Eigen::Vector3d> from;
+  std::vector<Eigen::Vector3d> to;
+  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
+    from.push_back(reconstruction->cameras[i].center());
+    to.push_back(*recording.cameras[i].center);
+  }
+  try {
+    bundle::transform(bundle::fitSimilarity(from, to), reconstruction);
+  } catch (const bundle::BundleError& error) {
+    throw ImportError(std::string("the shipped camera centres give no frame: ") + error.what() +
+                      "; take Cst.dat or original_cam_centers.dat away to do without");
+  }
+}
+
+geometry::Rig rigOf(const Reconstruction& reconstruction, const std::string& method) {
+  geometry::Rig rig;
+  rig.method = method;
+  for (std::size_t i = 0; i < reconstruction.cameras.size(); ++i) {
+    const bundle::Statistics figures = bundle::statistics(reconstruction, i);
+    geometry::RigCamera camera;
+    camera.camera = reconstruction.cameras[i];
+    camera.residual_px = figures.rms;
+    camera.residual_m = figures.rms_m;
+    camera.observations = static_cast<std::uint32_t>(figures.observations);
+    camera.inliers = static_cast<std::uint32_t>(figures.inliers);
+    rig.cameras.push_back(camera);
+  }
+  const bundle::Statistics all = bundle::statistics(reconstruction);
+  char verdict[200];
+  std::snprintf(verdict, sizeof(verdict),
+                "%zu of %zu observations fit; their reprojection error: median %.2f px, mean %.2f "
+                "px, RMS %.2f px",
+                all.inliers, all.observations, all.median, all.mean, all.rms);
+  rig.verdict = verdict;
+  return rig;
+}
+
+/// The cameras of the shipped matrices. Their world may be a mirror image (flydra's is), and the
+/// sign of each matrix means nothing; the light was in front of the cameras only in one of the two.
+Solution fromProjections(const Recording& recording) {
+  Solution solution;
+  Reconstruction best;
+  std::size_t most = 0;
+  for (const bool mirrored : {false, true}) {
+    std::vector<geometry::Camera> cameras;
+    std::vector<Pixels> frames = recording.frames;
+    for (std::size_t i = 0; i < recording.cameras.size(); ++i)
+      cameras.push_back(rectify(recording.cameras[i], mirrored, i, &frames));
+    Reconstruction reconstruction = reconstructionOf(cameras, frames);
+    const std::size_t inliers = triangulate(bundle::Options(), &reconstruction);
+    if (inliers > most) {
+      most = inliers;
+      best = reconstruction;
+      solution.frames = frames;
+    }
+  }
+  if (most == 0)
+    throw ImportError("Pmatrices.dat does not fit to the points: no point is seen by two cameras");
+  if (hasCenters(recording))
+    alignToCenters(recording, &best);
+  solution.rig = rigOf(best, "import: shipped projection matrices");
+  if (!recording.points.empty()) {
+    Reference& reference = solution.reference.emplace();
+    reference.rig = solution.rig;
+    reference.points.assign(recording.points.begin(), recording.points.end());
+  }
+  return solution;
+}
+
+/// The best that can be made of the shipped centres: orientations and points moved, centres not.
+Reference withShippedCenters(const Recording& recording, Reconstruction start) {
+  for (std::size_t i = 0; i < start.cameras.size(); ++i)
+    start.cameras[i].world_from_camera.translation() = *recording.cameras[i].center;
+  bundle::Options options;
+  options.maximum_error = 100.0;  // keeps what our own solution explains: it is to be compared
+  bundle::Held held;
+  held.positions = true;
+  triangulate(options, &start);
+  bundle::adjust(&start, options, held);
+  Reference reference;
+  reference.rig = rigOf(start, "import: shipped centres, orientations fitted");
+  reference.points = start.points;
+  return reference;
+}
+
+Solution fromPixels(const Recording& recording) {
+  std::vector<geometry::Camera> cameras;
+  for (const RecordedCamera& recorded : recording.cameras) {
+    geometry::Camera camera;
+    camera.name = recorded.name;
+    camera.intrinsics = recorded.intrinsics;
+    cameras.push_back(camera);
+  }
+  const Reconstruction unsolved = reconstructionOf(cameras, recording.frames);
+  Reconstruction solved =
+      bundle::solve(cameras, unsolved.observations, recording.frames.size(), bundle::Options());
+  Solution solution;
+  solution.frames = recording.frames;
+  if (hasCenters(recording)) {
+    alignToCenters(recording, &solved);
+    solution.reference = withShippedCenters(recording, solved);
+  }
+  solution.rig = rigOf(solved, "import: poses solved, intrinsics shipped");
+  return solution;
+}
+
+}  // namespace
+
+Solution solve(const Recording& recording) {
+  try {
+    return recording.cameras.front().projection ? fromProjections(recording)
+                                                : fromPixels(recording);
+  } catch (const bundle::BundleError& error) {
+    throw ImportError(std::string("the cameras cannot be solved: ") + error.what());
+  }
+}
+
+}  // namespace wiimote_tracker::import

@@ -166,7 +166,7 @@ LedDescription readLed(const std::string& name, Section section) {
   led.position = section.point("position");
   led.size = section.number("size", 0.0, 15.0, led.size);
   led.brightness = section.number("brightness", 0.0, kInfinity, led.brightness);
-  led.on = section.value<bool>("on", led.on);
+  led.lit = section.value<bool>("lit", led.lit);
   section.refuseUnknown();
   return led;
 }

@@ -37,7 +37,7 @@ struct LedDescription {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
   double size = 3.0;                                   ///< As the sensor reports it [0..15].
   double brightness = 1.0;                             ///< Any scale [> 0].
-  bool on = true;
+  bool lit = true;
 };
 
 /// A rig that does not exist. The world has z up.

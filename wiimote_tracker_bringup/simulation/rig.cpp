@@ -9,7 +9,7 @@ Rig::Rig(const Description& description, Deliver deliver, Truth truth)
       truth_(std::move(truth)),
       truth_period_(1.0 / description.truth_rate) {
   for (const LedDescription& led : description.leds)
-    leds_.push_back({led, LedMotion(led.position), led.on});
+    leds_.push_back({led, LedMotion(led.position), led.lit});
   for (const CameraDescription& camera : description.cameras) {
     // A seed of its own for each camera's pixels and each camera's link.
     const auto number = static_cast<std::uint32_t>(cameras_.size());
@@ -60,7 +60,7 @@ void Rig::expose(std::size_t number) {
   Camera& camera = cameras_[number];
   lamps_.clear();
   for (const Led& led : leds_) {
-    if (led.on)
+    if (led.lit)
       lamps_.push_back({led.motion.position(camera.exposure.time), led.description.size,
                         led.description.brightness});
   }

@@ -37,7 +37,7 @@ class Rig {
   struct Led {
     LedDescription description;
     LedMotion motion;
-    bool on;
+    bool lit;
   };
   Led* findLed(const std::string& name);
 

@@ -69,7 +69,7 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
     arrival = led->motion.line(time, target, request.speed);
   else
     arrival = led->motion.circle(time, target, request.radius, request.speed);
-  led->on = request.on;
+  led->lit = request.on;
 
   response.success = true;
   response.arrival = stamp(arrival);

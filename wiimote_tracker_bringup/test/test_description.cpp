@@ -32,7 +32,7 @@ cameras:
     clock: {period: 0.01, phase: 0.0}
     delay: {constant: 0.0, jitter: 0.0}
 leds:
-  led: {position: [1, 1, 0], size: 5, on: false}
+  led: {position: [1, 1, 0], size: 5, lit: false}
 )";
 
 class DescriptionFile : public testing::Test {
@@ -95,7 +95,7 @@ TEST_F(DescriptionFile, holds_what_was_written_in_the_order_of_the_file) {
   EXPECT_EQ(d.leds[0].name, "led");
   EXPECT_EQ(d.leds[0].size, 5.0);
   EXPECT_EQ(d.leds[0].brightness, 1.0);
-  EXPECT_FALSE(d.leds[0].on);
+  EXPECT_FALSE(d.leds[0].lit);
 }
 
 TEST_F(DescriptionFile, errors_name_file_key_and_reason) {
@@ -112,8 +112,8 @@ TEST_F(DescriptionFile, errors_name_file_key_and_reason) {
   EXPECT_TRUE(has(said, "pixel_noise is missing")) << said;
   said = complaint("pixel_noise", "pixel_nosie: 1\npixel_noise");
   EXPECT_TRUE(has(said, "pixel_nosie is not known")) << said;
-  said = complaint("on: false", "of: false");
-  EXPECT_TRUE(has(said, "leds/led/of is not known")) << said;
+  said = complaint("lit: false", "lti: false");
+  EXPECT_TRUE(has(said, "leds/led/lti is not known")) << said;
   said = complaint("position: [1, 1, 0]", "position: [1, 1]");
   EXPECT_TRUE(has(said, "leds/led/position must have three numbers")) << said;
   said = complaint("fx: 600", "fx: -600");

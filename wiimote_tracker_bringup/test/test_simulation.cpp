@@ -277,7 +277,7 @@ TEST(Rig, a_dark_led_is_not_seen_but_images_go_on) {
         lights += static_cast<int>(senses.lights.size());
       },
       [](std::size_t, double, const Vector3d&) {});
-  rig.findLed("led")->on = false;
+  rig.findLed("led")->lit = false;
   rig.runUntil(1.0);
   EXPECT_GT(images, 190);
   EXPECT_EQ(lights, 0);

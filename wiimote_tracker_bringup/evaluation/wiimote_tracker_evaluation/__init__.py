@@ -1,0 +1,1 @@
+"""Leading the tracker through the paper's experiment, and measuring how well it did."""

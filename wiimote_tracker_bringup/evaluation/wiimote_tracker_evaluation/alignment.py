@@ -1,0 +1,55 @@
+"""Closed-form alignment of two sets of corresponding points (S. Umeyama, PAMI 13(4), 1991)."""
+
+import numpy as np
+
+
+class Alignment(object):
+    """p -> scale * rotation @ p + translation."""
+
+    def __init__(self, rotation=None, translation=None, scale=1.0):
+        self.rotation = np.eye(3) if rotation is None else rotation
+        self.translation = np.zeros(3) if translation is None else translation
+        self.scale = scale
+
+    def apply(self, points):
+        """Aligned copies of N x 3 points."""
+        return self.scale * np.asarray(points) @ self.rotation.T + self.translation
+
+
+def fit(source, target, with_scale):
+    """Alignment with the least sum of squared distances |aligned source - target|^2.
+
+    source, target: N x 3, three or more points that are not on one line, else ValueError.
+    with_scale: similarity; otherwise rigid (scale 1). Never a reflection.
+    """
+    source = np.asarray(source, dtype=float)
+    target = np.asarray(target, dtype=float)
+    if source.shape != target.shape or source.ndim != 2 or source.shape[1] != 3:
+        raise ValueError('an alignment needs two N x 3 arrays of one size')
+    if not (np.isfinite(source).all() and np.isfinite(target).all()):
+        raise ValueError('an alignment needs finite points')
+    source_mean, target_mean = source.mean(axis=0), target.mean(axis=0)
+    a, b = source - source_mean, target - target_mean
+    u, singular, vt = np.linalg.svd(b.T @ a)
+    if len(source) < 3 or singular[1] <= 1e-12 * max(singular[0], 1e-300):
+        raise ValueError('an alignment needs three points or more that are not on one line')
+    signs = np.array([1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(vt))])
+    rotation = u @ np.diag(signs) @ vt
+    scale = (singular * signs).sum() / (a ** 2).sum() if with_scale else 1.0
+    return Alignment(rotation, target_mean - scale * rotation @ source_mean, scale)
+
+
+def rms(difference):
+    """Root of the mean squared length of N x 3 vectors."""
+    return float(np.sqrt((np.asarray(difference) ** 2).sum(axis=1).mean()))
+
+
+# The three ways in which the accuracy is reported, with the alignment each one fits beforehand.
+KINDS = ('absolute', 'rigid', 'similarity')
+
+
+def fit_kind(kind, source, target):
+    """Alignment of one of KINDS."""
+    if kind == 'absolute':
+        return Alignment()
+    return fit(source, target, with_scale=kind == 'similarity')

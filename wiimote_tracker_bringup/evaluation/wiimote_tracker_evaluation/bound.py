@@ -1,0 +1,200 @@
+"""How accurate the tracker can be when all it knows of its cameras comes from the square.
+
+Cramér-Rao bound of the calibration: the Fisher information of the corners' pixels, with what is
+known beforehand (corners within the accuracy of placing an LED, lenses within their spread), about
+every camera's pose and lens and every corner. A point's error is then this calibration error and
+the noise of its own pixels, carried to first order through the best triangulation.
+
+Independent of the tracker: own camera model, numerical derivatives.
+"""
+
+import numpy as np
+
+from wiimote_tracker_evaluation import scene as scene_module
+from wiimote_tracker_evaluation.alignment import KINDS
+
+PER_CAMERA = 11  # rotation vector about the world axes [rad], position [m], fx, fy, cx, cy, k1
+
+
+class Knowledge(object):
+    """Standard deviations of what is known before a pixel is seen.
+
+    focal: of the focal length, relative, common to both axes; focal_ratio: of fy / fx, relative;
+    center: of the principal point, each axis [px]; k1 [1]; corner: of a corner's place, each
+    horizontal axis [m]. 0 means exactly known.
+    """
+
+    def __init__(self, focal=0.03, focal_ratio=0.001, center=15.0, k1=0.02, corner=0.005):
+        self.focal = focal
+        self.focal_ratio = focal_ratio
+        self.center = center
+        self.k1 = k1
+        self.corner = corner
+
+
+def rotation_of(vector):
+    """Rotation matrix of a rotation vector (Rodrigues)."""
+    angle = np.linalg.norm(vector)
+    if angle < 1e-12:
+        return np.eye(3) + skew(vector)
+    axis = skew(vector / angle)
+    return np.eye(3) + np.sin(angle) * axis + (1.0 - np.cos(angle)) * axis @ axis
+
+
+def skew(v):
+    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+
+
+def moved(camera, change, points):
+    """Pixels of the points in a camera whose 11 parameters are changed by `change`."""
+    return scene_module.project(camera.parameters + change[6:],
+                                rotation_of(change[:3]) @ camera.rotation,
+                                camera.position + change[3:6], points)
+
+
+STEPS = np.array([1e-6] * 3 + [1e-6] * 3 + [1e-3] * 4 + [1e-6])
+
+
+def camera_derivative(camera, point):
+    """2 x 11: of the pixel with respect to the camera's parameters."""
+    columns = []
+    for i, step in enumerate(STEPS):
+        change = np.zeros(PER_CAMERA)
+        change[i] = step
+        columns.append((moved(camera, change, point) - moved(camera, -change, point))[0]
+                       / (2.0 * step))
+    return np.array(columns).T
+
+
+def point_derivative(camera, point):
+    """2 x 3: of the pixel with respect to the point."""
+    step = 1e-6
+    return np.array([(camera.project(point + step * axis) - camera.project(point - step * axis))[0]
+                     / (2.0 * step) for axis in np.eye(3)]).T
+
+
+def lens_prior(camera, knowledge):
+    """5 x 5 information about fx, fy, cx, cy, k1; and which of the five are free."""
+    fx, fy = camera.parameters[:2]
+    scale = np.array([fx, fy])
+    focal = (knowledge.focal ** 2 * np.outer(scale, scale)
+             + knowledge.focal_ratio ** 2 * np.diag([0.0, fy ** 2]))
+    covariance = np.zeros((5, 5))
+    covariance[:2, :2] = focal
+    covariance[2, 2] = covariance[3, 3] = knowledge.center ** 2
+    covariance[4, 4] = knowledge.k1 ** 2
+    free = np.diag(covariance) > 0
+    information = np.zeros((5, 5))
+    information[np.ix_(free, free)] = np.linalg.inv(covariance[np.ix_(free, free)])
+    return information, free
+
+
+def calibration_covariance(scene, corners, samples, knowledge):
+    """Best covariance of all cameras' parameters (11 per camera) from the square alone.
+
+    corners: N x 3, where the LED nominally is; samples: images that are averaged at each corner.
+    """
+    cameras = scene.cameras
+    size = PER_CAMERA * len(cameras) + 2 * len(corners)
+    information = np.zeros((size, size))
+    weight = samples / scene.effective_noise() ** 2
+    free = np.ones(size, dtype=bool)
+    for c, camera in enumerate(cameras):
+        own = slice(PER_CAMERA * c, PER_CAMERA * (c + 1))
+        lens = slice(PER_CAMERA * c + 6, PER_CAMERA * (c + 1))
+        prior, free[lens] = lens_prior(camera, knowledge)
+        information[lens, lens] += prior
+        for k, corner in enumerate(corners):
+            if not camera.sees(corner[None])[0]:
+                continue
+            derivative = np.zeros((2, size))
+            derivative[:, own] = camera_derivative(camera, corner)
+            place = PER_CAMERA * len(cameras) + 2 * k
+            derivative[:, place:place + 2] = point_derivative(camera, corner)[:, :2]
+            information += weight * derivative.T @ derivative
+    placed = slice(PER_CAMERA * len(cameras), size)
+    if knowledge.corner > 0:
+        information[placed, placed] += np.eye(2 * len(corners)) / knowledge.corner ** 2
+    else:
+        free[placed] = False
+    # Scaled before inverting: pixels, radians and metres differ by many orders of magnitude.
+    kept = information[np.ix_(free, free)]
+    scale = 1.0 / np.sqrt(np.diag(kept))
+    covariance = np.zeros((size, size))
+    covariance[np.ix_(free, free)] = scale[:, None] * np.linalg.inv(
+        scale[:, None] * kept * scale) * scale
+    return covariance[:placed.start, :placed.start]
+
+
+def point_sensitivity(scene, calibration, point, samples):
+    """How a triangulated point errs: 3 x (11 cameras) by calibration, 3 x 3 covariance by pixels.
+
+    The triangulation weighs pixels with their own noise and the calibration's.
+    """
+    seeing = [c for c, camera in enumerate(scene.cameras) if camera.sees(point[None])[0]]
+    if len(seeing) < 2:
+        raise ValueError('fewer than two cameras see the point %s' % (point,))
+    by_point = np.concatenate([point_derivative(scene.cameras[c], point) for c in seeing])
+    by_camera = np.zeros((2 * len(seeing), len(calibration)))
+    for row, c in enumerate(seeing):
+        by_camera[2 * row:2 * row + 2, PER_CAMERA * c:PER_CAMERA * (c + 1)] = camera_derivative(
+            scene.cameras[c], point)
+    pixels = np.eye(2 * len(seeing)) * scene.effective_noise() ** 2 / samples
+    weight = np.linalg.inv(pixels + by_camera @ calibration @ by_camera.T)
+    solve = np.linalg.solve(by_point.T @ weight @ by_point, by_point.T @ weight)
+    return -solve @ by_camera, solve @ pixels @ solve.T
+
+
+def alignment_basis(points, kind):
+    """3N x d: how small alignments of a kind move the points."""
+    if kind == 'absolute':
+        return np.zeros((3 * len(points), 0))
+    blocks = []
+    for point in points:
+        columns = [np.eye(3), -skew(point)]
+        if kind == 'similarity':
+            columns.append(point[:, None])
+        blocks.append(np.concatenate(columns, axis=1))
+    return np.concatenate(blocks)
+
+
+class Bound(object):
+    """Least RMS error over the test points [m], for each kind of alignment: `rms`; and the range
+    that holds the RMS of one experiment with probability 0.95: `low`, `high`."""
+
+    def __init__(self, rms, low, high):
+        self.rms = rms
+        self.low = low
+        self.high = high
+
+
+def position_bounds(scene, corners, test_points, alignment_points, corner_samples, test_samples,
+                    alignment_samples, knowledge=None, experiments=4000):
+    """Bound of each of KINDS, for points that are measured by averaging so many images each."""
+    knowledge = knowledge or Knowledge()
+    calibration = calibration_covariance(scene, corners, corner_samples, knowledge)
+
+    def joint(points, samples):
+        sensitivities = [point_sensitivity(scene, calibration, p, samples) for p in points]
+        noise = np.zeros((3 * len(points),) * 2)
+        for i, (_, own) in enumerate(sensitivities):
+            noise[3 * i:3 * i + 3, 3 * i:3 * i + 3] = own
+        return np.concatenate([s for s, _ in sensitivities]), noise
+
+    test, test_noise = joint(test_points, test_samples)
+    aligning, aligning_noise = joint(alignment_points, alignment_samples)
+    random = np.random.RandomState(1)
+    bounds = {}
+    for kind in KINDS:
+        # Error left at the test points when an alignment is fitted at the others.
+        carry = (alignment_basis(test_points, kind)
+                 @ np.linalg.pinv(alignment_basis(alignment_points, kind)))
+        by_calibration = test - carry @ aligning
+        covariance = (by_calibration @ calibration @ by_calibration.T + test_noise
+                      + carry @ aligning_noise @ carry.T)
+        variances = np.clip(np.linalg.eigvalsh(covariance), 0.0, None)
+        squares = random.randn(experiments, len(variances)) ** 2 @ variances / len(test_points)
+        low, high = np.sqrt(np.percentile(squares, [2.5, 97.5]))
+        bounds[kind] = Bound(float(np.sqrt(variances.sum() / len(test_points))), float(low),
+                             float(high))
+    return bounds

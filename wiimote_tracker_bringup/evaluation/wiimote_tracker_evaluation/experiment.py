@@ -1,0 +1,40 @@
+"""The paper's experiment: where the LED goes. World z up, metres.
+
+The paper has z into the floor; its point (x, y, -h) is (x, y, h) here.
+"""
+
+import numpy as np
+
+SIDE = 2.5                # of the square and the cube [m]
+CORNER_STDDEV = 0.005     # with which an LED is put on a corner, each horizontal axis [m]
+CIRCLE_RADIUS = 0.75      # [m]
+
+# Corners of the square, counter-clockwise seen from above, so that z is up.
+CORNERS = np.array([(0.0, 0.0, 0.0), (SIDE, 0.0, 0.0), (SIDE, SIDE, 0.0), (0.0, SIDE, 0.0)])
+
+# The paper's ten points (section V.B): the cube's corners, the middle of the floor, one inside.
+TEST_POINTS = np.array(
+    [tuple(corner[:2]) + (height,) for height in (0.0, SIDE) for corner in CORNERS] +
+    [(1.25, 1.25, 0.0), (1.25, 1.25, 1.5)])
+
+# Centres of the paper's circles (section V.B).
+CIRCLE_CENTERS = np.array([(1.0, 1.0, 0.23), (1.5, 1.5, 0.23), (1.25, 1.25, 0.95)])
+
+
+def placed_corners(seed, stddev=CORNER_STDDEV):
+    """Where the LED is really put when the corners are captured: some millimetres off."""
+    placed = CORNERS.copy()
+    placed[:, :2] += stddev * np.random.RandomState(seed).randn(4, 2)
+    return placed
+
+
+def alignment_points(seed, number=25):
+    """Points all over the cube that serve to fit alignments, and nothing else."""
+    return np.random.RandomState(seed).uniform(0.1, SIDE - 0.1, (number, 3))
+
+
+def circle_points(number=90):
+    """Points on the three circles, number each."""
+    angle = np.linspace(0.0, 2.0 * np.pi, number, endpoint=False)
+    ring = CIRCLE_RADIUS * np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1)
+    return np.concatenate([center + ring for center in CIRCLE_CENTERS])

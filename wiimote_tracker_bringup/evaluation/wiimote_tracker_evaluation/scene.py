@@ -1,0 +1,84 @@
+"""A rig's description as arrays: an independent camera model for scoring and bounds.
+
+It shares no code with the tracker, so that an error there is not repeated here.
+"""
+
+import numpy as np
+import yaml
+
+
+class Camera(object):
+    """Pinhole with radial k1. parameters: fx, fy, cx, cy, k1. rotation: columns are the image's
+    right, down and forward in the world. position [m]. size: width, height [px]."""
+
+    def __init__(self, name, parameters, rotation, position, size):
+        self.name = name
+        self.parameters = np.asarray(parameters, dtype=float)
+        self.rotation = rotation
+        self.position = np.asarray(position, dtype=float)
+        self.size = size
+
+    def project(self, points):
+        """N x 2 pixels of N x 3 points; NaN behind the camera."""
+        return project(self.parameters, self.rotation, self.position, points)
+
+    def sees(self, points):
+        """For each of N x 3 points, whether its pixel lies in the image."""
+        pixel = self.project(points)
+        with np.errstate(invalid='ignore'):
+            return ((pixel >= 0) & (pixel <= np.asarray(self.size) - 1)).all(axis=1)
+
+
+def project(parameters, rotation, position, points):
+    """N x 2 pixels of N x 3 world points; parameters fx, fy, cx, cy, k1."""
+    fx, fy, cx, cy, k1 = parameters
+    seen = (np.atleast_2d(points) - position) @ rotation
+    with np.errstate(divide='ignore', invalid='ignore'):
+        plane = np.where(seen[:, 2:] > 0, seen[:, :2] / seen[:, 2:], np.nan)
+    plane = plane * (1.0 + k1 * (plane ** 2).sum(axis=1, keepdims=True))
+    return plane * [fx, fy] + [cx, cy]
+
+
+def look_at(position, target):
+    """Rotation of a camera whose axis passes through target and whose image x axis is level."""
+    forward = np.asarray(target, dtype=float) - position
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    return np.stack([right, np.cross(forward, right), forward], axis=1)
+
+
+class Scene(object):
+    """Cameras as they truly are, and the noise of their pixels [px] before rounding."""
+
+    def __init__(self, cameras, pixel_noise):
+        self.cameras = cameras
+        self.pixel_noise = pixel_noise
+
+    def effective_noise(self):
+        """Standard deviation of one pixel coordinate, the rounding to whole pixels included."""
+        return float(np.sqrt(self.pixel_noise ** 2 + 1.0 / 12.0))
+
+    def missed(self, points):
+        """For each of N x 3 points, the names of the cameras that do not see it."""
+        seen = [camera.sees(points) for camera in self.cameras]
+        return [[camera.name for camera, sees in zip(self.cameras, seen) if not sees[i]]
+                for i in range(len(points))]
+
+
+def read_scene(path):
+    """Scene of a rig description. ValueError when a lens has more distortion than k1."""
+    with open(path) as file:
+        description = yaml.safe_load(file)
+    cameras = []
+    for name, entry in description['cameras'].items():
+        lens = entry['intrinsics']
+        if any(lens['distortion'][1:]):
+            raise ValueError('%s: %s has distortion beyond k1, which scoring does not know'
+                             % (path, name))
+        position = np.asarray(entry['position'], dtype=float)
+        cameras.append(Camera(
+            name, [lens['fx'], lens['fy'], lens['cx'], lens['cy'], lens['distortion'][0]],
+            look_at(position, entry['look_at']), position,
+            (lens.get('width', 1024), lens.get('height', 768))))
+    return Scene(cameras, float(description['pixel_noise']))

@@ -77,8 +77,7 @@ std::unique_ptr<Transport> openSocket(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (path.size() >= sizeof(address.sun_path))
-    throw BadDeviceName("the socket path " + path + " is too long: use one of at most " +
-                        std::to_string(sizeof(address.sun_path) - 1) + " characters");
+    throw BadDeviceName("the socket path " + path + " is too long");
   std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
 
   FileDescriptor fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));

@@ -3,6 +3,8 @@
 #include "wiimote_tracker_driver/transport/hidraw_transport.h"
 #include "wiimote_tracker_driver/transport/socket_transport.h"
 
+#include <sys/un.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -49,8 +51,14 @@ DeviceName parseDeviceName(const std::string& text) {
   if (isHidrawPath(text))
     return {DeviceName::Kind::kPath, text};
   const std::size_t prefix = sizeof(kVirtualPrefix) - 1;
-  if (startsWith(text, kVirtualPrefix) && text.size() > prefix)
+  if (startsWith(text, kVirtualPrefix) && text.size() > prefix) {
+    const std::size_t longest = sizeof(sockaddr_un::sun_path) - 1;
+    if (text.size() - prefix > longest)
+      throw BadDeviceName("the socket path in device '" + text +
+                          "' is too long: use one of at most " + std::to_string(longest) +
+                          " characters");
     return {DeviceName::Kind::kVirtual, text.substr(prefix)};
+  }
   throw BadDeviceName("device '" + text +
                       "' must be empty (the first free Wii Remote), a Bluetooth address such as "
                       "00:1f:32:12:34:56, a path such as /dev/hidraw0, or virtual:SOCKET_PATH");

@@ -27,6 +27,12 @@ struct Status {
   bool camera = false;
   std::uint8_t leds = 0;     ///< Player LEDs 1..4 in bits 0..3.
   std::uint8_t battery = 0;  ///< Raw level.
+
+  friend bool operator==(const Status& a, const Status& b) {
+    return a.buttons == b.buttons && a.battery_low == b.battery_low && a.extension == b.extension &&
+           a.speaker == b.speaker && a.camera == b.camera && a.leds == b.leds &&
+           a.battery == b.battery;
+  }
 };
 std::optional<Status> decodeStatus(const Report& report);
 

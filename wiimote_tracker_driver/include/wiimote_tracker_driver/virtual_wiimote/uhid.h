@@ -1,0 +1,54 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_UHID_H
+#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_UHID_H
+
+#include "wiimote_tracker_driver/virtual_wiimote/device.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace wiimote_tracker::virtual_wiimote {
+
+/// Makes a Device a Bluetooth Wii Remote of this machine's Linux kernel, through /dev/uhid: its
+/// driver hid-wiimote binds it, and a hidraw node appears for everybody to open. Needs root and the
+/// kernel module uhid. Thread-safe; owns one thread.
+class UhidDevice {
+ public:
+  /// The values are the USB product ids.
+  enum class Model : std::uint16_t {
+    kRemote = 0x0306,      ///< RVL-CNT-01
+    kRemotePlus = 0x0330,  ///< RVL-CNT-01-TR; refuses output on the control channel.
+  };
+
+  /// Hears each output report before the device answers it; called in the device's own thread.
+  using Listener = std::function<void(const Bytes&)>;
+
+  /// Plugs the remote in at once. `address` is its Bluetooth address ("00:1f:32:00:00:01") and
+  /// should be its own: the kernel refuses a second battery of the same address.
+  /// @throws std::system_error when there is no /dev/uhid or it may not be opened.
+  UhidDevice(const std::string& address,
+             Model model,
+             const Device::Options& options,
+             Listener listener = nullptr);
+  ~UhidDevice();
+
+  /// Lets the device sense this instant and sends the resulting report, if any, to the kernel.
+  void sample(const Senses& senses);
+
+  /// Player LEDs 1..4 in bits 0..3, as last set by a host or by the kernel.
+  std::uint8_t leds() const;
+
+  /// Takes the device away (out of range) or brings it back power-cycled. Returns when the kernel
+  /// has let go of it; a device that comes back is set up by the kernel afterwards.
+  /// @throws std::system_error when the kernel refuses.
+  void setPresent(bool present);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace wiimote_tracker::virtual_wiimote
+
+#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_UHID_H

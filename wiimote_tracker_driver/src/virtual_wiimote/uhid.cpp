@@ -1,0 +1,260 @@
+#include "wiimote_tracker_driver/virtual_wiimote/uhid.h"
+
+#include <fcntl.h>
+#include <linux/input.h>
+#include <linux/uhid.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace wiimote_tracker::virtual_wiimote {
+namespace {
+
+constexpr char kPath[] = "/dev/uhid";
+constexpr std::uint32_t kNintendo = 0x057e;
+
+// The report descriptor of a real remote: vendor defined bytes, so many for each report id.
+constexpr std::array<std::uint8_t, 218> kReportDescriptor{
+    0x05, 0x01, 0x09, 0x05, 0xa1, 0x01,  // a game pad
+    // Output reports 0x10..0x1a.
+    0x85, 0x10, 0x15, 0x00, 0x26, 0xff, 0x00, 0x75, 0x08, 0x95, 0x01, 0x06, 0x00, 0xff, 0x09, 0x01,
+    0x91, 0x00,                                      //
+    0x85, 0x11, 0x95, 0x01, 0x09, 0x01, 0x91, 0x00,  //
+    0x85, 0x12, 0x95, 0x02, 0x09, 0x01, 0x91, 0x00,  //
+    0x85, 0x13, 0x95, 0x01, 0x09, 0x01, 0x91, 0x00,  //
+    0x85, 0x14, 0x95, 0x01, 0x09, 0x01, 0x91, 0x00,  //
+    0x85, 0x15, 0x95, 0x01, 0x09, 0x01, 0x91, 0x00,  //
+    0x85, 0x16, 0x95, 0x15, 0x09, 0x01, 0x91, 0x00,  //
+    0x85, 0x17, 0x95, 0x06, 0x09, 0x01, 0x91, 0x00,  //
+    0x85, 0x18, 0x95, 0x15, 0x09, 0x01, 0x91, 0x00,  //
+    0x85, 0x19, 0x95, 0x01, 0x09, 0x01, 0x91, 0x00,  //
+    0x85, 0x1a, 0x95, 0x01, 0x09, 0x01, 0x91, 0x00,  //
+    // Input reports 0x20..0x22 and 0x30..0x3f.
+    0x85, 0x20, 0x95, 0x06, 0x09, 0x01, 0x81, 0x00,  //
+    0x85, 0x21, 0x95, 0x15, 0x09, 0x01, 0x81, 0x00,  //
+    0x85, 0x22, 0x95, 0x04, 0x09, 0x01, 0x81, 0x00,  //
+    0x85, 0x30, 0x95, 0x02, 0x09, 0x01, 0x81, 0x00,  //
+    0x85, 0x31, 0x95, 0x05, 0x09, 0x01, 0x81, 0x00,  //
+    0x85, 0x32, 0x95, 0x0a, 0x09, 0x01, 0x81, 0x00,  //
+    0x85, 0x33, 0x95, 0x11, 0x09, 0x01, 0x81, 0x00,  //
+    0x85, 0x34, 0x95, 0x15, 0x09, 0x01, 0x81, 0x00,  //
+    0x85, 0x35, 0x95, 0x15, 0x09, 0x01, 0x81, 0x00,  //
+    0x85, 0x36, 0x95, 0x15, 0x09, 0x01, 0x81, 0x00,  //
+    0x85, 0x37, 0x95, 0x15, 0x09, 0x01, 0x81, 0x00,  //
+    0x85, 0x3d, 0x95, 0x15, 0x09, 0x01, 0x81, 0x00,  //
+    0x85, 0x3e, 0x95, 0x15, 0x09, 0x01, 0x81, 0x00,  //
+    0x85, 0x3f, 0x95, 0x15, 0x09, 0x01, 0x81, 0x00,  //
+    0xc0, 0x00};
+
+[[noreturn]] void fail(const std::string& what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(int fd) : fd_(fd) {}
+  ~FileDescriptor() {
+    if (fd_ >= 0)
+      ::close(fd_);
+  }
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+template <std::size_t N>
+void copyText(const std::string& text, __u8 (&field)[N]) {
+  std::memcpy(field, text.data(), std::min(text.size(), N - 1));
+}
+
+}  // namespace
+
+struct UhidDevice::State {
+  State(std::string device_address,
+        Model device_model,
+        const Device::Options& options,
+        Listener output_listener)
+      : address(std::move(device_address)),
+        model(device_model),
+        listener(std::move(output_listener)),
+        uhid(::open(kPath, O_RDWR | O_CLOEXEC | O_NONBLOCK)),
+        wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+        device(options) {
+    if (uhid.get() < 0)
+      fail(std::string("cannot open ") + kPath + " (load the module uhid and be root)");
+    if (wake.get() < 0)
+      fail("eventfd");
+  }
+
+  const std::string address;
+  const Model model;
+  const Listener listener;
+  const FileDescriptor uhid;
+  const FileDescriptor wake;
+
+  mutable std::mutex mutex;  // guards the two below
+  Device device;
+  bool present = false;
+
+  std::atomic<bool> stop{false};
+  std::thread thread;
+
+  /// Short events are filled up with zeros by the kernel.
+  bool write(const uhid_event& event, std::size_t payload) const {
+    const std::size_t size = offsetof(uhid_event, u) + payload;
+    return ::write(uhid.get(), &event, size) == static_cast<ssize_t>(size);
+  }
+
+  void create() const {
+    uhid_event event{};
+    event.type = UHID_CREATE2;
+    uhid_create2_req& request = event.u.create2;
+    copyText(model == Model::kRemote ? "Nintendo RVL-CNT-01" : "Nintendo RVL-CNT-01-TR",
+             request.name);
+    copyText(address, request.uniq);
+    std::copy(kReportDescriptor.begin(), kReportDescriptor.end(), request.rd_data);
+    request.rd_size = kReportDescriptor.size();
+    request.bus = BUS_BLUETOOTH;
+    request.vendor = kNintendo;
+    request.product = static_cast<std::uint32_t>(model);
+    if (!write(event, sizeof(request)))
+      fail("plugging in the virtual Wii Remote " + address);
+  }
+
+  void destroy() const {
+    uhid_event event{};
+    event.type = UHID_DESTROY;
+    if (!write(event, 0))
+      fail("unplugging the virtual Wii Remote " + address);
+  }
+
+  // The kernel refuses input of a device that it is letting go of: lost, as over the air.
+  void send(const Bytes& report) const {
+    uhid_event event{};
+    event.type = UHID_INPUT2;
+    uhid_input2_req& request = event.u.input2;
+    request.size = static_cast<__u16>(report.size());
+    std::copy(report.begin(), report.end(), request.data);
+    write(event, offsetof(uhid_input2_req, data) + report.size());
+  }
+
+  void receive(const Bytes& report) {
+    if (listener)
+      listener(report);
+    const std::lock_guard<std::mutex> lock(mutex);
+    for (const Bytes& answer : device.handleOutput(report))
+      send(answer);
+  }
+
+  /// A report on the control channel, where a Remote Plus takes none.
+  void setReport(const uhid_set_report_req& request) {
+    uhid_event reply{};
+    reply.type = UHID_SET_REPORT_REPLY;
+    reply.u.set_report_reply.id = request.id;
+    const bool output = request.rtype == UHID_OUTPUT_REPORT && request.size > 0;
+    reply.u.set_report_reply.err = output ? 0 : EIO;
+    write(reply, sizeof(reply.u.set_report_reply));
+    if (!output)
+      return;
+    if (model == Model::kRemotePlus)
+      send({0x22, 0, 0, request.data[0], 2});
+    else
+      receive(Bytes(request.data, request.data + std::min<std::size_t>(request.size, 22)));
+  }
+
+  /// There is no report that a remote would give on the control channel.
+  void refuseGetReport(const uhid_get_report_req& request) const {
+    uhid_event reply{};
+    reply.type = UHID_GET_REPORT_REPLY;
+    reply.u.get_report_reply.id = request.id;
+    reply.u.get_report_reply.err = EIO;
+    write(reply, offsetof(uhid_get_report_reply_req, data));
+  }
+
+  void handleEvents() {
+    uhid_event event{};
+    while (::read(uhid.get(), &event, sizeof(event)) > 0) {
+      if (event.type == UHID_OUTPUT) {
+        const uhid_output_req& output = event.u.output;
+        receive(Bytes(output.data, output.data + output.size));
+      } else if (event.type == UHID_SET_REPORT) {
+        setReport(event.u.set_report);
+      } else if (event.type == UHID_GET_REPORT) {
+        refuseGetReport(event.u.get_report);
+      }
+    }
+  }
+
+  void run() {
+    while (!stop) {
+      std::array<pollfd, 2> fds{};
+      fds[0].fd = uhid.get();
+      fds[1].fd = wake.get();
+      fds[0].events = fds[1].events = POLLIN;
+      if (::poll(fds.data(), fds.size(), -1) > 0 && fds[0].revents != 0)
+        handleEvents();
+    }
+  }
+};
+
+UhidDevice::UhidDevice(const std::string& address,
+                       Model model,
+                       const Device::Options& options,
+                       Listener listener)
+    : state_(std::make_unique<State>(address, model, options, std::move(listener))) {
+  setPresent(true);
+  state_->thread = std::thread([this] { state_->run(); });
+}
+
+UhidDevice::~UhidDevice() {
+  state_->stop = true;
+  const std::uint64_t one = 1;
+  if (::write(state_->wake.get(), &one, sizeof(one)) < 0) {
+    // The counter is full: the thread is being woken already.
+  }
+  state_->thread.join();
+  // Closing the descriptor unplugs the device.
+}
+
+void UhidDevice::sample(const Senses& senses) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  if (!state_->present)
+    return;
+  if (const std::optional<Bytes> report = state_->device.sample(senses))
+    state_->send(*report);
+}
+
+std::uint8_t UhidDevice::leds() const {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  return state_->device.leds();
+}
+
+void UhidDevice::setPresent(bool present) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  if (present == state_->present)
+    return;
+  if (present) {
+    state_->device.powerCycle();
+    state_->create();
+  } else {
+    state_->destroy();
+  }
+  state_->present = present;
+}
+
+}  // namespace wiimote_tracker::virtual_wiimote

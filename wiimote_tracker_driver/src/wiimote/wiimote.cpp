@@ -1,0 +1,124 @@
+#include "wiimote_tracker_driver/wiimote/wiimote.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace wiimote_tracker::wiimote {
+
+using protocol::DataReport;
+
+Wiimote::Wiimote(const Options& options, Open open, Clock clock)
+    : options_(options),
+      open_(std::move(open)),
+      clock_(std::move(clock)),
+      retry_pause_(options.retry_min),
+      next_attempt_(clock_()) {}
+
+Wiimote::~Wiimote() {
+  close();
+}
+
+double Wiimote::idleTime() const {
+  return session_ ? 0.0 : std::max(0.0, next_attempt_ - clock_());
+}
+
+std::optional<DataReport> Wiimote::step(double max_wait) {
+  try {
+    if (session_)
+      return receive(max_wait);
+    if (clock_() >= next_attempt_)
+      connect();
+  } catch (const transport::TransportError& e) {
+    drop(e.what());
+  } catch (const SessionError& e) {
+    drop(e.what());
+  }
+  return std::nullopt;
+}
+
+void Wiimote::connect() {
+  transport_ = open_();
+  link_.state = Link::State::kStarting;
+  link_.description = transport_->description();
+  link_.identity = transport_->identity();
+  link_.kernel_driver = transport_->kernelDriver();
+  link_.status.reset();
+  ++link_changes_;
+  restarts_ = 0;
+  new_epoch_ = had_image_;
+  session_.emplace(
+      options_.session, [this](const protocol::Report& report) { transport_->write(report); },
+      clock_());
+}
+
+std::optional<DataReport> Wiimote::receive(double max_wait) {
+  const double wait = std::clamp(session_->deadline() - clock_(), 0.0, max_wait);
+  protocol::Report report;
+  const bool received = transport_->read(report, wait);
+  const double now = clock_();
+  std::optional<DataReport> image;
+  if (received)
+    image = session_->handle(report, now);
+  session_->tick(now);
+  if (session_->restarts() != restarts_) {
+    restarts_ = session_->restarts();
+    new_epoch_ = had_image_;
+  }
+  if (image) {
+    had_image_ = true;
+    retry_pause_ = options_.retry_min;
+    if (new_epoch_) {
+      new_epoch_ = false;
+      ++link_.clock_epoch;
+      ++link_changes_;
+    }
+  }
+  updateLink(image.has_value());
+  return image;
+}
+
+void Wiimote::updateLink(bool image) {
+  Link::State state = link_.state;
+  if (image)
+    state = Link::State::kStreaming;
+  else if (!session_->streaming())
+    state = Link::State::kStarting;
+  const bool new_status = session_->status() && !(link_.status == session_->status());
+  if (state == link_.state && !new_status)
+    return;
+  if (state == Link::State::kStreaming) {
+    link_.error.clear();
+    accelerometer_ = session_->accelerometer().value_or(protocol::AccelerometerCalibration());
+    link_.accelerometer_calibrated = session_->accelerometer().has_value();
+  }
+  link_.state = state;
+  link_.status = session_->status();
+  ++link_changes_;
+}
+
+void Wiimote::drop(const std::string& error) {
+  session_.reset();
+  transport_.reset();
+  link_.state = Link::State::kSearching;
+  link_.error = error;
+  ++link_changes_;
+  next_attempt_ = clock_() + retry_pause_;
+  retry_pause_ = std::min(2.0 * retry_pause_, options_.retry_max);
+}
+
+void Wiimote::close() {
+  if (!session_)
+    return;
+  try {
+    session_->switchOff();
+  } catch (const transport::TransportError&) {
+    // Gone already.
+  }
+  session_.reset();
+  transport_.reset();
+  link_.state = Link::State::kSearching;
+  link_.error.clear();
+  ++link_changes_;
+}
+
+}  // namespace wiimote_tracker::wiimote

@@ -1,0 +1,194 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_TEST_FAKE_REMOTE_H
+#define WIIMOTE_TRACKER_DRIVER_TEST_FAKE_REMOTE_H
+
+#include "wiimote_tracker_driver/transport/transport.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wiimote_tracker::wiimote {
+
+/// A remote in fake time, in raw bytes: answers what it is asked 5 ms later and sends an image
+/// every 10 ms once it is in mode 0x33. Tests take away, add and change what it says.
+class FakeRemote {
+ public:
+  using Report = protocol::Report;
+
+  struct Written {
+    double time;
+    Report report;
+  };
+
+  double now = 100.0;
+  bool present = true;
+  bool answers = true;
+  /// Called for each output report; true: the remote does not get it.
+  std::function<bool(const Report&)> lose = [](const Report&) { return false; };
+  std::array<std::uint8_t, 10> block{{0x84, 0x82, 0x86, 0x30, 0x9f, 0x9d, 0x9f, 0x02, 0x40, 0x2e}};
+  std::array<std::uint8_t, 10> copy = block;
+  bool light = true;
+  bool registers_readable = true;
+
+  std::vector<Written> written;
+  int opened = 0;
+
+  // State that somebody else may change behind the driver's back.
+  std::uint8_t mode = 0x30;
+  bool camera = false;
+  std::map<int, std::uint8_t> registers;
+  std::uint8_t leds = 0;
+
+  std::unique_ptr<transport::Transport> open();
+
+  void powerCycle() {
+    mode = 0x30;
+    camera = false;
+    registers.clear();
+    leds = 0;
+  }
+
+  /// Says this `delay` seconds from now.
+  void say(const Report& report, double delay = 0.0) {
+    pending_.push_back({now + delay, report});
+    std::stable_sort(pending_.begin(), pending_.end(),
+                     [](const Written& a, const Written& b) { return a.time < b.time; });
+  }
+
+  int count(const Report& report) const {
+    return static_cast<int>(std::count_if(written.begin(), written.end(),
+                                          [&](const Written& w) { return w.report == report; }));
+  }
+
+  bool take(Report& report, double timeout) {
+    if (!present)
+      throw transport::Disconnected("the fake remote has gone");
+    const double end = now + timeout;
+    const bool image_due = mode == 0x33 && next_image_ <= end;
+    const bool answer_due = !pending_.empty() && pending_.front().time <= end;
+    if (answer_due && !(image_due && next_image_ < pending_.front().time)) {
+      now = std::max(now, pending_.front().time);
+      report = pending_.front().report;
+      pending_.erase(pending_.begin());
+      return true;
+    }
+    if (image_due) {
+      now = std::max(now, next_image_);
+      next_image_ = now + 0.01;
+      report = image();
+      return true;
+    }
+    now = end;
+    return false;
+  }
+
+  void receive(const Report& report) {
+    if (!present)
+      throw transport::Disconnected("the fake remote has gone");
+    written.push_back({now, report});
+    if (!answers || lose(report))
+      return;
+    const auto& b = report.bytes;
+    const int address = b[3] << 8 | b[4];
+    switch (b[0]) {
+      case 0x15:
+        say({0x20, 0, 0, static_cast<std::uint8_t>(leds << 4 | (camera ? 8 : 0)), 0, 0, 0x8f},
+            kDelay);
+        return;
+      case 0x16: {
+        const bool good = b[1] == 4 && b[2] == 0xb0 && camera;
+        for (int i = 0; good && i < b[5]; ++i)
+          registers[address + i] = b[static_cast<std::size_t>(6 + i)];
+        say({0x22, 0, 0, 0x16, static_cast<std::uint8_t>(good ? 0 : 7)}, kDelay);
+        return;
+      }
+      case 0x17:
+        say(memory(b[1] == 4, address, b[6]), kDelay);
+        return;
+      case 0x11:
+        leds = b[1] >> 4;
+        break;
+      case 0x12:
+        if (mode != 0x33)
+          next_image_ = now + 0.01;
+        mode = b[2];
+        break;
+      case 0x13:
+        camera = (b[1] & 4) != 0;
+        break;
+      default:
+        break;
+    }
+    if (b[1] & 2)
+      say({0x22, 0, 0, b[0], 0}, kDelay);
+  }
+
+ private:
+  static constexpr double kDelay = 0.005;
+
+  Report image() {
+    Report report{0x33, 0, 0, 0x80, 0x80, 0x80};
+    report.size = 18;
+    std::fill(report.bytes.begin() + 6, report.bytes.begin() + 18, 0xff);
+    if (light && camera && registers[0x30] == 8 && registers[0x33] == 3) {
+      report.bytes[6] = 0x23;
+      report.bytes[7] = 0x45;
+      report.bytes[8] = 0x13;
+    }
+    return report;
+  }
+
+  Report memory(bool register_space, int address, int size) {
+    Report report{0x21,
+                  0,
+                  0,
+                  static_cast<std::uint8_t>((size - 1) << 4),
+                  static_cast<std::uint8_t>(address >> 8),
+                  static_cast<std::uint8_t>(address)};
+    report.size = 22;
+    if (register_space && !(camera && registers_readable)) {
+      report.bytes[3] = 0xf7;
+    } else if (register_space) {
+      for (int i = 0; i < size; ++i)
+        report.bytes[static_cast<std::size_t>(6 + i)] = registers[address + i];
+    } else {
+      const auto& source = address == 0x16 ? block : copy;
+      std::copy(source.begin(), source.end(), report.bytes.begin() + 6);
+    }
+    return report;
+  }
+
+  std::vector<Written> pending_;
+  double next_image_ = 0.0;
+};
+
+class FakeTransport : public transport::Transport {
+ public:
+  explicit FakeTransport(FakeRemote* remote) : remote_(remote) {}
+  bool read(protocol::Report& report, double timeout) override {
+    return remote_->take(report, timeout);
+  }
+  void write(const protocol::Report& report) override { remote_->receive(report); }
+  std::string description() const override { return "fake"; }
+  std::string identity() const override { return "00:1f:32:00:00:01"; }
+
+ private:
+  FakeRemote* remote_;
+};
+
+inline std::unique_ptr<transport::Transport> FakeRemote::open() {
+  if (!present)
+    throw transport::NoSuchDevice("no fake remote is connected");
+  ++opened;
+  return std::make_unique<FakeTransport>(this);
+}
+
+}  // namespace wiimote_tracker::wiimote
+
+#endif  // WIIMOTE_TRACKER_DRIVER_TEST_FAKE_REMOTE_H

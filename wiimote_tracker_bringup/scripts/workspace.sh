@@ -9,8 +9,8 @@ export PATH="/usr/bin:/usr/sbin:/bin:/sbin:$PATH"
 unset PYTHONHOME PYTHONPATH CMAKE_PREFIX_PATH ROS_PACKAGE_PATH ROS_IP ROS_NAMESPACE
 export PYTHONDONTWRITEBYTECODE=1
 export ROS_HOSTNAME=localhost
-# Message code in languages that nothing here speaks.
-export ROS_LANG_DISABLE=genlisp:geneus:gennodejs
+# Message code in a language that nothing here speaks.
+export ROS_LANG_DISABLE=genlisp
 
 bringup=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 clone=$(dirname "$bringup")

@@ -1,0 +1,147 @@
+"""Leads a simulated rig through an experiment, by the same services that a person would use."""
+
+import actionlib
+import rospy
+from wiimote_tracker_msgs.msg import (CalibrationStatus, CaptureCornerAction, CaptureCornerGoal)
+from wiimote_tracker_msgs.srv import (CheckConnection, SaveRig, SetLed, SetLedRequest,
+                                      SolveCalibration, StartCalibration)
+
+SETTLE = 0.05  # after an LED has arrived, until it is measured [s]
+
+
+class ExperimentError(Exception):
+    """The experiment cannot go on; the text says why and what to do."""
+
+
+class Segment(object):
+    """A span of time in which the LED did one thing. kind: 'test', 'alignment' or 'circle'; target:
+    the place or the circle's centre [m]; start, end [s since 1970]."""
+
+    def __init__(self, kind, name, target, start, end):
+        self.kind = kind
+        self.name = name
+        self.target = target
+        self.start = start
+        self.end = end
+
+
+class Conductor(object):
+    def __init__(self, led, recorder, check=lambda: None, progress=lambda text: None):
+        """led: name of the LED. recorder: a LiveRecorder. check: called while waiting; raises when
+        waiting has become useless. progress: told in words what is going on."""
+        self._led = led
+        self._recorder = recorder
+        self._check = check
+        self._progress = progress
+        self._status = None
+        rospy.Subscriber('calibration/status', CalibrationStatus, self._on_status)
+        self._capture = actionlib.SimpleActionClient('calibration/capture_corner',
+                                                     CaptureCornerAction)
+
+    def _on_status(self, message):
+        self._status = message
+
+    # --- Waiting
+
+    def wait(self, condition, timeout, what):
+        """Waits until the condition holds. @raise ExperimentError: not within timeout [s]."""
+        deadline = rospy.get_time() + timeout
+        while not condition():
+            self._check()
+            if rospy.is_shutdown() or rospy.get_time() > deadline:
+                raise ExperimentError('gave up after %.0f s of waiting for %s' % (timeout, what))
+            rospy.sleep(0.01)
+
+    def _call(self, service, type_, *arguments, **named):
+        """Response of a service that answers success and a sentence."""
+        def there():
+            try:
+                rospy.wait_for_service(service, timeout=0.1)
+                return True
+            except rospy.ROSException:
+                return False
+        self.wait(there, 30.0, 'the service %s; is its node running?' % rospy.resolve_name(service))
+        try:
+            return rospy.ServiceProxy(service, type_)(*arguments, **named)
+        except rospy.ServiceException as error:
+            raise ExperimentError('the service %s failed: %s' % (service, error))
+
+    def _succeed(self, what, response):
+        if not response.success:
+            raise ExperimentError('%s was refused: %s' % (what, response.message))
+        return response
+
+    # --- The LED
+
+    def move(self, target, speed):
+        """Carries the LED straight to a place [m]; returns when it is there [s since 1970]."""
+        return self._set_led(motion=SetLedRequest.LINE, target=target, speed=speed)
+
+    def _set_led(self, target, **request):
+        message = SetLedRequest(led=self._led, on=True, **request)
+        message.target.x, message.target.y, message.target.z = target
+        response = self._call('simulation/set_led', SetLed, message)
+        arrival = self._succeed('moving the LED', response).arrival.to_sec()
+        self.wait(lambda: rospy.get_time() >= arrival, 60.0, 'the LED to arrive')
+        return arrival
+
+    # --- The steps of a calibration
+
+    def wait_for_cameras(self, names):
+        """Until every camera delivers images."""
+        def missing():
+            connected = {camera.name.strip('/') for camera in self._status.cameras
+                         if camera.connected} if self._status else set()
+            return sorted(set(names) - connected)
+        deadline = 40.0
+        try:
+            self.wait(lambda: not missing(), deadline, '')
+        except ExperimentError:
+            raise ExperimentError('no images from %s within %.0f s; see the drivers\' messages'
+                                  % (', '.join(missing()), deadline))
+
+    def check_connection(self, duration=1.0):
+        """The node's answer to which cameras see the LED."""
+        return self._call('calibration/check_connection', CheckConnection, duration)
+
+    def start(self, side):
+        return self._succeed('starting the calibration', self._call(
+            'calibration/start', StartCalibration, side_x=side, side_y=0.0, cameras=[]))
+
+    def capture(self, place, speed):
+        """Carries the LED to a place and captures it as the next corner; the action's result."""
+        self.move(place, speed)
+        if not self._capture.wait_for_server(rospy.Duration(10.0)):
+            raise ExperimentError('the action calibration/capture_corner is not there')
+
+        def on_feedback(feedback):
+            self._progress('corner %d: %3.0f %%  %s' % (
+                feedback.corner + 1, 100.0 * feedback.progress, feedback.message))
+        self._capture.send_goal(CaptureCornerGoal(), feedback_cb=on_feedback)
+        self.wait(lambda: self._capture.get_state() > actionlib.GoalStatus.ACTIVE
+                  and self._capture.get_result() is not None, 60.0, 'the corner to be captured')
+        return self._succeed('capturing a corner', self._capture.get_result())
+
+    def solve(self):
+        return self._succeed('solving', self._call('calibration/solve', SolveCalibration))
+
+    def save(self, path=''):
+        return self._succeed('saving', self._call('calibration/save', SaveRig, path=path))
+
+    # --- Measuring
+
+    def dwell(self, kind, name, place, speed, duration):
+        """Carries the LED to a place and leaves it there for a while [s]."""
+        start = self.move(place, speed) + SETTLE
+        return self._measure(Segment(kind, name, place, start, start + duration))
+
+    def circle(self, name, center, radius, speed, duration):
+        """Lets the LED circle for a while [s]."""
+        start = self._set_led(motion=SetLedRequest.CIRCLE, target=center, speed=speed,
+                              radius=radius) + SETTLE
+        return self._measure(Segment('circle', name, center, start, start + duration))
+
+    def _measure(self, segment):
+        self.wait(lambda: self._recorder.newest_stamp > segment.end,
+                  30.0 + segment.end - segment.start, 'tracked points on the topic points')
+        return segment

@@ -1,0 +1,275 @@
+"""The demonstration: the whole system on the simulated rig, led through the paper's experiment."""
+
+import argparse
+import os
+import shutil
+import signal
+import socket
+import sys
+import tempfile
+import time
+
+from wiimote_tracker_evaluation import bound, experiment, scene as scene_module
+from wiimote_tracker_evaluation.processes import ProcessEnded, Processes
+
+LED = 'led'
+CORNER_SEED, ALIGNMENT_SEED = 1, 2
+CARRY_SPEED = 3.0       # of the LED between places [m/s]
+CIRCLE_SPEED = 1.5      # [m/s]
+TEST_DWELL = 1.0        # at each test point [s]
+ALIGNMENT_DWELL = 0.3   # at each alignment point [s]
+CAMERA_RATE = 100.0     # images a second of one camera [Hz]
+
+RECORDED = (r'(.*)/ir_blobs|(.*)/camera_info|(.*)/imu/data_raw|(.*)/calibration/(rig|status)|'
+            r'/points|/%s/point|/simulation/truth/(.*)|/tf|/tf_static|/diagnostics' % LED)
+
+
+class DemoError(Exception):
+    """The demonstration failed; the text says why and what to do."""
+
+
+class Interrupted(BaseException):
+    """The user wants to stop."""
+
+
+class Progress(object):
+    """Steps on the terminal; with a terminal, a line that is overwritten below them."""
+
+    def __init__(self, steps):
+        self._steps = steps
+        self._step = 0
+        self._start = time.monotonic()
+        self._live = sys.stdout.isatty()
+        self._pending = False
+
+    def step(self, text):
+        self._step += 1
+        self.line('[%d/%d, %3.0f s] %s' % (self._step, self._steps,
+                                            time.monotonic() - self._start, text))
+
+    def line(self, text):
+        if self._pending:
+            sys.stdout.write('\r\033[K')
+            self._pending = False
+        print(text)
+        sys.stdout.flush()
+
+    def passing(self, text):
+        """Something that need not be kept."""
+        if self._live:
+            sys.stdout.write('\r\033[K    ' + text[:100])
+            sys.stdout.flush()
+            self._pending = True
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(('localhost', 0))
+        return probe.getsockname()[1]
+
+
+def prepare_output(folder):
+    """Makes the output folder and removes what an earlier run left there."""
+    try:
+        os.makedirs(folder, exist_ok=True)
+        for name in ('summary.json', 'rig.yaml', 'demo.bag', 'points.csv', 'tracks.png',
+                     'nodes.log'):
+            path = os.path.join(folder, name)
+            if os.path.exists(path):
+                os.remove(path)
+        with open(os.path.join(folder, 'nodes.log'), 'w'):
+            pass
+    except OSError as error:
+        raise DemoError('cannot write to %s: %s; choose another folder with --output'
+                        % (folder, error.strerror))
+
+
+def package_file(path):
+    """A file of this package, in the source, devel or install space."""
+    import rospkg
+    return os.path.join(rospkg.RosPack().get_path('wiimote_tracker_bringup'), path)
+
+
+def has_display(progress):
+    if not os.environ.get('DISPLAY') and not os.environ.get('WAYLAND_DISPLAY'):
+        progress.line('No display: rviz stays closed, all the rest is done.')
+        return False
+    progress.line('A display is there: rviz opens.')
+    return True
+
+
+class Demo(object):
+    """One run. Everything it starts has ended when run() returns or raises."""
+
+    def __init__(self, output):
+        self._output = output
+        self._progress = Progress(8)
+        self._processes = Processes()
+        self._scene = scene_module.read_scene(package_file('simulation/paper_rig.yaml'))
+
+    def run(self):
+        scratch = tempfile.mkdtemp(prefix='wiimote_tracker_demo_')
+        try:
+            self._launch(scratch)
+            segments, samples = self._experiment()
+            self._finish(segments, samples)
+        finally:
+            self._processes.stop_all()
+            shutil.rmtree(scratch, ignore_errors=True)
+
+    def _file(self, name):
+        return os.path.join(self._output, name)
+
+    def _launch(self, scratch):
+        """Starts a master of our own, the simulated rig, the tracker, and the recorder."""
+        import rosgraph
+        import rospy
+        self._progress.step('Starting four virtual Wii Remotes, drivers, calibration, tracker')
+        rviz = has_display(self._progress)
+        port = free_port()
+        os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % port
+        os.environ['ROS_HOME'] = scratch
+        log = self._file('nodes.log')
+        self._processes.start('roslaunch', [
+            'roslaunch', '--port=%d' % port, 'wiimote_tracker_bringup', 'simulated_rig.launch',
+            'socket_directory:=' + os.path.join(scratch, 'remotes'),
+            'rig_file:=' + self._file('rig.yaml'), 'side_length:=%g' % experiment.SIDE,
+            'label:=' + LED, 'rviz:=%s' % ('true' if rviz else 'false')], log)
+        deadline = time.monotonic() + 30.0
+        while not rosgraph.is_master_online():
+            self._processes.check()
+            if time.monotonic() > deadline:
+                raise DemoError('no ROS master within 30 s; see ' + log)
+            time.sleep(0.05)
+        rospy.init_node('demo', disable_signals=True)
+        self._recorder = self._processes.start('rosbag', [
+            'rosbag', 'record', '--quiet', '--tcpnodelay', '--buffsize=0', '--regex', RECORDED,
+            '--output-name=' + self._file('demo.bag')], log)
+
+    def _experiment(self):
+        """The LED's tour. Segments that were measured, and images used at a corner."""
+        from wiimote_tracker_evaluation.conductor import Conductor
+        from wiimote_tracker_evaluation.recording import LiveRecorder
+        progress = self._progress
+        conductor = Conductor(LED, LiveRecorder(LED), self._processes.check, progress.passing)
+
+        progress.step('Connection check')
+        conductor.wait_for_cameras([camera.name for camera in self._scene.cameras])
+        checked = conductor.check_connection()
+        for camera in checked.cameras:
+            progress.line('    %-10s %5.1f Hz  %s  %s' % (
+                camera.name.strip('/'), camera.rate,
+                'sees the LED at (%.0f, %.0f)' % (camera.x, camera.y) if camera.sees_led
+                else 'does not see the LED', camera.problem))
+        if not checked.success:
+            raise DemoError('the connection check failed: ' + checked.message)
+        self._report_view()
+
+        progress.step('Calibration: the LED is put on the four corners, %.0f mm off'
+                      % (1e3 * experiment.CORNER_STDDEV))
+        conductor.start(experiment.SIDE)
+        samples = []
+        for place in experiment.placed_corners(CORNER_SEED):
+            result = conductor.capture(place, CARRY_SPEED)
+            progress.line('    ' + result.message)
+            samples += [camera.samples[result.corner] for camera in result.cameras]
+        solved = conductor.solve()
+        progress.line('    ' + solved.message)
+        for camera in solved.rig.cameras:
+            progress.line('    %-10s residual %.2f px, %.1f mm' % (
+                camera.name.strip('/'), camera.residual_px, 1e3 * camera.residual_m))
+        progress.line('    ' + conductor.save().message)
+
+        segments = []
+        progress.step('Tracking: the ten test points')
+        for number, place in enumerate(experiment.TEST_POINTS, 1):
+            progress.passing('point %d of %d' % (number, len(experiment.TEST_POINTS)))
+            segments.append(conductor.dwell('test', 'P%d' % number, place, CARRY_SPEED, TEST_DWELL))
+        places = experiment.alignment_points(ALIGNMENT_SEED)
+        progress.step('Tracking: %d other points, for alignment' % len(places))
+        for number, place in enumerate(places, 1):
+            progress.passing('point %d of %d' % (number, len(places)))
+            segments.append(conductor.dwell('alignment', 'A%d' % number, place, CARRY_SPEED,
+                                            ALIGNMENT_DWELL))
+        progress.step('Tracking: three circles of 0.75 m radius at %.1f m/s' % CIRCLE_SPEED)
+        lap = 2.0 * 3.14159265 * experiment.CIRCLE_RADIUS / CIRCLE_SPEED
+        for number, center in enumerate(experiment.CIRCLE_CENTERS, 1):
+            progress.passing('circle %d of %d' % (number, len(experiment.CIRCLE_CENTERS)))
+            segments.append(conductor.circle(
+                'circle at (%g, %g, %g)' % tuple(center), center, experiment.CIRCLE_RADIUS,
+                CIRCLE_SPEED, lap))
+        return segments, min(samples)
+
+    def _report_view(self):
+        """Says which camera misses what."""
+        complete = True
+        for name, points in (('test point', experiment.TEST_POINTS),
+                             ('circle point', experiment.circle_points())):
+            for point, missed in zip(points, self._scene.missed(points)):
+                if missed:
+                    complete = False
+                    self._progress.line('    %s (%.2f, %.2f, %.2f) is out of view of %s'
+                                        % ((name,) + tuple(point) + (', '.join(missed),)))
+        if complete:
+            self._progress.line('    every test point and circle is in view of all %d cameras'
+                                % len(self._scene.cameras))
+
+    def _finish(self, segments, corner_samples):
+        from wiimote_tracker_evaluation import recording, report, scoring
+        self._progress.step('Closing the bag, computing the results')
+        self._processes.stop(self._recorder)
+        if not os.path.exists(self._file('demo.bag')):
+            raise DemoError('rosbag left no demo.bag; see ' + self._file('nodes.log'))
+        recorded = recording.read_bag(self._file('demo.bag'), LED)
+        try:
+            score = scoring.score(recorded, segments)
+        except ValueError as error:
+            raise DemoError('%s; see %s' % (error, self._file('nodes.log')))
+        bounds = bound.position_bounds(
+            self._scene, experiment.CORNERS, experiment.TEST_POINTS,
+            experiment.alignment_points(ALIGNMENT_SEED), corner_samples,
+            TEST_DWELL * CAMERA_RATE, ALIGNMENT_DWELL * CAMERA_RATE)
+        report.write_summary(self._file('summary.json'), score, bounds)
+        report.write_csv(self._file('points.csv'), recorded, segments)
+        report.draw_tracks(self._file('tracks.png'), recorded, segments, score, self._scene)
+
+        self._progress.step('Results')
+        for line in [''] + report.table(score, bounds) + ['']:
+            self._progress.line(line)
+        self._progress.line('In %s: summary.json, rig.yaml, demo.bag, points.csv, tracks.png'
+                            % self._output)
+        self._sentence = report.sentence(score)
+
+    def last_line(self):
+        return self._sentence
+
+
+def interrupt(number, frame):
+    # A second signal must not disturb the clearing up.
+    for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(each, signal.SIG_IGN)
+    raise Interrupted()
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('--output', metavar='DIR', default='wiimote_tracker_demo',
+                        help='folder for the results (default: ./wiimote_tracker_demo)')
+    options = parser.parse_args(arguments)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, interrupt)
+
+    from wiimote_tracker_evaluation.conductor import ExperimentError
+    try:
+        output = os.path.abspath(options.output)
+        prepare_output(output)
+        demo = Demo(output)
+        demo.run()
+        print(demo.last_line())
+        return 0
+    except Interrupted:
+        print('\nInterrupted; everything that was started has ended.', file=sys.stderr)
+        return 130
+    except (DemoError, ExperimentError, ProcessEnded) as error:
+        print('\nThe demo failed: %s' % error, file=sys.stderr)
+        return 1

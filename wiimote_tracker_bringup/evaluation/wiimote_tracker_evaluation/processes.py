@@ -1,0 +1,112 @@
+"""Child processes that are gone for certain when their owner is done, with all their children."""
+
+import ctypes
+import os
+import signal
+import subprocess
+import time
+
+PR_SET_PDEATHSIG = 1
+PR_SET_CHILD_SUBREAPER = 36
+
+
+class ProcessEnded(Exception):
+    """A process that was needed has ended; the text says which and where its output is."""
+
+
+def prctl(option, value):
+    ctypes.CDLL(None, use_errno=True).prctl(option, value, 0, 0, 0)
+
+
+def descendants():
+    """Ids of all processes below this one, zombies excepted."""
+    parent_of = {}
+    for entry in os.listdir('/proc'):
+        if not entry.isdigit():
+            continue
+        try:
+            with open('/proc/%s/stat' % entry) as file:
+                # The name in parentheses may itself hold spaces and parentheses.
+                state, parent = file.read().rpartition(')')[2].split()[:2]
+        except OSError:
+            continue  # it ended meanwhile
+        if state != 'Z':
+            parent_of[int(entry)] = int(parent)
+    found = {os.getpid()}
+    while True:
+        more = {child for child, parent in parent_of.items() if parent in found} - found
+        if not more:
+            return found - {os.getpid()}
+        found |= more
+
+
+class Processes(object):
+    """Starts processes, each in a session of its own so that a terminal's Ctrl-C reaches only us.
+
+    Grandchildren that lose their parent become our children, and so are found when all is stopped.
+    """
+
+    def __init__(self):
+        prctl(PR_SET_CHILD_SUBREAPER, 1)
+        self._started = []  # (name, Popen, path of its output)
+
+    def start(self, name, command, output):
+        """Starts a command whose output goes to the file `output`."""
+        with open(output, 'ab') as file:
+            process = subprocess.Popen(
+                command, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT,
+                start_new_session=True,
+                preexec_fn=lambda: prctl(PR_SET_PDEATHSIG, signal.SIGTERM))
+        self._started.append((name, process, output))
+        return process
+
+    def check(self):
+        """@raise ProcessEnded: one of them is not running any more."""
+        for name, process, output in self._started:
+            if process.poll() is not None:
+                raise ProcessEnded('%s ended unexpectedly (status %d); see %s'
+                                   % (name, process.returncode, output))
+
+    def stop(self, process, patience=15.0):
+        """Asks one process to end in good order and waits for it."""
+        self._started = [entry for entry in self._started if entry[1] is not process]
+        self._signal_group(process, signal.SIGINT)
+        try:
+            process.wait(patience)
+        except subprocess.TimeoutExpired:
+            self._signal_group(process, signal.SIGKILL)
+            process.wait()
+
+    def stop_all(self, patience=(6.0, 2.0, 2.0)):
+        """Ends every process below this one: first politely, then not."""
+        for _, process, _ in self._started:
+            self._signal_group(process, signal.SIGINT)
+        for number, seconds in zip((signal.SIGTERM, signal.SIGKILL, None), patience):
+            deadline = time.monotonic() + seconds
+            while descendants() and time.monotonic() < deadline:
+                self._reap()
+                time.sleep(0.02)
+            if number is not None:
+                for process in descendants():
+                    try:
+                        os.kill(process, number)
+                    except ProcessLookupError:
+                        pass
+        self._reap()
+        self._started = []
+
+    @staticmethod
+    def _signal_group(process, number):
+        try:
+            os.killpg(process.pid, number)
+        except ProcessLookupError:
+            pass
+
+    def _reap(self):
+        for _, process, _ in self._started:
+            process.poll()
+        try:
+            while os.waitpid(-1, os.WNOHANG)[0]:
+                pass
+        except ChildProcessError:
+            pass

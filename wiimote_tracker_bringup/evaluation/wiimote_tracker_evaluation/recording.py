@@ -1,0 +1,89 @@
+"""What the tracker published and what was true, as arrays; from a bag or while it happens."""
+
+import numpy as np
+import rosbag
+import rospy
+from geometry_msgs.msg import PointStamped
+from wiimote_tracker_msgs.msg import TrackedPoint, TrackedPointArray
+
+
+class Recording(object):
+    """Times in seconds since 1970, positions in metres, one row per published point.
+
+    stamp N, position N x 3, stddev N x 3, rays N, residual N [px];
+    truth_stamp M, truth_position M x 3;
+    latency K [s]: of every message on points, from the arrival of its newest image to the recorder.
+    """
+
+    def __init__(self, points, truths, latencies):
+        """points: rows of stamp, x, y, z, sx, sy, sz, rays, residual; truths: stamp, x, y, z."""
+        points = np.array(sorted(points), dtype=float).reshape(-1, 9)
+        truths = np.array(sorted(truths), dtype=float).reshape(-1, 4)
+        self.stamp = points[:, 0]
+        self.position = points[:, 1:4]
+        self.stddev = points[:, 4:7]
+        self.rays = points[:, 7]
+        self.residual = points[:, 8]
+        self.truth_stamp = truths[:, 0]
+        self.truth_position = truths[:, 1:]
+        self.latency = np.array(latencies, dtype=float)
+
+    def between(self, start, end):
+        """Which points lie in this span of time."""
+        return (self.stamp >= start) & (self.stamp <= end)
+
+    def truth_at(self, stamps):
+        """True positions at these times, interpolated."""
+        return np.stack([np.interp(stamps, self.truth_stamp, self.truth_position[:, axis])
+                         for axis in range(3)], axis=1)
+
+
+def point_rows(message):
+    """Rows of the points that were seen at the message's instant."""
+    stamp = message.header.stamp.to_sec()
+    for point in message.points:
+        if point.state in (TrackedPoint.TRACKED, TrackedPoint.TENTATIVE):
+            variance = np.array(point.position_covariance)[[0, 4, 8]]
+            yield (stamp, point.position.x, point.position.y, point.position.z,
+                   *np.sqrt(variance), point.rays_used, point.residual)
+
+
+def truth_row(message):
+    return (message.header.stamp.to_sec(), message.point.x, message.point.y, message.point.z)
+
+
+def read_bag(path, led):
+    """Recording of a bag that holds /points and /simulation/truth/<led>."""
+    points, truths, latencies = [], [], []
+    truth_topic = '/simulation/truth/' + led
+    with rosbag.Bag(path) as bag:
+        for topic, message, received in bag.read_messages(topics=['/points', truth_topic]):
+            if topic == truth_topic:
+                truths.append(truth_row(message))
+                continue
+            points.extend(point_rows(message))
+            if not message.latest_arrival.is_zero():
+                latencies.append((received - message.latest_arrival).to_sec())
+    return Recording(points, truths, latencies)
+
+
+class LiveRecorder(object):
+    """Records from now on."""
+
+    def __init__(self, led):
+        self._points, self._truths, self._latencies = [], [], []
+        self.newest_stamp = 0.0  # of the points [s]
+        self._subscribers = [
+            rospy.Subscriber('points', TrackedPointArray, self._on_points, tcp_nodelay=True),
+            rospy.Subscriber('simulation/truth/' + led, PointStamped,
+                             lambda message: self._truths.append(truth_row(message)))]
+
+    def _on_points(self, message):
+        now = rospy.Time.now()
+        self._points.extend(point_rows(message))
+        self._latencies.append((now - message.latest_arrival).to_sec())
+        if message.points:
+            self.newest_stamp = message.header.stamp.to_sec()
+
+    def recording(self):
+        return Recording(list(self._points), list(self._truths), list(self._latencies))

@@ -1,0 +1,144 @@
+"""The results as a table, a sentence, and files."""
+
+import csv
+import json
+
+import numpy as np
+
+from wiimote_tracker_evaluation import experiment
+from wiimote_tracker_evaluation.alignment import KINDS
+
+
+def table(score, bounds):
+    """The results for people: lines of text."""
+    lines = ['%-3s  %-22s  %-22s  %s' % ('', 'true [m]', 'measured [m]', 'error [mm]')]
+    for place in score.places:
+        lines.append('%-3s  %s  %s  %10.1f' % (
+            place.name, '  '.join('%6.3f' % v for v in place.true),
+            '  '.join('%6.3f' % v for v in place.measured), 1e3 * place.error()))
+    lines += ['', '%-24s  %8s  %10s  %s' % ('RMS over the points [mm]', 'measured', 'bound (1)',
+                                            '95 % of rigs (1)')]
+    for kind in KINDS:
+        bound = bounds[kind]
+        lines.append('%-24s  %8.1f  %10.1f  %.1f .. %.1f' % (
+            '  ' + {'absolute': 'absolute', 'rigid': 'rigid-aligned (2)',
+                    'similarity': 'similarity-aligned (2)'}[kind],
+            1e3 * score.position_rms[kind], 1e3 * bound.rms, 1e3 * bound.low, 1e3 * bound.high))
+    lines += ['', 'circles, RMS [mm]            radial    height']
+    for circle in score.circles:
+        lines.append('  %-24s %8.1f  %8.1f' % (circle.name, 1e3 * circle.radial,
+                                               1e3 * circle.height))
+    lines += ['',
+              'scatter of a single frame    %.2f mm' % (1e3 * score.scatter),
+              'points published             %.0f Hz' % score.rate,
+              'latency report -> point      %.2f ms median, %.2f ms p99' % (
+                  1e3 * score.latency_p50, 1e3 * score.latency_p99),
+              '',
+              '(1) Cramer-Rao bound for this rig with the square alone: corners put down with %.0f mm,'
+              % (1e3 * experiment.CORNER_STDDEV),
+              '    lenses known to 3 %, 15 px, 0.02. One rig is one draw; so many lie in the range.',
+              '(2) Alignment fitted on other points than the ones it is judged by.']
+    return lines
+
+
+def sentence(score):
+    """The same figures in one sentence."""
+    return ('Simulated rig, %d points: RMS error %.1f mm absolute, %.1f mm rigid-aligned, '
+            '%.1f mm similarity-aligned; %.0f points/s; latency from report to published point '
+            '%.2f ms median, %.2f ms p99.' % (
+                (len(score.places),)
+                + tuple(1e3 * score.position_rms[kind] for kind in KINDS)
+                + (score.rate, 1e3 * score.latency_p50, 1e3 * score.latency_p99)))
+
+
+def summary(score, bounds):
+    """The results as a dictionary for summary.json."""
+    def milli(value):
+        return round(1e3 * value, 4)
+    return {
+        'simulated': True,
+        'position_rms_mm': {kind: milli(score.position_rms[kind]) for kind in KINDS},
+        'bound_rms_mm': {kind: milli(bounds[kind].rms) for kind in KINDS},
+        'bound_95_percent_mm': {kind: [milli(bounds[kind].low), milli(bounds[kind].high)]
+                                for kind in KINDS},
+        'rate_hz': round(score.rate, 2),
+        'latency_ms': {'p50': milli(score.latency_p50), 'p99': milli(score.latency_p99)},
+        'single_frame_scatter_mm': milli(score.scatter),
+        'points': [{'name': place.name, 'true_m': [round(v, 6) for v in place.true],
+                    'measured_m': [round(v, 6) for v in place.measured],
+                    'error_mm': milli(place.error()), 'frames': place.frames}
+                   for place in score.places],
+        'circles': [{'name': circle.name, 'radial_rms_mm': milli(circle.radial),
+                     'height_rms_mm': milli(circle.height), 'frames': circle.frames}
+                    for circle in score.circles],
+    }
+
+
+def write_summary(path, score, bounds):
+    with open(path, 'w') as file:
+        json.dump(summary(score, bounds), file, indent=2)
+        file.write('\n')
+
+
+def write_csv(path, recording, segments):
+    """Every point that was published while measuring, beside the truth."""
+    with open(path, 'w', newline='') as file:
+        writer = csv.writer(file)
+        writer.writerow(['phase', 'name', 'stamp_s', 'x_m', 'y_m', 'z_m', 'true_x_m', 'true_y_m',
+                         'true_z_m', 'stddev_x_m', 'stddev_y_m', 'stddev_z_m', 'rays',
+                         'residual_px'])
+        for segment in segments:
+            inside = np.flatnonzero(recording.between(segment.start, segment.end))
+            truth = recording.truth_at(recording.stamp[inside])
+            for i, true in zip(inside, truth):
+                writer.writerow(
+                    [segment.kind, segment.name, '%.6f' % recording.stamp[i]]
+                    + ['%.6f' % v for v in recording.position[i]] + ['%.6f' % v for v in true]
+                    + ['%.6f' % v for v in recording.stddev[i]]
+                    + ['%d' % recording.rays[i], '%.3f' % recording.residual[i]])
+
+
+def draw_tracks(path, recording, segments, score, scene):
+    """Picture of the tracks from above and from the side, truth beside measurement."""
+    import matplotlib
+    matplotlib.use('Agg')
+    import matplotlib.pyplot as plt
+
+    figure, views = plt.subplots(1, 2, figsize=(13, 6.4), constrained_layout=True)
+    for axes, (h, v), title in zip(views, ((0, 1), (0, 2)),
+                                   ('from above', 'from the side')):
+        for number, segment in enumerate(s for s in segments if s.kind == 'circle'):
+            inside = recording.between(segment.start, segment.end)
+            truth = recording.truth_at(recording.stamp[inside])
+            axes.plot(truth[:, h], truth[:, v], color='0.65', linewidth=3.0,
+                      label='true' if number == 0 else None)
+            axes.plot(recording.position[inside][:, h], recording.position[inside][:, v],
+                      color='tab:blue', linewidth=0.8, label='measured' if number == 0 else None)
+        for number, place in enumerate(score.places):
+            axes.plot(place.true[h], place.true[v], 'o', color='0.65', markersize=11)
+            axes.plot(place.measured[h], place.measured[v], '+', color='tab:red', markersize=10,
+                      label='measured point' if number == 0 else None)
+            # The error, magnified, since a centimetre cannot be seen at this scale.
+            error = 25.0 * (place.measured - place.true)
+            axes.annotate('', xytext=(place.true[h], place.true[v]),
+                          xy=(place.true[h] + error[h], place.true[v] + error[v]),
+                          arrowprops=dict(arrowstyle='->', color='tab:red'))
+        for camera in scene.cameras:
+            axes.plot(camera.position[h], camera.position[v], 'ks', markersize=6)
+            axes.annotate(' ' + camera.name if v == 1 else '',
+                          (camera.position[h], camera.position[v]))
+        side = experiment.SIDE
+        axes.plot([0, side, side, 0, 0], [0, 0, side, side, 0], ':', color='0.4', linewidth=1.0)
+        axes.set_aspect('equal')
+        axes.set_xlim(-0.45, side + 0.45)
+        axes.set_ylim(-0.45, side + 0.45)
+        axes.set_xlabel('%s [m]' % 'xyz'[h])
+        axes.set_ylabel('%s [m]' % 'xyz'[v])
+        axes.set_title(title)
+    views[0].legend(loc='upper center', bbox_to_anchor=(0.5, 0.63), framealpha=1.0)
+    figure.suptitle('Simulated rig: ten points and three circles; RMS %.1f mm absolute, %.1f mm '
+                    'similarity-aligned; arrows: error x 25' % (
+                        1e3 * score.position_rms['absolute'],
+                        1e3 * score.position_rms['similarity']))
+    figure.savefig(path, dpi=110)
+    plt.close(figure)

@@ -1,0 +1,91 @@
+"""From a recording and the spans of time in it to figures."""
+
+import numpy as np
+
+from wiimote_tracker_evaluation import alignment, experiment
+
+
+class MeasuredPlace(object):
+    """Where the LED lay, and the mean of what was measured meanwhile [m]; scatter: standard
+    deviation of single frames about that mean, over all three axes together [m]."""
+
+    def __init__(self, name, true, measured, scatter, frames):
+        self.name = name
+        self.true = true
+        self.measured = measured
+        self.scatter = scatter
+        self.frames = frames
+
+    def error(self):
+        return float(np.linalg.norm(self.measured - self.true))
+
+
+class MeasuredCircle(object):
+    """RMS of the distance from the axis less the radius, and of the height, single frames [m]."""
+
+    def __init__(self, name, radial, height, frames):
+        self.name = name
+        self.radial = radial
+        self.height = height
+        self.frames = frames
+
+
+class Score(object):
+    """places: of the test points. position_rms: by kind of alignment [m]. rate: points a second
+    while measuring [Hz]. latency_p50, latency_p99 [s]."""
+
+    def __init__(self, places, position_rms, scatter, circles, rate, latency_p50, latency_p99):
+        self.places = places
+        self.position_rms = position_rms
+        self.scatter = scatter
+        self.circles = circles
+        self.rate = rate
+        self.latency_p50 = latency_p50
+        self.latency_p99 = latency_p99
+
+
+def measured_place(recording, segment):
+    inside = recording.between(segment.start, segment.end)
+    frames = int(inside.sum())
+    if frames < 2:
+        raise ValueError('only %d points were published while the LED was at %s' %
+                         (frames, segment.name))
+    positions = recording.position[inside]
+    measured = positions.mean(axis=0)
+    true = recording.truth_at(recording.stamp[inside]).mean(axis=0)
+    scatter = np.sqrt(((positions - measured) ** 2).sum() / (frames - 1))
+    return MeasuredPlace(segment.name, true, measured, float(scatter), frames)
+
+
+def measured_circle(recording, segment):
+    inside = recording.between(segment.start, segment.end)
+    if not inside.any():
+        raise ValueError('no point was published during the %s' % segment.name)
+    offset = recording.position[inside] - np.asarray(segment.target)
+    radial = np.hypot(offset[:, 0], offset[:, 1]) - experiment.CIRCLE_RADIUS
+    return MeasuredCircle(segment.name, float(np.sqrt((radial ** 2).mean())),
+                          float(np.sqrt((offset[:, 2] ** 2).mean())), int(inside.sum()))
+
+
+def score(recording, segments):
+    """Score of a recording. @raise ValueError: something was not measured."""
+    def of_kind(kind):
+        return [segment for segment in segments if segment.kind == kind]
+    places = [measured_place(recording, segment) for segment in of_kind('test')]
+    aligning = [measured_place(recording, segment) for segment in of_kind('alignment')]
+    circles = [measured_circle(recording, segment) for segment in of_kind('circle')]
+
+    measured, true = (np.array([getattr(place, name) for place in places])
+                      for name in ('measured', 'true'))
+    position_rms = {}
+    for kind in alignment.KINDS:
+        fitted = alignment.fit_kind(kind, [place.measured for place in aligning],
+                                    [place.true for place in aligning])
+        position_rms[kind] = alignment.rms(fitted.apply(measured) - true)
+
+    duration = sum(segment.end - segment.start for segment in segments)
+    frames = sum(int(recording.between(s.start, s.end).sum()) for s in segments)
+    p50, p99 = (np.percentile(recording.latency, [50, 99]) if len(recording.latency)
+                else (np.nan, np.nan))
+    scatter = float(np.sqrt(np.mean([place.scatter ** 2 for place in places])))
+    return Score(places, position_rms, scatter, circles, frames / duration, float(p50), float(p99))

@@ -2,6 +2,7 @@
 
 #include "wiimote_tracker_calibration/square/branches.h"
 #include "wiimote_tracker_calibration/square/error.h"
+#include "wiimote_tracker_calibration/square/expected_error.h"
 
 #include "usable_cameras.h"
 
@@ -19,8 +20,8 @@ constexpr double kWarnRatio = 2.0;
 constexpr double kRefuseRatio = 5.0;
 // Gravity farther from the floor's normal than this is a contradiction [standard deviations].
 constexpr double kGravityLimit = 5.0;
-// A camera known worse than this is reported [m].
-constexpr double kPositionLimit = 0.1;
+// A calibration that puts points off by more than this share of the square's side is reported.
+constexpr double kErrorLimit = 0.03;
 
 std::string number(const char* format, double value) {
   char text[64];
@@ -151,28 +152,20 @@ geometry::RigCamera rigCamera(const RigModel& model, const RigState& state, std:
   return result;
 }
 
-/// Standard deviation of the position of camera i, all axes together [m].
-double positionStddev(const geometry::Rig& rig, std::size_t i) {
-  const auto position = static_cast<Eigen::Index>(16 * i + 3);
-  return std::sqrt(rig.covariance.diagonal().segment<3>(position).sum());
-}
-
 std::string verdict(const SquareSolution& solution) {
   double worst_px = 0.0;
   double worst_m = 0.0;
-  double worst_stddev = 0.0;
   for (std::size_t i = 0; i < solution.rig.cameras.size(); ++i) {
     worst_px = std::max(worst_px, solution.rig.cameras[i].residual_px);
     worst_m = std::max(worst_m, solution.rig.cameras[i].residual_m);
-    worst_stddev = std::max(worst_stddev, positionStddev(solution.rig, i));
   }
   std::string text = std::to_string(solution.rig.cameras.size()) + " cameras solved from a " +
                      number("%.3f m", solution.rig.square_sides[0]) + " x " +
                      number("%.3f m", solution.rig.square_sides[1]) + " square, z points " +
                      (solution.z_up ? "up" : "down") + "; residuals at most " +
                      number("%.2f px", worst_px) + " (" + number("%.1f mm", 1000.0 * worst_m) +
-                     "), camera positions known to " + number("%.0f mm", 1000.0 * worst_stddev) +
-                     " or better";
+                     "), points over the square expected within " +
+                     number("%.0f mm", 1000.0 * solution.expected_error) + " (RMS)";
   for (const std::string& warning : solution.warnings)
     text += "; warning: " + warning;
   return text;
@@ -215,15 +208,14 @@ SquareSolution solveSquare(const SquareLayout& layout,
 
   rig.square_sides = {layout.side_x, layout.side_y};
   rig.led_height = layout.led_height;
-  for (std::size_t i = 0; i < state.cameras.size(); ++i) {
+  for (std::size_t i = 0; i < state.cameras.size(); ++i)
     rig.cameras.push_back(rigCamera(model, state, i));
-    const double stddev = positionStddev(rig, i);
-    if (!(stddev < kPositionLimit))
-      solution.warnings.push_back(state.cameras[i].name + " is known to " +
-                                  number("%.2f m", stddev) +
-                                  " only: let it look at the square more from the side, or use a "
-                                  "larger square");
-  }
+  solution.expected_error = expectedError(rig, boxOver(model.nominalCorners(), solution.z_up));
+  if (!(solution.expected_error < kErrorLimit * std::min(layout.side_x, layout.side_y)))
+    solution.warnings.push_back("points over the square are known to " +
+                                number("%.2f m", solution.expected_error) +
+                                " only: use a larger square, or place the cameras so that they "
+                                "look at it from different sides");
   rig.verdict = verdict(solution);
   return solution;
 }

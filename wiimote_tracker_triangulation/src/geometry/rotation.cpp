@@ -66,21 +66,27 @@ Eigen::Matrix3d matrixFromQuaternion(const Eigen::Quaterniond& quaternion) {
 }
 
 Eigen::Quaterniond canonicalQuaternion(const Eigen::Matrix3d& rotation) {
-  // Quaternion to matrix and back moves the last bits, but soon runs into a cycle, mostly of length
-  // one. The smallest member of that cycle stands for all of it.
-  constexpr std::size_t kMaximumSteps = 64;
-  std::array<Wxyz, kMaximumSteps> visited{};
-  visited[0] = wxyzFromMatrix(rotation);
-  Wxyz canonical = visited[0];
-  for (std::size_t n = 1; n < kMaximumSteps; ++n) {
-    visited[n] = wxyzFromMatrix(matrixFromWxyz(visited[n - 1]));
-    const auto end = visited.begin() + n;
-    const auto seen = std::find(visited.begin(), end, visited[n]);
-    canonical = visited[n];
-    if (seen != end) {
-      canonical = *std::min_element(seen, end);
-      break;
+  // Quaternion to matrix and back moves the last bits. Repeated, it wanders until it is caught in a
+  // cycle, mostly of length one; the smallest member of the cycle stands for all of it. The cycle
+  // is found by Brent's algorithm; there is one, since there are only so many doubles.
+  const auto step = [](const Wxyz& q) { return wxyzFromMatrix(matrixFromWxyz(q)); };
+  Wxyz anchor = wxyzFromMatrix(rotation);
+  Wxyz canonical = anchor;
+  const bool is_finite =
+      std::all_of(anchor.begin(), anchor.end(), [](double c) { return std::isfinite(c); });
+  if (is_finite) {
+    Wxyz q = step(anchor);
+    for (std::size_t steps = 1, limit = 1; q != anchor; ++steps) {
+      if (steps == limit) {
+        anchor = q;
+        limit *= 2;
+        steps = 0;
+      }
+      q = step(q);
     }
+    canonical = anchor;
+    for (q = step(anchor); q != anchor; q = step(q))
+      canonical = std::min(canonical, q);
   }
   return Eigen::Quaterniond(canonical[0], canonical[1], canonical[2], canonical[3]);
 }

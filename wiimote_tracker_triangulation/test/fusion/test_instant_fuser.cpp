@@ -1,0 +1,488 @@
+// One LED in front of cameras that are not synchronised, that go blind, die and come back.
+#include "geometry/random_rigs.h"
+#include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+
+namespace wiimote_tracker::fusion {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using geometry::Rig;
+using geometry::RigCamera;
+using geometry::test::Random;
+
+constexpr double kPeriod = 0.01;   // [s]
+constexpr double kLatency = 0.02;  // [s]
+
+Rig threeCameras() {
+  Random random(51);
+  return geometry::test::randomRig(random, 3);
+}
+
+/// An image of one camera on its way to the fuser.
+struct Delivery {
+  std::size_t camera;
+  CameraImage image;
+};
+
+CameraImage imageOf(const RigCamera& camera, const Vector3d& led, double stamp) {
+  CameraImage image;
+  image.stamp = stamp;
+  image.arrival = stamp + kLatency;
+  if (const auto pixel = camera.camera.project(led))
+    image.pixels.push_back(*pixel);
+  return image;
+}
+
+/// Images of all cameras from `begin` to `end`, each camera at its own phase, in order of arrival.
+std::vector<Delivery> film(const Rig& rig,
+                           double begin,
+                           double end,
+                           const std::function<Vector3d(double)>& path) {
+  std::vector<Delivery> deliveries;
+  for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
+    const double phase = kPeriod * (0.1 + 0.3 * c);
+    for (int i = 0; begin + phase + i * kPeriod < end; ++i) {
+      const double stamp = begin + phase + i * kPeriod;
+      deliveries.push_back({c, imageOf(rig.cameras[c], path(stamp), stamp)});
+    }
+  }
+  std::stable_sort(deliveries.begin(), deliveries.end(),
+                   [](const auto& a, const auto& b) { return a.image.arrival < b.image.arrival; });
+  return deliveries;
+}
+
+std::vector<Instant> fuse(InstantFuser& fuser, const std::vector<Delivery>& deliveries) {
+  std::vector<Instant> instants;
+  for (const Delivery& delivery : deliveries) {
+    fuser.add(delivery.camera, delivery.image);
+    while (const Instant* instant = fuser.next())
+      instants.push_back(*instant);
+  }
+  return instants;
+}
+
+void expectIncreasing(const std::vector<Instant>& instants) {
+  for (std::size_t i = 1; i < instants.size(); ++i)
+    ASSERT_GT(instants[i].time, instants[i - 1].time);
+}
+
+void expectIdentical(const std::vector<Instant>& a, const std::vector<Instant>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a[i].time, b[i].time);
+    ASSERT_EQ(a[i].latest_arrival, b[i].latest_arrival);
+    ASSERT_EQ(a[i].skew, b[i].skew);
+    ASSERT_EQ(a[i].point.has_value(), b[i].point.has_value());
+    if (a[i].point) {
+      ASSERT_EQ(a[i].rays_used, b[i].rays_used);
+      ASSERT_EQ(a[i].point->position, b[i].point->position);
+      ASSERT_EQ(a[i].point->covariance, b[i].point->covariance);
+    }
+  }
+}
+
+Vector3d still(double) {
+  return {0.1, 0.2, 0.3};
+}
+
+/// 1 m/s on a circle of 0.5 m.
+Vector3d circle(double t) {
+  return {0.5 * std::cos(2.0 * t), 0.5 * std::sin(2.0 * t), 0.2};
+}
+
+TEST(InstantFuser, FindsALedAtRest) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  const auto instants = fuse(fuser, film(rig, 100.0, 101.0, still));
+  EXPECT_GT(instants.size(), 290u) << "every image is an instant";
+  expectIncreasing(instants);
+  int complete = 0;
+  for (const Instant& instant : instants) {
+    if (!instant.point)
+      continue;
+    EXPECT_LT((instant.point->position - still(0)).norm(), 1e-9);
+    complete += instant.rays_used == 3;
+    EXPECT_EQ(3u, instant.rays_possible);
+  }
+  EXPECT_GT(complete, 290);
+  EXPECT_EQ(0u, fuser.lateFrames());
+}
+
+TEST(InstantFuser, InterpolationIsExactForPixelsThatMoveLinearly) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  // Start and velocity of each camera's pixel.
+  const auto pixel = [&](std::size_t c, double t) {
+    return Vector2d(*rig.cameras[c].camera.project(still(0)) +
+                    (t - 100.0) * Vector2d(3.0 + c, -7.0 + 2.0 * c));
+  };
+  std::vector<Delivery> deliveries = film(rig, 100.0, 100.5, still);
+  for (Delivery& d : deliveries)
+    d.image.pixels = {pixel(d.camera, d.image.stamp)};
+  int compared = 0;
+  for (const Instant& instant : fuse(fuser, deliveries)) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!instant.sightings[c].pixel)
+        continue;
+      EXPECT_LT((*instant.sightings[c].pixel - pixel(c, instant.time)).norm(), 1e-9);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 430);
+}
+
+TEST(InstantFuser, FollowsALedThatMoves) {
+  // Between two images the path bends by v^2 / r * dt^2 / 8 = 25 um at most.
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  int found = 0;
+  for (const Instant& instant : fuse(fuser, film(rig, 100.0, 101.0, circle))) {
+    if (!instant.point || instant.rays_used < 3)
+      continue;
+    EXPECT_LT((instant.point->position - circle(instant.time)).norm(), 5e-5);
+    ++found;
+  }
+  EXPECT_GT(found, 290);
+}
+
+TEST(InstantFuser, SaysHowOldAndHowFarApartItsImagesAre) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  const auto instants = fuse(fuser, film(rig, 100.0, 101.0, still));
+  for (std::size_t i = 20; i < instants.size(); ++i) {
+    const Instant& instant = instants[i];
+    // The third camera's bracket reaches furthest: 7 or 4 ms to one side.
+    EXPECT_NEAR(instant.skew, 0.007, 1e-6);
+    EXPECT_NEAR(instant.last_observed, instant.time, 1e-9) << "the image of this time shows it";
+    EXPECT_GE(instant.latest_arrival, instant.time + kLatency);
+    EXPECT_LE(instant.latest_arrival, instant.time + kLatency + kPeriod);
+  }
+}
+
+TEST(InstantFuser, ABlindCameraStopsNothing) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  std::vector<Delivery> deliveries = film(rig, 100.0, 101.0, still);
+  for (Delivery& d : deliveries) {
+    if (d.camera == 1)
+      d.image.pixels.clear();
+  }
+  const auto instants = fuse(fuser, deliveries);
+  EXPECT_GT(instants.size(), 290u);
+  for (std::size_t i = 10; i < instants.size(); ++i) {
+    ASSERT_TRUE(instants[i].point);
+    EXPECT_EQ(2u, instants[i].rays_used);
+    EXPECT_EQ(3u, instants[i].rays_possible);
+    EXPECT_FALSE(instants[i].sightings[1].used);
+    EXPECT_LT((instants[i].point->position - still(0)).norm(), 1e-9);
+  }
+}
+
+TEST(InstantFuser, SaysWhenNothingIsSeen) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  std::vector<Delivery> deliveries = film(rig, 100.0, 100.2, still);
+  for (Delivery& d : deliveries)
+    d.image.pixels.clear();
+  const auto instants = fuse(fuser, deliveries);
+  EXPECT_GT(instants.size(), 50u);
+  for (const Instant& instant : instants)
+    EXPECT_FALSE(instant.point);
+}
+
+TEST(InstantFuser, NeverReportsAnOldPointAsNew) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  std::vector<Delivery> deliveries = film(rig, 100.0, 101.0, still);
+  for (Delivery& d : deliveries) {
+    if (d.image.stamp >= 100.5)
+      d.image.pixels.clear();
+  }
+  for (const Instant& instant : fuse(fuser, deliveries))
+    EXPECT_FALSE(instant.point && instant.time >= 100.5);
+}
+
+TEST(InstantFuser, ADeadCameraDelaysByItsTimeoutOnceAndIsUsedAgain) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  const auto all = film(rig, 100.0, 102.0, circle);
+  std::vector<Delivery> deliveries;
+  for (const Delivery& d : all) {
+    const bool dead = d.camera == 0 && d.image.stamp > 100.5 && d.image.stamp < 101.5;
+    if (!dead)
+      deliveries.push_back(d);
+  }
+  double longest_wait = 0.0;
+  double longest_wait_later = 0.0;
+  int without = 0;
+  int again = 0;
+  for (const Delivery& d : deliveries) {
+    fuser.add(d.camera, d.image);
+    while (const Instant* instant = fuser.next()) {
+      const double wait = d.image.arrival - (instant->time + kLatency);
+      longest_wait = std::max(longest_wait, wait);
+      if (instant->time > 100.7)
+        longest_wait_later = std::max(longest_wait_later, wait);
+      if (instant->time > 100.52 && instant->time < 101.49) {
+        ASSERT_TRUE(instant->point);
+        EXPECT_EQ(2u, instant->rays_used);
+        EXPECT_EQ(3u, instant->rays_possible);
+        ++without;
+      }
+      if (instant->time > 101.52) {
+        ASSERT_TRUE(instant->point);
+        EXPECT_EQ(3u, instant->rays_used);
+        ++again;
+      }
+      if (instant->point) {
+        EXPECT_LT((instant->point->position - circle(instant->time)).norm(), 1e-4);
+      }
+    }
+  }
+  EXPECT_LT(longest_wait, InstantFuserOptions().camera_timeout + kPeriod);
+  EXPECT_LE(longest_wait_later, kPeriod + 1e-9);
+  EXPECT_GT(without, 180);
+  EXPECT_GT(again, 130);
+}
+
+TEST(InstantFuser, ACameraThatNeverSpeaksDelaysTheStartOnly) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  std::vector<Delivery> deliveries;
+  for (const Delivery& d : film(rig, 100.0, 101.0, still)) {
+    if (d.camera != 2)
+      deliveries.push_back(d);
+  }
+  const auto instants = fuse(fuser, deliveries);
+  EXPECT_GT(instants.size(), 190u);
+  EXPECT_NEAR(instants.front().time, 100.001, 1e-9) << "nothing is lost by waiting";
+}
+
+TEST(InstantFuser, DoesNotInterpolateAcrossALongGap) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  std::vector<Delivery> deliveries;
+  for (const Delivery& d : film(rig, 100.0, 101.0, circle)) {
+    // 80 ms: longer than maximum_gap, shorter than camera_timeout.
+    if (!(d.camera == 0 && d.image.stamp > 100.5 && d.image.stamp < 100.58))
+      deliveries.push_back(d);
+  }
+  int inside = 0;
+  for (const Instant& instant : fuse(fuser, deliveries)) {
+    if (instant.time > 100.502 && instant.time < 100.579) {
+      EXPECT_FALSE(instant.sightings[0].pixel);
+      EXPECT_TRUE(instant.point);
+      ++inside;
+    }
+  }
+  EXPECT_GT(inside, 10);
+}
+
+TEST(InstantFuser, CountsAndIgnoresImagesThatComeLateOrTwice) {
+  const Rig rig = threeCameras();
+  InstantFuser clean(rig, {});
+  InstantFuser disturbed(rig, {});
+  const auto deliveries = film(rig, 100.0, 101.0, circle);
+  std::vector<Delivery> with_repeats;
+  for (std::size_t i = 0; i < deliveries.size(); ++i) {
+    with_repeats.push_back(deliveries[i]);
+    if (i % 10 == 5) {
+      with_repeats.push_back(deliveries[i]);  // twice
+      Delivery old = deliveries[i];           // out of order, with other content
+      old.image.stamp -= 0.5 * kPeriod;
+      old.image.pixels = {Vector2d(1.0, 1.0)};
+      with_repeats.push_back(old);
+    }
+  }
+  expectIdentical(fuse(clean, deliveries), fuse(disturbed, with_repeats));
+  EXPECT_EQ(0u, clean.lateFrames());
+  EXPECT_EQ(with_repeats.size() - deliveries.size(), disturbed.lateFrames());
+}
+
+TEST(InstantFuser, StartsOverWhenTimeJumpsBack) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  const auto first = fuse(fuser, film(rig, 100.0, 102.0, circle));
+  const auto second = fuse(fuser, film(rig, 100.0, 102.0, circle));
+  EXPECT_EQ(1u, fuser.resets());
+  EXPECT_EQ(0u, fuser.lateFrames());
+  expectIdentical(first, second);
+}
+
+TEST(InstantFuser, DoesNotStartOverForASmallStepBack) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  fuse(fuser, film(rig, 100.0, 100.5, circle));
+  fuse(fuser, film(rig, 100.0, 100.4, circle));
+  EXPECT_EQ(0u, fuser.resets());
+  EXPECT_EQ(120u, fuser.lateFrames());
+}
+
+/// Each camera's images stay in order; otherwise anything goes, as long as no image is overtaken by
+/// one that arrived `most` later.
+std::vector<Delivery> shuffled(std::vector<Delivery> rest, double most, Random& random) {
+  std::vector<Delivery> result;
+  while (!rest.empty()) {
+    const double deadline = rest.front().image.arrival + most;  // rest stays sorted by arrival
+    std::vector<std::size_t> candidates;
+    std::vector<bool> camera_taken(16, false);
+    for (std::size_t i = 0; i < rest.size() && rest[i].image.arrival < deadline; ++i) {
+      if (!camera_taken[rest[i].camera])
+        candidates.push_back(i);
+      camera_taken[rest[i].camera] = true;
+    }
+    const auto pick = candidates[static_cast<std::size_t>(random.uniform(0, candidates.size()))];
+    result.push_back(rest[pick]);
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(pick));
+  }
+  return result;
+}
+
+TEST(InstantFuser, TheOrderOfCallbacksBetweenCamerasDoesNotMatter) {
+  const Rig rig = threeCameras();
+  Random random(52);
+  auto deliveries = film(rig, 100.0, 101.0, circle);
+  for (Delivery& d : deliveries) {
+    if (random.uniform(0, 1) < 0.1)
+      d.image.pixels.clear();
+  }
+  InstantFuser reference(rig, {});
+  const auto expected = fuse(reference, deliveries);
+  for (int i = 0; i < 30; ++i) {
+    InstantFuser fuser(rig, {});
+    const auto mixed = shuffled(deliveries, 0.09, random);
+    auto instants = fuse(fuser, mixed);
+    EXPECT_EQ(0u, fuser.lateFrames());
+    // What is due at the end depends on what came last; both have seen the same by then.
+    expectIdentical(expected, instants);
+  }
+}
+
+TEST(InstantFuser, AppliesTimeOffsetsByTheirRule) {
+  Rig rig = threeCameras();
+  // The cameras' clocks are off; their images carry wrong stamps that the rig's offsets correct.
+  const double offsets[] = {0.004, -0.003, 0.002};
+  for (std::size_t c = 0; c < 3; ++c) {
+    rig.cameras[c].time_offset = offsets[c];
+    rig.cameras[c].time_offset_rule = geometry::TimeOffsetRule::kAlways;
+  }
+  rig.cameras[2].time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
+  rig.cameras[2].time_offset_epoch = 7;
+  auto deliveries = film(rig, 100.0, 101.0, circle);
+  for (Delivery& d : deliveries) {
+    d.image.stamp -= offsets[d.camera];
+    d.image.clock_epoch = 7;
+  }
+  const auto worstError = [&](const Rig& used) {
+    InstantFuser fuser(used, {});
+    double worst = 0.0;
+    int found = 0;
+    for (const Instant& instant : fuse(fuser, deliveries)) {
+      if (!instant.point || instant.rays_used < 3)
+        continue;
+      worst = std::max(worst, (instant.point->position - circle(instant.time)).norm());
+      ++found;
+    }
+    EXPECT_GT(found, 190);
+    return worst;
+  };
+  EXPECT_LT(worstError(rig), 5e-5);
+  Rig other_epoch = rig;
+  other_epoch.cameras[2].time_offset_epoch = 8;
+  EXPECT_GT(worstError(other_epoch), 5e-4);
+  for (RigCamera& camera : other_epoch.cameras)
+    camera.time_offset_rule = geometry::TimeOffsetRule::kNone;
+  EXPECT_GT(worstError(other_epoch), 1e-3);
+}
+
+TEST(InstantFuser, IgnoresMaskedSpotsAndImagesWithSeveral) {
+  Rig rig = threeCameras();
+  rig.cameras[0].masks = {{Vector2d(5.0, 5.0), 3.0}};
+  auto deliveries = film(rig, 100.0, 100.5, still);
+  for (Delivery& d : deliveries) {
+    if (d.camera == 0)
+      d.image.pixels.insert(d.image.pixels.begin(), Vector2d(6.0, 6.0));  // masked lamp
+    if (d.camera == 1)
+      d.image.pixels.push_back(Vector2d(6.0, 6.0));  // unmasked lamp
+  }
+  InstantFuser fuser(rig, {});
+  const auto instants = fuse(fuser, deliveries);
+  for (std::size_t i = 10; i < instants.size(); ++i) {
+    ASSERT_TRUE(instants[i].point);
+    EXPECT_TRUE(instants[i].sightings[0].used);
+    EXPECT_FALSE(instants[i].sightings[1].pixel);
+    EXPECT_TRUE(instants[i].sightings[2].used);
+    EXPECT_LT((instants[i].point->position - still(0)).norm(), 1e-9);
+  }
+}
+
+TEST(InstantFuser, DropsTheOneCameraThatSeesSomethingElse) {
+  Random random(53);
+  const Rig rig = geometry::test::randomRig(random, 4);
+  auto deliveries = film(rig, 100.0, 100.5, still);
+  for (Delivery& d : deliveries) {
+    if (d.camera == 2)
+      d.image.pixels[0] += Vector2d(150.0, -120.0);
+  }
+  InstantFuser fuser(rig, {});
+  const auto instants = fuse(fuser, deliveries);
+  for (std::size_t i = 10; i < instants.size(); ++i) {
+    ASSERT_TRUE(instants[i].point);
+    EXPECT_EQ(3u, instants[i].rays_used);
+    EXPECT_FALSE(instants[i].sightings[2].used);
+    EXPECT_LT((instants[i].point->position - still(0)).norm(), 1e-9);
+  }
+}
+
+TEST(InstantFuser, TwoCamerasThatDisagreeGiveNoPoint) {
+  Rig rig = threeCameras();
+  rig.cameras.pop_back();
+  auto deliveries = film(rig, 100.0, 100.5, still);
+  for (Delivery& d : deliveries) {
+    if (d.camera == 1)
+      d.image.pixels[0] += Vector2d(100.0, 100.0);
+  }
+  InstantFuser fuser(rig, {});
+  const auto instants = fuse(fuser, deliveries);
+  EXPECT_GT(instants.size(), 90u);
+  for (const Instant& instant : instants)
+    EXPECT_FALSE(instant.point);
+}
+
+TEST(InstantFuser, OneCameraGivesNoPoint) {
+  Rig rig = threeCameras();
+  rig.cameras.resize(1);
+  InstantFuser fuser(rig, {});
+  const auto instants = fuse(fuser, film(rig, 100.0, 100.2, still));
+  EXPECT_GT(instants.size(), 15u);
+  for (const Instant& instant : instants)
+    EXPECT_FALSE(instant.point);
+}
+
+TEST(InstantFuser, ImagesWithoutATimeAreIgnored) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  CameraImage image;
+  image.stamp = std::numeric_limits<double>::quiet_NaN();
+  fuser.add(0, image);
+  EXPECT_EQ(nullptr, fuser.next());
+}
+
+TEST(InstantFuser, ContinuesAfterAnEarlierOne) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  fuser.continueFrom(100.25, 7);
+  const auto instants = fuse(fuser, film(rig, 100.0, 100.5, still));
+  EXPECT_GT(instants.front().time, 100.25);
+  EXPECT_GT(fuser.lateFrames(), 7u);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::fusion

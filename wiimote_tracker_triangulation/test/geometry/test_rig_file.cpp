@@ -1,0 +1,339 @@
+// rig.yaml: nothing is lost on the way to the disk and back, and nothing is guessed.
+#include "random_rigs.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/geometry/rig_file.h"
+#include "wiimote_tracker_triangulation/geometry/rotation.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace wiimote_tracker::geometry {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Random;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+class RigFile : public testing::Test {
+ protected:
+  RigFile() {
+    std::string pattern = (fs::temp_directory_path() / "rig_file_XXXXXX").string();
+    folder_ = mkdtemp(&pattern[0]);
+    path_ = (folder_ / "rig.yaml").string();
+  }
+  ~RigFile() override { fs::remove_all(folder_); }
+
+  static std::string contentOf(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  }
+
+  void put(const std::string& content) { std::ofstream(path_, std::ios::binary) << content; }
+
+  /// What readRigFile says about a content; empty when it takes it.
+  std::string complaintAbout(const std::string& content) {
+    put(content);
+    try {
+      readRigFile(path_);
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  }
+
+  /// The file's content with one text replaced by another.
+  std::string with(const std::string& from, const std::string& to) const {
+    std::string content = written_;
+    const std::size_t place = content.find(from);
+    if (place == std::string::npos)
+      throw std::logic_error("the test looks for '" + from + "', which is not in the file");
+    return content.replace(place, from.size(), to);
+  }
+
+  void write(const Rig& rig) {
+    writeRigFile(rig, path_);
+    written_ = contentOf(path_);
+  }
+
+  fs::path folder_;
+  std::string path_;
+  std::string written_;
+};
+
+/// Every field filled, with numbers that have no short decimal form.
+Rig fullRig(int cameras = 2) {
+  Random random(41);
+  Rig rig = test::randomRig(random, cameras);
+  rig.world_frame = "world";
+  rig.solved_at = 1766188800.123456789;
+  rig.method = "square: \"four corners\"\nsecond line # no comment";
+  rig.ray_model = RayModel::kImageCenter;
+  rig.virtual_hfov = 41.0 * M_PI / 180.0;
+  rig.square_sides = {2.5, 1.0 / 3.0};
+  rig.led_height = 0.1;
+  rig.verdict = "gut genug für alle: 0.3 px";
+  rig.zones = {{"hall", {0.1, 0.2, 0.3}, {1.0 / 7.0, 2.0, 3.0}}};
+  rig.covariance = Eigen::MatrixXd(16 * cameras, 16 * cameras);
+  for (Eigen::Index i = 0; i < rig.covariance.size(); ++i)
+    rig.covariance(i) = i % 5 ? 0.0 : random.gaussian() * 1e-9;
+  RigCamera& first = rig.cameras[0];
+  first.time_offset = -1.0 / 300.0;
+  first.time_offset_rule = TimeOffsetRule::kOneEpoch;
+  first.time_offset_epoch = 4294967295u;
+  first.gravity = Eigen::Vector3d(0.1, -9.8, 1.0 / 3.0);
+  first.masks = {{{1.0 / 3.0, 700.0}, 12.5}, {{3.0, 4.0}, 5.0}};
+  first.residual_px = 0.1 + 0.2;
+  first.residual_m = 1e-3 / 3.0;
+  first.observations = 120;
+  first.inliers = 119;
+  return rig;
+}
+
+bool same(double a, double b) {
+  return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+void expectSame(const RigCamera& a, const RigCamera& b) {
+  EXPECT_EQ(a.camera.name, b.camera.name);
+  EXPECT_EQ(a.camera.identity, b.camera.identity);
+  const Intrinsics& i = a.camera.intrinsics;
+  const Intrinsics& k = b.camera.intrinsics;
+  EXPECT_EQ(i.width, k.width);
+  EXPECT_EQ(i.height, k.height);
+  EXPECT_TRUE(same(i.fx, k.fx) && same(i.fy, k.fy) && same(i.cx, k.cx) && same(i.cy, k.cy));
+  for (int d = 0; d < 5; ++d)
+    EXPECT_TRUE(same(i.distortion[d], k.distortion[d]));
+  for (int n = 0; n < 3; ++n)
+    EXPECT_TRUE(same(a.camera.center()[n], b.camera.center()[n]));
+  const Eigen::Quaterniond q = canonicalQuaternion(a.camera.world_from_camera.linear());
+  const Eigen::Quaterniond r = canonicalQuaternion(b.camera.world_from_camera.linear());
+  for (int n = 0; n < 4; ++n)
+    EXPECT_TRUE(same(q.coeffs()[n], r.coeffs()[n]));
+  EXPECT_TRUE(same(a.time_offset, b.time_offset));
+  EXPECT_EQ(a.time_offset_rule, b.time_offset_rule);
+  EXPECT_EQ(a.time_offset_epoch, b.time_offset_epoch);
+  EXPECT_EQ(a.gravity, b.gravity);
+  ASSERT_EQ(a.masks.size(), b.masks.size());
+  for (std::size_t m = 0; m < a.masks.size(); ++m) {
+    EXPECT_EQ(a.masks[m].center, b.masks[m].center);
+    EXPECT_TRUE(same(a.masks[m].radius, b.masks[m].radius));
+  }
+  EXPECT_TRUE(same(a.residual_px, b.residual_px) && same(a.residual_m, b.residual_m));
+  EXPECT_EQ(a.observations, b.observations);
+  EXPECT_EQ(a.inliers, b.inliers);
+}
+
+void expectSame(const Rig& a, const Rig& b) {
+  EXPECT_EQ(a.world_frame, b.world_frame);
+  EXPECT_TRUE(same(a.solved_at, b.solved_at));
+  EXPECT_EQ(a.method, b.method);
+  EXPECT_EQ(a.ray_model, b.ray_model);
+  EXPECT_TRUE(same(a.virtual_hfov, b.virtual_hfov) && same(a.led_height, b.led_height));
+  EXPECT_EQ(a.square_sides, b.square_sides);
+  EXPECT_EQ(a.verdict, b.verdict);
+  EXPECT_EQ(a.covariance, b.covariance);
+  ASSERT_EQ(a.zones.size(), b.zones.size());
+  for (std::size_t z = 0; z < a.zones.size(); ++z) {
+    EXPECT_EQ(a.zones[z].name, b.zones[z].name);
+    EXPECT_EQ(a.zones[z].minimum, b.zones[z].minimum);
+    EXPECT_EQ(a.zones[z].maximum, b.zones[z].maximum);
+  }
+  ASSERT_EQ(a.cameras.size(), b.cameras.size());
+  for (std::size_t c = 0; c < a.cameras.size(); ++c)
+    expectSame(a.cameras[c], b.cameras[c]);
+  EXPECT_EQ(a.id(), b.id());
+}
+
+TEST_F(RigFile, ComesBackBitForBit) {
+  const Rig rig = fullRig();
+  write(rig);
+  const Rig read = readRigFile(path_);
+  expectSame(rig, read);
+  writeRigFile(read, path_);
+  EXPECT_EQ(written_, contentOf(path_));
+}
+
+TEST_F(RigFile, ManyRandomRigsComeBackBitForBit) {
+  Random random(42);
+  for (int i = 0; i < 100; ++i) {
+    const Rig rig = test::randomRig(random, 4);
+    write(rig);
+    expectSame(rig, readRigFile(path_));
+  }
+}
+
+TEST_F(RigFile, KeepsTheOldFileAsABackup) {
+  const Rig first = fullRig();
+  Rig second = first;
+  second.verdict = "second";
+  write(first);
+  EXPECT_FALSE(fs::exists(path_ + ".bak"));
+  const std::string old = written_;
+  write(second);
+  EXPECT_EQ(old, contentOf(path_ + ".bak"));
+  EXPECT_EQ("second", readRigFile(path_).verdict);
+}
+
+TEST_F(RigFile, MakesFoldersAndFollowsALink) {
+  const std::string deep = (folder_ / "a" / "b" / "rig.yaml").string();
+  writeRigFile(fullRig(), deep);
+  fs::create_symlink(deep, path_);
+  Rig second = fullRig();
+  second.verdict = "second";
+  writeRigFile(second, path_);
+  EXPECT_TRUE(fs::is_symlink(path_));
+  EXPECT_EQ("second", readRigFile(deep).verdict);
+}
+
+TEST_F(RigFile, AFailedWriteLeavesTheOldFile) {
+  write(fullRig());
+  Rig larger = fullRig(4);
+  // A full disk, as far as this process can tell: files must not grow beyond the old one's size.
+  rlimit before{};
+  ASSERT_EQ(0, getrlimit(RLIMIT_FSIZE, &before));
+  rlimit tight = before;
+  tight.rlim_cur = written_.size() + 10;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(0, setrlimit(RLIMIT_FSIZE, &tight));
+  std::string complaint;
+  try {
+    writeRigFile(larger, path_);
+  } catch (const RigFileError& e) {
+    complaint = e.what();
+  }
+  ASSERT_EQ(0, setrlimit(RLIMIT_FSIZE, &before));
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(std::string::npos, complaint.find(path_)) << complaint;
+  EXPECT_EQ(written_, contentOf(path_));
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    EXPECT_EQ(std::string::npos, entry.path().string().find(".new"))
+        << "left behind: " << entry.path();
+  }
+}
+
+TEST_F(RigFile, CannotBeWrittenWhereThereIsNoFolder) {
+  put("in the way");
+  EXPECT_THROW(writeRigFile(fullRig(), path_ + "/rig.yaml"), RigFileError);
+  EXPECT_THROW(writeRigFile(fullRig(), folder_.string()), RigFileError);
+  EXPECT_EQ("in the way", contentOf(path_));
+}
+
+TEST_F(RigFile, AnUnusableRigIsNotWritten) {
+  write(fullRig());
+  Rig bad = fullRig();
+  bad.cameras[1].camera.intrinsics.fx = kNaN;
+  EXPECT_THROW(writeRigFile(bad, path_), InvalidRigError);
+  bad = fullRig();
+  bad.cameras[1].camera.name = bad.cameras[0].camera.name;
+  EXPECT_THROW(writeRigFile(bad, path_), InvalidRigError);
+  EXPECT_EQ(written_, contentOf(path_));
+}
+
+TEST_F(RigFile, IsRefusedWhenCutOffAnywhere) {
+  Rig rig = fullRig();
+  rig.covariance.resize(0, 0);  // keeps this short
+  write(rig);
+  // Without the last byte only the line's end is missing.
+  for (std::size_t size = 0; size + 1 < written_.size(); ++size)
+    ASSERT_NE("", complaintAbout(written_.substr(0, size))) << size << " bytes";
+  EXPECT_EQ("", complaintAbout(written_.substr(0, written_.size() - 1)));
+}
+
+TEST_F(RigFile, DamageNeverCrashes) {
+  Rig rig = fullRig();
+  rig.covariance.resize(0, 0);
+  write(rig);
+  Random random(43);
+  for (int i = 0; i < 1000; ++i) {
+    std::string damaged = written_;
+    for (int k = 0; k < 3; ++k)
+      damaged[static_cast<std::size_t>(random.uniform(0, damaged.size()))] =
+          static_cast<char>(random.uniform(0, 256));
+    complaintAbout(damaged);  // a digit may have become another one; anything else throws an Error
+  }
+}
+
+TEST_F(RigFile, MissingOrUnreadableIsNamed) {
+  const auto complaint = [](const std::string& path) -> std::string {
+    try {
+      readRigFile(path);
+    } catch (const RigFileError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_NE(std::string::npos, complaint(path_).find(path_));
+  EXPECT_NE(std::string::npos, complaint(path_).find("No such file"));
+  EXPECT_NE(std::string::npos, complaint(folder_.string()).find("folder"));
+}
+
+TEST_F(RigFile, ForeignFilesAreRefused) {
+  for (const std::string content :
+       {"", "\n", "just text", "[1, 2, 3]", "a: 1\n", "format: something_else\nversion: 1\n",
+        "format: [wiimote_tracker_rig]\n", "image_width: 640\nimage_height: 480\n",
+        "\x7f"
+        "ELF\x02",
+        "{{{{", "a: b: c", "*alias", "&a [*a]"}) {
+    const std::string complaint = complaintAbout(content);
+    EXPECT_NE(std::string::npos, complaint.find(path_)) << "'" << content << "': " << complaint;
+  }
+}
+
+TEST_F(RigFile, OtherVersionsAreRefused) {
+  write(fullRig());
+  for (const std::string version : {"2", "0", "1.0", "x", "[1]"}) {
+    const std::string complaint = complaintAbout(with("version: 1", "version: " + version));
+    EXPECT_NE(std::string::npos, complaint.find("version")) << complaint;
+  }
+}
+
+TEST_F(RigFile, FaultsAreNamedByKey) {
+  write(fullRig());
+  const auto names = [&](const std::string& from, const std::string& to, const std::string& key) {
+    const std::string complaint = complaintAbout(with(from, to));
+    EXPECT_NE(std::string::npos, complaint.find(path_)) << complaint;
+    EXPECT_NE(std::string::npos, complaint.find(key)) << complaint;
+  };
+  names("virtual_hfov:", "virtual_hfof:", "virtual_hfov");
+  names("led_height:", "another: 1\nled_height:", "another");
+  names("led_height:", "led_height: 1\nled_height:", "led_height is there twice");
+  names("image_width: ", "image_width: wide", "camera_0: image_width");
+  names("image_width: ", "image_width: 0.", "camera_0: image_width");
+  names("image_height: ", "image_height: -", "camera_0: image_height");
+  names("plumb_bob", "fisheye", "camera_0: distortion_model");
+  names("cols: 5", "cols: 4", "distortion_coefficients: data");
+  names("time_offset_rule: one_epoch", "time_offset_rule: sometimes", "time_offset_rule");
+  names("ray_model: image_center", "ray_model: other", "ray_model");
+  names("frame_id: \"world\"", "frame_id: \"map\"", "frame_id");
+  names("child_frame_id: \"camera_0", "child_frame_id: \"camera_9", "child_frame_id");
+  names("camera_name: camera_0", "camera_name: camera_9", "camera_name");
+  names("[camera_0, camera_1]", "[camera_0]", "camera_1");
+  names("[camera_0, camera_1]", "[camera_0, camera_1, camera_2]", "camera_2");
+  names("[camera_0, camera_1]", "[camera_0, camera_1, camera_1]", "two cameras");
+  names("  camera_1:\n", "  camera_0:\n", "camera_0 is there twice");
+  names("inliers: 119", "inliers: -1", "inliers");
+  names("inliers: 119", "inliers: 4294967296", "inliers");
+  names("complete: true", "complete: false", "complete");
+  names("        w: ", "        w: 7", "rotation");
+}
+
+TEST_F(RigFile, ValuesThatAreNoNumbersAreRefused) {
+  Rig rig = fullRig();
+  rig.cameras[0].camera.intrinsics.fx = 1234.5;
+  rig.cameras[0].camera.world_from_camera.translation().x() = 4321.5;
+  write(rig);
+  EXPECT_NE(std::string::npos, complaintAbout(with("1234.5", ".nan")).find("fx"));
+  EXPECT_NE(std::string::npos, complaintAbout(with("4321.5", ".nan")).find("camera_0"));
+  EXPECT_NE(std::string::npos, complaintAbout(with("4321.5", ".inf")).find("camera_0"));
+  EXPECT_NE(std::string::npos, complaintAbout(with("4321.5", "")).find("translation: x"));
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::geometry

@@ -1,0 +1,328 @@
+// Points from exact pixels, against OpenCV, and what must be refused.
+#include "opencv_camera.h"
+#include "random_rigs.h"
+#include "wiimote_tracker_triangulation/geometry/triangulate.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+namespace {
+int g_allocations = 0;
+}  // namespace
+
+// Counts what the test below forbids.
+void* operator new(std::size_t size) {
+  ++g_allocations;
+  if (void* memory = std::malloc(size))
+    return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace wiimote_tracker::geometry {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using test::OpenCvCamera;
+using test::Random;
+
+constexpr TriangulationMethod kMethods[] = {TriangulationMethod::kMeanClosest,
+                                            TriangulationMethod::kLeastSquares,
+                                            TriangulationMethod::kMaximumLikelihood};
+
+TriangulationOptions optionsFor(TriangulationMethod method) {
+  TriangulationOptions options;
+  options.method = method;
+  return options;
+}
+
+/// Pixels of a point by OpenCV, so that an error in our own camera cannot cancel out.
+std::vector<Observation> observe(const Rig& rig, const Vector3d& point) {
+  std::vector<Observation> observations;
+  for (const RigCamera& camera : rig.cameras)
+    observations.push_back({&camera.camera, OpenCvCamera(camera.camera).project(point)});
+  return observations;
+}
+
+/// Pinhole cameras side by side along x, looking along z.
+Rig parallelRig(const std::vector<double>& places) {
+  Rig rig;
+  for (const double x : places) {
+    RigCamera camera;
+    camera.camera.name = "camera_" + std::to_string(rig.cameras.size());
+    camera.camera.world_from_camera.translation().x() = x;
+    rig.cameras.push_back(camera);
+  }
+  return rig;
+}
+
+TEST(Triangulate, ExactPixelsGiveTheExactPoint) {
+  Random random(11);
+  double worst = 0.0;
+  for (const int cameras : {2, 3, 4, 8}) {
+    for (int i = 0; i < 50; ++i) {
+      const Rig rig = test::randomRig(random, cameras);
+      for (int k = 0; k < 10; ++k) {
+        const Vector3d truth = random.inBox(1.0);
+        const auto observations = observe(rig, truth);
+        for (const TriangulationMethod method : kMethods) {
+          const auto point = triangulate(observations, optionsFor(method));
+          ASSERT_TRUE(point) << cameras << " cameras";
+          worst = std::max(worst, (point->position - truth).norm());
+          EXPECT_LT(point->reprojection_error, 1e-6);
+        }
+      }
+    }
+  }
+  EXPECT_LT(worst, 1e-6);
+  RecordProperty("worst_error_m", std::to_string(worst));
+}
+
+TEST(Triangulate, MeanClosestIsTheMidpointOfTwoSkewRays) {
+  // Ray along z through the origin, ray along -x through (5, 1, 3): closest points (0, 0, 3) and
+  // (0, 1, 3).
+  Rig rig = parallelRig({0.0, 0.0});
+  rig.cameras[1].camera.world_from_camera =
+      lookAt({5.0, 1.0, 3.0}, {0.0, 1.0, 3.0}, Vector3d::UnitZ());
+  const Vector2d center(rig.cameras[0].camera.intrinsics.cx, rig.cameras[0].camera.intrinsics.cy);
+  const std::vector<Observation> observations = {{&rig.cameras[0].camera, center},
+                                                 {&rig.cameras[1].camera, center}};
+  for (const TriangulationMethod method :
+       {TriangulationMethod::kMeanClosest, TriangulationMethod::kLeastSquares}) {
+    const auto point = triangulate(observations, optionsFor(method));
+    ASSERT_TRUE(point);
+    EXPECT_LT((point->position - Vector3d(0.0, 0.5, 3.0)).norm(), 1e-12);
+  }
+}
+
+TEST(Triangulate, MeanClosestAveragesOverAllPairs) {
+  // A third ray, along -z from above through (0.5, 0, .): parallel to the first, so that pair is
+  // left out; with the second it meets in (0.5, 0.5, 3). Mean of (0, 0.5, 3) and (0.5, 0.5, 3).
+  Rig rig = parallelRig({0.0, 0.0, 0.0});
+  rig.cameras[1].camera.world_from_camera =
+      lookAt({5.0, 1.0, 3.0}, {0.0, 1.0, 3.0}, Vector3d::UnitZ());
+  rig.cameras[2].camera.world_from_camera =
+      lookAt({0.5, 0.0, 9.0}, {0.5, 0.0, 0.0}, Vector3d::UnitY());
+  const Vector2d center(rig.cameras[0].camera.intrinsics.cx, rig.cameras[0].camera.intrinsics.cy);
+  std::vector<Observation> observations;
+  for (const RigCamera& camera : rig.cameras)
+    observations.push_back({&camera.camera, center});
+  const auto point = triangulate(observations, optionsFor(TriangulationMethod::kMeanClosest));
+  ASSERT_TRUE(point);
+  EXPECT_LT((point->position - Vector3d(0.25, 0.5, 3.0)).norm(), 1e-12);
+}
+
+/// OpenCV's point (direct linear transform) from two undistorted views.
+Vector3d opencvPoint(const std::vector<Observation>& observations) {
+  cv::Mat_<double> P[2], pixels[2];
+  for (int c = 0; c < 2; ++c) {
+    const OpenCvCamera reference(*observations[c].camera);
+    cv::Mat_<double> Rt;
+    cv::hconcat(reference.R, reference.translation, Rt);
+    P[c] = reference.K * Rt;
+    pixels[c] = (cv::Mat_<double>(2, 1) << observations[c].pixel.x(), observations[c].pixel.y());
+  }
+  cv::Mat_<double> h;
+  cv::triangulatePoints(P[0], P[1], pixels[0], pixels[1], h);
+  return {h(0) / h(3), h(1) / h(3), h(2) / h(3)};
+}
+
+TEST(Triangulate, AgreesWithOpenCvForTwoViews) {
+  constexpr double kNoise = 0.5;  // [px]
+  Random random(12);
+  double opencv_sum = 0.0;
+  double sums[3] = {};
+  for (int i = 0; i < 2000; ++i) {
+    Rig rig = test::randomRig(random, 2);
+    for (RigCamera& camera : rig.cameras)
+      camera.camera.intrinsics.distortion = {};
+    const Vector3d truth = random.inBox(1.0);
+    std::vector<Observation> observations = observe(rig, truth);
+    for (const TriangulationMethod method : kMethods) {
+      const auto point = triangulate(observations, optionsFor(method));
+      ASSERT_TRUE(point);
+      EXPECT_LT((point->position - opencvPoint(observations)).norm(), 1e-9);
+    }
+    for (Observation& o : observations) {
+      const double u = random.gaussian();
+      const double v = random.gaussian();
+      o.pixel += kNoise * Vector2d(u, v);
+    }
+    opencv_sum += (opencvPoint(observations) - truth).squaredNorm();
+    for (int m = 0; m < 3; ++m) {
+      const auto point = triangulate(observations, optionsFor(kMethods[m]));
+      ASSERT_TRUE(point);
+      sums[m] += (point->position - truth).squaredNorm();
+    }
+  }
+  // They weight the two rays differently, so with noise they agree in quality, not in each point.
+  for (const double sum : sums)
+    EXPECT_NEAR(std::sqrt(sum / opencv_sum), 1.0, 0.05);
+  EXPECT_LT(sums[2], 1.01 * opencv_sum) << "maximum likelihood must not be worse";
+}
+
+TEST(Triangulate, RefusesFewerThanTwoObservations) {
+  Random random(13);
+  const Rig rig = test::randomRig(random, 1);
+  for (const TriangulationMethod method : kMethods) {
+    EXPECT_FALSE(triangulate({}, optionsFor(method)));
+    EXPECT_FALSE(triangulate(observe(rig, Vector3d::Zero()), optionsFor(method)));
+  }
+}
+
+TEST(Triangulate, RefusesParallelRays) {
+  const Rig rig = parallelRig({0.0, 1.0, 2.0});
+  std::vector<Observation> observations;
+  for (const RigCamera& camera : rig.cameras)
+    observations.push_back({&camera.camera, Vector2d(600.0, 300.0)});
+  for (const TriangulationMethod method : kMethods)
+    EXPECT_FALSE(triangulate(observations, optionsFor(method)));
+}
+
+TEST(Triangulate, RefusesRaysThatFaceEachOther) {
+  Rig rig = parallelRig({0.0, 0.0});
+  rig.cameras[1].camera.world_from_camera =
+      lookAt({0.0, 0.0, 8.0}, Vector3d::Zero(), Vector3d::UnitY());
+  const auto observations = observe(rig, {0.0, 0.0, 4.0});
+  for (const TriangulationMethod method : kMethods)
+    EXPECT_FALSE(triangulate(observations, optionsFor(method)));
+}
+
+TEST(Triangulate, RefusesBelowTheMinimumAngleOnly) {
+  // 1 m apart, 100 m away: 0.01 rad.
+  const Rig rig = parallelRig({-0.5, 0.5});
+  const auto observations = observe(rig, {0.0, 0.0, 100.0});
+  for (const TriangulationMethod method : kMethods) {
+    TriangulationOptions options = optionsFor(method);
+    options.minimum_angle = 0.011;
+    EXPECT_FALSE(triangulate(observations, options));
+    options.minimum_angle = 0.009;
+    EXPECT_TRUE(triangulate(observations, options));
+  }
+}
+
+TEST(Triangulate, RefusesIdenticalCameras) {
+  const Rig rig = parallelRig({0.0, 0.0});
+  const auto observations = observe(rig, {0.3, 0.2, 4.0});
+  for (const TriangulationMethod method : kMethods)
+    EXPECT_FALSE(triangulate(observations, optionsFor(method)));
+}
+
+TEST(Triangulate, RefusesAPointBehindTheCameras) {
+  // Rays that part from each other meet behind both cameras.
+  const Rig rig = parallelRig({-0.5, 0.5});
+  const std::vector<Observation> observations = {{&rig.cameras[0].camera, Vector2d(200.0, 400.0)},
+                                                 {&rig.cameras[1].camera, Vector2d(900.0, 400.0)}};
+  for (const TriangulationMethod method : kMethods)
+    EXPECT_FALSE(triangulate(observations, optionsFor(method)));
+}
+
+TEST(Triangulate, RefusesAPointBehindOneOfManyCameras) {
+  Rig rig = parallelRig({-1.0, 1.0, 0.0});
+  rig.cameras[2].camera.world_from_camera.translation().z() = 10.0;  // looks away from the point
+  const Vector3d truth(0.1, 0.2, 4.0);
+  std::vector<Observation> observations = observe(rig, truth);
+  // The line from the third camera through the point, backwards: its pixel is the same.
+  for (const TriangulationMethod method : kMethods)
+    EXPECT_FALSE(triangulate(observations, optionsFor(method)));
+  observations.pop_back();
+  for (const TriangulationMethod method : kMethods)
+    EXPECT_TRUE(triangulate(observations, optionsFor(method)));
+}
+
+TEST(Triangulate, RefusesAPixelThatIsNoNumberOrHasNoRay) {
+  Random random(14);
+  Rig rig = test::randomRig(random, 3);
+  std::vector<Observation> observations = observe(rig, Vector3d::Zero());
+  observations[1].pixel.y() = std::numeric_limits<double>::quiet_NaN();
+  for (const TriangulationMethod method : kMethods)
+    EXPECT_FALSE(triangulate(observations, optionsFor(method)));
+  observations = observe(rig, Vector3d::Zero());
+  rig.cameras[2].camera.intrinsics.distortion = {-0.5, 0.0, 0.0, 0.0, 0.0};
+  observations[2].pixel.x() = 1e6;
+  for (const TriangulationMethod method : kMethods)
+    EXPECT_FALSE(triangulate(observations, optionsFor(method)));
+}
+
+TEST(Triangulate, ReprojectionErrorIsTheRootMeanSquareDistance) {
+  Random random(15);
+  const Rig rig = test::randomRig(random, 3);
+  std::vector<Observation> observations = observe(rig, Vector3d::Zero());
+  for (Observation& o : observations)
+    o.pixel += 3.0 * Vector2d(random.gaussian(), random.gaussian());
+  for (const TriangulationMethod method : kMethods) {
+    const auto point = triangulate(observations, optionsFor(method));
+    ASSERT_TRUE(point);
+    double sum = 0.0;
+    for (const Observation& o : observations)
+      sum += (OpenCvCamera(*o.camera).project(point->position) - o.pixel).squaredNorm();
+    EXPECT_NEAR(point->reprojection_error, std::sqrt(sum / 3.0), 1e-9);
+  }
+}
+
+TEST(Triangulate, MaximumLikelihoodFitsThePixelsBest) {
+  Random random(16);
+  for (int i = 0; i < 100; ++i) {
+    const Rig rig = test::randomRig(random, 4);
+    std::vector<Observation> observations = observe(rig, random.inBox(1.0));
+    for (Observation& o : observations)
+      o.pixel += 2.0 * Vector2d(random.gaussian(), random.gaussian());
+    const auto best =
+        triangulate(observations, optionsFor(TriangulationMethod::kMaximumLikelihood));
+    ASSERT_TRUE(best);
+    for (const TriangulationMethod method :
+         {TriangulationMethod::kMeanClosest, TriangulationMethod::kLeastSquares}) {
+      EXPECT_LE(best->reprojection_error,
+                triangulate(observations, optionsFor(method))->reprojection_error + 1e-12);
+    }
+    // A minimum: any small step is worse.
+    for (int a = 0; a < 3; ++a) {
+      for (const double step : {-1e-4, 1e-4}) {
+        double sum = 0.0;
+        for (const Observation& o : observations) {
+          const Vector3d moved = best->position + step * Vector3d::Unit(a);
+          sum += (OpenCvCamera(*o.camera).project(moved) - o.pixel).squaredNorm();
+        }
+        EXPECT_GT(std::sqrt(sum / 4.0), best->reprojection_error);
+      }
+    }
+  }
+}
+
+TEST(Triangulate, DoesNotAllocate) {
+  Random random(17);
+  const Rig rig = test::randomRig(random, 16);
+  std::vector<Observation> observations = observe(rig, Vector3d(0.1, 0.2, 0.3));
+  observations[0].pixel.x() += 1.0;
+  for (const TriangulationMethod method : kMethods) {
+    const int before = g_allocations;
+    const auto point = triangulate(observations, optionsFor(method));
+    const int after = g_allocations;
+    EXPECT_TRUE(point);
+    EXPECT_EQ(before, after);
+  }
+  EXPECT_GT(g_allocations, 0) << "the counter must count";
+}
+
+TEST(Triangulate, TakesAnyNumberOfObservations) {
+  Random random(18);
+  const Rig rig = test::randomRig(random, 40);
+  const Vector3d truth(0.1, 0.2, 0.3);
+  for (const TriangulationMethod method : kMethods) {
+    const auto point = triangulate(observe(rig, truth), optionsFor(method));
+    ASSERT_TRUE(point);
+    EXPECT_LT((point->position - truth).norm(), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::geometry

@@ -1,0 +1,61 @@
+"""The list of cameras, as the drivers script reads it."""
+
+import importlib.machinery
+import importlib.util
+import os
+
+import pytest
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+loader = importlib.machinery.SourceFileLoader('drivers', os.path.join(HERE, '../launch/drivers'))
+spec = importlib.util.spec_from_loader('drivers', loader)
+drivers = importlib.util.module_from_spec(spec)
+loader.exec_module(drivers)
+
+
+def read(tmp_path, text, socket_directory=''):
+    path = tmp_path / 'cameras.yaml'
+    path.write_text(text)
+    return drivers.read_devices(str(path), socket_directory)
+
+
+def test_addresses_and_paths_in_the_order_of_the_file(tmp_path):
+    assert read(tmp_path, 'cameras:\n  b: "00:1f:32:00:00:02"\n  a: /dev/hidraw3\n') == [
+        ('b', '00:1f:32:00:00:02'), ('a', '/dev/hidraw3')]
+
+
+def test_the_example_can_be_read():
+    devices = drivers.read_devices(os.path.join(HERE, '../config/cameras.yaml'), '')
+    assert [name for name, _ in devices] == ['wiimote_%d' % i for i in (1, 2, 3, 4)]
+
+
+def test_a_rig_description_names_its_cameras_and_sockets():
+    devices = drivers.read_devices(os.path.join(HERE, '../simulation/paper_rig.yaml'), '/tmp/s')
+    assert devices[0] == ('wiimote_1', 'virtual:/tmp/s/wiimote_1.sock')
+    assert len(devices) == 4
+
+
+@pytest.mark.parametrize('text, complaint', [
+    ('', 'must have "cameras:"'),
+    ('cameras: {}', 'must have "cameras:"'),
+    ('cameras: [a, b]', 'must have "cameras:"'),
+    ('wiimote_1: "00:1f:32:00:00:01"', 'must have "cameras:"'),
+    ('cameras: {a: [1', 'not valid YAML'),
+    ('cameras: {a: 12}', 'as a text in quotes'),
+    ('cameras: {a: ""}', 'as a text in quotes'),
+    ('cameras: {a: {}}', 'as a text in quotes'),
+    ('cameras: {a: 11:22:33:44:55:06}', 'as a text in quotes'),
+    ('cameras: {"a b": "00:1f:32:00:00:01"}', "camera name 'a b'"),
+    ('cameras: {1: "00:1f:32:00:00:01"}', 'camera name 1'),
+    ('cameras: {a: "00:1F:32:00:00:01", b: "00:1f:32:00:00:01"}', 'so has another one'),
+])
+def test_a_list_that_cannot_be_used_is_refused_in_words(tmp_path, text, complaint):
+    with pytest.raises(drivers.CamerasError) as error:
+        read(tmp_path, text)
+    assert complaint in str(error.value)
+    assert str(tmp_path) in str(error.value)
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(drivers.CamerasError, match='nothing.yaml cannot be read'):
+        drivers.read_devices(str(tmp_path / 'nothing.yaml'), '')

@@ -1,0 +1,343 @@
+"""Alignment, bound, scoring and the demo's helpers, against closed forms and small cases."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
+
+from wiimote_tracker_evaluation import (alignment, bound, experiment, processes, report,  # noqa: E402
+                                        scene, scoring)
+
+PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
+
+
+# --- Alignment
+
+def a_rotation(seed):
+    q, r = np.linalg.qr(np.random.RandomState(seed).randn(3, 3))
+    q = q * np.sign(np.diag(r))
+    return q if np.linalg.det(q) > 0 else -q
+
+
+@pytest.mark.parametrize('seed', range(5))
+def test_alignment_finds_the_similarity_that_was_applied(seed):
+    random = np.random.RandomState(seed)
+    source = random.randn(8, 3)
+    rotation, translation, scale = a_rotation(seed), random.randn(3), 0.5 + random.rand()
+    found = alignment.fit(source, scale * source @ rotation.T + translation, with_scale=True)
+    assert np.allclose(found.rotation, rotation, atol=1e-12)
+    assert np.allclose(found.translation, translation, atol=1e-12)
+    assert found.scale == pytest.approx(scale, abs=1e-12)
+
+
+def test_rigid_alignment_keeps_the_size_and_is_never_a_reflection():
+    random = np.random.RandomState(3)
+    source = random.randn(9, 3)
+    mirrored = source * [1.0, 1.0, -1.0]
+    found = alignment.fit(source, 1.3 * mirrored, with_scale=False)
+    assert found.scale == 1.0
+    assert np.linalg.det(found.rotation) == pytest.approx(1.0)
+    assert alignment.rms(found.apply(source) - 1.3 * mirrored) > 0.1
+
+
+@pytest.mark.parametrize('with_scale', [False, True])
+def test_no_small_change_of_the_alignment_fits_better(with_scale):
+    random = np.random.RandomState(4)
+    source, target = random.randn(10, 3), random.randn(10, 3)
+    best = alignment.fit(source, target, with_scale)
+
+    def cost(change):
+        changed = alignment.Alignment(bound.rotation_of(change[:3]) @ best.rotation,
+                                      best.translation + change[3:6], best.scale + change[6])
+        return ((changed.apply(source) - target) ** 2).sum()
+    for axis in range(7 if with_scale else 6):
+        step = 1e-3 * np.eye(7)[axis]
+        assert cost(np.zeros(7)) < min(cost(step), cost(-step))
+
+
+@pytest.mark.parametrize('points', [np.zeros((5, 3)), np.outer(np.arange(5.0), [1, 2, 3]),
+                                    np.eye(3)[:2], np.full((4, 3), np.nan), np.zeros((3, 2))])
+def test_alignment_refuses_what_does_not_determine_it(points):
+    with pytest.raises(ValueError):
+        alignment.fit(points, points, with_scale=True)
+
+
+def test_rms_is_the_root_of_the_mean_square_length():
+    assert alignment.rms([[3.0, 0.0, 0.0], [0.0, 0.0, 4.0]]) == pytest.approx(np.sqrt(12.5))
+
+
+# --- Scene
+
+def a_camera(position, target, parameters=(1300.0, 1300.0, 512.0, 384.0, 0.0), name='camera'):
+    return scene.Camera(name, parameters, scene.look_at(np.asarray(position, float), target),
+                        position, (1024, 768))
+
+
+def test_camera_model_agrees_with_opencv_convention_by_hand():
+    camera = a_camera((0, 0, 1), (5, 0, 1), (1000.0, 900.0, 500.0, 400.0, 0.1))
+    # 1 m to the camera's right (-y), 0.5 m above its axis, at 5 m.
+    x, y = 0.2, -0.1
+    radial = 1.0 + 0.1 * (x * x + y * y)
+    assert np.allclose(camera.project(np.array([[5.0, -1.0, 1.5]])),
+                       [[500.0 + 1000.0 * x * radial, 400.0 + 900.0 * y * radial]])
+    assert np.isnan(camera.project(np.array([[-5.0, 0.0, 1.0]]))).all()
+    assert camera.sees(np.array([[5.0, 0.0, 1.0], [5.0, -5.0, 1.0], [-5.0, 0.0, 1.0]])).tolist() \
+        == [True, False, False]
+
+
+def test_paper_rig_sees_all_that_is_measured():
+    rig = scene.read_scene(PAPER_RIG)
+    assert [camera.name for camera in rig.cameras] == ['wiimote_%d' % i for i in (1, 2, 3, 4)]
+    for points in (experiment.TEST_POINTS, experiment.circle_points(), experiment.CORNERS,
+                   experiment.alignment_points(2)):
+        assert not any(rig.missed(points))
+
+
+def test_missed_names_the_cameras():
+    rig = scene.Scene([a_camera((0, 0, 1), (5, 0, 1), name='a'),
+                       a_camera((0, 0, 1), (-5, 0, 1), name='b')], 0.3)
+    assert rig.missed(np.array([[5.0, 0.0, 1.0], [0.0, 9.0, 1.0]])) == [['b'], ['a', 'b']]
+
+
+def test_intrinsics_of_the_paper_rig_are_those_that_were_drawn():
+    drawn = subprocess.check_output(
+        ['/usr/bin/python3', os.path.join(HERE, '..', 'simulation', 'draw_intrinsics.py')],
+        universal_newlines=True)
+    with open(PAPER_RIG) as file:
+        described = file.read()
+    lines = [line for line in drawn.splitlines() if line.startswith('wiimote_')]
+    assert len(lines) == 4
+    for line in lines:
+        assert 'intrinsics: ' + line.split(': ', 1)[1] in described
+
+
+# --- Bound
+
+EXACT = bound.Knowledge(focal=0.0, focal_ratio=0.0, center=0.0, k1=0.0, corner=0.0)
+
+
+def test_bound_of_a_stereo_pair_is_the_textbook_formula():
+    # Two parallel cameras, baseline b, point at depth z on the middle axis: across (along b)
+    # z sigma / (f sqrt 2), in height the same, in depth z^2 sigma sqrt 2 / (f b), for b << z.
+    b, z, f = 0.1, 4.0, 1300.0
+    pair = scene.Scene([a_camera((0, -b / 2, 0), (9, -b / 2, 0)),
+                        a_camera((0, b / 2, 0), (9, b / 2, 0))], 0.4)
+    sigma = np.sqrt(0.4 ** 2 + 1.0 / 12.0)
+    _, covariance = bound.point_sensitivity(pair, np.zeros((22, 22)), np.array([z, 0.0, 0.0]), 1)
+    assert np.sqrt(covariance[0, 0]) == pytest.approx(z * z * sigma * np.sqrt(2.0) / (f * b),
+                                                      rel=1e-3)
+    assert np.sqrt(covariance[1, 1]) == pytest.approx(z * sigma / (f * np.sqrt(2.0)), rel=1e-3)
+    assert np.sqrt(covariance[2, 2]) == pytest.approx(z * sigma / (f * np.sqrt(2.0)), rel=1e-3)
+    _, averaged = bound.point_sensitivity(pair, np.zeros((22, 22)), np.array([z, 0.0, 0.0]), 25)
+    assert np.allclose(averaged, covariance / 25.0)
+
+
+def test_a_point_needs_two_cameras():
+    pair = scene.Scene([a_camera((0, 0, 1), (5, 0, 1)), a_camera((0, 0, 1), (-5, 0, 1))], 0.3)
+    with pytest.raises(ValueError):
+        bound.point_sensitivity(pair, np.zeros((22, 22)), np.array([5.0, 0.0, 1.0]), 1)
+
+
+def test_pose_bound_agrees_with_many_least_squares_solutions():
+    """A camera with a known lens and exact corners, solved by Gauss-Newton from noisy pixels."""
+    camera = a_camera((-3.0, -3.0, 2.0), (1.25, 1.25, 1.0))
+    rig = scene.Scene([camera], 0.4)
+    sigma = rig.effective_noise()
+    covariance = bound.calibration_covariance(rig, experiment.CORNERS, 1, EXACT)
+    assert not covariance[6:, :].any()
+
+    jacobian = np.concatenate([bound.camera_derivative(camera, corner)[:, :6]
+                               for corner in experiment.CORNERS])
+    exact = camera.project(experiment.CORNERS)
+    random = np.random.RandomState(1)
+    solutions = []
+    for _ in range(3000):
+        pixels = exact + sigma * random.randn(4, 2)
+        change = np.zeros(11)
+        for _ in range(3):
+            residual = (pixels - bound.moved(camera, change, experiment.CORNERS)).reshape(-1)
+            change[:6] += np.linalg.lstsq(jacobian, residual, rcond=None)[0]
+        solutions.append(change[:6])
+    measured = np.std(solutions, axis=0)
+    assert np.allclose(measured / np.sqrt(np.diag(covariance)[:6]), 1.0, atol=0.05)
+
+
+def test_misplaced_corners_that_are_a_motion_of_the_square_move_the_world():
+    """With perfect pixels and lenses the bound is what the corners' misplacement alone does: a
+    point in the middle of the square moves with the mean of the corners, 5 mm / sqrt 4 each axis."""
+    rig = scene.read_scene(PAPER_RIG)
+    rig.pixel_noise = 0.0
+    knowledge = bound.Knowledge(focal=0.0, focal_ratio=0.0, center=0.0, k1=0.0, corner=0.005)
+    calibration = bound.calibration_covariance(rig, experiment.CORNERS, 1e9, knowledge)
+    sensitivity, _ = bound.point_sensitivity(rig, calibration, np.array([1.25, 1.25, 0.0]), 1e9)
+    covariance = sensitivity @ calibration @ sensitivity.T
+    assert np.sqrt(covariance[0, 0]) == pytest.approx(0.0025, rel=0.05)
+    assert np.sqrt(covariance[1, 1]) == pytest.approx(0.0025, rel=0.05)
+
+
+def the_bounds(**knowledge):
+    rig = scene.read_scene(PAPER_RIG)
+    return bound.position_bounds(rig, experiment.CORNERS, experiment.TEST_POINTS,
+                                 experiment.alignment_points(2), 100, 100, 30,
+                                 bound.Knowledge(**knowledge), experiments=1000)
+
+
+def test_alignment_only_helps_and_the_range_holds_the_mean():
+    bounds = the_bounds()
+    assert bounds['absolute'].rms > bounds['rigid'].rms > bounds['similarity'].rms > 0.0
+    for kind in alignment.KINDS:
+        assert bounds[kind].low < bounds[kind].rms < bounds[kind].high
+
+
+def test_knowing_more_lowers_the_bound():
+    much = the_bounds()
+    for more in (dict(corner=0.001), dict(focal=0.005), dict(center=2.0)):
+        assert the_bounds(**more)['absolute'].rms < much['absolute'].rms
+
+
+def test_with_only_the_size_of_the_square_wrong_a_similarity_leaves_nothing():
+    """All that a rigidly moved and scaled world leaves after a similarity alignment is pixels."""
+    rig = scene.read_scene(PAPER_RIG)
+    basis = bound.alignment_basis(experiment.TEST_POINTS, 'similarity')
+    fitted = bound.alignment_basis(experiment.alignment_points(2), 'similarity')
+    carry = basis @ np.linalg.pinv(fitted)
+    moved = np.random.RandomState(5).randn(7)
+    assert np.allclose(basis @ moved - carry @ (fitted @ moved), 0.0, atol=1e-9)
+    assert rig.effective_noise() == pytest.approx(np.sqrt(0.09 + 1.0 / 12.0))
+
+
+# --- Scoring and report, on a recording made by hand
+
+class HandMade(object):
+    """A recording in which every point is measured with a known error."""
+
+    def __init__(self):
+        from wiimote_tracker_evaluation import recording
+        points, truths, self.segments = [], [], []
+
+        class Segment(object):
+            def __init__(self, kind, name, target, start, end):
+                self.kind, self.name, self.target = kind, name, target
+                self.start, self.end = start, end
+        now = 1000.0
+        places = ([('test', p) for p in experiment.TEST_POINTS]
+                  + [('alignment', p) for p in experiment.alignment_points(2)])
+        for number, (kind, place) in enumerate(places):
+            self.segments.append(Segment(kind, '%s%d' % (kind, number), place, now, now + 1.0))
+            for i in range(101):
+                stamp = now + 0.01 * i
+                wiggle = 0.001 * (-1) ** i  # 1 mm to either side in x
+                measured = 1.01 * place + [0.0, 0.0, 0.002] + [wiggle, 0.0, 0.0]
+                points.append((stamp,) + tuple(measured) + (0.001, 0.001, 0.001, 4, 0.3))
+                truths.append((stamp,) + tuple(place))
+            now += 2.0
+        center = experiment.CIRCLE_CENTERS[0]
+        self.segments.append(Segment('circle', 'circle', center, now, now + 1.0))
+        for i in range(101):
+            stamp, angle = now + 0.01 * i, 2.0 * np.pi * i / 100
+            ring = np.array([np.cos(angle), np.sin(angle), 0.0])
+            points.append((stamp,) + tuple(center + 0.753 * ring + [0, 0, 0.004])
+                          + (0.001, 0.001, 0.001, 4, 0.3))
+            truths.append((stamp,) + tuple(center + 0.75 * ring))
+        self.recording = recording.Recording(points, truths, np.linspace(0.001, 0.002, 101))
+
+
+@pytest.fixture(scope='module')
+def hand_made():
+    return HandMade()
+
+
+def test_score_of_a_recording_with_known_errors(hand_made):
+    score = scoring.score(hand_made.recording, hand_made.segments)
+    error = 0.01 * experiment.TEST_POINTS + [0.0, 0.0, 0.002]
+    assert score.position_rms['absolute'] == pytest.approx(alignment.rms(error), rel=1e-2)
+    assert score.position_rms['similarity'] < 1e-4
+    assert score.position_rms['similarity'] < score.position_rms['rigid'] \
+        < score.position_rms['absolute']
+    assert score.scatter == pytest.approx(0.001, rel=0.02)
+    assert score.circles[0].radial == pytest.approx(0.003, rel=1e-6)
+    assert score.circles[0].height == pytest.approx(0.004, rel=1e-6)
+    assert score.rate == pytest.approx(101.0, rel=1e-6)
+    assert score.latency_p50 == pytest.approx(0.0015)
+    assert score.latency_p99 == pytest.approx(0.00199)
+
+
+def test_a_place_without_points_is_refused_by_name(hand_made):
+    segment = hand_made.segments[0]
+    late = type(segment)('test', 'P11', segment.target, 1.0, 2.0)
+    with pytest.raises(ValueError, match='P11'):
+        scoring.score(hand_made.recording, hand_made.segments + [late])
+
+
+def test_files_hold_the_figures(hand_made, tmp_path):
+    score = scoring.score(hand_made.recording, hand_made.segments)
+    bounds = the_bounds()
+    report.write_summary(str(tmp_path / 'summary.json'), score, bounds)
+    summary = json.loads((tmp_path / 'summary.json').read_text())
+    assert set(summary['position_rms_mm']) == {'absolute', 'rigid', 'similarity'}
+    assert summary['position_rms_mm']['absolute'] == pytest.approx(
+        1e3 * score.position_rms['absolute'], abs=1e-3)
+    assert summary['rate_hz'] == pytest.approx(101.0)
+    assert summary['latency_ms'] == {'p50': pytest.approx(1.5), 'p99': pytest.approx(1.99)}
+
+    report.write_csv(str(tmp_path / 'points.csv'), hand_made.recording, hand_made.segments)
+    rows = (tmp_path / 'points.csv').read_text().splitlines()
+    assert rows[0].startswith('phase,name,stamp_s,x_m,y_m,z_m,true_x_m')
+    assert len(rows) == 1 + 101 * len(hand_made.segments)
+    assert len({row.count(',') for row in rows}) == 1
+
+    report.draw_tracks(str(tmp_path / 'tracks.png'), hand_made.recording, hand_made.segments,
+                       score, scene.read_scene(PAPER_RIG))
+    assert (tmp_path / 'tracks.png').read_bytes()[:4] == b'\x89PNG'
+
+    text = report.sentence(score)
+    assert '\n' not in text and '%.1f mm absolute' % (1e3 * score.position_rms['absolute']) in text
+
+
+# --- Processes
+
+def test_stopping_ends_grandchildren_that_left_their_parent(tmp_path):
+    """In a process of its own: it becomes the reaper of everything below it."""
+    program = tmp_path / 'program.py'
+    program.write_text('''
+import os, sys, time
+sys.path.insert(0, %r)
+from wiimote_tracker_evaluation.processes import Processes, descendants
+p = Processes()
+# A shell that leaves behind, in a session of its own, a process that ignores polite requests.
+p.start('shell', ['sh', '-c', "setsid sh -c \\"trap '' INT TERM; echo up > %s; while :; do sleep 1; "
+        "done\\" & wait"], os.devnull)
+deadline = time.monotonic() + 20
+while not os.path.exists(%r) and time.monotonic() < deadline:
+    time.sleep(0.01)
+before = len(descendants())
+p.stop_all(patience=(0.5, 0.5, 5.0))
+print(before, len(descendants()))
+''' % (os.path.join(HERE, '..', 'evaluation'), tmp_path / 'up', str(tmp_path / 'up')))
+    before, after = subprocess.check_output(['/usr/bin/python3', str(program)],
+                                            timeout=60).split()
+    assert int(before) >= 2
+    assert int(after) == 0
+
+
+def test_a_process_that_ends_is_noticed_and_named(tmp_path):
+    program = tmp_path / 'program.py'
+    program.write_text('''
+import os, sys
+sys.path.insert(0, %r)
+from wiimote_tracker_evaluation.processes import Processes, ProcessEnded
+p = Processes()
+p.start('falsifier', ['false'], os.devnull).wait()
+try:
+    p.check()
+except ProcessEnded as error:
+    print(error)
+''' % os.path.join(HERE, '..', 'evaluation'))
+    said = subprocess.check_output(['/usr/bin/python3', str(program)], timeout=60).decode()
+    assert 'falsifier ended unexpectedly (status 1)' in said

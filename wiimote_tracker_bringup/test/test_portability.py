@@ -1,0 +1,144 @@
+"""Sources use nothing that ROS Noetic on Ubuntu 20.04 lacks, and packages name what they need.
+
+Stands in for a machine with GCC 9, Python 3.8, Eigen 3.3, OpenCV 4.2, Ceres 1.14, hidapi 0.9.
+"""
+
+import glob
+import os
+import re
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+TOP = os.path.dirname(os.path.dirname(HERE))
+PACKAGES = sorted(os.path.dirname(p) for p in glob.glob(TOP + '/wiimote_tracker_*/package.xml'))
+
+# What must not be there, and why.
+CPP = {
+    r'\bhid_get_device_info\b': 'hidapi 0.13',
+    r'\bhid_version\b|\bHID_API_VERSION\b': 'hidapi 0.10',
+    r'\bbus_type\b': 'hidapi 0.13',
+    r'\bSOLVEPNP_SQPNP\b': 'OpenCV 4.5',
+    r'\bEigen::(seq|seqN|lastN|last|all|placeholders)\b|\.reshaped\(': 'Eigen 3.4',
+    r'\bstd::(format|span|numbers|bit_cast|source_location|ranges)\b': 'C++20',
+    r'^\s*(concept|co_await|co_yield|co_return)\b|\brequires\s*\(|\bconsteval\b': 'C++20',
+    r'#include <(concepts|format|span|numbers|ranges|bit|coroutine|source_location)>': 'C++20',
+    r'\{\s*\.\w+\s*=[^=]': 'C++20 (designated initialisers)',
+    r'\.starts_with\(|\.ends_with\(|\.contains\(': 'C++20 or later',
+    r'\bEigenQuaternionManifold\b|\bceres::Manifold\b|\bSetManifold\b': 'Ceres 2.1',
+}
+PYTHON = {
+    r'^\s*match\s+[^=(\[]+:\s*$': 'Python 3.10',
+    r'\.remove(prefix|suffix)\(': 'Python 3.9',
+    r'(:|->)\s*(list|dict|tuple|set)\[': 'Python 3.9',
+    r'->.*\w \| \w|^\s*def .*:\s*\w+ \| \w': 'Python 3.10',
+    r'\bmath\.lcm\b|\bzoneinfo\b|\btomllib\b': 'Python 3.9 or later',
+}
+# Floating point only: from_chars of integers is there.
+FLOATING_FROM_CHARS = re.compile(r'from_chars\([^;]*chars_format')
+
+
+def sources(*endings):
+    for package in PACKAGES:
+        for folder, subfolders, files in os.walk(package):
+            subfolders[:] = [s for s in subfolders if not s.startswith('.')]
+            for name in sorted(files):
+                path = os.path.join(folder, name)
+                if name.endswith(endings) and path != os.path.realpath(__file__):
+                    yield path
+
+
+def python_programs():
+    yield from sources('.py')
+    for package in PACKAGES:
+        for folder, _, files in os.walk(package):
+            for name in files:
+                path = os.path.join(folder, name)
+                if '.' not in name and os.access(path, os.X_OK):
+                    with open(path, 'rb') as file:
+                        if b'python' in file.readline():
+                            yield path
+
+
+def violations(paths, rules):
+    for path in paths:
+        with open(path, encoding='utf-8') as file:
+            for number, line in enumerate(file, 1):
+                code = line.split('//')[0] if path.endswith(('.h', '.cpp')) else line
+                for rule, since in rules.items():
+                    if re.search(rule, code):
+                        yield '%s:%d needs %s: %s' % (os.path.relpath(path, TOP), number, since,
+                                                      line.strip())
+
+
+def test_the_rules_find_what_they_are_meant_to_find(tmp_path):
+    bad = tmp_path / 'bad.cpp'
+    bad.write_text('auto i = hid_get_device_info(d);\nx = m.reshaped();\ncv::SOLVEPNP_SQPNP;\n'
+                   'auto s = std::format("{}", 1);\nParameters p{.a = 1};\nEigen::seq(0, 2);\n'
+                   'problem.SetManifold(q, m);\n')
+    assert len({v.split(':')[1] for v in violations([str(bad)], CPP)}) == 7
+    bad = tmp_path / 'bad.py'
+    bad.write_text('match value:\ns.removeprefix("a")\ndef f(a: list[int]):\n')
+    assert len(list(violations([str(bad)], PYTHON))) == 3
+    good = tmp_path / 'good.py'
+    good.write_text('if re.match(a, b):\nfound = re.match(a)\nd: typing.List[int] = []\n')
+    assert not list(violations([str(good)], PYTHON))
+
+
+def test_cpp_uses_nothing_that_noetic_lacks():
+    assert not list(violations(sources('.h', '.cpp'), CPP))
+    for path in sources('.h', '.cpp'):
+        with open(path, encoding='utf-8') as file:
+            assert not FLOATING_FROM_CHARS.search(file.read()), path
+
+
+def test_python_uses_nothing_that_noetic_lacks():
+    assert not list(violations(python_programs(), PYTHON))
+
+
+# --- package.xml against CMakeLists.txt
+
+# What find_package() and pkg_check_modules() are called with, as rosdep keys.
+ROSDEP_KEY = {'Eigen3': 'eigen', 'yaml-cpp': 'yaml-cpp', 'Ceres': 'libceres-dev',
+              'OpenCV': 'libopencv-dev', 'hidapi-hidraw': 'libhidapi-dev', 'Boost': 'boost',
+              'benchmark': 'benchmark'}
+# Parts of every toolchain.
+NOT_PACKAGES = {'catkin', 'Threads', 'PkgConfig', 'GTest', 'PythonInterp'}
+
+
+def declared(package):
+    root = ElementTree.parse(os.path.join(package, 'package.xml')).getroot()
+    return {element.text for element in root
+            if element.tag.endswith('depend')} | {root.find('name').text}
+
+
+def wanted(package):
+    names = set()
+    for path in glob.glob(package + '/**/CMakeLists.txt', recursive=True):
+        with open(path) as file:
+            text = re.sub(r'#.*', '', file.read())
+        for arguments in re.findall(r'find_package\(([^)]*)\)', text):
+            words = arguments.split()
+            if words[0] == 'catkin' and 'COMPONENTS' in words:
+                names.update(words[words.index('COMPONENTS') + 1:])
+            else:
+                names.add(words[0])
+        for arguments in re.findall(r'pkg_check_modules\(([^)]*)\)', text):
+            names.update(w for w in arguments.split()[1:] if w not in ('REQUIRED', 'IMPORTED_TARGET'))
+    return {ROSDEP_KEY.get(name, name) for name in names - NOT_PACKAGES}
+
+
+@pytest.mark.parametrize('package', PACKAGES, ids=os.path.basename)
+def test_every_dependency_is_declared(package):
+    assert not wanted(package) - declared(package)
+
+
+@pytest.mark.parametrize('package', PACKAGES, ids=os.path.basename)
+def test_every_package_has_readme_changelog_license_and_one_version(package):
+    root = ElementTree.parse(os.path.join(package, 'package.xml')).getroot()
+    assert root.get('format') == '3'
+    assert root.find('license').text == 'BSD-3-Clause'
+    assert root.find('version').text == '0.1.0'
+    for name in ('README.md', 'CHANGELOG.rst'):
+        assert os.path.exists(os.path.join(package, name)), name

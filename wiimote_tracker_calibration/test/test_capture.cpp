@@ -187,7 +187,7 @@ TEST(CornerCapture, images_before_the_start_and_of_other_cameras_are_ignored) {
 }
 
 TEST(CameraMonitor, rate_and_spot_of_a_camera_that_sees_the_led) {
-  CameraMonitor monitor(1.0);
+  CameraMonitor monitor;
   EXPECT_FALSE(monitor.view(0.0).connected);
   EXPECT_SAYS(monitor.view(0.0).problem, "sends no images");
   for (int i = 0; i <= 300; ++i)
@@ -199,6 +199,9 @@ TEST(CameraMonitor, rate_and_spot_of_a_camera_that_sees_the_led) {
   EXPECT_EQ(view.pixel, Eigen::Vector2d(300, 7));
   EXPECT_EQ(view.problem, "");
   EXPECT_FALSE(monitor.view(4.5).connected);  // the images stopped
+  EXPECT_TRUE(monitor.view(4.5, 2.0).connected);
+  monitor.add(3.01, {});
+  EXPECT_FALSE(monitor.view(3.01).sees_led);
 }
 
 TEST(CameraMonitor, says_what_is_wrong) {

@@ -25,17 +25,17 @@ void CameraMonitor::add(double time, const Blobs& blobs) {
   images_.push_back({time, blobs.size()});
   if (!blobs.empty())
     first_blob_ = blobs.front();
-  while (images_.front().time < time - window_)
+  while (images_.front().time < time - kMemory)
     images_.pop_front();
 }
 
-CameraView CameraMonitor::view(double now) const {
+CameraView CameraMonitor::view(double now, double window) const {
   CameraView view;
   std::size_t count = 0;
   std::size_t with_one_spot = 0;
   double first = 0.0;
   for (const Image& image : images_) {
-    if (image.time < now - window_)
+    if (image.time < now - window)
       continue;
     if (count == 0)
       first = image.time;

@@ -24,15 +24,16 @@ struct CameraView {
   std::string problem;  ///< One sentence that says what to do; empty when all is well.
 };
 
-/// Watches the images of one camera through a sliding window of time.
-/// Times [s] are of any one steady clock.
+/// Watches the images of one camera. Times [s] are of any one steady clock.
 class CameraMonitor {
  public:
-  /// @param window length of the window [s, > 0].
-  explicit CameraMonitor(double window = 1.0) : window_(window) {}
+  /// Images older than this are forgotten [s].
+  static constexpr double kMemory = 10.0;
 
   void add(double time, const Blobs& blobs);
-  CameraView view(double now) const;
+
+  /// What the images of the last `window` seconds (up to kMemory) show.
+  CameraView view(double now, double window = 1.0) const;
 
  private:
   struct Image {
@@ -40,7 +41,6 @@ class CameraMonitor {
     std::size_t blobs;
   };
 
-  double window_;
   std::deque<Image> images_;
   Eigen::Vector2d first_blob_ = Eigen::Vector2d::Zero();
 };

@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""What real drivers read from the virtual Wii Remotes is what the description says they see."""
+
+import collections
+import os
+import sys
+import unittest
+
+import numpy as np
+import rospkg
+import rospy
+import rostest
+from geometry_msgs.msg import PointStamped
+from sensor_msgs.msg import Imu
+from wiimote_tracker_evaluation import scene
+from wiimote_tracker_msgs.msg import IrBlobArray
+from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
+
+DEADLINE = 60.0  # [s]
+IMAGES = 100
+# Rotation of the remote's own axes (left, rear, up) into the optical frame (right, down, forward).
+OPTICAL_FROM_IMU = np.array([[-1, 0, 0], [0, 0, -1], [0, -1, 0]])
+
+
+class SimulatedRig(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('simulated_rig_rostest')
+        path = os.path.join(rospkg.RosPack().get_path('wiimote_tracker_bringup'),
+                            'simulation/paper_rig.yaml')
+        cls.scene = scene.read_scene(path)
+        cls.images = collections.defaultdict(list)
+        cls.imu = collections.defaultdict(list)
+        cls.truth = []
+        for camera in cls.scene.cameras:
+            rospy.Subscriber(camera.name + '/ir_blobs', IrBlobArray,
+                             cls.images[camera.name].append)
+            rospy.Subscriber(camera.name + '/imu/data_raw', Imu, cls.imu[camera.name].append)
+        rospy.Subscriber('simulation/truth/led', PointStamped, cls.truth.append)
+        rospy.wait_for_service('simulation/set_led', DEADLINE)
+        cls.set_led = staticmethod(rospy.ServiceProxy('simulation/set_led', SetLed))
+
+    def wait(self, condition, what):
+        deadline = rospy.get_time() + DEADLINE
+        while not condition():
+            self.assertLess(rospy.get_time(), deadline, 'waited too long for ' + what)
+            rospy.sleep(0.01)
+
+    def move(self, target, **more):
+        request = SetLedRequest(led='led', on=True, motion=SetLedRequest.LINE, **more)
+        request.target.x, request.target.y, request.target.z = target
+        return self.set_led(request)
+
+    def images_after(self, time, number=IMAGES):
+        """The first images of every camera that arrived more than 50 ms after a time: nothing that
+        was on its way is among them."""
+        def after(name):
+            return [image for image in list(self.images[name])
+                    if image.arrival.to_sec() > time + 0.05]
+        names = [camera.name for camera in self.scene.cameras]
+        self.wait(lambda: all(len(after(name)) >= number for name in names),
+                  'images of all cameras')
+        return {name: after(name)[:number] for name in names}
+
+    def test_blobs_are_the_projection_of_the_led(self):
+        for target in ((1.25, 1.25, 0.0), (0.0, 2.5, 2.5), (2.1, 0.4, 1.1)):
+            response = self.move(target)
+            self.assertTrue(response.success, response.message)
+            images = self.images_after(response.arrival.to_sec())
+            for camera in self.scene.cameras:
+                pixels = []
+                for image in images[camera.name]:
+                    self.assertEqual(len(image.blobs), 1)
+                    self.assertEqual((image.width, image.height), (1024, 768))
+                    self.assertEqual(image.camera.strip('/'), camera.name)
+                    pixels.append((image.blobs[0].x, image.blobs[0].y))
+                mean = np.mean(pixels, axis=0)
+                # Six standard errors, and what rounding leaves of 0.3 px of noise after averaging.
+                tolerance = 6.0 * self.scene.effective_noise() / np.sqrt(IMAGES) + 0.06
+                np.testing.assert_allclose(mean, camera.project(np.array([target]))[0],
+                                           atol=tolerance)
+
+    def test_identities_are_those_of_the_description(self):
+        images = self.images_after(rospy.get_time(), 1)
+        for number, camera in enumerate(self.scene.cameras, 1):
+            self.assertEqual(images[camera.name][0].identity, '00:1f:32:00:00:%02d' % number)
+
+    def test_accelerometer_feels_gravity_as_mounted(self):
+        names = [camera.name for camera in self.scene.cameras]
+        self.wait(lambda: all(len(self.imu[name]) >= 20 for name in names), 'imu of all cameras')
+        for camera in self.scene.cameras:
+            mean = np.mean([(m.linear_acceleration.x, m.linear_acceleration.y,
+                             m.linear_acceleration.z) for m in self.imu[camera.name][:20]], axis=0)
+            up = camera.rotation.T @ [0.0, 0.0, 1.0]
+            np.testing.assert_allclose(OPTICAL_FROM_IMU @ mean, 9.80665 * up, atol=0.25)
+
+    def test_a_dark_led_gives_empty_images(self):
+        response = self.set_led(SetLedRequest(led='led', on=False, motion=SetLedRequest.HOLD))
+        self.assertTrue(response.success)
+        images = self.images_after(response.arrival.to_sec(), 10)
+        self.assertFalse([image for series in images.values() for image in series if image.blobs])
+
+    def test_truth_follows_the_motion_and_keeps_its_rate(self):
+        self.move((0.5, 0.5, 0.5))
+        begin = rospy.get_time()
+        response = self.move((1.5, 0.5, 0.5), speed=2.0)
+        arrival = response.arrival.to_sec()
+        self.assertGreater(arrival, begin + 0.5 - 1e-3)
+        self.wait(lambda: self.truth and self.truth[-1].header.stamp.to_sec() > arrival + 0.1,
+                  'truth after the arrival')
+        track = [(m.header.stamp.to_sec(), m.point.x) for m in list(self.truth)]
+        moving = [(t, x) for t, x in track if arrival - 0.49 < t < arrival]
+        self.assertGreater(len(moving), 90)  # 200 Hz
+        for t, x in moving:
+            self.assertAlmostEqual(x, 1.5 - 2.0 * (arrival - t), delta=1e-5)
+        self.assertTrue(all(x == 1.5 for t, x in track if t > arrival))
+
+    def test_a_request_that_makes_no_sense_is_refused_in_words(self):
+        refused = [
+            (dict(led='lamp', motion=SetLedRequest.HOLD), "no LED 'lamp'"),
+            (dict(led='led', motion=9), 'HOLD, LINE or CIRCLE'),
+            (dict(led='led', motion=SetLedRequest.LINE, speed=-1.0), 'speed'),
+            (dict(led='led', motion=SetLedRequest.LINE, speed=float('nan')), 'speed'),
+            (dict(led='led', motion=SetLedRequest.CIRCLE, speed=0.0, radius=1.0), 'speed'),
+            (dict(led='led', motion=SetLedRequest.CIRCLE, speed=1.0, radius=0.0), 'radius')]
+        for fields, word in refused:
+            response = self.set_led(SetLedRequest(on=True, **fields))
+            self.assertFalse(response.success, fields)
+            self.assertIn(word, response.message)
+
+
+if __name__ == '__main__':
+    sys.exit(rostest.rosrun('wiimote_tracker_bringup', 'simulated_rig_and_drivers', SimulatedRig))

@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""What a user gets to read when the driver cannot run or has no remote, and that it stops at once."""
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+import rospkg
+import rospy
+import yaml
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+
+COMMAND = ["rosrun", "wiimote_tracker_driver", "driver_node"]
+DEADLINE = 30.0
+
+
+def run(*arguments, **environment):
+    """Runs the driver to its end. Returns its exit code and all it said."""
+    done = subprocess.run(COMMAND + list(arguments), env=dict(os.environ, **environment),
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=DEADLINE)
+    return done.returncode, done.stdout.decode()
+
+
+class DriverConfiguration(unittest.TestCase):
+    def assert_refused(self, part, *arguments):
+        code, text = run(*arguments)
+        self.assertEqual(1, code, text)
+        self.assertIn("FATAL", text)
+        self.assertIn(part, text)
+
+    def test_malformed_device(self):
+        self.assert_refused("/driver_a/device: device 'hidraw0' must be", "__name:=driver_a",
+                            "_device:=hidraw0")
+
+    def test_bad_values(self):
+        self.assert_refused("/driver_b/latency is -1", "__name:=driver_b", "_latency:=-1")
+        self.assert_refused("/driver_c/ir_sensitivity is 'high', but must be one of: wii_1",
+                            "__name:=driver_c", "_ir_sensitivity:=high")
+        self.assert_refused("/driver_d/camera_name is 'a b'", "__name:=driver_d",
+                            "_camera_name:=a b")
+        self.assert_refused("/driver_e/camera_info_url is 'nowhere'", "__name:=driver_e",
+                            "_camera_info_url:=nowhere")
+
+    def test_misspelt_parameter(self):
+        self.assert_refused("unknown parameter /driver_f/latencies", "__name:=driver_f",
+                            "_latencies:=0")
+
+    def test_no_master(self):
+        code, text = run("_device:=hidraw0", ROS_MASTER_URI="http://localhost:1")
+        self.assertEqual(1, code)
+        self.assertIn("start roscore", text)
+
+    def test_documented_defaults_are_accepted(self):
+        path = rospkg.RosPack().get_path("wiimote_tracker_driver")
+        with open(os.path.join(path, "config", "driver.yaml")) as file:
+            rospy.set_param("/driver_g", yaml.safe_load(file))
+        # A misspelt key beside them is all that is wrong.
+        self.assert_refused("unknown parameter /driver_g/other:", "__name:=driver_g", "_other:=1")
+
+    def test_waits_for_its_remote_and_stops_at_once(self):
+        statuses = []
+
+        def collect(message):
+            statuses.extend(message.status)
+
+        rospy.Subscriber("/diagnostics", DiagnosticArray, collect)
+        process = subprocess.Popen(
+            COMMAND + ["__name:=driver_h", "_device:=00:00:00:00:00:01"],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        try:
+            end = time.monotonic() + DEADLINE
+            sentence = "no Wii Remote with address 00:00:00:00:00:01 is connected"
+            while not any(sentence in status.message and status.level == DiagnosticStatus.ERROR
+                          for status in statuses):
+                self.assertLess(time.monotonic(), end, "no diagnostics about the missing remote")
+                self.assertIsNone(process.poll(), "the driver must keep trying")
+                time.sleep(0.01)
+            process.send_signal(signal.SIGINT)
+            text = process.communicate(timeout=DEADLINE)[0].decode()
+        finally:
+            process.kill()
+        self.assertEqual(0, process.returncode, text)
+        self.assertIn(sentence, text)
+        self.assertIn("namespace /", text)
+
+
+if __name__ == "__main__":
+    import rostest
+    rospy.init_node("test_driver_configuration")
+    rostest.rosrun("wiimote_tracker_driver", "driver_configuration", DriverConfiguration)

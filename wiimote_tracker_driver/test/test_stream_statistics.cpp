@@ -1,0 +1,41 @@
+// Rate and gaps as diagnostics show them.
+#include "wiimote_tracker_driver/wiimote/stream_statistics.h"
+
+#include <gtest/gtest.h>
+
+namespace wiimote_tracker::wiimote {
+namespace {
+
+TEST(StreamStatistics, RateOfAWindow) {
+  StreamStatistics statistics(10.0);
+  for (int i = 1; i <= 100; ++i)
+    statistics.add(10.0 + 0.01 * i);
+  StreamStatistics::Summary summary = statistics.take(11.0);
+  EXPECT_NEAR(100.0, summary.rate, 1e-9);
+  EXPECT_NEAR(0.01, summary.longest_gap, 1e-9);
+  EXPECT_EQ(0u, summary.gaps);
+  summary = statistics.take(13.0);
+  EXPECT_EQ(0.0, summary.rate);
+  EXPECT_NEAR(2.0, summary.longest_gap, 1e-9) << "a gap that still lasts shows";
+}
+
+TEST(StreamStatistics, GapsAreCountedOnceAndNotBeforeTheFirstImage) {
+  StreamStatistics statistics(0.0);
+  statistics.add(5.0);
+  statistics.add(5.04);
+  statistics.add(5.14);
+  statistics.add(5.15);
+  EXPECT_EQ(1u, statistics.take(5.2).gaps);
+  statistics.add(5.3);
+  EXPECT_EQ(2u, statistics.take(5.4).gaps);
+}
+
+TEST(StreamStatistics, NothingAtAll) {
+  StreamStatistics statistics(1.0);
+  const StreamStatistics::Summary summary = statistics.take(1.0);
+  EXPECT_EQ(0.0, summary.rate);
+  EXPECT_EQ(0.0, summary.longest_gap);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::wiimote

@@ -46,8 +46,6 @@ SimulatedSession simulate(const LinkModel& link, double duration, std::uint64_t 
       continue;
     const double ready = exposure + delay;
     double arrival = std::max({ready, previous + kServiceTime, stall_end});
-    if (arrival > ready && arrival == stall_end)
-      arrival = std::max(arrival, previous + kServiceTime);
     const bool queued = arrival > ready;
     if (link.slot > 0.0)
       arrival = slot_phase + link.slot * std::ceil((arrival - slot_phase) / link.slot);

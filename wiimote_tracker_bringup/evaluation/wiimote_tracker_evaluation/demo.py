@@ -133,6 +133,7 @@ class Demo(object):
         self._processes.start('roslaunch', [
             'roslaunch', '--port=%d' % port, 'wiimote_tracker_bringup', 'simulated_rig.launch',
             'socket_directory:=' + os.path.join(scratch, 'remotes'),
+            'camera_info_directory:=' + os.path.join(scratch, 'cameras'),
             'rig_file:=' + self._file('rig.yaml'), 'side_length:=%g' % experiment.SIDE,
             'label:=' + LED, 'rviz:=%s' % ('true' if rviz else 'false')], log)
         deadline = time.monotonic() + 30.0

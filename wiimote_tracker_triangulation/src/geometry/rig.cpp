@@ -3,7 +3,6 @@
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -15,10 +14,14 @@ void require(bool good, const std::string& message) {
     throw InvalidRigError(message);
 }
 
+/// Whether a namespace can have this name: a letter first, then letters, digits, _ and /.
 bool isName(const std::string& name) {
-  return !name.empty() && name != "/" && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return (c < 128 && std::isalnum(c)) || c == '_' || c == '/';
-  });
+  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const std::size_t first = !name.empty() && name[0] == '/' ? 1 : 0;
+  return name.size() > first && isLetter(name[first]) &&
+         std::all_of(name.begin(), name.end(), [&](char c) {
+           return isLetter(c) || (c >= '0' && c <= '9') || c == '_' || c == '/';
+         });
 }
 
 void checkPose(const Eigen::Isometry3d& pose) {
@@ -76,8 +79,8 @@ void Rig::check() const {
   for (const RigCamera& camera : cameras) {
     const std::string& name = camera.camera.name;
     require(isName(name), "'" + name +
-                              "' is no name for a camera; use letters, digits, underscores and "
-                              "slashes only");
+                              "' is no name for a camera; use a letter, then letters, digits and "
+                              "underscores");
     require(frames.insert(opticalFrame(name)).second,
             "two cameras share the name '" + name + "'; rename one");
     try {

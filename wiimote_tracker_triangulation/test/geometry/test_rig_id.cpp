@@ -156,6 +156,7 @@ TEST(Rig, CheckNamesTheCameraAndTheFault) {
   EXPECT_TRUE(names([](Rig& r) { r.cameras[2].camera.name = "/camera_0"; }, "two cameras"));
   EXPECT_TRUE(names([](Rig& r) { r.cameras[2].camera.name = ""; }, "no name"));
   EXPECT_TRUE(names([](Rig& r) { r.cameras[2].camera.name = "a b"; }, "'a b'"));
+  EXPECT_TRUE(names([](Rig& r) { r.cameras[2].camera.name = "1st"; }, "'1st'"));
   EXPECT_TRUE(names([](Rig& r) { r.cameras[1].camera.intrinsics.fx = kNaN; }, "camera_1': fx"));
   EXPECT_TRUE(names([](Rig& r) { r.cameras[1].camera.world_from_camera.translation().x() = kNaN; },
                     "camera_1"));

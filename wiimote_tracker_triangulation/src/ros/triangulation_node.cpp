@@ -1,0 +1,20 @@
+#include "triangulation.h"
+
+#include <wiimote_tracker_msgs/parameter_reader.h>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "triangulation");
+  if (!ros::master::check()) {
+    ROS_FATAL("No ROS master at %s: start roscore, or use roslaunch.",
+              ros::master::getURI().c_str());
+    return 1;
+  }
+  try {
+    wiimote_tracker::Triangulation triangulation{ros::NodeHandle(), ros::NodeHandle("~")};
+    ros::spin();
+  } catch (const wiimote_tracker::ParameterError& e) {
+    ROS_FATAL("%s", e.what());
+    return 1;
+  }
+  return 0;
+}

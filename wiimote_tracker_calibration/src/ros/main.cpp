@@ -1,0 +1,24 @@
+#include "calibration_node.h"
+
+#include <ros/ros.h>
+#include <wiimote_tracker_msgs/parameter_reader.h>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "calibration");
+  if (!ros::master::check()) {
+    ROS_FATAL_STREAM("there is no ROS master at " << ros::master::getURI()
+                                                  << ": start roscore or use roslaunch");
+    return 1;
+  }
+  try {
+    wiimote_tracker::CalibrationNode node(ros::NodeHandle(),
+                                          wiimote_tracker::readParameters(ros::NodeHandle("~")));
+    // Services wait for images, and images must come in meanwhile.
+    ros::MultiThreadedSpinner spinner(4);
+    spinner.spin();
+  } catch (const wiimote_tracker::ParameterError& error) {
+    ROS_FATAL_STREAM(error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,119 @@
+#include "parameters.h"
+
+#include <wiimote_tracker_msgs/parameter_reader.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+namespace wiimote_tracker {
+
+namespace {
+
+std::string defaultRigFile() {
+  const char* ros_home = std::getenv("ROS_HOME");
+  if (ros_home != nullptr && *ros_home != '\0')
+    return std::string(ros_home) + "/wiimote_tracker/rig.yaml";
+  const char* home = std::getenv("HOME");
+  return std::string(home != nullptr ? home : "") + "/.ros/wiimote_tracker/rig.yaml";
+}
+
+void readCapture(ParameterReader* reader, capture::CornerCaptureOptions* options) {
+  options->minimum_samples =
+      reader->bounded("minimum_samples", options->minimum_samples, 10, 100000);
+  options->minimum_cameras = reader->bounded("minimum_cameras", options->minimum_cameras, 1, 1000);
+  options->spread_limit = reader->bounded("spread_limit", options->spread_limit, 0.01, 1000.0);
+  options->drift_limit = reader->bounded("drift_limit", options->drift_limit, 0.01, 1000.0);
+  options->timeout = reader->bounded("capture_timeout", options->timeout, 0.1, 3600.0);
+}
+
+void readSolve(ParameterReader* reader, square::SolveOptions* options) {
+  const std::string method = reader->choice("method", "joint", {"joint", "per_camera"});
+  options->method = method == "joint" ? square::Method::kJoint : square::Method::kPerCamera;
+  square::Uncertainty& u = options->uncertainty;
+  u.pixel = reader->bounded("pixel_stddev", u.pixel, 1e-3, 100.0);
+  u.placement = reader->bounded("placement_stddev", u.placement, 1e-6, 10.0);
+  u.focal = reader->bounded("focal_stddev", u.focal, 1e-6, 1.0);
+  u.aspect = reader->bounded("aspect_stddev", u.aspect, 1e-6, 1.0);
+  u.principal_point = reader->bounded("principal_point_stddev", u.principal_point, 1e-3, 10000.0);
+  u.k1 = reader->bounded("k1_stddev", u.k1, 1e-6, 10.0);
+  u.gravity = reader->bounded("gravity_stddev", u.gravity, 1e-3, 3.2);
+  options->branch_odds = reader->bounded("branch_odds", options->branch_odds, 1.5, 1e9);
+}
+
+geometry::Intrinsics readIntrinsics(const ros::NodeHandle& nh,
+                                    ParameterReader* reader,
+                                    const std::string& key,
+                                    geometry::Intrinsics lens) {
+  const std::string prefix = key + "/";
+  lens.width = reader->bounded(prefix + "width", lens.width, 1, 100000);
+  lens.height = reader->bounded(prefix + "height", lens.height, 1, 100000);
+  lens.fx = reader->bounded(prefix + "fx", lens.fx, 1.0, 1e6);
+  lens.fy = reader->bounded(prefix + "fy", lens.fy, 1.0, 1e6);
+  lens.cx = reader->bounded(prefix + "cx", lens.cx, -1e5, 1e5);
+  lens.cy = reader->bounded(prefix + "cy", lens.cy, -1e5, 1e5);
+  const std::vector<double> distortion = reader->optional<std::vector<double>>(
+      prefix + "distortion", {lens.distortion.begin(), lens.distortion.end()});
+  const bool finite = std::all_of(distortion.begin(), distortion.end(),
+                                  [](double value) { return std::isfinite(value); });
+  if (distortion.size() != lens.distortion.size() || !finite)
+    throw ParameterError(nh.resolveName(prefix + "distortion") +
+                         " must have five numbers: k1, k2, p1, p2, k3");
+  std::copy(distortion.begin(), distortion.end(), lens.distortion.begin());
+  return lens;
+}
+
+/// Names below cameras_intrinsics. A name may contain slashes; its keys are the last part.
+std::set<std::string> camerasWithOwnIntrinsics(const ros::NodeHandle& nh) {
+  const std::string prefix = nh.resolveName("cameras_intrinsics") + "/";
+  std::vector<std::string> all;
+  nh.getParamNames(all);
+  std::set<std::string> names;
+  for (const std::string& name : all) {
+    if (name.compare(0, prefix.size(), prefix) != 0)
+      continue;
+    const std::string rest = name.substr(prefix.size());
+    const std::size_t slash = rest.rfind('/');
+    if (slash != std::string::npos)
+      names.insert(rest.substr(0, slash));
+  }
+  return names;
+}
+
+}  // namespace
+
+const geometry::Intrinsics& Parameters::intrinsicsOf(const std::string& camera) const {
+  const auto own = own_intrinsics.find(camera);
+  return own != own_intrinsics.end() ? own->second : intrinsics;
+}
+
+Parameters readParameters(const ros::NodeHandle& nh) {
+  Parameters parameters;
+  workflow::CalibrationOptions& calibration = parameters.calibration;
+  ParameterReader reader(nh);
+  parameters.cameras = reader.optional<std::vector<std::string>>("cameras", {});
+  parameters.side_length = reader.bounded("side_length", 0.0, 0.0, 1000.0);
+  parameters.second_side_length = reader.bounded("second_side_length", 0.0, 0.0, 1000.0);
+  parameters.rig_file = reader.optional<std::string>("rig_file", "");
+  if (parameters.rig_file.empty())
+    parameters.rig_file = defaultRigFile();
+  calibration.led_height = reader.bounded("led_height", calibration.led_height, 0.0, 1000.0);
+  calibration.world_frame = reader.optional("world_frame", calibration.world_frame);
+  if (calibration.world_frame.empty())
+    throw ParameterError(nh.resolveName("world_frame") + " is empty: give the frame a name");
+  calibration.origin.x() = reader.bounded("origin_x", calibration.origin.x(), -1000.0, 1000.0);
+  calibration.origin.y() = reader.bounded("origin_y", calibration.origin.y(), -1000.0, 1000.0);
+  calibration.yaw = reader.bounded("yaw", calibration.yaw, -2.0 * M_PI, 2.0 * M_PI);
+  readCapture(&reader, &calibration.capture);
+  readSolve(&reader, &calibration.solve);
+  parameters.use_gravity = reader.optional("use_gravity", parameters.use_gravity);
+  parameters.intrinsics = readIntrinsics(nh, &reader, "intrinsics", parameters.intrinsics);
+  for (const std::string& name : camerasWithOwnIntrinsics(nh))
+    parameters.own_intrinsics[name] =
+        readIntrinsics(nh, &reader, "cameras_intrinsics/" + name, parameters.intrinsics);
+  reader.refuseUnknown();
+  return parameters;
+}
+
+}  // namespace wiimote_tracker

@@ -1,0 +1,36 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_PARAMETERS_H
+#define WIIMOTE_TRACKER_CALIBRATION_ROS_PARAMETERS_H
+
+#include "wiimote_tracker_calibration/workflow/calibration.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera.h>
+
+#include <ros/node_handle.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// Parameters of the calibration node; config/calibration.yaml says what each means.
+struct Parameters {
+  std::vector<std::string> cameras;  ///< Empty: discover them.
+  double side_length = 0.0;          ///< First to second corner [m]; 0: not given.
+  double second_side_length = 0.0;   ///< Second to third corner [m]; 0: the same.
+  std::string rig_file;
+  bool use_gravity = true;
+  workflow::CalibrationOptions calibration;
+  geometry::Intrinsics intrinsics;                             ///< Of all cameras but these:
+  std::map<std::string, geometry::Intrinsics> own_intrinsics;  ///< by name.
+
+  /// Starting intrinsics of a camera.
+  const geometry::Intrinsics& intrinsicsOf(const std::string& camera) const;
+};
+
+/// @throws ParameterError naming the key that is unknown, of the wrong type or out of range.
+Parameters readParameters(const ros::NodeHandle& private_nh);
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_PARAMETERS_H

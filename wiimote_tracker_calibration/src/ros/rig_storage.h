@@ -1,0 +1,25 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_RIG_STORAGE_H
+#define WIIMOTE_TRACKER_CALIBRATION_ROS_RIG_STORAGE_H
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <ros/node_handle.h>
+
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// Writes rig.yaml (the file before becomes rig.yaml.bak), and beside it one camera-info YAML per
+/// camera, named after the camera. rig.yaml is the one that counts.
+/// @returns warnings, one for each camera file that could not be written.
+/// @throws geometry::Error: rig.yaml could not be written; nothing has changed then.
+std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& path);
+
+/// Calls set_camera_info of every camera of the rig. Waits for their answers.
+/// @returns warnings, one for each camera that did not take it.
+std::vector<std::string> sendCameraInfo(const geometry::Rig& rig, const ros::NodeHandle& nh);
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_RIG_STORAGE_H

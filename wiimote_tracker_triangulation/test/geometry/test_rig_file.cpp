@@ -162,7 +162,7 @@ TEST_F(RigFile, ComesBackBitForBit) {
 
 TEST_F(RigFile, ManyRandomRigsComeBackBitForBit) {
   Random random(42);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 20; ++i) {
     const Rig rig = test::randomRig(random, 4);
     write(rig);
     expectSame(rig, readRigFile(path_));

@@ -1,0 +1,207 @@
+// Rigs as messages, and as the files that stock ROS tools read.
+#include "geometry/random_rigs.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/geometry/rig_file.h"
+#include "wiimote_tracker_triangulation/geometry/rotation.h"
+#include "wiimote_tracker_triangulation/ros/conversions.h"
+
+#include <camera_calibration_parsers/parse_yml.h>
+#include <gtest/gtest.h>
+#include <ros/serialization.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <limits>
+
+namespace wiimote_tracker {
+namespace {
+
+using geometry::Rig;
+using geometry::test::Random;
+using wiimote_tracker_msgs::RigCalibration;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+Rig fullRig() {
+  Random random(61);
+  Rig rig = geometry::test::randomRig(random, 3);
+  rig.solved_at = 1766188800.123456789;
+  rig.method = "square";
+  rig.ray_model = geometry::RayModel::kImageCenter;
+  rig.virtual_hfov = 0.7;
+  rig.square_sides = {2.5, 1.0 / 3.0};
+  rig.led_height = 0.1;
+  rig.verdict = "good";
+  rig.zones = {{"hall", {0.1, 0.2, 0.3}, {1.0, 2.0, 3.0}}};
+  rig.covariance = Eigen::MatrixXd::Zero(48, 48);
+  rig.covariance(1, 2) = 1e-9;  // not symmetric: shows the order
+  rig.cameras[1].time_offset = 0.001;
+  rig.cameras[1].time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
+  rig.cameras[1].time_offset_epoch = 3;
+  rig.cameras[1].gravity = Eigen::Vector3d(0.1, -9.8, 0.3);
+  rig.cameras[1].masks = {{{1.0, 2.0}, 3.0}};
+  rig.cameras[1].residual_px = 0.4;
+  rig.cameras[1].residual_m = 0.001;
+  rig.cameras[1].observations = 100;
+  rig.cameras[1].inliers = 99;
+  return rig;
+}
+
+TEST(Conversions, MessageSaysWhatTheRigSays) {
+  const Rig rig = fullRig();
+  const RigCalibration message = toMessage(rig);
+  EXPECT_EQ("world", message.header.frame_id);
+  EXPECT_EQ(1766188800u, message.header.stamp.sec);
+  EXPECT_EQ(1u, message.format_version);
+  EXPECT_EQ(rig.id(), message.id);
+  EXPECT_EQ("square", message.method);
+  EXPECT_EQ(RigCalibration::RAY_MODEL_IMAGE_CENTER, message.ray_model);
+  EXPECT_EQ(0.7, message.virtual_hfov);
+  EXPECT_EQ((std::vector<double>{2.5, 1.0 / 3.0}), message.square_sides);
+  EXPECT_EQ(0.1, message.led_height);
+  EXPECT_EQ("good", message.verdict);
+  ASSERT_EQ(48u * 48u, message.covariance.size());
+  EXPECT_EQ(1e-9, message.covariance[1 * 48 + 2]) << "row-major";
+  ASSERT_EQ(1u, message.zones.size());
+  EXPECT_EQ("hall", message.zones[0].name);
+  EXPECT_EQ(3.0, message.zones[0].maximum.z);
+  EXPECT_EQ("", message.remap.rig_id);
+
+  ASSERT_EQ(3u, message.cameras.size());
+  const wiimote_tracker_msgs::CameraCalibration& camera = message.cameras[1];
+  const geometry::Intrinsics& intrinsics = rig.cameras[1].camera.intrinsics;
+  EXPECT_EQ("camera_1", camera.name);
+  EXPECT_EQ("00:00:00:00:00:01", camera.identity);
+  EXPECT_EQ("camera_1_optical_frame", camera.frame_id);
+  EXPECT_EQ(static_cast<std::uint32_t>(intrinsics.width), camera.width);
+  EXPECT_EQ(static_cast<std::uint32_t>(intrinsics.height), camera.height);
+  EXPECT_EQ("plumb_bob", camera.distortion_model);
+  EXPECT_EQ(intrinsics.fx, camera.fx);
+  EXPECT_EQ(intrinsics.fy, camera.fy);
+  EXPECT_EQ(intrinsics.cx, camera.cx);
+  EXPECT_EQ(intrinsics.cy, camera.cy);
+  ASSERT_EQ(5u, camera.distortion.size());
+  EXPECT_EQ(intrinsics.distortion[2], camera.distortion[2]);
+  EXPECT_EQ(0.001, camera.time_offset);
+  EXPECT_EQ(wiimote_tracker_msgs::CameraCalibration::TIME_OFFSET_ONE_EPOCH,
+            camera.time_offset_rule);
+  EXPECT_EQ(3u, camera.time_offset_epoch);
+  EXPECT_EQ((std::vector<double>{0.1, -9.8, 0.3}), camera.gravity);
+  ASSERT_EQ(1u, camera.masks.size());
+  EXPECT_EQ(3.0, camera.masks[0].radius);
+  EXPECT_EQ(0.4, camera.residual_px);
+  EXPECT_EQ(100u, camera.observations);
+  EXPECT_EQ(99u, camera.inliers);
+  EXPECT_TRUE(message.cameras[0].gravity.empty());
+  EXPECT_TRUE(std::isnan(message.cameras[0].time_offset));
+}
+
+TEST(Conversions, RoundTripsThroughMessageAndFileKeepIdAndBits) {
+  const std::string path = "/tmp/conversions_" + std::to_string(getpid()) + ".yaml";
+  Random random(62);
+  for (int i = 0; i < 20; ++i) {
+    const Rig rig = i == 0 ? fullRig() : geometry::test::randomRig(random, 4);
+    const RigCalibration message = toMessage(rig);
+    const Rig from_message = fromMessage(message);
+    geometry::writeRigFile(from_message, path);
+    const Rig from_file = geometry::readRigFile(path);
+    EXPECT_EQ(message.id, from_message.id());
+    EXPECT_EQ(message.id, from_file.id());
+    const RigCalibration again = toMessage(from_file);
+    // All of the message, byte by byte.
+    const auto a = ros::serialization::serializeMessage(message);
+    const auto b = ros::serialization::serializeMessage(again);
+    ASSERT_EQ(a.num_bytes, b.num_bytes);
+    EXPECT_EQ(0, std::memcmp(a.buf.get(), b.buf.get(), a.num_bytes));
+  }
+  std::filesystem::remove(path);
+  std::filesystem::remove(path + ".bak");
+}
+
+TEST(Conversions, RefusesWhatItDoesNotUnderstand) {
+  const auto complaint = [](const std::function<void(RigCalibration&)>& change) -> std::string {
+    RigCalibration message = toMessage(fullRig());
+    change(message);
+    try {
+      fromMessage(message);
+    } catch (const geometry::InvalidRigError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  const auto says = [&](const std::function<void(RigCalibration&)>& change,
+                        const std::string& words) {
+    const std::string text = complaint(change);
+    return text.find(words) != std::string::npos;
+  };
+  EXPECT_EQ("", complaint([](RigCalibration&) {}));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.format_version = 2; }, "format version 2"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.ray_model = 2; }, "ray model"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras.clear(); }, "no camera"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.header.frame_id = ""; }, "world frame"));
+  EXPECT_TRUE(
+      says([](RigCalibration& m) { m.cameras[1].distortion_model = "equidistant"; }, "camera_1"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].distortion.pop_back(); }, "camera_1"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].gravity.pop_back(); }, "gravity"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].time_offset_rule = 9; }, "camera_1"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].fx = kNaN; }, "fx"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].width = 0; }, "width"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].width = 4294967295u; }, "width"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].world_from_camera.position.x = kNaN; },
+                   "camera_1"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].world_from_camera.orientation.w += 0.1; },
+                   "quaternion"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].name = "camera_0"; }, "two cameras"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.covariance.pop_back(); }, "covariance"));
+}
+
+TEST(Conversions, StaticTransformsAreThePoses) {
+  const Rig rig = fullRig();
+  const auto transforms = staticTransforms(rig);
+  ASSERT_EQ(3u, transforms.size());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const geometry_msgs::TransformStamped& t = transforms[i];
+    EXPECT_EQ("world", t.header.frame_id);
+    EXPECT_EQ("camera_" + std::to_string(i) + "_optical_frame", t.child_frame_id);
+    const Eigen::Quaterniond q(t.transform.rotation.w, t.transform.rotation.x,
+                               t.transform.rotation.y, t.transform.rotation.z);
+    const Eigen::Isometry3d& pose = rig.cameras[i].camera.world_from_camera;
+    EXPECT_TRUE(q.toRotationMatrix().isApprox(pose.linear(), 1e-12));
+    EXPECT_EQ(pose.translation().y(), t.transform.translation.y);
+  }
+}
+
+TEST(CameraInfoFile, IsReadByCameraCalibrationParsers) {
+  const Rig rig = fullRig();
+  geometry::Camera camera = rig.cameras[0].camera;
+  camera.name = "/room/wiimote_1";
+  const std::string path = "/tmp/camera_info_" + std::to_string(getpid()) + ".yaml";
+  geometry::writeCameraInfoFile(camera, path);
+  std::string name;
+  sensor_msgs::CameraInfo info;
+  ASSERT_TRUE(camera_calibration_parsers::readCalibrationYml(path, name, info));
+  std::filesystem::remove(path);
+  EXPECT_EQ("room_wiimote_1", name);
+  EXPECT_EQ(static_cast<std::uint32_t>(camera.intrinsics.width), info.width);
+  EXPECT_EQ(static_cast<std::uint32_t>(camera.intrinsics.height), info.height);
+  EXPECT_EQ("plumb_bob", info.distortion_model);
+  ASSERT_EQ(5u, info.D.size());
+  for (int i = 0; i < 5; ++i)
+    EXPECT_EQ(camera.intrinsics.distortion[i], info.D[i]);
+  EXPECT_EQ(camera.intrinsics.fx, info.K[0]);
+  EXPECT_EQ(camera.intrinsics.cx, info.K[2]);
+  EXPECT_EQ(camera.intrinsics.fy, info.K[4]);
+  EXPECT_EQ(camera.intrinsics.cy, info.K[5]);
+  EXPECT_EQ(1.0, info.K[8]);
+  EXPECT_EQ(1.0, info.R[0]);
+  EXPECT_EQ(camera.intrinsics.fx, info.P[0]);
+  EXPECT_EQ(camera.intrinsics.cy, info.P[6]);
+  EXPECT_EQ(0.0, info.P[3]);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker

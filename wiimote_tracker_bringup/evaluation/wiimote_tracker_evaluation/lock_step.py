@@ -7,7 +7,9 @@ the result does not depend on the speed of the machine.
 import contextlib
 import os
 import queue
+import signal
 import socket
+import sys
 import time
 
 import roslaunch
@@ -30,8 +32,29 @@ def free_port():
 
 
 @contextlib.contextmanager
+def output_to_stderr():
+    """What this process and its children write to the standard output goes to the error output."""
+    sys.stdout.flush()
+    kept = os.dup(1)
+    os.dup2(2, 1)
+    try:
+        yield
+    finally:
+        sys.stdout.flush()
+        os.dup2(kept, 1)
+        os.close(kept)
+
+
+def interrupt(_number, _frame):
+    raise KeyboardInterrupt
+
+
+@contextlib.contextmanager
 def private_tracker():
-    """Starts a ROS master of its own and the triangulation nodelet; ends both at the end."""
+    """Starts a ROS master of its own and the triangulation nodelet; ends both at the end.
+
+    Raises ReplayError when they cannot be started.
+    """
     port = free_port()
     os.environ['ROS_MASTER_URI'] = 'http://localhost:%d/' % port
     for variable in ('ROS_IP', 'ROS_HOSTNAME', 'ROS_NAMESPACE'):
@@ -41,13 +64,21 @@ def private_tracker():
     parent = roslaunch.parent.ROSLaunchParent(
         roslaunch.rlutil.get_or_generate_uuid(None, False), [launch_file], is_core=True, port=port,
         verbose=False, show_summary=False)
-    try:
-        parent.start()
-        rospy.init_node('replay_report', disable_signals=True, disable_rosout=True)
-        yield
-    finally:
-        rospy.signal_shutdown('done')
-        parent.shutdown()
+    with output_to_stderr():
+        try:
+            parent.start()
+            # roslaunch's own handlers end its processes, but let this one wait for them for ever.
+            for number in (signal.SIGINT, signal.SIGTERM):
+                signal.signal(number, interrupt)
+            if parent.pm.is_shutdown:
+                raise KeyboardInterrupt
+            rospy.init_node('replay_report', disable_signals=True, disable_rosout=True)
+            yield
+        except roslaunch.RLException as error:
+            raise ReplayError('the tracker cannot be started: %s' % error)
+        finally:
+            rospy.signal_shutdown('done')
+            parent.shutdown()
 
 
 def wait_for(condition, what):

@@ -2,6 +2,7 @@
 
 #include "eeprom.h"
 #include "ir_camera.h"
+#include "nunchuk.h"
 
 #include <algorithm>
 #include <deque>
@@ -76,15 +77,18 @@ struct Device::State {
   // Survives a change of batteries.
   Options options;
   Eeprom eeprom;
+  bool nunchuk_plugged = false;
 
   // Does not.
   struct Volatile {
     IrCamera camera;
+    Nunchuk nunchuk;
     Senses senses;
     std::uint8_t leds = 0;
     bool speaker = false;
     std::uint8_t mode = 0x30;
     bool continuous = false;
+    bool reporting = true;  ///< Ends when a Nunchuk comes or goes, until the host sets a mode.
     Bytes last_data;
     std::deque<Bytes> memory_packets;  ///< Still to be sent of the read in progress.
   } now;
@@ -105,7 +109,8 @@ struct Device::State {
     Bytes report = withButtons(0x20);
     const bool low = options.battery < kBatteryLow;
     report.push_back(static_cast<std::uint8_t>(now.leds << 4 | (now.camera.onBus() ? 0x08 : 0) |
-                                               (now.speaker ? 0x04 : 0) | (low ? 0x01 : 0)));
+                                               (now.speaker ? 0x04 : 0) |
+                                               (nunchuk_plugged ? 0x02 : 0) | (low ? 0x01 : 0)));
     report.insert(report.end(), {0, 0, options.battery});
     return report;
   }
@@ -122,8 +127,28 @@ struct Device::State {
       report[2] = static_cast<std::uint8_t>(report[2] | (raw[1] & 2) << 4 | (raw[2] & 2) << 5);
     }
     now.camera.appendData(layout.ir, report);
-    report.insert(report.end(), layout.extension, 0xff);  // nothing is plugged in
+    if (nunchuk_plugged)
+      now.nunchuk.appendData(layout.extension, report);
+    else
+      report.insert(report.end(), layout.extension, 0xff);
     return report;
+  }
+
+  /// Whether somebody answers at this address of the register space.
+  bool onBus(std::uint32_t address) const {
+    return (isCamera(address) && now.camera.onBus()) ||
+           (Nunchuk::hasRegister(address) && nunchuk_plugged);
+  }
+
+  std::uint8_t readRegister(std::uint32_t address) const {
+    return isCamera(address) ? now.camera.read(address) : now.nunchuk.read(address);
+  }
+
+  void writeRegister(std::uint32_t address, std::uint8_t value) {
+    if (isCamera(address))
+      now.camera.write(address, value);
+    else
+      now.nunchuk.write(address, value);
   }
 
   void setMode(const Bytes& in, std::vector<Bytes>& out) {
@@ -131,6 +156,7 @@ struct Device::State {
       return;
     now.continuous = (in[1] & kOn) != 0;
     now.mode = in[2];
+    now.reporting = true;
     if (in[1] & kAcknowledge)
       out.push_back(acknowledgement(kMode, 0));
     if (!now.memory_packets.empty())
@@ -148,9 +174,9 @@ struct Device::State {
     payload.resize(16, 0);
     std::uint8_t error = 0;
     if (in[1] & kRegisters) {
-      if (isCamera(address) && now.camera.onBus()) {
+      if (onBus(address)) {
         for (std::uint32_t i = 0; i < size; ++i)
-          now.camera.write(address + i, payload[i]);
+          writeRegister(address + i, payload[i]);
       } else {
         error = kErrorNoAnswer;
       }
@@ -174,7 +200,7 @@ struct Device::State {
     const std::size_t size = static_cast<std::size_t>(in[5] << 8 | in[6]);
     const bool registers = (in[1] & kRegisters) != 0;
     std::uint8_t error = 0;
-    if (registers && !(isCamera(address) && now.camera.onBus()))
+    if (registers && !onBus(address))
       error = kErrorNoAnswer;
     else if (!registers && !Eeprom::contains(address, size))
       error = kErrorAddress;
@@ -187,7 +213,7 @@ struct Device::State {
       Bytes payload(16, 0);
       for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t at = address + static_cast<std::uint32_t>(offset + i);
-        payload[i] = registers ? now.camera.read(at) : eeprom[at];
+        payload[i] = registers ? readRegister(at) : eeprom[at];
       }
       const std::uint32_t at = address + static_cast<std::uint32_t>(offset);
       now.memory_packets.push_back(memoryPacket(at, count, 0, payload));
@@ -270,6 +296,8 @@ std::optional<Bytes> Device::sample(const Senses& senses) {
     now.memory_packets.pop_front();
     return packet;
   }
+  if (!now.reporting)
+    return std::nullopt;
   Bytes data = state_->data();
   if (!now.continuous && data == now.last_data)
     return std::nullopt;
@@ -279,6 +307,15 @@ std::optional<Bytes> Device::sample(const Senses& senses) {
 
 std::uint8_t Device::leds() const {
   return state_->now.leds;
+}
+
+std::optional<Bytes> Device::setNunchuk(bool plugged) {
+  if (plugged == state_->nunchuk_plugged)
+    return std::nullopt;
+  state_->nunchuk_plugged = plugged;
+  state_->now.nunchuk = Nunchuk();
+  state_->now.reporting = false;
+  return state_->status();
 }
 
 void Device::powerCycle() {

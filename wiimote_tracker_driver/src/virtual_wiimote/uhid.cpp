@@ -239,6 +239,12 @@ void UhidDevice::sample(const Senses& senses) {
     state_->send(*report);
 }
 
+void UhidDevice::setNunchuk(bool plugged) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  if (const std::optional<Bytes> report = state_->device.setNunchuk(plugged))
+    state_->send(*report);
+}
+
 std::uint8_t UhidDevice::leds() const {
   const std::lock_guard<std::mutex> lock(state_->mutex);
   return state_->device.leds();

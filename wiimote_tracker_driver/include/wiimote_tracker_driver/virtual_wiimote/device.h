@@ -31,9 +31,10 @@ struct Senses {
 
 /// The device side of the Wii Remote's HID protocol: registers, EEPROM, camera enable sequence,
 /// report modes 0x30..0x37, status, acknowledgements and error codes. Pure logic: no I/O, no clock,
-/// no thread. Nothing is plugged in: extension bytes are ff, registers other than the camera's give
-/// error 7. Where real remotes and their descriptions differ it takes the stricter side: the camera
-/// sees only with 0x13 and 0x1a on, both sensitivity blocks written, a mode, and register 0x30 = 8.
+/// no thread. Registers other than the camera's and those of a Nunchuk that is plugged in give
+/// error 7; without one, extension bytes are ff. Where real remotes and their descriptions differ
+/// it takes the stricter side: the camera sees only with 0x13 and 0x1a on, both sensitivity blocks
+/// written, a mode, and register 0x30 = 8.
 class Device {
  public:
   struct Options {
@@ -56,6 +57,10 @@ class Device {
 
   /// Player LEDs 1..4 in bits 0..3, as last set by the host.
   std::uint8_t leds() const;
+
+  /// Plugs a Nunchuk in, or pulls it out. @returns the status report that tells the host, or
+  /// nothing when nothing changed. Data reports then stop until the host sets a mode.
+  std::optional<Bytes> setNunchuk(bool plugged);
 
   /// The batteries were taken out and put back: all state is as after switching on.
   void powerCycle();

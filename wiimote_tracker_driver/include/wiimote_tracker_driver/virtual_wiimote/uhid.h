@@ -36,6 +36,9 @@ class UhidDevice {
   /// Lets the device sense this instant and sends the resulting report, if any, to the kernel.
   void sample(const Senses& senses);
 
+  /// Plugs a Nunchuk into the remote, or pulls it out.
+  void setNunchuk(bool plugged);
+
   /// Player LEDs 1..4 in bits 0..3, as last set by a host or by the kernel.
   std::uint8_t leds() const;
 

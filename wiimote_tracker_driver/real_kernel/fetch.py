@@ -1,0 +1,181 @@
+"""Gets Debian's kernel, QEMU and busybox: downloads the packages with apt-get and unpacks them into
+a cache folder. Nothing is installed; no root is needed. Can also be run by itself:
+
+    fetch.py [KERNEL_PACKAGE]
+"""
+
+import contextlib
+import fcntl
+import glob
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+# The smallest kernel of Debian that has uhid, hidraw and hid-wiimote.
+DEFAULT_KERNEL = 'linux-image-cloud-amd64'
+
+QEMU_PACKAGES = ['qemu-system-x86', 'qemu-system-common', 'qemu-system-data', 'seabios']
+LIBRARY_FOLDER = 'usr/lib/x86_64-linux-gnu'
+
+
+class Unavailable(Exception):
+    """What is needed cannot be had on this machine; the text says why."""
+
+
+class Parts(object):
+    """Paths of what a guest is made of."""
+
+    def __init__(self, folder, kernel_package):
+        self.tools = os.path.join(folder, 'tools')
+        self.kernel_folder = os.path.join(folder, kernel_package)
+        self.busybox = os.path.join(self.tools, 'bin', 'busybox')
+        self.qemu = os.path.join(self.tools, 'usr', 'bin', 'qemu-system-x86_64')
+
+    @property
+    def kernel(self):
+        return glob.glob(os.path.join(self.kernel_folder, 'boot', 'vmlinuz-*'))[0]
+
+    def qemu_command(self):
+        """The start of QEMU's command line."""
+        share = os.path.join(self.tools, 'usr', 'share')
+        return [self.qemu, '-L', os.path.join(share, 'qemu'), '-L', os.path.join(share, 'seabios')]
+
+    def qemu_environment(self):
+        libraries = [os.path.join(self.tools, LIBRARY_FOLDER),
+                     os.path.join(self.tools, 'lib/x86_64-linux-gnu')]
+        return dict(os.environ, LD_LIBRARY_PATH=':'.join(libraries),
+                    QEMU_MODULE_DIR=os.path.join(self.tools, LIBRARY_FOLDER, 'qemu'))
+
+
+def cache_folder():
+    """$WIIMOTE_TRACKER_REAL_KERNEL, or a folder of its own in the user's cache."""
+    folder = os.environ.get('WIIMOTE_TRACKER_REAL_KERNEL')
+    if not folder:
+        cache = os.environ.get('XDG_CACHE_HOME') or os.path.expanduser('~/.cache')
+        folder = os.path.join(cache, 'wiimote_tracker', 'real_kernel')
+    return os.path.abspath(folder)
+
+
+class Apt(object):
+    """The packages of this machine's sources, by its own lists or by lists of ours."""
+
+    def __init__(self, options=()):
+        self._options = list(options)
+
+    def _run(self, program, arguments, folder=None):
+        command = [program] + self._options + arguments
+        done = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              stdin=subprocess.DEVNULL, universal_newlines=True,
+                              env=dict(os.environ, LC_ALL='C'))
+        if done.returncode != 0:
+            lines = [line for line in done.stderr.splitlines() if line.startswith('E:')]
+            raise Unavailable('%s: %s' % (' '.join(command[:1] + arguments[:1]),
+                                          lines[0] if lines else done.stderr.strip()[-200:]))
+        return done.stdout
+
+    def update(self):
+        self._run('apt-get', ['update'])
+
+    def kernel_behind(self, package):
+        """The package of the kernel itself that a "latest kernel" package stands for."""
+        depends = self._run('apt-cache', ['depends', package])
+        images = re.findall(r'Depends: (linux-image-\d\S*)', depends)
+        return images[0] if images else package
+
+    def missing_for(self, package):
+        """What would have to be installed for `package`, itself included."""
+        plan = self._run('apt-get', ['install', '-s', '--no-install-recommends', package])
+        return re.findall(r'^Inst (\S+)', plan, re.MULTILINE)
+
+    def download(self, packages, folder):
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(folder)
+        # _apt, the user apt would rather download as, cannot write here; that is only a warning.
+        self._run('apt-get', ['-o', 'Acquire::Retries=3', '-o', 'Acquire::http::Timeout=30',
+                              'download'] + packages, folder)
+        return glob.glob(os.path.join(folder, '*.deb'))
+
+
+def own_lists(folder):
+    """Options that make apt keep package lists of its own, for when the machine's are missing or
+    out of date and may not be updated."""
+    lists = os.path.join(folder, 'lists')
+    os.makedirs(os.path.join(lists, 'partial'), exist_ok=True)
+    os.makedirs(os.path.join(folder, 'archives', 'partial'), exist_ok=True)
+    return ['-o', 'Dir::State::lists=' + lists, '-o', 'Dir::Cache=' + folder]
+
+
+def unpack(archives, folder):
+    """Unpacks so that an interruption leaves no half of it behind."""
+    partial = folder + '.partial'
+    shutil.rmtree(partial, ignore_errors=True)
+    for archive in archives:
+        subprocess.check_call(['dpkg-deb', '-x', archive, partial])
+    shutil.rmtree(folder, ignore_errors=True)
+    os.rename(partial, folder)
+
+
+def fetch_missing(parts, folder, kernel_package, apt):
+    downloads = os.path.join(folder, 'downloads')
+    if not os.path.isdir(parts.tools):
+        packages = set(QEMU_PACKAGES + ['busybox-static'] + apt.missing_for('qemu-system-x86'))
+        unpack(apt.download(sorted(packages), downloads), parts.tools)
+    if not os.path.isdir(parts.kernel_folder):
+        kernel = apt.kernel_behind(kernel_package)
+        unpack(apt.download([kernel], downloads), parts.kernel_folder)
+    shutil.rmtree(downloads, ignore_errors=True)
+
+
+def works(parts):
+    """Whether QEMU starts: a library that it shares with the machine may have gone since."""
+    try:
+        return subprocess.call([parts.qemu, '--version'], env=parts.qemu_environment(),
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) == 0
+    except OSError:
+        return False
+
+
+@contextlib.contextmanager
+def alone(folder):
+    """Keeps others from using the cache folder."""
+    with open(os.path.join(folder, 'lock'), 'w') as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
+def fetch(kernel_package=DEFAULT_KERNEL):
+    """Downloads what is not there yet. Returns Parts; raises Unavailable."""
+    for program in ('apt-get', 'dpkg', 'dpkg-deb'):
+        if not shutil.which(program):
+            raise Unavailable('%s is missing: this takes its kernel from Debian' % program)
+    architecture = subprocess.check_output(['dpkg', '--print-architecture'],
+                                           universal_newlines=True).strip()
+    if architecture != 'amd64':
+        raise Unavailable('this is a %s machine, the guest is amd64' % architecture)
+    folder = cache_folder()
+    parts = Parts(folder, kernel_package)
+    try:
+        os.makedirs(folder, exist_ok=True)
+        with alone(folder):
+            if os.path.isdir(parts.tools) and not works(parts):
+                shutil.rmtree(parts.tools)
+            try:
+                fetch_missing(parts, folder, kernel_package, Apt())
+            except Unavailable:
+                apt = Apt(own_lists(os.path.join(folder, 'apt')))
+                apt.update()
+                fetch_missing(parts, folder, kernel_package, apt)
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise Unavailable('%s (cache folder %s)' % (error, folder))
+    if not works(parts):
+        raise Unavailable('QEMU does not start: %s' % parts.qemu)
+    return parts
+
+
+if __name__ == '__main__':
+    try:
+        print(fetch(*sys.argv[1:2]).kernel)
+    except Unavailable as problem:
+        sys.exit(str(problem))

@@ -1,0 +1,42 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_CHECKS_H
+#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_CHECKS_H
+
+#include "running_driver.h"
+
+#include <functional>
+#include <string>
+
+namespace wiimote_tracker::real_kernel {
+
+/// The checks of one scenario. Each prints a line: "CHECK passed|name|what was seen".
+class Checks {
+ public:
+  void check(const std::string& name, bool passed, const std::string& seen = "");
+
+  /// Does something to the remote and checks that the driver gives at least 90 images a second
+  /// again, the first of that second no later than 1 s after the disturbance began. Returns only
+  /// when the stream flows, so that the next disturbance finds it so.
+  void recovers(const std::string& name,
+                const RunningDriver& driver,
+                const std::function<void()>& disturb);
+
+  bool passed() const { return count_ > 0 && failed_ == 0; }
+
+ private:
+  int count_ = 0;
+  int failed_ = 0;
+};
+
+/// How long after `since` the first second with at least 90 images began [s]; negative when there
+/// was none.
+double recoveryTime(const std::vector<double>& images, double since);
+
+/// The longest time without an image from `begin` to the last one before `end` [s].
+double longestPause(const std::vector<double>& images, double begin, double end);
+
+/// "0.123 s"
+std::string seconds(double value);
+
+}  // namespace wiimote_tracker::real_kernel
+
+#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_CHECKS_H

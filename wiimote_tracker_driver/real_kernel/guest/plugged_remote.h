@@ -1,0 +1,61 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_PLUGGED_REMOTE_H
+#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_PLUGGED_REMOTE_H
+
+#include "wiimote_tracker_driver/virtual_wiimote/uhid.h"
+
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace wiimote_tracker::real_kernel {
+
+/// A virtual Wii Remote plugged into this kernel. It sees one light that stands still, 100 times a
+/// second, and keeps what it is told by the kernel and by drivers.
+class PluggedRemote {
+ public:
+  using Bytes = virtual_wiimote::Bytes;
+  using Light = virtual_wiimote::Light;
+  using Model = virtual_wiimote::UhidDevice::Model;
+
+  /// An output report and when it came [s].
+  struct Output {
+    double time = 0.0;
+    Bytes report;
+  };
+
+  PluggedRemote(const std::string& address, const Light& light, Model model = Model::kRemote);
+  ~PluggedRemote();
+
+  void unplug() { device_.setPresent(false); }
+  void plug() { device_.setPresent(true); }
+  void setNunchuk(bool plugged) { device_.setNunchuk(plugged); }
+
+  const std::string& address() const { return address_; }
+  const Light& light() const { return light_; }
+  std::uint8_t leds() const { return device_.leds(); }
+
+  /// All output reports that came at or after `since` [s].
+  std::vector<Output> outputs(double since = 0.0) const;
+
+  /// Whether an output report that begins with these bytes came at or after `since` [s].
+  bool got(const Bytes& beginning, double since) const;
+
+ private:
+  void run();
+
+  const std::string address_;
+  const Light light_;
+
+  mutable std::mutex mutex_;  // guards the next
+  std::vector<Output> outputs_;
+
+  virtual_wiimote::UhidDevice device_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace wiimote_tracker::real_kernel
+
+#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_PLUGGED_REMOTE_H

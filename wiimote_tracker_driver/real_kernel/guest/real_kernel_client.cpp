@@ -1,0 +1,33 @@
+// Runs one scenario in the guest.
+//
+//   real_kernel_client --list     names all scenarios
+//   real_kernel_client SCENARIO   runs it; needs root, /dev/uhid and the module hid-wiimote
+//
+// Prints one line per check; the exit status is 0 when all have passed.
+#include "scenarios.h"
+
+#include <cstdio>
+#include <exception>
+#include <string>
+
+int main(int argc, char** argv) {
+  namespace real_kernel = wiimote_tracker::real_kernel;
+  const std::string wanted = argc == 2 ? argv[1] : "";
+  for (const real_kernel::Scenario& scenario : real_kernel::scenarios()) {
+    if (wanted == "--list")
+      std::puts(scenario.name);
+    if (wanted != scenario.name)
+      continue;
+    real_kernel::Checks checks;
+    try {
+      scenario.run(checks);
+    } catch (const std::exception& e) {
+      checks.check("runs to its end", false, e.what());
+    }
+    return checks.passed() ? 0 : 1;
+  }
+  if (wanted == "--list")
+    return 0;
+  std::fprintf(stderr, "usage: real_kernel_client SCENARIO|--list\n");
+  return 2;
+}

@@ -1,0 +1,83 @@
+#include "running_driver.h"
+
+#include "clock.h"
+#include "wiimote_tracker_driver/transport/transport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace wiimote_tracker::real_kernel {
+namespace {
+
+constexpr double kTurn = 0.05;  // [s] Longest wait before a look at whether to stop.
+
+}  // namespace
+
+RunningDriver::RunningDriver(const std::string& device, const virtual_wiimote::Light& light)
+    : light_(light),
+      wiimote_(
+          wiimote::Options(),
+          [name = transport::parseDeviceName(device)] { return transport::open(name); },
+          now),
+      thread_([this] { run(); }) {}
+
+RunningDriver::~RunningDriver() {
+  stop_ = true;
+  thread_.join();
+}
+
+void RunningDriver::run() {
+  std::uint64_t link_changes = 0;
+  while (!stop_) {
+    const double idle = wiimote_.idleTime();
+    if (idle > 0.0) {
+      sleepFor(std::min(idle, kTurn));
+      continue;
+    }
+    const std::optional<protocol::DataReport> image = wiimote_.step(kTurn);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (image)
+      record(*image);
+    if (link_changes != wiimote_.linkChanges()) {
+      link_changes = wiimote_.linkChanges();
+      link_ = wiimote_.link();
+    }
+  }
+}
+
+void RunningDriver::record(const protocol::DataReport& image) {
+  int lights = 0;
+  bool right = true;
+  for (const protocol::IrSpot& spot : image.spots) {
+    if (!spot.seen)
+      continue;
+    ++lights;
+    right = right && spot.x == std::lround(light_.x) && spot.y == std::lround(light_.y);
+  }
+  if (lights == 1 && right)
+    images_.push_back(now());
+  else if (lights > 0)
+    ++wrong_images_;
+}
+
+wiimote::Link RunningDriver::link() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return link_;
+}
+
+std::vector<double> RunningDriver::images() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return images_;
+}
+
+std::size_t RunningDriver::wrongImages() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return wrong_images_;
+}
+
+bool RunningDriver::waitForState(wiimote::Link::State state, double timeout) const {
+  return waitFor([&] { return link().state == state; }, timeout);
+}
+
+}  // namespace wiimote_tracker::real_kernel

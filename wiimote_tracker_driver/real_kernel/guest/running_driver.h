@@ -1,0 +1,54 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RUNNING_DRIVER_H
+#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RUNNING_DRIVER_H
+
+#include "wiimote_tracker_driver/virtual_wiimote/device.h"
+#include "wiimote_tracker_driver/wiimote/wiimote.h"
+
+#include <atomic>
+#include <cstddef>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace wiimote_tracker::real_kernel {
+
+/// The driver's core at work over hidapi and hidraw, in a thread of its own as in the driver node,
+/// with its default options.
+class RunningDriver {
+ public:
+  /// `device` as in the driver's parameter: empty, a Bluetooth address or /dev/hidrawN. `light` is
+  /// the only one that the remote sees.
+  RunningDriver(const std::string& device, const virtual_wiimote::Light& light);
+  ~RunningDriver();
+
+  wiimote::Link link() const;
+
+  /// Arrival times of the images that show the light [s].
+  std::vector<double> images() const;
+
+  /// How many images showed another one. Images without any light count as neither.
+  std::size_t wrongImages() const;
+
+  /// Waits until the link is in this state, at most `timeout` [s].
+  bool waitForState(wiimote::Link::State state, double timeout) const;
+
+ private:
+  void run();
+  void record(const protocol::DataReport& image);
+
+  const virtual_wiimote::Light light_;
+  wiimote::Wiimote wiimote_;
+
+  mutable std::mutex mutex_;  // guards the next three
+  wiimote::Link link_;
+  std::vector<double> images_;
+  std::size_t wrong_images_ = 0;
+
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace wiimote_tracker::real_kernel
+
+#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RUNNING_DRIVER_H

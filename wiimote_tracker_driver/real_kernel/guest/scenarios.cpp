@@ -1,0 +1,453 @@
+#include "scenarios.h"
+
+#include "clock.h"
+#include "kernel.h"
+#include "plugged_remote.h"
+#include "wiimote_tracker_driver/transport/transport.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <deque>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace wiimote_tracker::real_kernel {
+namespace {
+
+using Bytes = PluggedRemote::Bytes;
+using Light = PluggedRemote::Light;
+using Model = PluggedRemote::Model;
+using State = wiimote::Link::State;
+
+constexpr char kAddress[] = "00:1f:32:00:00:01";
+constexpr Light kLight{300.0, 200.0, 3.0, 1.0};
+
+// What the kernel says, in bytes.
+const Bytes kKernelsMode{0x12, 0x00, 0x30};
+const Bytes kStatusRequest{0x15};
+
+// The kernel has set a remote up when it has asked for the battery and nothing more comes [s].
+constexpr double kSetUpTime = 1.0;
+// For what takes its time but is no part of a recovery [s].
+constexpr double kPatience = 5.0;
+
+std::string hex(const Bytes& bytes, std::size_t count) {
+  std::string text;
+  char byte[3];
+  for (std::size_t i = 0; i < std::min(count, bytes.size()); ++i) {
+    std::snprintf(byte, sizeof(byte), "%02x", static_cast<unsigned>(bytes[i]));
+    text += byte;
+  }
+  return text;
+}
+
+std::string count(std::size_t number, const std::string& things) {
+  return std::to_string(number) + " " + things;
+}
+
+/// A remote, the kernel done with it, and a driver that streams from it.
+struct Streaming {
+  explicit Streaming(const std::string& address = kAddress,
+                     const Light& light = kLight,
+                     Model model = Model::kRemote)
+      : remote(address, light, model), driver(address, light) {
+    if (!driver.waitForState(State::kStreaming, kPatience))
+      throw std::runtime_error("the driver does not stream: " + driver.link().error);
+    sleepFor(kSetUpTime);
+  }
+
+  PluggedRemote remote;
+  RunningDriver driver;
+};
+
+/// Holds a file open.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path)
+      : fd_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+    if (fd_ < 0)
+      throw std::runtime_error("cannot open '" + path + "'");
+  }
+  ~OpenFile() { ::close(fd_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+ private:
+  int fd_;
+};
+
+/// Disturbs and checks that the stream recovers, at `rounds` moments that lie differently to the
+/// stream's own.
+void recoversRepeatedly(Checks& checks,
+                        const std::string& name,
+                        const RunningDriver& driver,
+                        int rounds,
+                        const std::function<void()>& disturb) {
+  for (int round = 0; round < rounds; ++round) {
+    sleepFor(0.0137 * round);
+    checks.recovers(name + ", round " + std::to_string(round + 1), driver, disturb);
+  }
+}
+
+/// What the kernel says to a remote without extension while it sets it up: the first eight bytes
+/// of its reports in the order of first appearance, without the motor's bit.
+void kernelTraffic(Checks& checks) {
+  const double plugged = now();
+  const PluggedRemote remote(kAddress, kLight);
+  sleepFor(2.0);
+  std::vector<std::string> said;
+  std::map<std::string, int> times;
+  for (const PluggedRemote::Output& output : remote.outputs(plugged)) {
+    const std::string text = hex(output.report, 7);
+    if (times[text]++ == 0)
+      said.push_back(text);
+  }
+  const std::vector<std::string> expected{
+      "1500",            // status
+      "120030",          // after each status
+      "1110",            // LED 1
+      "1604a400f00155",  // is there an extension?
+      "1604a600f00155",  // is there a Motion Plus?
+      "1704a600fa0006", "1704a400fa0006",
+  };
+  std::string all;
+  for (const std::string& text : said)
+    all += (all.empty() ? "" : " ") + text;
+  // The kernel's workers may swap neighbours; what is said is the same.
+  checks.check("the kernel sets the virtual remote up as it does a real one",
+               std::set<std::string>(said.begin(), said.end()) ==
+                   std::set<std::string>(expected.begin(), expected.end()),
+               all);
+  checks.check("the kernel sets its mode after each status", times["120030"] == times["1500"],
+               count(static_cast<std::size_t>(times["1500"]), "status requests"));
+  checks.check("hid-wiimote is bound", kernelDriverOf(kAddress) == "wiimote",
+               kernelDriverOf(kAddress));
+  checks.check("there is a hidraw node", !hidrawOf(kAddress).empty(), hidrawOf(kAddress));
+  for (const char* name :
+       {"Nintendo Wii Remote", "Nintendo Wii Remote Accelerometer", "Nintendo Wii Remote IR"}) {
+    checks.check(std::string("there is the input device ") + name,
+                 !inputNodeOf(kAddress, name).empty(), inputNodeOf(kAddress, name));
+  }
+  const std::string charge = readLine(batteryFileOf(kAddress));
+  checks.check("the kernel knows the battery", charge == "62", charge + " %, of raw 0xa0");
+  checks.check("LED 1 is on", remote.leds() == 1, std::to_string(remote.leds()));
+  const double quiet = now();
+  checks.check("the kernel looks for a Motion Plus every 4 s",
+               waitFor(
+                   [&] {
+                     return remote.got({0x16, 0x04, 0xa6, 0x00, 0xf0}, quiet);
+                   },
+                   4.5));
+}
+
+void plug(Checks& checks) {
+  const RunningDriver driver("", kLight);
+  const bool says_so = waitFor([&] { return !driver.link().error.empty(); }, kPatience);
+  checks.check("without a remote the driver searches and says so",
+               says_so && driver.link().state == State::kSearching, driver.link().error);
+  std::unique_ptr<PluggedRemote> remote;
+  const double since = now();
+  remote = std::make_unique<PluggedRemote>(kAddress, kLight);
+  const bool streams = driver.waitForState(State::kStreaming, kPatience);
+  const wiimote::Link link = driver.link();
+  checks.check("a remote that is plugged in streams", streams, "after " + seconds(now() - since));
+  checks.check("it is known by its Bluetooth address", link.identity == kAddress, link.identity);
+  checks.check("it is found at its hidraw node", link.description == hidrawOf(kAddress),
+               link.description);
+  checks.check("the kernel's driver beside ours is seen", link.kernel_driver == "wiimote",
+               link.kernel_driver);
+  checks.check("the calibration of its accelerometer is read", link.accelerometer_calibrated);
+  checks.recovers("the stream is up to speed", driver, [] {});
+}
+
+void stream(Checks& checks) {
+  const Streaming streaming;
+  const double begin = now();
+  constexpr double kDuration = 20.0;
+  sleepFor(kDuration);
+  const double end = now();
+  const std::vector<double> images = streaming.driver.images();
+  const auto in_time = static_cast<std::size_t>(std::count_if(
+      images.begin(), images.end(), [&](double t) { return t >= begin && t <= end; }));
+  checks.check("20 s at 90 Hz or more", static_cast<double>(in_time) >= 90.0 * kDuration,
+               count(in_time, "images"));
+  checks.check("no pause of 0.1 s or more", longestPause(images, begin, end) < 0.1,
+               "longest " + seconds(longestPause(images, begin, end)));
+  checks.check("the kernel was at work meanwhile",
+               streaming.remote.got({0x16, 0x04, 0xa6, 0x00, 0xf0}, begin));
+  checks.check("no image was wrong", streaming.driver.wrongImages() == 0,
+               count(streaming.driver.wrongImages(), "wrong images"));
+}
+
+void unplug(Checks& checks) {
+  Streaming streaming;
+  const double since = now();
+  streaming.remote.unplug();
+  const bool seen = streaming.driver.waitForState(State::kSearching, 1.0);
+  checks.check("the driver sees that the remote is gone", seen,
+               "after " + seconds(now() - since) + ": " + streaming.driver.link().error);
+  sleepFor(3.0);
+  checks.check(
+      "the driver goes on searching",
+      streaming.driver.link().state == State::kSearching && !streaming.driver.link().error.empty(),
+      streaming.driver.link().error);
+}
+
+void replug(Checks& checks) {
+  Streaming streaming;
+  for (const double away : {0.0, 0.1, 0.7, 1.9, 3.1, 5.3, 10.0, 30.0}) {
+    const std::uint32_t epoch = streaming.driver.link().clock_epoch;
+    streaming.remote.unplug();
+    sleepFor(away);
+    const std::string name = "away for " + seconds(away);
+    checks.recovers(name, streaming.driver, [&] { streaming.remote.plug(); });
+    checks.check(name + ": a new clock epoch", streaming.driver.link().clock_epoch == epoch + 1,
+                 std::to_string(streaming.driver.link().clock_epoch));
+  }
+}
+
+/// Each remote is where its own light is, so that a driver at the wrong remote shows.
+std::string addressOf(int number) {
+  return "00:1f:32:00:00:0" + std::to_string(number);
+}
+Light lightOf(int number) {
+  return {200.0 * number, 100.0 * number, 3.0, 1.0};
+}
+
+void fourAtOnce(Checks& checks) {
+  std::deque<RunningDriver> drivers;
+  std::deque<PluggedRemote> remotes;
+  for (int i = 1; i <= 4; ++i)
+    drivers.emplace_back(addressOf(i), lightOf(i));
+  // Not in the order of the drivers.
+  for (const int i : {3, 1, 4, 2})
+    remotes.emplace_back(addressOf(i), lightOf(i), i == 4 ? Model::kRemotePlus : Model::kRemote);
+  for (const RunningDriver& driver : drivers)
+    driver.waitForState(State::kStreaming, kPatience);
+  for (int i = 1; i <= 4; ++i)
+    checks.recovers("remote " + std::to_string(i) + " streams to its driver", drivers[i - 1],
+                    [] {});
+
+  const double begin = now();
+  sleepFor(5.0);
+  for (int i = 1; i <= 4; ++i) {
+    const std::vector<double> images = drivers[i - 1].images();
+    const auto in_time = static_cast<std::size_t>(
+        std::count_if(images.begin(), images.end(), [&](double t) { return t >= begin; }));
+    checks.check("remote " + std::to_string(i) + ": 5 s at 90 Hz or more", in_time >= 450,
+                 count(in_time, "images"));
+  }
+
+  // They come back in another order and so at other nodes.
+  std::vector<std::string> before;
+  for (int i = 1; i <= 4; ++i)
+    before.push_back(hidrawOf(addressOf(i)));
+  for (PluggedRemote& remote : remotes)
+    remote.unplug();
+  sleepFor(0.5);
+  for (auto remote = remotes.rbegin(); remote != remotes.rend(); ++remote)
+    remote->plug();
+  bool moved = false;
+  for (int i = 1; i <= 4; ++i) {
+    waitFor([&] { return !hidrawOf(addressOf(i)).empty(); }, kPatience);
+    moved = moved || hidrawOf(addressOf(i)) != before[static_cast<std::size_t>(i - 1)];
+  }
+  checks.check("plugged in again, they are at other nodes", moved);
+  for (int i = 1; i <= 4; ++i)
+    checks.recovers("remote " + std::to_string(i) + " is found again", drivers[i - 1], [] {});
+  for (int i = 1; i <= 4; ++i) {
+    checks.check("driver " + std::to_string(i) + " never saw another one's light",
+                 drivers[i - 1].wrongImages() == 0,
+                 count(drivers[i - 1].wrongImages(), "wrong images"));
+  }
+}
+
+void ignoreSpecialDrivers(Checks& checks) {
+  const double begin = now();
+  Streaming streaming;
+  checks.check("hid-generic is bound", streaming.driver.link().kernel_driver == "hid-generic",
+               streaming.driver.link().kernel_driver);
+  sleepFor(5.0);
+  checks.check("the kernel says nothing to the remote",
+               !streaming.remote.got(kKernelsMode, begin) &&
+                   !streaming.remote.got({0x16, 0x04, 0xa6}, begin));
+  checks.recovers("the stream is up to speed", streaming.driver, [] {});
+  streaming.remote.unplug();
+  sleepFor(0.3);
+  checks.recovers("plugged in again", streaming.driver, [&] { streaming.remote.plug(); });
+}
+
+void battery(Checks& checks) {
+  Streaming streaming;
+  const std::string file = batteryFileOf(kAddress);
+  const double begin = now();
+  recoversRepeatedly(checks, "battery read", streaming.driver, 20, [&] { readLine(file); });
+  const std::vector<PluggedRemote::Output> outputs = streaming.remote.outputs(begin);
+  const auto resets = static_cast<std::size_t>(std::count_if(
+      outputs.begin(), outputs.end(),
+      [](const PluggedRemote::Output& output) { return output.report == kKernelsMode; }));
+  checks.check("each time the kernel set its own mode", resets >= 20, count(resets, "times"));
+  checks.recovers("battery read ten times in a row", streaming.driver, [&] {
+    for (int i = 0; i < 10; ++i) {
+      readLine(file);
+      sleepFor(0.003 * i);
+    }
+  });
+}
+
+void evdev(Checks& checks) {
+  Streaming streaming;
+  for (const char* name :
+       {"Nintendo Wii Remote IR", "Nintendo Wii Remote Accelerometer", "Nintendo Wii Remote"}) {
+    const std::string node = inputNodeOf(kAddress, name);
+    const std::string thing = std::string("input device ") + name;
+    std::unique_ptr<OpenFile> file;
+    const double begin = now();
+    checks.recovers(thing + " opened", streaming.driver,
+                    [&] { file = std::make_unique<OpenFile>(node); });
+    checks.recovers(thing + " closed", streaming.driver, [&] { file.reset(); });
+    if (std::string(name) == "Nintendo Wii Remote IR") {
+      checks.check("the kernel had taken the camera",
+                   streaming.remote.got({0x12, 0x00, 0x36}, begin) &&
+                       streaming.remote.got({0x13, 0x00}, begin));
+    }
+  }
+  recoversRepeatedly(checks, "all input devices opened and closed", streaming.driver, 10, [] {
+    for (const std::string& node : inputNodes())
+      OpenFile file(node);
+  });
+}
+
+void extension(Checks& checks) {
+  Streaming streaming;
+  for (int round = 1; round <= 5; ++round) {
+    const std::string text = ", round " + std::to_string(round);
+    const double begin = now();
+    checks.recovers("Nunchuk plugged in" + text, streaming.driver,
+                    [&] { streaming.remote.setNunchuk(true); });
+    checks.check("the kernel had taken it" + text,
+                 streaming.remote.got({0x16, 0x04, 0xa4, 0x00, 0xfb}, begin) &&
+                     !inputNodeOf(kAddress, "Nintendo Wii Remote Nunchuk").empty(),
+                 inputNodeOf(kAddress, "Nintendo Wii Remote Nunchuk"));
+    sleepFor(0.0137 * round);
+    checks.recovers("Nunchuk pulled out" + text, streaming.driver,
+                    [&] { streaming.remote.setNunchuk(false); });
+  }
+  streaming.remote.unplug();
+  streaming.remote.setNunchuk(true);
+  sleepFor(0.3);
+  checks.recovers("plugged in with a Nunchuk", streaming.driver, [&] { streaming.remote.plug(); });
+  checks.check("no image was wrong", streaming.driver.wrongImages() == 0,
+               count(streaming.driver.wrongImages(), "wrong images"));
+}
+
+void leds(Checks& checks) {
+  Streaming streaming;
+  const std::string file = ledFileOf(kAddress, 3);
+  const double begin = now();
+  checks.recovers("LED switched by the kernel", streaming.driver, [&] { writeText(file, "1"); });
+  checks.check("the kernel had switched it", streaming.remote.got({0x11, 0x50}, begin));
+}
+
+void rebind(Checks& checks) {
+  Streaming streaming;
+  const std::string name = hidNameOf(kAddress);
+  writeText("/sys/bus/hid/drivers/wiimote/unbind", name);
+  const bool searches = streaming.driver.waitForState(State::kSearching, 1.0);
+  checks.check("the kernel's driver unbound: the driver searches", searches,
+               streaming.driver.link().error);
+  checks.recovers("the kernel's driver bound again", streaming.driver,
+                  [&] { writeText("/sys/bus/hid/drivers/wiimote/bind", name); });
+}
+
+void taken(Checks& checks) {
+  Streaming streaming;
+  const RunningDriver second(kAddress, kLight);
+  const bool told = waitFor([&] { return !second.link().error.empty(); }, kPatience);
+  checks.check("a second driver is told that the remote is taken",
+               told && second.link().state == State::kSearching, second.link().error);
+  sleepFor(3.0);
+  checks.check("and gets no image", second.images().empty() && second.wrongImages() == 0);
+  checks.recovers("the first one streams on", streaming.driver, [] {});
+}
+
+/// Opens the remote as an ordinary user, in a child process. @returns what open() says; empty when
+/// it succeeds.
+std::string openAsNobody() {
+  constexpr uid_t kNobody = 65534;
+  int ends[2];
+  if (::pipe(ends) != 0)
+    throw std::runtime_error("no pipe");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::string said = "the user could not be changed";
+    if (::setgid(kNobody) == 0 && ::setuid(kNobody) == 0) {
+      try {
+        transport::open(transport::parseDeviceName(""));
+        said = "opened";
+      } catch (const transport::PermissionDenied& e) {
+        said = std::string("denied: ") + e.what();
+      } catch (const std::exception& e) {
+        said = std::string("another error: ") + e.what();
+      }
+    }
+    const ssize_t written = ::write(ends[1], said.data(), said.size());
+    ::_exit(written == static_cast<ssize_t>(said.size()) ? 0 : 1);
+  }
+  ::close(ends[1]);
+  std::string said;
+  char buffer[256];
+  for (ssize_t size = 0; (size = ::read(ends[0], buffer, sizeof(buffer))) > 0;)
+    said.append(buffer, static_cast<std::size_t>(size));
+  ::close(ends[0]);
+  ::waitpid(child, nullptr, 0);
+  return said;
+}
+
+void nonRoot(Checks& checks) {
+  const PluggedRemote remote(kAddress, kLight);
+  waitFor([] { return !hidrawOf(kAddress).empty(); }, kPatience);
+  sleepFor(kSetUpTime);
+  const std::string said = openAsNobody();
+  checks.check("an ordinary user is denied the remote", said.compare(0, 7, "denied:") == 0, said);
+  checks.check("and told of the udev rule",
+               said.find("60-wiimote-tracker.rules") != std::string::npos &&
+                   said.find("/etc/udev/rules.d") != std::string::npos);
+  ::chmod(hidrawOf(kAddress).c_str(), 0666);  // as the rule would, for members of a group
+  const std::string again = openAsNobody();
+  checks.check("with access it opens", again == "opened", again);
+}
+
+}  // namespace
+
+const std::vector<Scenario>& scenarios() {
+  static const std::vector<Scenario> kAll{
+      {"kernel_traffic", kernelTraffic},
+      {"plug", plug},
+      {"stream", stream},
+      {"unplug", unplug},
+      {"replug", replug},
+      {"four_at_once", fourAtOnce},
+      {"ignore_special_drivers", ignoreSpecialDrivers},
+      {"battery", battery},
+      {"evdev", evdev},
+      {"extension", extension},
+      {"leds", leds},
+      {"rebind", rebind},
+      {"taken", taken},
+      {"non_root", nonRoot},
+  };
+  return kAll;
+}
+
+}  // namespace wiimote_tracker::real_kernel

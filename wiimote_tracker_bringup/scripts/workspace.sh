@@ -77,7 +77,8 @@ install_missing_packages() {
   local wanted installed missing root=()
   wanted=$(grep -v '^#' "$bringup/scripts/debian_packages.txt" | sort -u)
   # shellcheck disable=SC2086
-  installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null |
+  # dpkg-query fails when it has never heard of one of them.
+  installed=$({ dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null || true; } |
     awk '$2 == "installed" { print $1 }' | sort -u)
   missing=$(comm -23 <(echo "$wanted") <(echo "$installed"))
   [[ -n $missing ]] || return 0

@@ -302,18 +302,17 @@ bool CalibrationNode::load(wiimote_tracker_msgs::LoadRig::Request& request,
 }
 
 workflow::Reply CalibrationNode::loadFile(const std::string& path) {
+  std::optional<geometry::Rig> rig;
   workflow::Reply reply;
-  geometry::Rig rig;
   try {
     rig = geometry::readRigFile(path);
-    rig.check();
   } catch (const geometry::Error& error) {
-    return {false, error.what()};
+    reply.message = error.what();
   }
   const Lock lock(mutex_);
-  reply = calibration_.load(rig);
+  reply = rig ? calibration_.load(*rig) : noted(reply);
   if (reply.success)
-    rig_output_.publish(rig);
+    rig_output_.publish(*rig);
   publishStatus();
   return reply;
 }

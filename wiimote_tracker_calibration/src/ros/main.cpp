@@ -10,9 +10,11 @@ int main(int argc, char** argv) {
                                                   << ": start roscore or use roslaunch");
     return 1;
   }
+  // The last handle to go closes the console: these outlive the error message.
+  const ros::NodeHandle nh;
+  const ros::NodeHandle private_nh("~");
   try {
-    wiimote_tracker::CalibrationNode node(ros::NodeHandle(),
-                                          wiimote_tracker::readParameters(ros::NodeHandle("~")));
+    wiimote_tracker::CalibrationNode node(nh, wiimote_tracker::readParameters(private_nh));
     // Services wait for images, and images must come in meanwhile.
     ros::MultiThreadedSpinner spinner(4);
     spinner.spin();

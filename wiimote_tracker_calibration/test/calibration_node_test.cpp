@@ -1,0 +1,490 @@
+// Drives the calibration node like a person, with cameras that this test plays.
+
+#include "fake_cameras.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig_file.h>
+#include <wiimote_tracker_triangulation/ros/conversions.h>
+
+#include <actionlib/client/simple_action_client.h>
+#include <gtest/gtest.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+#include <wiimote_tracker_msgs/CalibrationStatus.h>
+#include <wiimote_tracker_msgs/CaptureCornerAction.h>
+#include <wiimote_tracker_msgs/CheckConnection.h>
+#include <wiimote_tracker_msgs/LoadRig.h>
+#include <wiimote_tracker_msgs/RigCalibration.h>
+#include <wiimote_tracker_msgs/SaveRig.h>
+#include <wiimote_tracker_msgs/SolveCalibration.h>
+#include <wiimote_tracker_msgs/StartCalibration.h>
+
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <sstream>
+
+namespace wiimote_tracker {
+namespace {
+
+using wiimote_tracker_msgs::CalibrationStatus;
+using wiimote_tracker_msgs::RigCalibration;
+using Client = actionlib::SimpleActionClient<wiimote_tracker_msgs::CaptureCornerAction>;
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+constexpr double kPatience = 30.0;  // [s] far beyond what anything here takes
+
+bool waitUntil(const std::function<bool()>& condition) {
+  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(kPatience);
+  while (ros::ok() && ros::SteadyTime::now() < end) {
+    if (condition())
+      return true;
+    ros::WallDuration(0.01).sleep();
+  }
+  return condition();
+}
+
+bool exists(const std::string& path) {
+  struct stat info;
+  return stat(path.c_str(), &info) == 0;
+}
+
+std::string contents(const std::string& path) {
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+/// Latest message of a latched topic.
+template <typename Message>
+class Latest {
+ public:
+  explicit Latest(const std::string& topic)
+      : subscriber_(nh_.subscribe<Message>(topic,
+                                           100,
+                                           [this](const boost::shared_ptr<const Message>& message) {
+                                             const std::lock_guard<std::mutex> lock(mutex_);
+                                             message_ = message;
+                                           })) {}
+
+  boost::shared_ptr<const Message> get() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return message_;
+  }
+
+ private:
+  ros::NodeHandle nh_;
+  mutable std::mutex mutex_;
+  boost::shared_ptr<const Message> message_;
+  ros::Subscriber subscriber_;
+};
+
+class Node : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    cameras_ = std::make_unique<FakeCameras>();
+    status_ = std::make_unique<Latest<CalibrationStatus>>("calibration/status");
+    capture_ = std::make_unique<Client>("calibration/capture_corner", true);
+    std::string rig_file;
+    ASSERT_TRUE(ros::param::get("/calibration/rig_file", rig_file));
+    folder_ = rig_file.substr(0, rig_file.rfind('/'));
+    ASSERT_TRUE(capture_->waitForServer(ros::Duration(kPatience)));
+    ASSERT_TRUE(waitUntil([] {
+      const auto status = status_->get();
+      int connected = 0;
+      if (status) {
+        for (const auto& camera : status->cameras)
+          connected += camera.connected;
+      }
+      return connected == 4;
+    }));
+  }
+  static void TearDownTestSuite() {
+    capture_.reset();
+    status_.reset();
+    cameras_.reset();
+    if (folder_.compare(0, 5, "/tmp/") == 0) {
+      EXPECT_EQ(std::system(("rm -r '" + folder_ + "'").c_str()), 0);
+    }
+  }
+  void SetUp() override { cameras_->blind({}); }
+
+  template <typename Service>
+  static typename Service::Response call(const std::string& name,
+                                         const typename Service::Request& request = {}) {
+    typename Service::Response response;
+    EXPECT_TRUE(ros::service::waitForService(name, ros::Duration(kPatience)));
+    EXPECT_TRUE(ros::service::call(name, const_cast<typename Service::Request&>(request), response))
+        << name;
+    return response;
+  }
+
+  static wiimote_tracker_msgs::StartCalibration::Response start(double side_x,
+                                                                double side_y = 0.0) {
+    wiimote_tracker_msgs::StartCalibration::Request request;
+    request.side_x = side_x;
+    request.side_y = side_y;
+    return call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request);
+  }
+
+  /// Puts the LED down, and waits until the node sees it there.
+  static void putLed(const Eigen::Vector3d& place) {
+    cameras_->putLed(place);
+    ASSERT_TRUE(waitUntil([&] {
+      wiimote_tracker_msgs::CheckConnection::Request request;
+      request.duration = 0.05;
+      const auto response =
+          call<wiimote_tracker_msgs::CheckConnection>("calibration/check_connection", request);
+      for (std::size_t i = 0; i < response.cameras.size(); ++i) {
+        const auto& camera = response.cameras[i];
+        const Eigen::Vector2d pixel = cameras_->truth[i].project(place).value();
+        if (camera.blobs == 1 && !((Eigen::Vector2d(camera.x, camera.y) - pixel).norm() < 1.0))
+          return false;
+      }
+      return response.cameras.size() == 4;
+    }));
+  }
+
+  static wiimote_tracker_msgs::CaptureCornerResult capture(int retake = -1) {
+    wiimote_tracker_msgs::CaptureCornerGoal goal;
+    goal.retake = retake >= 0;
+    goal.corner = static_cast<std::uint32_t>(std::max(retake, 0));
+    capture_->sendGoal(goal);
+    EXPECT_TRUE(capture_->waitForResult(ros::Duration(kPatience)));
+    return *capture_->getResult();
+  }
+
+  static void captureAll() {
+    const auto started = start(2.5);
+    ASSERT_TRUE(started.success) << started.message;
+    for (const Eigen::Vector3d& corner : kCorners) {
+      putLed(corner);
+      const auto result = capture();
+      ASSERT_TRUE(result.success) << result.message;
+    }
+  }
+
+  static bool waitForStep(std::uint8_t step) {
+    return waitUntil([step] { return status_->get()->step == step; });
+  }
+
+  static const std::vector<Eigen::Vector3d> kCorners;
+  static std::unique_ptr<FakeCameras> cameras_;
+  static std::unique_ptr<Latest<CalibrationStatus>> status_;
+  static std::unique_ptr<Client> capture_;
+  static std::string folder_;
+};
+
+const std::vector<Eigen::Vector3d> Node::kCorners = {{0.0, 0.0, 0.0},
+                                                     {2.5, 0.0, 0.0},
+                                                     {2.5, 2.5, 0.0},
+                                                     {0.0, 2.5, 0.0}};
+std::unique_ptr<FakeCameras> Node::cameras_;
+std::unique_ptr<Latest<CalibrationStatus>> Node::status_;
+std::unique_ptr<Client> Node::capture_;
+std::string Node::folder_;
+
+TEST_F(Node, a_person_without_a_rig_is_told_what_to_do) {
+  EXPECT_TRUE(status_->get()->rig_id.empty());
+  EXPECT_EQ(status_->get()->step, CalibrationStatus::IDLE);
+  EXPECT_EQ(status_->get()->header.frame_id, "world");
+  const auto saved = call<wiimote_tracker_msgs::SaveRig>("calibration/save");
+  EXPECT_FALSE(saved.success);
+  EXPECT_SAYS(saved.message, "no rig to save");
+  const auto loaded = call<wiimote_tracker_msgs::LoadRig>("calibration/load");
+  EXPECT_FALSE(loaded.success);
+  EXPECT_SAYS(loaded.message, folder_);
+  EXPECT_SAYS(capture().message, "start one first");
+  EXPECT_SAYS(call<std_srvs::Trigger>("calibration/undo").message, "no captured corner");
+}
+
+TEST_F(Node, the_connection_check_names_the_cameras_that_fail) {
+  putLed(kCorners[0]);
+  wiimote_tracker_msgs::CheckConnection::Request request;
+  request.duration = 0.3;
+  auto response =
+      call<wiimote_tracker_msgs::CheckConnection>("calibration/check_connection", request);
+  EXPECT_TRUE(response.success) << response.message;
+  ASSERT_EQ(response.cameras.size(), 4U);
+  EXPECT_EQ(response.cameras[1].name, "camera_2");
+  EXPECT_EQ(response.cameras[1].identity, "00:1e:35:00:00:02");
+  EXPECT_GT(response.cameras[1].rate, 10.0);
+  EXPECT_TRUE(response.cameras[1].sees_led);
+
+  cameras_->blind({"camera_3"});
+  EXPECT_TRUE(waitUntil([&] {
+    response = call<wiimote_tracker_msgs::CheckConnection>("calibration/check_connection", request);
+    return !response.success && response.cameras[2].blobs == 0;
+  }));
+  EXPECT_SAYS(response.message, "camera_3 sees no spot");
+  EXPECT_EQ(response.message.find("camera_2"), std::string::npos);
+  request.duration = -1.0;
+  EXPECT_FALSE(
+      call<wiimote_tracker_msgs::CheckConnection>("calibration/check_connection", request).success);
+}
+
+TEST_F(Node, sides_must_be_lengths) {
+  const auto zero = start(0.0);
+  EXPECT_FALSE(zero.success);
+  EXPECT_SAYS(zero.message, "side_length");
+  for (const double side : {-1.0, std::nan("")})
+    EXPECT_FALSE(start(side).success);
+  EXPECT_FALSE(start(1.0, -1.0).success);
+  EXPECT_FALSE(start(0.0, 1.0).success);
+  EXPECT_TRUE(waitUntil([] { return status_->get()->message.find("side") != std::string::npos; }));
+  wiimote_tracker_msgs::StartCalibration::Request request;
+  request.side_x = 1.0;
+  request.cameras = {"camera_1", "camera_9"};
+  EXPECT_SAYS(call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request).message,
+              "there is no camera camera_9");
+}
+
+TEST_F(Node, bad_input_on_the_way_loses_nothing) {
+  const auto started = start(2.5, 2.0);
+  ASSERT_TRUE(started.success) << started.message;
+  EXPECT_TRUE(waitForStep(CalibrationStatus::READY));
+  EXPECT_EQ(status_->get()->square_sides, std::vector<double>({2.5, 2.0}));
+  putLed(kCorners[0]);
+  auto result = capture();
+  EXPECT_TRUE(result.success) << result.message;
+  EXPECT_EQ(result.corner, 0U);
+  ASSERT_EQ(result.cameras.size(), 4U);
+  EXPECT_GE(result.cameras[0].samples.at(0), 20U);
+  EXPECT_LT(result.cameras[0].spread.at(0), 1.0);
+
+  // The LED moves while it is captured.
+  putLed(kCorners[1]);
+  cameras_->putLed(kCorners[1], 0.5);
+  result = capture();
+  EXPECT_FALSE(result.success);
+  EXPECT_SAYS(result.message, "the LED moved");
+  EXPECT_EQ(capture_->getState(), actionlib::SimpleClientGoalState::ABORTED);
+
+  const auto early = call<wiimote_tracker_msgs::SolveCalibration>("calibration/solve");
+  EXPECT_FALSE(early.success);
+  EXPECT_SAYS(early.message, "only 1 of 4 corners");
+  EXPECT_TRUE(early.rig.cameras.empty());
+
+  // A corner that one camera does not see.
+  putLed(kCorners[1]);
+  cameras_->blind({"camera_2"});
+  EXPECT_TRUE(waitUntil([&] {
+    wiimote_tracker_msgs::CheckConnection::Request request;
+    request.duration = 0.05;
+    return call<wiimote_tracker_msgs::CheckConnection>("calibration/check_connection", request)
+               .cameras[1]
+               .blobs == 0;
+  }));
+  result = capture();
+  EXPECT_TRUE(result.success) << result.message;
+  EXPECT_SAYS(result.message, "camera_2 sees no spot");
+  EXPECT_EQ(result.cameras[1].samples,
+            std::vector<std::uint32_t>({result.cameras[1].samples[0], 0}));
+
+  // Undo, and nobody sees the LED until the time is up.
+  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/undo").success);
+  cameras_->blind({"camera_1", "camera_2", "camera_3", "camera_4"});
+  EXPECT_TRUE(waitUntil([] {
+    const auto status = status_->get();
+    for (const auto& camera : status->cameras) {
+      if (camera.blobs != 0)
+        return false;
+    }
+    return true;
+  }));
+  result = capture();
+  EXPECT_FALSE(result.success);
+  EXPECT_SAYS(result.message, "0 of at least 2 cameras");
+  EXPECT_TRUE(waitUntil([] { return status_->get()->corners_captured == 1; }));
+
+  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/cancel").success);
+  EXPECT_TRUE(waitForStep(CalibrationStatus::IDLE));
+}
+
+TEST_F(Node, a_capture_can_be_called_off_and_cancelled) {
+  ASSERT_TRUE(start(2.5).success);
+  cameras_->blind({"camera_1", "camera_2", "camera_3", "camera_4"});
+  capture_->sendGoal(wiimote_tracker_msgs::CaptureCornerGoal());
+  EXPECT_TRUE(waitForStep(CalibrationStatus::CAPTURING));
+  capture_->cancelGoal();
+  EXPECT_TRUE(capture_->waitForResult(ros::Duration(kPatience)));
+  EXPECT_EQ(capture_->getState(), actionlib::SimpleClientGoalState::PREEMPTED);
+  EXPECT_TRUE(waitForStep(CalibrationStatus::READY));
+
+  capture_->sendGoal(wiimote_tracker_msgs::CaptureCornerGoal());
+  EXPECT_TRUE(waitForStep(CalibrationStatus::CAPTURING));
+  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/cancel").success);
+  EXPECT_TRUE(capture_->waitForResult(ros::Duration(kPatience)));
+  EXPECT_FALSE(capture_->getResult()->success);
+  EXPECT_TRUE(waitForStep(CalibrationStatus::IDLE));
+}
+
+TEST_F(Node, four_corners_are_solved_saved_and_loaded) {
+  captureAll();
+  EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));
+  const auto solved = call<wiimote_tracker_msgs::SolveCalibration>("calibration/solve");
+  ASSERT_TRUE(solved.success) << solved.message;
+  ASSERT_EQ(solved.rig.cameras.size(), 4U);
+  EXPECT_EQ(solved.rig.square_sides, std::vector<double>({2.5, 2.5}));
+  EXPECT_EQ(solved.rig.ray_model, RigCalibration::RAY_MODEL_CALIBRATED);
+  EXPECT_EQ(solved.rig.covariance.size(), 64U * 64U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto& position = solved.rig.cameras[i].world_from_camera.position;
+    const Eigen::Vector3d center(position.x, position.y, position.z);
+    // 0.1 px, averaged over twenty images, at 6 m.
+    EXPECT_LT((center - cameras_->truth[i].center()).norm(), 0.03);
+    EXPECT_EQ(solved.rig.cameras[i].identity, "00:1e:35:00:00:0" + std::to_string(i + 1));
+    EXPECT_LT(solved.rig.cameras[i].residual_px, 0.2);
+    EXPECT_LT(solved.rig.cameras[i].residual_m, 0.001);
+  }
+  ASSERT_EQ(solved.rig.cameras[0].gravity.size(), 3U);
+  const Eigen::Vector3d up = cameras_->truth[0].world_from_camera.linear().row(2);
+  EXPECT_LT((Eigen::Vector3d(solved.rig.cameras[0].gravity.data()) - 9.81 * up).norm(), 1e-6);
+  EXPECT_TRUE(solved.rig.cameras[1].gravity.empty());
+  EXPECT_TRUE(waitForStep(CalibrationStatus::SOLVED));
+
+  // Others hear of it, also those who come later.
+  Latest<RigCalibration> rig("calibration/rig");
+  ASSERT_TRUE(waitUntil([&] { return rig.get() && rig.get()->id == solved.rig.id; }));
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::string frame = cameras_->truth[i].name + "_optical_frame";
+    ASSERT_TRUE(waitUntil([&] { return buffer.canTransform("world", frame, ros::Time(0)); }));
+    const Eigen::Isometry3d world_from_camera =
+        tf2::transformToEigen(buffer.lookupTransform("world", frame, ros::Time(0)));
+    EXPECT_LT((world_from_camera.translation() - cameras_->truth[i].center()).norm(), 0.03);
+    EXPECT_LT(square::rotationBetween(world_from_camera, cameras_->truth[i].world_from_camera),
+              0.01);
+  }
+
+  // Saving writes the rig, a file per camera, and tells the drivers.
+  const auto saved = call<wiimote_tracker_msgs::SaveRig>("calibration/save");
+  ASSERT_TRUE(saved.success) << saved.message;
+  EXPECT_EQ(saved.path, folder_ + "/rig.yaml");
+  EXPECT_SAYS(saved.message, "camera_4 offers no set_camera_info");
+  EXPECT_EQ(saved.message.find("camera_1"), std::string::npos) << saved.message;
+  EXPECT_EQ(geometry::readRigFile(saved.path).id(), solved.rig.id);
+  for (const geometry::Camera& camera : cameras_->truth)
+    EXPECT_TRUE(exists(folder_ + "/" + camera.name + ".yaml"));
+  const auto infos = cameras_->cameraInfos();
+  ASSERT_EQ(infos.size(), 3U);
+  EXPECT_EQ(infos.at("camera_2").K[0], solved.rig.cameras[1].fx);
+  EXPECT_EQ(infos.at("camera_2").K[5], solved.rig.cameras[1].cy);
+  EXPECT_EQ(infos.at("camera_2").D, solved.rig.cameras[1].distortion);
+  EXPECT_EQ(infos.at("camera_2").width, 1024U);
+  EXPECT_TRUE(waitForStep(CalibrationStatus::SAVED));
+  EXPECT_TRUE(call<wiimote_tracker_msgs::SaveRig>("calibration/save").success);
+  EXPECT_TRUE(exists(folder_ + "/rig.yaml.bak"));
+
+  // A file cut in two is refused, and the rig stays.
+  const std::string text = contents(saved.path);
+  const std::string half = folder_ + "/half.yaml";
+  std::ofstream(half) << text.substr(0, text.size() / 2);
+  wiimote_tracker_msgs::LoadRig::Request request;
+  request.path = half;
+  const auto refused = call<wiimote_tracker_msgs::LoadRig>("calibration/load", request);
+  EXPECT_FALSE(refused.success);
+  EXPECT_SAYS(refused.message, half);
+  EXPECT_EQ(rig.get()->id, solved.rig.id);
+  EXPECT_EQ(status_->get()->rig_id, solved.rig.id);
+
+  // A folder that cannot be written is refused too.
+  wiimote_tracker_msgs::SaveRig::Request elsewhere;
+  elsewhere.path = folder_ + "/rig.yaml/below_a_file.yaml";
+  EXPECT_FALSE(call<wiimote_tracker_msgs::SaveRig>("calibration/save", elsewhere).success);
+
+  const auto loaded = call<wiimote_tracker_msgs::LoadRig>("calibration/load");
+  EXPECT_TRUE(loaded.success) << loaded.message;
+  EXPECT_SAYS(loaded.message, solved.rig.id);
+}
+
+// The node in processes of their own.
+
+/// A calibration node started by this test, in a namespace of its own.
+class Process {
+ public:
+  Process(const std::string& name_space, const std::string& rig_file) : pid_(fork()) {
+    if (pid_ == 0) {
+      const std::string ns = "__ns:=" + name_space;
+      const std::string file = "_rig_file:=" + rig_file;
+      execlp("rosrun", "rosrun", "wiimote_tracker_calibration", "calibration_node", ns.c_str(),
+             file.c_str(), static_cast<char*>(nullptr));
+      _exit(127);
+    }
+  }
+  ~Process() {
+    kill(pid_, SIGINT);
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+  }
+
+ private:
+  pid_t pid_;
+};
+
+TEST_F(Node, the_last_saved_rig_is_loaded_at_start) {
+  ASSERT_TRUE(exists(folder_ + "/rig.yaml"));  // from the test before
+  const Process process("/stored", folder_ + "/rig.yaml");
+  Latest<RigCalibration> rig("/stored/calibration/rig");
+  Latest<CalibrationStatus> status("/stored/calibration/status");
+  ASSERT_TRUE(waitUntil([&] { return rig.get() && status.get(); }));
+  EXPECT_EQ(rig.get()->id, geometry::readRigFile(folder_ + "/rig.yaml").id());
+  EXPECT_EQ(status.get()->step, CalibrationStatus::SAVED);
+}
+
+TEST_F(Node, a_damaged_rig_at_start_does_not_stop_the_node) {
+  ASSERT_TRUE(exists(folder_ + "/half.yaml"));  // from the test before
+  const Process process("/damaged", folder_ + "/half.yaml");
+  Latest<CalibrationStatus> status("/damaged/calibration/status");
+  ASSERT_TRUE(waitUntil([&] { return status.get() != nullptr; }));
+  EXPECT_EQ(status.get()->step, CalibrationStatus::IDLE);
+  EXPECT_SAYS(status.get()->message, "half.yaml");
+  EXPECT_TRUE(status.get()->rig_id.empty());
+}
+
+/// Exit code and output of a node that is to end by itself.
+std::pair<int, std::string> outcomeOf(const std::string& environment,
+                                      const std::string& arguments) {
+  const std::string command = environment +
+                              " timeout 60 rosrun wiimote_tracker_calibration calibration_node "
+                              "__ns:=/refused " +
+                              arguments + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  std::string output;
+  char buffer[256];
+  while (fgets(buffer, sizeof buffer, pipe) != nullptr)
+    output += buffer;
+  return {WEXITSTATUS(pclose(pipe)), output};
+}
+
+TEST_F(Node, bad_parameters_and_a_missing_master_end_it_with_a_sentence) {
+  auto outcome = outcomeOf("", "_side_lenght:=2.5");
+  EXPECT_EQ(outcome.first, 1);
+  EXPECT_SAYS(outcome.second, "/refused/calibration/side_lenght");
+  outcome = outcomeOf("", "_side_length:=-1.0 _side_lenght:=2.5");
+  EXPECT_EQ(outcome.first, 1);
+  EXPECT_SAYS(outcome.second, "/refused/calibration/side_length");
+  outcome = outcomeOf("ROS_MASTER_URI=http://localhost:9", "");
+  EXPECT_EQ(outcome.first, 1);
+  EXPECT_SAYS(outcome.second, "no ROS master at http://localhost:9");
+}
+
+}  // namespace
+}  // namespace wiimote_tracker
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "calibration_node_test");
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}

@@ -9,8 +9,10 @@ int main(int argc, char** argv) {
               ros::master::getURI().c_str());
     return 1;
   }
+  // Lives longer than the catch block: with the last handle ROS shuts down and prints no more.
+  const ros::NodeHandle nh;
   try {
-    wiimote_tracker::Triangulation triangulation{ros::NodeHandle(), ros::NodeHandle("~")};
+    wiimote_tracker::Triangulation triangulation(nh, ros::NodeHandle("~"));
     ros::spin();
   } catch (const wiimote_tracker::ParameterError& e) {
     ROS_FATAL("%s", e.what());

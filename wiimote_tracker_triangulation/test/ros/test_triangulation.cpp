@@ -60,7 +60,7 @@ class Bench {
                                                           for (const auto& status : m->status)
                                                             diagnostics_.push_back(status);
                                                         }),
-        nh_.subscribe<rosgraph_msgs::Log>("/rosout_agg", 1000,
+        nh_.subscribe<rosgraph_msgs::Log>("/rosout", 1000,
                                           [this](const auto& m) { log_ += m->msg + "\n"; })};
     newest_.assign(3, -1.0);
   }

@@ -4,6 +4,7 @@
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <string>
 
@@ -20,12 +21,15 @@ int main(int argc, char** argv) {
     const auto description = wiimote_tracker::simulation::readDescription(path);
 
     mkdir(directory.c_str(), 0700);  // when it cannot be made, the first socket says why
-    wiimote_tracker::simulation::SimulatedRig rig(nh, description, directory);
-    ROS_INFO_STREAM("Simulating " << description.cameras.size() << " virtual Wii Remotes in "
-                                  << directory);
-    ros::AsyncSpinner spinner(1);
-    spinner.start();
-    rig.run();
+    {
+      wiimote_tracker::simulation::SimulatedRig rig(nh, description, directory);
+      ROS_INFO_STREAM("Simulating " << description.cameras.size() << " virtual Wii Remotes in "
+                                    << directory);
+      ros::AsyncSpinner spinner(1);
+      spinner.start();
+      rig.run();
+    }
+    rmdir(directory.c_str());  // stays when it holds anything else
     return 0;
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());

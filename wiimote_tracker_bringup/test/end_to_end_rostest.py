@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """From HID reports to points: a simulated rig is calibrated by its four corners and measures.
 
-How well it may do is what the bound says for this rig: the placement of the corners and the lenses
-are one draw (fixed seeds), so the measured RMS must lie below the upper end of the range that holds
-95 % of all draws.
+How well it may do is known: lenses and the placement of the corners are one draw (fixed seeds), of
+which the best estimate, computed by code that is not the tracker's, makes a certain error; and the
+bound says in which range 95 % of all draws lie.
 """
 
 import os
@@ -62,14 +62,20 @@ class EndToEnd(unittest.TestCase):
         recording = recorder.recording()
         score = scoring.score(recording, segments)
 
+        deviation = bound.deviation_of(self.scene, experiment.NOMINAL_LENS, experiment.CORNERS,
+                                       experiment.placed_corners(1))
         bounds = bound.position_bounds(self.scene, experiment.CORNERS, TEST_POINTS,
-                                       ALIGNMENT_POINTS, min(samples), DWELL * RATE, DWELL * RATE)
+                                       ALIGNMENT_POINTS, min(samples), DWELL * RATE, DWELL * RATE,
+                                       deviation=deviation)
         for kind in alignment.KINDS:
-            rospy.loginfo('%s: %.2f mm, bound %.2f mm, 95 %% below %.2f mm', kind,
-                          1e3 * score.position_rms[kind], 1e3 * bounds[kind].rms,
-                          1e3 * bounds[kind].high)
-            self.assertLess(score.position_rms[kind], bounds[kind].high, kind)
-            self.assertGreater(score.position_rms[kind], 0.0)
+            measured, best = score.position_rms[kind], bounds[kind].best
+            print('%s: measured %.2f mm, best %.2f mm, bound %.2f mm, 95 %% in %.2f .. %.2f mm' % (
+                kind, 1e3 * measured, 1e3 * best, 1e3 * bounds[kind].rms, 1e3 * bounds[kind].low,
+                1e3 * bounds[kind].high))
+            # The best estimate's error is known to first order; what is left out is k1 squared and
+            # the accelerometers, which the tracker uses too.
+            self.assertLess(measured, 1.2 * best, kind)
+            self.assertGreater(measured, 0.8 * best, kind)
 
         # A single frame scatters as its four pixels do.
         expected = []

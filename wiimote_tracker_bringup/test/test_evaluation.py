@@ -149,7 +149,7 @@ def test_pose_bound_agrees_with_many_least_squares_solutions():
     camera = a_camera((-3.0, -3.0, 2.0), (1.25, 1.25, 1.0))
     rig = scene.Scene([camera], 0.4)
     sigma = rig.effective_noise()
-    covariance = bound.calibration_covariance(rig, experiment.CORNERS, 1, EXACT)
+    covariance = bound.Calibration(rig, experiment.CORNERS, 1, EXACT).covariance
     assert not covariance[6:, :].any()
 
     jacobian = np.concatenate([bound.camera_derivative(camera, corner)[:, :6]
@@ -174,18 +174,20 @@ def test_misplaced_corners_that_are_a_motion_of_the_square_move_the_world():
     rig = scene.read_scene(PAPER_RIG)
     rig.pixel_noise = 0.0
     knowledge = bound.Knowledge(focal=0.0, focal_ratio=0.0, center=0.0, k1=0.0, corner=0.005)
-    calibration = bound.calibration_covariance(rig, experiment.CORNERS, 1e9, knowledge)
+    calibration = bound.Calibration(rig, experiment.CORNERS, 1e9, knowledge).covariance
     sensitivity, _ = bound.point_sensitivity(rig, calibration, np.array([1.25, 1.25, 0.0]), 1e9)
     covariance = sensitivity @ calibration @ sensitivity.T
     assert np.sqrt(covariance[0, 0]) == pytest.approx(0.0025, rel=0.05)
     assert np.sqrt(covariance[1, 1]) == pytest.approx(0.0025, rel=0.05)
 
 
-def the_bounds(**knowledge):
+def the_bounds(deviation=None, **knowledge):
     rig = scene.read_scene(PAPER_RIG)
+    if deviation is None:
+        deviation = np.zeros(5 * 4 + 8)
     return bound.position_bounds(rig, experiment.CORNERS, experiment.TEST_POINTS,
-                                 experiment.alignment_points(2), 100, 100, 30,
-                                 bound.Knowledge(**knowledge), experiments=1000)
+                                 experiment.alignment_points(2, 8), 100, 100, 30,
+                                 bound.Knowledge(**knowledge), deviation, experiments=1000)
 
 
 def test_alignment_only_helps_and_the_range_holds_the_mean():
@@ -193,6 +195,35 @@ def test_alignment_only_helps_and_the_range_holds_the_mean():
     assert bounds['absolute'].rms > bounds['rigid'].rms > bounds['similarity'].rms > 0.0
     for kind in alignment.KINDS:
         assert bounds[kind].low < bounds[kind].rms < bounds[kind].high
+
+
+def test_bound_is_the_mean_over_rigs_of_what_is_best_for_each():
+    """Rigs drawn at random from what is believed: their mean square best error is the bound's."""
+    knowledge = bound.Knowledge()
+    random = np.random.RandomState(8)
+    squares = []
+    for _ in range(40):
+        lenses = []
+        for camera in scene.read_scene(PAPER_RIG).cameras:
+            fx, fy = camera.parameters[:2]
+            focal = knowledge.focal * random.randn()
+            lenses += [fx * focal, fy * (focal + knowledge.focal_ratio * random.randn()),
+                       *(knowledge.center * random.randn(2)), knowledge.k1 * random.randn()]
+        corners = knowledge.corner * random.randn(8)
+        bounds = the_bounds(np.concatenate([lenses, corners]))
+        squares.append([bounds[kind].best ** 2 for kind in alignment.KINDS])
+    expected = np.array([bounds[kind].rms ** 2 for kind in alignment.KINDS])
+    error = np.std(squares, axis=0) / np.sqrt(len(squares))
+    assert (np.abs(np.mean(squares, axis=0) - expected) < 4.0 * error).all()
+    assert (error < 0.2 * expected).all()
+
+
+def test_a_shifted_square_shifts_the_world_and_nothing_else():
+    deviation = np.zeros(5 * 4 + 8)
+    deviation[20::2] = 0.003  # all four corners 3 mm too far along x
+    bounds = the_bounds(deviation)
+    assert bounds['absolute'].best == pytest.approx(0.003, rel=0.01)
+    assert bounds['rigid'].best < 6e-4  # what the pixels leave
 
 
 def test_knowing_more_lowers_the_bound():
@@ -245,7 +276,8 @@ class HandMade(object):
             points.append((stamp,) + tuple(center + 0.753 * ring + [0, 0, 0.004])
                           + (0.001, 0.001, 0.001, 4, 0.3))
             truths.append((stamp,) + tuple(center + 0.75 * ring))
-        self.recording = recording.Recording(points, truths, np.linspace(0.001, 0.002, 101))
+        self.recording = recording.Recording(points, truths, np.linspace(0.001, 0.002, 101),
+                                             np.full(101, 0.02))
 
 
 @pytest.fixture(scope='module')
@@ -266,6 +298,7 @@ def test_score_of_a_recording_with_known_errors(hand_made):
     assert score.rate == pytest.approx(101.0, rel=1e-6)
     assert score.latency_p50 == pytest.approx(0.0015)
     assert score.latency_p99 == pytest.approx(0.00199)
+    assert score.age_p50 == pytest.approx(0.02)
 
 
 def test_a_place_without_points_is_refused_by_name(hand_made):
@@ -293,7 +326,7 @@ def test_files_hold_the_figures(hand_made, tmp_path):
     assert len({row.count(',') for row in rows}) == 1
 
     report.draw_tracks(str(tmp_path / 'tracks.png'), hand_made.recording, hand_made.segments,
-                       score, scene.read_scene(PAPER_RIG))
+                       score)
     assert (tmp_path / 'tracks.png').read_bytes()[:4] == b'\x89PNG'
 
     text = report.sentence(score)

@@ -89,41 +89,59 @@ def lens_prior(camera, knowledge):
     return information, free
 
 
-def calibration_covariance(scene, corners, samples, knowledge):
-    """Best covariance of all cameras' parameters (11 per camera) from the square alone.
+class Calibration(object):
+    """What the square tells about a scene's cameras. covariance: best possible, of all cameras'
+    parameters, 11 per camera; a parameter that is exactly known has zero rows and columns."""
 
-    corners: N x 3, where the LED nominally is; samples: images that are averaged at each corner.
-    """
-    cameras = scene.cameras
-    size = PER_CAMERA * len(cameras) + 2 * len(corners)
-    information = np.zeros((size, size))
-    weight = samples / scene.effective_noise() ** 2
-    free = np.ones(size, dtype=bool)
-    for c, camera in enumerate(cameras):
-        own = slice(PER_CAMERA * c, PER_CAMERA * (c + 1))
-        lens = slice(PER_CAMERA * c + 6, PER_CAMERA * (c + 1))
-        prior, free[lens] = lens_prior(camera, knowledge)
-        information[lens, lens] += prior
-        for k, corner in enumerate(corners):
-            if not camera.sees(corner[None])[0]:
-                continue
-            derivative = np.zeros((2, size))
-            derivative[:, own] = camera_derivative(camera, corner)
-            place = PER_CAMERA * len(cameras) + 2 * k
-            derivative[:, place:place + 2] = point_derivative(camera, corner)[:, :2]
-            information += weight * derivative.T @ derivative
-    placed = slice(PER_CAMERA * len(cameras), size)
-    if knowledge.corner > 0:
-        information[placed, placed] += np.eye(2 * len(corners)) / knowledge.corner ** 2
-    else:
-        free[placed] = False
-    # Scaled before inverting: pixels, radians and metres differ by many orders of magnitude.
-    kept = information[np.ix_(free, free)]
-    scale = 1.0 / np.sqrt(np.diag(kept))
-    covariance = np.zeros((size, size))
-    covariance[np.ix_(free, free)] = scale[:, None] * np.linalg.inv(
-        scale[:, None] * kept * scale) * scale
-    return covariance[:placed.start, :placed.start]
+    def __init__(self, scene, corners, samples, knowledge):
+        """corners: N x 3, where the LED nominally is [m]; samples: images averaged at each."""
+        self._cameras = PER_CAMERA * len(scene.cameras)
+        size = self._cameras + 2 * len(corners)
+        self._prior = np.zeros((size, size))
+        information = np.zeros((size, size))
+        free = np.ones(size, dtype=bool)
+        weight = samples / scene.effective_noise() ** 2
+        for c, camera in enumerate(scene.cameras):
+            own = slice(PER_CAMERA * c, PER_CAMERA * (c + 1))
+            lens = slice(own.start + 6, own.stop)
+            self._prior[lens, lens], free[lens] = lens_prior(camera, knowledge)
+            for k, corner in enumerate(corners):
+                if not camera.sees(corner[None])[0]:
+                    continue
+                place = slice(self._cameras + 2 * k, self._cameras + 2 * k + 2)
+                derivative = np.zeros((2, size))
+                derivative[:, own] = camera_derivative(camera, corner)
+                derivative[:, place] = point_derivative(camera, corner)[:, :2]
+                information += weight * derivative.T @ derivative
+        placed = slice(self._cameras, size)
+        if knowledge.corner > 0:
+            self._prior[placed, placed] = np.eye(2 * len(corners)) / knowledge.corner ** 2
+        else:
+            free[placed] = False
+        # Scaled before inverting: pixels, radians and metres differ by many orders of magnitude.
+        kept = (information + self._prior)[np.ix_(free, free)]
+        scale = 1.0 / np.sqrt(np.diag(kept))
+        self._joint = np.zeros((size, size))
+        self._joint[np.ix_(free, free)] = scale[:, None] * np.linalg.inv(
+            scale[:, None] * kept * scale) * scale
+        self.covariance = self._joint[:self._cameras, :self._cameras]
+
+    def error(self, deviation):
+        """By how much the best estimate errs in the cameras' parameters when pixels are perfect and
+        the truth differs from what was believed beforehand: deviation, 5 lens parameters per camera,
+        then x, y of each corner."""
+        full = np.zeros(len(self._prior))
+        number = self._cameras // PER_CAMERA
+        for c in range(number):
+            full[PER_CAMERA * c + 6:PER_CAMERA * (c + 1)] = deviation[5 * c:5 * c + 5]
+        full[self._cameras:] = deviation[5 * number:]
+        return (-self._joint @ self._prior @ full)[:self._cameras]
+
+
+def deviation_of(scene, nominal_lens, corners, placed):
+    """How a rig differs from what is believed: the argument of Calibration.error()."""
+    return np.concatenate([camera.parameters - nominal_lens for camera in scene.cameras]
+                          + [(np.asarray(placed) - corners)[:, :2].reshape(-1)])
 
 
 def point_sensitivity(scene, calibration, point, samples):
@@ -159,23 +177,25 @@ def alignment_basis(points, kind):
 
 
 class Bound(object):
-    """Least RMS error over the test points [m], for each kind of alignment: `rms`; and the range
-    that holds the RMS of one experiment with probability 0.95: `low`, `high`."""
+    """Of the RMS error over the test points [m], for one kind of alignment. rms: least possible,
+    over all rigs; low, high: range that holds the RMS of one rig with probability 0.95; best: what
+    the best estimate makes of this rig, None when the rig's deviation was not given."""
 
-    def __init__(self, rms, low, high):
+    def __init__(self, rms, low, high, best):
         self.rms = rms
         self.low = low
         self.high = high
+        self.best = best
 
 
 def position_bounds(scene, corners, test_points, alignment_points, corner_samples, test_samples,
-                    alignment_samples, knowledge=None, experiments=4000):
+                    alignment_samples, knowledge=None, deviation=None, experiments=4000):
     """Bound of each of KINDS, for points that are measured by averaging so many images each."""
-    knowledge = knowledge or Knowledge()
-    calibration = calibration_covariance(scene, corners, corner_samples, knowledge)
+    calibration = Calibration(scene, corners, corner_samples, knowledge or Knowledge())
 
     def joint(points, samples):
-        sensitivities = [point_sensitivity(scene, calibration, p, samples) for p in points]
+        sensitivities = [point_sensitivity(scene, calibration.covariance, p, samples)
+                         for p in points]
         noise = np.zeros((3 * len(points),) * 2)
         for i, (_, own) in enumerate(sensitivities):
             noise[3 * i:3 * i + 3, 3 * i:3 * i + 3] = own
@@ -190,11 +210,15 @@ def position_bounds(scene, corners, test_points, alignment_points, corner_sample
         carry = (alignment_basis(test_points, kind)
                  @ np.linalg.pinv(alignment_basis(alignment_points, kind)))
         by_calibration = test - carry @ aligning
-        covariance = (by_calibration @ calibration @ by_calibration.T + test_noise
-                      + carry @ aligning_noise @ carry.T)
-        variances = np.clip(np.linalg.eigvalsh(covariance), 0.0, None)
+        by_pixels = test_noise + carry @ aligning_noise @ carry.T
+        variances = np.clip(np.linalg.eigvalsh(
+            by_calibration @ calibration.covariance @ by_calibration.T + by_pixels), 0.0, None)
         squares = random.randn(experiments, len(variances)) ** 2 @ variances / len(test_points)
         low, high = np.sqrt(np.percentile(squares, [2.5, 97.5]))
+        best = None
+        if deviation is not None:
+            error = by_calibration @ calibration.error(deviation)
+            best = float(np.sqrt((error @ error + np.trace(by_pixels)) / len(test_points)))
         bounds[kind] = Bound(float(np.sqrt(variances.sum() / len(test_points))), float(low),
-                             float(high))
+                             float(high), best)
     return bounds

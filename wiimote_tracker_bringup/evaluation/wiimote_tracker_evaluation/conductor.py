@@ -6,7 +6,8 @@ from wiimote_tracker_msgs.msg import (CalibrationStatus, CaptureCornerAction, Ca
 from wiimote_tracker_msgs.srv import (CheckConnection, SaveRig, SetLed, SetLedRequest,
                                       SolveCalibration, StartCalibration)
 
-SETTLE = 0.05  # after an LED has arrived, until it is measured [s]
+SETTLE = 0.1  # after an LED has arrived, until it is measured [s]
+CAPTURE_ATTEMPTS = 3
 
 
 class ExperimentError(Exception):
@@ -109,18 +110,29 @@ class Conductor(object):
             'calibration/start', StartCalibration, side_x=side, side_y=0.0, cameras=[]))
 
     def capture(self, place, speed):
-        """Carries the LED to a place and captures it as the next corner; the action's result."""
+        """Carries the LED to a place and captures it as the next corner; the action's result. A
+        refused capture is tried again, as the refusal says."""
         self.move(place, speed)
-        if not self._capture.wait_for_server(rospy.Duration(10.0)):
-            raise ExperimentError('the action calibration/capture_corner is not there')
+        rospy.sleep(SETTLE)
+        for attempt in range(CAPTURE_ATTEMPTS):
+            result = self._capture_once()
+            if result.success:
+                break
+            self._progress(result.message)
+        return self._succeed('capturing a corner', result)
+
+    def _capture_once(self):
+        self.wait(lambda: self._capture.wait_for_server(rospy.Duration(0.1)), 10.0,
+                  'the action calibration/capture_corner; does the calibration node run?')
+        results = []
 
         def on_feedback(feedback):
             self._progress('corner %d: %3.0f %%  %s' % (
                 feedback.corner + 1, 100.0 * feedback.progress, feedback.message))
-        self._capture.send_goal(CaptureCornerGoal(), feedback_cb=on_feedback)
-        self.wait(lambda: self._capture.get_state() > actionlib.GoalStatus.ACTIVE
-                  and self._capture.get_result() is not None, 60.0, 'the corner to be captured')
-        return self._succeed('capturing a corner', self._capture.get_result())
+        self._capture.send_goal(CaptureCornerGoal(), feedback_cb=on_feedback,
+                                done_cb=lambda state, result: results.append(result))
+        self.wait(lambda: results, 60.0, 'the corner to be captured')
+        return results[0]
 
     def solve(self):
         return self._succeed('solving', self._call('calibration/solve', SolveCalibration))

@@ -68,12 +68,13 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def prepare_output(folder):
+def prepare_output(folder, cameras):
     """Makes the output folder and removes what an earlier run left there."""
     try:
         os.makedirs(folder, exist_ok=True)
-        for name in ('summary.json', 'rig.yaml', 'demo.bag', 'points.csv', 'tracks.png',
-                     'nodes.log'):
+        for name in (['summary.json', 'rig.yaml', 'rig.yaml.bak', 'demo.bag', 'demo.bag.active',
+                      'points.csv', 'tracks.png', 'nodes.log']
+                     + [camera + ending for camera in cameras for ending in ('.yaml', '.yaml.bak')]):
             path = os.path.join(folder, name)
             if os.path.exists(path):
                 os.remove(path)
@@ -106,6 +107,7 @@ class Demo(object):
         self._progress = Progress(8)
         self._processes = Processes()
         self._scene = scene_module.read_scene(package_file('simulation/paper_rig.yaml'))
+        prepare_output(output, [camera.name for camera in self._scene.cameras])
 
     def run(self):
         scratch = tempfile.mkdtemp(prefix='wiimote_tracker_demo_')
@@ -229,10 +231,12 @@ class Demo(object):
         bounds = bound.position_bounds(
             self._scene, experiment.CORNERS, experiment.TEST_POINTS,
             experiment.alignment_points(ALIGNMENT_SEED), corner_samples,
-            TEST_DWELL * CAMERA_RATE, ALIGNMENT_DWELL * CAMERA_RATE)
+            TEST_DWELL * CAMERA_RATE, ALIGNMENT_DWELL * CAMERA_RATE,
+            deviation=bound.deviation_of(self._scene, experiment.NOMINAL_LENS, experiment.CORNERS,
+                                         experiment.placed_corners(CORNER_SEED)))
         report.write_summary(self._file('summary.json'), score, bounds)
         report.write_csv(self._file('points.csv'), recorded, segments)
-        report.draw_tracks(self._file('tracks.png'), recorded, segments, score, self._scene)
+        report.draw_tracks(self._file('tracks.png'), recorded, segments, score)
 
         self._progress.step('Results')
         for line in [''] + report.table(score, bounds) + ['']:
@@ -262,9 +266,7 @@ def main(arguments=None):
 
     from wiimote_tracker_evaluation.conductor import ExperimentError
     try:
-        output = os.path.abspath(options.output)
-        prepare_output(output)
-        demo = Demo(output)
+        demo = Demo(os.path.abspath(options.output))
         demo.run()
         print(demo.last_line())
         return 0

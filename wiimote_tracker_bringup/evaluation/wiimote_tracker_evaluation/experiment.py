@@ -9,6 +9,9 @@ SIDE = 2.5                # of the square and the cube [m]
 CORNER_STDDEV = 0.005     # with which an LED is put on a corner, each horizontal axis [m]
 CIRCLE_RADIUS = 0.75      # [m]
 
+# The lens a calibration starts from: the paper's K (2), fx, fy, cx, cy [px], and k1.
+NOMINAL_LENS = np.array([1306.3, 1302.3, 535.0, 401.7, 0.0])
+
 # Corners of the square, counter-clockwise seen from above, so that z is up.
 CORNERS = np.array([(0.0, 0.0, 0.0), (SIDE, 0.0, 0.0), (SIDE, SIDE, 0.0), (0.0, SIDE, 0.0)])
 

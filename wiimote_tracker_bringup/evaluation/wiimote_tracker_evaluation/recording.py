@@ -12,10 +12,11 @@ class Recording(object):
 
     stamp N, position N x 3, stddev N x 3, rays N, residual N [px];
     truth_stamp M, truth_position M x 3;
-    latency K [s]: of every message on points, from the arrival of its newest image to the recorder.
+    latency K [s]: of every message on points, from the arrival of its newest image to the recorder;
+    age K [s]: of its positions when it reached the recorder, link and interpolation included.
     """
 
-    def __init__(self, points, truths, latencies):
+    def __init__(self, points, truths, latencies, ages):
         """points: rows of stamp, x, y, z, sx, sy, sz, rays, residual; truths: stamp, x, y, z."""
         points = np.array(sorted(points), dtype=float).reshape(-1, 9)
         truths = np.array(sorted(truths), dtype=float).reshape(-1, 4)
@@ -27,6 +28,7 @@ class Recording(object):
         self.truth_stamp = truths[:, 0]
         self.truth_position = truths[:, 1:]
         self.latency = np.array(latencies, dtype=float)
+        self.age = np.array(ages, dtype=float)
 
     def between(self, start, end):
         """Which points lie in this span of time."""
@@ -54,7 +56,7 @@ def truth_row(message):
 
 def read_bag(path, led):
     """Recording of a bag that holds /points and /simulation/truth/<led>."""
-    points, truths, latencies = [], [], []
+    points, truths, latencies, ages = [], [], [], []
     truth_topic = '/simulation/truth/' + led
     with rosbag.Bag(path) as bag:
         for topic, message, received in bag.read_messages(topics=['/points', truth_topic]):
@@ -64,14 +66,15 @@ def read_bag(path, led):
             points.extend(point_rows(message))
             if not message.latest_arrival.is_zero():
                 latencies.append((received - message.latest_arrival).to_sec())
-    return Recording(points, truths, latencies)
+            ages.append((received - message.header.stamp).to_sec())
+    return Recording(points, truths, latencies, ages)
 
 
 class LiveRecorder(object):
     """Records from now on."""
 
     def __init__(self, led):
-        self._points, self._truths, self._latencies = [], [], []
+        self._points, self._truths, self._latencies, self._ages = [], [], [], []
         self.newest_stamp = 0.0  # of the points [s]
         self._subscribers = [
             rospy.Subscriber('points', TrackedPointArray, self._on_points, tcp_nodelay=True),
@@ -82,8 +85,10 @@ class LiveRecorder(object):
         now = rospy.Time.now()
         self._points.extend(point_rows(message))
         self._latencies.append((now - message.latest_arrival).to_sec())
+        self._ages.append((now - message.header.stamp).to_sec())
         if message.points:
             self.newest_stamp = message.header.stamp.to_sec()
 
     def recording(self):
-        return Recording(list(self._points), list(self._truths), list(self._latencies))
+        return Recording(list(self._points), list(self._truths), list(self._latencies),
+                         list(self._ages))

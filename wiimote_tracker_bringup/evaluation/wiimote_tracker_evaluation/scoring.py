@@ -31,10 +31,13 @@ class MeasuredCircle(object):
 
 
 class Score(object):
-    """places: of the test points. position_rms: by kind of alignment [m]. rate: points a second
-    while measuring [Hz]. latency_p50, latency_p99 [s]."""
+    """places: of the test points. position_rms: by kind of alignment [m]. scatter: of single frames,
+    RMS over the places [m]. rate: points a second while measuring [Hz]. latency_p50, latency_p99:
+    from a report's arrival to its point [s]. age_p50: from the instant of a point to its arrival at
+    the recorder [s]."""
 
-    def __init__(self, places, position_rms, scatter, circles, rate, latency_p50, latency_p99):
+    def __init__(self, places, position_rms, scatter, circles, rate, latency_p50, latency_p99,
+                 age_p50):
         self.places = places
         self.position_rms = position_rms
         self.scatter = scatter
@@ -42,6 +45,7 @@ class Score(object):
         self.rate = rate
         self.latency_p50 = latency_p50
         self.latency_p99 = latency_p99
+        self.age_p50 = age_p50
 
 
 def measured_place(recording, segment):
@@ -85,7 +89,9 @@ def score(recording, segments):
 
     duration = sum(segment.end - segment.start for segment in segments)
     frames = sum(int(recording.between(s.start, s.end).sum()) for s in segments)
-    p50, p99 = (np.percentile(recording.latency, [50, 99]) if len(recording.latency)
-                else (np.nan, np.nan))
+    if not len(recording.latency):
+        raise ValueError('no message on the topic points was recorded')
+    p50, p99 = np.percentile(recording.latency, [50, 99])
     scatter = float(np.sqrt(np.mean([place.scatter ** 2 for place in places])))
-    return Score(places, position_rms, scatter, circles, frames / duration, float(p50), float(p99))
+    return Score(places, position_rms, scatter, circles, frames / duration, float(p50), float(p99),
+                 float(np.median(recording.age)))

@@ -13,12 +13,13 @@ class Checks {
  public:
   void check(const std::string& name, bool passed, const std::string& seen = "");
 
-  /// Does something to the remote and checks that the driver gives at least 90 images a second
-  /// again, the first of that second no later than 1 s after the disturbance began. Returns only
-  /// when the stream flows, so that the next disturbance finds it so.
+  /// Disturbs the remote and checks that the driver gives at least 90 images a second again, the
+  /// first of that second no later than 1 s after the disturbance began; so `times` times, at
+  /// moments that lie differently to the remote's own.
   void recovers(const std::string& name,
                 const RunningDriver& driver,
-                const std::function<void()>& disturb);
+                const std::function<void()>& disturb,
+                int times = 1);
 
   bool passed() const { return count_ > 0 && failed_ == 0; }
 

@@ -10,14 +10,19 @@ namespace wiimote_tracker::real_kernel {
 PluggedRemote::PluggedRemote(const std::string& address, const Light& light, Model model)
     : address_(address),
       light_(light),
-      device_(address,
-              model,
-              virtual_wiimote::Device::Options(),
-              [this](const Bytes& report) {
-                const std::lock_guard<std::mutex> lock(mutex_);
-                outputs_.push_back({now(), report});
-              }),
+      device_(address, options(model)),
       thread_([this] { run(); }) {}
+
+virtual_wiimote::UhidDevice::Options PluggedRemote::options(Model model) {
+  virtual_wiimote::UhidDevice::Options options;
+  options.model = model;
+  options.latency = 0.012;
+  options.listener = [this](const Bytes& report) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    outputs_.push_back({now(), report});
+  };
+  return options;
+}
 
 PluggedRemote::~PluggedRemote() {
   stop_ = true;

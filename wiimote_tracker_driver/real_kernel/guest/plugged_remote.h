@@ -19,12 +19,13 @@ class PluggedRemote {
   using Light = virtual_wiimote::Light;
   using Model = virtual_wiimote::UhidDevice::Model;
 
-  /// An output report and when it came [s].
+  /// An output report and when it reached the remote [s].
   struct Output {
     double time = 0.0;
     Bytes report;
   };
 
+  /// Output reports are 12 ms under way.
   PluggedRemote(const std::string& address, const Light& light, Model model = Model::kRemote);
   ~PluggedRemote();
 
@@ -43,6 +44,7 @@ class PluggedRemote {
   bool got(const Bytes& beginning, double since) const;
 
  private:
+  virtual_wiimote::UhidDevice::Options options(Model model);
   void run();
 
   const std::string address_;

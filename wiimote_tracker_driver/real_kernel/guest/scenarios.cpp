@@ -86,19 +86,6 @@ class OpenFile {
   int fd_;
 };
 
-/// Disturbs and checks that the stream recovers, at `rounds` moments that lie differently to the
-/// stream's own.
-void recoversRepeatedly(Checks& checks,
-                        const std::string& name,
-                        const RunningDriver& driver,
-                        int rounds,
-                        const std::function<void()>& disturb) {
-  for (int round = 0; round < rounds; ++round) {
-    sleepFor(0.0137 * round);
-    checks.recovers(name + ", round " + std::to_string(round + 1), driver, disturb);
-  }
-}
-
 /// What the kernel says to a remote without extension while it sets it up: the first eight bytes
 /// of its reports in the order of first appearance, without the motor's bit.
 void kernelTraffic(Checks& checks) {
@@ -291,7 +278,8 @@ void battery(Checks& checks) {
   Streaming streaming;
   const std::string file = batteryFileOf(kAddress);
   const double begin = now();
-  recoversRepeatedly(checks, "battery read", streaming.driver, 20, [&] { readLine(file); });
+  checks.recovers(
+      "battery read", streaming.driver, [&] { readLine(file); }, 20);
   const std::vector<PluggedRemote::Output> outputs = streaming.remote.outputs(begin);
   const auto resets = static_cast<std::size_t>(std::count_if(
       outputs.begin(), outputs.end(),
@@ -322,27 +310,26 @@ void evdev(Checks& checks) {
                        streaming.remote.got({0x13, 0x00}, begin));
     }
   }
-  recoversRepeatedly(checks, "all input devices opened and closed", streaming.driver, 10, [] {
-    for (const std::string& node : inputNodes())
-      OpenFile file(node);
-  });
+  checks.recovers(
+      "all input devices opened and closed", streaming.driver,
+      [] {
+        for (const std::string& node : inputNodes())
+          OpenFile file(node);
+      },
+      20);
 }
 
 void extension(Checks& checks) {
   Streaming streaming;
-  for (int round = 1; round <= 5; ++round) {
-    const std::string text = ", round " + std::to_string(round);
-    const double begin = now();
-    checks.recovers("Nunchuk plugged in" + text, streaming.driver,
-                    [&] { streaming.remote.setNunchuk(true); });
-    checks.check("the kernel had taken it" + text,
-                 streaming.remote.got({0x16, 0x04, 0xa4, 0x00, 0xfb}, begin) &&
-                     !inputNodeOf(kAddress, "Nintendo Wii Remote Nunchuk").empty(),
-                 inputNodeOf(kAddress, "Nintendo Wii Remote Nunchuk"));
-    sleepFor(0.0137 * round);
-    checks.recovers("Nunchuk pulled out" + text, streaming.driver,
-                    [&] { streaming.remote.setNunchuk(false); });
-  }
+  bool plugged = false;
+  const auto toggle = [&] { streaming.remote.setNunchuk(plugged = !plugged); };
+  const double begin = now();
+  checks.recovers("Nunchuk plugged in", streaming.driver, toggle);
+  checks.check("the kernel had taken it",
+               streaming.remote.got({0x16, 0x04, 0xa4, 0x00, 0xfb}, begin) &&
+                   !inputNodeOf(kAddress, "Nintendo Wii Remote Nunchuk").empty(),
+               inputNodeOf(kAddress, "Nintendo Wii Remote Nunchuk"));
+  checks.recovers("Nunchuk pulled out and plugged in", streaming.driver, toggle, 20);
   streaming.remote.unplug();
   streaming.remote.setNunchuk(true);
   sleepFor(0.3);

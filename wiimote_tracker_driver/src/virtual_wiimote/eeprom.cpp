@@ -7,17 +7,18 @@ namespace wiimote_tracker::virtual_wiimote {
 namespace {
 
 // Four points in the basic infrared format.
-const std::vector<std::uint8_t> kIrBlock{0x88, 0x85, 0x8b, 0x8b, 0x8a,
-                                         0x97, 0x3f, 0x30, 0x8c, 0x39};
+constexpr std::array<std::uint8_t, 10> kIrBlock{
+    {0x88, 0x85, 0x8b, 0x8b, 0x8a, 0x97, 0x3f, 0x30, 0x8c, 0x39}};
 // x, y, z at 0 g and their low bits; the same at 1 g; speaker volume and motor.
-const std::vector<std::uint8_t> kAccelerationBlock{0x84, 0x82, 0x86, 0x30, 0x9f,
-                                                   0x9d, 0x9f, 0x02, 0x40};
+constexpr std::array<std::uint8_t, 9> kAccelerationBlock{
+    {0x84, 0x82, 0x86, 0x30, 0x9f, 0x9d, 0x9f, 0x02, 0x40}};
 constexpr std::array<int, 3> kAtZero{0x84 << 2 | 3, 0x82 << 2, 0x86 << 2};
 constexpr std::array<int, 3> kAtOne{0x9f << 2, 0x9d << 2, 0x9f << 2 | 2};
 
+template <std::size_t N>
 void store(std::vector<std::uint8_t>& memory,
            std::size_t address,
-           const std::vector<std::uint8_t>& block) {
+           const std::array<std::uint8_t, N>& block) {
   std::uint8_t checksum = 0x55;
   for (const std::uint8_t byte : block) {
     memory[address++] = byte;

@@ -11,8 +11,10 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstddef>
 #include <cstring>
+#include <deque>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -23,6 +25,9 @@ namespace {
 
 constexpr char kPath[] = "/dev/uhid";
 constexpr std::uint32_t kNintendo = 0x057e;
+constexpr std::size_t kLargestReport = 22;
+
+using Clock = std::chrono::steady_clock;
 
 // The report descriptor of a real remote: vendor defined bytes, so many for each report id.
 constexpr std::array<std::uint8_t, 218> kReportDescriptor{
@@ -85,16 +90,12 @@ void copyText(const std::string& text, __u8 (&field)[N]) {
 }  // namespace
 
 struct UhidDevice::State {
-  State(std::string device_address,
-        Model device_model,
-        const Device::Options& options,
-        Listener output_listener)
+  State(std::string device_address, const Options& device_options)
       : address(std::move(device_address)),
-        model(device_model),
-        listener(std::move(output_listener)),
+        options(device_options),
         uhid(::open(kPath, O_RDWR | O_CLOEXEC | O_NONBLOCK)),
         wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-        device(options) {
+        device(options.device) {
     if (uhid.get() < 0)
       fail(std::string("cannot open ") + kPath + " (load the module uhid and be root)");
     if (wake.get() < 0)
@@ -102,14 +103,19 @@ struct UhidDevice::State {
   }
 
   const std::string address;
-  const Model model;
-  const Listener listener;
+  const Options options;
   const FileDescriptor uhid;
   const FileDescriptor wake;
 
-  mutable std::mutex mutex;  // guards the two below
+  struct UnderWay {
+    Clock::time_point due;
+    Bytes report;
+  };
+
+  mutable std::mutex mutex;  // guards the three below
   Device device;
   bool present = false;
+  std::deque<UnderWay> under_way;
 
   std::atomic<bool> stop{false};
   std::thread thread;
@@ -124,14 +130,14 @@ struct UhidDevice::State {
     uhid_event event{};
     event.type = UHID_CREATE2;
     uhid_create2_req& request = event.u.create2;
-    copyText(model == Model::kRemote ? "Nintendo RVL-CNT-01" : "Nintendo RVL-CNT-01-TR",
+    copyText(options.model == Model::kRemote ? "Nintendo RVL-CNT-01" : "Nintendo RVL-CNT-01-TR",
              request.name);
     copyText(address, request.uniq);
     std::copy(kReportDescriptor.begin(), kReportDescriptor.end(), request.rd_data);
     request.rd_size = kReportDescriptor.size();
     request.bus = BUS_BLUETOOTH;
     request.vendor = kNintendo;
-    request.product = static_cast<std::uint32_t>(model);
+    request.product = static_cast<std::uint32_t>(options.model);
     if (!write(event, sizeof(request)))
       fail("plugging in the virtual Wii Remote " + address);
   }
@@ -153,12 +159,24 @@ struct UhidDevice::State {
     write(event, offsetof(uhid_input2_req, data) + report.size());
   }
 
-  void receive(const Bytes& report) {
-    if (listener)
-      listener(report);
+  void receive(const __u8* data, std::size_t size) {
+    const auto latency =
+        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.latency));
     const std::lock_guard<std::mutex> lock(mutex);
-    for (const Bytes& answer : device.handleOutput(report))
-      send(answer);
+    if (present)
+      under_way.push_back(
+          {Clock::now() + latency, Bytes(data, data + std::min(size, kLargestReport))});
+  }
+
+  void deliver() {
+    const std::lock_guard<std::mutex> lock(mutex);
+    for (; !under_way.empty() && under_way.front().due <= Clock::now(); under_way.pop_front()) {
+      const Bytes& report = under_way.front().report;
+      if (options.listener)
+        options.listener(report);
+      for (const Bytes& answer : device.handleOutput(report))
+        send(answer);
+    }
   }
 
   /// A report on the control channel, where a Remote Plus takes none.
@@ -171,10 +189,10 @@ struct UhidDevice::State {
     write(reply, sizeof(reply.u.set_report_reply));
     if (!output)
       return;
-    if (model == Model::kRemotePlus)
+    if (options.model == Model::kRemotePlus)
       send({0x22, 0, 0, request.data[0], 2});
     else
-      receive(Bytes(request.data, request.data + std::min<std::size_t>(request.size, 22)));
+      receive(request.data, request.size);
   }
 
   /// There is no report that a remote would give on the control channel.
@@ -191,7 +209,7 @@ struct UhidDevice::State {
     while (::read(uhid.get(), &event, sizeof(event)) > 0) {
       if (event.type == UHID_OUTPUT) {
         const uhid_output_req& output = event.u.output;
-        receive(Bytes(output.data, output.data + output.size));
+        receive(output.data, output.size);
       } else if (event.type == UHID_SET_REPORT) {
         setReport(event.u.set_report);
       } else if (event.type == UHID_GET_REPORT) {
@@ -200,23 +218,31 @@ struct UhidDevice::State {
     }
   }
 
+  /// Until the next report is due [ms, rounded up]; negative, for ever, when none is under way.
+  int timeout() const {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (under_way.empty())
+      return -1;
+    const auto wait =
+        std::chrono::duration_cast<std::chrono::milliseconds>(under_way.front().due - Clock::now());
+    return wait.count() < 0 ? 0 : 1 + static_cast<int>(wait.count());
+  }
+
   void run() {
     while (!stop) {
       std::array<pollfd, 2> fds{};
       fds[0].fd = uhid.get();
       fds[1].fd = wake.get();
       fds[0].events = fds[1].events = POLLIN;
-      if (::poll(fds.data(), fds.size(), -1) > 0 && fds[0].revents != 0)
+      if (::poll(fds.data(), fds.size(), timeout()) > 0 && fds[0].revents != 0)
         handleEvents();
+      deliver();
     }
   }
 };
 
-UhidDevice::UhidDevice(const std::string& address,
-                       Model model,
-                       const Device::Options& options,
-                       Listener listener)
-    : state_(std::make_unique<State>(address, model, options, std::move(listener))) {
+UhidDevice::UhidDevice(const std::string& address, const Options& options)
+    : state_(std::make_unique<State>(address, options)) {
   setPresent(true);
   state_->thread = std::thread([this] { state_->run(); });
 }
@@ -259,6 +285,7 @@ void UhidDevice::setPresent(bool present) {
     state_->create();
   } else {
     state_->destroy();
+    state_->under_way.clear();
   }
   state_->present = present;
 }

@@ -21,16 +21,21 @@ class UhidDevice {
     kRemotePlus = 0x0330,  ///< RVL-CNT-01-TR; refuses output on the control channel.
   };
 
-  /// Hears each output report before the device answers it; called in the device's own thread.
+  /// Hears each output report as it reaches the device; called in the device's own thread, and must
+  /// not call the device.
   using Listener = std::function<void(const Bytes&)>;
+
+  struct Options {
+    Device::Options device;
+    Model model = Model::kRemote;
+    double latency = 0.0;  ///< [s, >= 0] An output report is so long under way, as over the air.
+    Listener listener;
+  };
 
   /// Plugs the remote in at once. `address` is its Bluetooth address ("00:1f:32:00:00:01") and
   /// should be its own: the kernel refuses a second battery of the same address.
   /// @throws std::system_error when there is no /dev/uhid or it may not be opened.
-  UhidDevice(const std::string& address,
-             Model model,
-             const Device::Options& options,
-             Listener listener = nullptr);
+  UhidDevice(const std::string& address, const Options& options);
   ~UhidDevice();
 
   /// Lets the device sense this instant and sends the resulting report, if any, to the kernel.

@@ -5,8 +5,8 @@
 namespace wiimote_tracker::protocol {
 namespace {
 
-const std::vector<std::pair<std::string, IrSensitivity>>& table() {
-  static const std::vector<std::pair<std::string, IrSensitivity>> kTable{
+const std::vector<std::pair<std::string, IrSensitivity>>& allSensitivities() {
+  static const std::vector<std::pair<std::string, IrSensitivity>> sensitivities{
       {"wii_1", {{{0x02, 0x00, 0x00, 0x71, 0x01, 0x00, 0x64, 0x00, 0xfe}}, {{0xfd, 0x05}}}},
       {"wii_2", {{{0x02, 0x00, 0x00, 0x71, 0x01, 0x00, 0x96, 0x00, 0xb4}}, {{0xb3, 0x04}}}},
       {"wii_3", {{{0x02, 0x00, 0x00, 0x71, 0x01, 0x00, 0xaa, 0x00, 0x64}}, {{0x63, 0x03}}}},
@@ -14,13 +14,13 @@ const std::vector<std::pair<std::string, IrSensitivity>>& table() {
       {"wii_5", {{{0x07, 0x00, 0x00, 0x71, 0x01, 0x00, 0x72, 0x00, 0x20}}, {{0x1f, 0x03}}}},
       {"marcan", {{{0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x90, 0x00, 0xc0}}, {{0x40, 0x00}}}},
       {"max", {{{0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x90, 0x00, 0x41}}, {{0x40, 0x00}}}}};
-  return kTable;
+  return sensitivities;
 }
 
 }  // namespace
 
 std::optional<IrSensitivity> irSensitivity(const std::string& name) {
-  for (const auto& entry : table()) {
+  for (const auto& entry : allSensitivities()) {
     if (entry.first == name)
       return entry.second;
   }
@@ -29,7 +29,7 @@ std::optional<IrSensitivity> irSensitivity(const std::string& name) {
 
 std::vector<std::string> irSensitivityNames() {
   std::vector<std::string> names;
-  for (const auto& entry : table())
+  for (const auto& entry : allSensitivities())
     names.push_back(entry.first);
   return names;
 }

@@ -68,7 +68,7 @@ std::thread threadWithoutSignals(F f) {
 
 }  // namespace
 
-Driver::Driver(ros::NodeHandle nh, ros::NodeHandle private_nh)
+Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
     : parameters_(readDriverParameters(nh, private_nh)),
       optical_frame_(parameters_.camera_name + "_optical_frame"),
       imu_frame_(parameters_.camera_name + "_imu_frame"),

@@ -23,7 +23,7 @@ class Driver {
  public:
   /// Starts at once. `nh`: the camera's namespace.
   /// @throws ParameterError for a configuration that can never work.
-  Driver(ros::NodeHandle nh, ros::NodeHandle private_nh);
+  Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh);
 
   /// Switches the remote's reporting, camera and LEDs off.
   ~Driver();

@@ -35,9 +35,9 @@ bool isAddress(const std::string& text) {
 }
 
 bool isHidrawPath(const std::string& text) {
-  static const std::string kPrefix = "/dev/hidraw";
-  return startsWith(text, kPrefix) && text.size() > kPrefix.size() &&
-         std::all_of(text.begin() + static_cast<std::ptrdiff_t>(kPrefix.size()), text.end(),
+  static const std::string prefix = "/dev/hidraw";
+  return startsWith(text, prefix) && text.size() > prefix.size() &&
+         std::all_of(text.begin() + static_cast<std::ptrdiff_t>(prefix.size()), text.end(),
                      [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 

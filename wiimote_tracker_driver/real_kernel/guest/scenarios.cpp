@@ -32,9 +32,10 @@ using State = wiimote::Link::State;
 constexpr char kAddress[] = "00:1f:32:00:00:01";
 constexpr Light kLight{300.0, 200.0, 3.0, 1.0};
 
-// What the kernel says, in bytes.
-const Bytes kKernelsMode{0x12, 0x00, 0x30};
-const Bytes kStatusRequest{0x15};
+/// What the kernel says after each status while nobody uses its input devices.
+Bytes kernelsMode() {
+  return {0x12, 0x00, 0x30};
+}
 
 // The kernel has set a remote up when it has asked for the battery and nothing more comes [s].
 constexpr double kSetUpTime = 1.0;
@@ -266,7 +267,7 @@ void ignoreSpecialDrivers(Checks& checks) {
                streaming.driver.link().kernel_driver);
   sleepFor(5.0);
   checks.check("the kernel says nothing to the remote",
-               !streaming.remote.got(kKernelsMode, begin) &&
+               !streaming.remote.got(kernelsMode(), begin) &&
                    !streaming.remote.got({0x16, 0x04, 0xa6}, begin));
   checks.recovers("the stream is up to speed", streaming.driver, [] {});
   streaming.remote.unplug();
@@ -283,7 +284,7 @@ void battery(Checks& checks) {
   const std::vector<PluggedRemote::Output> outputs = streaming.remote.outputs(begin);
   const auto resets = static_cast<std::size_t>(std::count_if(
       outputs.begin(), outputs.end(),
-      [](const PluggedRemote::Output& output) { return output.report == kKernelsMode; }));
+      [](const PluggedRemote::Output& output) { return output.report == kernelsMode(); }));
   checks.check("each time the kernel set its own mode", resets >= 20, count(resets, "times"));
   checks.recovers("battery read ten times in a row", streaming.driver, [&] {
     for (int i = 0; i < 10; ++i) {
@@ -336,6 +337,34 @@ void extension(Checks& checks) {
   checks.recovers("plugged in with a Nunchuk", streaming.driver, [&] { streaming.remote.plug(); });
   checks.check("no image was wrong", streaming.driver.wrongImages() == 0,
                count(streaming.driver.wrongImages(), "wrong images"));
+}
+
+/// Another program that opens the same hidraw node, without asking for our lock, and talks.
+void anotherProgram(Checks& checks) {
+  Streaming streaming;
+  const int fd = ::open(hidrawOf(kAddress).c_str(), O_RDWR | O_CLOEXEC);
+  const auto say = [&](const Bytes& report) {
+    if (::write(fd, report.data(), report.size()) != static_cast<ssize_t>(report.size()))
+      throw std::runtime_error("cannot write to the hidraw node");
+  };
+  struct Word {
+    const char* what;
+    Bytes report;
+  };
+  const std::vector<Word> words{
+      {"asks for the status", {0x15, 0x00}},
+      {"sets mode 0x30", {0x12, 0x00, 0x30}},
+      {"sets mode 0x37", {0x12, 0x04, 0x37}},
+      {"wants changes only", {0x12, 0x00, 0x33}},
+      {"reads 256 bytes of the EEPROM", {0x17, 0x00, 0x00, 0x00, 0x00, 0x01, 0x00}},
+      {"switches the LEDs", {0x11, 0xf0}},
+  };
+  for (const Word& word : words) {
+    checks.recovers(
+        std::string("another program ") + word.what, streaming.driver, [&] { say(word.report); },
+        5);
+  }
+  ::close(fd);
 }
 
 void leds(Checks& checks) {
@@ -418,7 +447,7 @@ void nonRoot(Checks& checks) {
 }  // namespace
 
 const std::vector<Scenario>& scenarios() {
-  static const std::vector<Scenario> kAll{
+  static const std::vector<Scenario> all{
       {"kernel_traffic", kernelTraffic},
       {"plug", plug},
       {"stream", stream},
@@ -429,12 +458,13 @@ const std::vector<Scenario>& scenarios() {
       {"battery", battery},
       {"evdev", evdev},
       {"extension", extension},
+      {"another_program", anotherProgram},
       {"leds", leds},
       {"rebind", rebind},
       {"taken", taken},
       {"non_root", nonRoot},
   };
-  return kAll;
+  return all;
 }
 
 }  // namespace wiimote_tracker::real_kernel

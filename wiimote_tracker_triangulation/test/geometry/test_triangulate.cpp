@@ -5,27 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <limits>
-#include <new>
-
-namespace {
-int g_allocations = 0;
-}  // namespace
-
-// Counts what the test below forbids.
-void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size))
-    return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace wiimote_tracker::geometry {
 namespace {
@@ -296,21 +276,6 @@ TEST(Triangulate, MaximumLikelihoodFitsThePixelsBest) {
       }
     }
   }
-}
-
-TEST(Triangulate, DoesNotAllocate) {
-  Random random(17);
-  const Rig rig = test::randomRig(random, 16);
-  std::vector<Observation> observations = observe(rig, Vector3d(0.1, 0.2, 0.3));
-  observations[0].pixel.x() += 1.0;
-  for (const TriangulationMethod method : kMethods) {
-    const int before = g_allocations;
-    const auto point = triangulate(observations, optionsFor(method));
-    const int after = g_allocations;
-    EXPECT_TRUE(point);
-    EXPECT_EQ(before, after);
-  }
-  EXPECT_GT(g_allocations, 0) << "the counter must count";
 }
 
 TEST(Triangulate, TakesAnyNumberOfObservations) {

@@ -68,7 +68,7 @@ Eigen::Matrix<double, 6, 6> poseBound(const geometry::Camera& camera,
 }
 
 TEST(Accuracy, one_camera_reaches_the_cramer_rao_bound_and_opencv) {
-  constexpr int kTrials = 1500;
+  constexpr int kTrials = 1000;
   constexpr double kPixel = 0.5;
   const SquareLayout layout = paperSquare();
   const Corners corners = layout.corners(true);
@@ -115,9 +115,9 @@ TEST(Accuracy, one_camera_reaches_the_cramer_rao_bound_and_opencv) {
   std::cout << "one camera, 0.5 px: position RMS " << 1000 * rms << " mm, OpenCV ITERATIVE "
             << 1000 * opencv_rms << " mm, bound " << 1000 * bound_rms << " mm, bias "
             << 1000 * (sum / kTrials).norm() << " mm\n";
-  // Nearly one degree of freedom dominates: the RMS of 1500 trials scatters by
-  // 1/sqrt(2 * 1500), 1.8 %; four times that.
-  EXPECT_NEAR(rms / bound_rms, 1.0, 0.075);
+  // Nearly one degree of freedom dominates: the RMS of 1000 trials scatters by
+  // 1/sqrt(2 * 1000), 2.2 %; four times that.
+  EXPECT_NEAR(rms / bound_rms, 1.0, 0.09);
   EXPECT_NEAR(rms / opencv_rms, 1.0, 1e-3);
   EXPECT_LT((sum / kTrials).norm(), 4.0 * bound_rms / std::sqrt(kTrials));
 }
@@ -206,7 +206,7 @@ TEST_P(Consistency, joint_covariance_is_exact_for_small_errors) {
   for (double* stddev : {&small.pixel, &small.placement, &small.focal, &small.aspect,
                          &small.principal_point, &small.k1, &small.gravity})
     *stddev *= 0.1;
-  const Nees nees = neesOf(GetParam(), small, 300);
+  const Nees nees = neesOf(GetParam(), small, 200);
   std::cout << "NEES per dimension, a tenth of the errors: all " << nees.all << ", one pose "
             << nees.pose << '\n';
   EXPECT_NEAR(nees.all, 1.0, 4.0 * nees.all_stddev);
@@ -216,7 +216,7 @@ TEST_P(Consistency, joint_covariance_is_exact_for_small_errors) {
 TEST_P(Consistency, covariance_of_the_pose_holds_for_errors_of_real_size) {
   // Not so the covariance of everything at once: lenses that are off by 3 % and 15 px move the
   // narrowest directions (pixels of the corners, known to 0.2 px) beyond what is linear.
-  const Nees nees = neesOf(GetParam(), Uncertainty(), 300);
+  const Nees nees = neesOf(GetParam(), Uncertainty(), 200);
   std::cout << "NEES per dimension: all " << nees.all << ", one pose " << nees.pose << '\n';
   EXPECT_NEAR(nees.pose, 1.0, 4.0 * nees.pose_stddev);
 }
@@ -290,7 +290,7 @@ TEST(Accuracy, joint_beats_per_camera_and_both_know_their_error) {
   for (const std::size_t count : {std::size_t{2}, std::size_t{4}}) {
     PointErrors errors[2];
     Random random(29);
-    constexpr int kRigs = 100;
+    constexpr int kRigs = 60;
     for (int trial = 0; trial < kRigs; ++trial) {
       std::vector<Eigen::Isometry3d> poses = paperRig();
       poses.resize(count);
@@ -308,9 +308,9 @@ TEST(Accuracy, joint_beats_per_camera_and_both_know_their_error) {
     errors[1].print("  per camera");
     EXPECT_LT(errors[0].absolute, errors[1].absolute);
     for (const PointErrors& error : errors) {
-      // 100 rigs with effectively ten or more independent errors each: 2.2 % per standard
-      // deviation of the RMS; four times that, and half as much for what is not linear.
-      EXPECT_NEAR(std::sqrt(error.expected / error.absolute), 1.0, 0.13);
+      // 60 rigs with effectively ten or more independent errors each: 2.9 % per standard
+      // deviation of the RMS; four times that, and a little for what is not linear.
+      EXPECT_NEAR(std::sqrt(error.expected / error.absolute), 1.0, 0.16);
     }
   }
 }

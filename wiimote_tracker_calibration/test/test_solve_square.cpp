@@ -196,9 +196,14 @@ TEST_F(FourCameras, a_world_mirrored_in_all_cameras_is_refused_by_gravity) {
 
 TEST_F(FourCameras, one_camera_that_contradicts_the_others_is_named) {
   // The camera was bumped between the first and the second corner.
-  for (std::size_t c = 1; c < 4; ++c)
-    *simulated_.sightings[1].corners[c] += Eigen::Vector2d(60.0, 25.0);
-  EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "camera_2 alone contradicts");
+  for (const Eigen::Vector2d& bump :
+       {Eigen::Vector2d(60.0, 25.0), Eigen::Vector2d(-60.0, 25.0), Eigen::Vector2d(25.0, 60.0),
+        Eigen::Vector2d(-25.0, -60.0), Eigen::Vector2d(0.0, -150.0), Eigen::Vector2d(0.0, 40.0)}) {
+    std::vector<CameraSightings> bumped = simulated_.sightings;
+    for (std::size_t c = 1; c < 4; ++c)
+      *bumped[1].corners[c] += bump;
+    EXPECT_SAYS(refusalOf(layout_, bumped), "camera_2 alone contradicts") << bump.transpose();
+  }
 }
 
 TEST_F(FourCameras, sides_that_are_not_those_of_the_square_are_refused) {

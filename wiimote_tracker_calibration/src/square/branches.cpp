@@ -14,7 +14,8 @@ namespace {
 
 // Difference of costs of one camera alone beyond which nothing the others say can matter.
 constexpr double kClear = 60.0;
-constexpr std::size_t kMostAmbiguous = 8;
+// Up to so many ambiguous cameras all combinations are compared, 16; beyond, single changes.
+constexpr std::size_t kExhaustive = 4;
 
 struct Combination {
   std::vector<std::size_t> chosen;
@@ -29,11 +30,57 @@ std::optional<Combination> evaluate(const RigModel& model,
   for (std::size_t i = 0; i < branches.size(); ++i)
     poses.push_back(branches[i][chosen[i]].world_from_camera);
   Combination combination{chosen, model.start(poses), 0.0};
-  const std::optional<double> cost = model.refineAll(&combination.state);
+  const std::optional<double> cost =
+      model.refineAll(&combination.state, RigModel::Precision::kCoarse);
   if (!cost)
     return std::nullopt;
   combination.cost = *cost;
   return combination;
+}
+
+std::vector<Combination> allCombinations(const RigModel& model,
+                                         const std::vector<std::vector<Branch>>& branches,
+                                         const std::vector<std::size_t>& ambiguous) {
+  std::vector<Combination> combinations;
+  for (std::size_t bits = 0; bits < std::size_t{1} << ambiguous.size(); ++bits) {
+    std::vector<std::size_t> chosen(branches.size(), 0);
+    for (std::size_t k = 0; k < ambiguous.size(); ++k)
+      chosen[ambiguous[k]] = (bits >> k) & 1U;
+    if (auto combination = evaluate(model, branches, chosen))
+      combinations.push_back(std::move(*combination));
+  }
+  return combinations;
+}
+
+/// Changes one camera at a time for as long as that helps. Contains the best combination that was
+/// found, and all that differ from it in one camera.
+std::vector<Combination> singleChanges(const RigModel& model,
+                                       const std::vector<std::vector<Branch>>& branches,
+                                       const std::vector<std::size_t>& ambiguous) {
+  std::vector<Combination> combinations;
+  std::vector<std::size_t> chosen(branches.size(), 0);
+  double least = std::numeric_limits<double>::infinity();
+  if (auto start = evaluate(model, branches, chosen)) {
+    least = start->cost;
+    combinations.push_back(std::move(*start));
+  }
+  // Round the cameras until a whole round has brought nothing.
+  std::size_t without_gain = 0;
+  for (std::size_t k = 0; without_gain < ambiguous.size(); k = (k + 1) % ambiguous.size()) {
+    std::vector<std::size_t> changed = chosen;
+    changed[ambiguous[k]] = 1 - changed[ambiguous[k]];
+    auto combination = evaluate(model, branches, changed);
+    ++without_gain;
+    if (!combination)
+      continue;
+    if (combination->cost < least) {
+      least = combination->cost;
+      chosen = changed;
+      without_gain = 0;
+    }
+    combinations.push_back(std::move(*combination));
+  }
+  return combinations;
 }
 
 }  // namespace
@@ -51,7 +98,7 @@ std::vector<Branch> findBranches(const RigModel& model, std::size_t camera) {
       return isSamePose(branch.world_from_camera, world_from_camera, alone.nominalCorners());
     });
     RigState probable = *refined;
-    const std::optional<double> cost = alone.refineAll(&probable);
+    const std::optional<double> cost = alone.refineAll(&probable, RigModel::Precision::kCoarse);
     if (!known && cost)
       branches.push_back({world_from_camera, alone.reprojectionError(*refined, 0), *cost});
   }
@@ -68,19 +115,9 @@ BranchChoice chooseBranches(const RigModel& model,
     if (branches[i].size() > 1 && branches[i][1].cost - branches[i][0].cost < kClear)
       ambiguous.push_back(i);
   }
-  if (ambiguous.size() > kMostAmbiguous)
-    throw SquareError(
-        "too many cameras have two possible places: use a larger square or cameras that look at "
-        "it less steeply, or connect their accelerometers");
-
-  std::vector<Combination> combinations;
-  for (std::size_t bits = 0; bits < std::size_t{1} << ambiguous.size(); ++bits) {
-    std::vector<std::size_t> chosen(branches.size(), 0);
-    for (std::size_t k = 0; k < ambiguous.size(); ++k)
-      chosen[ambiguous[k]] = (bits >> k) & 1U;
-    if (auto combination = evaluate(model, branches, chosen))
-      combinations.push_back(std::move(*combination));
-  }
+  const std::vector<Combination> combinations = ambiguous.size() <= kExhaustive
+                                                    ? allCombinations(model, branches, ambiguous)
+                                                    : singleChanges(model, branches, ambiguous);
   if (combinations.empty())
     throw SquareError("the cameras cannot be solved together: capture the corners again");
   const Combination& best =
@@ -88,6 +125,7 @@ BranchChoice chooseBranches(const RigModel& model,
                         [](const auto& a, const auto& b) { return a.cost < b.cost; });
 
   BranchChoice choice{best.state, best.cost, best.chosen, {}};
+  choice.cost = model.refineAll(&choice.state).value_or(best.cost);
   for (const std::size_t i : ambiguous) {
     double other = std::numeric_limits<double>::infinity();
     for (const Combination& combination : combinations) {

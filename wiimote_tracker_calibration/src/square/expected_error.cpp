@@ -62,22 +62,31 @@ double expectedError(const geometry::Rig& rig, const std::vector<Eigen::Vector3d
   if (rig.covariance.rows() != kParameters * cameras || points.empty())
     return std::numeric_limits<double>::quiet_NaN();
   double sum = 0.0;
+  int count = 0;
   for (const Eigen::Vector3d& point : points) {
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(3, kParameters * cameras);
+    int views = 0;
     for (Eigen::Index i = 0; i < cameras; ++i) {
-      const auto derivatives =
-          differentiate(rig.cameras[static_cast<std::size_t>(i)].camera, point);
+      const geometry::Camera& camera = rig.cameras[static_cast<std::size_t>(i)].camera;
+      const auto derivatives = camera.sees(point) ? differentiate(camera, point) : std::nullopt;
       if (!derivatives)
-        return std::numeric_limits<double>::quiet_NaN();
+        continue;
+      ++views;
       information += derivatives->point.transpose() * derivatives->point;
       right.middleCols(kParameters * i, kParameters) =
           derivatives->point.transpose() * derivatives->parameters;
     }
+    if (views < 2)
+      continue;
+    ++count;
     const Eigen::MatrixXd point_from_parameters = information.inverse() * right;
     sum += (point_from_parameters * rig.covariance * point_from_parameters.transpose()).trace();
   }
-  return std::sqrt(sum / static_cast<double>(points.size()));
+  // Two views from one place see no depth: infinite information or none.
+  const double mean = sum / count;
+  return count > 0 && std::isfinite(mean) ? std::sqrt(mean)
+                                          : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::vector<Eigen::Vector3d> boxOver(const std::array<Eigen::Vector3d, 4>& corners, bool z_up) {

@@ -9,6 +9,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -94,13 +96,18 @@ class RigModel::Problem {
   }
 
   /// @returns the cost (sum of squares) and the state there; nothing when the start is unusable.
-  std::optional<double> solve(RigState* state) {
+  std::optional<double> solve(RigState* state, Precision precision) {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
     options.max_num_iterations = 200;
     options.function_tolerance = 1e-15;
     options.gradient_tolerance = 1e-13;
     options.parameter_tolerance = 1e-13;
+    if (precision == Precision::kCoarse) {
+      options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+      options.max_num_iterations = 200;
+      options.function_tolerance = 1e-9;
+    }
     options.logging_type = ceres::SILENT;
     double start_cost = 0.0;
     if (!problem_.Evaluate(ceres::Problem::EvaluateOptions(), &start_cost, nullptr, nullptr,
@@ -251,13 +258,13 @@ std::optional<RigState> RigModel::refinePoses(RigState start) const {
     sightings.gravity.reset();
   Problem problem(without_gravity, start);
   problem.holdAllButPoses();
-  if (!problem.solve(&start))
+  if (!problem.solve(&start, Precision::kFine))
     return std::nullopt;
   return start;
 }
 
-std::optional<double> RigModel::refineAll(RigState* state) const {
-  return Problem(*this, *state).solve(state);
+std::optional<double> RigModel::refineAll(RigState* state, Precision precision) const {
+  return Problem(*this, *state).solve(state, precision);
 }
 
 int RigModel::degreesOfFreedom() const {
@@ -313,6 +320,16 @@ double RigModel::reprojectionError(const RigState& state, std::size_t camera) co
     sum += (*pixel - *sightings_[camera].corners[c]).squaredNorm();
   }
   return std::sqrt(sum / 4.0);
+}
+
+double RigModel::lensDeviation(const RigState& state, std::size_t camera) const {
+  const geometry::Intrinsics& lens = state.cameras[camera].intrinsics;
+  const double parameters[kLensSize] = {lens.fx, lens.fy, lens.cx, lens.cy, lens.distortion[0]};
+  Eigen::Matrix<double, kLensSize, 1> residual;
+  const LensPrior prior{sightings_[camera].intrinsics, uncertainty_};
+  if (!prior(parameters, residual.data()))
+    return std::numeric_limits<double>::infinity();
+  return residual.norm();
 }
 
 std::optional<double> RigModel::tiltAgainstGravity(const RigState& state,

@@ -17,7 +17,10 @@ namespace {
 
 // Residuals this many times larger than expected are reported, and refused.
 constexpr double kWarnRatio = 2.0;
-constexpr double kRefuseRatio = 5.0;
+constexpr double kRefuseRatio = 4.0;
+// A lens that must be farther than this from where it started is no explanation [standard
+// deviations].
+constexpr double kLensLimit = 5.0;
 // Gravity farther from the floor's normal than this is a contradiction [standard deviations].
 constexpr double kGravityLimit = 5.0;
 // A calibration that puts points off by more than this share of the square's side is reported.
@@ -63,6 +66,17 @@ double misfit(double cost, const RigModel& model) {
   return std::sqrt(cost / model.degreesOfFreedom());
 }
 
+/// Whether the best explanation is none: a lens far from any that was expected, or a corner in the
+/// camera's own place, where it can appear at every pixel.
+bool isAbsurd(const RigModel& model, const RigState& state) {
+  for (std::size_t i = 0; i < model.sightings().size(); ++i) {
+    if (model.lensDeviation(state, i) > kLensLimit ||
+        !std::isfinite(model.reprojectionError(state, i)))
+      return true;
+  }
+  return false;
+}
+
 /// The camera without which the others agree; -1 when there is none.
 int oddOneOut(const RigModel& model,
               const SquareLayout& layout,
@@ -82,7 +96,7 @@ int oddOneOut(const RigModel& model,
         poses.push_back(camera.world_from_camera);
     }
     RigState state = without.start(poses);
-    const std::optional<double> cost = without.refineAll(&state);
+    const std::optional<double> cost = without.refineAll(&state, RigModel::Precision::kCoarse);
     if (cost && misfit(*cost, without) < least) {
       least = misfit(*cost, without);
       odd = static_cast<int>(i);
@@ -110,7 +124,8 @@ void checkMisfit(const RigModel& model,
                  const Uncertainty& uncertainty,
                  std::vector<std::string>* warnings) {
   const double ratio = misfit(choice.cost, model);
-  if (ratio < kWarnRatio)
+  const bool absurd = isAbsurd(model, choice.state);
+  if (ratio < kWarnRatio && !absurd)
     return;
   std::size_t worst = 0;
   double farthest = 0.0;
@@ -121,18 +136,20 @@ void checkMisfit(const RigModel& model,
       worst = c;
     }
   }
-  std::string reason = "the cameras disagree " + number("%.0f", ratio) +
-                       " times more than the stated errors explain";
+  std::string reason = "the cameras disagree " + number("%.1f", ratio) +
+                       " times as much as the stated errors explain";
   const int odd = oddOneOut(model, layout, choice, uncertainty);
   if (odd >= 0)
     reason += ", and " + model.sightings()[static_cast<std::size_t>(odd)].name +
               " alone contradicts the others: check that it did not move and that its spot was the "
               "LED";
   else
-    reason += ", most at corner " + std::to_string(worst + 1) + " (" +
-              number("%.0f mm", 1000.0 * farthest) +
-              " off): check the sides of the square and capture that corner again";
-  if (ratio > kRefuseRatio)
+    reason +=
+        ", most at corner " + std::to_string(worst + 1) + " (" +
+        number("%.0f mm", 1000.0 * farthest) +
+        " off): check the sides of the square and capture that corner again, or state a larger "
+        "placement error";
+  if (ratio > kRefuseRatio || absurd)
     throw SquareError(reason);
   warnings->push_back(reason);
 }
@@ -163,9 +180,10 @@ std::string verdict(const SquareSolution& solution) {
                      number("%.3f m", solution.rig.square_sides[0]) + " x " +
                      number("%.3f m", solution.rig.square_sides[1]) + " square, z points " +
                      (solution.z_up ? "up" : "down") + "; residuals at most " +
-                     number("%.2f px", worst_px) + " (" + number("%.1f mm", 1000.0 * worst_m) +
-                     "), points over the square expected within " +
-                     number("%.0f mm", 1000.0 * solution.expected_error) + " (RMS)";
+                     number("%.2f px", worst_px) + " (" + number("%.1f mm", 1000.0 * worst_m) + ")";
+  if (std::isfinite(solution.expected_error))
+    text += ", points over the square expected within " +
+            number("%.0f mm", 1000.0 * solution.expected_error) + " (RMS)";
   for (const std::string& warning : solution.warnings)
     text += "; warning: " + warning;
   return text;
@@ -211,7 +229,7 @@ SquareSolution solveSquare(const SquareLayout& layout,
   for (std::size_t i = 0; i < state.cameras.size(); ++i)
     rig.cameras.push_back(rigCamera(model, state, i));
   solution.expected_error = expectedError(rig, boxOver(model.nominalCorners(), solution.z_up));
-  if (!(solution.expected_error < kErrorLimit * std::min(layout.side_x, layout.side_y)))
+  if (solution.expected_error > kErrorLimit * std::min(layout.side_x, layout.side_y))
     solution.warnings.push_back("points over the square are known to " +
                                 number("%.2f m", solution.expected_error) +
                                 " only: use a larger square, or place the cameras so that they "

@@ -29,12 +29,12 @@ struct BranchChoice {
   std::vector<std::size_t> undecided;
 };
 
-/// Weighs all combinations of branches that are not clear from one camera alone: the cameras saw
+/// Weighs combinations of the branches that are not clear from one camera alone: the cameras saw
 /// the same four places, so that a branch which needs other displacements of the corners than the
 /// other cameras do is less probable.
 /// @param branches per camera, from findBranches(), none empty.
 /// @param odds least ratio of probabilities between the chosen branch and the other [> 1].
-/// @throws SquareError: too many cameras are ambiguous, or nothing can be evaluated.
+/// @throws SquareError: nothing can be evaluated.
 BranchChoice chooseBranches(const RigModel& model,
                             const std::vector<std::vector<Branch>>& branches,
                             double odds);

@@ -9,10 +9,10 @@
 
 namespace wiimote_tracker::square {
 
-/// RMS error, all three axes together [m], of points that all cameras see and that are
-/// triangulated by maximum likelihood, as far as it comes from the calibration: the joint
-/// covariance of the rig propagated to first order. Pixel noise comes on top.
-/// NaN when the rig has no covariance or a point is behind a camera.
+/// RMS error, all three axes together [m], of points triangulated by maximum likelihood from all
+/// cameras that see them, as far as it comes from the calibration: the joint covariance of the rig
+/// propagated to first order. Pixel noise comes on top. Points that fewer than two cameras see do
+/// not count. NaN when the rig has no covariance, or no point counts.
 double expectedError(const geometry::Rig& rig, const std::vector<Eigen::Vector3d>& points);
 
 /// Corners and middle of the box over the square that is as high as its shorter side [m].

@@ -59,9 +59,12 @@ class RigModel {
   /// a camera.
   std::optional<RigState> refinePoses(RigState start) const;
 
+  /// How far to drive a minimisation: kCoarse suffices to compare costs, and is ten times faster.
+  enum class Precision { kCoarse, kFine };
+
   /// Most probable poses, intrinsics and corners (Levenberg-Marquardt, in place).
   /// @returns the sum of the squared whitened residuals; nothing as for refinePoses().
-  std::optional<double> refineAll(RigState* state) const;
+  std::optional<double> refineAll(RigState* state, Precision precision = Precision::kFine) const;
 
   /// Residuals beyond the number of parameters of refineAll(): what its cost is on average.
   int degreesOfFreedom() const;
@@ -73,8 +76,12 @@ class RigModel {
   /// in RigCalibration.msg. The cameras are correlated through the corners.
   Eigen::MatrixXd covarianceOfPoses(const RigState& state) const;
 
-  /// sqrt(mean(du^2 + dv^2)) of one camera [px].
+  /// sqrt(mean(du^2 + dv^2)) of one camera [px]; infinite when a corner is behind it.
   double reprojectionError(const RigState& state, std::size_t camera) const;
+
+  /// How far a camera's intrinsics are from where they started, in standard deviations, all of
+  /// them together (root of the sum of squares).
+  double lensDeviation(const RigState& state, std::size_t camera) const;
 
   /// Angle between the floor's up and the accelerometer's [rad]; nothing without accelerometer.
   std::optional<double> tiltAgainstGravity(const RigState& state, std::size_t camera) const;

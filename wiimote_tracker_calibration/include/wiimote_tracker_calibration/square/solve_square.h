@@ -31,7 +31,7 @@ struct SquareSolution {
   bool z_up = true;
   /// Displacement of the corners from the layout, as estimated [m]; zero with kPerCamera.
   Corners corner_offsets;
-  /// expectedError() in the box over the square [m]. NaN when a camera does not look at all of it.
+  /// expectedError() in the box over the square [m]. NaN when no two cameras look into it.
   double expected_error = 0.0;
   /// One sentence each. They are part of rig.verdict too.
   std::vector<std::string> warnings;

@@ -4,6 +4,12 @@
 
 set -euo pipefail
 
+# A script that was started in the background of another one ignores Ctrl-C, and bash cannot undo
+# that; a fresh start can.
+if (( 0x$(awk '/^SigIgn/ { print substr($2, length($2)) }' /proc/$$/status) & 2 )); then
+  exec env --default-signal=INT bash "$0" "$@"
+fi
+
 # Another python3 or another ROS workspace in the environment breaks catkin and ROS scripts.
 export PATH="/usr/bin:/usr/sbin:/bin:/sbin:$PATH"
 unset PYTHONHOME PYTHONPATH CMAKE_PREFIX_PATH ROS_PACKAGE_PATH ROS_IP ROS_NAMESPACE

@@ -6,12 +6,10 @@ from wiimote_tracker_msgs.msg import (CalibrationStatus, CaptureCornerAction, Ca
 from wiimote_tracker_msgs.srv import (CheckConnection, SaveRig, SetLed, SetLedRequest,
                                       SolveCalibration, StartCalibration)
 
+from wiimote_tracker_evaluation.errors import ExperimentError
+
 SETTLE = 0.1  # after an LED has arrived, until it is measured [s]
 CAPTURE_ATTEMPTS = 3
-
-
-class ExperimentError(Exception):
-    """The experiment cannot go on; the text says why and what to do."""
 
 
 class Segment(object):

@@ -10,6 +10,7 @@ import tempfile
 import time
 
 from wiimote_tracker_evaluation import bound, experiment, scene as scene_module
+from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.processes import ProcessEnded, Processes
 
 LED = 'led'
@@ -22,10 +23,6 @@ CAMERA_RATE = 100.0     # images a second of one camera [Hz]
 
 RECORDED = (r'(.*)/ir_blobs|(.*)/camera_info|(.*)/imu/data_raw|(.*)/calibration/(rig|status)|'
             r'/points|/%s/point|/simulation/truth/(.*)|/tf|/tf_static|/diagnostics' % LED)
-
-
-class DemoError(Exception):
-    """The demonstration failed; the text says why and what to do."""
 
 
 class Interrupted(BaseException):
@@ -81,7 +78,7 @@ def prepare_output(folder, cameras):
         with open(os.path.join(folder, 'nodes.log'), 'w'):
             pass
     except OSError as error:
-        raise DemoError('cannot write to %s: %s; choose another folder with --output'
+        raise ExperimentError('cannot write to %s: %s; choose another folder with --output'
                         % (folder, error.strerror))
 
 
@@ -142,7 +139,7 @@ class Demo(object):
         while not rosgraph.is_master_online():
             self._processes.check()
             if time.monotonic() > deadline:
-                raise DemoError('no ROS master within 30 s; see ' + log)
+                raise ExperimentError('no ROS master within 30 s; see ' + log)
             time.sleep(0.05)
         rospy.init_node('demo', disable_signals=True)
         self._recorder = self._processes.start('rosbag', [
@@ -151,6 +148,7 @@ class Demo(object):
 
     def _experiment(self):
         """The LED's tour. Segments that were measured, and images used at a corner."""
+        # Not before there is a master's address: rospy reads it when it is imported.
         from wiimote_tracker_evaluation.conductor import Conductor
         from wiimote_tracker_evaluation.recording import LiveRecorder
         progress = self._progress
@@ -165,7 +163,7 @@ class Demo(object):
                 'sees the LED at (%.0f, %.0f)' % (camera.x, camera.y) if camera.sees_led
                 else 'does not see the LED', camera.problem))
         if not checked.success:
-            raise DemoError('the connection check failed: ' + checked.message)
+            raise ExperimentError('the connection check failed: ' + checked.message)
         self._report_view()
 
         progress.step('Calibration: the LED is put on the four corners, %.0f mm off'
@@ -222,12 +220,12 @@ class Demo(object):
         self._progress.step('Closing the bag, computing the results')
         self._processes.stop(self._recorder)
         if not os.path.exists(self._file('demo.bag')):
-            raise DemoError('rosbag left no demo.bag; see ' + self._file('nodes.log'))
+            raise ExperimentError('rosbag left no demo.bag; see ' + self._file('nodes.log'))
         recorded = recording.read_bag(self._file('demo.bag'), LED)
         try:
             score = scoring.score(recorded, segments)
         except ValueError as error:
-            raise DemoError('%s; see %s' % (error, self._file('nodes.log')))
+            raise ExperimentError('%s; see %s' % (error, self._file('nodes.log')))
         bounds = bound.position_bounds(
             self._scene, experiment.CORNERS, experiment.TEST_POINTS,
             experiment.alignment_points(ALIGNMENT_SEED), corner_samples,
@@ -263,8 +261,6 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, interrupt)
-
-    from wiimote_tracker_evaluation.conductor import ExperimentError
     try:
         demo = Demo(os.path.abspath(options.output))
         demo.run()
@@ -273,6 +269,6 @@ def main(arguments=None):
     except Interrupted:
         print('\nInterrupted; everything that was started has ended.', file=sys.stderr)
         return 130
-    except (DemoError, ExperimentError, ProcessEnded) as error:
+    except (ExperimentError, ProcessEnded) as error:
         print('\nThe demo failed: %s' % error, file=sys.stderr)
         return 1

@@ -163,10 +163,14 @@ def fetch(kernel_package=DEFAULT_KERNEL):
                 shutil.rmtree(parts.tools)
             try:
                 fetch_missing(parts, folder, kernel_package, Apt())
-            except Unavailable:
-                apt = Apt(own_lists(os.path.join(folder, 'apt')))
-                apt.update()
-                fetch_missing(parts, folder, kernel_package, apt)
+            except Unavailable as first:
+                try:
+                    apt = Apt(own_lists(os.path.join(folder, 'apt')))
+                    apt.update()
+                    fetch_missing(parts, folder, kernel_package, apt)
+                except Unavailable as second:
+                    raise Unavailable('%s; and with package lists updated just now: %s' %
+                                      (first, second))
     except (OSError, subprocess.CalledProcessError) as error:
         raise Unavailable('%s (cache folder %s)' % (error, folder))
     if not works(parts):

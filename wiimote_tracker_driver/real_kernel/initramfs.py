@@ -83,14 +83,18 @@ def modules_in_order(kernel_folder, wanted):
 
 
 def libraries_of(program):
-    """Paths of the shared libraries and of the loader that a program needs. Raises OSError when one
-    is missing."""
+    """Where in the guest, and where here, is each shared library that a program needs, and the
+    loader: the latter at its own path, the others in /lib, since a program may find its libraries
+    here by variables that the guest does not have. Raises OSError when one is missing."""
     output = subprocess.run(['ldd', program], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                             universal_newlines=True).stdout
     missing = re.findall(r'(\S+) => not found', output)
     if missing:
         raise OSError('%s needs %s, which was not found' % (program, ', '.join(missing)))
-    return re.findall(r'(/\S+) \(0x', output)
+    libraries = re.findall(r'=> (/\S+) \(0x', output)
+    loaders = re.findall(r'^\s*(/\S+) \(0x', output, re.MULTILINE)
+    return ([('lib/' + os.path.basename(path), path) for path in libraries] +
+            [(path, path) for path in loaders])
 
 
 def build(path, init, busybox, kernel_folder, modules, programs):
@@ -108,6 +112,6 @@ def build(path, init, busybox, kernel_folder, modules, programs):
         archive.add('modules/order', ''.join('%s\n' % name for name, _ in ordered).encode())
         for program in programs:
             archive.add('bin/' + os.path.basename(program), read(program))
-            for library in libraries_of(program):
-                archive.add(library, read(library))
+            for target, path in libraries_of(program):
+                archive.add(target, read(path))
         archive.close()

@@ -1,5 +1,6 @@
 #include "camera_yaml.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <locale>
@@ -16,7 +17,11 @@ std::string yamlNumber(double value) {
   text.imbue(std::locale::classic());  // a decimal point in every country
   text.precision(std::numeric_limits<double>::max_digits10);
   text << value;
-  return text.str();
+  std::string number = text.str();
+  // YAML 1.1, which rosparam reads, takes 4 for a whole number and 1e-09 for a word.
+  if (number.find('.') == std::string::npos)
+    number.insert(std::min(number.find('e'), number.size()), ".0");
+  return number;
 }
 
 void emitIntrinsics(const std::string& camera_name,

@@ -10,7 +10,8 @@
 
 namespace wiimote_tracker::geometry {
 
-/// Plain YAML text of a number that reads back bit for bit.
+/// Plain YAML text of a number that reads back bit for bit, as a floating-point number also where
+/// YAML 1.1 is read.
 std::string yamlNumber(double value);
 
 /// Writes the intrinsics into an open map, in the keys of camera_calibration_parsers:

@@ -169,6 +169,22 @@ TEST_F(RigFile, ManyRandomRigsComeBackBitForBit) {
   }
 }
 
+TEST_F(RigFile, NumbersAreFloatingPointForRosparamToo) {
+  // static_transform_publisher takes no whole number, and rosparam no 1e-09 for a number.
+  Rig rig = fullRig(1);
+  rig.cameras[0].camera.world_from_camera = Eigen::Isometry3d::Identity();
+  rig.cameras[0].camera.world_from_camera.translation() << 4.0, -1e-9, 1e300;
+  write(rig);
+  for (const std::string line : {"x: 4.0\n", "y: -1.0000000000000001e-09\n",
+                                 "z: 1.0000000000000001e+300\n", "x: 0.0\n", "w: 1.0\n"})
+    EXPECT_NE(std::string::npos, written_.find(line)) << line;
+  rig.cameras[0].camera.world_from_camera.translation() << 1e-20, -0.0, 1e22;
+  write(rig);
+  for (const std::string line : {"y: -0.0\n", "z: 1.0e+22\n"})
+    EXPECT_NE(std::string::npos, written_.find(line)) << line;
+  expectSame(rig, readRigFile(path_));
+}
+
 TEST_F(RigFile, KeepsTheOldFileAsABackup) {
   const Rig first = fullRig();
   Rig second = first;

@@ -6,136 +6,164 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-// Before anything is known [s].
-constexpr double kFirstSpread = 0.003;
+// Spread before anything is known [s], and how many reports this counts as. A hard edge starts
+// wider and learns slower: too small a spread pulls the edge up past the arrivals.
+constexpr double kFirstEdgeSpread = 0.005;
+constexpr double kFirstBellSpread = 0.003;
+constexpr double kEdgePrior = 30.0;
+constexpr double kBellPrior = 5.0;
 constexpr double kLeastSpread = 20e-6;
-// Normal part of the narrowest edge: what time-stamping itself adds [s].
-constexpr double kStampNoise = 10e-6;
-// The first spread counts as much as this many reports; the estimate remembers this many.
-constexpr double kSpreadPrior = 10.0;
-constexpr double kSpreadMemory = 1000.0;
+constexpr double kSpreadMemory = 1000.0;  // reports
+// Puts the reference of a bell where the edge of an exponential of the same mean and spread is.
+constexpr double kTypicalBellSpread = 0.0024;
+// An arrival before the edge leaves at least this share of the variance: the belief is not a
+// perfect normal, and one surprise must not make it certain.
+constexpr double kLeastVarianceLeft = 0.2;
+// Smaller exponentials vanish beside the uncertainty (relative).
+constexpr double kLeastTilt = 0.05;
 
 constexpr double kInvSqrt2 = 0.70710678118654752;
 constexpr double kInvSqrt2Pi = 0.39894228040143268;
 
+double square(double x) {
+  return x * x;
+}
+double normalDensity(double x) {
+  return kInvSqrt2Pi * std::exp(-0.5 * x * x);
+}
 double normalCdf(double x) {
   return 0.5 * std::erfc(-x * kInvSqrt2);
 }
-// Density over distribution function of the standard normal, also far out where both vanish
-// (continued fraction; Abramowitz and Stegun 26.2.14).
-double hazard(double x) {
+// normalDensity / normalCdf, also far out where both vanish (Abramowitz, Stegun, eq. 26.2.14).
+double inverseMills(double x) {
   if (x > -6.0)
-    return kInvSqrt2Pi * std::exp(-0.5 * x * x) / normalCdf(x);
-  const double y = -x;
-  return y + 1.0 / (y + 2.0 / (y + 3.0 / (y + 4.0 / y)));
+    return normalDensity(x) / normalCdf(x);
+  return -x + 1.0 / (-x + 2.0 / (-x + 3.0 / (-x + 4.0 / -x)));
 }
 }  // namespace
 
 ClockFilter::ClockFilter(const DelayModel& model, double period, double period_stddev)
-    : model_(model), period_(period), p11_(period_stddev * period_stddev), spread_(kFirstSpread) {}
+    : model_(model),
+      nominal_period_(period),
+      period_tolerance_(2.0 * period_stddev),
+      period_(period),
+      p11_(square(period_stddev)),
+      spread_(model.hard_edge ? kFirstEdgeSpread : kFirstBellSpread) {}
 
-void ClockFilter::start(double time) {
-  time_ = time - model_.tail * spread_;
-  p00_ = period_ * period_;
+void ClockFilter::start(double arrival) {
+  time_ = model_.hard_edge ? arrival - spread_ : arrival;
+  p00_ = square(period_);
   p01_ = 0.0;
 }
 
 void ClockFilter::advance(double frames) {
   time_ += frames * period_;
-  p00_ += frames * (2.0 * p01_ + frames * p11_) + model_.wander * model_.wander * period_ * frames;
+  p00_ += frames * (2.0 * p01_ + frames * p11_) + square(model_.wander) * std::max(0.0, frames) * period_;
   p01_ += frames * p11_;
 }
 
+double ClockFilter::time() const {
+  return model_.hard_edge ? time_ : time_ - kTypicalBellSpread;
+}
+
 ClockFilter::Prediction ClockFilter::predict(double offset) const {
-  const double normal = spread_ * spread_ * (1.0 - model_.tail * model_.tail) + model_.blur*model_.blur;
-  Prediction p;
-  p.mean = time_ + offset * period_;
   const double c0 = p00_ + offset * p01_;
   const double c1 = p01_ + offset * p11_;
-  p.variance = c0 + offset * c1 + normal;
-  p.gain0 = c0 / p.variance;
-  p.gain1 = c1 / p.variance;
-  return p;
+  Prediction z;
+  z.mean = time_ + offset * period_;
+  z.variance = c0 + offset * c1 + square(model_.hard_edge ? model_.blur : spread_);
+  z.stddev = std::sqrt(z.variance);
+  z.time_gain = c0 / z.variance;
+  z.period_gain = c1 / z.variance;
+  return z;
+}
+
+bool ClockFilter::tilted(const Prediction& z) const {
+  return model_.hard_edge && spread_ > kLeastTilt * z.stddev;
 }
 
 double ClockFilter::likelihood(double arrival, double offset) const {
-  const Prediction p = predict(offset);
-  const double late = arrival - p.mean;
-  const double sd = std::sqrt(p.variance);
-  const double mu = model_.tail * spread_;
-  if (mu < 0.05 * sd)
-    return kInvSqrt2Pi / sd * std::exp(-0.5 * late * late / p.variance);
-  const double b = (late - p.variance / mu) / sd;
-  if (b < -6.0)  // exp(..) * Phi(b) by the density at `late`, to avoid overflow
-    return kInvSqrt2Pi * std::exp(-0.5 * late * late / p.variance) / (hazard(b) * mu);
-  return std::exp(0.5 * p.variance / (mu * mu) - late / mu) * normalCdf(b) / mu;
+  const Prediction z = predict(offset);
+  const double late = arrival - z.mean;
+  if (!tilted(z))
+    return normalDensity(late / z.stddev) / z.stddev;
+  // Normal plus exponential. The second form is the same where the first over- and underflows.
+  const double b = late / z.stddev - z.stddev / spread_;
+  if (b > -6.0)
+    return std::exp(0.5 * z.variance / square(spread_) - late / spread_) * normalCdf(b) / spread_;
+  return normalDensity(late / z.stddev) / (inverseMills(b) * spread_);
 }
 
 double ClockFilter::readyBefore(double time, double offset) const {
-  const Prediction p = predict(offset);
-  const double late = time - p.mean;
-  const double sd = std::sqrt(p.variance);
-  const double mu = model_.tail * spread_;
-  const double normal = normalCdf(late / sd);
-  if (mu < 0.05 * sd)
-    return normal;
-  return std::max(0.0, normal - mu * likelihood(time, offset));
+  const Prediction z = predict(offset);
+  const double normal = normalCdf((time - z.mean) / z.stddev);
+  return tilted(z) ? std::max(0.0, normal - spread_ * likelihood(time, offset)) : normal;
 }
 
 void ClockFilter::consider(double arrival, double offset, double weight) {
-  const Prediction p = predict(offset);
-  const double sd = std::sqrt(p.variance);
-  const double mu = model_.tail * spread_;
-  double innovation = arrival - p.mean;
-  double left = 0.0;  // variance that the arrival leaves to exposure + edge + n
-  if (mu >= 0.05 * sd) {
-    const double b = (arrival - p.mean - p.variance / mu) / sd;
-    const double lambda = hazard(b);
-    innovation = p.variance / mu - sd * lambda;
-    left = p.variance * std::max(1e-6, 1.0 - lambda * (b + lambda));
+  const Prediction z = predict(offset);
+  double innovation = arrival - z.mean;
+  double left = 0.0;  // variance of z, given the arrival
+  if (tilted(z)) {
+    const double b = innovation / z.stddev - z.stddev / spread_;
+    const double mills = inverseMills(b);
+    innovation = z.variance / spread_ - z.stddev * mills;
+    left = z.variance * std::max(kLeastVarianceLeft, 1.0 - mills * (b + mills));
   }
-  const double s0 = p.gain0 * innovation, s1 = p.gain1 * innovation;
-  const double shrink = p.variance - left;
-  shift0_ += weight * s0;
-  shift1_ += weight * s1;
-  d00_ += weight * (s0 * s0 - p.gain0 * p.gain0 * shrink);
-  d01_ += weight * (s0 * s1 - p.gain0 * p.gain1 * shrink);
-  d11_ += weight * (s1 * s1 - p.gain1 * p.gain1 * shrink);
+  const double time_shift = z.time_gain * innovation;
+  const double period_shift = z.period_gain * innovation;
+  const double gone = z.variance - left;
+  sums_.weight += weight;
+  sums_.time += weight * time_shift;
+  sums_.period += weight * period_shift;
+  sums_.p00 += weight * (square(time_shift) - square(z.time_gain) * gone);
+  sums_.p01 += weight * (time_shift * period_shift - z.time_gain * z.period_gain * gone);
+  sums_.p11 += weight * (square(period_shift) - square(z.period_gain) * gone);
 
-  // Expected size of this delay beyond the edge (or the mean), for the spread.
-  if (model_.tail > 0.0) {
-    spread_sum_ += weight * (arrival - p.mean - innovation) / model_.tail;
+  // What this delay says of the spread, given the new belief (a step of expectation maximisation).
+  if (model_.hard_edge) {
+    sums_.spread += weight * (arrival - z.mean - innovation);
   } else {
-    const double rest = innovation * (1.0 - (p.gain0 + offset * p.gain1));
-    const double var = (p.variance - spread_ * spread_) * (spread_ * spread_ / p.variance);
-    spread_sum_ += weight * (rest * rest + std::max(0.0, var));
+    const double share = square(spread_) / z.variance;
+    sums_.spread += weight * (square(innovation * share) + (z.variance - square(spread_)) * share);
   }
-  spread_weight_ += weight;
 }
 
 void ClockFilter::settle() {
-  time_ += shift0_;
-  period_ += shift1_;
-  p00_ += d00_ - shift0_ * shift0_;
-  p01_ += d01_ - shift0_ * shift1_;
-  p11_ += d11_ - shift1_ * shift1_;
-  shift0_ = shift1_ = d00_ = d01_ = d11_ = 0.0;
-
-  experience_ = std::min(experience_ + spread_weight_, kSpreadMemory);
-  const double rate = 1.0 / (kSpreadPrior + experience_);
-  if (model_.tail > 0.0)
-    spread_ += rate * (spread_sum_ - spread_weight_ * spread_);
-  else
-    spread_ = std::sqrt(spread_ * spread_ + rate * (spread_sum_ - spread_weight_ * spread_ * spread_));
-  spread_ = std::max(spread_, kLeastSpread);
-  spread_sum_ = spread_weight_ = 0.0;
+  time_ += sums_.time;
+  period_ += sums_.period;
+  p00_ += sums_.p00 - square(sums_.time);
+  p01_ += sums_.p01 - sums_.time * sums_.period;
+  p11_ += sums_.p11 - square(sums_.period);
+  // A period beyond the tolerance would explain frames that are counted wrongly.
+  const double excess = period_ - std::min(std::max(period_, nominal_period_ - period_tolerance_),
+                                           nominal_period_ + period_tolerance_);
+  if (excess != 0.0) {
+    time_ -= p01_ / p11_ * excess;
+    period_ -= excess;
+  }
+  learnSpread();
+  sums_ = Sums();
 }
 
-void ClockFilter::follow(const ClockFilter& other) {
+void ClockFilter::learnSpread() {
+  experience_ = std::min(experience_ + sums_.weight, kSpreadMemory);
+  const double rate = 1.0 / (experience_ + (model_.hard_edge ? kEdgePrior : kBellPrior));
+  if (model_.hard_edge)
+    spread_ += rate * (sums_.spread - sums_.weight * spread_);
+  else
+    spread_ = std::sqrt(square(spread_) + rate * (sums_.spread - sums_.weight * square(spread_)));
+  spread_ = std::max(spread_, kLeastSpread);
+}
+
+void ClockFilter::follow(const ClockFilter& better) {
   const DelayModel mine = model_;
-  *this = other;
+  *this = better;
   model_ = mine;
-  time_ += (1.0 - mine.tail) * spread_ - (1.0 - other.model_.tail) * spread_;
+  if (mine.hard_edge && !better.model_.hard_edge)
+    time_ -= spread_;
+  if (!mine.hard_edge && better.model_.hard_edge)
+    time_ += spread_;
 }
 
 }  // namespace wiimote_tracker::exposure_clock

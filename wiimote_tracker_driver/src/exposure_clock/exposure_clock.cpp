@@ -2,180 +2,244 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-constexpr double kSecond = 1.0;
-// sd of the random walk after 1 s
-const std::array<DelayModel, ExposureClock::kModels> kModelBank{{{1.0, 10e-6, 0.003e-3},
-{1.0, 10e-6, 0.095e-3},
-{1.0, 10e-6, 0.32e-3},
-{1.0, 0.36e-3, 0.003e-3},
-{1.0, 0.36e-3, 0.095e-3},
-{1.0, 0.36e-3, 0.32e-3},
-                                                                {0.0,0, 0.003e-3},
-                                                                {0.0,0, 0.095e-3},
-                                                                {0.0,0, 0.32e-3}}};
-const std::array<double,ExposureClock::kModels> kPrior{.17,.1,.07,.17,.1,.07,.17,.1,.07};
+// Blur of an edge: none to speak of, or a slot of 1.25 ms (its standard deviation, 1.25 ms /
+// sqrt(12)).
+constexpr double kSharp = 10e-6;
+constexpr double kSlotted = 0.36e-3;
+// Wander after 1 s: of a good clock (0.01 ms in 10 s), 0.3 ms and 1 ms in 10 s.
+constexpr double kSteady = 0.003e-3;
+constexpr double kWanders = 0.095e-3;
+constexpr double kWandersMuch = 0.32e-3;
+
+struct Candidate {
+  DelayModel model;
+  double prior;
+};
+constexpr double kPriorSteady = 0.14, kPriorWanders = 0.09, kPriorWandersMuch = 0.10;
+const Candidate kCandidates[] = {
+    {{true, kSharp, kSteady}, kPriorSteady},
+    {{true, kSharp, kWanders}, kPriorWanders},
+    {{true, kSharp, kWandersMuch}, kPriorWandersMuch},
+    {{true, kSlotted, kSteady}, kPriorSteady},
+    {{true, kSlotted, kWanders}, kPriorWanders},
+    {{true, kSlotted, kWandersMuch}, kPriorWandersMuch},
+    {{false, 0.0, kSteady}, kPriorSteady},
+    {{false, 0.0, kWanders}, kPriorWanders},
+    {{false, 0.0, kWandersMuch}, kPriorWandersMuch},
+};
+
+// A report may be held up: probability, and mean length [s].
 constexpr double kStall = 0.003;
 constexpr double kStallLength = 0.060;
+// Mean time between reports that leave a queue [s].
 constexpr double kServiceTime = 0.0025;
-constexpr double kOdd = 1e-7;         // density [1/s] * probability of an arrival that nothing explains
-constexpr double kForget = 0.9995;
-constexpr double kLeastWeight = 1e-4;
+// Density of an arrival that nothing explains [1/s].
+constexpr double kUnexplained = 1e-7;
+// After so many of them in a row the clock is lost.
+constexpr int kLost = 8;
+// A gap after which the phase is learnt anew [s]; how far a clock may step back unnoticed [s].
+constexpr double kLongGap = 5.0;
+constexpr double kStepBack = 1e-3;
+// A model with less weight than this starts again from the best one.
+constexpr double kLeastWeight = 1.5e-4;
+constexpr double kNegligible = 1e-6;
+// Least time between two exposures: where a frame number was corrected backwards [s].
+constexpr double kLeastStep = 1e-6;
+
+double square(double x) {
+  return x * x;
+}
 }  // namespace
 
+ExposureClock::Bank ExposureClock::makeBank(const ExposureClockOptions& options) {
+  if (!(options.period > 0.0 && options.period_stddev > 0.0 && options.stale_age > 0.0))
+    throw std::invalid_argument(
+        "ExposureClockOptions: period, period_stddev and stale_age must be above 0.");
+  const auto make = [&](int i) {
+    return ClockFilter(kCandidates[i].model, options.period,
+                       options.period * options.period_stddev);
+  };
+  return {make(0), make(1), make(2), make(3), make(4), make(5), make(6), make(7), make(8)};
+}
+
 ExposureClock::ExposureClock(const ExposureClockOptions& options)
-    : options_(options),
-      filters_{{ClockFilter(kModelBank[0], options.period, options.period * options.period_stddev),
-ClockFilter(kModelBank[1], options.period, options.period * options.period_stddev),
-ClockFilter(kModelBank[2], options.period, options.period * options.period_stddev),
-ClockFilter(kModelBank[3], options.period, options.period * options.period_stddev),
-ClockFilter(kModelBank[4], options.period, options.period * options.period_stddev),
-ClockFilter(kModelBank[5], options.period, options.period * options.period_stddev),
-ClockFilter(kModelBank[6], options.period, options.period * options.period_stddev),
-ClockFilter(kModelBank[7], options.period, options.period * options.period_stddev),
-ClockFilter(kModelBank[8], options.period, options.period * options.period_stddev)}} {
-  weight_=kPrior;
+    : options_(options), filters_(makeBank(options)) {
+  static_assert(sizeof(kCandidates) / sizeof(kCandidates[0]) == kModels,
+                "one filter per candidate");
+  std::transform(std::begin(kCandidates), std::end(kCandidates), weights_.begin(),
+                 [](const Candidate& candidate) { return candidate.prior; });
 }
 
 void ExposureClock::reset() {
   *this = ExposureClock(options_);
 }
 
-void ExposureClock::start(double arrival) {
-  origin_ = arrival;
-  for (ClockFilter& f : filters_)
-    f.start(0.0);
-  base_ = last_frame_ + 1;
-  counter_.start(base_);
-  running_ = true;
+const ClockFilter& ExposureClock::best() const {
+  return filters_[static_cast<std::size_t>(std::max_element(weights_.begin(), weights_.end()) -
+                                           weights_.begin())];
 }
 
-Estimate ExposureClock::update(double arrival_s) {
-  Estimate e;
+Estimate ExposureClock::update(double arrival) {
+  if (!std::isfinite(arrival))
+    throw std::invalid_argument("ExposureClock: the arrival time is not a finite number.");
   ++statistics_.reports;
   if (!running_) {
-    start(arrival_s);
-    e.exposure = arrival_s;
-    e.stddev = e.clock_stddev = 0.005;
-    e.frame = base_;
-    last_frame_ = base_;
-    last_arrival_ = 0.0;
-    last_exposure_ = 0.0;
+    running_ = true;
+    origin_ = arrival;
+    last_exposure_ = -options_.period;
+    return restart(0.0, 0);
+  }
+  const double gap = arrival - origin_ - last_arrival_;
+  if (gap < -kStepBack || gap > kLongGap) {
+    const double periods = gap / best().period();
+    Estimate e = restart(arrival - origin_,
+                         frame_ + std::max<std::int64_t>(1, std::llround(std::max(0.0, periods))));
+    e.restarted = true;
     return e;
   }
-  const double arrival = std::max(arrival_s - origin_, last_arrival_);
-  // Numbers that come into question.
-  int best = 0;
-  for (int m = 1; m < kModels; ++m)
-    if (weight_[m] > weight_[best])
-      best = m;
-  const double period = filters_[best].period();
-  const auto newest = base_ + static_cast<std::int64_t>(
-                                  std::floor((arrival - filters_[best].time()) / period + 1.0));
-  counter_.predict(newest);
-  const int n = counter_.size();
+  arrival = last_arrival_ + std::max(0.0, gap);
+  weigh(arrival);
+  if (unexplained_ >= kLost) {
+    filters_ = makeBank(options_);
+    Estimate e = restart(arrival, frame_ + 1);
+    e.restarted = true;
+    return e;
+  }
+  reviveLosers();
+  return estimate(arrival);
+}
 
-  // Likelihoods, per model and number.
-  std::array<std::array<double, FrameCounter::kCapacity>, kModels> informative;
-  std::array<double, FrameCounter::kCapacity> total{};
-  std::array<double, kModels> evidence{};
-  const double gap = arrival - last_arrival_;
-  const double service = std::exp(-gap / kServiceTime) / kServiceTime;
-  for (int m = 0; m < kModels; ++m) {
-    const ClockFilter& f = filters_[m];
-    for (int i = 0; i < n; ++i) {
-      const double prior = counter_[i];
-      if (prior < 1e-12) {
-        informative[m][i] = 0.0;
-        continue;
-      }
-      const double offset = static_cast<double>(counter_.first() + i - base_);
-      const double late = arrival - f.time() - offset * f.period();
-      const double on_time = (1.0 - kStall) * f.likelihood(arrival, offset);
-      const double queued = f.readyBefore(last_arrival_, offset) * service;
-      const double stalled = late > 0.0 ? kStall / kStallLength * std::exp(-late / kStallLength) : 0.0;
-      const double all = prior * (on_time + queued + stalled + kOdd);
-      informative[m][i] = prior * on_time;
-      evidence[m] += all;
-      total[i] += weight_[m] * all;
-    }
-  }
-  for (int i = 0; i < n; ++i)
-    counter_[i] = total[i];
-  const std::int64_t first = counter_.first();
-  for (int m = 0; m < kModels; ++m) {
-    for (int i = 0; i < n; ++i) {
-      const double w = informative[m][i] / evidence[m];
-      if (w > 1e-6)
-        filters_[m].consider(arrival, static_cast<double>(first + i - base_), w);
-    }
-    filters_[m].settle();
-  }
-  double sum = 0.0;
-  for (int m = 0; m < kModels; ++m) {
-    weight_[m] = std::pow(weight_[m], kForget) * evidence[m];
-    sum += weight_[m];
-  }
-  for (double& w : weight_)
-    w /= sum;
-  best = static_cast<int>(std::max_element(weight_.begin(), weight_.end()) - weight_.begin());
-  for (int m = 0; m < kModels; ++m) {
-    if (weight_[m] < kLeastWeight) {
-      weight_[m] = kLeastWeight * 1.5;
-      filters_[m].follow(filters_[best]);
-    }
-  }
-  sum = 0.0;
-  for (double w : weight_)
-    sum += w;
-  for (double& w : weight_)
-    w /= sum;
-  counter_.normalise();
-
-  // Most probable number
-  int map = 0;
-  for (int i = 1; i < counter_.size(); ++i)
-    if (counter_[i] > counter_[map])
-      map = i;
-  std::int64_t frame = counter_.first() + map;
-  for (ClockFilter& f : filters_)
-    f.advance(static_cast<double>(frame - base_));
-  base_ = frame;
-
-  double mean = 0.0, square = 0.0, p = 0.0;
-  for (int m = 0; m < kModels; ++m) {
-    mean += weight_[m] * filters_[m].time();
-    p += weight_[m] * filters_[m].period();
-  }
-  for (int m = 0; m < kModels; ++m) {
-    const double d = filters_[m].time() - mean;
-    square += weight_[m] * (filters_[m].variance() + d * d);
-  }
-  double doubt = 0.0;
+Estimate ExposureClock::restart(double arrival, std::int64_t frame) {
+  for (ClockFilter& filter : filters_)
+    filter.start(arrival);
+  counter_.start(frame);
+  Estimate e;
   e.frame = frame;
-  const double exposure = std::max(mean, last_exposure_ + 1e-6);
-  for (int i = 0; i < counter_.size(); ++i) {
-    const double d = mean - exposure + static_cast<double>(counter_.first() + i - e.frame) * p;
-    doubt += counter_[i] * d * d;
+  if (statistics_.reports > 1) {
+    ++statistics_.restarts;
+    e.dropped = static_cast<int>(std::min<std::int64_t>(frame - frame_ - 1, 1000000));
+    statistics_.dropped += e.dropped;
   }
-  e.exposure = origin_ + exposure;
-  e.clock_stddev = std::sqrt(square);
-  e.stddev = std::sqrt(square + doubt);
-  e.dropped = static_cast<int>(std::max<std::int64_t>(0, e.frame - last_frame_ - 1));
-  e.stale = arrival - exposure > options_.stale_age;
-  last_frame_ = e.frame;
+  frame_ = frame;
+  unexplained_ = 0;
+  // A clock that stepped back takes the exposures with it; otherwise they go on.
+  const double exposure =
+      arrival < last_arrival_ ? arrival : std::max(arrival, last_exposure_ + kLeastStep);
   last_arrival_ = arrival;
   last_exposure_ = exposure;
-  statistics_.dropped += e.dropped;
-  statistics_.stale += e.stale;
+  e.exposure = origin_ + exposure;
+  e.stddev = e.clock_stddev = options_.period + (exposure - arrival);
+  return e;
+}
+
+// Bayes' rule, for the frame's number, for the models, and for each model's clock.
+void ExposureClock::weigh(double arrival) {
+  const ClockFilter& leader = best();
+  counter_.predict(
+      frame_ + 1 +
+      static_cast<std::int64_t>(std::floor((arrival - leader.time()) / leader.period())));
+  const double gap = arrival - last_arrival_;
+  const double served = std::exp(-gap / kServiceTime) / kServiceTime;
+  std::array<double, FrameCounter::kCapacity> on_time;
+  std::array<double, FrameCounter::kCapacity> number{};
+  double sum = 0.0;
+  for (std::size_t m = 0; m < kModels; ++m) {
+    ClockFilter& filter = filters_[m];
+    double evidence = 0.0;
+    for (int i = 0; i < counter_.size(); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const double offset = static_cast<double>(counter_.frame(i) - frame_);
+      const double late = arrival - filter.time() - offset * filter.period();
+      // The frame came when it was ready, or it was ready earlier and waited for the one before,
+      // or it was held up. Only the first says something of the clock.
+      on_time[at] = counter_[i] * (1.0 - kStall) * filter.likelihood(arrival, offset);
+      const double queued = filter.readyBefore(last_arrival_, offset) * served;
+      const double held_up =
+          late > 0.0 ? kStall / kStallLength * std::exp(-late / kStallLength) : 0.0;
+      const double all = on_time[at] + counter_[i] * (queued + held_up + kUnexplained);
+      evidence += all;
+      number[at] += weights_[m] * all;
+    }
+    for (int i = 0; i < counter_.size(); ++i) {
+      const double probability = on_time[static_cast<std::size_t>(i)] / evidence;
+      if (probability > kNegligible)
+        filter.consider(arrival, static_cast<double>(counter_.frame(i) - frame_), probability);
+    }
+    filter.settle();
+    weights_[m] *= evidence;
+    sum += weights_[m];
+  }
+  unexplained_ = sum < 10.0 * kUnexplained ? unexplained_ + 1 : 0;
+  for (double& weight : weights_)
+    weight /= sum;
+  for (int i = 0; i < counter_.size(); ++i)
+    counter_[i] = number[static_cast<std::size_t>(i)];
+  counter_.normalise();
+}
+
+void ExposureClock::reviveLosers() {
+  const ClockFilter& leader = best();
+  double sum = 0.0;
+  for (std::size_t m = 0; m < kModels; ++m) {
+    if (weights_[m] < kLeastWeight) {
+      weights_[m] = kLeastWeight;
+      filters_[m].follow(leader);
+    }
+    sum += weights_[m];
+  }
+  for (double& weight : weights_)
+    weight /= sum;
+}
+
+Estimate ExposureClock::estimate(double arrival) {
+  const std::int64_t previous = frame_;
+  frame_ = counter_.mostProbable();
+  double time = 0.0, period = 0.0, variance = 0.0, spread = 0.0;
+  for (std::size_t m = 0; m < kModels; ++m) {
+    filters_[m].advance(static_cast<double>(frame_ - previous));
+    time += weights_[m] * filters_[m].time();
+    period += weights_[m] * filters_[m].period();
+    spread += weights_[m] * filters_[m].spread();
+  }
+  for (std::size_t m = 0; m < kModels; ++m)
+    variance += weights_[m] * (filters_[m].timeVariance() + square(filters_[m].time() - time));
+
+  // No frame is seen after it has arrived, nor before the one that was reported before it.
+  const double exposure = std::max(std::min(time, arrival + std::min(3.0 * spread, period)),
+                                   last_exposure_ + kLeastStep);
+  double doubt = 0.0;
+  for (int i = 0; i < counter_.size(); ++i)
+    doubt += counter_[i] *
+             square(time + static_cast<double>(counter_.frame(i) - frame_) * period - exposure);
+
+  Estimate e;
+  e.exposure = origin_ + exposure;
+  e.clock_stddev = std::sqrt(variance);
+  e.stddev = std::sqrt(variance + doubt);
+  e.frame = frame_;
+  e.dropped = static_cast<int>(std::max<std::int64_t>(0, frame_ - previous - 1));
+  e.stale = arrival - time > options_.stale_age;
+  statistics_.dropped += frame_ - previous - 1;
+  statistics_.stale += e.stale ? 1 : 0;
+  last_arrival_ = arrival;
+  last_exposure_ = exposure;
   return e;
 }
 
 Statistics ExposureClock::statistics() const {
-  return statistics_;
+  Statistics s = statistics_;
+  s.period = best().period();
+  s.period_stddev = std::sqrt(best().periodVariance());
+  for (std::size_t m = 0; m < kModels; ++m) {
+    s.jitter += weights_[m] * filters_[m].spread();
+    s.hard_edge += filters_[m].model().hard_edge ? weights_[m] : 0.0;
+  }
+  return s;
 }
 
 }  // namespace wiimote_tracker::exposure_clock

@@ -5,9 +5,9 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-constexpr double kDrop = 0.04;      // probability that a frame is lost,
-constexpr double kNextDrop = 0.3;   // and the one after a lost one
-constexpr double kLeast = 1e-8;     // of a run of any length
+constexpr double kDrop = 0.04;      // probability that a frame is lost after one that was not,
+constexpr double kNextDrop = 0.3;   // and after one that was
+constexpr double kAnything = 1e-8;  // probability of each number, whatever the runs say
 constexpr double kNegligible = 1e-7;
 }  // namespace
 
@@ -18,20 +18,18 @@ void FrameCounter::start(std::int64_t frame) {
 }
 
 void FrameCounter::predict(std::int64_t newest) {
-  const std::int64_t before = first_ + 1;
-  newest = std::max(newest, before + size_ - 1);  // at least one after the newest of before
-  const std::int64_t first = std::max(before, newest - kCapacity + 1);
+  const std::int64_t earliest = first_ + 1;
+  newest = std::max(newest, earliest + size_ - 1);
+  const std::int64_t first = std::max(earliest, newest - kCapacity + 1);
   std::array<double, kCapacity> next{};
-  double run = 0.0;  // probability of being within a run of losses
-  for (std::int64_t frame = before; frame <= newest; ++frame) {
-    const std::int64_t i = frame - before;
-    const double direct = i < size_ ? probability_[i] : 0.0;
-    const double p = (1.0 - kDrop) * direct + (1.0 - kNextDrop) * run;
-    run = kDrop * direct + kNextDrop * run;
+  double run = 0.0;  // probability that the frame before was lost
+  for (std::int64_t frame = earliest; frame <= newest; ++frame) {
+    const std::int64_t i = frame - earliest;
+    const double direct = i < size_ ? probability_[static_cast<std::size_t>(i)] : 0.0;
     if (frame >= first)
-      next[frame - first] = p + kLeast;
-    else if (i >= size_)
-      frame = std::max(frame, first - 64);
+      next[static_cast<std::size_t>(frame - first)] =
+          (1.0 - kDrop) * direct + (1.0 - kNextDrop) * run + kAnything;
+    run = kDrop * direct + kNextDrop * run;
   }
   probability_ = next;
   first_ = first;
@@ -41,16 +39,21 @@ void FrameCounter::predict(std::int64_t newest) {
 void FrameCounter::normalise() {
   double sum = 0.0;
   for (int i = 0; i < size_; ++i)
-    sum += probability_[i];
+    sum += (*this)[i];
   int begin = 0, end = size_;
-  while (begin + 1 < end && probability_[begin] < kNegligible * sum)
+  while (begin + 1 < end && (*this)[begin] < kNegligible * sum)
     ++begin;
-  while (end - 1 > begin && probability_[end - 1] < kNegligible * sum)
+  while (end - 1 > begin && (*this)[end - 1] < kNegligible * sum)
     --end;
   for (int i = begin; i < end; ++i)
-    probability_[i - begin] = probability_[i] / sum;
+    (*this)[i - begin] = (*this)[i] / sum;
   first_ += begin;
   size_ = end - begin;
+}
+
+std::int64_t FrameCounter::mostProbable() const {
+  return first_ + (std::max_element(probability_.begin(), probability_.begin() + size_) -
+                   probability_.begin());
 }
 
 }  // namespace wiimote_tracker::exposure_clock

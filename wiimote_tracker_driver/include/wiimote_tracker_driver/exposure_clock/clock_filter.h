@@ -3,69 +3,85 @@
 
 namespace wiimote_tracker::exposure_clock {
 
-/// One belief about how reports are delayed: what a ClockFilter assumes.
+/// What a ClockFilter believes about delays and clock. The spread of the delays is learnt.
 struct DelayModel {
-  /// Share of the delay's standard deviation that is exponential, 0..1: 1 is an exponential behind a
-  /// hard edge, 0 a bell. The rest is normal: tail^2 + (normal part)^2 = 1.
-  double tail = 1.0;
+  /// True: least delay + exponential of mean `spread`. False: normal of standard deviation
+  /// `spread`.
+  bool hard_edge = true;
+  /// Standard deviation of a normal error on top of a hard edge, e.g. from the link's slots [s].
   double blur = 0.0;
   /// Random walk of the camera's phase: standard deviation after one second [s].
   double wander = 0.0;
 };
 
-/// Phase and period of a periodic camera as a Gaussian belief, for one delay model.
+/// Phase and period of a periodic camera as a Gaussian belief, learnt from arrivals under one delay
+/// model.
 ///
-/// Arrival = exposure + edge + e + n, with e exponential of mean tail * spread and n normal with the
-/// rest of the spread. An arrival makes the belief of (exposure + edge + n) a normal that is tilted by
-/// the exponential and cut at the arrival; its first two moments are kept (assumed density
-/// filtering; Maybeck, Stochastic Models, Estimation and Control 2, 1982, ch. 12.7). With tail 0
-/// this is the Kalman filter; with tail 1 it follows the lower edge of the arrivals.
+/// Arrival = z + e with z = exposure + least delay + normal error, and e exponential (0 without a
+/// hard edge). Given the arrival, z is a normal that is tilted upwards by the exponential and cut
+/// off at the arrival; its first two moments are kept (assumed density filtering: Maybeck,
+/// Stochastic Models, Estimation and Control, vol. 2, 1982, ch. 12; moments of the truncated
+/// normal: Johnson, Kotz, Balakrishnan, Continuous Univariate Distributions, vol. 1, 1994,
+/// eq. 13.134). Without a hard edge this is the Kalman filter.
 class ClockFilter {
  public:
-  /// @param period nominal period [s], with standard deviation period_stddev [s].
+  /// @param period nominal [s]. @param period_stddev of it [s]; learnt periods stay within twice
+  /// this.
   ClockFilter(const DelayModel& model, double period, double period_stddev);
 
-  /// Starts at a frame that arrived at `time` [s]; forgets the phase; keeps period and spread.
-  void start(double time);
-  /// Moves the belief `frames` periods on.
+  /// Forgets the phase: the belief now stands at a frame that arrived at `arrival` [s].
+  void start(double arrival);
+  /// Moves the belief `frames` periods on; back again when negative, which undoes no wander.
   void advance(double frames);
 
-  /// Exposure time of the frame that the belief stands at [s], apart from the least delay. The same point
-  /// of the delay's distribution for all models: mean - spread, which is the edge of an exponential.
-  double time() const { return time_ - (1.0 - model_.tail) * spread_; }
-  double variance() const { return p00_; }
+  /// Exposure time of the frame at which the belief stands, later by a constant: the least delay
+  /// with a hard edge, else the mean delay less a typical spread. [s]
+  double time() const;
+  double timeVariance() const { return p00_; }
   double period() const { return period_; }
+  double periodVariance() const { return p11_; }
+  /// Standard deviation of the delays [s].
   double spread() const { return spread_; }
+  const DelayModel& model() const { return model_; }
 
-  struct Gain;
   /// Density [1/s] of an arrival at `arrival` of the frame `offset` frames after the belief's.
   double likelihood(double arrival, double offset) const;
-  /// Probability that this frame was ready before `time`.
+  /// Probability that this frame was ready to arrive before `time`.
   double readyBefore(double time, double offset) const;
 
-  /// Weighs in the possibility, of probability `weight`, that `arrival` belongs to the frame
-  /// `offset` frames after the belief's. All possibilities of one arrival, then settle().
+  /// Weighs in that `arrival` belongs, with probability `weight`, to the frame `offset` frames
+  /// after the belief's. Called for all possibilities of one arrival, then settle() (probabilistic
+  /// data association: Bar-Shalom, Tse, Automatica 11, 1975).
   void consider(double arrival, double offset, double weight);
   void settle();
 
-  /// Takes phase and period over from a filter that does better.
-  void follow(const ClockFilter& other);
+  /// Takes phase, period and spread over from a filter that explains the arrivals better.
+  void follow(const ClockFilter& better);
 
  private:
   struct Prediction {
-    double mean, variance;  // of exposure + edge + n
-    double gain0, gain1;
+    double mean, variance, stddev;  // of z
+    double time_gain, period_gain;
   };
   Prediction predict(double offset) const;
+  /// False also where the exponential vanishes beside the uncertainty.
+  bool tilted(const Prediction& z) const;
+  void learnSpread();
 
   DelayModel model_;
-  double time_ = 0.0;
-  double period_;
+  double nominal_period_, period_tolerance_;
+  // State and covariance.
+  double time_ = 0.0, period_;
   double p00_ = 0.0, p01_ = 0.0, p11_;
   double spread_;
+  double experience_ = 0.0;  // number of reports that taught the spread
   // Sums over the possibilities of one arrival.
-  double shift0_ = 0.0, shift1_ = 0.0, d00_ = 0.0, d01_ = 0.0, d11_ = 0.0;
-  double spread_sum_ = 0.0, spread_weight_ = 0.0, experience_ = 0.0;
+  struct Sums {
+    double weight = 0.0;
+    double time = 0.0, period = 0.0;
+    double p00 = 0.0, p01 = 0.0, p11 = 0.0;
+    double spread = 0.0;
+  } sums_;
 };
 
 }  // namespace wiimote_tracker::exposure_clock

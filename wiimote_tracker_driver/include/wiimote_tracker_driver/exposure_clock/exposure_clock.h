@@ -10,55 +10,78 @@
 namespace wiimote_tracker::exposure_clock {
 
 struct ExposureClockOptions {
-  double period = 0.010035;          ///< nominal period of the frames [s]
-  double period_stddev = 300e-6;     ///< its standard deviation, relative
-  double stale_age = 0.030;          ///< a report later than this is stale [s]
+  double period = 0.010035;  ///< nominal time between frames [s], > 0
+  double period_stddev =
+      300e-6;                ///< its standard deviation, relative, > 0; twice this is the limit
+  double stale_age = 0.030;  ///< a report later than this is stale [s], > 0
 };
 
-/// What one report's arrival says.
+/// What one report's arrival says. Exposure times are late by the constant part of the delay, which
+/// no arrival can tell.
 struct Estimate {
-  double exposure = 0.0;   ///< exposure time, apart from the link's least delay [s]
-  double stddev = 0.0;     ///< of exposure, with doubts about the frame's number [s]
-  double clock_stddev = 0.0;  ///< the part of it that would remain if the frame's number were certain [s]
-  std::int64_t frame = 0;  ///< number of the frame since the start of the epoch; gaps are lost frames
-  int dropped = 0;         ///< frames lost between the previous report and this one
-  bool stale = false;      ///< the report was queued: it is more than stale_age older than usual
-  bool restarted = false;  ///< the clock was lost and starts anew with this report
+  double exposure =
+      0.0;              ///< on the clock of the arrivals; later than that of the report before [s]
+  double stddev = 0.0;  ///< of exposure, with the doubt which frame this is [s]
+  double clock_stddev = 0.0;  ///< of exposure, were it sure which frame this is [s]
+  std::int64_t frame = 0;     ///< most probable number of the frame; corrected backwards at times
+  int dropped = 0;            ///< frames lost between the previous report and this one
+  bool stale = false;         ///< waited in a queue: arrived more than stale_age after its time
+  bool restarted = false;     ///< the phase was lost and is learnt anew from this report on
 };
 
+/// For diagnostics.
 struct Statistics {
-  double period = 0.0;        ///< [s]
-  double period_stddev = 0.0; ///< [s]
-  double jitter = 0.0;        ///< standard deviation of the delay, without stalls [s]
-  double hard_edge = 0.0;     ///< probability that the delay has a hard lower edge
-  std::uint64_t reports = 0, dropped = 0, stale = 0, restarts = 0;
+  double period = 0.0;         ///< [s]
+  double period_stddev = 0.0;  ///< [s]
+  double jitter = 0.0;         ///< standard deviation of the delays, without queues [s]
+  double hard_edge = 0.0;      ///< probability that the delays have a hard lower edge, 0..1
+  std::int64_t dropped = 0;    ///< frames lost since reset(), as far as known now
+  std::uint64_t reports = 0, stale = 0, restarts = 0;  ///< since reset()
 };
 
+/// Exposure times of a periodic camera from the arrival times of its reports, which carry no
+/// counter and come late, in slots, in bursts or not at all. Causal; constant time and memory per
+/// report.
+///
+/// A bank of ClockFilters, one per delay model, each weighted by how well it predicts the arrivals
+/// (multiple model estimation: Magill, IEEE Trans. Autom. Control 10, 1965); one FrameCounter
+/// shared by all tells which frame a report is.
 class ExposureClock {
  public:
+  /// @throws std::invalid_argument when an option is out of range.
   explicit ExposureClock(const ExposureClockOptions& options = {});
 
+  /// Takes a report's arrival [s], best on a steady clock. An arrival before the previous one by
+  /// more than a millisecond restarts the clock. @throws std::invalid_argument when it is not
+  /// finite.
   Estimate update(double arrival);
+
+  /// Forgets everything: a new epoch.
   void reset();
+
   Statistics statistics() const;
 
-  static constexpr int kModels = 9;
-  double weight(int i) const { return weight_[i]; }
-  const ClockFilter& filter(int i) const { return filters_[i]; }
-
  private:
-  void start(double arrival);
+  static constexpr int kModels = 9;
+  using Bank = std::array<ClockFilter, kModels>;
+  static Bank makeBank(const ExposureClockOptions& options);
+
+  Estimate restart(double arrival, std::int64_t frame);
+  void weigh(double arrival);
+  void reviveLosers();
+  Estimate estimate(double arrival);
+  const ClockFilter& best() const;
 
   ExposureClockOptions options_;
-  std::array<ClockFilter, kModels> filters_;
-  std::array<double, kModels> weight_;
+  Bank filters_;
+  std::array<double, kModels> weights_;
   FrameCounter counter_;
-  bool running_ = false;
-  std::int64_t base_ = 0;  // frame number at which the filters stand
+  // Times inside are relative to the first arrival, which keeps their digits.
   double origin_ = 0.0;
-  double last_arrival_ = 0.0;
-  double last_exposure_ = 0.0;
-  std::int64_t last_frame_ = -1;
+  double last_arrival_ = 0.0, last_exposure_ = 0.0;
+  std::int64_t frame_ = 0;  // where the filters stand: the latest report's most probable number
+  int unexplained_ = 0;     // reports in a row that no model expected
+  bool running_ = false;
   Statistics statistics_;
 };
 

@@ -6,23 +6,25 @@
 
 namespace wiimote_tracker::exposure_clock {
 
-/// Probabilities of the frame number of the latest report: a hidden Markov model whose hidden state
-/// is the number and whose transitions are runs of lost frames.
+/// Probabilities of the frame number of the latest report: the forward recursion of a hidden Markov
+/// model (Rabiner, Proc. IEEE 77, 1989, eq. 20) whose transitions are runs of lost frames.
 class FrameCounter {
  public:
-  /// Numbers told apart; older ones are beyond a stall's reach.
+  /// How many numbers are told apart: reports that waited longer than this many frames are not.
   static constexpr int kCapacity = 96;
 
+  /// The latest report is surely this frame.
   void start(std::int64_t frame);
-  /// Probabilities of the next report's number before its arrival is weighed, for numbers up to `newest`.
+  /// Probabilities of the next report's number, of all up to at least `newest`, before its arrival
+  /// is weighed. The caller then multiplies each by its likelihood and calls normalise().
   void predict(std::int64_t newest);
-  /// Multiplies with likelihoods (see at()) and normalises.
   void normalise();
 
-  std::int64_t first() const { return first_; }
   int size() const { return size_; }
-  double& operator[](int i) { return probability_[i]; }
-  double operator[](int i) const { return probability_[i]; }
+  std::int64_t frame(int i) const { return first_ + i; }
+  double& operator[](int i) { return probability_[static_cast<std::size_t>(i)]; }
+  double operator[](int i) const { return probability_[static_cast<std::size_t>(i)]; }
+  std::int64_t mostProbable() const;
 
  private:
   std::array<double, kCapacity> probability_{};

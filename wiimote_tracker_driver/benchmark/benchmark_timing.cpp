@@ -1,0 +1,112 @@
+// Exposure times from arrival times: our clock beside others, for every model of the link.
+#include "timing_trial.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+using namespace wiimote_tracker::exposure_clock;
+
+namespace {
+struct Row {
+  std::string name;
+  LinkModel link;
+};
+
+std::vector<Row> rows() {
+  using Core = LinkModel::Core;
+  std::vector<Row> rows;
+  const auto add = [&](Core core, double spread, double wander, double slot, double stalls) {
+    LinkModel link;
+    link.core = core;
+    link.spread = spread;
+    link.wander = wander;
+    link.slot = slot;
+    link.stalls = stalls;
+    char name[80];
+    std::snprintf(name, sizeof name, "%s %4.1f, wander %.1f%s%s",
+                  core == Core::kHardEdge ? "edge" : "bell", spread * 1e3, wander * 1e3,
+                  slot > 0.0 ? ", slots" : "", stalls > 0.0 ? ", stalls" : "");
+    rows.push_back({name, link});
+  };
+  for (double spread : {2e-3, 5e-3, 10e-3})
+    for (double wander : {0.0, 0.3e-3, 1e-3})
+      add(Core::kHardEdge, spread, wander, 0.0, 0.0);
+  for (double wander : {0.0, 1e-3})
+    add(Core::kHardEdge, 5e-3, wander, 1.25e-3, 0.0);
+  for (double wander : {0.0, 0.3e-3, 1e-3})
+    add(Core::kBell, 2.4e-3, wander, 0.0, 0.0);
+  for (double wander : {0.0, 1e-3})
+    add(Core::kBell, 2.4e-3, wander, 1.25e-3, 0.0);
+  add(Core::kHardEdge, 5e-3, 0.0, 1.25e-3, 0.3);
+  add(Core::kBell, 2.4e-3, 0.3e-3, 1.25e-3, 0.3);
+  return rows;
+}
+}  // namespace
+
+int main(int argc, char** argv) {
+  const char* json = nullptr;
+  int sessions = 200;
+  double duration = 10.0;
+  for (int i = 1; i < argc; ++i) {
+    const bool more = i + 1 < argc;
+    if (!std::strcmp(argv[i], "--json") && more) {
+      json = argv[++i];
+    } else if (!std::strcmp(argv[i], "--sessions") && more) {
+      sessions = std::atoi(argv[++i]);
+    } else if (!std::strcmp(argv[i], "--seconds") && more) {
+      duration = std::atof(argv[++i]);
+    } else {
+      std::fprintf(stderr, "usage: benchmark_timing [--json FILE] [--sessions N] [--seconds S]\n");
+      return 2;
+    }
+  }
+  if (sessions < 2 || !(duration >= 1.0)) {
+    std::fprintf(stderr, "Give at least 2 sessions of at least 1 second.\n");
+    return 2;
+  }
+  std::FILE* file = json ? std::fopen(json, "w") : nullptr;
+  if (json && !file) {
+    std::perror(json);
+    return 1;
+  }
+  std::printf(
+      "Simulated. RMS error [ms] of the newest frame's exposure time after %.0f s, 5 %% of the "
+      "frames\n"
+      "lost, over %d sessions, less the constant delay. Hull, line, Olson and oracle are told the\n"
+      "frame numbers. clock: to the nearest true exposure; total: with wrong frame numbers.\n\n"
+      "%-32s %7s %7s %7s %7s %7s | %7s %7s %7s %8s %7s %6s\n",
+      duration, sessions, "delay [ms]", "arrival", "line", "hull", "Olson", "oracle", "clock",
+      "total", "wrong %", "err/sd", "in 2sd%", "us");
+  if (file)
+    std::fprintf(file, "[");
+  bool first = true;
+  for (const Row& row : rows()) {
+    const TimingScore s = runTiming(row.link, duration, sessions);
+    std::printf("%-32s %7.3f %7.3f %7.3f %7.3f %7.3f | %7.3f %7.3f %7.1f %8.2f %7.1f %6.1f\n",
+                row.name.c_str(), s.arrival * 1e3, s.least_squares * 1e3, s.convex_hull * 1e3,
+                s.olson * 1e3, s.oracle * 1e3, s.clock * 1e3, s.total * 1e3, s.wrong_frames * 100.0,
+                s.clock_ratio, s.covered * 100.0, s.update_seconds * 1e6);
+    std::fflush(stdout);
+    if (file)
+      std::fprintf(file,
+                   "%s\n {\"delay\": \"%s\", \"sessions\": %d, \"arrival\": %.9f, "
+                   "\"least_squares\": %.9f, \"convex_hull\": %.9f, \"olson\": %.9f, \"oracle\": "
+                   "%.9f, \"clock\": %.9f, \"total\": %.9f, \"wrong_frames\": %.6f, "
+                   "\"error_over_stddev\": %.4f, \"within_2_stddev\": %.6f, \"update\": %.9f}",
+                   first ? "" : ",", row.name.c_str(), sessions, s.arrival, s.least_squares,
+                   s.convex_hull, s.olson, s.oracle, s.clock, s.total, s.wrong_frames,
+                   s.clock_ratio, s.covered, s.update_seconds);
+    first = false;
+  }
+  if (file) {
+    std::fprintf(file, "\n]\n");
+    if (std::fclose(file) != 0) {
+      std::perror(json);
+      return 1;
+    }
+  }
+  return 0;
+}

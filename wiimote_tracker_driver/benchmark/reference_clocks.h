@@ -1,0 +1,28 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_REFERENCE_CLOCKS_H
+#define WIIMOTE_TRACKER_DRIVER_REFERENCE_CLOCKS_H
+
+#include "simulated_link.h"
+
+namespace wiimote_tracker::exposure_clock {
+
+// Other estimators of the last report's exposure time [s], late by a constant. All are told the
+// true frame numbers, which a real receiver does not have.
+
+/// Straight line through all arrivals.
+double leastSquares(const SimulatedSession& session);
+
+/// Support line under all arrivals at the mean frame: the edge of the convex hull (Zhang, Liu, Xia,
+/// INFOCOM 2002).
+double convexHull(const SimulatedSession& session);
+
+/// Least delay so far, ageing by the most that the clocks may drift, 500 ppm (Olson, A Passive
+/// Solution to the Sensor Synchronization Problem, IROS 2010).
+double olson(const SimulatedSession& session);
+
+/// What can be reached: knows spread, wander, slots and which reports were queued. For a bell a
+/// Kalman filter that does not know the period; for a hard edge a point-mass filter that does.
+double oracle(const SimulatedSession& session, const LinkModel& link);
+
+}  // namespace wiimote_tracker::exposure_clock
+
+#endif

@@ -1,0 +1,83 @@
+#include "timing_trial.h"
+
+#include "reference_clocks.h"
+#include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
+
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+namespace wiimote_tracker::exposure_clock {
+
+namespace {
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+double rmsAboutMean(const std::vector<double>& values) {
+  const double m = mean(values);
+  double sum = 0.0;
+  for (double v : values)
+    sum += (v - m) * (v - m);
+  return std::sqrt(sum / (static_cast<double>(values.size()) - 1.0));
+}
+}  // namespace
+
+TimingScore runTiming(const LinkModel& link, double duration, int sessions) {
+  std::vector<double> arrival, squares, hull, olsons, best, clock, total, clock_stddev, stddev;
+  double seconds = 0.0;
+  std::size_t reports = 0;
+  int wrong = 0;
+  for (int i = 0; i < sessions; ++i) {
+    const SimulatedSession session = simulate(link, duration, static_cast<std::uint64_t>(i) + 1);
+    ExposureClock ours;
+    Estimate estimate;
+    const auto begin = std::chrono::steady_clock::now();
+    for (const SimulatedReport& report : session.reports)
+      estimate = ours.update(report.arrival);
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    reports += session.reports.size();
+
+    const double truth = session.reports.back().exposure + link.least_delay;
+    arrival.push_back(session.reports.back().arrival - truth);
+    squares.push_back(leastSquares(session) - truth);
+    hull.push_back(convexHull(session) - truth);
+    olsons.push_back(olson(session) - truth);
+    best.push_back(oracle(session, link) - truth);
+    // A bell's reference is its mean less a typical spread.
+    const double bell = link.core == LinkModel::Core::kBell ? 3.4 * link.spread - 0.0024 : 0.0;
+    const double error = estimate.exposure - truth - bell;
+    const double frames = std::round(error / session.period);
+    wrong += frames != 0.0;
+    total.push_back(error);
+    clock.push_back(error - frames * session.period);
+    stddev.push_back(estimate.stddev);
+    clock_stddev.push_back(estimate.clock_stddev);
+  }
+  const double bias = mean(clock);
+  double ratio = 0.0;
+  int covered = 0;
+  for (std::size_t i = 0; i < clock.size(); ++i) {
+    ratio += std::pow((clock[i] - bias) / clock_stddev[i], 2) / sessions;
+    total[i] -= bias;
+    covered += std::abs(total[i]) < 2.0 * stddev[i];
+  }
+  double total_square = 0.0;
+  for (double t : total)
+    total_square += t * t / sessions;
+
+  TimingScore score;
+  score.arrival = rmsAboutMean(arrival);
+  score.least_squares = rmsAboutMean(squares);
+  score.convex_hull = rmsAboutMean(hull);
+  score.olson = rmsAboutMean(olsons);
+  score.oracle = rmsAboutMean(best);
+  score.clock = rmsAboutMean(clock);
+  score.total = std::sqrt(total_square);
+  score.wrong_frames = static_cast<double>(wrong) / sessions;
+  score.clock_ratio = std::sqrt(ratio);
+  score.covered = static_cast<double>(covered) / sessions;
+  score.update_seconds = seconds / static_cast<double>(reports);
+  return score;
+}
+
+}  // namespace wiimote_tracker::exposure_clock

@@ -1,0 +1,25 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_TIMING_TRIAL_H
+#define WIIMOTE_TRACKER_DRIVER_TIMING_TRIAL_H
+
+#include "simulated_link.h"
+
+namespace wiimote_tracker::exposure_clock {
+
+/// Errors of the last report's exposure time over many sessions, each less its mean over the
+/// sessions (the constant part of the delay). Root mean squares [s].
+struct TimingScore {
+  double arrival, least_squares, convex_hull, olson, oracle;
+  double clock;           ///< ours, to the nearest true exposure
+  double total;           ///< ours, with wrongly numbered frames
+  double wrong_frames;    ///< share of last reports taken for another frame
+  double clock_ratio;     ///< RMS of error / clock_stddev
+  double covered;         ///< share of total errors within 2 stddev
+  double update_seconds;  ///< computing time per report
+};
+
+/// Plays `sessions` sessions of `duration` [s] with seeds 1, 2, ...
+TimingScore runTiming(const LinkModel& link, double duration, int sessions);
+
+}  // namespace wiimote_tracker::exposure_clock
+
+#endif

@@ -1,0 +1,310 @@
+#include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
+
+#include "simulated_link.h"
+#include "timing_trial.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <random>
+#include <vector>
+
+namespace {
+bool counting = false;
+int allocations = 0;
+}  // namespace
+
+void* operator new(std::size_t size) {
+  allocations += counting;
+  if (void* memory = std::malloc(size))
+    return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace wiimote_tracker::exposure_clock {
+namespace {
+
+constexpr double kPeriod = 0.010035;
+
+// A true RMS r is measured from n sessions with relative standard deviation 1 / sqrt(2 n).
+constexpr int kSessions = 100;
+const double kTolerance = 1.0 + 3.0 / std::sqrt(2.0 * kSessions);
+
+LinkModel edge(double mean, double wander = 0.0) {
+  LinkModel link;
+  link.core = LinkModel::Core::kHardEdge;
+  link.spread = mean;
+  link.wander = wander;
+  return link;
+}
+
+LinkModel bell(double wander = 0.0) {
+  LinkModel link;
+  link.core = LinkModel::Core::kBell;
+  link.spread = 0.0024;
+  link.wander = wander;
+  return link;
+}
+
+/// A clock that has seen `reports` reports with exponential delays of mean 2 ms, none lost, from
+/// time 0.
+struct Running {
+  explicit Running(int reports) {
+    for (; frame < reports; ++frame)
+      estimate = clock.update(arrival());
+  }
+  /// Of the next frame; reports do not overtake each other.
+  double arrival() { return latest = std::max(latest, time() + delay(random)); }
+  /// Exposure of the next frame.
+  double time() const { return frame * kPeriod; }
+
+  std::mt19937_64 random{5};
+  std::exponential_distribution<double> delay{1.0 / 0.002};
+  ExposureClock clock;
+  Estimate estimate;
+  double latest = 0.0;
+  int frame = 0;
+};
+
+TEST(ExposureClockAccuracy, finds_a_hard_edge_to_0_05_ms) {
+  for (double mean : {0.002, 0.005}) {
+    const TimingScore score = runTiming(edge(mean), 10.0, kSessions);
+    EXPECT_LT(score.clock, 0.05e-3 * kTolerance) << mean;
+    EXPECT_LT(score.clock, 0.2 * score.least_squares) << mean;
+    EXPECT_GT(score.clock_ratio, 0.4) << mean;
+    EXPECT_LT(score.clock_ratio, 1.3) << mean;
+  }
+}
+
+TEST(ExposureClockAccuracy, finds_a_bell_to_0_2_ms) {
+  const TimingScore score = runTiming(bell(), 10.0, kSessions);
+  EXPECT_LT(score.clock, 0.2e-3 * kTolerance);
+  EXPECT_LT(score.clock, 1.3 * score.least_squares);
+  EXPECT_LT(score.clock, 0.3 * score.convex_hull);
+  EXPECT_GT(score.clock_ratio, 0.7);
+  EXPECT_LT(score.clock_ratio, 1.3);
+}
+
+TEST(ExposureClockAccuracy, follows_a_wandering_clock_like_a_filter_that_knows_the_model) {
+  for (const LinkModel& link : {bell(1e-3), edge(0.002, 1e-3)}) {
+    const TimingScore score = runTiming(link, 10.0, kSessions);
+    // Same sessions on both sides: the ratio scatters less than either.
+    EXPECT_LT(score.clock, 1.2 * score.oracle);
+    EXPECT_LT(score.clock, score.least_squares);
+    EXPECT_LT(score.clock, score.convex_hull);
+    EXPECT_LT(score.clock_ratio, 1.5);
+  }
+}
+
+TEST(ExposureClockAccuracy, stalls_and_slots_do_not_spoil_it) {
+  LinkModel link = bell(0.3e-3);
+  link.slot = 1.25e-3;
+  link.stalls = 0.3;
+  const TimingScore score = runTiming(link, 10.0, kSessions);
+  EXPECT_LT(score.clock, 0.3e-3);
+  EXPECT_GT(score.least_squares, 1e-3);
+  EXPECT_GT(score.covered, 0.85);
+}
+
+TEST(ExposureClockAccuracy, numbers_frames_through_losses) {
+  // Lone losses show in the arrivals of 2 ms jitter at once, or one report later.
+  const SimulatedSession session = simulate(edge(0.002), 60.0, 3);
+  ExposureClock clock;
+  int wrong = 0;
+  Estimate last;
+  for (const SimulatedReport& report : session.reports) {
+    last = clock.update(report.arrival);
+    const double error = last.exposure - report.exposure - 0.006;
+    wrong += std::abs(error) > 0.5 * session.period;
+  }
+  const auto n = static_cast<int>(session.reports.size());
+  EXPECT_LT(wrong, 0.02 * n);
+  const auto frames = session.reports.back().frame - session.reports.front().frame + 1;
+  EXPECT_NEAR(static_cast<double>(clock.statistics().dropped), static_cast<double>(frames - n),
+              2.0);
+  EXPECT_NEAR(clock.statistics().period, session.period, 5.0 * clock.statistics().period_stddev);
+  EXPECT_LT(clock.statistics().period_stddev, 10e-6 * kPeriod);
+}
+
+TEST(ExposureClock, tells_the_kind_and_the_size_of_the_jitter) {
+  for (const LinkModel& link : {edge(0.004), bell()}) {
+    ExposureClock clock;
+    for (const SimulatedReport& report : simulate(link, 20.0, 7).reports)
+      clock.update(report.arrival);
+    const bool hard = link.core == LinkModel::Core::kHardEdge;
+    EXPECT_NEAR(clock.statistics().hard_edge, hard ? 1.0 : 0.0, 0.01);
+    EXPECT_NEAR(clock.statistics().jitter, link.spread, 0.15 * link.spread);
+  }
+}
+
+TEST(ExposureClock, starts_with_the_arrival_and_a_large_stddev) {
+  ExposureClock clock;
+  const Estimate first = clock.update(1234.5);
+  EXPECT_EQ(first.exposure, 1234.5);
+  EXPECT_GE(first.stddev, 0.005);
+  EXPECT_EQ(first.frame, 0);
+  EXPECT_EQ(first.dropped, 0);
+  EXPECT_FALSE(first.stale);
+  EXPECT_FALSE(first.restarted);
+}
+
+TEST(ExposureClock, keeps_its_digits_at_times_since_1970) {
+  ExposureClock small, large;
+  for (const SimulatedReport& report : simulate(edge(0.002), 5.0, 11).reports) {
+    const Estimate a = small.update(report.arrival), b = large.update(report.arrival + 1.7e9);
+    EXPECT_NEAR(b.exposure - 1.7e9, a.exposure, 0.1e-3);
+  }
+}
+
+TEST(ExposureClock, a_burst_after_a_stall_is_stale_and_gets_its_own_times) {
+  Running run(500);
+  const double end_of_stall = run.time() + 0.160;
+  int queued = 0;
+  run.latest = end_of_stall + 1e-3;
+  for (; run.time() < end_of_stall; ++run.frame, ++queued) {
+    const Estimate e = run.clock.update(end_of_stall + queued * 50e-6);
+    const double age = end_of_stall - run.time();
+    if (age > 0.045) {
+      EXPECT_TRUE(e.stale) << queued;
+      EXPECT_NEAR(e.exposure, run.time(), 1e-3) << queued;
+    } else if (age < 0.015) {
+      EXPECT_FALSE(e.stale) << queued;
+    }
+    EXPECT_LT(std::abs(e.exposure - run.time()), 4.0 * e.stddev + 1e-3) << queued;
+  }
+  EXPECT_GE(queued, 15);
+  // And the clock has not moved.
+  for (int i = 0; i < 20; ++i, ++run.frame)
+    run.estimate = run.clock.update(run.arrival());
+  EXPECT_NEAR(run.estimate.exposure + kPeriod, run.time(), 0.1e-3);
+  EXPECT_GE(run.clock.statistics().stale, 10u);
+}
+
+TEST(ExposureClock, equal_arrivals_are_two_frames) {
+  Running run(500);
+  const Estimate first = run.clock.update(run.time() + kPeriod + 0.001);
+  const Estimate second = run.clock.update(run.time() + kPeriod + 0.001);
+  EXPECT_GT(second.exposure, first.exposure);
+  EXPECT_NEAR(second.exposure, run.time() + kPeriod, 0.2e-3);
+}
+
+TEST(ExposureClock, frames_lost_in_a_gap_are_counted) {
+  Running run(500);
+  run.frame += 40;
+  for (int i = 0; i < 20; ++i, ++run.frame)
+    run.estimate = run.clock.update(run.arrival());
+  EXPECT_NEAR(run.estimate.exposure + kPeriod, run.time(), 0.2e-3);
+  EXPECT_EQ(run.clock.statistics().dropped, 40);
+  EXPECT_EQ(run.clock.statistics().restarts, 0u);
+}
+
+TEST(ExposureClock, a_long_gap_restarts_the_phase_and_keeps_the_period) {
+  Running run(500);
+  const double stddev = run.clock.statistics().period_stddev;
+  const double last = run.estimate.exposure;
+  const Estimate e = run.clock.update(run.time() + 60.0);
+  EXPECT_TRUE(e.restarted);
+  EXPECT_EQ(e.exposure, run.time() + 60.0);
+  EXPECT_GT(e.exposure, last);
+  EXPECT_GE(e.stddev, 0.005);
+  EXPECT_NEAR(e.dropped, 60.0 / kPeriod, 2.0);
+  EXPECT_LE(run.clock.statistics().period_stddev, stddev);
+}
+
+TEST(ExposureClock, a_clock_that_steps_back_restarts) {
+  Running run(500);
+  const double step = 3600.0;
+  const Estimate e = run.clock.update(run.time() - step);
+  EXPECT_TRUE(e.restarted);
+  EXPECT_EQ(e.exposure, run.time() - step);
+  EXPECT_EQ(run.clock.statistics().restarts, 1u);
+  for (int i = 0; i < 300; ++i) {
+    ++run.frame;
+    run.estimate = run.clock.update(run.arrival() - step);
+    EXPECT_FALSE(run.estimate.restarted);
+  }
+  EXPECT_NEAR(run.estimate.exposure, run.time() - step, 0.5e-3);
+}
+
+TEST(ExposureClock, a_wrong_period_does_no_worse_than_a_late_stamp) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> jitter(0.0, 0.0003);
+  for (double factor : {0.1, 10.0}) {
+    ExposureClock clock;
+    double last = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+      const double arrival = 1.0 + i * factor * kPeriod + jitter(random);
+      const Estimate e = clock.update(arrival);
+      ASSERT_TRUE(std::isfinite(e.exposure) && std::isfinite(e.stddev) && e.stddev > 0.0);
+      ASSERT_GT(e.exposure, last);
+      ASSERT_LT(e.exposure, arrival + 0.02);
+      last = e.exposure;
+    }
+  }
+}
+
+TEST(ExposureClock, refuses_arrivals_and_options_that_are_none) {
+  ExposureClock clock;
+  EXPECT_THROW(clock.update(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+  ExposureClockOptions options;
+  options.period = 0.0;
+  EXPECT_THROW(ExposureClock{options}, std::invalid_argument);
+}
+
+TEST(ExposureClock, a_new_epoch_is_like_a_new_clock) {
+  Running run(300);
+  run.clock.reset();
+  ExposureClock fresh;
+  for (int i = 0; i < 50; ++i) {
+    const Estimate a = run.clock.update(7.0 + i * kPeriod), b = fresh.update(7.0 + i * kPeriod);
+    EXPECT_EQ(a.exposure, b.exposure);
+    EXPECT_EQ(a.frame, b.frame);
+  }
+  EXPECT_EQ(run.clock.statistics().reports, 50u);
+}
+
+// Whatever arrives: times increase, are finite, and not later than the arrival by more than they
+// may.
+TEST(ExposureClockProperties, hold_for_any_arrivals) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    ExposureClock clock;
+    double arrival = 0.0, last = -1.0;
+    for (int i = 0; i < 1000; ++i) {
+      const double kind = uniform(random);
+      arrival += kind < 0.2 ? 0.0 : kind < 0.95 ? 0.02 * uniform(random) : uniform(random);
+      const Estimate e = clock.update(arrival);
+      ASSERT_TRUE(std::isfinite(e.exposure)) << seed;
+      ASSERT_GT(e.exposure, last) << seed;
+      ASSERT_TRUE(e.clock_stddev > 0.0 && e.stddev >= e.clock_stddev) << seed;
+      ASSERT_LT(e.exposure, arrival + 1.1 * kPeriod) << seed;
+      ASSERT_GE(e.dropped, 0);
+      last = e.exposure;
+    }
+  }
+}
+
+TEST(ExposureClockProperties, no_allocation_per_report) {
+  const SimulatedSession session = simulate(edge(0.005), 10.0, 2);
+  ExposureClock clock;
+  allocations = 0;
+  counting = true;
+  for (const SimulatedReport& report : session.reports)
+    clock.update(report.arrival);
+  counting = false;
+  EXPECT_EQ(allocations, 0);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::exposure_clock

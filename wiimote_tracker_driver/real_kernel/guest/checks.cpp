@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 namespace wiimote_tracker::real_kernel {
 namespace {
@@ -15,6 +16,30 @@ constexpr double kLongestRecovery = 1.0;  // [s]
 constexpr double kPatience = 15.0;
 // Between the moments of repeated disturbances [s]; no multiple of the remote's 10 ms.
 constexpr double kShift = 0.0137;
+
+struct Recovery {
+  double time = 0.0;   ///< [s] Infinite when there was none.
+  double pause = 0.0;  ///< [s] Longest without an image meanwhile.
+};
+
+Recovery waitForRecovery(const RunningDriver& driver, double since) {
+  Recovery recovery;
+  const bool recovered = waitFor(
+      [&] { return (recovery.time = recoveryTime(driver.images(), since)) >= 0.0; }, kPatience);
+  if (recovered)
+    recovery.pause = longestPause(driver.images(), since, since + recovery.time + kWindow);
+  else
+    recovery.time = std::numeric_limits<double>::infinity();
+  return recovery;
+}
+
+std::string describe(const Recovery& recovery, const RunningDriver& driver) {
+  if (recovery.time <= kPatience)
+    return "back within " + seconds(recovery.time) + ", longest pause " + seconds(recovery.pause);
+  const std::string reason = driver.link().error;
+  return "no stream within " + seconds(kPatience) + "; " +
+         (reason.empty() ? "the driver gives no reason" : reason);
+}
 
 }  // namespace
 
@@ -55,27 +80,24 @@ void Checks::recovers(const std::string& name,
                       const RunningDriver& driver,
                       const std::function<void()>& disturb,
                       int times) {
-  double slowest = 0.0;
-  double pause = 0.0;
+  Recovery worst;
   for (int i = 0; i < times; ++i) {
     sleepFor(kShift * i);
     const double since = now();
     disturb();
-    double time = -1.0;
-    waitFor([&] { return (time = recoveryTime(driver.images(), since)) >= 0.0; }, kPatience);
-    if (time < 0.0) {
-      const std::string reason = driver.link().error;
-      check(name, false,
-            "no stream within " + seconds(kPatience) + " the " + std::to_string(i + 1) +
-                ". time; " + (reason.empty() ? "the driver gives no reason" : reason));
-      return;
-    }
-    slowest = std::max(slowest, time);
-    pause = std::max(pause, longestPause(driver.images(), since, since + time + kWindow));
+    const Recovery recovery = waitForRecovery(driver, since);
+    worst.time = std::max(worst.time, recovery.time);
+    worst.pause = std::max(worst.pause, recovery.pause);
+    if (worst.time > kPatience)
+      break;
   }
-  check(name, slowest <= kLongestRecovery,
-        (times > 1 ? std::to_string(times) + " times, back after at most " : "back after ") +
-            seconds(slowest) + ", longest pause " + seconds(pause));
+  check(name, worst.time <= kLongestRecovery,
+        (times > 1 ? std::to_string(times) + " times, " : "") + describe(worst, driver));
+}
+
+void Checks::recoversFrom(const std::string& name, const RunningDriver& driver, double since) {
+  const Recovery recovery = waitForRecovery(driver, since);
+  check(name, recovery.time <= kLongestRecovery, describe(recovery, driver));
 }
 
 }  // namespace wiimote_tracker::real_kernel

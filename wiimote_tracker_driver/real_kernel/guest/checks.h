@@ -21,6 +21,9 @@ class Checks {
                 const std::function<void()>& disturb,
                 int times = 1);
 
+  /// The same for a disturbance that began at `since` [s].
+  void recoversFrom(const std::string& name, const RunningDriver& driver, double since);
+
   bool passed() const { return count_ > 0 && failed_ == 0; }
 
  private:

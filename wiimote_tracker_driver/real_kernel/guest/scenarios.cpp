@@ -243,6 +243,7 @@ void fourAtOnce(Checks& checks) {
   for (PluggedRemote& remote : remotes)
     remote.unplug();
   sleepFor(0.5);
+  const double since = now();
   for (auto remote = remotes.rbegin(); remote != remotes.rend(); ++remote)
     remote->plug();
   bool moved = false;
@@ -252,7 +253,7 @@ void fourAtOnce(Checks& checks) {
   }
   checks.check("plugged in again, they are at other nodes", moved);
   for (int i = 1; i <= 4; ++i)
-    checks.recovers("remote " + std::to_string(i) + " is found again", drivers[i - 1], [] {});
+    checks.recoversFrom("remote " + std::to_string(i) + " is found again", drivers[i - 1], since);
   for (int i = 1; i <= 4; ++i) {
     checks.check("driver " + std::to_string(i) + " never saw another one's light",
                  drivers[i - 1].wrongImages() == 0,

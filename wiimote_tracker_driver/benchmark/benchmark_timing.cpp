@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
       "frames\n"
       "lost, over %d sessions, less the constant delay. Hull, line, Olson and oracle are told the\n"
       "frame numbers. clock: to the nearest true exposure; total: with wrong frame numbers.\n\n"
-      "%-32s %7s %7s %7s %7s %7s | %7s %7s %7s %8s %7s %6s\n",
+      "%-36s %7s %7s %7s %7s %7s | %7s %7s %7s %8s %7s %6s\n",
       duration, sessions, "delay [ms]", "arrival", "line", "hull", "Olson", "oracle", "clock",
       "total", "wrong %", "err/sd", "in 2sd%", "us");
   if (file)
@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
   bool first = true;
   for (const Row& row : rows()) {
     const TimingScore s = runTiming(row.link, duration, sessions);
-    std::printf("%-32s %7.3f %7.3f %7.3f %7.3f %7.3f | %7.3f %7.3f %7.1f %8.2f %7.1f %6.1f\n",
+    std::printf("%-36s %7.3f %7.3f %7.3f %7.3f %7.3f | %7.3f %7.3f %7.1f %8.2f %7.1f %6.1f\n",
                 row.name.c_str(), s.arrival * 1e3, s.least_squares * 1e3, s.convex_hull * 1e3,
                 s.olson * 1e3, s.oracle * 1e3, s.clock * 1e3, s.total * 1e3, s.wrong_frames * 100.0,
                 s.clock_ratio, s.covered * 100.0, s.update_seconds * 1e6);

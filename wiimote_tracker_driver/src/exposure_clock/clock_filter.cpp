@@ -58,7 +58,8 @@ void ClockFilter::start(double arrival) {
 
 void ClockFilter::advance(double frames) {
   time_ += frames * period_;
-  p00_ += frames * (2.0 * p01_ + frames * p11_) + square(model_.wander) * std::max(0.0, frames) * period_;
+  p00_ += frames * (2.0 * p01_ + frames * p11_) +
+          square(model_.wander) * std::max(0.0, frames) * period_;
   p01_ += frames * p11_;
 }
 

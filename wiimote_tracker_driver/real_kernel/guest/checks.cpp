@@ -1,6 +1,7 @@
 #include "checks.h"
 
 #include "clock.h"
+#include "recovery.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -9,8 +10,6 @@
 namespace wiimote_tracker::real_kernel {
 namespace {
 
-constexpr double kWindow = 1.0;           // [s]
-constexpr std::ptrdiff_t kImages = 90;    // in the window
 constexpr double kLongestRecovery = 1.0;  // [s]
 // A stream that is not back by then is not coming back by itself [s].
 constexpr double kPatience = 15.0;
@@ -27,7 +26,7 @@ Recovery waitForRecovery(const RunningDriver& driver, double since) {
   const bool recovered = waitFor(
       [&] { return (recovery.time = recoveryTime(driver.images(), since)) >= 0.0; }, kPatience);
   if (recovered)
-    recovery.pause = longestPause(driver.images(), since, since + recovery.time + kWindow);
+    recovery.pause = longestPause(driver.images(), since, since + recovery.time + kRecoveryWindow);
   else
     recovery.time = std::numeric_limits<double>::infinity();
   return recovery;
@@ -42,26 +41,6 @@ std::string describe(const Recovery& recovery, const RunningDriver& driver) {
 }
 
 }  // namespace
-
-double recoveryTime(const std::vector<double>& images, double since) {
-  for (auto first = std::lower_bound(images.begin(), images.end(), since);
-       images.end() - first >= kImages; ++first) {
-    if (*(first + kImages - 1) < *first + kWindow)
-      return *first - since;
-  }
-  return -1.0;
-}
-
-double longestPause(const std::vector<double>& images, double begin, double end) {
-  double last = begin;
-  double longest = 0.0;
-  for (auto image = std::lower_bound(images.begin(), images.end(), begin);
-       image != images.end() && *image <= end; ++image) {
-    longest = std::max(longest, *image - last);
-    last = *image;
-  }
-  return longest;
-}
 
 std::string seconds(double value) {
   char text[32];

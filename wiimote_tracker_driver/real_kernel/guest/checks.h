@@ -13,9 +13,8 @@ class Checks {
  public:
   void check(const std::string& name, bool passed, const std::string& seen = "");
 
-  /// Disturbs the remote and checks that the driver gives at least 90 images a second again, the
-  /// first of that second no later than 1 s after the disturbance began; so `times` times, at
-  /// moments that lie differently to the remote's own.
+  /// Disturbs the remote and checks that the driver's images are back within 1 s of recoveryTime();
+  /// so `times` times, at moments that lie differently to the remote's own.
   void recovers(const std::string& name,
                 const RunningDriver& driver,
                 const std::function<void()>& disturb,
@@ -30,13 +29,6 @@ class Checks {
   int count_ = 0;
   int failed_ = 0;
 };
-
-/// How long after `since` the first second with at least 90 images began [s]; negative when there
-/// was none.
-double recoveryTime(const std::vector<double>& images, double since);
-
-/// The longest time without an image from `begin` to the last one before `end` [s].
-double longestPause(const std::vector<double>& images, double begin, double end);
 
 /// "0.123 s"
 std::string seconds(double value);

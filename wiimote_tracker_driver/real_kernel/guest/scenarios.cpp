@@ -3,6 +3,7 @@
 #include "clock.h"
 #include "kernel.h"
 #include "plugged_remote.h"
+#include "recovery.h"
 #include "wiimote_tracker_driver/transport/transport.h"
 
 #include <fcntl.h>

@@ -1,0 +1,27 @@
+#include "recovery.h"
+
+#include <algorithm>
+
+namespace wiimote_tracker::real_kernel {
+
+double recoveryTime(const std::vector<double>& images, double since) {
+  for (auto first = std::lower_bound(images.begin(), images.end(), since);
+       images.end() - first >= kRecoveryImages; ++first) {
+    if (*(first + kRecoveryImages - 1) < *first + kRecoveryWindow)
+      return *first - since;
+  }
+  return -1.0;
+}
+
+double longestPause(const std::vector<double>& images, double begin, double end) {
+  double last = begin;
+  double longest = 0.0;
+  for (auto image = std::lower_bound(images.begin(), images.end(), begin);
+       image != images.end() && *image <= end; ++image) {
+    longest = std::max(longest, *image - last);
+    last = *image;
+  }
+  return longest;
+}
+
+}  // namespace wiimote_tracker::real_kernel

@@ -1,0 +1,21 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RECOVERY_H
+#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RECOVERY_H
+
+#include <vector>
+
+/// How soon a stream is back, from the arrival times of its images [s], in order.
+namespace wiimote_tracker::real_kernel {
+
+constexpr double kRecoveryWindow = 1.0;  ///< [s]
+constexpr int kRecoveryImages = 90;      ///< In the window.
+
+/// How long after `since` the first image of the first window with enough images came [s];
+/// negative when there is no such window yet.
+double recoveryTime(const std::vector<double>& images, double since);
+
+/// The longest time without an image from `begin` to the last one before `end` [s].
+double longestPause(const std::vector<double>& images, double begin, double end);
+
+}  // namespace wiimote_tracker::real_kernel
+
+#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RECOVERY_H

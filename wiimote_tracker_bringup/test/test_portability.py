@@ -101,8 +101,7 @@ def test_python_uses_nothing_that_noetic_lacks():
 
 # What find_package() and pkg_check_modules() are called with, as rosdep keys.
 ROSDEP_KEY = {'Eigen3': 'eigen', 'yaml-cpp': 'yaml-cpp', 'Ceres': 'libceres-dev',
-              'OpenCV': 'libopencv-dev', 'hidapi-hidraw': 'libhidapi-dev', 'Boost': 'boost',
-              'benchmark': 'benchmark'}
+              'OpenCV': 'libopencv-dev', 'hidapi-hidraw': 'libhidapi-dev', 'Boost': 'boost'}
 # Parts of every toolchain.
 NOT_PACKAGES = {'catkin', 'Threads', 'PkgConfig', 'GTest', 'PythonInterp'}
 
@@ -120,6 +119,8 @@ def wanted(package):
             text = re.sub(r'#.*', '', file.read())
         for arguments in re.findall(r'find_package\(([^)]*)\)', text):
             words = arguments.split()
+            if 'QUIET' in words:  # optional
+                continue
             if words[0] == 'catkin' and 'COMPONENTS' in words:
                 names.update(words[words.index('COMPONENTS') + 1:])
             else:

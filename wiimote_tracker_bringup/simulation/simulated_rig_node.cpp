@@ -10,8 +10,14 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "simulated_rig");
+  if (!ros::master::check()) {
+    ROS_FATAL_STREAM("there is no ROS master at " << ros::master::getURI()
+                                                  << ": start roscore or use roslaunch");
+    return 1;
+  }
+  // Lives longer than the catch block: with the last handle ROS shuts down and prints no more.
+  ros::NodeHandle nh;
   try {
-    ros::NodeHandle nh;
     wiimote_tracker::ParameterReader parameters(ros::NodeHandle("~"));
     const auto path = parameters.required<std::string>(
         "description", "the path of a rig description such as simulation/paper_rig.yaml");

@@ -203,7 +203,7 @@ TEST_F(WiimoteTest, CameraReprogrammedByOthersIsSetUpAgain) {
 TEST_F(WiimoteTest, CameraSwitchedOffByOthersIsNoticedInTheDark) {
   runToImage();
   remote_.camera = false;
-  run(2.2);
+  run(0.7);
   EXPECT_EQ(2, remote_.count(kClock));
   EXPECT_TRUE(remote_.camera);
   run(0.1);
@@ -217,8 +217,8 @@ TEST_F(WiimoteTest, DarknessAloneStopsNoImageAndIsCheckedEverMoreRarely) {
   const int images = run(100.0);
   EXPECT_NEAR(10000, images, 50);
   EXPECT_EQ(1, remote_.count(kClock));
-  // At 2, 6, 14, 30, 62, 94 s.
-  EXPECT_EQ(1 + 6, remote_.count(kVerify));
+  // At 0.5, 1.5, 3.5, 7.5, 15.5, 31.5, 63.5, 95.5 s.
+  EXPECT_EQ(1 + 8, remote_.count(kVerify));
 }
 
 TEST_F(WiimoteTest, LostModeIsSetAgainAfterSilence) {

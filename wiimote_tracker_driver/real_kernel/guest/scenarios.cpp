@@ -360,6 +360,10 @@ void anotherProgram(Checks& checks) {
       {"wants changes only", {0x12, 0x00, 0x33}},
       {"reads 256 bytes of the EEPROM", {0x17, 0x00, 0x00, 0x00, 0x00, 0x01, 0x00}},
       {"switches the LEDs", {0x11, 0xf0}},
+      {"switches the camera's clock off", {0x13, 0x00}},
+      {"switches the camera's logic off", {0x1a, 0x00}},
+      {"stops the camera",
+       {0x16, 0x04, 0xb0, 0x00, 0x30, 1, 0x01, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}},
   };
   for (const Word& word : words) {
     checks.recovers(

@@ -189,6 +189,8 @@ void Session::tick(double now) {
   } else if (now >= dark_check_due_) {
     dark_check_interval_ = std::min(2.0 * dark_check_interval_, kLongestDarkCheck);
     dark_check_due_ = now + dark_check_interval_;
+    // The one part of the set-up that cannot be read back; to say it again does no harm.
+    write_(protocol::setIrLogic(true));
     checkCamera(now);
   } else {
     status_due_ = now + options_.status_interval;

@@ -25,7 +25,7 @@ struct SessionOptions {
   double reply_timeout = 0.5;     ///< [s, > 0] Then a request is sent again.
   int attempts = 5;               ///< [>= 1] Then the remote is given up.
   double silence_timeout = 0.5;   ///< [s, > 0] Without a report the watchdog acts.
-  double dark_check = 2.0;        ///< [s, > 0] Without a light the camera is checked.
+  double dark_check = 0.5;        ///< [s, > 0] Without a light the camera is checked.
   double status_interval = 60.0;  ///< [s, > 0] Between questions for the battery.
 };
 

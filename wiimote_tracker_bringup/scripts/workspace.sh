@@ -55,9 +55,9 @@ child_alive() { kill -0 -- "-$child" 2>/dev/null || [[ -d /proc/$child ]]; }
 end_child() {
   [[ -n $child ]] || return 0
   local signal
-  for signal in INT TERM KILL; do
+  for signal in TERM KILL; do
     signal_child "$signal" || true
-    for _ in $(seq 100); do
+    for _ in $(seq 200); do
       child_alive || { child=; return 0; }
       sleep 0.1
     done

@@ -142,8 +142,9 @@ class Demo(object):
                 raise ExperimentError('no ROS master within 30 s; see ' + log)
             time.sleep(0.05)
         rospy.init_node('demo', disable_signals=True)
+        # Not "rosbag record": that is a wrapper, which can end before the bag is closed.
         self._recorder = self._processes.start('rosbag', [
-            'rosbag', 'record', '--quiet', '--tcpnodelay', '--buffsize=0', '--regex', RECORDED,
+            'rosrun', 'rosbag', 'record', '--quiet', '--tcpnodelay', '--buffsize=0', '--regex', RECORDED,
             '--output-name=' + self._file('demo.bag')], log)
 
     def _experiment(self):

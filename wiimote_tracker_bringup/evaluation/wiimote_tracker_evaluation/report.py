@@ -25,9 +25,9 @@ def table(score, bounds):
                     'similarity': 'similarity-aligned (3)'}[kind],
             1e3 * score.position_rms[kind], 1e3 * bound.best, 1e3 * bound.rms, 1e3 * bound.low,
             1e3 * bound.high))
-    lines += ['', 'circles, RMS [mm]            radial    height']
+    lines += ['', '%-30s  %8s  %8s' % ('RMS on the circles [mm]', 'radial', 'height')]
     for circle in score.circles:
-        lines.append('  %-24s %8.1f  %8.1f' % (circle.name, 1e3 * circle.radial,
+        lines.append('  %-28s  %8.1f  %8.1f' % (circle.name, 1e3 * circle.radial,
                                                1e3 * circle.height))
     lines += ['',
               'scatter of a single frame    %.2f mm' % (1e3 * score.scatter),

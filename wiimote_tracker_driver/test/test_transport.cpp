@@ -207,6 +207,22 @@ TEST_F(Sockets, HostThatDoesNotReadBlocksNobody) {
   EXPECT_EQ(0x30, next(*transport).id());
 }
 
+// The kernel reports that a peer has left with unread reports before what that peer had written.
+TEST_F(Sockets, LastWordsOfAHostThatLeavesReportsUnreadAreHeard) {
+  const auto server = serve();
+  for (int i = 0; i < 200; ++i) {
+    auto transport = connect();
+    transport->write({0x12, 0x06, 0x30});
+    EXPECT_EQ(0x22, next(*transport).id());
+    server->sample(virtual_wiimote::Senses());
+    const auto leds = static_cast<std::uint8_t>(i % 16);
+    transport->write({0x11, static_cast<std::uint8_t>(leds << 4)});
+    transport.reset();
+    ASSERT_TRUE(eventually([&] { return !server->connected(); }));
+    ASSERT_EQ(leds, server->leds()) << "round " << i;
+  }
+}
+
 TEST_F(Sockets, StaleFileIsReplacedALiveOneIsNot) {
   {
     const int fd = ::socket(AF_UNIX, SOCK_SEQPACKET, 0);

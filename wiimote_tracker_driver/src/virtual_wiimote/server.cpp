@@ -130,6 +130,9 @@ struct Server::State {
       const ssize_t size = ::recv(host.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
       if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR))
         return;
+      // Told once when the host left with reports unread; what it had written still follows.
+      if (size < 0 && errno == ECONNRESET)
+        continue;
       if (size <= 0) {
         host.reset();
         return;

@@ -29,6 +29,10 @@ fail() {
   exit 1
 }
 
+# ROS nodes find each other by this name; bare chroots lack it.
+getent hosts localhost >/dev/null ||
+  fail "this computer does not know its own name localhost; add the line '127.0.0.1 localhost' to /etc/hosts"
+
 # --- Children: each step runs in a process group of its own, so that all of it can be ended.
 
 child=

@@ -1,0 +1,359 @@
+// The driver's decoders and encoders against a second description of the wire: exhaustive per
+// field, with everything around it at random.
+#include "wire_layouts.h"
+
+#include "wiimote_tracker_driver/protocol/accelerometer.h"
+#include "wiimote_tracker_driver/protocol/input_reports.h"
+#include "wiimote_tracker_driver/protocol/output_reports.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <random>
+
+namespace wiimote_tracker {
+namespace {
+
+using protocol::IrSpot;
+using protocol::Report;
+
+/// A report of that id and size whose other bytes are noise.
+class Noise {
+ public:
+  Report report(int id, std::size_t size) {
+    Report result;
+    for (std::uint8_t& byte : result.bytes)
+      byte = static_cast<std::uint8_t>(random_());
+    result.bytes[0] = static_cast<std::uint8_t>(id);
+    result.size = size;
+    return result;
+  }
+
+  unsigned below(unsigned values) { return static_cast<unsigned>(random_() % values); }
+
+ private:
+  std::mt19937 random_{1};
+};
+
+/// What the tables say a spot is. A slot without a light has a y that the sensor has not, or zeros.
+bool same(const IrSpot& found, unsigned x, unsigned y, unsigned size) {
+  const bool seen = y < 768 && (x != 0 || y != 0 || size != 0);
+  if (!seen)
+    return !found.seen && found.x == 0 && found.y == 0 && found.size == 0;
+  return found.seen && found.x == static_cast<int>(x) && found.y == static_cast<int>(y) &&
+         found.size == static_cast<int>(size);
+}
+
+bool isFull(const wire::DataReport& layout) {
+  return layout.format == wire::Format::kFull;
+}
+
+// ---- Spots.
+
+TEST(WireLayouts, ExtendedSpotsOfEveryPlaceAndSizeInEverySlot) {
+  Noise noise;
+  Report report = noise.report(0x33, 18);
+  std::vector<wire::Spot> spots;
+  for (std::size_t slot = 0; slot < 4; ++slot)
+    spots.push_back(wire::spot(wire::Format::kExtended, slot, 6));
+  // Each slot goes through all values, at any time other ones than its neighbours.
+  const auto y_of = [](unsigned y, unsigned slot) { return (y + 256 * slot) % 1024; };
+  const auto size_of = [](unsigned size, unsigned slot) { return (size + 5 * slot) % 16; };
+  const auto x_of = [](unsigned x, unsigned slot) { return (x + 341 * slot) % 1024; };
+  std::uint64_t wrong = 0;
+  for (unsigned y = 0; y < 1024; ++y) {
+    for (unsigned size = 0; size < 16; ++size) {
+      for (unsigned slot = 0; slot < 4; ++slot) {
+        spots[slot].y.write(report.bytes.data(), y_of(y, slot));
+        spots[slot].size->write(report.bytes.data(), size_of(size, slot));
+      }
+      for (unsigned x = 0; x < 1024; ++x) {
+        for (unsigned slot = 0; slot < 4; ++slot)
+          spots[slot].x.write(report.bytes.data(), x_of(x, slot));
+        const auto data = protocol::decodeDataReport(report);
+        ASSERT_TRUE(data);
+        for (unsigned slot = 0; slot < 4; ++slot)
+          wrong += !same(data->spots[slot], x_of(x, slot), y_of(y, slot), size_of(size, slot));
+      }
+    }
+  }
+  EXPECT_EQ(wrong, 0u);
+}
+
+TEST(WireLayouts, BasicSpotsOfEveryPlaceInEverySlot) {
+  for (const int id : {0x36, 0x37}) {
+    Noise noise;
+    Report report = noise.report(id, 22);
+    std::vector<wire::Spot> spots;
+    for (std::size_t slot = 0; slot < 4; ++slot)
+      spots.push_back(wire::spot(wire::Format::kBasic, slot, id == 0x36 ? 3 : 6));
+    const auto y_of = [](unsigned y, unsigned slot) { return (y + 257 * slot) % 1024; };
+    const auto x_of = [](unsigned x, unsigned slot) { return (x + 341 * slot) % 1024; };
+    std::uint64_t wrong = 0;
+    for (unsigned y = 0; y < 1024; ++y) {
+      for (unsigned x = 0; x < 1024; ++x) {
+        for (unsigned slot = 0; slot < 4; ++slot) {
+          spots[slot].x.write(report.bytes.data(), x_of(x, slot));
+          spots[slot].y.write(report.bytes.data(), y_of(y, slot));
+        }
+        const auto data = protocol::decodeDataReport(report);
+        ASSERT_TRUE(data);
+        for (unsigned slot = 0; slot < 4; ++slot)
+          wrong += !same(data->spots[slot], x_of(x, slot), y_of(y, slot), 0);
+      }
+    }
+    EXPECT_EQ(wrong, 0u) << "report 0x" << std::hex << id;
+  }
+}
+
+// ---- What shares a report with them.
+
+TEST(WireLayouts, DataReportsHaveTheirPartsAndNoOthers) {
+  Noise noise;
+  for (const wire::DataReport& layout : wire::kDataReports) {
+    if (isFull(layout))
+      continue;
+    const auto data = protocol::decodeDataReport(noise.report(layout.id, layout.size));
+    ASSERT_TRUE(data) << std::hex << layout.id;
+    EXPECT_EQ(data->id, layout.id);
+    EXPECT_EQ(data->acceleration.has_value(), layout.acceleration) << std::hex << layout.id;
+    EXPECT_EQ(static_cast<int>(data->ir_format), static_cast<int>(layout.format));
+  }
+}
+
+TEST(WireLayouts, EveryAccelerationInEveryReport) {
+  Noise noise;
+  for (const wire::DataReport& layout : wire::kDataReports) {
+    if (!layout.acceleration)
+      continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::uint64_t wrong = 0;
+      for (unsigned value = 0; value < wire::kAcceleration[axis].values(); ++value) {
+        Report report = noise.report(layout.id, layout.size);
+        wire::kAcceleration[axis].write(report.bytes.data(), value);
+        const auto data = protocol::decodeDataReport(report);
+        for (std::size_t i = 0; i < 3; ++i) {
+          // y and z lack their lowest bit.
+          const unsigned expected = wire::kAcceleration[i].read(report.bytes.data())
+                                    << (i == 0 ? 0 : 1);
+          wrong += !data || !data->acceleration || (*data->acceleration)[i] != int(expected);
+        }
+      }
+      EXPECT_EQ(wrong, 0u) << "report 0x" << std::hex << layout.id << ", axis " << axis;
+    }
+  }
+}
+
+TEST(WireLayouts, EveryStateOfTheButtonBytesInEveryReport) {
+  std::vector<std::pair<int, std::size_t>> reports{{0x20, wire::status::kSize},
+                                                   {0x21, wire::memory::kSize},
+                                                   {0x22, wire::acknowledgement::kSize}};
+  for (const wire::DataReport& layout : wire::kDataReports)
+    reports.emplace_back(layout.id, layout.size);
+  std::vector<BitField> places;
+  for (const wire::Button& button : wire::kButtons)
+    places.emplace_back(button.place);
+  Noise noise;
+  for (const auto& [id, size] : reports) {
+    std::uint64_t wrong = 0;
+    Report report = noise.report(id, size);
+    for (unsigned state = 0; state < 0x10000; ++state) {
+      report.bytes[1] = static_cast<std::uint8_t>(state >> 8);
+      report.bytes[2] = static_cast<std::uint8_t>(state);
+      std::uint8_t buttons[3] = {0, 0, 0};
+      for (const BitField& place : places)
+        place.write(buttons, place.read(report.bytes.data()));
+      wrong += protocol::decodeButtons(report) != (buttons[1] << 8 | buttons[2]);
+    }
+    EXPECT_EQ(wrong, 0u) << "report 0x" << std::hex << id;
+  }
+}
+
+// ---- The other reports of the remote.
+
+TEST(WireLayouts, EveryStatus) {
+  Noise noise;
+  Report report = noise.report(0x20, wire::status::kSize);
+  const std::uint8_t* bytes = report.bytes.data();
+  std::uint64_t wrong = 0;
+  for (unsigned flags = 0; flags < 256; ++flags) {
+    for (unsigned battery = 0; battery < 256; ++battery) {
+      report.bytes[3] = static_cast<std::uint8_t>(flags);
+      wire::status::kBattery.write(report.bytes.data(), battery);
+      const auto status = protocol::decodeStatus(report);
+      wrong += !status || status->leds != wire::status::kLeds.read(bytes) ||
+               status->camera != (wire::status::kCamera.read(bytes) == 1) ||
+               status->speaker != (wire::status::kSpeaker.read(bytes) == 1) ||
+               status->extension != (wire::status::kExtension.read(bytes) == 1) ||
+               status->battery_low != (wire::status::kBatteryLow.read(bytes) == 1) ||
+               status->battery != battery;
+    }
+  }
+  EXPECT_EQ(wrong, 0u);
+}
+
+TEST(WireLayouts, EveryMemoryPacket) {
+  Noise noise;
+  std::uint64_t wrong = 0;
+  for (unsigned address = 0; address < 0x10000; ++address) {
+    Report report = noise.report(0x21, wire::memory::kSize);
+    report.bytes[3] = static_cast<std::uint8_t>(address);  // all sizes and errors come by
+    wire::memory::kAddress.write(report.bytes.data(), address);
+    const unsigned error = wire::memory::kError.read(report.bytes.data());
+    const std::size_t size =
+        error != 0 ? 0 : wire::memory::kSizeLessOne.read(report.bytes.data()) + 1u;
+    const auto packet = protocol::decodeMemoryPacket(report);
+    wrong += !packet || packet->address != address || packet->error != error ||
+             packet->size != size ||
+             !std::equal(packet->data.begin(), packet->data.begin() + size,
+                         report.bytes.begin() + wire::memory::kData);
+  }
+  EXPECT_EQ(wrong, 0u);
+}
+
+TEST(WireLayouts, EveryAcknowledgement) {
+  Noise noise;
+  std::uint64_t wrong = 0;
+  for (unsigned id = 0; id < 256; ++id) {
+    for (unsigned error = 0; error < 256; ++error) {
+      Report report = noise.report(0x22, wire::acknowledgement::kSize);
+      wire::acknowledgement::kReport.write(report.bytes.data(), id);
+      wire::acknowledgement::kError.write(report.bytes.data(), error);
+      const auto decoded = protocol::decodeAcknowledgement(report);
+      wrong += !decoded || decoded->report_id != id || decoded->error != error;
+    }
+  }
+  EXPECT_EQ(wrong, 0u);
+}
+
+TEST(WireLayouts, EachDecoderTakesItsOwnReportsFromTheirLengthOn) {
+  Noise noise;
+  for (int id = 0; id < 256; ++id) {
+    std::size_t data_size = Report::kCapacity + 1;
+    for (const wire::DataReport& layout : wire::kDataReports) {
+      if (layout.id == id && !isFull(layout))
+        data_size = layout.size;
+    }
+    for (std::size_t size = 0; size <= Report::kCapacity; ++size) {
+      const Report report = noise.report(id, size);
+      EXPECT_EQ(protocol::decodeStatus(report).has_value(), id == 0x20 && size >= 7);
+      EXPECT_EQ(protocol::decodeMemoryPacket(report).has_value(), id == 0x21 && size >= 22);
+      EXPECT_EQ(protocol::decodeAcknowledgement(report).has_value(), id == 0x22 && size >= 5);
+      EXPECT_EQ(protocol::decodeDataReport(report).has_value(), size >= data_size)
+          << "report 0x" << std::hex << id << std::dec << " of " << size << " bytes";
+    }
+  }
+}
+
+// ---- What the host sends: rebuilt bit by bit and compared whole.
+
+TEST(WireLayouts, EverySwitch) {
+  for (const unsigned rumble : {0u, 1u}) {
+    for (const unsigned on : {0u, 1u}) {
+      for (const int id : {0x13, 0x1a}) {
+        Report expected{static_cast<std::uint8_t>(id), 0};
+        wire::output::kRumble.write(expected.bytes.data(), rumble);
+        wire::output::kAcknowledge.write(expected.bytes.data(), 1);
+        wire::output::kOn.write(expected.bytes.data(), on);
+        EXPECT_EQ(id == 0x13 ? protocol::setIrClock(on == 1, rumble == 1)
+                             : protocol::setIrLogic(on == 1, rumble == 1),
+                  expected);
+      }
+      for (unsigned mode = 0; mode < 256; ++mode) {
+        Report expected{0x12, 0, 0};
+        wire::output::kRumble.write(expected.bytes.data(), rumble);
+        wire::output::kAcknowledge.write(expected.bytes.data(), 1);
+        wire::output::kOn.write(expected.bytes.data(), on);
+        wire::output::kMode.write(expected.bytes.data(), mode);
+        EXPECT_EQ(protocol::setReportMode(static_cast<std::uint8_t>(mode), on == 1, rumble == 1),
+                  expected);
+      }
+    }
+    for (unsigned leds = 0; leds < 256; ++leds) {
+      Report expected{0x11, 0};
+      wire::output::kRumble.write(expected.bytes.data(), rumble);
+      wire::output::kAcknowledge.write(expected.bytes.data(), 1);
+      wire::output::kLeds.write(expected.bytes.data(), leds % 16);
+      EXPECT_EQ(protocol::setLeds(static_cast<std::uint8_t>(leds), rumble == 1), expected);
+    }
+    Report status{0x15, 0};
+    wire::output::kRumble.write(status.bytes.data(), rumble);
+    EXPECT_EQ(protocol::requestStatus(rumble == 1), status);
+  }
+}
+
+TEST(WireLayouts, EveryReadAndWriteOfMemory) {
+  Noise noise;
+  std::uint64_t wrong = 0;
+  for (unsigned i = 0; i < 0x10000; ++i) {
+    const unsigned rumble = i / 7 % 2;
+    const unsigned registers = i / 3 % 2;
+    const auto space = registers == 1 ? protocol::Space::kRegisters : protocol::Space::kEeprom;
+    const std::uint32_t address = i % 2 == 0 ? noise.below(1u << 24) : i << 8;
+
+    Report read{0x17, 0};
+    read.size = 7;
+    wire::output::kRumble.write(read.bytes.data(), rumble);
+    wire::output::kOn.write(read.bytes.data(), registers);
+    wire::output::kAddress.write(read.bytes.data(), address);
+    wire::output::kReadSize.write(read.bytes.data(), i);
+    wrong +=
+        !(protocol::readMemory(space, address, static_cast<std::uint16_t>(i), rumble == 1) == read);
+
+    Report write{0x16, 0};
+    write.size = 22;
+    const unsigned size = i % 16 + 1;
+    wire::output::kRumble.write(write.bytes.data(), rumble);
+    wire::output::kOn.write(write.bytes.data(), registers);
+    wire::output::kAddress.write(write.bytes.data(), address);
+    wire::output::kWriteSize.write(write.bytes.data(), size);
+    std::array<std::uint8_t, 16> payload{};
+    for (unsigned k = 0; k < size; ++k)
+      payload[k] = write.bytes[wire::output::kWriteData + k] =
+          static_cast<std::uint8_t>(noise.below(256));
+    wrong += !(protocol::writeMemory(space, address, payload.data(), size, rumble == 1) == write);
+  }
+  EXPECT_EQ(wrong, 0u);
+}
+
+// ---- The EEPROM.
+
+TEST(WireLayouts, EveryValueOfTheAccelerometerBlock) {
+  Noise noise;
+  for (std::size_t field = 0; field < wire::kAccelerometerBlock.size(); ++field) {
+    std::uint64_t wrong = 0;
+    for (unsigned value = 0; value < 1024; ++value) {
+      std::array<std::uint8_t, protocol::kAccelerometerBlockSize> block{};
+      std::copy_n(noise.report(0, 22).bytes.begin() + 1, block.size(), block.begin());
+      wire::kAccelerometerBlock[field].write(block.data(), value);
+      block[9] = wire::checksum(block.data(), 9);
+      bool usable = true;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        usable = usable && wire::kAccelerometerBlock[axis].read(block.data()) !=
+                               wire::kAccelerometerBlock[3 + axis].read(block.data());
+      const auto decoded = protocol::decodeAccelerometerBlock(block);
+      wrong += decoded.has_value() != usable;
+      for (std::size_t axis = 0; decoded && axis < 3; ++axis) {
+        wrong += decoded->at_zero_g[axis] !=
+                 static_cast<int>(wire::kAccelerometerBlock[axis].read(block.data()));
+        wrong += decoded->at_one_g[axis] !=
+                 static_cast<int>(wire::kAccelerometerBlock[3 + axis].read(block.data()));
+      }
+    }
+    EXPECT_EQ(wrong, 0u) << "field " << field;
+  }
+}
+
+TEST(WireLayouts, OneChecksumOf256IsRight) {
+  std::array<std::uint8_t, protocol::kAccelerometerBlockSize> block{
+      {0x84, 0x82, 0x86, 0x30, 0x9f, 0x9d, 0x9f, 0x02, 0x40, 0}};
+  for (unsigned checksum = 0; checksum < 256; ++checksum) {
+    block[9] = static_cast<std::uint8_t>(checksum);
+    EXPECT_EQ(protocol::decodeAccelerometerBlock(block).has_value(),
+              checksum == wire::checksum(block.data(), 9));
+  }
+}
+
+}  // namespace
+}  // namespace wiimote_tracker

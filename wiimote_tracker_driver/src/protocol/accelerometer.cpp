@@ -1,6 +1,6 @@
 #include "wiimote_tracker_driver/protocol/accelerometer.h"
 
-#include <numeric>
+#include "checksum.h"
 
 namespace wiimote_tracker::protocol {
 
@@ -13,8 +13,7 @@ std::array<double, 3> AccelerometerCalibration::toG(const std::array<int, 3>& ra
 
 std::optional<AccelerometerCalibration> decodeAccelerometerBlock(
     const std::array<std::uint8_t, kAccelerometerBlockSize>& block) {
-  const int sum = std::accumulate(block.begin(), block.end() - 1, 0x55);
-  if ((sum & 0xff) != block.back())
+  if (!checksumHolds(block))
     return std::nullopt;
   AccelerometerCalibration calibration;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -1,5 +1,7 @@
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 
+#include "ir_position.h"
+
 #include <algorithm>
 
 namespace wiimote_tracker::protocol {
@@ -29,29 +31,60 @@ bool is(const Report& report, std::uint8_t id, std::size_t size) {
 
 // A slot without a light reads ff, or zeros before its first light. Only y tells: its largest
 // value is 767, while x may well have ff as its low byte.
-IrSpot spot(int x, int y, int size) {
+IrSpot spot(const std::array<int, 2>& position, int size) {
   IrSpot result;
-  result.seen = y < kSensorHeight && (x != 0 || y != 0 || size != 0);
+  result.seen = position[1] < kSensorHeight && (position[0] != 0 || position[1] != 0 || size != 0);
   if (result.seen) {
-    result.x = x;
-    result.y = y;
+    result.x = position[0];
+    result.y = position[1];
     result.size = size;
   }
   return result;
 }
 
-void decodeBasic(const std::uint8_t* in, std::array<IrSpot, 4>& spots) {
+// Whether these can be a slot without a light.
+bool allAlike(const std::uint8_t* in, std::size_t size) {
+  return (in[0] == 0x00 || in[0] == 0xff) &&
+         std::all_of(in, in + size, [&](std::uint8_t byte) { return byte == in[0]; });
+}
+
+void decodeBasic(const std::uint8_t* in, DataReport& data) {
   for (std::size_t i = 0; i < 4; i += 2, in += 5) {
-    const int high = in[2];
-    spots[i] = spot(in[0] | (high << 4 & 0x300), in[1] | (high << 2 & 0x300), 0);
-    spots[i + 1] = spot(in[3] | (high << 8 & 0x300), in[4] | (high << 6 & 0x300), 0);
+    const std::array<int, 2> first = firstOfPair(in);
+    const std::array<int, 2> second = secondOfPair(in);
+    data.spots[i] = spot(first, 0);
+    data.spots[i + 1] = spot(second, 0);
+    for (const auto& position : {first, second}) {
+      if (position[1] >= kSensorHeight && (position[0] != 0x3ff || position[1] != 0x3ff))
+        data.plausible = false;
+    }
   }
 }
 
-void decodeExtended(const std::uint8_t* in, std::array<IrSpot, 4>& spots) {
-  for (std::size_t i = 0; i < 4; ++i, in += 3) {
-    const int high = in[2];
-    spots[i] = spot(in[0] | (high << 4 & 0x300), in[1] | (high << 2 & 0x300), high & 0x0f);
+void decodeExtended(const std::uint8_t* in, DataReport& data) {
+  for (IrSpot& out : data.spots) {
+    out = spot(firstOfPair(in), in[2] & 0x0f);
+    if (!out.seen && !allAlike(in, 3))
+      data.plausible = false;
+    in += 3;
+  }
+}
+
+// Half of the slots, at `first`.
+void decodeFull(const std::uint8_t* in, std::size_t first, DataReport& data) {
+  for (std::size_t i = first; i < first + 2; ++i, in += 9) {
+    IrSpot& out = data.spots[i];
+    out = spot(firstOfPair(in), in[2] & 0x0f);
+    if (out.seen) {
+      for (std::size_t j = 0; j < 4; ++j) {
+        out.box[j] = in[3 + j] & 0x7f;
+        if (in[3 + j] > 0x7f)
+          data.plausible = false;
+      }
+      out.intensity = in[8];
+    } else if (!allAlike(in, 9)) {
+      data.plausible = false;
+    }
   }
 }
 
@@ -93,6 +126,26 @@ std::optional<MemoryPacket> decodeMemoryPacket(const Report& report) {
   return packet;
 }
 
+const char* errorName(std::uint8_t error) {
+  switch (error) {
+    case 0:
+      return "none";
+    case 2:
+      return "sent on the wrong Bluetooth channel";
+    case 4:
+      return "busy with another read";
+    case 5:
+    case 8:
+      return "address out of range";
+    case 6:
+      return "no such address space";
+    case 7:
+      return "no answer at this address";
+    default:
+      return "unknown";
+  }
+}
+
 std::optional<Acknowledgement> decodeAcknowledgement(const Report& report) {
   if (!is(report, 0x22, 5))
     return std::nullopt;
@@ -119,9 +172,26 @@ std::optional<DataReport> decodeDataReport(const Report& report) {
   }
   data.ir_format = layout.ir_format;
   if (layout.ir_format == IrFormat::kBasic)
-    decodeBasic(&bytes[layout.ir], data.spots);
+    decodeBasic(&bytes[layout.ir], data);
   else if (layout.ir_format == IrFormat::kExtended)
-    decodeExtended(&bytes[layout.ir], data.spots);
+    decodeExtended(&bytes[layout.ir], data);
+  return data;
+}
+
+std::optional<DataReport> decodeInterleaved(const Report& first, const Report& second) {
+  if (!is(first, kFirstHalfId, 22) || !is(second, kSecondHalfId, 22))
+    return std::nullopt;
+  const auto& a = first.bytes;
+  const auto& b = second.bytes;
+  DataReport data;
+  data.id = kFirstHalfId;
+  data.buttons = decodeButtons(second);
+  // x, y and z have eight bits each; those of z are scattered over the unused ones of the buttons.
+  const int z = (a[2] & 0x60) << 1 | (a[1] & 0x60) >> 1 | (b[2] & 0x60) >> 3 | (b[1] & 0x60) >> 5;
+  data.acceleration = {a[3] << 2, b[3] << 2, z << 2};
+  data.ir_format = IrFormat::kFull;
+  decodeFull(&a[4], 0, data);
+  decodeFull(&b[4], 2, data);
   return data;
 }
 

@@ -1,5 +1,8 @@
 #include "wiimote_tracker_driver/protocol/ir_camera.h"
 
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace wiimote_tracker::protocol {
@@ -32,6 +35,40 @@ std::vector<std::string> irSensitivityNames() {
   for (const auto& entry : allSensitivities())
     names.push_back(entry.first);
   return names;
+}
+
+IrSensitivity parseIrSensitivity(const std::string& text) {
+  if (const auto named = irSensitivity(text))
+    return *named;
+  const std::string quoted = "the infrared sensitivity '" + text + "'";
+  std::vector<std::uint8_t> bytes;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (word == "/" && bytes.size() == 9)
+      continue;
+    const bool hexadecimal =
+        word.size() <= 2 && word.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
+    if (!hexadecimal || bytes.size() == 11) {
+      bytes.clear();
+      break;
+    }
+    bytes.push_back(static_cast<std::uint8_t>(std::stoi(word, nullptr, 16)));
+  }
+  if (bytes.size() != 11) {
+    std::string names;
+    for (const std::string& name : irSensitivityNames())
+      names += name + ", ";
+    throw std::invalid_argument(quoted + " must be one of " + names +
+                                "or eleven bytes such as '07 00 00 71 01 00 72 00 20 / 1f 03'");
+  }
+  IrSensitivity sensitivity;
+  std::copy_n(bytes.begin(), 9, sensitivity.block1.begin());
+  std::copy_n(bytes.begin() + 9, 2, sensitivity.block2.begin());
+  if (sensitivity.block2[0] >= sensitivity.block1[8])
+    throw std::invalid_argument(quoted +
+                                " would blind the camera: its tenth byte, the gain limit, must be "
+                                "less than its ninth, the gain");
+  return sensitivity;
 }
 
 }  // namespace wiimote_tracker::protocol

@@ -5,12 +5,11 @@
 namespace wiimote_tracker::protocol {
 namespace {
 
-constexpr std::uint8_t kRumble = 0x01;
 constexpr std::uint8_t kAcknowledge = 0x02;
 constexpr std::uint8_t kOn = 0x04;
 
 std::uint8_t flags(bool rumble, int others) {
-  return static_cast<std::uint8_t>((rumble ? kRumble : 0) | others);
+  return static_cast<std::uint8_t>((rumble ? kRumbleBit : 0) | others);
 }
 
 Report memoryReport(std::uint8_t id, Space space, std::uint32_t address, bool rumble) {
@@ -19,6 +18,10 @@ Report memoryReport(std::uint8_t id, Space space, std::uint32_t address, bool ru
 }
 
 }  // namespace
+
+Report setRumble(bool rumble) {
+  return {kRumbleId, flags(rumble, 0)};
+}
 
 Report setLeds(std::uint8_t leds, bool rumble) {
   return {kLedsId, flags(rumble, (leds & 0x0f) << 4 | kAcknowledge)};

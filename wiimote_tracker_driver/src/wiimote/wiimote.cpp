@@ -1,5 +1,7 @@
 #include "wiimote_tracker_driver/wiimote/wiimote.h"
 
+#include "wiimote_tracker_driver/protocol/output_reports.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -104,6 +106,19 @@ void Wiimote::drop(const std::string& error) {
   ++link_changes_;
   next_attempt_ = clock_() + retry_pause_;
   retry_pause_ = std::min(2.0 * retry_pause_, options_.retry_max);
+}
+
+void Wiimote::setSensitivity(const protocol::IrSensitivity& sensitivity) {
+  options_.session.sensitivity = sensitivity;
+}
+
+void Wiimote::setLeds(std::uint8_t leds) {
+  options_.session.leds = leds;
+}
+
+void Wiimote::setRumble(bool rumble) {
+  if (session_)
+    transport_->write(protocol::setRumble(rumble));
 }
 
 void Wiimote::close() {

@@ -48,6 +48,9 @@ struct MemoryPacket {
 };
 std::optional<MemoryPacket> decodeMemoryPacket(const Report& report);
 
+/// What an error code of a MemoryPacket or an Acknowledgement means, in a few words: "no answer".
+const char* errorName(std::uint8_t error);
+
 /// 0x22. It does not say which of several reports of the same id it answers.
 struct Acknowledgement {
   std::uint8_t report_id = 0;  ///< Of the output report that is answered.
@@ -55,26 +58,44 @@ struct Acknowledgement {
 };
 std::optional<Acknowledgement> decodeAcknowledgement(const Report& report);
 
-enum class IrFormat : std::uint8_t { kNone = 0, kBasic = 1, kExtended = 3 };
+/// The values are those of the camera's mode register.
+enum class IrFormat : std::uint8_t { kNone = 0, kBasic = 1, kExtended = 3, kFull = 5 };
 
-/// One slot of infrared data. The sensor's axes: x to the camera's right, y UP.
+/// One slot of infrared data. The sensor's axes: x to the camera's right, y UP. A slot is a hint,
+/// not an identity: a light that was lost may come back in any other.
 struct IrSpot {
   bool seen = false;
-  int x = 0;     ///< [px] 0..1023
-  int y = 0;     ///< [px] 0..767
-  int size = 0;  ///< 0..15 in the extended format, else 0.
+  int x = 0;          ///< [px] 0..1023
+  int y = 0;          ///< [px] 0..767
+  int size = 0;       ///< 0..15 in the extended and the full format, else 0.
+  int intensity = 0;  ///< 0..255 in the full format, else 0.
+  /// x_min, y_min, x_max, y_max of the light in the sensor's own cells of 8 x 8 px, 0..127; in the
+  /// full format, else 0.
+  std::array<int, 4> box{};
 };
 
-/// 0x30..0x37.
+/// 0x30..0x37, or a pair of 0x3e and 0x3f.
 struct DataReport {
   std::uint8_t id = 0;
   std::uint16_t buttons = 0;
-  /// x, y, z as converted [0..1023]; y and z have no lowest bit.
+  /// x, y, z as converted [0..1023]; y and z have no lowest bit, in a pair none of them has the
+  /// lowest two.
   std::optional<std::array<int, 3>> acceleration;
   IrFormat ir_format = IrFormat::kNone;
   std::array<IrSpot, 4> spots{};
+  /// False when a slot without a light holds other than what such slots hold: the camera is then
+  /// probably in another mode than the report.
+  bool plausible = true;
 };
 std::optional<DataReport> decodeDataReport(const Report& report);
+
+/// The ids of the two halves of an interleaved data report, which carries the full format: four
+/// spots and one acceleration, at half the rate.
+constexpr std::uint8_t kFirstHalfId = 0x3e;
+constexpr std::uint8_t kSecondHalfId = 0x3f;
+
+/// What a 0x3e and the 0x3f after it say together; id is 0x3e.
+std::optional<DataReport> decodeInterleaved(const Report& first, const Report& second);
 
 }  // namespace wiimote_tracker::protocol
 

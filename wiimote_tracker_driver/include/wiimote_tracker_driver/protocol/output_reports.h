@@ -10,6 +10,7 @@
 /// an acknowledgement (0x22) where the remote does not send one anyway.
 namespace wiimote_tracker::protocol {
 
+constexpr std::uint8_t kRumbleId = 0x10;
 constexpr std::uint8_t kLedsId = 0x11;
 constexpr std::uint8_t kReportModeId = 0x12;
 constexpr std::uint8_t kIrClockId = 0x13;
@@ -18,7 +19,13 @@ constexpr std::uint8_t kWriteMemoryId = 0x16;
 constexpr std::uint8_t kReadMemoryId = 0x17;
 constexpr std::uint8_t kIrLogicId = 0x1a;
 
+/// Bit of the second byte of every output report: the motor runs.
+constexpr std::uint8_t kRumbleBit = 0x01;
+
 enum class Space : std::uint8_t { kEeprom = 0x00, kRegisters = 0x04 };
+
+/// Nothing but the state of the motor. Never acknowledged.
+Report setRumble(bool rumble);
 
 /// Player LEDs 1..4 in bits 0..3.
 Report setLeds(std::uint8_t leds, bool rumble = false);

@@ -3,6 +3,7 @@
 
 #include "wiimote_tracker_driver/protocol/accelerometer.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
+#include "wiimote_tracker_driver/protocol/ir_calibration.h"
 #include "wiimote_tracker_driver/protocol/ir_camera.h"
 #include "wiimote_tracker_driver/protocol/report.h"
 
@@ -21,6 +22,8 @@ struct SessionError : std::runtime_error {
 /// How a session deals with its remote.
 struct SessionOptions {
   std::uint8_t leds = 0x1;  ///< Player LEDs 1..4 in bits 0..3, lit while connected.
+  /// kBasic (report 0x37), kExtended (0x33), or kFull (0x3e and 0x3f in turn, at half the rate).
+  protocol::IrFormat ir_format = protocol::IrFormat::kExtended;
   protocol::IrSensitivity sensitivity = *protocol::irSensitivity("wii_5");
   double reply_timeout = 0.5;     ///< [s, > 0] Then a request is sent again.
   int attempts = 5;               ///< [>= 1] Then the remote is given up.

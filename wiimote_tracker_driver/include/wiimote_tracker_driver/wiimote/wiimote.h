@@ -33,10 +33,17 @@ struct Link {
   std::uint32_t clock_epoch = 0;  ///< Counts from 0, one more at each reconnect or power cycle.
   std::optional<protocol::Status> status;
   bool accelerometer_calibrated = false;  ///< By the remote's own EEPROM.
+  /// From the remote's EEPROM; nothing when it is damaged.
+  std::optional<protocol::IrCalibration> ir_calibration;
+  /// How often the remote's configuration was found to be no longer ours and put right, since the
+  /// beginning.
+  std::uint64_t restorations = 0;
+  std::string last_restoration;  ///< What was found, one phrase: "the camera was switched off".
 };
 
 /// A remote that is connected as long as there is one: opens it, streams from it, and starts again
-/// for ever when it has gone away or was never there. Not thread-safe.
+/// for ever when it has gone away or was never there. Not thread-safe: the thread that calls step()
+/// calls all else.
 class Wiimote {
  public:
   /// Opens the transport or throws TransportError.
@@ -63,6 +70,16 @@ class Wiimote {
   /// Of the connected remote, or typical values.
   const protocol::AccelerometerCalibration& accelerometer() const { return accelerometer_; }
 
+  /// Changes how sensitive the camera is, now and after each reconnect. Images are left out for
+  /// some ten frames and go on in the same clock epoch.
+  void setSensitivity(const protocol::IrSensitivity& sensitivity);
+
+  /// Player LEDs 1..4 in bits 0..3, now and after each reconnect.
+  void setLeds(std::uint8_t leds);
+
+  /// Runs the motor, until told otherwise or until the connection is lost. It shakes the camera.
+  void setRumble(bool rumble);
+
   /// Switches the remote's reporting, camera and LEDs off and lets it go.
   void close();
 
@@ -72,7 +89,7 @@ class Wiimote {
   std::optional<protocol::DataReport> receive(double max_wait);
   void updateLink(bool image);
 
-  const Options options_;
+  Options options_;
   const Open open_;
   const Clock clock_;
 

@@ -12,6 +12,7 @@ namespace wiimote_tracker::transport {
 namespace {
 
 constexpr char kVirtualPrefix[] = "virtual:";
+constexpr char kReplayPrefix[] = "replay:";
 
 bool startsWith(const std::string& text, const std::string& prefix) {
   return text.compare(0, prefix.size(), prefix) == 0;
@@ -59,13 +60,25 @@ DeviceName parseDeviceName(const std::string& text) {
                           " characters");
     return {DeviceName::Kind::kVirtual, text.substr(prefix)};
   }
+  const std::size_t replay_prefix = sizeof(kReplayPrefix) - 1;
+  if (startsWith(text, kReplayPrefix) && text.size() > replay_prefix)
+    return {DeviceName::Kind::kReplay, text.substr(replay_prefix)};
   throw BadDeviceName("device '" + text +
                       "' must be empty (the first free Wii Remote), a Bluetooth address such as "
-                      "00:1f:32:12:34:56, a path such as /dev/hidraw0, or virtual:SOCKET_PATH");
+                      "00:1f:32:12:34:56, a path such as /dev/hidraw0, virtual:SOCKET_PATH, or "
+                      "replay:FILE");
 }
 
 std::unique_ptr<Transport> open(const DeviceName& name) {
-  return name.kind == DeviceName::Kind::kVirtual ? openSocket(name.value) : openHidraw(name);
+  switch (name.kind) {
+    case DeviceName::Kind::kVirtual:
+      return openSocket(name.value);
+    case DeviceName::Kind::kReplay:
+      throw BadDeviceName("the recording " + name.value +
+                          " is no remote for this program: give it to the driver's node");
+    default:
+      return openHidraw(name);
+  }
 }
 
 }  // namespace wiimote_tracker::transport

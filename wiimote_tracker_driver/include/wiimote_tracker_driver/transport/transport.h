@@ -55,10 +55,10 @@ class Transport {
   virtual std::string kernelDriver() const { return ""; }
 };
 
-/// How a device is named: "" (the first free remote), a Bluetooth address, /dev/hidrawN, or
-/// virtual:SOCKET_PATH.
+/// How a device is named: "" (the first free remote), a Bluetooth address, /dev/hidrawN,
+/// virtual:SOCKET_PATH, or replay:FILE.
 struct DeviceName {
-  enum class Kind { kAny, kAddress, kPath, kVirtual };
+  enum class Kind { kAny, kAddress, kPath, kVirtual, kReplay };
   Kind kind = Kind::kAny;
   std::string value;  ///< Address in lower case with colons, or path.
 };
@@ -66,7 +66,8 @@ struct DeviceName {
 /// @throws BadDeviceName.
 DeviceName parseDeviceName(const std::string& text);
 
-/// Opens the remote for this process alone. @throws NoSuchDevice, PermissionDenied, DeviceTaken,
+/// Opens the remote for this process alone. A recording (kReplay) has a time of its own and is
+/// opened by recording::Replay instead. @throws NoSuchDevice, PermissionDenied, DeviceTaken,
 /// TransportError.
 std::unique_ptr<Transport> open(const DeviceName& name);
 

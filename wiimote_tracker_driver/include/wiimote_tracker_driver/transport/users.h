@@ -1,0 +1,26 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_TRANSPORT_USERS_H
+#define WIIMOTE_TRACKER_DRIVER_TRANSPORT_USERS_H
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+
+/// Who uses a device, as far as /proc shows it to this process. Thread-safe.
+namespace wiimote_tracker::transport {
+
+/// A process as people know it: "driver_node (ROS node /wiimote_1/driver, process 1234)"; "this
+/// very process (...)" for our own. Names that cannot be read are left away.
+std::string describeProcess(pid_t process);
+
+/// The process that has locked (flock) the file that `fd` is open on.
+std::optional<pid_t> lockHolder(int fd);
+
+/// One sentence when other programs, which know nothing of our lock, have the device node at `path`
+/// open too and may change the remote's settings; empty otherwise. Looks at all processes, which
+/// takes milliseconds: not for a thread that reads reports.
+std::string sharedWith(const std::string& path);
+
+}  // namespace wiimote_tracker::transport
+
+#endif  // WIIMOTE_TRACKER_DRIVER_TRANSPORT_USERS_H

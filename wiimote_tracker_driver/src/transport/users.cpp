@@ -1,0 +1,148 @@
+#include "wiimote_tracker_driver/transport/users.h"
+
+#include <dirent.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <sstream>
+#include <vector>
+
+namespace wiimote_tracker::transport {
+namespace {
+
+std::string procPath(pid_t process, const std::string& name) {
+  return "/proc/" + std::to_string(process) + "/" + name;
+}
+
+/// The strings of a file such as /proc/PID/cmdline, each of which ends with a zero.
+std::vector<std::string> zeroSeparated(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::string> strings;
+  for (std::string string; std::getline(file, string, '\0');)
+    strings.push_back(string);
+  return strings;
+}
+
+/// What follows `prefix` in the first string that begins with it.
+std::string valueOf(const std::string& prefix, const std::vector<std::string>& strings) {
+  for (const std::string& string : strings) {
+    if (string.compare(0, prefix.size(), prefix) == 0)
+      return string.substr(prefix.size());
+  }
+  return "";
+}
+
+/// Of a node that was given its name on the command line, as roslaunch does.
+std::string rosNodeName(pid_t process, const std::vector<std::string>& arguments) {
+  const std::string name = valueOf("__name:=", arguments);
+  if (name.empty())
+    return "";
+  std::string space = valueOf("__ns:=", arguments);
+  if (space.empty())
+    space = valueOf("ROS_NAMESPACE=", zeroSeparated(procPath(process, "environ")));
+  if (space.empty() || space.front() != '/')
+    space.insert(0, "/");
+  if (space.back() != '/')
+    space.push_back('/');
+  return space + name;
+}
+
+std::string programName(pid_t process, const std::vector<std::string>& arguments) {
+  if (!arguments.empty() && !arguments[0].empty())
+    return arguments[0].substr(arguments[0].rfind('/') + 1);
+  std::string name;  // a process may hide its arguments
+  std::getline(std::ifstream(procPath(process, "comm")) >> std::ws, name);
+  return name;
+}
+
+using Directory = std::unique_ptr<DIR, int (*)(DIR*)>;
+
+Directory openDirectory(const std::string& path) {
+  return Directory(::opendir(path.c_str()), &::closedir);
+}
+
+/// The numbers among the names in a directory: processes of /proc, descriptors of /proc/PID/fd.
+std::vector<int> numbersIn(const std::string& path) {
+  std::vector<int> numbers;
+  const Directory directory = openDirectory(path);
+  if (!directory)
+    return numbers;
+  while (const dirent* entry = ::readdir(directory.get())) {
+    char* end = nullptr;
+    const long number = std::strtol(entry->d_name, &end, 10);
+    if (end != entry->d_name && *end == '\0')
+      numbers.push_back(static_cast<int>(number));
+  }
+  return numbers;
+}
+
+bool hasOpen(pid_t process, const struct stat& node) {
+  const std::string directory = procPath(process, "fd");
+  for (const int fd : numbersIn(directory)) {
+    struct stat open_file {};
+    if (::stat((directory + "/" + std::to_string(fd)).c_str(), &open_file) == 0 &&
+        open_file.st_dev == node.st_dev && open_file.st_ino == node.st_ino)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string describeProcess(pid_t process) {
+  const std::vector<std::string> arguments = zeroSeparated(procPath(process, "cmdline"));
+  const std::string program = programName(process, arguments);
+  const std::string node = rosNodeName(process, arguments);
+  std::string description;
+  if (process == ::getpid())
+    description = "this very process";
+  else
+    description = program.empty() ? "another program" : program;
+  description += " (";
+  if (!node.empty())
+    description += "ROS node " + node + ", ";
+  return description + "process " + std::to_string(process) + ")";
+}
+
+std::optional<pid_t> lockHolder(int fd) {
+  struct stat file {};
+  if (::fstat(fd, &file) != 0)
+    return std::nullopt;
+  char wanted[64];
+  std::snprintf(wanted, sizeof(wanted), "%02x:%02x:%llu", major(file.st_dev), minor(file.st_dev),
+                static_cast<unsigned long long>(file.st_ino));
+  // 1: FLOCK  ADVISORY  WRITE 1234 00:05:678 0 EOF
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);) {
+    std::istringstream words(line);
+    std::string number, type, mode, access, place;
+    pid_t process = 0;
+    if (words >> number >> type >> mode >> access >> process >> place && type == "FLOCK" &&
+        place == wanted && process > 0)
+      return process;
+  }
+  return std::nullopt;
+}
+
+std::string sharedWith(const std::string& path) {
+  struct stat node {};
+  if (::stat(path.c_str(), &node) != 0)
+    return "";
+  std::string others;
+  for (const pid_t process : numbersIn("/proc")) {
+    if (process != ::getpid() && hasOpen(process, node))
+      others += (others.empty() ? "" : " and ") + describeProcess(process);
+  }
+  if (others.empty())
+    return "";
+  return path + " is open in " + others +
+         " too, which may change the settings of the remote: close that program";
+}
+
+}  // namespace wiimote_tracker::transport

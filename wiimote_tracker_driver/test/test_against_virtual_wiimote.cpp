@@ -108,10 +108,12 @@ TEST(AgainstVirtualWiimote, AnyLightsComeThrough) {
       Senses senses;
       senses.buttons = static_cast<std::uint16_t>(random() & 0x1f9f);
       const int count = uniform(5);
+      // One in each corner of the image, so far from the others that their images cannot touch.
       for (int light = 0; light < count; ++light) {
-        senses.lights.push_back({static_cast<double>(uniform(1024)),
-                                 static_cast<double>(1 + uniform(767)),
-                                 static_cast<double>(1 + uniform(15)), 1.0});
+        const int x = uniform(392) + light % 2 * 632;
+        const int y = uniform(263) + light / 2 * 504 + 1;
+        const int size = 1 + uniform(15);
+        senses.lights.push_back({1.0 * x, 1.0 * y, 1.0 * size, 1.0});
       }
       const auto sampled = device.sample(senses);
       ASSERT_TRUE(sampled);
@@ -123,7 +125,7 @@ TEST(AgainstVirtualWiimote, AnyLightsComeThrough) {
       std::vector<Spot> expected;
       for (const auto& light : senses.lights)
         expected.push_back({static_cast<int>(light.x), static_cast<int>(light.y),
-                            mode.camera == 3 ? static_cast<int>(light.size) : 0});
+                            mode.camera == 3 ? static_cast<int>(*light.size) : 0});
       std::vector<Spot> decoded;
       for (const auto& spot : data->spots) {
         if (spot.seen)

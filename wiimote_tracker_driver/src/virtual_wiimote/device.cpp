@@ -1,11 +1,14 @@
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
 
+#include "data_report.h"
 #include "eeprom.h"
 #include "ir_camera.h"
+#include "motion_plus.h"
 #include "nunchuk.h"
 
 #include <algorithm>
 #include <deque>
+#include <utility>
 
 namespace wiimote_tracker::virtual_wiimote {
 namespace {
@@ -19,60 +22,40 @@ constexpr std::uint8_t kSpeaker = 0x14;
 constexpr std::uint8_t kRequestStatus = 0x15;
 constexpr std::uint8_t kWriteMemory = 0x16;
 constexpr std::uint8_t kReadMemory = 0x17;
+constexpr std::uint8_t kSpeakerData = 0x18;
 constexpr std::uint8_t kSpeakerMute = 0x19;
 constexpr std::uint8_t kIrLogic = 0x1a;
 
 // Bits of the second byte of output reports.
+constexpr std::uint8_t kMotor = 0x01;
 constexpr std::uint8_t kAcknowledge = 0x02;
 constexpr std::uint8_t kOn = 0x04;
-constexpr std::uint8_t kRegisters = 0x0c;  // 0x04 or 0x08
+
+// Address spaces, by the same byte.
+constexpr std::uint8_t kSpaceMask = 0x0c;
+constexpr std::uint8_t kEepromSpace = 0x00;  // 0x04 and 0x08: registers
+constexpr std::uint8_t kNoSpace = 0x0c;
 
 constexpr std::uint8_t kErrorBusy = 4;
+constexpr std::uint8_t kErrorSpace = 6;
 constexpr std::uint8_t kErrorNoAnswer = 7;
 constexpr std::uint8_t kErrorAddress = 8;
 
-constexpr std::uint8_t kButtonMaskHigh = 0x1f;
-constexpr std::uint8_t kButtonMaskLow = 0x9f;
 constexpr std::uint8_t kBatteryLow = 0x20;
 
 bool isCamera(std::uint32_t address) {
   return address >> 17 == 0xb0 >> 1;
 }
 
-/// What a data report carries after the buttons, in this order.
-struct Layout {
-  bool acceleration = false;
-  std::size_t ir = 0;
-  std::size_t extension = 0;
-};
-
-std::optional<Layout> layoutOf(std::uint8_t mode) {
-  switch (mode) {
-    case 0x30:
-      return Layout{};
-    case 0x31:
-      return Layout{true, 0, 0};
-    case 0x32:
-      return Layout{false, 0, 8};
-    case 0x33:
-      return Layout{true, 12, 0};
-    case 0x34:
-      return Layout{false, 0, 19};
-    case 0x35:
-      return Layout{true, 0, 16};
-    case 0x36:
-      return Layout{false, 10, 9};
-    case 0x37:
-      return Layout{true, 10, 6};
-    default:
-      return std::nullopt;
-  }
+std::uint32_t addressOf(const Bytes& report) {
+  return static_cast<std::uint32_t>(report[2] << 16 | report[3] << 8 | report[4]);
 }
 
 }  // namespace
 
 struct Device::State {
-  explicit State(const Options& device_options) : options(device_options) {}
+  explicit State(const Options& device_options)
+      : options(device_options), eeprom(options.factory_points), now(options) {}
 
   // Survives a change of batteries.
   Options options;
@@ -81,22 +64,24 @@ struct Device::State {
 
   // Does not.
   struct Volatile {
+    explicit Volatile(const Options& options) : camera(options.slot_seed) {}
+
     IrCamera camera;
     Nunchuk nunchuk;
+    MotionPlus motion_plus;
     Senses senses;
     std::uint8_t leds = 0;
+    bool rumble = false;
     bool speaker = false;
     std::uint8_t mode = 0x30;
     bool continuous = false;
-    bool reporting = true;  ///< Ends when a Nunchuk comes or goes, until the host sets a mode.
-    Bytes last_data;
-    std::deque<Bytes> memory_packets;  ///< Still to be sent of the read in progress.
+    bool reporting = true;  ///< Ends when an extension comes or goes, until the host sets a mode.
+    std::optional<Sample> second_half;  ///< Still to be sent of a sample that takes two reports.
+    Bytes last_data;                    ///< All of the sample that was sent last.
+    std::deque<Bytes> memory_packets;   ///< Still to be sent of the read in progress.
   } now;
 
-  Bytes withButtons(std::uint8_t id) const {
-    return {id, static_cast<std::uint8_t>(now.senses.buttons >> 8 & kButtonMaskHigh),
-            static_cast<std::uint8_t>(now.senses.buttons & kButtonMaskLow)};
-  }
+  Bytes withButtons(std::uint8_t id) const { return beginReport(id, now.senses.buttons); }
 
   Bytes acknowledgement(std::uint8_t id, std::uint8_t error) const {
     Bytes report = withButtons(0x22);
@@ -110,119 +95,165 @@ struct Device::State {
     const bool low = options.battery < kBatteryLow;
     report.push_back(static_cast<std::uint8_t>(now.leds << 4 | (now.camera.onBus() ? 0x08 : 0) |
                                                (now.speaker ? 0x04 : 0) |
-                                               (nunchuk_plugged ? 0x02 : 0) | (low ? 0x01 : 0)));
+                                               (hasExtension() ? 0x02 : 0) | (low ? 0x01 : 0)));
     report.insert(report.end(), {0, 0, options.battery});
     return report;
   }
 
-  Bytes data() const {
-    const Layout layout = *layoutOf(now.mode);
-    Bytes report = withButtons(now.mode);
-    if (layout.acceleration) {
-      const std::array<int, 3> raw = Eeprom::convertAcceleration(now.senses.acceleration);
-      for (const int value : raw)
-        report.push_back(static_cast<std::uint8_t>(value >> 2));
-      // The lowest bits travel in unused bits of the buttons; y and z have only nine bits.
-      report[1] = static_cast<std::uint8_t>(report[1] | (raw[0] & 3) << 5);
-      report[2] = static_cast<std::uint8_t>(report[2] | (raw[1] & 2) << 4 | (raw[2] & 2) << 5);
-    }
-    now.camera.appendData(layout.ir, report);
+  bool hasExtension() const { return nunchuk_plugged || now.motion_plus.active(); }
+
+  ExtensionData extension() const {
+    if (now.motion_plus.active())
+      return now.motion_plus.data();
     if (nunchuk_plugged)
-      now.nunchuk.appendData(layout.extension, report);
-    else
-      report.insert(report.end(), layout.extension, 0xff);
+      return now.nunchuk.data();
+    ExtensionData none;
+    none.fill(0xff);
+    return none;
+  }
+
+  Sample takeSample() const {
+    return {now.senses.buttons, Eeprom::convertAcceleration(now.senses.acceleration),
+            now.camera.data(), extension()};
+  }
+
+  bool inHalves() const { return now.mode == kFirstHalf || now.mode == kSecondHalf; }
+
+  /// The data report that is due; nothing when only changes are wanted and there is none.
+  std::optional<Bytes> nextData(bool changes_only) {
+    if (now.second_half) {
+      now.second_half->buttons = now.senses.buttons;
+      const Bytes second = dataReport(kSecondHalf, *now.second_half);
+      now.second_half.reset();
+      return second;
+    }
+    const Sample sample = takeSample();
+    const Bytes report = dataReport(inHalves() ? kFirstHalf : now.mode, sample);
+    Bytes data = report;
+    if (inHalves()) {
+      const Bytes second = dataReport(kSecondHalf, sample);
+      data.insert(data.end(), second.begin(), second.end());
+    }
+    if (changes_only && data == now.last_data)
+      return std::nullopt;
+    now.last_data = std::move(data);
+    if (inHalves())
+      now.second_half = sample;
     return report;
   }
 
-  /// Whether somebody answers at this address of the register space.
+  /// Whose register is at this address; nobody's: error 7.
+  bool nunchukHas(std::uint32_t address) const {
+    return nunchuk_plugged && !now.motion_plus.active() && Nunchuk::hasRegister(address);
+  }
+  bool motionPlusHas(std::uint32_t address) const {
+    return options.motion_plus && now.motion_plus.hasRegister(address);
+  }
+
   bool onBus(std::uint32_t address) const {
-    return (isCamera(address) && now.camera.onBus()) ||
-           (Nunchuk::hasRegister(address) && nunchuk_plugged);
+    return (isCamera(address) && now.camera.onBus()) || nunchukHas(address) ||
+           motionPlusHas(address);
   }
 
   std::uint8_t readRegister(std::uint32_t address) const {
-    return isCamera(address) ? now.camera.read(address) : now.nunchuk.read(address);
+    if (isCamera(address))
+      return now.camera.read(address);
+    if (motionPlusHas(address))
+      return now.motion_plus.read(address);
+    return now.nunchuk.read(address);
   }
 
   void writeRegister(std::uint32_t address, std::uint8_t value) {
     if (isCamera(address))
       now.camera.write(address, value);
-    else
+    else if (motionPlusHas(address))
+      now.motion_plus.write(address, value);
+    else if (nunchukHas(address))
       now.nunchuk.write(address, value);
   }
 
+  /// What is wrong with this part of a space; 0: nothing.
+  std::uint8_t addressError(std::uint8_t flags, std::uint32_t address, std::size_t size) const {
+    const int space = flags & kSpaceMask;
+    if (space == kNoSpace)
+      return kErrorSpace;
+    if (space == kEepromSpace)
+      return Eeprom::contains(address, size) ? 0 : kErrorAddress;
+    return onBus(address) ? 0 : kErrorNoAnswer;
+  }
+
   void setMode(const Bytes& in, std::vector<Bytes>& out) {
-    if (in.size() < 3 || !layoutOf(in[2]))
+    if (in.size() < 3 || !isDataReport(in[2]))
       return;
+    now.rumble = (in[1] & kMotor) != 0;
     now.continuous = (in[1] & kOn) != 0;
     now.mode = in[2];
     now.reporting = true;
+    now.second_half.reset();
     if (in[1] & kAcknowledge)
       out.push_back(acknowledgement(kMode, 0));
-    if (!now.memory_packets.empty())
-      return;
-    now.last_data = data();
-    out.push_back(now.last_data);
+    if (now.memory_packets.empty())
+      out.push_back(*nextData(false));
   }
 
   void writeMemory(const Bytes& in, std::vector<Bytes>& out) {
     if (in.size() < 6 || in[5] == 0 || in[5] > 16)
       return;
     const std::size_t size = in[5];
-    const std::uint32_t address = static_cast<std::uint32_t>(in[2] << 16 | in[3] << 8 | in[4]);
+    const std::uint32_t address = addressOf(in);
     Bytes payload(in.begin() + 6, in.end());
     payload.resize(16, 0);
-    std::uint8_t error = 0;
-    if (in[1] & kRegisters) {
-      if (onBus(address)) {
-        for (std::uint32_t i = 0; i < size; ++i)
-          writeRegister(address + i, payload[i]);
-      } else {
-        error = kErrorNoAnswer;
-      }
-    } else if (Eeprom::contains(address, size)) {
-      for (std::size_t i = 0; i < size; ++i)
+    const std::uint8_t error = addressError(in[1], address, size);
+    const bool had_extension = hasExtension();
+    const bool was_active = now.motion_plus.active();
+    for (std::uint32_t i = 0; i < size && error == 0; ++i) {
+      if ((in[1] & kSpaceMask) == kEepromSpace)
         eeprom[address + i] = payload[i];
-    } else {
-      error = kErrorAddress;
+      else
+        writeRegister(address + i, payload[i]);
     }
     out.push_back(acknowledgement(kWriteMemory, error));
+    // To the host it looks as if something had been plugged in or pulled out.
+    if (hasExtension() != had_extension || now.motion_plus.active() != was_active)
+      out.push_back(extensionChanged());
+  }
+
+  Bytes extensionChanged() {
+    now.reporting = false;
+    now.second_half.reset();
+    return status();
   }
 
   void readMemory(const Bytes& in, std::vector<Bytes>& out) {
     if (in.size() < 7)
       return;
+    const std::uint32_t address = addressOf(in);
+    const std::size_t size = static_cast<std::size_t>(in[5] << 8 | in[6]);
+    if (size == 0)
+      return;
     if (!now.memory_packets.empty()) {
       out.push_back(acknowledgement(kReadMemory, kErrorBusy));
       return;
     }
-    const std::uint32_t address = static_cast<std::uint32_t>(in[2] << 16 | in[3] << 8 | in[4]);
-    const std::size_t size = static_cast<std::size_t>(in[5] << 8 | in[6]);
-    const bool registers = (in[1] & kRegisters) != 0;
-    std::uint8_t error = 0;
-    if (registers && !onBus(address))
-      error = kErrorNoAnswer;
-    else if (!registers && !Eeprom::contains(address, size))
-      error = kErrorAddress;
+    const std::uint8_t error = addressError(in[1], address, size);
     if (error != 0) {
       out.push_back(memoryPacket(address, 16, error, Bytes(16, 0)));
       return;
     }
+    const bool from_eeprom = (in[1] & kSpaceMask) == kEepromSpace;
     for (std::size_t offset = 0; offset < size; offset += 16) {
       const std::size_t count = std::min<std::size_t>(16, size - offset);
+      const std::uint32_t first = address + static_cast<std::uint32_t>(offset);
       Bytes payload(16, 0);
       for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t at = address + static_cast<std::uint32_t>(offset + i);
-        payload[i] = registers ? readRegister(at) : eeprom[at];
+        const std::uint32_t at = first + static_cast<std::uint32_t>(i);
+        payload[i] = from_eeprom ? eeprom[at] : readRegister(at);
       }
-      const std::uint32_t at = address + static_cast<std::uint32_t>(offset);
-      now.memory_packets.push_back(memoryPacket(at, count, 0, payload));
+      now.memory_packets.push_back(memoryPacket(first, count, 0, payload));
     }
     // The first packet is sent at once, the others in place of the data reports that follow.
-    if (!now.memory_packets.empty()) {
-      out.push_back(now.memory_packets.front());
-      now.memory_packets.pop_front();
-    }
+    out.push_back(now.memory_packets.front());
+    now.memory_packets.pop_front();
   }
 
   Bytes memoryPacket(std::uint32_t address,
@@ -251,6 +282,9 @@ std::vector<Bytes> Device::handleOutput(const Bytes& report) {
   State& state = *state_;
   const std::uint8_t id = report[0];
   const std::uint8_t flags = report[1];
+  // A mode that does not exist takes the motor's state with it.
+  if (id >= kRumble && id <= kIrLogic && id != kMode)
+    state.now.rumble = (flags & kMotor) != 0;
   switch (id) {
     case kMode:
       state.setMode(report, answers);
@@ -279,6 +313,7 @@ std::vector<Bytes> Device::handleOutput(const Bytes& report) {
     case kSpeakerMute:
       break;
     case kRumble:  // never acknowledged
+    case kSpeakerData:
     default:
       return answers;
   }
@@ -298,15 +333,19 @@ std::optional<Bytes> Device::sample(const Senses& senses) {
   }
   if (!now.reporting)
     return std::nullopt;
-  Bytes data = state_->data();
-  if (!now.continuous && data == now.last_data)
-    return std::nullopt;
-  now.last_data = data;
-  return data;
+  return state_->nextData(!now.continuous);
 }
 
 std::uint8_t Device::leds() const {
   return state_->now.leds;
+}
+
+bool Device::rumble() const {
+  return state_->now.rumble;
+}
+
+void Device::setBattery(std::uint8_t level) {
+  state_->options.battery = level;
 }
 
 std::optional<Bytes> Device::setNunchuk(bool plugged) {
@@ -314,12 +353,11 @@ std::optional<Bytes> Device::setNunchuk(bool plugged) {
     return std::nullopt;
   state_->nunchuk_plugged = plugged;
   state_->now.nunchuk = Nunchuk();
-  state_->now.reporting = false;
-  return state_->status();
+  return state_->extensionChanged();
 }
 
 void Device::powerCycle() {
-  state_->now = State::Volatile();
+  state_->now = State::Volatile(state_->options);
 }
 
 }  // namespace wiimote_tracker::virtual_wiimote

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace wiimote_tracker::virtual_wiimote {
 namespace {
 
-// Four points in the basic infrared format.
-constexpr std::array<std::uint8_t, 10> kIrBlock{
-    {0x88, 0x85, 0x8b, 0x8b, 0x8a, 0x97, 0x3f, 0x30, 0x8c, 0x39}};
 // x, y, z at 0 g and their low bits; the same at 1 g; speaker volume and motor.
 constexpr std::array<std::uint8_t, 9> kAccelerationBlock{
     {0x84, 0x82, 0x86, 0x30, 0x9f, 0x9d, 0x9f, 0x02, 0x40}};
@@ -27,11 +25,46 @@ void store(std::vector<std::uint8_t>& memory,
   memory[address] = checksum;
 }
 
+/// Two points in five bytes, as in the basic infrared format.
+std::array<std::uint8_t, 10> infraredBlock(const FactoryPoints& points) {
+  std::array<std::uint8_t, 10> block{};
+  for (std::size_t pair = 0; pair < 2; ++pair) {
+    const std::array<int, 2>& a = points[2 * pair];
+    const std::array<int, 2>& b = points[2 * pair + 1];
+    const std::array<int, 5> values{
+        a[0] & 0xff, a[1] & 0xff,
+        (a[1] >> 8 & 3) << 6 | (a[0] >> 8 & 3) << 4 | (b[1] >> 8 & 3) << 2 | (b[0] >> 8 & 3),
+        b[0] & 0xff, b[1] & 0xff};
+    for (std::size_t i = 0; i < values.size(); ++i)
+      block[5 * pair + i] = static_cast<std::uint8_t>(values[i]);
+  }
+  return block;
+}
+
 }  // namespace
 
-Eeprom::Eeprom() : bytes_(kSize, 0) {
-  store(bytes_, 0x00, kIrBlock);
-  store(bytes_, 0x0b, kIrBlock);
+FactoryPoints factoryPoints(double centre_x, double centre_y, std::uint32_t seed) {
+  constexpr double kHalfWidth = 0.4 * 1024.0;
+  constexpr double kHalfHeight = 0.4 * 768.0;
+  constexpr int kScatter = 8;  // [px]; the corners of the one real block are no rectangle either
+  std::mt19937 random(seed);
+  const auto near = [&](double value, int limit) {
+    const int offset = static_cast<int>(random() % (2 * kScatter + 1)) - kScatter;
+    return std::clamp(static_cast<int>(std::lround(value)) + offset, 0, limit - 1);
+  };
+  // In the order of the real block: from the top left round to the bottom left.
+  constexpr std::array<std::array<int, 2>, 4> kCorners{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
+  FactoryPoints points{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i][0] = near(centre_x + kCorners[i][0] * kHalfWidth, 1024);
+    points[i][1] = near(centre_y + kCorners[i][1] * kHalfHeight, 768);
+  }
+  return points;
+}
+
+Eeprom::Eeprom(const FactoryPoints& points) : bytes_(kSize, 0) {
+  store(bytes_, 0x00, infraredBlock(points));
+  store(bytes_, 0x0b, infraredBlock(points));
   store(bytes_, 0x16, kAccelerationBlock);
   store(bytes_, 0x20, kAccelerationBlock);
 }

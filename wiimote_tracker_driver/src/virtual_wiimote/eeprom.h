@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_EEPROM_H
 #define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_EEPROM_H
 
+#include "wiimote_tracker_driver/virtual_wiimote/device.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +17,7 @@ class Eeprom {
  public:
   static constexpr std::size_t kSize = 0x1700;
 
-  Eeprom();
+  explicit Eeprom(const FactoryPoints& points);
 
   /// Whether all of address .. address + size - 1 exists.
   static bool contains(std::size_t address, std::size_t size) {

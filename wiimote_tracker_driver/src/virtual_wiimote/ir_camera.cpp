@@ -9,10 +9,10 @@ namespace {
 constexpr std::size_t kMaximumSize = 0x06;
 constexpr std::size_t kGain = 0x08;
 constexpr std::size_t kGainLimit = 0x1a;
+constexpr std::size_t kMinimumSize = 0x1b;
 constexpr std::size_t kControl = 0x30;
 constexpr std::size_t kMode = 0x33;
 constexpr std::size_t kData = 0x37;
-constexpr std::size_t kDataSize = 36;
 
 constexpr std::uint8_t kRunning = 8;
 constexpr std::uint8_t kBasic = 1;
@@ -28,6 +28,9 @@ std::uint8_t byte(int value) {
 
 }  // namespace
 
+IrCamera::IrCamera(const std::optional<std::uint32_t>& slot_seed)
+    : draws_slots_(slot_seed.has_value()), random_(slot_seed.value_or(0)) {}
+
 bool IrCamera::seeing() const {
   const std::uint8_t mode = registers_[kMode];
   const bool has_mode = mode == kBasic || mode == kExtended || mode == kFull;
@@ -39,28 +42,11 @@ bool IrCamera::seeing() const {
 
 void IrCamera::look(const std::vector<Light>& lights) {
   if (!seeing()) {
-    for (Spot& slot : slots_)
+    for (Slot& slot : slots_)
       slot.lit = false;
     return;
   }
-  std::vector<Light> brightest(lights);
-  std::stable_sort(brightest.begin(), brightest.end(),
-                   [](const Light& a, const Light& b) { return a.brightness > b.brightness; });
-  std::vector<Spot> seen;
-  for (const Light& light : brightest) {
-    if (!(light.x > -0.5 && light.x < 1023.5 && light.y > -0.5 && light.y < 767.5))
-      continue;
-    Spot spot;
-    spot.lit = spot.ever_lit = true;
-    spot.x = static_cast<int>(std::lround(light.x));
-    spot.y = static_cast<int>(std::lround(light.y));
-    spot.size = static_cast<int>(std::lround(std::clamp(light.size, 0.0, 15.0)));
-    spot.intensity = std::min(255, 16 * spot.size + 15);
-    seen.push_back(spot);
-    if (seen.size() == slots_.size())
-      break;
-  }
-  follow(seen);
+  follow(findBlobs(lights, brightnessThreshold(registers_[kGainLimit], registers_[kMinimumSize])));
 
   std::fill_n(registers_.begin() + kData, kDataSize, 0xff);
   if (registers_[kMode] == kBasic)
@@ -71,46 +57,55 @@ void IrCamera::look(const std::vector<Light>& lights) {
     fillFull();
 }
 
-// Hands the spots to the slots: nearest pairs first, then what is new to the first free slot.
-void IrCamera::follow(std::vector<Spot>& seen) {
-  const std::array<Spot, 4> before = slots_;
+// Hands the blobs to the slots: nearest pairs first, then each that is new to a free slot.
+void IrCamera::follow(const std::vector<Blob>& seen) {
+  const std::array<Slot, 4> before = slots_;
   std::array<bool, 4> taken{};
   std::vector<bool> placed(seen.size(), false);
   for (;;) {
     int best = kMaximumStep * kMaximumStep + 1;
     std::size_t best_slot = 0;
-    std::size_t best_spot = 0;
+    std::size_t best_blob = 0;
     for (std::size_t slot = 0; slot < before.size(); ++slot) {
-      for (std::size_t spot = 0; spot < seen.size(); ++spot) {
-        if (!before[slot].lit || taken[slot] || placed[spot])
+      for (std::size_t blob = 0; blob < seen.size(); ++blob) {
+        if (!before[slot].lit || taken[slot] || placed[blob])
           continue;
-        const int dx = before[slot].x - seen[spot].x;
-        const int dy = before[slot].y - seen[spot].y;
+        const int dx = before[slot].blob.x - seen[blob].x;
+        const int dy = before[slot].blob.y - seen[blob].y;
         const int distance = dx * dx + dy * dy;
         if (distance < best) {
           best = distance;
           best_slot = slot;
-          best_spot = spot;
+          best_blob = blob;
         }
       }
     }
     if (best > kMaximumStep * kMaximumStep)
       break;
-    slots_[best_slot] = seen[best_spot];
-    taken[best_slot] = placed[best_spot] = true;
+    slots_[best_slot].blob = seen[best_blob];
+    taken[best_slot] = placed[best_blob] = true;
   }
-  for (std::size_t spot = 0; spot < seen.size(); ++spot) {
-    for (std::size_t slot = 0; slot < slots_.size() && !placed[spot]; ++slot) {
-      if (taken[slot])
-        continue;
-      slots_[slot] = seen[spot];
-      taken[slot] = placed[spot] = true;
-    }
+  for (std::size_t blob = 0; blob < seen.size(); ++blob) {
+    if (placed[blob])
+      continue;
+    const std::size_t slot = chooseFree(taken);
+    slots_[slot].blob = seen[blob];
+    taken[slot] = true;
   }
   for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-    if (!taken[slot])
-      slots_[slot].lit = false;
+    slots_[slot].lit = taken[slot];
+    slots_[slot].ever_lit |= taken[slot];
   }
+}
+
+/// There are never more blobs than slots, so one is free.
+std::size_t IrCamera::chooseFree(const std::array<bool, 4>& taken) {
+  const auto free = std::count(taken.begin(), taken.end(), false);
+  std::size_t skip = draws_slots_ ? random_() % static_cast<std::size_t>(free) : 0;
+  std::size_t slot = 0;
+  while (taken[slot] || skip-- > 0)
+    ++slot;
+  return slot;
 }
 
 // In all formats a slot that has lost its light reads ff; newer remotes have zeros in a slot that
@@ -121,9 +116,9 @@ void IrCamera::fillBasic() {
     int x[2];
     int y[2];
     for (std::size_t i = 0; i < 2; ++i) {
-      const Spot& spot = slots_[2 * pair + i];
-      x[i] = spot.lit ? spot.x : spot.ever_lit ? 0x3ff : 0;
-      y[i] = spot.lit ? spot.y : spot.ever_lit ? 0x3ff : 0;
+      const Slot& slot = slots_[2 * pair + i];
+      x[i] = slot.lit ? slot.blob.x : slot.ever_lit ? 0x3ff : 0;
+      y[i] = slot.lit ? slot.blob.y : slot.ever_lit ? 0x3ff : 0;
     }
     std::uint8_t* out = &registers_[kData + 5 * pair];
     out[0] = byte(x[0] % 256);
@@ -135,46 +130,42 @@ void IrCamera::fillBasic() {
 }
 
 void IrCamera::fillExtended() {
-  for (std::size_t i = 0; i < slots_.size(); ++i) {
-    const Spot& spot = slots_[i];
-    std::uint8_t* out = &registers_[kData + 3 * i];
-    if (spot.lit) {
-      out[0] = byte(spot.x % 256);
-      out[1] = byte(spot.y % 256);
-      out[2] = byte(spot.y / 256 * 64 + spot.x / 256 * 16 + spot.size);
-    } else {
-      std::fill_n(out, 3, spot.ever_lit ? 0xff : 0x00);
-    }
-  }
+  for (std::size_t i = 0; i < slots_.size(); ++i)
+    fillSlot(slots_[i], 3, &registers_[kData + 3 * i]);
 }
 
 void IrCamera::fillFull() {
   for (std::size_t i = 0; i < slots_.size(); ++i) {
-    const Spot& spot = slots_[i];
     std::uint8_t* out = &registers_[kData + 9 * i];
-    if (!spot.lit) {
-      std::fill_n(out, 9, spot.ever_lit ? 0xff : 0x00);
+    fillSlot(slots_[i], 9, out);
+    if (!slots_[i].lit)
       continue;
-    }
-    out[0] = byte(spot.x % 256);
-    out[1] = byte(spot.y % 256);
-    out[2] = byte(spot.y / 256 * 64 + spot.x / 256 * 16 + spot.size);
-    // The box is in the sensor's own pixels, eight times as coarse.
-    out[3] = byte(std::max(0, spot.x / 8 - spot.size / 2));
-    out[4] = byte(std::max(0, spot.y / 8 - spot.size / 2));
-    out[5] = byte(std::min(127, spot.x / 8 + spot.size / 2));
-    out[6] = byte(std::min(95, spot.y / 8 + spot.size / 2));
+    const Blob& blob = slots_[i].blob;
+    std::transform(blob.box.begin(), blob.box.end(), out + 3, byte);
     out[7] = 0;
-    out[8] = byte(spot.intensity);
+    out[8] = byte(blob.intensity);
   }
 }
 
-void IrCamera::appendData(std::size_t size, Bytes& report) const {
-  const auto data = registers_.begin() + kData;
+/// The three bytes that both formats with a size begin with, or `size` bytes that say: no light.
+void IrCamera::fillSlot(const Slot& slot, std::size_t size, std::uint8_t* out) {
+  if (!slot.lit) {
+    std::fill_n(out, size, slot.ever_lit ? 0xff : 0x00);
+    return;
+  }
+  const Blob& blob = slot.blob;
+  out[0] = byte(blob.x % 256);
+  out[1] = byte(blob.y % 256);
+  out[2] = byte(blob.y / 256 * 64 + blob.x / 256 * 16 + blob.size);
+}
+
+IrCamera::Data IrCamera::data() const {
+  Data data;
   if (seeing())
-    report.insert(report.end(), data, data + static_cast<std::ptrdiff_t>(size));
+    std::copy_n(registers_.begin() + kData, kDataSize, data.begin());
   else
-    report.insert(report.end(), size, 0xff);
+    data.fill(0xff);
+  return data;
 }
 
 }  // namespace wiimote_tracker::virtual_wiimote

@@ -1,11 +1,14 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_IR_CAMERA_H
 #define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_IR_CAMERA_H
 
+#include "image_sensor.h"
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <random>
 #include <vector>
 
 namespace wiimote_tracker::virtual_wiimote {
@@ -14,6 +17,13 @@ namespace wiimote_tracker::virtual_wiimote {
 /// starts to see, and what it makes of the lights in its image.
 class IrCamera {
  public:
+  /// The registers that data reports are filled from.
+  static constexpr std::size_t kDataSize = 36;
+  using Data = std::array<std::uint8_t, kDataSize>;
+
+  /// `slot_seed`: see Device::Options.
+  explicit IrCamera(const std::optional<std::uint32_t>& slot_seed);
+
   /// Report 0x13: the camera answers on the bus only while this is on.
   void setClock(bool on) { clock_ = on; }
   /// Report 0x1a.
@@ -28,29 +38,30 @@ class IrCamera {
   /// One image. Keeps a light in its slot while it is followed from image to image.
   void look(const std::vector<Light>& lights);
 
-  /// Appends the first `size` bytes of infrared data as a data report carries them.
-  void appendData(std::size_t size, Bytes& report) const;
+  /// The last image as data reports carry it, from the front; ff while the camera does not see.
+  Data data() const;
 
  private:
-  struct Spot {
+  struct Slot {
     bool lit = false;       ///< Seen in the last image.
     bool ever_lit = false;  ///< Seen since the remote was switched on.
-    int x = 0;
-    int y = 0;
-    int size = 0;
-    int intensity = 0;
+    Blob blob;
   };
 
   bool seeing() const;
-  void follow(std::vector<Spot>& seen);
+  void follow(const std::vector<Blob>& seen);
+  std::size_t chooseFree(const std::array<bool, 4>& taken);
   void fillBasic();
   void fillExtended();
   void fillFull();
+  static void fillSlot(const Slot& slot, std::size_t size, std::uint8_t* out);
 
   bool clock_ = false;
   bool logic_ = false;
   std::array<std::uint8_t, 256> registers_{};
-  std::array<Spot, 4> slots_{};
+  std::array<Slot, 4> slots_{};
+  bool draws_slots_;
+  std::mt19937 random_;
 };
 
 }  // namespace wiimote_tracker::virtual_wiimote

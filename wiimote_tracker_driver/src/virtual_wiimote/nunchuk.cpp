@@ -35,9 +35,11 @@ std::uint8_t Nunchuk::read(std::uint32_t address) const {
   return at >= kIdAddress ? kId[at - kIdAddress] : registers_[at];
 }
 
-void Nunchuk::appendData(std::size_t size, Bytes& report) const {
-  for (std::size_t i = 0; i < size; ++i)
-    report.push_back(i < kAtRest.size() ? read(static_cast<std::uint32_t>(i)) : 0x00);
+ExtensionData Nunchuk::data() const {
+  ExtensionData data{};
+  for (std::size_t i = 0; i < kAtRest.size(); ++i)
+    data[i] = read(static_cast<std::uint32_t>(i));
+  return data;
 }
 
 }  // namespace wiimote_tracker::virtual_wiimote

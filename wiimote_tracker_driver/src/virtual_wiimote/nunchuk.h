@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_NUNCHUK_H
 #define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_NUNCHUK_H
 
-#include "wiimote_tracker_driver/virtual_wiimote/device.h"
+#include "data_report.h"
 
 #include <array>
 #include <cstddef>
@@ -20,8 +20,8 @@ class Nunchuk {
   void write(std::uint32_t address, std::uint8_t value) { registers_[address % 0x100] = value; }
   std::uint8_t read(std::uint32_t address) const;
 
-  /// Its state as it stands in data reports, which have room for `size` bytes.
-  void appendData(std::size_t size, Bytes& report) const;
+  /// Its state as data reports carry it.
+  ExtensionData data() const;
 
  private:
   bool plain() const;

@@ -1,0 +1,99 @@
+#include "data_report.h"
+
+#include <optional>
+
+namespace wiimote_tracker::virtual_wiimote {
+namespace {
+
+constexpr std::uint8_t kExtensionOnly = 0x3d;
+constexpr std::uint8_t kButtonMaskHigh = 0x1f;
+constexpr std::uint8_t kButtonMaskLow = 0x9f;
+
+/// What a data report carries after the buttons, in this order, each from its beginning.
+struct Layout {
+  bool acceleration = false;
+  std::ptrdiff_t infrared = 0;
+  std::ptrdiff_t extension = 0;
+};
+
+std::optional<Layout> layoutOf(std::uint8_t id) {
+  switch (id) {
+    case 0x30:
+      return Layout{};
+    case 0x31:
+      return Layout{true, 0, 0};
+    case 0x32:
+      return Layout{false, 0, 8};
+    case 0x33:
+      return Layout{true, 12, 0};
+    case 0x34:
+      return Layout{false, 0, 19};
+    case 0x35:
+      return Layout{true, 0, 16};
+    case 0x36:
+      return Layout{false, 10, 9};
+    case 0x37:
+      return Layout{true, 10, 6};
+    case kExtensionOnly:
+      return Layout{false, 0, 21};
+    default:
+      return std::nullopt;
+  }
+}
+
+std::uint8_t byte(int value) {
+  return static_cast<std::uint8_t>(value);
+}
+
+/// Sets bits 5 and 6 of a byte of the buttons, where bits of the acceleration travel.
+void addBits(std::uint8_t& buttons, int bits) {
+  buttons = byte(buttons | (bits & 3) << 5);
+}
+
+void appendAcceleration(const std::array<int, 3>& raw, Bytes& report) {
+  for (const int value : raw)
+    report.push_back(byte(value >> 2));
+  addBits(report[1], raw[0]);
+  // y and z have only nine bits.
+  addBits(report[2], (raw[1] >> 1 & 1) | (raw[2] & 2));
+}
+
+/// Half of the infrared data, x or y whole, half of z; all with eight bits.
+Bytes half(bool first, const Sample& sample) {
+  Bytes report = beginReport(first ? kFirstHalf : kSecondHalf, sample.buttons);
+  const int z = sample.acceleration[2] >> 2;
+  addBits(report[1], first ? z >> 4 : z);
+  addBits(report[2], first ? z >> 6 : z >> 2);
+  report.push_back(byte(sample.acceleration[first ? 0 : 1] >> 2));
+  const auto begin = sample.infrared.begin() + (first ? 0 : 18);
+  report.insert(report.end(), begin, begin + 18);
+  return report;
+}
+
+}  // namespace
+
+Bytes beginReport(std::uint8_t id, std::uint16_t buttons) {
+  if (id == kExtensionOnly)
+    return {id};
+  return {id, byte(buttons >> 8 & kButtonMaskHigh), byte(buttons & kButtonMaskLow)};
+}
+
+bool isDataReport(std::uint8_t id) {
+  return id == kFirstHalf || id == kSecondHalf || layoutOf(id);
+}
+
+Bytes dataReport(std::uint8_t id, const Sample& sample) {
+  if (id == kFirstHalf || id == kSecondHalf)
+    return half(id == kFirstHalf, sample);
+  const Layout layout = *layoutOf(id);
+  Bytes report = beginReport(id, sample.buttons);
+  if (layout.acceleration)
+    appendAcceleration(sample.acceleration, report);
+  const auto infrared = sample.infrared.begin();
+  report.insert(report.end(), infrared, infrared + layout.infrared);
+  const auto extension = sample.extension.begin();
+  report.insert(report.end(), extension, extension + layout.extension);
+  return report;
+}
+
+}  // namespace wiimote_tracker::virtual_wiimote

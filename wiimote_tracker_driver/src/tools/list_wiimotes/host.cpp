@@ -1,0 +1,216 @@
+#include "host.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace wiimote_tracker::list_wiimotes {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A Bluetooth adapter has at most this many devices.
+constexpr std::size_t kRemotesPerAdapter = 7;
+
+std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string contentOf(const fs::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::vector<fs::path> entriesOf(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  std::error_code error;
+  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error))
+    entries.push_back(i->path());
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+/// The lines KEY=VALUE of a uevent file.
+std::map<std::string, std::string> valuesOf(const fs::path& path) {
+  std::map<std::string, std::string> values;
+  std::istringstream text(contentOf(path));
+  std::string line;
+  while (std::getline(text, line)) {
+    const std::size_t equals = line.find('=');
+    if (equals != std::string::npos)
+      values[line.substr(0, equals)] = line.substr(equals + 1);
+  }
+  return values;
+}
+
+// HID_ID is bus:vendor:product, "0005:0000057E:00000306".
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+bool isBluetoothAddress(const std::string& text) {
+  return text.size() == 17 && std::count(text.begin(), text.end(), ':') == 5;
+}
+
+std::vector<KernelRemote> readRemotes(const fs::path& root) {
+  std::vector<KernelRemote> remotes;
+  for (const fs::path& device : entriesOf(root / "sys/bus/hid/devices")) {
+    auto values = valuesOf(device / "uevent");
+    const std::string id = lowerCase(values["HID_ID"]);
+    KernelRemote remote;
+    remote.plus = endsWith(id, ":0000057e:00000330");
+    if (!remote.plus && !endsWith(id, ":0000057e:00000306"))
+      continue;
+    remote.address = lowerCase(values["HID_UNIQ"]);
+    // Of a Bluetooth device this is its adapter, of others a place.
+    if (isBluetoothAddress(values["HID_PHYS"]))
+      remote.adapter = lowerCase(values["HID_PHYS"]);
+    remote.kernel_driver = values["DRIVER"];
+    const std::vector<fs::path> nodes = entriesOf(device / "hidraw");
+    if (!nodes.empty())
+      remote.path = "/dev/" + nodes.front().filename().string();
+    remotes.push_back(remote);
+  }
+  std::sort(remotes.begin(), remotes.end(), [](const KernelRemote& a, const KernelRemote& b) {
+    return a.path.size() != b.path.size() ? a.path.size() < b.path.size() : a.path < b.path;
+  });
+  return remotes;
+}
+
+std::vector<BluetoothAdapter> readAdapters(const fs::path& root) {
+  std::vector<BluetoothAdapter> adapters;
+  for (const fs::path& entry : entriesOf(root / "sys/class/bluetooth")) {
+    const std::string name = entry.filename().string();
+    // A connection is listed as well, as "hci0:256".
+    if (name.find(':') == std::string::npos)
+      adapters.push_back({name, BluetoothAdapter::Block::kNone});
+  }
+  for (const fs::path& entry : entriesOf(root / "sys/class/rfkill")) {
+    const std::string name = contentOf(entry / "name");
+    for (BluetoothAdapter& adapter : adapters) {
+      if (name != adapter.name + "\n")
+        continue;
+      if (contentOf(entry / "hard") == "1\n")
+        adapter.block = BluetoothAdapter::Block::kHard;
+      else if (contentOf(entry / "soft") == "1\n")
+        adapter.block = BluetoothAdapter::Block::kSoft;
+    }
+  }
+  return adapters;
+}
+
+bool hasUdevRule(const fs::path& root) {
+  for (const char* folder : {"etc/udev/rules.d", "run/udev/rules.d", "lib/udev/rules.d",
+                             "usr/lib/udev/rules.d", "usr/local/lib/udev/rules.d"}) {
+    for (const fs::path& file : entriesOf(root / folder)) {
+      std::istringstream text(lowerCase(contentOf(file)));
+      std::string line;
+      while (std::getline(text, line)) {
+        if (line.find('#') != 0 && line.find("hidraw") != std::string::npos &&
+            line.find("057e:0306") != std::string::npos)
+          return true;
+      }
+    }
+  }
+  return false;
+}
+
+std::optional<bool> readBondedOnly(const fs::path& root) {
+  std::istringstream text(lowerCase(contentOf(root / "etc/bluetooth/input.conf")));
+  std::optional<bool> bonded_only;
+  std::string line;
+  while (std::getline(text, line)) {
+    line.erase(
+        std::remove_if(line.begin(), line.end(), [](unsigned char c) { return std::isspace(c); }),
+        line.end());
+    if (line == "classicbondedonly=true")
+      bonded_only = true;
+    else if (line == "classicbondedonly=false")
+      bonded_only = false;
+  }
+  return bonded_only;
+}
+
+void addBluetoothProblems(const Host& host, std::vector<std::string>* sentences) {
+  const bool by_bluetooth = std::any_of(host.remotes.begin(), host.remotes.end(),
+                                        [](const KernelRemote& r) { return !r.adapter.empty(); });
+  if (host.adapters.empty() && !by_bluetooth)
+    sentences->push_back("there is no Bluetooth adapter: plug one in");
+  for (const BluetoothAdapter& adapter : host.adapters) {
+    if (adapter.block == BluetoothAdapter::Block::kSoft)
+      sentences->push_back("the Bluetooth adapter " + adapter.name +
+                           " is blocked: run  rfkill unblock bluetooth");
+    if (adapter.block == BluetoothAdapter::Block::kHard)
+      sentences->push_back("the Bluetooth adapter " + adapter.name +
+                           " is switched off by hardware: use the wireless switch or key of this "
+                           "computer");
+  }
+  std::map<std::string, std::size_t> connected;
+  for (const KernelRemote& remote : host.remotes) {
+    if (!remote.adapter.empty())
+      ++connected[remote.adapter];
+  }
+  for (const auto& adapter : connected) {
+    if (adapter.second >= kRemotesPerAdapter)
+      sentences->push_back("the Bluetooth adapter " + adapter.first + " has " +
+                           std::to_string(adapter.second) +
+                           " remotes and takes no more: pair further ones with another adapter");
+  }
+}
+
+}  // namespace
+
+Host readHost(const std::string& root) {
+  const fs::path base = root.empty() ? "/" : root;
+  Host host;
+  host.remotes = readRemotes(base);
+  host.adapters = readAdapters(base);
+  host.udev_rule = hasUdevRule(base);
+  host.bonded_only = readBondedOnly(base);
+  return host;
+}
+
+std::vector<std::string> problems(const Host& host) {
+  std::vector<std::string> sentences;
+  addBluetoothProblems(host, &sentences);
+  if (!host.udev_rule)
+    sentences.push_back(
+        "no udev rule lets users open Wii Remotes: run  sudo cp $(rospack find "
+        "wiimote_tracker_driver)/udev/60-wiimote-tracker.rules /etc/udev/rules.d/ && sudo udevadm "
+        "control --reload  and reconnect the remotes");
+  if (host.bonded_only.value_or(false))
+    sentences.push_back(
+        "ClassicBondedOnly is true in /etc/bluetooth/input.conf, so that remotes paired with 1+2 "
+        "are turned away: pair each with its SYNC button");
+  return sentences;
+}
+
+std::vector<std::string> problems(const KernelRemote& remote) {
+  if (remote.path.empty())
+    return {
+        "the kernel has this remote but made no hidraw node for it: run  sudo modprobe "
+        "hid-wiimote  and reconnect the remote"};
+  std::vector<std::string> sentences;
+  if (remote.kernel_driver == "wiimote")
+    sentences.push_back(
+        "the kernel's driver hid-wiimote shares this remote and now and then interrupts its "
+        "images: see \"kernel driver\" in doc/quirks.md if the driver's diagnostics show gaps");
+  if (remote.address.empty())
+    sentences.push_back(
+        "this remote does not tell its Bluetooth address, so it cannot be known again: connect it "
+        "to a Bluetooth adapter of this computer instead of a converter");
+  return sentences;
+}
+
+std::string modelOf(const KernelRemote& remote) {
+  return remote.plus ? "Wii Remote Plus (RVL-CNT-01-TR)" : "Wii Remote (RVL-CNT-01)";
+}
+
+}  // namespace wiimote_tracker::list_wiimotes

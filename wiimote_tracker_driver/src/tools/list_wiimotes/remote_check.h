@@ -1,0 +1,44 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_REMOTE_CHECK_H
+#define WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_REMOTE_CHECK_H
+
+#include "wiimote_tracker_driver/protocol/input_reports.h"
+#include "wiimote_tracker_driver/transport/transport.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace wiimote_tracker::list_wiimotes {
+
+/// What comes of trying to talk to a remote. A driver that has it is not disturbed, because a
+/// remote is opened for one process alone.
+struct RemoteCheck {
+  enum class State {
+    kFree,    ///< Nobody has it, and it answers.
+    kTaken,   ///< Another program has it; `sentence` says which.
+    kFailed,  ///< `sentence` says why and what to do.
+  };
+  State state = State::kFailed;
+  std::string sentence;
+  std::string identity;                    ///< Of a free remote, as it tells itself.
+  std::optional<protocol::Status> status;  ///< Of a free remote.
+};
+
+/// Opens the remote, asks for its status and lets it go. Waits up to `timeout` [s] for the answer.
+RemoteCheck checkRemote(const transport::DeviceName& device, double timeout);
+
+/// The remote's status, for which it is asked. Nothing after `timeout` [s] without an answer.
+/// @throws transport::Disconnected.
+std::optional<protocol::Status> askStatus(transport::Transport& remote, double timeout);
+
+/// Flashes all four player LEDs `number` times, then lights those of `leds` (LED 1..4 in bits
+/// 0..3). `wait` is told to wait for some time [s]. @throws transport::Disconnected.
+void flash(transport::Transport& remote,
+           int number,
+           std::uint8_t leds,
+           const std::function<void(double)>& wait);
+
+}  // namespace wiimote_tracker::list_wiimotes
+
+#endif  // WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_REMOTE_CHECK_H

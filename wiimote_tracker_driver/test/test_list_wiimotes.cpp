@@ -1,0 +1,373 @@
+// What list_wiimotes knows of a computer, from a made-up /sys and /etc; the list of cameras; and
+// talking to a virtual remote.
+#include "camera_list.h"
+#include "host.h"
+#include "remote_check.h"
+#include "replacement.h"
+#include "wiimote_tracker_driver/virtual_wiimote/server.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace wiimote_tracker::list_wiimotes {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    char name[] = "/tmp/test_list_wiimotes.XXXXXX";
+    path_ = ::mkdtemp(name);
+  }
+  ~TemporaryFolder() { fs::remove_all(path_); }
+  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+  const std::string& path() const { return path_; }
+
+  void write(const std::string& name, const std::string& text) const {
+    fs::create_directories(fs::path(*this / name).parent_path());
+    std::ofstream(*this / name) << text;
+  }
+
+  std::string read(const std::string& name) const {
+    std::ifstream file(*this / name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+ private:
+  std::string path_;
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// How many of the sentences contain the part.
+int count(const std::vector<std::string>& sentences, const std::string& part) {
+  int found = 0;
+  for (const std::string& sentence : sentences)
+    found += contains(sentence, part) ? 1 : 0;
+  return found;
+}
+
+template <typename F>
+std::string errorOf(F f) {
+  try {
+    f();
+  } catch (const CameraListError& e) {
+    return e.what();
+  }
+  ADD_FAILURE() << "no error";
+  return "";
+}
+
+// A remote as Linux 6.1 shows it.
+void plug(const TemporaryFolder& root,
+          int number,
+          const std::string& product,
+          const std::string& driver,
+          const std::string& hidraw,
+          const std::string& adapter = "00:1A:7D:DA:71:13") {
+  const std::string folder =
+      "sys/bus/hid/devices/0005:057E:" + product + ".000" + std::to_string(number) + "/";
+  root.write(folder + "uevent", (driver.empty() ? "" : "DRIVER=" + driver + "\n") +
+                                    "HID_ID=0005:0000057E:0000" + product +
+                                    "\nHID_NAME=Nintendo RVL-CNT-01\nHID_PHYS=" + adapter +
+                                    "\nHID_UNIQ=00:1F:32:00:00:0" + std::to_string(number) + "\n");
+  if (!hidraw.empty())
+    root.write(folder + "hidraw/" + hidraw + "/dev", "241:0\n");
+}
+
+TEST(Host, RemotesAreFoundWithAllThatTheKernelTells) {
+  const TemporaryFolder root;
+  plug(root, 1, "0306", "wiimote", "hidraw10");
+  plug(root, 2, "0330", "hid-generic", "hidraw9");
+  root.write("sys/bus/hid/devices/0003:046D:C31C.0003/uevent",
+             "DRIVER=hid-generic\nHID_ID=0003:0000046D:0000C31C\nHID_NAME=Keyboard\n");
+  root.write("sys/bus/hid/devices/0003:046D:C31C.0003/hidraw/hidraw0/dev", "");
+  const Host host = readHost(root.path());
+  ASSERT_EQ(2u, host.remotes.size());
+  EXPECT_EQ("/dev/hidraw9", host.remotes[0].path);
+  EXPECT_EQ("00:1f:32:00:00:02", host.remotes[0].address);
+  EXPECT_EQ("00:1a:7d:da:71:13", host.remotes[0].adapter);
+  EXPECT_EQ("hid-generic", host.remotes[0].kernel_driver);
+  EXPECT_TRUE(contains(modelOf(host.remotes[0]), "-TR"));
+  EXPECT_EQ("/dev/hidraw10", host.remotes[1].path);
+  EXPECT_FALSE(contains(modelOf(host.remotes[1]), "-TR"));
+  EXPECT_TRUE(problems(host.remotes[0]).empty());
+  EXPECT_EQ(1, count(problems(host.remotes[1]), "hid-wiimote shares"));
+}
+
+TEST(Host, RemoteWithoutDriverIsSeenAllTheSame) {
+  const TemporaryFolder root;
+  plug(root, 1, "0306", "", "");
+  const Host host = readHost(root.path());
+  ASSERT_EQ(1u, host.remotes.size());
+  EXPECT_EQ("", host.remotes[0].path);
+  EXPECT_EQ(1, count(problems(host.remotes[0]), "modprobe hid-wiimote"));
+}
+
+TEST(Host, ConverterHidesTheAddress) {
+  const TemporaryFolder root;
+  root.write("sys/bus/hid/devices/0003:057E:0306.0001/uevent",
+             "DRIVER=hid-generic\nHID_ID=0003:0000057E:00000306\nHID_NAME=Mayflash\n"
+             "HID_PHYS=usb-0000:00:14.0-2/input0\nHID_UNIQ=\n");
+  root.write("sys/bus/hid/devices/0003:057E:0306.0001/hidraw/hidraw1/dev", "");
+  const Host host = readHost(root.path());
+  ASSERT_EQ(1u, host.remotes.size());
+  EXPECT_EQ("", host.remotes[0].adapter);
+  EXPECT_EQ(1, count(problems(host.remotes[0]), "does not tell its Bluetooth address"));
+}
+
+TEST(Host, EachProblemOfTheComputerHasItsSentence) {
+  const TemporaryFolder root;
+  fs::create_directories(root / "sys");
+  EXPECT_EQ(1, count(problems(readHost(root.path())), "no Bluetooth adapter"));
+  EXPECT_EQ(1, count(problems(readHost(root.path())), "no udev rule"));
+
+  root.write("sys/class/bluetooth/hci0/address", "");
+  root.write("sys/class/rfkill/rfkill1/name", "hci0\n");
+  root.write("sys/class/rfkill/rfkill1/soft", "1\n");
+  root.write("sys/class/rfkill/rfkill1/hard", "0\n");
+  EXPECT_EQ(0, count(problems(readHost(root.path())), "no Bluetooth adapter"));
+  EXPECT_EQ(1, count(problems(readHost(root.path())), "rfkill unblock"));
+  root.write("sys/class/rfkill/rfkill1/hard", "1\n");
+  EXPECT_EQ(1, count(problems(readHost(root.path())), "switched off by hardware"));
+  root.write("sys/class/rfkill/rfkill1/hard", "0\n");
+  root.write("sys/class/rfkill/rfkill1/soft", "0\n");
+
+  // A connection is no adapter, and a rule in a comment is none.
+  root.write("sys/class/bluetooth/hci0:256/address", "");
+  EXPECT_EQ(1u, readHost(root.path()).adapters.size());
+  root.write("etc/udev/rules.d/1.rules", "# KERNEL==\"hidraw*\", KERNELS==\"*057E:0306*\"\n");
+  EXPECT_EQ(1, count(problems(readHost(root.path())), "no udev rule"));
+  fs::copy_file(std::string(UDEV_DIRECTORY) + "/60-wiimote-tracker.rules",
+                root / "etc/udev/rules.d/60-wiimote-tracker.rules");
+  EXPECT_TRUE(problems(readHost(root.path())).empty());
+
+  root.write("etc/bluetooth/input.conf", "[General]\n#ClassicBondedOnly=true\n");
+  EXPECT_TRUE(problems(readHost(root.path())).empty());
+  root.write("etc/bluetooth/input.conf", "[General]\nClassicBondedOnly = true\n");
+  EXPECT_EQ(1, count(problems(readHost(root.path())), "ClassicBondedOnly"));
+  root.write("etc/bluetooth/input.conf", "[General]\nClassicBondedOnly=false\n");
+  EXPECT_TRUE(problems(readHost(root.path())).empty());
+}
+
+TEST(Host, SevenRemotesFillAnAdapter) {
+  const TemporaryFolder root;
+  for (int i = 1; i <= 6; ++i)
+    plug(root, i, "0306", "hid-generic", "hidraw" + std::to_string(i));
+  plug(root, 8, "0306", "hid-generic", "hidraw8", "00:1A:7D:DA:71:14");
+  EXPECT_EQ(0, count(problems(readHost(root.path())), "takes no more"));
+  plug(root, 7, "0306", "hid-generic", "hidraw7");
+  EXPECT_EQ(1, count(problems(readHost(root.path())), "00:1a:7d:da:71:13 has 7 remotes"));
+}
+
+constexpr char kList[] =
+    "# Mine.\ncameras:\n  door: \"00:1F:32:00:00:01\"  # above the door\n"
+    "  wiimote_2: /dev/hidraw3\n\n# The end.\n";
+
+TEST(CameraList, KeepsNamesCommentsAndOrder) {
+  CameraList list(kList);
+  EXPECT_EQ(kList, list.text());
+  ASSERT_EQ(2u, list.entries().size());
+  EXPECT_EQ("door", list.entries()[0].name);
+  EXPECT_EQ("/dev/hidraw3", list.entries()[1].device);
+  EXPECT_EQ("door", list.nameOf("00:1f:32:00:00:01"));
+  EXPECT_EQ("", list.nameOf("00:1f:32:00:00:09"));
+  EXPECT_EQ("wiimote_1", list.add("00:1f:32:00:00:05"));
+  EXPECT_EQ("wiimote_3", list.add("00:1f:32:00:00:06"));
+  list.replace("door", "00:1f:32:00:00:07");
+  EXPECT_EQ(
+      "# Mine.\ncameras:\n  door: \"00:1f:32:00:00:07\"  # above the door\n"
+      "  wiimote_2: /dev/hidraw3\n  wiimote_1: \"00:1f:32:00:00:05\"\n"
+      "  wiimote_3: \"00:1f:32:00:00:06\"\n\n# The end.\n",
+      list.text());
+  EXPECT_TRUE(contains(errorOf([&] { list.replace("window", "x"); }), "no camera 'window'"));
+  EXPECT_TRUE(contains(errorOf([&] { list.replace("", "x"); }), "no camera ''"));
+}
+
+TEST(CameraList, ANewOneCanBeReadBack) {
+  CameraList list;
+  list.add("00:1f:32:00:00:01");
+  EXPECT_EQ("wiimote_1", CameraList(list.text()).nameOf("00:1F:32:00:00:01"));
+}
+
+// The list of four cameras that wiimote_tracker_bringup ships.
+TEST(CameraList, TheExampleCanBeRead) {
+  const CameraList list(
+      "# Replace these addresses by your own.\ncameras:\n  wiimote_1: \"00:1f:32:00:00:01\"\n"
+      "  wiimote_2: \"00:1f:32:00:00:02\"\n  wiimote_3: \"00:1f:32:00:00:03\"\n"
+      "  wiimote_4: \"00:1f:32:00:00:04\"\n");
+  EXPECT_EQ("wiimote_4", list.nameOf("00:1f:32:00:00:04"));
+}
+
+TEST(CameraList, WhatItCannotKeepItRefuses) {
+  for (const char* text :
+       {"", "# nothing\n", "wiimote_1: \"00:1f:32:00:00:01\"\n", "cameras: {a: \"x\"}\n",
+        "cameras:\n  - a\n", "cameras:\n  a:\n    identity: \"x\"\n", "cameras:\n  1: \"x\"\n",
+        "cameras:\n  a b: \"x\"\n", "cameras:\n  a: \"x\"\n  a: \"y\"\n",
+        "cameras:\n  a: \"x\"\nother:\n", "cameras:\n  a: \"x\n", "cameras:\n  a: {b: c}\n"}) {
+    EXPECT_NE("", errorOf([&] { CameraList list{std::string(text)}; })) << text;
+  }
+  EXPECT_TRUE(contains(errorOf([] { CameraList list(std::string("cameras:\n  - a\n")); }),
+                       "line 2 is '  - a'"));
+}
+
+TEST(CameraList, WritingKeepsTheFileBefore) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "cameras.yaml";
+  EXPECT_TRUE(contains(errorOf([&] { readCameraList(path); }), "cannot be read"));
+  writeCameraList(CameraList(kList), path);
+  EXPECT_FALSE(fs::exists(path + ".bak"));
+  CameraList list = readCameraList(path);
+  list.add("00:1f:32:00:00:05");
+  writeCameraList(list, path);
+  EXPECT_EQ(kList, folder.read("cameras.yaml.bak"));
+  EXPECT_EQ(list.text(), folder.read("cameras.yaml"));
+  EXPECT_FALSE(fs::exists(path + ".new"));
+  EXPECT_NE("", errorOf([&] { writeCameraList(list, folder / "nowhere/cameras.yaml"); }));
+}
+
+TEST(CameraList, ALinkStaysALink) {
+  const TemporaryFolder folder;
+  folder.write("real/cameras.yaml", kList);
+  fs::create_symlink(folder / "real/cameras.yaml", folder / "cameras.yaml");
+  writeCameraList(CameraList(), folder / "cameras.yaml");
+  EXPECT_TRUE(fs::is_symlink(folder / "cameras.yaml"));
+  EXPECT_EQ(CameraList().text(), folder.read("real/cameras.yaml"));
+}
+
+class Replacing : public testing::Test {
+ protected:
+  Replacing() {
+    folder_.write("cameras.yaml", kList);
+    folder_.write("camera_info/door.yaml", "of the old lens");
+    folder_.write("camera_info/wiimote_2.yaml", "of another lens");
+  }
+  std::string replace(const std::string& camera, const std::string& address) {
+    return replaceRemote(
+        {camera, address, folder_ / "cameras.yaml", folder_ / "camera_info", "2020-01-02"});
+  }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(Replacing, KeepsTheNameAndSetsTheCalibrationAside) {
+  const std::string done = replace("door", "00:1F:32:AA:BB:CC");
+  EXPECT_TRUE(contains(done, "calibrate"));
+  EXPECT_EQ("door", readCameraList(folder_ / "cameras.yaml").nameOf("00:1f:32:aa:bb:cc"));
+  EXPECT_FALSE(fs::exists(folder_ / "camera_info/door.yaml"));
+  EXPECT_EQ("of the old lens", folder_.read("camera_info/door.yaml.replaced-2020-01-02"));
+  EXPECT_EQ("of another lens", folder_.read("camera_info/wiimote_2.yaml"));
+  EXPECT_EQ(kList, folder_.read("cameras.yaml.bak"));
+}
+
+TEST_F(Replacing, TwiceADayLosesNothing) {
+  replace("door", "00:1f:32:aa:bb:cc");
+  folder_.write("camera_info/door.yaml", "of the second lens");
+  replace("door", "00:1f:32:aa:bb:dd");
+  EXPECT_EQ("of the old lens", folder_.read("camera_info/door.yaml.replaced-2020-01-02"));
+  EXPECT_EQ("of the second lens", folder_.read("camera_info/door.yaml.replaced-2020-01-02-2"));
+}
+
+TEST_F(Replacing, WorksWithoutACalibration) {
+  fs::remove_all(folder_ / "camera_info");
+  replace("door", "00:1f:32:aa:bb:cc");
+  EXPECT_EQ("door", readCameraList(folder_ / "cameras.yaml").nameOf("00:1f:32:aa:bb:cc"));
+}
+
+TEST_F(Replacing, WhatMakesNoSenseChangesNothing) {
+  EXPECT_TRUE(
+      contains(errorOf([&] { replace("window", "00:1f:32:aa:bb:cc"); }), "door, wiimote_2"));
+  EXPECT_TRUE(contains(errorOf([&] { replace("door", "hidraw3"); }), "no Bluetooth address"));
+  EXPECT_TRUE(contains(errorOf([&] { replace("door", "/dev/hidraw3"); }), "no Bluetooth address"));
+  EXPECT_TRUE(contains(errorOf([&] { replace("wiimote_2", "00:1f:32:00:00:01"); }),
+                       "is already camera door"));
+  EXPECT_EQ(kList, folder_.read("cameras.yaml"));
+  EXPECT_TRUE(fs::exists(folder_ / "camera_info/door.yaml"));
+}
+
+TEST_F(Replacing, AListThatCannotBeWrittenLeavesTheCalibration) {
+  // The new file cannot be made where a folder has its name.
+  fs::create_directories(folder_ / "cameras.yaml.new/in_the_way");
+  EXPECT_TRUE(
+      contains(errorOf([&] { replace("door", "00:1f:32:aa:bb:cc"); }), "cannot be written"));
+  EXPECT_EQ("of the old lens", folder_.read("camera_info/door.yaml"));
+}
+
+class RemoteTest : public testing::Test {
+ protected:
+  RemoteTest() : server_(folder_ / "remote.sock", "00:1f:32:00:00:01", options()) {}
+  static virtual_wiimote::Device::Options options() {
+    virtual_wiimote::Device::Options options;
+    options.battery = 0x50;
+    return options;
+  }
+  transport::DeviceName device() const {
+    return transport::parseDeviceName("virtual:" + folder_ / "remote.sock");
+  }
+  // The server handles what it is sent in a thread of its own.
+  bool showsLeds(std::uint8_t leds) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (server_.leds() != leds) {
+      if (std::chrono::steady_clock::now() > end)
+        return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+  }
+
+  const TemporaryFolder folder_;
+  virtual_wiimote::Server server_;
+};
+
+TEST_F(RemoteTest, AFreeOneTellsItsBattery) {
+  const RemoteCheck check = checkRemote(device(), 10.0);
+  ASSERT_EQ(RemoteCheck::State::kFree, check.state) << check.sentence;
+  EXPECT_EQ("00:1f:32:00:00:01", check.identity);
+  EXPECT_EQ(0x50, check.status->battery);
+}
+
+TEST_F(RemoteTest, ATakenOneIsLeftAlone) {
+  const auto driver = transport::open(device());
+  const RemoteCheck check = checkRemote(device(), 10.0);
+  EXPECT_EQ(RemoteCheck::State::kTaken, check.state);
+  EXPECT_TRUE(contains(check.sentence, "in use"));
+  protocol::Report report;
+  EXPECT_FALSE(driver->read(report, 0.0));
+}
+
+TEST_F(RemoteTest, AnAbsentOneIsAFailure) {
+  server_.setPresent(false);
+  const RemoteCheck check = checkRemote(device(), 10.0);
+  EXPECT_EQ(RemoteCheck::State::kFailed, check.state);
+  EXPECT_NE("", check.sentence);
+}
+
+TEST_F(RemoteTest, FlashesAsOftenAsItsNumberAndThenShowsItsLedsAgain) {
+  const auto remote = transport::open(device());
+  std::vector<std::uint8_t> shown;
+  std::uint8_t expected = 0x0;
+  // Between two waits the LEDs change from dark to lit or back; the pause at either end is dark.
+  flash(*remote, 3, 0x4, [&](double seconds) {
+    EXPECT_GT(seconds, 0.1);
+    EXPECT_TRUE(showsLeds(expected)) << shown.size();
+    shown.push_back(server_.leds());
+    expected = shown.size() % 2 == 1 && shown.size() < 7 ? 0xf : 0x0;
+  });
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 0xf, 0, 0xf, 0, 0xf, 0, 0}), shown);
+  EXPECT_TRUE(showsLeds(0x4));
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::list_wiimotes

@@ -57,7 +57,8 @@ std::string programName(pid_t process, const std::vector<std::string>& arguments
   if (!arguments.empty() && !arguments[0].empty())
     return arguments[0].substr(arguments[0].rfind('/') + 1);
   std::string name;  // a process may hide its arguments
-  std::getline(std::ifstream(procPath(process, "comm")) >> std::ws, name);
+  std::ifstream file(procPath(process, "comm"));
+  std::getline(file, name);
   return name;
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 /// The file that doc/recording_format.md describes.
 namespace wiimote_tracker::recording {
@@ -50,7 +51,12 @@ constexpr std::uint8_t kMagic[kMagicSize] = {0x89, 'W', 'I', 'I', '\r', '\n', 0x
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kFixedHeaderSize = kMagicSize + 4 + 8 + 1;  ///< Then the software's name.
 constexpr std::size_t kRecordHeaderSize = 1 + 1 + 8;              ///< Then the payload.
-constexpr std::size_t kLongestText = 255;
+/// Longer texts are cut off [byte].
+constexpr std::size_t kLongestPayload = 255;
+
+/// Append what belongs into the file. No allocation where `bytes` has room.
+void append(const Header& header, std::vector<std::uint8_t>& bytes);
+void append(const Record& record, std::vector<std::uint8_t>& bytes);
 
 }  // namespace wiimote_tracker::recording
 

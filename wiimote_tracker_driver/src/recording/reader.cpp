@@ -1,0 +1,104 @@
+#include "wiimote_tracker_driver/recording/reader.h"
+
+#include "little_endian.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <sstream>
+
+namespace wiimote_tracker::recording {
+namespace {
+
+/// @returns how many of `size` bytes there were.
+std::size_t readBytes(std::istream& in, void* to, std::size_t size) {
+  in.read(static_cast<char*>(to), static_cast<std::streamsize>(size));
+  return static_cast<std::size_t>(in.gcount());
+}
+
+bool isReport(Record::Kind kind) {
+  return kind == Record::Kind::kReceived || kind == Record::Kind::kSent;
+}
+
+bool isKind(std::uint8_t kind) {
+  return kind >= static_cast<std::uint8_t>(Record::Kind::kConnected) &&
+         kind <= static_cast<std::uint8_t>(Record::Kind::kDisconnected);
+}
+
+Remote remoteOf(const std::string& text) {
+  std::istringstream lines(text);
+  Remote remote;
+  std::getline(lines, remote.identity);
+  std::getline(lines, remote.kernel_driver);
+  std::getline(lines, remote.description, '\0');
+  return remote;
+}
+
+}  // namespace
+
+Reader::Reader(std::istream& in) : in_(in) {
+  std::array<std::uint8_t, kFixedHeaderSize> fixed{};
+  const std::size_t size = readBytes(in_, fixed.data(), fixed.size());
+  if (!std::equal(fixed.begin(), fixed.begin() + std::min(size, kMagicSize), kMagic))
+    throw BadRecording("this is no recording of a Wii Remote: choose another file");
+  if (size < fixed.size())
+    throw BadRecording("the recording is cut off at its very beginning: choose another file");
+  const std::uint64_t version = littleEndian(&fixed[kMagicSize], 4);
+  if (version != kVersion)
+    throw BadRecording("the recording is of version " + std::to_string(version) +
+                       " and this driver knows version " + std::to_string(kVersion) +
+                       ": use the driver that made it");
+  header_.wall_time = 1e-9 * static_cast<double>(littleEndian(&fixed[kMagicSize + 4], 8));
+  header_.software.resize(fixed.back());
+  if (readBytes(in_, &header_.software[0], header_.software.size()) < header_.software.size())
+    throw BadRecording("the recording is cut off at its very beginning: choose another file");
+  position_ = kFixedHeaderSize + header_.software.size();
+  payload_.reserve(kLongestPayload);
+}
+
+bool Reader::end(const char* why) {
+  char text[160];
+  std::snprintf(text, sizeof(text), "the recording %s at byte %llu, %.3f s from its beginning", why,
+                static_cast<unsigned long long>(position_), 1e-9 * static_cast<double>(time_));
+  damage_ = text;
+  ended_ = true;
+  return false;
+}
+
+bool Reader::next(Record& record) {
+  if (ended_)
+    return false;
+  std::array<std::uint8_t, kRecordHeaderSize> head{};
+  const std::size_t head_size = readBytes(in_, head.data(), head.size());
+  if (head_size == 0) {
+    ended_ = true;
+    return false;
+  }
+  if (head_size < head.size())
+    return end("is cut off");
+  const std::size_t size = head[1];
+  const auto time = static_cast<std::int64_t>(littleEndian(&head[2], 8));
+  if (!isKind(head[0]) || time < time_)
+    return end("is damaged");
+  record.kind = static_cast<Record::Kind>(head[0]);
+  if (isReport(record.kind) && (size == 0 || size > protocol::Report::kCapacity))
+    return end("is damaged");
+  payload_.resize(size);
+  if (readBytes(in_, &payload_[0], size) < size)
+    return end("is cut off");
+
+  time_ = time;
+  position_ += kRecordHeaderSize + size;
+  record.time = 1e-9 * static_cast<double>(time);
+  if (isReport(record.kind)) {
+    record.report.size = size;
+    std::copy(payload_.begin(), payload_.end(), record.report.bytes.begin());
+  } else if (record.kind == Record::Kind::kConnected) {
+    record.remote = remoteOf(payload_);
+  } else {
+    record.reason = payload_;
+  }
+  return true;
+}
+
+}  // namespace wiimote_tracker::recording

@@ -1,0 +1,73 @@
+#include "wiimote_tracker_driver/recording/recorder.h"
+
+#include <utility>
+
+namespace wiimote_tracker::recording {
+namespace {
+
+class RecordingTransport : public transport::Transport {
+ public:
+  RecordingTransport(std::unique_ptr<transport::Transport> transport,
+                     std::shared_ptr<Recorder> recorder,
+                     std::function<double()> clock)
+      : transport_(std::move(transport)), recorder_(std::move(recorder)), clock_(std::move(clock)) {
+    recorder_->connected(
+        {transport_->identity(), transport_->description(), transport_->kernelDriver()}, clock_());
+  }
+  ~RecordingTransport() override {
+    if (!lost_)
+      recorder_->disconnected("", clock_());
+  }
+  RecordingTransport(const RecordingTransport&) = delete;
+  RecordingTransport& operator=(const RecordingTransport&) = delete;
+
+  bool read(protocol::Report& report, double timeout) override {
+    bool received = false;
+    try {
+      received = transport_->read(report, timeout);
+    } catch (const transport::TransportError& e) {
+      lose(e.what());
+      throw;
+    }
+    if (received)
+      recorder_->received(report, clock_());
+    return received;
+  }
+
+  void write(const protocol::Report& report) override {
+    try {
+      transport_->write(report);
+    } catch (const transport::TransportError& e) {
+      lose(e.what());
+      throw;
+    }
+    recorder_->sent(report, clock_());
+  }
+
+  std::string description() const override { return transport_->description(); }
+  std::string identity() const override { return transport_->identity(); }
+  std::string kernelDriver() const override { return transport_->kernelDriver(); }
+
+ private:
+  void lose(const std::string& reason) {
+    if (!lost_)
+      recorder_->disconnected(reason, clock_());
+    lost_ = true;
+  }
+
+  std::unique_ptr<transport::Transport> transport_;
+  std::shared_ptr<Recorder> recorder_;
+  std::function<double()> clock_;
+  bool lost_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<transport::Transport> record(std::unique_ptr<transport::Transport> transport,
+                                             std::shared_ptr<Recorder> recorder,
+                                             std::function<double()> clock) {
+  return std::make_unique<RecordingTransport>(std::move(transport), std::move(recorder),
+                                              std::move(clock));
+}
+
+}  // namespace wiimote_tracker::recording

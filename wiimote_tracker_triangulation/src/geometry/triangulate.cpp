@@ -1,12 +1,11 @@
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
+#include <limits>
 
 namespace wiimote_tracker::geometry {
 namespace {
@@ -14,216 +13,287 @@ namespace {
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
+using Matrix23 = Eigen::Matrix<double, 2, 3>;
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
 
-struct Sight {
-  Ray ray;
-  Matrix32 direction_by_pixel;
-  Matrix32 position_by_pixel;  // of the linear methods
+/// What is intersected; not owned.
+struct Sights {
+  const Sight* first;
+  std::size_t count;
+
+  const Sight* begin() const { return first; }
+  const Sight* end() const { return first + count; }
 };
 
-/// As many as there are observations; on the stack as long as they are few.
-class Sights {
- public:
-  explicit Sights(std::size_t size) : size_(size) {
-    if (size > inline_.size())
-      heap_.resize(size);
-  }
-  Sight* begin() { return heap_.empty() ? inline_.data() : heap_.data(); }
-  Sight* end() { return begin() + size_; }
-
- private:
-  std::size_t size_;
-  std::array<Sight, 16> inline_;
-  std::vector<Sight> heap_;
-};
-
-bool isParallel(const Ray& a, const Ray& b, double minimum_angle) {
-  // The sine, not the cosine: exact for small angles. Opposite directions are parallel, too.
-  return !(a.direction.cross(b.direction).norm() >= std::sin(minimum_angle));
+/// minimum_angle's sine squared. The sine, not the cosine: exact for small angles. Opposite
+/// directions are parallel, too.
+bool isParallel(const Sight& a, const Sight& b, double minimum_sine_squared) {
+  return !(a.direction.cross(b.direction).squaredNorm() >= minimum_sine_squared);
 }
 
-bool haveAngle(Sights& sights, double minimum_angle) {
+bool haveAngle(const Sights& sights, double minimum_sine_squared) {
   for (const Sight& a : sights) {
     for (const Sight* b = &a + 1; b != sights.end(); ++b) {
-      if (!isParallel(a.ray, b->ray, minimum_angle))
+      if (!isParallel(a, *b, minimum_sine_squared))
         return true;
     }
   }
   return false;
 }
 
-Matrix3 acrossRay(const Ray& ray) {
-  return Matrix3::Identity() - ray.direction * ray.direction.transpose();
+double minimumSineSquared(double minimum_angle) {
+  const double sine = std::sin(minimum_angle);
+  return sine * sine;
+}
+
+Matrix3 acrossRay(const Sight& sight) {
+  return Matrix3::Identity() - sight.direction * sight.direction.transpose();
 }
 
 /// d position / d pixel of the point with the least sum of squared distances to rays, to first
 /// order, also where the rays miss each other. From sum P_i (position - origin_i) = 0 with
 /// P_i = I - d_i d_i^T; `inverse` is (sum P_i)^-1.
 Matrix32 positionByPixel(const Matrix3& inverse, const Vector3& position, const Sight& sight) {
-  const Vector3 along = position - sight.ray.origin;
-  const Vector3& d = sight.ray.direction;
+  const Vector3 along = position - sight.origin;
+  const Vector3& d = sight.direction;
   const Matrix3 change = d.dot(along) * Matrix3::Identity() + d * along.transpose();
-  return inverse * change * sight.direction_by_pixel;
+  return inverse * change * sight.directionByPixel();
 }
+
+/// The midpoint of two rays' closest points: it has the least squared distances to both.
+struct Midpoint {
+  Midpoint(const Sight& a, const Sight& b) {
+    const Matrix3 across_b = acrossRay(b);
+    inverse = (acrossRay(a) + across_b).inverse();
+    position = a.origin + inverse * (across_b * (b.origin - a.origin));
+  }
+  Matrix3 inverse;
+  Vector3 position;
+};
 
 /// Mean over all pairs that are not parallel of the point halfway between the two rays.
-Vector3 meanClosest(Sights& sights, double minimum_angle) {
+void meanClosest(const Sights& sights, double minimum_sine_squared, TriangulatedPoint* point) {
   Vector3 sum = Vector3::Zero();
   int pairs = 0;
-  for (Sight& s : sights)
-    s.position_by_pixel.setZero();
-  for (Sight& a : sights) {
-    for (Sight* b = &a + 1; b != sights.end(); ++b) {
-      if (isParallel(a.ray, b->ray, minimum_angle))
+  Matrix3 variance = Matrix3::Zero();
+  for (const Sight& a : sights) {
+    Matrix32 position_by_pixel = Matrix32::Zero();  // the sum over the pairs of which a is one
+    for (const Sight& b : sights) {
+      if (&a == &b || isParallel(a, b, minimum_sine_squared))
         continue;
-      // The midpoint of two rays' closest points has the least squared distances to both.
-      const Matrix3 across_b = acrossRay(b->ray);
-      const Matrix3 inverse = (acrossRay(a.ray) + across_b).inverse();
-      const Vector3 midpoint = a.ray.origin + inverse * (across_b * (b->ray.origin - a.ray.origin));
-      sum += midpoint;
-      a.position_by_pixel += positionByPixel(inverse, midpoint, a);
-      b->position_by_pixel += positionByPixel(inverse, midpoint, *b);
-      ++pairs;
+      const Midpoint midpoint(a, b);
+      position_by_pixel += positionByPixel(midpoint.inverse, midpoint.position, a);
+      if (&a < &b) {
+        sum += midpoint.position;
+        ++pairs;
+      }
     }
+    variance += position_by_pixel * position_by_pixel.transpose();
   }
-  for (Sight& s : sights)
-    s.position_by_pixel /= pairs;
-  return sum / pairs;
+  point->position = sum / pairs;
+  point->covariance = variance / (pairs * pairs);
 }
 
-/// Point with the least weighted sum of squared distances to all rays; weight: function of a sight.
-template <typename Weight>
-Vector3 leastSquares(Sights& sights, Matrix3* inverse, const Weight& weight) {
-  const Vector3 base = sights.begin()->ray.origin;  // keeps the numbers small
+void leastSquares(const Sights& sights, TriangulatedPoint* point) {
+  const Vector3 base = sights.first->origin;  // keeps the numbers small
   Matrix3 A = Matrix3::Zero();
   Vector3 b = Vector3::Zero();
   for (const Sight& s : sights) {
-    const Matrix3 across = weight(s) * acrossRay(s.ray);
+    const Matrix3 across = acrossRay(s);
     A += across;
-    b += across * (s.ray.origin - base);
+    b += across * (s.origin - base);
   }
-  *inverse = A.inverse();
-  return base + *inverse * b;
+  const Matrix3 inverse = A.inverse();
+  point->position = base + inverse * b;
+  point->covariance.setZero();
+  for (const Sight& s : sights) {
+    const Matrix32 position_by_pixel = positionByPixel(inverse, point->position, s);
+    point->covariance += position_by_pixel * position_by_pixel.transpose();
+  }
 }
 
-Vector3 leastSquares(Sights& sights) {
-  Matrix3 inverse;
-  const Vector3 position = leastSquares(sights, &inverse, [](const Sight&) { return 1.0; });
-  for (Sight& s : sights)
-    s.position_by_pixel = positionByPixel(inverse, position, s);
-  return position;
-}
+/// Normal equations of a least squares problem in three unknowns: A x = b.
+class NormalEquations {
+ public:
+  /// Two rows J x = r.
+  void add(const Matrix23& J, const Vector2& r) {
+    const auto u = J.row(0);
+    const auto v = J.row(1);
+    xx_ += u.x() * u.x() + v.x() * v.x();
+    xy_ += u.x() * u.y() + v.x() * v.y();
+    xz_ += u.x() * u.z() + v.x() * v.z();
+    yy_ += u.y() * u.y() + v.y() * v.y();
+    yz_ += u.y() * u.z() + v.y() * v.z();
+    zz_ += u.z() * u.z() + v.z() * v.z();
+    b_ += J.transpose() * r;
+  }
 
-/// Midpoint in which each ray counts by its nearness: close to maximum likelihood already.
-Vector3 weightedMidpoint(Sights& sights) {
-  const Vector3 unweighted = leastSquares(sights);
-  Matrix3 inverse;
-  return leastSquares(sights, &inverse, [&](const Sight& s) {
-    return 1.0 / std::max(1e-6, (unweighted - s.ray.origin).squaredNorm());
-  });
-}
+  /// Three rows (I - d d^T) x = (I - d d^T) p, d of unit length.
+  void addAcross(const Vector3& d, const Vector3& p) {
+    xx_ += 1.0 - d.x() * d.x();
+    xy_ -= d.x() * d.y();
+    xz_ -= d.x() * d.z();
+    yy_ += 1.0 - d.y() * d.y();
+    yz_ -= d.y() * d.z();
+    zz_ += 1.0 - d.z() * d.z();
+    b_ += p - d.dot(p) * d;
+  }
 
-Matrix3 linearCovariance(Sights& sights) {
-  Matrix3 covariance = Matrix3::Zero();
+  const Vector3& b() const { return b_; }
+  double trace() const { return xx_ + yy_ + zz_; }
+
+  /// A^-1 by cofactors; not finite when A is singular.
+  Matrix3 inverse() const {
+    const double c00 = yy_ * zz_ - yz_ * yz_;
+    const double c01 = yz_ * xz_ - xy_ * zz_;
+    const double c02 = xy_ * yz_ - yy_ * xz_;
+    const double c11 = xx_ * zz_ - xz_ * xz_;
+    const double c12 = xy_ * xz_ - xx_ * yz_;
+    const double c22 = xx_ * yy_ - xy_ * xy_;
+    const double scale = 1.0 / (xx_ * c00 + xy_ * c01 + xz_ * c02);
+    Matrix3 inverse;
+    inverse << c00, c01, c02, c01, c11, c12, c02, c12, c22;
+    return scale * inverse;
+  }
+
+ private:
+  double xx_ = 0.0, xy_ = 0.0, xz_ = 0.0, yy_ = 0.0, yz_ = 0.0, zz_ = 0.0;
+  Vector3 b_ = Vector3::Zero();
+};
+
+/// The point with the least sum of squared distances to all rays, at no more cost than that.
+Vector3 nearestToRays(const Sights& sights) {
+  const Vector3 base = sights.first->origin;  // keeps the numbers small
+  NormalEquations equations;
   for (const Sight& s : sights)
-    covariance += s.position_by_pixel * s.position_by_pixel.transpose();
-  return covariance;
+    equations.addAcross(s.direction, s.origin - base);
+  return base + equations.inverse() * equations.b();
 }
 
-/// Sum of squared pixel residuals at a point [px^2]; nothing when a camera cannot see it.
-std::optional<double> squaredResiduals(const std::vector<Observation>& observations,
-                                       const Vector3& position) {
-  double sum = 0.0;
-  for (const Observation& o : observations) {
-    const std::optional<Vector2> pixel = o.camera->project(position);
-    if (!pixel)
-      return std::nullopt;
-    sum += (*pixel - o.pixel).squaredNorm();
-  }
-  return sum;
-}
-
-/// Gauss-Newton on the pixel residuals, from and into *position. *information becomes J^T J
-/// [px^2/m^2] at the result. False when it does not settle.
-bool minimizeReprojectionError(const std::vector<Observation>& observations,
-                               Vector3* position,
-                               Matrix3* information) {
+/// Gauss-Newton on the residuals. False when it does not settle.
+bool maximumLikelihood(const Sights& sights, TriangulatedPoint* point) {
   constexpr int kMaximumSteps = 100;
-  constexpr int kMaximumHalvings = 20;
-  std::optional<double> cost = squaredResiduals(observations, *position);
-  for (int i = 0; cost && i < kMaximumSteps; ++i) {
-    Matrix3 JtJ = Matrix3::Zero();
-    Vector3 Jtr = Vector3::Zero();
-    for (const Observation& o : observations) {
-      Eigen::Matrix<double, 2, 3> J;
-      const std::optional<Vector2> pixel = o.camera->project(*position, &J);
-      if (!pixel)
-        return false;
-      JtJ.noalias() += J.transpose() * J;
-      Jtr.noalias() += J.transpose() * (*pixel - o.pixel);
+  constexpr double kNegligible = 1e-6;  // of the cost: far below what noise makes of it
+  constexpr double kRounding = 1e-18;   // [px^2]
+  Vector3 position = nearestToRays(sights);
+  Vector3 step = Vector3::Zero();
+  double best_cost = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMaximumSteps; ++i) {
+    NormalEquations equations;
+    double cost = 0.0;
+    double least_depth = std::numeric_limits<double>::infinity();
+    for (const Sight& s : sights) {
+      const Vector3 offset = position - s.origin;
+      const double depth = s.axis.dot(offset);
+      const double scale = 1.0 / depth;
+      const Vector2 residual = scale * (s.pixel_by_offset * offset);
+      equations.add(scale * (s.pixel_by_offset - residual * s.axis.transpose()), residual);
+      cost += residual.squaredNorm();
+      least_depth = std::min(least_depth, depth);
     }
-    *information = JtJ;
-    Vector3 step = JtJ.ldlt().solve(Jtr);
-    // The gain [px^2] that the linear model promises has become too small to be told from rounding.
-    if (step.dot(Jtr) <= 1e-18 + 1e-9 * *cost) {
-      *position -= step;
+    if (!(least_depth > 0.0 && cost < best_cost)) {
+      step *= 0.5;  // the last step went too far
+      position += step;
+      continue;
+    }
+    best_cost = cost;
+    point->covariance = equations.inverse();
+    step = point->covariance * equations.b();
+    position -= step;
+    // The next step will be shorter by two factors: the change of the derivatives along this step,
+    // and their curvature (one over the depth) times the residuals, which counts most where the
+    // point is badly determined.
+    const double n = static_cast<double>(sights.count);
+    const double badly_determined = point->covariance.trace() * equations.trace() / (n * n);
+    const double next_share =
+        (step.squaredNorm() + cost * point->covariance.trace() * badly_determined) /
+        (least_depth * least_depth);
+    if (next_share * step.dot(equations.b()) <= kRounding + kNegligible * cost) {
+      point->position = position;
       return true;
     }
-    std::optional<double> next_cost = squaredResiduals(observations, *position - step);
-    for (int k = 0; k < kMaximumHalvings && !(next_cost && *next_cost < *cost); ++k) {
-      step *= 0.5;
-      next_cost = squaredResiduals(observations, *position - step);
-    }
-    if (!(next_cost && *next_cost < *cost))
-      return false;
-    *position -= step;
-    cost = next_cost;
   }
   return false;
 }
 
+double reprojectionError(const Sights& sights, const Vector3& position) {
+  double squared_residuals = 0.0;
+  for (const Sight& s : sights)
+    squared_residuals += s.residual(position).squaredNorm();
+  return std::sqrt(squared_residuals / static_cast<double>(sights.count));
+}
+
+bool isInFront(const Sights& sights, const Vector3& position) {
+  return std::all_of(sights.begin(), sights.end(),
+                     [&](const Sight& s) { return s.depth(position) > 0.0; });
+}
+
+/// As many as there are observations; on the stack as long as they are few.
+class SightBuffer {
+ public:
+  explicit SightBuffer(std::size_t size) {
+    if (size > inline_.size())
+      heap_.resize(size);
+  }
+  Sight* data() { return heap_.empty() ? inline_.data() : heap_.data(); }
+
+ private:
+  std::array<Sight, 16> inline_;
+  std::vector<Sight> heap_;
+};
+
 }  // namespace
+
+std::optional<TriangulatedPoint> triangulate(const Sight* first,
+                                             std::size_t count,
+                                             const TriangulationOptions& options) {
+  const Sights sights{first, count};
+  const double minimum_sine_squared = minimumSineSquared(options.minimum_angle);
+  if (count < 2 || !haveAngle(sights, minimum_sine_squared))
+    return std::nullopt;
+  TriangulatedPoint point{Vector3::Zero(), Matrix3::Zero(), 0.0};
+  switch (options.method) {
+    case TriangulationMethod::kMeanClosest:
+      meanClosest(sights, minimum_sine_squared, &point);
+      break;
+    case TriangulationMethod::kLeastSquares:
+      leastSquares(sights, &point);
+      break;
+    case TriangulationMethod::kMaximumLikelihood:
+      if (!maximumLikelihood(sights, &point))
+        return std::nullopt;
+      break;
+  }
+  point.covariance *= options.pixel_stddev * options.pixel_stddev;
+  if (!isInFront(sights, point.position) || !point.position.allFinite() ||
+      !point.covariance.allFinite())
+    return std::nullopt;
+  point.reprojection_error = reprojectionError(sights, point.position);
+  return point;
+}
 
 std::optional<TriangulatedPoint> triangulate(const std::vector<Observation>& observations,
                                              const TriangulationOptions& options) {
-  if (observations.size() < 2)
-    return std::nullopt;
-  Sights sights(observations.size());
-  Sight* sight = sights.begin();
+  SightBuffer sights(observations.size());
+  Sight* next = sights.data();
   for (const Observation& o : observations) {
-    const std::optional<Ray> ray = rayFromPixel(*o.camera, o.pixel, &sight->direction_by_pixel);
-    if (!ray)
+    const std::optional<Sight> sight = sightFromPixel(*o.camera, o.pixel);
+    if (!sight)
       return std::nullopt;
-    (sight++)->ray = *ray;
+    *next++ = *sight;
   }
-  if (!haveAngle(sights, options.minimum_angle))
+  std::optional<TriangulatedPoint> point = triangulate(sights.data(), observations.size(), options);
+  if (!point)
     return std::nullopt;
-
-  TriangulatedPoint point;
-  const double pixel_variance = options.pixel_stddev * options.pixel_stddev;
-  switch (options.method) {
-    case TriangulationMethod::kMeanClosest:
-      point.position = meanClosest(sights, options.minimum_angle);
-      point.covariance = pixel_variance * linearCovariance(sights);
-      break;
-    case TriangulationMethod::kLeastSquares:
-      point.position = leastSquares(sights);
-      point.covariance = pixel_variance * linearCovariance(sights);
-      break;
-    case TriangulationMethod::kMaximumLikelihood: {
-      point.position = weightedMidpoint(sights);
-      Matrix3 information;
-      if (!minimizeReprojectionError(observations, &point.position, &information))
-        return std::nullopt;
-      point.covariance = pixel_variance * information.inverse();
-      break;
-    }
+  double squared_residuals = 0.0;
+  for (const Observation& o : observations) {
+    const std::optional<Vector2> pixel = o.camera->project(point->position);
+    if (!pixel)
+      return std::nullopt;
+    squared_residuals += (*pixel - o.pixel).squaredNorm();
   }
-  const std::optional<double> residuals = squaredResiduals(observations, point.position);
-  if (!residuals || !point.position.allFinite() || !point.covariance.allFinite())
-    return std::nullopt;
-  point.reprojection_error = std::sqrt(*residuals / static_cast<double>(observations.size()));
+  point->reprojection_error =
+      std::sqrt(squared_residuals / static_cast<double>(observations.size()));
   return point;
 }
 

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <iostream>
 #include <limits>
 
 namespace wiimote_tracker::geometry {
@@ -275,6 +277,96 @@ TEST(Triangulate, MaximumLikelihoodFitsThePixelsBest) {
         EXPECT_GT(std::sqrt(sum / 4.0), best->reprojection_error);
       }
     }
+  }
+}
+
+double squaredResiduals(const std::vector<Observation>& observations, const Vector3d& point) {
+  double sum = 0.0;
+  for (const Observation& o : observations)
+    sum += (OpenCvCamera(*o.camera).project(point) - o.pixel).squaredNorm();
+  return sum;
+}
+
+/// What Newton's method with numerical derivatives still gains from a point on [px^2].
+double gainLeft(const std::vector<Observation>& observations, const Vector3d& point) {
+  constexpr double h = 1e-3;  // [m]
+  const auto cost = [&](const Vector3d& offset) {
+    return squaredResiduals(observations, point + offset);
+  };
+  Vector3d gradient;
+  Eigen::Matrix3d hessian;
+  for (int a = 0; a < 3; ++a) {
+    const Vector3d ea = h * Vector3d::Unit(a);
+    gradient[a] = (cost(ea) - cost(-ea)) / (2.0 * h);
+    for (int b = 0; b < 3; ++b) {
+      const Vector3d eb = h * Vector3d::Unit(b);
+      hessian(a, b) =
+          (cost(ea + eb) - cost(ea - eb) - cost(eb - ea) + cost(-ea - eb)) / (4.0 * h * h);
+    }
+  }
+  return 0.5 * gradient.dot(hessian.ldlt().solve(gradient));
+}
+
+TEST(Triangulate, MaximumLikelihoodLeavesNothingToGain) {
+  Random random(17);
+  double worst = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    Rig rig = test::randomRig(random, 2 + i % 4);
+    if (i % 3 == 0) {  // side by side, badly determined
+      rig = parallelRig({0.0, 0.3});
+      for (RigCamera& camera : rig.cameras)
+        camera.camera.world_from_camera.translation().z() = -6.0;
+    }
+    std::vector<Observation> observations = observe(rig, random.inBox(0.5));
+    for (Observation& o : observations)
+      o.pixel += random.uniform(0.1, 3.0) * Vector2d(random.gaussian(), random.gaussian());
+    const auto point =
+        triangulate(observations, optionsFor(TriangulationMethod::kMaximumLikelihood));
+    ASSERT_TRUE(point);
+    const double cost = squaredResiduals(observations, point->position);
+    worst = std::max(worst, gainLeft(observations, point->position) / cost);
+  }
+  std::cout << "worst gain left: " << worst << " of the cost" << std::endl;
+  EXPECT_LT(worst, 1e-4);
+}
+
+TEST(Triangulate, SightsGiveTheSamePointAsObservations) {
+  Random random(19);
+  for (int i = 0; i < 100; ++i) {
+    const Rig rig = test::randomRig(random, 2 + i % 7);
+    std::vector<Observation> observations = observe(rig, random.inBox(1.0));
+    std::vector<Sight> sights;
+    for (Observation& o : observations) {
+      o.pixel += 0.5 * Vector2d(random.gaussian(), random.gaussian());
+      sights.push_back(*sightFromPixel(*o.camera, o.pixel));
+    }
+    for (const TriangulationMethod method : kMethods) {
+      const auto point = triangulate(observations, optionsFor(method));
+      const auto same = triangulate(sights.data(), sights.size(), optionsFor(method));
+      ASSERT_TRUE(point && same);
+      EXPECT_EQ(point->position, same->position);
+      EXPECT_EQ(point->covariance, same->covariance);
+      EXPECT_NEAR(point->reprojection_error, same->reprojection_error,
+                  2e-3 * point->reprojection_error);
+    }
+  }
+}
+
+TEST(Sight, ResidualIsThatOfTheLensToFirstOrder) {
+  Random random(20);
+  for (int i = 0; i < 100; ++i) {
+    const Camera camera = test::randomRig(random, 1).cameras[0].camera;
+    const Vector3d point = random.inBox(1.0);
+    const Vector2d offset(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+    const Vector2d pixel = OpenCvCamera(camera).project(point) - offset;
+    const auto sight = sightFromPixel(camera, pixel);
+    ASSERT_TRUE(sight);
+    EXPECT_LT((sight->residual(point) - offset).norm(), 5e-3 * offset.norm());
+    const auto ray = rayFromPixel(camera, pixel);
+    EXPECT_LT((sight->direction - ray->direction).norm(), 1e-12);
+    Eigen::Matrix<double, 3, 2> direction_by_pixel;
+    ASSERT_TRUE(rayFromPixel(camera, pixel, &direction_by_pixel));
+    EXPECT_LT((sight->directionByPixel() - direction_by_pixel).norm(), 1e-12);
   }
 }
 

@@ -2,9 +2,11 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_TRIANGULATE_H
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
+#include "wiimote_tracker_triangulation/geometry/sight.h"
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -42,6 +44,12 @@ struct TriangulatedPoint {
 /// kMaximumLikelihood: for pixel noise that is Gaussian, independent and equal in both axes.
 /// The covariance of the two linear methods is propagated to first order from the same noise.
 std::optional<TriangulatedPoint> triangulate(const std::vector<Observation>& observations,
+                                             const TriangulationOptions& options);
+
+/// Same from sights, for whoever intersects each of them more than once; reprojection_error is the
+/// linearised one (see Sight). Never allocates.
+std::optional<TriangulatedPoint> triangulate(const Sight* sights,
+                                             std::size_t count,
                                              const TriangulationOptions& options);
 
 }  // namespace wiimote_tracker::geometry

@@ -1,0 +1,41 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_SIGHT_H
+#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_SIGHT_H
+
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+
+namespace wiimote_tracker::geometry {
+
+/// One camera's view of a point, made ready to be intersected with others any number of times: the
+/// lens is undone once. Distances in the image are those of the lens linearised at the pixel, which
+/// for a residual of some pixels is exact to about its square over the focal length.
+struct Sight {
+  Eigen::Vector3d origin;     ///< Optical centre, world [m].
+  Eigen::Vector3d direction;  ///< Of the pixel's ray, world, unit length.
+  Eigen::Vector3d axis;       ///< Optical axis, world, unit length.
+
+  /// d pixel / d (position in the camera's plane of depth 1 m), in world axes [px]; zero along
+  /// direction.
+  Eigen::Matrix<double, 2, 3> pixel_by_offset;
+
+  /// Distance along the optical axis of a world point [m].
+  double depth(const Eigen::Vector3d& point) const { return axis.dot(point - origin); }
+
+  /// Pixel of a world point less the observed pixel [px]; the point must have a depth above 0.
+  Eigen::Vector2d residual(const Eigen::Vector3d& point) const {
+    return pixel_by_offset * (point - origin) / depth(point);
+  }
+
+  /// 3x2 derivative of direction by the pixel [1/px].
+  Eigen::Matrix<double, 3, 2> directionByPixel() const;
+};
+
+/// Nothing when the pixel has no ray (see Intrinsics::normalizedFromPixel).
+std::optional<Sight> sightFromPixel(const Camera& camera, const Eigen::Vector2d& pixel);
+
+}  // namespace wiimote_tracker::geometry
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_SIGHT_H

@@ -1,5 +1,7 @@
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
+#include "wiimote_tracker_driver/virtual_wiimote/faulty_device.h"
+
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/eventfd.h>
@@ -93,7 +95,8 @@ struct Server::State {
   FileDescriptor wake;
 
   mutable std::mutex mutex;  // guards all below
-  Device device;
+  FaultyDevice device;
+  bool present = true;  ///< As told; a fault may take it away all the same.
   FileDescriptor listener;
   FileDescriptor host;
 
@@ -112,11 +115,43 @@ struct Server::State {
     ::send(host.get(), report.data(), report.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   }
 
+  void send(const std::vector<Bytes>& reports) const {
+    if (!host.open())
+      return;
+    for (const Bytes& report : reports)
+      send(report);
+  }
+
+  /// Lets hosts reach the device, or not.
+  void setReachable(bool reachable) {
+    if (reachable == listener.open())
+      return;
+    if (reachable) {
+      listener.reset(listenAt(path));
+    } else {
+      ::unlink(path.c_str());
+      listener.reset();
+      host.reset();
+    }
+    wakeUp();
+  }
+
+  /// Tells a second host who the first one is.
+  void refuse(int second) const {
+    ucred first{};
+    socklen_t size = sizeof(first);
+    if (::getsockopt(host.get(), SOL_SOCKET, SO_PEERCRED, &first, &size) != 0)
+      return;
+    const std::string text = "taken by process " + std::to_string(first.pid);
+    ::send(second, text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  }
+
   void accept() {
     const int fd = ::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (fd < 0)
       return;
     if (host.open()) {
+      refuse(fd);
       ::close(fd);
       return;
     }
@@ -137,8 +172,7 @@ struct Server::State {
         host.reset();
         return;
       }
-      for (const Bytes& answer : device.handleOutput(Bytes(buffer.begin(), buffer.begin() + size)))
-        send(answer);
+      send(device.handleOutput(Bytes(buffer.begin(), buffer.begin() + size)));
     }
   }
 
@@ -190,11 +224,26 @@ Server::~Server() {
 
 void Server::sample(const Senses& senses) {
   const std::lock_guard<std::mutex> lock(state_->mutex);
-  if (!state_->listener.open())
+  if (!state_->present)
     return;
-  const std::optional<Bytes> report = state_->device.sample(senses);
-  if (report && state_->host.open())
-    state_->send(*report);
+  const std::vector<Bytes> reports = state_->device.sample(senses);
+  state_->setReachable(!state_->device.away());
+  state_->send(reports);
+}
+
+void Server::setFaults(const Faults& faults) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  state_->device.setFaults(faults);
+}
+
+void Server::setNunchuk(bool plugged) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  state_->send(state_->device.setNunchuk(plugged));
+}
+
+void Server::setBattery(std::uint8_t level) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  state_->device.device().setBattery(level);
 }
 
 bool Server::connected() const {
@@ -204,24 +253,22 @@ bool Server::connected() const {
 
 std::uint8_t Server::leds() const {
   const std::lock_guard<std::mutex> lock(state_->mutex);
-  return state_->device.leds();
+  return state_->device.device().leds();
+}
+
+bool Server::rumble() const {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  return state_->device.device().rumble();
 }
 
 void Server::setPresent(bool present) {
-  {
-    const std::lock_guard<std::mutex> lock(state_->mutex);
-    if (present == state_->listener.open())
-      return;
-    if (present) {
-      state_->device.powerCycle();
-      state_->listener.reset(listenAt(state_->path));
-    } else {
-      ::unlink(state_->path.c_str());
-      state_->listener.reset();
-      state_->host.reset();
-    }
-  }
-  state_->wakeUp();
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  if (present == state_->present)
+    return;
+  if (present)
+    state_->device.powerCycle();
+  state_->setReachable(present);
+  state_->present = present;
 }
 
 }  // namespace wiimote_tracker::virtual_wiimote

@@ -1,5 +1,7 @@
 #include "wiimote_tracker_driver/virtual_wiimote/uhid.h"
 
+#include "wiimote_tracker_driver/virtual_wiimote/faulty_device.h"
+
 #include <fcntl.h>
 #include <linux/input.h>
 #include <linux/uhid.h>
@@ -112,9 +114,10 @@ struct UhidDevice::State {
     Bytes report;
   };
 
-  mutable std::mutex mutex;  // guards the three below
-  Device device;
-  bool present = false;
+  mutable std::mutex mutex;  // guards all below
+  FaultyDevice device;
+  bool present = false;  ///< As told; a fault may take it away all the same.
+  bool plugged = false;
   std::deque<UnderWay> under_way;
 
   std::atomic<bool> stop{false};
@@ -159,11 +162,28 @@ struct UhidDevice::State {
     write(event, offsetof(uhid_input2_req, data) + report.size());
   }
 
+  void send(const std::vector<Bytes>& reports) const {
+    for (const Bytes& report : reports)
+      send(report);
+  }
+
+  void setPlugged(bool now_plugged) {
+    if (now_plugged == plugged)
+      return;
+    if (now_plugged) {
+      create();
+    } else {
+      destroy();
+      under_way.clear();
+    }
+    plugged = now_plugged;
+  }
+
   void receive(const __u8* data, std::size_t size) {
     const auto latency =
         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.latency));
     const std::lock_guard<std::mutex> lock(mutex);
-    if (present)
+    if (plugged)
       under_way.push_back(
           {Clock::now() + latency, Bytes(data, data + std::min(size, kLargestReport))});
   }
@@ -174,8 +194,7 @@ struct UhidDevice::State {
       const Bytes& report = under_way.front().report;
       if (options.listener)
         options.listener(report);
-      for (const Bytes& answer : device.handleOutput(report))
-        send(answer);
+      send(device.handleOutput(report));
     }
   }
 
@@ -261,32 +280,43 @@ void UhidDevice::sample(const Senses& senses) {
   const std::lock_guard<std::mutex> lock(state_->mutex);
   if (!state_->present)
     return;
-  if (const std::optional<Bytes> report = state_->device.sample(senses))
-    state_->send(*report);
+  const std::vector<Bytes> reports = state_->device.sample(senses);
+  state_->setPlugged(!state_->device.away());
+  state_->send(reports);
+}
+
+void UhidDevice::setFaults(const Faults& faults) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  state_->device.setFaults(faults);
 }
 
 void UhidDevice::setNunchuk(bool plugged) {
   const std::lock_guard<std::mutex> lock(state_->mutex);
-  if (const std::optional<Bytes> report = state_->device.setNunchuk(plugged))
-    state_->send(*report);
+  state_->send(state_->device.setNunchuk(plugged));
+}
+
+void UhidDevice::setBattery(std::uint8_t level) {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  state_->device.device().setBattery(level);
 }
 
 std::uint8_t UhidDevice::leds() const {
   const std::lock_guard<std::mutex> lock(state_->mutex);
-  return state_->device.leds();
+  return state_->device.device().leds();
+}
+
+bool UhidDevice::rumble() const {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  return state_->device.device().rumble();
 }
 
 void UhidDevice::setPresent(bool present) {
   const std::lock_guard<std::mutex> lock(state_->mutex);
   if (present == state_->present)
     return;
-  if (present) {
+  if (present)
     state_->device.powerCycle();
-    state_->create();
-  } else {
-    state_->destroy();
-    state_->under_way.clear();
-  }
+  state_->setPlugged(present);
   state_->present = present;
 }
 

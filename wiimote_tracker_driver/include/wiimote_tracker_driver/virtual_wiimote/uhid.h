@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_UHID_H
 
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
+#include "wiimote_tracker_driver/virtual_wiimote/faults.h"
 
 #include <cstdint>
 #include <functional>
@@ -38,14 +39,24 @@ class UhidDevice {
   UhidDevice(const std::string& address, const Options& options);
   ~UhidDevice();
 
-  /// Lets the device sense this instant and sends the resulting report, if any, to the kernel.
+  /// Lets the device sense this instant and sends what results, if anything, to the kernel.
+  /// @throws std::system_error when a fault has the device go or come back and the kernel refuses.
   void sample(const Senses& senses);
+
+  /// What goes wrong from now on; at first nothing does.
+  void setFaults(const Faults& faults);
 
   /// Plugs a Nunchuk into the remote, or pulls it out.
   void setNunchuk(bool plugged);
 
+  /// The batteries' raw level from now on.
+  void setBattery(std::uint8_t level);
+
   /// Player LEDs 1..4 in bits 0..3, as last set by a host or by the kernel.
   std::uint8_t leds() const;
+
+  /// Whether the motor runs.
+  bool rumble() const;
 
   /// Takes the device away (out of range) or brings it back power-cycled. Returns when the kernel
   /// has let go of it; a device that comes back is set up by the kernel afterwards.

@@ -4,13 +4,15 @@
 
 #include "wiimote_tracker_driver/protocol/accelerometer.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
+#include "wiimote_tracker_driver/protocol/ir_calibration.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <iterator>
 #include <random>
+#include <set>
+#include <vector>
 
 namespace wiimote_tracker {
 namespace {
@@ -45,11 +47,12 @@ bool same(const IrSpot& found, unsigned x, unsigned y, unsigned size) {
          found.size == static_cast<int>(size);
 }
 
-bool isFull(const wire::DataReport& layout) {
+bool isHalf(const wire::DataReport& layout) {
   return layout.format == wire::Format::kFull;
 }
 
-// ---- Spots.
+// ---- Spots. In all tests each slot goes through all values, at any time other ones than its
+// neighbours.
 
 TEST(WireLayouts, ExtendedSpotsOfEveryPlaceAndSizeInEverySlot) {
   Noise noise;
@@ -57,7 +60,6 @@ TEST(WireLayouts, ExtendedSpotsOfEveryPlaceAndSizeInEverySlot) {
   std::vector<wire::Spot> spots;
   for (std::size_t slot = 0; slot < 4; ++slot)
     spots.push_back(wire::spot(wire::Format::kExtended, slot, 6));
-  // Each slot goes through all values, at any time other ones than its neighbours.
   const auto y_of = [](unsigned y, unsigned slot) { return (y + 256 * slot) % 1024; };
   const auto size_of = [](unsigned size, unsigned slot) { return (size + 5 * slot) % 16; };
   const auto x_of = [](unsigned x, unsigned slot) { return (x + 341 * slot) % 1024; };
@@ -107,12 +109,87 @@ TEST(WireLayouts, BasicSpotsOfEveryPlaceInEverySlot) {
   }
 }
 
+/// The halves of an interleaved report, which carry four spots in the full format.
+struct Halves {
+  Report first;
+  Report second;
+};
+
+Halves halves(Noise& noise) {
+  return {noise.report(0x3e, 22), noise.report(0x3f, 22)};
+}
+
+/// The half that holds spot `slot`, and the spot's place in it.
+std::uint8_t* halfOf(Halves& halves, std::size_t slot) {
+  return slot < 2 ? halves.first.bytes.data() : halves.second.bytes.data();
+}
+wire::Spot fullSpot(std::size_t slot) {
+  return wire::spot(wire::Format::kFull, slot % 2, 4);
+}
+
+bool sameFull(const IrSpot& found, const wire::Spot& places, const std::uint8_t* bytes) {
+  if (!same(found, places.x.read(bytes), places.y.read(bytes), places.size->read(bytes)))
+    return false;
+  const std::array<const BitField*, 4> box{
+      {&*places.x_min, &*places.y_min, &*places.x_max, &*places.y_max}};
+  bool good = found.intensity == (found.seen ? int(places.intensity->read(bytes)) : 0);
+  for (std::size_t i = 0; i < 4; ++i)
+    good = good && found.box[i] == (found.seen ? int(box[i]->read(bytes)) : 0);
+  return good;
+}
+
+TEST(WireLayouts, FullSpotsOfEveryPlaceInEverySlot) {
+  Noise noise;
+  Halves report = halves(noise);
+  std::vector<wire::Spot> spots;
+  for (std::size_t slot = 0; slot < 4; ++slot)
+    spots.push_back(fullSpot(slot));
+  std::uint64_t wrong = 0;
+  for (unsigned y = 0; y < 1024; ++y) {
+    for (std::size_t slot = 0; slot < 4; ++slot)
+      spots[slot].y.write(halfOf(report, slot), (y + 257 * unsigned(slot)) % 1024);
+    for (unsigned x = 0; x < 1024; ++x) {
+      for (std::size_t slot = 0; slot < 4; ++slot)
+        spots[slot].x.write(halfOf(report, slot), (x + 341 * unsigned(slot)) % 1024);
+      const auto data = protocol::decodeInterleaved(report.first, report.second);
+      ASSERT_TRUE(data);
+      for (std::size_t slot = 0; slot < 4; ++slot)
+        wrong +=
+            !same(data->spots[slot], (x + 341 * unsigned(slot)) % 1024,
+                  (y + 257 * unsigned(slot)) % 1024, spots[slot].size->read(halfOf(report, slot)));
+    }
+  }
+  EXPECT_EQ(wrong, 0u);
+}
+
+TEST(WireLayouts, EveryValueOfEveryFieldOfAFullSpot) {
+  Noise noise;
+  for (std::size_t slot = 0; slot < 4; ++slot) {
+    const wire::Spot places = fullSpot(slot);
+    const std::array<const BitField*, 8> fields{{&places.x, &places.y, &*places.size,
+                                                 &*places.x_min, &*places.y_min, &*places.x_max,
+                                                 &*places.y_max, &*places.intensity}};
+    for (std::size_t field = 0; field < fields.size(); ++field) {
+      std::uint64_t wrong = 0;
+      for (unsigned value = 0; value < fields[field]->values(); ++value) {
+        Halves report = halves(noise);
+        fields[field]->write(halfOf(report, slot), value);
+        const auto data = protocol::decodeInterleaved(report.first, report.second);
+        ASSERT_TRUE(data);
+        for (std::size_t other = 0; other < 4; ++other)
+          wrong += !sameFull(data->spots[other], fullSpot(other), halfOf(report, other));
+      }
+      EXPECT_EQ(wrong, 0u) << "slot " << slot << ", field " << field;
+    }
+  }
+}
+
 // ---- What shares a report with them.
 
 TEST(WireLayouts, DataReportsHaveTheirPartsAndNoOthers) {
   Noise noise;
   for (const wire::DataReport& layout : wire::kDataReports) {
-    if (isFull(layout))
+    if (isHalf(layout))
       continue;
     const auto data = protocol::decodeDataReport(noise.report(layout.id, layout.size));
     ASSERT_TRUE(data) << std::hex << layout.id;
@@ -143,6 +220,32 @@ TEST(WireLayouts, EveryAccelerationInEveryReport) {
       EXPECT_EQ(wrong, 0u) << "report 0x" << std::hex << layout.id << ", axis " << axis;
     }
   }
+}
+
+TEST(WireLayouts, EveryInterleavedAcceleration) {
+  Noise noise;
+  std::uint64_t wrong = 0;
+  for (unsigned value = 0; value < 256; ++value) {
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      Halves report = halves(noise);
+      std::uint8_t* first = report.first.bytes.data();
+      std::uint8_t* second = report.second.bytes.data();
+      if (axis < 2) {
+        wire::kInterleavedWhole.write(axis == 0 ? first : second, value);
+      } else {
+        wire::kInterleavedZ.write(first, value >> 4);
+        wire::kInterleavedZ.write(second, value & 15);
+      }
+      const unsigned x = wire::kInterleavedWhole.read(first);
+      const unsigned y = wire::kInterleavedWhole.read(second);
+      const unsigned z = wire::kInterleavedZ.read(first) << 4 | wire::kInterleavedZ.read(second);
+      const auto data = protocol::decodeInterleaved(report.first, report.second);
+      // The two lowest of ten bits are missing.
+      wrong +=
+          !data || data->acceleration != std::array<int, 3>{{int(4 * x), int(4 * y), int(4 * z)}};
+    }
+  }
+  EXPECT_EQ(wrong, 0u);
 }
 
 TEST(WireLayouts, EveryStateOfTheButtonBytesInEveryReport) {
@@ -232,7 +335,7 @@ TEST(WireLayouts, EachDecoderTakesItsOwnReportsFromTheirLengthOn) {
   for (int id = 0; id < 256; ++id) {
     std::size_t data_size = Report::kCapacity + 1;
     for (const wire::DataReport& layout : wire::kDataReports) {
-      if (layout.id == id && !isFull(layout))
+      if (layout.id == id && !isHalf(layout))
         data_size = layout.size;
     }
     for (std::size_t size = 0; size <= Report::kCapacity; ++size) {
@@ -242,6 +345,22 @@ TEST(WireLayouts, EachDecoderTakesItsOwnReportsFromTheirLengthOn) {
       EXPECT_EQ(protocol::decodeAcknowledgement(report).has_value(), id == 0x22 && size >= 5);
       EXPECT_EQ(protocol::decodeDataReport(report).has_value(), size >= data_size)
           << "report 0x" << std::hex << id << std::dec << " of " << size << " bytes";
+    }
+  }
+}
+
+TEST(WireLayouts, OnlyTheTwoHalvesInTheirOrderAreAnInterleavedReport) {
+  Noise noise;
+  for (int first = 0x30; first < 0x40; ++first) {
+    for (int second = 0x30; second < 0x40; ++second) {
+      for (const std::size_t size : {std::size_t{0}, std::size_t{21}, std::size_t{22}}) {
+        EXPECT_EQ(protocol::decodeInterleaved(noise.report(first, size), noise.report(second, 22))
+                      .has_value(),
+                  first == 0x3e && second == 0x3f && size == 22);
+        EXPECT_EQ(protocol::decodeInterleaved(noise.report(first, 22), noise.report(second, size))
+                      .has_value(),
+                  first == 0x3e && second == 0x3f && size == 22);
+      }
     }
   }
 }
@@ -342,6 +461,38 @@ TEST(WireLayouts, EveryValueOfTheAccelerometerBlock) {
       }
     }
     EXPECT_EQ(wrong, 0u) << "field " << field;
+  }
+}
+
+TEST(WireLayouts, EveryCoordinateOfTheIrCalibrationBlock) {
+  Noise noise;
+  for (std::size_t changed = 0; changed < 4; ++changed) {
+    for (const bool is_x : {true, false}) {
+      std::uint64_t wrong = 0;
+      for (unsigned value = 0; value < 1024; ++value) {
+        std::array<std::uint8_t, protocol::kIrCalibrationBlockSize> block{};
+        std::set<std::pair<unsigned, unsigned>> points;
+        bool on_sensor = true;
+        for (std::size_t i = 0; i < 4; ++i) {
+          const wire::Spot place = wire::spot(wire::Format::kBasic, i, 0);
+          const unsigned x = i == changed && is_x ? value : noise.below(1024);
+          const unsigned y = i == changed && !is_x ? value : noise.below(768);
+          place.x.write(block.data(), x);
+          place.y.write(block.data(), y);
+          points.emplace(x, y);
+          on_sensor = on_sensor && y < 768;
+        }
+        block[10] = wire::checksum(block.data(), wire::kIrCalibrationPoints);
+        const auto decoded = protocol::decodeIrCalibrationBlock(block);
+        wrong += decoded.has_value() != (on_sensor && points.size() == 4);
+        for (std::size_t i = 0; decoded && i < 4; ++i) {
+          const wire::Spot place = wire::spot(wire::Format::kBasic, i, 0);
+          wrong += decoded->points[i] != std::array<int, 2>{{int(place.x.read(block.data())),
+                                                             int(place.y.read(block.data()))}};
+        }
+      }
+      EXPECT_EQ(wrong, 0u) << "point " << changed;
+    }
   }
 }
 

@@ -148,6 +148,10 @@ const std::array<BitField, 6> kAccelerometerBlock{
     {BitField("0.7-0 3.5-4"), BitField("1.7-0 3.3-2"), BitField("2.7-0 3.1-0"),
      BitField("4.7-0 7.5-4"), BitField("5.7-0 7.3-2"), BitField("6.7-0 7.1-0")}};
 
+/// The factory's calibration of the infrared camera is ten bytes of infrared data in the basic
+/// format, four points, and a checksum.
+constexpr std::size_t kIrCalibrationPoints = 10;
+
 /// Both factory blocks end with the sum of the bytes before it and 0x55.
 inline std::uint8_t checksum(const std::uint8_t* bytes, std::size_t count) {
   unsigned sum = 0x55;

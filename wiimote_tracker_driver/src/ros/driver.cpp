@@ -1,8 +1,8 @@
 #include "driver.h"
 
-#include <geometry_msgs/TransformStamped.h>
-#include <sensor_msgs/Imu.h>
-#include <wiimote_tracker_msgs/IrBlobArray.h>
+#include "realtime_priority.h"
+#include "wiimote_tracker_driver/transport/users.h"
+
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
 #include <pthread.h>
@@ -10,47 +10,48 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <utility>
 
 namespace wiimote_tracker::driver {
 namespace {
 
-constexpr double kStandardGravity = 9.80665;  // [m/s^2]
-constexpr double kReadWait = 0.1;             // [s] How soon a request to stop is noticed.
-constexpr double kRepeatErrorAfter = 30.0;    // [s]
-constexpr double kDiagnosticsCheck = 0.2;     // [s]
-// A remote sends some 95 to 100 images a second; below this something is wrong [Hz].
-constexpr double kLowRate = 80.0;
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+// How soon a wish of a callback, or to stop, is noticed when nothing comes [s].
+constexpr double kReadWait = 0.1;
+constexpr double kDiagnosticsCheck = 0.2;  // [s]
+constexpr double kUsersCheck = 10.0;       // [s] Looking for them costs milliseconds.
 
-double steadyNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-wiimote::Options wiimoteOptions(const DriverParameters& parameters) {
+wiimote::Options wiimoteOptions(const DriverParameters& p, protocol::IrFormat ir_format) {
   wiimote::Options options;
-  options.session.leds = static_cast<std::uint8_t>(parameters.leds);
-  options.session.sensitivity = *protocol::irSensitivity(parameters.ir_sensitivity);
-  options.session.reply_timeout = parameters.reply_timeout;
-  options.session.silence_timeout = parameters.silence_timeout;
-  options.session.status_interval = parameters.status_interval;
+  options.session.leds = leds(p.leds, p.camera_name);
+  options.session.ir_format = ir_format;
+  options.session.sensitivity =
+      sensitivity(p.ir_sensitivity, p.ir_sensitivity_block1, p.ir_sensitivity_block2);
+  options.session.reply_timeout = p.reply_timeout;
+  options.session.silence_timeout = p.silence_timeout;
+  options.session.status_interval = p.status_interval;
   return options;
 }
 
-wiimote::Wiimote::Open opener(const std::string& device) {
-  return [name = transport::parseDeviceName(device)] { return transport::open(name); };
+ImageStamper::Options stamperOptions(const DriverParameters& p, protocol::IrFormat ir_format) {
+  ImageStamper::Options options;
+  options.latency = p.latency;
+  options.estimate = p.estimate_exposure;
+  if (ir_format == protocol::IrFormat::kFull)  // two reports make an image
+    options.period *= 2.0;
+  return options;
 }
 
-std::uint8_t irMode(protocol::IrFormat format) {
-  switch (format) {
-    case protocol::IrFormat::kBasic:
-      return wiimote_tracker_msgs::IrBlobArray::IR_MODE_BASIC;
-    case protocol::IrFormat::kExtended:
-      return wiimote_tracker_msgs::IrBlobArray::IR_MODE_EXTENDED;
-    default:
-      return wiimote_tracker_msgs::IrBlobArray::IR_MODE_UNKNOWN;
+std::shared_ptr<recording::Recorder> makeRecorder(const DriverParameters& p,
+                                                  const RemoteSource& source,
+                                                  const std::string& parameter) {
+  if (p.record.empty())
+    return nullptr;
+  try {
+    return std::make_shared<recording::Recorder>(p.record, source.now(),
+                                                 ros::WallTime::now().toSec());
+  } catch (const recording::BadRecording& e) {
+    throw ParameterError(parameter + ": " + e.what());
   }
 }
 
@@ -71,38 +72,52 @@ std::thread threadWithoutSignals(F f) {
 Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
     : parameters_(readDriverParameters(nh, private_nh)),
       optical_frame_(parameters_.camera_name + "_optical_frame"),
-      imu_frame_(parameters_.camera_name + "_imu_frame"),
-      camera_info_(nh, parameters_.camera_name),
+      source_(makeSource(parameters_, private_nh.resolveName("device"))),
+      ir_format_(source_->irFormat().value_or(irFormat(parameters_.ir_mode))),
+      recorder_(makeRecorder(parameters_, *source_, private_nh.resolveName("record"))),
+      control_(leds(parameters_.leds, parameters_.camera_name), parameters_.rumble_max),
+      wiimote_(
+          wiimoteOptions(parameters_, ir_format_),
+          [this] { return open(); },
+          [this] { return source_->now(); }),
+      camera_info_(nh,
+                   parameters_.camera_name,
+                   optical_frame_,
+                   parameters_.camera_info_url,
+                   private_nh.resolveName("camera_info_url")),
+      blobs_(nh, parameters_.camera_name, optical_frame_),
+      imu_(nh,
+           optical_frame_,
+           parameters_.camera_name + "_imu_frame",
+           parameters_.linear_acceleration_stddev),
+      battery_(nh, parameters_.camera_name, parameters_.battery_low),
+      joy_(nh, optical_frame_),
+      log_(parameters_.camera_name, !source_->recorded()),
+      stamper_(stamperOptions(parameters_, ir_format_)),
+      stamp_stddev_(std::numeric_limits<double>::quiet_NaN()),
+      statistics_(steadyNow()),
+      reader_priority_("normal"),
+      settings_(private_nh, parameters_, control_),
+      feedback_(nh, parameters_.camera_name, control_),
+      diagnostics_(ir_format_,
+                   1.0 / stamperOptions(parameters_, ir_format_).period,
+                   parameters_.battery_low),
       updater_(nh, private_nh, private_nh.getNamespace().substr(1)),
-      wiimote_(wiimoteOptions(parameters_), opener(parameters_.device), steadyNow),
-      logged_at_(steadyNow()),
-      statistics_(steadyNow()) {
-  if (!camera_info_.validateURL(parameters_.camera_info_url))
-    throw ParameterError(private_nh.resolveName("camera_info_url") + " is '" +
-                         parameters_.camera_info_url +
-                         "', but must be empty or a URL such as file:///path/to/camera.yaml or "
-                         "package://name/camera.yaml");
+      users_due_(steadyNow()) {
   if (nh.getNamespace() == "/")
     ROS_WARN(
         "the driver runs in the namespace /, so that its topics are /ir_blobs and so on: start "
         "it in the camera's namespace, for example ROS_NAMESPACE=wiimote_1");
-  // Now rather than at the first image.
-  camera_info_.loadCameraInfo(parameters_.camera_info_url);
-
-  blobs_ = nh.advertise<wiimote_tracker_msgs::IrBlobArray>("ir_blobs", 20);
-  camera_info_publisher_ = nh.advertise<sensor_msgs::CameraInfo>("camera_info", 20);
-  imu_ = nh.advertise<sensor_msgs::Imu>("imu/data_raw", 20);
-  publishStaticTransform();
-
   updater_.setHardwareID("none");
   updater_.add("Wii Remote " + parameters_.camera_name, this, &Driver::diagnose);
-  diagnostics_ = nh.createSteadyTimer(ros::WallDuration(kDiagnosticsCheck),
-                                      [this](const ros::SteadyTimerEvent&) { updater_.update(); });
+  diagnostics_timer_ =
+      nh.createSteadyTimer(ros::WallDuration(kDiagnosticsCheck),
+                           [this](const ros::SteadyTimerEvent&) { updater_.update(); });
   reader_ = threadWithoutSignals([this] { run(); });
 }
 
 Driver::~Driver() {
-  diagnostics_.stop();
+  diagnostics_timer_.stop();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stop_ = true;
@@ -112,196 +127,110 @@ Driver::~Driver() {
 }
 
 void Driver::run() {
+  hurry();
+  log_.notice(source_->notice());
   std::uint64_t seen_changes = 0;
-  for (;;) {
-    const double idle = wiimote_.idleTime();
-    {
-      std::unique_lock<std::mutex> lock(mutex_);
-      if (idle > 0.0)
-        stopping_.wait_for(lock, std::chrono::duration<double>(idle), [this] { return stop_; });
-      if (stop_)
-        break;
-    }
+  while (waitForTurn()) {
+    control_.apply(wiimote_, source_->now());
     const auto image = wiimote_.step(kReadWait);
-    if (image)
-      publishImage(*image, ros::Time::now());
     if (wiimote_.linkChanges() != seen_changes) {
       seen_changes = wiimote_.linkChanges();
       linkChanged();
     }
+    if (image)
+      publishImage(*image);
   }
   wiimote_.close();
 }
 
-void Driver::publishImage(const protocol::DataReport& image, const ros::Time& arrival) {
-  ros::Time stamp = arrival;
-  if (arrival.toSec() > parameters_.latency)  // else the clock has hardly begun
-    stamp -= ros::Duration(parameters_.latency);
-  publishBlobs(image, stamp, arrival);
-  publishCameraInfo(stamp);
-  if (image.acceleration)
-    publishAcceleration(*image.acceleration, stamp);
-  ++frame_;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  statistics_.add(steadyNow());
-}
-
-void Driver::publishBlobs(const protocol::DataReport& image,
-                          const ros::Time& stamp,
-                          const ros::Time& arrival) {
-  // A message of its own each time, so that nodelets may share it.
-  const auto message = boost::make_shared<wiimote_tracker_msgs::IrBlobArray>();
-  message->header.stamp = stamp;
-  message->header.frame_id = optical_frame_;
-  message->camera = parameters_.camera_name;
-  message->identity = wiimote_.link().identity;
-  message->arrival = arrival;
-  message->stamp_stddev = std::numeric_limits<double>::quiet_NaN();
-  message->clock_epoch = wiimote_.link().clock_epoch;
-  message->frame = frame_;
-  message->width = protocol::kSensorWidth;
-  message->height = protocol::kSensorHeight;
-  message->max_blobs = static_cast<std::uint32_t>(image.spots.size());
-  message->ir_mode = irMode(image.ir_format);
-  message->blobs.reserve(image.spots.size());
-  for (std::size_t slot = 0; slot < image.spots.size(); ++slot) {
-    const protocol::IrSpot& spot = image.spots[slot];
-    if (!spot.seen)
-      continue;
-    wiimote_tracker_msgs::IrBlob blob;
-    blob.x = spot.x;
-    blob.y = protocol::kSensorHeight - 1 - spot.y;  // the sensor's y points up
-    blob.size =
-        image.ir_format == protocol::IrFormat::kExtended ? static_cast<float>(spot.size) : kUnknown;
-    blob.intensity = kUnknown;
-    blob.slot = static_cast<std::uint8_t>(slot);
-    message->blobs.push_back(blob);
-  }
-  blobs_.publish(message);
-}
-
-void Driver::publishCameraInfo(const ros::Time& stamp) {
-  if (camera_info_publisher_.getNumSubscribers() == 0)
+// A recording comes as it is asked for, so that haste would only take the computer from others.
+void Driver::hurry() {
+  if (parameters_.realtime_priority == 0 || source_->recorded())
     return;
-  const auto message = boost::make_shared<sensor_msgs::CameraInfo>(camera_info_.getCameraInfo());
-  message->header.stamp = stamp;
-  message->header.frame_id = optical_frame_;
-  if (message->width == 0) {  // not calibrated yet
-    message->width = protocol::kSensorWidth;
-    message->height = protocol::kSensorHeight;
-  }
-  camera_info_publisher_.publish(message);
+  const std::string refused = takeRealtimePriority(parameters_.realtime_priority);
+  if (!refused.empty())
+    ROS_WARN("%s: %s", parameters_.camera_name.c_str(), refused.c_str());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  reader_priority_ = refused.empty() ? "real time " + std::to_string(parameters_.realtime_priority)
+                                     : "normal: " + refused;
 }
 
-void Driver::publishAcceleration(const std::array<int, 3>& raw, const ros::Time& stamp) {
-  const std::array<double, 3> g = wiimote_.accelerometer().toG(raw);
-  const auto message = boost::make_shared<sensor_msgs::Imu>();
-  message->header.stamp = stamp;
-  message->header.frame_id = imu_frame_;
-  message->orientation_covariance[0] = -1.0;  // not measured
-  message->angular_velocity_covariance[0] = -1.0;
-  message->linear_acceleration.x = kStandardGravity * g[0];
-  message->linear_acceleration.y = kStandardGravity * g[1];
-  message->linear_acceleration.z = kStandardGravity * g[2];
-  const double stddev = parameters_.linear_acceleration_stddev;
-  for (const std::size_t diagonal : {0u, 4u, 8u})
-    message->linear_acceleration_covariance[diagonal] = stddev * stddev;
-  imu_.publish(message);
+// Returns when the remote may have something to do; false when it is time to stop.
+bool Driver::waitForTurn() {
+  const double idle = wiimote_.idleTime();
+  const bool passed = idle > 0.0 && source_->pass(std::min(idle, kReadWait));
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (idle > 0.0 && !passed)
+    stopping_.wait_for(lock, std::chrono::duration<double>(idle), [this] { return stop_; });
+  return !stop_;
 }
 
-void Driver::publishStaticTransform() {
-  geometry_msgs::TransformStamped transform;
-  transform.header.stamp = ros::Time::now();
-  transform.header.frame_id = optical_frame_;
-  transform.child_frame_id = imu_frame_;
-  // Half a turn that takes the remote's x (left), y (rear), z (up) to -x, -z, -y of the image.
-  transform.transform.rotation.x = 0.0;
-  transform.transform.rotation.y = std::sqrt(0.5);
-  transform.transform.rotation.z = -std::sqrt(0.5);
-  transform.transform.rotation.w = 0.0;
-  transform_.sendTransform(transform);
+std::unique_ptr<transport::Transport> Driver::open() {
+  auto transport = source_->open();
+  if (!recorder_)
+    return transport;
+  return recording::record(std::move(transport), recorder_, [this] { return source_->now(); });
 }
 
-// Tells people once what has changed, and again from time to time what does not get better.
-void Driver::linkChanged() {
+void Driver::publishImage(const protocol::DataReport& image) {
+  const ClockReading now = source_->readClocks();
   const wiimote::Link& link = wiimote_.link();
-  const double now = steadyNow();
-  const char* camera = parameters_.camera_name.c_str();
-  wiimote::Link::State before;
+  ImageTime time;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    before = link_.state;
-    link_ = link;
+    time = stamper_.stamp(now, link.clock_epoch);
+    stamp_stddev_ = time.stddev;
+    statistics_.add(steadyNow());
   }
-  if (!link.error.empty()) {
-    if (link.error != logged_error_ || now - logged_at_ > kRepeatErrorAfter) {
-      logged_error_ = link.error;
-      logged_at_ = now;
-      ROS_WARN("%s: %s (trying again)", camera, link.error.c_str());
-    }
-    return;
+  blobs_.publish(image, time, link.identity);
+  camera_info_.publish(time.stamp);
+  if (image.acceleration)
+    imu_.publish(*image.acceleration, wiimote_.accelerometer(), time.stamp);
+  joy_.publish(image.buttons, time.stamp);
+}
+
+void Driver::linkChanged() {
+  const wiimote::Link& now = wiimote_.link();
+  wiimote::Link before;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    before = std::exchange(link_, now);
   }
-  logged_error_.clear();
-  if (link.state == wiimote::Link::State::kStreaming && before != link.state) {
-    ROS_INFO("%s: images come from %s (%s)", camera, link.description.c_str(),
-             link.identity.c_str());
-    if (!link.accelerometer_calibrated)
-      ROS_WARN(
-          "%s: the accelerometer calibration of the remote is damaged, a typical one serves: "
-          "expect errors of some 0.5 m/s^2",
-          camera);
-    if (link.kernel_driver == "wiimote")
-      ROS_WARN(
-          "%s: the kernel's driver hid-wiimote is attached to the same remote and now and then "
-          "interrupts its images: blacklist it as the README says",
-          camera);
-  }
+  log_.report(now, steadyNow());
+  log_.notice(source_->notice());
+  const ros::Time stamp = source_->readClocks().ros;
+  if (now.status && !(now.status == before.status))
+    battery_.publish(*now.status, now.identity, stamp);
+  if (now.ir_calibration && (!before.ir_calibration || now.identity != before.identity))
+    camera_info_.publishFactory(*now.ir_calibration, stamp);
+  if (now.state == wiimote::Link::State::kSearching)
+    joy_.release(stamp);
 }
 
 void Driver::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  using diagnostic_msgs::DiagnosticStatus;
-  wiimote::Link link;
-  wiimote::StreamStatistics::Summary stream;
+  DriverState state;
+  state.ir_sensitivity = settings_.sensitivity();
+  if (recorder_) {
+    state.recording = recorder_->path();
+    state.recording_error = recorder_->error();
+  }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    link = link_;
-    stream = statistics_.take(steadyNow());
+    state.link = link_;
+    state.stream = statistics_.take(steadyNow());
+    state.clock = stamper_.statistics();
+    state.totals = stamper_.totals();
+    state.stamp_stddev = stamp_stddev_;
+    state.reader_priority = reader_priority_;
   }
-  updater_.setHardwareID(link.identity.empty() ? "none" : link.identity);
-
-  const char* state = "searching";
-  if (link.state == wiimote::Link::State::kSearching) {
-    status.summary(DiagnosticStatus::ERROR,
-                   link.error.empty() ? "looking for the remote" : link.error);
-  } else if (link.state == wiimote::Link::State::kStarting) {
-    state = "starting";
-    status.summary(DiagnosticStatus::WARN,
-                   link.error.empty() ? "setting up the remote" : link.error);
-  } else {
-    state = "streaming";
-    status.summary(DiagnosticStatus::OK, "streaming");
-    if (stream.rate < kLowRate)
-      status.mergeSummaryf(DiagnosticStatus::WARN, "only %.0f images a second", stream.rate);
-    if (link.kernel_driver == "wiimote")
-      status.mergeSummary(DiagnosticStatus::WARN, "the kernel's driver hid-wiimote interferes");
-    if (!link.accelerometer_calibrated)
-      status.mergeSummary(DiagnosticStatus::WARN, "no accelerometer calibration in the remote");
-    if (link.status && link.status->battery_low)
-      status.mergeSummary(DiagnosticStatus::WARN, "the batteries are nearly empty");
+  if (steadyNow() >= users_due_) {
+    users_due_ = steadyNow() + kUsersCheck;
+    const bool is_path = state.link.description.compare(0, 1, "/") == 0;
+    shared_with_ = is_path ? transport::sharedWith(state.link.description) : "";
   }
-
-  status.add("Link", state);
-  status.add("Device", link.description);
-  status.add("Identity", link.identity);
-  status.add("Kernel driver", link.kernel_driver.empty() ? "none" : link.kernel_driver);
-  status.addf("Rate [Hz]", "%.1f", stream.rate);
-  status.addf("Longest gap [ms]", "%.0f", 1e3 * stream.longest_gap);
-  status.add("Gaps over 50 ms", stream.gaps);
-  status.add("Reconnects", link.clock_epoch);
-  if (link.status) {
-    status.add("Battery (raw)", static_cast<int>(link.status->battery));
-    status.addf("Battery [%]", "%.0f", 100.0 * protocol::batteryCharge(link.status->battery));
-  }
+  state.shared_with = shared_with_;
+  updater_.setHardwareID(state.link.identity.empty() ? "none" : state.link.identity);
+  diagnostics_.describe(state, status);
 }
 
 }  // namespace wiimote_tracker::driver

@@ -1,16 +1,28 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_ROS_DRIVER_H
 #define WIIMOTE_TRACKER_DRIVER_ROS_DRIVER_H
 
+#include "battery_publisher.h"
+#include "blob_publisher.h"
+#include "camera_info_publisher.h"
 #include "driver_parameters.h"
+#include "image_stamper.h"
+#include "imu_publisher.h"
+#include "joy_feedback.h"
+#include "joy_publisher.h"
+#include "link_diagnostics.h"
+#include "link_log.h"
+#include "live_settings.h"
+#include "remote_control.h"
+#include "remote_source.h"
+#include "wiimote_tracker_driver/recording/recorder.h"
 #include "wiimote_tracker_driver/wiimote/stream_statistics.h"
 #include "wiimote_tracker_driver/wiimote/wiimote.h"
 
-#include <camera_info_manager/camera_info_manager.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
-#include <tf2_ros/static_transform_broadcaster.h>
 
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -32,38 +44,46 @@ class Driver {
 
  private:
   void run();
-  void publishImage(const protocol::DataReport& image, const ros::Time& arrival);
-  void publishBlobs(const protocol::DataReport& image,
-                    const ros::Time& stamp,
-                    const ros::Time& arrival);
-  void publishCameraInfo(const ros::Time& stamp);
-  void publishAcceleration(const std::array<int, 3>& raw, const ros::Time& stamp);
-  void publishStaticTransform();
+  void hurry();
+  bool waitForTurn();
+  std::unique_ptr<transport::Transport> open();
+  void publishImage(const protocol::DataReport& image);
   void linkChanged();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   const DriverParameters parameters_;
   const std::string optical_frame_;
-  const std::string imu_frame_;
 
-  ros::Publisher blobs_;
-  ros::Publisher camera_info_publisher_;
-  ros::Publisher imu_;
-  camera_info_manager::CameraInfoManager camera_info_;
-  tf2_ros::StaticTransformBroadcaster transform_;
-  diagnostic_updater::Updater updater_;
-  ros::SteadyTimer diagnostics_;
+  const std::unique_ptr<RemoteSource> source_;
+  const protocol::IrFormat ir_format_;
+  const std::shared_ptr<recording::Recorder> recorder_;  // nothing when nothing is recorded
+  RemoteControl control_;
 
   // Of the reader thread alone.
   wiimote::Wiimote wiimote_;
-  std::uint64_t frame_ = 0;
-  std::string logged_error_;
-  double logged_at_;
+  CameraInfoPublisher camera_info_;
+  BlobPublisher blobs_;
+  ImuPublisher imu_;
+  BatteryPublisher battery_;
+  JoyPublisher joy_;
+  LinkLog log_;
 
   std::mutex mutex_;  // guards what follows
   wiimote::Link link_;
+  ImageStamper stamper_;
+  double stamp_stddev_;
   wiimote::StreamStatistics statistics_;
+  std::string reader_priority_;
   bool stop_ = false;
+
+  // Of callbacks.
+  LiveSettings settings_;
+  JoyFeedback feedback_;
+  LinkDiagnostics diagnostics_;
+  diagnostic_updater::Updater updater_;
+  ros::SteadyTimer diagnostics_timer_;
+  std::string shared_with_;
+  double users_due_;  // [s]
 
   std::condition_variable stopping_;
   std::thread reader_;

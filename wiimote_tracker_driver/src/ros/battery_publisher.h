@@ -1,0 +1,35 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_ROS_BATTERY_PUBLISHER_H
+#define WIIMOTE_TRACKER_DRIVER_ROS_BATTERY_PUBLISHER_H
+
+#include "wiimote_tracker_driver/protocol/input_reports.h"
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <string>
+
+namespace wiimote_tracker::driver {
+
+/// Whether the batteries want changing: the remote says so, or their charge is below `threshold`
+/// [0..1].
+bool batteryLow(const protocol::Status& status, double threshold);
+
+/// Publishes the charge, latched, as `battery`, and warns once when it is low.
+class BatteryPublisher {
+ public:
+  /// `threshold`: charge below which it is low [0..1].
+  BatteryPublisher(ros::NodeHandle& nh, const std::string& camera, double threshold);
+
+  /// The remote has told its status just now, `stamp`.
+  void publish(const protocol::Status& status, const std::string& identity, const ros::Time& stamp);
+
+ private:
+  const std::string camera_;
+  const double threshold_;
+  ros::Publisher publisher_;
+  bool warned_ = false;
+};
+
+}  // namespace wiimote_tracker::driver
+
+#endif  // WIIMOTE_TRACKER_DRIVER_ROS_BATTERY_PUBLISHER_H

@@ -1,0 +1,41 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_ROS_BLOB_PUBLISHER_H
+#define WIIMOTE_TRACKER_DRIVER_ROS_BLOB_PUBLISHER_H
+
+#include "image_stamper.h"
+#include "wiimote_tracker_driver/protocol/input_reports.h"
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <wiimote_tracker_msgs/IrBlob.h>
+
+#include <cstddef>
+#include <string>
+
+namespace wiimote_tracker::driver {
+
+/// A spot that is seen, as a message: the sensor's y points up, the message's down. The bounding
+/// box, which comes in cells of 8 px, covers its cells to their edges. NaN and empty for what the
+/// format does not say.
+wiimote_tracker_msgs::IrBlob irBlob(const protocol::IrSpot& spot,
+                                    protocol::IrFormat format,
+                                    std::size_t slot);
+
+/// Publishes images as `ir_blobs`, one message each, also when they are dark.
+class BlobPublisher {
+ public:
+  BlobPublisher(ros::NodeHandle& nh, const std::string& camera, const std::string& frame_id);
+
+  /// `identity`: of the remote that sent the image.
+  void publish(const protocol::DataReport& image,
+               const ImageTime& time,
+               const std::string& identity);
+
+ private:
+  const std::string camera_;
+  const std::string frame_id_;
+  ros::Publisher publisher_;
+};
+
+}  // namespace wiimote_tracker::driver
+
+#endif  // WIIMOTE_TRACKER_DRIVER_ROS_BLOB_PUBLISHER_H

@@ -1,0 +1,52 @@
+#include "camera_info_publisher.h"
+
+#include "wiimote_tracker_driver/protocol/input_reports.h"
+
+#include <wiimote_tracker_msgs/parameter_reader.h>
+
+namespace wiimote_tracker::driver {
+
+CameraInfoPublisher::CameraInfoPublisher(const ros::NodeHandle& nh,
+                                         const std::string& camera,
+                                         const std::string& frame_id,
+                                         const std::string& url,
+                                         const std::string& url_parameter)
+    : nh_(nh), frame_id_(frame_id), manager_(nh, camera) {
+  if (!manager_.validateURL(url))
+    throw ParameterError(url_parameter + " is '" + url +
+                         "', but must be empty or a URL such as file:///path/to/camera.yaml or "
+                         "package://name/camera.yaml");
+  // Now rather than at the first image.
+  manager_.loadCameraInfo(url);
+  publisher_ = nh_.advertise<sensor_msgs::CameraInfo>("camera_info", 20);
+  factory_ = nh_.advertise<sensor_msgs::CameraInfo>("factory/camera_info", 1, true);
+}
+
+void CameraInfoPublisher::publish(const ros::Time& stamp) {
+  if (publisher_.getNumSubscribers() == 0)
+    return;
+  const auto message = boost::make_shared<sensor_msgs::CameraInfo>(manager_.getCameraInfo());
+  message->header.stamp = stamp;
+  message->header.frame_id = frame_id_;
+  if (message->width == 0) {  // not calibrated yet
+    message->width = protocol::kSensorWidth;
+    message->height = protocol::kSensorHeight;
+  }
+  publisher_.publish(message);
+}
+
+void CameraInfoPublisher::publishFactory(const protocol::IrCalibration& calibration,
+                                         const ros::Time& stamp) {
+  const std::array<double, 2> centre = calibration.centre();
+  sensor_msgs::CameraInfo message;
+  message.header.stamp = stamp;
+  message.header.frame_id = frame_id_;
+  message.width = protocol::kSensorWidth;
+  message.height = protocol::kSensorHeight;
+  message.K[2] = centre[0];
+  message.K[5] = protocol::kSensorHeight - 1 - centre[1];  // the sensor's y points up
+  message.K[8] = 1.0;
+  factory_.publish(message);
+}
+
+}  // namespace wiimote_tracker::driver

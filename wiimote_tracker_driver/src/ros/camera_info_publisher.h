@@ -1,0 +1,42 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_ROS_CAMERA_INFO_PUBLISHER_H
+#define WIIMOTE_TRACKER_DRIVER_ROS_CAMERA_INFO_PUBLISHER_H
+
+#include "wiimote_tracker_driver/protocol/ir_calibration.h"
+
+#include <camera_info_manager/camera_info_manager.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <string>
+
+namespace wiimote_tracker::driver {
+
+/// Keeps the camera's calibration (service `set_camera_info`) and publishes it: as `camera_info`
+/// beside each image, and what the factory measured, latched, as `factory/camera_info`.
+class CameraInfoPublisher {
+ public:
+  /// `url`: where the calibration is kept; empty: where camera_info_manager keeps it.
+  /// @throws ParameterError, naming `url_parameter`, when the URL can never work.
+  CameraInfoPublisher(const ros::NodeHandle& nh,
+                      const std::string& camera,
+                      const std::string& frame_id,
+                      const std::string& url,
+                      const std::string& url_parameter);
+
+  void publish(const ros::Time& stamp);
+
+  /// All that the factory's calibration says of the lens: its centre as cx and cy, with a focal
+  /// length of 0, which means unknown.
+  void publishFactory(const protocol::IrCalibration& calibration, const ros::Time& stamp);
+
+ private:
+  ros::NodeHandle nh_;
+  const std::string frame_id_;
+  camera_info_manager::CameraInfoManager manager_;
+  ros::Publisher publisher_;
+  ros::Publisher factory_;
+};
+
+}  // namespace wiimote_tracker::driver
+
+#endif  // WIIMOTE_TRACKER_DRIVER_ROS_CAMERA_INFO_PUBLISHER_H

@@ -1,0 +1,40 @@
+#include "clock_reading.h"
+
+#include <chrono>
+#include <limits>
+
+namespace wiimote_tracker::driver {
+namespace {
+
+// A reading in which the thread was not interrupted between the two clocks takes far less [s].
+constexpr double kGoodEnough = 1e-5;
+constexpr int kAttempts = 3;
+
+}  // namespace
+
+double steadyNow() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+ClockReading readClocks() {
+  ClockReading reading;
+  reading.steady = steadyNow();
+  reading.simulated = ros::Time::isSimTime();
+  if (reading.simulated) {
+    reading.ros = ros::Time::now();
+    return reading;
+  }
+  reading.doubt = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kAttempts && reading.doubt > kGoodEnough; ++i) {
+    const double before = steadyNow();
+    const ros::Time ros = ros::Time::now();
+    const double after = steadyNow();
+    if (after - before < reading.doubt) {
+      reading.doubt = after - before;
+      reading.ros = ros - ros::Duration(0.5 * (before + after) - reading.steady);
+    }
+  }
+  return reading;
+}
+
+}  // namespace wiimote_tracker::driver

@@ -1,0 +1,23 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_ROS_CLOCK_READING_H
+#define WIIMOTE_TRACKER_DRIVER_ROS_CLOCK_READING_H
+
+#include <ros/time.h>
+
+namespace wiimote_tracker::driver {
+
+/// A clock that never steps [s].
+double steadyNow();
+
+/// The same instant on the steady clock and on the clock of ROS.
+struct ClockReading {
+  double steady = 0.0;  ///< [s]
+  ros::Time ros;
+  double doubt = 0.0;      ///< By how much they may be apart [s].
+  bool simulated = false;  ///< ROS time does not run with real time (use_sim_time).
+};
+
+ClockReading readClocks();
+
+}  // namespace wiimote_tracker::driver
+
+#endif  // WIIMOTE_TRACKER_DRIVER_ROS_CLOCK_READING_H

@@ -1,0 +1,99 @@
+#include "image_stamper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wiimote_tracker::driver {
+namespace {
+
+// More than this is a step of the system clock [s]; less is jitter of the reading, or drift.
+constexpr double kStep = 0.005;
+// Readings in more doubt say nothing of the drift [s].
+constexpr double kMostDoubt = 1e-4;
+// Share of a deviation that is followed at each image: within a second or so.
+constexpr double kFollow = 0.01;
+// Least time between two stamps.
+const ros::Duration kLeastStep(1e-6);
+
+exposure_clock::ExposureClockOptions clockOptions(double period) {
+  exposure_clock::ExposureClockOptions options;
+  options.period = period;
+  return options;
+}
+
+// As long as there is so much time: simulated time begins at 0.
+ros::Time subtract(const ros::Time& time, double seconds) {
+  return time.toSec() > seconds ? time - ros::Duration(seconds) : time;
+}
+
+}  // namespace
+
+ImageStamper::ImageStamper(const Options& options)
+    : options_(options), clock_(clockOptions(options.period)) {}
+
+ImageTime ImageStamper::stamp(const ClockReading& now, std::uint32_t device_epoch) {
+  const bool stepped = any_image_ && rosClockStepped(now);
+  if (!any_image_ || stepped || device_epoch != device_epoch_)
+    beginEpoch(now);
+  else
+    followRosClock(now);
+  before_.clock_steps += stepped ? 1 : 0;
+  device_epoch_ = device_epoch;
+
+  const exposure_clock::Estimate estimate = clock_.update(now.steady);
+  ImageTime time;
+  time.arrival = ros_arrival_;
+  time.stddev = std::numeric_limits<double>::quiet_NaN();
+  double age = options_.latency;
+  // How long the steady clock says it is ago, says nothing in simulated time.
+  if (options_.estimate && !now.simulated) {
+    age += now.steady - estimate.exposure;
+    time.stddev = estimate.stddev;
+  }
+  time.stamp = subtract(time.arrival, age);
+  if (any_image_)
+    frame_ += 1 + static_cast<std::uint64_t>(estimate.dropped);
+  if (!last_stamp_.isZero())
+    time.stamp = std::max(time.stamp, last_stamp_ + kLeastStep);
+  last_stamp_ = time.stamp;
+  time.frame = frame_;
+  time.clock_epoch = device_epoch + static_cast<std::uint32_t>(before_.clock_steps);
+  any_image_ = true;
+  return time;
+}
+
+bool ImageStamper::rosClockStepped(const ClockReading& now) const {
+  if (now.simulated)
+    return now.ros < ros_arrival_;
+  const double deviation = (now.ros - ros_arrival_).toSec() - (now.steady - steady_arrival_);
+  return std::abs(deviation) > kStep + now.doubt;
+}
+
+void ImageStamper::beginEpoch(const ClockReading& now) {
+  before_ = totals();
+  clock_.reset();
+  steady_arrival_ = now.steady;
+  ros_arrival_ = now.ros;
+  last_stamp_ = ros::Time();
+}
+
+void ImageStamper::followRosClock(const ClockReading& now) {
+  const double interval = now.steady - steady_arrival_;
+  const double deviation = (now.ros - ros_arrival_).toSec() - interval;
+  if (now.simulated)
+    ros_arrival_ = now.ros;
+  else
+    ros_arrival_ += ros::Duration(interval + (now.doubt < kMostDoubt ? kFollow * deviation : 0.0));
+  steady_arrival_ = now.steady;
+}
+
+ImageStamper::Totals ImageStamper::totals() const {
+  const exposure_clock::Statistics now = clock_.statistics();
+  Totals totals = before_;
+  totals.dropped += now.dropped;
+  totals.stale += now.stale;
+  return totals;
+}
+
+}  // namespace wiimote_tracker::driver

@@ -1,0 +1,70 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_ROS_IMAGE_STAMPER_H
+#define WIIMOTE_TRACKER_DRIVER_ROS_IMAGE_STAMPER_H
+
+#include "clock_reading.h"
+#include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
+
+#include <ros/time.h>
+
+#include <cstdint>
+
+namespace wiimote_tracker::driver {
+
+/// What an image's message says of time.
+struct ImageTime {
+  ros::Time stamp;      ///< Best estimate of the exposure; increases within an epoch.
+  ros::Time arrival;    ///< On the same clock.
+  double stddev = 0.0;  ///< Of the stamp [s]; NaN when it is just the arrival less the latency.
+  std::uint32_t clock_epoch = 0;
+  std::uint64_t frame = 0;  ///< Counts images, lost ones too.
+};
+
+/// Times of the images of one remote. Exposures are estimated on the steady clock, which never
+/// steps, and then carried over to the clock of ROS by the difference of the two. That difference
+/// is held, since single readings are off whenever the thread is interrupted between the two
+/// clocks; what little they drift apart is followed. When the system clock is set, its step is
+/// taken over at once as a new epoch, in which times may be earlier than before.
+class ImageStamper {
+ public:
+  struct Options {
+    double latency = 0.0;  ///< From exposure to the earliest arrival, subtracted [s].
+    bool estimate = true;  ///< Else stamps are arrivals less the latency.
+    double period = exposure_clock::ExposureClockOptions().period;  ///< Between images [s].
+  };
+
+  /// Sums since the beginning, over all epochs.
+  struct Totals {
+    std::int64_t dropped = 0;
+    std::uint64_t stale = 0;
+    std::uint64_t clock_steps = 0;
+  };
+
+  explicit ImageStamper(const Options& options);
+
+  /// An image came just when `now` was read. `device_epoch`: the remote's, grows at each reconnect.
+  ImageTime stamp(const ClockReading& now, std::uint32_t device_epoch);
+
+  /// Of the present epoch.
+  exposure_clock::Statistics statistics() const { return clock_.statistics(); }
+  Totals totals() const;
+
+ private:
+  bool rosClockStepped(const ClockReading& now) const;
+  void beginEpoch(const ClockReading& now);
+  void followRosClock(const ClockReading& now);
+
+  Options options_;
+  exposure_clock::ExposureClock clock_;
+  // The same instant on both clocks: the last arrival.
+  double steady_arrival_ = 0.0;
+  ros::Time ros_arrival_;
+  ros::Time last_stamp_;
+  bool any_image_ = false;
+  std::uint32_t device_epoch_ = 0;
+  std::uint64_t frame_ = 0;
+  Totals before_;  ///< Of the epochs before this one.
+};
+
+}  // namespace wiimote_tracker::driver
+
+#endif  // WIIMOTE_TRACKER_DRIVER_ROS_IMAGE_STAMPER_H

@@ -1,0 +1,40 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_ROS_IMU_PUBLISHER_H
+#define WIIMOTE_TRACKER_DRIVER_ROS_IMU_PUBLISHER_H
+
+#include "wiimote_tracker_driver/protocol/accelerometer.h"
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <array>
+#include <string>
+
+namespace wiimote_tracker::driver {
+
+/// Publishes the accelerometer as `imu/data_raw`, and how it sits behind the camera as /tf_static.
+class ImuPublisher {
+ public:
+  /// `stddev`: of one axis [m/s^2].
+  ImuPublisher(ros::NodeHandle& nh,
+               const std::string& optical_frame,
+               const std::string& imu_frame,
+               double stddev);
+
+  /// `raw`: x, y, z as the remote converts them.
+  void publish(const std::array<int, 3>& raw,
+               const protocol::AccelerometerCalibration& calibration,
+               const ros::Time& stamp);
+
+ private:
+  void publishTransform(const std::string& optical_frame);
+
+  const std::string frame_id_;
+  const double variance_;  // [m^2/s^4]
+  ros::Publisher publisher_;
+  tf2_ros::StaticTransformBroadcaster transform_;
+};
+
+}  // namespace wiimote_tracker::driver
+
+#endif  // WIIMOTE_TRACKER_DRIVER_ROS_IMU_PUBLISHER_H

@@ -1,0 +1,53 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_ROS_JOY_PUBLISHER_H
+#define WIIMOTE_TRACKER_DRIVER_ROS_JOY_PUBLISHER_H
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace wiimote_tracker::driver {
+
+/// Where each button is in Joy::buttons; the same order as that of the node `wiimote` in
+/// joystick_drivers.
+enum JoyButton {
+  kButtonOne,
+  kButtonTwo,
+  kButtonA,
+  kButtonB,
+  kButtonPlus,
+  kButtonMinus,
+  kButtonLeft,
+  kButtonRight,
+  kButtonUp,
+  kButtonDown,
+  kButtonHome,
+  kButtonCount,
+};
+
+/// 1 for each button that is pressed. `buttons`: as protocol::decodeButtons().
+std::array<int, kButtonCount> joyButtons(std::uint16_t buttons);
+
+/// Publishes the buttons, latched, as `joy` whenever one changes.
+class JoyPublisher {
+ public:
+  JoyPublisher(ros::NodeHandle& nh, const std::string& frame_id);
+
+  /// `buttons`: as protocol::decodeButtons().
+  void publish(std::uint16_t buttons, const ros::Time& stamp);
+
+  /// The remote has gone: nobody presses anything any more.
+  void release(const ros::Time& stamp);
+
+ private:
+  const std::string frame_id_;
+  ros::Publisher publisher_;
+  std::optional<std::uint16_t> published_;
+};
+
+}  // namespace wiimote_tracker::driver
+
+#endif  // WIIMOTE_TRACKER_DRIVER_ROS_JOY_PUBLISHER_H

@@ -1,0 +1,129 @@
+#include "link_diagnostics.h"
+
+#include "battery_publisher.h"
+
+#include <cmath>
+
+namespace wiimote_tracker::driver {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+using wiimote::Link;
+
+// With less of its images than this something is wrong: some 95 of 100 come even in a bad hour.
+constexpr double kLowRate = 0.8;
+// The exposure clock is in step when it knows the time better than this part of a period.
+constexpr double kInStep = 0.3;
+
+const char* linkText(Link::State state) {
+  switch (state) {
+    case Link::State::kSearching:
+      return "searching";
+    case Link::State::kStarting:
+      return "starting";
+    default:
+      return "streaming";
+  }
+}
+
+const char* irModeText(protocol::IrFormat format) {
+  switch (format) {
+    case protocol::IrFormat::kBasic:
+      return "basic";
+    case protocol::IrFormat::kFull:
+      return "full";
+    default:
+      return "extended";
+  }
+}
+
+const char* clockText(const DriverState& state) {
+  if (std::isnan(state.stamp_stddev))
+    return "off: stamps are arrivals less the latency";
+  return state.stamp_stddev < kInStep * state.clock.period ? "in step" : "learning";
+}
+
+void addTiming(const DriverState& state, DiagnosticStatusWrapper& status) {
+  status.addf("Rate [Hz]", "%.1f", state.stream.rate);
+  status.addf("Longest gap [ms]", "%.0f", 1e3 * state.stream.longest_gap);
+  status.add("Gaps over 50 ms", state.stream.gaps);
+  status.add("Exposure clock", clockText(state));
+  status.addf("Stamp standard deviation [ms]", "%.3f", 1e3 * state.stamp_stddev);
+  status.addf("Period [ms]", "%.4f", 1e3 * state.clock.period);
+  status.addf("Period standard deviation [ms]", "%.4f", 1e3 * state.clock.period_stddev);
+  status.addf("Jitter [ms]", "%.2f", 1e3 * state.clock.jitter);
+  status.add("Dropped images", state.totals.dropped);
+  status.add("Stale images", state.totals.stale);
+  status.add("Steps of the system clock", state.totals.clock_steps);
+}
+
+void addRemote(const Link& link, DiagnosticStatusWrapper& status) {
+  status.add("Device", link.description);
+  status.add("Identity", link.identity);
+  status.add("Kernel driver", link.kernel_driver.empty() ? "none" : link.kernel_driver);
+  status.add("Reconnects", link.clock_epoch);
+  status.add("Restorations", link.restorations);
+  status.add("Last restoration", link.last_restoration.empty() ? "none" : link.last_restoration);
+  if (link.status) {
+    status.add("Battery (raw)", static_cast<int>(link.status->battery));
+    status.addf("Battery [%]", "%.0f", 100.0 * protocol::batteryCharge(link.status->battery));
+  }
+  if (link.ir_calibration) {
+    const auto centre = link.ir_calibration->centre();
+    status.addf("Factory principal point [px]", "%.1f, %.1f", centre[0],
+                protocol::kSensorHeight - 1 - centre[1]);
+  }
+}
+
+}  // namespace
+
+LinkDiagnostics::LinkDiagnostics(protocol::IrFormat ir_format,
+                                 double image_rate,
+                                 double battery_low)
+    : ir_format_(ir_format), image_rate_(image_rate), battery_low_(battery_low) {}
+
+void LinkDiagnostics::describe(const DriverState& state, DiagnosticStatusWrapper& status) {
+  summarise(state, status);
+  status.add("Link", linkText(state.link.state));
+  addRemote(state.link, status);
+  status.add("IR mode", irModeText(ir_format_));
+  status.add("IR sensitivity", state.ir_sensitivity);
+  addTiming(state, status);
+  status.add("Reader priority", state.reader_priority);
+  status.add("Recording", state.recording.empty() ? "none" : state.recording);
+}
+
+void LinkDiagnostics::summarise(const DriverState& state, DiagnosticStatusWrapper& status) {
+  const Link& link = state.link;
+  if (link.state == Link::State::kSearching)
+    status.summary(DiagnosticStatus::ERROR,
+                   link.error.empty() ? "looking for the remote" : link.error);
+  else if (link.state == Link::State::kStarting)
+    status.summary(DiagnosticStatus::WARN,
+                   link.error.empty() ? "setting up the remote" : link.error);
+  else
+    summariseStream(state, status);
+  if (!state.recording_error.empty())
+    status.mergeSummary(DiagnosticStatus::ERROR, state.recording_error);
+}
+
+void LinkDiagnostics::summariseStream(const DriverState& state, DiagnosticStatusWrapper& status) {
+  const Link& link = state.link;
+  status.summary(DiagnosticStatus::OK, "streaming");
+  if (state.stream.rate < kLowRate * image_rate_)
+    status.mergeSummaryf(DiagnosticStatus::WARN, "only %.0f images a second", state.stream.rate);
+  if (link.kernel_driver == "wiimote")
+    status.mergeSummary(DiagnosticStatus::WARN, "the kernel's driver hid-wiimote interferes");
+  if (!state.shared_with.empty())
+    status.mergeSummary(DiagnosticStatus::WARN, state.shared_with);
+  if (link.restorations != restorations_)
+    status.mergeSummary(DiagnosticStatus::WARN, "put right: " + link.last_restoration);
+  restorations_ = link.restorations;
+  if (!link.accelerometer_calibrated)
+    status.mergeSummary(DiagnosticStatus::WARN, "no accelerometer calibration in the remote");
+  if (link.status && batteryLow(*link.status, battery_low_))
+    status.mergeSummary(DiagnosticStatus::WARN, "the batteries are nearly empty");
+}
+
+}  // namespace wiimote_tracker::driver

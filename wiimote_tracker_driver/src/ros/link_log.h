@@ -1,0 +1,36 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_ROS_LINK_LOG_H
+#define WIIMOTE_TRACKER_DRIVER_ROS_LINK_LOG_H
+
+#include "wiimote_tracker_driver/wiimote/wiimote.h"
+
+#include <string>
+
+namespace wiimote_tracker::driver {
+
+/// Tells people once what has changed, and again from time to time what does not get better.
+class LinkLog {
+ public:
+  /// `retries`: whether a source that has failed is tried again.
+  LinkLog(const std::string& camera, bool retries) : camera_(camera), retries_(retries) {}
+
+  /// The link has changed. `now` [s]: any clock that never goes back.
+  void report(const wiimote::Link& link, double now);
+
+  /// A sentence from the source; told once.
+  void notice(const std::string& text);
+
+ private:
+  void reportError(const std::string& error, double now);
+  void reportStream(const wiimote::Link& link) const;
+
+  const std::string camera_;
+  const bool retries_;
+  wiimote::Link::State state_ = wiimote::Link::State::kSearching;
+  std::string error_;
+  double error_logged_at_ = 0.0;
+  std::string notice_;
+};
+
+}  // namespace wiimote_tracker::driver
+
+#endif  // WIIMOTE_TRACKER_DRIVER_ROS_LINK_LOG_H

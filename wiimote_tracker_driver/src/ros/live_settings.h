@@ -1,0 +1,42 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_ROS_LIVE_SETTINGS_H
+#define WIIMOTE_TRACKER_DRIVER_ROS_LIVE_SETTINGS_H
+
+#include "driver_parameters.h"
+#include "remote_control.h"
+
+#include <dynamic_reconfigure/server.h>
+#include <wiimote_tracker_driver/DriverConfig.h>
+
+#include <mutex>
+#include <string>
+
+namespace wiimote_tracker::driver {
+
+/// Parameters that can be changed while images come (dynamic_reconfigure): sensitivity and LEDs. A
+/// sensitivity that does not exist is refused with a warning, and the one before stays.
+class LiveSettings {
+ public:
+  /// `parameters`: those in the private namespace, already checked; the remote is set up with them.
+  /// `control` must outlive this.
+  LiveSettings(const ros::NodeHandle& private_nh,
+               const DriverParameters& parameters,
+               RemoteControl& control);
+
+  /// In use, for people. Thread-safe.
+  std::string sensitivity() const;
+
+ private:
+  using Config = wiimote_tracker_driver::DriverConfig;
+
+  void reconfigure(Config& config);
+
+  const std::string camera_name_;
+  RemoteControl& control_;
+  mutable std::mutex mutex_;  // guards used_
+  Config used_;
+  dynamic_reconfigure::Server<Config> server_;
+};
+
+}  // namespace wiimote_tracker::driver
+
+#endif  // WIIMOTE_TRACKER_DRIVER_ROS_LIVE_SETTINGS_H

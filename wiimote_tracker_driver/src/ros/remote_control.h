@@ -1,0 +1,41 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_ROS_REMOTE_CONTROL_H
+#define WIIMOTE_TRACKER_DRIVER_ROS_REMOTE_CONTROL_H
+
+#include "wiimote_tracker_driver/wiimote/wiimote.h"
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+
+namespace wiimote_tracker::driver {
+
+/// What callbacks want of the remote, kept until the thread that talks to it comes by. Thread-safe.
+class RemoteControl {
+ public:
+  /// `leds`: as they are lit now. `rumble_max`: a motor that is switched on stops after this, for
+  /// it moves the camera [s].
+  RemoteControl(std::uint8_t leds, double rumble_max);
+
+  void setSensitivity(const protocol::IrSensitivity& sensitivity);
+
+  /// Player LEDs 1..4 in bits 0..3; only those in `mask` are changed.
+  void setLeds(std::uint8_t leds, std::uint8_t mask = 0xf);
+
+  void setRumble(bool on);
+
+  /// Has the remote do it. `now` [s]: any clock that never goes back.
+  void apply(wiimote::Wiimote& wiimote, double now);
+
+ private:
+  const double rumble_max_;
+  std::mutex mutex_;  // guards what follows
+  std::optional<protocol::IrSensitivity> sensitivity_;
+  std::uint8_t leds_;
+  bool leds_changed_ = false;
+  std::optional<bool> rumble_;
+  std::optional<double> rumble_end_;  // while the motor runs
+};
+
+}  // namespace wiimote_tracker::driver
+
+#endif  // WIIMOTE_TRACKER_DRIVER_ROS_REMOTE_CONTROL_H

@@ -10,6 +10,10 @@
 namespace wiimote_tracker::recording {
 namespace {
 
+// No clock shows more [s]; that of ROS ends in 2106.
+constexpr double kLatestWallTime = 3e9;
+constexpr double kLongest = 1e9;
+
 /// @returns how many of `size` bytes there were.
 std::size_t readBytes(std::istream& in, void* to, std::size_t size) {
   in.read(static_cast<char*>(to), static_cast<std::streamsize>(size));
@@ -49,6 +53,8 @@ Reader::Reader(std::istream& in) : in_(in) {
                        " and this driver knows version " + std::to_string(kVersion) +
                        ": use the driver that made it");
   header_.wall_time = 1e-9 * static_cast<double>(littleEndian(&fixed[kMagicSize + 4], 8));
+  if (header_.wall_time > kLatestWallTime)
+    throw BadRecording("the recording is damaged at its very beginning: choose another file");
   header_.software.resize(fixed.back());
   if (readBytes(in_, &header_.software[0], header_.software.size()) < header_.software.size())
     throw BadRecording("the recording is cut off at its very beginning: choose another file");
@@ -78,7 +84,7 @@ bool Reader::next(Record& record) {
     return end("is cut off");
   const std::size_t size = head[1];
   const auto time = static_cast<std::int64_t>(littleEndian(&head[2], 8));
-  if (!isKind(head[0]) || time < time_)
+  if (!isKind(head[0]) || time < time_ || 1e-9 * static_cast<double>(time) > kLongest)
     return end("is damaged");
   record.kind = static_cast<Record::Kind>(head[0]);
   if (isReport(record.kind) && (size == 0 || size > protocol::Report::kCapacity))

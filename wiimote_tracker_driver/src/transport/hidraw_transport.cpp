@@ -1,10 +1,10 @@
 #include "wiimote_tracker_driver/transport/hidraw_transport.h"
 
 #include "file_descriptor.h"
+#include "wiimote_tracker_driver/transport/users.h"
 
 #include <fcntl.h>
 #include <hidapi/hidapi.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -58,6 +58,10 @@ std::vector<Found> enumerate() {
   // The kernel's order is not that of plugging in.
   std::sort(found.begin(), found.end(),
             [](const Found& a, const Found& b) { return a.path < b.path; });
+  // Newer versions of hidapi list a device once per use that its descriptor names.
+  found.erase(std::unique(found.begin(), found.end(),
+                          [](const Found& a, const Found& b) { return a.path == b.path; }),
+              found.end());
   return found;
 }
 
@@ -81,8 +85,11 @@ class HidrawTransport : public Transport {
   HidrawTransport& operator=(const HidrawTransport&) = delete;
 
   bool read(protocol::Report& report, double timeout) override {
+    errno = 0;
     const int size = hid_read_timeout(device_, report.bytes.data(), report.bytes.size(),
                                       static_cast<int>(std::ceil(timeout * 1e3)));
+    if (size < 0 && errno == EINTR)
+      return false;
     if (size < 0)
       throwDisconnected();
     report.size = static_cast<std::size_t>(size);
@@ -115,9 +122,7 @@ std::unique_ptr<Transport> openFound(const Found& found) {
   FileDescriptor lock(::open(found.path.c_str(), O_RDWR | O_CLOEXEC));
   if (lock.get() < 0)
     throwOpenError(errno, found.path);
-  if (::flock(lock.get(), LOCK_EX | LOCK_NB) != 0)
-    throw DeviceTaken("the Wii Remote " + found.address + " (" + found.path +
-                      ") is in use by another driver: stop that one or choose another device");
+  lockDevice(lock.get(), "the Wii Remote " + found.address + " (" + found.path + ")");
   hid_device* device = nullptr;
   {
     const std::lock_guard<std::mutex> hidapi_lock(hidapiMutex());
@@ -130,17 +135,22 @@ std::unique_ptr<Transport> openFound(const Found& found) {
 
 std::unique_ptr<Transport> openFirstFree(const std::vector<Found>& all) {
   std::optional<PermissionDenied> denied;
+  std::string taken;
   for (const Found& found : all) {
     try {
       return openFound(found);
     } catch (const PermissionDenied& e) {
       denied = e;
+    } catch (const DeviceTaken& e) {
+      taken = e.what();
     } catch (const TransportError&) {
-      // Taken, or gone since it was listed: try the next.
+      // Gone since it was listed: try the next.
     }
   }
   if (denied)
     throw PermissionDenied(*denied);
+  if (all.size() == 1 && !taken.empty())
+    throw DeviceTaken(taken);
   throw DeviceTaken("all " + std::to_string(all.size()) +
                     " connected Wii Remotes are in use: connect another one");
 }

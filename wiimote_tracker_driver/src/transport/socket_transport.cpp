@@ -1,6 +1,7 @@
 #include "wiimote_tracker_driver/transport/socket_transport.h"
 
 #include "file_descriptor.h"
+#include "wiimote_tracker_driver/transport/users.h"
 
 #include <poll.h>
 #include <sys/socket.h>
@@ -8,7 +9,9 @@
 
 #include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 namespace wiimote_tracker::transport {
@@ -16,22 +19,27 @@ namespace {
 
 // How long the other side may take to say who it is [s].
 constexpr double kGreetingTimeout = 1.0;
+// What it says instead when somebody else has it; a process id follows.
+const std::string kTaken = "taken by process ";
 
 class SocketTransport : public Transport {
  public:
   SocketTransport(FileDescriptor fd, const std::string& path)
       : fd_(std::move(fd)), description_("virtual:" + path) {}
 
-  /// The first packet. @returns false when the other side hung up or said nothing.
-  bool receiveIdentity() {
+  /// The first packet says who the remote is, or who has it. @throws DeviceTaken.
+  void receiveIdentity() {
     char text[64];
-    if (!waitReadable(kGreetingTimeout))
-      return false;
-    const ssize_t size = ::recv(fd_.get(), text, sizeof(text), 0);
+    const ssize_t size =
+        waitReadable(kGreetingTimeout) ? ::recv(fd_.get(), text, sizeof(text), 0) : 0;
+    const std::string remote = "the virtual Wii Remote at " + description_;
     if (size <= 0)
-      return false;
+      throwTaken(remote, std::nullopt);
     identity_.assign(text, static_cast<std::size_t>(size));
-    return true;
+    if (identity_.compare(0, kTaken.size(), kTaken) == 0) {
+      const auto user = static_cast<pid_t>(std::atoi(identity_.c_str() + kTaken.size()));
+      throwTaken(remote, user > 0 ? std::make_optional(user) : std::nullopt);
+    }
   }
 
   bool read(protocol::Report& report, double timeout) override {
@@ -91,9 +99,7 @@ std::unique_ptr<Transport> openSocket(const std::string& path) {
                        ": start the simulation or correct the path");
   }
   auto transport = std::make_unique<SocketTransport>(std::move(fd), path);
-  if (!transport->receiveIdentity())
-    throw DeviceTaken("the virtual Wii Remote at " + path +
-                      " is in use by another driver: stop that one or choose another device");
+  transport->receiveIdentity();
   return transport;
 }
 

@@ -1,6 +1,9 @@
 #include "wiimote_tracker_driver/transport/users.h"
 
+#include "wiimote_tracker_driver/transport/transport.h"
+
 #include <dirent.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <unistd.h>
@@ -129,6 +132,16 @@ std::optional<pid_t> lockHolder(int fd) {
       return process;
   }
   return std::nullopt;
+}
+
+void lockDevice(int fd, const std::string& remote) {
+  if (::flock(fd, LOCK_EX | LOCK_NB) != 0)
+    throwTaken(remote, lockHolder(fd));
+}
+
+void throwTaken(const std::string& remote, std::optional<pid_t> user) {
+  throw DeviceTaken(remote + " is in use by " + (user ? describeProcess(*user) : "another driver") +
+                    ": stop that one or choose another device");
 }
 
 std::string sharedWith(const std::string& path) {

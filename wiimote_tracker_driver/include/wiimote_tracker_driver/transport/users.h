@@ -16,6 +16,13 @@ std::string describeProcess(pid_t process);
 /// The process that has locked (flock) the file that `fd` is open on.
 std::optional<pid_t> lockHolder(int fd);
 
+/// Locks (flock) the file that `fd` is open on as that of `remote`, e.g. "the Wii Remote 00:...",
+/// until `fd` is closed. @throws DeviceTaken, which says who has it.
+void lockDevice(int fd, const std::string& remote);
+
+/// Throws the error for a remote that `user`, where known, has.
+[[noreturn]] void throwTaken(const std::string& remote, std::optional<pid_t> user);
+
 /// One sentence when other programs, which know nothing of our lock, have the device node at `path`
 /// open too and may change the remote's settings; empty otherwise. Looks at all processes, which
 /// takes milliseconds: not for a thread that reads reports.

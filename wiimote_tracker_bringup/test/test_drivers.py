@@ -35,6 +35,17 @@ def test_a_rig_description_names_its_cameras_and_sockets():
     assert len(devices) == 4
 
 
+def test_a_camera_may_have_parameters_of_its_own(tmp_path):
+    path = tmp_path / 'cameras.yaml'
+    path.write_text('cameras:\n  a: {identity: "00:1f:32:00:00:01", driver: {ir_sensitivity: max}}\n'
+                    '  b: "00:1f:32:00:00:02"\n')
+    assert drivers.read_devices(str(path), '')[0] == ('a', '00:1f:32:00:00:01')
+    assert drivers.read_parameters(str(path)) == {'a': {'ir_sensitivity': 'max'}, 'b': {}}
+    path.write_text('cameras: {a: {identity: "00:1f:32:00:00:01", driver: max}}')
+    with pytest.raises(drivers.CamerasError, match='"driver" of camera a'):
+        drivers.read_parameters(str(path))
+
+
 @pytest.mark.parametrize('text, complaint', [
     ('', 'must have "cameras:"'),
     ('cameras: {}', 'must have "cameras:"'),

@@ -1,7 +1,5 @@
 #include "wiimote_tracker_driver/wiimote/wiimote.h"
 
-#include "wiimote_tracker_driver/protocol/output_reports.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -25,17 +23,25 @@ double Wiimote::idleTime() const {
 }
 
 std::optional<DataReport> Wiimote::step(double max_wait) {
-  try {
+  std::optional<DataReport> image;
+  orDrop([&] {
     if (session_)
-      return receive(max_wait);
-    if (clock_() >= next_attempt_)
+      image = receive(max_wait);
+    else if (clock_() >= next_attempt_)
       connect();
+  });
+  return image;
+}
+
+template <typename Action>
+void Wiimote::orDrop(Action action) {
+  try {
+    action();
   } catch (const transport::TransportError& e) {
     drop(e.what());
   } catch (const SessionError& e) {
     drop(e.what());
   }
-  return std::nullopt;
 }
 
 void Wiimote::connect() {
@@ -47,6 +53,7 @@ void Wiimote::connect() {
   link_.status.reset();
   ++link_changes_;
   restarts_ = 0;
+  restorations_ = 0;
   new_epoch_ = had_image_;
   session_.emplace(
       options_.session, [this](const protocol::Report& report) { transport_->write(report); },
@@ -86,12 +93,20 @@ void Wiimote::updateLink(bool image) {
   else if (!session_->streaming())
     state = Link::State::kStarting;
   const bool new_status = session_->status() && !(link_.status == session_->status());
+  if (session_->restorations() != restorations_) {
+    link_.restorations += session_->restorations() - restorations_;
+    link_.last_restoration = session_->lastRestoration();
+    restorations_ = session_->restorations();
+    ++link_changes_;
+  }
   if (state == link_.state && !new_status)
     return;
   if (state == Link::State::kStreaming) {
     link_.error.clear();
-    accelerometer_ = session_->accelerometer().value_or(protocol::AccelerometerCalibration());
-    link_.accelerometer_calibrated = session_->accelerometer().has_value();
+    accelerometer_ =
+        session_->factory().accelerometer().value_or(protocol::AccelerometerCalibration());
+    link_.accelerometer_calibrated = session_->factory().accelerometer().has_value();
+    link_.ir_calibration = session_->factory().ir();
   }
   link_.state = state;
   link_.status = session_->status();
@@ -109,16 +124,22 @@ void Wiimote::drop(const std::string& error) {
 }
 
 void Wiimote::setSensitivity(const protocol::IrSensitivity& sensitivity) {
+  if (sensitivity == options_.session.sensitivity)
+    return;
   options_.session.sensitivity = sensitivity;
+  if (session_)
+    orDrop([&] { session_->setSensitivity(sensitivity, clock_()); });
 }
 
 void Wiimote::setLeds(std::uint8_t leds) {
   options_.session.leds = leds;
+  if (session_)
+    orDrop([&] { session_->setLeds(leds); });
 }
 
 void Wiimote::setRumble(bool rumble) {
   if (session_)
-    transport_->write(protocol::setRumble(rumble));
+    orDrop([&] { session_->setRumble(rumble, clock_()); });
 }
 
 void Wiimote::close() {

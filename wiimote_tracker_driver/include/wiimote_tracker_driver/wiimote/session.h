@@ -1,16 +1,20 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_SESSION_H
 #define WIIMOTE_TRACKER_DRIVER_WIIMOTE_SESSION_H
 
-#include "wiimote_tracker_driver/protocol/accelerometer.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
-#include "wiimote_tracker_driver/protocol/ir_calibration.h"
-#include "wiimote_tracker_driver/protocol/ir_camera.h"
+#include "wiimote_tracker_driver/protocol/output_reports.h"
 #include "wiimote_tracker_driver/protocol/report.h"
+#include "wiimote_tracker_driver/wiimote/camera_configuration.h"
+#include "wiimote_tracker_driver/wiimote/factory_calibration.h"
+#include "wiimote_tracker_driver/wiimote/image_assembler.h"
+#include "wiimote_tracker_driver/wiimote/session_options.h"
+#include "wiimote_tracker_driver/wiimote/stream_watch.h"
 
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 namespace wiimote_tracker::wiimote {
 
@@ -19,33 +23,20 @@ struct SessionError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How a session deals with its remote.
-struct SessionOptions {
-  std::uint8_t leds = 0x1;  ///< Player LEDs 1..4 in bits 0..3, lit while connected.
-  /// kBasic (report 0x37), kExtended (0x33), or kFull (0x3e and 0x3f in turn, at half the rate).
-  protocol::IrFormat ir_format = protocol::IrFormat::kExtended;
-  protocol::IrSensitivity sensitivity = *protocol::irSensitivity("wii_5");
-  double reply_timeout = 0.5;     ///< [s, > 0] Then a request is sent again.
-  int attempts = 5;               ///< [>= 1] Then the remote is given up.
-  double silence_timeout = 0.5;   ///< [s, > 0] Without a report the watchdog acts.
-  double dark_check = 0.5;        ///< [s, > 0] Without a light the camera is checked.
-  double status_interval = 60.0;  ///< [s, > 0] Between questions for the battery.
-};
-
-/// One connection to a remote, from the first request to the stream of images (report 0x33,
-/// extended infrared, accelerometer) and its upkeep. Everything is driven by the remote's answers
-/// and by deadlines; nothing waits. Others may talk to the same remote (the kernel's own driver
-/// does), so foreign answers are expected, memory is matched by address, and the camera's registers
-/// are read back.
+/// One connection to a remote, from the first request to the stream of images and its upkeep.
+/// Everything is driven by the remote's answers and by deadlines; nothing waits. Others may talk to
+/// the same remote (the kernel's own driver does), so foreign answers are expected, memory is
+/// matched by address, and the camera's registers are read back, time and again.
 class Session {
  public:
   /// Sends a report; may throw, and what it throws passes through.
   using Write = std::function<void(const protocol::Report&)>;
 
   /// Sends the first request. `now` [s] here and below is any clock that never goes back.
+  /// @throws std::invalid_argument when options.ir_format is kNone.
   Session(const SessionOptions& options, Write write, double now);
 
-  /// The remote sent a report. @returns it when it is an image of the camera as configured.
+  /// The remote sent a report. @returns the image that it completes, of the camera as configured.
   /// @throws SessionError when the remote is to be given up.
   std::optional<protocol::DataReport> handle(const protocol::Report& report, double now);
 
@@ -58,19 +49,32 @@ class Session {
   /// Whether the camera is set up and images come.
   bool streaming() const { return images_valid_; }
 
+  /// Sets the camera up with another sensitivity, at once when it is streaming. Images are left out
+  /// meanwhile, for five round trips; the report mode stays.
+  void setSensitivity(const protocol::IrSensitivity& sensitivity, double now);
+
+  void setLeds(std::uint8_t leds);
+
+  /// The state of the motor goes with every report. Other programs' reports stop it, so it is told
+  /// again and again while it is to run.
+  void setRumble(bool rumble, double now);
+
   /// Counts the times the watchdog had to start all over, e.g. after a power cycle that did not
   /// break the connection.
   int restarts() const { return restarts_; }
 
-  /// Nothing when the remote's own was not readable; then a typical one serves.
-  const std::optional<protocol::AccelerometerCalibration>& accelerometer() const {
-    return accelerometer_;
-  }
+  /// Counts what was found to be no longer as configured and was put right.
+  std::uint64_t restorations() const { return restorations_; }
+  /// What was found the last time, one phrase.
+  const char* lastRestoration() const { return last_restoration_; }
+
+  /// What the remote's EEPROM says of camera and accelerometer, as far as it was readable.
+  const FactoryCalibration& factory() const { return factory_; }
 
   /// The last status that came.
   const std::optional<protocol::Status>& status() const { return status_; }
 
-  /// Sends what switches reporting, camera and LEDs off. Waits for no answer.
+  /// Sends what switches reporting, camera, LEDs and motor off. Waits for no answer.
   void switchOff();
 
  private:
@@ -78,16 +82,11 @@ class Session {
   enum class Step {
     kStatus,
     kLeds,
-    kAccelerometer,
-    kAccelerometerCopy,
+    kFactory,
     kIrClock,
     kIrLogic,
-    kIrSetup,
-    kIrBlock1,
-    kIrBlock2,
-    kIrMode,
-    kIrRun,
-    kIrVerify,
+    kCameraWrite,  ///< index_: of CameraConfiguration::write().
+    kCameraRead,   ///< index_: of CameraConfiguration::read().
     kReportMode,
     kStreaming,
   };
@@ -95,42 +94,60 @@ class Session {
   void enter(Step step, double now);
   void next(double now);
   void send(double now);
-  void retry(const char* why, double now);
+  void retry(const std::string& why, double now);
   protocol::Report request() const;
+  void transmit(protocol::Report report);
+  void setReportMode() { transmit(protocol::setReportMode(assembler_.reportMode(), true)); }
 
   void handleStatus(const protocol::Status& status, double now);
   void handleMemory(const protocol::MemoryPacket& packet, double now);
   void handleAcknowledgement(const protocol::Acknowledgement& acknowledgement, double now);
-  std::optional<protocol::DataReport> handleData(const protocol::DataReport& data, double now);
+  std::optional<protocol::DataReport> handleData(const protocol::Report& report, double now);
+  void otherReport(std::uint8_t id, double now);
 
   void setUpCamera(double now);
-  void checkCamera(double now);
-  void verifyFailed(double now);
+  void writeCamera(double now);
+  void checkCamera(int first, int reads, double now);
+  void checkPassed(double now);
+  void checkFailed(const char* fault, double now);
+
+  void keepStreaming(double now);
+  void imagesStopped(double now);
   void startOver(double now);
+  void found(const char* what);
 
   SessionOptions options_;
   Write write_;
+  FactoryCalibration factory_;
+  CameraConfiguration camera_;
+  ImageAssembler assembler_;
+  StreamWatch watch_;
 
   Step step_ = Step::kStatus;
+  int index_ = 0;
   int attempts_ = 0;
   double answer_due_ = 0.0;
 
-  bool images_valid_ = false;
-  double last_image_ = 0.0;
-  double status_due_ = 0.0;
+  bool images_valid_ = false;   ///< The camera is set up.
   int silences_ = 0;            ///< In a row, without an image between them.
   bool after_silence_ = false;  ///< Until the camera has been found to be as it was.
   int restarts_ = 0;
 
-  // Darkness is no error, but a camera that somebody switched off looks the same.
-  double dark_check_due_ = 0.0;
-  double dark_check_interval_ = 0.0;
+  int reads_left_ = 0;  ///< Of the check under way, with the present one.
+  Step after_check_ = Step::kReportMode;
+  int next_check_ = 0;          ///< Which part of the configuration has its turn.
+  bool write_pending_ = false;  ///< The configuration has changed.
+  bool verified_ = false;       ///< Reading the camera's registers back has worked.
+  bool verifiable_ = true;      ///< Until it has failed too often without ever having worked.
+  int set_ups_ = 0;             ///< Of the camera, without success between them.
 
-  bool verified_ = false;   ///< Reading the camera's registers back has worked.
-  bool verifiable_ = true;  ///< Until it has failed too often without ever having worked.
-  int camera_set_ups_ = 0;  ///< Without an image between them.
+  bool rumble_ = false;
+  double rumble_due_ = 0.0;
 
-  std::optional<protocol::AccelerometerCalibration> accelerometer_;
+  const char* found_ = nullptr;  ///< What is being put right; null when nothing.
+  const char* last_restoration_ = "";
+  std::uint64_t restorations_ = 0;
+
   std::optional<protocol::Status> status_;
 };
 

@@ -84,6 +84,10 @@ class Wiimote {
   void close();
 
  private:
+  /// Ends the connection when the action throws what a remote may cause.
+  template <typename Action>
+  void orDrop(Action action);
+
   void connect();
   void drop(const std::string& error);
   std::optional<protocol::DataReport> receive(double max_wait);
@@ -102,8 +106,9 @@ class Wiimote {
   std::uint64_t link_changes_ = 0;
   protocol::AccelerometerCalibration accelerometer_;
   bool had_image_ = false;
-  bool new_epoch_ = false;  ///< The next image is the first of another epoch.
-  int restarts_ = 0;        ///< Of the session, as far as seen.
+  bool new_epoch_ = false;          ///< The next image is the first of another epoch.
+  int restarts_ = 0;                ///< Of the session, as far as seen.
+  std::uint64_t restorations_ = 0;  ///< Likewise.
 };
 
 }  // namespace wiimote_tracker::wiimote

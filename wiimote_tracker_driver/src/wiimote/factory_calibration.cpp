@@ -1,0 +1,64 @@
+#include "wiimote_tracker_driver/wiimote/factory_calibration.h"
+
+#include "wiimote_tracker_driver/protocol/output_reports.h"
+
+#include <algorithm>
+#include <array>
+
+namespace wiimote_tracker::wiimote {
+namespace {
+
+struct Area {
+  std::uint32_t address;
+  std::size_t size;
+};
+// In the order of FactoryCalibration::Block.
+constexpr std::array<Area, 4> kAreas{
+    {{protocol::kIrCalibrationAddress, protocol::kIrCalibrationBlockSize},
+     {protocol::kIrCalibrationCopyAddress, protocol::kIrCalibrationBlockSize},
+     {protocol::kAccelerometerAddress, protocol::kAccelerometerBlockSize},
+     {protocol::kAccelerometerCopyAddress, protocol::kAccelerometerBlockSize}}};
+
+template <std::size_t N>
+std::array<std::uint8_t, N> firstBytes(const protocol::MemoryPacket& packet) {
+  std::array<std::uint8_t, N> bytes{};
+  std::copy_n(packet.data.begin(), N, bytes.begin());
+  return bytes;
+}
+
+}  // namespace
+
+protocol::Report FactoryCalibration::request() const {
+  const Area& area = kAreas[static_cast<std::size_t>(block_)];
+  return protocol::readMemory(protocol::Space::kEeprom, area.address,
+                              static_cast<std::uint16_t>(area.size));
+}
+
+bool FactoryCalibration::take(const protocol::MemoryPacket& packet) {
+  if (complete())
+    return false;
+  const Area& area = kAreas[static_cast<std::size_t>(block_)];
+  if (packet.address != area.address || (packet.error == 0 && packet.size != area.size))
+    return false;
+  if (packet.error == 0 && decode(packet))
+    skip();
+  else
+    block_ = static_cast<Block>(static_cast<int>(block_) + 1);
+  return true;
+}
+
+bool FactoryCalibration::decode(const protocol::MemoryPacket& packet) {
+  if (block_ <= Block::kIrCopy) {
+    ir_ = protocol::decodeIrCalibrationBlock(firstBytes<protocol::kIrCalibrationBlockSize>(packet));
+    return ir_.has_value();
+  }
+  accelerometer_ =
+      protocol::decodeAccelerometerBlock(firstBytes<protocol::kAccelerometerBlockSize>(packet));
+  return accelerometer_.has_value();
+}
+
+void FactoryCalibration::skip() {
+  block_ = block_ <= Block::kIrCopy ? Block::kAccelerometer : Block::kNone;
+}
+
+}  // namespace wiimote_tracker::wiimote

@@ -1,0 +1,110 @@
+#include "wiimote_tracker_driver/wiimote/stream_watch.h"
+
+#include <algorithm>
+
+namespace wiimote_tracker::wiimote {
+namespace {
+
+// A mode that may be lost is set again after so long without an image, well before the watchdog
+// acts. Of the intervals of real remotes one in a thousand is longer than half of this [s].
+constexpr double kReminder = 0.1;
+// The kernel's driver resets the mode some milliseconds after each status. Ours, set once more
+// after this, is the last word [s].
+constexpr double kAfterStatus = 0.03;
+// So long after a status a lost mode is the kernel's doing and nothing worse [s].
+constexpr double kStatusEffect = 0.2;
+// Between two checks of images that look wrong [s].
+constexpr double kControlPause = 1.0;
+// A light that shows so soon after a check in the dark owes it to that [s].
+constexpr double kDarkCheckEffect = 0.1;
+
+}  // namespace
+
+void StreamWatch::start(double now) {
+  last_image_ = now;
+  reminded_ = false;
+  mode_due_ = kNever;
+  dark_since_ = now;
+  dark_checked_ = false;
+  control_due_ = kNever;
+  check_due_ = now + options_.check_interval;
+  status_due_ = now + options_.status_interval;
+}
+
+void StreamWatch::alive(double now) {
+  last_image_ = now;
+  reminded_ = false;
+}
+
+bool StreamWatch::image(const protocol::DataReport& image, double now) {
+  alive(now);
+  if (!image.plausible && control_due_ == kNever)
+    control_due_ = std::max(now, last_control_ + kControlPause);
+  if (std::none_of(image.spots.begin(), image.spots.end(),
+                   [](const protocol::IrSpot& spot) { return spot.seen; }))
+    return false;
+  const bool owed = dark_checked_ && now < last_dark_check_ + kDarkCheckEffect;
+  dark_since_ = now;
+  dark_checked_ = false;
+  return owed;
+}
+
+void StreamWatch::status(bool camera, double now) {
+  last_status_ = now;
+  mode_due_ = now + kAfterStatus;
+  if (!camera)
+    control_due_ = now;
+}
+
+bool StreamWatch::justAfterStatus(double now) const {
+  return now < last_status_ + kStatusEffect;
+}
+
+// Where checks are impossible a reminder would hide that the remote was switched off and on.
+double StreamWatch::reminderDue() const {
+  return reminded_ || !checks_ ? kNever : last_image_ + kReminder;
+}
+
+double StreamWatch::darkCheckDue() const {
+  return dark_checked_ ? kNever : dark_since_ + options_.dark_check;
+}
+
+StreamWatch::Task StreamWatch::take(double now) {
+  if (silent(now))
+    return Task::kRestart;
+  if (now >= mode_due_) {
+    mode_due_ = kNever;
+    return Task::kRepeatMode;
+  }
+  if (now >= reminderDue()) {
+    reminded_ = true;
+    return Task::kRemind;
+  }
+  if (now >= darkCheckDue()) {
+    dark_checked_ = true;
+    last_dark_check_ = now;
+    return Task::kCheckInDark;
+  }
+  if (checks_ && now >= control_due_) {
+    control_due_ = kNever;
+    last_control_ = now;
+    return Task::kCheckControl;
+  }
+  if (checks_ && now >= check_due_) {
+    check_due_ = now + options_.check_interval;
+    return Task::kCheckNext;
+  }
+  if (now >= status_due_) {
+    status_due_ = now + options_.status_interval;
+    return Task::kAskStatus;
+  }
+  return Task::kNothing;
+}
+
+double StreamWatch::deadline() const {
+  const double check = checks_ ? std::min(check_due_, control_due_) : kNever;
+  return std::min({last_image_ + options_.silence_timeout, mode_due_, reminderDue(), darkCheckDue(),
+                   check, status_due_});
+}
+
+}  // namespace wiimote_tracker::wiimote

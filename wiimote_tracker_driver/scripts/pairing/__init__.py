@@ -1,0 +1,1 @@
+"""Pairing a Wii Remote with this computer."""

@@ -4,9 +4,11 @@
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <sys/socket.h>
 #include <sys/un.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -51,11 +53,16 @@ TEST(DeviceNames, AllKinds) {
   const DeviceName socket = parseDeviceName("virtual:/tmp/a:b.sock");
   EXPECT_EQ(DeviceName::Kind::kVirtual, socket.kind);
   EXPECT_EQ("/tmp/a:b.sock", socket.value);
+  const DeviceName recording = parseDeviceName("replay:/tmp/a b.wiirec");
+  EXPECT_EQ(DeviceName::Kind::kReplay, recording.kind);
+  EXPECT_EQ("/tmp/a b.wiirec", recording.value);
+  EXPECT_THROW(open(recording), BadDeviceName);
 }
 
 TEST(DeviceNames, MalformedOnesAreRefusedByName) {
-  for (const char* text : {"00:1f:32:ab:cd", "00:1f:32:ab:cd:0g", "00-1f-32-ab-cd-09", "hidraw0",
-                           "/dev/hidraw", "/dev/hidraw1x", "/dev/ttyUSB0", "virtual:", "any"}) {
+  for (const char* text :
+       {"00:1f:32:ab:cd", "00:1f:32:ab:cd:0g", "00-1f-32-ab-cd-09", "hidraw0", "/dev/hidraw",
+        "/dev/hidraw1x", "/dev/ttyUSB0", "virtual:", "replay:", "any"}) {
     EXPECT_TRUE(contains(sentenceOf<BadDeviceName>([&] { parseDeviceName(text); }), text));
   }
 }
@@ -170,11 +177,32 @@ TEST_F(Sockets, TooLongPath) {
 TEST_F(Sockets, SecondHostIsRefusedUntilTheFirstHasGone) {
   const auto server = serve();
   auto first = connect();
-  EXPECT_TRUE(contains(sentenceOf<DeviceTaken>([&] { connect(); }), path_));
+  const std::string sentence = sentenceOf<DeviceTaken>([&] { connect(); });
+  EXPECT_TRUE(contains(sentence, path_)) << sentence;
+  EXPECT_TRUE(contains(sentence, "in use by this very process (")) << sentence;
   EXPECT_TRUE(server->connected());
   first.reset();
   EXPECT_TRUE(eventually([&] { return !server->connected(); }));
   EXPECT_EQ("00:1f:32:00:00:01", connect()->identity());
+}
+
+TEST_F(Sockets, SecondHostIsToldTheOtherProcess) {
+  const auto server = serve();
+  const pid_t other = ::fork();
+  if (other == 0) {
+    const auto transport = connect();
+    Report report;
+    while (transport->read(report, 60.0)) {
+      // Until it is told to end.
+    }
+    ::_exit(0);
+  }
+  EXPECT_TRUE(eventually([&] { return server->connected(); }));
+  const std::string sentence = sentenceOf<DeviceTaken>([&] { connect(); });
+  EXPECT_TRUE(contains(sentence, "test_transport")) << sentence;
+  EXPECT_TRUE(contains(sentence, "process " + std::to_string(other) + ")")) << sentence;
+  ::kill(other, SIGKILL);
+  ::waitpid(other, nullptr, 0);
 }
 
 TEST_F(Sockets, DeviceGoesAwayAndComesBackPowerCycled) {

@@ -22,6 +22,11 @@ constexpr double kLookAhead = 0.25;
 // so that none is missed.
 constexpr double kPatience = 1.0;
 
+// A request at the end of a wait was made because the wait was over; times are rounded [s].
+bool isAfter(const Record& record, double time) {
+  return record.time > (record.kind == Record::Kind::kSent ? time - 1e-8 : time);
+}
+
 std::ifstream openFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file)
@@ -134,7 +139,7 @@ struct Replay::State {
     }
     const double until = now + timeout;
     while (readAhead(until)) {
-      if (ahead.front().record.time > until) {
+      if (isAfter(ahead.front().record, until)) {
         passUntil(until);
         return false;
       }

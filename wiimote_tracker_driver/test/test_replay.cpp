@@ -1,0 +1,490 @@
+// A recording of the driver's core, played back to it.
+#include "wiimote_tracker_driver/protocol/output_reports.h"
+#include "wiimote_tracker_driver/recording/reader.h"
+#include "wiimote_tracker_driver/recording/recorder.h"
+#include "wiimote_tracker_driver/recording/replay.h"
+#include "wiimote_tracker_driver/virtual_wiimote/faulty_device.h"
+#include "wiimote_tracker_driver/virtual_wiimote/server.h"
+#include "wiimote_tracker_driver/wiimote/wiimote.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <thread>
+
+namespace wiimote_tracker::recording {
+namespace {
+
+using protocol::DataReport;
+using protocol::IrFormat;
+using protocol::Report;
+using virtual_wiimote::Bytes;
+using virtual_wiimote::Faults;
+using virtual_wiimote::FaultyDevice;
+using virtual_wiimote::Senses;
+using wiimote::Options;
+using wiimote::Wiimote;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A light on its way round, so that no two images are alike.
+Senses sensesAt(double time) {
+  Senses senses;
+  virtual_wiimote::Light light;
+  light.x = 512.0 + 400.0 * std::cos(time);
+  light.y = 384.0 + 300.0 * std::sin(3.0 * time);
+  senses.lights.push_back(light);
+  senses.acceleration = {0.0, std::sin(time), std::cos(time)};
+  return senses;
+}
+
+/// A virtual remote, with all its faults, in fake time: it senses every 10 ms, and its reports take
+/// up to 5 ms.
+struct SimulatedRemote {
+  explicit SimulatedRemote(const Faults& faults)
+      : device(virtual_wiimote::Device::Options(), faults) {}
+
+  double now = 50.0;
+  FaultyDevice device;
+  std::deque<Bytes> under_way;
+  std::mt19937 random{3};
+
+  double next_sample = 50.0;
+  double next_arrival = 50.0;
+
+  void take(const std::vector<Bytes>& reports) {
+    under_way.insert(under_way.end(), reports.begin(), reports.end());
+  }
+
+  void sampleUntil(double time) {
+    for (; next_sample <= time; next_sample += 0.01) {
+      take(device.sample(sensesAt(next_sample)));
+      if (under_way.size() > 64)  // what the kernel keeps for us
+        under_way.resize(64);
+    }
+  }
+
+  bool read(Report& report, double timeout) {
+    const double until = now + timeout;
+    for (;;) {
+      if (device.away())
+        throw transport::Disconnected("the remote is out of reach");
+      if (!under_way.empty() && next_arrival <= until) {
+        now = std::max(now, next_arrival);
+        next_arrival = now + 0.001 * (random() % 5000) * 0.001;
+        report.size = under_way.front().size();
+        std::copy(under_way.front().begin(), under_way.front().end(), report.bytes.begin());
+        under_way.pop_front();
+        return true;
+      }
+      if (next_sample > until) {
+        now = until;
+        return false;
+      }
+      now = std::max(now, next_sample);
+      sampleUntil(now);
+    }
+  }
+};
+
+class SimulatedTransport : public transport::Transport {
+ public:
+  explicit SimulatedTransport(SimulatedRemote* remote) : remote_(remote) {}
+  bool read(Report& report, double timeout) override { return remote_->read(report, timeout); }
+  void write(const Report& report) override {
+    if (remote_->device.away())
+      throw transport::Disconnected("the remote is out of reach");
+    const auto begin = report.bytes.begin();
+    remote_->take(remote_->device.handleOutput(Bytes(begin, begin + report.size)));
+  }
+  std::string description() const override { return "simulated"; }
+  std::string identity() const override { return "00:1f:32:00:00:07"; }
+  std::string kernelDriver() const override { return "wiimote"; }
+
+ private:
+  SimulatedRemote* remote_;
+};
+
+struct Frame {
+  double arrival;  ///< [s]
+  std::uint32_t epoch;
+  DataReport image;
+};
+
+bool same(const DataReport& a, const DataReport& b) {
+  const auto same_spot = [](const protocol::IrSpot& p, const protocol::IrSpot& q) {
+    return p.seen == q.seen && p.x == q.x && p.y == q.y && p.size == q.size &&
+           p.intensity == q.intensity && p.box == q.box;
+  };
+  return a.id == b.id && a.buttons == b.buttons && a.acceleration == b.acceleration &&
+         a.ir_format == b.ir_format &&
+         std::equal(a.spots.begin(), a.spots.end(), b.spots.begin(), same_spot);
+}
+
+void expectSame(const std::vector<Frame>& recorded,
+                double begin,
+                const std::vector<Frame>& played) {
+  ASSERT_EQ(recorded.size(), played.size());
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    ASSERT_NEAR(recorded[i].arrival - begin, played[i].arrival, 1e-9) << "image " << i;
+    ASSERT_TRUE(same(recorded[i].image, played[i].image)) << "image " << i;
+    ASSERT_EQ(recorded[i].epoch, played[i].epoch) << "image " << i;
+  }
+}
+
+class Replays : public testing::Test {
+ protected:
+  void SetUp() override {
+    char pattern[] = "/tmp/wiimote_tracker_replay_XXXXXX";
+    ASSERT_NE(nullptr, ::mkdtemp(pattern));
+    directory_ = pattern;
+    path_ = directory_ + "/a.wiirec";
+  }
+  void TearDown() override {
+    for (const char* name : {"/a.wiirec", "/b.wiirec", "/remote.sock"})
+      ::unlink((directory_ + name).c_str());
+    ::rmdir(directory_.c_str());
+  }
+
+  /// Lets the driver's core run with a simulated remote and records it.
+  std::vector<Frame> recordSimulation(const Faults& faults,
+                                      double duration,
+                                      const Options& options = Options()) const {
+    SimulatedRemote remote(faults);
+    const auto clock = [&] { return remote.now; };
+    auto recorder = std::make_shared<Recorder>(path_, remote.now, 1.7e9);
+    const double end = remote.now + duration;
+    Wiimote wiimote(
+        options,
+        [&]() -> std::unique_ptr<transport::Transport> {
+          if (remote.device.away())
+            throw transport::NoSuchDevice("the remote is out of reach");
+          remote.under_way.clear();
+          return record(std::make_unique<SimulatedTransport>(&remote), recorder, clock);
+        },
+        clock);
+    std::vector<Frame> frames;
+    while (remote.now < end) {
+      if (const double idle = wiimote.idleTime(); idle > 0.0) {
+        remote.now += idle;
+        remote.sampleUntil(remote.now);
+      }
+      if (const auto image = wiimote.step(0.1))
+        frames.push_back({remote.now, wiimote.link().clock_epoch, *image});
+    }
+    wiimote.close();
+    EXPECT_EQ("", recorder->error());
+    return frames;
+  }
+
+  /// Plays to the driver's core until the recording has ended.
+  static std::vector<Frame> play(Replay& replay,
+                                 const Options& options = Options(),
+                                 wiimote::Link* link = nullptr) {
+    Wiimote wiimote(
+        options, [&] { return replay.open(); }, [&] { return replay.now(); });
+    std::vector<Frame> frames;
+    while (!replay.ended()) {
+      if (const double idle = wiimote.idleTime(); idle > 0.0)
+        replay.pass(idle);
+      if (const auto image = wiimote.step(0.1))
+        frames.push_back({replay.now(), wiimote.link().clock_epoch, *image});
+    }
+    if (link != nullptr)
+      *link = wiimote.link();
+    return frames;
+  }
+
+  std::string bytes() const {
+    std::ifstream in(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+
+  /// Another file with these bytes.
+  std::string write(const std::string& bytes) const {
+    const std::string path = directory_ + "/b.wiirec";
+    std::ofstream(path, std::ios::binary) << bytes;
+    return path;
+  }
+
+  std::string directory_;
+  std::string path_;
+};
+
+TEST_F(Replays, SameImagesAtTheSameTimes) {
+  const std::vector<Frame> recorded = recordSimulation(Faults(), 5.0);
+  EXPECT_LT(450u, recorded.size());
+  Replay replay(path_);
+  EXPECT_NEAR(1.7e9, replay.wallTime(), 1e-3);
+  EXPECT_EQ(IrFormat::kExtended, replay.irFormat());
+  wiimote::Link link;
+  expectSame(recorded, 50.0, play(replay, Options(), &link));
+  EXPECT_EQ("", replay.notice());
+  EXPECT_EQ("00:1f:32:00:00:07", link.identity);
+  EXPECT_EQ("wiimote", link.kernel_driver);
+  EXPECT_EQ("replay:" + path_, link.description);
+  EXPECT_TRUE(link.accelerometer_calibrated);
+  EXPECT_TRUE(contains(link.error, "has ended")) << link.error;
+}
+
+TEST_F(Replays, SameImagesWithAllThatGoesWrong) {
+  Faults faults;
+  faults.lost_answers = 0.1;
+  faults.lost_data = 0.05;
+  faults.late_answers = 0.1;
+  faults.duplicated = 0.02;
+  faults.truncated = 0.01;
+  faults.garbage = 0.01;
+  faults.stalls = 0.01;
+  faults.unplug_every = 700;
+  faults.unplug_for = 180;
+  faults.second_master = true;
+  for (faults.seed = 1; faults.seed <= 5; ++faults.seed) {
+    const std::vector<Frame> recorded = recordSimulation(faults, 30.0);
+    EXPECT_LT(500u, recorded.size());
+    EXPECT_LT(1u, recorded.back().epoch) << "too little has gone wrong";
+    Replay replay(path_);
+    expectSame(recorded, 50.0, play(replay));
+    ::unlink(path_.c_str());
+  }
+}
+
+TEST_F(Replays, EndsOnceAndForAll) {
+  recordSimulation(Faults(), 1.0);
+  Replay replay(path_);
+  play(replay);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_THROW(replay.open(), transport::NoSuchDevice);
+    replay.pass(1.0);
+  }
+}
+
+TEST_F(Replays, OtherSettingsGetTheirAnswersAndTheRecordedImages) {
+  const std::vector<Frame> recorded = recordSimulation(Faults(), 3.0);
+  Options options;
+  options.session.leds = 0x8;
+  options.session.sensitivity = *protocol::irSensitivity("wii_1");
+  Replay replay(path_);
+  expectSame(recorded, 50.0, play(replay, options));
+  EXPECT_TRUE(contains(replay.notice(), "sensitivity")) << replay.notice();
+  EXPECT_FALSE(contains(replay.notice(), "format")) << replay.notice();
+}
+
+// A driver of another version asks for other things, in another order, and at other times.
+TEST_F(Replays, RequestsThatWereNotMadeThenAreAnswered) {
+  recordSimulation(Faults(), 1.0);
+  Replay replay(path_);
+  const auto transport = replay.open();
+  Report answer;
+  const auto ask = [&](const Report& request, std::uint8_t id) {
+    transport->write(request);
+    while (transport->read(answer, 0.5)) {
+      if (answer.id() == id)
+        return true;
+    }
+    return false;
+  };
+  const std::uint8_t secret[] = {0x5e, 0xc2, 0xe7};
+  ASSERT_TRUE(ask(protocol::writeMemory(protocol::Space::kRegisters, 0xb00020, secret, 3), 0x22));
+  EXPECT_EQ((Report{0x22, 0, 0, 0x16, 0}), answer);
+  ASSERT_TRUE(ask(protocol::readMemory(protocol::Space::kRegisters, 0xb00021, 2), 0x21));
+  EXPECT_EQ(0x10, answer.bytes[3]);
+  EXPECT_EQ(0x21, answer.bytes[5]);
+  EXPECT_EQ(0xc2, answer.bytes[6]);
+  EXPECT_EQ(0xe7, answer.bytes[7]);
+  ASSERT_TRUE(ask(protocol::readMemory(protocol::Space::kEeprom, 0x0018, 2), 0x21));
+  EXPECT_EQ(0x86, answer.bytes[6]) << "part of what was read then";
+  EXPECT_EQ(0x30, answer.bytes[7]);
+  ASSERT_TRUE(ask(protocol::readMemory(protocol::Space::kEeprom, 0x1000, 20), 0x21));
+  EXPECT_EQ(0x08, answer.bytes[3] & 0x0f) << "not known";
+  ASSERT_TRUE(ask({0x19, 0x06}, 0x22));
+  EXPECT_EQ(0x19, answer.bytes[3]);
+  ASSERT_TRUE(ask(protocol::requestStatus(), 0x20));
+  EXPECT_EQ(0xa0, answer.bytes[6]);
+}
+
+TEST_F(Replays, CutOffAnywhereItPlaysUpToThere) {
+  recordSimulation(Faults(), 0.5);
+  const std::string all = bytes();
+  const std::vector<Frame> whole = [&] {
+    Replay replay(path_);
+    return play(replay);
+  }();
+  ASSERT_LT(20u, whole.size());
+  std::size_t played_most = 0;
+  for (std::size_t size = 0; size < all.size(); ++size) {
+    const std::string path = write(all.substr(0, size));
+    try {
+      Replay replay(path);
+      wiimote::Link link;
+      const std::vector<Frame> frames = play(replay, Options(), &link);
+      ASSERT_LE(played_most, frames.size()) << size;
+      played_most = frames.size();
+      for (std::size_t i = 0; i < frames.size(); ++i) {
+        ASSERT_DOUBLE_EQ(whole[i].arrival, frames[i].arrival);
+        ASSERT_TRUE(same(whole[i].image, frames[i].image));
+      }
+      if (!replay.notice().empty()) {
+        ASSERT_TRUE(contains(replay.notice(), "cut off")) << replay.notice();
+        ASSERT_TRUE(contains(link.error, "has ended: the recording is cut off")) << link.error;
+      }
+    } catch (const BadRecording& e) {
+      ASSERT_TRUE(contains(e.what(), "cut off") || contains(e.what(), "no connection")) << e.what();
+      ASSERT_GT(200u, size);
+    }
+  }
+  EXPECT_EQ(whole.size(), played_most);
+}
+
+TEST_F(Replays, NoBytesMakeItCrashOrHang) {
+  Faults faults;
+  faults.unplug_every = 60;
+  faults.unplug_for = 30;
+  recordSimulation(faults, 2.0);
+  const std::string all = bytes();
+  std::mt19937 random(11);
+  for (int round = 0; round < 1000; ++round) {
+    std::string damaged = all;
+    for (int i = 0; i < 3; ++i)
+      damaged[random() % damaged.size()] = static_cast<char>(random());
+    const std::string path = write(damaged);
+    try {
+      Replay replay(path);
+      // A time that was hit may leave the remote silent or away for very long.
+      Wiimote wiimote(
+          Options(), [&] { return replay.open(); }, [&] { return replay.now(); });
+      for (int i = 0; i < 2000 && !replay.ended(); ++i) {
+        replay.pass(wiimote.idleTime());
+        wiimote.step(0.1);
+      }
+    } catch (const BadRecording&) {
+      // Nothing that could be played is left.
+    }
+  }
+}
+
+TEST_F(Replays, WhatCannotBePlayedIsRefusedByName) {
+  const auto refusal = [](const std::string& path) -> std::string {
+    try {
+      Replay replay(path);
+    } catch (const BadRecording& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_TRUE(contains(refusal(directory_ + "/none.wiirec"), directory_ + "/none.wiirec"));
+  EXPECT_TRUE(contains(refusal(directory_), directory_));
+  EXPECT_TRUE(contains(refusal(write("#ROSBAG V2.0")), "no recording"));
+  { const Recorder recorder(path_, 0.0, 0.0); }
+  EXPECT_TRUE(contains(refusal(path_), "no connection"));
+}
+
+TEST_F(Replays, PaceIsToldTheRecordedTimes) {
+  const std::vector<Frame> recorded = recordSimulation(Faults(), 1.0);
+  std::vector<double> told;
+  Replay replay(path_, [&](double time) { told.push_back(time); });
+  expectSame(recorded, 50.0, play(replay));
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_LT(recorded.size(), told.size());
+  EXPECT_NEAR(recorded.back().arrival - 50.0, *(told.end() - 1), 0.01);
+}
+
+TEST_F(Replays, RealTimeTakesItsTime) {
+  const auto steady = [] {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+  };
+  const Pace pace = realTime(4.0);
+  const double begin = steady();
+  pace(100.0);
+  pace(100.4);
+  EXPECT_LE(0.1, steady() - begin);
+  EXPECT_THROW(realTime(0.0), std::invalid_argument);
+}
+
+/// A clock that stands still between two reports, so that all who ask it agree on the arrival.
+class ArrivalClock : public transport::Transport {
+ public:
+  ArrivalClock(std::unique_ptr<transport::Transport> transport, std::atomic<double>* now)
+      : transport_(std::move(transport)), now_(now) {}
+  bool read(Report& report, double timeout) override {
+    const bool received = transport_->read(report, timeout);
+    *now_ = steady();
+    return received;
+  }
+  void write(const Report& report) override { transport_->write(report); }
+  std::string description() const override { return transport_->description(); }
+  std::string identity() const override { return transport_->identity(); }
+
+  static double steady() {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+  }
+
+ private:
+  std::unique_ptr<transport::Transport> transport_;
+  std::atomic<double>* now_;
+};
+
+// The same over a real socket, in real time, with a remote that goes away in between.
+TEST_F(Replays, SocketSession) {
+  const std::string socket = directory_ + "/remote.sock";
+  std::vector<Frame> recorded;
+  double begin = 0.0;
+  {
+    virtual_wiimote::Server server(socket, "00:1f:32:00:00:09", virtual_wiimote::Device::Options());
+    std::atomic<bool> stop{false};
+    std::thread senses([&] {
+      for (int i = 0; !stop; ++i) {
+        server.sample(sensesAt(0.01 * i));
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      }
+    });
+    std::atomic<double> now{ArrivalClock::steady()};
+    begin = now;
+    const auto clock = [&] { return now.load(); };
+    const auto recorder = std::make_shared<Recorder>(path_, now, 1.7e9);
+    Wiimote wiimote(
+        Options(),
+        [&] {
+          auto remote = transport::open(transport::parseDeviceName("virtual:" + socket));
+          return record(std::make_unique<ArrivalClock>(std::move(remote), &now), recorder, clock);
+        },
+        clock);
+    const double deadline = now + 60.0;
+    for (const std::size_t enough : {200u, 400u}) {
+      while (recorded.size() < enough && now < deadline) {
+        if (wiimote.idleTime() > 0.0) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(2));
+          now = ArrivalClock::steady();
+        } else if (const auto image = wiimote.step(0.1)) {
+          recorded.push_back({now, wiimote.link().clock_epoch, *image});
+        }
+      }
+      server.setPresent(false);
+      server.setPresent(true);
+    }
+    stop = true;
+    senses.join();
+  }
+  ASSERT_EQ(400u, recorded.size());
+  EXPECT_EQ(1u, recorded.back().epoch);
+  Replay replay(path_);
+  wiimote::Link link;
+  expectSame(recorded, begin, play(replay, Options(), &link));
+  EXPECT_EQ("00:1f:32:00:00:09", link.identity);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::recording

@@ -212,11 +212,30 @@ TEST(CameraList, TheExampleCanBeRead) {
   EXPECT_EQ("wiimote_4", list.nameOf("00:1f:32:00:00:04"));
 }
 
+TEST(CameraList, ACameraMayHaveMoreThanADevice) {
+  const std::string text =
+      "cameras:\n  door:\n    driver:\n      identity: not this\n      ir_mode: full\n"
+      "    identity: \"00:1f:32:00:00:01\"  # this\n  wiimote_1: \"00:1f:32:00:00:02\"\n"
+      "  window:\n    identity: '00:1f:32:00:00:03'\n    driver: {ir_mode: basic}\n";
+  CameraList list(text);
+  EXPECT_EQ(text, list.text());
+  EXPECT_EQ("door", list.nameOf("00:1f:32:00:00:01"));
+  EXPECT_EQ("window", list.nameOf("00:1f:32:00:00:03"));
+  list.replace("door", "00:1f:32:00:00:07");
+  EXPECT_EQ("wiimote_2", list.add("00:1f:32:00:00:08"));
+  EXPECT_EQ(
+      "cameras:\n  door:\n    driver:\n      identity: not this\n      ir_mode: full\n"
+      "    identity: \"00:1f:32:00:00:07\"  # this\n  wiimote_1: \"00:1f:32:00:00:02\"\n"
+      "  window:\n    identity: '00:1f:32:00:00:03'\n    driver: {ir_mode: basic}\n"
+      "  wiimote_2: \"00:1f:32:00:00:08\"\n",
+      list.text());
+}
+
 TEST(CameraList, WhatItCannotKeepItRefuses) {
   for (const char* text :
        {"", "# nothing\n", "wiimote_1: \"00:1f:32:00:00:01\"\n", "cameras: {a: \"x\"}\n",
-        "cameras:\n  - a\n", "cameras:\n  a:\n    identity: \"x\"\n", "cameras:\n  1: \"x\"\n",
-        "cameras:\n  a b: \"x\"\n", "cameras:\n  a: \"x\"\n  a: \"y\"\n",
+        "cameras:\n  - a\n", "cameras:\n  a:\n    driver: \"x\"\n", "cameras:\n  a:\n",
+        "cameras:\n  1: \"x\"\n", "cameras:\n  a b: \"x\"\n", "cameras:\n  a: \"x\"\n  a: \"y\"\n",
         "cameras:\n  a: \"x\"\nother:\n", "cameras:\n  a: \"x\n", "cameras:\n  a: {b: c}\n"}) {
     EXPECT_NE("", errorOf([&] { CameraList list{std::string(text)}; })) << text;
   }

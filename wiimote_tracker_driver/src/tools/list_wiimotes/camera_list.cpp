@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace wiimote_tracker::list_wiimotes {
@@ -35,37 +36,81 @@ CameraList::CameraList()
           "frames) and the\n# Bluetooth address.\ncameras:\n") {}
 
 CameraList::CameraList(const std::string& text) {
-  static const std::regex header(R"(cameras:\s*(#.*)?)");
-  static const std::regex camera(
-      R"re(([ \t]+)([A-Za-z]\w*):[ \t]+(?:"([^"]+)"|'([^']+)'|([^\s"'#{\[&*!|>][^\s#]*))(\s*|\s+#.*))re");
+  const std::string device = R"re((?:"([^"]+)"|'([^']+)'|([^\s"'#{\[&*!|>][^\s#]*))(\s*|\s+#.*))re";
+  const std::regex header(R"(cameras:\s*(#.*)?)");
+  const std::regex key_and_device(R"((\s+(\w+):\s+))" + device);
+  const std::regex key_alone(R"(\s+(\w+):\s*(#.*)?)");
+  const std::regex camera_name(R"([A-Za-z]\w*)");
+
   bool in_cameras = false;
+  std::set<std::string> names;
+  std::string open;          // the camera whose name stands alone, with lines below it
+  std::string inner_indent;  // of those lines
+  bool open_has_device = true;
+
   std::istringstream stream(text);
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
+    const auto refuse = [&](const std::string& what_to_do) {
+      throw CameraListError("line " + std::to_string(number) + " is '" + line + "': " + what_to_do);
+    };
+    const auto closeCamera = [&] {
+      if (!open_has_device)
+        refuse("write  identity: \"address\"  below " + open + " first");
+      open.clear();
+    };
     Line parsed;
     parsed.text = line;
+    const auto takeDevice = [&](const std::string& name, const std::smatch& match) {
+      parsed.entry = {name, match[3].str() + match[4].str() + match[5].str()};
+      parsed.key = match[1];
+      parsed.comment = match[6];
+    };
+    const std::string indent = line.substr(0, line.find_first_not_of(" \t"));
     std::smatch match;
     if (isBlankOrComment(line)) {
       // stays as it is
-    } else if (!in_cameras && std::regex_match(line, header)) {
+    } else if (!in_cameras) {
+      if (!std::regex_match(line, header))
+        refuse("write \"cameras:\" above the cameras");
       in_cameras = true;
-    } else if (in_cameras && std::regex_match(line, match, camera)) {
-      parsed.indent = match[1];
-      parsed.entry.name = match[2];
-      parsed.entry.device = match[3].str() + match[4].str() + match[5].str();
-      parsed.comment = match[6];
-      if (find(parsed.entry.name) != nullptr)
-        throw CameraListError("line " + std::to_string(number) + ": camera " + parsed.entry.name +
-                              " is there twice: remove one of the lines");
+    } else if (!open.empty() && indent.size() > indent_.size()) {
+      parsed.in_camera = true;
+      if (inner_indent.empty())
+        inner_indent = indent;
+      if (indent == inner_indent && std::regex_match(line, match, key_and_device) &&
+          match[2] == "identity") {
+        takeDevice(open, match);
+        open_has_device = true;
+      }
     } else {
-      throw CameraListError("line " + std::to_string(number) + " is '" + line +
-                            "': write \"cameras:\" and below it one line  name: \"address\"  for "
-                            "each camera, indented alike");
+      closeCamera();
+      parsed.in_camera = true;
+      if (names.empty())
+        indent_ = indent;
+      const bool alone = std::regex_match(line, match, key_alone);
+      if (indent != indent_ || (!alone && !std::regex_match(line, match, key_and_device)))
+        refuse("write one line  name: \"address\"  for each camera, indented alike");
+      const std::string name = match[alone ? 1 : 2];
+      if (!std::regex_match(name, camera_name))
+        refuse("a camera's name must be letters, digits and _, a letter first");
+      if (!names.insert(name).second)
+        refuse("camera " + name + " is there already; remove one of the lines");
+      if (alone) {
+        open = name;
+        inner_indent.clear();
+      } else {
+        takeDevice(name, match);
+      }
+      open_has_device = !alone;
     }
     lines_.push_back(parsed);
   }
   if (!in_cameras)
     throw CameraListError("there is no line \"cameras:\": write one above the cameras");
+  if (!open_has_device)
+    throw CameraListError("camera " + open +
+                          " has no device: write  identity: \"address\"  below it");
 }
 
 std::vector<CameraList::Entry> CameraList::entries() const {
@@ -101,8 +146,12 @@ void CameraList::replace(const std::string& name, const std::string& device) {
       names += (names.empty() ? "" : ", ") + entry.name;
     throw CameraListError("there is no camera '" + name + "': choose one of: " + names);
   }
-  line->entry.device = device;
-  line->text = line->indent + name + ": \"" + device + '"' + line->comment;
+  setDevice(*line, device);
+}
+
+void CameraList::setDevice(Line& line, const std::string& device) {
+  line.entry.device = device;
+  line.text = line.key + '"' + device + '"' + line.comment;
 }
 
 std::string CameraList::add(const std::string& device) {
@@ -110,18 +159,14 @@ std::string CameraList::add(const std::string& device) {
   while (find(kPrefix + std::to_string(number)) != nullptr)
     ++number;
   Line line;
-  line.entry = {kPrefix + std::to_string(number), device};
-  line.indent = "  ";
-  // Below the last camera; its indentation is theirs.
-  auto where = lines_.end();
-  for (auto i = lines_.begin(); i != lines_.end(); ++i) {
-    if (!i->entry.name.empty()) {
-      line.indent = i->indent;
-      where = i + 1;
-    }
-  }
-  line.text = line.indent + line.entry.name + ": \"" + device + '"';
-  lines_.insert(where, line);
+  line.entry.name = kPrefix + std::to_string(number);
+  line.key = indent_ + line.entry.name + ": ";
+  line.in_camera = true;
+  setDevice(line, device);
+  // Below the last camera, above the comments that follow it.
+  const auto last = std::find_if(lines_.rbegin(), lines_.rend(),
+                                 [](const Line& other) { return other.in_camera; });
+  lines_.insert(last == lines_.rend() ? lines_.end() : last.base(), line);
   return line.entry.name;
 }
 

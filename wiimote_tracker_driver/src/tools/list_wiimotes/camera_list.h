@@ -13,8 +13,9 @@ struct CameraListError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The remotes of a rig by name: the text of a cameras.yaml, which is "cameras:" and below it one
-/// line 'name: "device"' for each camera. Comments and order stay as they are.
+/// The remotes of a rig by name: the text of a cameras.yaml, which is "cameras:" and below it for
+/// each camera one line 'name: "device"', or 'name:' with 'identity: "device"' among the lines
+/// below it. All else stays as it is: order, comments, other lines below a name.
 class CameraList {
  public:
   struct Entry {
@@ -43,17 +44,20 @@ class CameraList {
   std::string text() const;
 
  private:
-  /// A camera, or a line that is none (then entry.name is empty).
+  /// A line that names a device, or another one (then entry.name is empty).
   struct Line {
     std::string text;
     Entry entry;
-    std::string indent;
-    std::string comment;  ///< What stands behind the device, with its blanks.
+    std::string key;         ///< What stands before the device, with its blanks.
+    std::string comment;     ///< What stands behind it, with its blanks.
+    bool in_camera = false;  ///< This line is part of a camera.
   };
 
   Line* find(const std::string& name);
+  static void setDevice(Line& line, const std::string& device);
 
   std::vector<Line> lines_;
+  std::string indent_ = "  ";  ///< Before the names.
 };
 
 /// @throws CameraListError when the file cannot be read or used.

@@ -98,8 +98,12 @@ Arguments parseArguments(int argc, char** argv) {
   }
   if (!arguments.replaced_camera.empty() && arguments.cameras.empty())
     throw BadArguments("--replace needs --cameras FILE");
-  if (!arguments.device.empty())
-    arguments.device = transport::parseDeviceName(arguments.device).value;
+  try {
+    if (!arguments.device.empty())
+      arguments.device = transport::parseDeviceName(arguments.device).value;
+  } catch (const transport::BadDeviceName& e) {
+    throw BadArguments(e.what());
+  }
   return arguments;
 }
 

@@ -1,0 +1,153 @@
+"""The program list_wiimotes, run with remotes that are made here, byte by byte.
+
+The environment variable LIST_WIIMOTES is the path of the program.
+"""
+
+import os
+import socket
+import subprocess
+import threading
+
+import pytest
+
+DEADLINE = 30.0  # [s]
+EXAMPLE = 'cameras:\n  door: "virtual:%s"  # mine\n'
+
+
+class Remote(object):
+    """A remote at a local socket that answers a request for its status, and notes its LEDs."""
+
+    def __init__(self, path, address, battery=0x69, answers=True):
+        self.path = path
+        self._leds = []
+        self._hung_up = threading.Condition()
+        self._hosts = 0  # that have come and gone
+        self._address = address.encode()
+        self._battery = battery
+        self._answers = answers
+        self._server = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        self._server.bind(path)
+        self._server.listen(1)
+        threading.Thread(target=self._serve, daemon=True).start()
+
+    def _serve(self):
+        while True:
+            host, _ = self._server.accept()
+            try:
+                host.send(self._address)
+                report = host.recv(32)
+                while report:
+                    if report[0] == 0x15 and self._answers:
+                        host.send(bytes([0x20, 0, 0, 0x20, 0, 0, self._battery]))
+                    if report[0] == 0x11:
+                        self._leds.append(report[1] >> 4)
+                    report = host.recv(32)
+            except OSError:
+                pass
+            host.close()
+            with self._hung_up:
+                self._hosts += 1
+                self._hung_up.notify_all()
+
+    def leds_after(self, hosts):
+        """What its LEDs showed, when so many hosts have come and gone."""
+        with self._hung_up:
+            assert self._hung_up.wait_for(lambda: self._hosts >= hosts, DEADLINE)
+        return self._leds
+
+
+def list_wiimotes(*arguments, **environment):
+    done = subprocess.run([os.environ['LIST_WIIMOTES']] + list(arguments),
+                          env=dict(os.environ, **environment), stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, timeout=DEADLINE)
+    return done.returncode, done.stdout.decode()
+
+
+@pytest.fixture
+def remotes(tmp_path):
+    return [Remote(str(tmp_path / ('%d.sock' % i)), '00:1f:32:00:00:0%d' % i) for i in (1, 2)]
+
+
+def test_free_remotes_are_shown_with_their_battery(remotes):
+    status, text = list_wiimotes('--virtual', remotes[0].path, remotes[1].path)
+    assert status == 0
+    assert '1  00:1f:32:00:00:01  virtual:%s' % remotes[0].path in text
+    assert '2  00:1f:32:00:00:02' in text
+    assert text.count('free, battery 100 % (raw 105)') == 2
+
+
+def test_a_remote_in_use_is_no_fault(remotes):
+    taker = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    taker.connect(remotes[0].path)
+    taker.recv(32)
+    # This made-up remote lets a second host wait instead of cutting it off.
+    status, text = list_wiimotes('--virtual', remotes[0].path)
+    assert status == 0
+    assert 'in use' in text
+
+
+def test_a_remote_that_does_not_answer_or_is_not_there_is_one(tmp_path):
+    silent = Remote(str(tmp_path / 'silent.sock'), '00:1f:32:00:00:03', answers=False)
+    status, text = list_wiimotes('--virtual', silent.path)
+    assert status == 1
+    assert 'take its batteries out' in text
+    status, text = list_wiimotes('--virtual', str(tmp_path / 'nowhere.sock'))
+    assert status == 1
+    assert 'no virtual Wii Remote listens' in text
+
+
+def test_identify_flashes_each_its_number(remotes):
+    _, text = list_wiimotes('--identify', '--virtual', remotes[0].path, remotes[1].path)
+    assert 'Remote 2 flashes 2 times.' in text
+    # One host asks for the status, the next lets it flash; at the end all is as before.
+    assert remotes[0].leds_after(2) == [0, 15, 0, 2]
+    assert remotes[1].leds_after(2) == [0, 15, 0, 15, 0, 2]
+
+
+def test_write_names_new_ones_and_keeps_old_names(remotes, tmp_path):
+    path = tmp_path / 'cameras.yaml'
+    path.write_text(EXAMPLE % remotes[1].path)
+    sockets = [remote.path for remote in remotes]
+    status, text = list_wiimotes('--write', str(path), '--virtual', *sockets)
+    assert status == 0
+    assert 'Remote 1 (00:1f:32:00:00:01) is camera wiimote_1.' in text
+    written = EXAMPLE % sockets[1] + '  wiimote_1: "virtual:%s"\n' % sockets[0]
+    assert path.read_text() == written
+    assert (tmp_path / 'cameras.yaml.bak').read_text() == EXAMPLE % sockets[1]
+
+    _, text = list_wiimotes('--write', str(path), '--virtual', *sockets)
+    assert 'needed no change' in text
+    assert path.read_text() == written
+    _, text = list_wiimotes('--cameras', str(path), '--virtual', sockets[0])
+    assert 'sock  wiimote_1' in text
+    assert 'camera door is not connected' in text
+
+
+def test_write_begins_a_new_list(remotes, tmp_path):
+    path = tmp_path / 'cameras.yaml'
+    list_wiimotes('--write', str(path), '--virtual', remotes[0].path)
+    assert 'cameras:\n  wiimote_1: "virtual:%s"\n' % remotes[0].path in path.read_text()
+
+
+def test_replace_finds_the_calibration_where_ros_keeps_it(tmp_path):
+    path = tmp_path / 'cameras.yaml'
+    path.write_text('cameras:\n  door: "00:1f:32:00:00:01"\n')
+    calibration = tmp_path / 'ros' / 'camera_info' / 'door.yaml'
+    calibration.parent.mkdir(parents=True)
+    calibration.write_text('old')
+    status, text = list_wiimotes('--replace', 'door', '00:1F:32:00:00:09', '--cameras', str(path),
+                                 ROS_HOME=str(tmp_path / 'ros'))
+    assert status == 0 and 'calibrate the rig again' in text
+    assert path.read_text() == 'cameras:\n  door: "00:1f:32:00:00:09"\n'
+    assert not calibration.exists()
+    status, text = list_wiimotes('--replace', 'window', '00:1f:32:00:00:08', '--cameras', str(path))
+    assert status == 1 and "no camera 'window'" in text
+
+
+@pytest.mark.parametrize('arguments', [
+    ['--identfy'], ['--write'], ['--virtual'], ['--replace', 'a'],
+    ['--replace', 'a', '00:1f:32:00:00:01'], ['--device', 'hidraw0']])
+def test_arguments_without_sense_are_refused(arguments):
+    status, text = list_wiimotes(*arguments)
+    assert status == 2
+    assert text.startswith('list_wiimotes: ')

@@ -15,8 +15,9 @@
 
 namespace wiimote_tracker::wiimote {
 
-/// A remote in fake time, in raw bytes: answers what it is asked 5 ms later and sends an image
-/// every 10 ms once it is in mode 0x33. Tests take away, add and change what it says.
+/// A remote in fake time, in raw bytes: answers what it is asked 5 ms later and sends an
+/// infrared report every 10 ms once it is in mode 0x33, 0x37 or 0x3e. Tests take away, add and
+/// change what it says.
 class FakeRemote {
  public:
   using Report = protocol::Report;
@@ -33,6 +34,10 @@ class FakeRemote {
   std::function<bool(const Report&)> lose = [](const Report&) { return false; };
   std::array<std::uint8_t, 10> block{{0x84, 0x82, 0x86, 0x30, 0x9f, 0x9d, 0x9f, 0x02, 0x40, 0x2e}};
   std::array<std::uint8_t, 10> copy = block;
+  // Points (136, 645), (907, 650), (919, 63), (140, 57).
+  std::array<std::uint8_t, 11> ir_block{
+      {0x88, 0x85, 0x8b, 0x8b, 0x8a, 0x97, 0x3f, 0x30, 0x8c, 0x39, 0xcd}};
+  std::array<std::uint8_t, 11> ir_copy = ir_block;
   bool light = true;
   bool registers_readable = true;
 
@@ -41,17 +46,21 @@ class FakeRemote {
 
   // State that somebody else may change behind the driver's back.
   std::uint8_t mode = 0x30;
-  bool camera = false;
+  bool camera = false;  ///< 0x13
+  bool logic = false;   ///< 0x1a
   std::map<int, std::uint8_t> registers;
   std::uint8_t leds = 0;
+  bool rumble = false;
 
   std::unique_ptr<transport::Transport> open();
 
   void powerCycle() {
     mode = 0x30;
     camera = false;
+    logic = false;
     registers.clear();
     leds = 0;
+    rumble = false;
   }
 
   /// Says this `delay` seconds from now.
@@ -70,7 +79,7 @@ class FakeRemote {
     if (!present)
       throw transport::Disconnected("the fake remote has gone");
     const double end = now + timeout;
-    const bool image_due = mode == 0x33 && next_image_ <= end;
+    const bool image_due = sendsImages() && next_image_ <= end;
     const bool answer_due = !pending_.empty() && pending_.front().time <= end;
     if (answer_due && !(image_due && next_image_ < pending_.front().time)) {
       now = std::max(now, pending_.front().time);
@@ -96,31 +105,35 @@ class FakeRemote {
       return;
     const auto& b = report.bytes;
     const int address = b[3] << 8 | b[4];
+    rumble = (b[1] & 1) != 0;
     switch (b[0]) {
       case 0x15:
         say({0x20, 0, 0, static_cast<std::uint8_t>(leds << 4 | (camera ? 8 : 0)), 0, 0, 0x8f},
             kDelay);
         return;
       case 0x16: {
-        const bool good = b[1] == 4 && b[2] == 0xb0 && camera;
+        const bool good = (b[1] & 4) != 0 && b[2] == 0xb0 && camera;
         for (int i = 0; good && i < b[5]; ++i)
           registers[address + i] = b[static_cast<std::size_t>(6 + i)];
         say({0x22, 0, 0, 0x16, static_cast<std::uint8_t>(good ? 0 : 7)}, kDelay);
         return;
       }
       case 0x17:
-        say(memory(b[1] == 4, address, b[6]), kDelay);
+        say(memory((b[1] & 4) != 0, address, b[6]), kDelay);
         return;
       case 0x11:
         leds = b[1] >> 4;
         break;
       case 0x12:
-        if (mode != 0x33)
+        if (!sendsImages())
           next_image_ = now + 0.01;
         mode = b[2];
         break;
       case 0x13:
         camera = (b[1] & 4) != 0;
+        break;
+      case 0x1a:
+        logic = (b[1] & 4) != 0;
         break;
       default:
         break;
@@ -132,14 +145,33 @@ class FakeRemote {
  private:
   static constexpr double kDelay = 0.005;
 
+  bool sendsImages() const { return mode == 0x33 || mode == 0x37 || mode == 0x3e; }
+
+  /// One light at (291, 69), of size 3 where the format has sizes.
   Report image() {
-    Report report{0x33, 0, 0, 0x80, 0x80, 0x80};
-    report.size = 18;
-    std::fill(report.bytes.begin() + 6, report.bytes.begin() + 18, 0xff);
-    if (light && camera && registers[0x30] == 8 && registers[0x33] == 3) {
-      report.bytes[6] = 0x23;
-      report.bytes[7] = 0x45;
-      report.bytes[8] = 0x13;
+    const bool sees = light && camera && logic && registers[0x30] == 8;
+    const auto ir = [&](Report& report, std::size_t at, int format,
+                        const std::vector<std::uint8_t>& bytes) {
+      std::fill(report.bytes.begin() + static_cast<std::ptrdiff_t>(at), report.bytes.end(), 0xff);
+      if (sees && registers[0x33] == format)
+        std::copy(bytes.begin(), bytes.end(),
+                  report.bytes.begin() + static_cast<std::ptrdiff_t>(at));
+    };
+    Report report{mode, 0, 0, 0x80, 0x80, 0x80};
+    if (mode == 0x3e) {
+      second_half_ = !second_half_;
+      report.bytes[0] = second_half_ ? 0x3f : 0x3e;
+      report.size = 22;
+      if (second_half_)
+        ir(report, 4, 5, {});
+      else
+        ir(report, 4, 5, {0x23, 0x45, 0x13, 35, 7, 37, 9, 0, 200});
+    } else if (mode == 0x37) {
+      report.size = 22;
+      ir(report, 6, 1, {0x23, 0x45, 0x1f});
+    } else {
+      report.size = 18;
+      ir(report, 6, 3, {0x23, 0x45, 0x13});
     }
     return report;
   }
@@ -158,14 +190,20 @@ class FakeRemote {
       for (int i = 0; i < size; ++i)
         report.bytes[static_cast<std::size_t>(6 + i)] = registers[address + i];
     } else {
-      const auto& source = address == 0x16 ? block : copy;
-      std::copy(source.begin(), source.end(), report.bytes.begin() + 6);
+      const auto answer = [&](const auto& source) {
+        std::copy(source.begin(), source.end(), report.bytes.begin() + 6);
+      };
+      if (address < 0x16)
+        answer(address == 0 ? ir_block : ir_copy);
+      else
+        answer(address == 0x16 ? block : copy);
     }
     return report;
   }
 
   std::vector<Written> pending_;
   double next_image_ = 0.0;
+  bool second_half_ = true;  ///< Was the last one said.
 };
 
 class FakeTransport : public transport::Transport {

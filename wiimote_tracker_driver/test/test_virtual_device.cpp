@@ -1,43 +1,10 @@
 // The virtual Wii Remote spoken to in raw bytes, as documented for the real one.
-#include "wiimote_tracker_driver/virtual_wiimote/device.h"
+#include "virtual_remote_bytes.h"
 
 #include <gtest/gtest.h>
 
 namespace wiimote_tracker::virtual_wiimote {
 namespace {
-
-using Answers = std::vector<Bytes>;
-
-/// A register or EEPROM write as it crosses the wire, 22 bytes.
-Bytes write(std::uint8_t flags, Bytes address, Bytes payload) {
-  Bytes report{0x16, flags};
-  report.insert(report.end(), address.begin(), address.end());
-  report.push_back(static_cast<std::uint8_t>(payload.size()));
-  report.insert(report.end(), payload.begin(), payload.end());
-  report.resize(22, 0);
-  return report;
-}
-
-const Bytes kClockOn{0x13, 0x06};
-const Bytes kLogicOn{0x1a, 0x06};
-const Bytes kBegin = write(0x04, {0xb0, 0x00, 0x30}, {0x01});
-const Bytes kBlock1 =
-    write(0x04, {0xb0, 0x00, 0x00}, {0x02, 0, 0, 0x71, 0x01, 0x00, 0xaa, 0x00, 0x64});
-const Bytes kBlock2 = write(0x04, {0xb0, 0x00, 0x1a}, {0x63, 0x03});
-const Bytes kExtended = write(0x04, {0xb0, 0x00, 0x33}, {0x03});
-const Bytes kBasic = write(0x04, {0xb0, 0x00, 0x33}, {0x01});
-const Bytes kRun = write(0x04, {0xb0, 0x00, 0x30}, {0x08});
-const Bytes kReport33{0x12, 0x04, 0x33};
-
-std::vector<Bytes> handshake() {
-  return {kClockOn, kLogicOn, kBegin, kBlock1, kBlock2, kExtended, kRun, kReport33};
-}
-
-Senses lights(std::vector<Light> lights) {
-  Senses senses;
-  senses.lights = std::move(lights);
-  return senses;
-}
 
 /// The infrared bytes of the report sent for these lights after all of `outputs`.
 Bytes infraredAfter(const std::vector<Bytes>& outputs, const Senses& senses) {
@@ -144,6 +111,31 @@ TEST(Eeprom, InfraredBlock) {
             device.handleOutput({0x17, 0x00, 0x00, 0x00, 0x00, 0x00, 0x0b}));
 }
 
+TEST(Eeprom, FactoryPointsOfARemoteOfItsOwn) {
+  Device::Options options;
+  options.factory_points = {{{102, 77}, {102, 691}, {922, 691}, {922, 77}}};  // 10 % and 90 %
+  Device device(options);
+  EXPECT_EQ((Answers{{0x21, 0,    0,    0xa0, 0x00, 0x0b, 0x66, 0x4d, 0x08, 0x66, 0xb3,
+                      0x9a, 0xb3, 0xb3, 0x9a, 0x4d, 0x10, 0,    0,    0,    0,    0}}),
+            device.handleOutput({0x17, 0x00, 0x00, 0x00, 0x0b, 0x00, 0x0b}));
+}
+
+TEST(Eeprom, DrawnFactoryPointsLieAboutTheirCentre) {
+  EXPECT_NE(factoryPoints(512, 384, 1), factoryPoints(512, 384, 2));
+  for (std::uint32_t seed = 0; seed < 100; ++seed) {
+    const FactoryPoints points = factoryPoints(530, 370, seed);
+    double x = 0.0;
+    double y = 0.0;
+    for (const auto& point : points) {
+      x += point[0] / 4.0;
+      y += point[1] / 4.0;
+      EXPECT_TRUE(point[0] >= 0 && point[0] <= 1023 && point[1] >= 0 && point[1] <= 767);
+    }
+    EXPECT_NEAR(530.0, x, 8.5);
+    EXPECT_NEAR(370.0, y, 8.5);
+  }
+}
+
 TEST(Eeprom, OutOfRangeIsError8EvenIfTheStartExists) {
   Device device;
   const Answers beyond = device.handleOutput({0x17, 0x00, 0x00, 0x16, 0xf0, 0x00, 0x11});
@@ -185,6 +177,23 @@ TEST(Read, LongReadTakesThePlaceOfDataReportsAndIsExclusive) {
   EXPECT_EQ(0x33, device.sample(kThreeLights)->at(0));
 }
 
+TEST(Read, OfNothingIsIgnored) {
+  Device device;
+  EXPECT_TRUE(device.handleOutput({0x17, 0x00, 0x00, 0x00, 0x16, 0x00, 0x00}).empty());
+  EXPECT_TRUE(device.handleOutput({0x17, 0x04, 0xb0, 0x00, 0x30, 0x00, 0x00}).empty());
+}
+
+TEST(Read, SpaceThatDoesNotExistIsError6) {
+  Device device;
+  device.handleOutput(kClockOn);
+  const Answers answers = device.handleOutput({0x17, 0x0c, 0xb0, 0x00, 0x30, 0x00, 0x01});
+  ASSERT_EQ(1u, answers.size());
+  EXPECT_EQ((Bytes{0x21, 0, 0, 0xf6, 0x00, 0x30}),
+            Bytes(answers[0].begin(), answers[0].begin() + 6));
+  EXPECT_EQ((Answers{{0x22, 0, 0, 0x16, 0x06}}),
+            device.handleOutput(write(0x0c, {0xb0, 0x00, 0x30}, {1})));
+}
+
 TEST(Write, EmptyOrTooLongIsIgnored) {
   Device device;
   Bytes report = write(0x00, {0, 0, 0}, {1});
@@ -220,10 +229,41 @@ TEST(Status, SaysLedsCameraAndBattery) {
   EXPECT_EQ((Answers{{0x20, 0, 0, 0x01, 0, 0, 0x10}}), empty.handleOutput({0x15, 0x00}));
 }
 
+TEST(Status, BatteryRunsDown) {
+  Device device;
+  device.setBattery(0x20);
+  EXPECT_EQ((Answers{{0x20, 0, 0, 0x00, 0, 0, 0x20}}), device.handleOutput({0x15, 0x00}));
+  device.setBattery(0x1f);
+  EXPECT_EQ((Answers{{0x20, 0, 0, 0x01, 0, 0, 0x1f}}), device.handleOutput({0x15, 0x00}));
+}
+
+TEST(Rumble, IsInEveryOutputReport) {
+  const std::vector<Bytes> reports{{0x10, 0x00},
+                                   {0x11, 0x10},
+                                   {0x12, 0x00, 0x30},
+                                   {0x13, 0x00},
+                                   {0x14, 0x00},
+                                   {0x15, 0x00},
+                                   write(0x00, {0, 0x10, 0}, {1}),
+                                   {0x17, 0x00, 0x00, 0x00, 0x16, 0x00, 0x0a},
+                                   {0x19, 0x00},
+                                   {0x1a, 0x00}};
+  for (const Bytes& without : reports) {
+    Device device;
+    Bytes with = without;
+    with[1] |= 0x01;
+    device.handleOutput(with);
+    EXPECT_TRUE(device.rumble()) << int{with[0]};
+    device.handleOutput(without);
+    EXPECT_FALSE(device.rumble()) << int{with[0]};
+  }
+}
+
 TEST(Mode, UnknownIsIgnoredAltogether) {
   Device device;
   EXPECT_TRUE(device.handleOutput({0x12, 0x06, 0x29}).empty());
-  EXPECT_TRUE(device.handleOutput({0x12, 0x06, 0x38}).empty());
+  EXPECT_TRUE(device.handleOutput({0x12, 0x07, 0x38}).empty());
+  EXPECT_FALSE(device.rumble());
   Senses senses;
   senses.buttons = 0x0008;
   EXPECT_EQ((Bytes{0x30, 0x00, 0x08}), device.sample(senses));
@@ -248,9 +288,48 @@ TEST(Mode, NotContinuousReportsOnlyChanges) {
   EXPECT_EQ((Bytes{0x30, 0x10, 0x00}), device.sample(senses));
 }
 
+TEST(Mode, PairOfReportsIsOneSample) {
+  Device device;
+  device.handleOutput({0x12, 0x04, 0x3e});
+  device.sample(Senses());
+  Senses senses;
+  senses.acceleration = {8.0 / 105.0, -10.0 / 108.0, 82.0 / 102.0};
+  senses.buttons = 0x0100;
+  Bytes report = *device.sample(senses);
+  EXPECT_EQ((Bytes{0x3e, 0x21, 0x40, 0x86}), Bytes(report.begin(), report.begin() + 4));
+  EXPECT_EQ(Bytes(18, 0xff), Bytes(report.begin() + 4, report.end()));
+  // Buttons are always new; the acceleration is the one of the first half.
+  report = *device.sample(Senses());
+  EXPECT_EQ((Bytes{0x3f, 0x40, 0x40, 0x7f}), Bytes(report.begin(), report.begin() + 4));
+  EXPECT_EQ(0x3e, device.sample(Senses())->at(0));
+}
+
+TEST(Mode, PairOnlyOnChanges) {
+  Device device;
+  EXPECT_EQ(0x3e, device.handleOutput({0x12, 0x00, 0x3e}).at(0).at(0));
+  EXPECT_EQ(0x3f, device.sample(Senses())->at(0));
+  EXPECT_FALSE(device.sample(Senses()));
+  Senses senses;
+  senses.acceleration = {0, 1, 0};  // y is in the second half only
+  EXPECT_EQ(0x3e, device.sample(senses)->at(0));
+  EXPECT_EQ(0x3f, device.sample(senses)->at(0));
+  EXPECT_FALSE(device.sample(senses));
+}
+
+TEST(Mode, ExtensionAloneComesWithoutButtons) {
+  Device device;
+  device.handleOutput({0x12, 0x04, 0x3d});
+  Senses senses;
+  senses.buttons = 0x1f9f;
+  Bytes expected(22, 0xff);
+  expected[0] = 0x3d;
+  EXPECT_EQ(expected, device.sample(senses));
+}
+
 TEST(Mode, LengthsOfAllReports) {
-  const std::vector<std::pair<std::uint8_t, std::size_t>> sizes{
-      {0x30, 3}, {0x31, 6}, {0x32, 11}, {0x33, 18}, {0x34, 22}, {0x35, 22}, {0x36, 22}, {0x37, 22}};
+  const std::vector<std::pair<std::uint8_t, std::size_t>> sizes{{0x30, 3},  {0x31, 6},  {0x32, 11},
+                                                                {0x33, 18}, {0x34, 22}, {0x35, 22},
+                                                                {0x36, 22}, {0x37, 22}, {0x3d, 22}};
   for (const auto& size : sizes) {
     Device device;
     device.handleOutput({0x12, 0x04, size.first});
@@ -259,6 +338,15 @@ TEST(Mode, LengthsOfAllReports) {
     EXPECT_EQ(size.first, report->at(0));
     EXPECT_EQ(size.second, report->size());
   }
+}
+
+TEST(Accelerometer, GoldenVector) {
+  Device device;
+  device.handleOutput({0x12, 0x04, 0x31});
+  // x = 0x21b, y = 0x1fe, z = 0x26a.
+  Senses senses;
+  senses.acceleration = {8.0 / 105.0, -10.0 / 108.0, 82.0 / 102.0};
+  EXPECT_EQ((Bytes{0x31, 0x60, 0x60, 0x86, 0x7f, 0x9a}), device.sample(senses));
 }
 
 TEST(Accelerometer, FactoryCalibrationAndBitLayout) {
@@ -309,69 +397,34 @@ TEST(Infrared, MismatchedModesCopyTheRegistersAsTheyAre) {
   ASSERT_EQ(12u, infrared.size());
   EXPECT_EQ((Bytes{0x23, 0x45, 0x1b, 0xff, 0xff}), Bytes(infrared.begin(), infrared.begin() + 5));
   EXPECT_EQ((Bytes{0xff, 0xff}), Bytes(infrared.begin() + 10, infrared.end()));
+  // Full data read through report 0x33, extended data through 0x3e.
+  outputs = handshake();
+  outputs[5] = kFull;
+  const Bytes cut = infraredAfter(outputs, kThreeLights);
+  ASSERT_EQ(12u, cut.size());
+  EXPECT_EQ((Bytes{0x23, 0x45, 0x13, 0x22, 0x07, 0x25, 0x0a, 0x00}),
+            Bytes(cut.begin(), cut.begin() + 8));
+  EXPECT_EQ((Bytes{0xff, 0xff, 0xb1}), Bytes(cut.begin() + 9, cut.end()));
+  device.handleOutput({0x12, 0x04, 0x3f});
+  device.sample(kThreeLights);
+  const std::optional<Bytes> first = device.sample(kThreeLights);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(0x3e, first->at(0));
+  Bytes padded = kThreeExtended;
+  padded.resize(18, 0xff);
+  EXPECT_EQ(padded, Bytes(first->begin() + 4, first->end()));
 }
 
-/// A device that has gone through the handshake.
-class Seeing : public testing::Test {
- protected:
-  void SetUp() override {
-    for (const Bytes& output : handshake())
-      device.handleOutput(output);
-  }
-
-  /// The three bytes of one slot.
-  Bytes slot(const Bytes& report, std::size_t index) const {
-    const auto begin = report.begin() + 6 + 3 * static_cast<std::ptrdiff_t>(index);
-    return Bytes(begin, begin + 3);
-  }
-
+TEST(PowerCycle, ForgetsAll) {
   Device device;
-  const Bytes never{0, 0, 0};
-  const Bytes lost{0xff, 0xff, 0xff};
-};
-
-TEST_F(Seeing, QuantisesToTheNearestPixel) {
-  const Bytes report = *device.sample(lights({{100.49, 50.51, 2, 1}}));
-  EXPECT_EQ((Bytes{100, 51, 0x02}), slot(report, 0));
-}
-
-TEST_F(Seeing, OutOfTheImageIsNotSeen) {
-  const Bytes report = *device.sample(
-      lights({{-0.6, 5, 2, 1}, {1023.6, 5, 2, 1}, {5, -0.6, 2, 1}, {5, 767.6, 2, 1}}));
-  for (std::size_t i = 0; i < 4; ++i)
-    EXPECT_EQ(never, slot(report, i));
-}
-
-TEST_F(Seeing, FourBrightestOnly) {
-  const Bytes report = *device.sample(
-      lights({{10, 0, 1, 5}, {20, 0, 1, 1}, {30, 0, 1, 4}, {40, 0, 1, 3}, {50, 0, 1, 2}}));
-  EXPECT_EQ(10, slot(report, 0)[0]);
-  EXPECT_EQ(30, slot(report, 1)[0]);
-  EXPECT_EQ(40, slot(report, 2)[0]);
-  EXPECT_EQ(50, slot(report, 3)[0]);
-}
-
-TEST_F(Seeing, LightKeepsItsSlotWhileFollowed) {
-  device.sample(lights({{100, 100, 2, 2}, {200, 100, 2, 1}}));
-  // The second becomes the brighter one, both move, and are listed the other way round.
-  Bytes report = *device.sample(lights({{205, 100, 2, 9}, {105, 100, 2, 1}}));
-  EXPECT_EQ(105, slot(report, 0)[0]);
-  EXPECT_EQ(205, slot(report, 1)[0]);
-  // The first goes out: its slot stays empty, the second stays in its own.
-  report = *device.sample(lights({{205, 100, 2, 9}}));
-  EXPECT_EQ(lost, slot(report, 0));
-  EXPECT_EQ(205, slot(report, 1)[0]);
-  EXPECT_EQ(never, slot(report, 2));
-  // A new one takes the first free slot.
-  report = *device.sample(lights({{205, 100, 2, 9}, {50, 700, 2, 1}}));
-  EXPECT_EQ(50, slot(report, 0)[0]);
-}
-
-TEST_F(Seeing, PowerCycleForgetsAll) {
+  for (const Bytes& output : handshake())
+    device.handleOutput(output);
+  device.handleOutput({0x10, 0x01});
   device.sample(kThreeLights);
   device.handleOutput({0x11, 0x10});
   device.powerCycle();
   EXPECT_EQ(0, device.leds());
+  EXPECT_FALSE(device.rumble());
   Senses senses = kThreeLights;
   senses.buttons = 0x0100;
   EXPECT_EQ((Bytes{0x30, 0x01, 0x00}), device.sample(senses));

@@ -166,10 +166,11 @@ std::vector<Bytes> FaultyDevice::sample(const Senses& senses) {
   state.goAwayOrComeBack();
   if (state.away)
     return {};
-  if (!state.stalled() && state.chance(state.faults.stalls))
-    state.stall_end = state.samples + static_cast<std::uint64_t>(state.faults.stall_length);
-  if (!state.stalled())
+  if (!state.stalled()) {
     state.releaseHeldBack();
+    if (state.chance(state.faults.stalls))
+      state.stall_end = state.samples + static_cast<std::uint64_t>(state.faults.stall_length);
+  }
   state.releaseLate();
   if (state.second_master) {
     for (const Bytes& said : state.second_master->tick())

@@ -23,7 +23,8 @@ double rmsAboutMean(const std::vector<double>& values) {
 }  // namespace
 
 TimingScore runTiming(const LinkModel& link, double duration, int sessions) {
-  std::vector<double> arrival, squares, hull, olsons, best, clock, total, clock_stddev, stddev;
+  std::vector<double> arrival, squares, hull, olsons, own_squares, own_hull, best, clock, total,
+      clock_stddev, stddev;
   double seconds = 0.0;
   std::size_t reports = 0;
   int wrong = 0;
@@ -31,9 +32,13 @@ TimingScore runTiming(const LinkModel& link, double duration, int sessions) {
     const SimulatedSession session = simulate(link, duration, static_cast<std::uint64_t>(i) + 1);
     ExposureClock ours;
     Estimate estimate;
+    SimulatedSession numbered = session;
+    auto own = numbered.reports.begin();
     const auto begin = std::chrono::steady_clock::now();
-    for (const SimulatedReport& report : session.reports)
+    for (const SimulatedReport& report : session.reports) {
       estimate = ours.update(report.arrival);
+      (own++)->frame = estimate.frame;
+    }
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     reports += session.reports.size();
 
@@ -41,6 +46,11 @@ TimingScore runTiming(const LinkModel& link, double duration, int sessions) {
     arrival.push_back(session.reports.back().arrival - truth);
     squares.push_back(leastSquares(session) - truth);
     hull.push_back(convexHull(session) - truth);
+    const auto toNearest = [&](double error) {
+      return error - session.period * std::round(error / session.period);
+    };
+    own_squares.push_back(toNearest(leastSquares(numbered) - truth));
+    own_hull.push_back(toNearest(convexHull(numbered) - truth));
     olsons.push_back(olson(session) - truth);
     best.push_back(oracle(session, link) - truth);
     // A bell's reference is its mean less a typical spread.
@@ -69,6 +79,8 @@ TimingScore runTiming(const LinkModel& link, double duration, int sessions) {
   score.arrival = rmsAboutMean(arrival);
   score.least_squares = rmsAboutMean(squares);
   score.convex_hull = rmsAboutMean(hull);
+  score.least_squares_own = rmsAboutMean(own_squares);
+  score.convex_hull_own = rmsAboutMean(own_hull);
   score.olson = rmsAboutMean(olsons);
   score.oracle = rmsAboutMean(best);
   score.clock = rmsAboutMean(clock);

@@ -8,7 +8,12 @@ namespace wiimote_tracker::exposure_clock {
 /// Errors of the last report's exposure time over many sessions, each less its mean over the
 /// sessions (the constant part of the delay). Root mean squares [s].
 struct TimingScore {
-  double arrival, least_squares, convex_hull, olson, oracle;
+  double arrival, oracle;
+  /// Told the true frame numbers,
+  double least_squares, convex_hull, olson;
+  /// and with the numbers that a receiver has: ours, as they were when each report came. To the
+  /// nearest true exposure.
+  double least_squares_own, convex_hull_own;
   double clock;           ///< ours, to the nearest true exposure
   double total;           ///< ours, with wrongly numbered frames
   double wrong_frames;    ///< share of last reports taken for another frame

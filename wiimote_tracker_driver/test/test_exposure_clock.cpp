@@ -81,7 +81,9 @@ TEST(ExposureClockAccuracy, finds_a_hard_edge_to_0_05_ms) {
     const TimingScore score = runTiming(edge(mean), 10.0, kSessions);
     EXPECT_LT(score.clock, 0.05e-3 * kTolerance) << mean;
     EXPECT_LT(score.clock, 0.2 * score.least_squares) << mean;
-    EXPECT_GT(score.clock_ratio, 0.4) << mean;
+    EXPECT_LT(score.clock, score.convex_hull_own) << mean;  // which has the same numbers
+    // Careful rather than sure: the doubt whether the clock wanders is in it.
+    EXPECT_GT(score.clock_ratio, 0.25) << mean;
     EXPECT_LT(score.clock_ratio, 1.3) << mean;
   }
 }

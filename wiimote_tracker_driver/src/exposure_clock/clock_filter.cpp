@@ -46,32 +46,31 @@ ClockFilter::ClockFilter(const DelayModel& model, double period, double period_s
     : model_(model),
       nominal_period_(period),
       period_tolerance_(2.0 * period_stddev),
-      period_(period),
-      p11_(square(period_stddev)),
+      state_{0.0, period, 0.0, 0.0, square(period_stddev)},
       spread_(model.hard_edge ? kFirstEdgeSpread : kFirstBellSpread) {}
 
 void ClockFilter::start(double arrival) {
-  time_ = model_.hard_edge ? arrival - spread_ : arrival;
-  p00_ = square(period_);
-  p01_ = 0.0;
+  state_.time = model_.hard_edge ? arrival - spread_ : arrival;
+  state_.p00 = square(state_.period);
+  state_.p01 = 0.0;
 }
 
 void ClockFilter::advance(double frames) {
-  time_ += frames * period_;
-  p00_ += frames * (2.0 * p01_ + frames * p11_) +
-          square(model_.wander) * std::max(0.0, frames) * period_;
-  p01_ += frames * p11_;
+  state_.time += frames * state_.period;
+  state_.p00 += frames * (2.0 * state_.p01 + frames * state_.p11) +
+                square(model_.wander) * std::max(0.0, frames) * state_.period;
+  state_.p01 += frames * state_.p11;
 }
 
 double ClockFilter::time() const {
-  return model_.hard_edge ? time_ : time_ - kTypicalBellSpread;
+  return model_.hard_edge ? state_.time : state_.time - kTypicalBellSpread;
 }
 
 ClockFilter::Prediction ClockFilter::predict(double offset) const {
-  const double c0 = p00_ + offset * p01_;
-  const double c1 = p01_ + offset * p11_;
+  const double c0 = state_.p00 + offset * state_.p01;
+  const double c1 = state_.p01 + offset * state_.p11;
   Prediction z;
-  z.mean = time_ + offset * period_;
+  z.mean = state_.time + offset * state_.period;
   z.variance = c0 + offset * c1 + square(model_.hard_edge ? model_.blur : spread_);
   z.stddev = std::sqrt(z.variance);
   z.time_gain = c0 / z.variance;
@@ -131,17 +130,18 @@ void ClockFilter::consider(double arrival, double offset, double weight) {
 }
 
 void ClockFilter::settle() {
-  time_ += sums_.time;
-  period_ += sums_.period;
-  p00_ += sums_.p00 - square(sums_.time);
-  p01_ += sums_.p01 - sums_.time * sums_.period;
-  p11_ += sums_.p11 - square(sums_.period);
+  state_.time += sums_.time;
+  state_.period += sums_.period;
+  state_.p00 += sums_.p00 - square(sums_.time);
+  state_.p01 += sums_.p01 - sums_.time * sums_.period;
+  state_.p11 += sums_.p11 - square(sums_.period);
   // A period beyond the tolerance would explain frames that are counted wrongly.
-  const double excess = period_ - std::min(std::max(period_, nominal_period_ - period_tolerance_),
-                                           nominal_period_ + period_tolerance_);
+  const double excess =
+      state_.period - std::min(std::max(state_.period, nominal_period_ - period_tolerance_),
+                               nominal_period_ + period_tolerance_);
   if (excess != 0.0) {
-    time_ -= p01_ / p11_ * excess;
-    period_ -= excess;
+    state_.time -= state_.p01 / state_.p11 * excess;
+    state_.period -= excess;
   }
   learnSpread();
   sums_ = Sums();
@@ -162,9 +162,9 @@ void ClockFilter::follow(const ClockFilter& better) {
   *this = better;
   model_ = mine;
   if (mine.hard_edge && !better.model_.hard_edge)
-    time_ -= spread_;
+    state_.time -= spread_;
   if (!mine.hard_edge && better.model_.hard_edge)
-    time_ += spread_;
+    state_.time += spread_;
 }
 
 }  // namespace wiimote_tracker::exposure_clock

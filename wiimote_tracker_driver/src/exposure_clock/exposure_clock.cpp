@@ -20,6 +20,7 @@ struct Candidate {
   DelayModel model;
   double prior;
 };
+constexpr double kPriorSteadyEdge = 0.5;
 constexpr double kPriorSteady = 0.14, kPriorWanders = 0.09, kPriorWandersMuch = 0.10;
 const Candidate kCandidates[] = {
     {{true, kSharp, kSteady}, kPriorSteady},
@@ -32,6 +33,17 @@ const Candidate kCandidates[] = {
     {{false, 0.0, kWanders}, kPriorWanders},
     {{false, 0.0, kWandersMuch}, kPriorWandersMuch},
 };
+
+// The first candidate: its belief is not normal, and computed exactly by SteadyEdge.
+constexpr std::size_t kSteadyEdge = 0;
+// A report bounds the exposure times when its number is this probable in hindsight.
+constexpr double kSure = 0.9;
+constexpr double kTooEarly = 1e-3;
+// A steady edge that explains nothing and is this far from the best model began with wrong
+// numbers [s].
+constexpr double kContradiction = 0.5e-3;
+// Time over which even a steady clock's wander counts [s].
+constexpr double kEdgeMemory = 3.0;
 
 // A report may be held up: probability, and mean length [s].
 constexpr double kStall = 0.003;
@@ -68,7 +80,9 @@ ExposureClock::Bank ExposureClock::makeBank(const ExposureClockOptions& options)
 }
 
 ExposureClock::ExposureClock(const ExposureClockOptions& options)
-    : options_(options), filters_(makeBank(options)) {
+    : options_(options),
+      filters_(makeBank(options)),
+      edge_(options.period, 2.0 * options.period * options.period_stddev) {
   static_assert(sizeof(kCandidates) / sizeof(kCandidates[0]) == kModels,
                 "one filter per candidate");
   std::transform(std::begin(kCandidates), std::end(kCandidates), weights_.begin(),
@@ -117,6 +131,9 @@ Estimate ExposureClock::update(double arrival) {
 Estimate ExposureClock::restart(double arrival, std::int64_t frame) {
   for (ClockFilter& filter : filters_)
     filter.start(arrival);
+  history_.clear();
+  edge_.clear();
+  edge_joined_ = false;
   counter_.start(frame);
   Estimate e;
   e.frame = frame;
@@ -147,7 +164,7 @@ void ExposureClock::weigh(double arrival) {
   const double served = std::exp(-gap / kServiceTime) / kServiceTime;
   std::array<double, FrameCounter::kCapacity> on_time;
   std::array<double, FrameCounter::kCapacity> number{};
-  double sum = 0.0;
+  double sum = 0.0, on_steady_edge = 0.0;
   for (std::size_t m = 0; m < kModels; ++m) {
     ClockFilter& filter = filters_[m];
     double evidence = 0.0;
@@ -169,6 +186,8 @@ void ExposureClock::weigh(double arrival) {
       const double probability = on_time[static_cast<std::size_t>(i)] / evidence;
       if (probability > kNegligible)
         filter.consider(arrival, static_cast<double>(counter_.frame(i) - frame_), probability);
+      if (m == kSteadyEdge)
+        on_steady_edge += probability;
     }
     filter.settle();
     weights_[m] *= evidence;
@@ -180,6 +199,31 @@ void ExposureClock::weigh(double arrival) {
   for (int i = 0; i < counter_.size(); ++i)
     counter_[i] = number[static_cast<std::size_t>(i)];
   counter_.normalise();
+  sharpenEdge(arrival, on_steady_edge);
+}
+
+void ExposureClock::sharpenEdge(double arrival, double on_time) {
+  ClockFilter& filter = filters_[kSteadyEdge];
+  history_.add(counter_, arrival, on_time);
+  if (history_.settled()) {
+    const int reports = history_.settle();
+    for (int i = 0; i < reports; ++i) {
+      const FrameHistory::Report& report = history_.report(i);
+      const double late = report.arrival - filter.time() -
+                          static_cast<double>(report.frame - frame_) * filter.period();
+      if (report.probability > kSure && late > -kTooEarly)
+        edge_.add(report.frame, report.arrival, report.on_time, filter.period());
+    }
+  }
+  if (!edge_.ready())
+    return;
+  if (!edge_joined_) {  // what weighed its normal approximation until now says nothing of it
+    edge_joined_ = true;
+    weights_[kSteadyEdge] = std::max(weights_[kSteadyEdge], kPriorSteadyEdge);
+  }
+  ClockState state = edge_.state(frame_, filter.spread());
+  state.p00 += square(kSteady) * kEdgeMemory;
+  filter.believe(state);
 }
 
 void ExposureClock::reviveLosers() {
@@ -188,7 +232,10 @@ void ExposureClock::reviveLosers() {
   for (std::size_t m = 0; m < kModels; ++m) {
     if (weights_[m] < kLeastWeight) {
       weights_[m] = kLeastWeight;
-      filters_[m].follow(leader);
+      if (m != kSteadyEdge || !edge_.ready())
+        filters_[m].follow(leader);
+      else if (std::abs(filters_[m].time() - leader.time()) > kContradiction)
+        edge_.clear();
     }
     sum += weights_[m];
   }

@@ -1,6 +1,7 @@
 #include "wiimote_tracker_driver/exposure_clock/frame_counter.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wiimote_tracker::exposure_clock {
 
@@ -10,6 +11,14 @@ constexpr double kNextDrop = 0.3;   // and after one that was
 constexpr double kAnything = 1e-8;  // probability of each number, whatever the runs say
 constexpr double kNegligible = 1e-7;
 }  // namespace
+
+double FrameCounter::transition(std::int64_t frames) {
+  if (frames < 1)
+    return 0.0;
+  if (frames == 1)
+    return 1.0 - kDrop;
+  return kAnything + kDrop * (1.0 - kNextDrop) * std::pow(kNextDrop, frames - 2);
+}
 
 void FrameCounter::start(std::int64_t frame) {
   first_ = frame;

@@ -3,6 +3,12 @@
 
 namespace wiimote_tracker::exposure_clock {
 
+/// Time of a frame and period of the clock, with their covariance.
+struct ClockState {
+  double time = 0.0, period = 0.0;         ///< [s]
+  double p00 = 0.0, p01 = 0.0, p11 = 0.0;  ///< [s^2]
+};
+
 /// What a ClockFilter believes about delays and clock. The spread of the delays is learnt.
 struct DelayModel {
   /// True: least delay + exponential of mean `spread`. False: normal of standard deviation
@@ -37,9 +43,9 @@ class ClockFilter {
   /// Exposure time of the frame at which the belief stands, later by a constant: the least delay
   /// with a hard edge, else the mean delay less a typical spread. [s]
   double time() const;
-  double timeVariance() const { return p00_; }
-  double period() const { return period_; }
-  double periodVariance() const { return p11_; }
+  double timeVariance() const { return state_.p00; }
+  double period() const { return state_.period; }
+  double periodVariance() const { return state_.p11; }
   /// Standard deviation of the delays [s].
   double spread() const { return spread_; }
   const DelayModel& model() const { return model_; }
@@ -55,6 +61,9 @@ class ClockFilter {
   void consider(double arrival, double offset, double weight);
   void settle();
 
+  /// Replaces phase and period by what a better method found for the frame at which the belief
+  /// stands.
+  void believe(const ClockState& state) { state_ = state; }
   /// Takes phase, period and spread over from a filter that explains the arrivals better.
   void follow(const ClockFilter& better);
 
@@ -70,9 +79,7 @@ class ClockFilter {
 
   DelayModel model_;
   double nominal_period_, period_tolerance_;
-  // State and covariance.
-  double time_ = 0.0, period_;
-  double p00_ = 0.0, p01_ = 0.0, p11_;
+  ClockState state_;
   double spread_;
   double experience_ = 0.0;  // number of reports that taught the spread
   // Sums over the possibilities of one arrival.

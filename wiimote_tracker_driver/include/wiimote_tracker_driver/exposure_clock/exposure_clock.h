@@ -4,6 +4,9 @@
 #include "wiimote_tracker_driver/exposure_clock/clock_filter.h"
 #include "wiimote_tracker_driver/exposure_clock/frame_counter.h"
 
+#include "wiimote_tracker_driver/exposure_clock/frame_history.h"
+#include "wiimote_tracker_driver/exposure_clock/steady_edge.h"
+
 #include <array>
 #include <cstdint>
 
@@ -68,12 +71,16 @@ class ExposureClock {
 
   Estimate restart(double arrival, std::int64_t frame);
   void weigh(double arrival);
+  void sharpenEdge(double arrival, double on_time);
   void reviveLosers();
   Estimate estimate(double arrival);
   const ClockFilter& best() const;
 
   ExposureClockOptions options_;
   Bank filters_;
+  FrameHistory history_;
+  SteadyEdge edge_;  // what the filter for a sharp edge and a steady clock believes
+  bool edge_joined_ = false;
   std::array<double, kModels> weights_;
   FrameCounter counter_;
   // Times inside are relative to the first arrival, which keeps their digits.

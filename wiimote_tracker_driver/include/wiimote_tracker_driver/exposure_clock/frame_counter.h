@@ -13,6 +13,9 @@ class FrameCounter {
   /// How many numbers are told apart: reports that waited longer than this many frames are not.
   static constexpr int kCapacity = 96;
 
+  /// Probability that the next report is of the frame `frames` after this report's.
+  static double transition(std::int64_t frames);
+
   /// The latest report is surely this frame.
   void start(std::int64_t frame);
   /// Probabilities of the next report's number, of all up to at least `newest`, before its arrival

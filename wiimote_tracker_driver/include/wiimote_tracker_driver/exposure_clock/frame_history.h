@@ -1,0 +1,51 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FRAME_HISTORY_H
+#define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FRAME_HISTORY_H
+
+#include "wiimote_tracker_driver/exposure_clock/frame_counter.h"
+
+#include <array>
+#include <cstdint>
+
+namespace wiimote_tracker::exposure_clock {
+
+/// Frame numbers of the latest reports in hindsight: what came later often settles which frame a
+/// report was. The backward recursion to FrameCounter's forward one (Rabiner, Proc. IEEE 77, 1989,
+/// eq. 25 and 27).
+class FrameHistory {
+ public:
+  struct Report {
+    double arrival = 0.0;
+    double on_time = 0.0;      ///< probability that it came when it was ready
+    std::int64_t frame = 0;    ///< most probable number in hindsight,
+    double probability = 0.0;  ///< and how probable it is
+  };
+
+  void clear() { size_ = 0; }
+  /// The latest report and its possible numbers.
+  void add(const FrameCounter& numbers, double arrival, double on_time);
+  /// True when the numbers will not become clearer: the latest is sure, or memory is full.
+  bool settled() const;
+  /// Works out the numbers of all reports since clear(), and forgets them. The result is valid
+  /// until the next add(). @return how many; report(0) is the oldest.
+  int settle();
+  const Report& report(int i) const { return entries_[static_cast<std::size_t>(i)].report; }
+
+ private:
+  static constexpr int kCapacity = 32;
+  static constexpr int kNumbers = 8;  // kept of each report
+  struct Entry {
+    Report report;
+    std::int64_t first = 0;
+    int size = 0;
+    std::array<double, kNumbers> probability{};
+  };
+  static void smooth(Entry& entry, const Entry& next);
+  static void decide(Entry& entry);
+
+  std::array<Entry, kCapacity> entries_;
+  int size_ = 0;
+};
+
+}  // namespace wiimote_tracker::exposure_clock
+
+#endif

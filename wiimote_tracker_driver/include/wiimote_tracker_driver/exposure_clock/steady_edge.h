@@ -1,0 +1,61 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STEADY_EDGE_H
+#define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STEADY_EDGE_H
+
+#include "wiimote_tracker_driver/exposure_clock/clock_filter.h"
+
+#include <array>
+#include <cstdint>
+
+namespace wiimote_tracker::exposure_clock {
+
+/// Phase and period of a steady clock behind exponential delays: the exact posterior instead of a
+/// normal one.
+///
+/// No frame arrives before its time: phase + k period <= arrival for every report, which bounds a
+/// polygon open to below. Inside it the density is proportional to exp(sum of weights * (phase +
+/// mean(k) * period) / spread). Given the period, the phase is thus an exponential below its bound;
+/// the density of the period is piecewise exponential, one piece per corner of the lower convex
+/// hull of the arrivals. Mean and covariance are sums over these pieces.
+///
+/// Of the last 20 s the earliest report of each block is kept, earliest against the line of the
+/// period: the corners are among them, but for two in one block.
+class SteadyEdge {
+ public:
+  /// The period is within `period` +- `tolerance` [s], and nothing else is known of it.
+  SteadyEdge(double period, double tolerance);
+
+  void clear();
+  /// A report whose number is sure, on time with probability `weight`; `period` [s] is the best
+  /// estimate so far. Frames increase.
+  void add(std::int64_t frame, double arrival, double weight, double period);
+  /// Enough reports for state().
+  bool ready() const;
+
+  /// Of `frame`, once ready(). @param spread mean of the exponential [s].
+  ClockState state(std::int64_t frame, double spread) const;
+
+ private:
+  static constexpr int kBlocks = 64;
+  static constexpr int kBlockReports = 32;
+  struct Point {
+    double frame;  // after the first frame of all
+    double time;   // arrival, less the nominal time of the frame
+  };
+  struct Block {
+    int reports = 0;
+    double weight = 0.0, weighted_frames = 0.0;
+    Point earliest{};
+  };
+  int lowerHull(std::array<Point, kBlocks>& hull) const;
+
+  double nominal_period_, tolerance_;
+  std::array<Block, kBlocks> blocks_;
+  int settling_ = 0;      // reports not used, since clear()
+  int blocks_begun_ = 0;  // since clear(); the latest of them are in blocks_
+  std::int64_t first_frame_ = 0;
+  double first_arrival_ = 0.0;
+};
+
+}  // namespace wiimote_tracker::exposure_clock
+
+#endif

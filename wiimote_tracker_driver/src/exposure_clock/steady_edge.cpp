@@ -1,0 +1,156 @@
+#include "wiimote_tracker_driver/exposure_clock/steady_edge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wiimote_tracker::exposure_clock {
+
+namespace {
+constexpr int kLeastBlocks = 8;
+// The first reports of a clock are numbered less surely than is thought.
+constexpr int kSettling = 25;
+
+/// Of the density exp(slope * x) on an interval: logarithm of its integral less the value at the
+/// higher end, mean and variance of x.
+struct Piece {
+  double log_integral, mean, variance;
+};
+Piece exponentialPiece(double begin, double end, double slope) {
+  const double length = end - begin;
+  const double rise = slope * length;
+  // The mean and mean square of u = (x - begin) / length.
+  double log_integral, u, uu;
+  if (std::abs(rise) < 1e-3) {
+    log_integral = -0.5 * std::abs(rise);
+    u = 0.5 + rise / 12.0;
+    uu = 1.0 / 3.0 + rise / 12.0;
+  } else {
+    log_integral = std::log(-std::expm1(-std::abs(rise)) / std::abs(rise));
+    const double at_end = -1.0 / std::expm1(-rise);
+    u = at_end - 1.0 / rise;
+    uu = at_end - 2.0 * u / rise;
+  }
+  return {std::log(length) + log_integral, begin + length * u,
+          length * length * std::max(0.0, uu - u * u)};
+}
+}  // namespace
+
+SteadyEdge::SteadyEdge(double period, double tolerance)
+    : nominal_period_(period), tolerance_(tolerance) {}
+
+void SteadyEdge::clear() {
+  *this = SteadyEdge(nominal_period_, tolerance_);
+}
+
+bool SteadyEdge::ready() const {
+  return blocks_begun_ > kLeastBlocks;
+}
+
+void SteadyEdge::add(std::int64_t frame, double arrival, double weight, double period) {
+  if (settling_ < kSettling) {
+    ++settling_;
+    return;
+  }
+  if (blocks_begun_ == 0) {
+    first_frame_ = frame;
+    first_arrival_ = arrival;
+  }
+  const auto latest = [this]() -> Block& {
+    return blocks_[static_cast<std::size_t>((blocks_begun_ - 1) % kBlocks)];
+  };
+  if (blocks_begun_ == 0 || latest().reports == kBlockReports) {
+    ++blocks_begun_;
+    latest() = Block();
+  }
+  Block& block = latest();
+  ++block.reports;
+  const auto n = static_cast<double>(frame - first_frame_);
+  block.weight += weight;
+  block.weighted_frames += weight * n;
+  const Point point{n, arrival - first_arrival_ - n * nominal_period_};
+  const double drift = period - nominal_period_;
+  if (block.reports == 1 ||
+      point.time - point.frame * drift < block.earliest.time - block.earliest.frame * drift)
+    block.earliest = point;
+}
+
+// Andrew's monotone chain; the blocks are in order of their frames.
+int SteadyEdge::lowerHull(std::array<Point, kBlocks>& hull) const {
+  std::size_t size = 0;
+  for (int b = std::max(0, blocks_begun_ - kBlocks); b < blocks_begun_; ++b) {
+    const Block& block = blocks_[static_cast<std::size_t>(b % kBlocks)];
+    if (size > 0 && block.earliest.frame <= hull[size - 1].frame)
+      continue;
+    const Point& p = block.earliest;
+    const auto bulges = [&] {
+      const Point &a = hull[size - 2], &b = hull[size - 1];
+      return (b.time - a.time) * (p.frame - a.frame) >= (p.time - a.time) * (b.frame - a.frame);
+    };
+    while (size > 1 && bulges())
+      --size;
+    hull[size++] = p;
+  }
+  return static_cast<int>(size);
+}
+
+ClockState SteadyEdge::state(std::int64_t frame, double spread) const {
+  double weight = 0.0, center = 0.0;
+  for (const Block& block : blocks_) {
+    weight += block.weight;
+    center += block.weighted_frames;
+  }
+  center /= weight;
+  const double rate = weight / spread;
+
+  std::array<Point, kBlocks> hull;
+  const int size = lowerHull(hull);
+  const auto n = static_cast<double>(frame - first_frame_);
+  // Drift is the period less the nominal one. Each corner bounds the phase where the slopes of the
+  // hull beside it say; sums are of (time, drift) over these pieces, weighed by their probability.
+  double scale = -std::numeric_limits<double>::infinity();  // logarithm of the greatest weight
+  double sum = 0.0, time = 0.0, drift = 0.0, tt = 0.0, td = 0.0, dd = 0.0;
+  double begin = -tolerance_;
+  for (int i = 0; i < size && begin < tolerance_; ++i) {
+    const Point& corner = hull[static_cast<std::size_t>(i)];
+    double end = tolerance_;
+    if (i + 1 < size) {
+      const Point& next = hull[static_cast<std::size_t>(i) + 1];
+      end = std::min(end, (next.time - corner.time) / (next.frame - corner.frame));
+    }
+    if (end <= begin)
+      continue;
+    const double slope = rate * (center - corner.frame);
+    const Piece piece = exponentialPiece(begin, end, slope);
+    const double log_mass =
+        piece.log_integral + rate * corner.time + slope * (slope > 0.0 ? end : begin);
+    if (log_mass > scale) {
+      const double smaller = std::exp(scale - log_mass);
+      for (double* s : {&sum, &time, &drift, &tt, &td, &dd})
+        *s *= smaller;
+      scale = log_mass;
+    }
+    const double mass = std::exp(log_mass - scale);
+    const double frames = n - corner.frame;
+    const double t = corner.time + frames * piece.mean, d = piece.mean;
+    sum += mass;
+    time += mass * t;
+    drift += mass * d;
+    tt += mass * (t * t + frames * frames * piece.variance);
+    td += mass * (t * d + frames * piece.variance);
+    dd += mass * (d * d + piece.variance);
+    begin = end;
+  }
+  time /= sum;
+  drift /= sum;
+  const double below = 1.0 / rate;  // mean and standard deviation of the phase below its bound
+  ClockState m;
+  m.time = first_arrival_ + n * nominal_period_ + time - below;
+  m.period = nominal_period_ + drift;
+  m.p00 = std::max(0.0, tt / sum - time * time) + below * below;
+  m.p01 = td / sum - time * drift;
+  m.p11 = std::max(0.0, dd / sum - drift * drift);
+  return m;
+}
+
+}  // namespace wiimote_tracker::exposure_clock

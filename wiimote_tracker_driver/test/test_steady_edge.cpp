@@ -1,0 +1,207 @@
+// The exact posterior behind a hard edge, and frame numbers in hindsight, against brute force.
+
+#include "wiimote_tracker_driver/exposure_clock/frame_history.h"
+#include "wiimote_tracker_driver/exposure_clock/steady_edge.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace wiimote_tracker::exposure_clock {
+namespace {
+
+constexpr double kPeriod = 0.010035;
+constexpr double kTolerance = 6e-6;
+
+struct Report {
+  std::int64_t frame;
+  double arrival;
+};
+
+std::vector<Report> exponentialReports(int frames,
+                                       double spread,
+                                       double period,
+                                       std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::exponential_distribution<double> delay(1.0 / spread);
+  std::vector<Report> reports;
+  for (int k = 0; k < frames; ++k)
+    reports.push_back({k, 1000.0 + k * period + delay(random)});
+  return reports;
+}
+
+/// Sums over a grid of periods of all reports, with every bound.
+ClockState bruteForce(const std::vector<Report>& reports, std::int64_t frame, double spread) {
+  double center = 0.0;
+  for (const Report& report : reports)
+    center += static_cast<double>(report.frame) / static_cast<double>(reports.size());
+  const double rate = static_cast<double>(reports.size()) / spread;
+  constexpr int kGrid = 40000;
+  std::vector<double> drift, bound, weight;
+  double greatest = -1e300;
+  for (int i = 0; i <= kGrid; ++i) {
+    drift.push_back(kTolerance * (2.0 * i / kGrid - 1.0));
+    double least = 1e300;
+    for (const Report& report : reports)
+      least = std::min(least, report.arrival - 1000.0 -
+                                  static_cast<double>(report.frame) * (kPeriod + drift.back()));
+    bound.push_back(least);
+    weight.push_back(rate * (least + center * drift.back()));
+    greatest = std::max(greatest, weight.back());
+  }
+  double sum = 0.0;
+  ClockState mean;
+  const auto n = static_cast<double>(frame);
+  const auto time = [&](std::size_t i) { return bound[i] + n * (kPeriod + drift[i]) - 1.0 / rate; };
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    weight[i] = std::exp(weight[i] - greatest);
+    sum += weight[i];
+    mean.time += weight[i] * time(i);
+    mean.period += weight[i] * drift[i];
+  }
+  mean.time /= sum;
+  mean.period /= sum;
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    const double t = time(i) - mean.time, d = drift[i] - mean.period;
+    mean.p00 += weight[i] / sum * t * t;
+    mean.p01 += weight[i] / sum * t * d;
+    mean.p11 += weight[i] / sum * d * d;
+  }
+  mean.p00 += 1.0 / (rate * rate);
+  mean.time += 1000.0;
+  mean.period += kPeriod;
+  return mean;
+}
+
+TEST(SteadyEdge, is_the_posterior_mean_and_covariance) {
+  int differ = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const double spread = seed % 2 ? 0.005 : 0.002;
+    const auto reports = exponentialReports(700, spread, kPeriod + 3e-6, seed);
+    SteadyEdge edge(kPeriod, kTolerance);
+    // What it ignores while it settles must not count on the other side either.
+    std::vector<Report> used;
+    for (const Report& report : reports) {
+      edge.add(report.frame, report.arrival, 1.0, kPeriod + 3e-6);
+      if (report.frame >= 25)
+        used.push_back(report);
+    }
+    ASSERT_TRUE(edge.ready());
+    const std::int64_t frame = 705;
+    const ClockState ours = edge.state(frame, spread);
+    const ClockState truth = bruteForce(used, frame, spread);
+    // Two corners of the hull in one block are rare, and then differ little.
+    const bool same = std::abs(ours.time - truth.time) < 0.02 * std::sqrt(truth.p00) &&
+                      std::abs(ours.period - truth.period) < 0.02 * std::sqrt(truth.p11) &&
+                      std::abs(ours.p00 / truth.p00 - 1.0) < 0.05 &&
+                      std::abs(ours.p01 / truth.p01 - 1.0) < 0.05 &&
+                      std::abs(ours.p11 / truth.p11 - 1.0) < 0.05;
+    differ += !same;
+    EXPECT_NEAR(ours.time, truth.time, 0.5 * std::sqrt(truth.p00)) << seed;
+  }
+  EXPECT_LE(differ, 2);
+}
+
+TEST(SteadyEdge, with_equal_delays_it_is_the_line_itself) {
+  SteadyEdge edge(kPeriod, kTolerance);
+  for (int k = 0; k < 5000; ++k)
+    edge.add(k, 7.0 + k * (kPeriod - 2e-6), 1.0, kPeriod);
+  const ClockState state = edge.state(4999, 20e-6);
+  EXPECT_NEAR(state.time, 7.0 + 4999 * (kPeriod - 2e-6), 1e-6);
+  EXPECT_NEAR(state.period, kPeriod - 2e-6, 1e-9);
+  EXPECT_GT(state.p00, 0.0);
+  EXPECT_GE(state.p11, 0.0);
+}
+
+TEST(SteadyEdge, forgets_what_is_older_than_its_memory) {
+  SteadyEdge edge(kPeriod, kTolerance);
+  edge.add(0, 5.0, 1.0, kPeriod);
+  for (int k = 1; k < 200; ++k)
+    edge.add(k, 5.0 + k * kPeriod, 1.0, kPeriod);
+  for (int k = 200; k < 3000; ++k)  // the clock has jumped by 1 ms
+    edge.add(k, 5.001 + k * kPeriod, 1.0, kPeriod);
+  EXPECT_NEAR(edge.state(2999, 50e-6).time, 5.001 + 2999 * kPeriod, 2e-6);
+}
+
+TEST(SteadyEdge, is_not_ready_before_it_has_seen_a_few_seconds) {
+  SteadyEdge edge(kPeriod, kTolerance);
+  EXPECT_FALSE(edge.ready());
+  for (int k = 0; k < 400; ++k)
+    edge.add(k, k * kPeriod, 1.0, kPeriod);
+  EXPECT_TRUE(edge.ready());
+  edge.clear();
+  EXPECT_FALSE(edge.ready());
+}
+
+// Three reports after a sure one, each with any likelihoods of its numbers.
+TEST(FrameHistory, agrees_with_the_enumeration_of_all_paths) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> uniform(0.001, 1.0);
+  for (int trial = 0; trial < 50; ++trial) {
+    constexpr int kReports = 4, kNumbers = 6;
+    double likelihood[kReports][kNumbers] = {};
+    FrameCounter counter;
+    counter.start(0);
+    FrameHistory history;
+    history.add(counter, 0.0, 1.0);
+    for (int r = 1; r < kReports; ++r) {
+      counter.predict(r == 1 ? 2 : 4);
+      for (int i = 0; i < counter.size(); ++i) {
+        const auto frame = static_cast<int>(counter.frame(i));
+        ASSERT_LT(frame, kNumbers);
+        likelihood[r][frame] = uniform(random);
+        counter[i] *= likelihood[r][frame];
+      }
+      counter.normalise();
+      history.add(counter, r, 1.0);
+    }
+    double marginal[kReports][kNumbers] = {};
+    for (int a = 1; a < kNumbers; ++a)
+      for (int b = a + 1; b < kNumbers; ++b)
+        for (int c = b + 1; c < kNumbers; ++c) {
+          const double path = likelihood[1][a] * likelihood[2][b] * likelihood[3][c] *
+                              FrameCounter::transition(a) * FrameCounter::transition(b - a) *
+                              FrameCounter::transition(c - b);
+          marginal[1][a] += path;
+          marginal[2][b] += path;
+          marginal[3][c] += path;
+        }
+    ASSERT_EQ(history.settle(), kReports);
+    for (int r = 1; r < kReports; ++r) {
+      double sum = 0.0;
+      int best = 0;
+      for (int k = 0; k < kNumbers; ++k) {
+        sum += marginal[r][k];
+        best = marginal[r][k] > marginal[r][best] ? k : best;
+      }
+      EXPECT_EQ(history.report(r).frame, best);
+      EXPECT_NEAR(history.report(r).probability, marginal[r][best] / sum, 1e-4);
+      EXPECT_EQ(history.report(r).arrival, r);
+    }
+  }
+}
+
+TEST(FrameHistory, is_settled_when_the_latest_number_is_sure_or_memory_is_full) {
+  FrameHistory history;
+  EXPECT_FALSE(history.settled());
+  FrameCounter counter;
+  counter.start(5);
+  history.add(counter, 0.0, 1.0);
+  EXPECT_TRUE(history.settled());
+  history.clear();
+  int reports = 0;
+  for (; !history.settled(); ++reports) {
+    ASSERT_LT(reports, 1000);
+    counter.predict(counter.frame(0) + 3);  // as likely early as late, for ever
+    counter.normalise();
+    history.add(counter, reports, 1.0);
+  }
+  EXPECT_EQ(history.settle(), reports);
+  EXPECT_FALSE(history.settled());
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::exposure_clock

@@ -1,6 +1,7 @@
 // Bytes and their meaning, from hand-written vectors and from lines sent by real remotes.
 #include "wiimote_tracker_driver/protocol/accelerometer.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
+#include "wiimote_tracker_driver/protocol/ir_calibration.h"
 #include "wiimote_tracker_driver/protocol/ir_camera.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"
 
@@ -106,6 +107,74 @@ TEST(Infrared, Report36CarriesItRightAfterTheButtons) {
   expectSpot(data->spots[1], 1023, 767, 0);
 }
 
+// Accelerometer X = 0x86, Y = 0x7f, Z = 0x9a, its bits scattered over both halves.
+const Report kFirstHalf{0x3e, 0x20, 0x40, 0x86, 0x23, 0x45, 0x13, 35,   7,    37,   9,
+                        0,    200,  0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 0xff};
+const Report kSecondHalf{0x3f, 0x40, 0x48, 0x7f, 0xff, 0xff, 0xb1, 126, 94, 127, 95,
+                         0,    255,  0,    0,    0,    0,    0,    0,   0,  0,   0};
+
+TEST(Infrared, FullGoldenVector) {
+  const std::optional<DataReport> data = decodeInterleaved(kFirstHalf, kSecondHalf);
+  ASSERT_TRUE(data);
+  EXPECT_EQ(0x3e, data->id);
+  EXPECT_EQ(IrFormat::kFull, data->ir_format);
+  EXPECT_EQ(0x0008, data->buttons);
+  EXPECT_EQ((std::array<int, 3>{0x86 << 2, 0x7f << 2, 0x9a << 2}), *data->acceleration);
+  expectSpot(data->spots[0], 291, 69, 3);
+  EXPECT_EQ(200, data->spots[0].intensity);
+  EXPECT_EQ((std::array<int, 4>{35, 7, 37, 9}), data->spots[0].box);
+  EXPECT_FALSE(data->spots[1].seen);
+  expectSpot(data->spots[2], 1023, 767, 1);
+  EXPECT_EQ(255, data->spots[2].intensity);
+  EXPECT_EQ((std::array<int, 4>{126, 94, 127, 95}), data->spots[2].box);
+  EXPECT_FALSE(data->spots[3].seen) << "zeros: never lit";
+  EXPECT_TRUE(data->plausible);
+}
+
+TEST(Infrared, HalvesInAnyOtherOrderAreNoImage) {
+  EXPECT_FALSE(decodeInterleaved(kSecondHalf, kFirstHalf));
+  EXPECT_FALSE(decodeInterleaved(kFirstHalf, kFirstHalf));
+  EXPECT_FALSE(decodeInterleaved(kSecondHalf, kSecondHalf));
+  EXPECT_FALSE(decodeInterleaved(Report(), kSecondHalf));
+  Report cut = kSecondHalf;
+  cut.size = 21;
+  EXPECT_FALSE(decodeInterleaved(kFirstHalf, cut));
+  EXPECT_FALSE(decodeDataReport(kFirstHalf)) << "half an image is none";
+}
+
+TEST(Infrared, FullUnseenSlotHasNeitherSizeNorBoxNorIntensity) {
+  Report half = kFirstHalf;
+  half.bytes[6] = 0xd3;  // y = 837
+  const std::optional<DataReport> data = decodeInterleaved(half, kSecondHalf);
+  ASSERT_TRUE(data);
+  EXPECT_FALSE(data->spots[0].seen);
+  EXPECT_EQ(0, data->spots[0].size);
+  EXPECT_EQ(0, data->spots[0].intensity);
+  EXPECT_EQ((std::array<int, 4>{}), data->spots[0].box);
+  EXPECT_FALSE(data->plausible);
+}
+
+TEST(Infrared, SlotsThatNoCameraInTheFormatSaysAreNotPlausible) {
+  const std::vector<std::uint8_t> good{0x23, 0x45, 0x13, 0xff, 0xff, 0xff,
+                                       0,    0,    0,    0xff, 0x10, 0x02};
+  EXPECT_TRUE(extended(good).plausible);
+  EXPECT_TRUE(extended(std::vector<std::uint8_t>(12, 0xff)).plausible);
+  // y = 801, 769 (x = 0) and 1023 (x = 255).
+  for (const std::vector<std::uint8_t>& slot : std::vector<std::vector<std::uint8_t>>{
+           {0x23, 0x21, 0xdf}, {0x00, 0x01, 0xc0}, {0xff, 0xff, 0xcf}}) {
+    std::vector<std::uint8_t> bad = good;
+    std::copy(slot.begin(), slot.end(), bad.begin() + 3);
+    EXPECT_FALSE(extended(bad).plausible);
+    EXPECT_FALSE(extended(bad).spots[1].seen);
+    EXPECT_TRUE(extended(bad).spots[0].seen);
+  }
+  EXPECT_TRUE(basic({0x23, 0x45, 0x1f, 0xff, 0xff, 0, 0, 0, 0, 0}).plausible);
+  EXPECT_FALSE(basic({0x23, 0x45, 0x1c, 0xff, 0xff, 0, 0, 0, 0, 0}).plausible);
+  Report half = kFirstHalf;
+  half.bytes[9] = 0x80;
+  EXPECT_FALSE(decodeInterleaved(half, kSecondHalf)->plausible);
+}
+
 TEST(Accelerometer, GoldenVector) {
   const std::optional<DataReport> data = decodeDataReport({0x31, 0x60, 0x60, 0x86, 0x7f, 0x9a});
   ASSERT_TRUE(data);
@@ -137,6 +206,33 @@ TEST(Accelerometer, DamagedBlockIsRefused) {
   EXPECT_FALSE(decodeAccelerometerBlock({{0, 0, 0, 0, 0, 0, 0, 0, 0, 0}}));
   // A right checksum but no difference between 0 g and 1 g would divide by zero.
   EXPECT_FALSE(decodeAccelerometerBlock({{0, 0, 0, 0, 0, 0, 0, 0, 0, 0x55}}));
+}
+
+const std::array<std::uint8_t, 11> kRealIrBlock{
+    {0x88, 0x85, 0x8b, 0x8b, 0x8a, 0x97, 0x3f, 0x30, 0x8c, 0x39, 0xcd}};
+
+TEST(IrCalibration, BlockOfARealRemote) {
+  const std::optional<IrCalibration> calibration = decodeIrCalibrationBlock(kRealIrBlock);
+  ASSERT_TRUE(calibration);
+  EXPECT_EQ((std::array<int, 2>{136, 645}), calibration->points[0]);
+  EXPECT_EQ((std::array<int, 2>{907, 650}), calibration->points[1]);
+  EXPECT_EQ((std::array<int, 2>{919, 63}), calibration->points[2]);
+  EXPECT_EQ((std::array<int, 2>{140, 57}), calibration->points[3]);
+  EXPECT_DOUBLE_EQ(525.5, calibration->centre()[0]);
+  EXPECT_DOUBLE_EQ(353.75, calibration->centre()[1]);
+}
+
+TEST(IrCalibration, DamagedBlockIsRefused) {
+  for (std::size_t i = 0; i < kRealIrBlock.size(); ++i) {
+    auto damaged = kRealIrBlock;
+    damaged[i] ^= 0x04;
+    EXPECT_FALSE(decodeIrCalibrationBlock(damaged)) << "byte " << i;
+  }
+  EXPECT_FALSE(decodeIrCalibrationBlock({{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}}));
+  EXPECT_FALSE(decodeIrCalibrationBlock({{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x55}})) << "blank";
+  // A right checksum, but the second point is at y = 778.
+  EXPECT_FALSE(decodeIrCalibrationBlock(
+      {{0x88, 0x85, 0x8f, 0x8b, 0x0a, 0x97, 0x3f, 0x30, 0x8c, 0x39, 0x51}}));
 }
 
 TEST(Status, RealLines) {
@@ -202,6 +298,14 @@ TEST(Memory, ErrorHasNoData) {
   EXPECT_EQ(0x00fa, packet->address);
 }
 
+TEST(Memory, ErrorsHaveNames) {
+  EXPECT_STREQ("busy with another read", errorName(4));
+  EXPECT_STREQ("no such address space", errorName(6));
+  EXPECT_STREQ("no answer at this address", errorName(7));
+  EXPECT_STREQ("address out of range", errorName(8));
+  EXPECT_STREQ("unknown", errorName(0x5a));
+}
+
 TEST(Input, EveryDecoderRefusesOtherIdsAndShortReports) {
   std::mt19937 random(1);
   for (int i = 0; i < 20000; ++i) {
@@ -227,6 +331,8 @@ TEST(Input, EveryDecoderRefusesOtherIdsAndShortReports) {
 }
 
 TEST(Output, Bytes) {
+  EXPECT_EQ((Report{0x10, 0x01}), setRumble(true));
+  EXPECT_EQ((Report{0x10, 0x00}), setRumble(false));
   EXPECT_EQ((Report{0x11, 0x12}), setLeds(0x1));
   EXPECT_EQ((Report{0x11, 0x83}), setLeds(0x8, true));
   EXPECT_EQ((Report{0x12, 0x06, 0x33}), setReportMode(0x33, true));
@@ -257,6 +363,34 @@ TEST(Sensitivity, Blocks) {
   EXPECT_EQ((std::array<std::uint8_t, 2>{{0x63, 0x03}}), wii3->block2);
   EXPECT_FALSE(irSensitivity("wii_6"));
   EXPECT_EQ(7u, irSensitivityNames().size());
+}
+
+TEST(Sensitivity, TextIsANameOrElevenBytes) {
+  EXPECT_EQ(*irSensitivity("wii_2"), parseIrSensitivity("wii_2"));
+  const IrSensitivity wii5 = *irSensitivity("wii_5");
+  EXPECT_EQ(wii5, parseIrSensitivity("07 00 00 71 01 00 72 00 20 / 1f 03"));
+  EXPECT_EQ(wii5, parseIrSensitivity("  7 0 0 71 1 0 72 0 20 1F 3"));
+  EXPECT_FALSE(wii5 == parseIrSensitivity("07 00 00 71 01 00 72 00 21 1f 03"));
+}
+
+TEST(Sensitivity, OtherTextIsRefusedWithTheReason) {
+  const auto reason = [](const std::string& text) -> std::string {
+    try {
+      parseIrSensitivity(text);
+    } catch (const std::invalid_argument& e) {
+      return e.what();
+    }
+    return "";
+  };
+  for (const char* text :
+       {"", "wii_6", "WII_2", "07 00 00 71 01 00 72 00 20 1f",
+        "07 00 00 71 01 00 72 00 20 1f 03 00", "07 00 00 71 01 00 72 00 / 20 1f 03",
+        "07 00 00 71 01 00 72 00 20 1f g3", "07 00 00 71 01 00 72 00 20 1f 003",
+        "0700007101007200201f03", "-7 0 0 0 0 0 1 0 2 1 0"}) {
+    EXPECT_NE(std::string::npos, reason(text).find("must be one of wii_1, ")) << text;
+  }
+  EXPECT_NE(std::string::npos,
+            reason("07 00 00 71 01 00 72 00 20 / 20 03").find("the gain limit, must be less"));
 }
 
 TEST(Sensitivity, GainLimitIsBelowGain) {

@@ -1,0 +1,7 @@
+// Makes one target (FUZZ_TARGET) a program of libFuzzer.
+#include "targets.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  wiimote_tracker::fuzz::FUZZ_TARGET(data, size);
+  return 0;
+}

@@ -50,7 +50,8 @@ sockaddr_un addressOf(const std::string& path) {
   address.sun_family = AF_UNIX;
   if (path.empty() || path.size() >= sizeof(address.sun_path)) {
     errno = path.empty() ? EINVAL : ENAMETOOLONG;
-    fail("virtual Wii Remote at '" + path + "'");
+    fail("a virtual Wii Remote cannot listen at '" + path +
+         "': choose a path in a directory that exists, where no other one listens");
   }
   std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
   return address;
@@ -79,7 +80,8 @@ int listenAt(const std::string& path) {
     const int error = errno;
     ::close(fd);
     errno = error;
-    fail("virtual Wii Remote at '" + path + "'");
+    fail("a virtual Wii Remote cannot listen at '" + path +
+         "': choose a path in a directory that exists, where no other one listens");
   }
   return fd;
 }

@@ -1,11 +1,15 @@
 // Driver and virtual remote share no code, so what one writes the other must read.
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
+#include "wiimote_tracker_driver/virtual_wiimote/faulty_device.h"
 #include "wiimote_tracker_driver/wiimote/wiimote.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
 #include <random>
+#include <utility>
 
 namespace wiimote_tracker::wiimote {
 namespace {
@@ -21,68 +25,231 @@ protocol::Report reportOf(const Bytes& bytes) {
   return report;
 }
 
-/// The virtual remote as a transport without a socket, in fake time: an image every 10 ms.
-class DeviceTransport : public transport::Transport {
+constexpr double kPeriod = 0.01;  // [s]
+constexpr double kLatency =
+    0.012;  // [s] Of what the host says; what the remote says comes at once.
+
+/// A virtual remote that senses every 10 ms of a time of its own, and what it sees. The kernel's
+/// driver may share it.
+struct Remote {
+  explicit Remote(const virtual_wiimote::Faults& faults = {}) : device(Device::Options(), faults) {}
+
+  void at(double time) {
+    while (!said.empty() && said.front().first <= time) {
+      for (const Bytes& answer : device.handleOutput(said.front().second))
+        heard.push_back(answer);
+      said.pop_front();
+    }
+  }
+
+  /// Lets time pass until there is something to hear, at most until `end`.
+  void passUntil(double end) {
+    while (heard.empty()) {
+      const double next = std::min(next_sample, said.empty() ? end : said.front().first);
+      if (next > end)
+        break;
+      now = std::max(now, next);
+      at(now);
+      if (now >= next_sample) {
+        next_sample += kPeriod;
+        for (const Bytes& report : device.sample(senses))
+          heard.push_back(report);
+      }
+      if (next >= end)
+        break;
+    }
+    if (heard.empty())
+      now = std::max(now, end);
+  }
+
+  virtual_wiimote::FaultyDevice device;
+  Senses senses;
+  double now = 0.0;
+  double next_sample = kPeriod;
+  std::deque<std::pair<double, Bytes>> said;
+  std::deque<Bytes> heard;
+};
+
+class RemoteTransport : public transport::Transport {
  public:
-  DeviceTransport(Device* device, const Senses* senses, double* now)
-      : device_(device), senses_(senses), now_(now) {}
+  explicit RemoteTransport(Remote* remote) : remote_(remote) {}
 
   bool read(protocol::Report& report, double timeout) override {
-    if (answers_.empty()) {
-      *now_ += std::min(timeout, 0.01);
-      if (timeout < 0.01)
-        return false;
-      if (const auto sampled = device_->sample(*senses_))
-        answers_.push_back(*sampled);
-    }
-    if (answers_.empty())
+    remote_->passUntil(remote_->now + timeout);
+    if (remote_->heard.empty())
       return false;
-    report = reportOf(answers_.front());
-    answers_.pop_front();
+    report = reportOf(remote_->heard.front());
+    remote_->heard.pop_front();
     return true;
   }
   void write(const protocol::Report& report) override {
     const auto begin = report.bytes.begin();
-    for (const Bytes& answer : device_->handleOutput(Bytes(begin, begin + report.size)))
-      answers_.push_back(answer);
+    remote_->said.emplace_back(remote_->now + kLatency, Bytes(begin, begin + report.size));
   }
   std::string description() const override { return "device"; }
   std::string identity() const override { return ""; }
 
  private:
-  Device* device_;
-  const Senses* senses_;
-  double* now_;
-  std::deque<Bytes> answers_;
+  Remote* remote_;
+};
+
+/// A driver at such a remote.
+struct Driven {
+  explicit Driven(const Options& options = Options(), const virtual_wiimote::Faults& faults = {})
+      : remote(faults),
+        wiimote(
+            options,
+            [this] { return std::make_unique<RemoteTransport>(&remote); },
+            [this] { return remote.now; }) {}
+
+  /// Lets time pass. @returns the number of images that show a light.
+  int run(double duration) {
+    int lit = 0;
+    for (const double end = remote.now + duration; remote.now < end;) {
+      const auto image = wiimote.step(end - remote.now);
+      if (!image)
+        continue;
+      last = *image;
+      missing += std::max(0, static_cast<int>(std::lround((remote.now - arrival) / kPeriod)) - 1);
+      arrival = remote.now;
+      lit += std::any_of(last.spots.begin(), last.spots.end(),
+                         [](const protocol::IrSpot& spot) { return spot.seen; });
+    }
+    return lit;
+  }
+
+  /// Until an image shows a light. @returns whether one has come within 5 s.
+  bool runToLight() {
+    for (const double end = remote.now + 5.0; remote.now < end;) {
+      if (run(kPeriod) > 0)
+        return true;
+    }
+    return false;
+  }
+
+  Remote remote;
+  Wiimote wiimote;
+  protocol::DataReport last;
+  double arrival = 0.0;  ///< Of the last image [s].
+  int missing = 0;       ///< Periods of the remote without an image.
 };
 
 TEST(AgainstVirtualWiimote, EverySensitivityMakesItSee) {
   for (const std::string& name : protocol::irSensitivityNames()) {
-    Device device;
-    Senses senses;
-    senses.lights = {{123, 456, 7, 1}};
-    double now = 0.0;
     Options options;
     options.session.sensitivity = *protocol::irSensitivity(name);
     options.session.leds = 0x5;
-    Wiimote wiimote(
-        options, [&] { return std::make_unique<DeviceTransport>(&device, &senses, &now); },
-        [&] { return now; });
-    std::optional<protocol::DataReport> image;
-    while (!(image && image->spots[0].seen) && now < 5.0)
-      image = wiimote.step(0.1);
-    ASSERT_TRUE(image) << name;
-    EXPECT_EQ(123, image->spots[0].x);
-    EXPECT_EQ(456, image->spots[0].y);
-    EXPECT_EQ(7, image->spots[0].size);
-    EXPECT_EQ(0x5, device.leds());
-    EXPECT_TRUE(wiimote.link().accelerometer_calibrated);
-    EXPECT_EQ(0u, wiimote.link().clock_epoch);
-    const std::array<double, 3> g = wiimote.accelerometer().toG(*image->acceleration);
+    Driven driven(options);
+    driven.remote.senses.lights = {{123, 456, 7, 1}};
+    ASSERT_TRUE(driven.runToLight()) << name;
+    EXPECT_EQ(123, driven.last.spots[0].x);
+    EXPECT_EQ(456, driven.last.spots[0].y);
+    EXPECT_EQ(7, driven.last.spots[0].size);
+    EXPECT_EQ(0x5, driven.remote.device.device().leds());
+    const Link& link = driven.wiimote.link();
+    EXPECT_TRUE(link.accelerometer_calibrated);
+    EXPECT_EQ(0u, link.clock_epoch);
+    ASSERT_TRUE(link.ir_calibration);
+    EXPECT_EQ((std::array<int, 2>{907, 650}), link.ir_calibration->points[1]);
+    const std::array<double, 3> g = driven.wiimote.accelerometer().toG(*driven.last.acceleration);
     EXPECT_NEAR(0.0, g[0], 0.02);
     EXPECT_NEAR(0.0, g[1], 0.02);
     EXPECT_NEAR(1.0, g[2], 0.02);
   }
+}
+
+Options withFormat(protocol::IrFormat format) {
+  Options options;
+  options.session.ir_format = format;
+  return options;
+}
+
+TEST(AgainstVirtualWiimote, EveryFormatStreams) {
+  for (const auto format :
+       {protocol::IrFormat::kBasic, protocol::IrFormat::kExtended, protocol::IrFormat::kFull}) {
+    Driven driven(withFormat(format));
+    driven.remote.senses.lights = {{123, 456, 3, 1}, {900, 20, 5, 2}, {10, 700, 4, 3}};
+    ASSERT_TRUE(driven.runToLight());
+    const bool full = format == protocol::IrFormat::kFull;
+    EXPECT_NEAR(full ? 500 : 1000, driven.run(10.0), 6);
+    EXPECT_EQ(format, driven.last.ir_format);
+    EXPECT_TRUE(driven.last.plausible);
+    int seen = 0;
+    for (const protocol::IrSpot& spot : driven.last.spots) {
+      if (!spot.seen)
+        continue;
+      ++seen;
+      EXPECT_EQ(format == protocol::IrFormat::kBasic, spot.size == 0);
+      EXPECT_EQ(full, spot.intensity > 0);
+      if (full) {
+        EXPECT_LE(spot.box[0], spot.x / 8);
+        EXPECT_LE(spot.box[1], spot.y / 8);
+        EXPECT_GE(spot.box[2], spot.x / 8);
+        EXPECT_GE(spot.box[3], spot.y / 8);
+      }
+    }
+    EXPECT_EQ(3, seen);
+    const std::array<double, 3> g = driven.wiimote.accelerometer().toG(*driven.last.acceleration);
+    EXPECT_NEAR(1.0, g[2], full ? 0.05 : 0.02);
+    EXPECT_EQ(0u, driven.wiimote.link().restorations);
+  }
+}
+
+/// A light that level 1 of the console does not show.
+virtual_wiimote::Light dim() {
+  virtual_wiimote::Light light{500, 400, {}, 0.0};
+  light.brightness = 0.03;
+  return light;
+}
+
+TEST(AgainstVirtualWiimote, SensitivityChangedInTheStreamShowsAtOnce) {
+  Options options;
+  options.session.sensitivity = *protocol::irSensitivity("wii_1");
+  Driven driven(options);
+  driven.remote.senses.lights = {dim()};
+  driven.run(1.0);
+  EXPECT_EQ(0, driven.run(1.0));
+  driven.missing = 0;
+  driven.wiimote.setSensitivity(*protocol::irSensitivity("max"));
+  const int lit = driven.run(1.0);
+  // Five round trips of 12 ms, in which the camera stands still.
+  RecordProperty("missing_images", driven.missing);
+  EXPECT_LE(driven.missing, 7);
+  EXPECT_GE(lit, 90);
+  EXPECT_NEAR(100, driven.run(1.0), 1);
+  driven.wiimote.setSensitivity(*protocol::irSensitivity("wii_1"));
+  EXPECT_LE(driven.run(1.0), 2);
+  EXPECT_EQ(0u, driven.wiimote.link().clock_epoch);
+  EXPECT_EQ(0u, driven.wiimote.link().restorations);
+}
+
+/// Images that are missing in 100 s.
+int missing(double status_interval, bool kernel) {
+  Options options;
+  options.session.status_interval = status_interval;
+  virtual_wiimote::Faults faults;
+  faults.second_master = kernel;
+  Driven driven(options, faults);
+  driven.remote.senses.lights = {{123, 456, 7, 1}};
+  EXPECT_TRUE(driven.runToLight());
+  driven.run(3.0);
+  driven.missing = 0;
+  driven.run(100.0);
+  return driven.missing;
+}
+
+TEST(AgainstVirtualWiimote, AskingForTheBatteryCostsNoImage) {
+  EXPECT_LE(missing(1.0, false), missing(1e6, false));
+}
+
+TEST(AgainstVirtualWiimote, AskingForTheBatteryBesideTheKernelsDriverCostsFewImages) {
+  const double each = 0.01 * (missing(1.0, true) - missing(1e6, true));
+  RecordProperty("missing_per_question", std::to_string(each));
+  EXPECT_LE(each, 5.0);
+}
+
+TEST(AgainstVirtualWiimote, ChecksOfTheCameraCostOneImageInTwoHundredAtMost) {
+  EXPECT_LE(missing(1e6, false), 50);
 }
 
 TEST(AgainstVirtualWiimote, AnyLightsComeThrough) {

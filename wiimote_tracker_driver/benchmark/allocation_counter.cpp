@@ -1,0 +1,42 @@
+#include "allocation_counter.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+std::atomic<std::uint64_t> made{0};
+std::atomic<std::uint64_t> released{0};
+
+}  // namespace
+
+// The other forms of new and delete come down to these two, but for those of over-aligned types,
+// which the driver has none of.
+void* operator new(std::size_t size) {
+  made.fetch_add(1, std::memory_order_relaxed);
+  if (void* memory = std::malloc(size > 0 ? size : 1))
+    return memory;
+  throw std::bad_alloc();
+}
+
+void operator delete(void* memory) noexcept {
+  if (memory)
+    released.fetch_add(1, std::memory_order_relaxed);
+  std::free(memory);
+}
+
+void operator delete(void* memory, std::size_t) noexcept {
+  operator delete(memory);
+}
+
+namespace wiimote_tracker {
+
+Allocations allocations() {
+  Allocations result;
+  result.made = made.load();
+  result.alive = result.made - released.load();
+  return result;
+}
+
+}  // namespace wiimote_tracker

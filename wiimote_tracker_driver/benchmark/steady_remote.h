@@ -1,0 +1,49 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_STEADY_REMOTE_H
+#define WIIMOTE_TRACKER_DRIVER_BENCHMARK_STEADY_REMOTE_H
+
+#include "wiimote_tracker_driver/protocol/report.h"
+#include "wiimote_tracker_driver/transport/transport.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+namespace wiimote_tracker::wiimote {
+
+/// A remote in fake time that costs next to nothing: does what it is told at once, sends a data
+/// report every 10 ms in modes 0x33, 0x37 and 0x3e, with one light that moves, and allocates
+/// nothing. For measuring the driver, not for testing it: it checks nothing.
+class SteadyRemote {
+ public:
+  double now = 0.0;        ///< [s]
+  std::uint64_t sent = 0;  ///< Data reports.
+
+  std::unique_ptr<transport::Transport> open();
+
+  /// Somebody else takes the data reports away.
+  void loseMode() { mode_ = 0; }
+
+  /// All is as after switching on.
+  void powerCycle();
+
+ private:
+  class Transport;
+  static constexpr double kPeriod = 0.01;  // [s]
+
+  bool read(protocol::Report& report, double timeout);
+  void write(const protocol::Report& output);
+  void say(const protocol::Report& answer);
+  protocol::Report memory(const protocol::Report& request) const;
+  protocol::Report data();
+
+  std::uint8_t mode_ = 0;
+  std::array<std::uint8_t, 256> registers_{};
+  std::array<protocol::Report, 16> answers_{};  // a ring
+  std::size_t first_answer_ = 0;
+  std::size_t answers_waiting_ = 0;
+  double next_data_ = 0.0;
+};
+
+}  // namespace wiimote_tracker::wiimote
+
+#endif  // WIIMOTE_TRACKER_DRIVER_BENCHMARK_STEADY_REMOTE_H

@@ -1,0 +1,196 @@
+#include "summary.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <optional>
+
+namespace wiimote_tracker::recording_info {
+namespace {
+
+using recording::Record;
+
+constexpr double kStep = 1e-4;  // [s] Of the histogram.
+
+bool isData(const protocol::Report& report) {
+  return report.id() >= 0x30 && report.id() <= 0x3f;
+}
+
+const char* nameOf(std::size_t id) {
+  switch (id) {
+    case 0x10:
+      return "rumble";
+    case 0x11:
+      return "LEDs";
+    case 0x12:
+      return "report mode";
+    case 0x13:
+      return "camera clock";
+    case 0x15:
+      return "status request";
+    case 0x16:
+      return "write memory";
+    case 0x17:
+      return "read memory";
+    case 0x1a:
+      return "camera logic";
+    case 0x20:
+      return "status";
+    case 0x21:
+      return "memory";
+    case 0x22:
+      return "acknowledgement";
+    case 0x33:
+      return "extended infrared";
+    case 0x36:
+    case 0x37:
+      return "basic infrared";
+    case 0x3e:
+    case 0x3f:
+      return "full infrared";
+    default:
+      return id >= 0x30 && id <= 0x3f ? "other data" : "unknown";
+  }
+}
+
+__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
+  char text[256];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text, sizeof(text), pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+std::string dateOf(double seconds) {
+  const auto whole = static_cast<time_t>(seconds);
+  tm date{};
+  ::gmtime_r(&whole, &date);
+  char text[64];
+  ::strftime(text, sizeof(text), "%Y-%m-%d %H:%M:%S UTC", &date);
+  return text;
+}
+
+std::string orNone(const std::string& text) {
+  return text.empty() ? "none" : text;
+}
+
+std::string describeConnection(std::size_t number, const Connection& connection) {
+  std::string end = "cut off with the recording";
+  if (connection.ended)
+    end = connection.end_reason.empty() ? "the driver let it go" : connection.end_reason;
+  return format("connection %zu   %.3f to %.3f s\n", number, connection.begin, connection.end) +
+         "  remote       " + orNone(connection.remote.identity) + " at " +
+         connection.remote.description + "\n  kernel       " +
+         orNone(connection.remote.kernel_driver) + "\n  end          " + end + "\n";
+}
+
+std::string describeReports(const char* title, const std::array<std::uint64_t, 256>& counts) {
+  std::string lines;
+  for (std::size_t id = 0; id < counts.size(); ++id) {
+    if (counts[id] > 0)
+      lines += format("%-14s 0x%02zx %9llu  %s\n", lines.empty() ? title : "", id,
+                      static_cast<unsigned long long>(counts[id]), nameOf(id));
+  }
+  return lines;
+}
+
+std::string describeIntervals(const Intervals& intervals) {
+  if (intervals.count() == 0)
+    return "";
+  return format("data           %.1f reports a second\n", 1.0 / intervals.mean()) +
+         format("interval       p50 %.1f, p99 %.1f, longest %.1f ms\n",
+                1e3 * intervals.quantile(0.5), 1e3 * intervals.quantile(0.99),
+                1e3 * intervals.longest()) +
+         format("gaps           %llu over %.0f ms\n",
+                static_cast<unsigned long long>(intervals.gaps()), 1e3 * Intervals::kGap);
+}
+
+}  // namespace
+
+void Intervals::add(double interval) {
+  const auto bin = static_cast<std::size_t>(std::min(interval, 1.0) / kStep);
+  ++histogram_[std::min(bin, histogram_.size() - 1)];
+  ++count_;
+  sum_ += interval;
+  longest_ = std::max(longest_, interval);
+  if (interval > kGap)
+    ++gaps_;
+}
+
+double Intervals::mean() const {
+  return count_ == 0 ? 0.0 : sum_ / static_cast<double>(count_);
+}
+
+double Intervals::longest() const {
+  return longest_;
+}
+
+std::uint64_t Intervals::gaps() const {
+  return gaps_;
+}
+
+double Intervals::quantile(double share) const {
+  std::uint64_t below = 0;
+  for (std::size_t bin = 0; bin < histogram_.size(); ++bin) {
+    below += histogram_[bin];
+    if (below > 0 && static_cast<double>(below) >= share * static_cast<double>(count_))
+      return kStep * (static_cast<double>(bin) + 0.5);
+  }
+  return 0.0;
+}
+
+Summary summarize(recording::Reader& reader) {
+  Summary summary;
+  summary.header = reader.header();
+  std::optional<double> last_data;
+  for (Record record; reader.next(record);) {
+    summary.duration = record.time;
+    switch (record.kind) {
+      case Record::Kind::kConnected:
+        summary.connections.push_back({record.remote, record.time, record.time, false, ""});
+        last_data.reset();
+        break;
+      case Record::Kind::kReceived:
+        ++summary.received[record.report.id()];
+        if (isData(record.report)) {
+          if (last_data)
+            summary.intervals.add(record.time - *last_data);
+          last_data = record.time;
+        }
+        break;
+      case Record::Kind::kSent:
+        ++summary.sent[record.report.id()];
+        break;
+      case Record::Kind::kDisconnected:
+        break;
+    }
+    if (summary.connections.empty() || summary.connections.back().ended)
+      continue;
+    Connection& connection = summary.connections.back();
+    connection.end = record.time;
+    connection.ended = record.kind == Record::Kind::kDisconnected;
+    if (connection.ended)
+      connection.end_reason = record.reason;
+  }
+  summary.damage = reader.damage();
+  return summary;
+}
+
+std::string describe(const Summary& summary) {
+  std::string text = "made by        " + summary.header.software + "\nbegin          " +
+                     dateOf(summary.header.wall_time) + "\n" +
+                     format("duration       %.3f s\n", summary.duration) +
+                     format("connections    %zu\n", summary.connections.size());
+  std::size_t number = 0;
+  for (const Connection& connection : summary.connections)
+    text += describeConnection(++number, connection);
+  text += describeIntervals(summary.intervals) + describeReports("received", summary.received) +
+          describeReports("sent", summary.sent);
+  return text + "complete       " + (summary.damage.empty() ? "yes" : "no: " + summary.damage) +
+         "\n";
+}
+
+}  // namespace wiimote_tracker::recording_info

@@ -1,0 +1,62 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_TOOLS_RECORDING_INFO_SUMMARY_H
+#define WIIMOTE_TRACKER_DRIVER_TOOLS_RECORDING_INFO_SUMMARY_H
+
+#include "wiimote_tracker_driver/recording/reader.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::recording_info {
+
+/// The time between one data report and the next of the same connection.
+class Intervals {
+ public:
+  /// [s]
+  void add(double interval);
+
+  std::uint64_t count() const { return count_; }
+  double mean() const;                  ///< [s]; 0 without any.
+  double longest() const;               ///< [s]; 0 without any.
+  std::uint64_t gaps() const;           ///< Longer than kGap.
+  double quantile(double share) const;  ///< [s], to 0.1 ms, at most 1 s; 0 without any.
+
+  static constexpr double kGap = 0.05;  ///< [s] About five lost reports.
+
+ private:
+  std::array<std::uint64_t, 10000> histogram_{};  ///< In steps of 0.1 ms; the last holds the rest.
+  std::uint64_t count_ = 0;
+  std::uint64_t gaps_ = 0;
+  double sum_ = 0.0;
+  double longest_ = 0.0;
+};
+
+struct Connection {
+  recording::Remote remote;
+  double begin = 0.0;  ///< [s] Since the beginning of the recording.
+  double end = 0.0;
+  bool ended = false;      ///< Else the recording ended before.
+  std::string end_reason;  ///< Empty: the driver let the remote go.
+};
+
+/// What is in a recording.
+struct Summary {
+  recording::Header header;
+  double duration = 0.0;  ///< [s] To the last record.
+  std::vector<Connection> connections;
+  std::array<std::uint64_t, 256> received{};  ///< Reports per id.
+  std::array<std::uint64_t, 256> sent{};
+  Intervals intervals;
+  std::string damage;  ///< Empty: none.
+};
+
+/// Reads to the end.
+Summary summarize(recording::Reader& reader);
+
+/// In lines, for people.
+std::string describe(const Summary& summary);
+
+}  // namespace wiimote_tracker::recording_info
+
+#endif  // WIIMOTE_TRACKER_DRIVER_TOOLS_RECORDING_INFO_SUMMARY_H

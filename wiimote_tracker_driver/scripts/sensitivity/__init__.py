@@ -1,0 +1,1 @@
+"""Which sensitivity of the infrared camera suits a room."""

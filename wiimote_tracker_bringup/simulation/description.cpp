@@ -164,7 +164,8 @@ LedDescription readLed(const std::string& name, Section section) {
   LedDescription led;
   led.name = name;
   led.position = section.point("position");
-  led.size = section.number("size", 0.0, 15.0, led.size);
+  if (section.has("size"))
+    led.size = section.number("size", 0.0, 15.0);
   led.brightness = section.number("brightness", 0.0, kInfinity, led.brightness);
   led.lit = section.value<bool>("lit", led.lit);
   section.refuseUnknown();

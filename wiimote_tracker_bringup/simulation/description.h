@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -35,8 +36,8 @@ struct CameraDescription {
 struct LedDescription {
   std::string name;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
-  double size = 3.0;                                   ///< As the sensor reports it [0..15].
-  double brightness = 1.0;                             ///< Any scale [> 0].
+  std::optional<double> size;                          ///< As of a Lamp [0..15].
+  double brightness = 1.0;                             ///< As of a Lamp [>= 0].
   bool lit = true;
 };
 

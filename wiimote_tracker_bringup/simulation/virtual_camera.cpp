@@ -39,6 +39,8 @@ virtual_wiimote::Senses VirtualCamera::sense(const std::vector<Lamp>& lamps) {
         camera_.intrinsics.height - 1 - (pixel->y() + noise_v);  // the sensor's y grows upwards
     light.size = lamp.size;
     light.brightness = lamp.brightness;
+    if (!lamp.size)
+      light.brightness /= (lamp.position - camera_.center()).squaredNorm();
     senses.lights.push_back(light);
   }
   return senses;

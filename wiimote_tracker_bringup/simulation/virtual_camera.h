@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -14,9 +15,11 @@ namespace wiimote_tracker::simulation {
 
 /// An LED that shines, at one instant.
 struct Lamp {
-  Eigen::Vector3d position;  ///< World [m].
-  double size;               ///< As the sensor reports it [0..15].
-  double brightness;         ///< Any scale.
+  Eigen::Vector3d position;    ///< World [m].
+  std::optional<double> size;  ///< As the sensor reports it [0..15].
+  /// 1 is the Wii's sensor bar. With a size it is what reaches every camera, as if 1 m away;
+  /// without one it falls with the square of the distance, and the size follows.
+  double brightness;
 };
 
 /// The optics of one Wii Remote and the way it is mounted: from lamps in the world to what the

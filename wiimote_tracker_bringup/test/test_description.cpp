@@ -98,6 +98,14 @@ TEST_F(DescriptionFile, holds_what_was_written_in_the_order_of_the_file) {
   EXPECT_FALSE(d.leds[0].lit);
 }
 
+TEST_F(DescriptionFile, led_without_size_is_as_bright_as_its_distance_lets_it_be) {
+  std::string text = kGood;
+  text.replace(text.find("size: 5"), 7, "brightness: 0");
+  const Description d = read(text);
+  EXPECT_FALSE(d.leds[0].size);
+  EXPECT_EQ(d.leds[0].brightness, 0.0);
+}
+
 TEST_F(DescriptionFile, errors_name_file_key_and_reason) {
   const auto has = [](const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;

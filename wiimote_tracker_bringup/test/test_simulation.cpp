@@ -128,6 +128,16 @@ TEST(VirtualCamera, puts_a_lamp_where_a_pinhole_would_and_lets_y_grow_upwards) {
   EXPECT_EQ(senses.lights[0].brightness, 2.0);
 }
 
+TEST(VirtualCamera, dims_a_lamp_without_size_by_its_distance) {
+  VirtualCamera optics(cameraAt(Vector3d(0, 0, 1), Vector3d(5, 0, 1)), 0.0, 1);
+  const auto senses = optics.sense(
+      {{Vector3d(2.0, 0.0, 1.0), std::nullopt, 3.0}, {Vector3d(4.0, 0.0, 1.0), std::nullopt, 3.0}});
+  ASSERT_EQ(senses.lights.size(), 2u);
+  EXPECT_FALSE(senses.lights[0].size);
+  EXPECT_NEAR(senses.lights[0].brightness, 3.0 / 4.0, 1e-12);
+  EXPECT_NEAR(senses.lights[1].brightness, 3.0 / 16.0, 1e-12);
+}
+
 TEST(VirtualCamera, applies_the_lens_distortion) {
   geometry::Camera camera = cameraAt(Vector3d(0, 0, 1), Vector3d(5, 0, 1));
   camera.intrinsics.distortion[0] = 0.1;

@@ -49,6 +49,15 @@ TEST(RecoveryTime, NeedsNinetyImagesASecond) {
   EXPECT_EQ(0.0, recoveryTime(images, 0.0));
 }
 
+TEST(RecoveryTime, OrWhateverRateIsWanted) {
+  std::vector<double> images;
+  append(images, 0.0, 43.5, 1000);
+  EXPECT_LT(recoveryTime(images, 0.0, 45.0), 0.0);
+  images.clear();
+  append(images, 0.0, 45.0, 1000);
+  EXPECT_EQ(0.0, recoveryTime(images, 0.0, 45.0));
+}
+
 TEST(RecoveryTime, WithoutImagesThereIsNone) {
   EXPECT_LT(recoveryTime({}, 0.0), 0.0);
 }

@@ -24,7 +24,10 @@ struct Recovery {
 Recovery waitForRecovery(const RunningDriver& driver, double since) {
   Recovery recovery;
   const bool recovered = waitFor(
-      [&] { return (recovery.time = recoveryTime(driver.images(), since)) >= 0.0; }, kPatience);
+      [&] {
+        return (recovery.time = recoveryTime(driver.images(), since, driver.recoveryRate())) >= 0.0;
+      },
+      kPatience);
   if (recovered)
     recovery.pause = longestPause(driver.images(), since, since + recovery.time + kRecoveryWindow);
   else
@@ -72,6 +75,25 @@ void Checks::recovers(const std::string& name,
   }
   check(name, worst.time <= kLongestRecovery,
         (times > 1 ? std::to_string(times) + " times, " : "") + describe(worst, driver));
+}
+
+void Checks::restores(const std::string& name,
+                      const RunningDriver& driver,
+                      const std::function<void()>& disturb,
+                      const std::string& found,
+                      double within) {
+  const std::uint64_t before = driver.link().restorations;
+  const double since = now();
+  disturb();
+  waitFor([&] { return driver.link().restorations > before; }, kPatience);
+  const double restored = now();
+  const wiimote::Link link = driver.link();
+  check(name + ": found and put right",
+        link.restorations == before + 1 && link.last_restoration == found &&
+            restored - since <= within,
+        "after " + seconds(restored - since) + ", " + std::to_string(link.restorations - before) +
+            " times: " + link.last_restoration);
+  recoversFrom(name, driver, restored);
 }
 
 void Checks::recoversFrom(const std::string& name, const RunningDriver& driver, double since) {

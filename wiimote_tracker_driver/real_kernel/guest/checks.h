@@ -20,7 +20,15 @@ class Checks {
                 const std::function<void()>& disturb,
                 int times = 1);
 
-  /// The same for a disturbance that began at `since` [s].
+  /// Disturbs the remote and checks that the driver finds it within so long [s], calls it by this
+  /// name, puts it right once, and streams on.
+  void restores(const std::string& name,
+                const RunningDriver& driver,
+                const std::function<void()>& disturb,
+                const std::string& found,
+                double within);
+
+  /// Checks that images are back within 1 s of a disturbance that began at `since` [s].
   void recoversFrom(const std::string& name, const RunningDriver& driver, double since);
 
   bool passed() const { return count_ > 0 && failed_ == 0; }

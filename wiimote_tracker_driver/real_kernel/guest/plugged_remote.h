@@ -36,6 +36,7 @@ class PluggedRemote {
   const std::string& address() const { return address_; }
   const Light& light() const { return light_; }
   std::uint8_t leds() const { return device_.leds(); }
+  bool rumble() const { return device_.rumble(); }
 
   /// All output reports that came at or after `since` [s].
   std::vector<Output> outputs(double since = 0.0) const;

@@ -1,13 +1,16 @@
 #include "recovery.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 namespace wiimote_tracker::real_kernel {
 
-double recoveryTime(const std::vector<double>& images, double since) {
+double recoveryTime(const std::vector<double>& images, double since, double rate) {
+  const auto wanted = static_cast<std::ptrdiff_t>(std::lround(rate * kRecoveryWindow));
   for (auto first = std::lower_bound(images.begin(), images.end(), since);
-       images.end() - first >= kRecoveryImages; ++first) {
-    if (*(first + kRecoveryImages - 1) < *first + kRecoveryWindow)
+       images.end() - first >= wanted; ++first) {
+    if (*(first + wanted - 1) < *first + kRecoveryWindow)
       return *first - since;
   }
   return -1.0;

@@ -1,23 +1,35 @@
 #include "running_driver.h"
 
 #include "clock.h"
+#include "recovery.h"
 #include "wiimote_tracker_driver/transport/transport.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <stdexcept>
 
 namespace wiimote_tracker::real_kernel {
 namespace {
 
-constexpr double kTurn = 0.05;  // [s] Longest wait before a look at whether to stop.
+constexpr double kTurn = 0.05;            // [s] Longest wait before a look at whether to stop.
+constexpr double kCommandPatience = 5.0;  // [s]
+
+wiimote::Options withSession(const wiimote::SessionOptions& session) {
+  wiimote::Options options;
+  options.session = session;
+  return options;
+}
 
 }  // namespace
 
-RunningDriver::RunningDriver(const std::string& device, const virtual_wiimote::Light& light)
+RunningDriver::RunningDriver(const std::string& device,
+                             const virtual_wiimote::Light& light,
+                             const wiimote::SessionOptions& options)
     : light_(light),
+      options_(options),
       wiimote_(
-          wiimote::Options(),
+          withSession(options),
           [name = transport::parseDeviceName(device)] { return transport::open(name); },
           now),
       thread_([this] { run(); }) {}
@@ -37,6 +49,10 @@ void RunningDriver::run() {
     }
     const std::optional<protocol::DataReport> image = wiimote_.step(kTurn);
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (command_) {
+      command_(wiimote_);
+      command_ = nullptr;
+    }
     if (image)
       record(*image);
     if (link_changes != wiimote_.linkChanges()) {
@@ -44,6 +60,25 @@ void RunningDriver::run() {
       link_ = wiimote_.link();
     }
   }
+}
+
+void RunningDriver::command(const std::function<void(wiimote::Wiimote&)>& action) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    command_ = action;
+  }
+  const bool done = waitFor(
+      [&] {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        return !command_;
+      },
+      kCommandPatience);
+  if (!done)
+    throw std::runtime_error("the driver's thread hangs");
+}
+
+double RunningDriver::recoveryRate() const {
+  return options_.ir_format == protocol::IrFormat::kFull ? 0.5 * kRecoveryRate : kRecoveryRate;
 }
 
 void RunningDriver::record(const protocol::DataReport& image) {

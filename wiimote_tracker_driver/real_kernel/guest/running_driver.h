@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -13,14 +14,21 @@
 
 namespace wiimote_tracker::real_kernel {
 
-/// The driver's core at work over hidapi and hidraw, in a thread of its own as in the driver node,
-/// with its default options.
+/// The driver's core at work over hidapi and hidraw, in a thread of its own as in the driver node.
 class RunningDriver {
  public:
   /// `device` as in the driver's parameter: empty, a Bluetooth address or /dev/hidrawN. `light` is
   /// the only one that the remote sees.
-  RunningDriver(const std::string& device, const virtual_wiimote::Light& light);
+  RunningDriver(const std::string& device,
+                const virtual_wiimote::Light& light,
+                const wiimote::SessionOptions& options = {});
   ~RunningDriver();
+
+  /// Has the driver's thread do this, and waits until it has.
+  void command(const std::function<void(wiimote::Wiimote&)>& action);
+
+  /// Images a second of an undisturbed stream, less a tenth [Hz].
+  double recoveryRate() const;
 
   wiimote::Link link() const;
 
@@ -38,9 +46,11 @@ class RunningDriver {
   void record(const protocol::DataReport& image);
 
   const virtual_wiimote::Light light_;
+  const wiimote::SessionOptions options_;
   wiimote::Wiimote wiimote_;
 
-  mutable std::mutex mutex_;  // guards the next three
+  mutable std::mutex mutex_;  // guards the next four
+  std::function<void(wiimote::Wiimote&)> command_;
   wiimote::Link link_;
   std::vector<double> images_;
   std::size_t wrong_images_ = 0;

@@ -1,9 +1,10 @@
 #include "scenarios.h"
 
+#include "another_program.h"
 #include "clock.h"
 #include "kernel.h"
-#include "plugged_remote.h"
 #include "recovery.h"
+#include "streaming.h"
 #include "wiimote_tracker_driver/transport/transport.h"
 
 #include <fcntl.h>
@@ -30,18 +31,10 @@ using Light = PluggedRemote::Light;
 using Model = PluggedRemote::Model;
 using State = wiimote::Link::State;
 
-constexpr char kAddress[] = "00:1f:32:00:00:01";
-constexpr Light kLight{300.0, 200.0, 3.0, 1.0};
-
 /// What the kernel says after each status while nobody uses its input devices.
 Bytes kernelsMode() {
   return {0x12, 0x00, 0x30};
 }
-
-// The kernel has set a remote up when it has asked for the battery and nothing more comes [s].
-constexpr double kSetUpTime = 1.0;
-// For what takes its time but is no part of a recovery [s].
-constexpr double kPatience = 5.0;
 
 std::string hex(const Bytes& bytes, std::size_t count) {
   std::string text;
@@ -56,21 +49,6 @@ std::string hex(const Bytes& bytes, std::size_t count) {
 std::string count(std::size_t number, const std::string& things) {
   return std::to_string(number) + " " + things;
 }
-
-/// A remote, the kernel done with it, and a driver that streams from it.
-struct Streaming {
-  explicit Streaming(const std::string& address = kAddress,
-                     const Light& light = kLight,
-                     Model model = Model::kRemote)
-      : remote(address, light, model), driver(address, light) {
-    if (!driver.waitForState(State::kStreaming, kPatience))
-      throw std::runtime_error("the driver does not stream: " + driver.link().error);
-    sleepFor(kSetUpTime);
-  }
-
-  PluggedRemote remote;
-  RunningDriver driver;
-};
 
 /// Holds a file open.
 class OpenFile {
@@ -341,36 +319,74 @@ void extension(Checks& checks) {
                count(streaming.driver.wrongImages(), "wrong images"));
 }
 
-/// Another program that opens the same hidraw node, without asking for our lock, and talks.
-void anotherProgram(Checks& checks) {
-  Streaming streaming;
-  const int fd = ::open(hidrawOf(kAddress).c_str(), O_RDWR | O_CLOEXEC);
-  const auto say = [&](const Bytes& report) {
-    if (::write(fd, report.data(), report.size()) != static_cast<ssize_t>(report.size()))
-      throw std::runtime_error("cannot write to the hidraw node");
-  };
-  struct Word {
-    const char* what;
-    Bytes report;
-  };
-  const std::vector<Word> words{
-      {"asks for the status", {0x15, 0x00}},
-      {"sets mode 0x30", {0x12, 0x00, 0x30}},
-      {"sets mode 0x37", {0x12, 0x04, 0x37}},
-      {"wants changes only", {0x12, 0x00, 0x33}},
-      {"reads 256 bytes of the EEPROM", {0x17, 0x00, 0x00, 0x00, 0x00, 0x01, 0x00}},
-      {"switches the LEDs", {0x11, 0xf0}},
-      {"switches the camera's clock off", {0x13, 0x00}},
-      {"switches the camera's logic off", {0x1a, 0x00}},
-      {"stops the camera",
-       {0x16, 0x04, 0xb0, 0x00, 0x30, 1, 0x01, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}},
-  };
-  for (const Word& word : words) {
+void otherFormats(Checks& checks) {
+  for (const auto format : {protocol::IrFormat::kBasic, protocol::IrFormat::kFull}) {
+    wiimote::SessionOptions options;
+    options.ir_format = format;
+    Streaming streaming(kAddress, kLight, Model::kRemote, options);
+    const std::string name = format == protocol::IrFormat::kBasic ? "basic" : "full";
+    constexpr double kDuration = 10.0;
+    const double begin = now();
+    sleepFor(kDuration);
+    const double end = now();
+    const std::vector<double> images = streaming.driver.images();
+    const auto in_time = static_cast<std::size_t>(std::count_if(
+        images.begin(), images.end(), [&](double t) { return t >= begin && t <= end; }));
+    const double wanted = kDuration * streaming.driver.recoveryRate();
+    checks.check(name + " format: 10 s at nine tenths of its rate or more",
+                 static_cast<double>(in_time) >= wanted, count(in_time, "images"));
+    checks.check(name + " format: no pause of 0.1 s or more",
+                 longestPause(images, begin, end) < 0.1,
+                 "longest " + seconds(longestPause(images, begin, end)));
+    const std::string file = batteryFileOf(kAddress);
     checks.recovers(
-        std::string("another program ") + word.what, streaming.driver, [&] { say(word.report); },
-        5);
+        name + " format: battery read", streaming.driver, [&] { readLine(file); }, 10);
+    std::unique_ptr<OpenFile> node;
+    const std::string ir = inputNodeOf(kAddress, "Nintendo Wii Remote IR");
+    checks.recovers(name + " format: input device of the camera opened", streaming.driver,
+                    [&] { node = std::make_unique<OpenFile>(ir); });
+    checks.recovers(name + " format: and closed", streaming.driver, [&] { node.reset(); });
+    checks.check(name + " format: no image was wrong", streaming.driver.wrongImages() == 0,
+                 count(streaming.driver.wrongImages(), "wrong images"));
   }
-  ::close(fd);
+}
+
+/// What the driver's own user changes while it streams.
+void inTheStream(Checks& checks) {
+  Streaming streaming;
+  const PluggedRemote& remote = streaming.remote;
+  const wiimote::Link before = streaming.driver.link();
+  double since = now();
+  checks.recovers("sensitivity changed", streaming.driver, [&] {
+    streaming.driver.command(
+        [](wiimote::Wiimote& wiimote) { wiimote.setSensitivity(*protocol::irSensitivity("max")); });
+  });
+  const double pause = longestPause(streaming.driver.images(), since, now());
+  checks.check("images pause for no longer than 0.2 s", pause <= 0.2, seconds(pause));
+  checks.check("it is in the camera",
+               remote.got({0x16, 0x04, 0xb0, 0x00, 0x1a, 2, 0x40, 0}, since));
+  const wiimote::Link after = streaming.driver.link();
+  checks.check("the clock epoch is the same, and nothing had to be restored",
+               after.clock_epoch == before.clock_epoch && after.restorations == before.restorations,
+               after.last_restoration);
+
+  // The kernel writes every 4 s at least, and each time without the motor.
+  streaming.driver.command([](wiimote::Wiimote& wiimote) { wiimote.setRumble(true); });
+  checks.check("the motor runs", waitFor([&] { return remote.rumble(); }, 1.0));
+  since = now();
+  double last_on = since;
+  double longest_off = 0.0;
+  for (; now() < since + 9.0; sleepFor(0.002)) {
+    if (remote.rumble())
+      last_on = now();
+    longest_off = std::max(longest_off, now() - last_on);
+  }
+  checks.check("the kernel was at work meanwhile",
+               remote.got({0x16, 0x04, 0xa6, 0x00, 0xf0}, since));
+  checks.check("the motor never stands still for 0.2 s", longest_off < 0.2, seconds(longest_off));
+  streaming.driver.command([](wiimote::Wiimote& wiimote) { wiimote.setRumble(false); });
+  checks.check("told so, it stands still", waitFor([&] { return !remote.rumble(); }, 1.0));
+  checks.recovers("the stream is up to speed", streaming.driver, [] {});
 }
 
 void leds(Checks& checks) {
@@ -465,6 +481,8 @@ const std::vector<Scenario>& scenarios() {
       {"evdev", evdev},
       {"extension", extension},
       {"another_program", anotherProgram},
+      {"other_formats", otherFormats},
+      {"in_the_stream", inTheStream},
       {"leds", leds},
       {"rebind", rebind},
       {"taken", taken},

@@ -1,0 +1,14 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_ANOTHER_PROGRAM_H
+#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_ANOTHER_PROGRAM_H
+
+#include "checks.h"
+
+namespace wiimote_tracker::real_kernel {
+
+/// Scenario: another program that opens the same hidraw node, without asking for our lock, and
+/// talks to the remote.
+void anotherProgram(Checks& checks);
+
+}  // namespace wiimote_tracker::real_kernel
+
+#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_ANOTHER_PROGRAM_H

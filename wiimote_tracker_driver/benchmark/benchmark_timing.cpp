@@ -76,34 +76,38 @@ int main(int argc, char** argv) {
       "Simulated. RMS error [ms] of the newest frame's exposure time after %.0f s, 5 %% of the "
       "frames\n"
       "lost, over %d sessions, less the constant delay. Line, hull, Olson and oracle are told the\n"
-      "frame numbers; line* and hull* have the clock's. Line*, hull*, clock: to the nearest true\n"
+      "frame numbers; line* and hull* have the clock's, oracle* (edges only)\n"
+      "finds its own. Line*, hull*, oracle*, clock: to the nearest true\n"
       "exposure; total: with wrong frame numbers.\n\n"
-      "%-36s %7s | %7s %7s %7s %7s | %7s %7s | %7s %7s %7s %8s %7s %6s\n",
+      "%-36s %7s | %7s %7s %7s %7s | %7s %7s %7s %8s | %7s %7s %7s %8s %7s %6s\n",
       duration, sessions, "delay [ms]", "arrival", "line", "hull", "Olson", "oracle", "line*",
-      "hull*", "clock", "total", "wrong %", "err/sd", "in 2sd%", "us");
+      "hull*", "oracle*", "wrong* %", "clock", "total", "wrong %", "err/sd", "in 2sd%", "us");
   if (file)
     std::fprintf(file, "[");
   bool first = true;
   for (const Row& row : rows()) {
-    const TimingScore s = runTiming(row.link, duration, sessions);
+    const TimingScore s = runTiming(row.link, duration, sessions, true);
     std::printf(
-        "%-36s %7.3f | %7.3f %7.3f %7.3f %7.3f | %7.3f %7.3f | %7.3f %7.3f %7.1f %8.2f %7.1f "
+        "%-36s %7.3f | %7.3f %7.3f %7.3f %7.3f | %7.3f %7.3f %7.3f %8.1f | %7.3f %7.3f %7.1f %8.2f "
+        "%7.1f "
         "%6.1f\n",
         row.name.c_str(), s.arrival * 1e3, s.least_squares * 1e3, s.convex_hull * 1e3,
         s.olson * 1e3, s.oracle * 1e3, s.least_squares_own * 1e3, s.convex_hull_own * 1e3,
-        s.clock * 1e3, s.total * 1e3, s.wrong_frames * 100.0, s.clock_ratio, s.covered * 100.0,
-        s.update_seconds * 1e6);
+        s.blind_oracle * 1e3, s.blind_oracle_wrong_frames * 100.0, s.clock * 1e3, s.total * 1e3,
+        s.wrong_frames * 100.0, s.clock_ratio, s.covered * 100.0, s.update_seconds * 1e6);
     std::fflush(stdout);
     if (file)
       std::fprintf(file,
                    "%s\n {\"delay\": \"%s\", \"sessions\": %d, \"arrival\": %.9f, "
                    "\"least_squares\": %.9f, \"convex_hull\": %.9f, \"olson\": %.9f, \"oracle\": "
-                   "%.9f, \"least_squares_own\": %.9f, \"convex_hull_own\": %.9f, \"clock\": %.9f, "
+                   "%.9f, \"least_squares_own\": %.9f, \"convex_hull_own\": %.9f, "
+                   "\"blind_oracle\": %.9f, \"blind_oracle_wrong_frames\": %.6f, \"clock\": %.9f, "
                    "\"total\": %.9f, \"wrong_frames\": %.6f, "
                    "\"error_over_stddev\": %.4f, \"within_2_stddev\": %.6f, \"update\": %.9f}",
                    first ? "" : ",", row.name.c_str(), sessions, s.arrival, s.least_squares,
                    s.convex_hull, s.olson, s.oracle, s.least_squares_own, s.convex_hull_own,
-                   s.clock, s.total, s.wrong_frames, s.clock_ratio, s.covered, s.update_seconds);
+                   s.blind_oracle, s.blind_oracle_wrong_frames, s.clock, s.total, s.wrong_frames,
+                   s.clock_ratio, s.covered, s.update_seconds);
     first = false;
   }
   if (file) {

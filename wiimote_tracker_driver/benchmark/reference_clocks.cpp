@@ -86,6 +86,83 @@ double pointMass(const SimulatedSession& session, const LinkModel& link) {
     mean += mass[i] * (i - kHalf) * kCell;
   return start + static_cast<double>(frame - first.frame) * session.period + mean;
 }
+
+// The exposure time of the newest report, on a grid over `kPeriods` periods around the true one.
+class ExposureGrid {
+ public:
+  explicit ExposureGrid(double period) : cell_(period / kCells) {}
+
+  /// The newest report now is another one: `frames` true periods later, by runs of lost frames.
+  void advance(std::int64_t frames, const LinkModel& link) {
+    const double drop = link.drops * (1.0 - link.burst) / (1.0 - link.drops);
+    std::fill(next_.begin(), next_.end(), 0.0);
+    for (int phase = 0; phase < kCells; ++phase) {
+      double run = 0.0;  // probability that the frame before was lost
+      for (std::int64_t to = 1; to <= kPeriods + frames; ++to) {
+        const double direct = to <= kPeriods ? mass_[index(to - 1, phase)] : 0.0;
+        if (to >= frames && to - frames < kPeriods)
+          next_[index(to - frames, phase)] = (1.0 - drop) * direct + (1.0 - link.burst) * run;
+        run = drop * direct + link.burst * run;
+      }
+    }
+    mass_.swap(next_);
+  }
+
+  void blur(double stddev) {
+    const double sd = stddev / cell_;
+    const int reach = static_cast<int>(std::ceil(4.0 * sd));
+    if (reach == 0)
+      return;
+    std::fill(next_.begin(), next_.end(), 0.0);
+    for (int d = -reach; d <= reach; ++d) {
+      const double weight = std::exp(-0.5 * d * d / (sd * sd));
+      for (int i = std::max(0, -d); i < std::min(kSize, kSize - d); ++i)
+        next_[static_cast<std::size_t>(i + d)] += weight * mass_[static_cast<std::size_t>(i)];
+    }
+    mass_.swap(next_);
+  }
+
+  /// `likelihood` of a time after the true one [s].
+  template <typename Likelihood>
+  void weigh(const Likelihood& likelihood) {
+    double sum = 0.0;
+    for (int i = 0; i < kSize; ++i)
+      sum += mass_[static_cast<std::size_t>(i)] *= likelihood(offset(i));
+    for (double& m : mass_)
+      m /= sum;
+  }
+
+  /// Mean of the phase, in the most probable period; after the true time [s].
+  double estimate() const {
+    double x = 0.0, y = 0.0;
+    for (int i = 0; i < kSize; ++i) {
+      const double angle = 2.0 * M_PI * i / kCells;
+      x += mass_[static_cast<std::size_t>(i)] * std::cos(angle);
+      y += mass_[static_cast<std::size_t>(i)] * std::sin(angle);
+    }
+    const double phase = std::atan2(y, x) / (2.0 * M_PI) * kCells;
+    std::vector<double> periods(kPeriods + 2, 0.0);
+    for (int i = 0; i < kSize; ++i)
+      periods[static_cast<std::size_t>(std::lround((i - phase) / kCells))] +=
+          mass_[static_cast<std::size_t>(i)];
+    const auto best = std::max_element(periods.begin(), periods.end()) - periods.begin();
+    return offset(0) + (phase + static_cast<double>(best) * kCells) * cell_;
+  }
+
+ private:
+  static constexpr int kCells = 500;  // per period
+  static constexpr int kPeriods = 11;
+  static constexpr int kSize = kCells * kPeriods;
+
+  static std::size_t index(std::int64_t period, int phase) {
+    return static_cast<std::size_t>(period * kCells + phase);
+  }
+  double offset(int i) const { return (i - kSize / 2) * cell_; }
+
+  double cell_;
+  std::vector<double> mass_ = std::vector<double>(kSize, 1.0 / kSize);
+  std::vector<double> next_ = std::vector<double>(kSize);
+};
 }  // namespace
 
 double leastSquares(const SimulatedSession& session) {
@@ -141,6 +218,34 @@ double olson(const SimulatedSession& session) {
 
 double oracle(const SimulatedSession& session, const LinkModel& link) {
   return link.core == LinkModel::Core::kBell ? kalman(session, link) : pointMass(session, link);
+}
+
+double oracleWithoutNumbers(const SimulatedSession& session, const LinkModel& link) {
+  ExposureGrid grid(session.period);
+  const SimulatedReport& first = session.reports.front();
+  const auto readyBefore = [&](double late) {
+    return late > 0.0 ? -std::expm1(-late / link.spread) : 0.0;
+  };
+  double base = 0.0;
+  std::int64_t frame = first.frame;
+  for (const SimulatedReport& report : session.reports) {
+    if (&report != &first)
+      grid.advance(report.frame - frame, link);
+    grid.blur(link.wander *
+              std::sqrt(static_cast<double>(report.frame - frame) * session.period / 10.0));
+    frame = report.frame;
+    base = first.exposure + link.least_delay +
+           static_cast<double>(frame - first.frame) * session.period;
+    grid.weigh([&](double offset) {
+      const double late = report.arrival - base - offset;
+      if (report.queued)
+        return readyBefore(late);
+      if (link.slot > 0.0)
+        return readyBefore(late) - readyBefore(late - link.slot);
+      return late > 0.0 ? std::exp(-late / link.spread) : 0.0;
+    });
+  }
+  return base + grid.estimate();
 }
 
 }  // namespace wiimote_tracker::exposure_clock

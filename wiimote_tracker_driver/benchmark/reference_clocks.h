@@ -5,8 +5,8 @@
 
 namespace wiimote_tracker::exposure_clock {
 
-// Other estimators of the last report's exposure time [s], late by a constant. All are told the
-// true frame numbers, which a real receiver does not have.
+// Other estimators of the last report's exposure time [s], late by a constant. All but the last use
+// the frame numbers of the session, which a real receiver does not have.
 
 /// Straight line through all arrivals.
 double leastSquares(const SimulatedSession& session);
@@ -22,6 +22,10 @@ double olson(const SimulatedSession& session);
 /// What can be reached: knows spread, wander, slots and which reports were queued. For a bell a
 /// Kalman filter that does not know the period; for a hard edge a point-mass filter that does.
 double oracle(const SimulatedSession& session, const LinkModel& link);
+
+/// The same for a hard edge, of one who is not told the frame numbers but how frames are lost: a
+/// point-mass filter over the exposure time of the newest report, period after period.
+double oracleWithoutNumbers(const SimulatedSession& session, const LinkModel& link);
 
 }  // namespace wiimote_tracker::exposure_clock
 

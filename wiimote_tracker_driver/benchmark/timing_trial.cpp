@@ -22,12 +22,12 @@ double rmsAboutMean(const std::vector<double>& values) {
 }
 }  // namespace
 
-TimingScore runTiming(const LinkModel& link, double duration, int sessions) {
-  std::vector<double> arrival, squares, hull, olsons, own_squares, own_hull, best, clock, total,
-      clock_stddev, stddev;
+TimingScore runTiming(const LinkModel& link, double duration, int sessions, bool blind_oracle) {
+  std::vector<double> arrival, squares, hull, olsons, own_squares, own_hull, best, blind, clock,
+      total, clock_stddev, stddev;
   double seconds = 0.0;
   std::size_t reports = 0;
-  int wrong = 0;
+  int wrong = 0, blind_wrong = 0;
   for (int i = 0; i < sessions; ++i) {
     const SimulatedSession session = simulate(link, duration, static_cast<std::uint64_t>(i) + 1);
     ExposureClock ours;
@@ -53,6 +53,11 @@ TimingScore runTiming(const LinkModel& link, double duration, int sessions) {
     own_hull.push_back(toNearest(convexHull(numbered) - truth));
     olsons.push_back(olson(session) - truth);
     best.push_back(oracle(session, link) - truth);
+    if (blind_oracle && link.core == LinkModel::Core::kHardEdge) {
+      const double error = oracleWithoutNumbers(session, link) - truth;
+      blind.push_back(toNearest(error));
+      blind_wrong += std::abs(error) > 0.5 * session.period;
+    }
     // A bell's reference is its mean less a typical spread.
     const double bell = link.core == LinkModel::Core::kBell ? 3.4 * link.spread - 0.0024 : 0.0;
     const double error = estimate.exposure - truth - bell;
@@ -83,6 +88,8 @@ TimingScore runTiming(const LinkModel& link, double duration, int sessions) {
   score.convex_hull_own = rmsAboutMean(own_hull);
   score.olson = rmsAboutMean(olsons);
   score.oracle = rmsAboutMean(best);
+  score.blind_oracle = blind.empty() ? 0.0 : rmsAboutMean(blind);
+  score.blind_oracle_wrong_frames = static_cast<double>(blind_wrong) / sessions;
   score.clock = rmsAboutMean(clock);
   score.total = std::sqrt(total_square);
   score.wrong_frames = static_cast<double>(wrong) / sessions;

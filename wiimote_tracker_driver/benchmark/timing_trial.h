@@ -9,6 +9,9 @@ namespace wiimote_tracker::exposure_clock {
 /// sessions (the constant part of the delay). Root mean squares [s].
 struct TimingScore {
   double arrival, oracle;
+  /// Not told the frame numbers; hard edge only, else 0. To the nearest true exposure, and share of
+  /// last reports taken for another frame.
+  double blind_oracle, blind_oracle_wrong_frames;
   /// Told the true frame numbers,
   double least_squares, convex_hull, olson;
   /// and with the numbers that a receiver has: ours, as they were when each report came. To the
@@ -22,8 +25,9 @@ struct TimingScore {
   double update_seconds;  ///< computing time per report
 };
 
-/// Plays `sessions` sessions of `duration` [s] with seeds 1, 2, ...
-TimingScore runTiming(const LinkModel& link, double duration, int sessions);
+/// Plays `sessions` sessions of `duration` [s] with seeds 1, 2, ... The oracle without numbers
+/// takes much longer than all else.
+TimingScore runTiming(const LinkModel& link, double duration, int sessions, bool blind_oracle);
 
 }  // namespace wiimote_tracker::exposure_clock
 

@@ -95,6 +95,10 @@ TEST(Host, RemotesAreFoundWithAllThatTheKernelTells) {
   root.write("sys/bus/hid/devices/0003:046D:C31C.0003/uevent",
              "DRIVER=hid-generic\nHID_ID=0003:0000046D:0000C31C\nHID_NAME=Keyboard\n");
   root.write("sys/bus/hid/devices/0003:046D:C31C.0003/hidraw/hidraw0/dev", "");
+  root.write("sys/bus/hid/devices/0005:057E:0330.0004/uevent",
+             "DRIVER=wiimote\nHID_ID=0005:0000057E:00000330\nHID_NAME=Nintendo RVL-CNT-01-UC\n");
+  root.write("sys/bus/hid/devices/0005:057E:0306.0005/uevent",
+             "DRIVER=wiimote\nHID_ID=0005:0000057E:00000306\nHID_NAME=Nintendo RVL-WBC-01\n");
   const Host host = readHost(root.path());
   ASSERT_EQ(2u, host.remotes.size());
   EXPECT_EQ("/dev/hidraw9", host.remotes[0].path);

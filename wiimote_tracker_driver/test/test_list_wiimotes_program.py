@@ -129,6 +129,13 @@ def test_write_begins_a_new_list(remotes, tmp_path):
     assert 'cameras:\n  wiimote_1: "virtual:%s"\n' % remotes[0].path in path.read_text()
 
 
+def test_a_remote_that_is_not_there_is_not_written(tmp_path):
+    path = tmp_path / 'cameras.yaml'
+    _, text = list_wiimotes('--write', str(path), '--virtual', str(tmp_path / 'nowhere.sock'))
+    assert 'Remote 1 is not written' in text
+    assert not path.exists()
+
+
 def test_replace_finds_the_calibration_where_ros_keeps_it(tmp_path):
     path = tmp_path / 'cameras.yaml'
     path.write_text('cameras:\n  door: "00:1f:32:00:00:01"\n')

@@ -68,6 +68,10 @@ std::vector<KernelRemote> readRemotes(const fs::path& root) {
     remote.plus = endsWith(id, ":0000057e:00000330");
     if (!remote.plus && !endsWith(id, ":0000057e:00000306"))
       continue;
+    // The Wii U Pro Controller and the Balance Board share the ids, but have no camera.
+    const std::string& name = values["HID_NAME"];
+    if (endsWith(name, "RVL-CNT-01-UC") || endsWith(name, "RVL-WBC-01"))
+      continue;
     remote.address = lowerCase(values["HID_UNIQ"]);
     // Of a Bluetooth device this is its adapter, of others a place.
     if (isBluetoothAddress(values["HID_PHYS"]))

@@ -5,6 +5,7 @@
 #include "replacement.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/transport/transport.h"
+#include "wiimote_tracker_driver/transport/users.h"
 
 #include <time.h>
 #include <unistd.h>
@@ -156,6 +157,13 @@ void check(const CameraList& list, Row* row) {
     row->check = checkRemote(row->device, kAnswerTimeout);
     if (row->address.empty())
       row->address = row->check.identity;
+    // A driver that has it is named already.
+    if (row->device.kind == transport::DeviceName::Kind::kPath &&
+        row->check.state == RemoteCheck::State::kFree) {
+      const std::string others = transport::sharedWith(row->device.value);
+      if (!others.empty())
+        row->hints.push_back(others);
+    }
   }
   if (!row->text.empty())
     row->camera = list.nameOf(row->text);
@@ -201,10 +209,8 @@ void identify(const std::vector<Row>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const int number = static_cast<int>(i) + 1;
     if (rows[i].check.state != RemoteCheck::State::kFree) {
-      std::printf("Remote %d cannot flash now: %s\n", number,
-                  rows[i].check.state == RemoteCheck::State::kTaken
-                      ? "a driver has it, and shows the camera's LEDs"
-                      : "see above");
+      std::printf("Remote %d cannot flash now%s%s\n", number,
+                  rows[i].check.sentence.empty() ? "" : ": ", rows[i].check.sentence.c_str());
       continue;
     }
     std::printf("Remote %d flashes %d times.\n", number, number);
@@ -222,7 +228,7 @@ void write(const std::string& path, CameraList list, const std::vector<Row>& row
   bool changed = false;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
-    if (row.text.empty()) {
+    if (row.text.empty() || row.address.empty()) {
       std::printf("Remote %zu is not written, because its address is unknown.\n", i + 1);
     } else if (row.camera.empty()) {
       std::printf("Remote %zu (%s) is camera %s.\n", i + 1, row.address.c_str(),

@@ -89,6 +89,12 @@ void copyText(const std::string& text, __u8 (&field)[N]) {
   std::memcpy(field, text.data(), std::min(text.size(), N - 1));
 }
 
+Device::Options deviceOptions(const UhidDevice::Options& options) {
+  Device::Options device = options.device;
+  device.motion_plus |= options.model == UhidDevice::Model::kRemotePlus;
+  return device;
+}
+
 }  // namespace
 
 struct UhidDevice::State {
@@ -97,7 +103,7 @@ struct UhidDevice::State {
         options(device_options),
         uhid(::open(kPath, O_RDWR | O_CLOEXEC | O_NONBLOCK)),
         wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-        device(options.device) {
+        device(deviceOptions(options)) {
     if (uhid.get() < 0)
       fail(std::string("cannot open ") + kPath + " (load the module uhid and be root)");
     if (wake.get() < 0)

@@ -18,8 +18,9 @@ class UhidDevice {
  public:
   /// The values are the USB product ids.
   enum class Model : std::uint16_t {
-    kRemote = 0x0306,      ///< RVL-CNT-01
-    kRemotePlus = 0x0330,  ///< RVL-CNT-01-TR; refuses output on the control channel.
+    kRemote = 0x0306,  ///< RVL-CNT-01
+    /// RVL-CNT-01-TR; refuses output on the control channel, has a MotionPlus built in.
+    kRemotePlus = 0x0330,
   };
 
   /// Hears each output report as it reaches the device; called in the device's own thread, and must

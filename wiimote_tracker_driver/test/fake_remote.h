@@ -140,6 +140,8 @@ class FakeRemote {
     }
     if (b[1] & 2)
       say({0x22, 0, 0, b[0], 0}, kDelay);
+    if (b[0] == 0x12 && sendsImages())
+      say(image(), kDelay);  // what it has, at once
   }
 
  private:

@@ -584,6 +584,17 @@ TEST_F(WiimoteTest, ChecksAreAsRareAsStated) {
   EXPECT_NEAR(30, reads, 1);
 }
 
+TEST_F(WiimoteTest, WhatFollowsAModeAtOnceIsNoImageOfItsOwn) {
+  runToImage();
+  int images = 0;
+  for (int i = 0; i < 40; ++i) {
+    remote_.say({0x20, 0, 0, 0x18, 0, 0, 0x8f});  // the mode is then said again, and answered
+    images += run(0.25);
+  }
+  EXPECT_NEAR(1000, images, 2);
+  EXPECT_LE(40, remote_.count({0x12, 0x06, 0x33}));
+}
+
 TEST_F(WiimoteTest, CheckWithoutAnswerDisturbsNoStream) {
   runToImage();
   remote_.lose = [](const Report& report) { return report.bytes[0] == 0x17; };

@@ -18,6 +18,10 @@ constexpr int kVerifyAttempts = 3;
 // While the motor is to run it is told so this often [s].
 constexpr double kRumbleInterval = 0.1;
 
+// A remote says its present data once more right after it has acknowledged a mode; no later than
+// this, at most two turns of the radio [s].
+constexpr double kEcho = 0.0025;
+
 constexpr std::uint8_t kButtonsReport = 0x30;
 
 bool isDataReport(std::uint8_t id) {
@@ -138,6 +142,8 @@ std::optional<protocol::DataReport> Session::handle(const Report& report, double
 }
 
 void Session::handleAcknowledgement(const protocol::Acknowledgement& acknowledgement, double now) {
+  if (acknowledgement.report_id == protocol::kReportModeId)
+    mode_acknowledged_ = now;
   const std::uint8_t id = request().id();
   if (step_ == Step::kStreaming || acknowledgement.report_id != id)
     return;
@@ -189,6 +195,10 @@ std::optional<protocol::DataReport> Session::handleData(const Report& report, do
     otherReport(report.id(), now);
     return std::nullopt;
   }
+  // No image of its own, and out of the camera's rhythm.
+  const auto acknowledged = std::exchange(mode_acknowledged_, std::nullopt);
+  if (acknowledged && now - *acknowledged < kEcho)
+    return std::nullopt;
   const auto image = assembler_.add(report, now);
   if (!image)
     return std::nullopt;

@@ -141,6 +141,8 @@ class Session {
   bool verifiable_ = true;      ///< Until it has failed too often without ever having worked.
   int set_ups_ = 0;             ///< Of the camera, without success between them.
 
+  std::optional<double> mode_acknowledged_;  ///< When, with no data report since [s].
+
   bool rumble_ = false;
   double rumble_due_ = 0.0;
 

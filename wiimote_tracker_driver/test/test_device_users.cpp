@@ -63,7 +63,8 @@ class OtherProgram {
 class Users : public testing::Test {
  protected:
   void SetUp() override {
-    char pattern[] = "/tmp/wiimote_tracker_users_XXXXXX";
+    // A file system like that of the device nodes.
+    char pattern[] = "/dev/shm/wiimote_tracker_users_XXXXXX";
     const int fd = ::mkostemp(pattern, O_CLOEXEC);
     ASSERT_LE(0, fd);
     ::close(fd);

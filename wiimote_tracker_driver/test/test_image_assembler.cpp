@@ -48,7 +48,7 @@ TEST(ImageAssembler, OneReportAnImageUnlessTheFormatIsFull) {
   EXPECT_THROW(ImageAssembler(IrFormat::kNone), std::invalid_argument);
 }
 
-class FullFormat : public testing::Test {
+class ImageHalves : public testing::Test {
  protected:
   /// The number of the image that the report completes; -1: none; -2: a mixed one.
   int add(const Report& report, double now) {
@@ -62,7 +62,7 @@ class FullFormat : public testing::Test {
   ImageAssembler images_{IrFormat::kFull};
 };
 
-TEST_F(FullFormat, HalvesMakeAnImage) {
+TEST_F(ImageHalves, HalvesMakeAnImage) {
   EXPECT_EQ(0x3e, images_.reportMode());
   EXPECT_TRUE(images_.expects(0x3e) && images_.expects(0x3f));
   EXPECT_FALSE(images_.expects(0x33));
@@ -72,7 +72,7 @@ TEST_F(FullFormat, HalvesMakeAnImage) {
   }
 }
 
-TEST_F(FullFormat, LostHalfGivesNoImage) {
+TEST_F(ImageHalves, LostHalfGivesNoImage) {
   EXPECT_EQ(-1, add(first(1), 0.00));
   EXPECT_EQ(-1, add(first(2), 0.02));  // the second half of 1 was lost
   EXPECT_EQ(2, add(second(2), 0.03));
@@ -81,24 +81,24 @@ TEST_F(FullFormat, LostHalfGivesNoImage) {
   EXPECT_EQ(4, add(second(4), 0.07));
 }
 
-TEST_F(FullFormat, HalvesOfDifferentImagesAreNeverPutTogether) {
+TEST_F(ImageHalves, HalvesOfDifferentImagesAreNeverPutTogether) {
   EXPECT_EQ(-1, add(first(1), 0.00));
   EXPECT_EQ(-1, add(second(2), 0.03));  // two reports between them were lost
   EXPECT_EQ(-1, add(second(3), 0.05));
 }
 
-TEST_F(FullFormat, LateSecondHalfStillCounts) {
+TEST_F(ImageHalves, LateSecondHalfStillCounts) {
   EXPECT_EQ(-1, add(first(1), 0.000));
   EXPECT_EQ(1, add(second(1), 0.019));
 }
 
-TEST_F(FullFormat, SecondHalfIsUsedOnce) {
+TEST_F(ImageHalves, SecondHalfIsUsedOnce) {
   EXPECT_EQ(-1, add(first(1), 0.00));
   EXPECT_EQ(1, add(second(1), 0.01));
   EXPECT_EQ(-1, add(second(1), 0.01));
 }
 
-TEST_F(FullFormat, TruncatedHalfGivesNoImage) {
+TEST_F(ImageHalves, TruncatedHalfGivesNoImage) {
   Report cut = second(1);
   cut.size = 21;
   EXPECT_EQ(-1, add(first(1), 0.00));
@@ -107,7 +107,7 @@ TEST_F(FullFormat, TruncatedHalfGivesNoImage) {
 }
 
 // Random losses, alone and in bursts, in order and in time.
-TEST_F(FullFormat, NoLossMixesImages) {
+TEST_F(ImageHalves, NoLossMixesImages) {
   std::mt19937 random(5);
   int complete = 0;
   int whole = 0;

@@ -18,8 +18,9 @@ constexpr int kVerifyAttempts = 3;
 // While the motor is to run it is told so this often [s].
 constexpr double kRumbleInterval = 0.1;
 
-// A remote says its present data once more right after it has acknowledged a mode; no later than
-// this, at most two turns of the radio [s].
+// A remote may say its present data once more right after it has acknowledged a mode (the virtual
+// one does): no later than this, two turns of the radio [s]. An image that comes so soon is then
+// lost.
 constexpr double kEcho = 0.0025;
 
 constexpr std::uint8_t kButtonsReport = 0x30;

@@ -304,6 +304,18 @@ TEST(Mode, PairOfReportsIsOneSample) {
   EXPECT_EQ(0x3e, device.sample(Senses())->at(0));
 }
 
+TEST(Mode, EachPairOfBitsOfTheSplitAccelerationHasItsPlace) {
+  Device device;
+  device.handleOutput({0x12, 0x04, 0x3e});
+  device.sample(Senses());
+  Senses senses;
+  senses.acceleration = {0, 0, -80.0 / 102.0};  // z = 0x1c8, of which 01 11 00 10 are sent
+  const Bytes first = *device.sample(senses);
+  const Bytes second = *device.sample(senses);
+  EXPECT_EQ((Bytes{0x3e, 0x60, 0x20, 0x84}), Bytes(first.begin(), first.begin() + 4));
+  EXPECT_EQ((Bytes{0x3f, 0x40, 0x00, 0x82}), Bytes(second.begin(), second.begin() + 4));
+}
+
 TEST(Mode, PairOnlyOnChanges) {
   Device device;
   EXPECT_EQ(0x3e, device.handleOutput({0x12, 0x00, 0x3e}).at(0).at(0));

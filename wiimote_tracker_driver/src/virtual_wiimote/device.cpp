@@ -2,9 +2,8 @@
 
 #include "data_report.h"
 #include "eeprom.h"
+#include "extension_port.h"
 #include "ir_camera.h"
-#include "motion_plus.h"
-#include "nunchuk.h"
 
 #include <algorithm>
 #include <deque>
@@ -60,15 +59,14 @@ struct Device::State {
   // Survives a change of batteries.
   Options options;
   Eeprom eeprom;
-  bool nunchuk_plugged = false;
 
   // Does not.
   struct Volatile {
-    explicit Volatile(const Options& options) : camera(options.slot_seed) {}
+    explicit Volatile(const Options& options)
+        : camera(options.slot_seed), extension(options.motion_plus) {}
 
     IrCamera camera;
-    Nunchuk nunchuk;
-    MotionPlus motion_plus;
+    ExtensionPort extension;
     Senses senses;
     std::uint8_t leds = 0;
     bool rumble = false;
@@ -93,28 +91,16 @@ struct Device::State {
   Bytes status() const {
     Bytes report = withButtons(0x20);
     const bool low = options.battery < kBatteryLow;
-    report.push_back(static_cast<std::uint8_t>(now.leds << 4 | (now.camera.onBus() ? 0x08 : 0) |
-                                               (now.speaker ? 0x04 : 0) |
-                                               (hasExtension() ? 0x02 : 0) | (low ? 0x01 : 0)));
+    report.push_back(static_cast<std::uint8_t>(
+        now.leds << 4 | (now.camera.onBus() ? 0x08 : 0) | (now.speaker ? 0x04 : 0) |
+        (now.extension.empty() ? 0 : 0x02) | (low ? 0x01 : 0)));
     report.insert(report.end(), {0, 0, options.battery});
     return report;
   }
 
-  bool hasExtension() const { return nunchuk_plugged || now.motion_plus.active(); }
-
-  ExtensionData extension() const {
-    if (now.motion_plus.active())
-      return now.motion_plus.data();
-    if (nunchuk_plugged)
-      return now.nunchuk.data();
-    ExtensionData none;
-    none.fill(0xff);
-    return none;
-  }
-
   Sample takeSample() const {
     return {now.senses.buttons, Eeprom::convertAcceleration(now.senses.acceleration),
-            now.camera.data(), extension()};
+            now.camera.data(), now.extension.data()};
   }
 
   bool inHalves() const { return now.mode == kFirstHalf || now.mode == kSecondHalf; }
@@ -142,34 +128,20 @@ struct Device::State {
     return report;
   }
 
-  /// Whose register is at this address; nobody's: error 7.
-  bool nunchukHas(std::uint32_t address) const {
-    return nunchuk_plugged && !now.motion_plus.active() && Nunchuk::hasRegister(address);
-  }
-  bool motionPlusHas(std::uint32_t address) const {
-    return options.motion_plus && now.motion_plus.hasRegister(address);
-  }
-
+  /// Whether somebody answers at this address of the register space.
   bool onBus(std::uint32_t address) const {
-    return (isCamera(address) && now.camera.onBus()) || nunchukHas(address) ||
-           motionPlusHas(address);
+    return (isCamera(address) && now.camera.onBus()) || now.extension.hasRegister(address);
   }
 
   std::uint8_t readRegister(std::uint32_t address) const {
-    if (isCamera(address))
-      return now.camera.read(address);
-    if (motionPlusHas(address))
-      return now.motion_plus.read(address);
-    return now.nunchuk.read(address);
+    return isCamera(address) ? now.camera.read(address) : now.extension.read(address);
   }
 
   void writeRegister(std::uint32_t address, std::uint8_t value) {
     if (isCamera(address))
       now.camera.write(address, value);
-    else if (motionPlusHas(address))
-      now.motion_plus.write(address, value);
-    else if (nunchukHas(address))
-      now.nunchuk.write(address, value);
+    else
+      now.extension.write(address, value);
   }
 
   /// What is wrong with this part of a space; 0: nothing.
@@ -204,8 +176,7 @@ struct Device::State {
     Bytes payload(in.begin() + 6, in.end());
     payload.resize(16, 0);
     const std::uint8_t error = addressError(in[1], address, size);
-    const bool had_extension = hasExtension();
-    const bool was_active = now.motion_plus.active();
+    const bool was_active = now.extension.motionPlusActive();
     for (std::uint32_t i = 0; i < size && error == 0; ++i) {
       if ((in[1] & kSpaceMask) == kEepromSpace)
         eeprom[address + i] = payload[i];
@@ -214,7 +185,7 @@ struct Device::State {
     }
     out.push_back(acknowledgement(kWriteMemory, error));
     // To the host it looks as if something had been plugged in or pulled out.
-    if (hasExtension() != had_extension || now.motion_plus.active() != was_active)
+    if (now.extension.motionPlusActive() != was_active)
       out.push_back(extensionChanged());
   }
 
@@ -349,15 +320,16 @@ void Device::setBattery(std::uint8_t level) {
 }
 
 std::optional<Bytes> Device::setNunchuk(bool plugged) {
-  if (plugged == state_->nunchuk_plugged)
+  if (plugged == state_->now.extension.nunchuk())
     return std::nullopt;
-  state_->nunchuk_plugged = plugged;
-  state_->now.nunchuk = Nunchuk();
+  state_->now.extension.setNunchuk(plugged);
   return state_->extensionChanged();
 }
 
 void Device::powerCycle() {
+  const bool nunchuk = state_->now.extension.nunchuk();
   state_->now = State::Volatile(state_->options);
+  state_->now.extension.setNunchuk(nunchuk);
 }
 
 }  // namespace wiimote_tracker::virtual_wiimote

@@ -1,0 +1,113 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_TEST_DRIVER_FIXTURE_H
+#define WIIMOTE_TRACKER_DRIVER_TEST_DRIVER_FIXTURE_H
+
+#include "wiimote_tracker_driver/virtual_wiimote/server.h"
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace wiimote_tracker::driver {
+
+/// A virtual remote with a clock as real ones have it: images at start() + n * kPeriod, reported
+/// after a delay. Senses the same thing until told otherwise.
+class Remote {
+ public:
+  static constexpr double kPeriod = 0.010035;  // [s]
+  static constexpr double kDelay = 0.008;      // [s]
+
+  /// What happens at image n.
+  struct Instant {
+    virtual_wiimote::Senses senses;
+    double delay = kDelay;  ///< Of its report [s].
+  };
+
+  Remote(const std::string& path, const std::string& identity)
+      : server(path, identity, virtual_wiimote::Device::Options()),
+        start_(now()),
+        thread_([this] { run(); }) {}
+  ~Remote() {
+    stop_ = true;
+    thread_.join();
+  }
+
+  void sense(const virtual_wiimote::Senses& senses) {
+    play([senses](std::uint64_t) { return Instant{senses, kDelay}; });
+  }
+
+  /// Sense what `script` says of each image.
+  void play(std::function<Instant(std::uint64_t)> script) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    script_ = std::move(script);
+  }
+
+  /// When image n is taken, on the steady clock [s].
+  double exposure(std::uint64_t n) const { return start_ + static_cast<double>(n) * kPeriod; }
+
+  static double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+  }
+
+  virtual_wiimote::Server server;
+
+ private:
+  void run() {
+    for (std::uint64_t n = 0; !stop_; ++n) {
+      Instant instant;
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        instant = script_(n);
+      }
+      std::this_thread::sleep_for(
+          std::chrono::duration<double>(exposure(n) + instant.delay - now()));
+      server.sample(instant.senses);
+    }
+  }
+
+  const double start_;
+  std::mutex mutex_;
+  std::function<Instant(std::uint64_t)> script_ = [](std::uint64_t) { return Instant(); };
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+/// Handles callbacks until the condition holds; false when it does not within 20 s.
+template <typename Condition>
+bool eventually(Condition condition) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline || !ros::ok())
+      return false;
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+  }
+  return true;
+}
+
+/// All messages of a topic since this was made.
+template <typename M>
+struct Recorder {
+  explicit Recorder(const std::string& topic)
+      : subscriber(ros::NodeHandle().subscribe<M>(
+            topic,
+            1000,
+            [this](const boost::shared_ptr<const M>& message) { messages.push_back(*message); })) {}
+  bool any() const { return !messages.empty(); }
+  const M& last() const { return messages.back(); }
+
+  std::vector<M> messages;
+  ros::Subscriber subscriber;
+};
+
+}  // namespace wiimote_tracker::driver
+
+#endif  // WIIMOTE_TRACKER_DRIVER_TEST_DRIVER_FIXTURE_H

@@ -151,8 +151,9 @@ std::unique_ptr<Transport> openFirstFree(const std::vector<Found>& all) {
     throw PermissionDenied(*denied);
   if (all.size() == 1 && !taken.empty())
     throw DeviceTaken(taken);
-  throw DeviceTaken("all " + std::to_string(all.size()) +
-                    " connected Wii Remotes are in use: connect another one");
+  throw DeviceTaken(
+      "all " + std::to_string(all.size()) +
+      " connected Wii Remotes are in use, by whom list_wiimotes shows: connect another one");
 }
 
 }  // namespace

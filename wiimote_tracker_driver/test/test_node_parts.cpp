@@ -1,0 +1,231 @@
+// What the node's messages and parameters mean, without a master.
+#include "battery_publisher.h"
+#include "blob_publisher.h"
+#include "driver_parameters.h"
+#include "joy_publisher.h"
+#include "link_diagnostics.h"
+#include "player_leds.h"
+
+#include <gtest/gtest.h>
+#include <wiimote_tracker_driver/DriverConfig.h>
+#include <yaml-cpp/yaml.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+namespace wiimote_tracker::driver {
+namespace {
+
+protocol::IrSpot spot() {
+  protocol::IrSpot s;
+  s.seen = true;
+  s.x = 300;
+  s.y = 100;
+  s.size = 4;
+  s.intensity = 200;
+  s.box = {36, 11, 38, 14};
+  return s;
+}
+
+TEST(Blob, FullFormatSaysAllAndPointsDown) {
+  const auto blob = irBlob(spot(), protocol::IrFormat::kFull, 2);
+  EXPECT_EQ(300, blob.x);
+  EXPECT_EQ(667, blob.y);
+  EXPECT_EQ(4, blob.size);
+  EXPECT_EQ(200, blob.intensity);
+  EXPECT_EQ(2, blob.slot);
+  // Columns 36..38 are pixels 288..311. Rows 11..14 are 88..119 from below, so 648..679 from above.
+  EXPECT_EQ((std::vector<float>{288, 648, 311, 679}), blob.bounding_box);
+}
+
+TEST(Blob, BoxOfTheWholeSensorIsTheImage) {
+  protocol::IrSpot s = spot();
+  s.box = {0, 0, 127, 95};
+  EXPECT_EQ((std::vector<float>{0, 0, 1023, 767}),
+            irBlob(s, protocol::IrFormat::kFull, 0).bounding_box);
+}
+
+TEST(Blob, OtherFormatsDoNotInventWhatTheyDoNotSay) {
+  const auto extended = irBlob(spot(), protocol::IrFormat::kExtended, 0);
+  EXPECT_EQ(4, extended.size);
+  EXPECT_TRUE(std::isnan(extended.intensity));
+  EXPECT_TRUE(extended.bounding_box.empty());
+  const auto basic = irBlob(spot(), protocol::IrFormat::kBasic, 0);
+  EXPECT_TRUE(std::isnan(basic.size));
+  EXPECT_TRUE(std::isnan(basic.intensity));
+  EXPECT_TRUE(basic.bounding_box.empty());
+}
+
+TEST(Joy, EachButtonHasItsPlace) {
+  const std::map<std::uint16_t, JoyButton> places{
+      {0x0002, kButtonOne},  {0x0001, kButtonTwo},   {0x0008, kButtonA},    {0x0004, kButtonB},
+      {0x1000, kButtonPlus}, {0x0010, kButtonMinus}, {0x0100, kButtonLeft}, {0x0200, kButtonRight},
+      {0x0800, kButtonUp},   {0x0400, kButtonDown},  {0x0080, kButtonHome}};
+  for (const auto& place : places) {
+    std::array<int, kButtonCount> expected{};
+    expected[place.second] = 1;
+    EXPECT_EQ(expected, joyButtons(place.first)) << std::hex << place.first;
+  }
+  EXPECT_EQ((std::array<int, kButtonCount>{}), joyButtons(0));
+}
+
+TEST(PlayerLeds, AddUpToTheNumberInTheName) {
+  for (int number = 1; number <= 10; ++number) {
+    const std::uint8_t leds = playerLeds("wiimote_" + std::to_string(number));
+    int sum = 0;
+    for (int led = 1; led <= 4; ++led)
+      sum += (leds >> (led - 1) & 1) * led;
+    EXPECT_EQ(number, sum);
+    EXPECT_EQ(leds, playerLeds("a" + std::to_string(number + 10)));
+  }
+  EXPECT_EQ(0x4, playerLeds("wiimote_3"));
+  EXPECT_EQ(0x1, playerLeds("left"));
+  EXPECT_EQ(0x1, playerLeds(""));
+  EXPECT_EQ(0xf, playerLeds("wiimote_0"));
+}
+
+TEST(Battery, IsLowByItsChargeOrByItsOwnWord) {
+  protocol::Status status;
+  status.battery = 0x20;  // 29.6 %
+  EXPECT_FALSE(batteryLow(status, 0.2));
+  EXPECT_TRUE(batteryLow(status, 0.3));
+  status.battery_low = true;
+  EXPECT_TRUE(batteryLow(status, 0.0));
+}
+
+TEST(Sensitivity, ByNameOrCustom) {
+  EXPECT_EQ(*protocol::irSensitivity("max"), sensitivity("max", "", ""));
+  EXPECT_EQ(*protocol::irSensitivity("wii_5"),
+            sensitivity("custom", "07 00 00 71 01 00 72 00 20", "1f 03"));
+  EXPECT_THROW(sensitivity("custom", "", ""), std::invalid_argument);
+  EXPECT_THROW(sensitivity("custom", "07 00", "1f 03"), std::invalid_argument);
+  EXPECT_THROW(sensitivity("07 00 00 71 01 00 72 00 20 1f 03", "", ""), std::invalid_argument);
+}
+
+TEST(Parameters, TheFileTheCodeAndTheLiveSettingsAgree) {
+  const DriverParameters p;
+  std::map<std::string, std::string> expected{{"device", p.device},
+                                              {"camera_name", p.camera_name},
+                                              {"camera_info_url", p.camera_info_url},
+                                              {"ir_mode", p.ir_mode},
+                                              {"ir_sensitivity", p.ir_sensitivity},
+                                              {"ir_sensitivity_block1", p.ir_sensitivity_block1},
+                                              {"ir_sensitivity_block2", p.ir_sensitivity_block2},
+                                              {"record", p.record}};
+  std::map<std::string, double> numbers{
+      {"latency", p.latency},
+      {"leds", p.leds},
+      {"battery_low", p.battery_low},
+      {"rumble_max", p.rumble_max},
+      {"linear_acceleration_stddev", p.linear_acceleration_stddev},
+      {"replay_rate", p.replay_rate},
+      {"realtime_priority", p.realtime_priority},
+      {"reply_timeout", p.reply_timeout},
+      {"silence_timeout", p.silence_timeout},
+      {"status_interval", p.status_interval}};
+  const YAML::Node file = YAML::LoadFile(DRIVER_YAML);
+  EXPECT_EQ(expected.size() + numbers.size() + 1, file.size()) << "each key is compared here";
+  for (const auto& text : expected)
+    EXPECT_EQ(text.second, file[text.first].as<std::string>()) << text.first;
+  for (const auto& number : numbers)
+    EXPECT_EQ(number.second, file[number.first].as<double>()) << number.first;
+  EXPECT_EQ(p.estimate_exposure, file["estimate_exposure"].as<bool>());
+
+  const auto live = wiimote_tracker_driver::DriverConfig::__getDefault__();
+  EXPECT_EQ(p.ir_sensitivity, live.ir_sensitivity);
+  EXPECT_EQ(p.ir_sensitivity_block1, live.ir_sensitivity_block1);
+  EXPECT_EQ(p.ir_sensitivity_block2, live.ir_sensitivity_block2);
+  EXPECT_EQ(p.leds, live.leds);
+  EXPECT_EQ(-1, wiimote_tracker_driver::DriverConfig::__getMin__().leds);
+  EXPECT_EQ(15, wiimote_tracker_driver::DriverConfig::__getMax__().leds);
+}
+
+TEST(Parameters, TheLiveSettingsOfferEverySensitivity) {
+  std::string menu;
+  for (const auto& parameter : wiimote_tracker_driver::DriverConfig::__getParamDescriptions__()) {
+    if (parameter->name == "ir_sensitivity")
+      menu = parameter->edit_method;
+  }
+  for (const std::string& name : sensitivityNames())
+    EXPECT_NE(std::string::npos, menu.find("'" + name + "'")) << name << " in " << menu;
+}
+
+class DiagnosticsTest : public testing::Test {
+ protected:
+  DiagnosticsTest() {
+    state_.link.state = wiimote::Link::State::kStreaming;
+    state_.link.accelerometer_calibrated = true;
+    state_.stream.rate = 99.0;
+    state_.clock.period = 0.01;
+    state_.stamp_stddev = 0.0002;
+  }
+
+  diagnostic_updater::DiagnosticStatusWrapper describe() {
+    diagnostic_updater::DiagnosticStatusWrapper status;
+    diagnostics_.describe(state_, status);
+    return status;
+  }
+
+  std::string value(const std::string& key) {
+    for (const auto& value : describe().values) {
+      if (value.key == key)
+        return value.value;
+    }
+    return "";
+  }
+
+  DriverState state_;
+  LinkDiagnostics diagnostics_{protocol::IrFormat::kExtended, 100.0, 0.2};
+};
+
+TEST_F(DiagnosticsTest, AllIsWell) {
+  const auto status = describe();
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::OK, status.level);
+  EXPECT_EQ("streaming", status.message);
+}
+
+TEST_F(DiagnosticsTest, WhatWasRestoredIsToldOnce) {
+  state_.link.restorations = 2;
+  state_.link.last_restoration = "the camera was switched off";
+  const auto status = describe();
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::WARN, status.level);
+  EXPECT_NE(std::string::npos, status.message.find("the camera was switched off"));
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::OK, describe().level);
+  EXPECT_EQ("2", value("Restorations"));
+  EXPECT_EQ("the camera was switched off", value("Last restoration"));
+}
+
+TEST_F(DiagnosticsTest, WhatIsWrongIsInTheSummary) {
+  const auto says = [&](const std::string& text) {
+    const auto status = describe();
+    return status.level != diagnostic_msgs::DiagnosticStatus::OK &&
+           status.message.find(text) != std::string::npos;
+  };
+  state_.stream.rate = 70.0;
+  EXPECT_TRUE(says("only 70 images"));
+  state_.link.kernel_driver = "wiimote";
+  EXPECT_TRUE(says("hid-wiimote"));
+  state_.shared_with = "somebody else reads along";
+  EXPECT_TRUE(says("somebody else"));
+  state_.recording_error = "the disk is full";
+  EXPECT_TRUE(says("the disk is full"));
+  state_.link.state = wiimote::Link::State::kSearching;
+  state_.link.error = "no Wii Remote is connected";
+  EXPECT_TRUE(says("no Wii Remote is connected"));
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::ERROR, describe().level);
+}
+
+TEST_F(DiagnosticsTest, StateOfTheExposureClock) {
+  EXPECT_EQ("in step", value("Exposure clock"));
+  state_.stamp_stddev = 0.01;
+  EXPECT_EQ("learning", value("Exposure clock"));
+  state_.stamp_stddev = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ("off: stamps are arrivals less the latency", value("Exposure clock"));
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::driver

@@ -1,0 +1,153 @@
+// What the driver costs and how well it holds: 32 remotes at once, a week of reports, timing.
+#include "load_trial.h"
+#include "soak_trial.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+using namespace wiimote_tracker;
+
+namespace {
+
+constexpr char kUsage[] =
+    "usage: benchmark_driver [--sections load,soak,timing] [--json FILE]\n"
+    "                        [--remotes N] [--seconds S] [--reports N]\n"
+    "\n"
+    "load    N (32) virtual remotes at 100 Hz into driver nodelets in this process, for S (30)\n"
+    "        seconds; brings its own ROS master\n"
+    "soak    N (60000000) reports through decoder and state machine in fake time\n"
+    "timing  the table of benchmark_timing\n";
+
+struct Options {
+  std::string sections = "load,soak,timing";
+  std::string json;
+  int remotes = 32;
+  double seconds = 30.0;
+  std::uint64_t reports = 60000000;
+};
+
+Options parse(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string name = argv[i];
+    if (i + 1 >= argc)
+      throw std::invalid_argument(kUsage);
+    const char* value = argv[++i];
+    if (name == "--sections")
+      options.sections = value;
+    else if (name == "--json")
+      options.json = value;
+    else if (name == "--remotes")
+      options.remotes = std::atoi(value);
+    else if (name == "--seconds")
+      options.seconds = std::atof(value);
+    else if (name == "--reports")
+      options.reports = std::strtoull(value, nullptr, 10);
+    else
+      throw std::invalid_argument(kUsage);
+  }
+  if (options.remotes < 1 || options.remotes > 256)
+    throw std::invalid_argument("--remotes must be from 1 to 256\n");
+  if (!(options.seconds >= 1.0 && options.seconds <= 500.0))
+    throw std::invalid_argument("--seconds must be from 1 to 500\n");
+  if (options.reports < 10000000)
+    throw std::invalid_argument("--reports must be at least 10000000, more than a day's worth\n");
+  return options;
+}
+
+bool asked(const Options& options, const std::string& section) {
+  return ("," + options.sections + ",").find("," + section + ",") != std::string::npos;
+}
+
+/// The program beside this one. @returns its JSON.
+std::string runTimingProgram() {
+  char self[4096];
+  const ssize_t size = ::readlink("/proc/self/exe", self, sizeof(self) - 1);
+  const std::string here(self, size > 0 ? static_cast<std::size_t>(size) : 0);
+  const std::string program = here.substr(0, here.rfind('/') + 1) + "benchmark_timing";
+  char file[] = "/tmp/benchmark_timing_XXXXXX";
+  const int fd = ::mkstemp(file);
+  if (fd < 0)
+    throw std::runtime_error("no file can be made in /tmp: make room there");
+  ::close(fd);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::execl(program.c_str(), program.c_str(), "--json", file, nullptr);
+    ::_exit(127);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  std::ifstream in(file);
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  ::unlink(file);
+  if (status != 0)
+    throw std::runtime_error(program + " did not run: build the whole package");
+  while (!text.empty() && text.back() == '\n')
+    text.pop_back();
+  return text;
+}
+
+double value(const Results& results, const std::string& name) {
+  for (const Result& result : results) {
+    if (result.name == name)
+      return result.value;
+  }
+  return 0.0;
+}
+
+int run(const Options& options) {
+  std::string text;
+  const auto add = [&text](const char* section, const std::string& content) {
+    text += (text.empty() ? "{\n\"" : ",\n\"") + std::string(section) + "\": " + content;
+  };
+  bool good = true;
+  // First, since it forks: this process has one thread yet.
+  if (asked(options, "load")) {
+    const Results results = runLoad(options.remotes, options.seconds);
+    print("Load (virtual remotes in another process, nodelets and subscriber in this one)",
+          results);
+    add("load", json(results));
+    good = good && value(results, "dropped") == 0.0;
+  }
+  if (asked(options, "soak")) {
+    const Results results = runSoak(options.reports);
+    print("Soak (simulated, one thread, full speed)", results);
+    add("soak", json(results));
+    good = good && value(results, "allocations_not_freed_since_then") <= 0.0;
+  }
+  if (asked(options, "timing"))
+    add("timing", runTimingProgram());
+  if (text.empty())
+    throw std::invalid_argument(kUsage);
+  if (!options.json.empty()) {
+    std::ofstream file(options.json);
+    file << text << "\n}\n";
+    if (!file.flush())
+      throw std::runtime_error("cannot write " + options.json + ": choose another file");
+  }
+  if (!good)
+    std::printf("Reports were dropped, or memory grew: see above.\n");
+  return good ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(parse(argc, argv));
+  } catch (const std::invalid_argument& e) {
+    std::fprintf(stderr, "%s", e.what());
+    return 2;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
+  }
+}

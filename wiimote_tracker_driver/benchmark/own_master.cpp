@@ -1,0 +1,60 @@
+#include "own_master.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+namespace wiimote_tracker {
+namespace {
+
+int freePort() {
+  const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof(address);
+  auto* generic = reinterpret_cast<sockaddr*>(&address);
+  const bool good = ::bind(fd, generic, size) == 0 && ::getsockname(fd, generic, &size) == 0;
+  ::close(fd);
+  if (!good)
+    throw std::runtime_error("no port is free on this computer for a ROS master");
+  return ntohs(address.sin_port);
+}
+
+}  // namespace
+
+OwnMaster::OwnMaster() {
+  const std::string port = std::to_string(freePort());
+  ::setenv("ROS_IP", "127.0.0.1", 1);
+  ::unsetenv("ROS_HOSTNAME");
+  ::setenv("ROS_MASTER_URI", ("http://127.0.0.1:" + port + "/").c_str(), 1);
+  process_ = ::fork();
+  if (process_ != 0)
+    return;
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  ::execlp("rosmaster", "rosmaster", "--core", "-p", port.c_str(), nullptr);
+  ::_exit(127);
+}
+
+OwnMaster::~OwnMaster() {
+  if (process_ <= 0)
+    return;
+  ::kill(process_, SIGTERM);
+  ::waitpid(process_, nullptr, 0);
+}
+
+bool OwnMaster::ended() {
+  if (process_ > 0 && ::waitpid(process_, nullptr, WNOHANG) == process_)
+    process_ = 0;
+  return process_ <= 0;
+}
+
+}  // namespace wiimote_tracker

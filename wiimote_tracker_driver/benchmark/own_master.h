@@ -1,0 +1,28 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_OWN_MASTER_H
+#define WIIMOTE_TRACKER_DRIVER_BENCHMARK_OWN_MASTER_H
+
+#include <sys/types.h>
+
+namespace wiimote_tracker {
+
+/// A ROS master of this process alone, at a free port, so that a running system is not disturbed
+/// and does not disturb.
+class OwnMaster {
+ public:
+  /// Starts it, and lets this process and its children use it. Returns at once.
+  /// @throws std::runtime_error when no port is free.
+  OwnMaster();
+  ~OwnMaster();
+  OwnMaster(const OwnMaster&) = delete;
+  OwnMaster& operator=(const OwnMaster&) = delete;
+
+  /// Whether it has ended, as when there is no program rosmaster.
+  bool ended();
+
+ private:
+  pid_t process_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_DRIVER_BENCHMARK_OWN_MASTER_H

@@ -1,0 +1,104 @@
+#include "virtual_remotes.h"
+
+#include "wiimote_tracker_driver/virtual_wiimote/server.h"
+
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace wiimote_tracker {
+
+using SteadyClock = std::chrono::steady_clock;
+
+namespace {
+
+[[noreturn]] void fail(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+std::size_t sharedSize(int count) {
+  return sizeof(std::int64_t) * static_cast<std::size_t>(count) * VirtualRemotes::kMostSamples;
+}
+
+}  // namespace
+
+double steadyNow() {
+  return std::chrono::duration<double>(SteadyClock::now().time_since_epoch()).count();
+}
+
+VirtualRemotes::VirtualRemotes(int count, const std::string& folder)
+    : count_(count), folder_(folder) {
+  static_assert(std::atomic<std::int64_t>::is_always_lock_free, "it is shared between processes");
+  void* memory =
+      ::mmap(nullptr, sharedSize(count), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED)
+    fail("memory shared with the virtual remotes");
+  sent_ = static_cast<std::atomic<std::int64_t>*>(memory);  // all zeros
+  process_ = ::fork();
+  if (process_ < 0)
+    fail("a process for the virtual remotes");
+  if (process_ == 0)
+    serve();
+}
+
+VirtualRemotes::~VirtualRemotes() {
+  ::kill(process_, SIGTERM);
+  ::waitpid(process_, nullptr, 0);
+  ::munmap(sent_, sharedSize(count_));
+}
+
+std::atomic<std::int64_t>& VirtualRemotes::sent(int remote, std::uint32_t sample) const {
+  return sent_[static_cast<std::size_t>(remote) * kMostSamples + sample];
+}
+
+double VirtualRemotes::sentAt(int remote, std::uint32_t sample) const {
+  return 1e-9 * static_cast<double>(sent(remote, sample).load());
+}
+
+void VirtualRemotes::serve() {
+  using std::chrono::nanoseconds;
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  ::signal(SIGINT, SIG_IGN);  // the benchmark ends this process
+  try {
+    std::vector<std::unique_ptr<virtual_wiimote::Server>> servers;
+    for (int i = 0; i < count_; ++i) {
+      char address[18];
+      std::snprintf(address, sizeof(address), "00:1f:32:00:00:%02x",
+                    static_cast<unsigned>(i) & 0xffu);
+      servers.push_back(std::make_unique<virtual_wiimote::Server>(
+          socket(i), address, virtual_wiimote::Device::Options()));
+    }
+    virtual_wiimote::Senses senses;
+    senses.lights.resize(1);
+    const auto step = nanoseconds(static_cast<std::int64_t>(1e9 * kPeriod / count_));
+    auto due = SteadyClock::now();
+    for (std::uint32_t sample = 1; sample < kMostSamples; ++sample) {
+      senses.lights[0].x = sample % 1024;
+      senses.lights[0].y = sample / 1024;
+      for (int i = 0; i < count_; ++i, due += step) {
+        std::this_thread::sleep_until(due);
+        const auto before = SteadyClock::now().time_since_epoch();
+        if (servers[static_cast<std::size_t>(i)]->sample(senses))
+          sent(i, sample) = std::chrono::duration_cast<nanoseconds>(before).count();
+      }
+    }
+    ::pause();
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "the virtual remotes: %s\n", e.what());
+  }
+  ::_exit(1);
+}
+
+}  // namespace wiimote_tracker

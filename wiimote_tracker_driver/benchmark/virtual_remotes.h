@@ -1,0 +1,52 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_VIRTUAL_REMOTES_H
+#define WIIMOTE_TRACKER_DRIVER_BENCHMARK_VIRTUAL_REMOTES_H
+
+#include <sys/types.h>
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+namespace wiimote_tracker {
+
+/// [s] The clock that both processes share.
+double steadyNow();
+
+/// Virtual remotes in a process of their own, so that their work is not taken for the driver's.
+/// Each samples 100 times a second, evenly spread over the period; one light shows by its place
+/// which sample it is.
+class VirtualRemotes {
+ public:
+  static constexpr double kPeriod = 0.01;  ///< [s]
+  /// Samples of a remote: about ten minutes' worth. Then nothing more comes.
+  static constexpr std::uint32_t kMostSamples = 1u << 16;
+
+  /// Forks; to be called while this process has one thread. The sockets are made in `folder`.
+  /// @throws std::system_error.
+  VirtualRemotes(int count, const std::string& folder);
+  ~VirtualRemotes();
+  VirtualRemotes(const VirtualRemotes&) = delete;
+  VirtualRemotes& operator=(const VirtualRemotes&) = delete;
+
+  int count() const { return count_; }
+  std::string socket(int remote) const { return folder_ + "/" + std::to_string(remote); }
+
+  /// When this sample's data report was given to the link [s]; 0 when there was none (yet).
+  double sentAt(int remote, std::uint32_t sample) const;
+
+  /// The sample that a light at this place (y up) stands for.
+  static std::uint32_t sampleAt(int x, int y) { return static_cast<std::uint32_t>(1024 * y + x); }
+
+ private:
+  std::atomic<std::int64_t>& sent(int remote, std::uint32_t sample) const;
+  [[noreturn]] void serve();
+
+  const int count_;
+  const std::string folder_;
+  std::atomic<std::int64_t>* sent_;  ///< [ns] A row for each remote; both processes see it.
+  pid_t process_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_DRIVER_BENCHMARK_VIRTUAL_REMOTES_H

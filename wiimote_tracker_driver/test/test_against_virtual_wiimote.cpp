@@ -32,7 +32,8 @@ constexpr double kLatency =
 /// A virtual remote that senses every 10 ms of a time of its own, and what it sees. The kernel's
 /// driver may share it.
 struct Remote {
-  explicit Remote(const virtual_wiimote::Faults& faults = {}) : device(Device::Options(), faults) {}
+  explicit Remote(const virtual_wiimote::Faults& faults = {}, const Device::Options& options = {})
+      : device(options, faults) {}
 
   void at(double time) {
     while (!said.empty() && said.front().first <= time) {
@@ -95,8 +96,10 @@ class RemoteTransport : public transport::Transport {
 
 /// A driver at such a remote.
 struct Driven {
-  explicit Driven(const Options& options = Options(), const virtual_wiimote::Faults& faults = {})
-      : remote(faults),
+  explicit Driven(const Options& options = Options(),
+                  const virtual_wiimote::Faults& faults = {},
+                  const Device::Options& device = {})
+      : remote(faults, device),
         wiimote(
             options,
             [this] { return std::make_unique<RemoteTransport>(&remote); },
@@ -192,6 +195,25 @@ TEST(AgainstVirtualWiimote, EveryFormatStreams) {
     const std::array<double, 3> g = driven.wiimote.accelerometer().toG(*driven.last.acceleration);
     EXPECT_NEAR(1.0, g[2], full ? 0.05 : 0.02);
     EXPECT_EQ(0u, driven.wiimote.link().restorations);
+  }
+}
+
+TEST(AgainstVirtualWiimote, ActiveMotionPlusHindersNoFormat) {
+  for (const auto format :
+       {protocol::IrFormat::kBasic, protocol::IrFormat::kExtended, protocol::IrFormat::kFull}) {
+    Device::Options device;
+    device.motion_plus = true;
+    Driven driven(withFormat(format), {}, device);
+    driven.remote.senses.lights = {{123, 456, 3, 1}};
+    ASSERT_TRUE(driven.runToLight());
+    // Another program activates it: to the driver it is as if an extension were plugged in.
+    driven.remote.said.emplace_back(driven.remote.now + 0.001,
+                                    Bytes{0x16, 0x04, 0xa6, 0x00, 0xfe, 1, 0x04});
+    driven.run(1.0);
+    ASSERT_TRUE(driven.wiimote.link().status);
+    EXPECT_TRUE(driven.wiimote.link().status->extension);
+    EXPECT_NEAR(format == protocol::IrFormat::kFull ? 50 : 100, driven.run(1.0), 2);
+    EXPECT_EQ(format, driven.last.ir_format);
   }
 }
 

@@ -179,6 +179,8 @@ TEST_F(WiimoteTest, KernelThatResetsTheModeAfterEachStatusIsOvercome) {
   runToImage();
   EXPECT_LT(remote_.now - then, 0.1);
   EXPECT_EQ(0u, wiimote_.link().clock_epoch);
+  EXPECT_EQ(0u, wiimote_.link().restorations) << "this happens every minute";
+  EXPECT_EQ(1, remote_.count(kVerify));
 }
 
 TEST_F(WiimoteTest, OtherReportIdIsNoImageAndIsCorrected) {
@@ -242,6 +244,21 @@ TEST_F(WiimoteTest, LostModeIsSetAgainAfterTheShortestSilence) {
   EXPECT_EQ(0u, wiimote_.link().clock_epoch);
 }
 
+TEST_F(WiimoteTest, LostModeThatCannotBeSetAtOnceIsTheWatchdogs) {
+  runToImage();
+  remote_.mode = 0x30;
+  int losses = 1;
+  remote_.lose = [&](const Report& report) { return report == kReport33 && losses-- > 0; };
+  const double then = remote_.now;
+  runToImage();
+  EXPECT_NEAR(0.6, remote_.now - then, 0.05) << "0.5 s after the first attempt";
+  run(0.1);
+  EXPECT_EQ(1u, wiimote_.link().restorations);
+  EXPECT_EQ("the images stopped", wiimote_.link().last_restoration);
+  EXPECT_EQ(1, remote_.count(kClock));
+  EXPECT_EQ(0u, wiimote_.link().clock_epoch);
+}
+
 TEST_F(WiimoteTest, PowerCycleBehindAnOpenConnectionStartsAllOver) {
   runToImage();
   remote_.powerCycle();
@@ -255,6 +272,8 @@ TEST_F(WiimoteTest, PowerCycleBehindAnOpenConnectionStartsAllOver) {
   EXPECT_TRUE(last_.spots[0].seen);
   EXPECT_EQ(1, remote_.opened);
   EXPECT_EQ(1u, wiimote_.link().clock_epoch);
+  EXPECT_EQ(1u, wiimote_.link().restorations);
+  EXPECT_EQ("the remote was switched off and on", wiimote_.link().last_restoration);
 }
 
 TEST_F(WiimoteTest, RemoteThatAcknowledgesButSendsNoImagesIsGivenUp) {
@@ -335,6 +354,29 @@ TEST_F(WiimoteTest, UnreadableRegistersDoNotPreventStreaming) {
   EXPECT_TRUE(streaming());
   EXPECT_TRUE(last_.spots[0].seen);
   EXPECT_EQ(1u, wiimote_.link().clock_epoch);
+}
+
+TEST_F(WiimoteTest, DarknessIsNoFailureOfARemoteWithUnreadableRegisters) {
+  remote_.registers_readable = false;
+  runToImage();
+  for (int i = 0; i < 20; ++i) {
+    remote_.light = false;
+    run(1.0);
+    remote_.light = true;
+    run(1.0);
+  }
+  EXPECT_EQ(1, remote_.opened);
+  EXPECT_TRUE(last_.spots[0].seen);
+}
+
+TEST_F(WiimoteTest, RegistersThatAreAlwaysBusyDoNotPreventStreaming) {
+  remote_.lose = [&](const Report& report) {
+    return report.bytes[0] == 0x17 && report.bytes[1] != 0;
+  };
+  for (int i = 0; i < 4000; ++i)
+    remote_.say({0x22, 0, 0, 0x17, 0x04}, 0.01 * i);
+  runToImage();
+  EXPECT_EQ(1, remote_.opened);
 }
 
 TEST_F(WiimoteTest, BusyReadIsRepeatedSoon) {
@@ -575,6 +617,48 @@ TEST_F(WiimoteTest, ImagesThatNoCameraInThisFormatSaysAreLookedInto) {
   EXPECT_EQ(0u, wiimote_.link().restorations);
 }
 
+TEST_F(WiimoteTest, StatusThatSaysTheCameraIsOffIsLookedInto) {
+  runToImage();
+  remote_.camera = false;
+  remote_.say({0x20, 0, 0, 0x10, 0, 0, 0x8f});
+  run(0.15);
+  EXPECT_TRUE(remote_.camera);
+  run(0.05);
+  EXPECT_EQ("the camera was switched off", wiimote_.link().last_restoration);
+}
+
+TEST_F(WiimoteTest, RestorationsAreCountedOverReconnects) {
+  for (std::uint64_t times = 1; times <= 2; ++times) {
+    runToImage();
+    remote_.camera = false;
+    run(1.0);
+    EXPECT_EQ(times, wiimote_.link().restorations);
+    remote_.present = false;
+    run(1.0);
+    remote_.powerCycle();
+    remote_.present = true;
+  }
+}
+
+// Packets of somebody's reads of 16 bytes each, at addresses where ours begin as well.
+TEST_F(WiimoteTest, PacketsOfForeignReadsAreNotTakenForOurs) {
+  remote_.lose = [&](const Report& report) {
+    if (report.bytes[0] == 0x17) {
+      Report foreign{0x21, 0, 0, 0xf0, report.bytes[3], report.bytes[4], 1, 2, 3};
+      foreign.size = 22;
+      remote_.say(foreign, 0.001);
+    }
+    return false;
+  };
+  runToImage();
+  EXPECT_TRUE(wiimote_.link().accelerometer_calibrated);
+  EXPECT_TRUE(wiimote_.link().ir_calibration);
+  EXPECT_EQ(0, remote_.count(kReadCopy));
+  run(20.0);
+  EXPECT_EQ(1, remote_.count(kClock));
+  EXPECT_EQ(0u, wiimote_.link().restorations);
+}
+
 TEST_F(WiimoteTest, ChecksAreAsRareAsStated) {
   runToImage();
   run(60.0);
@@ -663,7 +747,9 @@ TEST_F(WiimoteTest, NoImageIsTakenWhileTheCameraStandsStill) {
 }
 
 TEST_F(WiimoteTest, SensitivityChangedAtAnyMomentIsTheLastOneSet) {
-  for (int moment = 0; moment < 120; ++moment) {
+  const protocol::IrSensitivity marcan = *protocol::irSensitivity("marcan");
+  for (int i = 0; i < 240; ++i) {
+    const double moment = 100.0 + 0.001 * (i / 2);
     FakeRemote remote;
     Wiimote wiimote(
         Options(), [&] { return remote.open(); }, [&] { return remote.now; });
@@ -673,18 +759,19 @@ TEST_F(WiimoteTest, SensitivityChangedAtAnyMomentIsTheLastOneSet) {
         images += wiimote.step(end - remote.now).has_value();
       return images;
     };
-    runUntil(100.0 + 0.001 * moment);
-    wiimote.setSensitivity(kWii2);
-    wiimote.setSensitivity(*protocol::irSensitivity("wii_4"));
-    runUntil(100.0 + 0.001 * moment + 0.0075);
-    wiimote.setSensitivity(*protocol::irSensitivity("marcan"));
-    EXPECT_GT(runUntil(101.0), 60) << moment;
-    EXPECT_EQ(0x90, remote.registers[0x06]) << moment;
-    EXPECT_EQ(0xc0, remote.registers[0x08]) << moment;
-    EXPECT_EQ(0x40, remote.registers[0x1a]) << moment;
-    EXPECT_EQ(8, remote.registers[0x30]) << moment;
+    runUntil(moment);
+    if (i % 2 == 1) {  // twice, the second time while the first is under way
+      wiimote.setSensitivity(kWii2);
+      runUntil(moment + 0.0075);
+    }
+    wiimote.setSensitivity(marcan);
+    EXPECT_GT(runUntil(101.0), 60) << i;
+    EXPECT_EQ(0x90, remote.registers[0x06]) << i;
+    EXPECT_EQ(0xc0, remote.registers[0x08]) << i;
+    EXPECT_EQ(0x40, remote.registers[0x1a]) << i;
+    EXPECT_EQ(8, remote.registers[0x30]) << i;
     EXPECT_EQ(0u, wiimote.link().clock_epoch);
-    EXPECT_EQ(0u, wiimote.link().restorations) << moment;
+    EXPECT_EQ(0u, wiimote.link().restorations) << i;
   }
 }
 

@@ -26,6 +26,7 @@ void StreamWatch::start(double now) {
   mode_due_ = kNever;
   dark_since_ = now;
   dark_checked_ = false;
+  dark_check_due_ = kNever;
   control_due_ = kNever;
   check_due_ = now + options_.check_interval;
   status_due_ = now + options_.status_interval;
@@ -41,11 +42,15 @@ bool StreamWatch::image(const protocol::DataReport& image, double now) {
   if (!image.plausible && control_due_ == kNever)
     control_due_ = std::max(now, last_control_ + kControlPause);
   if (std::none_of(image.spots.begin(), image.spots.end(),
-                   [](const protocol::IrSpot& spot) { return spot.seen; }))
+                   [](const protocol::IrSpot& spot) { return spot.seen; })) {
+    if (!dark_checked_ && now >= dark_since_ + options_.dark_check)
+      dark_check_due_ = now;
     return false;
+  }
   const bool owed = dark_checked_ && now < last_dark_check_ + kDarkCheckEffect;
   dark_since_ = now;
   dark_checked_ = false;
+  dark_check_due_ = kNever;
   return owed;
 }
 
@@ -65,10 +70,6 @@ double StreamWatch::reminderDue() const {
   return reminded_ || !checks_ ? kNever : last_image_ + kReminder;
 }
 
-double StreamWatch::darkCheckDue() const {
-  return dark_checked_ ? kNever : dark_since_ + options_.dark_check;
-}
-
 StreamWatch::Task StreamWatch::take(double now) {
   if (silent(now))
     return Task::kRestart;
@@ -80,7 +81,8 @@ StreamWatch::Task StreamWatch::take(double now) {
     reminded_ = true;
     return Task::kRemind;
   }
-  if (now >= darkCheckDue()) {
+  if (now >= dark_check_due_) {
+    dark_check_due_ = kNever;
     dark_checked_ = true;
     last_dark_check_ = now;
     return Task::kCheckInDark;
@@ -103,8 +105,8 @@ StreamWatch::Task StreamWatch::take(double now) {
 
 double StreamWatch::deadline() const {
   const double check = checks_ ? std::min(check_due_, control_due_) : kNever;
-  return std::min({last_image_ + options_.silence_timeout, mode_due_, reminderDue(), darkCheckDue(),
-                   check, status_due_});
+  return std::min({last_image_ + options_.silence_timeout, mode_due_, reminderDue(),
+                   dark_check_due_, check, status_due_});
 }
 
 }  // namespace wiimote_tracker::wiimote

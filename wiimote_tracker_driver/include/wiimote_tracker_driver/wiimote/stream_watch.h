@@ -60,7 +60,6 @@ class StreamWatch {
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
   double reminderDue() const;
-  double darkCheckDue() const;
 
   SessionOptions options_;
   bool checks_ = true;
@@ -71,6 +70,7 @@ class StreamWatch {
   double mode_due_ = kNever;
 
   double dark_since_ = 0.0;
+  double dark_check_due_ = kNever;
   bool dark_checked_ = false;  ///< In this darkness.
   double last_dark_check_ = -kNever;
 

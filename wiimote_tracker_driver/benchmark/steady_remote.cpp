@@ -28,6 +28,7 @@ class SteadyRemote::Transport : public transport::Transport {
 };
 
 std::unique_ptr<transport::Transport> SteadyRemote::open() {
+  connected_ = true;
   return std::make_unique<Transport>(this);
 }
 
@@ -37,6 +38,8 @@ void SteadyRemote::powerCycle() {
 }
 
 bool SteadyRemote::read(Report& report, double timeout) {
+  if (!connected_)
+    throw transport::Disconnected("the remote has gone away");
   if (answers_waiting_ > 0) {
     report = answers_[first_answer_];
     first_answer_ = (first_answer_ + 1) % answers_.size();

@@ -11,7 +11,7 @@
 namespace wiimote_tracker::wiimote {
 
 /// A remote in fake time that costs next to nothing: does what it is told at once, sends a data
-/// report every 10 ms in modes 0x33, 0x37 and 0x3e, with one light that moves, and allocates
+/// report every period in modes 0x33, 0x37 and 0x3e, with one light that moves, and allocates
 /// nothing. For measuring the driver, not for testing it: it checks nothing.
 class SteadyRemote {
  public:
@@ -26,9 +26,12 @@ class SteadyRemote {
   /// All is as after switching on.
   void powerCycle();
 
+  /// The next read fails.
+  void disconnect() { connected_ = false; }
+
  private:
   class Transport;
-  static constexpr double kPeriod = 0.01;  // [s]
+  static constexpr double kPeriod = 0.010035;  // [s] as real ones have about
 
   bool read(protocol::Report& report, double timeout);
   void write(const protocol::Report& output);
@@ -36,6 +39,7 @@ class SteadyRemote {
   protocol::Report memory(const protocol::Report& request) const;
   protocol::Report data();
 
+  bool connected_ = true;
   std::uint8_t mode_ = 0;
   std::array<std::uint8_t, 256> registers_{};
   std::array<protocol::Report, 16> answers_{};  // a ring

@@ -10,6 +10,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -21,6 +22,8 @@
 
 namespace wiimote_tracker::virtual_wiimote {
 namespace {
+
+constexpr std::uint8_t kFirstDataReport = 0x30;
 
 class FileDescriptor {
  public:
@@ -224,13 +227,15 @@ Server::~Server() {
     ::unlink(state_->path.c_str());
 }
 
-void Server::sample(const Senses& senses) {
+bool Server::sample(const Senses& senses) {
   const std::lock_guard<std::mutex> lock(state_->mutex);
   if (!state_->present)
-    return;
+    return false;
   const std::vector<Bytes> reports = state_->device.sample(senses);
   state_->setReachable(!state_->device.away());
   state_->send(reports);
+  return std::any_of(reports.begin(), reports.end(),
+                     [](const Bytes& report) { return report.at(0) >= kFirstDataReport; });
 }
 
 void Server::setFaults(const Faults& faults) {

@@ -25,8 +25,9 @@ class Server {
   ~Server();
 
   /// Lets the device sense this instant and sends what results, if anything, to the host.
+  /// @returns whether a data report was among it; not in the wrong mode, or while memory is read.
   /// @throws std::system_error as setPresent(), when a fault has the device come back.
-  void sample(const Senses& senses);
+  bool sample(const Senses& senses);
 
   /// What goes wrong from now on; at first nothing does.
   void setFaults(const Faults& faults);

@@ -41,6 +41,25 @@ class DriverConfiguration(unittest.TestCase):
         self.assert_refused("/driver_e/camera_info_url is 'nowhere'", "__name:=driver_e",
                             "_camera_info_url:=nowhere")
 
+    def test_sensitivity_blocks_that_are_none(self):
+        self.assert_refused("/driver_i/ir_sensitivity_block1 and _block2: ", "__name:=driver_i",
+                            "_ir_sensitivity:=custom", "_ir_sensitivity_block1:=07 00")
+
+    def test_bad_modes_and_ranges(self):
+        self.assert_refused("/driver_j/ir_mode is 'fast', but must be one of: basic, extended, full",
+                            "__name:=driver_j", "_ir_mode:=fast")
+        self.assert_refused("/driver_k/leds is 16", "__name:=driver_k", "_leds:=16")
+        self.assert_refused("/driver_l/realtime_priority is 100", "__name:=driver_l",
+                            "_realtime_priority:=100")
+
+    def test_recordings(self):
+        self.assert_refused("/driver_m/device: /nowhere/at_all.wiirec: cannot read the recording", "__name:=driver_m",
+                            "_device:=replay:/nowhere/at_all.wiirec")
+        self.assert_refused("/driver_n/record: ", "__name:=driver_n",
+                            "_record:=/nowhere/at_all.wiirec")
+        self.assert_refused("/driver_o/record is set", "__name:=driver_o",
+                            "_record:=a.wiirec", "_device:=replay:/nowhere/at_all.wiirec")
+
     def test_misspelt_parameter(self):
         self.assert_refused("unknown parameter /driver_f/latencies", "__name:=driver_f",
                             "_latencies:=0")

@@ -218,17 +218,18 @@ TEST(CameraList, TheExampleCanBeRead) {
 
 TEST(CameraList, ACameraMayHaveMoreThanADevice) {
   const std::string text =
-      "cameras:\n  door:\n    driver:\n      identity: not this\n      ir_mode: full\n"
+      "cameras:\n  door:\n    driver:\n      identity: inside\n      ir_mode: full\n"
       "    identity: \"00:1f:32:00:00:01\"  # this\n  wiimote_1: \"00:1f:32:00:00:02\"\n"
       "  window:\n    identity: '00:1f:32:00:00:03'\n    driver: {ir_mode: basic}\n";
   CameraList list(text);
   EXPECT_EQ(text, list.text());
   EXPECT_EQ("door", list.nameOf("00:1f:32:00:00:01"));
   EXPECT_EQ("window", list.nameOf("00:1f:32:00:00:03"));
+  EXPECT_EQ(3u, list.entries().size());
   list.replace("door", "00:1f:32:00:00:07");
   EXPECT_EQ("wiimote_2", list.add("00:1f:32:00:00:08"));
   EXPECT_EQ(
-      "cameras:\n  door:\n    driver:\n      identity: not this\n      ir_mode: full\n"
+      "cameras:\n  door:\n    driver:\n      identity: inside\n      ir_mode: full\n"
       "    identity: \"00:1f:32:00:00:07\"  # this\n  wiimote_1: \"00:1f:32:00:00:02\"\n"
       "  window:\n    identity: '00:1f:32:00:00:03'\n    driver: {ir_mode: basic}\n"
       "  wiimote_2: \"00:1f:32:00:00:08\"\n",

@@ -213,7 +213,7 @@ void identify(const std::vector<Row>& rows) {
                   rows[i].check.sentence.empty() ? "" : ": ", rows[i].check.sentence.c_str());
       continue;
     }
-    std::printf("Remote %d flashes %d times.\n", number, number);
+    std::printf("Remote %d flashes %d time%s.\n", number, number, number == 1 ? "" : "s");
     std::fflush(stdout);
     try {
       flash(*transport::open(rows[i].device), number, rows[i].check.status->leds, wait);

@@ -126,13 +126,25 @@ geometry::Intrinsics readIntrinsics(Section section) {
   return intrinsics;
 }
 
-Timing readTiming(Section clock, Section delay) {
-  Timing timing;
+virtual_wiimote::FrameTimesModel readTiming(Section clock, Section delay) {
+  using Core = virtual_wiimote::FrameTimesModel::Core;
+  virtual_wiimote::FrameTimesModel timing;
   timing.period = clock.number("period", 0.001, 1.0);
+  timing.period_tolerance = clock.number("tolerance", 0.0, 0.01, timing.period_tolerance);
   timing.phase = clock.number("phase", 0.0, 1.0);
+  timing.wander = clock.number("wander", 0.0, 0.1, timing.wander);
   clock.refuseUnknown();
   timing.delay = delay.number("constant", 0.0, 1.0);
   timing.jitter = delay.number("jitter", 0.0, 1.0);
+  const auto shape = delay.value<std::string>("shape", "hard_edge");
+  if (shape != "hard_edge" && shape != "bell")
+    throw delay.error("shape", "is " + shape + ", but must be hard_edge or bell");
+  timing.core = shape == "bell" ? Core::kBell : Core::kHardEdge;
+  timing.slot = delay.number("slot", 0.0, 0.1, timing.slot);
+  timing.drops = delay.number("drops", 0.0, 0.9, timing.drops);
+  timing.burst = delay.number("burst", 0.0, 0.99, timing.burst);
+  timing.stalls = delay.number("stalls", 0.0, 10.0, timing.stalls);
+  timing.longest_stall = delay.number("longest_stall", 0.0, 10.0, timing.longest_stall);
   delay.refuseUnknown();
   return timing;
 }

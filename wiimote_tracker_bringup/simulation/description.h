@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
 #define WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
 
+#include "wiimote_tracker_driver/virtual_wiimote/frame_times.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
 #include <Eigen/Core>
@@ -18,18 +19,10 @@ struct DescriptionError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// When a camera exposes, and how long its reports travel.
-struct Timing {
-  double period = 0.01;  ///< Between exposures [s].
-  double phase = 0.0;    ///< Of the first exposure [s].
-  double delay = 0.0;    ///< Least time from exposure to delivery [s].
-  double jitter = 0.0;   ///< Mean of the exponential that is added to it [s].
-};
-
 /// A camera as it truly is; its optical frame by position and look_at, image x axis horizontal.
 struct CameraDescription {
   geometry::Camera camera;
-  Timing timing;
+  virtual_wiimote::FrameTimesModel timing;
 };
 
 /// An LED before it is moved.

@@ -16,11 +16,11 @@ Rig::Rig(const Description& description, Deliver deliver, Truth truth)
     std::seed_seq sequence{description.seed, number};
     std::uint32_t seeds[2];
     sequence.generate(seeds, seeds + 2);
-    CameraClock clock(camera.timing, seeds[1]);
-    const Exposure first = clock.next();
+    virtual_wiimote::FrameTimes times(camera.timing, seeds[1]);
+    const virtual_wiimote::FrameTime first = times.next();
     cameras_.push_back(
-        {VirtualCamera(camera.camera, description.pixel_noise, seeds[0]), clock, first, {}});
-    push(first.time, Event::kExposure, number);
+        {VirtualCamera(camera.camera, description.pixel_noise, seeds[0]), times, first, {}});
+    push(first.exposure, Event::kExposure, number);
   }
   push(0.0, Event::kTruth, 0);
 }
@@ -61,13 +61,16 @@ void Rig::expose(std::size_t number) {
   lamps_.clear();
   for (const Led& led : leds_) {
     if (led.lit)
-      lamps_.push_back({led.motion.position(camera.exposure.time), led.description.size,
+      lamps_.push_back({led.motion.position(camera.next.exposure), led.description.size,
                         led.description.brightness});
   }
-  camera.travelling.push(camera.optics.sense(lamps_));
-  push(camera.exposure.delivery, Event::kDelivery, number);
-  camera.exposure = camera.clock.next();
-  push(camera.exposure.time, Event::kExposure, number);
+  const virtual_wiimote::Senses senses = camera.optics.sense(lamps_);
+  if (!camera.next.lost) {
+    camera.travelling.push(senses);
+    push(camera.next.arrival, Event::kDelivery, number);
+  }
+  camera.next = camera.times.next();
+  push(camera.next.exposure, Event::kExposure, number);
 }
 
 void Rig::tellTruth(double time) {

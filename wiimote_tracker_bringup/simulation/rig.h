@@ -1,7 +1,6 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_RIG_H
 #define WIIMOTE_TRACKER_BRINGUP_SIMULATION_RIG_H
 
-#include "camera_clock.h"
 #include "description.h"
 #include "led_motion.h"
 #include "virtual_camera.h"
@@ -56,8 +55,8 @@ class Rig {
 
   struct Camera {
     VirtualCamera optics;
-    CameraClock clock;
-    Exposure exposure;  ///< The next one.
+    virtual_wiimote::FrameTimes times;
+    virtual_wiimote::FrameTime next;
     std::queue<virtual_wiimote::Senses> travelling;
   };
 

@@ -22,8 +22,8 @@ cameras:
     intrinsics: {width: 640, height: 480, fx: 600, fy: 610, cx: 320, cy: 240, distortion: [0.1, 0, 0, 0, 0]}
     position: [1, 2, 3]
     look_at: [1, 7, 3]
-    clock: {period: 0.02, phase: 0.001}
-    delay: {constant: 0.005, jitter: 0.0}
+    clock: {period: 0.02, phase: 0.001, tolerance: 0.0005, wander: 0.001}
+    delay: {constant: 0.005, jitter: 0.0024, shape: bell, slot: 0.00125, drops: 0.04, burst: 0.2, stalls: 0.3, longest_stall: 0.16}
   first:
     identity: "00:1f:32:00:00:01"
     intrinsics: {fx: 1300, fy: 1300, cx: 512, cy: 384, distortion: [0, 0, 0, 0, 0]}
@@ -90,7 +90,20 @@ TEST_F(DescriptionFile, holds_what_was_written_in_the_order_of_the_file) {
   EXPECT_LT((rotation.col(1) + Eigen::Vector3d::UnitZ()).norm(), 1e-12);
   EXPECT_EQ(d.cameras[0].timing.period, 0.02);
   EXPECT_EQ(d.cameras[0].timing.phase, 0.001);
-  EXPECT_EQ(d.cameras[0].timing.delay, 0.005);
+  using Core = virtual_wiimote::FrameTimesModel::Core;
+  const virtual_wiimote::FrameTimesModel& timing = d.cameras[0].timing;
+  EXPECT_EQ(timing.period_tolerance, 0.0005);
+  EXPECT_EQ(timing.wander, 0.001);
+  EXPECT_EQ(timing.delay, 0.005);
+  EXPECT_EQ(timing.jitter, 0.0024);
+  EXPECT_EQ(timing.core, Core::kBell);
+  EXPECT_EQ(timing.slot, 0.00125);
+  EXPECT_EQ(timing.drops, 0.04);
+  EXPECT_EQ(timing.burst, 0.2);
+  EXPECT_EQ(timing.stalls, 0.3);
+  EXPECT_EQ(timing.longest_stall, 0.16);
+  EXPECT_EQ(d.cameras[1].timing.core, Core::kHardEdge);
+  EXPECT_EQ(d.cameras[1].timing.drops, 0.0);
   ASSERT_EQ(d.leds.size(), 1u);
   EXPECT_EQ(d.leds[0].name, "led");
   EXPECT_EQ(d.leds[0].size, 5.0);
@@ -116,6 +129,15 @@ TEST_F(DescriptionFile, errors_name_file_key_and_reason) {
   EXPECT_TRUE(has(said, "cameras/second/clock/phase has the wrong type")) << said;
   said = complaint("phase: 0.001", "phase: .nan");
   EXPECT_TRUE(has(said, "cameras/second/clock/phase is nan")) << said;
+  said = complaint("shape: bell", "shape: ball");
+  EXPECT_TRUE(has(said, "cameras/second/delay/shape is ball, but must be hard_edge or bell"))
+      << said;
+  said = complaint("drops: 0.04", "drops: 4");
+  EXPECT_TRUE(has(said, "cameras/second/delay/drops is 4, but must be within")) << said;
+  said = complaint("stalls:", "stall:");
+  EXPECT_TRUE(has(said, "cameras/second/delay/stall is not known")) << said;
+  said = complaint("wander: 0.001", "wonder: 0.001");
+  EXPECT_TRUE(has(said, "cameras/second/clock/wonder is not known")) << said;
   said = complaint("pixel_noise: 0.25", "");
   EXPECT_TRUE(has(said, "pixel_noise is missing")) << said;
   said = complaint("pixel_noise", "pixel_nosie: 1\npixel_noise");

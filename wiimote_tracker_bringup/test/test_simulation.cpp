@@ -1,10 +1,10 @@
-#include "camera_clock.h"
 #include "led_motion.h"
 #include "rig.h"
 #include "virtual_camera.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -72,37 +72,6 @@ TEST(LedMotion, circles_counter_clockwise_from_the_x_side_at_constant_speed) {
   const Vector3d left = motion.position(arrival + lap / 3);
   motion.line(arrival + lap / 3, Vector3d::Zero(), 1.0);
   EXPECT_LT((motion.position(arrival + lap / 3) - left).norm(), 1e-12);
-}
-
-// --- Clock and link
-
-TEST(CameraClock, exposes_at_its_own_phase_and_period) {
-  CameraClock clock({0.0101, 0.003, 0.006, 0.0}, 1);
-  for (int i = 0; i < 1000; ++i) {
-    const Exposure exposure = clock.next();
-    ASSERT_NEAR(exposure.time, 0.003 + i * 0.0101, 1e-12);
-    ASSERT_NEAR(exposure.delivery, exposure.time + 0.006, 1e-12);
-  }
-}
-
-TEST(CameraClock, delays_by_constant_plus_mean_jitter_and_never_overtakes) {
-  // Mean jitter far beyond the period, so that reports would overtake each other.
-  CameraClock clock({0.01, 0.0, 0.005, 0.03}, 7);
-  double last = 0.0;
-  for (int i = 0; i < 10000; ++i) {
-    const Exposure exposure = clock.next();
-    ASSERT_GE(exposure.delivery, last);
-    ASSERT_GE(exposure.delivery, exposure.time + 0.005);
-    last = exposure.delivery;
-  }
-
-  CameraClock rare({10.0, 0.0, 0.005, 0.002}, 7);  // so rare that order plays no part
-  double sum = 0.0;
-  for (int i = 0; i < 10000; ++i) {
-    const Exposure exposure = rare.next();
-    sum += exposure.delivery - exposure.time;
-  }
-  EXPECT_NEAR(sum / 10000, 0.007, 5 * 0.002 / 100);  // 5 standard errors
 }
 
 // --- Optics and mounting
@@ -257,6 +226,35 @@ TEST(Rig, a_moving_led_is_seen_where_it_was_at_the_exposure_not_at_the_delivery)
   ASSERT_EQ(x.size(), 11u);  // exposures 0.00 .. 0.10
   for (std::size_t i = 0; i < x.size(); ++i)
     EXPECT_NEAR(x[i], 500.0 + 1300.0 * (0.01 * static_cast<double>(i)) / 3.0, 1e-6);
+}
+
+TEST(Rig, lost_frames_are_not_delivered_and_spoil_no_others) {
+  Description description = twoCameras();
+  description.cameras.resize(1);
+  description.cameras[0].timing.drops = 0.2;
+  std::vector<double> x;
+  Rig rig(
+      description,
+      [&](std::size_t, const virtual_wiimote::Senses& senses) { x.push_back(senses.lights[0].x); },
+      [](std::size_t, double, const Vector3d&) {});
+  rig.runUntil(10.0);
+  EXPECT_NEAR(static_cast<double>(x.size()), 800.0, 60.0);
+  // The same noise on the same images as without losses.
+  std::vector<double> all;
+  description.cameras[0].timing.drops = 0.0;
+  Rig complete(
+      description,
+      [&](std::size_t, const virtual_wiimote::Senses& senses) {
+        all.push_back(senses.lights[0].x);
+      },
+      [](std::size_t, double, const Vector3d&) {});
+  complete.runUntil(10.0);
+  std::size_t at = 0;
+  for (double pixel : x) {
+    at = static_cast<std::size_t>(std::find(all.begin() + at, all.end(), pixel) - all.begin());
+    ASSERT_LT(at, all.size());
+    ++at;
+  }
 }
 
 TEST(Rig, tells_the_truth_at_its_rate) {

@@ -21,7 +21,7 @@ std::vector<Row> rows() {
   const auto add = [&](Core core, double spread, double wander, double slot, double stalls) {
     LinkModel link;
     link.core = core;
-    link.spread = spread;
+    link.jitter = spread;
     link.wander = wander;
     link.slot = slot;
     link.stalls = stalls;
@@ -49,6 +49,7 @@ std::vector<Row> rows() {
 int main(int argc, char** argv) {
   const char* json = nullptr;
   int sessions = 200;
+  std::uint64_t seed = 1;
   double duration = 10.0;
   for (int i = 1; i < argc; ++i) {
     const bool more = i + 1 < argc;
@@ -56,10 +57,14 @@ int main(int argc, char** argv) {
       json = argv[++i];
     } else if (!std::strcmp(argv[i], "--sessions") && more) {
       sessions = std::atoi(argv[++i]);
+    } else if (!std::strcmp(argv[i], "--seed") && more) {
+      seed = std::strtoull(argv[++i], nullptr, 10);
     } else if (!std::strcmp(argv[i], "--seconds") && more) {
       duration = std::atof(argv[++i]);
     } else {
-      std::fprintf(stderr, "usage: benchmark_timing [--json FILE] [--sessions N] [--seconds S]\n");
+      std::fprintf(
+          stderr,
+          "usage: benchmark_timing [--json FILE] [--sessions N] [--seconds S] [--seed N]\n");
       return 2;
     }
   }
@@ -86,7 +91,7 @@ int main(int argc, char** argv) {
     std::fprintf(file, "[");
   bool first = true;
   for (const Row& row : rows()) {
-    const TimingScore s = runTiming(row.link, duration, sessions, true);
+    const TimingScore s = runTiming(row.link, duration, sessions, true, seed);
     std::printf(
         "%-36s %7.3f | %7.3f %7.3f %7.3f %7.3f | %7.3f %7.3f %7.3f %8.1f | %7.3f %7.3f %7.1f %8.2f "
         "%7.1f "

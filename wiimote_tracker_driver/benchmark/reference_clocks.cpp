@@ -11,14 +11,14 @@ constexpr double kNominalPeriod = 0.010035;
 constexpr double kTolerance = 500e-6;
 
 double kalman(const SimulatedSession& session, const LinkModel& link) {
-  const double noise = link.spread * link.spread + link.slot * link.slot / 12.0;
+  const double noise = link.jitter * link.jitter + link.slot * link.slot / 12.0;
   const double wander = link.wander * link.wander / 10.0 * kNominalPeriod;  // per frame
-  const SimulatedReport& first = session.reports.front();
+  const virtual_wiimote::FrameTime& first = session.reports.front();
   // Relative to the nominal period.
   double time = 0.0, period = 0.0;
   double p00 = 1.0, p01 = 0.0, p11 = std::pow(kNominalPeriod * kTolerance, 2) / 3.0;
   std::int64_t frame = first.frame;
-  for (const SimulatedReport& report : session.reports) {
+  for (const virtual_wiimote::FrameTime& report : session.reports) {
     const auto n = static_cast<double>(report.frame - frame);
     frame = report.frame;
     time += n * period;
@@ -44,13 +44,13 @@ double pointMass(const SimulatedSession& session, const LinkModel& link) {
   constexpr int kHalf = 700;
   constexpr int kCells = 2 * kHalf + 1;
   std::vector<double> mass(kCells, 1.0), spread(kCells);
-  const SimulatedReport& first = session.reports.front();
-  const double start = first.exposure + link.least_delay;
+  const virtual_wiimote::FrameTime& first = session.reports.front();
+  const double start = first.exposure + link.delay;
   const auto readyBefore = [&](double late) {
-    return late > 0.0 ? -std::expm1(-late / link.spread) : 0.0;
+    return late > 0.0 ? -std::expm1(-late / link.jitter) : 0.0;
   };
   std::int64_t frame = first.frame;
-  for (const SimulatedReport& report : session.reports) {
+  for (const virtual_wiimote::FrameTime& report : session.reports) {
     const double sd = link.wander *
                       std::sqrt(static_cast<double>(report.frame - frame) * kNominalPeriod / 10.0) /
                       kCell;
@@ -75,7 +75,7 @@ double pointMass(const SimulatedSession& session, const LinkModel& link) {
       else if (link.slot > 0.0)
         mass[i] *= readyBefore(late) - readyBefore(late - link.slot);
       else
-        mass[i] *= late > 0.0 ? std::exp(-late / link.spread) : 0.0;
+        mass[i] *= late > 0.0 ? std::exp(-late / link.jitter) : 0.0;
       sum += mass[i];
     }
     for (double& m : mass)
@@ -166,9 +166,9 @@ class ExposureGrid {
 }  // namespace
 
 double leastSquares(const SimulatedSession& session) {
-  const SimulatedReport& last = session.reports.back();
+  const virtual_wiimote::FrameTime& last = session.reports.back();
   double n = 0.0, k = 0.0, a = 0.0, kk = 0.0, ka = 0.0;
-  for (const SimulatedReport& report : session.reports) {
+  for (const virtual_wiimote::FrameTime& report : session.reports) {
     const auto x = static_cast<double>(report.frame - last.frame);
     const double y = report.arrival - last.arrival;
     n += 1.0;
@@ -182,10 +182,10 @@ double leastSquares(const SimulatedSession& session) {
 }
 
 double convexHull(const SimulatedSession& session) {
-  const SimulatedReport& last = session.reports.back();
+  const virtual_wiimote::FrameTime& last = session.reports.back();
   std::vector<std::pair<double, double>> hull;
   double mean = 0.0;
-  for (const SimulatedReport& report : session.reports) {
+  for (const virtual_wiimote::FrameTime& report : session.reports) {
     const std::pair<double, double> p(static_cast<double>(report.frame - last.frame),
                                       report.arrival - last.arrival);
     mean += p.first / static_cast<double>(session.reports.size());
@@ -206,9 +206,9 @@ double convexHull(const SimulatedSession& session) {
 }
 
 double olson(const SimulatedSession& session) {
-  const SimulatedReport& first = session.reports.front();
+  const virtual_wiimote::FrameTime& first = session.reports.front();
   double offset = 0.0, device = 0.0;
-  for (const SimulatedReport& report : session.reports) {
+  for (const virtual_wiimote::FrameTime& report : session.reports) {
     const double now = static_cast<double>(report.frame - first.frame) * kNominalPeriod;
     offset = std::min(offset + kTolerance * (now - device), report.arrival - first.arrival - now);
     device = now;
@@ -222,27 +222,26 @@ double oracle(const SimulatedSession& session, const LinkModel& link) {
 
 double oracleWithoutNumbers(const SimulatedSession& session, const LinkModel& link) {
   ExposureGrid grid(session.period);
-  const SimulatedReport& first = session.reports.front();
+  const virtual_wiimote::FrameTime& first = session.reports.front();
   const auto readyBefore = [&](double late) {
-    return late > 0.0 ? -std::expm1(-late / link.spread) : 0.0;
+    return late > 0.0 ? -std::expm1(-late / link.jitter) : 0.0;
   };
   double base = 0.0;
   std::int64_t frame = first.frame;
-  for (const SimulatedReport& report : session.reports) {
+  for (const virtual_wiimote::FrameTime& report : session.reports) {
     if (&report != &first)
       grid.advance(report.frame - frame, link);
     grid.blur(link.wander *
               std::sqrt(static_cast<double>(report.frame - frame) * session.period / 10.0));
     frame = report.frame;
-    base = first.exposure + link.least_delay +
-           static_cast<double>(frame - first.frame) * session.period;
+    base = first.exposure + link.delay + static_cast<double>(frame - first.frame) * session.period;
     grid.weigh([&](double offset) {
       const double late = report.arrival - base - offset;
       if (report.queued)
         return readyBefore(late);
       if (link.slot > 0.0)
         return readyBefore(late) - readyBefore(late - link.slot);
-      return late > 0.0 ? std::exp(-late / link.spread) : 0.0;
+      return late > 0.0 ? std::exp(-late / link.jitter) : 0.0;
     });
   }
   return base + grid.estimate();

@@ -22,27 +22,32 @@ double rmsAboutMean(const std::vector<double>& values) {
 }
 }  // namespace
 
-TimingScore runTiming(const LinkModel& link, double duration, int sessions, bool blind_oracle) {
+TimingScore runTiming(const LinkModel& link,
+                      double duration,
+                      int sessions,
+                      bool blind_oracle,
+                      std::uint64_t first_seed) {
   std::vector<double> arrival, squares, hull, olsons, own_squares, own_hull, best, blind, clock,
       total, clock_stddev, stddev;
   double seconds = 0.0;
   std::size_t reports = 0;
   int wrong = 0, blind_wrong = 0;
   for (int i = 0; i < sessions; ++i) {
-    const SimulatedSession session = simulate(link, duration, static_cast<std::uint64_t>(i) + 1);
+    const SimulatedSession session =
+        simulate(link, duration, first_seed + static_cast<std::uint64_t>(i));
     ExposureClock ours;
     Estimate estimate;
     SimulatedSession numbered = session;
     auto own = numbered.reports.begin();
     const auto begin = std::chrono::steady_clock::now();
-    for (const SimulatedReport& report : session.reports) {
+    for (const virtual_wiimote::FrameTime& report : session.reports) {
       estimate = ours.update(report.arrival);
       (own++)->frame = estimate.frame;
     }
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     reports += session.reports.size();
 
-    const double truth = session.reports.back().exposure + link.least_delay;
+    const double truth = session.reports.back().exposure + link.delay;
     arrival.push_back(session.reports.back().arrival - truth);
     squares.push_back(leastSquares(session) - truth);
     hull.push_back(convexHull(session) - truth);
@@ -59,7 +64,7 @@ TimingScore runTiming(const LinkModel& link, double duration, int sessions, bool
       blind_wrong += std::abs(error) > 0.5 * session.period;
     }
     // A bell's reference is its mean less a typical spread.
-    const double bell = link.core == LinkModel::Core::kBell ? 3.4 * link.spread - 0.0024 : 0.0;
+    const double bell = link.core == LinkModel::Core::kBell ? 3.4 * link.jitter - 0.0024 : 0.0;
     const double error = estimate.exposure - truth - bell;
     const double frames = std::round(error / session.period);
     wrong += frames != 0.0;

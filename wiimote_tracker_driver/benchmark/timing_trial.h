@@ -25,9 +25,13 @@ struct TimingScore {
   double update_seconds;  ///< computing time per report
 };
 
-/// Plays `sessions` sessions of `duration` [s] with seeds 1, 2, ... The oracle without numbers
-/// takes much longer than all else.
-TimingScore runTiming(const LinkModel& link, double duration, int sessions, bool blind_oracle);
+/// Plays `sessions` sessions of `duration` [s] with seeds `first_seed`, `first_seed` + 1, ... The
+/// oracle without numbers takes much longer than all else.
+TimingScore runTiming(const LinkModel& link,
+                      double duration,
+                      int sessions,
+                      bool blind_oracle,
+                      std::uint64_t first_seed = 1);
 
 }  // namespace wiimote_tracker::exposure_clock
 

@@ -43,7 +43,7 @@ const double kTolerance = 1.0 + 3.0 / std::sqrt(2.0 * kSessions);
 LinkModel edge(double mean, double wander = 0.0) {
   LinkModel link;
   link.core = LinkModel::Core::kHardEdge;
-  link.spread = mean;
+  link.jitter = mean;
   link.wander = wander;
   return link;
 }
@@ -51,7 +51,7 @@ LinkModel edge(double mean, double wander = 0.0) {
 LinkModel bell(double wander = 0.0) {
   LinkModel link;
   link.core = LinkModel::Core::kBell;
-  link.spread = 0.0024;
+  link.jitter = 0.0024;
   link.wander = wander;
   return link;
 }
@@ -124,7 +124,7 @@ TEST(ExposureClockAccuracy, numbers_frames_through_losses) {
   ExposureClock clock;
   int wrong = 0;
   Estimate last;
-  for (const SimulatedReport& report : session.reports) {
+  for (const virtual_wiimote::FrameTime& report : session.reports) {
     last = clock.update(report.arrival);
     const double error = last.exposure - report.exposure - 0.006;
     wrong += std::abs(error) > 0.5 * session.period;
@@ -141,11 +141,11 @@ TEST(ExposureClockAccuracy, numbers_frames_through_losses) {
 TEST(ExposureClock, tells_the_kind_and_the_size_of_the_jitter) {
   for (const LinkModel& link : {edge(0.004), bell()}) {
     ExposureClock clock;
-    for (const SimulatedReport& report : simulate(link, 20.0, 7).reports)
+    for (const virtual_wiimote::FrameTime& report : simulate(link, 20.0, 7).reports)
       clock.update(report.arrival);
     const bool hard = link.core == LinkModel::Core::kHardEdge;
     EXPECT_NEAR(clock.statistics().hard_edge, hard ? 1.0 : 0.0, 0.01);
-    EXPECT_NEAR(clock.statistics().jitter, link.spread, 0.15 * link.spread);
+    EXPECT_NEAR(clock.statistics().jitter, link.jitter, 0.15 * link.jitter);
   }
 }
 
@@ -162,7 +162,7 @@ TEST(ExposureClock, starts_with_the_arrival_and_a_large_stddev) {
 
 TEST(ExposureClock, keeps_its_digits_at_times_since_1970) {
   ExposureClock small, large;
-  for (const SimulatedReport& report : simulate(edge(0.002), 5.0, 11).reports) {
+  for (const virtual_wiimote::FrameTime& report : simulate(edge(0.002), 5.0, 11).reports) {
     const Estimate a = small.update(report.arrival), b = large.update(report.arrival + 1.7e9);
     EXPECT_NEAR(b.exposure - 1.7e9, a.exposure, 0.1e-3);
   }
@@ -302,7 +302,7 @@ TEST(ExposureClockProperties, no_allocation_per_report) {
   ExposureClock clock;
   allocations = 0;
   counting = true;
-  for (const SimulatedReport& report : session.reports)
+  for (const virtual_wiimote::FrameTime& report : session.reports)
     clock.update(report.arrival);
   counting = false;
   EXPECT_EQ(allocations, 0);

@@ -18,7 +18,7 @@ constexpr double kSpreadMemory = 1000.0;  // reports
 constexpr double kTypicalBellSpread = 0.0024;
 // An arrival before the edge leaves at least this share of the variance: the belief is not a
 // perfect normal, and one surprise must not make it certain.
-constexpr double kLeastVarianceLeft = 0.2;
+constexpr double kLeastVarianceLeft = 0.5;
 // Smaller exponentials vanish beside the uncertainty (relative).
 constexpr double kLeastTilt = 0.05;
 

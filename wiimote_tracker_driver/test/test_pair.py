@@ -126,7 +126,8 @@ def test_a_remote_is_paired_and_tried(computer, dialogue):
 
 
 def test_an_old_pairing_is_removed_and_made_anew(computer):
-    again = SCAN.replace('Discovery started', 'Failed to start discovery: org.bluez.Error.InProgress')
+    again = SCAN.replace('Discovery started',
+                         'Failed to start discovery: org.bluez.Error.InProgress')
     status, out, _ = computer.pair(
         FOUND + '> pair %s\nAttempting to pair with %s\n' % (A, A)
         + 'Failed to pair: org.bluez.Error.AlreadyExists\n'

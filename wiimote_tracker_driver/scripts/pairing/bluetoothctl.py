@@ -30,7 +30,7 @@ class Bluetoothctl(object):
     def __init__(self, hear=None):
         """Starts bluetoothctl; OSError when there is none. hear: called with every line."""
         self._hear = hear or (lambda line: None)
-        self._rest = ''
+        self._rest = b''
         self._lines = []
         self._ended = False
         self._terminal, slave = pty.openpty()
@@ -89,13 +89,14 @@ class Bluetoothctl(object):
             data = b''
         if not data:
             self._ended = True
-        pieces = re.split(r'[\r\n]+', self._rest + DECORATION.sub('', data.decode(errors='replace')))
-        self._rest = pieces.pop()
+        pieces = re.split(rb'[\r\n]+', self._rest + data)
+        self._rest = pieces.pop()  # cut anywhere, also within a colour
         for piece in pieces:
-            self._add(piece)
-        if PROMPT.fullmatch(self._rest) or QUESTION.fullmatch(self._rest):
-            self._add(self._rest)
-            self._rest = ''
+            self._add(_plain(piece))
+        rest = _plain(self._rest)
+        if PROMPT.fullmatch(rest) or QUESTION.fullmatch(rest):
+            self._add(rest)
+            self._rest = b''
 
     def _add(self, text):
         prompt = PROMPT.match(text)
@@ -105,3 +106,7 @@ class Bluetoothctl(object):
         if text:
             self._hear(text)
             self._lines.append(text)
+
+
+def _plain(data):
+    return DECORATION.sub('', data.decode(errors='replace'))

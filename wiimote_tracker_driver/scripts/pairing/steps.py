@@ -16,11 +16,12 @@ NAMES = ('Nintendo RVL-CNT-01', 'Nintendo RVL-CNT-01-TR')
 PROMPT = r'\[[^\]]*\][#>]$'
 DEVICE = re.compile(r'(?:\[(NEW|CHG|DEL)\] )?Device ((?:[0-9A-F]{2}:){5}[0-9A-F]{2}) (.*)')
 
-SYNC = ('press the red SYNC button in the battery compartment of the remote (not 1 and 2: a pairing '
-        'made that way does not last, and a -TR switches off)')
+SYNC = ('press the red SYNC button in the battery compartment of the remote (not 1 and 2: a '
+        'pairing made that way does not last, and a -TR switches off)')
 BONDED_ONLY = ('BlueZ turns away remotes without a bond: take the batteries out and put them back, '
-               'run pair again and use SYNC; if that does not help, set ClassicBondedOnly=false under '
-               '[General] in /etc/bluetooth/input.conf and run  sudo systemctl restart bluetooth')
+               'run pair again and use SYNC; if that does not help, set ClassicBondedOnly=false '
+               'under [General] in /etc/bluetooth/input.conf and run  sudo systemctl restart '
+               'bluetooth')
 NO_ACCESS = ('you may not use Bluetooth here: run pair as the user at the seat of this computer, or '
              'with sudo')
 

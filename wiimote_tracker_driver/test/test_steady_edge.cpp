@@ -126,6 +126,25 @@ TEST(SteadyEdge, forgets_what_is_older_than_its_memory) {
   EXPECT_NEAR(edge.state(2999, 50e-6).time, 5.001 + 2999 * kPeriod, 2e-6);
 }
 
+TEST(SteadyEdge, keeps_its_digits_for_days) {
+  const double period = kPeriod + 3e-6;
+  SteadyEdge young(kPeriod, kTolerance), old(kPeriod, kTolerance);
+  for (int k = 0; k < 60; ++k)
+    old.add(k, 1000.0 + k * period, 1.0, period);
+  constexpr std::int64_t kDays = 100000000;  // 11 of them
+  const double days = 1e8 * period;
+  for (const Report& report : exponentialReports(4000, 0.005, period, 1)) {
+    young.add(report.frame, report.arrival, 1.0, period);
+    old.add(kDays + report.frame, days + report.arrival, 1.0, period);
+  }
+  const ClockState a = young.state(4000, 0.005), b = old.state(kDays + 4000, 0.005);
+  EXPECT_NEAR(b.time - days, a.time, 1e-6);
+  EXPECT_NEAR(b.period, a.period, 1e-10);
+  EXPECT_NEAR(b.p00 / a.p00, 1.0, 0.01);
+  EXPECT_NEAR(b.p01 / a.p01, 1.0, 0.01);
+  EXPECT_NEAR(b.p11 / a.p11, 1.0, 0.01);
+}
+
 TEST(SteadyEdge, is_not_ready_before_it_has_seen_a_few_seconds) {
   SteadyEdge edge(kPeriod, kTolerance);
   EXPECT_FALSE(edge.ready());

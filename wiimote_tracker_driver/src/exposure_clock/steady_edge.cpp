@@ -105,6 +105,9 @@ ClockState SteadyEdge::state(std::int64_t frame, double spread) const {
 
   std::array<Point, kBlocks> hull;
   const int size = lowerHull(hull);
+  // Relative to the latest corner, which keeps the digits of a clock that has run for days.
+  const Point origin = hull[static_cast<std::size_t>(size) - 1];
+  center -= origin.frame;
   const auto n = static_cast<double>(frame - first_frame_);
   // Drift is the period less the nominal one. Each corner bounds the phase where the slopes of the
   // hull beside it say; sums are of (time, drift) over these pieces, weighed by their probability.
@@ -112,10 +115,14 @@ ClockState SteadyEdge::state(std::int64_t frame, double spread) const {
   double sum = 0.0, time = 0.0, drift = 0.0, tt = 0.0, td = 0.0, dd = 0.0;
   double begin = -tolerance_;
   for (int i = 0; i < size && begin < tolerance_; ++i) {
-    const Point& corner = hull[static_cast<std::size_t>(i)];
+    const auto relative = [&](int k) {
+      const Point& p = hull[static_cast<std::size_t>(k)];
+      return Point{p.frame - origin.frame, p.time - origin.time};
+    };
+    const Point corner = relative(i);
     double end = tolerance_;
     if (i + 1 < size) {
-      const Point& next = hull[static_cast<std::size_t>(i) + 1];
+      const Point next = relative(i + 1);
       end = std::min(end, (next.time - corner.time) / (next.frame - corner.frame));
     }
     if (end <= begin)
@@ -131,7 +138,7 @@ ClockState SteadyEdge::state(std::int64_t frame, double spread) const {
       scale = log_mass;
     }
     const double mass = std::exp(log_mass - scale);
-    const double frames = n - corner.frame;
+    const double frames = n - origin.frame - corner.frame;
     const double t = corner.time + frames * piece.mean, d = piece.mean;
     sum += mass;
     time += mass * t;
@@ -145,7 +152,7 @@ ClockState SteadyEdge::state(std::int64_t frame, double spread) const {
   drift /= sum;
   const double below = 1.0 / rate;  // mean and standard deviation of the phase below its bound
   ClockState m;
-  m.time = first_arrival_ + n * nominal_period_ + time - below;
+  m.time = first_arrival_ + n * nominal_period_ + origin.time + time - below;
   m.period = nominal_period_ + drift;
   m.p00 = std::max(0.0, tt / sum - time * time) + below * below;
   m.p01 = td / sum - time * drift;

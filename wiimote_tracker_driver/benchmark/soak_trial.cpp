@@ -70,7 +70,7 @@ Results runSoak(std::uint64_t reports) {
           {"simulated_time", remote.now, "s"},
           {"disturbances", count(hour), "1"},
           {"restorations", count(wiimote.link().restorations), "1"},
-          {"reconnects_and_restarts", count(wiimote.link().clock_epoch), "1"},
+          {"clock_epochs", count(wiimote.link().clock_epoch), "1"},
           {"time", seconds, "s"},
           {"time_per_report", 1e9 * seconds / count(remote.sent), "ns"},
           {"resident_memory_after_first_day", resident, "MB"},

@@ -235,13 +235,21 @@ def test_without_bluetoothctl(computer, monkeypatch):
 
 def test_replacing_a_camera(computer):
     cameras = computer.folder / 'cameras.yaml'
-    cameras.write_text('cameras:\n')
+    cameras.write_text('cameras:\n  wiimote_2: "00:1f:32:00:00:02"\n')
     status, _, _ = computer.pair(FOUND + TO_THE_END, '--replace', 'wiimote_2',
                                  '--cameras', str(cameras), '--camera-info', '/some/folder')
     assert status == 0
     assert computer.calls()[-1] == (
         'wiimote_tracker_driver list_wiimotes --replace wiimote_2 %s --cameras %s '
         '--camera-info /some/folder' % (A.lower(), cameras))
+
+
+def test_a_camera_that_is_not_in_the_list_is_refused_at_once(computer):
+    cameras = computer.folder / 'cameras.yaml'
+    cameras.write_text('cameras:\n  wiimote_2: "00:1f:32:00:00:02"\n')
+    status, out, err = computer.pair('', '--replace', 'wiimote_3', '--cameras', str(cameras))
+    assert (status, out) == (1, '')
+    assert 'no camera wiimote_3' in err
 
 
 @pytest.mark.parametrize('arguments', [

@@ -57,6 +57,8 @@ class DriverConfiguration(unittest.TestCase):
                             "_device:=replay:/nowhere/at_all.wiirec")
         self.assert_refused("/driver_n/record: ", "__name:=driver_n",
                             "_record:=/nowhere/at_all.wiirec")
+        self.assert_refused("/driver_p/replay_rate must be 0", "__name:=driver_p",
+                            "_replay_rate:=0.01")
         self.assert_refused("/driver_o/record is set", "__name:=driver_o",
                             "_record:=a.wiirec", "_device:=replay:/nowhere/at_all.wiirec")
 

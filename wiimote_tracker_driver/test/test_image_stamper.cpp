@@ -62,6 +62,20 @@ TEST_F(ImageStamperTest, StampsAreExposuresUpToTheLeastDelay) {
   }
 }
 
+TEST_F(ImageStamperTest, ARemoteMayBeFastOrSlow) {
+  for (const double period : {0.0100, 0.0101}) {
+    period_ = period;
+    make(ImageStamper::Options());
+    for (int n = 0; n < 3000; ++n) {
+      const ImageTime time = take(n, softDelay());
+      if (n > 1500) {
+        ASSERT_NEAR(kDelay, (time.stamp - exposure(n)).toSec(), 0.001) << period << ", " << n;
+      }
+    }
+    EXPECT_NEAR(period, stamper_.statistics().period, 1e-5);
+  }
+}
+
 TEST_F(ImageStamperTest, LatencyIsSubtracted) {
   ImageStamper::Options options;
   options.latency = kDelay;
@@ -160,14 +174,17 @@ TEST_F(ImageStamperTest, ASetSystemClockIsANewEpoch) {
 
 TEST_F(ImageStamperTest, AReconnectIsANewEpochThatStartsUncertain) {
   ImageTime time;
-  for (int n = 0; n < 500; ++n)
-    time = take(n);
+  for (int n = 0; n < 501; ++n) {
+    if (n != 400)
+      time = take(n);
+  }
   EXPECT_LT(time.stddev, 0.001);
   ++device_epoch_;
   time = take(700, 0.003);
   EXPECT_EQ(1u, time.clock_epoch);
-  EXPECT_EQ(500u, time.frame) << "images while it was away are not lost ones";
+  EXPECT_EQ(501u, time.frame) << "images while it was away are not lost ones";
   EXPECT_GT(time.stddev, 0.001);
+  EXPECT_EQ(1, stamper_.totals().dropped) << "over all epochs";
 }
 
 // Property: whatever the delays, losses, steps and reconnects.
@@ -209,8 +226,11 @@ TEST_F(ImageStamperTest, SimulatedTimeIsNotMixedWithTheSteadyClock) {
     ASSERT_TRUE(std::isnan(time.stddev));
     ASSERT_EQ(0u, time.clock_epoch);
   }
+  const ros::Time before = time.stamp;
+  step_ -= ros::Duration(period_);  // stands still
+  EXPECT_LT(before, take(100).stamp);
   step_ -= ros::Duration(1000.0);  // a bag begins again
-  EXPECT_EQ(1u, take(100).clock_epoch);
+  EXPECT_EQ(1u, take(101).clock_epoch);
 }
 
 }  // namespace

@@ -35,17 +35,18 @@ void CameraInfoPublisher::publish(const ros::Time& stamp) {
   publisher_.publish(message);
 }
 
-void CameraInfoPublisher::publishFactory(const protocol::IrCalibration& calibration,
+void CameraInfoPublisher::publishFactory(const std::optional<protocol::IrCalibration>& calibration,
                                          const ros::Time& stamp) {
-  const std::array<double, 2> centre = calibration.centre();
   sensor_msgs::CameraInfo message;
   message.header.stamp = stamp;
   message.header.frame_id = frame_id_;
   message.width = protocol::kSensorWidth;
   message.height = protocol::kSensorHeight;
-  message.K[2] = centre[0];
-  message.K[5] = protocol::kSensorHeight - 1 - centre[1];  // the sensor's y points up
-  message.K[8] = 1.0;
+  if (calibration) {
+    message.K[2] = calibration->centre()[0];
+    message.K[5] = protocol::kSensorHeight - 1 - calibration->centre()[1];  // y points up there
+    message.K[8] = 1.0;
+  }
   factory_.publish(message);
 }
 

@@ -7,6 +7,7 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
+#include <optional>
 #include <string>
 
 namespace wiimote_tracker::driver {
@@ -26,8 +27,9 @@ class CameraInfoPublisher {
   void publish(const ros::Time& stamp);
 
   /// All that the factory's calibration says of the lens: its centre as cx and cy, with a focal
-  /// length of 0, which means unknown.
-  void publishFactory(const protocol::IrCalibration& calibration, const ros::Time& stamp);
+  /// length of 0, which means unknown. Without a calibration all of K is 0.
+  void publishFactory(const std::optional<protocol::IrCalibration>& calibration,
+                      const ros::Time& stamp);
 
  private:
   ros::NodeHandle nh_;

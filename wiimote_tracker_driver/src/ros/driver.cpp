@@ -201,8 +201,8 @@ void Driver::linkChanged() {
   const ros::Time stamp = source_->readClocks().ros;
   if (now.status && !(now.status == before.status))
     battery_.publish(*now.status, now.identity, stamp);
-  if (now.ir_calibration && (!before.ir_calibration || now.identity != before.identity))
-    camera_info_.publishFactory(*now.ir_calibration, stamp);
+  if (now.state == wiimote::Link::State::kStreaming && before.state != now.state)
+    camera_info_.publishFactory(now.ir_calibration, stamp);
   if (now.state == wiimote::Link::State::kSearching)
     joy_.release(stamp);
 }

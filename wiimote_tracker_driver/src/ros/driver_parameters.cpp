@@ -11,6 +11,8 @@
 namespace wiimote_tracker::driver {
 namespace {
 
+// Slower, and the driver would take long to notice that it is to stop.
+constexpr double kSlowestReplay = 0.1;
 constexpr const char* kCustom = "custom";
 
 bool isCameraName(const std::string& name) {
@@ -38,6 +40,9 @@ void check(const DriverParameters& p, const ros::NodeHandle& private_nh) {
     throw ParameterError(private_nh.resolveName("record") +
                          " is set, but a recording that is played is not recorded again: leave it "
                          "empty, or name a remote as the device");
+  if (p.replay_rate > 0.0 && p.replay_rate < kSlowestReplay)
+    throw ParameterError(private_nh.resolveName("replay_rate") +
+                         " must be 0 (as fast as possible) or at least 0.1");
   if (!isCameraName(p.camera_name))
     throw ParameterError(private_nh.resolveName("camera_name") + " is '" + p.camera_name +
                          "', but must consist of letters, digits and underscores");

@@ -3,8 +3,8 @@
 #include "reference_clocks.h"
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 
 namespace wiimote_tracker::exposure_clock {
@@ -39,12 +39,12 @@ TimingScore runTiming(const LinkModel& link,
     Estimate estimate;
     SimulatedSession numbered = session;
     auto own = numbered.reports.begin();
-    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin = std::clock();
     for (const virtual_wiimote::FrameTime& report : session.reports) {
       estimate = ours.update(report.arrival);
       (own++)->frame = estimate.frame;
     }
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    seconds += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     reports += session.reports.size();
 
     const double truth = session.reports.back().exposure + link.delay;

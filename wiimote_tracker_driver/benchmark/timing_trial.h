@@ -22,7 +22,7 @@ struct TimingScore {
   double wrong_frames;    ///< share of last reports taken for another frame
   double clock_ratio;     ///< RMS of error / clock_stddev
   double covered;         ///< share of total errors within 2 stddev
-  double update_seconds;  ///< computing time per report
+  double update_seconds;  ///< processor time per report
 };
 
 /// Plays `sessions` sessions of `duration` [s] with seeds `first_seed`, `first_seed` + 1, ... The

@@ -88,6 +88,11 @@ TEST(ExposureClockAccuracy, finds_a_hard_edge_to_0_05_ms) {
   }
 }
 
+TEST(ExposureClockAccuracy, finds_a_sharp_edge_like_the_hull_that_is_told_the_frame_numbers) {
+  const TimingScore score = runTiming(edge(0.002), 10.0, kSessions, false);
+  EXPECT_LT(score.clock, 1.2 * score.convex_hull);
+}
+
 TEST(ExposureClockAccuracy, finds_a_bell_to_0_2_ms) {
   const TimingScore score = runTiming(bell(), 10.0, kSessions, false);
   EXPECT_LT(score.clock, 0.2e-3 * kTolerance);
@@ -136,6 +141,32 @@ TEST(ExposureClockAccuracy, numbers_frames_through_losses) {
               2.0);
   EXPECT_NEAR(clock.statistics().period, session.period, 5.0 * clock.statistics().period_stddev);
   EXPECT_LT(clock.statistics().period_stddev, 10e-6 * kPeriod);
+}
+
+TEST(ExposureClockAccuracy, twenty_minutes_of_losses_and_stalls_lose_neither_count_nor_clock) {
+  LinkModel steady_edge = edge(0.003), wandering_bell = bell(1e-3);
+  for (LinkModel link : {steady_edge, wandering_bell}) {
+    link.slot = 1.25e-3;
+    link.stalls = 0.3;
+    const SimulatedSession session = simulate(link, 1200.0, 77);
+    ExposureClock clock;
+    std::vector<double> errors;
+    for (const virtual_wiimote::FrameTime& report : session.reports) {
+      const double error = clock.update(report.arrival).exposure - report.exposure;
+      if (report.exposure > session.reports.front().exposure + 20.0)
+        errors.push_back(error - session.period * std::round(error / session.period));
+    }
+    double mean = 0.0, square = 0.0;
+    for (double e : errors)
+      mean += e / static_cast<double>(errors.size());
+    for (double e : errors)
+      square += (e - mean) * (e - mean) / static_cast<double>(errors.size());
+    EXPECT_LT(std::sqrt(square), link.wander > 0.0 ? 0.4e-3 : 0.05e-3);
+    const std::int64_t frames = session.reports.back().frame - session.reports.front().frame + 1;
+    EXPECT_NEAR(static_cast<double>(clock.statistics().dropped),
+                static_cast<double>(frames) - static_cast<double>(session.reports.size()), 1.0);
+    EXPECT_EQ(clock.statistics().restarts, 0u);
+  }
 }
 
 TEST(ExposureClock, tells_the_kind_and_the_size_of_the_jitter) {

@@ -20,7 +20,6 @@ struct Candidate {
   DelayModel model;
   double prior;
 };
-constexpr double kPriorSteadyEdge = 0.5;
 constexpr double kPriorSteady = 0.14, kPriorWanders = 0.09, kPriorWandersMuch = 0.10;
 const Candidate kCandidates[] = {
     {{true, kSharp, kSteady}, kPriorSteady},
@@ -34,9 +33,12 @@ const Candidate kCandidates[] = {
     {{false, 0.0, kWandersMuch}, kPriorWandersMuch},
 };
 
-// The first candidate: its belief is not normal, and computed exactly by SteadyEdge.
+// The first candidate: its belief is not normal, and computed exactly by SteadyEdge; and its weight
+// when that takes over.
 constexpr std::size_t kSteadyEdge = 0;
-// A report bounds the exposure times when its number is this probable in hindsight.
+constexpr double kPriorSteadyEdge = 0.5;
+// SteadyEdge takes a report whose number is this probable in hindsight, and that is not this much
+// too early [s], which would mean a wrong number all the same.
 constexpr double kSure = 0.9;
 constexpr double kTooEarly = 1e-3;
 // A steady edge that explains nothing and is this far from the best model began with wrong

@@ -48,7 +48,8 @@ struct Statistics {
 ///
 /// A bank of ClockFilters, one per delay model, each weighted by how well it predicts the arrivals
 /// (multiple model estimation: Magill, IEEE Trans. Autom. Control 10, 1965); one FrameCounter
-/// shared by all tells which frame a report is.
+/// shared by all tells which frame a report is. The belief of the model for a sharp edge and a
+/// steady clock is far from normal; SteadyEdge computes it exactly once it has seen a few seconds.
 class ExposureClock {
  public:
   /// @throws std::invalid_argument when an option is out of range.

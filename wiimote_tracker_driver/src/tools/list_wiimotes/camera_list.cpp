@@ -1,6 +1,6 @@
 #include "camera_list.h"
 
-#include <unistd.h>
+#include "yaml_line.h"
 
 #include <algorithm>
 #include <cctype>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <regex>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -23,9 +23,8 @@ std::string lowerCase(std::string text) {
   return text;
 }
 
-bool isBlankOrComment(const std::string& line) {
-  const std::size_t first = line.find_first_not_of(" \t\r");
-  return first == std::string::npos || line[first] == '#';
+bool isCameraName(const std::string& key) {
+  return std::isalpha(static_cast<unsigned char>(key[0])) != 0;
 }
 
 }  // namespace
@@ -36,12 +35,6 @@ CameraList::CameraList()
           "frames) and the\n# Bluetooth address.\ncameras:\n") {}
 
 CameraList::CameraList(const std::string& text) {
-  const std::string device = R"re((?:"([^"]+)"|'([^']+)'|([^\s"'#{\[&*!|>][^\s#]*))(\s*|\s+#.*))re";
-  const std::regex header(R"(cameras:\s*(#.*)?)");
-  const std::regex key_and_device(R"((\s+(\w+):\s+))" + device);
-  const std::regex key_alone(R"(\s+(\w+):\s*(#.*)?)");
-  const std::regex camera_name(R"([A-Za-z]\w*)");
-
   bool in_cameras = false;
   std::set<std::string> names;
   std::string open;          // the camera whose name stands alone, with lines below it
@@ -61,26 +54,27 @@ CameraList::CameraList(const std::string& text) {
     };
     Line parsed;
     parsed.text = line;
-    const auto takeDevice = [&](const std::string& name, const std::smatch& match) {
-      parsed.entry = {name, match[3].str() + match[4].str() + match[5].str()};
-      parsed.key = match[1];
-      parsed.comment = match[6];
+    const auto takeDevice = [&](const std::string& name, const Assignment& assignment) {
+      parsed.entry = {name, assignment.value};
+      parsed.key = assignment.before;
+      parsed.comment = assignment.after;
     };
     const std::string indent = line.substr(0, line.find_first_not_of(" \t"));
-    std::smatch match;
+    const std::optional<Assignment> assignment = parseAssignment(line);
     if (isBlankOrComment(line)) {
       // stays as it is
     } else if (!in_cameras) {
-      if (!std::regex_match(line, header))
+      if (!assignment || assignment->key != "cameras" || !assignment->value.empty() ||
+          !indent.empty())
         refuse("write \"cameras:\" above the cameras");
       in_cameras = true;
     } else if (!open.empty() && indent.size() > indent_.size()) {
       parsed.in_camera = true;
       if (inner_indent.empty())
         inner_indent = indent;
-      if (indent == inner_indent && std::regex_match(line, match, key_and_device) &&
-          match[2] == "identity") {
-        takeDevice(open, match);
+      if (indent == inner_indent && assignment && assignment->key == "identity" &&
+          !assignment->value.empty()) {
+        takeDevice(open, *assignment);
         open_has_device = true;
       }
     } else {
@@ -88,19 +82,19 @@ CameraList::CameraList(const std::string& text) {
       parsed.in_camera = true;
       if (names.empty())
         indent_ = indent;
-      const bool alone = std::regex_match(line, match, key_alone);
-      if (indent != indent_ || (!alone && !std::regex_match(line, match, key_and_device)))
+      if (!assignment || indent != indent_ || indent.empty())
         refuse("write one line  name: \"address\"  for each camera, indented alike");
-      const std::string name = match[alone ? 1 : 2];
-      if (!std::regex_match(name, camera_name))
+      const std::string& name = assignment->key;
+      if (!isCameraName(name))
         refuse("a camera's name must be letters, digits and _, a letter first");
       if (!names.insert(name).second)
         refuse("camera " + name + " is there already; remove one of the lines");
+      const bool alone = assignment->value.empty();
       if (alone) {
         open = name;
         inner_indent.clear();
       } else {
-        takeDevice(name, match);
+        takeDevice(name, *assignment);
       }
       open_has_device = !alone;
     }

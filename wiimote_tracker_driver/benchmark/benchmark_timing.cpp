@@ -81,9 +81,8 @@ int main(int argc, char** argv) {
       "Simulated. RMS error [ms] of the newest frame's exposure time after %.0f s, 5 %% of the "
       "frames\n"
       "lost, over %d sessions, less the constant delay. Line, hull, Olson and oracle are told the\n"
-      "frame numbers; line* and hull* have the clock's, oracle* (edges only)\n"
-      "finds its own. Line*, hull*, oracle*, clock: to the nearest true\n"
-      "exposure; total: with wrong frame numbers.\n\n"
+      "frame numbers; line* and hull* have the clock's; oracle* (edges only) finds its own. These\n"
+      "and clock: to the nearest true exposure; total: with wrong frame numbers.\n\n"
       "%-36s %7s | %7s %7s %7s %7s | %7s %7s %7s %8s | %7s %7s %7s %8s %7s %6s\n",
       duration, sessions, "delay [ms]", "arrival", "line", "hull", "Olson", "oracle", "line*",
       "hull*", "oracle*", "wrong* %", "clock", "total", "wrong %", "err/sd", "in 2sd%", "us");

@@ -69,7 +69,8 @@ void finishPair(Device& device) {
     report = device.sample(Senses());
 }
 
-/// Four lights, one in each quarter of the image, at each place of a quarter (or every `step`-th).
+/// Four lights at all places: far enough from each other not to run together, and no two alike in
+/// any byte. Each takes every `step`-th place of a row; with 2 they take all places together.
 void expectEveryPlace(int id, unsigned step) {
   const wire::DataReport& layout = layoutOf(id);
   const bool sized = layout.format != wire::Format::kBasic;
@@ -80,14 +81,14 @@ void expectEveryPlace(int id, unsigned step) {
   Senses senses;
   std::uint64_t wrong = 0;
   unsigned turn = 0;
-  for (unsigned y = 0; y < 384; ++y) {
-    for (unsigned x = y % step; x < 512; x += step, ++turn) {
+  for (unsigned y = 0; y < 768; ++y) {
+    for (unsigned x = y % step; x < 1024; x += step, ++turn) {
       senses.lights.clear();
       Seen expected;
-      for (unsigned quarter = 0; quarter < 4; ++quarter) {
-        const unsigned size = (turn + 4 * quarter) % 15 + 1;
-        const unsigned place_x = x + quarter % 2 * 512;
-        const unsigned place_y = y + quarter / 2 * 384;
+      for (unsigned i = 0; i < 4; ++i) {
+        const unsigned size = (turn + 4 * i) % 15 + 1;
+        const unsigned place_x = (x + i % 2 * 475) % 1024;
+        const unsigned place_y = (y + i / 2 * 355) % 768;
         senses.lights.push_back(light(place_x, place_y, size));
         expected.emplace(place_x, place_y, sized ? size : 0);
       }
@@ -106,16 +107,16 @@ void expectEveryPlace(int id, unsigned step) {
 }
 
 TEST(VirtualWireLayouts, ExtendedSpotsOfEveryPlace) {
-  expectEveryPlace(0x33, 1);
+  expectEveryPlace(0x33, 2 * wire::kStep);
 }
 
 TEST(VirtualWireLayouts, BasicSpots) {
-  expectEveryPlace(0x36, 5);
-  expectEveryPlace(0x37, 5);
+  expectEveryPlace(0x36, 11 * wire::kStep);
+  expectEveryPlace(0x37, 11 * wire::kStep);
 }
 
 TEST(VirtualWireLayouts, FullSpotsInBothHalves) {
-  expectEveryPlace(0x3e, 5);
+  expectEveryPlace(0x3e, 11 * wire::kStep);
 }
 
 TEST(VirtualWireLayouts, EveryReportHasItsLength) {

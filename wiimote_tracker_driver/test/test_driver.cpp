@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -555,6 +556,8 @@ TEST(DriverInOtherModes, WhatWasRecordedIsPlayedInItsOwnTime) {
     return driverStatus(diagnostics, "wiimote_4").message.find("has ended") != std::string::npos;
   }));
   EXPECT_EQ(0, std::system("rosnode kill /wiimote_4/driver > /dev/null"));
+  for (const char* left : {"_1.wiirec", "_1.yaml"})
+    EXPECT_EQ(0, std::remove((parameter("files") + left).c_str())) << left;
 }
 
 }  // namespace

@@ -46,12 +46,20 @@ std::mutex& hidapiMutex() {
   return mutex;
 }
 
+// The Wii U Pro Controller and the Balance Board share the ids, but have no camera.
+bool hasCamera(const hid_device_info& info) {
+  const std::string name = narrowLowerCase(info.product_string);
+  return name.find("rvl-cnt-01-uc") == std::string::npos &&
+         name.find("rvl-wbc-01") == std::string::npos;
+}
+
 std::vector<Found> enumerate() {
   const std::lock_guard<std::mutex> lock(hidapiMutex());
   std::vector<Found> found;
   hid_device_info* const list = hid_enumerate(kNintendo, 0);
   for (const hid_device_info* i = list; i != nullptr; i = i->next) {
-    if (i->path != nullptr && (i->product_id == kRemote || i->product_id == kRemotePlus))
+    const bool is_remote = i->product_id == kRemote || i->product_id == kRemotePlus;
+    if (i->path != nullptr && is_remote && hasCamera(*i))
       found.push_back({i->path, narrowLowerCase(i->serial_number)});
   }
   hid_free_enumeration(list);

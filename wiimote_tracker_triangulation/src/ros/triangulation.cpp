@@ -53,6 +53,7 @@ void Triangulation::takeRig(const geometry::Rig& rig, const std::string& publish
   rig_ = rig;
   context_.rig_id = published_id;
   markers_.setRig(rig_);
+  strangers_.assign(rig_.cameras.size(), "");
   statistics_.clear(rig_.cameras.size());
   statistics_since_ = ros::WallTime::now();
   diagnostics_.setHardwareID("rig " + published_id);
@@ -80,6 +81,7 @@ void Triangulation::onBlobs(const wiimote_tracker_msgs::IrBlobArrayConstPtr& mes
   const auto index = camera_index_.find(camera);
   if (index == camera_index_.end() || !isUsable(*message, rig_.cameras[index->second]))
     return;
+  checkIdentity(*message, index->second);
   image_.stamp = message->header.stamp.toSec();
   image_.arrival = (message->arrival.isZero() ? message->header.stamp : message->arrival).toSec();
   image_.clock_epoch = message->clock_epoch;
@@ -118,14 +120,20 @@ bool Triangulation::isUsable(const wiimote_tracker_msgs::IrBlobArray& message,
                        camera.intrinsics.height);
     return false;
   }
-  if (!message.identity.empty() && !camera.identity.empty() &&
-      message.identity != camera.identity) {
-    ROS_WARN_THROTTLE(30.0,
-                      "%s is now device %s, but was calibrated as %s; exchange them or calibrate "
-                      "again.",
-                      camera.name.c_str(), message.identity.c_str(), camera.identity.c_str());
-  }
   return true;
+}
+
+void Triangulation::checkIdentity(const wiimote_tracker_msgs::IrBlobArray& message,
+                                  std::size_t camera) {
+  const geometry::Camera& calibrated = rig_.cameras[camera].camera;
+  strangers_[camera].clear();
+  if (message.identity.empty() || calibrated.identity.empty() ||
+      message.identity == calibrated.identity)
+    return;
+  strangers_[camera] = message.identity;
+  ROS_WARN_THROTTLE(
+      30.0, "%s is now device %s, but was calibrated as %s; exchange them or calibrate again.",
+      calibrated.name.c_str(), message.identity.c_str(), calibrated.identity.c_str());
 }
 
 void Triangulation::publish(const fusion::Instant& instant) {
@@ -183,6 +191,13 @@ void Triangulation::report(diagnostic_updater::DiagnosticStatusWrapper& status) 
     status.summary(DiagnosticStatus::OK, "no LED in view of two cameras");
   else
     status.summary(DiagnosticStatus::OK, "tracking");
+  for (std::size_t i = 0; i < strangers_.size(); ++i) {
+    if (!strangers_[i].empty())
+      status.mergeSummaryf(DiagnosticStatus::WARN,
+                           "%s is device %s, but was calibrated as %s: calibrate again",
+                           rig_.cameras[i].camera.name.c_str(), strangers_[i].c_str(),
+                           rig_.cameras[i].camera.identity.c_str());
+  }
   status.add("rig", context_.rig_id);
   status.addf("rate [Hz]", "%.1f", rate);
   status.addf("latency p50 [ms]", "%.3f", 1e3 * statistics_.latency(0.50));

@@ -32,6 +32,7 @@ class Triangulation {
   void onBlobs(const wiimote_tracker_msgs::IrBlobArrayConstPtr& message, const std::string& camera);
   bool isUsable(const wiimote_tracker_msgs::IrBlobArray& message,
                 const geometry::RigCamera& camera) const;
+  void checkIdentity(const wiimote_tracker_msgs::IrBlobArray& message, std::size_t camera);
   void publish(const fusion::Instant& instant);
   void onTimer(const ros::WallTimerEvent& event);
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -42,6 +43,7 @@ class Triangulation {
   geometry::Rig rig_;
   std::string computed_id_;  // of rig_; empty before the first
   std::map<std::string, std::size_t> camera_index_;
+  std::vector<std::string> strangers_;  // per camera: device that was not calibrated, or empty
   std::unique_ptr<fusion::InstantFuser> fuser_;
   PointContext context_;
   double newest_instant_ = -std::numeric_limits<double>::infinity();

@@ -244,6 +244,25 @@ TEST(Triangulation, ReportsDiagnostics) {
   ASSERT_TRUE(Bench::waitFor([&] { return g_bench->film(kBatch, {0, 1, 2}) && reported(); }));
 }
 
+TEST(Triangulation, DiagnosticsNameACameraThatIsAnotherDevice) {
+  const auto reported = [](const std::string& words) {
+    g_bench->diagnostics_.clear();
+    return Bench::waitFor([&] {
+      if (!g_bench->film(kBatch, {0, 1, 2}))
+        return false;
+      return std::any_of(g_bench->diagnostics_.begin(), g_bench->diagnostics_.end(),
+                         [&](const auto& s) { return s.message.find(words) != std::string::npos; });
+    });
+  };
+  std::string& identity = g_bench->rig_.cameras[1].camera.identity;  // of the images to come
+  const std::string calibrated = identity;
+  identity = "00:00:00:00:00:99";
+  EXPECT_TRUE(reported("camera_1 is device 00:00:00:00:00:99, but was calibrated as " + calibrated +
+                       ": calibrate again"));
+  identity = calibrated;
+  EXPECT_TRUE(reported("tracking"));
+}
+
 TEST(Triangulation, GoesOnWhenOneCameraStopsAndWhenItComesBack) {
   ASSERT_TRUE(g_bench->film(0.6, {1, 2}));
   for (const auto& array : g_bench->arraysSince(g_bench->now_ - 0.2)) {

@@ -124,7 +124,8 @@ int run(const Options& options) {
     good = good && value(results, "allocations_not_freed_since_then") <= 0.0;
   }
   if (asked(options, "timing"))
-    add("timing", runTimingProgram());
+    add("timing", "{\"unit\": \"s; wrong_*, error_over_stddev, within_2_stddev: 1\",\n\"rows\": " +
+                      runTimingProgram() + "}");
   if (text.empty())
     throw std::invalid_argument(kUsage);
   if (!options.json.empty()) {

@@ -1,0 +1,89 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_SIMULATED_WAVE_H
+#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_SIMULATED_WAVE_H
+
+#include "wiimote_tracker_calibration/square/rig_model.h"
+#include "wiimote_tracker_calibration/wave/recording.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <vector>
+
+namespace wiimote_tracker::wave {
+
+/// An LED, or the two of a wand, moved smoothly through the cube [0, 2.5]^3 m.
+class SimulatedPath {
+ public:
+  /// @param length 0: one LED.
+  SimulatedPath(double length, std::mt19937_64& random);
+
+  /// [m]; time [s].
+  Eigen::Vector3d position(double time, int led) const;
+  Eigen::Vector3d velocity(double time, int led) const;
+
+  Eigen::Vector3d center = Eigen::Vector3d::Constant(1.25);   ///< [m]
+  Eigen::Vector3d reach = Eigen::Vector3d(0.85, 0.85, 0.85);  ///< To each side [m].
+  double pace = 1.0;                                          ///< Factor on the speed.
+
+ private:
+  double length_;
+  std::array<std::array<double, 2>, 3> rates_;   // of two oscillations per axis [rad/s]
+  std::array<std::array<double, 2>, 3> phases_;  // [rad]
+  std::array<double, 4> turns_;                  // of the wand: rates and phases
+};
+
+/// What is simulated. The defaults are the paper's rig.
+struct WaveScene {
+  std::vector<Eigen::Isometry3d> cameras;  ///< Empty: the paper's.
+  std::size_t camera_count = 4;            ///< Of the paper's.
+  bool square = true;
+  double side = 2.5;    ///< Of the square [m].
+  double length = 0.0;  ///< Of the wand [m]; 0: one LED.
+  double duration = 15.0;
+  double pixel = 0.4;         ///< Noise before rounding, per axis [px].
+  bool quantized = true;      ///< Whole pixels, as a Wii Remote reports.
+  double wrong_share = 0.05;  ///< Of the LED's spots that are anywhere in the image instead.
+  double extra_share = 0.0;   ///< Of the images that show one more spot, anywhere.
+  bool lamp = false;          ///< Every image shows a lamp's spot, too.
+  double offset = 0.010;      ///< Largest time offset to either side [s].
+  double stamp = 0.0;         ///< Independent error of each stamp [s].
+  double wander = 0.0;        ///< Slow error of the stamps [s], settling within 2 s.
+  double rate = 100.0;        ///< Of the images [Hz].
+  /// Errors of lenses and corners are drawn from this.
+  square::Uncertainty uncertainty = wide();
+
+  /// Focal length off by 4 %, principal point by 20 px.
+  static square::Uncertainty wide();
+  std::vector<Eigen::Isometry3d> poses() const;
+};
+
+/// A recording and the truth behind it.
+struct SimulatedWave {
+  std::vector<geometry::Camera> cameras;
+  std::vector<double> offsets;  ///< Less the first camera's [s].
+  square::Corners corners{};    ///< Where the LED really was put [m].
+  SimulatedPath path;
+  /// Exposures at which a camera saw an LED where it was: for the bound.
+  struct View {
+    std::size_t camera;
+    int led;
+    double time;       ///< Of the exposure, by the first camera's clock [s].
+    double path_time;  ///< The same on the path's own time [s].
+  };
+  std::vector<View> views;
+  Recording recording;
+};
+
+SimulatedWave simulateWave(const WaveScene& scene, std::uint64_t seed);
+
+/// Same with a path of one's own.
+SimulatedWave simulateWave(const WaveScene& scene, SimulatedPath path, std::mt19937_64& random);
+
+}  // namespace wiimote_tracker::wave
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_SIMULATED_WAVE_H

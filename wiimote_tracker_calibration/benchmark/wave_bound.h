@@ -1,0 +1,56 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_BOUND_H
+#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_BOUND_H
+
+#include "simulated_wave.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera.h>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace wiimote_tracker::wave {
+
+/// RMS errors of points in the volume, noise of their own pixels left out [m].
+struct VolumeError {
+  double absolute = 0.0;    ///< In the world.
+  double rigid = 0.0;       ///< After the best rigid motion.
+  double similarity = 0.0;  ///< After the best similarity.
+};
+
+/// Points of the cube [0, 2.5]^3 m that all true cameras see.
+std::vector<Eigen::Vector3d> cubePoints(const std::vector<geometry::Camera>& truth);
+
+/// Errors of the points as triangulated from their true pixels with the estimated cameras [m].
+Eigen::Matrix3Xd pointErrors(const std::vector<geometry::Camera>& truth,
+                             const std::vector<geometry::Camera>& estimate,
+                             const std::vector<Eigen::Vector3d>& points);
+
+/// What is left of the errors after the best small motion, rigid or with a scale.
+Eigen::Matrix3Xd aligned(const Eigen::Matrix3Xd& errors,
+                         const std::vector<Eigen::Vector3d>& points,
+                         bool with_scale);
+
+VolumeError volumeError(const Eigen::Matrix3Xd& errors, const std::vector<Eigen::Vector3d>& points);
+
+/// What the Fisher information of a simulated recording allows at best: the same model (a cubic
+/// B-spline of the same knots, the same prior knowledge), computed another way, at the truth, by
+/// numerical differentiation and a general sparse factorisation.
+struct WaveBound {
+  /// Of 12 parameters per camera: rotation, position, fx, fy, cx, cy, k1, time offset.
+  Eigen::MatrixXd covariance;
+  VolumeError volume;
+};
+
+/// @param pixel standard deviation of what the cameras report, rounding included [px].
+/// @param wand_stddev of the wand's length [m].
+WaveBound waveBound(const WaveScene& scene,
+                    const SimulatedWave& wave,
+                    double knot_spacing,
+                    double pixel,
+                    double wand_stddev,
+                    const std::vector<Eigen::Vector3d>& points);
+
+}  // namespace wiimote_tracker::wave
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_BOUND_H

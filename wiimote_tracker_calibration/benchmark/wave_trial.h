@@ -1,0 +1,61 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_TRIAL_H
+#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_TRIAL_H
+
+#include "simulated_wave.h"
+#include "wave_bound.h"
+
+#include "wiimote_tracker_calibration/wave/solve_wave.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::wave {
+
+/// How many of how many.
+struct Share {
+  int inside = 0;
+  int all = 0;
+  void count(bool is_inside) {
+    inside += is_inside ? 1 : 0;
+    ++all;
+  }
+};
+
+/// RMS errors of single measurements in the cube, after a rigid alignment on other points [m].
+struct PositionError {
+  double solved = 0.0;   ///< With the cameras of the wave.
+  double perfect = 0.0;  ///< With the true cameras.
+  double square = 0.0;   ///< With the square alone; NaN when it was refused.
+};
+
+/// One simulated calibration, held against the truth.
+struct WaveTrial {
+  std::string refusal;  ///< Empty: solved.
+  VolumeError error;
+  VolumeError bound;
+  std::vector<double> offset_errors;   ///< Of all cameras but the first [s].
+  std::vector<double> offset_bounds;   ///< Standard deviations [s].
+  std::vector<double> offset_stddevs;  ///< As the solution states them [s].
+  Share intervals;                     ///< Parameters within their 95 % interval.
+  Share regions;                       ///< Points within their 95 % ellipsoid.
+  double length_error = 0.0;  ///< Mean error of measured wands, as a share of their length.
+  PositionError position;
+  double seconds = 0.0;  ///< That solving took, by the wall clock.
+};
+
+/// @param with_positions fills `position`, too.
+WaveTrial runWaveTrial(const WaveScene& scene, std::uint64_t seed, bool with_positions);
+
+/// The options that fit to a scene.
+WaveOptions optionsFor(const WaveScene& scene);
+
+/// The cameras of a solution in the world of the truth: without square they stand in the first
+/// camera, whose true place is known here.
+std::vector<geometry::Camera> inTrueWorld(const WaveScene& scene,
+                                          const SimulatedWave& wave,
+                                          const WaveSolution& solution);
+
+}  // namespace wiimote_tracker::wave
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_TRIAL_H

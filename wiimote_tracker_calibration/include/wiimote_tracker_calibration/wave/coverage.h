@@ -1,0 +1,110 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_WAVE_COVERAGE_H
+#define WIIMOTE_TRACKER_CALIBRATION_WAVE_COVERAGE_H
+
+#include "wiimote_tracker_calibration/wave/recording.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::wave {
+
+/// What is enough.
+struct CoverageOptions {
+  double seconds = 15.0;  ///< In which two cameras or more see the LED move [s, > 0].
+  /// Of the cells of each camera's image [0 to 1]. The paper's cube fills 0.38 of its images.
+  double image_share = 0.25;
+  double image_speed = 100.0;  ///< Median of its spot in each image [px/s, >= 0].
+  double volume = 1.0;         ///< Passed through; only with known cameras [m^3, >= 0].
+  double speed = 0.5;          ///< Median; only with known cameras [m/s, >= 0].
+  double distraction = 0.3;    ///< Largest share of images with other lights [0 to 1].
+};
+
+/// What one camera has seen.
+struct CameraCoverage {
+  static constexpr int kColumns = 8;  ///< Cells of the image.
+  static constexpr int kRows = 6;
+
+  std::string name;
+  std::array<std::array<bool, kColumns>, kRows> filled{};  ///< By a moving spot; [row][column].
+  double image_share = 0.0;                                ///< Filled cells [0 to 1].
+  double seconds = 0.0;                                    ///< In which it saw the LED move [s].
+  double together = 0.0;                                   ///< Of these, with another camera [s].
+  double image_speed = 0.0;  ///< Median of the spot's speed [px/s]; 0: never moved.
+  double distraction = 0.0;  ///< Share of its images with more spots than LEDs [0 to 1].
+};
+
+/// How far the wave is.
+struct CoverageReport {
+  std::vector<CameraCoverage> cameras;
+  double seconds = 0.0;              ///< In which two cameras or more saw the LED move [s].
+  std::optional<double> volume;      ///< Passed through [m^3]; nothing: cameras not known.
+  std::optional<double> speed;       ///< Median [m/s]; nothing: cameras not known, or no motion.
+  std::vector<std::string> missing;  ///< What to do, most urgent first; one sentence each.
+  bool enough() const { return missing.empty(); }
+};
+
+/// Follows a wave while it is being recorded. Cheap: for every frame of every camera.
+class Coverage {
+ public:
+  /// @param cameras names and image sizes; poses are used only when `posed`.
+  /// @param leds 1, or 2 for a wand. @throws WaveError: options out of range.
+  Coverage(std::vector<geometry::Camera> cameras,
+           bool posed,
+           std::size_t leds,
+           const CoverageOptions& options);
+
+  /// Frames of one camera in the order of their stamps, cameras in any order.
+  void add(std::size_t camera, const Frame& frame);
+
+  CoverageReport report() const;
+
+ private:
+  /// Spots of successive images that are one light.
+  struct Track {
+    std::deque<std::pair<double, Eigen::Vector2d>> places;  // [s], [px]
+  };
+  /// Counts of speeds in equal steps; the last step takes all beyond.
+  struct Speeds {
+    std::array<std::uint32_t, 256> counts{};
+    std::uint32_t total = 0;
+    void add(double speed, double step);
+    double median(double step) const;
+  };
+  struct View {
+    std::vector<Track> tracks;
+    std::array<std::array<bool, CameraCoverage::kColumns>, CameraCoverage::kRows> filled{};
+    Speeds speeds;
+    std::size_t frames = 0;
+    std::size_t distracted = 0;
+    double time = 0.0;                      // of `middle`
+    std::optional<Eigen::Vector2d> middle;  // of the moving LED or LEDs
+  };
+
+  void follow(View* view, const Frame& frame) const;
+  void locate(std::size_t camera);
+
+  std::vector<geometry::Camera> cameras_;
+  bool posed_;
+  std::size_t leds_;
+  CoverageOptions options_;
+  std::vector<View> views_;
+  std::map<std::int64_t, std::vector<bool>> seen_;  // by step of time: which cameras
+  std::set<std::array<int, 3>> cells_;              // of the volume
+  Speeds speeds_;
+  std::optional<std::pair<double, Eigen::Vector3d>> last_;
+};
+
+}  // namespace wiimote_tracker::wave
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_WAVE_COVERAGE_H

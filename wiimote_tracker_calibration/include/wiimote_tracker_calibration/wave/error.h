@@ -1,0 +1,20 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_WAVE_ERROR_H
+#define WIIMOTE_TRACKER_CALIBRATION_WAVE_ERROR_H
+
+#include <wiimote_tracker_triangulation/geometry/error.h>
+
+namespace wiimote_tracker::wave {
+
+/// A recording does not determine the cameras. what() is one sentence: why, and what to do.
+struct WaveError : geometry::Error {
+  using Error::Error;
+};
+
+/// The progress callback asked to stop.
+struct Cancelled : WaveError {
+  using WaveError::WaveError;
+};
+
+}  // namespace wiimote_tracker::wave
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_WAVE_ERROR_H

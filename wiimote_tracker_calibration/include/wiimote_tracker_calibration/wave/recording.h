@@ -1,0 +1,43 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_WAVE_RECORDING_H
+#define WIIMOTE_TRACKER_CALIBRATION_WAVE_RECORDING_H
+
+#include "wiimote_tracker_calibration/square/sightings.h"
+#include "wiimote_tracker_calibration/square/square_layout.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::wave {
+
+/// What a camera reported at one time: the LED's spot, reflections, lamps, in any order.
+struct Frame {
+  double stamp = 0.0;                  ///< By the camera's own clock [s].
+  std::vector<Eigen::Vector2d> spots;  ///< Distorted [px]; empty when it saw nothing.
+};
+
+/// All that one camera saw: the square (some corners, all of them or none), then the wave.
+struct CameraRecording {
+  square::CameraSightings sightings;
+  std::uint32_t clock_epoch = 0;  ///< Of the stamps; the time offset holds for this epoch only.
+  std::vector<Frame> frames;      ///< In the order of their stamps.
+};
+
+/// Two LEDs on a stick.
+struct Wand {
+  double length = 0.0;     ///< Between the LEDs [m, > 0].
+  double stddev = 0.0002;  ///< Of the length as it was measured [m, > 0].
+};
+
+/// One calibration session.
+struct Recording {
+  std::vector<CameraRecording> cameras;
+  std::optional<square::SquareLayout> square;  ///< Nothing: no corners were captured.
+  std::optional<Wand> wand;                    ///< Nothing: one LED was waved.
+};
+
+}  // namespace wiimote_tracker::wave
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_WAVE_RECORDING_H

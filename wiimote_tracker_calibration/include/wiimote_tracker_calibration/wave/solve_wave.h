@@ -1,0 +1,91 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_WAVE_SOLVE_WAVE_H
+#define WIIMOTE_TRACKER_CALIBRATION_WAVE_SOLVE_WAVE_H
+
+#include "wiimote_tracker_calibration/square/rig_model.h"
+#include "wiimote_tracker_calibration/wave/recording.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::wave {
+
+struct WaveOptions {
+  /// Starting intrinsics, corners: how well they are known. Its `pixel` is that of a corner.
+  square::Uncertainty uncertainty;
+  double pixel = 0.5;          ///< Of a moving spot, per axis [px, > 0]; estimated from here.
+  double stamp = 0.0;          ///< Independent error of each stamp [s, >= 0].
+  double offset = 0.05;        ///< Of a time offset before anything is known [s, > 0].
+  double knot_spacing = 0.05;  ///< Of the LED's path, a cubic spline [s, 0.005 to 0.05].
+  double acceleration = 20.0;  ///< Of the LED; bridges times in which nobody sees it [m/s^2, > 0].
+  double maximum_offset_stddev = 0.0005;  ///< A result less certain of an offset is refused [s].
+};
+
+/// Where the world of the result is, and with it what its covariance leaves out.
+enum class Gauge {
+  kSquare,       ///< The square, as uncertain as its placement.
+  kFirstCamera,  ///< The first camera, exact: origin in it; its accelerometer's up is z. Without
+                 ///< accelerometer its optical frame is the world.
+};
+
+/// What one camera contributed, beside what its geometry::RigCamera says.
+struct CameraReport {
+  double inlier_share = 0.0;   ///< Inliers among its images with spots, while others saw the LED.
+  double offset_stddev = 0.0;  ///< Of the time offset [s]; 0: the reference.
+  double focal_stddev = 0.0;   ///< Of fx [px].
+  double principal_point_stddev = 0.0;  ///< The larger of both axes [px].
+};
+
+/// Cameras, solved from all that was recorded.
+struct WaveSolution {
+  /// Poses, intrinsics, time offsets, residuals, joint covariance, verdict; in the order of the
+  /// recording; without solved_at and world_frame. exposure time = stamp + time offset.
+  geometry::Rig rig;
+  Gauge gauge = Gauge::kSquare;
+  bool z_up = true;
+  std::vector<CameraReport> cameras;  ///< In the same order.
+  std::size_t reference = 0;          ///< The camera whose time offset was set to 0.
+  double pixel_stddev = 0.0;          ///< Of a moving spot, per axis, as estimated [px].
+  square::Corners corner_offsets{};   ///< Displacement from the layout, as estimated [m].
+  double wand_length = 0.0;           ///< As estimated [m]; 0 without wand.
+  double median_speed = 0.0;          ///< Of the LED [m/s].
+  double seconds_seen = 0.0;          ///< In which two cameras or more saw it [s].
+  Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< Of the path: principal stddevs [m].
+  std::vector<Eigen::Vector3d> path;                 ///< A point of it per knot that was seen [m].
+  /// Expected RMS error of a point on the path as far as it comes from the calibration [m].
+  double expected_error = 0.0;
+  /// Same after the best rigid motion: what is left when the place of the world does not matter.
+  double expected_shape_error = 0.0;
+  int iterations = 0;
+  std::vector<std::string> warnings;  ///< One sentence each; part of rig.verdict too.
+};
+
+/// How far it is. Called a few times per second or more.
+struct Progress {
+  std::string step;       ///< What is being done, for people.
+  double fraction = 0.0;  ///< 0 to 1, growing.
+};
+
+/// @returns false to stop.
+using ProgressCallback = std::function<bool(const Progress&)>;
+
+/// One bundle adjustment over all that was recorded: poses, focal lengths, principal points, k1,
+/// time offsets (the first camera's is 0), placement of the corners, length of the wand, and the
+/// LED's path as a uniform cubic B-spline that each camera sees at its own times. Wrong spots are
+/// left out. Scale and world come from the square; without one, scale from the wand.
+/// @throws WaveError: fewer than two cameras; cameras that share too little; neither square nor
+/// wand; an LED that hardly moved, or on a line or a plane only; images that contradict one another
+/// (mirrored, moved, other order of corners); a time offset less certain than the options ask for;
+/// values out of range. square::SquareError: the corners contradict the layout. Cancelled.
+WaveSolution solveWave(const Recording& recording,
+                       const WaveOptions& options,
+                       const ProgressCallback& progress = nullptr);
+
+}  // namespace wiimote_tracker::wave
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_WAVE_SOLVE_WAVE_H

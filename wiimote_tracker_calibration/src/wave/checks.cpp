@@ -1,0 +1,232 @@
+#include "checks.h"
+
+#include "lens_prior.h"
+
+#include "wiimote_tracker_calibration/wave/error.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+namespace wiimote_tracker::wave {
+
+namespace {
+
+// Longer recordings are no better, and are more likely a clock that jumped [s].
+constexpr double kLongest = 900.0;
+constexpr double kShortest = 2.0;
+// Sightings of one camera below which nothing can be said of it.
+constexpr std::size_t kLeastSightings = 100;
+// Share of a camera's sightings that must fit to the others'.
+constexpr double kLeastShare = 0.5;
+// Standard deviation of the path's thinnest direction, as a share of its widest. A person who
+// moves an LED in a plane stays within a few per cent of it.
+constexpr double kThinnest = 0.05;
+// Residuals this many times larger than stated are refused.
+constexpr double kRefuseRatio = 4.0;
+// Deviations from what was stated that are worth a word, or no chance [standard deviations].
+constexpr double kWarnDeviation = 4.0;
+constexpr double kRefuseDeviation = 10.0;
+constexpr double kLensLimit = 5.0;
+constexpr double kGravityLimit = 5.0;
+
+std::string number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+void require(bool good, const char* name, double value, const char* range) {
+  if (!good)
+    throw WaveError(std::string(name) + " is " + number("%g", value) + ", but must be " + range +
+                    ": correct it");
+}
+
+void checkOptions(const WaveOptions& options) {
+  options.uncertainty.check();
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  require(positive(options.pixel), "pixel", options.pixel, "above 0");
+  require(std::isfinite(options.stamp) && options.stamp >= 0.0, "stamp", options.stamp,
+          "0 or above");
+  require(positive(options.offset), "offset", options.offset, "above 0");
+  require(options.knot_spacing >= 0.005 && options.knot_spacing <= 0.05, "knot_spacing",
+          options.knot_spacing, "0.005 to 0.05");
+  require(positive(options.acceleration), "acceleration", options.acceleration, "above 0");
+  require(positive(options.maximum_offset_stddev), "maximum_offset_stddev",
+          options.maximum_offset_stddev, "above 0");
+}
+
+void checkFrames(const CameraRecording& camera, bool wand) {
+  const std::string& name = camera.sightings.name;
+  std::size_t usable = 0;
+  double before = -std::numeric_limits<double>::infinity();
+  for (const Frame& frame : camera.frames) {
+    if (!(frame.stamp > before) || !std::isfinite(frame.stamp))
+      throw WaveError("the images of " + name +
+                      " are not in the order of their times: its clock was set or its stream broke "
+                      "off, record again");
+    before = frame.stamp;
+    usable += frame.spots.size() >= (wand ? 2U : 1U) ? 1 : 0;
+    for (const Eigen::Vector2d& spot : frame.spots) {
+      if (!spot.allFinite())
+        throw WaveError("a spot of " + name + " is not finite: leave out what it did not see");
+    }
+  }
+  if (usable < kLeastSightings)
+    throw WaveError(name + " saw " + (wand ? "both LEDs of the wand" : "the LED") + " in " +
+                    std::to_string(usable) + " images only, but needs " +
+                    std::to_string(kLeastSightings) +
+                    ": wave longer where it sees it, or leave this camera out");
+}
+
+}  // namespace
+
+void checkInput(const Recording& recording, const WaveOptions& options) {
+  checkOptions(options);
+  if (recording.cameras.size() < 2)
+    throw WaveError("one camera alone cannot tell depth: use two or more");
+  if (!recording.square && !recording.wand)
+    throw WaveError(
+        "nothing tells how large the room is: capture the corners of a square, or wave a wand of "
+        "known length");
+  if (recording.square)
+    recording.square->check();
+  if (recording.wand) {
+    require(recording.wand->length > 0.0 && std::isfinite(recording.wand->length), "wand.length",
+            recording.wand->length, "above 0");
+    require(recording.wand->stddev > 0.0 && std::isfinite(recording.wand->stddev), "wand.stddev",
+            recording.wand->stddev, "above 0");
+  }
+  std::set<std::string> names;
+  double start = std::numeric_limits<double>::infinity();
+  double end = -start;
+  for (const CameraRecording& camera : recording.cameras) {
+    if (!names.insert(camera.sightings.name).second)
+      throw WaveError("two cameras are called " + camera.sightings.name + ": rename one");
+    try {
+      camera.sightings.intrinsics.check();
+    } catch (const geometry::Error& error) {
+      throw WaveError(camera.sightings.name + ": " + error.what());
+    }
+    checkFrames(camera, recording.wand.has_value());
+    start = std::min(start, camera.frames.front().stamp);
+    end = std::max(end, camera.frames.back().stamp);
+  }
+  if (end - start > kLongest)
+    throw WaveError("the images are of times " + number("%.0f s", end - start) +
+                    " apart: check that all cameras use the same clock, and wave for less than " +
+                    number("%.0f s", kLongest));
+  if (end - start < kShortest)
+    throw WaveError("the recording is " + number("%.1f s", end - start) +
+                    " long: wave for 15 s or more");
+}
+
+void checkMatching(const Recording& recording, const Matching& matching) {
+  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
+    const std::string& name = recording.cameras[i].sightings.name;
+    const std::size_t found = matching.found[i];
+    const std::size_t expected = matching.expected[i];
+    if (static_cast<double>(found) < kLeastShare * static_cast<double>(expected))
+      throw WaveError("only " + std::to_string(found) + " of " + std::to_string(expected) +
+                      " spots of " + name +
+                      " fit to the other cameras: check that it was not moved, that its image is "
+                      "not mirrored, and its starting intrinsics");
+    if (found < kLeastSightings)
+      throw WaveError("only " + std::to_string(found) + " spots of " + name +
+                      " belong to the LED while another camera saw it, but " +
+                      std::to_string(kLeastSightings) +
+                      " are needed: wave longer where it and another camera see the LED");
+  }
+}
+
+void checkSolution(const Recording& recording, const WaveOptions& options, WaveSolution* solution) {
+  const Eigen::Vector3d& extent = solution->extent;
+  if (extent.y() < kThinnest * extent.x())
+    throw WaveError("the LED was moved along a line only: wave it through the whole volume");
+  if (extent.z() < kThinnest * extent.x())
+    throw WaveError("the LED was moved in a plane only, " + number("%.0f mm", 1e3 * extent.z()) +
+                    " deep: wave it through the whole volume, also to the cameras and away");
+  if (solution->pixel_stddev > kRefuseRatio * options.pixel)
+    throw WaveError("the cameras disagree by " + number("%.1f px", solution->pixel_stddev) +
+                    ", far more than the stated " + number("%.1f px", options.pixel) +
+                    ": check that no camera was moved and that their times are of one clock");
+  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
+    const square::CameraSightings& start = recording.cameras[i].sightings;
+    const double deviation = lensResidual(solution->rig.cameras[i].camera.intrinsics,
+                                          start.intrinsics, options.uncertainty)
+                                 .norm();
+    if (deviation > kLensLimit)
+      throw WaveError("no lens like the one stated explains what " + start.name +
+                      " saw: check its starting intrinsics, that its image is not mirrored or "
+                      "turned, and that the spots were the LED");
+  }
+  const Eigen::Vector3d up(0.0, 0.0, solution->z_up ? 1.0 : -1.0);
+  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
+    const geometry::RigCamera& camera = solution->rig.cameras[i];
+    const std::string& name = camera.camera.name;
+    if (camera.gravity &&
+        (solution->gauge == Gauge::kSquare || recording.cameras.front().sightings.gravity)) {
+      const Eigen::Vector3d measured =
+          camera.camera.world_from_camera.linear() * camera.gravity->normalized();
+      const double tilt = std::atan2(up.cross(measured).norm(), up.dot(measured));
+      if (tilt > kGravityLimit * options.uncertainty.gravity)
+        throw WaveError("the world as " + name + " sees it is tilted by " +
+                        number("%.0f degrees", tilt * 180.0 / M_PI) +
+                        " against its accelerometer: its image is mirrored or turned, it was "
+                        "moved, or the floor is not level");
+    }
+    const double stddev = solution->cameras[i].offset_stddev;
+    if (stddev > options.maximum_offset_stddev)
+      throw WaveError("the clock of " + name + " is known to " + number("%.2f ms", 1e3 * stddev) +
+                      " only, not to " + number("%.2f ms", 1e3 * options.maximum_offset_stddev) +
+                      ": wave faster than the " + number("%.1f m/s", solution->median_speed) +
+                      " it was, and longer where it sees the LED");
+  }
+  for (std::size_t c = 0; recording.square && c < 4; ++c) {
+    const double off = solution->corner_offsets[c].norm();
+    if (off > kRefuseDeviation * options.uncertainty.placement)
+      throw WaveError("the wave contradicts the square, most of all corner " +
+                      std::to_string(c + 1) + ", which would have been " +
+                      number("%.0f mm", 1e3 * off) +
+                      " beside its place: check the sides of the square and that no camera moved, "
+                      "and capture the corners again");
+    if (off > kWarnDeviation * options.uncertainty.placement)
+      solution->warnings.push_back("corner " + std::to_string(c + 1) + " seems to have been " +
+                                   number("%.0f mm", 1e3 * off) +
+                                   " beside its place: check the sides of the square and capture "
+                                   "that corner again");
+  }
+  if (recording.wand) {
+    const double off = solution->wand_length - recording.wand->length;
+    if (recording.square && std::abs(off) > kWarnDeviation * recording.wand->stddev)
+      solution->warnings.push_back("by the square the wand is " + number("%+.1f mm", 1e3 * off) +
+                                   " longer than stated: measure the wand and the square again");
+  }
+}
+
+std::string verdictOf(const Recording& recording, const WaveSolution& solution) {
+  double worst_px = 0.0;
+  double worst_offset = 0.0;
+  for (std::size_t i = 0; i < solution.cameras.size(); ++i) {
+    worst_px = std::max(worst_px, solution.rig.cameras[i].residual_px);
+    worst_offset = std::max(worst_offset, solution.cameras[i].offset_stddev);
+  }
+  std::string text = std::to_string(solution.cameras.size()) + " cameras solved from " +
+                     number("%.0f s", solution.seconds_seen) + " of " +
+                     (recording.wand ? "a wand" : "a wave") +
+                     (recording.square ? " and the square" : "") + "; residuals at most " +
+                     number("%.2f px", worst_px) + ", time offsets known to " +
+                     number("%.2f ms", 1e3 * worst_offset);
+  if (std::isfinite(solution.expected_error))
+    text += ", points expected within " + number("%.1f mm", 1e3 * solution.expected_error) +
+            " (RMS) in " + (recording.square ? "the square's world" : "the first camera's world") +
+            ", " + number("%.1f mm", 1e3 * solution.expected_shape_error) + " to one another";
+  for (const std::string& warning : solution.warnings)
+    text += "; warning: " + warning;
+  return text;
+}
+
+}  // namespace wiimote_tracker::wave

@@ -1,0 +1,27 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_CHECKS_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_CHECKS_H
+
+#include "matching.h"
+
+#include "wiimote_tracker_calibration/wave/recording.h"
+#include "wiimote_tracker_calibration/wave/solve_wave.h"
+
+#include <string>
+
+namespace wiimote_tracker::wave {
+
+/// @throws WaveError: values out of range; too little to start with; neither square nor wand.
+void checkInput(const Recording& recording, const WaveOptions& options);
+
+/// @throws WaveError: a camera most of whose spots the others contradict, or with hardly any.
+void checkMatching(const Recording& recording, const Matching& matching);
+
+/// @throws WaveError: a solution that is worth nothing, and why. Adds warnings to it otherwise.
+void checkSolution(const Recording& recording, const WaveOptions& options, WaveSolution* solution);
+
+/// The result in words, for people.
+std::string verdictOf(const Recording& recording, const WaveSolution& solution);
+
+}  // namespace wiimote_tracker::wave
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_CHECKS_H

@@ -1,0 +1,273 @@
+#include "wiimote_tracker_calibration/wave/coverage.h"
+
+#include "wiimote_tracker_calibration/wave/error.h"
+
+#include <wiimote_tracker_triangulation/geometry/triangulate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace wiimote_tracker::wave {
+
+namespace {
+
+// A light's spot moves less than this from image to image [px], and is back within [s].
+constexpr double kLongestJump = 80.0;
+constexpr double kLongestGap = 0.05;
+// Speeds are taken over this time [s]; a spot slower than this [px/s] is still.
+constexpr double kSpan = 0.1;
+constexpr double kStill = 30.0;
+// Steps of the speeds' counts.
+constexpr double kImageSpeedStep = 20.0;  // [px/s]
+constexpr double kSpeedStep = 0.05;       // [m/s]
+// Steps of time in which a camera saw the LED or did not [s].
+constexpr double kTimeStep = 0.1;
+// Edge of the volume's cells [m].
+constexpr double kCell = 0.25;
+// Images of two cameras this close are of one time [s].
+constexpr double kSameTime = 0.012;
+// Time a camera must share with others to be placed among them [s].
+constexpr double kLeastTogether = 3.0;
+
+std::string number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+void checkRange(const char* name, double value, double low, double high) {
+  if (!(value >= low) || !(value <= high))
+    throw WaveError(std::string(name) + " is " + number("%g", value) + ", but must be " +
+                    number("%g", low) + " to " + number("%g", high) + ": correct it");
+}
+
+int bounded(double value, int count) {
+  return std::min(std::max(static_cast<int>(value), 0), count - 1);
+}
+
+/// Where in the image most cells are still empty; of equals the one nearer to the middle.
+std::string emptiestPart(const CameraCoverage& camera) {
+  struct Part {
+    const char* name;
+    int row;
+    int column;
+  };
+  const Part kParts[] = {{"middle", 1, 1},    {"top", 0, 1},         {"bottom", 2, 1},
+                         {"left", 1, 0},      {"right", 1, 2},       {"top left", 0, 0},
+                         {"top right", 0, 2}, {"bottom left", 2, 0}, {"bottom right", 2, 2}};
+  double least = 2.0;
+  std::string name;
+  for (const Part& part : kParts) {
+    int filled = 0;
+    int all = 0;
+    for (int row = 0; row < CameraCoverage::kRows; ++row) {
+      for (int column = 0; column < CameraCoverage::kColumns; ++column) {
+        if (row * 3 / CameraCoverage::kRows != part.row ||
+            column * 3 / CameraCoverage::kColumns != part.column)
+          continue;
+        ++all;
+        filled += camera.filled[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+      }
+    }
+    const double share = static_cast<double>(filled) / all;
+    if (share < least) {
+      least = share;
+      name = part.name;
+    }
+  }
+  return name;
+}
+
+}  // namespace
+
+void Coverage::Speeds::add(double speed, double step) {
+  ++counts[std::min(static_cast<std::size_t>(speed / step), counts.size() - 1)];
+  ++total;
+}
+
+double Coverage::Speeds::median(double step) const {
+  std::uint32_t below = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    below += counts[i];
+    if (2 * below > total)
+      return (static_cast<double>(i) + 0.5) * step;
+  }
+  return 0.0;
+}
+
+Coverage::Coverage(std::vector<geometry::Camera> cameras,
+                   bool posed,
+                   std::size_t leds,
+                   const CoverageOptions& options)
+    : cameras_(std::move(cameras)), posed_(posed), leds_(leds), options_(options) {
+  checkRange("seconds", options.seconds, 1e-3, 900.0);
+  checkRange("image_share", options.image_share, 0.0, 1.0);
+  checkRange("image_speed", options.image_speed, 0.0, 1e4);
+  checkRange("volume", options.volume, 0.0, 1e4);
+  checkRange("speed", options.speed, 0.0, 10.0);
+  checkRange("distraction", options.distraction, 0.0, 1.0);
+  views_.resize(cameras_.size());
+}
+
+void Coverage::follow(View* view, const Frame& frame) const {
+  std::vector<Track>& tracks = view->tracks;
+  tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
+                              [&](const Track& track) {
+                                return frame.stamp - track.places.back().first > kLongestGap;
+                              }),
+               tracks.end());
+  std::vector<bool> taken(tracks.size(), false);
+  for (const Eigen::Vector2d& spot : frame.spots) {
+    std::size_t best = taken.size();
+    double least = kLongestJump;
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+      const double distance = (tracks[i].places.back().second - spot).norm();
+      if (!taken[i] && distance < least) {
+        least = distance;
+        best = i;
+      }
+    }
+    if (best == taken.size()) {
+      tracks.push_back({{{frame.stamp, spot}}});
+      continue;
+    }
+    taken[best] = true;
+    Track& track = tracks[best];
+    track.places.emplace_back(frame.stamp, spot);
+    while (track.places.size() > 2 && frame.stamp - track.places[1].first >= kSpan)
+      track.places.pop_front();
+  }
+}
+
+void Coverage::add(std::size_t camera, const Frame& frame) {
+  View& view = views_.at(camera);
+  ++view.frames;
+  view.distracted += frame.spots.size() > leds_ ? 1 : 0;
+  follow(&view, frame);
+
+  const geometry::Intrinsics& lens = cameras_[camera].intrinsics;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  std::size_t moving = 0;
+  for (const Track& track : view.tracks) {
+    const auto& [time, pixel] = track.places.back();
+    const double span = time - track.places.front().first;
+    if (time != frame.stamp || span < kSpan)
+      continue;
+    const double speed = (pixel - track.places.front().second).norm() / span;
+    if (speed < kStill)
+      continue;
+    view.speeds.add(speed, kImageSpeedStep);
+    const int row = bounded(pixel.y() / lens.height * CameraCoverage::kRows, CameraCoverage::kRows);
+    const int column =
+        bounded(pixel.x() / lens.width * CameraCoverage::kColumns, CameraCoverage::kColumns);
+    view.filled[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] = true;
+    sum += pixel;
+    ++moving;
+  }
+  view.middle.reset();
+  if (moving == 0)
+    return;
+  auto& cameras = seen_[static_cast<std::int64_t>(std::floor(frame.stamp / kTimeStep))];
+  cameras.resize(cameras_.size(), false);
+  cameras[camera] = true;
+  if (moving != leds_)
+    return;
+  view.time = frame.stamp;
+  view.middle = sum / static_cast<double>(moving);
+  if (posed_)
+    locate(camera);
+}
+
+/// Where the LED, or the middle of the wand, is in the room.
+void Coverage::locate(std::size_t camera) {
+  const double now = views_[camera].time;
+  std::vector<geometry::Observation> observations;
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    if (views_[i].middle && std::abs(views_[i].time - now) <= kSameTime)
+      observations.push_back({&cameras_[i], *views_[i].middle});
+  }
+  const double kLargestError = 30.0;  // [px]
+  const auto point = geometry::triangulate(observations, geometry::TriangulationOptions());
+  if (!point || point->reprojection_error > kLargestError)
+    return;
+  const Eigen::Vector3d& p = point->position;
+  cells_.insert({static_cast<int>(std::floor(p.x() / kCell)),
+                 static_cast<int>(std::floor(p.y() / kCell)),
+                 static_cast<int>(std::floor(p.z() / kCell))});
+  const double span = last_ ? now - last_->first : 0.0;
+  if (last_ && span >= 0.0 && span < kSpan)
+    return;
+  if (last_ && span > 0.0 && span < 3.0 * kSpan)
+    speeds_.add((p - last_->second).norm() / span, kSpeedStep);
+  last_ = {now, p};
+}
+
+CoverageReport Coverage::report() const {
+  CoverageReport report;
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const View& view = views_[i];
+    CameraCoverage camera;
+    camera.name = cameras_[i].name;
+    camera.filled = view.filled;
+    int filled = 0;
+    for (const auto& row : view.filled)
+      filled += static_cast<int>(std::count(row.begin(), row.end(), true));
+    camera.image_share =
+        static_cast<double>(filled) / (CameraCoverage::kColumns * CameraCoverage::kRows);
+    camera.image_speed = view.speeds.median(kImageSpeedStep);
+    if (view.frames > 0)
+      camera.distraction = static_cast<double>(view.distracted) / static_cast<double>(view.frames);
+    report.cameras.push_back(camera);
+  }
+  for (const auto& [step, cameras] : seen_) {
+    const bool together = std::count(cameras.begin(), cameras.end(), true) >= 2;
+    report.seconds += together ? kTimeStep : 0.0;
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      report.cameras[i].seconds += cameras[i] ? kTimeStep : 0.0;
+      report.cameras[i].together += cameras[i] && together ? kTimeStep : 0.0;
+    }
+  }
+  if (posed_)
+    report.volume = kCell * kCell * kCell * static_cast<double>(cells_.size());
+  if (posed_ && speeds_.total > 0)
+    report.speed = speeds_.median(kSpeedStep);
+
+  std::vector<std::string>& missing = report.missing;
+  for (const CameraCoverage& camera : report.cameras) {
+    if (camera.seconds == 0.0)
+      missing.push_back(camera.name +
+                        " has not seen the LED move: wave it where it looks, or cover the light it "
+                        "sees instead");
+    else if (camera.together < kLeastTogether)
+      missing.push_back(camera.name + " and another camera have seen the LED together for " +
+                        number("%.0f s", camera.together) + " only: wave it where both look");
+    if (camera.distraction > options_.distraction)
+      missing.push_back(camera.name + " sees other lights in " +
+                        number("%.0f %%", 100.0 * camera.distraction) +
+                        " of its images: cover lamps and what reflects");
+  }
+  for (const CameraCoverage& camera : report.cameras) {
+    if (camera.seconds > 0.0 && camera.image_share < options_.image_share)
+      missing.push_back(camera.name + " has seen the LED in " +
+                        number("%.0f %%", 100.0 * camera.image_share) +
+                        " of its image: wave it at the " + emptiestPart(camera));
+    if (camera.seconds > 0.0 && camera.image_speed < options_.image_speed)
+      missing.push_back("the LED is slow in the image of " + camera.name + ": wave it faster");
+  }
+  if (report.volume && *report.volume < options_.volume)
+    missing.push_back("the LED has been in " + number("%.1f", *report.volume) + " of " +
+                      number("%.1f cubic metres", options_.volume) +
+                      ": wave it high and low, near and far");
+  if (report.speed && *report.speed < options_.speed)
+    missing.push_back("the LED moves at " + number("%.1f m/s", *report.speed) +
+                      ": wave it faster than " + number("%.1f m/s", options_.speed));
+  if (report.seconds < options_.seconds - 0.5 * kTimeStep)
+    missing.push_back("wave on for " +
+                      number("%.0f s", std::ceil(options_.seconds - report.seconds)) +
+                      " where two cameras see the LED");
+  return report;
+}
+
+}  // namespace wiimote_tracker::wave

@@ -1,0 +1,51 @@
+#include "projection.h"
+
+#include <Eigen/Geometry>
+
+namespace wiimote_tracker::wave {
+
+bool project(const geometry::Camera& camera, const Eigen::Vector3d& point, Projection* result) {
+  const Eigen::Matrix3d camera_from_world = camera.world_from_camera.linear().transpose();
+  const Eigen::Vector3d from_center = point - camera.center();
+  const Eigen::Vector3d in_camera = camera_from_world * from_center;
+  const double z = in_camera.z();
+  if (!(z > 1e-6))
+    return false;
+  const Eigen::Vector2d normalized = in_camera.head<2>() / z;
+  Eigen::Matrix2d by_normalized;
+  result->pixel = camera.intrinsics.pixelFromNormalized(normalized, &by_normalized);
+  PointJacobian normalized_by_point;
+  normalized_by_point << 1.0 / z, 0.0, -normalized.x() / z, 0.0, 1.0 / z, -normalized.y() / z;
+  result->by_point = by_normalized * normalized_by_point * camera_from_world;
+
+  const geometry::Intrinsics& lens = camera.intrinsics;
+  const double r2 = normalized.squaredNorm();
+  CameraJacobian& by_camera = result->by_camera;
+  by_camera.setZero();
+  // exp([w]x) turns the camera, which is turning the point the other way.
+  by_camera.leftCols<3>() = result->by_point * crossMatrix(from_center);
+  by_camera.middleCols<3>(3) = -result->by_point;
+  by_camera(0, 6) = (result->pixel.x() - lens.cx) / lens.fx;
+  by_camera(1, 7) = (result->pixel.y() - lens.cy) / lens.fy;
+  by_camera(0, 8) = 1.0;
+  by_camera(1, 9) = 1.0;
+  by_camera(0, 10) = lens.fx * normalized.x() * r2;
+  by_camera(1, 10) = lens.fy * normalized.y() * r2;
+  return true;
+}
+
+Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& vector) {
+  Eigen::Matrix3d result;
+  result << 0.0, -vector.z(), vector.y(), vector.z(), 0.0, -vector.x(), -vector.y(), vector.x(),
+      0.0;
+  return result;
+}
+
+Eigen::Matrix3d rotationFromVector(const Eigen::Vector3d& vector) {
+  const double angle = vector.norm();
+  if (angle == 0.0)
+    return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
+}
+
+}  // namespace wiimote_tracker::wave

@@ -1,0 +1,328 @@
+#include "start_path.h"
+
+#include "band_matrix.h"
+
+#include "wiimote_tracker_calibration/wave/error.h"
+
+#include <wiimote_tracker_triangulation/geometry/triangulate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace wiimote_tracker::wave {
+
+namespace {
+
+// Clocks may be off by this much: the path is defined for as much longer than the frames [s].
+constexpr double kMargin = 0.2;
+// A frame this close to an instant counts as of that instant [s].
+constexpr double kSameInstant = 0.008;
+// Start poses, time offsets and unequal instants put a spot off by up to this [px].
+constexpr double kTolerance = 25.0;
+// Pairs of spots are formed between this many of the cameras, the others only confirm.
+constexpr std::size_t kPairedCameras = 6;
+// Two ways to match two LEDs that differ by less than this cannot be told apart [px].
+constexpr double kTellApart = 6.0;
+// Share by which the distance of the LEDs may differ from the wand's length at the start.
+constexpr double kLengthTolerance = 0.2;
+// An LED that vanished for longer may come back as the other one [s].
+constexpr double kLongestGap = 0.3;
+// Places that are needed to go on.
+constexpr std::size_t kLeastPlaces = 40;
+
+struct Spot {
+  std::size_t camera;
+  Eigen::Vector2d pixel;
+};
+
+/// A place in space that two or more spots of different cameras agree on.
+struct Place {
+  Eigen::Vector3d position;
+  std::vector<std::size_t> spots;  // indices
+  double error;                    // [px]
+};
+
+/// LED or LEDs at one time.
+struct Instant {
+  double time;
+  std::vector<Eigen::Vector3d> leds;
+};
+
+std::optional<geometry::TriangulatedPoint> triangulate(const std::vector<geometry::Camera>& cameras,
+                                                       const std::vector<Spot>& spots,
+                                                       const std::vector<std::size_t>& chosen) {
+  std::vector<geometry::Observation> observations;
+  for (std::size_t i : chosen)
+    observations.push_back({&cameras[spots[i].camera], spots[i].pixel});
+  auto point = geometry::triangulate(observations, geometry::TriangulationOptions());
+  if (point && point->reprojection_error > kTolerance)
+    point.reset();
+  return point;
+}
+
+/// Extends two spots by those of other cameras that lie where their place is seen.
+std::optional<Place> placeOf(const std::vector<geometry::Camera>& cameras,
+                             const std::vector<Spot>& spots,
+                             std::size_t first,
+                             std::size_t second) {
+  auto point = triangulate(cameras, spots, {first, second});
+  if (!point)
+    return std::nullopt;
+  std::vector<std::size_t> chosen = {first, second};
+  for (std::size_t i = 0; i < spots.size();) {
+    const std::size_t camera = spots[i].camera;
+    const auto pixel = cameras[camera].project(point->position);
+    double nearest = kTolerance;
+    std::optional<std::size_t> match;
+    for (; i < spots.size() && spots[i].camera == camera; ++i) {
+      const double distance =
+          pixel ? (*pixel - spots[i].pixel).norm() : std::numeric_limits<double>::infinity();
+      if (distance < nearest) {
+        nearest = distance;
+        match = i;
+      }
+    }
+    if (match && camera != spots[first].camera && camera != spots[second].camera)
+      chosen.push_back(*match);
+  }
+  if (chosen.size() > 2) {
+    const auto together = triangulate(cameras, spots, chosen);
+    if (together)
+      point = together;
+    else
+      chosen.resize(2);
+  }
+  return Place{point->position, chosen, point->reprojection_error};
+}
+
+/// All places that explain spots of two cameras or more, those that explain most first.
+std::vector<Place> placesOf(const std::vector<geometry::Camera>& cameras,
+                            const std::vector<Spot>& spots) {
+  std::vector<Place> places;
+  std::size_t limit = 0;
+  std::size_t seen = 0;
+  for (; limit < spots.size(); ++limit) {
+    seen += limit == 0 || spots[limit].camera != spots[limit - 1].camera ? 1 : 0;
+    if (seen > kPairedCameras)
+      break;
+  }
+  for (std::size_t i = 0; i < limit; ++i) {
+    for (std::size_t j = i + 1; j < limit; ++j) {
+      if (spots[i].camera == spots[j].camera)
+        continue;
+      if (auto place = placeOf(cameras, spots, i, j))
+        places.push_back(std::move(*place));
+    }
+  }
+  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return a.spots.size() != b.spots.size() ? a.spots.size() > b.spots.size() : a.error < b.error;
+  });
+  return places;
+}
+
+bool disjoint(const Place& a, const Place& b) {
+  return std::none_of(a.spots.begin(), a.spots.end(), [&](std::size_t spot) {
+    return std::find(b.spots.begin(), b.spots.end(), spot) != b.spots.end();
+  });
+}
+
+/// The two ends of the wand: the two places that explain most. Nothing when two ways to match the
+/// spots are as good. @param length NaN: not known yet.
+std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> wandEnds(
+    const std::vector<Place>& places,
+    double length) {
+  const Place* best[2] = {nullptr, nullptr};
+  std::size_t best_support = 0;
+  double best_error = 0.0;
+  bool ambiguous = false;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t j = i + 1; j < places.size(); ++j) {
+      if (!disjoint(places[i], places[j]))
+        continue;
+      const double distance = (places[i].position - places[j].position).norm();
+      if (distance == 0.0 || std::abs(distance - length) > kLengthTolerance * length)
+        continue;
+      const std::size_t support = places[i].spots.size() + places[j].spots.size();
+      const double error = places[i].error + places[j].error;
+      const bool better =
+          !best[0] || support > best_support || (support == best_support && error < best_error);
+      // The same two places found from other spots are no second way.
+      const bool same =
+          best[0] && std::min((places[i].position - best[0]->position).norm() +
+                                  (places[j].position - best[1]->position).norm(),
+                              (places[i].position - best[1]->position).norm() +
+                                  (places[j].position - best[0]->position).norm()) < 0.2 * distance;
+      if (!same && best[0] && support == best_support)
+        ambiguous = std::abs(error - best_error) < kTellApart || (!better && ambiguous);
+      else if (better && !same)
+        ambiguous = false;
+      if (better) {
+        best[0] = &places[i];
+        best[1] = &places[j];
+        best_support = support;
+        best_error = error;
+      }
+    }
+  }
+  if (!best[0] || ambiguous)
+    return std::nullopt;
+  return std::make_pair(best[0]->position, best[1]->position);
+}
+
+/// Spots of all cameras around each of the times, camera by camera.
+class Instants {
+ public:
+  explicit Instants(const Recording& recording)
+      : recording_(recording), next_(recording.cameras.size(), 0) {}
+
+  /// Times must grow from call to call.
+  const std::vector<Spot>& at(double time) {
+    spots_.clear();
+    for (std::size_t c = 0; c < next_.size(); ++c) {
+      const std::vector<Frame>& frames = recording_.cameras[c].frames;
+      const auto distance = [&](std::size_t i) { return std::abs(frames[i].stamp - time); };
+      std::size_t& i = next_[c];
+      while (i + 1 < frames.size() && distance(i + 1) <= distance(i))
+        ++i;
+      if (distance(i) > kSameInstant)
+        continue;
+      for (const Eigen::Vector2d& spot : frames[i].spots)
+        spots_.push_back({c, spot});
+    }
+    return spots_;
+  }
+
+ private:
+  const Recording& recording_;
+  std::vector<std::size_t> next_;
+  std::vector<Spot> spots_;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Keeps the wand's LEDs apart from instant to instant.
+void keepLabels(std::vector<Instant>* instants) {
+  for (std::size_t i = 1; i < instants->size(); ++i) {
+    const Instant& before = (*instants)[i - 1];
+    std::vector<Eigen::Vector3d>& leds = (*instants)[i].leds;
+    if ((*instants)[i].time - before.time > kLongestGap)
+      continue;
+    const double kept = (leds[0] - before.leds[0]).norm() + (leds[1] - before.leds[1]).norm();
+    const double swapped = (leds[1] - before.leds[0]).norm() + (leds[0] - before.leds[1]).norm();
+    if (swapped < kept)
+      std::swap(leds[0], leds[1]);
+  }
+}
+
+void refuseFew(std::size_t places) {
+  if (places < kLeastPlaces)
+    throw WaveError("the LED was found in " + std::to_string(places) +
+                    " places only that two cameras agree on: check that it is bright and that "
+                    "nobody moved a camera, and wave it where two cameras see it");
+}
+
+/// Spline through places some of which are wrong: least squares, each place weighted by how well
+/// the spline before explained it.
+void fit(const std::vector<Instant>& instants, double acceleration, Trajectory* trajectory) {
+  // Errors of the places as the rounds go on [m].
+  const double kErrors[] = {1.0, 0.3, 0.1, 0.05, 0.05};
+  const Eigen::Index controls = trajectory->controls().cols();
+  const double weight = 1.0 / (trajectory->spacing() * trajectory->spacing() * acceleration);
+  const double factors[] = {weight, -2.0 * weight, weight};
+  for (Eigen::Index led = 0; led < trajectory->leds(); ++led) {
+    bool first = true;
+    for (const double error : kErrors) {
+      BandMatrix band(controls, 3);
+      RowMajorMatrix right = RowMajorMatrix::Zero(controls, 3);
+      for (const Instant& instant : instants) {
+        const Trajectory::Place place = *trajectory->at(instant.time);
+        const Eigen::Vector3d& position = instant.leds[static_cast<std::size_t>(led)];
+        const double off =
+            first ? 0.0 : (trajectory->position(place, led) - position).norm() / error;
+        const double information = 1.0 / (error * error * std::pow(1.0 + off * off, 2));
+        for (Eigen::Index k = 0; k < 4; ++k) {
+          right.row(place.first + k) += information * place.value(k) * position.transpose();
+          for (Eigen::Index l = 0; l <= k; ++l)
+            band(place.first + k, place.first + l) += information * place.value(k) * place.value(l);
+        }
+      }
+      for (Eigen::Index control = 0; control + 2 < controls; ++control) {
+        for (Eigen::Index k = 0; k < 3; ++k) {
+          for (Eigen::Index l = 0; l <= k; ++l)
+            band(control + k, control + l) += factors[k] * factors[l];
+        }
+      }
+      if (!band.factorize())
+        refuseFew(0);
+      band.solveLower(&right);
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        Eigen::VectorXd column = right.col(axis);
+        band.solveUpper(&column);
+        trajectory->controls().row(3 * led + axis) = column.transpose();
+      }
+      first = false;
+    }
+  }
+}
+
+}  // namespace
+
+Trajectory startPath(const Recording& recording, const WaveOptions& options, StartPoses* poses) {
+  double start = std::numeric_limits<double>::infinity();
+  double end = -start;
+  for (const CameraRecording& camera : recording.cameras) {
+    start = std::min(start, camera.frames.front().stamp);
+    end = std::max(end, camera.frames.back().stamp);
+  }
+  const bool wand = recording.wand.has_value();
+  double length =
+      wand && poses->metric ? recording.wand->length : std::numeric_limits<double>::quiet_NaN();
+  Instants views(recording);
+  std::vector<Instant> instants;
+  for (double time = start; time <= end; time += 0.5 * options.knot_spacing) {
+    const std::vector<Place> places = placesOf(poses->cameras, views.at(time));
+    if (wand) {
+      if (const auto ends = wandEnds(places, length))
+        instants.push_back({time, {ends->first, ends->second}});
+    } else if (!places.empty()) {
+      instants.push_back({time, {places.front().position}});
+    }
+  }
+  refuseFew(instants.size());
+
+  if (wand) {
+    keepLabels(&instants);
+    if (!poses->metric) {
+      std::vector<double> lengths;
+      for (const Instant& instant : instants)
+        lengths.push_back((instant.leds[0] - instant.leds[1]).norm());
+      length = median(lengths);
+      const double scale = recording.wand->length / length;
+      instants.erase(std::remove_if(instants.begin(), instants.end(),
+                                    [&](const Instant& instant) {
+                                      const double own = (instant.leds[0] - instant.leds[1]).norm();
+                                      return std::abs(own - length) > kLengthTolerance * length;
+                                    }),
+                     instants.end());
+      refuseFew(instants.size());
+      for (Instant& instant : instants) {
+        for (Eigen::Vector3d& led : instant.leds)
+          led *= scale;
+      }
+      for (geometry::Camera& camera : poses->cameras)
+        camera.world_from_camera.translation() *= scale;
+      poses->metric = true;
+    }
+  }
+  Trajectory trajectory(start - kMargin, end + kMargin, options.knot_spacing, wand ? 2 : 1);
+  fit(instants, options.acceleration, &trajectory);
+  return trajectory;
+}
+
+}  // namespace wiimote_tracker::wave

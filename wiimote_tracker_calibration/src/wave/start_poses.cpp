@@ -1,0 +1,258 @@
+#include "start_poses.h"
+
+#include "../bundle/start.h"
+
+#include "wiimote_tracker_calibration/bundle/error.h"
+#include "wiimote_tracker_calibration/bundle/similarity.h"
+#include "wiimote_tracker_calibration/bundle/solve.h"
+#include "wiimote_tracker_calibration/square/solve_square.h"
+#include "wiimote_tracker_calibration/wave/error.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace wiimote_tracker::wave {
+
+namespace {
+
+// Times at which the views are compared. More do not make the start better, only slower.
+constexpr std::size_t kInstants = 200;
+// Frames farther apart than this are not joined [s].
+constexpr double kLongestGap = 0.035;
+// Nor are spots that jump more than this from frame to frame [px].
+constexpr double kLongestJump = 80.0;
+// Lenses are off by several per cent and clocks by milliseconds: so are the pixels [px].
+constexpr double kTolerance = 12.0;
+// Times that two cameras must share to be placed to each other.
+constexpr std::size_t kLeastCommon = 20;
+
+/// The one place that stands for what is waved: the spot, or the middle between the wand's.
+std::optional<Eigen::Vector2d> middle(const Frame& frame, bool wand) {
+  if (frame.spots.size() != (wand ? 2U : 1U))
+    return std::nullopt;
+  return wand ? Eigen::Vector2d(0.5 * (frame.spots[0] + frame.spots[1])) : frame.spots[0];
+}
+
+/// Where a camera sees it at any time, between two frames; nothing where it does not.
+std::optional<Eigen::Vector2d> middleAt(const std::vector<Frame>& frames, double time, bool wand) {
+  const auto after = std::lower_bound(frames.begin(), frames.end(), time,
+                                      [](const Frame& frame, double t) { return frame.stamp < t; });
+  if (after == frames.begin() || after == frames.end())
+    return std::nullopt;
+  const auto before = after - 1;
+  const double gap = after->stamp - before->stamp;
+  const auto first = middle(*before, wand);
+  const auto second = middle(*after, wand);
+  if (!first || !second || !(gap > 0.0) || gap > kLongestGap ||
+      (*second - *first).norm() > kLongestJump)
+    return std::nullopt;
+  return *first + (time - before->stamp) / gap * (*second - *first);
+}
+
+/// What the cameras saw at common times.
+std::vector<bundle::Observation> commonViews(const Recording& recording) {
+  double start = recording.cameras.front().frames.front().stamp;
+  double end = start;
+  for (const CameraRecording& camera : recording.cameras) {
+    start = std::min(start, camera.frames.front().stamp);
+    end = std::max(end, camera.frames.back().stamp);
+  }
+  const std::size_t count = 4 * kInstants;
+  std::vector<bundle::Observation> observations;
+  std::size_t point = 0;
+  std::vector<std::vector<bundle::Observation>> instants;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double time =
+        start + (end - start) * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    std::vector<bundle::Observation> instant;
+    for (std::size_t c = 0; c < recording.cameras.size(); ++c) {
+      if (const auto pixel =
+              middleAt(recording.cameras[c].frames, time, recording.wand.has_value()))
+        instant.push_back({c, 0, *pixel});
+    }
+    if (instant.size() >= 2)
+      instants.push_back(instant);
+  }
+  const std::size_t stride = std::max<std::size_t>(1, instants.size() / kInstants);
+  for (std::size_t i = 0; i < instants.size(); i += stride) {
+    for (bundle::Observation& observation : instants[i]) {
+      observation.point = point;
+      observations.push_back(observation);
+    }
+    ++point;
+  }
+  return observations;
+}
+
+/// @throws WaveError when the cameras fall into groups that share nothing.
+void refuseStrangers(const Recording& recording,
+                     const std::vector<bundle::Observation>& observations,
+                     const std::vector<bool>& tied_by_square) {
+  const std::size_t cameras = recording.cameras.size();
+  std::vector<std::vector<std::size_t>> common(cameras, std::vector<std::size_t>(cameras, 0));
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    for (std::size_t j = i + 1;
+         j < observations.size() && observations[j].point == observations[i].point; ++j)
+      ++common[observations[i].camera][observations[j].camera];
+  }
+  std::vector<std::size_t> group(cameras);
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  for (std::size_t i = 0; i < cameras; ++i) {
+    for (std::size_t j = i + 1; j < cameras; ++j) {
+      if (common[i][j] < kLeastCommon && !(tied_by_square[i] && tied_by_square[j]))
+        continue;
+      const std::size_t joined = group[j];
+      std::replace(group.begin(), group.end(), joined, group[i]);
+    }
+  }
+  // The name of a camera outside the largest group helps most.
+  const auto size = [&](std::size_t g) { return std::count(group.begin(), group.end(), g); };
+  std::size_t largest = group[0];
+  for (std::size_t g : group)
+    largest = size(g) > size(largest) ? g : largest;
+  for (std::size_t i = 0; i < cameras; ++i) {
+    if (group[i] != largest)
+      throw WaveError(recording.cameras[i].sightings.name +
+                      " and the other cameras hardly ever saw the LED at the same time: wave "
+                      "where it and another camera see the LED together");
+  }
+}
+
+bool sawAllCorners(const square::CameraSightings& sightings) {
+  return std::all_of(sightings.corners.begin(), sightings.corners.end(),
+                     [](const auto& corner) { return corner.has_value(); });
+}
+
+/// A consistent sentence for what the reconstruction refuses.
+[[noreturn]] void refuse(const bundle::BundleError& error) {
+  throw WaveError(std::string("the wave does not tell where the cameras stand: ") + error.what());
+}
+
+/// Poses of the cameras that the square did not place, from the others.
+void placeRest(const bundle::Options& options,
+               bundle::Reconstruction* reconstruction,
+               std::vector<bool>* placed) {
+  const bundle::NormalizedViews views = bundle::normalize(*reconstruction);
+  while (std::find(placed->begin(), placed->end(), false) != placed->end()) {
+    bundle::triangulatePoints(reconstruction, *placed, options.maximum_error,
+                              options.minimum_angle);
+    bundle::placeNext(views, options, reconstruction, placed);
+  }
+}
+
+/// Moves what is known up to a similarity on the corners that two cameras saw.
+void moveOnSquare(const Recording& recording,
+                  const bundle::Options& options,
+                  bundle::Reconstruction* wave,
+                  StartPoses* result) {
+  bundle::Reconstruction corners;
+  corners.cameras = wave->cameras;
+  corners.points.resize(4);
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
+      if (const auto& pixel = recording.cameras[i].sightings.corners[c])
+        corners.observations.push_back({i, c, *pixel});
+    }
+  }
+  bundle::triangulatePoints(&corners, std::vector<bool>(corners.cameras.size(), true),
+                            options.maximum_error, options.minimum_angle);
+  for (const bool z_up : {true, false}) {
+    const square::Corners nominal = recording.square->corners(z_up);
+    std::vector<Eigen::Vector3d> from;
+    std::vector<Eigen::Vector3d> to;
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (!corners.points[c])
+        continue;
+      from.push_back(*corners.points[c]);
+      to.push_back(nominal[c]);
+    }
+    if (from.size() < 3)
+      throw WaveError(
+          "only " + std::to_string(from.size()) +
+          " corners of the square were seen by two cameras that agree on them, but three tell "
+          "where the world is: capture the corners where two cameras see them");
+    const bundle::Similarity similarity = bundle::fitSimilarity(from, to);
+    double side = 0.0;
+    double error = 0.0;
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      error = std::max(error, (similarity * from[k] - to[k]).norm());
+      side = std::max(side, (to[k] - to[0]).norm());
+    }
+    const double kLargestShare = 0.15;
+    if (error > kLargestShare * side)
+      throw WaveError(
+          "the corners as the cameras saw them do not have the shape of the square: check its "
+          "sides and the order of the corners, and capture them again");
+    double height = 0.0;
+    for (const geometry::Camera& camera : wave->cameras)
+      height += (similarity * camera.center()).z();
+    // The floor bears the cameras.
+    if ((height > 0.0) == z_up) {
+      bundle::transform(similarity, wave);
+      result->z_up = z_up;
+      result->metric = true;
+      return;
+    }
+  }
+  throw WaveError(
+      "the cameras seem to stand on both sides of the floor: capture the corners again");
+}
+
+}  // namespace
+
+StartPoses startPoses(const Recording& recording, const WaveOptions& options) {
+  bundle::Options tolerance;
+  tolerance.maximum_error = kTolerance;
+  tolerance.loss_scale = 3.0;
+  tolerance.minimum_common_points = kLeastCommon;
+
+  StartPoses result;
+  bundle::Reconstruction wave;
+  std::vector<square::CameraSightings> sightings;
+  std::vector<bool> placed(recording.cameras.size(), false);
+  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
+    const square::CameraSightings& camera = recording.cameras[i].sightings;
+    placed[i] = recording.square && sawAllCorners(camera);
+    if (placed[i])
+      sightings.push_back(camera);
+    wave.cameras.emplace_back();
+    wave.cameras.back().name = camera.name;
+    wave.cameras.back().identity = camera.identity;
+    wave.cameras.back().intrinsics = camera.intrinsics;
+  }
+  if (sightings.size() < 2)
+    placed.assign(recording.cameras.size(), false);
+
+  wave.observations = commonViews(recording);
+  wave.points.resize(wave.observations.empty() ? 0 : wave.observations.back().point + 1);
+  refuseStrangers(recording, wave.observations, placed);
+  try {
+    if (sightings.size() >= 2) {
+      square::SolveOptions square_options;
+      square_options.uncertainty = options.uncertainty;
+      const square::SquareSolution solution =
+          square::solveSquare(*recording.square, sightings, square_options);
+      for (geometry::Camera& camera : wave.cameras) {
+        if (const geometry::RigCamera* solved = solution.rig.find(camera.name))
+          camera = solved->camera;
+      }
+      result.metric = true;
+      result.z_up = solution.z_up;
+      placeRest(tolerance, &wave, &placed);
+    } else {
+      wave = bundle::solve(wave.cameras, wave.observations, wave.points.size(), tolerance);
+      if (recording.square)
+        moveOnSquare(recording, tolerance, &wave, &result);
+    }
+  } catch (const bundle::BundleError& error) {
+    refuse(error);
+  }
+  result.cameras = wave.cameras;
+  return result;
+}
+
+}  // namespace wiimote_tracker::wave

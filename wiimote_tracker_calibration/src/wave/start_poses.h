@@ -1,0 +1,30 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_START_POSES_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_START_POSES_H
+
+#include "wiimote_tracker_calibration/wave/recording.h"
+#include "wiimote_tracker_calibration/wave/solve_wave.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera.h>
+
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::wave {
+
+/// Where the cameras stand, roughly (centimetres).
+struct StartPoses {
+  std::vector<geometry::Camera> cameras;  ///< In the order of the recording.
+  bool metric = false;                    ///< In metres, in the square's world. Else up to scale.
+  bool z_up = true;                       ///< As in SquareLayout::corners().
+};
+
+/// From the square where two cameras or more saw all of it; the other cameras from common points
+/// of the wave by resection. Without such a square from the wave alone (essential matrix), then
+/// moved on the corners that two cameras saw.
+/// @param recording without spots that stay in one place (movingSpots()).
+/// @throws WaveError, square::SquareError.
+StartPoses startPoses(const Recording& recording, const WaveOptions& options);
+
+}  // namespace wiimote_tracker::wave
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_START_POSES_H

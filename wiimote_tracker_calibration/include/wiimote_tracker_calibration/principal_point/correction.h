@@ -1,0 +1,100 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_PRINCIPAL_POINT_CORRECTION_H
+#define WIIMOTE_TRACKER_CALIBRATION_PRINCIPAL_POINT_CORRECTION_H
+
+#include "wiimote_tracker_calibration/principal_point/trace.h"
+#include "wiimote_tracker_calibration/square/rig_model.h"
+#include "wiimote_tracker_calibration/square/sightings.h"
+#include "wiimote_tracker_calibration/square/square_layout.h"
+
+#include <wiimote_tracker_triangulation/geometry/error.h>
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::principal_point {
+
+/// The correction cannot be started. what() is one sentence: why, and what to do.
+struct CorrectionError : geometry::Error {
+  using Error::Error;
+};
+
+enum class Points {
+  kOrigin,      ///< The first corner (the paper, section IV.C).
+  kAllCorners,  ///< The mean of all four, as the paper's section VII asks for.
+};
+
+struct CorrectionOptions {
+  int rounds = 14;     ///< At most [0..1000]; 14 in all of the paper's measurements.
+  double limit = 0.0;  ///< Stops when the error of the points is below it [m, >= 0]; 0: never.
+  /// Share of the difference by which a principal point moves per round [-1..1, not 0]. A negative
+  /// one goes the wrong way: it is there to show that it diverges.
+  double step = 0.25;
+  Points points = Points::kOrigin;
+  geometry::RayModel ray_model = geometry::RayModel::kCalibrated;  ///< As in geometry::Rig.
+  double virtual_hfov = std::numeric_limits<double>::quiet_NaN();  ///< As in geometry::Rig [rad].
+  square::Uncertainty uncertainty;
+  double branch_odds = 100.0;  ///< As in square::SolveOptions.
+
+  /// @throws CorrectionError naming the value that is out of range.
+  void check() const;
+};
+
+enum class Outcome {
+  kLimitReached,  ///< The error of the points is below the limit.
+  kRoundsDone,    ///< All rounds were done; without a limit that is the regular end.
+  kLost,          ///< A step led to principal points with which no rig can be solved.
+  kCancelled,
+};
+
+struct CorrectionResult {
+  /// As solved in the last round of the trace, with Method::kPerCamera, and with the ray model of
+  /// the options. Its covariance knows nothing of the correction.
+  geometry::Rig rig;
+  bool z_up = true;
+  Trace trace;
+  Outcome outcome = Outcome::kRoundsDone;
+  std::vector<std::string> warnings;  ///< One sentence each; part of rig.verdict too.
+};
+
+/// Called after each solving with the number of rounds done, and the trace so far.
+/// @returns false to stop.
+using RoundCallback = std::function<bool(int rounds_done, const Trace& trace)>;
+
+/// The paper's principal point correction (section IV.C): solve each camera's pose from the square;
+/// measure the origin with the rig; project the difference between the ideal and the measured
+/// origin into each camera; move its principal point by a quarter of it; again.
+///
+/// The sign. Write f for the focal length, x for the normalised image of the origin under the
+/// solved pose, u for its pixel, c for the principal point that poses are solved with and p for the
+/// one that rays are built with. Solving makes u = f x + c. The ray of u leaves at (u - p) / f =
+/// x + (c - p) / f: in the image the origin is measured at c - p from its ideal place, as far as
+/// the other cameras let it. So the difference ideal - measured is p - c, and c + (p - c) / 4
+/// closes a quarter of the gap per round (to 0.75^14 = 2 % after 14); the opposite step widens it
+/// by 1.25 per round. With RayModel::kCalibrated p is c: there is no gap, the difference is only
+/// noise and what the lens model lacks, and the correction changes little.
+///
+/// What it cannot see: displacements of the principal points that leave the measured point where it
+/// is. With four cameras all round, a shift of all of them to the same side is one.
+///
+/// With distortion, u = f D(x) + c. A principal point lives in distorted pixels, while the
+/// difference between the points belongs to the plane without distortion; taking one for the other
+/// makes the step wrong by D's derivative at that place. So both points are projected by the lens
+/// that is being corrected, distortion included. Without distortion and virtual_hfov that is the
+/// paper's step to the letter.
+///
+/// The measurement is made on the pixels the cameras were solved from, by the paper's mean of
+/// closest points. Takes some hundredths of a second per round.
+/// @throws CorrectionError: an option is out of range; the points cannot be measured at all.
+/// square::SquareError: as solveSquare(), before the first step; later that ends in
+/// Outcome::kLost.
+CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
+                                        const std::vector<square::CameraSightings>& cameras,
+                                        const CorrectionOptions& options,
+                                        const RoundCallback& progress = {});
+
+}  // namespace wiimote_tracker::principal_point
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_PRINCIPAL_POINT_CORRECTION_H

@@ -1,0 +1,195 @@
+#include "wiimote_tracker_calibration/principal_point/correction.h"
+
+#include "wiimote_tracker_calibration/square/error.h"
+#include "wiimote_tracker_calibration/square/solve_square.h"
+
+#include <wiimote_tracker_triangulation/geometry/triangulate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace wiimote_tracker::principal_point {
+
+namespace {
+
+/// What the cameras that were solved saw, in the order of the rig; their intrinsics are what the
+/// correction changes.
+std::vector<square::CameraSightings> solvedOnes(const std::vector<square::CameraSightings>& cameras,
+                                                const geometry::Rig& rig) {
+  std::vector<square::CameraSightings> solved;
+  for (const geometry::RigCamera& camera : rig.cameras) {
+    const auto same = [&](const square::CameraSightings& s) {
+      return s.name == camera.camera.name;
+    };
+    solved.push_back(*std::find_if(cameras.begin(), cameras.end(), same));
+  }
+  return solved;
+}
+
+std::optional<Eigen::Vector3d> measure(const std::vector<geometry::Camera>& ray_cameras,
+                                       const std::vector<square::CameraSightings>& sightings,
+                                       std::size_t corner) {
+  std::vector<geometry::Observation> observations;
+  for (std::size_t i = 0; i < ray_cameras.size(); ++i)
+    observations.push_back({&ray_cameras[i], *sightings[i].corners[corner]});
+  geometry::TriangulationOptions options;
+  options.method = geometry::TriangulationMethod::kMeanClosest;
+  const auto point = geometry::triangulate(observations, options);
+  if (!point)
+    return std::nullopt;
+  return point->position;
+}
+
+/// Measures the corners with the rig. Nothing when one of them cannot be measured or projected.
+std::optional<Round> evaluate(const geometry::Rig& rig,
+                              const std::vector<square::CameraSightings>& sightings,
+                              const square::Corners& ideal,
+                              Points points) {
+  std::vector<geometry::Camera> ray_cameras;
+  Round round;
+  for (const geometry::RigCamera& camera : rig.cameras) {
+    ray_cameras.push_back(rig.rayCamera(camera));
+    const geometry::Intrinsics& lens = camera.camera.intrinsics;
+    round.principal_points.emplace_back(lens.cx, lens.cy);
+    round.differences.emplace_back(Eigen::Vector2d::Zero());
+  }
+  const std::size_t used = points == Points::kOrigin ? 1 : ideal.size();
+  double squared = 0.0;
+  for (std::size_t corner = 0; corner < ideal.size(); ++corner) {
+    const std::optional<Eigen::Vector3d> measured = measure(ray_cameras, sightings, corner);
+    if (!measured)
+      return std::nullopt;
+    const double error = (*measured - ideal[corner]).norm();
+    if (corner == 0)
+      round.origin_error = error;
+    squared += error * error;
+    if (corner >= used)
+      continue;
+    for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+      const geometry::Camera& camera = rig.cameras[i].camera;
+      const auto ideal_pixel = camera.project(ideal[corner]);
+      const auto measured_pixel = camera.project(*measured);
+      if (!ideal_pixel || !measured_pixel)
+        return std::nullopt;
+      round.differences[i] += (*ideal_pixel - *measured_pixel) / static_cast<double>(used);
+    }
+  }
+  round.corner_error = std::sqrt(squared / static_cast<double>(ideal.size()));
+  return round;
+}
+
+void applyRayModel(const CorrectionOptions& options, geometry::Rig* rig) {
+  rig->ray_model = options.ray_model;
+  rig->virtual_hfov = options.virtual_hfov;
+}
+
+double errorOf(const Round& round, Points points) {
+  return points == Points::kOrigin ? round.origin_error : round.corner_error;
+}
+
+std::vector<std::string> warningsOf(const CorrectionOptions& options,
+                                    const CorrectionResult& result) {
+  std::vector<std::string> warnings;
+  if (result.outcome == Outcome::kLost)
+    warnings.push_back("the principal point correction was stopped after round " +
+                       std::to_string(result.trace.rounds.size() - 1) +
+                       ", because its next step led to no usable rig: do without it, and check "
+                       "the starting intrinsics");
+  const double before = errorOf(result.trace.rounds.front(), options.points);
+  const double after = errorOf(result.trace.rounds.back(), options.points);
+  if (after > before)
+    warnings.push_back("the principal point correction made the measured corners worse (" +
+                       std::to_string(std::lround(1e3 * before)) + " mm before, " +
+                       std::to_string(std::lround(1e3 * after)) + " mm after): do without it");
+  const bool distorted = std::any_of(
+      result.rig.cameras.begin(), result.rig.cameras.end(), [](const geometry::RigCamera& c) {
+        const auto& distortion = c.camera.intrinsics.distortion;
+        return std::any_of(distortion.begin(), distortion.end(), [](double k) { return k != 0; });
+      });
+  if (distorted && options.ray_model == geometry::RayModel::kImageCenter)
+    warnings.push_back(
+        "rays of the image_center model know no distortion, but the lenses have some: the "
+        "correction compensates it at its own points only, so use ray_model calibrated");
+  return warnings;
+}
+
+}  // namespace
+
+void CorrectionOptions::check() const {
+  if (rounds < 0 || rounds > 1000)
+    throw CorrectionError("rounds is " + std::to_string(rounds) + ": choose 0 to 1000");
+  if (!std::isfinite(limit) || limit < 0.0)
+    throw CorrectionError("limit is " + std::to_string(limit) + " m: choose 0 or more");
+  if (!(std::abs(step) <= 1.0) || step == 0.0)
+    throw CorrectionError("step is " + std::to_string(step) + ": choose -1 to 1, but not 0");
+  if (!std::isnan(virtual_hfov) && !(virtual_hfov > 0.0 && virtual_hfov < M_PI))
+    throw CorrectionError("virtual_hfov is " + std::to_string(virtual_hfov) +
+                          " rad: choose a value between 0 and pi, or NaN for none");
+}
+
+CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
+                                        const std::vector<square::CameraSightings>& cameras,
+                                        const CorrectionOptions& options,
+                                        const RoundCallback& progress) {
+  options.check();
+  const square::SolveOptions solve_options{square::Method::kPerCamera, options.uncertainty,
+                                           options.branch_odds};
+  square::SquareSolution solution = square::solveSquare(layout, cameras, solve_options);
+  std::vector<square::CameraSightings> sightings = solvedOnes(cameras, solution.rig);
+  const square::Corners ideal = layout.corners(solution.z_up);
+  applyRayModel(options, &solution.rig);
+
+  CorrectionResult result;
+  for (const square::CameraSightings& camera : sightings)
+    result.trace.cameras.push_back(camera.name);
+  std::optional<Round> round = evaluate(solution.rig, sightings, ideal, options.points);
+  if (!round)
+    throw CorrectionError(
+        "the rays of the cameras do not meet at the corners: place the cameras so that they look "
+        "at the square from different sides, and check the starting intrinsics");
+  result.trace.rounds.push_back(*round);
+  for (int done = 0;; ++done) {
+    if (progress && !progress(done, result.trace)) {
+      result.outcome = Outcome::kCancelled;
+      break;
+    }
+    const Round& last = result.trace.rounds.back();
+    if (errorOf(last, options.points) < options.limit) {
+      result.outcome = Outcome::kLimitReached;
+      break;
+    }
+    if (done == options.rounds)
+      break;
+    for (std::size_t i = 0; i < sightings.size(); ++i) {
+      sightings[i].intrinsics.cx += options.step * last.differences[i].x();
+      sightings[i].intrinsics.cy += options.step * last.differences[i].y();
+    }
+    try {
+      square::SquareSolution next = square::solveSquare(layout, sightings, solve_options);
+      applyRayModel(options, &next.rig);
+      round = evaluate(next.rig, sightings, ideal, options.points);
+      if (round)
+        solution = next;
+    } catch (const square::SquareError&) {
+      round.reset();
+    }
+    if (!round) {
+      result.outcome = Outcome::kLost;
+      break;
+    }
+    result.trace.rounds.push_back(*round);
+  }
+
+  result.rig = solution.rig;
+  result.rig.method = "square, per camera, principal points corrected";
+  result.z_up = solution.z_up;
+  result.warnings = solution.warnings;
+  for (const std::string& warning : warningsOf(options, result)) {
+    result.warnings.push_back(warning);
+    result.rig.verdict += "; warning: " + warning;
+  }
+  return result;
+}
+
+}  // namespace wiimote_tracker::principal_point

@@ -1,0 +1,234 @@
+// The paper's principal point correction on simulated sessions of its own measurements.
+
+#include "wiimote_tracker_calibration/principal_point/correction.h"
+
+#include "wiimote_tracker_calibration/square/error.h"
+
+#include "paper_procedure.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace wiimote_tracker::principal_point {
+namespace {
+
+PaperSession imageCenter(const std::vector<std::size_t>& cameras) {
+  PaperSession session;
+  session.cameras = cameras;
+  session.correction.ray_model = geometry::RayModel::kImageCenter;
+  return session;
+}
+
+/// Means over sessions that differ in their errors alone.
+struct Means {
+  double before = 0.0;  // [m]
+  double after = 0.0;   // [m]
+};
+
+Means meansOf(PaperSession session) {
+  constexpr int kSessions = 3;
+  Means means;
+  for (int i = 0; i < kSessions; ++i) {
+    session.seed = static_cast<std::uint64_t>(i + 1);
+    const PaperResult result = runPaperSession(session);
+    means.before += result.before / kSessions;
+    means.after += result.after / kSessions;
+  }
+  return means;
+}
+
+/// Two adjacent cameras of one lens that saw the square without any error.
+std::vector<square::CameraSightings> exactSightings(const geometry::Intrinsics& lens,
+                                                    const square::Corners& corners) {
+  std::vector<square::CameraSightings> cameras;
+  for (const double side : {-1.0, 1.0}) {
+    geometry::Camera camera;
+    camera.name = side < 0.0 ? "left" : "right";
+    camera.intrinsics = lens;
+    camera.world_from_camera =
+        geometry::lookAt(Eigen::Vector3d(1.25 + 4.0 * side, -4.0, 2.5),
+                         Eigen::Vector3d(1.25, 1.25, 0.0), Eigen::Vector3d::UnitZ());
+    square::CameraSightings sightings;
+    sightings.name = camera.name;
+    sightings.intrinsics = lens;
+    for (std::size_t c = 0; c < corners.size(); ++c)
+      sightings.corners[c] = camera.project(corners[c]).value();
+    sightings.gravity =
+        9.81 * (camera.world_from_camera.linear().transpose() * Eigen::Vector3d::UnitZ());
+    cameras.push_back(sightings);
+  }
+  return cameras;
+}
+
+square::SquareLayout layout() {
+  square::SquareLayout layout;
+  layout.side_x = 2.5;
+  layout.side_y = 2.5;
+  return layout;
+}
+
+TEST(PrincipalPoint, consistent_model_is_good_to_two_centimetres_and_hardly_changes) {
+  for (const std::vector<std::size_t>& cameras :
+       std::vector<std::vector<std::size_t>>{{0, 1}, {0, 1, 2, 3}}) {
+    PaperSession session;
+    session.cameras = cameras;
+    const Means means = meansOf(session);
+    EXPECT_LT(means.before, 0.02);
+    EXPECT_LT(means.after, 0.02);
+    EXPECT_NEAR(means.after, means.before, 0.002);
+  }
+}
+
+TEST(PrincipalPoint, image_center_with_two_adjacent_cameras_is_corrected) {
+  const Means means = meansOf(imageCenter({0, 1}));
+  EXPECT_GT(means.before, 0.12);
+  EXPECT_LT(means.before, 0.22);
+  EXPECT_LT(means.after, 0.04);
+}
+
+// The common sideways shift of four cameras is not visible in the origin alone: what remains is
+// far from the paper's 2.8 cm.
+TEST(PrincipalPoint, image_center_with_four_cameras_is_corrected_in_part) {
+  PaperSession session = imageCenter({0, 1, 2, 3});
+  const Means origin = meansOf(session);
+  EXPECT_GT(origin.before, 0.08);
+  EXPECT_LT(origin.before, 0.12);
+  EXPECT_GT(origin.after, 0.04);
+  EXPECT_LT(origin.after, 0.09);
+  session.correction.points = Points::kAllCorners;
+  const Means all = meansOf(session);
+  EXPECT_LT(all.after, origin.after - 0.01);
+}
+
+TEST(PrincipalPoint, the_opposite_sign_diverges) {
+  for (const std::vector<std::size_t>& cameras :
+       std::vector<std::vector<std::size_t>>{{0, 1}, {0, 1, 2, 3}}) {
+    PaperSession session = imageCenter(cameras);
+    session.correction.step = -0.25;
+    const PaperResult result = runPaperSession(session);
+    const std::vector<Round>& rounds = result.correction.trace.rounds;
+    ASSERT_GT(rounds.size(), 3U);
+    for (std::size_t i = 1; i < rounds.size(); ++i)
+      EXPECT_GT(rounds[i].origin_error, rounds[i - 1].origin_error);
+    EXPECT_GT(result.after, 2.0 * result.before);
+    EXPECT_FALSE(result.correction.warnings.empty());
+    EXPECT_NE(result.correction.rig.verdict.find("made the measured corners worse"),
+              std::string::npos);
+  }
+}
+
+// The closed form of the docstring: without noise the gap closes by a quarter per round, as far as
+// the other camera lets it, and the rays' principal point is where it ends.
+TEST(PrincipalPoint, the_gap_closes_until_the_origin_is_where_it_should_be) {
+  geometry::Intrinsics lens;
+  const auto cameras = exactSightings(lens, layout().corners(true));
+  CorrectionOptions options;
+  options.ray_model = geometry::RayModel::kImageCenter;
+  options.rounds = 60;
+  options.limit = 1e-4;
+  const CorrectionResult result = correctPrincipalPoints(layout(), cameras, options);
+  EXPECT_EQ(result.outcome, Outcome::kLimitReached);
+  EXPECT_LT(result.trace.rounds.back().origin_error, 1e-4);
+  EXPECT_GT(result.trace.rounds.front().origin_error, 0.05);
+  EXPECT_EQ(result.rig.ray_model, geometry::RayModel::kImageCenter);
+  EXPECT_TRUE(result.warnings.empty());
+  // Sideways both cameras err to the same side, which both can see: it is made good wholly.
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(result.trace.rounds.back().principal_points[i].x(), 512.0, 8.0);
+}
+
+TEST(PrincipalPoint, the_difference_is_taken_in_distorted_pixels) {
+  geometry::Intrinsics lens;
+  lens.distortion = {-0.15, 0.0, 0.0, 0.0, 0.0};
+  auto cameras = exactSightings(lens, layout().corners(true));
+  CorrectionOptions options;
+  options.rounds = 0;
+  // Exact lens: nothing to correct, although every corner is displaced by many pixels.
+  const CorrectionResult exact = correctPrincipalPoints(layout(), cameras, options);
+  EXPECT_LT(exact.trace.rounds[0].corner_error, 1e-5);
+
+  for (auto& camera : cameras)
+    camera.intrinsics.cx += 20.0;
+  options.rounds = 1;
+  const CorrectionResult moved = correctPrincipalPoints(layout(), cameras, options);
+  EXPECT_GT(moved.trace.rounds[0].origin_error, 1e-4);
+  EXPECT_EQ(moved.trace.rounds.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Eigen::Vector2d step =
+        moved.trace.rounds[1].principal_points[i] - moved.trace.rounds[0].principal_points[i];
+    EXPECT_LT((step - 0.25 * moved.trace.rounds[0].differences[i]).norm(), 1e-9);
+  }
+  // The lens that is corrected projects both points, its distortion included.
+  const geometry::Camera& camera = exact.rig.cameras[0].camera;
+  const Eigen::Vector3d corner = layout().corners(true)[0];
+  EXPECT_LT((*camera.project(corner) - *cameras[0].corners[0]).norm(), 1e-3);
+}
+
+TEST(PrincipalPoint, image_center_with_distortion_is_warned_of) {
+  geometry::Intrinsics lens;
+  lens.distortion = {-0.05, 0.0, 0.0, 0.0, 0.0};
+  const auto cameras = exactSightings(lens, layout().corners(true));
+  CorrectionOptions options;
+  options.ray_model = geometry::RayModel::kImageCenter;
+  options.rounds = 1;
+  const CorrectionResult result = correctPrincipalPoints(layout(), cameras, options);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings.back().find("know no distortion"), std::string::npos);
+  EXPECT_NE(result.rig.verdict.find("know no distortion"), std::string::npos);
+}
+
+TEST(PrincipalPoint, progress_sees_every_round_and_can_stop_it) {
+  const auto cameras = exactSightings({}, layout().corners(true));
+  CorrectionOptions options;
+  options.ray_model = geometry::RayModel::kImageCenter;
+  std::vector<int> seen;
+  const CorrectionResult result =
+      correctPrincipalPoints(layout(), cameras, options, [&](int done, const Trace& trace) {
+        EXPECT_EQ(trace.rounds.size(), static_cast<std::size_t>(done) + 1);
+        seen.push_back(done);
+        return done < 2;
+      });
+  EXPECT_EQ(result.outcome, Outcome::kCancelled);
+  EXPECT_EQ(seen, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(result.trace.rounds.size(), 3U);
+  // The rig is that of the last round.
+  EXPECT_DOUBLE_EQ(result.rig.cameras[1].camera.intrinsics.cx,
+                   result.trace.rounds[2].principal_points[1].x());
+}
+
+TEST(PrincipalPoint, the_table_names_the_cameras_and_has_a_line_per_round) {
+  const auto cameras = exactSightings({}, layout().corners(true));
+  CorrectionOptions options;
+  options.rounds = 2;
+  const std::string text = table(correctPrincipalPoints(layout(), cameras, options).trace);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
+  EXPECT_NE(text.find("left cx, cy [px]"), std::string::npos);
+  EXPECT_NE(text.find("535.0,  401.7"), std::string::npos);
+}
+
+TEST(PrincipalPoint, what_cannot_be_done_is_refused) {
+  auto cameras = exactSightings({}, layout().corners(true));
+  const auto refused = [&](const CorrectionOptions& options) {
+    EXPECT_THROW(correctPrincipalPoints(layout(), cameras, options), CorrectionError);
+  };
+  CorrectionOptions options;
+  options.rounds = -1;
+  refused(options);
+  options = {};
+  options.limit = -1.0;
+  refused(options);
+  for (const double step : {0.0, 1.5, std::numeric_limits<double>::quiet_NaN()}) {
+    options = {};
+    options.step = step;
+    refused(options);
+  }
+  options = {};
+  options.virtual_hfov = 4.0;
+  refused(options);
+  cameras.pop_back();
+  EXPECT_THROW(correctPrincipalPoints(layout(), cameras, {}), square::SquareError);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::principal_point

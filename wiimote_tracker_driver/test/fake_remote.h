@@ -40,6 +40,7 @@ class FakeRemote {
   std::array<std::uint8_t, 11> ir_copy = ir_block;
   bool light = true;
   bool registers_readable = true;
+  bool echoes = true;  ///< Says its present data at once when a mode is set.
 
   std::vector<Written> written;
   int opened = 0;
@@ -90,6 +91,7 @@ class FakeRemote {
     if (image_due) {
       now = std::max(now, next_image_);
       next_image_ = now + 0.01;
+      ++samples_;
       report = image();
       return true;
     }
@@ -140,7 +142,7 @@ class FakeRemote {
     }
     if (b[1] & 2)
       say({0x22, 0, 0, b[0], 0}, kDelay);
-    if (b[0] == 0x12 && sendsImages())
+    if (b[0] == 0x12 && sendsImages() && echoes)
       say(image(), kDelay);  // what it has, at once
   }
 
@@ -159,7 +161,8 @@ class FakeRemote {
         std::copy(bytes.begin(), bytes.end(),
                   report.bytes.begin() + static_cast<std::ptrdiff_t>(at));
     };
-    Report report{mode, 0, 0, 0x80, 0x80, 0x80};
+    // No two samples of a real accelerometer are the same.
+    Report report{mode, 0, 0, 0x80, 0x80, static_cast<std::uint8_t>(0x80 | (samples_ & 1))};
     if (mode == 0x3e) {
       second_half_ = !second_half_;
       report.bytes[0] = second_half_ ? 0x3f : 0x3e;
@@ -205,6 +208,7 @@ class FakeRemote {
 
   std::vector<Written> pending_;
   double next_image_ = 0.0;
+  unsigned samples_ = 0;
   bool second_half_ = true;  ///< Was the last one said.
 };
 

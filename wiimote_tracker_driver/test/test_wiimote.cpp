@@ -691,6 +691,17 @@ TEST_F(WiimoteTest, WhatFollowsAModeAtOnceIsNoImageOfItsOwn) {
   EXPECT_LE(40, remote_.count({0x12, 0x06, 0x33}));
 }
 
+TEST_F(WiimoteTest, ImageInItsRhythmIsNoEchoOfAMode) {
+  remote_.echoes = false;
+  runToImage();
+  int images = 0;
+  for (int i = 0; i < 40; ++i) {
+    remote_.say({0x20, 0, 0, 0x18, 0, 0, 0x8f});
+    images += run(0.2513);  // at another place between two images each time
+  }
+  EXPECT_NEAR(1005, images, 1);
+}
+
 TEST_F(WiimoteTest, CheckWithoutAnswerDisturbsNoStream) {
   runToImage();
   remote_.lose = [](const Report& report) { return report.bytes[0] == 0x17; };

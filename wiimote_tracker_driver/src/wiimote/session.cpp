@@ -19,9 +19,11 @@ constexpr int kVerifyAttempts = 3;
 constexpr double kRumbleInterval = 0.1;
 
 // A remote may say its present data once more right after it has acknowledged a mode (the virtual
-// one does): no later than this, two turns of the radio [s]. An image that comes so soon is then
-// lost.
+// one does): no later than kEcho, two turns of the radio [s]. That is no image of its own, and
+// would mislead whoever learns the camera's rhythm. It is told by the same bytes, or by coming
+// sooner after the report before than the rhythm of 10 ms has it [s].
 constexpr double kEcho = 0.0025;
+constexpr double kTooSoon = 0.007;
 
 constexpr std::uint8_t kButtonsReport = 0x30;
 
@@ -196,9 +198,7 @@ std::optional<protocol::DataReport> Session::handleData(const Report& report, do
     otherReport(report.id(), now);
     return std::nullopt;
   }
-  // No image of its own, and out of the camera's rhythm.
-  const auto acknowledged = std::exchange(mode_acknowledged_, std::nullopt);
-  if (acknowledged && now - *acknowledged < kEcho)
+  if (isEcho(report, now))
     return std::nullopt;
   const auto image = assembler_.add(report, now);
   if (!image)
@@ -216,6 +216,16 @@ std::optional<protocol::DataReport> Session::handleData(const Report& report, do
     found_ = nullptr;
   }
   return image;
+}
+
+bool Session::isEcho(const Report& report, double now) {
+  const auto acknowledged = std::exchange(mode_acknowledged_, std::nullopt);
+  if (acknowledged && now - *acknowledged < kEcho &&
+      (report == last_data_ || now - last_data_at_ < kTooSoon))
+    return true;
+  last_data_ = report;
+  last_data_at_ = now;
+  return false;
 }
 
 // Somebody has changed the mode, and perhaps the camera as well.

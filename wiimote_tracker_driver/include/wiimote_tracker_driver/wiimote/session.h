@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -103,6 +104,7 @@ class Session {
   void handleMemory(const protocol::MemoryPacket& packet, double now);
   void handleAcknowledgement(const protocol::Acknowledgement& acknowledgement, double now);
   std::optional<protocol::DataReport> handleData(const protocol::Report& report, double now);
+  bool isEcho(const protocol::Report& report, double now);
   void otherReport(std::uint8_t id, double now);
 
   void setUpCamera(double now);
@@ -142,6 +144,8 @@ class Session {
   int set_ups_ = 0;             ///< Of the camera, without success between them.
 
   std::optional<double> mode_acknowledged_;  ///< When, with no data report since [s].
+  protocol::Report last_data_;
+  double last_data_at_ = -std::numeric_limits<double>::infinity();  ///< [s]
 
   bool rumble_ = false;
   double rumble_due_ = 0.0;

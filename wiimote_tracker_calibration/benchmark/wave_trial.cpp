@@ -195,7 +195,8 @@ double squareAlone(const SimulatedWave& wave,
 WaveOptions optionsFor(const WaveScene& scene) {
   WaveOptions options;
   options.uncertainty = scene.uncertainty;
-  options.stamp = std::hypot(scene.stamp, scene.wander);
+  options.stamp = scene.stamp;
+  options.wander = scene.wander;
   return options;
 }
 

@@ -235,6 +235,28 @@ TEST(Wave, LampsReflectionsAndWrongSpotsAreLeftOut) {
   }
 }
 
+TEST(Wave, SlowErrorsOfTheStampsAreStatedInTheOffsets) {
+  WaveScene scene;
+  scene.wander = 0.0003;
+  double squared = 0.0;
+  double stated = 0.0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const WaveTrial trial = runWaveTrial(scene, seed, false);
+    ASSERT_EQ(trial.refusal, "");
+    for (std::size_t i = 0; i < trial.offset_errors.size(); ++i) {
+      squared += std::pow(trial.offset_errors[i], 2);
+      stated += std::pow(trial.offset_stddevs[i], 2);
+    }
+    EXPECT_LT(trial.error.similarity, 3.0 * trial.bound.similarity);
+  }
+  EXPECT_LT(std::sqrt(squared / stated), 1.5);
+  EXPECT_GT(std::sqrt(squared / stated), 0.6);
+  // Clocks that wander by more than the options allow for the offsets are refused.
+  WaveOptions options = optionsFor(scene);
+  options.wander = 0.002;
+  expectContains(refusalOf(simulateWave(scene, 1).recording, options), "the clock of camera_2");
+}
+
 TEST(Wave, SolvingAgainGivesTheSameBits) {
   WaveScene scene;
   scene.camera_count = 2;

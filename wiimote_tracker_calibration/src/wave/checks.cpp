@@ -51,6 +51,8 @@ void checkOptions(const WaveOptions& options) {
   require(positive(options.pixel), "pixel", options.pixel, "above 0");
   require(std::isfinite(options.stamp) && options.stamp >= 0.0, "stamp", options.stamp,
           "0 or above");
+  require(std::isfinite(options.wander) && options.wander >= 0.0, "wander", options.wander,
+          "0 or above");
   require(positive(options.offset), "offset", options.offset, "above 0");
   require(options.knot_spacing >= 0.005 && options.knot_spacing <= 0.05, "knot_spacing",
           options.knot_spacing, "0.005 to 0.05");

@@ -114,16 +114,17 @@ Fit adjust(const Recording& recording,
     fraction += 0.05 * (1.0 - fraction);
     return reporter->keepGoing("adjusting cameras, clocks and path", fraction);
   };
+  const double stamp = std::hypot(options.stamp, options.wander);
   for (std::size_t round = 0; round < std::size(kWideGates); ++round) {
-    fit.matching = matchSpots(recording, *state,
-                              {options.pixel, options.stamp, kWideGates[round] / options.pixel});
+    fit.matching =
+        matchSpots(recording, *state, {options.pixel, stamp, kWideGates[round] / options.pixel});
     checkMatching(recording, fit.matching);
     adjustment->use(fit.matching.matches, kWideLosses[round] / options.pixel);
     fit.iterations += adjustment->solve(state, keep_going);
   }
   fit.pixel_stddev = options.pixel;
   for (int round = 0; round < kFinalRounds; ++round) {
-    Matching matching = matchSpots(recording, *state, {fit.pixel_stddev, options.stamp, kGate});
+    Matching matching = matchSpots(recording, *state, {fit.pixel_stddev, stamp, kGate});
     checkMatching(recording, matching);
     const bool same = round > 0 && sameSpots(matching.matches, fit.matching.matches);
     fit.matching = std::move(matching);
@@ -135,6 +136,19 @@ Fit adjust(const Recording& recording,
     fit.pixel_stddev *= misfit;
   }
   return fit;
+}
+
+/// Slow errors of the clocks hardly average out over a wave, and the offsets are means over it:
+/// the variance of the mean of an error that settles with a time constant. The first camera's
+/// enters all offsets.
+void addWander(const WaveOptions& options, double seconds, Eigen::MatrixXd* covariance) {
+  const double kSettling = 2.0;  // [s]
+  const double share = std::min(1.0, 2.0 * kSettling / seconds);
+  const double variance = options.wander * options.wander * share;
+  for (Eigen::Index i = kCameraSize + kOffset; i < covariance->rows(); i += kCameraSize) {
+    for (Eigen::Index j = kCameraSize + kOffset; j < covariance->cols(); j += kCameraSize)
+      (*covariance)(i, j) += i == j ? 2.0 * variance : variance;
+  }
 }
 
 /// Enough points to stand for the path.
@@ -262,7 +276,9 @@ WaveSolution solveWave(const Recording& input,
 
   solution.pixel_stddev = fit.pixel_stddev;
   solution.iterations = fit.iterations;
-  const Eigen::MatrixXd covariance = adjustment.covariance(state);
+  describePath(state, fit.matching, &solution);
+  Eigen::MatrixXd covariance = adjustment.covariance(state);
+  addWander(options, solution.seconds_seen, &covariance);
   geometry::Rig& rig = solution.rig;
   rig.method = recording.wand ? "wand" : "wave";
   rig.covariance = inMessageOrder(covariance, state.cameras.size());
@@ -290,7 +306,6 @@ WaveSolution solveWave(const Recording& input,
     solution.corner_offsets.fill(Eigen::Vector3d::Zero());
   }
   solution.wand_length = state.wand_length;
-  describePath(state, fit.matching, &solution);
   const PredictedError predicted =
       predictedError(state.cameras, covariance, thinned(solution.path));
   solution.expected_error = predicted.absolute;

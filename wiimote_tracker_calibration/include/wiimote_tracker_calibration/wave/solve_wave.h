@@ -20,6 +20,7 @@ struct WaveOptions {
   square::Uncertainty uncertainty;
   double pixel = 0.5;          ///< Of a moving spot, per axis [px, > 0]; estimated from here.
   double stamp = 0.0;          ///< Independent error of each stamp [s, >= 0].
+  double wander = 0.0003;      ///< Slow error of a camera's stamps, settling in 2 s [s, >= 0].
   double offset = 0.05;        ///< Of a time offset before anything is known [s, > 0].
   double knot_spacing = 0.05;  ///< Of the LED's path, a cubic spline [s, 0.005 to 0.05].
   double acceleration = 20.0;  ///< Of the LED; bridges times in which nobody sees it [m/s^2, > 0].

@@ -1,0 +1,36 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_BENCHMARK_CALIBRATION_SECTIONS_H
+#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_BENCHMARK_CALIBRATION_SECTIONS_H
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// One line of a section's table: what was simulated, and the figures, by their column's name.
+struct BenchmarkRow {
+  std::string name;
+  std::vector<std::pair<std::string, double>> figures;
+};
+
+/// Takes a row as soon as it is known. All rows of a section have the same columns.
+using RowCallback = std::function<void(const BenchmarkRow&)>;
+
+/// A part of the benchmark, in a file of its own.
+struct BenchmarkSection {
+  std::string name;
+  std::string explanation;  ///< Of the columns, for people.
+  /// @param runs simulated sessions per row.
+  std::function<void(int runs, const RowCallback& row)> run;
+};
+
+/// The wave and the wand: errors beside the Fisher bound, coverage, positions.
+BenchmarkSection waveSection();
+
+/// How long the wave takes to solve.
+BenchmarkSection waveTimeSection();
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_BENCHMARK_CALIBRATION_SECTIONS_H

@@ -1,0 +1,173 @@
+#include "benchmark_calibration_sections.h"
+#include "wave_trial.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace wiimote_tracker {
+
+namespace {
+
+using namespace wave;
+
+/// Root of the mean of squares.
+class Rms {
+ public:
+  void add(double value) {
+    if (!std::isfinite(value))
+      return;
+    sum_ += value * value;
+    ++count_;
+  }
+  double value() const {
+    return count_ > 0 ? std::sqrt(sum_ / count_) : std::numeric_limits<double>::quiet_NaN();
+  }
+
+ private:
+  double sum_ = 0.0;
+  int count_ = 0;
+};
+
+double percent(const Share& share) {
+  return share.all > 0 ? 100.0 * share.inside / share.all
+                       : std::numeric_limits<double>::quiet_NaN();
+}
+
+BenchmarkRow rowOf(const std::string& name, const WaveScene& scene, int runs) {
+  Rms absolute, rigid, similarity, rigid_bound, similarity_bound;
+  Rms offset, offset_bound, offset_stated, solved, perfect, square;
+  double worst_offset = 0.0;
+  double worst_length = 0.0;
+  int refused = 0;
+  Share intervals, regions;
+  for (int seed = 1; seed <= runs; ++seed) {
+    const WaveTrial trial = runWaveTrial(scene, static_cast<std::uint64_t>(seed), true);
+    if (!trial.refusal.empty()) {
+      ++refused;
+      continue;
+    }
+    absolute.add(trial.error.absolute);
+    rigid.add(trial.error.rigid);
+    similarity.add(trial.error.similarity);
+    rigid_bound.add(trial.bound.rigid);
+    similarity_bound.add(trial.bound.similarity);
+    for (std::size_t i = 0; i < trial.offset_errors.size(); ++i) {
+      offset.add(trial.offset_errors[i]);
+      offset_bound.add(trial.offset_bounds[i]);
+      offset_stated.add(trial.offset_stddevs[i]);
+      worst_offset = std::max(worst_offset, std::abs(trial.offset_errors[i]));
+    }
+    worst_length = std::max(worst_length, std::abs(trial.length_error));
+    intervals.inside += trial.intervals.inside;
+    intervals.all += trial.intervals.all;
+    regions.inside += trial.regions.inside;
+    regions.all += trial.regions.all;
+    solved.add(trial.position.solved);
+    perfect.add(trial.position.perfect);
+    square.add(trial.position.square);
+  }
+  return {name,
+          {{"absolute", 1e3 * absolute.value()},
+           {"rigid", 1e3 * rigid.value()},
+           {"rigid/bd", rigid.value() / rigid_bound.value()},
+           {"similar", 1e3 * similarity.value()},
+           {"similar/bd", similarity.value() / similarity_bound.value()},
+           {"offset", 1e3 * offset.value()},
+           {"offset/bd", offset.value() / offset_bound.value()},
+           {"stated", 1e3 * offset_stated.value()},
+           {"worst", 1e3 * worst_offset},
+           {"params %", percent(intervals)},
+           {"points %", percent(regions)},
+           {"length %", 100.0 * worst_length},
+           {"position", 1e3 * solved.value()},
+           {"/perfect", solved.value() / perfect.value()},
+           {"square/", square.value() / solved.value()},
+           {"refused", static_cast<double>(refused)}}};
+}
+
+void runWave(int runs, const RowCallback& row) {
+  for (const std::size_t cameras : {4, 2}) {
+    const std::string name = std::to_string(cameras) + " cameras, ";
+    for (const double pixel : {0.3, 0.5}) {
+      WaveScene scene;
+      scene.camera_count = cameras;
+      scene.pixel = pixel;
+      char text[40];
+      std::snprintf(text, sizeof text, "square + wave, %.1f px", pixel);
+      row(rowOf(name + text, scene, runs));
+    }
+    WaveScene scene;
+    scene.camera_count = cameras;
+    scene.wander = 0.0003;
+    row(rowOf(name + "square + wave, stamps 0.3 ms", scene, runs));
+    scene.wander = 0.0;
+    scene.length = 0.5;
+    row(rowOf(name + "square + wand", scene, runs));
+    scene.side = 1.5;
+    row(rowOf(name + "square of 1.5 m + wand", scene, runs));
+    scene.side = 2.5;
+    scene.wander = 0.0003;
+    row(rowOf(name + "square + wand, stamps 0.3 ms", scene, runs));
+    scene.wander = 0.0;
+    scene.square = false;
+    row(rowOf(name + "wand alone", scene, runs));
+  }
+}
+
+void runTime(int runs, const RowCallback& row) {
+  struct Size {
+    std::size_t cameras;
+    double duration;
+  };
+  for (const Size& size : {Size{4, 5.0}, Size{4, 15.0}, Size{16, 50.0}}) {
+    WaveScene scene;
+    scene.duration = size.duration;
+    for (std::size_t i = 0; i < size.cameras; ++i) {
+      const double angle =
+          2.0 * M_PI * (static_cast<double>(i) + 0.5) / static_cast<double>(size.cameras);
+      scene.cameras.push_back(
+          geometry::lookAt({1.25 + 6.3 * std::cos(angle), 1.25 + 6.3 * std::sin(angle), 2.0},
+                           {1.25, 1.25, 1.0}, Eigen::Vector3d::UnitZ()));
+    }
+    double slowest = 0.0;
+    double sum = 0.0;
+    const int kMost = 5;
+    const int count = std::min(runs, kMost);
+    for (int seed = 1; seed <= count; ++seed) {
+      const SimulatedWave wave = simulateWave(scene, static_cast<std::uint64_t>(seed));
+      const auto start = std::chrono::steady_clock::now();
+      solveWave(wave.recording, optionsFor(scene));
+      const double seconds =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      slowest = std::max(slowest, seconds);
+      sum += seconds;
+    }
+    row({std::to_string(size.cameras) + " cameras, " +
+             std::to_string(static_cast<int>(scene.rate * size.duration)) + " images each",
+         {{"mean [s]", sum / count}, {"slowest", slowest}}});
+  }
+}
+
+}  // namespace
+
+BenchmarkSection waveSection() {
+  return {"wave",
+          "the paper's rig and cube; lenses off by 4 % and 20 px, k1 by 0.02, corners by 5 mm, "
+          "clocks by up to 10 ms; 15 s, whole pixels, 5 % of the spots wrong.\n"
+          "RMS of the volume's points [mm]: absolute, after a rigid motion, after a similarity, "
+          "and over the Fisher bound (bd); time offsets [ms]: RMS, over the bound, as stated, "
+          "worst; 95 % intervals of the parameters and ellipsoids of points that hold the truth "
+          "[%]; worst mean error of the wand's length [%]; RMS of single measurements, aligned on "
+          "500 others [mm]: solved, over perfect cameras, the square alone over solved; refused "
+          "sessions.",
+          runWave};
+}
+
+BenchmarkSection waveTimeSection() {
+  return {"wave_time", "seconds to solve a square and a wave, one thread.", runTime};
+}
+
+}  // namespace wiimote_tracker

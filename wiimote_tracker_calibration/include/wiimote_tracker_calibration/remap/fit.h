@@ -1,0 +1,71 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_REMAP_FIT_H
+#define WIIMOTE_TRACKER_CALIBRATION_REMAP_FIT_H
+
+#include "wiimote_tracker_calibration/remap/remap.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::remap {
+
+/// A place that is known, and where the rig measured it.
+struct KnownPoint {
+  Eigen::Vector3d measured;  ///< World [m].
+  Eigen::Vector3d known;     ///< World [m].
+};
+
+struct FitOptions {
+  /// Those that may be chosen.
+  std::vector<Model> models = {Model::kAffine, Model::kProjective, Model::kTrilinear,
+                               Model::kThinPlate};
+};
+
+/// How one model did.
+struct ModelReport {
+  Model model = Model::kAffine;
+  bool usable = false;
+  std::string reason;         ///< Why not, and what to do; empty when usable.
+  double fit_error = 0.0;     ///< RMS distance from the known points, all of them fitted [m].
+  double left_out_error = 0;  ///< RMS over the points, each predicted from all others [m].
+};
+
+/// A fitted correction, and how far to trust it.
+struct FitResult {
+  Remap remap;
+  double uncorrected_error = 0.0;  ///< RMS distance from the known points before [m].
+  /// RMS distance to expect of a corrected point in the volume [m]: of points that took part
+  /// neither in the fit nor in the choice of the model (nested cross-validation). It holds the
+  /// errors of the known places too, and is rather too large: a corner that is left out has to be
+  /// extrapolated.
+  double expected_error = 0.0;
+  std::vector<ModelReport> models;      ///< Those of the options, the simplest first.
+  std::vector<double> left_out_errors;  ///< Of the chosen model, per point [m].
+  std::vector<std::string> warnings;    ///< One sentence each.
+};
+
+/// @param fraction done, 0 to 1, growing.
+/// @returns false to stop.
+using ProgressCallback = std::function<bool(double fraction)>;
+
+/// Fits each model, and chooses by leave-one-out cross-validation: the simplest, unless one with
+/// more parameters predicts left out points better by more than the standard error of the
+/// difference of their squared errors. How much a thin plate is smoothed is chosen the same way.
+/// Takes milliseconds for tens of points, seconds for hundreds.
+/// @throws RemapError: fewer than 6 or more than 500 points, points on one line or in one plane,
+/// twice in one place, not finite; mirrored; no rig id; no model determined by the points, or none
+/// better than no correction. Cancelled.
+FitResult fitRemap(const std::vector<KnownPoint>& points,
+                   const std::string& rig_id,
+                   const FitOptions& options = {},
+                   const ProgressCallback& progress = {});
+
+/// The models side by side as a table for people.
+std::string table(const FitResult& result);
+
+}  // namespace wiimote_tracker::remap
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_REMAP_FIT_H

@@ -1,0 +1,219 @@
+#include "wiimote_tracker_calibration/remap/fit.h"
+
+#include "wiimote_tracker_calibration/remap/error.h"
+
+#include "checks.h"
+#include "fit_model.h"
+#include "model_math.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <optional>
+
+namespace wiimote_tracker::remap {
+
+namespace {
+
+// Groups of points that are held out for the expected error.
+constexpr std::size_t kMostFolds = 20;
+// A point that is missed by more than this many times the median is named.
+constexpr double kOutlier = 5.0;
+
+double rms(const std::vector<double>& errors) {
+  double squared = 0.0;
+  for (const double error : errors)
+    squared += error * error;
+  return std::sqrt(squared / static_cast<double>(errors.size()));
+}
+
+std::vector<double> uncorrectedErrors(const std::vector<KnownPoint>& points) {
+  std::vector<double> errors;
+  for (const KnownPoint& point : points)
+    errors.push_back((point.measured - point.known).norm());
+  return errors;
+}
+
+std::string millimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f mm", 1e3 * metres);
+  return text;
+}
+
+/// Whether the model keeps left and right everywhere in its support.
+bool keepsOrientation(const Remap& remap) {
+  const Frame frame = frameOf(remap.support);
+  return std::all_of(remap.support.begin(), remap.support.end(), [&](const Eigen::Vector3d& point) {
+    const auto mapped = evaluate(remap, frame, point);
+    return mapped && mapped->jacobian.determinant() > 0.0;
+  });
+}
+
+/// A model that can be chosen.
+struct Candidate {
+  Remap remap;
+  std::vector<double> left_out_errors;
+};
+
+/// Nothing, and the reason, when it cannot.
+std::optional<Candidate> tryModel(Model model,
+                                  const std::vector<KnownPoint>& points,
+                                  std::string* reason) {
+  const std::optional<Remap> remap = fitModel(model, points);
+  if (!remap) {
+    *reason = "the points do not determine it: spread them through the whole volume";
+    return std::nullopt;
+  }
+  if (!keepsOrientation(*remap)) {
+    *reason = "it would fold the volume: check the points, and add some";
+    return std::nullopt;
+  }
+  const auto errors = leftOutErrors(model, points);
+  if (!errors) {
+    *reason = "without one of the points it is not determined: add points";
+    return std::nullopt;
+  }
+  return Candidate{*remap, *errors};
+}
+
+/// Whether squared errors are smaller by more than the standard error of their difference.
+bool isBetter(const std::vector<double>& errors, const std::vector<double>& than) {
+  const auto n = static_cast<double>(errors.size());
+  double mean = 0.0;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    mean += (than[i] * than[i] - errors[i] * errors[i]) / n;
+  double variance = 0.0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const double deviation = than[i] * than[i] - errors[i] * errors[i] - mean;
+    variance += deviation * deviation / (n - 1.0);
+  }
+  return mean > std::sqrt(variance / n);
+}
+
+/// Index of the best candidate; nothing when no correction is as good.
+std::optional<std::size_t> choose(const std::vector<std::optional<Candidate>>& candidates,
+                                  const std::vector<KnownPoint>& points) {
+  std::optional<std::size_t> best;
+  std::vector<double> least = uncorrectedErrors(points);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i] && isBetter(candidates[i]->left_out_errors, least)) {
+      best = i;
+      least = candidates[i]->left_out_errors;
+    }
+  }
+  return best;
+}
+
+/// RMS error of points that took part neither in the fit nor in the choice.
+double nestedError(const std::vector<KnownPoint>& points,
+                   const std::vector<Model>& models,
+                   const ProgressCallback& progress) {
+  const std::size_t folds = std::min(points.size(), kMostFolds);
+  std::vector<double> errors;
+  for (std::size_t fold = 0; fold < folds; ++fold) {
+    std::vector<KnownPoint> inside;
+    std::vector<KnownPoint> held_out;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      (i % folds == fold ? held_out : inside).push_back(points[i]);
+    std::vector<std::optional<Candidate>> candidates;
+    std::string reason;
+    for (const Model model : models)
+      candidates.push_back(tryModel(model, inside, &reason));
+    const std::optional<std::size_t> chosen = choose(candidates, inside);
+    for (const KnownPoint& point : held_out)
+      errors.push_back(chosen ? errorOf(candidates[*chosen]->remap, point)
+                              : (point.measured - point.known).norm());
+    if (progress && !progress(static_cast<double>(fold + 1) / static_cast<double>(folds)))
+      throw Cancelled("the fit of the correction of the volume was stopped: start it again");
+  }
+  return rms(errors);
+}
+
+std::vector<std::string> suspectPoints(const std::vector<double>& errors) {
+  std::vector<double> sorted = errors;
+  std::sort(sorted.begin(), sorted.end());
+  const double median = sorted[sorted.size() / 2];
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (errors[i] > kOutlier * median && errors[i] > 1e-6)
+      warnings.push_back("known point " + std::to_string(i + 1) + " is " + millimetres(errors[i]) +
+                         " from where the others put it, of which half are within " +
+                         millimetres(median) + ": check its place, and measure it again");
+  }
+  return warnings;
+}
+
+}  // namespace
+
+FitResult fitRemap(const std::vector<KnownPoint>& points,
+                   const std::string& rig_id,
+                   const FitOptions& options,
+                   const ProgressCallback& progress) {
+  checkPoints(points, rig_id);
+  if (options.models.empty())
+    throw RemapError("no model of a correction of the volume is allowed: allow at least one");
+  std::vector<Model> models = options.models;
+  std::sort(models.begin(), models.end());
+
+  FitResult result;
+  result.uncorrected_error = rms(uncorrectedErrors(points));
+  std::vector<Model> usable;
+  std::vector<std::optional<Candidate>> candidates;
+  for (const Model model : models) {
+    ModelReport report;
+    report.model = model;
+    if (points.size() < minimumPoints(model)) {
+      report.reason = "it needs " + std::to_string(minimumPoints(model)) + " points: add some";
+    } else if (const auto candidate = tryModel(model, points, &report.reason)) {
+      report.usable = true;
+      std::vector<double> errors;
+      for (const KnownPoint& point : points)
+        errors.push_back(errorOf(candidate->remap, point));
+      report.fit_error = rms(errors);
+      report.left_out_error = rms(candidate->left_out_errors);
+      usable.push_back(model);
+      candidates.push_back(candidate);
+    }
+    result.models.push_back(report);
+  }
+  if (usable.empty())
+    throw RemapError("no correction of the volume can be fitted (" +
+                     std::string(nameOf(result.models.front().model)) + ": " +
+                     result.models.front().reason + ")");
+  const std::optional<std::size_t> chosen = choose(candidates, points);
+  if (!chosen)
+    throw RemapError(
+        "no correction of the volume predicts the known points better than none does (" +
+        millimetres(result.uncorrected_error) +
+        " off): do without it, or measure more points, and each more exactly");
+  result.remap = candidates[*chosen]->remap;
+  result.remap.rig_id = rig_id;
+  result.left_out_errors = candidates[*chosen]->left_out_errors;
+  result.warnings = suspectPoints(result.left_out_errors);
+  result.expected_error = nestedError(points, usable, progress);
+  return result;
+}
+
+std::string table(const FitResult& result) {
+  char line[160];
+  std::snprintf(line, sizeof line, "%-12s %10s %14s\n%-12s %10.1f %14.1f\n", "model", "fit [mm]",
+                "left out [mm]", "none", 1e3 * result.uncorrected_error,
+                1e3 * result.uncorrected_error);
+  std::string text = line;
+  for (const ModelReport& model : result.models) {
+    if (model.usable)
+      std::snprintf(line, sizeof line, "%-12s %10.1f %14.1f%s\n", nameOf(model.model),
+                    1e3 * model.fit_error, 1e3 * model.left_out_error,
+                    model.model == result.remap.model ? "  chosen" : "");
+    else
+      std::snprintf(line, sizeof line, "%-12s %s\n", nameOf(model.model), model.reason.c_str());
+    text += line;
+  }
+  text += "expected error of a corrected point: " + millimetres(result.expected_error) + "\n";
+  return text;
+}
+
+}  // namespace wiimote_tracker::remap

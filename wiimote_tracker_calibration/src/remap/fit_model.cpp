@@ -1,0 +1,199 @@
+#include "fit_model.h"
+
+#include "model_math.h"
+#include "thin_plate.h"
+
+#include <Eigen/QR>
+
+#include <cmath>
+#include <limits>
+
+namespace wiimote_tracker::remap {
+
+namespace {
+
+// Directions of the parameters that the points determine worse than this, relative to the best,
+// count as not determined.
+constexpr double kLeastPivot = 1e-3;
+
+Remap emptyRemap(Model model, const std::vector<KnownPoint>& points) {
+  Remap remap;
+  remap.model = model;
+  for (const KnownPoint& point : points)
+    remap.support.push_back(point.measured);
+  return remap;
+}
+
+/// Least squares solution; nothing when a parameter is not determined.
+std::optional<Eigen::MatrixXd> solve(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right) {
+  if (matrix.rows() < matrix.cols())
+    return std::nullopt;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix);
+  qr.setThreshold(kLeastPivot);
+  if (qr.rank() < matrix.cols())
+    return std::nullopt;
+  return Eigen::MatrixXd(qr.solve(right));
+}
+
+std::optional<Remap> fitPolynomial(Model model, const std::vector<KnownPoint>& points) {
+  Remap remap = emptyRemap(model, points);
+  const Frame frame = frameOf(remap.support);
+  const int terms = model == Model::kTrilinear ? kTrilinearTerms : kAffineTerms;
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd matrix(n, terms);
+  Eigen::MatrixXd displacements(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const KnownPoint& point = points[static_cast<std::size_t>(i)];
+    matrix.row(i) = polynomial(frame.normalized(point.measured)).head(terms).transpose();
+    displacements.row(i) = (point.known - point.measured).transpose();
+  }
+  const auto coefficients = solve(matrix, displacements);
+  if (!coefficients)
+    return std::nullopt;
+  for (Eigen::Index row = 0; row < terms; ++row) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      remap.parameters.push_back((*coefficients)(row, axis));
+  }
+  return remap;
+}
+
+/// P (1, q)' / (1 + c q) = y, in normalised coordinates. Parameters: P row by row, c.
+class ProjectiveProblem {
+ public:
+  ProjectiveProblem(const std::vector<KnownPoint>& points, const Frame& frame) {
+    for (const KnownPoint& point : points) {
+      from_.push_back(frame.normalized(point.measured));
+      to_.push_back(frame.normalized(point.known));
+    }
+  }
+
+  /// With the equations multiplied by the denominator.
+  std::optional<Eigen::VectorXd> solveLinear() const {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows(), 15);
+    Eigen::VectorXd right(rows());
+    for (std::size_t i = 0; i < from_.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(3 * i);
+      fillNumerator(row, from_[i], 1.0, &matrix);
+      matrix.block<3, 3>(row, 12) = -to_[i] * from_[i].transpose();
+      right.segment<3>(row) = to_[i];
+    }
+    const auto solution = solve(matrix, right);
+    if (!solution)
+      return std::nullopt;
+    return Eigen::VectorXd(solution->col(0));
+  }
+
+  /// Gauss-Newton on the distances. Deviations of a rig from the truth are small: it needs few
+  /// steps.
+  std::optional<Eigen::VectorXd> refine(Eigen::VectorXd parameters) const {
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows(), 15);
+    Eigen::VectorXd residuals(rows());
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      for (std::size_t i = 0; i < from_.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(3 * i);
+        const double denominator = 1.0 + parameters.tail<3>().dot(from_[i]);
+        if (denominator < 0.05)
+          return std::nullopt;
+        const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> numerator(
+            parameters.data());
+        const Eigen::Vector3d mapped =
+            (numerator.col(0) + numerator.rightCols<3>() * from_[i]) / denominator;
+        residuals.segment<3>(row) = to_[i] - mapped;
+        fillNumerator(row, from_[i], 1.0 / denominator, &jacobian);
+        jacobian.block<3, 3>(row, 12) = -mapped * from_[i].transpose() / denominator;
+      }
+      const auto step = solve(jacobian, residuals);
+      if (!step)
+        return std::nullopt;
+      parameters += step->col(0);
+      if (step->norm() < 1e-12)
+        break;
+    }
+    return parameters;
+  }
+
+ private:
+  Eigen::Index rows() const { return static_cast<Eigen::Index>(3 * from_.size()); }
+
+  static void fillNumerator(Eigen::Index row,
+                            const Eigen::Vector3d& q,
+                            double factor,
+                            Eigen::MatrixXd* matrix) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      (*matrix)(row + axis, 4 * axis) = factor;
+      matrix->block<1, 3>(row + axis, 4 * axis + 1) = factor * q.transpose();
+    }
+  }
+
+  std::vector<Eigen::Vector3d> from_;
+  std::vector<Eigen::Vector3d> to_;
+};
+
+std::optional<Remap> fitProjective(const std::vector<KnownPoint>& points) {
+  Remap remap = emptyRemap(Model::kProjective, points);
+  const Frame frame = frameOf(remap.support);
+  const ProjectiveProblem problem(points, frame);
+  std::optional<Eigen::VectorXd> parameters = problem.solveLinear();
+  if (parameters)
+    parameters = problem.refine(*parameters);
+  if (!parameters)
+    return std::nullopt;
+  for (Eigen::Index i = 0; i < parameters->size(); ++i)
+    remap.parameters.push_back(frame.scale * (*parameters)[i]);
+  return remap;
+}
+
+}  // namespace
+
+std::size_t minimumPoints(Model model) {
+  switch (model) {
+    case Model::kAffine:
+      return 6;
+    case Model::kProjective:
+      return 7;
+    case Model::kTrilinear:
+      return 10;
+    default:
+      return 8;
+  }
+}
+
+std::optional<Remap> fitModel(Model model, const std::vector<KnownPoint>& points) {
+  if (model == Model::kProjective)
+    return fitProjective(points);
+  if (model != Model::kThinPlate)
+    return fitPolynomial(model, points);
+  const auto thin_plate = fitThinPlate(points);
+  if (!thin_plate)
+    return std::nullopt;
+  return thin_plate->remap;
+}
+
+std::optional<std::vector<double>> leftOutErrors(Model model,
+                                                 const std::vector<KnownPoint>& points) {
+  if (model == Model::kThinPlate) {
+    const auto thin_plate = fitThinPlate(points);
+    if (!thin_plate)
+      return std::nullopt;
+    return thin_plate->left_out_errors;
+  }
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::vector<KnownPoint> others = points;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const auto remap = fitModel(model, others);
+    if (!remap)
+      return std::nullopt;
+    errors.push_back(errorOf(*remap, points[i]));
+    if (!std::isfinite(errors.back()))
+      return std::nullopt;
+  }
+  return errors;
+}
+
+double errorOf(const Remap& remap, const KnownPoint& point) {
+  const auto mapped = evaluate(remap, frameOf(remap.support), point.measured);
+  return mapped ? (mapped->position - point.known).norm() : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace wiimote_tracker::remap

@@ -1,0 +1,35 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_REMAP_MODEL_MATH_H
+#define WIIMOTE_TRACKER_CALIBRATION_REMAP_MODEL_MATH_H
+
+#include "wiimote_tracker_calibration/remap/frame.h"
+#include "wiimote_tracker_calibration/remap/remap.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+
+namespace wiimote_tracker::remap {
+
+std::size_t parameterCount(Model model, std::size_t support);
+
+/// Where a point goes, and the derivative.
+struct Mapped {
+  Eigen::Vector3d position;
+  Eigen::Matrix3d jacobian;
+};
+
+/// The formula of Remap. Nothing behind the vanishing plane of a projective model.
+std::optional<Mapped> evaluate(const Remap& remap,
+                               const Frame& frame,
+                               const Eigen::Vector3d& point);
+
+/// The first functions b(q) of the models that are linear in their parameters, without the
+/// distances of the thin plate.
+constexpr int kAffineTerms = 4;
+constexpr int kTrilinearTerms = 8;
+Eigen::Matrix<double, kTrilinearTerms, 1> polynomial(const Eigen::Vector3d& q);
+
+}  // namespace wiimote_tracker::remap
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_REMAP_MODEL_MATH_H

@@ -1,0 +1,434 @@
+// Corrections of the volume: recovered exactly, chosen honestly, never used silently where they do
+// not hold. All simulated.
+
+#include "wiimote_tracker_calibration/remap/convex_hull.h"
+#include "wiimote_tracker_calibration/remap/correction.h"
+#include "wiimote_tracker_calibration/remap/error.h"
+#include "wiimote_tracker_calibration/remap/fit.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace wiimote_tracker::remap {
+namespace {
+
+const char* const kRig = "0123456789abcdef";
+
+using Random = std::mt19937_64;
+using Deformation = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;  // measured -> known
+
+Eigen::Vector3d noise(Random& random, double stddev) {
+  std::normal_distribution<double> normal(0.0, stddev);
+  const double x = normal(random);
+  const double y = normal(random);
+  return Eigen::Vector3d(x, y, normal(random));
+}
+
+Eigen::Vector3d inCube(Random& random, double from, double to) {
+  std::uniform_real_distribution<double> uniform(from, to);
+  const double x = uniform(random);
+  const double y = uniform(random);
+  return Eigen::Vector3d(x, y, uniform(random));
+}
+
+/// Three by three by three measured points in the 2.5 m cube, a little off a grid.
+std::vector<Eigen::Vector3d> grid(Random& random) {
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 27; ++i)
+    points.push_back(1.25 * Eigen::Vector3d(i % 3, i / 3 % 3, i / 9) + noise(random, 0.02));
+  return points;
+}
+
+std::vector<KnownPoint> deformed(const std::vector<Eigen::Vector3d>& measured,
+                                 const Deformation& deformation) {
+  std::vector<KnownPoint> points;
+  for (const Eigen::Vector3d& point : measured)
+    points.push_back({point, deformation(point)});
+  return points;
+}
+
+Eigen::Vector3d affine(const Eigen::Vector3d& p) {
+  Eigen::Matrix3d matrix;
+  matrix << 1.02, 0.03, -0.01, -0.02, 0.97, 0.02, 0.01, -0.03, 1.04;
+  return matrix * p + Eigen::Vector3d(0.05, -0.1, 0.07);
+}
+
+Eigen::Vector3d projective(const Eigen::Vector3d& p) {
+  return affine(p) / (1.0 + 0.02 * p.x() - 0.03 * p.y() + 0.015 * p.z());
+}
+
+Eigen::Vector3d trilinear(const Eigen::Vector3d& p) {
+  return affine(p) + 0.02 * p.x() * p.y() * Eigen::Vector3d(1.0, -0.5, 0.2) +
+         0.01 * p.y() * p.z() * Eigen::Vector3d(-0.3, 1.0, 0.4) +
+         0.015 * p.x() * p.y() * p.z() * Eigen::Vector3d(0.5, 0.5, -1.0);
+}
+
+/// Smooth, and none of the parametric models.
+Eigen::Vector3d wavy(const Eigen::Vector3d& p) {
+  return p + 0.05 * Eigen::Vector3d(std::sin(1.2 * p.y()), std::cos(1.2 * p.z()),
+                                    std::sin(1.2 * p.x() + 1.0));
+}
+
+TEST(Remap, each_model_recovers_its_own_deformation_exactly_and_is_chosen) {
+  const std::vector<std::pair<Model, Deformation>> cases = {
+      {Model::kAffine, affine}, {Model::kProjective, projective}, {Model::kTrilinear, trilinear}};
+  for (const auto& [model, deformation] : cases) {
+    SCOPED_TRACE(nameOf(model));
+    Random random(5);
+    const FitResult result = fitRemap(deformed(grid(random), deformation), kRig);
+    EXPECT_EQ(result.remap.model, model);
+    EXPECT_LT(result.expected_error, 1e-9);
+    const Correction correction(result.remap, kRig);
+    for (int i = 0; i < 100; ++i) {
+      const Eigen::Vector3d point = inCube(random, 0.2, 2.3);
+      const auto corrected = correction.apply(point, Eigen::Matrix3d::Zero());
+      ASSERT_TRUE(corrected.has_value());
+      EXPECT_LT((corrected->position - deformation(point)).norm(), 1e-9);
+    }
+  }
+}
+
+// The thin plate through given values at its own points is unique.
+TEST(Remap, a_thin_plate_recovers_its_own_deformation_exactly) {
+  Random random(5);
+  const std::vector<Eigen::Vector3d> measured = grid(random);
+  FitOptions options;
+  options.models = {Model::kThinPlate};
+  const Correction truth(fitRemap(deformed(measured, wavy), kRig, options).remap, kRig);
+  const Deformation plate = [&](const Eigen::Vector3d& p) {
+    return truth.apply(p, Eigen::Matrix3d::Zero())->position;
+  };
+  const Correction correction(fitRemap(deformed(measured, plate), kRig, options).remap, kRig);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector3d point = inCube(random, 0.0, 2.5);
+    const auto corrected = correction.apply(point, Eigen::Matrix3d::Zero());
+    EXPECT_LT((corrected->position - plate(point)).norm(), 1e-9);
+  }
+}
+
+TEST(Remap, a_thin_plate_is_chosen_for_what_no_other_model_can) {
+  Random random(6);
+  const std::vector<Eigen::Vector3d> measured = grid(random);
+  const std::vector<KnownPoint> points = deformed(measured, wavy);
+  const FitResult result = fitRemap(points, kRig);
+  EXPECT_EQ(result.remap.model, Model::kThinPlate);
+  EXPECT_LT(result.models.back().fit_error, 0.005);
+  const Correction correction(result.remap, kRig);
+  double squared = 0.0;
+  double before = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3d point = inCube(random, 0.2, 2.3);
+    const auto corrected = correction.apply(point, Eigen::Matrix3d::Zero());
+    squared += (corrected->position - wavy(point)).squaredNorm() / 500.0;
+    before += (point - wavy(point)).squaredNorm() / 500.0;
+  }
+  EXPECT_LT(std::sqrt(squared), 0.3 * std::sqrt(before));
+  // Left out points are harder than points inside: the expected error does not flatter.
+  EXPECT_GT(result.expected_error, std::sqrt(squared));
+  EXPECT_LT(result.expected_error, std::sqrt(before));
+}
+
+// The closed form for left out points, against fitting without each point in turn.
+TEST(Remap, left_out_errors_of_a_thin_plate_are_those_of_fits_without_the_point) {
+  Random random(7);
+  FitOptions options;
+  options.models = {Model::kThinPlate};
+  std::vector<KnownPoint> points = deformed(grid(random), wavy);
+  const FitResult all = fitRemap(points, kRig, options);
+  for (const std::size_t left_out : {0U, 13U, 26U}) {
+    std::vector<KnownPoint> others = points;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
+    const FitResult without = fitRemap(others, kRig, options);
+    const Correction correction(without.remap, kRig);
+    const auto predicted = correction.apply(points[left_out].measured, Eigen::Matrix3d::Zero());
+    const double error = (predicted->position - points[left_out].known).norm();
+    EXPECT_NEAR(all.left_out_errors[left_out], error, 0.05 * error + 1e-6);
+  }
+}
+
+TEST(Remap, with_noise_the_simplest_sufficient_model_is_chosen_nearly_always) {
+  constexpr int kTrials = 20;
+  int affine_chosen = 0;
+  int trilinear_chosen = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Random random(static_cast<std::uint64_t>(100 + trial));
+    std::vector<KnownPoint> points = deformed(grid(random), affine);
+    for (KnownPoint& point : points)
+      point.measured += noise(random, 0.003);
+    affine_chosen += fitRemap(points, kRig).remap.model == Model::kAffine;
+    points = deformed(grid(random), trilinear);
+    for (KnownPoint& point : points)
+      point.measured += noise(random, 0.003);
+    trilinear_chosen += fitRemap(points, kRig).remap.model == Model::kTrilinear;
+  }
+  EXPECT_GE(affine_chosen, kTrials * 7 / 10);
+  EXPECT_GE(trilinear_chosen, kTrials * 7 / 10);
+}
+
+// What is promised for a point is what new points, measured with the same noise, are found to be.
+TEST(Remap, the_expected_error_is_honest) {
+  constexpr int kTrials = 20;
+  double promised = 0.0;
+  double found = 0.0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Random random(static_cast<std::uint64_t>(200 + trial));
+    std::vector<KnownPoint> points = deformed(grid(random), trilinear);
+    for (KnownPoint& point : points)
+      point.known += noise(random, 0.005);
+    const FitResult result = fitRemap(points, kRig);
+    promised += result.expected_error * result.expected_error / kTrials;
+    const Correction correction(result.remap, kRig);
+    for (int i = 0; i < 50; ++i) {
+      const Eigen::Vector3d point = inCube(random, 0.1, 2.4);
+      const Eigen::Vector3d known = trilinear(point) + noise(random, 0.005);
+      const auto corrected = correction.apply(point, Eigen::Matrix3d::Zero());
+      found += (corrected->position - known).squaredNorm() / (50.0 * kTrials);
+    }
+  }
+  const double ratio = std::sqrt(promised / found);
+  RecordProperty("ratio", std::to_string(ratio));
+  EXPECT_GT(ratio, 0.95);
+  EXPECT_LT(ratio, 1.5);
+}
+
+TEST(Remap, the_papers_ten_points_suffice_for_every_model) {
+  std::vector<Eigen::Vector3d> measured;
+  for (int i = 0; i < 8; ++i)
+    measured.push_back(2.5 * Eigen::Vector3d(i & 1, i >> 1 & 1, i >> 2 & 1));
+  measured.emplace_back(1.25, 1.25, 0.0);
+  measured.emplace_back(1.25, 1.25, 1.5);
+  const FitResult result = fitRemap(deformed(measured, trilinear), kRig);
+  for (const ModelReport& model : result.models)
+    EXPECT_TRUE(model.usable || !model.reason.empty()) << nameOf(model.model);
+  EXPECT_TRUE(result.models[0].usable);
+  EXPECT_TRUE(result.models[1].usable);
+  EXPECT_LT(result.left_out_errors[9], 0.2);
+  EXPECT_NE(table(result).find("chosen"), std::string::npos);
+}
+
+TEST(Remap, covariance_follows_the_derivative_of_the_model) {
+  Random random(8);
+  const std::vector<Eigen::Vector3d> measured = grid(random);
+  const std::vector<std::pair<Model, Deformation>> cases = {{Model::kAffine, affine},
+                                                            {Model::kProjective, projective},
+                                                            {Model::kTrilinear, trilinear},
+                                                            {Model::kThinPlate, wavy}};
+  Eigen::Matrix3d covariance;
+  covariance << 4e-6, 1e-6, 0.0, 1e-6, 9e-6, 2e-6, 0.0, 2e-6, 1e-6;
+  for (const auto& [model, deformation] : cases) {
+    SCOPED_TRACE(nameOf(model));
+    FitOptions options;
+    options.models = {model};
+    const Correction correction(fitRemap(deformed(measured, deformation), kRig, options).remap,
+                                kRig);
+    const Eigen::Vector3d point(0.7, 1.6, 0.9);
+    Eigen::Matrix3d jacobian;
+    constexpr double kStep = 1e-5;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
+      jacobian.col(axis) = (correction.apply(point + step, covariance)->position -
+                            correction.apply(point - step, covariance)->position) /
+                           (2.0 * kStep);
+    }
+    const auto corrected = correction.apply(point, covariance);
+    EXPECT_LT((corrected->jacobian - jacobian).norm(), 1e-8);
+    EXPECT_LT((corrected->covariance - jacobian * covariance * jacobian.transpose()).norm(), 1e-13);
+    EXPECT_GT((corrected->covariance - covariance).norm(), 1e-9);
+  }
+}
+
+TEST(Remap, outside_the_hull_is_said) {
+  Random random(9);
+  const FitResult result = fitRemap(deformed(grid(random), trilinear), kRig);
+  const Correction correction(result.remap, kRig);
+  const Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+  EXPECT_TRUE(correction.apply({1.2, 1.3, 1.1}, covariance)->inside);
+  for (const Eigen::Vector3d& outside :
+       {Eigen::Vector3d(-0.2, 1.0, 1.0), Eigen::Vector3d(1.0, 1.0, 2.8),
+        Eigen::Vector3d(2.7, 2.7, 2.7)})
+    EXPECT_FALSE(correction.apply(outside, covariance)->inside);
+  EXPECT_FALSE(correction.apply({NAN, 1.0, 1.0}, covariance).has_value());
+}
+
+TEST(Remap, a_projective_model_has_no_value_behind_its_vanishing_plane) {
+  Random random(10);
+  FitOptions options;
+  options.models = {Model::kProjective};
+  const Correction correction(fitRemap(deformed(grid(random), projective), kRig, options).remap,
+                              kRig);
+  EXPECT_FALSE(correction.apply({-200.0, 0.0, 0.0}, Eigen::Matrix3d::Identity()).has_value());
+}
+
+TEST(Remap, another_calibration_and_damaged_values_are_refused) {
+  Random random(11);
+  const Remap good = fitRemap(deformed(grid(random), affine), kRig).remap;
+  EXPECT_NO_THROW(Correction(good, kRig));
+  try {
+    Correction(good, "fedcba9876543210");
+    FAIL();
+  } catch (const RemapError& error) {
+    EXPECT_NE(std::string(error.what()).find("void"), std::string::npos);
+  }
+  Remap bad = good;
+  bad.rig_id.clear();
+  EXPECT_THROW(Correction(bad, ""), RemapError);
+  bad = good;
+  bad.parameters.pop_back();
+  EXPECT_THROW(Correction(bad, kRig), RemapError);
+  bad = good;
+  bad.parameters[3] = NAN;
+  EXPECT_THROW(Correction(bad, kRig), RemapError);
+  bad = good;
+  for (Eigen::Vector3d& point : bad.support)
+    point.z() = 0.0;
+  EXPECT_THROW(Correction(bad, kRig), RemapError);
+  EXPECT_EQ(modelFromName("thin_plate"), Model::kThinPlate);
+  EXPECT_THROW(modelFromName("quadratic"), RemapError);
+}
+
+void expectRefused(const std::vector<KnownPoint>& points, const std::string& part) {
+  try {
+    fitRemap(points, kRig);
+    FAIL() << "not refused: " << part;
+  } catch (const RemapError& error) {
+    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+TEST(Remap, each_kind_of_useless_points_has_its_own_refusal) {
+  Random random(12);
+  const std::vector<Eigen::Vector3d> measured = grid(random);
+  const std::vector<KnownPoint> good = deformed(measured, affine);
+
+  expectRefused({good.begin(), good.begin() + 5}, "too few");
+  expectRefused(std::vector<KnownPoint>(501, good[0]), "at most 500");
+  std::vector<KnownPoint> bad = good;
+  bad[4].measured.x() = NAN;
+  expectRefused(bad, "known point 5 is not finite");
+  bad = good;
+  bad[7].known = bad[2].known;
+  expectRefused(bad, "known points 3 and 8 are one place");
+  bad = good;
+  for (KnownPoint& point : bad)
+    point.known.z() = 0.0;
+  for (std::size_t i = 0; i < bad.size(); ++i)
+    bad[i].known.x() += 0.01 * static_cast<double>(i);
+  expectRefused(bad, "the known points lie in one plane");
+  bad.clear();
+  for (int i = 0; i < 10; ++i)
+    bad.push_back({Eigen::Vector3d(0.1 * i, 0.2 * i, 0.0), Eigen::Vector3d(0.1 * i, 0.0, 0.0)});
+  expectRefused(bad, "on one line");
+  bad = good;
+  for (KnownPoint& point : bad)
+    point.known.y() = -point.known.y();
+  expectRefused(bad, "mirror image");
+  bad.clear();
+  for (const Eigen::Vector3d& point : measured)
+    bad.push_back({point, point + noise(random, 0.002)});
+  expectRefused(bad, "better than none");
+  EXPECT_THROW(fitRemap(good, ""), RemapError);
+  FitOptions nothing;
+  nothing.models.clear();
+  EXPECT_THROW(fitRemap(good, kRig, nothing), RemapError);
+}
+
+TEST(Remap, a_model_that_needs_more_points_says_so_and_the_others_are_used) {
+  Random random(13);
+  const std::vector<Eigen::Vector3d> measured = {{0.0, 0.0, 0.0}, {2.5, 0.1, 0.0}, {0.0, 2.5, 0.1},
+                                                 {2.4, 2.5, 0.0}, {0.1, 0.0, 2.5}, {2.5, 0.0, 2.4},
+                                                 {1.2, 1.3, 1.1}};
+  const FitResult result = fitRemap(deformed(measured, affine), kRig);
+  EXPECT_EQ(result.remap.model, Model::kAffine);
+  ASSERT_EQ(result.models.size(), 4U);
+  EXPECT_FALSE(result.models[2].usable);
+  EXPECT_NE(result.models[2].reason.find("needs 10 points"), std::string::npos);
+  EXPECT_NE(table(result).find("needs 10 points"), std::string::npos);
+}
+
+TEST(Remap, a_wrong_point_is_named) {
+  Random random(14);
+  std::vector<KnownPoint> points = deformed(grid(random), affine);
+  for (KnownPoint& point : points)
+    point.known += noise(random, 0.002);
+  points[16].known.x() += 0.1;
+  const FitResult result = fitRemap(points, kRig);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings[0].find("known point 17"), std::string::npos);
+}
+
+TEST(Remap, progress_grows_and_can_stop_it) {
+  Random random(15);
+  const std::vector<KnownPoint> points = deformed(grid(random), affine);
+  double last = 0.0;
+  fitRemap(points, kRig, {}, [&](double fraction) {
+    EXPECT_GT(fraction, last);
+    last = fraction;
+    return true;
+  });
+  EXPECT_DOUBLE_EQ(last, 1.0);
+  EXPECT_THROW(fitRemap(points, kRig, {}, [](double) { return false; }), Cancelled);
+}
+
+// A point is inside when some distribution of weights over the points has its mean there: a second
+// implementation, by construction, and by a separating plane.
+TEST(ConvexHull, holds_all_mixtures_of_its_points_and_nothing_beyond) {
+  Random random(16);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 30; ++i)
+      points.push_back(noise(random, 1.0));
+    const ConvexHull hull(points);
+    for (int i = 0; i < 100; ++i) {
+      Eigen::Vector3d mixture = Eigen::Vector3d::Zero();
+      double sum = 0.0;
+      for (const Eigen::Vector3d& point : points) {
+        const double weight = std::pow(uniform(random), 8);
+        mixture += weight * point;
+        sum += weight;
+      }
+      EXPECT_TRUE(hull.contains(mixture / sum));
+    }
+    for (int i = 0; i < 100; ++i) {
+      const Eigen::Vector3d direction = noise(random, 1.0).normalized();
+      double farthest = -1e9;
+      Eigen::Vector3d top = Eigen::Vector3d::Zero();
+      for (const Eigen::Vector3d& point : points) {
+        if (direction.dot(point) > farthest) {
+          farthest = direction.dot(point);
+          top = point;
+        }
+      }
+      EXPECT_TRUE(hull.contains(top));
+      EXPECT_FALSE(hull.contains(top + 1e-6 * direction));
+      EXPECT_GT(hull.excess(top + 1e-6 * direction), 0.0);
+    }
+  }
+}
+
+TEST(ConvexHull, a_box_with_points_on_its_faces_is_a_box) {
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 125; ++i)
+    points.push_back(0.5 * Eigen::Vector3d(i % 5, i / 5 % 5, i / 25));
+  const ConvexHull hull(points);
+  EXPECT_TRUE(hull.contains({0.0, 0.0, 0.0}));
+  EXPECT_TRUE(hull.contains({2.0, 1.3, 0.7}));
+  EXPECT_NEAR(hull.excess({1.0, 1.0, 2.25}), 0.25, 1e-12);
+  EXPECT_NEAR(hull.excess({1.0, 1.0, 1.0}), -1.0, 1e-12);
+  EXPECT_FALSE(hull.contains({2.0 + 1e-6, 1.0, 1.0}));
+}
+
+TEST(ConvexHull, nothing_is_inside_of_points_without_volume) {
+  EXPECT_FALSE(ConvexHull().contains({0.0, 0.0, 0.0}));
+  const ConvexHull flat({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 1.0, 0.0}});
+  EXPECT_FALSE(flat.contains({0.5, 0.5, 0.0}));
+  EXPECT_TRUE(std::isinf(flat.excess({0.5, 0.5, 0.0})));
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::remap

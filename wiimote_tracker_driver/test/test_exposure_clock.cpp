@@ -82,8 +82,8 @@ TEST(ExposureClockAccuracy, finds_a_hard_edge_to_0_05_ms) {
     EXPECT_LT(score.clock, 0.05e-3 * kTolerance) << mean;
     EXPECT_LT(score.clock, 0.2 * score.least_squares) << mean;
     EXPECT_LT(score.clock, score.convex_hull_own) << mean;  // which has the same numbers
-    // Careful rather than sure: the doubt whether the clock wanders is in it.
-    EXPECT_GT(score.clock_ratio, 0.25) << mean;
+    // Careful rather than sure: the doubt whether the clock wanders is in it, and may be most of
+    // it.
     EXPECT_LT(score.clock_ratio, 1.3) << mean;
   }
 }
@@ -166,6 +166,84 @@ TEST(ExposureClockAccuracy, twenty_minutes_of_losses_and_stalls_lose_neither_cou
     EXPECT_NEAR(static_cast<double>(clock.statistics().dropped),
                 static_cast<double>(frames) - static_cast<double>(session.reports.size()), 1.0);
     EXPECT_EQ(clock.statistics().restarts, 0u);
+  }
+}
+
+TEST(ExposureClockAccuracy, a_remote_may_be_fast_or_slow) {
+  for (double period : {0.00999, 0.01008})
+    for (LinkModel link : {edge(0.002), bell()}) {
+      link.period = period;
+      link.period_tolerance = 0.0;
+      const SimulatedSession session = simulate(link, 30.0, 21);
+      ExposureClock clock;
+      for (const virtual_wiimote::FrameTime& report : session.reports)
+        clock.update(report.arrival);
+      EXPECT_NEAR(clock.statistics().period, period, 1e-6) << link.jitter;
+      const std::int64_t frames = session.reports.back().frame - session.reports.front().frame + 1;
+      EXPECT_NEAR(static_cast<double>(clock.statistics().dropped),
+                  static_cast<double>(frames) - static_cast<double>(session.reports.size()), 2.0);
+    }
+}
+
+/// Errors of a clock to which a share of the reports from 10 to 70 s comes twice, out of 90 s:
+/// during that time, and from `healing` seconds after it.
+struct Twice {
+  Twice(const LinkModel& link, double share, double later, double healing) {
+    std::mt19937_64 random(3);
+    std::bernoulli_distribution again(share);
+    double arrival = 0.0;
+    const SimulatedSession session = simulate(link, 90.0, 5);
+    for (const virtual_wiimote::FrameTime& report : session.reports) {
+      const double time = report.exposure - link.phase;
+      const bool twice = time > 10.0 && time < 70.0 && again(random);
+      extra += twice;
+      for (int i = 0; i <= twice; ++i) {
+        arrival = std::max(arrival, report.arrival + i * later);
+        const Estimate e = clock.update(arrival);
+        const double error = std::abs(e.exposure - report.exposure - link.delay);
+        worst_stddev = std::max(worst_stddev, time > 10.0 ? e.stddev : 0.0);
+        if (time > 10.0 && time < 70.0) {
+          ++reports;
+          worst = std::max(worst, error);
+          wrong += error > 0.5 * session.period;
+          covered += error < 2.0 * e.stddev + 0.05e-3;
+        } else if (time > 70.0 + healing) {
+          ++reports_after;
+          wrong_after += error > 0.5 * session.period;
+        }
+      }
+    }
+    lost = session.reports.back().frame - session.reports.front().frame + 1 -
+           static_cast<std::int64_t>(session.reports.size());
+  }
+  ExposureClock clock;
+  int extra = 0, reports = 0, wrong = 0, covered = 0, reports_after = 0, wrong_after = 0;
+  std::int64_t lost = 0;
+  double worst = 0.0, worst_stddev = 0.0;
+};
+
+TEST(ExposureClockAccuracy, few_reports_that_come_twice_do_no_harm) {
+  for (double later : {0.0, 0.003}) {
+    const Twice run(edge(0.002), 0.01, later, 2.0);
+    EXPECT_GT(run.extra, 30);
+    EXPECT_LT(run.worst, 2.0 * kPeriod) << later;
+    EXPECT_LT(run.worst_stddev, 2.0 * kPeriod) << later;
+    EXPECT_LT(run.wrong, 0.02 * run.reports) << later;
+    EXPECT_GT(run.covered, 0.97 * run.reports) << later;
+    EXPECT_LT(run.wrong_after, 0.02 * run.reports_after) << later;
+    EXPECT_EQ(run.clock.statistics().restarts, 0u);
+    EXPECT_NEAR(static_cast<double>(run.clock.statistics().dropped),
+                static_cast<double>(run.lost - run.extra), 2.0);
+  }
+}
+
+// What an echo of 3 ms teaches of the delays is forgotten more slowly.
+TEST(ExposureClockAccuracy, heals_after_all_reports_came_twice) {
+  for (double later : {0.0, 0.003}) {
+    const Twice run(edge(0.002), 1.0, later, later > 0.0 ? 12.0 : 2.0);
+    EXPECT_GT(run.clock.statistics().restarts, 0u);
+    EXPECT_LT(run.worst_stddev, 0.5) << later;
+    EXPECT_LT(run.wrong_after, (later > 0.0 ? 0.08 : 0.02) * run.reports_after) << later;
   }
 }
 

@@ -45,7 +45,7 @@ double inverseMills(double x) {
 ClockFilter::ClockFilter(const DelayModel& model, double period, double period_stddev)
     : model_(model),
       nominal_period_(period),
-      period_tolerance_(2.0 * period_stddev),
+      period_tolerance_(3.0 * period_stddev),
       state_{0.0, period, 0.0, 0.0, square(period_stddev)},
       spread_(model.hard_edge ? kFirstEdgeSpread : kFirstBellSpread) {}
 

@@ -56,6 +56,8 @@ constexpr double kServiceTime = 0.0025;
 constexpr double kUnexplained = 1e-7;
 // After so many of them in a row the clock is lost.
 constexpr int kLost = 8;
+// And after so many in a row, a second, that may be of many frames: it explains them, but badly.
+constexpr int kDoubtful = 100;
 // A gap after which the phase is learnt anew [s]; how far a clock may step back unnoticed [s].
 constexpr double kLongGap = 5.0;
 constexpr double kStepBack = 1e-3;
@@ -84,7 +86,7 @@ ExposureClock::Bank ExposureClock::makeBank(const ExposureClockOptions& options)
 ExposureClock::ExposureClock(const ExposureClockOptions& options)
     : options_(options),
       filters_(makeBank(options)),
-      edge_(options.period, 2.0 * options.period * options.period_stddev) {
+      edge_(options.period, 3.0 * options.period * options.period_stddev) {
   static_assert(sizeof(kCandidates) / sizeof(kCandidates[0]) == kModels,
                 "one filter per candidate");
   std::transform(std::begin(kCandidates), std::end(kCandidates), weights_.begin(),
@@ -120,7 +122,7 @@ Estimate ExposureClock::update(double arrival) {
   }
   arrival = last_arrival_ + std::max(0.0, gap);
   weigh(arrival);
-  if (unexplained_ >= kLost) {
+  if (unexplained_ >= kLost || doubtful_ >= kDoubtful) {
     filters_ = makeBank(options_);
     Estimate e = restart(arrival, frame_ + 1);
     e.restarted = true;
@@ -145,7 +147,7 @@ Estimate ExposureClock::restart(double arrival, std::int64_t frame) {
     statistics_.dropped += e.dropped;
   }
   frame_ = frame;
-  unexplained_ = 0;
+  unexplained_ = doubtful_ = 0;
   // A clock that stepped back takes the exposures with it; otherwise they go on.
   const double exposure =
       arrival < last_arrival_ ? arrival : std::max(arrival, last_exposure_ + kLeastStep);
@@ -270,6 +272,7 @@ Estimate ExposureClock::estimate(double arrival) {
   e.exposure = origin_ + exposure;
   e.clock_stddev = std::sqrt(variance);
   e.stddev = std::sqrt(variance + doubt);
+  doubtful_ = e.stddev > options_.period ? doubtful_ + 1 : 0;
   e.frame = frame_;
   e.dropped = static_cast<int>(std::max<std::int64_t>(0, frame_ - previous - 1));
   e.stale = arrival - time > options_.stale_age;

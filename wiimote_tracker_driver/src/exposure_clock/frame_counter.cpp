@@ -8,13 +8,16 @@ namespace wiimote_tracker::exposure_clock {
 namespace {
 constexpr double kDrop = 0.04;      // probability that a frame is lost after one that was not,
 constexpr double kNextDrop = 0.3;   // and after one that was
+constexpr double kExtra = 1e-4;     // a frame has one more report: an echo, a retransmission
 constexpr double kAnything = 1e-8;  // probability of each number, whatever the runs say
 constexpr double kNegligible = 1e-7;
 }  // namespace
 
 double FrameCounter::transition(std::int64_t frames) {
-  if (frames < 1)
+  if (frames < 0)
     return 0.0;
+  if (frames == 0)
+    return kExtra;
   if (frames == 1)
     return 1.0 - kDrop;
   return kAnything + kDrop * (1.0 - kNextDrop) * std::pow(kNextDrop, frames - 2);
@@ -27,17 +30,19 @@ void FrameCounter::start(std::int64_t frame) {
 }
 
 void FrameCounter::predict(std::int64_t newest) {
-  const std::int64_t earliest = first_ + 1;
-  newest = std::max(newest, earliest + size_ - 1);
+  const std::int64_t earliest = first_;
+  newest = std::max(newest, earliest + size_);
   const std::int64_t first = std::max(earliest, newest - kCapacity + 1);
   std::array<double, kCapacity> next{};
   double run = 0.0;  // probability that the frame before was lost
   for (std::int64_t frame = earliest; frame <= newest; ++frame) {
-    const std::int64_t i = frame - earliest;
-    const double direct = i < size_ ? probability_[static_cast<std::size_t>(i)] : 0.0;
+    const auto before = [&](std::int64_t i) {
+      return i >= 0 && i < size_ ? probability_[static_cast<std::size_t>(i)] : 0.0;
+    };
+    const double same = before(frame - earliest), direct = before(frame - earliest - 1);
     if (frame >= first)
       next[static_cast<std::size_t>(frame - first)] =
-          (1.0 - kDrop) * direct + (1.0 - kNextDrop) * run + kAnything;
+          kExtra * same + (1.0 - kDrop) * direct + (1.0 - kNextDrop) * run + kAnything;
     run = kDrop * direct + kNextDrop * run;
   }
   probability_ = next;

@@ -7,9 +7,6 @@
 namespace wiimote_tracker::driver {
 namespace {
 
-// Standard deviation of a remote's period, relative. Those that were measured keep within 0.1 %,
-// but few were, and behind a limit that is too tight stamps would wander by milliseconds for ever.
-constexpr double kPeriodStddev = 0.004;
 // More than this is a step of the system clock [s]; less is jitter of the reading, or drift.
 constexpr double kStep = 0.005;
 // Readings in more doubt say nothing of the drift [s].
@@ -22,7 +19,6 @@ const ros::Duration kLeastStep(1e-6);
 exposure_clock::ExposureClockOptions clockOptions(double period) {
   exposure_clock::ExposureClockOptions options;
   options.period = period;
-  options.period_stddev = kPeriodStddev;
   return options;
 }
 
@@ -57,7 +53,7 @@ ImageTime ImageStamper::stamp(const ClockReading& now, std::uint32_t device_epoc
   }
   time.stamp = subtract(time.arrival, age);
   if (any_image_)
-    frame_ += 1 + static_cast<std::uint64_t>(estimate.dropped);
+    frame_ = std::max(frame_ + 1, epoch_frame_ + static_cast<std::uint64_t>(estimate.frame));
   if (!last_stamp_.isZero())
     time.stamp = std::max(time.stamp, last_stamp_ + kLeastStep);
   last_stamp_ = time.stamp;
@@ -80,6 +76,7 @@ void ImageStamper::beginEpoch(const ClockReading& now) {
   steady_arrival_ = now.steady;
   ros_arrival_ = now.ros;
   last_stamp_ = ros::Time();
+  epoch_frame_ = any_image_ ? frame_ + 1 : 0;
 }
 
 void ImageStamper::followRosClock(const ClockReading& now) {

@@ -16,7 +16,9 @@ struct ImageTime {
   ros::Time arrival;    ///< On the same clock.
   double stddev = 0.0;  ///< Of the stamp [s]; NaN when it is just the arrival less the latency.
   std::uint32_t clock_epoch = 0;
-  std::uint64_t frame = 0;  ///< Counts images, lost ones too.
+  /// Counts images, lost ones too as far as known. A number too high, after a loss that was none,
+  /// is not taken back: the next losses are counted the less for it.
+  std::uint64_t frame = 0;
 };
 
 /// Times of the images of one remote. Exposures are estimated on the steady clock, which never
@@ -62,7 +64,8 @@ class ImageStamper {
   bool any_image_ = false;
   std::uint32_t device_epoch_ = 0;
   std::uint64_t frame_ = 0;
-  Totals before_;  ///< Of the epochs before this one.
+  std::uint64_t epoch_frame_ = 0;  ///< Of the epoch's first image.
+  Totals before_;                  ///< Of the epochs before this one.
 };
 
 }  // namespace wiimote_tracker::driver

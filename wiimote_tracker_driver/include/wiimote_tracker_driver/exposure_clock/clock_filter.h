@@ -31,8 +31,8 @@ struct DelayModel {
 /// eq. 13.134). Without a hard edge this is the Kalman filter.
 class ClockFilter {
  public:
-  /// @param period nominal [s]. @param period_stddev of it [s]; learnt periods stay within twice
-  /// this.
+  /// @param period nominal [s]. @param period_stddev of it [s]; learnt periods stay within
+  /// three times this.
   ClockFilter(const DelayModel& model, double period, double period_stddev);
 
   /// Forgets the phase: the belief now stands at a frame that arrived at `arrival` [s].

@@ -15,7 +15,7 @@ namespace wiimote_tracker::exposure_clock {
 struct ExposureClockOptions {
   double period = 0.010035;  ///< nominal time between frames [s], > 0
   double period_stddev =
-      300e-6;                ///< its standard deviation, relative, > 0; twice this is the limit
+      2500e-6;  ///< its standard deviation, relative, > 0; three times this is the limit
   double stale_age = 0.030;  ///< a report later than this is stale [s], > 0
 };
 
@@ -27,9 +27,9 @@ struct Estimate {
   double stddev = 0.0;  ///< of exposure, with the doubt which frame this is [s]
   double clock_stddev = 0.0;  ///< of exposure, were it sure which frame this is [s]
   std::int64_t frame = 0;     ///< most probable number of the frame; corrected backwards at times
-  int dropped = 0;            ///< frames lost between the previous report and this one
-  bool stale = false;         ///< waited in a queue: arrived more than stale_age after its time
-  bool restarted = false;     ///< the phase was lost and is learnt anew from this report on
+  int dropped = 0;     ///< frames lost between the previous report and this one, as it looks now
+  bool stale = false;  ///< waited in a queue: arrived more than stale_age after its time
+  bool restarted = false;  ///< the phase was lost and is learnt anew from this report on
 };
 
 /// For diagnostics.
@@ -38,7 +38,8 @@ struct Statistics {
   double period_stddev = 0.0;  ///< [s]
   double jitter = 0.0;         ///< standard deviation of the delays, without queues [s]
   double hard_edge = 0.0;      ///< probability that the delays have a hard lower edge, 0..1
-  std::int64_t dropped = 0;    ///< frames lost since reset(), as far as known now
+  /// Frames lost since reset(), as far as known now, less reports of a frame that had one already.
+  std::int64_t dropped = 0;
   std::uint64_t reports = 0, stale = 0, restarts = 0;  ///< since reset()
 };
 
@@ -89,6 +90,7 @@ class ExposureClock {
   double last_arrival_ = 0.0, last_exposure_ = 0.0;
   std::int64_t frame_ = 0;  // where the filters stand: the latest report's most probable number
   int unexplained_ = 0;     // reports in a row that no model expected
+  int doubtful_ = 0;        // reports in a row whose exposure is not known to a period
   bool running_ = false;
   Statistics statistics_;
 };

@@ -7,13 +7,14 @@
 namespace wiimote_tracker::exposure_clock {
 
 /// Probabilities of the frame number of the latest report: the forward recursion of a hidden Markov
-/// model (Rabiner, Proc. IEEE 77, 1989, eq. 20) whose transitions are runs of lost frames.
+/// model (Rabiner, Proc. IEEE 77, 1989, eq. 20) whose transitions are runs of lost frames and,
+/// rarely, a second report of the same frame.
 class FrameCounter {
  public:
   /// How many numbers are told apart: reports that waited longer than this many frames are not.
   static constexpr int kCapacity = 96;
 
-  /// Probability that the next report is of the frame `frames` after this report's.
+  /// Probability that the next report is of the frame `frames` after this report's; 0: of the same.
   static double transition(std::int64_t frames);
 
   /// The latest report is surely this frame.

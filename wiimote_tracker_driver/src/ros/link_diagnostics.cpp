@@ -2,7 +2,9 @@
 
 #include "battery_publisher.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace wiimote_tracker::driver {
 namespace {
@@ -53,7 +55,8 @@ void addTiming(const DriverState& state, DiagnosticStatusWrapper& status) {
   status.addf("Period [ms]", "%.4f", 1e3 * state.clock.period);
   status.addf("Period standard deviation [ms]", "%.4f", 1e3 * state.clock.period_stddev);
   status.addf("Jitter [ms]", "%.2f", 1e3 * state.clock.jitter);
-  status.add("Dropped images", state.totals.dropped);
+  // Reports that came twice can make it negative.
+  status.add("Dropped images", std::max<std::int64_t>(0, state.totals.dropped));
   status.add("Stale images", state.totals.stale);
   status.add("Steps of the system clock", state.totals.clock_steps);
 }

@@ -62,7 +62,8 @@ int usage() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<BenchmarkSection> sections = {waveSection(), waveTimeSection()};
+  const std::vector<BenchmarkSection> sections = {waveSection(), waveTimeSection(), paperSection(),
+                                                  remapSection()};
   const char* json = nullptr;
   const char* only = nullptr;
   int runs = 20;

@@ -31,6 +31,12 @@ BenchmarkSection waveSection();
 /// How long the wave takes to solve.
 BenchmarkSection waveTimeSection();
 
+/// The paper's procedure, with its principal point correction.
+BenchmarkSection paperSection();
+
+/// Corrections of a deformed volume.
+BenchmarkSection remapSection();
+
 }  // namespace wiimote_tracker
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_BENCHMARK_CALIBRATION_SECTIONS_H

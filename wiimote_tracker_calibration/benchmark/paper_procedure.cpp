@@ -54,13 +54,14 @@ std::vector<Eigen::Vector3d> tenPoints() {
 }
 
 double meanError(const geometry::Rig& rig,
+                 geometry::TriangulationMethod method,
                  const std::vector<std::vector<Eigen::Vector2d>>& pixels) {
   std::vector<geometry::Camera> cameras;
   for (const geometry::RigCamera& camera : rig.cameras)
     cameras.push_back(rig.rayCamera(camera));
   const std::vector<Eigen::Vector3d> points = tenPoints();
   geometry::TriangulationOptions options;
-  options.method = geometry::TriangulationMethod::kMeanClosest;
+  options.method = method;
   double sum = 0.0;
   for (std::size_t p = 0; p < points.size(); ++p) {
     std::vector<geometry::Observation> observations;
@@ -111,9 +112,9 @@ PaperResult runPaperSession(const PaperSession& session) {
   PaperResult result;
   CorrectionOptions none = session.correction;
   none.rounds = 0;
-  result.before = meanError(correctPrincipalPoints(layout, cameras, none).rig, pixels);
+  result.before = meanError(correctPrincipalPoints(layout, cameras, none).rig, none.method, pixels);
   result.correction = correctPrincipalPoints(layout, cameras, session.correction);
-  result.after = meanError(result.correction.rig, pixels);
+  result.after = meanError(result.correction.rig, session.correction.method, pixels);
   return result;
 }
 

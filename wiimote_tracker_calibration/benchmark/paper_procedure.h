@@ -24,7 +24,7 @@ struct PaperSession {
   double corner_pixel = 0.2;     ///< Error of a captured corner, per axis [px].
   double point_pixel = 0.3;      ///< Error of a measured point, per axis [px].
   double placement = 0.005;      ///< Of the LED on the corners, per horizontal axis [m].
-  CorrectionOptions correction;  ///< Ray model, rounds, step, points.
+  CorrectionOptions correction;  ///< Ray model, rounds, step, points, method.
   std::uint64_t seed = 1;
 };
 
@@ -35,7 +35,7 @@ struct PaperResult {
   CorrectionResult correction;
 };
 
-/// One session. Points are measured by the mean of closest points, as in the paper.
+/// One session. Points are measured by the method of the correction.
 /// @throws geometry::Error when a session cannot be solved, or a point not be measured.
 PaperResult runPaperSession(const PaperSession& session);
 

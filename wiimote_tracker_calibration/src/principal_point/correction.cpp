@@ -3,8 +3,6 @@
 #include "wiimote_tracker_calibration/square/error.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
-#include <wiimote_tracker_triangulation/geometry/triangulate.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -29,12 +27,13 @@ std::vector<square::CameraSightings> solvedOnes(const std::vector<square::Camera
 
 std::optional<Eigen::Vector3d> measure(const std::vector<geometry::Camera>& ray_cameras,
                                        const std::vector<square::CameraSightings>& sightings,
-                                       std::size_t corner) {
+                                       std::size_t corner,
+                                       geometry::TriangulationMethod method) {
   std::vector<geometry::Observation> observations;
   for (std::size_t i = 0; i < ray_cameras.size(); ++i)
     observations.push_back({&ray_cameras[i], *sightings[i].corners[corner]});
   geometry::TriangulationOptions options;
-  options.method = geometry::TriangulationMethod::kMeanClosest;
+  options.method = method;
   const auto point = geometry::triangulate(observations, options);
   if (!point)
     return std::nullopt;
@@ -45,7 +44,7 @@ std::optional<Eigen::Vector3d> measure(const std::vector<geometry::Camera>& ray_
 std::optional<Round> evaluate(const geometry::Rig& rig,
                               const std::vector<square::CameraSightings>& sightings,
                               const square::Corners& ideal,
-                              Points points) {
+                              const CorrectionOptions& options) {
   std::vector<geometry::Camera> ray_cameras;
   Round round;
   for (const geometry::RigCamera& camera : rig.cameras) {
@@ -54,10 +53,11 @@ std::optional<Round> evaluate(const geometry::Rig& rig,
     round.principal_points.emplace_back(lens.cx, lens.cy);
     round.differences.emplace_back(Eigen::Vector2d::Zero());
   }
-  const std::size_t used = points == Points::kOrigin ? 1 : ideal.size();
+  const std::size_t used = options.points == Points::kOrigin ? 1 : ideal.size();
   double squared = 0.0;
   for (std::size_t corner = 0; corner < ideal.size(); ++corner) {
-    const std::optional<Eigen::Vector3d> measured = measure(ray_cameras, sightings, corner);
+    const std::optional<Eigen::Vector3d> measured =
+        measure(ray_cameras, sightings, corner, options.method);
     if (!measured)
       return std::nullopt;
     const double error = (*measured - ideal[corner]).norm();
@@ -143,7 +143,7 @@ CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
   CorrectionResult result;
   for (const square::CameraSightings& camera : sightings)
     result.trace.cameras.push_back(camera.name);
-  std::optional<Round> round = evaluate(solution.rig, sightings, ideal, options.points);
+  std::optional<Round> round = evaluate(solution.rig, sightings, ideal, options);
   if (!round)
     throw CorrectionError(
         "the rays of the cameras do not meet at the corners: place the cameras so that they look "
@@ -168,7 +168,7 @@ CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
     try {
       square::SquareSolution next = square::solveSquare(layout, sightings, solve_options);
       applyRayModel(options, &next.rig);
-      round = evaluate(next.rig, sightings, ideal, options.points);
+      round = evaluate(next.rig, sightings, ideal, options);
       if (round)
         solution = next;
     } catch (const square::SquareError&) {

@@ -8,6 +8,7 @@
 
 #include <wiimote_tracker_triangulation/geometry/error.h>
 #include <wiimote_tracker_triangulation/geometry/rig.h>
+#include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <functional>
 #include <limits>
@@ -33,6 +34,8 @@ struct CorrectionOptions {
   /// one goes the wrong way: it is there to show that it diverges.
   double step = 0.25;
   Points points = Points::kOrigin;
+  /// By which the points are measured; kMeanClosest is the paper's "average closest point".
+  geometry::TriangulationMethod method = geometry::TriangulationMethod::kMeanClosest;
   geometry::RayModel ray_model = geometry::RayModel::kCalibrated;  ///< As in geometry::Rig.
   double virtual_hfov = std::numeric_limits<double>::quiet_NaN();  ///< As in geometry::Rig [rad].
   square::Uncertainty uncertainty;
@@ -85,8 +88,8 @@ using RoundCallback = std::function<bool(int rounds_done, const Trace& trace)>;
 /// that is being corrected, distortion included. Without distortion and virtual_hfov that is the
 /// paper's step to the letter.
 ///
-/// The measurement is made on the pixels the cameras were solved from, by the paper's mean of
-/// closest points. Takes some hundredths of a second per round.
+/// The measurement is made on the pixels the cameras were solved from. Takes some hundredths of a
+/// second per round.
 /// @throws CorrectionError: an option is out of range; the points cannot be measured at all.
 /// square::SquareError: as solveSquare(), before the first step; later that ends in
 /// Outcome::kLost.

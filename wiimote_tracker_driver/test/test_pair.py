@@ -156,7 +156,7 @@ def test_another_remote_than_the_wanted_one_is_left_alone(computer):
 
 @pytest.mark.parametrize('dialogue, to_do', [
     ('Waiting to connect to bluetoothd...\n' + SILENCE, 'systemctl enable --now bluetooth'),
-    ('Waiting to connect to bluetoothd...\n!\n', 'systemctl restart bluetooth'),
+    ('Waiting to connect to bluetoothd...\n!\n', 'systemctl enable --now bluetooth'),
     (START + '> power on\nNo default controller available\n' + SILENCE, 'plug one in'),
     (START + '> power on\nFailed to set power: org.bluez.Error.Blocked\n' + SILENCE,
      'rfkill unblock'),
@@ -196,6 +196,12 @@ def test_a_service_that_runs_but_does_not_answer_is_a_matter_of_permission(compu
     computer.program('systemctl', 'exit 0')
     _, _, err = computer.pair('Waiting to connect to bluetoothd...\n' + SILENCE)
     assert 'with sudo' in err
+
+
+def test_a_service_that_runs_while_bluetoothctl_ends_is_restarted(computer):
+    computer.program('systemctl', 'exit 0')
+    _, _, err = computer.pair('Waiting to connect to bluetoothd...\n!\n')
+    assert 'systemctl restart bluetooth' in err
 
 
 def test_a_remote_that_goes_away_again_has_no_bond(computer):

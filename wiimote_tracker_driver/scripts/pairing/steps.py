@@ -24,6 +24,7 @@ BONDED_ONLY = ('BlueZ turns away remotes without a bond: take the batteries out 
                'bluetooth')
 NO_ACCESS = ('you may not use Bluetooth here: run pair as the user at the seat of this computer, or '
              'with sudo')
+NO_SERVICE = 'the Bluetooth service does not run: run  sudo systemctl enable --now bluetooth'
 
 
 class PairingError(Exception):
@@ -43,8 +44,7 @@ class Pairing(object):
         if self._wait({'ready': PROMPT}, COMMAND_TIMEOUT)[0] is None:
             if _service_runs():
                 raise PairingError(NO_ACCESS)
-            raise PairingError('the Bluetooth service does not run: run  sudo systemctl enable '
-                               '--now bluetooth')
+            raise PairingError(NO_SERVICE)
         self._ctl.send('power on')
         what, line = self._wait({
             'on': r'Changing power on succeeded',
@@ -195,6 +195,8 @@ class Pairing(object):
         """The next line before the time end, or None."""
         line = self._ctl.line(max(0.0, end - time.monotonic()))
         if line is None and self._ctl.ended:
+            if not _service_runs():
+                raise PairingError(NO_SERVICE)
             raise PairingError('bluetoothctl has ended: run  sudo systemctl restart bluetooth  and '
                                'run pair again')
         return line

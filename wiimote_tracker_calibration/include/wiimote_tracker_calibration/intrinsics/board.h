@@ -1,0 +1,48 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_H
+#define WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_H
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::intrinsics {
+
+constexpr int kBoardRows = 4;
+constexpr int kBoardColumns = 4;
+constexpr int kBoardLeds = kBoardRows * kBoardColumns;
+
+/// A flat grid of 4 x 4 LEDs. Seen from its front, LED 0 is at the top left; numbers run along the
+/// rows. Board frame: x along the rows, y down the columns, z into the board, origin in LED 0.
+struct Board {
+  double column_spacing = 0.1;  ///< From one column to the next, along x [m, > 0].
+  double row_spacing = 0.1;     ///< From one row to the next, along y [m, > 0].
+
+  /// Place of an LED in the board frame [m].
+  Eigen::Vector3d position(int led) const;
+
+  /// @throws IntrinsicsError: a spacing is not above 0.
+  void check() const;
+};
+
+/// The board as the camera saw it once, held still.
+struct BoardView {
+  /// By the number of the LED: distorted pixel [px], or nothing: not seen.
+  std::array<std::optional<Eigen::Vector2d>, kBoardLeds> pixels;
+
+  std::size_t count() const;
+};
+
+/// All that intrinsics are solved from.
+struct Samples {
+  Board board;
+  int width = 1024;  ///< Image size [px].
+  int height = 768;  ///< Image size [px].
+  std::vector<BoardView> views;
+};
+
+}  // namespace wiimote_tracker::intrinsics
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_H

@@ -1,0 +1,71 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_SOLVE_INTRINSICS_H
+#define WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_SOLVE_INTRINSICS_H
+
+#include "wiimote_tracker_calibration/intrinsics/board.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::intrinsics {
+
+/// Which of k1, k2, p1, p2, k3 are estimated; the others are 0.
+enum class LensModel {
+  kNoDistortion,
+  kK1,
+  kK1K2,
+  kFull,
+};
+
+/// "no distortion", "k1", "k1, k2", "k1, k2, p1, p2, k3".
+std::string nameOf(LensModel model);
+
+struct SolverOptions {
+  std::optional<LensModel> model;  ///< Nothing: chosen by the data, see IntrinsicsSolution::model.
+  int minimum_views = 12;          ///< [>= 3]
+  double start_focal_length = 1300.0;  ///< Fractions of it are tried too [px, > 0].
+  double maximum_focal_stddev = 0.02;  ///< Of the focal length, else refused [1, > 0].
+  double maximum_pixel_stddev = 2.0;   ///< Of the residuals, else refused [px, > 0].
+  double maximum_aspect_error = 0.03;  ///< |fx / fy - 1|, else refused [1, > 0].
+};
+
+/// One lens model that was tried.
+struct Candidate {
+  LensModel model;
+  double reprojection_error = 0.0;  ///< sqrt(mean(du^2 + dv^2)) [px].
+  double bic = 0.0;                 ///< Bayesian information criterion (Schwarz 1978); low is good.
+  bool holds = true;                ///< It is one to one over the whole image.
+};
+
+struct IntrinsicsSolution {
+  geometry::Intrinsics intrinsics;
+
+  /// Of fx, fy, cx, cy [px], k1, k2, p1, p2, k3 [1]; zero for what was not estimated. From the
+  /// spread of the residuals, with the poses of the board estimated too.
+  Eigen::Matrix<double, 9, 9> covariance = Eigen::Matrix<double, 9, 9>::Zero();
+
+  LensModel model;                    ///< Least bic of those that hold, unless it was given.
+  std::vector<Candidate> candidates;  ///< All that were tried, simple ones first.
+  double reprojection_error = 0.0;    ///< sqrt(mean(du^2 + dv^2)) [px].
+  double pixel_stddev = 0.0;          ///< Of a pixel coordinate, as estimated [px].
+  std::vector<double> view_errors;    ///< Reprojection error of each view [px].
+  std::vector<Eigen::Isometry3d> camera_from_board;  ///< Of each view [m].
+  std::string summary;                               ///< For people.
+};
+
+/// Focal lengths, principal point and distortion from views of the board (Zhang 2000), by OpenCV.
+/// The scale of the board's spacings does not matter, their ratio does. Deterministic.
+/// @throws IntrinsicsError: too few views; a view with too few LEDs, in one line, mirrored or not a
+/// grid; the board never moved in the image or never tilted; views that do not fit the board;
+/// spacings that make fx and fy differ; a focal length less certain than the options ask for; no
+/// model that holds over the image; values out of range.
+IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& options);
+
+}  // namespace wiimote_tracker::intrinsics
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_SOLVE_INTRINSICS_H

@@ -1,0 +1,292 @@
+#include "wiimote_tracker_calibration/intrinsics/board_decoder.h"
+
+#include "wiimote_tracker_calibration/intrinsics/board_sequence.h"
+#include "wiimote_tracker_calibration/intrinsics/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace wiimote_tracker::intrinsics {
+
+namespace {
+
+constexpr double kPhaseStep = 0.005;  // in which phases are tried [s]
+constexpr int kSpotsPerFlash = 2;     // that make a flash: of about four, some are lost
+constexpr double kLampShare = 0.25;   // a light in more of the images does not blink; an LED: 0.04
+
+/// A light that stayed in its place.
+struct Light {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  std::vector<double> times;
+  std::vector<Eigen::Vector2d> pixels;
+  Eigen::Vector2d mean() const { return sum / static_cast<double>(times.size()); }
+};
+
+/// The spots of a light that fall into one step of the sequence.
+struct Flash {
+  int count = 0;
+  double weight = 0.0;  // more for spots in the middle of the flash
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Vector2d mean() const { return sum / count; }
+};
+
+/// A light as an LED.
+struct Led {
+  Flash row;
+  Flash column;
+  bool seen() const { return row.count >= kSpotsPerFlash && column.count >= kSpotsPerFlash; }
+  double weight() const { return seen() ? row.weight + column.weight : 0.0; }
+  int count() const { return row.count + column.count; }
+  Eigen::Vector2d mean() const { return (row.sum + column.sum) / count(); }
+};
+using Leds = std::array<Led, kBoardLeds>;
+
+void addSpot(double time, const Eigen::Vector2d& pixel, double radius, std::vector<Light>* lights) {
+  Light* nearest = nullptr;
+  double distance = radius;
+  for (Light& light : *lights) {
+    const double d = (light.mean() - pixel).norm();
+    if (d <= distance) {
+      distance = d;
+      nearest = &light;
+    }
+  }
+  if (!nearest) {
+    lights->emplace_back();
+    nearest = &lights->back();
+  }
+  nearest->sum += pixel;
+  nearest->times.push_back(time);
+  nearest->pixels.push_back(pixel);
+}
+
+/// Steps since the start of the cycle, with the part of a step. The phase is the time at which step
+/// 0 starts, less half of what is dark in a step: then a flash has equal margins in its step.
+double stepsAt(double time, double phase) {
+  const double in_cycle = std::fmod(time - phase, sequence::kCycle);
+  const double steps = in_cycle / sequence::kStep + (in_cycle < 0.0 ? sequence::kSteps : 0.0);
+  return steps < sequence::kSteps ? steps : 0.0;
+}
+
+/// Whether the board lights any LED in this step.
+bool isLitStep(int step) {
+  for (int i = 0; i < 4; ++i) {
+    if (step == sequence::rowStep(i) || step == sequence::columnStep(i))
+      return true;
+  }
+  return false;
+}
+
+/// The LED that a light is at this phase. Unseen when it is none.
+Led ledFromLight(const Light& light, double phase, int* number) {
+  std::array<Flash, sequence::kSteps> flashes{};
+  for (std::size_t i = 0; i < light.times.size(); ++i) {
+    const double steps = stepsAt(light.times[i], phase);
+    const int step = static_cast<int>(steps);
+    const double off_middle = steps - step - 0.5;
+    Flash& flash = flashes[static_cast<std::size_t>(step)];
+    ++flash.count;
+    flash.weight += 1.0 - 2.0 * off_middle * off_middle;
+    flash.sum += light.pixels[i];
+  }
+  const auto flash = [&flashes](int step) { return flashes[static_cast<std::size_t>(step)]; };
+  int row = 0;
+  int column = 0;
+  for (int i = 1; i < 4; ++i) {
+    if (flash(sequence::rowStep(i)).weight > flash(sequence::rowStep(row)).weight)
+      row = i;
+    if (flash(sequence::columnStep(i)).weight > flash(sequence::columnStep(column)).weight)
+      column = i;
+  }
+  *number = row * kBoardColumns + column;
+  return {flash(sequence::rowStep(row)), flash(sequence::columnStep(column))};
+}
+
+Leds ledsAtPhase(const std::vector<Light>& lights, double phase, double* weight) {
+  Leds leds{};
+  for (const Light& light : lights) {
+    int number = 0;
+    const Led led = ledFromLight(light, phase, &number);
+    Led& best = leds[static_cast<std::size_t>(number)];
+    if (led.weight() > best.weight())
+      best = led;
+  }
+  *weight = 0.0;
+  for (const Led& led : leds)
+    *weight += led.weight();
+  return leds;
+}
+
+double bestPhase(const std::vector<Light>& lights, double start) {
+  double best = start;
+  double best_weight = 0.0;
+  for (double phase = start; phase < start + sequence::kCycle; phase += kPhaseStep) {
+    double weight = 0.0;
+    ledsAtPhase(lights, phase, &weight);
+    if (weight > best_weight) {
+      best_weight = weight;
+      best = phase;
+    }
+  }
+  return best;
+}
+
+/// Share of the spots that are of LEDs; the others moved, or are other lights.
+double shareOfLeds(const std::vector<Light>& lights, const Leds& leds) {
+  std::size_t spots = 0;
+  for (const Light& light : lights)
+    spots += light.times.size();
+  int of_leds = 0;
+  for (const Led& led : leds)
+    of_leds += led.seen() ? led.count() : 0;
+  return of_leds / static_cast<double>(spots);
+}
+
+/// Share of the spots that come when the board lights LEDs. For when a lamp takes the place of one
+/// LED in each flash, so that others are seen in one flash only.
+double shareInLitSteps(const std::vector<Light>& lights, double phase) {
+  std::size_t spots = 0;
+  std::size_t explained = 0;
+  for (const Light& light : lights) {
+    spots += light.times.size();
+    for (const double time : light.times)
+      explained += isLitStep(static_cast<int>(stepsAt(time, phase))) ? 1 : 0;
+  }
+  return static_cast<double>(explained) / static_cast<double>(spots);
+}
+
+double motionBetweenFlashes(const Leds& leds) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Led& led : leds) {
+    if (led.seen()) {
+      sum += (led.row.mean() - led.column.mean()).squaredNorm();
+      ++count;
+    }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0.0;
+}
+
+double smallestSeparation(const BoardView& view) {
+  double smallest = HUGE_VAL;
+  for (std::size_t i = 0; i < view.pixels.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (view.pixels[i] && view.pixels[j])
+        smallest = std::min(smallest, (*view.pixels[i] - *view.pixels[j]).norm());
+    }
+  }
+  return smallest;
+}
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  char buffer[256];
+  std::snprintf(buffer, sizeof buffer, format, values...);
+  return buffer;
+}
+
+}  // namespace
+
+BoardDecoder::BoardDecoder(const DecoderOptions& options) : options_(options) {
+  if (!(options.minimum_leds >= 4 && options.minimum_leds <= kBoardLeds && options.radius > 0.0 &&
+        options.minimum_separation > 2.0 * options.radius && options.motion_limit > 0.0 &&
+        options.minimum_explained >= 0.0 && options.minimum_explained <= 1.0 &&
+        options.longest_gap > 0.0))
+    throw IntrinsicsError("an option of the board decoder is out of range: see DecoderOptions");
+}
+
+void BoardDecoder::add(double time, const std::vector<Eigen::Vector2d>& spots) {
+  if (!std::isfinite(time))
+    return;
+  if (!frames_.empty() && time < frames_.back().time - options_.longest_gap)
+    frames_.clear();
+  Frame frame{time, {}};
+  for (const Eigen::Vector2d& spot : spots) {
+    if (spot.allFinite())
+      frame.spots.push_back(spot);
+  }
+  const auto later =
+      std::upper_bound(frames_.begin(), frames_.end(), time,
+                       [](double wanted, const Frame& other) { return wanted < other.time; });
+  frames_.insert(later, std::move(frame));
+  while (frames_.front().time <= frames_.back().time - sequence::kCycle)
+    frames_.pop_front();
+}
+
+std::string BoardDecoder::whyNotReady() const {
+  if (frames_.empty())
+    return "no images: check the camera's connection and its driver";
+  for (std::size_t i = 1; i < frames_.size(); ++i) {
+    if (frames_[i].time - frames_[i - 1].time > options_.longest_gap)
+      return text("no image came for %.0f ms: wait, and check the connection if this stays",
+                  1e3 * (frames_[i].time - frames_[i - 1].time));
+  }
+  const double span = frames_.back().time - frames_.front().time;
+  if (span < sequence::kCycle - options_.longest_gap)
+    return text("%.1f of %.1f s: hold the board still", span, sequence::kCycle);
+  return "";
+}
+
+BoardReading BoardDecoder::read() const {
+  BoardReading reading;
+  reading.message = whyNotReady();
+  if (!reading.message.empty())
+    return reading;
+
+  std::vector<Light> lights;
+  for (const Frame& frame : frames_) {
+    for (const Eigen::Vector2d& spot : frame.spots)
+      addSpot(frame.time, spot, options_.radius, &lights);
+  }
+  const double lamp = kLampShare * static_cast<double>(frames_.size());
+  const auto lamps = std::remove_if(lights.begin(), lights.end(), [lamp](const Light& light) {
+    return static_cast<double>(light.times.size()) > lamp;
+  });
+  const bool has_lamps = lamps != lights.end();
+  lights.erase(lamps, lights.end());
+  if (lights.empty()) {
+    reading.message = has_lamps ? "only lights that do not blink: switch them off or cover them, "
+                                  "and switch the board on"
+                                : "no light: switch the board on and bring it before the camera";
+    return reading;
+  }
+
+  const double phase = bestPhase(lights, frames_.front().time);
+  double weight = 0.0;
+  const Leds leds = ledsAtPhase(lights, phase, &weight);
+  BoardView view;
+  for (std::size_t i = 0; i < leds.size(); ++i) {
+    if (leds[i].seen())
+      view.pixels[i] = leds[i].mean();
+  }
+  reading.motion = motionBetweenFlashes(leds);
+  const double explained = has_lamps ? shareInLitSteps(lights, phase) : shareOfLeds(lights, leds);
+  if (explained < options_.minimum_explained)
+    reading.message = text(
+        "%.0f %% of the spots follow the board's sequence, at least %.0f %% are "
+        "needed: hold the board still and cover other lights",
+        100.0 * explained, 100.0 * options_.minimum_explained);
+  else if (reading.motion > options_.motion_limit)
+    reading.message = text("the board moved by %.1f px, at most %.1f px are allowed: hold it still",
+                           reading.motion, options_.motion_limit);
+  else if (static_cast<int>(view.count()) < options_.minimum_leds)
+    reading.message = text(
+        "%d of %d LEDs stayed in place, at least %d are needed: hold the board "
+        "still, and more of it in the image%s",
+        static_cast<int>(view.count()), kBoardLeds, options_.minimum_leds,
+        has_lamps ? "; cover other lights" : "");
+  else if (smallestSeparation(view) < options_.minimum_separation)
+    reading.message = text(
+        "LEDs are %.0f px from one another, at least %.0f px are needed: bring "
+        "the board nearer or tilt it less",
+        smallestSeparation(view), options_.minimum_separation);
+  else {
+    reading.message = text("%d of %d LEDs", static_cast<int>(view.count()), kBoardLeds);
+    reading.view = view;
+  }
+  return reading;
+}
+
+}  // namespace wiimote_tracker::intrinsics

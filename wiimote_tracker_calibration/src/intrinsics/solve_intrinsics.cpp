@@ -1,0 +1,368 @@
+#include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
+
+#include "view_geometry.h"
+#include "wiimote_tracker_calibration/intrinsics/error.h"
+
+#include <Eigen/Cholesky>
+#include <opencv2/calib3d.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace wiimote_tracker::intrinsics {
+
+namespace {
+
+constexpr double kSmallestTilt = 10.0 * M_PI / 180.0;  // between the most different views
+constexpr double kSmallestTravel = 0.1;                // of the board, of the image's width
+constexpr int kPoseParameters = 6;
+
+/// The views as OpenCV takes them.
+struct Points {
+  std::vector<std::vector<cv::Point3f>> board;
+  std::vector<std::vector<cv::Point2f>> image;
+  std::size_t count = 0;
+};
+
+struct Fit {
+  LensModel model;
+  cv::Mat camera_matrix;
+  cv::Mat distortion;  // 1 x 5
+  std::vector<cv::Mat> rotations;
+  std::vector<cv::Mat> translations;
+  double error = HUGE_VAL;  // reprojection error [px]
+};
+
+// When a minimisation ends: iterations, relative change of the parameters.
+const cv::TermCriteria kPrecise(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-8);
+const cv::TermCriteria kRough(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 1e-3);
+
+Points pointsOf(const Samples& samples) {
+  Points points;
+  for (const BoardView& view : samples.views) {
+    points.board.emplace_back();
+    points.image.emplace_back();
+    for (int led = 0; led < kBoardLeds; ++led) {
+      const auto& pixel = view.pixels[static_cast<std::size_t>(led)];
+      if (!pixel)
+        continue;
+      const Eigen::Vector3f p = samples.board.position(led).cast<float>();
+      points.board.back().emplace_back(p.x(), p.y(), p.z());
+      points.image.back().emplace_back(static_cast<float>(pixel->x()),
+                                       static_cast<float>(pixel->y()));
+      ++points.count;
+    }
+  }
+  return points;
+}
+
+/// Columns of cv::projectPoints' derivative that a model estimates, in the order of the covariance.
+std::vector<int> estimated(LensModel model) {
+  switch (model) {
+    case LensModel::kNoDistortion:
+      return {0, 1, 2, 3};
+    case LensModel::kK1:
+      return {0, 1, 2, 3, 4};
+    case LensModel::kK1K2:
+      return {0, 1, 2, 3, 4, 5};
+    case LensModel::kFull:
+      break;
+  }
+  return {0, 1, 2, 3, 4, 5, 6, 7, 8};
+}
+
+int flagsOf(LensModel model) {
+  int flags = cv::CALIB_USE_INTRINSIC_GUESS;
+  if (model != LensModel::kFull)
+    flags |= cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST;
+  if (model == LensModel::kK1 || model == LensModel::kNoDistortion)
+    flags |= cv::CALIB_FIX_K2;
+  if (model == LensModel::kNoDistortion)
+    flags |= cv::CALIB_FIX_K1;
+  return flags;
+}
+
+Fit fitFrom(const Fit& start,
+            LensModel model,
+            const Points& points,
+            const Samples& samples,
+            const cv::TermCriteria& end = kPrecise) {
+  Fit fit;
+  fit.model = model;
+  fit.camera_matrix = start.camera_matrix.clone();
+  fit.distortion = start.distortion.clone();
+  try {
+    fit.error = cv::calibrateCamera(
+        points.board, points.image, cv::Size(samples.width, samples.height), fit.camera_matrix,
+        fit.distortion, fit.rotations, fit.translations, flagsOf(model), end);
+  } catch (const cv::Exception&) {
+    // From this start it cannot be solved; the caller has others.
+  }
+  if (!std::isfinite(fit.error) || !cv::checkRange(fit.camera_matrix) ||
+      !cv::checkRange(fit.distortion))
+    fit.error = HUGE_VAL;
+  return fit;
+}
+
+/// Without distortion, from several focal lengths: a lens in front of the camera shortens it.
+Fit firstFit(const Points& points, const Samples& samples, double focal_length) {
+  Fit best;
+  for (const double factor : {1.0, 0.35}) {
+    Fit start;
+    start.camera_matrix =
+        (cv::Mat_<double>(3, 3) << factor * focal_length, 0.0, (samples.width - 1) / 2.0, 0.0,
+         factor * focal_length, (samples.height - 1) / 2.0, 0.0, 0.0, 1.0);
+    start.distortion = cv::Mat::zeros(1, 5, CV_64F);
+    const Fit fit = fitFrom(start, LensModel::kNoDistortion, points, samples, kRough);
+    if (fit.error < best.error)
+      best = fit;
+  }
+  if (!std::isfinite(best.error))
+    throw IntrinsicsError(
+        "the views fit no camera: check the board's spacings, and show it again "
+        "from at least 12 different sides");
+  return fitFrom(best, LensModel::kNoDistortion, points, samples);
+}
+
+geometry::Intrinsics intrinsicsOf(const Fit& fit, const Samples& samples) {
+  geometry::Intrinsics result;
+  result.width = samples.width;
+  result.height = samples.height;
+  result.fx = fit.camera_matrix.at<double>(0, 0);
+  result.fy = fit.camera_matrix.at<double>(1, 1);
+  result.cx = fit.camera_matrix.at<double>(0, 2);
+  result.cy = fit.camera_matrix.at<double>(1, 2);
+  for (int i = 0; i < 5; ++i)
+    result.distortion[static_cast<std::size_t>(i)] = fit.distortion.at<double>(i);
+  return result;
+}
+
+bool holdsOverImage(const geometry::Intrinsics& intrinsics) {
+  for (const double u : {0.0, intrinsics.width - 1.0}) {
+    for (const double v : {0.0, intrinsics.height - 1.0}) {
+      if (!intrinsics.normalizedFromPixel({u, v}))
+        return false;
+    }
+  }
+  return true;
+}
+
+Candidate candidateOf(const Fit& fit, const Points& points, const Samples& samples) {
+  const double n = 2.0 * static_cast<double>(points.count);
+  const double parameters = static_cast<double>(estimated(fit.model).size()) +
+                            kPoseParameters * static_cast<double>(samples.views.size());
+  Candidate candidate;
+  candidate.model = fit.model;
+  candidate.reprojection_error = fit.error;
+  // Below a millionth of a pixel residuals are rounding, and no reason for another parameter.
+  const double variance = std::max(fit.error * fit.error / 2.0, 1e-12);
+  candidate.bic = n * std::log(variance) + parameters * std::log(n);
+  candidate.holds = holdsOverImage(intrinsicsOf(fit, samples));
+  return candidate;
+}
+
+Eigen::Isometry3d poseOf(const cv::Mat& rotation, const cv::Mat& translation) {
+  cv::Matx33d r;
+  cv::Rodrigues(rotation, r);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j)
+      pose.linear()(i, j) = r(i, j);
+    pose.translation()(i) = translation.at<double>(i);
+  }
+  return pose;
+}
+
+/// Inverse information of the intrinsics, poses eliminated (Schur complement), for unit noise.
+/// Nothing when it is singular. Also the error of each view.
+std::optional<Eigen::MatrixXd> unitCovariance(const Fit& fit,
+                                              const Points& points,
+                                              std::vector<double>* view_errors) {
+  const std::vector<int> columns = estimated(fit.model);
+  const auto size = static_cast<Eigen::Index>(columns.size());
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
+  view_errors->clear();
+  for (std::size_t i = 0; i < points.board.size(); ++i) {
+    std::vector<cv::Point2f> projected;
+    cv::Mat derivative;
+    cv::projectPoints(points.board[i], fit.rotations[i], fit.translations[i], fit.camera_matrix,
+                      fit.distortion, projected, derivative);
+    double sum = 0.0;
+    for (std::size_t j = 0; j < projected.size(); ++j) {
+      const cv::Point2f d = projected[j] - points.image[i][j];
+      sum += d.dot(d);
+    }
+    view_errors->push_back(std::sqrt(sum / static_cast<double>(projected.size())));
+
+    Eigen::MatrixXd by_pose(derivative.rows, kPoseParameters);
+    Eigen::MatrixXd by_lens(derivative.rows, size);
+    for (int row = 0; row < derivative.rows; ++row) {
+      for (int k = 0; k < kPoseParameters; ++k)
+        by_pose(row, k) = derivative.at<double>(row, k);
+      for (Eigen::Index k = 0; k < size; ++k)
+        by_lens(row, k) =
+            derivative.at<double>(row, kPoseParameters + columns[static_cast<std::size_t>(k)]);
+    }
+    const Eigen::MatrixXd cross = by_pose.transpose() * by_lens;
+    const Eigen::MatrixXd poses = by_pose.transpose() * by_pose;
+    information += by_lens.transpose() * by_lens - cross.transpose() * poses.ldlt().solve(cross);
+  }
+  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * information * scale.asDiagonal());
+  if (factor.info() != Eigen::Success)
+    return std::nullopt;
+  const Eigen::MatrixXd inverse =
+      scale.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(size, size)) * scale.asDiagonal();
+  if (!inverse.allFinite())
+    return std::nullopt;
+  return inverse;
+}
+
+void checkInput(const Samples& samples, const SolverOptions& options) {
+  samples.board.check();
+  if (samples.width < 1 || samples.height < 1)
+    throw IntrinsicsError("the image size must be above 0 px: check the camera's driver");
+  if (!(options.minimum_views >= 3 && options.start_focal_length > 0.0 &&
+        options.maximum_focal_stddev > 0.0 && options.maximum_pixel_stddev > 0.0 &&
+        options.maximum_aspect_error > 0.0))
+    throw IntrinsicsError("an option of the intrinsics solver is out of range: see SolverOptions");
+  const std::size_t needed = static_cast<std::size_t>(options.minimum_views);
+  if (samples.views.size() < needed)
+    throw IntrinsicsError(std::to_string(samples.views.size()) + " views of the board, at least " +
+                          std::to_string(needed) + " are needed: show it from more sides");
+}
+
+void checkPlaces(const Samples& samples) {
+  double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL;
+  for (std::size_t i = 0; i < samples.views.size(); ++i) {
+    const std::string name = "view " + std::to_string(i + 1);
+    const ViewGeometry geometry = viewGeometry(samples.board, samples.views[i], name);
+    checkOrder(geometry, name);
+    left = std::min(left, geometry.center().x());
+    right = std::max(right, geometry.center().x());
+    top = std::min(top, geometry.center().y());
+    bottom = std::max(bottom, geometry.center().y());
+  }
+  if (std::max(right - left, bottom - top) < kSmallestTravel * samples.width)
+    throw IntrinsicsError(
+        "all views show the board at one place of the image: show it in the "
+        "corners of the image too");
+}
+
+/// Tilts against one another: while all are alike, neither tilt nor focal length is determined.
+void checkTilts(const Fit& fit) {
+  double most = 0.0;
+  std::vector<Eigen::Vector3d> normals;
+  for (const cv::Mat& rotation : fit.rotations)
+    normals.push_back(poseOf(rotation, cv::Mat::zeros(3, 1, CV_64F)).linear().col(2));
+  for (const Eigen::Vector3d& a : normals) {
+    for (const Eigen::Vector3d& b : normals)
+      most = std::max(most, std::acos(std::clamp(a.dot(b), -1.0, 1.0)));
+  }
+  if (most < kSmallestTilt)
+    throw IntrinsicsError(
+        "all views show the board from its front or under one tilt, which leaves "
+        "the focal length open: tilt it by 30 to 45 degrees, to all sides");
+}
+
+std::string summaryOf(const IntrinsicsSolution& s) {
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "%d views, %s: fx %.1f +- %.1f, fy %.1f +- %.1f, cx %.1f +- %.1f, cy %.1f +- %.1f "
+                "px; reprojection error %.2f px",
+                static_cast<int>(s.view_errors.size()), nameOf(s.model).c_str(), s.intrinsics.fx,
+                std::sqrt(s.covariance(0, 0)), s.intrinsics.fy, std::sqrt(s.covariance(1, 1)),
+                s.intrinsics.cx, std::sqrt(s.covariance(2, 2)), s.intrinsics.cy,
+                std::sqrt(s.covariance(3, 3)), s.reprojection_error);
+  return text;
+}
+
+}  // namespace
+
+std::string nameOf(LensModel model) {
+  switch (model) {
+    case LensModel::kNoDistortion:
+      return "no distortion";
+    case LensModel::kK1:
+      return "k1";
+    case LensModel::kK1K2:
+      return "k1, k2";
+    case LensModel::kFull:
+      break;
+  }
+  return "k1, k2, p1, p2, k3";
+}
+
+IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& options) {
+  checkInput(samples, options);
+  checkPlaces(samples);
+  const Points points = pointsOf(samples);
+
+  // From simple to rich, each from the one before; up to the given model.
+  IntrinsicsSolution solution;
+  std::optional<Fit> chosen;
+  double least_bic = HUGE_VAL;
+  Fit fit = firstFit(points, samples, options.start_focal_length);
+  checkTilts(fit);
+  for (const LensModel model :
+       {LensModel::kNoDistortion, LensModel::kK1, LensModel::kK1K2, LensModel::kFull}) {
+    if (model != LensModel::kNoDistortion) {
+      const Fit next = fitFrom(fit, model, points, samples);
+      if (!std::isfinite(next.error))
+        continue;
+      fit = next;
+    }
+    const Candidate candidate = candidateOf(fit, points, samples);
+    solution.candidates.push_back(candidate);
+    const bool wanted = options.model ? model == *options.model : candidate.bic < least_bic;
+    if (wanted && candidate.holds) {
+      least_bic = candidate.bic;
+      chosen = fit;
+    }
+    if (model == options.model)
+      break;
+  }
+  if (!chosen)
+    throw IntrinsicsError(
+        "the lens model does not hold over the whole image: show the board in "
+        "all corners of the image, or choose a simpler model");
+
+  solution.model = chosen->model;
+  solution.intrinsics = intrinsicsOf(*chosen, samples);
+  solution.reprojection_error = chosen->error;
+  const std::vector<int> columns = estimated(chosen->model);
+  const double degrees_of_freedom = 2.0 * static_cast<double>(points.count) -
+                                    static_cast<double>(columns.size()) -
+                                    kPoseParameters * static_cast<double>(samples.views.size());
+  solution.pixel_stddev =
+      chosen->error * std::sqrt(static_cast<double>(points.count) / degrees_of_freedom);
+  if (!(solution.pixel_stddev <= options.maximum_pixel_stddev))
+    throw IntrinsicsError("the views do not fit the board (" +
+                          std::to_string(solution.pixel_stddev) +
+                          " px): check its spacings, that it is flat and that it was held still");
+
+  const auto covariance = unitCovariance(*chosen, points, &solution.view_errors);
+  const double f = solution.intrinsics.fx;
+  const double variance = solution.pixel_stddev * solution.pixel_stddev;
+  if (!covariance ||
+      !(std::sqrt(variance * (*covariance)(0, 0)) <= options.maximum_focal_stddev * f))
+    throw IntrinsicsError(
+        "the views leave the focal length too uncertain: show the board nearer, "
+        "and tilted by 30 to 45 degrees to all sides");
+  if (!(std::abs(f / solution.intrinsics.fy - 1.0) <= options.maximum_aspect_error))
+    throw IntrinsicsError(
+        "the focal lengths along x and y differ by more than a camera's do: the "
+        "board's column and row spacing must be as measured");
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      solution.covariance(columns[i], columns[j]) =
+          variance * (*covariance)(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
+  for (std::size_t i = 0; i < samples.views.size(); ++i)
+    solution.camera_from_board.push_back(poseOf(chosen->rotations[i], chosen->translations[i]));
+  solution.summary = summaryOf(solution);
+  return solution;
+}
+
+}  // namespace wiimote_tracker::intrinsics

@@ -1,0 +1,117 @@
+#include "wiimote_tracker_calibration/intrinsics/view_collector.h"
+
+#include "view_geometry.h"
+#include "wiimote_tracker_calibration/intrinsics/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::intrinsics {
+
+namespace {
+
+constexpr std::size_t kX = 0;
+constexpr std::size_t kY = 1;
+constexpr std::size_t kSize = 2;
+constexpr std::size_t kSkew = 3;
+constexpr std::array<double, 4> kFull = {0.7, 0.7, 0.4, 0.5};  // ranges that fill a bar
+
+double unit(double value) {
+  return std::clamp(value, 0.0, 1.0);
+}
+
+/// 0 when the board touches one edge of the image, 1 when it touches the other.
+double placeBetweenEdges(double center, double board, double image) {
+  return image > board ? unit((center - board / 2.0) / (image - board)) : 0.5;
+}
+
+double difference(const std::array<double, 4>& a, const std::array<double, 4>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += std::abs(a[i] - b[i]);
+  return sum;
+}
+
+}  // namespace
+
+ViewCollector::ViewCollector(const Board& board,
+                             int width,
+                             int height,
+                             const CollectorOptions& options)
+    : samples_{board, width, height, {}}, options_(options) {
+  board.check();
+  if (width < 1 || height < 1)
+    throw IntrinsicsError("the image size must be above 0 px: check the camera's driver");
+  if (!(options.minimum_views > 0 && options.minimum_difference >= 0.0 &&
+        options.minimum_difference <= 4.0))
+    throw IntrinsicsError("an option of the collector is out of range: see CollectorOptions");
+}
+
+std::string ViewCollector::add(const BoardView& view) {
+  Parameters parameters;
+  try {
+    const ViewGeometry geometry = viewGeometry(samples_.board, view, "this view");
+    checkOrder(geometry, "this view");
+    const Eigen::Vector2d center = geometry.center();
+    const double size = geometry.size();
+    parameters[kX] = placeBetweenEdges(center.x(), size, samples_.width);
+    parameters[kY] = placeBetweenEdges(center.y(), size, samples_.height);
+    parameters[kSize] =
+        unit(size / std::sqrt(static_cast<double>(samples_.width) * samples_.height));
+    parameters[kSkew] = unit(2.0 * geometry.skew());
+  } catch (const IntrinsicsError& error) {
+    return error.what();
+  }
+  for (const Parameters& kept : parameters_) {
+    if (difference(parameters, kept) <= options_.minimum_difference)
+      return "this view is too much like one that was kept: move or tilt the board";
+  }
+  samples_.views.push_back(view);
+  parameters_.push_back(parameters);
+  return "";
+}
+
+void ViewCollector::undo() {
+  if (!samples_.views.empty()) {
+    samples_.views.pop_back();
+    parameters_.pop_back();
+  }
+}
+
+Coverage ViewCollector::coverage() const {
+  Coverage result;
+  const int missing_views = options_.minimum_views - static_cast<int>(samples_.views.size());
+  if (missing_views > 0)
+    result.missing.push_back(std::to_string(missing_views) + " more views of the board");
+  Parameters low{};
+  Parameters high{};
+  if (!parameters_.empty()) {
+    low = high = parameters_.front();
+    for (const Parameters& kept : parameters_) {
+      for (std::size_t i = 0; i < kept.size(); ++i) {
+        low[i] = std::min(low[i], kept[i]);
+        high[i] = std::max(high[i], kept[i]);
+      }
+    }
+    // The smallest board and the board seen from its front need not be shown.
+    low[kSize] = low[kSkew] = 0.0;
+  }
+  Parameters bars;
+  for (std::size_t i = 0; i < bars.size(); ++i)
+    bars[i] = unit((high[i] - low[i]) / kFull[i]);
+  result.x = bars[kX];
+  result.y = bars[kY];
+  result.size = bars[kSize];
+  result.skew = bars[kSkew];
+  if (result.x < 1.0)
+    result.missing.push_back("show the board at the left and at the right edge of the image");
+  if (result.y < 1.0)
+    result.missing.push_back("show the board at the top and at the bottom edge of the image");
+  if (result.size < 1.0)
+    result.missing.push_back("bring the board nearer, until it fills half of the image's width");
+  if (result.skew < 1.0)
+    result.missing.push_back("tilt the board about its diagonals, to all sides");
+  return result;
+}
+
+}  // namespace wiimote_tracker::intrinsics

@@ -1,0 +1,117 @@
+#include "view_geometry.h"
+
+#include "wiimote_tracker_calibration/intrinsics/error.h"
+
+#include <Eigen/LU>
+#include <opencv2/calib3d.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace wiimote_tracker::intrinsics {
+
+namespace {
+
+// The lens bends the mapping, by some percent of the board's size at most.
+constexpr double kLargestMisfit = 0.06;
+
+Eigen::Vector2d mapped(const cv::Mat& homography, const Eigen::Vector3d& point) {
+  const cv::Matx33d h(homography.ptr<double>());
+  const cv::Vec3d p = h * cv::Vec3d(point.x(), point.y(), 1.0);
+  return {p[0] / p[2], p[1] / p[2]};
+}
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+double area(const std::array<Eigen::Vector2d, 4>& corners) {
+  return 0.5 * cross(corners[2] - corners[0], corners[3] - corners[1]);
+}
+
+/// Whether the points lie nearly in a line: their smaller principal spread is below 2 % of the
+/// larger one.
+bool areInLine(const std::vector<cv::Point2d>& points) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const cv::Point2d& p : points)
+    mean += Eigen::Vector2d(p.x, p.y) / static_cast<double>(points.size());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const cv::Point2d& p : points) {
+    const Eigen::Vector2d d = Eigen::Vector2d(p.x, p.y) - mean;
+    spread += d * d.transpose();
+  }
+  return spread.determinant() < 4e-4 * std::pow(spread.trace(), 2);
+}
+
+}  // namespace
+
+Eigen::Vector2d ViewGeometry::center() const {
+  return (corners[0] + corners[1] + corners[2] + corners[3]) / 4.0;
+}
+
+double ViewGeometry::size() const {
+  return std::sqrt(std::abs(area(corners)));
+}
+
+double ViewGeometry::skew() const {
+  const Eigen::Vector2d along = corners[0] - corners[1];
+  const Eigen::Vector2d down = corners[2] - corners[1];
+  return std::abs(M_PI_2 -
+                  std::acos(std::clamp(along.normalized().dot(down.normalized()), -1.0, 1.0)));
+}
+
+ViewGeometry viewGeometry(const Board& board, const BoardView& view, const std::string& name) {
+  std::vector<cv::Point2d> plane;
+  std::vector<cv::Point2d> image;
+  for (int led = 0; led < kBoardLeds; ++led) {
+    const auto& pixel = view.pixels[static_cast<std::size_t>(led)];
+    if (!pixel)
+      continue;
+    if (!pixel->allFinite())
+      throw IntrinsicsError(name + " has a pixel that is not a number: leave it out");
+    const Eigen::Vector3d p = board.position(led);
+    plane.emplace_back(p.x(), p.y());
+    image.emplace_back(pixel->x(), pixel->y());
+  }
+  if (plane.size() < 6)
+    throw IntrinsicsError(name +
+                          " shows fewer than 6 LEDs: bring more of the board into the image");
+  cv::Mat homography;
+  if (!areInLine(plane) && !areInLine(image))
+    homography = cv::findHomography(plane, image);
+  if (homography.empty())
+    throw IntrinsicsError(name +
+                          " shows LEDs of one line only: bring more of the board into the "
+                          "image, and do not look along it");
+
+  ViewGeometry geometry;
+  constexpr std::array<int, 4> kCorners = {0, 3, 15, 12};
+  for (std::size_t i = 0; i < 4; ++i)
+    geometry.corners[i] = mapped(homography, board.position(kCorners[i]));
+  double sum = 0.0;
+  double turn = 0.0;
+  for (int led = 0; led < kBoardLeds; ++led) {
+    const auto& pixel = view.pixels[static_cast<std::size_t>(led)];
+    if (pixel)
+      sum += (mapped(homography, board.position(led)) - *pixel).squaredNorm();
+  }
+  turn = area(geometry.corners);
+  geometry.misfit = std::sqrt(sum / static_cast<double>(plane.size()));
+  geometry.mirrored = turn < 0.0;
+  return geometry;
+}
+
+void checkOrder(const ViewGeometry& geometry, const std::string& name) {
+  const double misfit = geometry.misfit / std::max(geometry.size(), 1.0);
+  if (!(misfit < kLargestMisfit))
+    throw IntrinsicsError(name +
+                          " is no 4 x 4 grid: check that each LED of the board is where its "
+                          "number says, and that the board is flat");
+  if (geometry.mirrored)
+    throw IntrinsicsError(name +
+                          " is mirrored: LED 0 must be at the top left and LED 3 at the top "
+                          "right of the board's front; correct its wiring");
+}
+
+}  // namespace wiimote_tracker::intrinsics

@@ -1,0 +1,33 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_INTRINSICS_VIEW_GEOMETRY_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_INTRINSICS_VIEW_GEOMETRY_H
+
+#include "wiimote_tracker_calibration/intrinsics/board.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+
+namespace wiimote_tracker::intrinsics {
+
+/// One view as a mapping of the plane onto the image: what can be said without knowing the lens.
+struct ViewGeometry {
+  std::array<Eigen::Vector2d, 4> corners;  ///< Of the board: LEDs 0, 3, 15, 12, seen or not [px].
+  double misfit = 0.0;                     ///< RMS of the LEDs to the mapping [px].
+  bool mirrored = false;                   ///< The corners run the wrong way round.
+
+  Eigen::Vector2d center() const;
+  double size() const;  ///< Square root of the area [px].
+  double skew() const;  ///< How far the angle at LED 3 is from a right one [rad].
+};
+
+/// @throws IntrinsicsError: fewer than six LEDs, pixels not finite, or all in one line. The
+/// sentence begins with `name`.
+ViewGeometry viewGeometry(const Board& board, const BoardView& view, const std::string& name);
+
+/// @throws IntrinsicsError: the LEDs are no grid, or mirrored: wrong wiring or numbers.
+void checkOrder(const ViewGeometry& geometry, const std::string& name);
+
+}  // namespace wiimote_tracker::intrinsics
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_INTRINSICS_VIEW_GEOMETRY_H

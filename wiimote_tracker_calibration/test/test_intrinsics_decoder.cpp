@@ -1,0 +1,256 @@
+#include "wiimote_tracker_calibration/intrinsics/board_decoder.h"
+#include "wiimote_tracker_calibration/intrinsics/board_sequence.h"
+#include "wiimote_tracker_calibration/intrinsics/error.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+#include <string>
+
+namespace wiimote_tracker::intrinsics {
+namespace {
+
+/// The timing table of doc/board.md, written down once more: start of a flash [ms], its LEDs.
+struct TableLine {
+  int start;
+  std::array<int, 4> leds;
+};
+constexpr std::array<TableLine, 8> kTable = {{
+    {0, {0, 1, 2, 3}},
+    {60, {4, 5, 6, 7}},
+    {120, {8, 9, 10, 11}},
+    {180, {12, 13, 14, 15}},
+    {240, {0, 4, 8, 12}},
+    {480, {1, 5, 9, 13}},
+    {720, {2, 6, 10, 14}},
+    {960, {3, 7, 11, 15}},
+}};
+constexpr int kCycleMs = 1980;
+constexpr int kFlashMs = 40;
+
+std::vector<int> litAt(double seconds) {
+  double ms = std::fmod(1e3 * seconds, kCycleMs);
+  for (const TableLine& line : kTable) {
+    if (ms >= line.start && ms < line.start + kFlashMs)
+      return {line.leds.begin(), line.leds.end()};
+  }
+  return {};
+}
+
+/// A camera that looks at a board: where the LEDs are in its image, and what it gets wrong.
+struct Scene {
+  double turn = 0.0;      // of the board about the camera's axis [rad]
+  double spacing = 60.0;  // of the LEDs [px]
+  Eigen::Vector2d center{512.0, 384.0};
+  Eigen::Vector2d speed = Eigen::Vector2d::Zero();  // of the board [px/s]
+  double noise = 0.5;                               // before rounding [px]
+  double loss = 0.05;                               // share of images that get lost
+  double board_rate = 1.0;                          // of the board's clock
+  double stamp_noise = 0.001;                       // [s]
+  double period = 0.01;                             // of the camera [s]
+  std::optional<Eigen::Vector2d> lamp;              // always lit
+
+  Eigen::Vector2d place(int led, double time) const {
+    const Eigen::Vector2d p(spacing * (led % 4 - 1.5), spacing * (led / 4 - 1.5));
+    // Seen at a slant: rows converge.
+    const Eigen::Vector2d slanted = p / (1.0 + 0.0008 * p.y());
+    return center + speed * time + Eigen::Rotation2Dd(turn) * slanted;
+  }
+
+  static bool isInImage(const Eigen::Vector2d& p) {
+    return p.x() >= 0.0 && p.x() <= 1023.0 && p.y() >= 0.0 && p.y() <= 767.0;
+  }
+
+  BoardReading read(unsigned seed, const DecoderOptions& options = DecoderOptions()) const {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform;
+    BoardDecoder decoder(options);
+    const double phase = uniform(random) * 1e-3 * kCycleMs;
+    for (double time = uniform(random) * period; time < 2.2; time += period) {
+      if (uniform(random) < loss)
+        continue;
+      std::vector<Eigen::Vector2d> spots;
+      if (lamp)
+        spots.push_back(*lamp);
+      for (const int led : litAt(board_rate * (time + phase))) {
+        const Eigen::Vector2d p = place(led, time);
+        const Eigen::Vector2d seen(std::round(p.x() + noise * normal(random)),
+                                   std::round(p.y() + noise * normal(random)));
+        if (isInImage(p) && spots.size() < 4)
+          spots.push_back(seen);
+      }
+      std::shuffle(spots.begin(), spots.end(), random);
+      decoder.add(100.0 + time + stamp_noise * normal(random), spots);
+    }
+    return decoder.read();
+  }
+};
+
+/// Every LED that was read is where it is; returns how many.
+int correctLeds(const Scene& scene, const BoardReading& reading) {
+  if (!reading.view)
+    return 0;
+  int count = 0;
+  for (int led = 0; led < kBoardLeds; ++led) {
+    const auto& pixel = reading.view->pixels[static_cast<std::size_t>(led)];
+    if (!pixel)
+      continue;
+    EXPECT_LT((*pixel - scene.place(led, 0.0)).norm(), 2.0) << "LED " << led;
+    ++count;
+  }
+  return count;
+}
+
+TEST(BoardSequence, isThatOfTheTable) {
+  for (int ms = 0; ms < 2 * kCycleMs; ++ms) {
+    const double time = 1e-3 * ms + 0.0005;
+    const std::vector<int> lit = litAt(time);
+    for (int led = 0; led < kBoardLeds; ++led)
+      EXPECT_EQ(sequence::isLit(led, time), std::count(lit.begin(), lit.end(), led) == 1)
+          << "LED " << led << " at " << ms << " ms";
+  }
+}
+
+TEST(BoardSequence, eachTimeBetweenTwoFlashesOccursOnce) {
+  std::set<int> delays;
+  for (int led = 0; led < kBoardLeds; ++led) {
+    std::vector<int> starts;
+    for (const TableLine& line : kTable) {
+      if (std::count(line.leds.begin(), line.leds.end(), led) > 0)
+        starts.push_back(line.start);
+    }
+    ASSERT_EQ(starts.size(), 2u);
+    EXPECT_TRUE(delays.insert(starts[1] - starts[0]).second);
+    EXPECT_TRUE(delays.insert(kCycleMs - (starts[1] - starts[0])).second);
+  }
+}
+
+TEST(BoardDecoder, readsTheBoardTurnedInAnyWay) {
+  int found = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    Scene scene;
+    scene.turn = 2.0 * M_PI * seed / 200.0;
+    const BoardReading reading = scene.read(seed);
+    ASSERT_TRUE(reading.view) << seed << ": " << reading.message;
+    found += correctLeds(scene, reading);
+  }
+  // An LED is missed when of about four images of a flash three are lost.
+  EXPECT_GT(found, 200 * 16 * 0.995);
+}
+
+TEST(BoardDecoder, readsTheLedsThatAreInTheImage) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    for (const Eigen::Vector2d& center :
+         {Eigen::Vector2d(60.0, 384.0), Eigen::Vector2d(512.0, 740.0),
+          Eigen::Vector2d(1000.0, 9.0)}) {
+      Scene scene;
+      scene.center = center;
+      scene.turn = 0.1 * seed;
+      int visible = 0;
+      for (int led = 0; led < kBoardLeds; ++led)
+        visible += Scene::isInImage(scene.place(led, 0.0)) ? 1 : 0;
+      DecoderOptions options;
+      options.minimum_leds = 4;
+      const BoardReading reading = scene.read(seed, options);
+      if (visible >= 5) {
+        ASSERT_TRUE(reading.view) << reading.message;
+        EXPECT_GE(correctLeds(scene, reading), visible - 3);
+      }
+    }
+  }
+}
+
+TEST(BoardDecoder, toleratesTheBoardsClockAndTheCamerasStamps) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    Scene scene;
+    scene.board_rate = seed % 2 ? 1.003 : 0.997;
+    scene.stamp_noise = 0.002;
+    const BoardReading reading = scene.read(seed);
+    ASSERT_TRUE(reading.view) << reading.message;
+    EXPECT_GE(correctLeds(scene, reading), 14);
+  }
+}
+
+TEST(BoardDecoder, leavesOutALamp) {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    Scene scene;
+    scene.lamp = Eigen::Vector2d(100.0, 100.0);
+    DecoderOptions options;
+    options.minimum_leds = 6;
+    const BoardReading reading = scene.read(seed, options);
+    ASSERT_TRUE(reading.view) << reading.message;
+    // The camera reports four lights, so that the lamp hides one LED of each row and column, and
+    // so 7 of the 16; lost images cost a few more.
+    EXPECT_GE(correctLeds(scene, reading), 6);
+  }
+}
+
+TEST(BoardDecoder, refusesABoardThatMoves) {
+  for (const double speed : {4.0, 10.0, 30.0, 100.0}) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+      Scene scene;
+      scene.speed = {speed, 0.5 * speed};
+      const BoardReading reading = scene.read(seed);
+      EXPECT_FALSE(reading.view) << speed;
+      EXPECT_NE(reading.message.find("hold "), std::string::npos) << reading.message;
+    }
+  }
+}
+
+TEST(BoardDecoder, doesNotReadOtherLights) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform;
+  for (int run = 0; run < 20; ++run) {
+    BoardDecoder decoder{DecoderOptions()};
+    for (double time = 0.0; time < 2.5; time += 0.01) {
+      std::vector<Eigen::Vector2d> spots;
+      for (int i = 0; i < 4; ++i)
+        spots.emplace_back(1023.0 * uniform(random), 767.0 * uniform(random));
+      decoder.add(time, spots);
+    }
+    EXPECT_FALSE(decoder.read().view);
+  }
+}
+
+TEST(BoardDecoder, saysWhatItWaitsFor) {
+  BoardDecoder decoder{DecoderOptions()};
+  EXPECT_NE(decoder.read().message.find("no images"), std::string::npos);
+  decoder.add(0.0, {});
+  decoder.add(0.05, {});
+  EXPECT_NE(decoder.read().message.find("of 2.0 s"), std::string::npos);
+  for (double time = 0.1; time < 3.0; time += 0.01)
+    decoder.add(time, {});
+  EXPECT_NE(decoder.read().message.find("no light"), std::string::npos);
+  for (double time = 3.0; time < 6.0; time += 0.01)
+    decoder.add(time, {{5.0, 5.0}, {std::numeric_limits<double>::quiet_NaN(), 1.0}});
+  EXPECT_NE(decoder.read().message.find("do not blink"), std::string::npos);
+  decoder.add(6.5, {});
+  EXPECT_NE(decoder.read().message.find("no image came"), std::string::npos);
+  decoder.add(1.0, {});  // a recording that starts again
+  EXPECT_NE(decoder.read().message.find("of 2.0 s"), std::string::npos);
+
+  Scene far;
+  far.spacing = 9.0;
+  EXPECT_NE(far.read(1).message.find("nearer"), std::string::npos) << far.read(1).message;
+  Scene edge;
+  edge.center = {0.0, 384.0};
+  DecoderOptions whole;
+  whole.minimum_leds = 12;
+  EXPECT_NE(edge.read(1, whole).message.find("of 16 LEDs"), std::string::npos);
+}
+
+TEST(BoardDecoder, refusesOptionsOutOfRange) {
+  DecoderOptions options;
+  options.minimum_separation = options.radius;
+  EXPECT_THROW(BoardDecoder{options}, IntrinsicsError);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::intrinsics

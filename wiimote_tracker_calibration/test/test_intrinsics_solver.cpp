@@ -1,0 +1,291 @@
+#include "intrinsics_simulation.h"
+
+#include "wiimote_tracker_calibration/intrinsics/error.h"
+#include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Dense>
+
+#include <limits>
+#include <string>
+
+namespace wiimote_tracker::intrinsics {
+namespace {
+
+using Vector9d = Eigen::Matrix<double, 9, 1>;
+using Matrix9d = Eigen::Matrix<double, 9, 9>;
+
+Vector9d parameters(const geometry::Intrinsics& camera) {
+  Vector9d p;
+  p << camera.fx, camera.fy, camera.cx, camera.cy, camera.distortion[0], camera.distortion[1],
+      camera.distortion[2], camera.distortion[3], camera.distortion[4];
+  return p;
+}
+
+geometry::Intrinsics moved(geometry::Intrinsics camera, int parameter, double step) {
+  double* const values[] = {&camera.fx,
+                            &camera.fy,
+                            &camera.cx,
+                            &camera.cy,
+                            &camera.distortion[0],
+                            &camera.distortion[1],
+                            &camera.distortion[2],
+                            &camera.distortion[3],
+                            &camera.distortion[4]};
+  *values[parameter] += step;
+  return camera;
+}
+
+Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, int parameter, double step) {
+  Eigen::Isometry3d result = pose;
+  if (parameter < 3)
+    result.linear() = Eigen::AngleAxisd(step, Eigen::Vector3d::Unit(parameter)).toRotationMatrix() *
+                      pose.linear();
+  else
+    result.translation()(parameter - 3) += step;
+  return result;
+}
+
+/// Cramer-Rao bound of the first `lens` parameters, poses unknown: the whole information matrix
+/// from numerical derivatives of the geometry core's camera, inverted as it is.
+Eigen::MatrixXd cramerRaoBound(const geometry::Intrinsics& camera,
+                               const std::vector<Eigen::Isometry3d>& poses,
+                               const Samples& samples,
+                               int lens,
+                               double sigma) {
+  const int size = lens + 6 * static_cast<int>(poses.size());
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd steps = Eigen::VectorXd::Constant(size, 1e-5);
+  steps.head(4).setConstant(1e-2);
+  for (std::size_t view = 0; view < poses.size(); ++view) {
+    for (int led = 0; led < kBoardLeds; ++led) {
+      if (!samples.views[view].pixels[static_cast<std::size_t>(led)])
+        continue;
+      Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(2, size);
+      const auto pixel = [&](int k, double step) {
+        const int pose_parameter = k - lens - 6 * static_cast<int>(view);
+        return projected(k < lens ? moved(camera, k, step) : camera,
+                         k < lens ? poses[view] : moved(poses[view], pose_parameter, step),
+                         samples.board, led);
+      };
+      for (int k = 0; k < size; ++k) {
+        const bool has_part = k < lens || (k - lens) / 6 == static_cast<int>(view);
+        if (has_part)
+          derivative.col(k) = (pixel(k, steps(k)) - pixel(k, -steps(k))) / (2.0 * steps(k));
+      }
+      information += derivative.transpose() * derivative;
+    }
+  }
+  const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
+  const Eigen::MatrixXd inverse =
+      scale.asDiagonal() * scaled.fullPivLu().inverse() * scale.asDiagonal();
+  return sigma * sigma * inverse.topLeftCorner(lens, lens);
+}
+
+std::string refusal(const Samples& samples, const SolverOptions& options = SolverOptions()) {
+  try {
+    solveIntrinsics(samples, options);
+  } catch (const IntrinsicsError& error) {
+    return error.what();
+  }
+  return "was not refused";
+}
+
+#define EXPECT_REFUSED(samples, words) \
+  EXPECT_NE(refusal(samples).find(words), std::string::npos) << refusal(samples)
+
+TEST(SolveIntrinsics, exactPixelsGiveTheExactCamera) {
+  geometry::Intrinsics camera = paperCamera();
+  camera.distortion = {-0.08, 0.05, 0.001, -0.002, 0.03};
+  SolverOptions options;
+  options.model = LensModel::kFull;
+  const Samples samples = simulatedSamples(camera, 20, 0.0, 1);
+  const IntrinsicsSolution solution = solveIntrinsics(samples, options);
+  // OpenCV holds pixels as float: 6e-5 px.
+  EXPECT_LT(solution.reprojection_error, 2e-4);
+  const Vector9d error = parameters(solution.intrinsics) - parameters(camera);
+  EXPECT_LT(error.head(4).norm(), 0.02) << error.transpose();
+  EXPECT_LT(error.tail(5).norm(), 0.01) << error.transpose();
+  EXPECT_EQ(solution.camera_from_board.size(), 20u);
+  for (std::size_t view = 0; view < 20; ++view) {
+    const auto& pixel = samples.views[view].pixels[5];
+    if (pixel) {
+      EXPECT_LT(
+          (projected(solution.intrinsics, solution.camera_from_board[view], samples.board, 5) -
+           *pixel)
+              .norm(),
+          1e-3);
+    }
+  }
+}
+
+TEST(SolveIntrinsics, twelveViewsReachTheBoundAndSaySo) {
+  const geometry::Intrinsics camera = paperCamera();
+  const double sigma = std::sqrt(0.25 + 1.0 / 12.0);  // 0.5 px and whole pixels
+  constexpr int kLens = 5;
+  constexpr int kRuns = 60;
+  SolverOptions options;
+  options.model = LensModel::kK1;
+
+  // One set of poses, so that the bound is one; other noise in each run.
+  std::mt19937 random(12);
+  std::vector<Eigen::Isometry3d> poses;
+  Samples exact;
+  while (poses.size() < 12) {
+    const Eigen::Isometry3d pose = randomPose(random);
+    const BoardView view = simulatedView(camera, pose, 0.0, random);
+    if (view.count() < 12)
+      continue;
+    poses.push_back(pose);
+    exact.views.push_back(view);
+  }
+  const Eigen::MatrixXd bound = cramerRaoBound(camera, poses, exact, kLens, sigma);
+
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(kLens);
+  double nees = 0.0;
+  double variance = 0.0;
+  Eigen::VectorXd reported = Eigen::VectorXd::Zero(kLens);
+  for (int run = 0; run < kRuns; ++run) {
+    Samples samples = exact;
+    for (std::size_t view = 0; view < poses.size(); ++view)
+      samples.views[view] = simulatedView(camera, poses[view], 0.5, random);
+    const IntrinsicsSolution solution = solveIntrinsics(samples, options);
+    const Eigen::VectorXd error =
+        (parameters(solution.intrinsics) - parameters(camera)).head(kLens);
+    const Eigen::MatrixXd covariance = solution.covariance.topLeftCorner(kLens, kLens);
+    squares += error.cwiseAbs2() / kRuns;
+    reported += covariance.diagonal() / kRuns;
+    nees += error.dot(covariance.ldlt().solve(error)) / kRuns;
+    variance += solution.pixel_stddev * solution.pixel_stddev / kRuns;
+    EXPECT_TRUE((solution.covariance.bottomRightCorner(4, 4).isZero(0.0)));
+  }
+  const Eigen::VectorXd ratio = squares.cwiseQuotient(bound.diagonal()).cwiseSqrt();
+  const Eigen::VectorXd claim = reported.cwiseQuotient(bound.diagonal()).cwiseSqrt();
+  for (int k = 0; k < kLens; ++k) {
+    EXPECT_NEAR(ratio(k), 1.0, 0.3) << k;  // 60 runs: 9 % standard deviation
+    EXPECT_NEAR(claim(k), 1.0, 0.05) << k;
+  }
+  EXPECT_NEAR(nees / kLens, 1.0, 0.25);  // 60 runs: 8 %
+  EXPECT_NEAR(std::sqrt(variance), sigma, 0.01);
+}
+
+TEST(SolveIntrinsics, choosesTheLensModelThatTheDataAskFor) {
+  geometry::Intrinsics straight = paperCamera();
+  straight.distortion = {};
+  geometry::Intrinsics bent = paperCamera();
+  bent.distortion = {-0.4, 0.25, 0.0, 0.0, 0.0};
+  bent.fx = bent.fy = 900.0;
+  int right = 0;
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    const IntrinsicsSolution none =
+        solveIntrinsics(simulatedSamples(straight, 16, 0.5, seed), SolverOptions());
+    EXPECT_EQ(none.candidates.size(), 4u);
+    right += none.model == LensModel::kNoDistortion ? 1 : 0;
+    const IntrinsicsSolution one =
+        solveIntrinsics(simulatedSamples(paperCamera(), 16, 0.2, seed), SolverOptions());
+    right += one.model == LensModel::kK1 ? 1 : 0;
+    const IntrinsicsSolution two =
+        solveIntrinsics(simulatedSamples(bent, 16, 0.2, seed), SolverOptions());
+    right += two.model == LensModel::kK1K2 ? 1 : 0;
+  }
+  EXPECT_GE(right, 8);
+}
+
+TEST(SolveIntrinsics, findsTheShortFocalLengthOfALensInFront) {
+  geometry::Intrinsics wide = paperCamera();
+  wide.fx = wide.fy = 420.0;
+  wide.distortion = {-0.03, 0.0, 0.0, 0.0, 0.0};
+  std::mt19937 random(2);
+  Samples samples;
+  while (samples.views.size() < 20) {
+    Eigen::Isometry3d pose = randomPose(random);
+    pose.translation() *= 0.6;
+    const BoardView view = simulatedView(wide, pose, 0.5, random);
+    if (view.count() == 16)
+      samples.views.push_back(view);
+  }
+  const IntrinsicsSolution solution = solveIntrinsics(samples, SolverOptions());
+  EXPECT_NEAR(solution.intrinsics.fx, 420.0, 4.0 * std::sqrt(solution.covariance(0, 0)))
+      << solution.summary;
+}
+
+TEST(SolveIntrinsics, refusesTooFewViewsAndLeds) {
+  Samples samples = simulatedSamples(paperCamera(), 11, 0.5, 1);
+  EXPECT_REFUSED(samples, "11 views of the board, at least 12");
+  samples = simulatedSamples(paperCamera(), 12, 0.5, 1);
+  samples.views[4] = BoardView();
+  EXPECT_REFUSED(samples, "view 5 shows fewer than 6 LEDs");
+  samples = simulatedSamples(paperCamera(), 12, 0.5, 1);
+  samples.views[4].pixels[0] = Eigen::Vector2d(std::numeric_limits<double>::quiet_NaN(), 0.0);
+  EXPECT_REFUSED(samples, "view 5 has a pixel that is not a number");
+  for (int led = 0; led < kBoardLeds; ++led)
+    samples.views[4].pixels[static_cast<std::size_t>(led)] =
+        Eigen::Vector2d(10.0 * led, 20.0 * led);
+  EXPECT_REFUSED(samples, "view 5 shows LEDs of one line only");
+}
+
+TEST(SolveIntrinsics, refusesViewsThatDoNotDiffer) {
+  std::mt19937 random(4);
+  Samples front;
+  Samples one_place;
+  Samples one_tilt;
+  Eigen::Isometry3d tilted = Eigen::Isometry3d::Identity();
+  tilted.linear() = Eigen::AngleAxisd(0.6, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  while (front.views.size() < 14) {
+    Eigen::Isometry3d pose = randomPose(random);
+    pose.linear().setIdentity();
+    const BoardView view = simulatedView(paperCamera(), pose, 0.5, random);
+    pose.linear() = tilted.linear();
+    const BoardView same = simulatedView(paperCamera(), pose, 0.5, random);
+    if (view.count() == 16 && same.count() == 16) {
+      front.views.push_back(view);
+      one_tilt.views.push_back(same);
+    }
+    Eigen::Isometry3d centered = randomPose(random);
+    centered.translation() =
+        Eigen::Vector3d(0.0, 0.0, 0.9) - centered.linear() * Eigen::Vector3d(0.15, 0.15, 0.0);
+    one_place.views.push_back(simulatedView(paperCamera(), centered, 0.5, random));
+  }
+  one_place.views.resize(14);
+  EXPECT_REFUSED(front, "from its front or under one tilt");
+  EXPECT_REFUSED(one_tilt, "from its front or under one tilt");
+  EXPECT_REFUSED(one_place, "at one place");
+}
+
+TEST(SolveIntrinsics, refusesABoardThatIsNotAsStated) {
+  const Samples samples = simulatedSamples(paperCamera(), 14, 0.5, 6);
+  Samples mirrored = samples;
+  Samples exchanged = samples;
+  for (std::size_t view = 0; view < samples.views.size(); ++view) {
+    for (std::size_t led = 0; led < 16; ++led)
+      mirrored.views[view].pixels[led] = samples.views[view].pixels[led / 4 * 4 + 3 - led % 4];
+    for (std::size_t led = 0; led < 4; ++led)
+      std::swap(exchanged.views[view].pixels[led], exchanged.views[view].pixels[4 + led]);
+  }
+  EXPECT_REFUSED(mirrored, "mirrored");
+  EXPECT_REFUSED(exchanged, "is no 4 x 4 grid");
+  Samples stretched = samples;
+  stretched.board.column_spacing *= 1.1;
+  EXPECT_REFUSED(stretched, "spacing");
+  stretched.board.column_spacing = 0.0;
+  EXPECT_REFUSED(stretched, "spacings must be above 0");
+
+  // One LED soldered 3 cm beside its place.
+  Board bent;
+  std::mt19937 random(9);
+  Samples wrong;
+  while (wrong.views.size() < 14) {
+    const Eigen::Isometry3d pose = randomPose(random);
+    BoardView view = simulatedView(paperCamera(), pose, 0.5, random);
+    if (view.count() < 16)
+      continue;
+    const Eigen::Vector3d p = pose * (bent.position(5) + Eigen::Vector3d(0.03, 0.0, 0.0));
+    view.pixels[5] = paperCamera().pixelFromNormalized(p.hnormalized());
+    wrong.views.push_back(view);
+  }
+  EXPECT_REFUSED(wrong, "check");
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::intrinsics

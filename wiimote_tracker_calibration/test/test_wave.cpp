@@ -153,6 +153,19 @@ TEST(Wave, WandGivesScaleWithoutSquare) {
   }
 }
 
+TEST(Wave, AWrongStartIsTriedAgainFromElsewhere) {
+  // Sessions whose first start, from a few points at random, leads nowhere.
+  WaveScene scene;
+  scene.square = false;
+  scene.camera_count = 2;
+  scene.length = 0.25;
+  for (const std::uint64_t seed : {1015, 1018}) {
+    const SimulatedWave wave = simulateWave(scene, seed);
+    const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+    EXPECT_LT(errorOf(scene, wave, solution).similarity, 0.005) << seed;
+  }
+}
+
 TEST(Wave, WandIsNearlyAsGoodAsPerfectCameras) {
   WaveScene scene;
   scene.length = 0.5;
@@ -233,6 +246,17 @@ TEST(Wave, LampsReflectionsAndWrongSpotsAreLeftOut) {
       EXPECT_LT(camera.inlier_share, 0.95);
     }
   }
+}
+
+TEST(Wave, LampsDoNotHinderAStartWithoutSquare) {
+  WaveScene scene;
+  scene.square = false;
+  scene.camera_count = 2;
+  scene.length = 0.5;
+  scene.lamp = true;
+  const SimulatedWave wave = simulateWave(scene, 7);
+  const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+  EXPECT_LT(errorOf(scene, wave, solution).similarity, 0.004);
 }
 
 TEST(Wave, SlowErrorsOfTheStampsAreStatedInTheOffsets) {
@@ -376,6 +400,20 @@ TEST(WaveRefuses, CameraThatWasMovedAfterTheSquare) {
   const SimulatedWave after = simulateWave(moved, 1);
   wave.recording.cameras[2].frames = after.recording.cameras[2].frames;
   expectContains(refusalOf(wave.recording, optionsFor(scene)), "camera_3");
+}
+
+TEST(WaveRefuses, LensThatCannotBe) {
+  WaveScene scene;
+  scene.square = false;
+  scene.camera_count = 2;
+  scene.length = 0.5;
+  scene.uncertainty.focal = 0.005;
+  SimulatedWave wave = simulateWave(scene, 1);
+  for (CameraRecording& camera : wave.recording.cameras) {
+    camera.sightings.intrinsics.fx *= 1.08;
+    camera.sightings.intrinsics.fy *= 1.08;
+  }
+  expectContains(refusalOf(wave.recording, optionsFor(scene)), "no lens like the one stated");
 }
 
 TEST(WaveRefuses, ValuesOutOfRange) {

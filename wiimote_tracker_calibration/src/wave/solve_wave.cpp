@@ -32,6 +32,8 @@ constexpr double kGate = 5.0;
 constexpr int kFinalRounds = 8;
 // The estimated noise has settled when a round changes it by less.
 constexpr double kNoiseSettled = 0.01;
+// Starts that are tried where no square gives one.
+constexpr int kAttempts = 5;
 // Shares of the work.
 constexpr double kStartDone = 0.2;
 constexpr double kPathDone = 0.35;
@@ -241,17 +243,12 @@ void describePath(const State& state, const Matching& matching, WaveSolution* so
   solution->extent = solver.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt();
 }
 
-}  // namespace
-
-WaveSolution solveWave(const Recording& input,
+/// From a start to a solution that passed all checks.
+WaveSolution solveFrom(StartPoses poses,
+                       const Recording& recording,
                        const WaveOptions& options,
-                       const ProgressCallback& progress) {
-  checkInput(input, options);
-  Reporter reporter(progress);
-  reporter.report("finding where the cameras stand", 0.0);
-  const Recording recording = prepared(input);
-  StartPoses poses = startPoses(recording, options);
-  reporter.report("following the LED", kStartDone);
+                       Reporter* reporter) {
+  reporter->report("following the LED", kStartDone);
 
   WaveSolution solution;
   solution.gauge = recording.square ? Gauge::kSquare : Gauge::kFirstCamera;
@@ -269,10 +266,10 @@ WaveSolution solveWave(const Recording& input,
   }
   if (recording.wand)
     state.wand_length = recording.wand->length;
-  reporter.report("adjusting cameras, clocks and path", kPathDone);
+  reporter->report("adjusting cameras, clocks and path", kPathDone);
 
   Adjustment adjustment(recording, options, nominal_corners, solution.gauge);
-  const Fit fit = adjust(recording, options, &adjustment, &state, &reporter);
+  const Fit fit = adjust(recording, options, &adjustment, &state, reporter);
 
   solution.pixel_stddev = fit.pixel_stddev;
   solution.iterations = fit.iterations;
@@ -312,8 +309,38 @@ WaveSolution solveWave(const Recording& input,
   solution.expected_shape_error = predicted.shape;
   checkSolution(recording, options, &solution);
   rig.verdict = verdictOf(recording, solution);
-  reporter.report("done", 1.0);
   return solution;
+}
+
+}  // namespace
+
+WaveSolution solveWave(const Recording& input,
+                       const WaveOptions& options,
+                       const ProgressCallback& progress) {
+  checkInput(input, options);
+  Reporter reporter(progress);
+  const Recording recording = prepared(input);
+  std::optional<WaveError> refusal;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    reporter.report("finding where the cameras stand", 0.0);
+    bool final = attempt + 1 == kAttempts;
+    try {
+      StartPoses poses = startPoses(recording, options, attempt);
+      final = final || poses.from_square;
+      WaveSolution solution = solveFrom(std::move(poses), recording, options, &reporter);
+      reporter.report("done", 1.0);
+      return solution;
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const WaveError& error) {
+      // What the first attempt found wrong is most likely what is wrong.
+      if (!refusal)
+        refusal = error;
+      if (final)
+        throw WaveError(*refusal);
+    }
+  }
+  throw WaveError(*refusal);
 }
 
 }  // namespace wiimote_tracker::wave

@@ -25,8 +25,11 @@ constexpr std::size_t kInstants = 200;
 constexpr double kLongestGap = 0.035;
 // Nor are spots that jump more than this from frame to frame [px].
 constexpr double kLongestJump = 80.0;
-// Lenses are off by several per cent and clocks by milliseconds: so are the pixels [px].
-constexpr double kTolerance = 12.0;
+// Lenses are off by several per cent and clocks by milliseconds: so are the pixels [px]. Narrow and
+// wide in turns.
+constexpr double kTolerances[] = {6.0, 12.0};
+// Where between two instants the next attempt looks, in steps of their distance.
+constexpr double kShift = 0.29;
 // Times that two cameras must share to be placed to each other.
 constexpr std::size_t kLeastCommon = 20;
 
@@ -54,7 +57,7 @@ std::optional<Eigen::Vector2d> middleAt(const std::vector<Frame>& frames, double
 }
 
 /// What the cameras saw at common times.
-std::vector<bundle::Observation> commonViews(const Recording& recording) {
+std::vector<bundle::Observation> commonViews(const Recording& recording, int attempt) {
   double start = recording.cameras.front().frames.front().stamp;
   double end = start;
   for (const CameraRecording& camera : recording.cameras) {
@@ -67,7 +70,8 @@ std::vector<bundle::Observation> commonViews(const Recording& recording) {
   std::vector<std::vector<bundle::Observation>> instants;
   for (std::size_t i = 0; i < count; ++i) {
     const double time =
-        start + (end - start) * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+        start + (end - start) * (static_cast<double>(i) + std::fmod(0.5 + kShift * attempt, 1.0)) /
+                    static_cast<double>(count);
     std::vector<bundle::Observation> instant;
     for (std::size_t c = 0; c < recording.cameras.size(); ++c) {
       if (const auto pixel =
@@ -204,9 +208,9 @@ void moveOnSquare(const Recording& recording,
 
 }  // namespace
 
-StartPoses startPoses(const Recording& recording, const WaveOptions& options) {
+StartPoses startPoses(const Recording& recording, const WaveOptions& options, int attempt) {
   bundle::Options tolerance;
-  tolerance.maximum_error = kTolerance;
+  tolerance.maximum_error = kTolerances[attempt % 2];
   tolerance.loss_scale = 3.0;
   tolerance.minimum_common_points = kLeastCommon;
 
@@ -227,7 +231,7 @@ StartPoses startPoses(const Recording& recording, const WaveOptions& options) {
   if (sightings.size() < 2)
     placed.assign(recording.cameras.size(), false);
 
-  wave.observations = commonViews(recording);
+  wave.observations = commonViews(recording, attempt);
   wave.points.resize(wave.observations.empty() ? 0 : wave.observations.back().point + 1);
   refuseStrangers(recording, wave.observations, placed);
   try {
@@ -241,6 +245,7 @@ StartPoses startPoses(const Recording& recording, const WaveOptions& options) {
           camera = solved->camera;
       }
       result.metric = true;
+      result.from_square = true;
       result.z_up = solution.z_up;
       placeRest(tolerance, &wave, &placed);
     } else {

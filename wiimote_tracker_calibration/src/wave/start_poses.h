@@ -16,14 +16,17 @@ struct StartPoses {
   std::vector<geometry::Camera> cameras;  ///< In the order of the recording.
   bool metric = false;                    ///< In metres, in the square's world. Else up to scale.
   bool z_up = true;                       ///< As in SquareLayout::corners().
+  bool from_square = false;               ///< Not from the wave alone.
 };
 
 /// From the square where two cameras or more saw all of it; the other cameras from common points
 /// of the wave by resection. Without such a square from the wave alone (essential matrix), then
 /// moved on the corners that two cameras saw.
 /// @param recording without spots that stay in one place (movingSpots()).
+/// A start from the wave alone is found by trying few points at random, and may be a wrong one that
+/// only later proves to be: each attempt tries others.
 /// @throws WaveError, square::SquareError.
-StartPoses startPoses(const Recording& recording, const WaveOptions& options);
+StartPoses startPoses(const Recording& recording, const WaveOptions& options, int attempt);
 
 }  // namespace wiimote_tracker::wave
 

@@ -211,6 +211,23 @@ TEST(Remap, the_papers_ten_points_suffice_for_every_model) {
   EXPECT_NE(table(result).find("chosen"), std::string::npos);
 }
 
+TEST(Remap, points_on_the_outside_alone_are_warned_of) {
+  Random random(17);
+  std::vector<Eigen::Vector3d> measured;
+  for (int i = 0; i < 8; ++i)
+    measured.push_back(2.5 * Eigen::Vector3d(i & 1, i >> 1 & 1, i >> 2 & 1) + noise(random, 0.01));
+  const auto warns = [&] {
+    for (const std::string& warning : fitRemap(deformed(measured, affine), kRig).warnings) {
+      if (warning.find("inside the others") != std::string::npos)
+        return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(warns());
+  measured.emplace_back(1.25, 1.25, 1.5);
+  EXPECT_FALSE(warns());
+}
+
 TEST(Remap, covariance_follows_the_derivative_of_the_model) {
   Random random(8);
   const std::vector<Eigen::Vector3d> measured = grid(random);

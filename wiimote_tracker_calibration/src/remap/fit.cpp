@@ -1,5 +1,6 @@
 #include "wiimote_tracker_calibration/remap/fit.h"
 
+#include "wiimote_tracker_calibration/remap/convex_hull.h"
 #include "wiimote_tracker_calibration/remap/error.h"
 
 #include "checks.h"
@@ -22,6 +23,8 @@ namespace {
 constexpr std::size_t kMostFolds = 20;
 // A point that is missed by more than this many times the median is named.
 constexpr double kOutlier = 5.0;
+// Deeper in the hull than this counts as inside; the unit is half the longest edge of the volume.
+constexpr double kInside = 0.1;
 
 double rms(const std::vector<double>& errors) {
   double squared = 0.0;
@@ -146,6 +149,14 @@ std::vector<std::string> suspectPoints(const std::vector<double>& errors) {
   return warnings;
 }
 
+/// Whether a point lies well inside the others, so that left out points speak of the inside too.
+bool reachInside(const std::vector<Eigen::Vector3d>& support) {
+  const ConvexHull hull(support);
+  const double depth = kInside * frameOf(support).scale;
+  return std::any_of(support.begin(), support.end(),
+                     [&](const Eigen::Vector3d& point) { return hull.excess(point) < -depth; });
+}
+
 }  // namespace
 
 FitResult fitRemap(const std::vector<KnownPoint>& points,
@@ -193,6 +204,10 @@ FitResult fitRemap(const std::vector<KnownPoint>& points,
   result.remap.rig_id = rig_id;
   result.left_out_errors = candidates[*chosen]->left_out_errors;
   result.warnings = suspectPoints(result.left_out_errors);
+  if (!reachInside(result.remap.support))
+    result.warnings.push_back(
+        "no known point lies inside the others, so that nothing is known of the error there: "
+        "measure some inside the volume");
   result.expected_error = nestedError(points, usable, progress);
   return result;
 }

@@ -40,7 +40,8 @@ struct FitResult {
   /// RMS distance to expect of a corrected point in the volume [m]: of points that took part
   /// neither in the fit nor in the choice of the model (nested cross-validation). It holds the
   /// errors of the known places too, and is rather too large: a corner that is left out has to be
-  /// extrapolated.
+  /// extrapolated. It speaks of places like those that were measured: points at the corners alone
+  /// say nothing of the inside.
   double expected_error = 0.0;
   std::vector<ModelReport> models;      ///< Those of the options, the simplest first.
   std::vector<double> left_out_errors;  ///< Of the chosen model, per point [m].

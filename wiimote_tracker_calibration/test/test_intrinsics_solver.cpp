@@ -192,22 +192,33 @@ TEST(SolveIntrinsics, choosesTheLensModelThatTheDataAskFor) {
   EXPECT_GE(right, 8);
 }
 
-TEST(SolveIntrinsics, findsTheShortFocalLengthOfALensInFront) {
-  geometry::Intrinsics wide = paperCamera();
-  wide.fx = wide.fy = 420.0;
-  wide.distortion = {-0.03, 0.0, 0.0, 0.0, 0.0};
+/// Views of a camera behind a wide lens.
+Samples wideSamples(const geometry::Intrinsics& camera) {
   std::mt19937 random(2);
   Samples samples;
   while (samples.views.size() < 20) {
     Eigen::Isometry3d pose = randomPose(random);
     pose.translation() *= 0.6;
-    const BoardView view = simulatedView(wide, pose, 0.5, random);
+    const BoardView view = simulatedView(camera, pose, 0.5, random);
     if (view.count() == 16)
       samples.views.push_back(view);
   }
-  const IntrinsicsSolution solution = solveIntrinsics(samples, SolverOptions());
+  return samples;
+}
+
+TEST(SolveIntrinsics, findsTheShortFocalLengthOfALensInFront) {
+  geometry::Intrinsics wide = paperCamera();
+  wide.fx = wide.fy = 420.0;
+  wide.distortion = {-0.03, 0.0, 0.0, 0.0, 0.0};
+  const IntrinsicsSolution solution = solveIntrinsics(wideSamples(wide), SolverOptions());
   EXPECT_NEAR(solution.intrinsics.fx, 420.0, 4.0 * std::sqrt(solution.covariance(0, 0)))
       << solution.summary;
+}
+
+TEST(SolveIntrinsics, refusesALensWhoseModelFoldsWithinTheImage) {
+  geometry::Intrinsics wide = paperCamera();
+  wide.fx = wide.fy = 420.0;  // with k1 = -0.08 nothing reaches the corners of the image
+  EXPECT_REFUSED(wideSamples(wide), "does not hold over the whole image");
 }
 
 TEST(SolveIntrinsics, refusesTooFewViewsAndLeds) {

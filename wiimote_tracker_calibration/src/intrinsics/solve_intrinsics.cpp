@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kSmallestTilt = 10.0 * M_PI / 180.0;  // between the most different views
 constexpr double kSmallestTravel = 0.1;                // of the board, of the image's width
+constexpr double kMuchBetter = 0.7;                    // share of a reprojection error
 constexpr int kPoseParameters = 6;
 
 /// The views as OpenCV takes them.
@@ -323,7 +324,14 @@ IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& 
     if (model == options.model)
       break;
   }
-  if (!chosen)
+  // A model that folds within the image but fits far better: the one that holds is a makeshift.
+  const bool is_makeshift =
+      chosen && !options.model &&
+      std::any_of(solution.candidates.begin(), solution.candidates.end(),
+                  [&chosen](const Candidate& other) {
+                    return !other.holds && other.reprojection_error < kMuchBetter * chosen->error;
+                  });
+  if (!chosen || is_makeshift)
     throw IntrinsicsError(
         "the lens model does not hold over the whole image: show the board in "
         "all corners of the image, or choose a simpler model");

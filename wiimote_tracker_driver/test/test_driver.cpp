@@ -48,7 +48,7 @@ diagnostic_msgs::DiagnosticStatus driverStatus(
     const std::string& camera = "wiimote_1") {
   for (auto array = diagnostics.messages.rbegin(); array != diagnostics.messages.rend(); ++array) {
     for (const auto& status : array->status) {
-      if (status.name.find("Wii Remote " + camera) != std::string::npos)
+      if (status.name == camera + "/driver: Wii Remote " + camera)
         return status;
     }
   }
@@ -334,6 +334,7 @@ TEST_F(DriverTest, BatteryIsPublishedAndWarnedOf) {
   EXPECT_EQ(1.0f, battery.last().percentage);
   EXPECT_TRUE(battery.last().present);
   EXPECT_TRUE(std::isnan(battery.last().voltage));
+  EXPECT_TRUE(std::isnan(battery.last().temperature));
   EXPECT_EQ("wiimote_1", battery.last().location);
   EXPECT_EQ(kIdentity, battery.last().serial_number);
   remote->server.setBattery(0x10);
@@ -439,14 +440,14 @@ TEST_F(DriverTest, DiagnosticsTellHowItIs) {
 TEST_F(DriverTest, SecondDriverSaysWhoHasTheRemote) {
   ASSERT_TRUE(eventually([&] { return remote->server.connected(); }));
   ASSERT_EQ(0, std::system(("ROS_NAMESPACE=wiimote_8 rosrun wiimote_tracker_driver driver_node "
-                            "__name:=second _device:=virtual:" +
+                            "__name:=driver _device:=virtual:" +
                             parameter("files") + "_1.sock > /dev/null 2>&1 &")
                                .c_str()));
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   const auto said = [&] { return driverStatus(diagnostics, "wiimote_8").message; };
   EXPECT_TRUE(eventually([&] { return said().find(parameter("holder")) != std::string::npos; }))
       << said();
-  EXPECT_EQ(0, std::system("rosnode kill /wiimote_8/second > /dev/null"));
+  EXPECT_EQ(0, std::system("rosnode kill /wiimote_8/driver > /dev/null"));
 }
 
 TEST_F(DriverTest, UnplugAndReplugIsANewEpochOfTheSameStream) {

@@ -102,7 +102,7 @@ Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
       diagnostics_(ir_format_,
                    1.0 / stamperOptions(parameters_, ir_format_).period,
                    parameters_.battery_low),
-      updater_(nh, private_nh, private_nh.getNamespace().substr(1)),
+      updater_(nh, private_nh, private_nh.getNamespace()),
       users_due_(steadyNow()) {
   if (nh.getNamespace() == "/")
     ROS_WARN(
@@ -213,6 +213,9 @@ void Driver::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (recorder_) {
     state.recording = recorder_->path();
     state.recording_error = recorder_->error();
+    if (state.recording_error != recording_error_)
+      ROS_ERROR("%s: %s", parameters_.camera_name.c_str(), state.recording_error.c_str());
+    recording_error_ = state.recording_error;
   }
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -83,6 +83,7 @@ class Driver {
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer diagnostics_timer_;
   std::string shared_with_;
+  std::string recording_error_;  // that was told already
   double users_due_;  // [s]
 
   std::condition_variable stopping_;

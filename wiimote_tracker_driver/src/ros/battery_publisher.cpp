@@ -30,6 +30,7 @@ void BatteryPublisher::publish(const protocol::Status& status,
   sensor_msgs::BatteryState message;
   message.header.stamp = stamp;
   message.voltage = kUnknown;
+  message.temperature = kUnknown;
   message.current = kUnknown;
   message.charge = kUnknown;
   message.capacity = kUnknown;

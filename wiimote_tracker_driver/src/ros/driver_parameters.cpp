@@ -109,6 +109,10 @@ protocol::IrSensitivity sensitivity(const std::string& name,
     throw std::invalid_argument("'" + name +
                                 "' is no sensitivity: choose wii_1 to wii_5, marcan, "
                                 "max or custom");
+  if (block1.empty() || block2.empty())
+    throw std::invalid_argument(
+        "the sensitivity custom needs both of its blocks, such as '07 00 00 71 01 00 72 00 20' and "
+        "'1f 03'");
   return protocol::parseIrSensitivity(block1 + " / " + block2);
 }
 

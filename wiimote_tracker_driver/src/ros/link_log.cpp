@@ -47,7 +47,7 @@ void LinkLog::reportStream(const wiimote::Link& link) const {
   if (link.kernel_driver == "wiimote")
     ROS_WARN(
         "%s: the kernel's driver hid-wiimote is attached to the same remote and now and then "
-        "interrupts its images: blacklist it as the README says",
+        "interrupts its images: see \"Kernel driver\" in doc/quirks.md",
         camera);
 }
 

@@ -96,7 +96,7 @@ std::unique_ptr<Transport> openSocket(const std::string& path) {
       throw PermissionDenied("permission denied on " + path +
                              ": run as the user who started the virtual Wii Remote");
     throw NoSuchDevice("no virtual Wii Remote listens at " + path +
-                       ": start the simulation or correct the path");
+                       ": start it (virtual_wiimote --socket) or correct the path");
   }
   auto transport = std::make_unique<SocketTransport>(std::move(fd), path);
   transport->receiveIdentity();

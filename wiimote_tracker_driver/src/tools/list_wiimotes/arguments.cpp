@@ -26,13 +26,13 @@ arguments that make no sense.
 
 Arguments parseArguments(int argc, char** argv) {
   Arguments arguments;
-  const auto value = [&](int* i) -> std::string {
-    if (*i + 1 >= argc || std::string(argv[*i + 1]).rfind("--", 0) == 0)
-      throw BadArguments(std::string(argv[*i]) + " lacks a value");
-    return argv[++*i];
-  };
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
+    const auto value = [&](int* at) -> std::string {
+      if (*at + 1 >= argc || std::string(argv[*at + 1]).rfind("--", 0) == 0)
+        throw BadArguments(argument + " lacks a value");
+      return argv[++*at];
+    };
     if (argument == "--help" || argument == "-h") {
       arguments.help = true;
     } else if (argument == "--identify") {

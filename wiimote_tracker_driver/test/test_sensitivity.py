@@ -67,6 +67,13 @@ def test_an_led_that_no_level_sees_needs_more_light():
     level, sentence = recommend([Level('wii_5', 0.0, 0.2), Level('max', 0.0, 0.6)])
     assert level is None
     assert 'max, sees it in 60 %' in sentence and 'more current' in sentence
+    assert 'cover' not in sentence
+
+
+def test_an_led_that_was_never_off_is_suspected():
+    level, sentence = recommend([Level('wii_5', 1.0, 0.0), Level('max', 1.0, 0.0)])
+    assert level is None
+    assert 'have the LED off when asked to' in sentence
 
 
 def test_the_table_has_a_line_for_each_level():

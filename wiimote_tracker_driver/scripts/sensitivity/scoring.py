@@ -43,9 +43,14 @@ def recommend(levels, steady=STEADY):
     steady_ones = [level for level in levels if level.seen >= steady]
     if not steady_ones:
         best = max(levels, key=lambda level: level.seen)
-        return None, ('no sensitivity sees the LED steadily; the best, %s, sees it in %.0f %% of '
-                      'the images: give the LED more current, turn it towards the camera or bring '
-                      'it closer' % (best.name, 100.0 * best.seen))
+        sentence = ('no sensitivity sees the LED steadily; the best, %s, sees it in %.0f %% of '
+                    'the images: give the LED more current, turn it towards the camera or bring '
+                    'it closer' % (best.name, 100.0 * best.seen))
+        # Where a lamp is, the LED does not count; and one that was never off is a lamp itself.
+        if best.foreign >= EQUALLY_FEW:
+            sentence += ('; cover lamps and reflections (%.2f per image), and have the LED off when '
+                         'asked to' % best.foreign)
+        return None, sentence
     fewest = min(level.foreign for level in steady_ones)
     # Of the equally good the most sensitive: it measures the finest positions.
     chosen = [level for level in steady_ones if level.foreign < fewest + EQUALLY_FEW][-1]

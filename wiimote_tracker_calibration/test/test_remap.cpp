@@ -409,7 +409,7 @@ TEST(ConvexHull, holds_all_mixtures_of_its_points_and_nothing_beyond) {
         mixture += weight * point;
         sum += weight;
       }
-      EXPECT_TRUE(hull.contains(mixture / sum));
+      EXPECT_TRUE(hull.encloses(mixture / sum));
     }
     for (int i = 0; i < 100; ++i) {
       const Eigen::Vector3d direction = noise(random, 1.0).normalized();
@@ -421,8 +421,8 @@ TEST(ConvexHull, holds_all_mixtures_of_its_points_and_nothing_beyond) {
           top = point;
         }
       }
-      EXPECT_TRUE(hull.contains(top));
-      EXPECT_FALSE(hull.contains(top + 1e-6 * direction));
+      EXPECT_TRUE(hull.encloses(top));
+      EXPECT_FALSE(hull.encloses(top + 1e-6 * direction));
       EXPECT_GT(hull.excess(top + 1e-6 * direction), 0.0);
     }
   }
@@ -433,17 +433,17 @@ TEST(ConvexHull, a_box_with_points_on_its_faces_is_a_box) {
   for (int i = 0; i < 125; ++i)
     points.push_back(0.5 * Eigen::Vector3d(i % 5, i / 5 % 5, i / 25));
   const ConvexHull hull(points);
-  EXPECT_TRUE(hull.contains({0.0, 0.0, 0.0}));
-  EXPECT_TRUE(hull.contains({2.0, 1.3, 0.7}));
+  EXPECT_TRUE(hull.encloses({0.0, 0.0, 0.0}));
+  EXPECT_TRUE(hull.encloses({2.0, 1.3, 0.7}));
   EXPECT_NEAR(hull.excess({1.0, 1.0, 2.25}), 0.25, 1e-12);
   EXPECT_NEAR(hull.excess({1.0, 1.0, 1.0}), -1.0, 1e-12);
-  EXPECT_FALSE(hull.contains({2.0 + 1e-6, 1.0, 1.0}));
+  EXPECT_FALSE(hull.encloses({2.0 + 1e-6, 1.0, 1.0}));
 }
 
 TEST(ConvexHull, nothing_is_inside_of_points_without_volume) {
-  EXPECT_FALSE(ConvexHull().contains({0.0, 0.0, 0.0}));
+  EXPECT_FALSE(ConvexHull().encloses({0.0, 0.0, 0.0}));
   const ConvexHull flat({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 1.0, 0.0}});
-  EXPECT_FALSE(flat.contains({0.5, 0.5, 0.0}));
+  EXPECT_FALSE(flat.encloses({0.5, 0.5, 0.0}));
   EXPECT_TRUE(std::isinf(flat.excess({0.5, 0.5, 0.0})));
 }
 

@@ -178,9 +178,9 @@ TEST(FrameHistory, agrees_with_the_enumeration_of_all_paths) {
       history.add(counter, r, 1.0);
     }
     double marginal[kReports][kNumbers] = {};
-    for (int a = 1; a < kNumbers; ++a)
-      for (int b = a + 1; b < kNumbers; ++b)
-        for (int c = b + 1; c < kNumbers; ++c) {
+    for (int a = 0; a < kNumbers; ++a)
+      for (int b = a; b < kNumbers; ++b)
+        for (int c = b; c < kNumbers; ++c) {
           const double path = likelihood[1][a] * likelihood[2][b] * likelihood[3][c] *
                               FrameCounter::transition(a) * FrameCounter::transition(b - a) *
                               FrameCounter::transition(c - b);

@@ -57,7 +57,7 @@ ConvexHull::ConvexHull(const std::vector<Eigen::Vector3d>& points) {
   }
 }
 
-bool ConvexHull::contains(const Eigen::Vector3d& point) const {
+bool ConvexHull::encloses(const Eigen::Vector3d& point) const {
   return excess(point) <= tolerance_;
 }
 

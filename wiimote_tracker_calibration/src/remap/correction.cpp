@@ -46,7 +46,7 @@ std::optional<CorrectedPoint> Correction::apply(const Eigen::Vector3d& measured,
   point.position = mapped->position;
   point.jacobian = mapped->jacobian;
   point.covariance = mapped->jacobian * covariance * mapped->jacobian.transpose();
-  point.inside = hull_.contains(measured);
+  point.inside = hull_.encloses(measured);
   return point;
 }
 

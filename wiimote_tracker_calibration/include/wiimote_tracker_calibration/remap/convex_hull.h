@@ -17,7 +17,7 @@ class ConvexHull {
   explicit ConvexHull(const std::vector<Eigen::Vector3d>& points);
 
   /// Whether a point is inside or on the surface (to a billionth of the size). Never allocates.
-  bool contains(const Eigen::Vector3d& point) const;
+  bool encloses(const Eigen::Vector3d& point) const;
 
   /// How far the point is beyond the face it is farthest beyond [m]; at most 0 inside. Never more
   /// than the distance to the hull. Infinite for a hull without volume.

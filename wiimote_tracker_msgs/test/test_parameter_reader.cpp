@@ -46,7 +46,9 @@ TEST(ParameterReader, ErrorsNameTheFullKey) {
   EXPECT_TRUE(contains(errorOf([&] { reader.optional<int>("name", 1); }), ns + "name"));
   EXPECT_TRUE(contains(errorOf([&] { reader.bounded("side", 1.0, 3.0, 9.0); }),
                        ns + "side is 2.5, but must be within 3 and 9"));
-  EXPECT_TRUE(contains(errorOf([&] { reader.choice("name", "circle", {"circle", "line"}); }),
+  EXPECT_TRUE(contains(errorOf([&] {
+                         reader.choice("name", "circle", {"circle", "line"});
+                       }),
                        "must be one of: circle, line"));
 }
 

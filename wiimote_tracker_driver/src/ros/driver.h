@@ -84,7 +84,7 @@ class Driver {
   ros::SteadyTimer diagnostics_timer_;
   std::string shared_with_;
   std::string recording_error_;  // that was told already
-  double users_due_;  // [s]
+  double users_due_;             // [s]
 
   std::condition_variable stopping_;
   std::thread reader_;

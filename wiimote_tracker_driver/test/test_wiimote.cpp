@@ -972,7 +972,7 @@ TEST(HostileRemote, EachReportIsAnsweredByFewAndTimeAlwaysEndsInADecision) {
           report.bytes[3] = asked.bytes[0];
           report.bytes[4] = random() % 4 == 0 ? 7 : 0;
         } else if (report.bytes[0] == 0x21 && random() % 8 != 0) {
-          report.bytes[3] = static_cast<std::uint8_t>((asked.bytes[6] - 1) << 4);
+          report.bytes[3] = static_cast<std::uint8_t>((asked.bytes[6] + 15) % 16 << 4);
           report.bytes[4] = asked.bytes[3];
           report.bytes[5] = asked.bytes[4];
         }

@@ -37,8 +37,9 @@ Eigen::Isometry3d readTransform(YamlMap map) {
     throw RigFileError(map.at("rotation") + " is not a quaternion of unit length");
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
   transform.linear() = matrixFromQuaternion(q);
-  transform.translation() << translation.get<double>("x"), translation.get<double>("y"),
-      translation.get<double>("z");
+  // Not with <<: its assertion ends the program when a key that cannot be read throws in between.
+  transform.translation() = Eigen::Vector3d(
+      translation.get<double>("x"), translation.get<double>("y"), translation.get<double>("z"));
   translation.refuseUnknown();
   rotation.refuseUnknown();
   map.refuseUnknown();

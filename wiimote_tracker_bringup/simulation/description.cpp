@@ -4,6 +4,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -175,13 +176,35 @@ CameraDescription readCamera(const std::string& name, Section section) {
 LedDescription readLed(const std::string& name, Section section) {
   LedDescription led;
   led.name = name;
-  led.position = section.point("position");
+  if (section.has("turns")) {
+    Section turns = section.section("turns");
+    led.turns =
+        TurnDescription{turns.value<std::string>("around"), turns.number("distance", 0.001, 10.0),
+                        turns.number("rate", 0.0, 100.0)};
+    turns.refuseUnknown();
+  } else {
+    led.position = section.point("position");
+  }
   if (section.has("size"))
     led.size = section.number("size", 0.0, 15.0);
   led.brightness = section.number("brightness", 0.0, kInfinity, led.brightness);
   led.lit = section.value<bool>("lit", led.lit);
   section.refuseUnknown();
   return led;
+}
+
+/// An LED turns about one that is there, and that does not turn itself.
+void checkTurns(const std::string& name, Section section, const std::vector<LedDescription>& leds) {
+  const auto find = [&leds](const std::string& wanted) {
+    return std::find_if(leds.begin(), leds.end(),
+                        [&](const LedDescription& led) { return led.name == wanted; });
+  };
+  const auto& turns = find(name)->turns;
+  if (!turns)
+    return;
+  const auto around = find(turns->around);
+  if (around == leds.end() || around->turns)
+    throw section.error("turns/around", "must be the name of an LED that does not turn itself");
 }
 
 }  // namespace
@@ -208,6 +231,8 @@ Description readDescription(const std::string& path) {
   Section leds = file.section("leds");
   for (const auto& [name, section] : leds.entries())
     description.leds.push_back(readLed(name, section));
+  for (auto& [name, section] : leds.entries())
+    checkTurns(name, section, description.leds);
   file.refuseUnknown();
   return description;
 }

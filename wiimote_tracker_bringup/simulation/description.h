@@ -25,12 +25,20 @@ struct CameraDescription {
   virtual_wiimote::FrameTimesModel timing;
 };
 
+/// The other end of a wand: turns about another LED for ever.
+struct TurnDescription {
+  std::string around;     ///< Name of the other LED.
+  double distance = 0.0;  ///< Length of the wand [m].
+  double rate = 0.0;      ///< About the vertical [rad/s]; nods up and down meanwhile.
+};
+
 /// An LED before it is moved.
 struct LedDescription {
   std::string name;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
-  std::optional<double> size;                          ///< As of a Lamp [0..15].
-  double brightness = 1.0;                             ///< As of a Lamp [>= 0].
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]; not read with `turns`.
+  std::optional<TurnDescription> turns;
+  std::optional<double> size;  ///< As of a Lamp [0..15].
+  double brightness = 1.0;     ///< As of a Lamp [>= 0].
   bool lit = true;
 };
 

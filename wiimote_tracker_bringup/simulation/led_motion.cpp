@@ -9,6 +9,8 @@ Eigen::Vector3d LedMotion::position(double time) const {
     return from_;
   if (time < arrival_)
     return from_ + (time - begin_) / (arrival_ - begin_) * (to_ - from_);
+  if (wave_)
+    return wave_->position(time - arrival_);
   const double angle = angular_speed_ * (time - arrival_);
   return to_ + radius_ * Eigen::Vector3d(std::cos(angle) - 1.0, std::sin(angle), 0.0);
 }
@@ -24,6 +26,7 @@ double LedMotion::line(double time, const Eigen::Vector3d& target, double speed)
   arrival_ = speed > 0.0 ? time + (to_ - from_).norm() / speed : time;
   radius_ = 0.0;
   angular_speed_ = 0.0;
+  wave_.reset();
   return arrival_;
 }
 
@@ -31,6 +34,17 @@ double LedMotion::circle(double time, const Eigen::Vector3d& center, double radi
   line(time, center + radius * Eigen::Vector3d::UnitX(), speed);
   radius_ = radius;
   angular_speed_ = speed / radius;
+  return arrival_;
+}
+
+double LedMotion::wave(double time,
+                       const Eigen::Vector3d& middle,
+                       const Eigen::Vector3d& sides,
+                       double speed,
+                       std::uint32_t seed) {
+  const WavePath path(middle, sides, speed, seed);
+  line(time, path.position(0.0), speed);
+  wave_ = path;
   return arrival_;
 }
 

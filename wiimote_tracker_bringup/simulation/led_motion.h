@@ -1,12 +1,18 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_LED_MOTION_H
 #define WIIMOTE_TRACKER_BRINGUP_SIMULATION_LED_MOTION_H
 
+#include "wave_path.h"
+
 #include <Eigen/Core>
+
+#include <cstdint>
+#include <optional>
 
 namespace wiimote_tracker::simulation {
 
-/// Where an LED is, as a function of time: it lies, goes straight to a place, or circles. A new
-/// motion begins where the LED is at that moment. Positions [m], times [s], speeds [m/s].
+/// Where an LED is, as a function of time: it lies, goes straight to a place, circles, or is
+/// waved. A new motion begins where the LED is at that moment. Positions [m], times [s], speeds
+/// [m/s].
 class LedMotion {
  public:
   explicit LedMotion(const Eigen::Vector3d& position) : from_(position), to_(position) {}
@@ -26,13 +32,22 @@ class LedMotion {
   /// @returns when its first lap begins.
   double circle(double time, const Eigen::Vector3d& center, double radius, double speed);
 
+  /// From `time` on it goes straight to the beginning of a WavePath, then follows that for ever.
+  /// @returns when the wave begins.
+  double wave(double time,
+              const Eigen::Vector3d& middle,
+              const Eigen::Vector3d& sides,
+              double speed,
+              std::uint32_t seed);
+
  private:
   double begin_ = 0.0;    ///< Of the straight part [s].
   double arrival_ = 0.0;  ///< End of the straight part [s].
   Eigen::Vector3d from_;
   Eigen::Vector3d to_;
-  double radius_ = 0.0;         ///< Of the circle that follows; 0: none.
-  double angular_speed_ = 0.0;  ///< [rad/s]
+  double radius_ = 0.0;           ///< Of the circle that follows; 0: none.
+  double angular_speed_ = 0.0;    ///< [rad/s]
+  std::optional<WavePath> wave_;  ///< That follows.
 };
 
 }  // namespace wiimote_tracker::simulation

@@ -1,5 +1,7 @@
 #include "rig.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace wiimote_tracker::simulation {
@@ -52,6 +54,23 @@ Rig::Led* Rig::findLed(const std::string& name) {
   return nullptr;
 }
 
+Eigen::Vector3d Rig::positionOf(const Led& led, double time) const {
+  if (!led.description.turns)
+    return led.motion.position(time);
+  const TurnDescription& turns = *led.description.turns;
+  const auto around = std::find_if(leds_.begin(), leds_.end(), [&](const Led& other) {
+    return other.description.name == turns.around;
+  });
+  constexpr double kNod = 0.618;     // times per turn, so that no turn is like the one before
+  constexpr double kSteepest = 1.0;  // [rad]
+  const double azimuth = turns.rate * time;
+  const double elevation = kSteepest * std::sin(kNod * azimuth);
+  return around->motion.position(time) +
+         turns.distance * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
+                                          std::cos(elevation) * std::sin(azimuth),
+                                          std::sin(elevation));
+}
+
 void Rig::push(double time, Event::Kind kind, std::size_t camera) {
   events_.push({time, kind, camera, event_count_++});
 }
@@ -61,7 +80,7 @@ void Rig::expose(std::size_t number) {
   lamps_.clear();
   for (const Led& led : leds_) {
     if (led.lit)
-      lamps_.push_back({led.motion.position(camera.next.exposure), led.description.size,
+      lamps_.push_back({positionOf(led, camera.next.exposure), led.description.size,
                         led.description.brightness});
   }
   const virtual_wiimote::Senses senses = camera.optics.sense(lamps_);
@@ -75,7 +94,7 @@ void Rig::expose(std::size_t number) {
 
 void Rig::tellTruth(double time) {
   for (std::size_t i = 0; i < leds_.size(); ++i)
-    truth_(i, time, leds_[i].motion.position(time));
+    truth_(i, time, positionOf(leds_[i], time));
   push(static_cast<double>(++truths_) * truth_period_, Event::kTruth, 0);
 }
 

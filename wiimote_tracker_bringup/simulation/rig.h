@@ -35,7 +35,7 @@ class Rig {
   /// Nothing (nullptr) when there is no LED of that name.
   struct Led {
     LedDescription description;
-    LedMotion motion;
+    LedMotion motion;  ///< Without effect on an LED that turns.
     bool lit;
   };
   Led* findLed(const std::string& name);
@@ -60,6 +60,7 @@ class Rig {
     std::queue<virtual_wiimote::Senses> travelling;
   };
 
+  Eigen::Vector3d positionOf(const Led& led, double time) const;
   void push(double time, Event::Kind kind, std::size_t camera);
   void expose(std::size_t number);
   void tellTruth(double time);

@@ -78,6 +78,11 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
     response.message = "there is no LED '" + request.led + "' in the rig's description";
     return true;
   }
+  if (led->description.turns && request.motion != SetLed::Request::HOLD) {
+    response.message = "LED '" + request.led + "' goes where '" + led->description.turns->around +
+                       "' goes: move that one";
+    return true;
+  }
   const double time = now();
   rig_.runUntil(time);
   const Eigen::Vector3d target(request.target.x, request.target.y, request.target.z);
@@ -86,8 +91,12 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
     led->motion.hold(time);
   else if (request.motion == SetLed::Request::LINE)
     arrival = led->motion.line(time, target, request.speed);
-  else
+  else if (request.motion == SetLed::Request::CIRCLE)
     arrival = led->motion.circle(time, target, request.radius, request.speed);
+  else
+    arrival =
+        led->motion.wave(time, target, Eigen::Vector3d(request.box.x, request.box.y, request.box.z),
+                         request.speed, request.path);
   led->lit = request.on;
 
   response.success = true;
@@ -103,17 +112,22 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
 std::string SimulatedRig::refusal(const SetLed::Request& request) const {
   const bool line = request.motion == SetLed::Request::LINE;
   const bool circle = request.motion == SetLed::Request::CIRCLE;
-  if (!line && !circle && request.motion != SetLed::Request::HOLD)
-    return "motion must be HOLD, LINE or CIRCLE";
-  if ((line || circle) && !(std::isfinite(request.target.x) && std::isfinite(request.target.y) &&
-                            std::isfinite(request.target.z)))
+  const Eigen::Vector3d sides(request.box.x, request.box.y, request.box.z);
+  const bool wave = request.motion == SetLed::Request::WAVE;
+  if (!line && !circle && !wave && request.motion != SetLed::Request::HOLD)
+    return "motion must be HOLD, LINE, CIRCLE or WAVE";
+  if ((line || circle || wave) &&
+      !(std::isfinite(request.target.x) && std::isfinite(request.target.y) &&
+        std::isfinite(request.target.z)))
     return "target must be finite";
   if (line && !(request.speed >= 0.0 && std::isfinite(request.speed)))
     return "speed must be 0 (at once) or more";
-  if (circle && !(request.speed > 0.0 && std::isfinite(request.speed)))
+  if ((circle || wave) && !(request.speed > 0.0 && std::isfinite(request.speed)))
     return "speed must be more than 0";
   if (circle && !(request.radius > 0.0 && std::isfinite(request.radius)))
     return "radius must be more than 0";
+  if (wave && !(sides.minCoeff() > 0.0 && sides.allFinite()))
+    return "the sides of the box must be more than 0";
   return "";
 }
 

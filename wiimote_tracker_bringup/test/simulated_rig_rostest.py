@@ -10,7 +10,7 @@ import numpy as np
 import rospkg
 import rospy
 import rostest
-from geometry_msgs.msg import PointStamped
+from geometry_msgs.msg import PointStamped, Vector3
 from sensor_msgs.msg import Imu
 from wiimote_tracker_evaluation import scene
 from wiimote_tracker_msgs.msg import IrBlobArray
@@ -100,6 +100,18 @@ class SimulatedRig(unittest.TestCase):
         images = self.images_after(response.arrival.to_sec(), 10)
         self.assertFalse([image for series in images.values() for image in series if image.blobs])
 
+    def test_two_leds_of_a_wand_are_two_spots(self):
+        self.move((1.25, 1.25, 1.0))
+        response = self.set_led(SetLedRequest(led='wand_end', on=True, motion=SetLedRequest.HOLD))
+        try:
+            self.assertTrue(response.success, response.message)
+            images = self.images_after(response.arrival.to_sec())
+            counts = [len(image.blobs) for series in images.values() for image in series]
+            # Where one end is straight behind the other they are one spot.
+            self.assertGreater(counts.count(2), 0.8 * len(counts))
+        finally:
+            self.set_led(SetLedRequest(led='wand_end', on=False, motion=SetLedRequest.HOLD))
+
     def test_truth_follows_the_motion_and_keeps_its_rate(self):
         self.move((0.5, 0.5, 0.5))
         begin = rospy.get_time()
@@ -117,12 +129,15 @@ class SimulatedRig(unittest.TestCase):
 
     def test_a_request_that_makes_no_sense_is_refused_in_words(self):
         refused = [
-            (dict(led='lamp', motion=SetLedRequest.HOLD), "no LED 'lamp'"),
-            (dict(led='led', motion=9), 'HOLD, LINE or CIRCLE'),
+            (dict(led='candle', motion=SetLedRequest.HOLD), "no LED 'candle'"),
+            (dict(led='led', motion=9), 'HOLD, LINE, CIRCLE or WAVE'),
             (dict(led='led', motion=SetLedRequest.LINE, speed=-1.0), 'speed'),
             (dict(led='led', motion=SetLedRequest.LINE, speed=float('nan')), 'speed'),
             (dict(led='led', motion=SetLedRequest.CIRCLE, speed=0.0, radius=1.0), 'speed'),
-            (dict(led='led', motion=SetLedRequest.CIRCLE, speed=1.0, radius=0.0), 'radius')]
+            (dict(led='led', motion=SetLedRequest.CIRCLE, speed=1.0, radius=0.0), 'radius'),
+            (dict(led='led', motion=SetLedRequest.WAVE, speed=1.0), 'sides of the box'),
+            (dict(led='led', motion=SetLedRequest.WAVE, box=Vector3(1, 1, 1)), 'speed'),
+            (dict(led='wand_end', motion=SetLedRequest.LINE), "where 'led' goes")]
         for fields, word in refused:
             response = self.set_led(SetLedRequest(on=True, **fields))
             self.assertFalse(response.success, fields)

@@ -119,6 +119,31 @@ TEST_F(DescriptionFile, led_without_size_is_as_bright_as_its_distance_lets_it_be
   EXPECT_EQ(d.leds[0].brightness, 0.0);
 }
 
+TEST_F(DescriptionFile, an_led_may_turn_about_another_one_that_does_not) {
+  const std::string end =
+      "lit: false}\n  end: {turns: {around: led, distance: 0.5, rate: 1.5}, brightness: 1}";
+  std::string text = kGood;
+  text.replace(text.find("lit: false}"), 11, end);
+  const Description d = read(text);
+  ASSERT_EQ(d.leds.size(), 2u);
+  ASSERT_TRUE(d.leds[1].turns);
+  EXPECT_EQ(d.leds[1].turns->around, "led");
+  EXPECT_EQ(d.leds[1].turns->distance, 0.5);
+  EXPECT_EQ(d.leds[1].turns->rate, 1.5);
+
+  const std::string reason = "leds/end/turns/around must be the name of an LED that does not turn";
+  std::string missing = end;
+  missing.replace(missing.find("around: led"), 11, "around: lamp");
+  EXPECT_NE(complaint("lit: false}", missing).find(reason), std::string::npos);
+  std::string itself = end;
+  itself.replace(itself.find("around: led"), 11, "around: end");
+  EXPECT_NE(complaint("lit: false}", itself).find(reason), std::string::npos);
+  std::string nowhere = end;
+  nowhere.replace(nowhere.find("distance: 0.5"), 13, "distance: 0");
+  EXPECT_NE(complaint("lit: false}", nowhere).find("leds/end/turns/distance is 0"),
+            std::string::npos);
+}
+
 TEST_F(DescriptionFile, errors_name_file_key_and_reason) {
   const auto has = [](const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;

@@ -74,6 +74,53 @@ TEST(LedMotion, circles_counter_clockwise_from_the_x_side_at_constant_speed) {
   EXPECT_LT((motion.position(arrival + lap / 3) - left).norm(), 1e-12);
 }
 
+TEST(LedMotion, is_waved_through_its_box_smoothly_at_the_given_speed_and_never_out_of_it) {
+  const Vector3d middle(1.0, 1.0, 1.2), sides(2.0, 1.6, 0.8);
+  LedMotion motion(Vector3d(1.0, 1.0, 0.0));
+  const double arrival = motion.wave(3.0, middle, sides, 1.3, 7);
+  EXPECT_GT(arrival, 3.0);
+  const double step = 0.002;
+  double sum_of_squares = 0.0, fastest = 0.0;
+  Vector3d low = middle, high = middle;
+  const int steps = 100000;  // 200 s
+  for (int i = 0; i < steps; ++i) {
+    const double time = arrival + step * i;
+    const Vector3d here = motion.position(time);
+    const Vector3d velocity = (motion.position(time + step) - here) / step;
+    const Vector3d next = (motion.position(time + 2 * step) - motion.position(time + step)) / step;
+    sum_of_squares += velocity.squaredNorm();
+    fastest = std::max(fastest, (next - velocity).norm() / step);
+    low = low.cwiseMin(here);
+    high = high.cwiseMax(here);
+  }
+  EXPECT_NEAR(std::sqrt(sum_of_squares / steps), 1.3, 0.065);
+  EXPECT_LT(fastest, 12.0) << "m/s^2: a hand can do that";
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_GE(low(axis), middle(axis) - sides(axis) / 2);
+    EXPECT_LE(high(axis), middle(axis) + sides(axis) / 2);
+    EXPECT_GT(high(axis) - low(axis), 0.95 * sides(axis)) << "it fills the box";
+  }
+}
+
+TEST(LedMotion, the_same_wave_is_the_same_path_and_another_one_is_not) {
+  const auto place = [](std::uint32_t path) {
+    LedMotion motion(Vector3d::Zero());
+    const double arrival = motion.wave(0.0, Vector3d::Zero(), Vector3d::Ones(), 1.0, path);
+    return motion.position(arrival + 5.0);
+  };
+  EXPECT_EQ(place(1), place(1));
+  EXPECT_GT((place(1) - place(2)).norm(), 1e-3);
+}
+
+TEST(LedMotion, a_wave_begins_where_the_way_to_it_ends_and_can_be_held) {
+  LedMotion motion(Vector3d(0.0, 0.0, 0.0));
+  const double arrival = motion.wave(1.0, Vector3d(2.0, 0.0, 1.0), Vector3d::Ones(), 2.0, 3);
+  EXPECT_LT((motion.position(arrival - 1e-6) - motion.position(arrival + 1e-6)).norm(), 1e-5);
+  const Vector3d held = motion.position(arrival + 2.0);
+  motion.hold(arrival + 2.0);
+  EXPECT_EQ(motion.position(arrival + 9.0), held);
+}
+
 // --- Optics and mounting
 
 geometry::Camera cameraAt(const Vector3d& position, const Vector3d& target) {
@@ -274,6 +321,31 @@ TEST(Rig, tells_the_truth_at_its_rate) {
     EXPECT_NEAR(times[i], 0.01 * static_cast<double>(i), 1e-12);
     EXPECT_NEAR(positions[i].x(), times[i], 1e-12);
   }
+}
+
+TEST(Rig, the_other_end_of_a_wand_stays_at_its_distance_and_turns) {
+  Description description = twoCameras();
+  LedDescription end;
+  end.name = "end";
+  end.turns = TurnDescription{"led", 0.4, 1.3};
+  description.leds.push_back(end);
+  std::vector<Vector3d> first, second;
+  Rig rig(
+      description, [](std::size_t, const virtual_wiimote::Senses&) {},
+      [&](std::size_t led, double, const Vector3d& position) {
+        (led == 0 ? first : second).push_back(position);
+      });
+  rig.findLed("led")->motion.wave(0.0, Vector3d(0, 0, 1), Vector3d::Ones(), 1.0, 1);
+  rig.runUntil(10.0);
+  ASSERT_EQ(first.size(), second.size());
+  Vector3d low = Vector3d::Ones(), high = -Vector3d::Ones();
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const Vector3d wand = second[i] - first[i];
+    EXPECT_NEAR(wand.norm(), 0.4, 1e-12);
+    low = low.cwiseMin(wand);
+    high = high.cwiseMax(wand);
+  }
+  EXPECT_GT((high - low).minCoeff(), 0.6) << "in 10 s it has pointed everywhere";
 }
 
 TEST(Rig, a_dark_led_is_not_seen_but_images_go_on) {

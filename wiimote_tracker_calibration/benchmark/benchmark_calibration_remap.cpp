@@ -1,8 +1,8 @@
 #include "benchmark_calibration_sections.h"
-
-#include "wiimote_tracker_calibration/remap/correction.h"
 #include "wiimote_tracker_calibration/remap/error.h"
 #include "wiimote_tracker_calibration/remap/fit.h"
+
+#include <wiimote_tracker_triangulation/remap/correction.h>
 
 #include <cmath>
 #include <random>

@@ -1,11 +1,11 @@
 #include "wiimote_tracker_calibration/remap/fit.h"
 
-#include "wiimote_tracker_calibration/remap/convex_hull.h"
-#include "wiimote_tracker_calibration/remap/error.h"
-
 #include "checks.h"
 #include "fit_model.h"
-#include "model_math.h"
+#include "wiimote_tracker_calibration/remap/error.h"
+
+#include <wiimote_tracker_triangulation/remap/convex_hull.h>
+#include <wiimote_tracker_triangulation/remap/model_math.h>
 
 #include <Eigen/LU>
 

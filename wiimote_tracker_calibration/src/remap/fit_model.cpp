@@ -1,7 +1,7 @@
 #include "fit_model.h"
-
-#include "model_math.h"
 #include "thin_plate.h"
+
+#include <wiimote_tracker_triangulation/remap/model_math.h>
 
 #include <Eigen/QR>
 

@@ -1,6 +1,6 @@
 #include "thin_plate.h"
 
-#include "model_math.h"
+#include <wiimote_tracker_triangulation/remap/model_math.h>
 
 #include <Eigen/LU>
 

@@ -1,15 +1,9 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_REMAP_ERROR_H
 #define WIIMOTE_TRACKER_CALIBRATION_REMAP_ERROR_H
 
-#include <wiimote_tracker_triangulation/geometry/error.h>
+#include <wiimote_tracker_triangulation/remap/error.h>
 
 namespace wiimote_tracker::remap {
-
-/// A correction of the volume cannot be fitted, or not be used. what() is one sentence: why, and
-/// what to do.
-struct RemapError : geometry::Error {
-  using Error::Error;
-};
 
 /// The progress callback asked to stop.
 struct Cancelled : RemapError {

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_REMAP_FIT_H
 #define WIIMOTE_TRACKER_CALIBRATION_REMAP_FIT_H
 
-#include "wiimote_tracker_calibration/remap/remap.h"
+#include <wiimote_tracker_triangulation/remap/remap.h>
 
 #include <Eigen/Core>
 

@@ -1,4 +1,4 @@
-#include "model_math.h"
+#include "wiimote_tracker_triangulation/remap/model_math.h"
 
 namespace wiimote_tracker::remap {
 
@@ -65,19 +65,6 @@ std::optional<Mapped> projected(const Remap& remap,
 }
 
 }  // namespace
-
-std::size_t parameterCount(Model model, std::size_t support) {
-  switch (model) {
-    case Model::kAffine:
-      return 3 * kAffineTerms;
-    case Model::kProjective:
-      return 15;
-    case Model::kTrilinear:
-      return 3 * kTrilinearTerms;
-    default:
-      return 3 * (kAffineTerms + support);
-  }
-}
 
 std::optional<Mapped> evaluate(const Remap& remap,
                                const Frame& frame,

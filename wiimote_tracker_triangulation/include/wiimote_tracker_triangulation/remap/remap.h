@@ -1,8 +1,9 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_REMAP_REMAP_H
-#define WIIMOTE_TRACKER_CALIBRATION_REMAP_REMAP_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_REMAP_REMAP_H
+#define WIIMOTE_TRACKER_TRIANGULATION_REMAP_REMAP_H
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ const char* nameOf(Model model);
 /// @throws RemapError for any other name.
 Model modelFromName(const std::string& name);
 
+/// Number of parameters of a model fitted to so many points of support.
+std::size_t parameterCount(Model model, std::size_t support);
+
 /// A correction of the volume as it is stored and sent: fields as in RigRemap.msg.
 ///
 /// Let m be the middle of the smallest box round the support and s half its longest edge [m];
@@ -36,8 +40,12 @@ struct Remap {
   Model model = Model::kAffine;
   std::vector<double> parameters;        ///< [m]
   std::vector<Eigen::Vector3d> support;  ///< Measured positions, world [m].
+
+  /// @throws RemapError: no rig id, a number of parameters that does not fit the model, values that
+  /// are not finite.
+  void check() const;
 };
 
 }  // namespace wiimote_tracker::remap
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_REMAP_REMAP_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_REMAP_REMAP_H

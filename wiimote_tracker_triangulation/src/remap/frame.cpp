@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/remap/frame.h"
+#include "wiimote_tracker_triangulation/remap/frame.h"
 
 namespace wiimote_tracker::remap {
 

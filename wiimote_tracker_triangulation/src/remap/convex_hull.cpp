@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/remap/convex_hull.h"
+#include "wiimote_tracker_triangulation/remap/convex_hull.h"
 
 #include <Eigen/Geometry>
 
@@ -68,6 +68,18 @@ double ConvexHull::excess(const Eigen::Vector3d& point) const {
   for (const Face& face : faces_)
     most = std::max(most, face.normal.dot(point) - face.offset);
   return most;
+}
+
+ConvexHull::Exit ConvexHull::exit(const Eigen::Vector3d& inside,
+                                  const Eigen::Vector3d& outside) const {
+  Exit exit{1.0, (outside - inside).normalized()};
+  for (const Face& face : faces_) {
+    const double room = face.offset - face.normal.dot(inside);
+    const double way = face.normal.dot(outside - inside);
+    if (way > room && room / way <= exit.share)
+      exit = {room / way, face.normal};
+  }
+  return exit;
 }
 
 }  // namespace wiimote_tracker::remap

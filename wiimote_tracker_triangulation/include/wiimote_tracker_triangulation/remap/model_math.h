@@ -1,17 +1,14 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_REMAP_MODEL_MATH_H
-#define WIIMOTE_TRACKER_CALIBRATION_REMAP_MODEL_MATH_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_REMAP_MODEL_MATH_H
+#define WIIMOTE_TRACKER_TRIANGULATION_REMAP_MODEL_MATH_H
 
-#include "wiimote_tracker_calibration/remap/frame.h"
-#include "wiimote_tracker_calibration/remap/remap.h"
+#include "wiimote_tracker_triangulation/remap/frame.h"
+#include "wiimote_tracker_triangulation/remap/remap.h"
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <optional>
 
 namespace wiimote_tracker::remap {
-
-std::size_t parameterCount(Model model, std::size_t support);
 
 /// Where a point goes, and the derivative.
 struct Mapped {
@@ -32,4 +29,4 @@ Eigen::Matrix<double, kTrilinearTerms, 1> polynomial(const Eigen::Vector3d& q);
 
 }  // namespace wiimote_tracker::remap
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_REMAP_MODEL_MATH_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_REMAP_MODEL_MATH_H

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_REMAP_FRAME_H
-#define WIIMOTE_TRACKER_CALIBRATION_REMAP_FRAME_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_REMAP_FRAME_H
+#define WIIMOTE_TRACKER_TRIANGULATION_REMAP_FRAME_H
 
 #include <Eigen/Core>
 
@@ -22,4 +22,4 @@ Frame frameOf(const std::vector<Eigen::Vector3d>& support);
 
 }  // namespace wiimote_tracker::remap
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_REMAP_FRAME_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_REMAP_FRAME_H

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_REMAP_CONVEX_HULL_H
-#define WIIMOTE_TRACKER_CALIBRATION_REMAP_CONVEX_HULL_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_REMAP_CONVEX_HULL_H
+#define WIIMOTE_TRACKER_TRIANGULATION_REMAP_CONVEX_HULL_H
 
 #include <Eigen/Core>
 
@@ -23,6 +23,16 @@ class ConvexHull {
   /// than the distance to the hull. Infinite for a hull without volume.
   double excess(const Eigen::Vector3d& point) const;
 
+  /// Where a line leaves the hull.
+  struct Exit {
+    double share;            ///< Of the way that lies before it [0 to 1].
+    Eigen::Vector3d normal;  ///< Of the face that it goes through: outwards, unit length.
+  };
+
+  /// @param inside a point of the inside, @param outside a point that is not enclosed. Of a hull
+  /// with volume. Never allocates.
+  Exit exit(const Eigen::Vector3d& inside, const Eigen::Vector3d& outside) const;
+
  private:
   struct Face {
     Eigen::Vector3d normal;  // Outwards, unit length.
@@ -35,4 +45,4 @@ class ConvexHull {
 
 }  // namespace wiimote_tracker::remap
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_REMAP_CONVEX_HULL_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_REMAP_CONVEX_HULL_H

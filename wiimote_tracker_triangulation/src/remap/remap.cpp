@@ -1,0 +1,68 @@
+#include "wiimote_tracker_triangulation/remap/remap.h"
+
+#include "wiimote_tracker_triangulation/remap/error.h"
+#include "wiimote_tracker_triangulation/remap/model_math.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::remap {
+
+const char* nameOf(Model model) {
+  switch (model) {
+    case Model::kAffine:
+      return "affine";
+    case Model::kProjective:
+      return "projective";
+    case Model::kTrilinear:
+      return "trilinear";
+    default:
+      return "thin_plate";
+  }
+}
+
+Model modelFromName(const std::string& name) {
+  for (const Model model :
+       {Model::kAffine, Model::kProjective, Model::kTrilinear, Model::kThinPlate}) {
+    if (name == nameOf(model))
+      return model;
+  }
+  throw RemapError("\"" + name +
+                   "\" is no model of a correction of the volume: choose affine, projective, "
+                   "trilinear or thin_plate");
+}
+
+std::size_t parameterCount(Model model, std::size_t support) {
+  switch (model) {
+    case Model::kAffine:
+      return 3 * kAffineTerms;
+    case Model::kProjective:
+      return 15;
+    case Model::kTrilinear:
+      return 3 * kTrilinearTerms;
+    default:
+      return 3 * (kAffineTerms + support);
+  }
+}
+
+void Remap::check() const {
+  if (rig_id.empty())
+    throw RemapError(
+        "the correction of the volume belongs to no calibration: it is damaged, so measure the "
+        "known points again");
+  const std::size_t expected = parameterCount(model, support.size());
+  if (parameters.size() != expected)
+    throw RemapError("the correction of the volume has " + std::to_string(parameters.size()) +
+                     " parameters, but " + nameOf(model) + " needs " + std::to_string(expected) +
+                     ": it is damaged, so measure the known points again");
+  const bool finite = std::all_of(parameters.begin(), parameters.end(),
+                                  [](double value) { return std::isfinite(value); }) &&
+                      std::all_of(support.begin(), support.end(),
+                                  [](const Eigen::Vector3d& point) { return point.allFinite(); });
+  if (!finite)
+    throw RemapError(
+        "the correction of the volume holds values that are not finite: it is damaged, so measure "
+        "the known points again");
+}
+
+}  // namespace wiimote_tracker::remap

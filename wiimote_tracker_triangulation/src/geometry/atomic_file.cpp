@@ -1,4 +1,4 @@
-#include "atomic_file.h"
+#include "wiimote_tracker_triangulation/geometry/atomic_file.h"
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
 

@@ -1,5 +1,5 @@
-#include "atomic_file.h"
 #include "camera_yaml.h"
+#include "wiimote_tracker_triangulation/geometry/atomic_file.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_CAMERA_YAML_H
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
-#include "yaml_map.h"
+#include "wiimote_tracker_triangulation/geometry/yaml_map.h"
 
 #include <yaml-cpp/emitter.h>
 

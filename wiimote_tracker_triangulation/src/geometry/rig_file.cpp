@@ -1,7 +1,7 @@
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
 
-#include "atomic_file.h"
 #include "rig_yaml.h"
+#include "wiimote_tracker_triangulation/geometry/atomic_file.h"
 
 namespace wiimote_tracker::geometry {
 

@@ -103,5 +103,10 @@ TEST_F(Info, NothingInIt) {
   EXPECT_TRUE(contains(describe(found), "connections    0"));
 }
 
+TEST(OpenRecording, NeitherAFolderNorNothingIsARecording) {
+  EXPECT_THROW(recording::openRecording("/"), recording::BadRecording);
+  EXPECT_THROW(recording::openRecording("/nowhere/at/all"), recording::BadRecording);
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::recording_info

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <filesystem>
 #include <sstream>
 
 namespace wiimote_tracker::recording {
@@ -39,6 +42,17 @@ Remote remoteOf(const std::string& text) {
 }
 
 }  // namespace
+
+std::ifstream openRecording(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw BadRecording("cannot read the recording (" + std::string(std::strerror(errno)) +
+                       "): correct its path");
+  // A folder opens, and then reads like an empty file.
+  if (std::filesystem::is_directory(path))
+    throw BadRecording("cannot read the recording (it is a folder): correct its path");
+  return file;
+}
 
 Reader::Reader(std::istream& in) : in_(in) {
   std::array<std::uint8_t, kFixedHeaderSize> fixed{};

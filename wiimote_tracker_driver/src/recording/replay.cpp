@@ -4,8 +4,6 @@
 #include "wiimote_tracker_driver/recording/reader.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <deque>
 #include <fstream>
 #include <utility>
@@ -27,19 +25,11 @@ bool isAfter(const Record& record, double time) {
   return record.time > (record.kind == Record::Kind::kSent ? time - 1e-8 : time);
 }
 
-std::ifstream openFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw BadRecording("cannot read the recording (" + std::string(std::strerror(errno)) +
-                       "): correct its path");
-  return file;
-}
-
 }  // namespace
 
 struct Replay::State {
   State(const std::string& file_path, Pace replay_pace)
-      : path(file_path), pace(std::move(replay_pace)), file(openFile(path)), reader(file) {
+      : path(file_path), pace(std::move(replay_pace)), file(openRecording(path)), reader(file) {
     learn();
     passUntil(now);
   }
@@ -64,7 +54,7 @@ struct Replay::State {
   std::deque<Report> answers;
 
   void learn() {
-    std::ifstream all = openFile(path);
+    std::ifstream all = openRecording(path);
     Reader first_reader(all);
     bool any = false;
     for (Record record; first_reader.next(record);) {

@@ -4,10 +4,14 @@
 #include "wiimote_tracker_driver/recording/format.h"
 
 #include <cstdint>
+#include <fstream>
 #include <istream>
 #include <string>
 
 namespace wiimote_tracker::recording {
+
+/// Opens the file of a recording. @throws BadRecording when it cannot be read, or is a folder.
+std::ifstream openRecording(const std::string& path);
 
 /// Reads a recording from a stream, one record after the other.
 class Reader {

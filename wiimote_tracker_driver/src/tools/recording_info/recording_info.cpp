@@ -2,9 +2,7 @@
 #include "summary.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <string>
 
@@ -21,13 +19,8 @@ Exit status: 0 when all are complete, 1 when one is cut off or damaged, 2 when o
 /// @returns the exit status.
 int show(const std::string& path) {
   namespace info = wiimote_tracker::recording_info;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    std::fprintf(stderr, "%s: cannot be read (%s): correct the path\n", path.c_str(),
-                 std::strerror(errno));
-    return 2;
-  }
   try {
+    std::ifstream file = wiimote_tracker::recording::openRecording(path);
     wiimote_tracker::recording::Reader reader(file);
     const info::Summary summary = info::summarize(reader);
     std::printf("%s\n%s", path.c_str(), info::describe(summary).c_str());

@@ -1,0 +1,91 @@
+"""The screen, drawn with curses. Reads keys, draws lines; decides nothing."""
+
+import curses
+import time
+
+PERIOD = 0.1  # [s] Between two drawings.
+ESCAPE, BACKSPACE, ENTER = (27,), (curses.KEY_BACKSPACE, 8, 127), (10, 13, curses.KEY_ENTER)
+
+
+class Terminal(object):
+    def __init__(self, dialogue, draw, views):
+        """draw: lines of text from (now, view, page, rows, columns, prompt). views: key -> name of
+        the view that it shows; the same key again shows the first."""
+        self._dialogue = dialogue
+        self._draw = draw
+        self._views = views
+        self._view = None
+        self._page = 0
+        self._asking = None  # the command whose arguments are being typed
+        self._typed = ''
+
+    def run(self):
+        """Until q or Ctrl-C."""
+        try:
+            curses.wrapper(self._loop)
+        except KeyboardInterrupt:
+            pass
+
+    def _loop(self, window):
+        try:
+            curses.curs_set(0)
+        except curses.error:
+            pass  # a terminal that cannot
+        window.timeout(int(1000 * PERIOD))
+        while True:
+            if self._dialogue.take_events(time.monotonic()):
+                curses.beep()
+            self._show(window)
+            key = window.getch()
+            if key != -1 and not self._press(key):
+                return
+
+    def _show(self, window):
+        rows, columns = window.getmaxyx()
+        prompt = (self._asking.ask, self._typed) if self._asking else None
+        lines = self._draw(time.monotonic(), self._view, self._page, rows, columns, prompt)
+        window.erase()
+        for row, line in enumerate(lines):
+            style = curses.A_REVERSE if row == 0 else curses.A_BOLD if row < 3 else 0
+            # The last character of the last line cannot be written: the cursor would leave.
+            window.addnstr(row, 0, line.ljust(columns) if row == 0 else line,
+                           columns - (1 if row == rows - 1 else 0), style)
+        window.refresh()
+
+    def _press(self, key):
+        """@return False: it is over."""
+        if self._asking:
+            self._type(key)
+            return True
+        sign = chr(key) if 0 <= key < 256 else ''
+        command = next((c for c in self._dialogue.command_list if c.key == sign), None)
+        if sign == 'q':
+            return False
+        if sign == ' ':
+            self._dialogue.next()
+        elif sign == '\t':
+            self._page += 1
+        elif sign in self._views:
+            self._view = None if self._view == self._views[sign] else self._views[sign]
+        elif command is not None and command.ask and not self._is_direct(command):
+            self._asking, self._typed = command, ''
+        elif sign.isprintable() and sign:
+            self._dialogue.command(sign)
+        return True
+
+    def _is_direct(self, command):
+        """Nothing is to be asked to end a wave, or to call a capture off."""
+        guide = self._dialogue.guide
+        waving = guide.status is not None and guide.status.step == guide.status.WAVING
+        return command.word == 'wave' and waving or command.word == 'cancel' and guide.running
+
+    def _type(self, key):
+        if key in ESCAPE:
+            self._asking = None
+        elif key in ENTER:
+            command, self._asking = self._asking, None
+            self._dialogue.command(command.word, self._typed.split())
+        elif key in BACKSPACE:
+            self._typed = self._typed[:-1]
+        elif 32 <= key < 127:
+            self._typed += chr(key)

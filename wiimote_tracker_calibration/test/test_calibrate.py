@@ -1,4 +1,4 @@
-"""The program calibrate without a node and without a terminal: what a person sees and may ask for."""
+"""The program calibrate without a node and a terminal: what a person sees and may ask for."""
 
 import io
 import os
@@ -185,7 +185,8 @@ def test_all_keys_are_on_one_screen_and_no_two_are_alike():
 
 
 def test_a_silent_node_and_none_at_all_are_one_sentence_each():
-    assert 'No calibration node answers' in screen.render(Guide(0.0), 1.0)[1]
+    assert screen.render(Guide(0.0), 1.0)[1] == 'Looking for the calibration node.'
+    assert 'No calibration node answers' in screen.render(Guide(0.0), 4.0)[1]
     guide = guide_at(status(CalibrationStatus.READY))
     assert 'Put the LED on corner 1' in screen.render(guide, 2.9)[1]
     assert 'has said nothing for 5 s' in screen.render(guide, 5.0)[1]

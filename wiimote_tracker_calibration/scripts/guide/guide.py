@@ -4,6 +4,7 @@ Fed with messages, answers and the time; knows nothing of ROS and of terminals.
 """
 
 SILENT_AFTER = 3.0  # [s] The node tells its status twice a second.
+FOUND_WITHIN = 3.0  # [s] A node that runs.
 
 
 class Advice(object):
@@ -29,7 +30,7 @@ class Guide(object):
         self.board = None
         self.answer = ''
         self.answer_good = True
-        self.refused = 0
+        self.answers = []       # (good, text) of all answers
         self.running = []       # words of the commands that have not been answered
         self.feedback = ''
         self.progress = 0.0
@@ -78,7 +79,7 @@ class Guide(object):
         self.answer = text
         self.answer_good = good
         self.statuses_since_answer = 0
-        self.refused += 0 if good else 1
+        self.answers.append((good, text))
         if word == 'start' and good:
             self._tried -= {('wave', False), ('solve', True), ('commit', True)}
         self._tried.add((word, good))
@@ -97,6 +98,8 @@ class Guide(object):
 
     def silent(self, now):
         """Why there is nothing to see; empty when all is well."""
+        if self.status is None and now - self.began < FOUND_WITHIN:
+            return 'Looking for the calibration node.'
         if self.status is None:
             return ('No calibration node answers at calibration/status: start it with  roslaunch '
                     'wiimote_tracker_bringup calibrate.launch')

@@ -5,10 +5,14 @@ import sys
 import threading
 import time
 
+from .guide import FOUND_WITHIN
 from .layout import figure
 
 PERIOD = 0.05       # [s] Between two looks.
 LONGEST_WAIT = 60.0  # [s] Of the word wait, unless it says otherwise.
+OWN_WORDS = [('next', 'do what is said to be next'),
+             ('wait [SECONDS]', 'until nothing is missing in this step'),
+             ('quit', 'end')]
 STEP = 0.25         # of the progress, that is told
 
 
@@ -45,7 +49,9 @@ class Plain(object):
 
     def _step(self):
         self._look()
-        if self._dialogue.guide.running:
+        guide = self._dialogue.guide
+        looking = guide.status is None and time.monotonic() - guide.began < FOUND_WITHIN
+        if guide.running or looking:
             time.sleep(PERIOD)
             return True
         try:
@@ -60,9 +66,10 @@ class Plain(object):
         if word in ('quit', 'q'):
             return False
         if word in ('help', '?'):
-            self._tell('next: what is said; wait [SECONDS]: until nothing is missing; quit')
+            for word, label in OWN_WORDS:
+                self._tell('%-45s %s' % (word, label))
             for command in self._dialogue.command_list:
-                self._tell('%s %s: %s' % (command.word, command.arguments, command.label))
+                self._tell('%-45s %s' % (command.word + ' ' + command.arguments, command.label))
         elif word == 'wait':
             self._wait(arguments)
         else:
@@ -102,12 +109,11 @@ class Plain(object):
 
     def _look(self):
         guide = self._dialogue.guide
-        refused = guide.refused
-        was_running = bool(guide.running)
+        answers = len(guide.answers)
         self._dialogue.take_events(time.monotonic())
-        self.failures += guide.refused - refused
-        if was_running and not guide.running:
-            self._tell(('' if guide.answer_good else 'refused: ') + guide.answer)
+        for good, text in guide.answers[answers:]:
+            self.failures += 0 if good else 1
+            self._tell(('' if good else 'refused: ') + text)
         silent = guide.silent(time.monotonic())
         # A sentence that counts seconds is the same one.
         self._tell_new('silent', bool(silent), silent)
@@ -118,15 +124,16 @@ class Plain(object):
                        '%s  %s' % (figure(100.0 * status.progress, '%3.0f %%'), status.message))
         self._tell_new('missing', tuple(status.missing[:1]),
                        'missing: %s' % status.missing[0] if status.missing else '')
+        if guide.running:
+            return  # what a capture lacks changes all the time; what it lacked in the end is told
         for camera in status.cameras:
             for kind in ('problem', 'health'):
                 text = getattr(camera, kind)
                 self._tell_new((kind, camera.name), text,
                                '%s: %s' % (camera.name, text) if text else '')
         advice = self._dialogue.advice()
-        if not guide.running:
-            self._tell_new('advice', advice.sentence, 'next: ' + advice.sentence
-                           if advice.word else advice.sentence)
+        self._tell_new('advice', advice.sentence,
+                       ('next: ' if advice.word else '') + advice.sentence)
 
     def _tell_new(self, kind, value, text):
         if self._told.get(kind) != value:

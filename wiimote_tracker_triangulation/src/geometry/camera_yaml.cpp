@@ -32,12 +32,14 @@ void emitIntrinsics(const std::string& camera_name,
   K(1, 1) = intrinsics.fy;
   K(0, 2) = intrinsics.cx;
   K(1, 2) = intrinsics.cy;
-  const Eigen::Map<const Eigen::Matrix<double, 1, 5>> D(intrinsics.distortion.data());
+  const Eigen::Map<const Eigen::RowVectorXd> D(
+      intrinsics.distortion.data(),
+      static_cast<Eigen::Index>(coefficientCount(intrinsics.distortion_model)));
   out << YAML::Key << "image_width" << YAML::Value << intrinsics.width;
   out << YAML::Key << "image_height" << YAML::Value << intrinsics.height;
   out << YAML::Key << "camera_name" << YAML::Value << camera_name;
   emitMatrix("camera_matrix", K, out);
-  out << YAML::Key << "distortion_model" << YAML::Value << "plumb_bob";
+  out << YAML::Key << "distortion_model" << YAML::Value << nameOf(intrinsics.distortion_model);
   emitMatrix("distortion_coefficients", D, out);
 }
 
@@ -56,13 +58,19 @@ void readIntrinsics(YamlMap& map, std::string* camera_name, Intrinsics* intrinsi
   intrinsics->cx = K(0, 2);
   intrinsics->cy = K(1, 2);
 
-  if (map.get<std::string>("distortion_model") != "plumb_bob")
-    throw RigFileError(map.at("distortion_model") + " is not plumb_bob, the only one understood");
+  const auto model = distortionModelFromName(map.get<std::string>("distortion_model"));
+  if (!model)
+    throw RigFileError(map.at("distortion_model") +
+                       " is neither plumb_bob nor equidistant, which are understood");
+  intrinsics->distortion_model = *model;
   const Eigen::MatrixXd D = readMatrix(map.map("distortion_coefficients"));
-  if (D.rows() != 1 || D.cols() != 5)
-    throw RigFileError(map.at("distortion_coefficients") + " is not one row of k1, k2, p1, p2, k3");
-  for (int i = 0; i < 5; ++i)
-    intrinsics->distortion[i] = D(0, i);
+  const auto count = static_cast<Eigen::Index>(coefficientCount(*model));
+  if (D.rows() != 1 || D.cols() != count)
+    throw RigFileError(map.at("distortion_coefficients") + " is not one row of " +
+                       std::to_string(count) + " numbers, as " + nameOf(*model) + " needs");
+  intrinsics->distortion = {};
+  for (Eigen::Index i = 0; i < count; ++i)
+    intrinsics->distortion[static_cast<std::size_t>(i)] = D(0, i);
 }
 
 Eigen::MatrixXd readMatrix(YamlMap map) {

@@ -59,6 +59,7 @@ Camera Rig::rayCamera(const RigCamera& rig_camera) const {
     return camera;
   Intrinsics& intrinsics = camera.intrinsics;
   intrinsics.distortion = {};
+  intrinsics.distortion_model = DistortionModel::kPlumbBob;
   intrinsics.cx = 0.5 * intrinsics.width;
   intrinsics.cy = 0.5 * intrinsics.height;
   if (!std::isnan(virtual_hfov))
@@ -96,6 +97,17 @@ void Rig::check() const {
               (covariance.rows() == parameters && covariance.cols() == parameters),
           "the rig's covariance must have 16 rows and columns per camera, or none");
   require(covariance.size() == 0 || covariance.allFinite(), "the rig's covariance is not finite");
+  for (Eigen::Index i = 0; covariance.size() > 0 && i < static_cast<Eigen::Index>(cameras.size());
+       ++i) {
+    const RigCamera& camera = cameras[static_cast<std::size_t>(i)];
+    if (camera.camera.intrinsics.distortion_model == DistortionModel::kEquidistant)
+      require(covariance.row(16 * i + 14).isZero(0.0) && covariance.col(16 * i + 14).isZero(0.0),
+              "camera '" + camera.camera.name +
+                  "': the rig's covariance must be zero for the fifth coefficient, which an "
+                  "equidistant lens does not have");
+  }
+  if (remap)
+    remap->check();
   for (const Zone& zone : zones) {
     require(zone.minimum.allFinite() && zone.maximum.allFinite() &&
                 (zone.minimum.array() <= zone.maximum.array()).all(),

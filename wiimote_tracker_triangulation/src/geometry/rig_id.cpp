@@ -57,6 +57,9 @@ void addIntrinsics(const Intrinsics& intrinsics, Hash* hash) {
   hash->add(intrinsics.cy);
   for (const double k : intrinsics.distortion)
     hash->add(k);
+  // Ids from before there was a choice stay as they are.
+  if (intrinsics.distortion_model != DistortionModel::kPlumbBob)
+    hash->add(std::string(nameOf(intrinsics.distortion_model)));
 }
 
 void addPose(const Eigen::Isometry3d& pose, Hash* hash) {

@@ -1,6 +1,7 @@
 #include "camera_yaml.h"
 #include "rig_yaml.h"
 #include "wiimote_tracker_triangulation/geometry/rotation.h"
+#include "wiimote_tracker_triangulation/remap/error.h"
 
 #include <cmath>
 #include <limits>
@@ -90,6 +91,25 @@ RigCamera readCamera(YamlMap map, const std::string& name, const std::string& wo
   return camera;
 }
 
+remap::Remap readRemap(YamlMap map) {
+  remap::Remap remap;
+  remap.rig_id = map.get<std::string>("rig_id");
+  const std::string model = map.get<std::string>("model");
+  try {
+    remap.model = remap::modelFromName(model);
+  } catch (const remap::RemapError& e) {
+    throw RigFileError(map.at("model") + ": " + e.what());
+  }
+  remap.parameters = map.numbers("parameters");
+  for (const std::vector<double>& point : map.get<std::vector<std::vector<double>>>("support")) {
+    if (point.size() != 3)
+      throw RigFileError(map.at("support") + " is not a list of points of three numbers");
+    remap.support.emplace_back(point[0], point[1], point[2]);
+  }
+  map.refuseUnknown();
+  return remap;
+}
+
 YAML::Node parse(const std::string& text, const std::string& where) {
   try {
     return YAML::Load(text);
@@ -140,10 +160,12 @@ Rig rigFromYaml(const std::string& text, const std::string& where) {
     zone.refuseUnknown();
   }
   rig.covariance = readMatrix(map.map("covariance"));
+  if (map.has("remap"))
+    rig.remap = readRemap(map.map("remap"));
   map.refuseUnknown();
   try {
     rig.check();
-  } catch (const InvalidRigError& e) {
+  } catch (const Error& e) {
     throw InvalidRigError(where + ": " + e.what());
   }
   return rig;

@@ -83,6 +83,18 @@ void emitCamera(const RigCamera& camera, const std::string& world_frame, YAML::E
   out << YAML::EndMap;
 }
 
+void emitRemap(const remap::Remap& remap, YAML::Emitter& out) {
+  out << YAML::Key << "remap" << YAML::Value << YAML::BeginMap;
+  emitText("rig_id", remap.rig_id, out);
+  out << YAML::Key << "model" << YAML::Value << nameOf(remap.model);
+  emitNumbers("parameters", remap.parameters, out);
+  out << YAML::Key << "support" << YAML::Value << YAML::BeginSeq;
+  for (const Eigen::Vector3d& point : remap.support)
+    out << YAML::Flow << YAML::BeginSeq << yamlNumber(point.x()) << yamlNumber(point.y())
+        << yamlNumber(point.z()) << YAML::EndSeq;
+  out << YAML::EndSeq << YAML::EndMap;
+}
+
 std::string dateOf(double seconds) {
   const auto time = static_cast<std::time_t>(seconds);
   std::tm utc{};
@@ -132,6 +144,8 @@ std::string yamlFromRig(const Rig& rig) {
   }
   out << YAML::EndSeq;
   emitMatrix("covariance", rig.covariance, out);
+  if (rig.remap)
+    emitRemap(*rig.remap, out);
   // The last key: without it, the file was cut off.
   out << YAML::Key << "complete" << YAML::Value << true;
   out << YAML::EndMap;

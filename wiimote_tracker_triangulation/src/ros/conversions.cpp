@@ -13,7 +13,6 @@ namespace {
 
 using wiimote_tracker_msgs::CameraCalibration;
 using wiimote_tracker_msgs::RigCalibration;
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 static_assert(static_cast<int>(geometry::RayModel::kCalibrated) ==
                       RigCalibration::RAY_MODEL_CALIBRATED &&
@@ -68,12 +67,14 @@ CameraCalibration cameraToMessage(const geometry::RigCamera& rig_camera) {
   message.frame_id = opticalFrame(camera.name);
   message.width = static_cast<std::uint32_t>(intrinsics.width);
   message.height = static_cast<std::uint32_t>(intrinsics.height);
-  message.distortion_model = "plumb_bob";
+  message.distortion_model = nameOf(intrinsics.distortion_model);
   message.fx = intrinsics.fx;
   message.fy = intrinsics.fy;
   message.cx = intrinsics.cx;
   message.cy = intrinsics.cy;
-  message.distortion.assign(intrinsics.distortion.begin(), intrinsics.distortion.end());
+  message.distortion.assign(
+      intrinsics.distortion.begin(),
+      intrinsics.distortion.begin() + coefficientCount(intrinsics.distortion_model));
   set(camera.center(), &message.world_from_camera.position);
   set(camera.world_from_camera.linear(), &message.world_from_camera.orientation);
   message.time_offset = rig_camera.time_offset;
@@ -99,10 +100,12 @@ CameraCalibration cameraToMessage(const geometry::RigCamera& rig_camera) {
 
 geometry::RigCamera cameraFromMessage(const CameraCalibration& message) {
   const std::string who = "camera '" + message.name + "': ";
-  if (message.distortion_model != "plumb_bob" || message.distortion.size() != 5)
+  const auto model = geometry::distortionModelFromName(message.distortion_model);
+  if (!model || message.distortion.size() != geometry::coefficientCount(*model))
     throw geometry::InvalidRigError(who + "distortion model '" + message.distortion_model +
                                     "' with " + std::to_string(message.distortion.size()) +
-                                    " coefficients; use plumb_bob with five");
+                                    " coefficients; use plumb_bob with five or equidistant with "
+                                    "four");
   if (message.time_offset_rule > CameraCalibration::TIME_OFFSET_ONE_EPOCH)
     throw geometry::InvalidRigError(who + "unknown time_offset_rule; publish the rig again");
   if (!message.gravity.empty() && message.gravity.size() != 3)
@@ -118,6 +121,7 @@ geometry::RigCamera cameraFromMessage(const CameraCalibration& message) {
   camera.intrinsics.fy = message.fy;
   camera.intrinsics.cx = message.cx;
   camera.intrinsics.cy = message.cy;
+  camera.intrinsics.distortion_model = *model;
   std::copy(message.distortion.begin(), message.distortion.end(),
             camera.intrinsics.distortion.begin());
   camera.world_from_camera = poseOf(message.world_from_camera, message.name);
@@ -133,6 +137,76 @@ geometry::RigCamera cameraFromMessage(const CameraCalibration& message) {
   rig_camera.observations = message.observations;
   rig_camera.inliers = message.inliers;
   return rig_camera;
+}
+
+/// Where each parameter of the message's covariance stands in the rig's, which has five
+/// coefficients for every lens.
+std::vector<Eigen::Index> parametersOfMessage(const geometry::Rig& rig) {
+  constexpr std::size_t kBeforeDistortion = 10;
+  constexpr std::size_t kPerCamera = 16;
+  std::vector<Eigen::Index> places;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const std::size_t unused =
+        kBeforeDistortion +
+        geometry::coefficientCount(rig.cameras[i].camera.intrinsics.distortion_model);
+    for (std::size_t p = 0; p < kPerCamera; ++p) {
+      if (p < unused || p == kPerCamera - 1)
+        places.push_back(static_cast<Eigen::Index>(kPerCamera * i + p));
+    }
+  }
+  return places;
+}
+
+std::vector<double> covarianceToMessage(const geometry::Rig& rig) {
+  const std::vector<Eigen::Index> places = parametersOfMessage(rig);
+  std::vector<double> covariance;
+  covariance.reserve(places.size() * places.size());
+  for (const Eigen::Index row : places) {
+    for (const Eigen::Index column : places)
+      covariance.push_back(rig.covariance(row, column));
+  }
+  return covariance;
+}
+
+/// `rig`: with its cameras.
+Eigen::MatrixXd covarianceFromMessage(const std::vector<double>& message,
+                                      const geometry::Rig& rig) {
+  const std::vector<Eigen::Index> places = parametersOfMessage(rig);
+  if (message.size() != places.size() * places.size())
+    throw geometry::InvalidRigError("the rig's covariance has " + std::to_string(message.size()) +
+                                    " numbers, but its " + std::to_string(rig.cameras.size()) +
+                                    " cameras have " + std::to_string(places.size()) +
+                                    " parameters; publish the rig again");
+  const auto n = static_cast<Eigen::Index>(16 * rig.cameras.size());
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
+  auto value = message.begin();
+  for (const Eigen::Index row : places) {
+    for (const Eigen::Index column : places)
+      covariance(row, column) = *value++;
+  }
+  return covariance;
+}
+
+wiimote_tracker_msgs::RigRemap remapToMessage(const remap::Remap& remap) {
+  wiimote_tracker_msgs::RigRemap message;
+  message.rig_id = remap.rig_id;
+  message.model = nameOf(remap.model);
+  message.parameters = remap.parameters;
+  for (const Eigen::Vector3d& point : remap.support) {
+    message.support.emplace_back();
+    set(point, &message.support.back());
+  }
+  return message;
+}
+
+remap::Remap remapFromMessage(const wiimote_tracker_msgs::RigRemap& message) {
+  remap::Remap remap;
+  remap.rig_id = message.rig_id;
+  remap.model = remap::modelFromName(message.model);
+  remap.parameters = message.parameters;
+  for (const geometry_msgs::Point& point : message.support)
+    remap.support.push_back(vectorOf(point));
+  return remap;
 }
 
 }  // namespace
@@ -151,8 +225,10 @@ RigCalibration toMessage(const geometry::Rig& rig) {
   message.led_height = rig.led_height;
   for (const geometry::RigCamera& camera : rig.cameras)
     message.cameras.push_back(cameraToMessage(camera));
-  const RowMajor covariance = rig.covariance;
-  message.covariance.assign(covariance.data(), covariance.data() + covariance.size());
+  if (rig.covariance.size() > 0)
+    message.covariance = covarianceToMessage(rig);
+  if (rig.remap)
+    message.remap = remapToMessage(*rig.remap);
   for (const geometry::Zone& zone : rig.zones) {
     wiimote_tracker_msgs::Zone z;
     z.name = zone.name;
@@ -184,10 +260,10 @@ geometry::Rig fromMessage(const RigCalibration& message) {
   rig.led_height = message.led_height;
   for (const CameraCalibration& camera : message.cameras)
     rig.cameras.push_back(cameraFromMessage(camera));
-  const auto n = static_cast<Eigen::Index>(std::lround(std::sqrt(message.covariance.size())));
-  if (n * n != static_cast<Eigen::Index>(message.covariance.size()))
-    throw geometry::InvalidRigError("the rig's covariance is not square; publish the rig again");
-  rig.covariance = Eigen::Map<const RowMajor>(message.covariance.data(), n, n);
+  if (!message.covariance.empty())
+    rig.covariance = covarianceFromMessage(message.covariance, rig);
+  if (!message.remap.rig_id.empty())
+    rig.remap = remapFromMessage(message.remap);
   for (const wiimote_tracker_msgs::Zone& zone : message.zones)
     rig.zones.push_back({zone.name, vectorOf(zone.minimum), vectorOf(zone.maximum)});
   rig.verdict = message.verdict;

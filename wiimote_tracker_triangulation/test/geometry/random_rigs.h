@@ -49,6 +49,17 @@ inline Intrinsics randomIntrinsics(Random& random) {
   return intrinsics;
 }
 
+/// A wide-angle lens: 100 to 130 degrees across the image's width.
+inline Intrinsics randomFisheye(Random& random) {
+  Intrinsics intrinsics = randomIntrinsics(random);
+  intrinsics.distortion_model = DistortionModel::kEquidistant;
+  intrinsics.fx = intrinsics.width / random.uniform(100.0, 130.0) * 180.0 / M_PI;
+  intrinsics.fy = intrinsics.fx * random.uniform(0.97, 1.03);
+  intrinsics.distortion = {random.uniform(-0.05, 0.05), random.uniform(-0.01, 0.01),
+                           random.uniform(-0.003, 0.003), random.uniform(-0.001, 0.001), 0.0};
+  return intrinsics;
+}
+
 /// Cameras on a ring of 3 to 6 m around the origin, one per equal share of the circle, looking
 /// roughly at the origin, rolled at will.
 inline Rig randomRig(Random& random, int cameras) {

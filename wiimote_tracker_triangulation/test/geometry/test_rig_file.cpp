@@ -160,6 +160,69 @@ TEST_F(RigFile, ComesBackBitForBit) {
   EXPECT_EQ(written_, contentOf(path_));
 }
 
+/// A correction of the volume, and a wide-angle lens on the second camera.
+Rig correctedRig() {
+  Random random(44);
+  Rig rig = fullRig();
+  rig.cameras[1].camera.intrinsics = test::randomFisheye(random);
+  rig.covariance.row(30).setZero();
+  rig.covariance.col(30).setZero();
+  remap::Remap remap;
+  remap.rig_id = rig.id();
+  remap.model = remap::Model::kThinPlate;
+  for (int i = 0; i < 6; ++i)
+    remap.support.push_back(random.inBox(1.0));
+  for (int i = 0; i < 30; ++i)
+    remap.parameters.push_back(random.gaussian() * 1e-3);
+  rig.remap = remap;
+  return rig;
+}
+
+TEST_F(RigFile, ACorrectionOfTheVolumeAndAWideLensComeBackBitForBit) {
+  const Rig rig = correctedRig();
+  write(rig);
+  const Rig read = readRigFile(path_);
+  expectSame(rig, read);
+  EXPECT_EQ(DistortionModel::kEquidistant, read.cameras[1].camera.intrinsics.distortion_model);
+  ASSERT_TRUE(read.remap);
+  EXPECT_EQ(rig.remap->rig_id, read.remap->rig_id);
+  EXPECT_EQ(rig.remap->model, read.remap->model);
+  EXPECT_EQ(rig.remap->parameters, read.remap->parameters);
+  EXPECT_EQ(rig.remap->support, read.remap->support);
+  writeRigFile(read, path_);
+  EXPECT_EQ(written_, contentOf(path_));
+}
+
+TEST_F(RigFile, AFileWithoutACorrectionHasNone) {
+  write(fullRig());
+  EXPECT_EQ(std::string::npos, written_.find("remap"));
+  EXPECT_FALSE(readRigFile(path_).remap);
+}
+
+TEST_F(RigFile, FaultsOfACorrectionAndAWideLensAreNamedByKey) {
+  write(correctedRig());
+  const auto names = [&](const std::string& from, const std::string& to, const std::string& key) {
+    const std::string complaint = complaintAbout(with(from, to));
+    EXPECT_NE(std::string::npos, complaint.find(path_)) << complaint;
+    EXPECT_NE(std::string::npos, complaint.find(key)) << complaint;
+  };
+  names("model: thin_plate", "model: rubber", "remap: model");
+  names("model: thin_plate", "model: affine", "parameters, but affine needs 12");
+  names("parameters: [", "parameters: [1.0, ", "31 parameters");
+  names("parameters: [", "parameters: [x, ", "remap: parameters");
+  names("support:\n    - [", "support:\n    - [1.0, ", "remap: support");
+  names("support:", "supports:", "remap: support");
+  names("rig_id: \"", "rig_id: \"\"  # ", "belongs to no calibration");
+  names("distortion_model: equidistant", "distortion_model: plumb_bob",
+        "camera_1: distortion_coefficients");
+}
+
+TEST_F(RigFile, TheUnusedCoefficientOfAWideLensHasNoVariance) {
+  Rig rig = correctedRig();
+  rig.covariance(30, 30) = 1e-9;
+  EXPECT_THROW(writeRigFile(rig, path_), InvalidRigError);
+}
+
 TEST_F(RigFile, ManyRandomRigsComeBackBitForBit) {
   Random random(42);
   for (int i = 0; i < 20; ++i) {

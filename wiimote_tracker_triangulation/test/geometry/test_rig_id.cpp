@@ -57,6 +57,9 @@ TEST(RigId, ChangesWithEverythingThatMovesAPoint) {
       [](Rig& r) { r.cameras[1].camera.intrinsics.cy += 1e-12; },
       [](Rig& r) { r.cameras[1].camera.intrinsics.distortion[0] += 1e-15; },
       [](Rig& r) { r.cameras[1].camera.intrinsics.distortion[4] += 1e-15; },
+      [](Rig& r) {
+        r.cameras[1].camera.intrinsics.distortion_model = DistortionModel::kEquidistant;
+      },
       [](Rig& r) { r.cameras[1].camera.world_from_camera.translation().x() += 1e-14; },
       [](Rig& r) { r.cameras[1].camera.world_from_camera.translation().z() += 1e-14; },
       [](Rig& r) {
@@ -83,6 +86,9 @@ TEST(RigId, DoesNotChangeWithWhatMovesNoPoint) {
       [](Rig& r) { r.solved_at = 5.0; },
       [](Rig& r) { r.method = "square"; },
       [](Rig& r) { r.verdict = "good"; },
+      [](Rig& r) {
+        r.remap = remap::Remap{r.id(), remap::Model::kAffine, {}, {}};
+      },
       [](Rig& r) {
         r.square_sides = {2.5, 2.5};
       },

@@ -8,6 +8,7 @@
 #include <camera_calibration_parsers/parse_yml.h>
 #include <gtest/gtest.h>
 #include <ros/serialization.h>
+#include <sensor_msgs/distortion_models.h>
 
 #include <unistd.h>
 
@@ -48,6 +49,19 @@ Rig fullRig() {
   rig.cameras[1].residual_m = 0.001;
   rig.cameras[1].observations = 100;
   rig.cameras[1].inliers = 99;
+  return rig;
+}
+
+/// A bare lens, a wide one with four coefficients, another bare one; a correction of the volume.
+Rig correctedRig() {
+  Random random(63);
+  Rig rig = fullRig();
+  rig.cameras[1].camera.intrinsics = geometry::test::randomFisheye(random);
+  rig.remap = remap::Remap{rig.id(), remap::Model::kAffine, std::vector<double>(12, 0.01), {}};
+  for (int i = 0; i < 5; ++i)
+    rig.remap->support.push_back(random.inBox(1.0));
+  rig.covariance(31, 32) = 2e-9;  // time offset of the wide one, rotation of the third
+  rig.covariance(29, 31) = 3e-9;  // k4 of the wide one
   return rig;
 }
 
@@ -104,7 +118,9 @@ TEST(Conversions, RoundTripsThroughMessageAndFileKeepIdAndBits) {
   const std::string path = "/tmp/conversions_" + std::to_string(getpid()) + ".yaml";
   Random random(62);
   for (int i = 0; i < 20; ++i) {
-    const Rig rig = i == 0 ? fullRig() : geometry::test::randomRig(random, 4);
+    const Rig rig = i == 0   ? fullRig()
+                    : i == 1 ? correctedRig()
+                             : geometry::test::randomRig(random, 4);
     const RigCalibration message = toMessage(rig);
     const Rig from_message = fromMessage(message);
     geometry::writeRigFile(from_message, path);
@@ -120,6 +136,38 @@ TEST(Conversions, RoundTripsThroughMessageAndFileKeepIdAndBits) {
   }
   std::filesystem::remove(path);
   std::filesystem::remove(path + ".bak");
+}
+
+TEST(Conversions, AWideLensHasFourCoefficientsAlsoInTheCovariance) {
+  const RigCalibration message = toMessage(correctedRig());
+  EXPECT_EQ("equidistant", message.cameras[1].distortion_model);
+  EXPECT_EQ(4u, message.cameras[1].distortion.size());
+  ASSERT_EQ(47u * 47u, message.covariance.size());
+  EXPECT_EQ(1e-9, message.covariance[1 * 47 + 2]);
+  EXPECT_EQ(2e-9, message.covariance[30 * 47 + 31]);
+  EXPECT_EQ(3e-9, message.covariance[29 * 47 + 30]);
+}
+
+TEST(Conversions, ACorrectionOfTheVolumeIsInTheMessage) {
+  const Rig rig = correctedRig();
+  const RigCalibration message = toMessage(rig);
+  EXPECT_EQ(rig.id(), message.id);
+  EXPECT_EQ(rig.id(), message.remap.rig_id);
+  EXPECT_EQ("affine", message.remap.model);
+  EXPECT_EQ(12u, message.remap.parameters.size());
+  ASSERT_EQ(5u, message.remap.support.size());
+  EXPECT_EQ(rig.remap->support[3].y(), message.remap.support[3].y);
+  const Rig back = fromMessage(message);
+  ASSERT_TRUE(back.remap);
+  EXPECT_EQ(rig.remap->support, back.remap->support);
+  EXPECT_EQ(rig.covariance, back.covariance);
+
+  RigCalibration damaged = message;
+  damaged.remap.parameters.pop_back();
+  EXPECT_THROW(fromMessage(damaged), geometry::Error);
+  damaged = message;
+  damaged.remap.model = "rubber";
+  EXPECT_THROW(fromMessage(damaged), geometry::Error);
 }
 
 TEST(Conversions, RefusesWhatItDoesNotUnderstand) {
@@ -141,7 +189,12 @@ TEST(Conversions, RefusesWhatItDoesNotUnderstand) {
   EXPECT_EQ("", complaint([](RigCalibration&) {}));
   EXPECT_TRUE(says([](RigCalibration& m) { m.format_version = 2; }, "format version 2"));
   EXPECT_TRUE(says([](RigCalibration& m) { m.ray_model = 2; }, "ray model"));
-  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras.clear(); }, "no camera"));
+  EXPECT_TRUE(says(
+      [](RigCalibration& m) {
+        m.cameras.clear();
+        m.covariance.clear();
+      },
+      "no camera"));
   EXPECT_TRUE(says([](RigCalibration& m) { m.header.frame_id = ""; }, "world frame"));
   EXPECT_TRUE(
       says([](RigCalibration& m) { m.cameras[1].distortion_model = "equidistant"; }, "camera_1"));
@@ -173,6 +226,22 @@ TEST(Conversions, StaticTransformsAreThePoses) {
     EXPECT_TRUE(q.toRotationMatrix().isApprox(pose.linear(), 1e-12));
     EXPECT_EQ(pose.translation().y(), t.transform.translation.y);
   }
+}
+
+TEST(CameraInfoFile, OfAWideLensIsReadByCameraCalibrationParsers) {
+  Random random(64);
+  geometry::Camera camera;
+  camera.name = "wiimote_1";
+  camera.intrinsics = geometry::test::randomFisheye(random);
+  const std::string path = "/tmp/camera_info_wide_" + std::to_string(getpid()) + ".yaml";
+  geometry::writeCameraInfoFile(camera, path);
+  std::string name;
+  sensor_msgs::CameraInfo info;
+  ASSERT_TRUE(camera_calibration_parsers::readCalibrationYml(path, name, info));
+  std::filesystem::remove(path);
+  EXPECT_EQ(sensor_msgs::distortion_models::EQUIDISTANT, info.distortion_model);
+  ASSERT_EQ(4u, info.D.size());
+  EXPECT_EQ(camera.intrinsics.distortion[3], info.D[3]);
 }
 
 TEST(CameraInfoFile, IsReadByCameraCalibrationParsers) {

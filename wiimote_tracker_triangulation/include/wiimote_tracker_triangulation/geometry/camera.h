@@ -5,13 +5,28 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 
 namespace wiimote_tracker::geometry {
 
-/// Pinhole camera with plumb_bob distortion (Brown 1966; REP 104 order k1, k2, p1, p2, k3).
-/// Pixels: u right, v down, (0, 0) is the centre of the top left pixel.
+/// How a lens departs from a pinhole; names as in sensor_msgs/distortion_models.h.
+enum class DistortionModel {
+  kPlumbBob,     ///< "plumb_bob": Brown 1966; k1, k2, p1, p2, k3.
+  kEquidistant,  ///< "equidistant": a fisheye lens (Kannala and Brandt 2006, as OpenCV's
+                 ///< cv::fisheye); k1, k2, k3, k4.
+};
+
+const char* nameOf(DistortionModel model);
+
+/// Nothing for a name that is not known.
+std::optional<DistortionModel> distortionModelFromName(const std::string& name);
+
+/// Number of coefficients of a model: 5 or 4.
+std::size_t coefficientCount(DistortionModel model);
+
+/// Camera with a lens. Pixels: u right, v down, (0, 0) is the centre of the top left pixel.
 struct Intrinsics {
   int width = 1024;                    ///< Image size [px].
   int height = 768;                    ///< Image size [px].
@@ -19,7 +34,8 @@ struct Intrinsics {
   double fy = 1302.3;                  ///< Focal length [px].
   double cx = 535.0;                   ///< Principal point [px].
   double cy = 401.7;                   ///< Principal point [px].
-  std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3 [1].
+  std::array<double, 5> distortion{};  ///< In the order of the model, then zeros [1].
+  DistortionModel distortion_model = DistortionModel::kPlumbBob;
 
   /// Pixel of a point on the normalised image plane (x/z, y/z) [1].
   Eigen::Vector2d pixelFromNormalized(const Eigen::Vector2d& normalized) const;
@@ -29,9 +45,10 @@ struct Intrinsics {
                                       Eigen::Matrix2d* jacobian) const;
 
   /// Inverse of pixelFromNormalized (Newton's method), exact to 1e-12 where the lens model is
-  /// invertible. Nothing where it is not: beyond the fold of a strong negative k1, or NaN.
-  /// Brown's model is a polynomial: it maps the image plane one to one only up to the fold, the
-  /// radius at which its derivative reaches zero; further out it comes back into the image.
+  /// invertible. Nothing where it is not: beyond the fold, or NaN. Both models are polynomials,
+  /// which are one to one only up to the fold, the radius at which their derivative reaches zero;
+  /// further out they come back into the image. An equidistant lens also has a pixel for what lies
+  /// beside or behind the camera; of that nothing is known here, and it ends 1.55 rad off the axis.
   std::optional<Eigen::Vector2d> normalizedFromPixel(const Eigen::Vector2d& pixel) const;
 
   /// Whether the lens model is one to one from the principal point out to this normalised point.

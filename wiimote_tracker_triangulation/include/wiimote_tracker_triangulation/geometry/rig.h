@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_RIG_H
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
+#include "wiimote_tracker_triangulation/remap/remap.h"
 
 #include <Eigen/Core>
 
@@ -54,7 +55,14 @@ struct Rig {
   std::vector<double> square_sides;                                ///< Along x, along y [m].
   double led_height = std::numeric_limits<double>::quiet_NaN();    ///< [m]
   std::vector<RigCamera> cameras;
-  Eigen::MatrixXd covariance;  ///< Order as in RigCalibration.msg, 16 per camera; 0x0: unknown.
+
+  /// Order as in RigCalibration.msg, but 16 per camera whatever its lens: an equidistant one has
+  /// zeros for a fifth coefficient. 0x0: unknown.
+  Eigen::MatrixXd covariance;
+
+  /// Correction of the volume. It may belong to another calibration (remap::Remap::rig_id is not
+  /// id()); then it is void, and kept so that it can be said.
+  std::optional<remap::Remap> remap;
   std::vector<Zone> zones;
   std::string verdict;
 
@@ -69,11 +77,14 @@ struct Rig {
 
   /// Hash (16 hexadecimal digits) over everything that changes a triangulated point: world frame,
   /// ray model, and each camera's name, identity, intrinsics, pose, time offset and masks, in the
-  /// order of cameras. Equal rigs have equal ids on every machine, also after a round trip through
-  /// a file or a message: poses are compared as canonicalQuaternion (rotation.h) stores them.
+  /// order of cameras. The correction of the volume is not in it: that names the id it belongs to,
+  /// and a point says by itself whether it was corrected. Equal rigs have equal ids on every
+  /// machine, also after a round trip through a file or a message: poses are compared as
+  /// canonicalQuaternion (rotation.h) stores them.
   std::string id() const;
 
   /// @throws InvalidRigError: no camera, two of one name, values out of range or not finite.
+  /// remap::RemapError: a correction of the volume that is damaged (Remap::check).
   void check() const;
 };
 

@@ -47,6 +47,9 @@ class YamlMap {
     return static_cast<T>(number);
   }
 
+  /// Whether an optional key is there.
+  bool has(const std::string& key) const { return node_[key].IsDefined(); }
+
   YamlMap map(const std::string& key) { return YamlMap(value(key), at(key)); }
 
   std::vector<YamlMap> maps(const std::string& key) {

@@ -1,0 +1,116 @@
+#include "distortion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::geometry::equidistant {
+namespace {
+
+using Vector2 = Eigen::Vector2d;
+using Matrix2 = Eigen::Matrix2d;
+
+/// Where the model ends: towards a right angle the image plane goes to infinity [rad].
+constexpr double kLargestAngle = 1.55;
+
+/// Distance from the axis in the image of a point so far off the axis [rad].
+double radiusOf(const Coefficients& k, double angle) {
+  const double s = angle * angle;
+  return angle * (1.0 + s * (k[0] + s * (k[1] + s * (k[2] + s * k[3]))));
+}
+
+double slopeOf(const Coefficients& k, double angle) {
+  const double s = angle * angle;
+  return 1.0 + s * (3.0 * k[0] + s * (5.0 * k[1] + s * (7.0 * k[2] + s * 9.0 * k[3])));
+}
+
+/// Whether a polynomial of degree 4 is above 0 on all of [0, 1], by its coefficients in Bernstein's
+/// basis: it lies between the least and the largest of them, and each half has its own.
+bool isPositive(const std::array<double, 5>& b, int halvings) {
+  if (!(b.front() > 0.0 && b.back() > 0.0))
+    return false;
+  if (*std::min_element(b.begin(), b.end()) > 0.0)
+    return true;
+  if (halvings == 0)
+    return false;  // a slope of zero within rounding
+  std::array<double, 5> left, right = b;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    left[i] = right[0];
+    for (std::size_t j = 0; j + 1 < b.size() - i; ++j)
+      right[j] = 0.5 * (right[j] + right[j + 1]);
+  }
+  return isPositive(left, halvings - 1) && isPositive(right, halvings - 1);
+}
+
+/// Whether the radius grows all the way out to this angle.
+bool growsUpTo(const Coefficients& k, double angle) {
+  if (!(angle <= kLargestAngle))
+    return false;
+  const double s = angle * angle;
+  const double a = 3.0 * k[0] * s;
+  const double b = 5.0 * k[1] * s * s;
+  const double c = 7.0 * k[2] * s * s * s;
+  const double d = 9.0 * k[3] * s * s * s * s;
+  constexpr int kHalvings = 20;
+  return isPositive({1.0, 1.0 + a / 4.0, 1.0 + a / 2.0 + b / 6.0,
+                     1.0 + 3.0 * a / 4.0 + b / 2.0 + c / 4.0, 1.0 + a + b + c + d},
+                    kHalvings);
+}
+
+}  // namespace
+
+Vector2 distort(const Coefficients& k, const Vector2& n, Matrix2* jacobian) {
+  const double squared = n.squaredNorm();
+  const double r = std::sqrt(squared);
+  if (squared < 1e-100) {  // on the axis, where the division below has no value
+    if (jacobian)
+      jacobian->setIdentity();
+    return n;
+  }
+  const double angle = std::atan(r);
+  const double scale = radiusOf(k, angle) / r;
+  if (jacobian) {
+    const double along = slopeOf(k, angle) / (1.0 + squared);  // d radius / d r
+    *jacobian = (along - scale) / squared * n * n.transpose();
+    jacobian->diagonal().array() += scale;
+  }
+  return scale * n;
+}
+
+std::optional<Vector2> undistort(const Coefficients& k, const Vector2& target) {
+  const double radius = target.norm();
+  if (!(radius > 0.0))
+    return target;
+  // Newton's method from inside the fold, with steps halved until they stay there and gain.
+  constexpr int kMaximumSteps = 50;
+  constexpr int kMaximumHalvings = 30;
+  const double tolerance = 1e-15 * (1.0 + radius);
+  double angle = std::min(radius, kLargestAngle);
+  for (int i = 0; i < kMaximumHalvings && !growsUpTo(k, angle); ++i)
+    angle *= 0.5;
+  double error = radiusOf(k, angle) - radius;
+  for (int i = 0; i < kMaximumSteps && std::abs(error) > tolerance; ++i) {
+    double step = error / slopeOf(k, angle);
+    double next = angle - step;
+    double next_error = radiusOf(k, next) - radius;
+    for (int j = 0; j < kMaximumHalvings; ++j) {
+      if (std::abs(next_error) < std::abs(error) && next >= 0.0 && growsUpTo(k, next))
+        break;
+      step *= 0.5;
+      next = angle - step;
+      next_error = radiusOf(k, next) - radius;
+    }
+    if (!(std::abs(next_error) < std::abs(error)))
+      break;  // as close as rounding, or the fold, lets it come
+    angle = next;
+    error = next_error;
+  }
+  if (!(std::abs(error) <= 1e-13 * (1.0 + radius)) || !growsUpTo(k, angle))
+    return std::nullopt;
+  return std::tan(angle) / radius * target;
+}
+
+bool isBeforeFold(const Coefficients& k, const Vector2& n) {
+  return growsUpTo(k, std::atan(n.norm()));
+}
+
+}  // namespace wiimote_tracker::geometry::equidistant

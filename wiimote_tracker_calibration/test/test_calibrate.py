@@ -399,6 +399,23 @@ def test_one_request_at_a_time_but_it_can_be_called_off():
     assert [r.name for r in node.sent] == ['capture_corner', 'solve', 'cancel']
 
 
+def test_space_waits_for_what_the_latest_answer_has_led_to():
+    node = FakeNode()
+    dialogue = dialogue_with(node, status(CalibrationStatus.SOLVED))
+    node.events.put(('answer', 'solve', True, 'good'))
+    dialogue.take_events(1.0)
+    dialogue.next()  # of a status from before the answer nobody knows what comes next
+    assert not node.sent and dialogue.is_busy()
+    node.events.put(('status', status(CalibrationStatus.SAVED)))
+    dialogue.take_events(2.0)
+    assert not node.sent and not dialogue.is_busy()
+    assert 'c checks the rig' in dialogue.guide.answer
+    node.events.put(('status', status(CalibrationStatus.READY)))
+    dialogue.take_events(3.0)
+    dialogue.next()
+    assert [r.name for r in node.sent] == ['capture_corner']
+
+
 def test_what_is_typed_wrongly_reaches_no_node():
     node = FakeNode()
     dialogue = dialogue_with(node, status(CalibrationStatus.READY))
@@ -438,10 +455,19 @@ def test_plain_counts_what_was_refused_and_what_was_not_understood():
     assert 'waited for 0 s; corner 3' in said
 
 
+def test_plain_next_without_a_node_fails_and_does_not_hang():
+    said = []
+    guide = Guide(-10.0)
+    face = Plain(Dialogue(guide, FakeNode(), commands.RIG, guide.advice), said.append,
+                 io.StringIO('next\n'))
+    face.run()
+    assert face.failures == 1
+    assert 'Waiting for the calibration node.' in said
+
+
 def test_plain_waits_until_nothing_is_missing():
     node = FakeNode({})
     dialogue = dialogue_with(node, status(CalibrationStatus.WAVING, missing=['3 s']))
-    node.events.put(('status', status(CalibrationStatus.WAVING, missing=['1 s'])))
     said = []
 
     def say(text):
@@ -449,7 +475,16 @@ def test_plain_waits_until_nothing_is_missing():
         if text == 'missing: 1 s':
             node.events.put(('status', status(CalibrationStatus.WAVING, message='enough')))
 
+    # After an answer, one status may be from before it.
+    node.events.put(('answer', 'wave', True, 'recording'))
+    node.events.put(('status', status(CalibrationStatus.COMPLETE)))
     face = Plain(dialogue, say, io.StringIO('wait 30\nsolve\n'))
+
+    def tell_more(text, say=say):
+        say(text)
+        if text == 'recording':
+            node.events.put(('status', status(CalibrationStatus.WAVING, missing=['1 s'])))
+    face._say = tell_more
     face.run()
     assert face.failures == 0
     assert said.index('missing: 1 s') < said.index('  0 %  enough') < said.index('solve done')

@@ -16,6 +16,7 @@ class Dialogue(object):
         self.node = node
         self.command_list = command_list
         self.advice = advice
+        self._next_is_wanted = False
 
     def command(self, word_or_key, arguments=()):
         """Asks the node for something."""
@@ -40,10 +41,25 @@ class Dialogue(object):
         self.node.send(command.word, request)
 
     def next(self):
-        """What SPACE stands for."""
+        """What SPACE stands for; as soon as a status tells what the latest answer has led to."""
+        self._next_is_wanted = True
+        self._do_next()
+
+    def is_busy(self):
+        """Whether something is still to be answered or to be done."""
+        return bool(self.guide.running) or self._next_is_wanted
+
+    def _do_next(self):
+        guide = self.guide
+        known = guide.running or guide.status is None or guide.statuses_since_answer > 0
+        if not self._next_is_wanted or not known:
+            return
+        self._next_is_wanted = False
         advice = self.advice()
         if advice.word is not None:
             self.command(advice.word, advice.arguments)
+        else:
+            guide.say(advice.sentence)
 
     def take_events(self, now):
         """Reads what has come in. @return whether a bell should ring."""
@@ -52,7 +68,7 @@ class Dialogue(object):
             try:
                 event = self.node.events.get_nowait()
             except queue.Empty:
-                return ring
+                break
             if event[0] == 'status':
                 ring = self.guide.on_status(event[1], now) or ring
             elif event[0] == 'verdict':
@@ -63,3 +79,5 @@ class Dialogue(object):
                 self.guide.on_feedback(event[1], event[2])
             else:
                 self.guide.on_answer(event[1], event[2], event[3], now)
+        self._do_next()
+        return ring

@@ -123,6 +123,15 @@ class Guide(object):
             status.MEASURING: lambda: Advice('Keep the LED still.'),
         }.get(status.step, lambda: Advice(''))()
 
+    def is_waving(self):
+        return self.status is not None and self.status.step == self.status.WAVING
+
+    def is_busy(self):
+        """Whether the node is in the middle of something, that `cancel` would end."""
+        status = self.status
+        return status is not None and status.step in (
+            status.CAPTURING, status.WAVING, status.SOLVING, status.MASKING, status.MEASURING)
+
     def has_done(self, word):
         """Whether a command succeeded."""
         return (word, True) in self._tried

@@ -51,7 +51,7 @@ class Plain(object):
         self._look()
         guide = self._dialogue.guide
         looking = guide.status is None and time.monotonic() - guide.began < FOUND_WITHIN
-        if guide.running or looking:
+        if self._dialogue.is_busy() or looking:
             time.sleep(PERIOD)
             return True
         try:
@@ -78,7 +78,7 @@ class Plain(object):
                 self._dialogue.next()
             else:
                 self._dialogue.command(word, arguments)
-            if not guide.running and guide.answer:  # it made no sense
+            if not self._dialogue.is_busy() and guide.answer:  # it made no sense
                 self._fail(guide.answer)
         return True
 

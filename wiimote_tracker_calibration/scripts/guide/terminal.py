@@ -74,10 +74,11 @@ class Terminal(object):
         return True
 
     def _is_direct(self, command):
-        """Nothing is to be asked to end a wave, or to call a capture off."""
+        """Nothing is to be asked to end a wave, or to call off what goes on."""
         guide = self._dialogue.guide
-        waving = guide.status is not None and guide.status.step == guide.status.WAVING
-        return command.word == 'wave' and waving or command.word == 'cancel' and guide.running
+        if command.word == 'wave':
+            return guide.is_waving()
+        return command.word == 'cancel' and (guide.running or guide.is_busy())
 
     def _type(self, key):
         if key in ESCAPE:

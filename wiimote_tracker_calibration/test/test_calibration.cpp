@@ -36,9 +36,10 @@ class Workflow : public ::testing::Test {
     for (; now_ < start + 20.0; now_ += 0.01) {
       const Eigen::Vector3d place = led + (now_ - start) * speed * Eigen::Vector3d::UnitX();
       for (const geometry::Camera& camera : cameras_)
-        calibration_.addImage(camera.name, now_, {camera.project(place).value()});
-      if (const auto outcome = calibration_.updateCapture(now_))
-        return *outcome;
+        calibration_.addImage({camera.name, now_, 0, {camera.project(place).value()}, {}});
+      calibration_.update(now_);
+      if (calibration_.captureOutcome())
+        return *calibration_.captureOutcome();
     }
     return {false, "never ended"};
   }

@@ -22,6 +22,8 @@ std::string spotCountProblem(std::size_t blobs) {
 }
 
 void CameraMonitor::add(double time, const Blobs& blobs) {
+  if (!images_.empty() && time < images_.back().time - kMemory)
+    images_.clear();
   images_.push_back({time, blobs.size()});
   if (!blobs.empty())
     first_blob_ = blobs.front();

@@ -3,7 +3,6 @@
 #include <ros/master.h>
 #include <tf2_eigen/tf2_eigen.h>
 
-#include <chrono>
 #include <utility>
 
 namespace wiimote_tracker {
@@ -14,26 +13,33 @@ const char kSuffix[] = "/ir_blobs";
 
 }  // namespace
 
-double steadyNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 CameraInputs::CameraInputs(const ros::NodeHandle& nh,
                            const std::vector<std::string>& names,
                            std::mutex* mutex,
-                           std::condition_variable* changed,
-                           OnImage on_image)
+                           std::condition_variable* changed)
     : nh_(nh),
       discovers_(names.empty()),
       mutex_(mutex),
       changed_(changed),
-      on_image_(std::move(on_image)),
-      listener_(transforms_) {
+      listener_(transforms_),
+      spinner_(1, &queue_) {
+  nh_.setCallbackQueue(&queue_);
   for (const std::string& name : names)
     watch(name);
+}
+
+void CameraInputs::start() {
+  discover();
+  // The global queue: a master that does not answer holds up no image.
   if (discovers_)
-    timer_ = nh_.createWallTimer(ros::WallDuration(0.5),
-                                 [this](const ros::WallTimerEvent&) { discover(); });
+    timer_ = ros::NodeHandle().createWallTimer(ros::WallDuration(0.5),
+                                               [this](const ros::WallTimerEvent&) { discover(); });
+  spinner_.start();
+}
+
+void CameraInputs::stop() {
+  timer_.stop();
+  spinner_.stop();
 }
 
 void CameraInputs::discover() {
@@ -78,19 +84,25 @@ void CameraInputs::restartGravity() {
 
 void CameraInputs::onBlobs(const std::string& name,
                            const wiimote_tracker_msgs::IrBlobArray& message) {
-  capture::Blobs blobs;
+  capture::Image image;
+  image.camera = name;
+  image.stamp = message.header.stamp.toSec();
+  image.clock_epoch = message.clock_epoch;
   for (const wiimote_tracker_msgs::IrBlob& blob : message.blobs)
-    blobs.emplace_back(blob.x, blob.y);
-  const double now = steadyNow();
+    image.spots.emplace_back(blob.x, blob.y);
   {
-    const std::lock_guard<std::mutex> lock(*mutex_);
+    const Lock lock(*mutex_);
     CameraInput& camera = cameras_[name];
     camera.identity = message.identity;
     camera.width = static_cast<int>(message.width);
     camera.height = static_cast<int>(message.height);
-    camera.monitor.add(now, blobs);
-    optical_frames_[name] = message.header.frame_id;
-    on_image_(name, now, blobs);
+    camera.optical_frame = message.header.frame_id;
+    capture::applyMasks(masks_, &image);
+    order_.add(std::move(image), [this, &lock](const capture::Image& next) {
+      cameras_[next.camera].monitor.add(next.stamp, next.spots);
+      for (const OnImage& call : on_image_)
+        call(next, lock);
+    });
   }
   changed_->notify_all();
 }
@@ -99,14 +111,17 @@ void CameraInputs::onImu(const std::string& name, const sensor_msgs::Imu& messag
   // -1 marks a quantity that the sensor does not measure.
   if (message.linear_acceleration_covariance[0] < 0.0)
     return;
-  const std::lock_guard<std::mutex> lock(*mutex_);
-  const std::string& optical_frame = optical_frames_[name];
+  const Lock lock(*mutex_);
+  CameraInput& camera = cameras_[name];
   const Eigen::Vector3d in_imu(message.linear_acceleration.x, message.linear_acceleration.y,
                                message.linear_acceleration.z);
   try {
     const Eigen::Isometry3d optical_from_imu = tf2::transformToEigen(
-        transforms_.lookupTransform(optical_frame, message.header.frame_id, ros::Time(0)));
-    cameras_[name].gravity.add(optical_from_imu.linear() * in_imu);
+        transforms_.lookupTransform(camera.optical_frame, message.header.frame_id, ros::Time(0)));
+    const Eigen::Vector3d specific_force = optical_from_imu.linear() * in_imu;
+    camera.gravity.add(specific_force);
+    for (const OnGravity& call : on_gravity_)
+      call(name, message.header.stamp.toSec(), specific_force, lock);
   } catch (const tf2::TransformException&) {
     // Until the transform is there the direction of gravity stays unknown.
   }

@@ -2,9 +2,14 @@
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_CAMERA_INPUTS_H
 
 #include "wiimote_tracker_calibration/capture/camera_monitor.h"
+#include "wiimote_tracker_calibration/capture/image.h"
+#include "wiimote_tracker_calibration/capture/image_order.h"
+#include "wiimote_tracker_calibration/capture/masks.h"
 #include "wiimote_tracker_calibration/capture/rest_gravity.h"
 
+#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+#include <ros/spinner.h>
 #include <sensor_msgs/Imu.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
@@ -15,42 +20,61 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
 
-/// Seconds of the steady clock.
-double steadyNow();
+/// Proof that the node's mutex is locked.
+using Lock = std::unique_lock<std::mutex>;
 
 /// Last known facts of one camera, and its latest images.
 struct CameraInput {
   std::string identity;
   int width = 0;   ///< Image size [px]; 0 until an image came.
   int height = 0;  ///< [px]
-  capture::CameraMonitor monitor;
-  capture::RestGravity gravity;
+  std::string optical_frame;
+  capture::CameraMonitor monitor;  ///< Its times are stamps.
+  capture::RestGravity gravity;    ///< Since restartGravity().
 };
 
 /// Subscribes to the images and the accelerometers of all cameras, named or discovered.
 class CameraInputs {
  public:
-  /// Called for each image with the mutex locked.
-  using OnImage =
-      std::function<void(const std::string& camera, double now, const capture::Blobs& blobs)>;
+  using OnImage = std::function<void(const capture::Image& image, const Lock& lock)>;
+  /// @param specific_force in the camera's optical frame [m/s^2].
+  using OnGravity = std::function<void(const std::string& camera,
+                                       double stamp,
+                                       const Eigen::Vector3d& specific_force,
+                                       const Lock& lock)>;
 
   /// @param names cameras to watch; empty: every topic that ends in /ir_blobs.
   /// @param mutex guards everything this class hands out; @param changed notified at each image.
   CameraInputs(const ros::NodeHandle& nh,
                const std::vector<std::string>& names,
                std::mutex* mutex,
-               std::condition_variable* changed,
-               OnImage on_image);
+               std::condition_variable* changed);
+
+  /// Calls back for every image of every camera, in the order of their stamps
+  /// (capture::ImageOrder), with the mutex locked, from one thread. Before start() only.
+  void subscribeImages(OnImage on_image) { on_image_.push_back(std::move(on_image)); }
+
+  /// Same for every reading of an accelerometer, in the order in which they come.
+  void subscribeGravity(OnGravity on_gravity) { on_gravity_.push_back(std::move(on_gravity)); }
+
+  /// From now on images are taken; stop() ends that, and returns when no callback runs any more.
+  void start();
+  void stop();
 
   /// Looks for cameras that have appeared. Locks the mutex.
   void discover();
 
   /// Lock the mutex while you look.
   const std::map<std::string, CameraInput>& cameras() const { return cameras_; }
+
+  /// Light in these regions is ignored from the next image on. Lock the mutex.
+  void setMasks(const capture::Masks& masks) { masks_ = masks; }
+  const capture::Masks& masks() const { return masks_; }
 
   /// Forgets all accelerometer readings. Lock the mutex.
   void restartGravity();
@@ -64,11 +88,16 @@ class CameraInputs {
   bool discovers_;
   std::mutex* mutex_;
   std::condition_variable* changed_;
-  OnImage on_image_;
+  std::vector<OnImage> on_image_;
+  std::vector<OnGravity> on_gravity_;
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_;
   std::map<std::string, CameraInput> cameras_;
-  std::map<std::string, std::string> optical_frames_;
+  capture::Masks masks_;
+  capture::ImageOrder order_;
+  // A queue and a thread of their own: images come in however many services wait for them.
+  ros::CallbackQueue queue_;
+  ros::AsyncSpinner spinner_;
   std::mutex subscribers_mutex_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;

@@ -63,16 +63,17 @@ std::vector<CalibrationCameraStatus> cameraStatus(const workflow::Calibration& c
   return result;
 }
 
-CalibrationStatus calibrationStatus(const workflow::Calibration& calibration,
-                                    const std::map<std::string, CameraInput>& cameras,
-                                    double now) {
+CalibrationStatus calibrationStatus(const workflow::Calibration& calibration) {
   static_assert(static_cast<int>(workflow::Step::kIdle) == CalibrationStatus::IDLE &&
                     static_cast<int>(workflow::Step::kReady) == CalibrationStatus::READY &&
                     static_cast<int>(workflow::Step::kCapturing) == CalibrationStatus::CAPTURING &&
+                    static_cast<int>(workflow::Step::kWaving) == CalibrationStatus::WAVING &&
                     static_cast<int>(workflow::Step::kComplete) == CalibrationStatus::COMPLETE &&
                     static_cast<int>(workflow::Step::kSolving) == CalibrationStatus::SOLVING &&
                     static_cast<int>(workflow::Step::kSolved) == CalibrationStatus::SOLVED &&
-                    static_cast<int>(workflow::Step::kSaved) == CalibrationStatus::SAVED,
+                    static_cast<int>(workflow::Step::kSaved) == CalibrationStatus::SAVED &&
+                    static_cast<int>(workflow::Step::kMasking) == CalibrationStatus::MASKING &&
+                    static_cast<int>(workflow::Step::kMeasuring) == CalibrationStatus::MEASURING,
                 "the steps of the core and of the message must agree");
   CalibrationStatus status;
   status.step = static_cast<std::uint8_t>(calibration.step());
@@ -81,7 +82,6 @@ CalibrationStatus calibrationStatus(const workflow::Calibration& calibration,
   status.corners_captured = static_cast<std::uint32_t>(calibration.corners().size());
   status.corners_needed = workflow::Calibration::kCorners;
   status.square_sides = calibration.sides();
-  status.cameras = cameraStatus(calibration, cameras, now);
   if (calibration.rig())
     status.rig_id = calibration.rig()->id();
   return status;

@@ -19,13 +19,10 @@ std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> cameraStatus(
     const workflow::Calibration& calibration,
     const std::map<std::string, CameraInput>& cameras,
     double now,
-    double window = 1.0);
+    double window);
 
-/// Where the calibration stands, without header.
-wiimote_tracker_msgs::CalibrationStatus calibrationStatus(
-    const workflow::Calibration& calibration,
-    const std::map<std::string, CameraInput>& cameras,
-    double now);
+/// Where the calibration stands, without header and cameras.
+wiimote_tracker_msgs::CalibrationStatus calibrationStatus(const workflow::Calibration& calibration);
 
 }  // namespace wiimote_tracker
 

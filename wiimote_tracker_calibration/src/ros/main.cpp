@@ -15,8 +15,8 @@ int main(int argc, char** argv) {
   const ros::NodeHandle private_nh("~");
   try {
     wiimote_tracker::CalibrationNode node(nh, wiimote_tracker::readParameters(private_nh));
-    // Services wait for images, and images must come in meanwhile.
-    ros::MultiThreadedSpinner spinner(4);
+    // Services take their time, and cancel must get through meanwhile.
+    ros::MultiThreadedSpinner spinner(8);
     spinner.spin();
   } catch (const wiimote_tracker::ParameterError& error) {
     ROS_FATAL_STREAM(error.what());

@@ -30,8 +30,8 @@ square::SquareLayout layoutOf(const CalibrationOptions& options, double side_x, 
 }  // namespace
 
 Reply Calibration::start(double side_x, double side_y, const std::vector<std::string>& cameras) {
-  if (capture_)
-    return refuse("a corner is being captured: wait until that is over, or cancel");
+  if (busy_)
+    return refuse(occupied());
   try {
     layoutOf(options_, side_x, side_y).check();
   } catch (const square::SquareError& error) {
@@ -50,8 +50,8 @@ Reply Calibration::start(double side_x, double side_y, const std::vector<std::st
 }
 
 Reply Calibration::beginCapture(std::optional<std::size_t> retake, double now) {
-  if (capture_)
-    return refuse("a corner is already being captured: wait until that is over");
+  if (busy_)
+    return refuse(occupied());
   if (sides_.empty())
     return refuse("no calibration is started: start one first");
   if (retake && *retake >= corners_.size())
@@ -62,58 +62,64 @@ Reply Calibration::beginCapture(std::optional<std::size_t> retake, double now) {
     return refuse("all four corners are captured: solve, or retake one of them");
   current_corner_ = retake.value_or(corners_.size());
   capture_.emplace(cameras_, options_.capture, now);
-  step_ = Step::kCapturing;
+  capture_outcome_.reset();
+  busy_ = Step::kCapturing;
   return accept("capturing " + cornerName(current_corner_) + ": keep the LED still");
 }
 
-void Calibration::addImage(const std::string& camera, double time, const capture::Blobs& blobs) {
-  if (capture_)
-    capture_->add(camera, time, blobs);
+void Calibration::addImage(const capture::Image& image) {
+  if (!capture_)
+    return;
+  capture_->add(image.camera, image.stamp, image.spots);
+  finishCapture();
 }
 
-std::optional<Reply> Calibration::updateCapture(double now) {
+void Calibration::update(double now) {
   if (!capture_)
-    return std::nullopt;
-  const capture::CornerCapture::State state = capture_->update(now);
-  if (state == capture::CornerCapture::State::kCollecting)
-    return std::nullopt;
-  const std::string outcome = capture_->message();
-  const capture::CapturedCorner corner = capture_->result();
-  capture_.reset();
+    return;
+  capture_->update(now);
+  finishCapture();
+}
 
+void Calibration::finishCapture() {
+  const capture::CornerCapture::State state = capture_->state();
+  if (state == capture::CornerCapture::State::kCollecting)
+    return;
   const std::string name = cornerName(current_corner_);
-  if (state == capture::CornerCapture::State::kRefused) {
-    settle();
-    return refuse(name + " was not captured: " + outcome);
-  }
-  if (const auto other = cornerInSamePlace(corner)) {
-    settle();
-    return refuse(name + " was not captured: the LED is still where " + cornerName(*other) +
-                  " was captured; carry it on and capture again");
-  }
+  if (state == capture::CornerCapture::State::kRefused)
+    return endCapture({false, name + " was not captured: " + capture_->message()});
+  const capture::CapturedCorner corner = capture_->result();
+  if (const auto other = cornerInSamePlace(corner))
+    return endCapture({false, name + " was not captured: the LED is still where " +
+                                  cornerName(*other) +
+                                  " was captured; carry it on and capture again"});
   if (current_corner_ < corners_.size())
     corners_[current_corner_] = corner;
   else
     corners_.push_back(corner);
-  settle();
   const std::string next =
       corners_.size() == kCorners
           ? "; all four corners are there: solve"
           : "; put the LED on " + cornerName(corners_.size()) + " and capture it";
-  return accept(name + " " + outcome + next);
+  endCapture({true, name + " " + capture_->message() + next});
+}
+
+void Calibration::endCapture(const Reply& outcome) {
+  capture_.reset();
+  capture_outcome_ = outcome;
+  busy_.reset();
+  settle();
+  message_ = outcome.message;
 }
 
 void Calibration::abandonCapture(const std::string& why) {
-  if (!capture_)
-    return;
-  capture_.reset();
-  settle();
-  refuse(cornerName(current_corner_) + " was not captured: " + why);
+  if (capture_)
+    endCapture({false, cornerName(current_corner_) + " was not captured: " + why});
 }
 
 Reply Calibration::undo() {
-  if (capture_)
-    return refuse("a corner is being captured: wait until that is over, or cancel");
+  if (busy_)
+    return refuse(occupied());
   if (corners_.empty())
     return refuse("there is no captured corner to undo");
   corners_.pop_back();
@@ -122,7 +128,11 @@ Reply Calibration::undo() {
 }
 
 Reply Calibration::cancel() {
-  capture_.reset();
+  if (busy_ && *busy_ != Step::kCapturing) {
+    busy_.reset();
+    return accept("stopped; what was captured before stays");
+  }
+  abandonCapture("it was cancelled");
   corners_.clear();
   cameras_.clear();
   sides_.clear();
@@ -130,20 +140,38 @@ Reply Calibration::cancel() {
   return accept(rig_ ? "cancelled; the rig from before stays in use" : "cancelled");
 }
 
+Reply Calibration::begin(Step step, const std::string& message) {
+  if (busy_)
+    return refuse(occupied());
+  busy_ = step;
+  progress_ = 0.0;
+  return accept(message);
+}
+
+void Calibration::end(const Reply& outcome) {
+  if (!busy_)
+    return;
+  busy_.reset();
+  message_ = outcome.message;
+}
+
 Reply Calibration::beginSolve() {
-  if (capture_)
-    return refuse("a corner is being captured: wait until that is over");
+  if (busy_)
+    return refuse(occupied());
   if (corners_.size() < kCorners)
     return refuse("only " + std::to_string(corners_.size()) +
                   " of 4 corners are captured: capture the others first");
-  step_ = Step::kSolving;
+  busy_ = Step::kSolving;
+  progress_ = 0.0;
   return accept("solving");
 }
 
 Reply Calibration::solve(const std::map<std::string, CameraFacts>& facts, double time) {
-  const Reply ready = beginSolve();
-  if (!ready.success)
-    return ready;
+  if (!isBusyWith(Step::kSolving)) {
+    const Reply ready = beginSolve();
+    if (!ready.success)
+      return ready;
+  }
   std::vector<square::CameraSightings> sightings;
   for (const std::string& name : cameras_) {
     square::CameraSightings camera;
@@ -169,21 +197,29 @@ Reply Calibration::solve(const std::map<std::string, CameraFacts>& facts, double
     solution.rig.check();
     rig_ = solution.rig;
   } catch (const geometry::Error& error) {
-    settle();
+    busy_.reset();
     return refuse(error.what());
   }
+  busy_.reset();
   step_ = Step::kSolved;
   return accept(rig_->verdict);
 }
 
 Reply Calibration::load(const geometry::Rig& rig) {
-  if (capture_)
-    return refuse("a corner is being captured: wait until that is over, or cancel");
+  if (busy_)
+    return refuse(occupied());
   rig_ = rig;
   if (sides_.empty() || step_ == Step::kSolved)
     step_ = Step::kSaved;
   return accept("rig " + rig.id() + " with " + std::to_string(rig.cameras.size()) +
                 " cameras is in use");
+}
+
+void Calibration::setRig(const geometry::Rig& rig, const std::string& message) {
+  rig_ = rig;
+  if (sides_.empty() || step_ == Step::kSaved)
+    step_ = Step::kSolved;
+  message_ = message;
 }
 
 void Calibration::saved(const std::string& message) {
@@ -193,16 +229,32 @@ void Calibration::saved(const std::string& message) {
 }
 
 double Calibration::progress() const {
+  if (capture_)
+    return capture_->progress();
+  if (busy_)
+    return progress_;
   switch (step_) {
+    case Step::kIdle:
+      return 0.0;
     case Step::kReady:
       return static_cast<double>(corners_.size()) / static_cast<double>(kCorners);
-    case Step::kCapturing:
-      return capture_ ? capture_->progress() : 0.0;
-    case Step::kIdle:
-    case Step::kSolving:
-      return 0.0;
     default:
       return 1.0;
+  }
+}
+
+std::string Calibration::occupied() const {
+  switch (*busy_) {
+    case Step::kCapturing:
+      return "a corner is being captured: wait until that is over, or cancel";
+    case Step::kWaving:
+      return "a wave is being recorded: stop it first";
+    case Step::kSolving:
+      return "the solver runs: wait until it is done, or cancel";
+    case Step::kMasking:
+      return "other lights are being learned: wait until that is over, or cancel";
+    default:
+      return "the place of an LED is being measured: wait until that is over, or cancel";
   }
 }
 

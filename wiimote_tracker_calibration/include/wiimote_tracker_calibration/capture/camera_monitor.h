@@ -1,17 +1,15 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CAMERA_MONITOR_H
 #define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CAMERA_MONITOR_H
 
+#include "wiimote_tracker_calibration/capture/image.h"
+
 #include <Eigen/Core>
 
 #include <deque>
 #include <limits>
 #include <string>
-#include <vector>
 
 namespace wiimote_tracker::capture {
-
-/// Spots of one image [px], lens distortion still in them.
-using Blobs = std::vector<Eigen::Vector2d>;
 
 /// What one camera shows at the moment.
 struct CameraView {
@@ -24,7 +22,8 @@ struct CameraView {
   std::string problem;  ///< One sentence that says what to do; empty when all is well.
 };
 
-/// Watches the images of one camera. Times [s] are of any one steady clock.
+/// Watches the images of one camera. Times [s] are of one clock; when it is set back, the images
+/// from before are forgotten.
 class CameraMonitor {
  public:
   /// Images older than this are forgotten [s].

@@ -1,0 +1,93 @@
+#include "wiimote_tracker_calibration/capture/image_order.h"
+#include "wiimote_tracker_calibration/capture/masks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+namespace wiimote_tracker::capture {
+namespace {
+
+/// Adds images in the given order. @returns the stamps handed on, camera by camera unless equal.
+std::vector<std::pair<double, std::string>> ordered(const std::vector<Image>& images) {
+  ImageOrder order;
+  std::vector<std::pair<double, std::string>> result;
+  for (const Image& image : images)
+    order.add(image, [&](const Image& next) { result.emplace_back(next.stamp, next.camera); });
+  return result;
+}
+
+Image at(const std::string& camera, double stamp) {
+  Image image;
+  image.camera = camera;
+  image.stamp = stamp;
+  return image;
+}
+
+TEST(ImageOrder, any_order_of_arrival_gives_the_order_of_stamps) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> delay(0.0, 0.15);
+  std::vector<std::pair<double, std::string>> first;
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<std::pair<double, Image>> arrivals;  // a camera's own images keep their order
+    for (const char* camera : {"a", "b", "c"}) {
+      double arrival = 0.0;
+      for (int i = 0; i < 300; ++i) {
+        const double stamp = 100.0 + 0.01 * i + (camera[0] == 'b' ? 0.003 : 0.0);
+        arrival = std::max(arrival, stamp + delay(random));
+        arrivals.emplace_back(arrival, at(camera, stamp));
+      }
+    }
+    std::stable_sort(arrivals.begin(), arrivals.end(),
+                     [](const auto& x, const auto& y) { return x.first < y.first; });
+    std::vector<Image> images = {at("a", 99.9), at("b", 99.9), at("c", 99.9)};
+    for (const auto& arrival : arrivals)
+      images.push_back(arrival.second);
+    const auto result = ordered(images);
+    EXPECT_TRUE(std::is_sorted(result.begin(), result.end()));
+    // All but the last, which a camera could still precede.
+    EXPECT_GE(result.size(), 900U);
+    if (trial == 0)
+      first = result;
+    const std::size_t common = std::min(first.size(), result.size());
+    EXPECT_TRUE(std::equal(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(common),
+                           result.begin()));
+  }
+}
+
+TEST(ImageOrder, a_camera_that_falls_silent_holds_up_no_other) {
+  std::vector<Image> images = {at("silent", 1.0)};
+  for (int i = 0; i < 100; ++i)
+    images.push_back(at("a", 1.0 + 0.01 * i));
+  const auto result = ordered(images);
+  // All but the newest: from a newly appeared camera an equal stamp could come.
+  EXPECT_EQ(result.size(), 100U);
+}
+
+TEST(ImageOrder, a_late_image_is_not_lost_and_one_from_a_clock_set_back_begins_anew) {
+  EXPECT_EQ(ordered({at("a", 1.0), at("b", 1.0), at("a", 2.0), at("b", 0.5)}).size(), 3U);
+  const auto result = ordered({at("a", 100.0), at("b", 100.0), at("a", 10.0), at("b", 10.0),
+                               at("a", 10.01), at("b", 10.01)});
+  ASSERT_EQ(result.size(), 4U);
+  EXPECT_EQ(result[1].first, 100.0);
+  EXPECT_EQ(result[3].first, 10.0);
+}
+
+TEST(Masks, a_masked_spot_is_set_aside_in_its_own_camera_only) {
+  const Masks masks = {{"a", {{{100.0, 100.0}, 10.0}}}};
+  Image image = at("a", 1.0);
+  image.spots = {{105.0, 105.0}, {300.0, 300.0}, {100.0, 110.5}};
+  Image other = image;
+  other.camera = "b";
+  applyMasks(masks, &image);
+  applyMasks(masks, &other);
+  EXPECT_EQ(image.spots, Blobs({{300.0, 300.0}, {100.0, 110.5}}));
+  EXPECT_EQ(image.masked, Blobs({{105.0, 105.0}}));
+  EXPECT_EQ(other.spots.size(), 3U);
+  EXPECT_TRUE(other.masked.empty());
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::capture

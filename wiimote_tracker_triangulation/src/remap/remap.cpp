@@ -45,6 +45,11 @@ std::size_t parameterCount(Model model, std::size_t support) {
   }
 }
 
+bool operator==(const Remap& a, const Remap& b) {
+  return a.rig_id == b.rig_id && a.model == b.model && a.parameters == b.parameters &&
+         a.support == b.support;
+}
+
 void Remap::check() const {
   if (rig_id.empty())
     throw RemapError(

@@ -38,7 +38,7 @@ wiimote_tracker_msgs::TrackedPoint trackedPoint(const fusion::Instant& instant,
   point.residual = instant.point->reprojection_error;
   point.last_observed = timeOf(instant.last_observed);
   point.age = instant.time - context.first_seen;
-  point.remapped = false;
+  point.remapped = context.remapped;
   return point;
 }
 

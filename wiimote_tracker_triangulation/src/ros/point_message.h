@@ -16,6 +16,7 @@ struct PointContext {
   std::string method;      ///< Word of the triangulation method.
   std::string rig_id;      ///< Id of the rig, as published.
   double first_seen = 0.;  ///< When the LED was first seen [s]; only used with a point.
+  bool remapped = false;   ///< The point was corrected and lies in the corrected volume.
 };
 
 /// The message of one instant: one point, or none. `time` of the core becomes ros::Time.

@@ -33,10 +33,11 @@ void Triangulation::onRig(const wiimote_tracker_msgs::RigCalibrationConstPtr& me
   try {
     const geometry::Rig rig = fromMessage(*message);
     const std::string id = rig.id();
-    if (id == computed_id_)
-      return;
-    takeRig(rig, message->id.empty() ? id : message->id);
-    computed_id_ = id;
+    if (id != computed_id_) {
+      takeRig(rig, message->id.empty() ? id : message->id);
+      computed_id_ = id;
+    }
+    takeCorrection(rig);
   } catch (const geometry::Error& e) {
     ROS_ERROR("The rig calibration on %s is refused%s: %s", rig_subscriber_.getTopic().c_str(),
               fuser_ ? ", the one before stays in use" : "", e.what());
@@ -74,6 +75,16 @@ void Triangulation::takeRig(const geometry::Rig& rig, const std::string& publish
   }
   blob_subscribers_ = std::move(subscribers);
   ROS_INFO("Rig %s with %zu cameras is in use.", published_id.c_str(), rig_.cameras.size());
+}
+
+/// It may come later than the rig it belongs to.
+void Triangulation::takeCorrection(const geometry::Rig& rig) {
+  if (!correction_.take(rig))
+    return;
+  if (correction_.problem().empty())
+    ROS_INFO("Correction of the volume: %s.", correction_.state().c_str());
+  else
+    ROS_WARN("Points are not corrected: %s.", correction_.problem().c_str());
 }
 
 void Triangulation::onBlobs(const wiimote_tracker_msgs::IrBlobArrayConstPtr& message,
@@ -136,7 +147,10 @@ void Triangulation::checkIdentity(const wiimote_tracker_msgs::IrBlobArray& messa
       calibrated.name.c_str(), message.identity.c_str(), calibrated.identity.c_str());
 }
 
-void Triangulation::publish(const fusion::Instant& instant) {
+void Triangulation::publish(const fusion::Instant& measured) {
+  corrected_ = measured;
+  const fusion::Instant& instant = corrected_;
+  context_.remapped = corrected_.point && correction_.apply(&*corrected_.point);
   newest_instant_ = instant.time;
   if (instant.point && std::isnan(first_seen_))
     first_seen_ = instant.time;
@@ -198,7 +212,10 @@ void Triangulation::report(diagnostic_updater::DiagnosticStatusWrapper& status) 
                            rig_.cameras[i].camera.name.c_str(), strangers_[i].c_str(),
                            rig_.cameras[i].camera.identity.c_str());
   }
+  if (!correction_.problem().empty())
+    status.mergeSummary(DiagnosticStatus::WARN, correction_.problem());
   status.add("rig", context_.rig_id);
+  status.add("correction of the volume", correction_.state());
   status.addf("rate [Hz]", "%.1f", rate);
   status.addf("latency p50 [ms]", "%.3f", 1e3 * statistics_.latency(0.50));
   status.addf("latency p99 [ms]", "%.3f", 1e3 * statistics_.latency(0.99));

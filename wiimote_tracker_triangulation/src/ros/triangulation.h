@@ -5,6 +5,7 @@
 #include "parameters.h"
 #include "point_message.h"
 #include "statistics.h"
+#include "volume_correction.h"
 #include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -29,11 +30,12 @@ class Triangulation {
  private:
   void onRig(const wiimote_tracker_msgs::RigCalibrationConstPtr& message);
   void takeRig(const geometry::Rig& rig, const std::string& published_id);
+  void takeCorrection(const geometry::Rig& rig);
   void onBlobs(const wiimote_tracker_msgs::IrBlobArrayConstPtr& message, const std::string& camera);
   bool isUsable(const wiimote_tracker_msgs::IrBlobArray& message,
                 const geometry::RigCamera& camera) const;
   void checkIdentity(const wiimote_tracker_msgs::IrBlobArray& message, std::size_t camera);
-  void publish(const fusion::Instant& instant);
+  void publish(const fusion::Instant& measured);
   void onTimer(const ros::WallTimerEvent& event);
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -45,6 +47,8 @@ class Triangulation {
   std::map<std::string, std::size_t> camera_index_;
   std::vector<std::string> strangers_;  // per camera: device that was not calibrated, or empty
   std::unique_ptr<fusion::InstantFuser> fuser_;
+  VolumeCorrection correction_;
+  fusion::Instant corrected_;  // reused
   PointContext context_;
   double newest_instant_ = -std::numeric_limits<double>::infinity();
   double first_seen_ = std::numeric_limits<double>::quiet_NaN();

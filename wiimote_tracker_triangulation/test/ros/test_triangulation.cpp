@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -303,6 +304,76 @@ TEST(Triangulation, KeepsItsRigWhenABadOneComes) {
     expectOnPath(array, 3);
     EXPECT_EQ(g_bench->rig_.id(), array.rig_id);
   }
+}
+
+/// Everything 0.1 m higher, measured between these heights.
+remap::Remap raised(const Rig& rig, double bottom, double top) {
+  remap::Remap remap{rig.id(), remap::Model::kAffine, std::vector<double>(12, 0.0), {}};
+  remap.parameters[2] = 0.1;
+  for (int corner = 0; corner < 8; ++corner)
+    remap.support.emplace_back(corner % 2 ? 1.0 : -1.0, corner / 2 % 2 ? 1.0 : -1.0,
+                               corner / 4 ? top : bottom);
+  return remap;
+}
+
+/// Films with a rig that carries this correction; expects the points at this height, 0.2 m being
+/// the truth, and all of them remapped or none.
+void expectCorrected(const std::optional<remap::Remap>& remap, double height, bool remapped) {
+  Rig rig = g_bench->rig_;
+  rig.remap = remap;
+  g_bench->rig_publisher_.publish(toMessage(rig));
+  // From the first point at that height on; the rig may overtake images, and they it.
+  ASSERT_TRUE(Bench::waitFor([&] {
+    if (!g_bench->film(kBatch, {0, 1, 2}))
+      return false;
+    const auto& points = g_bench->arrays_.back().points;
+    return !points.empty() && std::abs(points[0].position.z - height) < 1e-3 &&
+           points[0].remapped == remapped;
+  }));
+  const double begin = g_bench->now_;
+  ASSERT_TRUE(g_bench->film(0.2, {0, 1, 2}));
+  const auto arrays = g_bench->arraysSince(begin);
+  EXPECT_GT(arrays.size(), 40u);
+  for (const auto& array : arrays) {
+    ASSERT_EQ(1u, array.points.size());
+    EXPECT_EQ(rig.id(), array.rig_id);
+    EXPECT_EQ(remapped, array.points[0].remapped);
+    const auto& p = array.points[0].position;
+    Vector3d expected = ledAt(array.header.stamp.toSec());
+    expected.z() = height;
+    EXPECT_LT((Vector3d(p.x, p.y, p.z) - expected).norm(), 2e-5);
+  }
+}
+
+TEST(Triangulation, CorrectsTheVolumeAndNothingElse) {
+  expectCorrected(raised(g_bench->rig_, 0.0, 1.0), 0.3, true);
+  // All below what was measured: displaced as the border is, and not said to be corrected.
+  expectCorrected(raised(g_bench->rig_, 0.5, 1.0), 0.3, false);
+  expectCorrected(std::nullopt, 0.2, false);
+  ASSERT_TRUE(Bench::waitFor([] {
+    return !g_bench->points_.empty() &&
+           g_bench->points_.back().header.stamp == g_bench->arrays_.back().header.stamp;
+  }));
+  EXPECT_EQ(g_bench->arrays_.back().points.at(0).position, g_bench->points_.back().point);
+}
+
+TEST(Triangulation, SaysThatACorrectionOfAnotherCalibrationIsVoid) {
+  remap::Remap old = raised(g_bench->rig_, 0.0, 1.0);
+  old.rig_id = "0123456789abcdef";
+  g_bench->diagnostics_.clear();
+  expectCorrected(old, 0.2, false);
+  EXPECT_TRUE(
+      g_bench->waitForLog("Points are not corrected: the correction of the volume was "
+                          "measured with calibration \"0123456789abcdef\""));
+  EXPECT_TRUE(Bench::waitFor([] {
+    return g_bench->film(kBatch, {0, 1, 2}) &&
+           std::any_of(g_bench->diagnostics_.begin(), g_bench->diagnostics_.end(),
+                       [](const auto& status) {
+                         return status.level == diagnostic_msgs::DiagnosticStatus::WARN &&
+                                status.message.find("it is void") != std::string::npos;
+                       });
+  }));
+  expectCorrected(std::nullopt, 0.2, false);
 }
 
 TEST(Triangulation, TakesANewRigAtOnce) {

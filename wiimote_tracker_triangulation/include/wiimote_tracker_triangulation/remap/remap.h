@@ -46,6 +46,8 @@ struct Remap {
   void check() const;
 };
 
+bool operator==(const Remap& a, const Remap& b);
+
 }  // namespace wiimote_tracker::remap
 
 #endif  // WIIMOTE_TRACKER_TRIANGULATION_REMAP_REMAP_H

@@ -207,6 +207,20 @@ void checkTurns(const std::string& name, Section section, const std::vector<LedD
     throw section.error("turns/around", "must be the name of an LED that does not turn itself");
 }
 
+BoardDescription readBoard(Section section, const std::vector<CameraDescription>& cameras) {
+  BoardDescription board;
+  board.before = section.value<std::string>("before");
+  if (std::none_of(cameras.begin(), cameras.end(), [&](const CameraDescription& camera) {
+        return camera.camera.name == board.before;
+      }))
+    throw section.error("before", "must be the name of a camera");
+  board.column_spacing = section.number("column_spacing", 0.001, 1.0, board.column_spacing);
+  board.row_spacing = section.number("row_spacing", 0.001, 1.0, board.row_spacing);
+  board.size = section.number("size", 0.0, 15.0, board.size);
+  section.refuseUnknown();
+  return board;
+}
+
 }  // namespace
 
 Description readDescription(const std::string& path) {
@@ -233,6 +247,8 @@ Description readDescription(const std::string& path) {
     description.leds.push_back(readLed(name, section));
   for (auto& [name, section] : leds.entries())
     checkTurns(name, section, description.leds);
+  if (file.has("board"))
+    description.board = readBoard(file.section("board"), description.cameras);
   file.refuseUnknown();
   return description;
 }

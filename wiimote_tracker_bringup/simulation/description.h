@@ -42,6 +42,14 @@ struct LedDescription {
   bool lit = true;
 };
 
+/// A board of 4 x 4 LEDs that is held before one camera.
+struct BoardDescription {
+  std::string before;            ///< Name of the camera.
+  double column_spacing = 0.08;  ///< [m]
+  double row_spacing = 0.08;     ///< [m]
+  double size = 3.0;             ///< Of each LED, as of a Lamp [0..15].
+};
+
 /// A rig that does not exist. The world has z up.
 struct Description {
   std::string world_frame = "world";
@@ -50,6 +58,7 @@ struct Description {
   double truth_rate = 200.0;  ///< [Hz]
   std::vector<CameraDescription> cameras;
   std::vector<LedDescription> leds;
+  std::optional<BoardDescription> board;
 };
 
 /// Reads a description (layout: paper_rig.yaml). Unknown keys are refused.

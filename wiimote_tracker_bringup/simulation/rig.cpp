@@ -23,6 +23,8 @@ Rig::Rig(const Description& description, Deliver deliver, Truth truth)
     cameras_.push_back(
         {VirtualCamera(camera.camera, description.pixel_noise, seeds[0]), times, first, {}});
     push(first.exposure, Event::kExposure, number);
+    if (description.board && description.board->before == camera.camera.name)
+      board_.emplace(*description.board, camera.camera);
   }
   push(0.0, Event::kTruth, 0);
 }
@@ -83,6 +85,8 @@ void Rig::expose(std::size_t number) {
       lamps_.push_back({positionOf(led, camera.next.exposure), led.description.size,
                         led.description.brightness});
   }
+  if (board_)
+    board_->addLamps(camera.next.exposure, &lamps_);
   const virtual_wiimote::Senses senses = camera.optics.sense(lamps_);
   if (!camera.next.lost) {
     camera.travelling.push(senses);

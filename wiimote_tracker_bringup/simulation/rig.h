@@ -2,11 +2,13 @@
 #define WIIMOTE_TRACKER_BRINGUP_SIMULATION_RIG_H
 
 #include "description.h"
+#include "led_board.h"
 #include "led_motion.h"
 #include "virtual_camera.h"
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <queue>
 #include <string>
 #include <vector>
@@ -40,6 +42,9 @@ class Rig {
   };
   Led* findLed(const std::string& name);
 
+  /// The board of the description, or nothing (nullptr). Run until the moment of a change first.
+  LedBoard* board() { return board_ ? &*board_ : nullptr; }
+
  private:
   struct Event {
     enum Kind { kExposure, kDelivery, kTruth };
@@ -71,6 +76,7 @@ class Rig {
   std::uint64_t truths_ = 0;
   std::vector<Camera> cameras_;
   std::vector<Led> leds_;
+  std::optional<LedBoard> board_;
   std::vector<Lamp> lamps_;
   std::priority_queue<Event, std::vector<Event>, std::greater<Event>> events_;
   std::uint64_t event_count_ = 0;

@@ -73,6 +73,8 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
     return true;
 
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (request.led == "board" && rig_.board())
+    return setBoard(request, response);
   Rig::Led* led = rig_.findLed(request.led);
   if (!led) {
     response.message = "there is no LED '" + request.led + "' in the rig's description";
@@ -108,12 +110,30 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
   return true;
 }
 
+bool SimulatedRig::setBoard(const SetLed::Request& request, SetLed::Response& response) {
+  if (request.motion != SetLed::Request::HOLD && request.motion != SetLed::Request::SHOW) {
+    response.message = "the board can only HOLD or be shown (SHOW)";
+    return true;
+  }
+  const double time = now();
+  rig_.runUntil(time);
+  if (request.motion == SetLed::Request::SHOW)
+    rig_.board()->show(request.path);
+  rig_.board()->setLit(request.on);
+  response.success = true;
+  response.arrival = stamp(time);
+  response.message = std::string("the board ") + (request.on ? "shines" : "is dark");
+  return true;
+}
+
 /// Why a request cannot be carried out; empty when it can.
 std::string SimulatedRig::refusal(const SetLed::Request& request) const {
   const bool line = request.motion == SetLed::Request::LINE;
   const bool circle = request.motion == SetLed::Request::CIRCLE;
   const Eigen::Vector3d sides(request.box.x, request.box.y, request.box.z);
   const bool wave = request.motion == SetLed::Request::WAVE;
+  if (request.motion == SetLed::Request::SHOW)
+    return request.led == "board" ? "" : "only the board can be shown (SHOW)";
   if (!line && !circle && !wave && request.motion != SetLed::Request::HOLD)
     return "motion must be HOLD, LINE, CIRCLE or WAVE";
   if ((line || circle || wave) &&

@@ -32,6 +32,8 @@ class SimulatedRig {
  private:
   bool setLed(wiimote_tracker_msgs::SetLed::Request& request,
               wiimote_tracker_msgs::SetLed::Response& response);
+  bool setBoard(const wiimote_tracker_msgs::SetLed::Request& request,
+                wiimote_tracker_msgs::SetLed::Response& response);
   std::string refusal(const wiimote_tracker_msgs::SetLed::Request& request) const;
   double now() const;                  ///< [s since the start]
   ros::Time stamp(double time) const;  ///< Of a time since the start.

@@ -135,6 +135,8 @@ class SimulatedRig(unittest.TestCase):
             (dict(led='led', motion=SetLedRequest.LINE, speed=float('nan')), 'speed'),
             (dict(led='led', motion=SetLedRequest.CIRCLE, speed=0.0, radius=1.0), 'speed'),
             (dict(led='led', motion=SetLedRequest.CIRCLE, speed=1.0, radius=0.0), 'radius'),
+            (dict(led='led', motion=SetLedRequest.SHOW), 'only the board'),
+            (dict(led='board', motion=SetLedRequest.LINE), 'only HOLD or be shown'),
             (dict(led='led', motion=SetLedRequest.WAVE, speed=1.0), 'sides of the box'),
             (dict(led='led', motion=SetLedRequest.WAVE, box=Vector3(1, 1, 1)), 'speed'),
             (dict(led='wand_end', motion=SetLedRequest.LINE), "where 'led' goes")]

@@ -144,6 +144,19 @@ TEST_F(DescriptionFile, an_led_may_turn_about_another_one_that_does_not) {
             std::string::npos);
 }
 
+TEST_F(DescriptionFile, a_board_is_held_before_a_camera_that_is_there) {
+  EXPECT_FALSE(read(kGood).board);
+  const std::string text = std::string(kGood) + "board: {before: first, row_spacing: 0.1}\n";
+  const Description d = read(text);
+  ASSERT_TRUE(d.board);
+  EXPECT_EQ(d.board->before, "first");
+  EXPECT_EQ(d.board->column_spacing, 0.08);
+  EXPECT_EQ(d.board->row_spacing, 0.1);
+  EXPECT_NE(complaint("leds:", "board: {before: third}\nleds:")
+                .find("board/before must be the name of a camera"),
+            std::string::npos);
+}
+
 TEST_F(DescriptionFile, errors_name_file_key_and_reason) {
   const auto has = [](const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;

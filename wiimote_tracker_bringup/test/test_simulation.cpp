@@ -348,6 +348,72 @@ TEST(Rig, the_other_end_of_a_wand_stays_at_its_distance_and_turns) {
   EXPECT_GT((high - low).minCoeff(), 0.6) << "in 10 s it has pointed everywhere";
 }
 
+TEST(LedBoard, lights_rows_then_columns_four_at_a_time) {
+  // The table of wiimote_tracker_calibration/doc/board.md, by hand: when, and which four.
+  const std::vector<std::pair<double, std::vector<int>>> table = {
+      {0.000, {0, 1, 2, 3}},     {0.060, {4, 5, 6, 7}},  {0.120, {8, 9, 10, 11}},
+      {0.180, {12, 13, 14, 15}}, {0.240, {0, 4, 8, 12}}, {0.480, {1, 5, 9, 13}},
+      {0.720, {2, 6, 10, 14}},   {0.960, {3, 7, 11, 15}}};
+  geometry::Camera camera = cameraAt(Vector3d(0, 0, 1), Vector3d(5, 0, 1));
+  BoardDescription description;
+  description.column_spacing = 0.08;
+  description.row_spacing = 0.1;
+  LedBoard board(description, camera);
+  std::vector<Lamp> lamps;
+  board.addLamps(0.01, &lamps);
+  EXPECT_TRUE(lamps.empty()) << "dark until it is switched on";
+  board.setLit(true);
+  std::vector<Vector3d> all(16);
+  for (const double cycle : {0.0, 5 * 1.98}) {
+    for (const auto& [start, leds] : table) {
+      for (const double after : {0.001, 0.039}) {
+        lamps.clear();
+        board.addLamps(cycle + start + after, &lamps);
+        ASSERT_EQ(lamps.size(), 4u) << start;
+        for (int i = 0; i < 4; ++i)
+          all[leds[i]] = lamps[i].position;
+      }
+      lamps.clear();
+      board.addLamps(cycle + start + 0.041, &lamps);
+      EXPECT_TRUE(lamps.empty()) << start;
+    }
+    for (const double dark : {0.301, 0.42, 1.03, 1.5, 1.97}) {
+      lamps.clear();
+      board.addLamps(cycle + dark, &lamps);
+      EXPECT_TRUE(lamps.empty()) << dark;
+    }
+  }
+  // A flat grid with the given spacings, seen from its front.
+  EXPECT_NEAR((all[3] - all[0]).norm(), 0.24, 1e-12);
+  EXPECT_NEAR((all[12] - all[0]).norm(), 0.3, 1e-12);
+  EXPECT_LT((all[0] + all[15] - all[3] - all[12]).norm(), 1e-12);
+  const Vector3d into = (all[3] - all[0]).cross(all[12] - all[0]);
+  EXPECT_GT(into.dot(all[0] - camera.center()), 0.0);
+}
+
+TEST(LedBoard, is_in_view_in_nearly_every_pose_and_each_is_another) {
+  const geometry::Camera camera = cameraAt(Vector3d(0, 0, 1), Vector3d(5, 0, 1));
+  LedBoard board(BoardDescription(), camera);
+  board.setLit(true);
+  int seen = 0;
+  std::vector<Vector3d> places;
+  for (std::uint32_t pose = 0; pose < 50; ++pose) {
+    board.show(pose);
+    std::vector<Lamp> lamps;
+    for (int row = 0; row < 4; ++row)
+      board.addLamps(0.06 * row, &lamps);
+    ASSERT_EQ(lamps.size(), 16u);
+    for (const Lamp& lamp : lamps) {
+      const auto pixel = camera.project(lamp.position);
+      seen += pixel && pixel->x() > 0 && pixel->x() < 1023 && pixel->y() > 0 && pixel->y() < 767;
+    }
+    for (const Vector3d& place : places)
+      EXPECT_GT((place - lamps[0].position).norm(), 1e-3);
+    places.push_back(lamps[0].position);
+  }
+  EXPECT_GT(seen, 50 * 16 * 9 / 10);
+}
+
 TEST(Rig, a_dark_led_is_not_seen_but_images_go_on) {
   int images = 0, lights = 0;
   Rig rig(

@@ -1,0 +1,87 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_HEALTH_DRIFT_WATCH_H
+#define WIIMOTE_TRACKER_CALIBRATION_HEALTH_DRIFT_WATCH_H
+
+#include "wiimote_tracker_calibration/capture/image.h"
+
+#include <wiimote_tracker_triangulation/fusion/frame_history.h>
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+#include <wiimote_tracker_triangulation/geometry/sight.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wiimote_tracker::health {
+
+struct DriftOptions {
+  double limit = 0.7;    ///< Mean residual that is no longer taken for nothing [px, > 0].
+  double window = 60.0;  ///< Over which it is taken [s, > 0].
+  double period = 5.0;   ///< From one judgement to the next [s, > 0].
+};
+
+/// How far a camera's images are from what the other cameras see.
+struct Drift {
+  /// Mean residual (predicted less observed); with one other camera only, its size across the
+  /// epipolar line, in x [px].
+  Eigen::Vector2d bias = Eigen::Vector2d::Zero();
+  double stddev = 0.0;   ///< Of the bias, from noise and from the calibration: root of trace [px].
+  double ratio = 0.0;    ///< Of the bias to what is tolerated; 1 or more: drifted [1].
+  std::string together;  ///< The other camera, where one of both drifted and it is open which.
+};
+
+/// Watches the residuals of a rig while one LED is being tracked: not their noise, but their mean.
+/// An image of several spots takes no part. A rig whose ray model does not fit its calibration
+/// (RayModel::kImageCenter) is not judged.
+class DriftWatch {
+ public:
+  DriftWatch(const geometry::Rig& rig, const DriftOptions& options);
+
+  /// One image of any camera; of one camera in the order of their stamps.
+  /// @returns true when a new judgement is there.
+  bool add(const capture::Image& image);
+
+  /// Per camera of the rig, at the time of the latest judgement. Nothing for cameras that shared
+  /// too little motion with others in the window.
+  const std::vector<std::optional<Drift>>& drifts() const { return drifts_; }
+
+ private:
+  struct Camera {
+    geometry::Camera rays;
+    fusion::FrameHistory frames;
+    bool clock_known = false;                    // The time offset holds for the latest image.
+    std::optional<Eigen::Vector2d> last_sample;  // [px]
+  };
+  /// One instant at which two cameras or more saw the LED.
+  struct Sample {
+    double time;  // [s]
+    std::vector<std::pair<std::size_t, geometry::Sight>> sights;
+  };
+  using Cameras = std::vector<bool>;  // Which ones take part.
+
+  void sampleUntil(double time);
+  void sampleAt(double time);
+  void judge();
+  std::optional<Drift> driftAgainst(const Cameras& active, std::size_t camera) const;
+  std::optional<Drift> driftOfPair(std::size_t a, std::size_t b) const;
+  double worstOf(const Cameras& active) const;
+  void restart();
+
+  geometry::Rig rig_;
+  DriftOptions options_;
+  std::vector<Camera> cameras_;
+  std::deque<Sample> samples_;
+  bool started_ = false;
+  double newest_ = 0.0;       // Latest exposure [s].
+  double next_sample_ = 0.0;  // [s]
+  double next_judgement_ = 0.0;
+  std::vector<std::optional<Drift>> drifts_;
+};
+
+}  // namespace wiimote_tracker::health
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_HEALTH_DRIFT_WATCH_H

@@ -1,0 +1,116 @@
+#include "wiimote_tracker_calibration/health/health_watch.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace wiimote_tracker::health {
+
+namespace {
+
+const char kAdvice[] = "put it back, or recalibrate this camera";
+
+std::string degrees(double radians) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f degrees", radians * 180.0 / M_PI);
+  return text;
+}
+
+std::string tiltText(const Tilt& tilt) {
+  return "was moved: it is tilted by " + degrees(tilt.angle) + " (+- " + degrees(tilt.stddev) +
+         ") against where it was calibrated; " + kAdvice;
+}
+
+std::string driftText(const Drift& drift) {
+  char size[64];
+  std::snprintf(size, sizeof size, "%.1f px (+- %.1f px)", drift.bias.norm(), drift.stddev);
+  if (!drift.together.empty())
+    return "drifted, or " + drift.together + " did: their rays miss each other by " + size +
+           " on average; see which of both was moved, put it back or recalibrate it";
+  return "drifted: its images are " + std::string(size) +
+         " on average off what the other cameras see; " + kAdvice;
+}
+
+}  // namespace
+
+HealthWatch::HealthWatch(const geometry::Rig& rig, const HealthOptions& options)
+    : options_(options), drift_(rig, options.drift) {
+  for (const geometry::RigCamera& rig_camera : rig.cameras) {
+    const std::string& name = rig_camera.camera.name;
+    order_.push_back(name);
+    healths_[name];
+    Camera& camera = cameras_[name];
+    camera.calibrated_identity = rig_camera.camera.identity;
+    if (rig_camera.gravity && rig_camera.gravity->norm() > 0.0)
+      camera.tilt.emplace(*rig_camera.gravity, options.tilt);
+  }
+}
+
+void HealthWatch::addImage(const capture::Image& image, const std::string& identity) {
+  const auto found = cameras_.find(image.camera);
+  if (found == cameras_.end())
+    return;
+  Camera& camera = found->second;
+  const bool other = !identity.empty() && !camera.calibrated_identity.empty() &&
+                     identity != camera.calibrated_identity;
+  const std::string other_device = other ? identity : "";
+  if (other_device != camera.other_device) {
+    camera.other_device = other_device;
+    describe(image.camera);
+  }
+  if (!drift_.add(image))
+    return;
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const std::optional<Drift>& drift = drift_.drifts()[i];
+    // What cannot be judged now stays as it was judged last.
+    if (!drift)
+      continue;
+    healths_[order_[i]].drift = drift;
+    cameras_[order_[i]].drift_alarm.judge(drift->ratio);
+    describe(order_[i]);
+  }
+}
+
+void HealthWatch::addAcceleration(const std::string& name,
+                                  double time,
+                                  const Eigen::Vector3d& specific_force) {
+  const auto found = cameras_.find(name);
+  if (found == cameras_.end() || !found->second.tilt)
+    return;
+  // Another device's accelerometer has other errors.
+  if (!found->second.other_device.empty())
+    return;
+  const auto tilt = found->second.tilt->add(time, specific_force);
+  if (!tilt)
+    return;
+  healths_[name].tilt = tilt;
+  found->second.tilt_alarm.judge(tilt->ratio);
+  describe(name);
+}
+
+std::vector<std::string> HealthWatch::takeNews() {
+  std::vector<std::string> news;
+  news.swap(news_);
+  return news;
+}
+
+void HealthWatch::describe(const std::string& name) {
+  const Camera& camera = cameras_.at(name);
+  CameraHealth& health = healths_.at(name);
+  const bool was_well = health.text.empty();
+  std::string text;
+  const auto add = [&](const std::string& sentence) {
+    text += (text.empty() ? "" : "; ") + sentence;
+  };
+  if (!camera.other_device.empty())
+    add("is another device (" + camera.other_device + ") than was calibrated (" +
+        camera.calibrated_identity + "): recalibrate this camera");
+  if (camera.tilt_alarm.on() && health.tilt)
+    add(tiltText(*health.tilt));
+  if (camera.drift_alarm.on() && health.drift)
+    add(driftText(*health.drift));
+  health.text = text;
+  if (was_well && !text.empty())
+    news_.push_back(name + " " + text);
+}
+
+}  // namespace wiimote_tracker::health

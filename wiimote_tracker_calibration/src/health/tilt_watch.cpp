@@ -1,0 +1,36 @@
+#include "wiimote_tracker_calibration/health/tilt_watch.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::health {
+
+std::optional<Tilt> TiltWatch::add(double time, const Eigen::Vector3d& specific_force) {
+  std::optional<Tilt> tilt;
+  if (started_ && time >= last_ && time - start_ >= options_.window)
+    tilt = judge();
+  if (!started_ || time < last_ || time - start_ >= options_.window) {
+    started_ = true;
+    start_ = time;
+    window_ = capture::RestGravity();
+  }
+  last_ = time;
+  window_.add(specific_force);
+  return tilt;
+}
+
+std::optional<Tilt> TiltWatch::judge() const {
+  const auto mean = window_.mean();
+  if (!mean)
+    return std::nullopt;
+  Tilt tilt;
+  tilt.angle = std::atan2(gravity_.cross(*mean).norm(), gravity_.dot(*mean));
+  // Rounding, of then and of now; what noise leaves after averaging is far less.
+  tilt.stddev = options_.resolution / std::sqrt(12.0) * std::sqrt(2.0) / gravity_.norm();
+  tilt.ratio = tilt.angle / std::max(options_.limit, 3.0 * tilt.stddev);
+  return tilt;
+}
+
+}  // namespace wiimote_tracker::health

@@ -1,0 +1,78 @@
+#include "wiimote_tracker_calibration/place/check_place.h"
+
+#include "wiimote_tracker_calibration/place/chi_squared.h"
+#include "wiimote_tracker_calibration/place/error.h"
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+#include <cstdio>
+
+namespace wiimote_tracker::place {
+
+namespace {
+
+std::string millimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f mm", 1000.0 * metres);
+  return text;
+}
+
+std::string pixels(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f px", value);
+  return text;
+}
+
+/// Which cameras do not fit together, and what to do about it.
+std::string contradiction(const MeasuredPlace& measured) {
+  std::string list;
+  for (const std::string& name : measured.suspects)
+    list += (list.empty() ? "" : " or ") + name;
+  if (!list.empty())
+    return list +
+           " contradicts the other cameras: it was moved, or sees another light; clear that up, "
+           "then recalibrate this camera";
+  for (const PlaceView& view : measured.views)
+    list += (list.empty() ? "" : ", ") + view.camera + " by " + pixels(view.residual.norm());
+  return "the rays of the cameras miss each other (" + list +
+         "): one was moved, or they see different lights; clear that up, then recalibrate it";
+}
+
+std::string advice(const MeasuredPlace& measured, bool consistent) {
+  if (!measured.rays_agree)
+    return contradiction(measured);
+  if (consistent)
+    return "the calibration holds";
+  if (!measured.calibration_known)
+    return "the rig does not say how certain its cameras are, so only the pixels' noise was "
+           "expected; judge the error yourself";
+  return "more than that explains: check the place and its coordinates, and calibrate again if "
+         "they are right";
+}
+
+}  // namespace
+
+PlaceCheck checkPlace(const MeasuredPlace& measured,
+                      const Eigen::Vector3d& known,
+                      double known_stddev) {
+  if (!known.allFinite())
+    throw PlaceError("the known place is not finite: give x, y and z in metres");
+  if (!(known_stddev >= 0.0) || !std::isfinite(known_stddev))
+    throw PlaceError("known_stddev must be 0 or above: give it in metres");
+  const Eigen::Vector3d difference = measured.position - known;
+  const Eigen::Matrix3d covariance =
+      measured.covariance + known_stddev * known_stddev * Eigen::Matrix3d::Identity();
+  PlaceCheck check;
+  check.error = difference.norm();
+  check.expected_stddev = std::sqrt(covariance.trace());
+  check.consistent =
+      difference.dot(covariance.ldlt().solve(difference)) <= chiSquaredQuantile(3, kTwoNines);
+  check.message =
+      "measured " + millimetres(check.error) + " from the known place, where " +
+      millimetres(check.expected_stddev) +
+      " (one standard deviation) are to be expected: " + advice(measured, check.consistent);
+  return check;
+}
+
+}  // namespace wiimote_tracker::place

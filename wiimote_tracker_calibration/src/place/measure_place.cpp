@@ -1,0 +1,156 @@
+#include "wiimote_tracker_calibration/place/measure_place.h"
+
+#include "wiimote_tracker_calibration/place/camera_parameters.h"
+#include "wiimote_tracker_calibration/place/chi_squared.h"
+#include "wiimote_tracker_calibration/place/error.h"
+
+#include <wiimote_tracker_triangulation/geometry/triangulate.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace wiimote_tracker::place {
+
+namespace {
+
+/// One camera of the rig and what it saw.
+struct View {
+  std::size_t camera;
+  Eigen::Vector2d pixel;
+};
+
+/// A point from some views, and all that its errors come from.
+struct Measurement {
+  Eigen::Vector3d position;
+  Eigen::VectorXd residuals;      // Two per view [px].
+  Eigen::MatrixXd by_point;       // Derivatives of the pixels, two rows per view.
+  Eigen::MatrixXd by_parameters;  // Of all cameras of the rig.
+};
+
+std::optional<Measurement> measure(const geometry::Rig& rig,
+                                   const std::vector<View>& views,
+                                   double pixel_stddev) {
+  std::vector<geometry::Camera> cameras;
+  for (const View& view : views)
+    cameras.push_back(rig.rayCamera(rig.cameras[view.camera]));
+  std::vector<geometry::Observation> observations;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    observations.push_back({&cameras[i], views[i].pixel});
+  geometry::TriangulationOptions options;
+  options.pixel_stddev = pixel_stddev;
+  const auto point = geometry::triangulate(observations, options);
+  if (!point)
+    return std::nullopt;
+
+  const auto rows = static_cast<Eigen::Index>(2 * views.size());
+  Measurement result;
+  result.position = point->position;
+  result.residuals.resize(rows);
+  result.by_point.resize(rows, 3);
+  result.by_parameters = Eigen::MatrixXd::Zero(rows, firstParameter(rig.cameras.size()));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto projection = rayProjection(rig, views[i].camera, point->position);
+    if (!projection)
+      return std::nullopt;
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    result.residuals.segment<2>(row) = projection->pixel - views[i].pixel;
+    result.by_point.middleRows<2>(row) = projection->by_point;
+    result.by_parameters.block<2, kParameters>(row, firstParameter(views[i].camera)) =
+        projection->by_parameters;
+  }
+  return result;
+}
+
+/// Covariance of the pixels' errors, those that the calibration makes included [px^2].
+Eigen::MatrixXd pixelCovariance(const geometry::Rig& rig,
+                                const Measurement& measurement,
+                                double pixel_stddev) {
+  const Eigen::Index rows = measurement.residuals.size();
+  Eigen::MatrixXd covariance = pixel_stddev * pixel_stddev * Eigen::MatrixXd::Identity(rows, rows);
+  if (hasCovariance(rig))
+    covariance +=
+        measurement.by_parameters * rig.covariance * measurement.by_parameters.transpose();
+  return covariance;
+}
+
+/// How badly the rays miss each other: the part of the residuals that no point can explain, in
+/// units of what is to be expected of it; above 1 beyond chance (0.1 %).
+double disagreement(const geometry::Rig& rig, const Measurement& measurement, double pixel_stddev) {
+  const Eigen::Index rows = measurement.residuals.size();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(measurement.by_point);
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, rows);
+  const Eigen::MatrixXd unexplained = q.rightCols(rows - 3).transpose();
+  const Eigen::VectorXd residuals = unexplained * measurement.residuals;
+  const Eigen::MatrixXd covariance =
+      unexplained * pixelCovariance(rig, measurement, pixel_stddev) * unexplained.transpose();
+  const double squared = residuals.dot(covariance.ldlt().solve(residuals));
+  return squared / chiSquaredQuantile(static_cast<int>(rows) - 3, kThreeNines);
+}
+
+/// The cameras without one of which the others agree.
+std::vector<std::string> suspectsOf(const geometry::Rig& rig,
+                                    const std::vector<View>& views,
+                                    double pixel_stddev) {
+  std::vector<std::string> suspects;
+  if (views.size() < 3)
+    return suspects;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    std::vector<View> others = views;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const auto measurement = measure(rig, others, pixel_stddev);
+    if (measurement && disagreement(rig, *measurement, pixel_stddev) <= 1.0)
+      suspects.push_back(rig.cameras[views[i].camera].camera.name);
+  }
+  return suspects;
+}
+
+}  // namespace
+
+MeasuredPlace measurePlace(const geometry::Rig& rig,
+                           const capture::CapturedCorner& seen,
+                           double pixel_stddev) {
+  if (!(pixel_stddev > 0.0))
+    throw PlaceError("pixel_stddev must be above 0: correct it");
+  std::vector<View> views;
+  std::string names;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const auto view = seen.find(rig.cameras[i].camera.name);
+    if (view == seen.end())
+      continue;
+    views.push_back({i, view->second.pixel});
+    names += (names.empty() ? "" : ", ") + view->first;
+  }
+  if (views.size() < 2)
+    throw PlaceError("the LED was seen by " +
+                     (names.empty() ? "no camera of the rig" : names + " alone") +
+                     ", but two are needed: put it where two calibrated cameras see it");
+  const auto measurement = measure(rig, views, pixel_stddev);
+  if (!measurement)
+    throw PlaceError("the rays of " + names +
+                     " do not determine a point: they are nearly parallel, or meet behind a "
+                     "camera; check that they see the same LED, and calibrate again if they do");
+
+  MeasuredPlace place;
+  place.position = measurement->position;
+  place.calibration_known = hasCovariance(rig);
+  const Eigen::MatrixXd gain =
+      (measurement->by_point.transpose() * measurement->by_point).inverse() *
+      measurement->by_point.transpose();
+  place.covariance = gain * pixelCovariance(rig, *measurement, pixel_stddev) * gain.transpose();
+  place.covariance = 0.5 * (place.covariance + place.covariance.transpose()).eval();
+  for (std::size_t i = 0; i < views.size(); ++i)
+    place.views.push_back({rig.cameras[views[i].camera].camera.name,
+                           measurement->residuals.segment<2>(static_cast<Eigen::Index>(2 * i))});
+  place.rays_agree = disagreement(rig, *measurement, pixel_stddev) <= 1.0;
+  if (!place.rays_agree)
+    place.suspects = suspectsOf(rig, views, pixel_stddev);
+  return place;
+}
+
+}  // namespace wiimote_tracker::place

@@ -1,0 +1,101 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_RIG_H
+#define WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_RIG_H
+
+#include "simulated_square.h"
+
+#include "wiimote_tracker_calibration/place/camera_parameters.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// How far off the cameras of a calibrated rig are (standard deviations); each camera by itself
+/// and, as large again, all of them together.
+struct RigErrors {
+  double rotation = 0.0005;      // [rad]
+  double position = 0.002;       // [m]
+  double focal = 2.0;            // [px]
+  double principal_point = 2.0;  // [px]
+  double k1 = 0.003;
+  double time_offset = 0.0001;  // [s]
+};
+
+/// The paper's cameras, known with these errors.
+inline geometry::Rig paperRigWith(const RigErrors& errors, std::size_t cameras = 4) {
+  geometry::Rig rig;
+  const std::vector<Eigen::Isometry3d> poses = square::paperRig();
+  for (std::size_t i = 0; i < cameras; ++i) {
+    geometry::RigCamera camera;
+    camera.camera.name = "camera_" + std::to_string(i + 1);
+    camera.camera.identity = "00:1e:35:00:00:0" + std::to_string(i + 1);
+    camera.camera.world_from_camera = poses[i];
+    camera.time_offset = 0.001 * static_cast<double>(i);
+    camera.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
+    camera.time_offset_epoch = 7;
+    camera.gravity = 9.81 * poses[i].linear().row(2).transpose();
+    rig.cameras.push_back(camera);
+  }
+  const Eigen::Index size = place::kParameters;
+  Eigen::VectorXd stddev = Eigen::VectorXd::Zero(size);
+  stddev.segment<3>(place::kRotation).setConstant(errors.rotation);
+  stddev.segment<3>(place::kPosition).setConstant(errors.position);
+  stddev.segment<2>(place::kLens).setConstant(errors.focal);
+  stddev.segment<2>(place::kLens + 2).setConstant(errors.principal_point);
+  stddev[place::kDistortion] = errors.k1;
+  stddev[place::kTimeOffset] = errors.time_offset;
+  const auto n = static_cast<Eigen::Index>(cameras);
+  rig.covariance.resize(n * size, n * size);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j)
+      rig.covariance.block(i * size, j * size, size, size) =
+          (i == j ? 2.0 : 1.0) * Eigen::MatrixXd(stddev.cwiseAbs2().asDiagonal());
+  }
+  return rig;
+}
+
+/// A camera whose parameters differ by `delta` (order and meaning as in RigCalibration.msg).
+inline geometry::RigCamera displaced(geometry::RigCamera camera, const Eigen::VectorXd& delta) {
+  geometry::Camera& c = camera.camera;
+  const Eigen::Vector3d w = delta.segment<3>(place::kRotation);
+  if (w.norm() > 0.0)
+    c.world_from_camera.linear() =
+        Eigen::AngleAxisd(w.norm(), w.normalized()) * c.world_from_camera.linear();
+  c.world_from_camera.translation() += delta.segment<3>(place::kPosition);
+  c.intrinsics.fx += delta[place::kLens];
+  c.intrinsics.fy += delta[place::kLens + 1];
+  c.intrinsics.cx += delta[place::kLens + 2];
+  c.intrinsics.cy += delta[place::kLens + 3];
+  for (Eigen::Index k = place::kDistortion; k < place::kTimeOffset; ++k)
+    c.intrinsics.distortion[static_cast<std::size_t>(k - place::kDistortion)] += delta[k];
+  camera.time_offset += delta[place::kTimeOffset];
+  return camera;
+}
+
+/// True cameras of a rig, drawn from its covariance.
+inline std::vector<geometry::RigCamera> drawTruth(const geometry::Rig& rig,
+                                                  square::Random& random) {
+  Eigen::VectorXd white(rig.covariance.rows());
+  for (Eigen::Index i = 0; i < white.size(); ++i)
+    white[i] = square::normal(random, 1.0);
+  // Parameters that were held have no variance: the factorisation must bear with zeros.
+  const Eigen::LDLT<Eigen::MatrixXd> factor(rig.covariance);
+  const Eigen::VectorXd scaled = factor.vectorD().cwiseMax(0.0).cwiseSqrt().cwiseProduct(white);
+  const Eigen::VectorXd delta =
+      factor.transpositionsP().transpose() * (factor.matrixL() * scaled).eval();
+  std::vector<geometry::RigCamera> truth;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
+    truth.push_back(
+        displaced(rig.cameras[i], delta.segment<place::kParameters>(place::firstParameter(i))));
+  return truth;
+}
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_RIG_H

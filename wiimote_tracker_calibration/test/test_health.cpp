@@ -1,0 +1,433 @@
+// Whether cameras that were moved are noticed, and only these: over many simulated minutes.
+
+#include "simulated_rig.h"
+#include "simulated_wave.h"
+
+#include "wiimote_tracker_calibration/health/alarm.h"
+#include "wiimote_tracker_calibration/health/drift_watch.h"
+#include "wiimote_tracker_calibration/health/health_watch.h"
+#include "wiimote_tracker_calibration/health/tilt_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::health {
+namespace {
+
+using square::normal;
+using square::Random;
+using square::uniform;
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+constexpr double kDegree = M_PI / 180.0;
+
+/// A rig whose images fit together to about 0.1 px, as a wave makes it.
+RigErrors wellCalibrated() {
+  RigErrors errors;
+  errors.rotation = 4e-5;
+  errors.position = 2e-4;
+  errors.focal = 0.2;
+  errors.principal_point = 0.05;
+  errors.k1 = 5e-4;
+  return errors;
+}
+
+/// An LED that is waved before true cameras.
+class Scene {
+ public:
+  Scene(std::vector<geometry::RigCamera> truth, std::uint64_t seed)
+      : truth_(std::move(truth)), random_(seed), path_(0.0, random_) {
+    for (std::size_t i = 0; i < truth_.size(); ++i)
+      next_.push_back(uniform(random_, 0.0, kPeriod));
+  }
+
+  /// Images up to a time, in its order.
+  template <typename OnImage>
+  void runUntil(double time, const OnImage& on_image) {
+    while (true) {
+      const auto first = std::min_element(next_.begin(), next_.end());
+      if (*first >= time)
+        return;
+      const auto camera = static_cast<std::size_t>(first - next_.begin());
+      on_image(imageOf(camera, *first));
+      *first += kPeriod;
+    }
+  }
+
+  std::vector<geometry::RigCamera> truth_;
+  double wrong_share = 0.05;
+  double pixel = 0.4;
+  std::uint32_t epoch = 7;
+  std::optional<Eigen::Vector3d> still;  ///< The LED lies there.
+
+ private:
+  static constexpr double kPeriod = 0.02;
+
+  capture::Image imageOf(std::size_t index, double exposure) {
+    const geometry::RigCamera& camera = truth_[index];
+    capture::Image image;
+    image.camera = camera.camera.name;
+    image.stamp = 1.7e9 + exposure - camera.time_offset;
+    image.clock_epoch = epoch;
+    const Eigen::Vector3d led = still ? *still : path_.position(exposure, 0);
+    Eigen::Vector2d spot = camera.camera.project(led).value();
+    spot += Eigen::Vector2d(normal(random_, pixel), normal(random_, pixel));
+    if (uniform(random_, 0.0, 1.0) < wrong_share)
+      spot = {uniform(random_, 0.0, 1023.0), uniform(random_, 0.0, 767.0)};
+    image.spots.emplace_back(std::round(spot.x()), std::round(spot.y()));
+    return image;
+  }
+
+  Random random_;
+  wave::SimulatedPath path_;
+  std::vector<double> next_;
+};
+
+/// Cameras whose drift reached the limit in the latest judgement.
+std::set<std::string> drifted(const geometry::Rig& rig, const DriftWatch& watch) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    if (watch.drifts()[i] && watch.drifts()[i]->ratio >= 1.0)
+      names.insert(rig.cameras[i].camera.name);
+  }
+  return names;
+}
+
+/// A camera that is turned about its own axes [rad].
+geometry::RigCamera turned(const geometry::RigCamera& camera, const Eigen::Vector3d& rotation) {
+  geometry::RigCamera result = camera;
+  result.camera.world_from_camera.linear() =
+      camera.camera.world_from_camera.linear() *
+      Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).toRotationMatrix();
+  return result;
+}
+
+TEST(Alarm, DoesNotFlap) {
+  Alarm alarm;
+  int changes = 0;
+  bool on = false;
+  const auto judge = [&](double ratio) {
+    alarm.judge(ratio);
+    changes += alarm.on() != on;
+    on = alarm.on();
+  };
+  // What wavers about the limit begins once.
+  for (int i = 0; i < 50; ++i)
+    judge(i % 3 == 0 ? 0.9 : 1.1);
+  EXPECT_TRUE(on);
+  EXPECT_EQ(changes, 1);
+  // Single judgements that all is well are not believed, two are.
+  judge(0.1);
+  EXPECT_TRUE(on);
+  judge(0.9);
+  judge(0.1);
+  EXPECT_TRUE(on);
+  judge(0.1);
+  EXPECT_FALSE(on);
+  judge(1.5);
+  EXPECT_FALSE(on);
+}
+
+/// What an accelerometer reads that counts in steps.
+Eigen::Vector3d reading(const Eigen::Vector3d& force, double noise, double step, Random& random) {
+  Eigen::Vector3d value = force;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    value[i] = step * std::round((value[i] + normal(random, noise)) / step);
+  return value;
+}
+
+/// Share of tilts of one size that reach the limit, over cameras in any attitude that are turned
+/// about any horizontal axis.
+double shareNoticed(double angle, double noise, double step, const TiltOptions& options) {
+  Random random(11);
+  const int kTrials = 400;
+  int noticed = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const auto direction = [&] {
+      return Eigen::Vector3d(normal(random, 1.0), normal(random, 1.0), normal(random, 1.0))
+          .normalized();
+    };
+    const Eigen::Vector3d before = 9.81 * direction();
+    const Eigen::Vector3d axis = before.cross(direction()).normalized();
+    const Eigen::Vector3d after = Eigen::AngleAxisd(angle, axis) * before;
+    capture::RestGravity calibrated;
+    for (int i = 0; i < 200; ++i)
+      calibrated.add(reading(before, noise, step, random));
+    TiltWatch watch(*calibrated.mean(), options);
+    std::optional<Tilt> tilt;
+    for (int i = 0; !tilt && i < 300; ++i)
+      tilt = watch.add(0.05 * i, reading(after, noise, step, random));
+    noticed += tilt && tilt->ratio >= 1.0;
+  }
+  return static_cast<double>(noticed) / kTrials;
+}
+
+TEST(TiltWatch, NoticesWhatItsAccelerometerCanTell) {
+  // A Wii Remote's y and z count in steps of 0.18 m/s^2, with a noise of 0.03 m/s^2.
+  const TiltOptions remote;
+  EXPECT_EQ(shareNoticed(0.0, 0.03, 0.18, remote), 0.0);
+  EXPECT_LT(shareNoticed(0.2 * kDegree, 0.03, 0.18, remote), 0.01);
+  EXPECT_GT(shareNoticed(2.0 * kDegree, 0.03, 0.18, remote), 0.99);
+  RecordProperty("noticed_0.5_degrees",
+                 std::to_string(shareNoticed(0.5 * kDegree, 0.03, 0.18, remote)));
+  RecordProperty("noticed_1_degree",
+                 std::to_string(shareNoticed(1.0 * kDegree, 0.03, 0.18, remote)));
+  RecordProperty("noticed_1.5_degrees",
+                 std::to_string(shareNoticed(1.5 * kDegree, 0.03, 0.18, remote)));
+  // One that is finer than its noise.
+  TiltOptions fine;
+  fine.resolution = 0.01;
+  fine.limit = 0.3 * kDegree;
+  EXPECT_EQ(shareNoticed(0.0, 0.03, 0.01, fine), 0.0);
+  EXPECT_GT(shareNoticed(0.5 * kDegree, 0.03, 0.01, fine), 0.99);
+}
+
+TEST(TiltWatch, SaysHowFarAndHowSure) {
+  Random random(12);
+  const Eigen::Vector3d up(0.0, -9.81, 0.0);
+  TiltOptions options;
+  options.resolution = 0.01;
+  TiltWatch watch(up, options);
+  const Eigen::Vector3d tilted = Eigen::AngleAxisd(3.0 * kDegree, Eigen::Vector3d::UnitX()) * up;
+  std::optional<Tilt> tilt;
+  for (int i = 0; !tilt && i < 300; ++i)
+    tilt = watch.add(0.05 * i, reading(tilted, 0.03, 0.01, random));
+  ASSERT_TRUE(tilt);
+  EXPECT_NEAR(tilt->angle, 3.0 * kDegree, 0.05 * kDegree);
+  EXPECT_NEAR(tilt->stddev, 0.01 / std::sqrt(6.0) / 9.81, 1e-9);
+  EXPECT_NEAR(tilt->ratio, tilt->angle / options.limit, 1e-12);
+}
+
+TEST(TiltWatch, DoesNotJudgeAShakingCamera) {
+  Random random(13);
+  TiltWatch watch(Eigen::Vector3d(0.0, -9.81, 0.0), {});
+  for (int i = 0; i < 1000; ++i)
+    EXPECT_FALSE(watch.add(0.05 * i, reading({0.0, -9.0, 4.0}, 1.5, 0.18, random)));
+  // Nor by few readings, nor across a clock that went back.
+  TiltWatch sparse(Eigen::Vector3d(0.0, -9.81, 0.0), {});
+  for (int i = 0; i < 20; ++i)
+    EXPECT_FALSE(sparse.add(1.0 * i, {0.0, 0.0, 9.81}));
+  TiltWatch back(Eigen::Vector3d(0.0, -9.81, 0.0), {});
+  for (int i = 0; i < 190; ++i)
+    EXPECT_FALSE(back.add(0.05 * i, {0.0, 0.0, 9.81}));
+  for (int i = 0; i < 190; ++i)
+    EXPECT_FALSE(back.add(0.05 * i - 100.0, {0.0, -9.81, 0.0}));
+}
+
+// Forty minutes of tracking by rigs whose errors are those their covariance tells of.
+TEST(DriftWatch, RaisesNoFalseAlarm) {
+  Random random(21);
+  int judgements = 0;
+  int reached = 0;
+  for (int trial = 0; trial < 10; ++trial) {
+    const std::size_t cameras = trial % 2 == 0 ? 4 : 2;
+    // Half of the rigs are calibrated well, half by a square alone.
+    const geometry::Rig rig = paperRigWith(trial % 4 < 2 ? wellCalibrated() : RigErrors(), cameras);
+    Scene scene(drawTruth(rig, random), 100 + static_cast<std::uint64_t>(trial));
+    DriftWatch watch(rig, {});
+    scene.runUntil(240.0, [&](const capture::Image& image) {
+      if (!watch.add(image))
+        return;
+      for (const auto& drift : watch.drifts()) {
+        judgements += drift.has_value();
+        reached += drift && drift->ratio >= 1.0;
+      }
+    });
+  }
+  EXPECT_GT(judgements, 800);
+  EXPECT_LE(reached, judgements / 200);
+  RecordProperty("judgements", judgements);
+  RecordProperty("reached", reached);
+}
+
+TEST(DriftWatch, NamesTheCameraThatDriftedByOnePixel) {
+  Random random(22);
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  int noticed = 0;
+  int named = 0;
+  const int kTrials = 24;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    auto truth = drawTruth(rig, random);
+    const std::size_t moved = static_cast<std::size_t>(trial) % 4;
+    const double angle = uniform(random, -M_PI, M_PI);
+    truth[moved].camera.intrinsics.cx += std::cos(angle);
+    truth[moved].camera.intrinsics.cy += std::sin(angle);
+    Scene scene(truth, 200 + static_cast<std::uint64_t>(trial));
+    DriftWatch watch(rig, {});
+    scene.runUntil(62.0, [&](const capture::Image& image) { watch.add(image); });
+    const auto names = drifted(rig, watch);
+    noticed += !names.empty();
+    named += names.count(truth[moved].camera.name) == 1;
+  }
+  RecordProperty("noticed", noticed);
+  RecordProperty("named", named);
+  EXPECT_EQ(noticed, kTrials);
+  // Sideways only the camera on the other side of the room can tell, and either may be wrong.
+  EXPECT_GE(named, kTrials / 2);
+}
+
+TEST(DriftWatch, NamesTheCameraThatWasBumped) {
+  Random random(23);
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  int named = 0;
+  int alone = 0;
+  const int kTrials = 24;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    auto truth = drawTruth(rig, random);
+    const std::size_t moved = static_cast<std::size_t>(trial) % 4;
+    const Eigen::Vector3d axis(normal(random, 1.0), normal(random, 1.0), 0.0);
+    truth[moved] = turned(truth[moved], 0.5 * kDegree * axis.normalized());
+    Scene scene(truth, 300 + static_cast<std::uint64_t>(trial));
+    DriftWatch watch(rig, {});
+    scene.runUntil(62.0, [&](const capture::Image& image) { watch.add(image); });
+    const auto names = drifted(rig, watch);
+    named += names.count(truth[moved].camera.name) == 1;
+    alone += names.count(truth[moved].camera.name) == 1 && names.size() == 1;
+  }
+  RecordProperty("named", named);
+  RecordProperty("alone", alone);
+  EXPECT_GE(named, kTrials * 9 / 10);
+  EXPECT_GE(alone, kTrials * 8 / 10);
+}
+
+TEST(DriftWatch, TwoCamerasAreNamedBoth) {
+  Random random(24);
+  const geometry::Rig rig = paperRigWith(wellCalibrated(), 2);
+  auto truth = drawTruth(rig, random);
+  truth[1].camera.intrinsics.cy += 3.0;
+  Scene scene(truth, 400);
+  DriftWatch watch(rig, {});
+  scene.runUntil(62.0, [&](const capture::Image& image) { watch.add(image); });
+  ASSERT_TRUE(watch.drifts()[0]);
+  ASSERT_TRUE(watch.drifts()[1]);
+  EXPECT_GE(watch.drifts()[0]->ratio, 1.0);
+  EXPECT_EQ(watch.drifts()[0]->together, "camera_2");
+  EXPECT_EQ(watch.drifts()[1]->together, "camera_1");
+  // Of three pixels those across the epipolar line are seen: here nearly all.
+  EXPECT_NEAR(watch.drifts()[0]->bias.norm(), 3.0, 0.5);
+}
+
+TEST(DriftWatch, JudgesByMotionAndByKnownClocksOnly) {
+  Random random(25);
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  // A still LED gives the same rounding again and again.
+  Scene still(rig.cameras, 500);
+  still.still = Eigen::Vector3d(1.0, 1.1, 0.9);
+  still.pixel = 0.0;
+  still.wrong_share = 0.0;
+  DriftWatch watch(rig, {});
+  still.runUntil(62.0, [&](const capture::Image& image) { watch.add(image); });
+  EXPECT_FALSE(watch.drifts()[0]);
+  // After a reconnect the time offset is not known: fast motion says nothing, and nothing wrong.
+  auto truth = rig.cameras;
+  for (geometry::RigCamera& camera : truth)
+    camera.time_offset += uniform(random, -0.01, 0.01);
+  Scene fast(truth, 501);
+  fast.epoch = 8;
+  DriftWatch unclocked(rig, {});
+  fast.runUntil(62.0, [&](const capture::Image& image) { unclocked.add(image); });
+  EXPECT_TRUE(drifted(rig, unclocked).empty());
+  // The paper's virtual model fits its calibration by intention not.
+  geometry::Rig image_center = rig;
+  image_center.ray_model = geometry::RayModel::kImageCenter;
+  Scene scene(rig.cameras, 502);
+  DriftWatch paper(image_center, {});
+  scene.runUntil(20.0, [&](const capture::Image& image) { EXPECT_FALSE(paper.add(image)); });
+}
+
+TEST(DriftWatch, StartsAnewWhenTheClockIsSetBack) {
+  Random random(26);
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  DriftWatch watch(rig, {});
+  Scene scene(rig.cameras, 600);
+  scene.runUntil(30.0, [&](const capture::Image& image) { watch.add(image); });
+  EXPECT_TRUE(watch.drifts()[0]);
+  bool judged = false;
+  Scene again(rig.cameras, 600);
+  again.runUntil(4.0, [&](const capture::Image& image) { judged = watch.add(image) || judged; });
+  EXPECT_FALSE(judged);
+  EXPECT_FALSE(watch.drifts()[0]);
+  again.runUntil(12.0, [&](const capture::Image& image) { judged = watch.add(image) || judged; });
+  EXPECT_TRUE(judged);
+  EXPECT_TRUE(watch.drifts()[0]);
+}
+
+/// Feeds a watch with images and readings for a while.
+void track(Scene* scene, double from, double until, HealthWatch* watch, Random* random) {
+  const std::vector<geometry::RigCamera>& truth = scene->truth_;
+  double next = from;
+  scene->runUntil(until, [&](const capture::Image& image) {
+    for (const geometry::RigCamera& camera : truth) {
+      if (camera.camera.name == image.camera)
+        watch->addImage(image, camera.camera.identity);
+    }
+    for (; next < image.stamp - 1.7e9; next += 0.05) {
+      for (const geometry::RigCamera& camera : truth) {
+        const Eigen::Vector3d up = camera.camera.world_from_camera.linear().row(2);
+        watch->addAcceleration(camera.camera.name, next, reading(9.81 * up, 0.03, 0.18, *random));
+      }
+    }
+  });
+}
+
+TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
+  Random random(31);
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  HealthWatch watch(rig, {});
+  Scene scene(drawTruth(rig, random), 700);
+  track(&scene, 0.0, 90.0, &watch, &random);
+  EXPECT_TRUE(watch.takeNews().empty());
+  for (const auto& camera : watch.cameras()) {
+    EXPECT_EQ(camera.second.text, "");
+    EXPECT_TRUE(camera.second.tilt) << camera.first;
+    EXPECT_TRUE(camera.second.drift) << camera.first;
+  }
+
+  const geometry::RigCamera before = scene.truth_[2];
+  scene.truth_[2] = turned(before, Eigen::Vector3d(3.0 * kDegree, 0.0, 0.0));
+  track(&scene, 90.0, 180.0, &watch, &random);
+  const std::vector<std::string> news = watch.takeNews();
+  ASSERT_EQ(news.size(), 1u) << news.back();
+  EXPECT_SAYS(news.front(), "camera_3 ");
+  EXPECT_SAYS(news.front(), "recalibrate");
+  const std::string text = watch.cameras().at("camera_3").text;
+  EXPECT_SAYS(text, "tilted by");
+  EXPECT_SAYS(text, "drifted");
+  EXPECT_EQ(watch.cameras().at("camera_1").text, "");
+
+  scene.truth_[2] = before;
+  track(&scene, 180.0, 300.0, &watch, &random);
+  EXPECT_EQ(watch.cameras().at("camera_3").text, "");
+}
+
+TEST(HealthWatch, NoticesAnotherDevice) {
+  Random random(32);
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  HealthWatch watch(rig, {});
+  capture::Image image;
+  image.camera = "camera_2";
+  watch.addImage(image, "");
+  EXPECT_TRUE(watch.takeNews().empty());
+  watch.addImage(image, "00:1e:35:ff:ff:ff");
+  watch.addImage(image, "00:1e:35:ff:ff:ff");
+  const auto news = watch.takeNews();
+  ASSERT_EQ(news.size(), 1u);
+  EXPECT_SAYS(news.front(), "camera_2 is another device (00:1e:35:ff:ff:ff)");
+  watch.addImage(image, "00:1e:35:00:00:02");
+  EXPECT_EQ(watch.cameras().at("camera_2").text, "");
+  // Cameras that are not in the rig are nobody's concern.
+  image.camera = "elsewhere";
+  watch.addImage(image, "x");
+  watch.addAcceleration("elsewhere", 0.0, {0.0, 0.0, 9.81});
+  EXPECT_EQ(watch.cameras().size(), 4u);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::health

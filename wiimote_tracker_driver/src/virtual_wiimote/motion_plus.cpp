@@ -11,11 +11,11 @@ constexpr std::size_t kActivate = 0xfe;
 // On its own, or letting a Nunchuk or a Classic Controller through.
 constexpr std::array<std::uint8_t, 3> kActivateValues{0x04, 0x05, 0x07};
 
-constexpr std::size_t kMotionPlusIdAddress = 0xfa;
+constexpr std::size_t kIdAddress = 0xfa;
 constexpr std::array<std::uint8_t, 6> kSleepingId{0x00, 0x00, 0xa6, 0x20, 0x00, 0x05};
 constexpr std::array<std::uint8_t, 6> kActiveId{0x00, 0x00, 0xa4, 0x20, 0x04, 0x05};
 // Three rates of 14 bits, each 0x2000 at rest, their low bytes first; all in the fine range.
-constexpr std::array<std::uint8_t, 6> kRatesAtRest{0x00, 0x00, 0x00, 0x83, 0x82, 0x82};
+constexpr std::array<std::uint8_t, 6> kAtRest{0x00, 0x00, 0x00, 0x83, 0x82, 0x82};
 
 }  // namespace
 
@@ -37,12 +37,12 @@ void MotionPlus::write(std::uint32_t address, std::uint8_t value) {
 void MotionPlus::become(bool active) {
   active_ = active;
   const auto& id = active ? kActiveId : kSleepingId;
-  std::copy(id.begin(), id.end(), registers_.begin() + kMotionPlusIdAddress);
+  std::copy(id.begin(), id.end(), registers_.begin() + kIdAddress);
 }
 
 ExtensionData MotionPlus::data() const {
   ExtensionData data{};
-  std::copy(kRatesAtRest.begin(), kRatesAtRest.end(), data.begin());
+  std::copy(kAtRest.begin(), kAtRest.end(), data.begin());
   return data;
 }
 

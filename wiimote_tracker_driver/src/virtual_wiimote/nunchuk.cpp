@@ -10,10 +10,10 @@ constexpr std::size_t kEncryption2 = 0xfb;
 constexpr std::uint8_t kOff1 = 0x55;
 constexpr std::uint8_t kOff2 = 0x00;
 
-constexpr std::size_t kNunchukIdAddress = 0xfa;
+constexpr std::size_t kIdAddress = 0xfa;
 constexpr std::array<std::uint8_t, 6> kId{0x00, 0x00, 0xa4, 0x20, 0x00, 0x00};
 // Stick x and y in the middle; x, y at 0 g and z at 1 g; no button pressed.
-constexpr std::array<std::uint8_t, 6> kStickAtRest{0x80, 0x80, 0x80, 0x80, 0xb3, 0x03};
+constexpr std::array<std::uint8_t, 6> kAtRest{0x80, 0x80, 0x80, 0x80, 0xb3, 0x03};
 
 }  // namespace
 
@@ -30,14 +30,14 @@ std::uint8_t Nunchuk::read(std::uint32_t address) const {
   if (!plain())
     return 0xff;
   const std::size_t at = address % 0x100;
-  if (at < kStickAtRest.size())
-    return kStickAtRest[at];
-  return at >= kNunchukIdAddress ? kId[at - kNunchukIdAddress] : registers_[at];
+  if (at < kAtRest.size())
+    return kAtRest[at];
+  return at >= kIdAddress ? kId[at - kIdAddress] : registers_[at];
 }
 
 ExtensionData Nunchuk::data() const {
   ExtensionData data{};
-  for (std::size_t i = 0; i < kStickAtRest.size(); ++i)
+  for (std::size_t i = 0; i < kAtRest.size(); ++i)
     data[i] = read(static_cast<std::uint32_t>(i));
   return data;
 }

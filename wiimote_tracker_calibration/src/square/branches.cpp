@@ -4,6 +4,7 @@
 #include "wiimote_tracker_calibration/square/planar_pose.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -87,20 +88,16 @@ std::vector<Combination> singleChanges(const RigModel& model,
 
 std::vector<Branch> findBranches(const RigModel& model, std::size_t camera) {
   const RigModel alone = model.only(camera);
+  const CameraSightings& sightings = alone.sightings().front();
+  std::array<Eigen::Vector2d, 4> pixels;
+  for (std::size_t c = 0; c < pixels.size(); ++c)
+    pixels[c] = sightings.corners[c].value();
   std::vector<Branch> branches;
-  for (const Eigen::Isometry3d& pose :
-       planarPoses(alone.sightings().front(), alone.nominalCorners())) {
-    const std::optional<RigState> refined = alone.refinePoses(alone.start({pose}));
-    if (!refined)
-      continue;
-    const Eigen::Isometry3d& world_from_camera = refined->cameras.front().world_from_camera;
-    const bool known = std::any_of(branches.begin(), branches.end(), [&](const Branch& branch) {
-      return isSamePose(branch.world_from_camera, world_from_camera, alone.nominalCorners());
-    });
-    RigState probable = *refined;
+  for (const PlanarPose& pose : planarPoses(sightings.intrinsics, pixels, alone.nominalCorners())) {
+    RigState probable = alone.start({pose.world_from_camera});
     const std::optional<double> cost = alone.refineAll(&probable, RigModel::Precision::kCoarse);
-    if (!known && cost)
-      branches.push_back({world_from_camera, alone.reprojectionError(*refined, 0), *cost});
+    if (cost)
+      branches.push_back({pose.world_from_camera, std::sqrt(pose.cost / 4.0), *cost});
   }
   std::sort(branches.begin(), branches.end(),
             [](const Branch& a, const Branch& b) { return a.cost < b.cost; });

@@ -221,6 +221,133 @@ TEST(SolveIntrinsics, refusesALensWhoseModelFoldsWithinTheImage) {
   EXPECT_REFUSED(wideSamples(wide), "does not hold over the whole image");
 }
 
+/// A lens of about 120 degrees across the image's width in front of the camera.
+geometry::Intrinsics fisheye() {
+  geometry::Intrinsics camera;
+  camera.distortion_model = geometry::DistortionModel::kEquidistant;
+  camera.fx = 488.0;
+  camera.fy = 486.0;
+  camera.cx = 520.0;
+  camera.cy = 380.0;
+  camera.distortion = {-0.02, 0.01, -0.004, 0.001, 0.0};
+  return camera;
+}
+
+/// Views all over the image of a wide-angle lens, with this noise [px]; with their poses.
+Samples fisheyeSamples(const geometry::Intrinsics& camera,
+                       std::size_t views,
+                       double noise,
+                       unsigned seed,
+                       std::vector<Eigen::Isometry3d>* poses = nullptr) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Samples samples;
+  while (samples.views.size() < views) {
+    const double u = uniform(random);
+    const Eigen::Vector2d pixel(511.5 + 460.0 * u, 383.5 + 330.0 * uniform(random));
+    const auto normalized = camera.normalizedFromPixel(pixel);
+    const double distance = 0.5 + 0.15 * uniform(random);
+    const double side = M_PI * uniform(random);
+    const Eigen::Vector3d tilt_axis(std::cos(side), std::sin(side), 0.0);
+    // Turned to the camera, tilted by 20 to 45 degrees.
+    const Eigen::Vector3d sight = normalized->homogeneous().normalized();
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = (Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), sight) *
+                     Eigen::AngleAxisd(M_PI / 180.0 * (32.5 + 12.5 * uniform(random)), tilt_axis))
+                        .toRotationMatrix();
+    pose.translation() = distance * sight - pose.linear() * Eigen::Vector3d(0.15, 0.15, 0.0);
+    const BoardView view = simulatedView(camera, pose, noise, random);
+    if (view.count() < 12)
+      continue;
+    samples.views.push_back(view);
+    if (poses)
+      poses->push_back(pose);
+  }
+  return samples;
+}
+
+SolverOptions equidistant() {
+  SolverOptions options;
+  options.model = LensModel::kEquidistant;
+  return options;
+}
+
+TEST(SolveIntrinsics, exactPixelsGiveTheExactFisheye) {
+  const geometry::Intrinsics camera = fisheye();
+  const Samples samples = fisheyeSamples(camera, 20, 0.0, 1);
+  const IntrinsicsSolution solution = solveIntrinsics(samples, equidistant());
+  EXPECT_EQ(solution.intrinsics.distortion_model, geometry::DistortionModel::kEquidistant);
+  EXPECT_LT(solution.reprojection_error, 2e-3);
+  // By what it does to pixels: the coefficients stand in for one another.
+  for (double u = 0.0; u < 1024.0; u += 93.0) {
+    for (double v = 0.0; v < 768.0; v += 69.0) {
+      const auto normalized = camera.normalizedFromPixel({u, v});
+      ASSERT_TRUE(normalized);
+      EXPECT_LT(
+          (solution.intrinsics.pixelFromNormalized(*normalized) - Eigen::Vector2d(u, v)).norm(),
+          0.2);
+    }
+  }
+  for (std::size_t view = 0; view < samples.views.size(); ++view) {
+    if (const auto& pixel = samples.views[view].pixels[5]) {
+      EXPECT_LT(
+          (projected(solution.intrinsics, solution.camera_from_board[view], samples.board, 5) -
+           *pixel)
+              .norm(),
+          0.02);
+    }
+  }
+}
+
+TEST(SolveIntrinsics, aFisheyeReachesTheBoundAndSaysSo) {
+  const geometry::Intrinsics camera = fisheye();
+  const double sigma = std::sqrt(0.25 + 1.0 / 12.0);
+  constexpr int kLens = 8;
+  constexpr int kRuns = 10;
+  std::vector<Eigen::Isometry3d> poses;
+  const Samples exact = fisheyeSamples(camera, 16, 0.0, 3, &poses);
+  const Eigen::MatrixXd bound = cramerRaoBound(camera, poses, exact, kLens, sigma);
+  std::mt19937 random(13);
+  double nees = 0.0;
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(kLens);
+  Eigen::VectorXd reported = Eigen::VectorXd::Zero(kLens);
+  for (int run = 0; run < kRuns; ++run) {
+    Samples samples = exact;
+    for (std::size_t view = 0; view < poses.size(); ++view)
+      samples.views[view] = simulatedView(camera, poses[view], 0.5, random);
+    const IntrinsicsSolution solution = solveIntrinsics(samples, equidistant());
+    const Eigen::VectorXd error =
+        (parameters(solution.intrinsics) - parameters(camera)).head(kLens);
+    const Eigen::MatrixXd covariance = solution.covariance.topLeftCorner(kLens, kLens);
+    const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::VectorXd whitened = scale.asDiagonal() * error;
+    const Eigen::MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
+    nees += whitened.dot(correlation.ldlt().solve(whitened)) / kRuns;
+    squares += error.cwiseAbs2() / kRuns;
+    reported += covariance.diagonal() / kRuns;
+    EXPECT_TRUE(solution.covariance.row(8).isZero(0.0));
+  }
+  const Eigen::VectorXd ratio = squares.cwiseQuotient(bound.diagonal()).cwiseSqrt();
+  const Eigen::VectorXd claim = reported.cwiseQuotient(bound.diagonal()).cwiseSqrt();
+  for (int k = 0; k < kLens; ++k) {
+    EXPECT_NEAR(ratio(k), 1.0, 0.7) << k;  // 10 runs: 22 % standard deviation
+    EXPECT_NEAR(claim(k), 1.0, 0.1) << k;
+  }
+  EXPECT_NEAR(nees / kLens, 1.0, 0.5);  // 10 runs: 16 %
+}
+
+TEST(SolveIntrinsics, aFisheyeIsRefusedForWhatPlumbBobIs) {
+  Samples samples = fisheyeSamples(fisheye(), 11, 0.5, 1);
+  EXPECT_NE(refusal(samples, equidistant()).find("11 views of the board, at least 12"),
+            std::string::npos);
+  samples = fisheyeSamples(fisheye(), 14, 0.5, 1);
+  samples.board.column_spacing *= 1.1;
+  EXPECT_NE(refusal(samples, equidistant()).find("spacing"), std::string::npos);
+  // And what no plumb_bob model can do says what can.
+  samples.board = Board();
+  EXPECT_NE(refusal(samples).find("equidistant"), std::string::npos) << refusal(samples);
+}
+
 TEST(SolveIntrinsics, refusesTooFewViewsAndLeds) {
   Samples samples = simulatedSamples(paperCamera(), 11, 0.5, 1);
   EXPECT_REFUSED(samples, "11 views of the board, at least 12");

@@ -1,5 +1,6 @@
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
 
+#include "lens_fit.h"
 #include "view_geometry.h"
 #include "wiimote_tracker_calibration/intrinsics/error.h"
 
@@ -17,127 +18,6 @@ namespace {
 constexpr double kSmallestTilt = 10.0 * M_PI / 180.0;  // between the most different views
 constexpr double kSmallestTravel = 0.1;                // of the board, of the image's width
 constexpr double kMuchBetter = 0.7;                    // share of a reprojection error
-constexpr int kPoseParameters = 6;
-
-/// The views as OpenCV takes them.
-struct Points {
-  std::vector<std::vector<cv::Point3f>> board;
-  std::vector<std::vector<cv::Point2f>> image;
-  std::size_t count = 0;
-};
-
-struct Fit {
-  LensModel model;
-  cv::Mat camera_matrix;
-  cv::Mat distortion;  // 1 x 5
-  std::vector<cv::Mat> rotations;
-  std::vector<cv::Mat> translations;
-  double error = HUGE_VAL;  // reprojection error [px]
-};
-
-// When a minimisation ends: iterations, relative change of the parameters.
-const cv::TermCriteria kPrecise(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-8);
-const cv::TermCriteria kRough(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 1e-3);
-
-Points pointsOf(const Samples& samples) {
-  Points points;
-  for (const BoardView& view : samples.views) {
-    points.board.emplace_back();
-    points.image.emplace_back();
-    for (int led = 0; led < kBoardLeds; ++led) {
-      const auto& pixel = view.pixels[static_cast<std::size_t>(led)];
-      if (!pixel)
-        continue;
-      const Eigen::Vector3f p = samples.board.position(led).cast<float>();
-      points.board.back().emplace_back(p.x(), p.y(), p.z());
-      points.image.back().emplace_back(static_cast<float>(pixel->x()),
-                                       static_cast<float>(pixel->y()));
-      ++points.count;
-    }
-  }
-  return points;
-}
-
-/// Columns of cv::projectPoints' derivative that a model estimates, in the order of the covariance.
-std::vector<int> estimated(LensModel model) {
-  switch (model) {
-    case LensModel::kNoDistortion:
-      return {0, 1, 2, 3};
-    case LensModel::kK1:
-      return {0, 1, 2, 3, 4};
-    case LensModel::kK1K2:
-      return {0, 1, 2, 3, 4, 5};
-    case LensModel::kFull:
-      break;
-  }
-  return {0, 1, 2, 3, 4, 5, 6, 7, 8};
-}
-
-int flagsOf(LensModel model) {
-  int flags = cv::CALIB_USE_INTRINSIC_GUESS;
-  if (model != LensModel::kFull)
-    flags |= cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST;
-  if (model == LensModel::kK1 || model == LensModel::kNoDistortion)
-    flags |= cv::CALIB_FIX_K2;
-  if (model == LensModel::kNoDistortion)
-    flags |= cv::CALIB_FIX_K1;
-  return flags;
-}
-
-Fit fitFrom(const Fit& start,
-            LensModel model,
-            const Points& points,
-            const Samples& samples,
-            const cv::TermCriteria& end = kPrecise) {
-  Fit fit;
-  fit.model = model;
-  fit.camera_matrix = start.camera_matrix.clone();
-  fit.distortion = start.distortion.clone();
-  try {
-    fit.error = cv::calibrateCamera(
-        points.board, points.image, cv::Size(samples.width, samples.height), fit.camera_matrix,
-        fit.distortion, fit.rotations, fit.translations, flagsOf(model), end);
-  } catch (const cv::Exception&) {
-    // From this start it cannot be solved; the caller has others.
-  }
-  if (!std::isfinite(fit.error) || !cv::checkRange(fit.camera_matrix) ||
-      !cv::checkRange(fit.distortion))
-    fit.error = HUGE_VAL;
-  return fit;
-}
-
-/// Without distortion, from several focal lengths: a lens in front of the camera shortens it.
-Fit firstFit(const Points& points, const Samples& samples, double focal_length) {
-  Fit best;
-  for (const double factor : {1.0, 0.35}) {
-    Fit start;
-    start.camera_matrix =
-        (cv::Mat_<double>(3, 3) << factor * focal_length, 0.0, (samples.width - 1) / 2.0, 0.0,
-         factor * focal_length, (samples.height - 1) / 2.0, 0.0, 0.0, 1.0);
-    start.distortion = cv::Mat::zeros(1, 5, CV_64F);
-    const Fit fit = fitFrom(start, LensModel::kNoDistortion, points, samples, kRough);
-    if (fit.error < best.error)
-      best = fit;
-  }
-  if (!std::isfinite(best.error))
-    throw IntrinsicsError(
-        "the views fit no camera: check the board's spacings, and show it again "
-        "from at least 12 different sides");
-  return fitFrom(best, LensModel::kNoDistortion, points, samples);
-}
-
-geometry::Intrinsics intrinsicsOf(const Fit& fit, const Samples& samples) {
-  geometry::Intrinsics result;
-  result.width = samples.width;
-  result.height = samples.height;
-  result.fx = fit.camera_matrix.at<double>(0, 0);
-  result.fy = fit.camera_matrix.at<double>(1, 1);
-  result.cx = fit.camera_matrix.at<double>(0, 2);
-  result.cy = fit.camera_matrix.at<double>(1, 2);
-  for (int i = 0; i < 5; ++i)
-    result.distortion[static_cast<std::size_t>(i)] = fit.distortion.at<double>(i);
-  return result;
-}
 
 bool holdsOverImage(const geometry::Intrinsics& intrinsics) {
   for (const double u : {0.0, intrinsics.width - 1.0}) {
@@ -149,17 +29,17 @@ bool holdsOverImage(const geometry::Intrinsics& intrinsics) {
   return true;
 }
 
-Candidate candidateOf(const Fit& fit, const Points& points, const Samples& samples) {
+Candidate candidateOf(const Fit& fit, const Points& points) {
   const double n = 2.0 * static_cast<double>(points.count);
-  const double parameters = static_cast<double>(estimated(fit.model).size()) +
-                            kPoseParameters * static_cast<double>(samples.views.size());
+  const double parameters =
+      parameterCount(fit.model) + kPoseParameters * static_cast<double>(points.board.size());
   Candidate candidate;
   candidate.model = fit.model;
   candidate.reprojection_error = fit.error;
   // Below a millionth of a pixel residuals are rounding, and no reason for another parameter.
   const double variance = std::max(fit.error * fit.error / 2.0, 1e-12);
   candidate.bic = n * std::log(variance) + parameters * std::log(n);
-  candidate.holds = holdsOverImage(intrinsicsOf(fit, samples));
+  candidate.holds = holdsOverImage(intrinsicsOf(fit, points));
   return candidate;
 }
 
@@ -180,34 +60,16 @@ Eigen::Isometry3d poseOf(const cv::Mat& rotation, const cv::Mat& translation) {
 std::optional<Eigen::MatrixXd> unitCovariance(const Fit& fit,
                                               const Points& points,
                                               std::vector<double>* view_errors) {
-  const std::vector<int> columns = estimated(fit.model);
-  const auto size = static_cast<Eigen::Index>(columns.size());
+  const int size = parameterCount(fit.model);
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
   view_errors->clear();
-  for (std::size_t i = 0; i < points.board.size(); ++i) {
-    std::vector<cv::Point2f> projected;
-    cv::Mat derivative;
-    cv::projectPoints(points.board[i], fit.rotations[i], fit.translations[i], fit.camera_matrix,
-                      fit.distortion, projected, derivative);
-    double sum = 0.0;
-    for (std::size_t j = 0; j < projected.size(); ++j) {
-      const cv::Point2f d = projected[j] - points.image[i][j];
-      sum += d.dot(d);
-    }
-    view_errors->push_back(std::sqrt(sum / static_cast<double>(projected.size())));
-
-    Eigen::MatrixXd by_pose(derivative.rows, kPoseParameters);
-    Eigen::MatrixXd by_lens(derivative.rows, size);
-    for (int row = 0; row < derivative.rows; ++row) {
-      for (int k = 0; k < kPoseParameters; ++k)
-        by_pose(row, k) = derivative.at<double>(row, k);
-      for (Eigen::Index k = 0; k < size; ++k)
-        by_lens(row, k) =
-            derivative.at<double>(row, kPoseParameters + columns[static_cast<std::size_t>(k)]);
-    }
-    const Eigen::MatrixXd cross = by_pose.transpose() * by_lens;
-    const Eigen::MatrixXd poses = by_pose.transpose() * by_pose;
-    information += by_lens.transpose() * by_lens - cross.transpose() * poses.ldlt().solve(cross);
+  for (std::size_t view = 0; view < points.board.size(); ++view) {
+    const ViewDerivative by = differentiate(fit, points, view);
+    view_errors->push_back(
+        std::sqrt(by.residuals.squaredNorm() / static_cast<double>(points.board[view].size())));
+    const Eigen::MatrixXd cross = by.pose.transpose() * by.lens;
+    const Eigen::MatrixXd poses = by.pose.transpose() * by.pose;
+    information += by.lens.transpose() * by.lens - cross.transpose() * poses.ldlt().solve(cross);
   }
   const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * information * scale.asDiagonal());
@@ -289,33 +151,32 @@ std::string nameOf(LensModel model) {
       return "k1";
     case LensModel::kK1K2:
       return "k1, k2";
+    case LensModel::kEquidistant:
+      return "equidistant k1, k2, k3, k4";
     case LensModel::kFull:
       break;
   }
   return "k1, k2, p1, p2, k3";
 }
 
-IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& options) {
-  checkInput(samples, options);
-  checkPlaces(samples);
-  const Points points = pointsOf(samples);
+namespace {
 
-  // From simple to rich, each from the one before; up to the given model.
-  IntrinsicsSolution solution;
-  std::optional<Fit> chosen;
-  double least_bic = HUGE_VAL;
-  Fit fit = firstFit(points, samples, options.start_focal_length);
+/// From simple to rich, each from the one before; up to the given model.
+Fit chooseModel(const Points& points, const SolverOptions& options, IntrinsicsSolution* solution) {
+  Fit fit = firstFit(points, false, options.start_focal_length);
   checkTilts(fit);
+  Fit chosen;
+  double least_bic = HUGE_VAL;
   for (const LensModel model :
        {LensModel::kNoDistortion, LensModel::kK1, LensModel::kK1K2, LensModel::kFull}) {
     if (model != LensModel::kNoDistortion) {
-      const Fit next = fitFrom(fit, model, points, samples);
-      if (!std::isfinite(next.error))
+      const Fit next = refined(fit, model, points);
+      if (!next.ok())
         continue;
       fit = next;
     }
-    const Candidate candidate = candidateOf(fit, points, samples);
-    solution.candidates.push_back(candidate);
+    const Candidate candidate = candidateOf(fit, points);
+    solution->candidates.push_back(candidate);
     const bool wanted = options.model ? model == *options.model : candidate.bic < least_bic;
     if (wanted && candidate.holds) {
       least_bic = candidate.bic;
@@ -326,31 +187,62 @@ IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& 
   }
   // A model that folds within the image but fits far better: the one that holds is a makeshift.
   const bool is_makeshift =
-      chosen && !options.model &&
-      std::any_of(solution.candidates.begin(), solution.candidates.end(),
+      chosen.ok() && !options.model &&
+      std::any_of(solution->candidates.begin(), solution->candidates.end(),
                   [&chosen](const Candidate& other) {
-                    return !other.holds && other.reprojection_error < kMuchBetter * chosen->error;
+                    return !other.holds && other.reprojection_error < kMuchBetter * chosen.error;
                   });
-  if (!chosen || is_makeshift)
+  if (!chosen.ok() || is_makeshift)
     throw IntrinsicsError(
         "the lens model does not hold over the whole image: show the board in "
-        "all corners of the image, or choose a simpler model");
+        "all corners of the image, or choose a simpler model, or equidistant for a wide-angle "
+        "lens");
+  return chosen;
+}
 
-  solution.model = chosen->model;
-  solution.intrinsics = intrinsicsOf(*chosen, samples);
-  solution.reprojection_error = chosen->error;
-  const std::vector<int> columns = estimated(chosen->model);
-  const double degrees_of_freedom = 2.0 * static_cast<double>(points.count) -
-                                    static_cast<double>(columns.size()) -
+Fit fitEquidistant(const Points& points,
+                   const SolverOptions& options,
+                   IntrinsicsSolution* solution) {
+  const Fit first = firstFit(points, true, options.start_focal_length);
+  checkTilts(first);
+  const Fit fit = refined(first, LensModel::kEquidistant, points);
+  if (!fit.ok())
+    throw IntrinsicsError(
+        "the views fit no equidistant lens: check the board's spacings, show it in all corners of "
+        "the image, or choose another model");
+  solution->candidates.push_back(candidateOf(fit, points));
+  if (!solution->candidates.back().holds)
+    throw IntrinsicsError(
+        "the equidistant lens does not hold over the whole image: show the board in all corners of "
+        "the image, or choose another model");
+  return fit;
+}
+
+}  // namespace
+
+IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& options) {
+  checkInput(samples, options);
+  checkPlaces(samples);
+  const Points points(samples);
+  IntrinsicsSolution solution;
+  const Fit chosen = options.model == LensModel::kEquidistant
+                         ? fitEquidistant(points, options, &solution)
+                         : chooseModel(points, options, &solution);
+
+  solution.model = chosen.model;
+  solution.intrinsics = intrinsicsOf(chosen, points);
+  solution.reprojection_error = chosen.error;
+  const int parameters = parameterCount(chosen.model);
+  const double degrees_of_freedom = 2.0 * static_cast<double>(points.count) - parameters -
                                     kPoseParameters * static_cast<double>(samples.views.size());
   solution.pixel_stddev =
-      chosen->error * std::sqrt(static_cast<double>(points.count) / degrees_of_freedom);
+      chosen.error * std::sqrt(static_cast<double>(points.count) / degrees_of_freedom);
   if (!(solution.pixel_stddev <= options.maximum_pixel_stddev))
     throw IntrinsicsError("the views do not fit the board (" +
                           std::to_string(solution.pixel_stddev) +
                           " px): check its spacings, that it is flat and that it was held still");
 
-  const auto covariance = unitCovariance(*chosen, points, &solution.view_errors);
+  const auto covariance = unitCovariance(chosen, points, &solution.view_errors);
   const double f = solution.intrinsics.fx;
   const double variance = solution.pixel_stddev * solution.pixel_stddev;
   if (!covariance ||
@@ -362,13 +254,9 @@ IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& 
     throw IntrinsicsError(
         "the focal lengths along x and y differ by more than a camera's do: the "
         "board's column and row spacing must be as measured");
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    for (std::size_t j = 0; j < columns.size(); ++j)
-      solution.covariance(columns[i], columns[j]) =
-          variance * (*covariance)(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-  }
+  solution.covariance.topLeftCorner(parameters, parameters) = variance * *covariance;
   for (std::size_t i = 0; i < samples.views.size(); ++i)
-    solution.camera_from_board.push_back(poseOf(chosen->rotations[i], chosen->translations[i]));
+    solution.camera_from_board.push_back(poseOf(chosen.rotations[i], chosen.translations[i]));
   solution.summary = summaryOf(solution);
   return solution;
 }

@@ -14,20 +14,23 @@
 
 namespace wiimote_tracker::intrinsics {
 
-/// Which of k1, k2, p1, p2, k3 are estimated; the others are 0.
+/// A lens and which of its coefficients are estimated; the others are 0.
 enum class LensModel {
   kNoDistortion,
-  kK1,
+  kK1,  ///< plumb_bob, as the following two.
   kK1K2,
-  kFull,
+  kFull,         ///< k1, k2, p1, p2, k3.
+  kEquidistant,  ///< A fisheye lens: k1, k2, k3, k4.
 };
 
-/// "no distortion", "k1", "k1, k2", "k1, k2, p1, p2, k3".
+/// "no distortion", "k1", "k1, k2", "k1, k2, p1, p2, k3", "equidistant k1, k2, k3, k4".
 std::string nameOf(LensModel model);
 
 struct SolverOptions {
-  std::optional<LensModel> model;  ///< Nothing: chosen by the data, see IntrinsicsSolution::model.
-  int minimum_views = 12;          ///< [>= 3]
+  /// Nothing: chosen by the data among all but kEquidistant, see IntrinsicsSolution::model. That
+  /// one has to be asked for: up to some 100 degrees across both kinds fit alike.
+  std::optional<LensModel> model;
+  int minimum_views = 12;              ///< [>= 3]
   double start_focal_length = 1300.0;  ///< Fractions of it are tried too [px, > 0].
   double maximum_focal_stddev = 0.02;  ///< Of the focal length, else refused [1, > 0].
   double maximum_pixel_stddev = 2.0;   ///< Of the residuals, else refused [px, > 0].
@@ -45,8 +48,9 @@ struct Candidate {
 struct IntrinsicsSolution {
   geometry::Intrinsics intrinsics;
 
-  /// Of fx, fy, cx, cy [px], k1, k2, p1, p2, k3 [1]; zero for what was not estimated. From the
-  /// spread of the residuals, with the poses of the board estimated too.
+  /// Of fx, fy, cx, cy [px] and the coefficients in the order of geometry::Intrinsics [1]; zero for
+  /// what was not estimated. From the spread of the residuals, with the poses of the board
+  /// estimated too.
   Eigen::Matrix<double, 9, 9> covariance = Eigen::Matrix<double, 9, 9>::Zero();
 
   LensModel model;                    ///< Least bic of those that hold, unless it was given.
@@ -58,8 +62,9 @@ struct IntrinsicsSolution {
   std::string summary;                               ///< For people.
 };
 
-/// Focal lengths, principal point and distortion from views of the board (Zhang 2000), by OpenCV.
-/// The scale of the board's spacings does not matter, their ratio does. Deterministic.
+/// Focal lengths, principal point and distortion from views of the board (Zhang 2000), by OpenCV
+/// (cv::calibrateCamera; cv::fisheye for kEquidistant). Takes some tenths of a second. The scale of
+/// the board's spacings does not matter, their ratio does. Deterministic.
 /// @throws IntrinsicsError: too few views; a view with too few LEDs, in one line, mirrored or not a
 /// grid; the board never moved in the image or never tilted; views that do not fit the board;
 /// spacings that make fx and fy differ; a focal length less certain than the options ask for; no

@@ -1,0 +1,199 @@
+// The fits themselves: cv::calibrateCamera and cv::fisheye::calibrate.
+#include "lens_fit.h"
+
+#include "wiimote_tracker_calibration/intrinsics/error.h"
+
+#include <opencv2/calib3d.hpp>
+
+#include <algorithm>
+
+namespace wiimote_tracker::intrinsics {
+
+namespace {
+
+// When a minimisation ends: iterations, relative change of the parameters.
+const cv::TermCriteria kPrecise(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-8);
+const cv::TermCriteria kRough(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 1e-3);
+
+int plumbBobFlags(LensModel model) {
+  int flags = cv::CALIB_USE_INTRINSIC_GUESS;
+  if (model != LensModel::kFull)
+    flags |= cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST;
+  if (model == LensModel::kK1 || model == LensModel::kNoDistortion)
+    flags |= cv::CALIB_FIX_K2;
+  if (model == LensModel::kNoDistortion)
+    flags |= cv::CALIB_FIX_K1;
+  return flags;
+}
+
+int equidistantFlags(LensModel model) {
+  int flags = cv::fisheye::CALIB_USE_INTRINSIC_GUESS | cv::fisheye::CALIB_RECOMPUTE_EXTRINSIC |
+              cv::fisheye::CALIB_FIX_SKEW;
+  if (model != LensModel::kEquidistant)
+    flags |= cv::fisheye::CALIB_FIX_K1 | cv::fisheye::CALIB_FIX_K2 | cv::fisheye::CALIB_FIX_K3 |
+             cv::fisheye::CALIB_FIX_K4;
+  return flags;
+}
+
+bool isEquidistant(const Fit& fit) {
+  return fit.distortion.total() == 4;
+}
+
+void calibrate(const Points& points, const cv::TermCriteria& end, Fit* fit) {
+  if (!isEquidistant(*fit)) {
+    cv::calibrateCamera(points.board, points.image, points.image_size, fit->camera_matrix,
+                        fit->distortion, fit->rotations, fit->translations,
+                        plumbBobFlags(fit->model), end);
+    return;
+  }
+  std::vector<cv::Vec3d> rotations;
+  std::vector<cv::Vec3d> translations;
+  cv::fisheye::calibrate(points.board, points.image, points.image_size, fit->camera_matrix,
+                         fit->distortion, rotations, translations, equidistantFlags(fit->model),
+                         end);
+  fit->rotations.assign(rotations.begin(), rotations.end());
+  fit->translations.assign(translations.begin(), translations.end());
+}
+
+/// Where the lens puts a view's LEDs, with the derivative as OpenCV lays it out.
+std::vector<cv::Point2f> project(const Fit& fit,
+                                 const Points& points,
+                                 std::size_t view,
+                                 cv::Mat* derivative) {
+  std::vector<cv::Point2f> projected;
+  if (isEquidistant(fit))
+    cv::fisheye::projectPoints(points.board[view], projected, fit.rotations[view],
+                               fit.translations[view], fit.camera_matrix, fit.distortion, 0.0,
+                               *derivative);
+  else
+    cv::projectPoints(points.board[view], fit.rotations[view], fit.translations[view],
+                      fit.camera_matrix, fit.distortion, projected, *derivative);
+  return projected;
+}
+
+double reprojectionError(const Fit& fit, const Points& points) {
+  double sum = 0.0;
+  cv::Mat derivative;
+  for (std::size_t view = 0; view < points.board.size(); ++view) {
+    const std::vector<cv::Point2f> projected = project(fit, points, view, &derivative);
+    for (std::size_t i = 0; i < projected.size(); ++i) {
+      const cv::Point2f d = projected[i] - points.image[view][i];
+      sum += d.dot(d);
+    }
+  }
+  return std::sqrt(sum / static_cast<double>(points.count));
+}
+
+Fit fitFrom(const Fit& start, LensModel model, const Points& points, const cv::TermCriteria& end) {
+  Fit fit;
+  fit.model = model;
+  fit.camera_matrix = start.camera_matrix.clone();
+  fit.distortion = start.distortion.clone();
+  try {
+    calibrate(points, end, &fit);
+    if (cv::checkRange(fit.camera_matrix) && cv::checkRange(fit.distortion))
+      fit.error = reprojectionError(fit, points);
+  } catch (const cv::Exception&) {
+    // From this start it cannot be solved; the caller has others.
+  }
+  if (!std::isfinite(fit.error))
+    fit.error = HUGE_VAL;
+  return fit;
+}
+
+}  // namespace
+
+Points::Points(const Samples& samples) : image_size(samples.width, samples.height) {
+  for (const BoardView& view : samples.views) {
+    board.emplace_back();
+    image.emplace_back();
+    for (int led = 0; led < kBoardLeds; ++led) {
+      const auto& pixel = view.pixels[static_cast<std::size_t>(led)];
+      if (!pixel)
+        continue;
+      const Eigen::Vector3f p = samples.board.position(led).cast<float>();
+      board.back().emplace_back(p.x(), p.y(), p.z());
+      image.back().emplace_back(static_cast<float>(pixel->x()), static_cast<float>(pixel->y()));
+      ++count;
+    }
+  }
+}
+
+Fit firstFit(const Points& points, bool equidistant, double focal_length) {
+  Fit best;
+  for (const double factor : {1.0, 0.35}) {
+    Fit start;
+    start.camera_matrix =
+        (cv::Mat_<double>(3, 3) << factor * focal_length, 0.0, (points.image_size.width - 1) / 2.0,
+         0.0, factor * focal_length, (points.image_size.height - 1) / 2.0, 0.0, 0.0, 1.0);
+    start.distortion = cv::Mat::zeros(1, equidistant ? 4 : 5, CV_64F);
+    const Fit fit = fitFrom(start, LensModel::kNoDistortion, points, kRough);
+    if (fit.error < best.error)
+      best = fit;
+  }
+  if (!best.ok())
+    throw IntrinsicsError(
+        "the views fit no camera: check the board's spacings, and show it again "
+        "from at least 12 different sides");
+  return fitFrom(best, LensModel::kNoDistortion, points, kPrecise);
+}
+
+Fit refined(const Fit& start, LensModel model, const Points& points) {
+  return fitFrom(start, model, points, kPrecise);
+}
+
+geometry::Intrinsics intrinsicsOf(const Fit& fit, const Points& points) {
+  geometry::Intrinsics result;
+  result.width = points.image_size.width;
+  result.height = points.image_size.height;
+  result.fx = fit.camera_matrix.at<double>(0, 0);
+  result.fy = fit.camera_matrix.at<double>(1, 1);
+  result.cx = fit.camera_matrix.at<double>(0, 2);
+  result.cy = fit.camera_matrix.at<double>(1, 2);
+  result.distortion_model = isEquidistant(fit) ? geometry::DistortionModel::kEquidistant
+                                               : geometry::DistortionModel::kPlumbBob;
+  for (std::size_t i = 0; i < fit.distortion.total(); ++i)
+    result.distortion[i] = fit.distortion.at<double>(static_cast<int>(i));
+  return result;
+}
+
+int parameterCount(LensModel model) {
+  switch (model) {
+    case LensModel::kNoDistortion:
+      return 4;
+    case LensModel::kK1:
+      return 5;
+    case LensModel::kK1K2:
+      return 6;
+    case LensModel::kEquidistant:
+      return 8;
+    case LensModel::kFull:
+      break;
+  }
+  return 9;
+}
+
+ViewDerivative differentiate(const Fit& fit, const Points& points, std::size_t view) {
+  cv::Mat derivative;
+  const std::vector<cv::Point2f> projected = project(fit, points, view, &derivative);
+  const int parameters = parameterCount(fit.model);
+  // OpenCV puts the pose before the lens, but behind it for a fisheye.
+  const int pose = isEquidistant(fit) ? 8 : 0;
+  const int lens = isEquidistant(fit) ? 0 : kPoseParameters;
+  ViewDerivative result;
+  result.residuals.resize(derivative.rows);
+  result.pose.resize(derivative.rows, kPoseParameters);
+  result.lens.resize(derivative.rows, parameters);
+  for (int row = 0; row < derivative.rows; ++row) {
+    const cv::Point2f d = projected[static_cast<std::size_t>(row / 2)] -
+                          points.image[view][static_cast<std::size_t>(row / 2)];
+    result.residuals(row) = row % 2 == 0 ? d.x : d.y;
+    for (int k = 0; k < kPoseParameters; ++k)
+      result.pose(row, k) = derivative.at<double>(row, pose + k);
+    for (int k = 0; k < parameters; ++k)
+      result.lens(row, k) = derivative.at<double>(row, lens + k);
+  }
+  return result;
+}
+
+}  // namespace wiimote_tracker::intrinsics

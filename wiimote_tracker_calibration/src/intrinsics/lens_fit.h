@@ -1,0 +1,61 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_INTRINSICS_LENS_FIT_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_INTRINSICS_LENS_FIT_H
+
+#include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace wiimote_tracker::intrinsics {
+
+constexpr int kPoseParameters = 6;
+
+/// The views as OpenCV takes them.
+struct Points {
+  explicit Points(const Samples& samples);
+
+  std::vector<std::vector<cv::Point3f>> board;
+  std::vector<std::vector<cv::Point2f>> image;
+  cv::Size image_size;
+  std::size_t count = 0;
+};
+
+/// A lens and the board's poses, as OpenCV gives them.
+struct Fit {
+  LensModel model = LensModel::kNoDistortion;
+  cv::Mat camera_matrix;  // 3 x 3
+  cv::Mat distortion;     // 1 x 5, or 1 x 4 of kEquidistant
+  std::vector<cv::Mat> rotations;
+  std::vector<cv::Mat> translations;
+  double error = HUGE_VAL;  // reprojection error [px]; infinite: could not be fitted
+
+  bool ok() const { return std::isfinite(error); }
+};
+
+/// A lens without distortion, or an equidistant one without coefficients, from several focal
+/// lengths: a lens in front of the camera shortens them. @throws IntrinsicsError: nothing fits.
+Fit firstFit(const Points& points, bool equidistant, double focal_length);
+
+/// The model with the least reprojection error, from a fit of the same kind.
+Fit refined(const Fit& start, LensModel model, const Points& points);
+
+geometry::Intrinsics intrinsicsOf(const Fit& fit, const Points& points);
+
+/// Parameters that a model estimates, in the order fx, fy, cx, cy, then the coefficients.
+int parameterCount(LensModel model);
+
+/// One view's pixels [px].
+struct ViewDerivative {
+  Eigen::VectorXd residuals;                                    // u, v, u, v, ...
+  Eigen::Matrix<double, Eigen::Dynamic, kPoseParameters> pose;  // of the board
+  Eigen::MatrixXd lens;                                         // one column per parameter
+};
+ViewDerivative differentiate(const Fit& fit, const Points& points, std::size_t view);
+
+}  // namespace wiimote_tracker::intrinsics
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_INTRINSICS_LENS_FIT_H

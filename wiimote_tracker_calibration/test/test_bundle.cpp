@@ -77,6 +77,21 @@ TEST(Bundle, recoversARigFromExactPixels) {
   }
 }
 
+TEST(Bundle, solvesWithWideAngleLenses) {
+  SyntheticRig rig(3, 100, 4);
+  for (geometry::Camera& camera : rig.cameras) {
+    camera.intrinsics.distortion_model = geometry::DistortionModel::kEquidistant;
+    camera.intrinsics.distortion = {-0.05, 0.01, 0.002, -0.001, 0.0};
+  }
+  rig.observe();
+  Reconstruction solution =
+      solve(rig.withoutPoses(), rig.observations, rig.points.size(), Options());
+  align(rig, &solution);
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
+    EXPECT_TRUE(
+        solution.cameras[i].world_from_camera.isApprox(rig.cameras[i].world_from_camera, 1e-7));
+}
+
 TEST(Bundle, residualsAreAsLargeAsTheNoise) {
   const double kNoise = 0.4;  // px
   const SyntheticRig exact(4, 400, 5);

@@ -1,43 +1,17 @@
 #include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/solve.h"
 
+#include "camera_blocks.h"
 #include "reprojection_cost.h"
 
 #include <ceres/ceres.h>
-#include <ceres/rotation.h>
 
 #include <algorithm>
-#include <array>
 #include <string>
 
 namespace wiimote_tracker::bundle {
 
 namespace {
-
-/// What Ceres varies of one camera.
-struct CameraBlocks {
-  std::array<double, kIntrinsicsSize> intrinsics;
-  Eigen::Vector3d rotation;  // camera_from_world, angle-axis [rad]
-  Eigen::Vector3d position;  // optical centre, world [m]
-};
-
-CameraBlocks blocksOf(const geometry::Camera& camera) {
-  const geometry::Intrinsics& in = camera.intrinsics;
-  const auto& k = in.distortion;
-  CameraBlocks blocks;
-  blocks.intrinsics = {in.fx, in.fy, in.cx, in.cy, k[0], k[1], k[2], k[3], k[4]};
-  const Eigen::Matrix3d camera_from_world = camera.world_from_camera.linear().transpose();
-  ceres::RotationMatrixToAngleAxis(camera_from_world.data(), blocks.rotation.data());
-  blocks.position = camera.center();
-  return blocks;
-}
-
-void setPose(const CameraBlocks& blocks, geometry::Camera* camera) {
-  Eigen::Matrix3d camera_from_world;
-  ceres::AngleAxisToRotationMatrix(blocks.rotation.data(), camera_from_world.data());
-  camera->world_from_camera.linear() = camera_from_world.transpose();
-  camera->world_from_camera.translation() = blocks.position;
-}
 
 /// One minimisation over the inliers as they are marked.
 void minimize(Reconstruction* reconstruction, const Options& options, const Held& held) {
@@ -45,6 +19,10 @@ void minimize(Reconstruction* reconstruction, const Options& options, const Held
   for (const geometry::Camera& camera : reconstruction->cameras)
     cameras.push_back(blocksOf(camera));
 
+  // Cameras with one lens vary the first one's.
+  const auto lensOf = [&](std::size_t camera) {
+    return cameras[options.one_lens ? 0 : camera].intrinsics.data();
+  };
   ceres::Problem problem;
   std::vector<bool> seen(cameras.size(), false);
   for (std::size_t i = 0; i < reconstruction->observations.size(); ++i) {
@@ -52,8 +30,9 @@ void minimize(Reconstruction* reconstruction, const Options& options, const Held
       continue;
     const Observation& observation = reconstruction->observations[i];
     CameraBlocks& camera = cameras[observation.camera];
-    problem.AddResidualBlock(ReprojectionCost::create(observation.pixel),
-                             new ceres::HuberLoss(options.loss_scale), camera.intrinsics.data(),
+    const geometry::Intrinsics& lens = reconstruction->cameras[observation.camera].intrinsics;
+    problem.AddResidualBlock(ReprojectionCost::create(observation.pixel, lens.distortion_model),
+                             new ceres::HuberLoss(options.loss_scale), lensOf(observation.camera),
                              camera.rotation.data(), camera.position.data(),
                              reconstruction->points[observation.point]->data());
     seen[observation.camera] = true;
@@ -69,18 +48,34 @@ void minimize(Reconstruction* reconstruction, const Options& options, const Held
     if (!seen[i])
       continue;
     // World and camera would otherwise be free to move together.
-    const bool anchor = i == first && !held.rotations && !held.positions;
-    problem.SetParameterBlockConstant(cameras[i].intrinsics.data());
+    const bool anchor = i == first && !held.rotations && !held.positions && !held.points;
     if (held.rotations || anchor)
       problem.SetParameterBlockConstant(cameras[i].rotation.data());
     if (held.positions || anchor)
       problem.SetParameterBlockConstant(cameras[i].position.data());
   }
 
+  for (std::size_t i = 0; i < (options.one_lens ? 1 : cameras.size()); ++i) {
+    if (!problem.HasParameterBlock(lensOf(i)))
+      continue;
+    if (held.intrinsics)
+      problem.SetParameterBlockConstant(lensOf(i));
+    else
+      problem.AddResidualBlock(LensPriorCost::create(reconstruction->cameras[i].intrinsics,
+                                                     options.lens, options.pixel_stddev),
+                               nullptr, lensOf(i));
+  }
+  if (held.points) {
+    for (auto& point : reconstruction->points) {
+      if (point && problem.HasParameterBlock(point->data()))
+        problem.SetParameterBlockConstant(point->data());
+    }
+  }
+
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_SCHUR;
-  solver.max_num_iterations = 200;
-  solver.function_tolerance = 1e-14;
+  solver.max_num_iterations = options.rough ? 20 : 200;
+  solver.function_tolerance = options.rough ? 1e-4 : 1e-14;
   solver.parameter_tolerance = 1e-12;
   solver.gradient_tolerance = 1e-14;
   // The scale is free, so the normal equations are singular but for the damping: keep some of it.
@@ -92,8 +87,11 @@ void minimize(Reconstruction* reconstruction, const Options& options, const Held
   if (!summary.IsSolutionUsable())
     throw BundleError("the adjustment failed (" + summary.message +
                       "): record the light in more places");
-  for (std::size_t i = 0; i < cameras.size(); ++i)
-    setPose(cameras[i], &reconstruction->cameras[i]);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (options.one_lens)
+      cameras[i].intrinsics = cameras[0].intrinsics;
+    setCamera(cameras[i], &reconstruction->cameras[i]);
+  }
 }
 
 }  // namespace
@@ -107,6 +105,8 @@ void adjust(Reconstruction* reconstruction, const Options& options, const Held& 
         usable[reconstruction->observations[i].camera] || reconstruction->inliers[i];
   for (int round = 0; round < kMaximumRounds; ++round) {
     minimize(reconstruction, options, held);
+    if (options.rough)
+      return;
     const std::vector<bool> before = reconstruction->inliers;
     const auto points = reconstruction->points;
     triangulatePoints(reconstruction, usable, options.maximum_error, options.minimum_angle);

@@ -18,13 +18,6 @@ namespace {
 // Before any adjustment lenses and poses are rough: outliers are told apart this many times wider.
 constexpr double kStartTolerance = 4.0;
 
-struct Pair {
-  std::size_t first = 0;
-  std::size_t second = 0;
-  Eigen::Isometry3d second_from_first = Eigen::Isometry3d::Identity();
-  double parallax = 0.0;  // sum over the points [rad]
-};
-
 Eigen::Matrix3d eigenFromCv(const cv::Mat& matrix) {
   Eigen::Matrix3d result;
   for (int row = 0; row < 3; ++row) {
@@ -53,67 +46,13 @@ double focalLength(const geometry::Camera& camera) {
   return 0.5 * (camera.intrinsics.fx + camera.intrinsics.fy);
 }
 
-void commonViews(const NormalizedViews& views,
-                 std::size_t first,
-                 std::size_t second,
-                 std::vector<cv::Point2d>* in_first,
-                 std::vector<cv::Point2d>* in_second) {
-  for (const auto& [point, view] : views[first]) {
-    const auto other = views[second].find(point);
-    if (other == views[second].end())
-      continue;
-    in_first->emplace_back(view.x(), view.y());
-    in_second->emplace_back(other->second.x(), other->second.y());
-  }
-}
-
-/// Relative pose of two cameras, if enough of their common points agree on one.
-bool solvePair(const NormalizedViews& views,
-               const Reconstruction& reconstruction,
-               const Options& options,
-               Pair* pair) {
-  std::vector<cv::Point2d> first;
-  std::vector<cv::Point2d> second;
-  commonViews(views, pair->first, pair->second, &first, &second);
-  if (first.size() < options.minimum_common_points || !fillsAnArea(first) || !fillsAnArea(second))
-    return false;
-  const double focal_length = 0.5 * (focalLength(reconstruction.cameras[pair->first]) +
-                                     focalLength(reconstruction.cameras[pair->second]));
-  cv::Mat mask;
-  const cv::Mat essential =
-      cv::findEssentialMat(first, second, 1.0, cv::Point2d(0.0, 0.0), cv::RANSAC, 0.999,
-                           kStartTolerance * options.maximum_error / focal_length, mask);
-  if (essential.rows != 3 || essential.cols != 3)
-    return false;
-  cv::Mat rotation;
-  cv::Mat translation;
-  const int in_front =
-      cv::recoverPose(essential, first, second, rotation, translation, 1.0, {0.0, 0.0}, mask);
-  if (in_front < static_cast<int>(options.minimum_common_points))
-    return false;
-  pair->second_from_first.linear() = eigenFromCv(rotation);
-  pair->second_from_first.translation() = vectorFromCv(translation);
-  pair->parallax = 0.0;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    if (mask.at<unsigned char>(static_cast<int>(i)) == 0)
-      continue;
-    const Eigen::Vector3d a =
-        pair->second_from_first.linear() * Eigen::Vector3d(first[i].x, first[i].y, 1.0);
-    const Eigen::Vector3d b(second[i].x, second[i].y, 1.0);
-    pair->parallax += std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
-  }
-  return true;
-}
-
 std::string commonText(const NormalizedViews& views, const Reconstruction& reconstruction) {
   std::string text;
   for (std::size_t i = 0; i < views.size(); ++i) {
     for (std::size_t j = i + 1; j < views.size(); ++j) {
-      std::vector<cv::Point2d> first;
-      std::vector<cv::Point2d> second;
-      commonViews(views, i, j, &first, &second);
       text += (text.empty() ? "" : ", ") + reconstruction.cameras[i].name + " and " +
-              reconstruction.cameras[j].name + " " + std::to_string(first.size());
+              reconstruction.cameras[j].name + " " +
+              std::to_string(commonViews(views[i], views[j]).first.size());
     }
   }
   return text;
@@ -131,6 +70,87 @@ NormalizedViews normalize(const Reconstruction& reconstruction) {
   return views;
 }
 
+bool fillsAnArea(const std::map<std::size_t, Eigen::Vector2d>& view) {
+  std::vector<cv::Point2d> points;
+  for (const auto& [index, pixel] : view)
+    points.emplace_back(pixel.x(), pixel.y());
+  return fillsAnArea(points);
+}
+
+CommonViews commonViews(const std::map<std::size_t, Eigen::Vector2d>& first,
+                        const std::map<std::size_t, Eigen::Vector2d>& second) {
+  CommonViews common;
+  for (const auto& [point, view] : first) {
+    const auto other = second.find(point);
+    if (other == second.end())
+      continue;
+    common.first.emplace_back(view.x(), view.y());
+    common.second.emplace_back(other->second.x(), other->second.y());
+  }
+  return common;
+}
+
+double distanceFromPlane(const CommonViews& common, double tolerance) {
+  const int kIterations = 200;
+  const double kFarthest = 10.0;
+  cv::Mat mask;
+  const cv::Mat homography = cv::findHomography(common.first, common.second, cv::RANSAC, tolerance,
+                                                mask, kIterations, 0.99);
+  if (homography.empty())
+    return 0.0;
+  std::vector<cv::Point2d> mapped;
+  cv::perspectiveTransform(common.first, mapped, homography);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mapped.size(); ++i)
+    sum += std::min(cv::norm(mapped[i] - common.second[i]), kFarthest * tolerance);
+  return sum / static_cast<double>(mapped.size());
+}
+
+std::optional<Pair> solvePair(const NormalizedViews& views,
+                              const Reconstruction& reconstruction,
+                              const Options& options,
+                              std::size_t first_camera,
+                              std::size_t second_camera) {
+  const auto [first, second] = commonViews(views[first_camera], views[second_camera]);
+  if (first.size() < options.minimum_common_points || !fillsAnArea(first) || !fillsAnArea(second))
+    return std::nullopt;
+  const double focal_length = 0.5 * (focalLength(reconstruction.cameras[first_camera]) +
+                                     focalLength(reconstruction.cameras[second_camera]));
+  cv::Mat mask;
+  const cv::Mat essential =
+      cv::findEssentialMat(first, second, 1.0, cv::Point2d(0.0, 0.0), cv::RANSAC, 0.999,
+                           kStartTolerance * options.maximum_error / focal_length, mask);
+  if (essential.rows != 3 || essential.cols != 3)
+    return std::nullopt;
+  cv::Mat rotation;
+  cv::Mat translation;
+  const int in_front =
+      cv::recoverPose(essential, first, second, rotation, translation, 1.0, {0.0, 0.0}, mask);
+  if (in_front < static_cast<int>(options.minimum_common_points))
+    return std::nullopt;
+  Pair pair;
+  pair.first = first_camera;
+  pair.second = second_camera;
+  pair.second_from_first.linear() = eigenFromCv(rotation);
+  pair.second_from_first.translation() = vectorFromCv(translation);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (mask.at<unsigned char>(static_cast<int>(i)) == 0)
+      continue;
+    const Eigen::Vector3d a =
+        pair.second_from_first.linear() * Eigen::Vector3d(first[i].x, first[i].y, 1.0);
+    const Eigen::Vector3d b(second[i].x, second[i].y, 1.0);
+    pair.parallax += std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
+  }
+  return pair;
+}
+
+void startFrom(const Pair& pair, Reconstruction* reconstruction, std::vector<bool>* placed) {
+  reconstruction->cameras[pair.first].world_from_camera = Eigen::Isometry3d::Identity();
+  reconstruction->cameras[pair.second].world_from_camera = pair.second_from_first.inverse();
+  (*placed)[pair.first] = true;
+  (*placed)[pair.second] = true;
+}
+
 void startFromPair(const NormalizedViews& views,
                    const Options& options,
                    Reconstruction* reconstruction,
@@ -138,11 +158,9 @@ void startFromPair(const NormalizedViews& views,
   Pair best;
   for (std::size_t i = 0; i < views.size(); ++i) {
     for (std::size_t j = i + 1; j < views.size(); ++j) {
-      Pair pair;
-      pair.first = i;
-      pair.second = j;
-      if (solvePair(views, *reconstruction, options, &pair) && pair.parallax > best.parallax)
-        best = pair;
+      const auto pair = solvePair(views, *reconstruction, options, i, j);
+      if (pair && pair->parallax > best.parallax)
+        best = *pair;
     }
   }
   if (!(best.parallax > 0.0))
@@ -150,66 +168,102 @@ void startFromPair(const NormalizedViews& views,
                       std::to_string(options.minimum_common_points) +
                       " or more points in common, spread over the room, and have: " +
                       commonText(views, *reconstruction));
-  reconstruction->cameras[best.first].world_from_camera = Eigen::Isometry3d::Identity();
-  reconstruction->cameras[best.second].world_from_camera = best.second_from_first.inverse();
-  (*placed)[best.first] = true;
-  (*placed)[best.second] = true;
+  startFrom(best, reconstruction, placed);
 }
 
-void placeNext(const NormalizedViews& views,
-               const Options& options,
-               Reconstruction* reconstruction,
-               std::vector<bool>* placed) {
-  std::size_t next = 0;
+namespace {
+
+/// What a camera saw of the known points.
+struct KnownViews {
   std::vector<cv::Point3d> points;
-  std::vector<cv::Point2d> pixels;
-  for (std::size_t camera = 0; camera < views.size(); ++camera) {
-    if ((*placed)[camera])
+  std::vector<cv::Point2d> views;
+};
+
+KnownViews knownViews(const NormalizedViews& views,
+                      const Reconstruction& reconstruction,
+                      std::size_t camera) {
+  KnownViews known;
+  for (const auto& [index, view] : views[camera]) {
+    const auto& point = reconstruction.points[index];
+    if (!point)
       continue;
-    std::vector<cv::Point3d> known;
-    std::vector<cv::Point2d> seen;
-    for (const auto& [index, view] : views[camera]) {
-      const auto& point = reconstruction->points[index];
-      if (!point)
-        continue;
-      known.emplace_back(point->x(), point->y(), point->z());
-      seen.emplace_back(view.x(), view.y());
-    }
-    if (points.empty() || known.size() > points.size()) {
+    known.points.emplace_back(point->x(), point->y(), point->z());
+    known.views.emplace_back(view.x(), view.y());
+  }
+  return known;
+}
+
+std::string adviceFor(const std::string& name) {
+  return "move the light where " + name + " and two of the others see it, or leave this camera out";
+}
+
+}  // namespace
+
+std::size_t nextToPlace(const NormalizedViews& views,
+                        const Options& options,
+                        const Reconstruction& reconstruction,
+                        const std::vector<bool>& placed) {
+  std::size_t next = 0;
+  std::size_t most = 0;
+  bool any = false;
+  for (std::size_t camera = 0; camera < views.size(); ++camera) {
+    if (placed[camera])
+      continue;
+    const std::size_t count = knownViews(views, reconstruction, camera).points.size();
+    if (!any || count > most) {
+      any = true;
       next = camera;
-      points = known;
-      pixels = seen;
+      most = count;
     }
   }
-  geometry::Camera& camera = reconstruction->cameras[next];
-  const std::string advice = "move the light where " + camera.name +
-                             " and two of the others see it, or leave this camera out";
-  if (points.size() < options.minimum_common_points)
-    throw BundleError(camera.name + " shares " + std::to_string(points.size()) +
+  const std::string& name = reconstruction.cameras[next].name;
+  if (most < options.minimum_common_points)
+    throw BundleError(name + " shares " + std::to_string(most) +
                       " points with the cameras placed before it, but needs " +
-                      std::to_string(options.minimum_common_points) + ": " + advice);
-  if (!fillsAnArea(pixels))
-    throw BundleError(
-        camera.name +
-        " shares only points on one line with the cameras placed before it: " + advice);
+                      std::to_string(options.minimum_common_points) + ": " + adviceFor(name));
+  return next;
+}
+
+std::size_t place(const NormalizedViews& views,
+                  const Options& options,
+                  std::size_t index,
+                  Reconstruction* reconstruction,
+                  std::vector<bool>* placed) {
+  geometry::Camera& camera = reconstruction->cameras[index];
+  const KnownViews known = knownViews(views, *reconstruction, index);
+  if (!fillsAnArea(known.views))
+    throw BundleError(camera.name +
+                      " shares only points on one line with the cameras placed before it: " +
+                      adviceFor(camera.name));
   cv::Mat rotation_vector;
   cv::Mat translation;
   std::vector<int> inliers;
   const double tolerance = kStartTolerance * options.maximum_error / focalLength(camera);
-  const bool found =
-      cv::solvePnPRansac(points, pixels, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), rotation_vector,
-                         translation, false, 1000, tolerance, 0.9999, inliers, cv::SOLVEPNP_EPNP);
+  const int iterations = options.rough ? 150 : 1000;  // 150: one in two may be wrong
+  const bool found = cv::solvePnPRansac(known.points, known.views, cv::Mat::eye(3, 3, CV_64F),
+                                        cv::noArray(), rotation_vector, translation, false,
+                                        iterations, tolerance, 0.9999, inliers, cv::SOLVEPNP_EPNP);
   if (!found || inliers.size() < options.minimum_common_points)
     throw BundleError("no pose of " + camera.name + " explains what it saw of " +
-                      std::to_string(points.size()) +
-                      " points: check its intrinsics and its frame numbers; or " + advice);
+                      std::to_string(known.points.size()) +
+                      " points: check its intrinsics and its frame numbers; or " +
+                      adviceFor(camera.name));
   cv::Mat rotation;
   cv::Rodrigues(rotation_vector, rotation);
   Eigen::Isometry3d camera_from_world = Eigen::Isometry3d::Identity();
   camera_from_world.linear() = eigenFromCv(rotation);
   camera_from_world.translation() = vectorFromCv(translation);
   camera.world_from_camera = camera_from_world.inverse();
-  (*placed)[next] = true;
+  (*placed)[index] = true;
+  return inliers.size();
+}
+
+void placeNext(const NormalizedViews& views,
+               const Options& options,
+               Reconstruction* reconstruction,
+               std::vector<bool>* placed) {
+  place(views, options, nextToPlace(views, options, *reconstruction, *placed), reconstruction,
+        placed);
 }
 
 }  // namespace wiimote_tracker::bundle

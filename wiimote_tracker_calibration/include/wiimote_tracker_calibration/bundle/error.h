@@ -10,6 +10,11 @@ struct BundleError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The progress callback asked to stop.
+struct Cancelled : BundleError {
+  using BundleError::BundleError;
+};
+
 }  // namespace wiimote_tracker::bundle
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_BUNDLE_ERROR_H

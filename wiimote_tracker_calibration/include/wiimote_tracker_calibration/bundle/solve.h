@@ -3,22 +3,40 @@
 
 #include "wiimote_tracker_calibration/bundle/reconstruction.h"
 
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace wiimote_tracker::bundle {
+
+/// What is known of a lens before it is estimated: standard deviations, each > 0.
+struct LensPrior {
+  double focal_length = std::numeric_limits<double>::infinity();  ///< Of log(f).
+  double focal_about = 0.0;       ///< [image widths]; 0: about what it starts with.
+  double aspect = 0.01;           ///< Of log(fx / fy), about 0.
+  double principal_point = 0.05;  ///< About the image's centre [image widths].
+  /// k1, k2, p1, p2, k3, about 0 [1]. k3 is as good as held.
+  std::array<double, 5> distortion = {0.5, 0.5, 0.005, 0.005, 1e-6};
+};
 
 struct Options {
   double maximum_error = 5.0;              ///< An observation farther off is an outlier [px, > 0].
   double loss_scale = 1.0;                 ///< Errors beyond this weigh linearly (Huber) [px, > 0].
   double minimum_angle = 0.02;             ///< Between the rays of a point [rad].
   std::size_t minimum_common_points = 10;  ///< That tie a camera to the others [>= 8].
+  double pixel_stddev = 1.0;               ///< Weighs observations against LensPrior [px, > 0].
+  LensPrior lens;                          ///< Of cameras whose intrinsics are not held.
+  bool one_lens = false;                   ///< All cameras share the first one's intrinsics.
+  bool rough = false;                      ///< A start only: stop early, keep the inliers.
 };
 
 /// What an adjustment must not move.
 struct Held {
   bool rotations = false;  ///< Of all cameras.
   bool positions = false;  ///< Of all cameras.
+  bool intrinsics = true;  ///< Of all cameras; else Options::lens says what is known of them.
+  bool points = false;
 };
 
 /// Poses of the cameras and the points from the observations alone; the intrinsics are given, the

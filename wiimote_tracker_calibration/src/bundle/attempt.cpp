@@ -1,0 +1,192 @@
+#include "attempt.h"
+
+#include "start.h"
+
+#include "wiimote_tracker_calibration/bundle/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+namespace wiimote_tracker::bundle {
+
+namespace {
+
+// While lenses and poses are rough, an observation is wrong only when it is this much farther off.
+constexpr double kRough = 4.0;
+
+// A start is not to wander to a far other focal length: another start is there for that.
+constexpr double kFocalOfStart = 0.2;
+
+Options roughly(const Options& options) {
+  Options rough = options;
+  rough.rough = true;
+  rough.lens.focal_length = kFocalOfStart;
+  rough.lens.focal_about = 0.0;
+  return rough;
+}
+
+/// Mean over what placed cameras saw of points that two of them saw.
+double costOf(const Reconstruction& reconstruction,
+              const std::vector<bool>& placed,
+              double maximum_error) {
+  std::vector<int> views(reconstruction.points.size(), 0);
+  for (const Observation& observation : reconstruction.observations)
+    views[observation.point] += placed[observation.camera] ? 1 : 0;
+  const double worst = std::pow(2.0 * maximum_error, 2);
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const Observation& observation : reconstruction.observations) {
+    if (!placed[observation.camera] || views[observation.point] < 2)
+      continue;
+    const auto error = reprojectionError(reconstruction, observation);
+    sum += error ? std::min(*error * *error, worst) : worst;
+    ++count;
+  }
+  return count == 0 ? std::numeric_limits<double>::infinity() : sum / static_cast<double>(count);
+}
+
+/// Pose and lens of one camera alone, from the points as they are. Its mean cost afterwards.
+double refineAlone(const Options& options, std::size_t camera, Reconstruction* reconstruction) {
+  Reconstruction alone;
+  alone.cameras = {reconstruction->cameras[camera]};
+  alone.points = reconstruction->points;
+  for (const Observation& observation : reconstruction->observations) {
+    if (observation.camera == camera && alone.points[observation.point])
+      alone.observations.push_back({0, observation.point, observation.pixel});
+  }
+  const auto mark = [&] {
+    alone.inliers.clear();
+    double sum = 0.0;
+    const double limit = kRough * options.maximum_error;
+    for (const Observation& observation : alone.observations) {
+      const double error = reprojectionError(alone, observation).value_or(limit);
+      alone.inliers.push_back(error < limit);
+      sum += std::min(error * error, limit * limit);
+    }
+    return sum / static_cast<double>(std::max<std::size_t>(alone.observations.size(), 1));
+  };
+  mark();
+  Held held;
+  held.intrinsics = options.one_lens;
+  held.points = true;
+  adjust(&alone, options, held);
+  reconstruction->cameras[camera] = alone.cameras.front();
+  return mark();
+}
+
+/// For a camera that joins: the others' lens when all have the same, else every focal length.
+std::vector<geometry::Intrinsics> lensesToTry(const SelfCalibrationOptions& options,
+                                              const geometry::Intrinsics& present) {
+  if (options.bundle.one_lens)
+    return {present};
+  std::vector<geometry::Intrinsics> lenses;
+  for (const double focal_length : options.focal_lengths)
+    lenses.push_back(guessedLens(present.width, present.height, focal_length, 0.0));
+  return lenses;
+}
+
+}  // namespace
+
+geometry::Intrinsics guessedLens(int width, int height, double focal_length, double k1) {
+  geometry::Intrinsics lens;
+  lens.width = width;
+  lens.height = height;
+  lens.fx = lens.fy = focal_length * width;
+  lens.cx = 0.5 * (width - 1);
+  lens.cy = 0.5 * (height - 1);
+  lens.distortion = {k1, 0.0, 0.0, 0.0, 0.0};
+  return lens;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> likelyPairs(const Reconstruction& observed,
+                                                             const Options& options,
+                                                             std::size_t count) {
+  // What suffices to pose a camera; more is no better.
+  const double kEnough = 60.0;
+  std::vector<std::map<std::size_t, Eigen::Vector2d>> views(observed.cameras.size());
+  for (const Observation& observation : observed.observations)
+    views[observation.camera][observation.point] = observation.pixel;
+  std::vector<std::pair<double, std::pair<std::size_t, std::size_t>>> ranked;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    for (std::size_t j = i + 1; j < views.size(); ++j) {
+      const CommonViews common = commonViews(views[i], views[j]);
+      if (common.first.size() < options.minimum_common_points)
+        continue;
+      const double points = std::min(static_cast<double>(common.first.size()), kEnough);
+      ranked.push_back({-points * distanceFromPlane(common, options.maximum_error), {i, j}});
+    }
+  }
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < std::min(count, ranked.size()); ++i)
+    pairs.push_back(ranked[i].second);
+  return pairs;
+}
+
+void settle(const Options& options, double maximum_error, Attempt* attempt) {
+  Options now = options;
+  now.maximum_error = maximum_error;
+  Held held;
+  held.intrinsics = false;
+  triangulatePoints(&attempt->reconstruction, attempt->placed, maximum_error,
+                    options.minimum_angle);
+  adjust(&attempt->reconstruction, now, held);
+  attempt->cost = costOf(attempt->reconstruction, attempt->placed, options.maximum_error);
+}
+
+Attempt attemptPair(const Reconstruction& observed,
+                    const std::pair<std::size_t, std::size_t>& pair,
+                    const Options& options) {
+  Attempt attempt;
+  attempt.reconstruction = observed;
+  attempt.placed.assign(observed.cameras.size(), false);
+  const NormalizedViews views = normalize(observed);
+  const auto posed = solvePair(views, observed, options, pair.first, pair.second);
+  if (!posed)
+    return attempt;
+  startFrom(*posed, &attempt.reconstruction, &attempt.placed);
+  const Options rough = roughly(options);
+  try {
+    settle(rough, kRough * options.maximum_error, &attempt);
+  } catch (const BundleError&) {
+    attempt.cost = std::numeric_limits<double>::infinity();
+  }
+  return attempt;
+}
+
+void grow(const SelfCalibrationOptions& options, std::size_t camera_count, Attempt* attempt) {
+  Reconstruction& reconstruction = attempt->reconstruction;
+  const Options rough = roughly(options.bundle);
+  while (static_cast<std::size_t>(
+             std::count(attempt->placed.begin(), attempt->placed.end(), true)) < camera_count) {
+    const std::size_t next =
+        nextToPlace(normalize(reconstruction), rough, reconstruction, attempt->placed);
+    geometry::Camera best;
+    double least = std::numeric_limits<double>::infinity();
+    std::string reason;
+    for (const geometry::Intrinsics& lens :
+         lensesToTry(options, reconstruction.cameras[next].intrinsics)) {
+      reconstruction.cameras[next].intrinsics = lens;
+      std::vector<bool> placed = attempt->placed;
+      try {
+        place(normalize(reconstruction), rough, next, &reconstruction, &placed);
+        const double cost = refineAlone(rough, next, &reconstruction);
+        if (cost < least) {
+          least = cost;
+          best = reconstruction.cameras[next];
+        }
+      } catch (const BundleError& error) {
+        reason = error.what();
+      }
+    }
+    if (!(least < std::numeric_limits<double>::infinity()))
+      throw BundleError(reason);
+    reconstruction.cameras[next] = best;
+    attempt->placed[next] = true;
+    settle(rough, kRough * options.bundle.maximum_error, attempt);
+  }
+}
+
+}  // namespace wiimote_tracker::bundle

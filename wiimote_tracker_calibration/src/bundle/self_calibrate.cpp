@@ -1,0 +1,345 @@
+#include "wiimote_tracker_calibration/bundle/self_calibrate.h"
+
+#include "attempt.h"
+#include "certainty.h"
+#include "checks.h"
+#include "suspicion.h"
+
+#include "wiimote_tracker_calibration/bundle/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+
+namespace wiimote_tracker::bundle {
+
+namespace {
+
+Reconstruction observedBy(const std::vector<geometry::Camera>& cameras,
+                          const std::vector<Observation>& observations,
+                          std::size_t point_count) {
+  Reconstruction reconstruction;
+  reconstruction.cameras = cameras;
+  reconstruction.points.resize(point_count);
+  reconstruction.observations = observations;
+  reconstruction.inliers.assign(observations.size(), false);
+  return reconstruction;
+}
+
+/// Few points that tie all cameras together: those that many cameras saw first.
+Reconstruction thinned(const Reconstruction& all, std::size_t per_camera) {
+  std::vector<std::vector<const Observation*>> views(all.points.size());
+  for (const Observation& observation : all.observations)
+    views[observation.point].push_back(&observation);
+  std::vector<std::size_t> order(views.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::mt19937 random(1);
+  for (std::size_t i = order.size(); i > 1; --i)
+    std::swap(order[i - 1], order[random() % i]);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return views[a].size() > views[b].size(); });
+  Reconstruction few;
+  few.cameras = all.cameras;
+  std::vector<std::size_t> counts(all.cameras.size(), 0);
+  for (const std::size_t point : order) {
+    if (views[point].size() < 2)
+      break;
+    const bool wanted =
+        std::any_of(views[point].begin(), views[point].end(),
+                    [&](const Observation* view) { return counts[view->camera] < per_camera; });
+    if (!wanted)
+      continue;
+    for (const Observation* view : views[point]) {
+      few.observations.push_back({view->camera, few.points.size(), view->pixel});
+      ++counts[view->camera];
+    }
+    few.points.emplace_back();
+  }
+  few.inliers.assign(few.observations.size(), false);
+  return few;
+}
+
+/// Whether two attempts ended with the same lenses.
+bool agree(const Attempt& a, const Attempt& b, double tolerance) {
+  for (std::size_t i = 0; i < a.placed.size(); ++i) {
+    const double first = a.reconstruction.cameras[i].intrinsics.fx;
+    const double second = b.reconstruction.cameras[i].intrinsics.fx;
+    if (a.placed[i] && b.placed[i] && std::abs(std::log(first / second)) > tolerance)
+      return false;
+  }
+  return true;
+}
+
+/// Follows the starts until the best of them is found.
+class Search {
+ public:
+  Search(const Reconstruction& all,
+         const SelfCalibrationOptions& options,
+         const ProgressCallback& progress)
+      : all_(all), options_(options), progress_(progress), few_(thinned(all, kPerCamera)) {}
+
+  /// Sets starts, followed and agreeing of the result. @throws BundleError.
+  Attempt run(SelfCalibration* result) {
+    start(&result->starts);
+    if (attempts_.empty())
+      throw BundleError(reason_);
+    followAll("cameras of a few starts", 0.3, 0.5, std::min(kFewCameras, all_.cameras.size()));
+    keepBest();
+    followAll("all cameras", 0.5, 0.7, all_.cameras.size());
+    for (std::size_t i = 0; i < attempts_.size(); ++i) {
+      tell("adjusting the best starts", 0.7 + 0.1 * fraction(i));
+      guarded(&attempts_[i],
+              [&](Attempt* attempt) { settle(options_.bundle, maximumError(), attempt); });
+    }
+    sort();
+    if (attempts_.empty())
+      throw BundleError(reason_);
+    result->followed = attempts_.size();
+    result->agreeing = static_cast<std::size_t>(std::count_if(
+        attempts_.begin(), attempts_.end(),
+        [&](const Attempt& attempt) { return agree(attempt, attempts_.front(), kSameFocal); }));
+    return withAllPoints(attempts_.front());
+  }
+
+  /// Whether another solution explains the points about as well with other lenses.
+  bool isAmbiguous() const {
+    const double kAsWell = 1.2;
+    return std::any_of(attempts_.begin(), attempts_.end(), [&](const Attempt& attempt) {
+      return attempt.cost < kAsWell * attempts_.front().cost &&
+             !agree(attempt, attempts_.front(), options_.maximum_focal_uncertainty);
+    });
+  }
+
+ private:
+  static constexpr std::size_t kPerCamera = 100;
+  static constexpr std::size_t kPairs = 4;
+  static constexpr std::size_t kFewCameras = 4;
+  static constexpr std::size_t kFollowed = 3;
+  static constexpr double kSameFocal = 0.01;
+
+  double maximumError() const { return options_.bundle.maximum_error; }
+
+  double fraction(std::size_t i) const {
+    return static_cast<double>(i) / static_cast<double>(attempts_.size());
+  }
+
+  void tell(const char* step, double fraction) const {
+    if (progress_ && !progress_(step, fraction))
+      throw Cancelled("stopped before the cameras were solved");
+  }
+
+  /// Keeps the best start of each focal length.
+  void start(std::size_t* starts) {
+    const auto pairs = likelyPairs(few_, options_.bundle, kPairs);
+    if (pairs.empty())
+      throw BundleError(
+          "no two cameras have " + std::to_string(options_.bundle.minimum_common_points) +
+          " points in common: move the light where two cameras or more see it at a time");
+    std::size_t tried = 0;
+    attempts_.assign(options_.focal_lengths.size(), Attempt());
+    for (const auto& pair : pairs) {
+      for (std::size_t i = 0; i < options_.focal_lengths.size(); ++i) {
+        const double focal_length = options_.focal_lengths[i];
+        tell("trying starts",
+             0.3 * static_cast<double>(tried++) /
+                 static_cast<double>(pairs.size() * options_.focal_lengths.size()));
+        for (const double k1 : options_.distortions) {
+          if (k1 != 0.0 && !bendsCorners(focal_length, k1))
+            continue;
+          Reconstruction guess = few_;
+          for (geometry::Camera& camera : guess.cameras)
+            camera.intrinsics =
+                guessedLens(camera.intrinsics.width, camera.intrinsics.height, focal_length, k1);
+          const Attempt attempt = attemptPair(guess, pair, options_.bundle);
+          ++*starts;
+          // Two cameras alone tell little of their focal lengths, so the cost is not to decide
+          // between these yet.
+          if (attempt.cost < attempts_[i].cost)
+            attempts_[i] = attempt;
+        }
+      }
+    }
+    reason_ = "no two cameras agree on where they stand: move the light through all of the room";
+    sort();
+  }
+
+  /// Whether distortion matters so much that a start without may fail.
+  static bool bendsCorners(double focal_length, double k1) {
+    const double kMuch = 0.03;
+    const double corner = 0.6 / focal_length;  // half the diagonal of an image of 4:3
+    return std::abs(k1) * corner * corner > kMuch;
+  }
+
+  template <typename Step>
+  void guarded(Attempt* attempt, const Step& step) {
+    try {
+      step(attempt);
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const BundleError& error) {
+      reason_ = error.what();
+      attempt->cost = std::numeric_limits<double>::infinity();
+    }
+  }
+
+  void followAll(const char* step, double from, double to, std::size_t cameras) {
+    for (std::size_t i = 0; i < attempts_.size(); ++i) {
+      tell(step, from + (to - from) * fraction(i));
+      guarded(&attempts_[i], [&](Attempt* attempt) {
+        grow(options_, cameras, attempt);
+        if (cameras == all_.cameras.size())
+          refuseUnexplained(attempt->reconstruction, options_.bundle);
+      });
+    }
+    sort();
+    if (attempts_.empty())
+      throw BundleError(reason_);
+  }
+
+  /// What a wrong start ends in, to please a contradiction: a lens that nobody makes.
+  static bool isPlausible(const Attempt& attempt) {
+    const double kShortest = 0.25;  // image widths; a field of view of 127 degrees
+    const double kLongest = 20.0;   // 3 degrees
+    for (std::size_t i = 0; i < attempt.placed.size(); ++i) {
+      const geometry::Intrinsics& lens = attempt.reconstruction.cameras[i].intrinsics;
+      if (attempt.placed[i] &&
+          !(lens.fx > kShortest * lens.width && lens.fx < kLongest * lens.width))
+        return false;
+    }
+    return true;
+  }
+
+  /// The best first; those that failed leave.
+  void sort() {
+    for (Attempt& attempt : attempts_) {
+      if (std::isfinite(attempt.cost) && !isPlausible(attempt)) {
+        attempt.cost = std::numeric_limits<double>::infinity();
+        reason_ =
+            "only lenses with impossible fields of view explain what the cameras saw: check that "
+            "all count the same frames, and that no image is mirrored or cut";
+      }
+    }
+    attempts_.erase(
+        std::remove_if(attempts_.begin(), attempts_.end(),
+                       [](const Attempt& attempt) { return !std::isfinite(attempt.cost); }),
+        attempts_.end());
+    std::stable_sort(attempts_.begin(), attempts_.end(),
+                     [](const Attempt& a, const Attempt& b) { return a.cost < b.cost; });
+  }
+
+  void keepBest() { attempts_.resize(std::min(attempts_.size(), kFollowed)); }
+
+  Attempt withAllPoints(const Attempt& solved) const {
+    tell("adjusting with all points", 0.8);
+    Attempt attempt;
+    attempt.reconstruction = all_;
+    attempt.reconstruction.cameras = solved.reconstruction.cameras;
+    attempt.placed.assign(all_.cameras.size(), true);
+    settle(options_.bundle, maximumError(), &attempt);
+    tell("adjusting with all points", 0.9);
+    // Now that the noise is known, so is how much what is known of lenses counts.
+    Options weighed = options_.bundle;
+    weighed.pixel_stddev = Certainty(attempt.reconstruction, options_.bundle, false).pixelStddev();
+    settle(weighed, maximumError(), &attempt);
+    return attempt;
+  }
+
+  const Reconstruction& all_;
+  const SelfCalibrationOptions& options_;
+  const ProgressCallback& progress_;
+  const Reconstruction few_;
+  std::vector<Attempt> attempts_;
+  std::string reason_;
+};
+
+void judgeLenses(const SelfCalibrationOptions& options, bool ambiguous, SelfCalibration* result) {
+  const Certainty certainty(result->reconstruction, options.bundle, options.fixed_lenses);
+  result->pixel_stddev = certainty.pixelStddev();
+  result->expected_shape_error = certainty.expectedShapeError();
+  for (std::size_t i = 0; i < result->reconstruction.cameras.size(); ++i) {
+    LensCertainty lens;
+    const auto covariance = certainty.lensCovariance(i);
+    if (options.fixed_lenses) {
+      lens.focal_determined = true;
+    } else if (covariance) {
+      lens.focal_stddev = std::sqrt((*covariance)(0, 0));
+      lens.principal_point_stddev = std::sqrt(std::max((*covariance)(2, 2), (*covariance)(3, 3)));
+      lens.focal_determined =
+          !ambiguous && lens.focal_stddev < options.maximum_focal_uncertainty *
+                                                result->reconstruction.cameras[i].intrinsics.fx;
+    } else {
+      lens.focal_stddev = lens.principal_point_stddev = std::numeric_limits<double>::infinity();
+    }
+    result->lenses.push_back(lens);
+  }
+}
+
+SelfCalibration solveOnce(const Reconstruction& all,
+                          const SelfCalibrationOptions& options,
+                          const ProgressCallback& progress) {
+  SelfCalibration result;
+  bool ambiguous = false;
+  if (options.fixed_lenses) {
+    result.reconstruction = solve(all.cameras, all.observations, all.points.size(), options.bundle);
+  } else {
+    Search search(all, options, progress);
+    result.reconstruction = search.run(&result).reconstruction;
+    refuseUnexplained(result.reconstruction, options.bundle);
+    ambiguous = search.isAmbiguous();
+  }
+  judgeLenses(options, ambiguous, &result);
+  return result;
+}
+
+}  // namespace
+
+SelfCalibration selfCalibrate(const std::vector<geometry::Camera>& cameras,
+                              const std::vector<Observation>& observations,
+                              std::size_t point_count,
+                              const SelfCalibrationOptions& options,
+                              const ProgressCallback& progress) {
+  Reconstruction all = observedBy(cameras, observations, point_count);
+  if (!options.fixed_lenses) {
+    for (geometry::Camera& camera : all.cameras)
+      camera.intrinsics = guessedLens(camera.intrinsics.width, camera.intrinsics.height, 1.0, 0.0);
+  }
+  checkObservations(all, options.bundle);
+  if (isOnALine(all))
+    throw BundleError("the light moved on a line only: move it through all of the room");
+  SelfCalibration result;
+  try {
+    result = solveOnce(all, options, progress);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const BundleError& error) {
+    // Whether it works is all that matters here: fewer starts are enough.
+    SelfCalibrationOptions quick = options;
+    quick.focal_lengths = {0.7, 1.4, 2.8};
+    quick.distortions = {0.0};
+    const auto works = [&](const Reconstruction& changed) {
+      try {
+        solveOnce(changed, quick, progress);
+        return true;
+      } catch (const Cancelled&) {
+        throw;
+      } catch (const BundleError&) {
+        return false;
+      }
+    };
+    throw BundleError(suspicion(all, options.fixed_lenses, works).value_or(error.what()));
+  }
+  // What hardly leaves a plane still tells depth where the lenses are known.
+  const double kFlat = 0.005;
+  const bool lenses_known =
+      std::any_of(result.lenses.begin(), result.lenses.end(),
+                  [](const LensCertainty& lens) { return lens.focal_determined; });
+  if (isFlat(result.reconstruction, options.bundle, lenses_known ? 0.0 : kFlat))
+    throw BundleError(
+        "the light moved in one plane only, or the cameras stand in one place: move the light "
+        "nearer to and farther from the cameras too");
+  return result;
+}
+
+}  // namespace wiimote_tracker::bundle

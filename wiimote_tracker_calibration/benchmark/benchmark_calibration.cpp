@@ -62,8 +62,9 @@ int usage() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<BenchmarkSection> sections = {waveSection(), waveTimeSection(), paperSection(),
-                                                  remapSection()};
+  const std::vector<BenchmarkSection> sections = {poseSection(),  poseMethodsSection(),
+                                                  waveSection(),  waveTimeSection(),
+                                                  paperSection(), remapSection()};
   const char* json = nullptr;
   const char* only = nullptr;
   int runs = 20;

@@ -31,6 +31,12 @@ BenchmarkSection waveSection();
 /// How long the wave takes to solve.
 BenchmarkSection waveTimeSection();
 
+/// The pose of the square in one image: errors beside the Cramer-Rao bound, branches, time.
+BenchmarkSection poseSection();
+
+/// The same beside OpenCV's methods.
+BenchmarkSection poseMethodsSection();
+
 /// The paper's procedure, with its principal point correction.
 BenchmarkSection paperSection();
 

@@ -25,6 +25,19 @@ struct PlaneInCamera {
   Eigen::Vector3d origin;
 };
 
+/// Whether three of the points, of third coordinate 1, are on one line or two in one place.
+bool isDegenerate(const std::array<Eigen::Vector3d, 4>& points) {
+  double extent = 0.0;
+  for (std::size_t i = 1; i < 4; ++i)
+    extent = std::max(extent, (points[i] - points[0]).squaredNorm());
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double area = points[i].dot(points[(i + 1) % 4].cross(points[(i + 2) % 4]));
+    if (!(std::abs(area) > 1e-9 * extent))
+      return true;
+  }
+  return false;
+}
+
 /// The matrix that takes the unit vectors and (1, 1, 1) to these points, each up to scale. The
 /// factor that would divide by the triangle's area is left out.
 Eigen::Matrix3d fromProjectiveBasis(const std::array<Eigen::Vector3d, 4>& points) {
@@ -52,6 +65,8 @@ bool startPoses(const geometry::Intrinsics& intrinsics,
     normalized[c] = undistorted->homogeneous();
     plane[c] = Eigen::Vector3d(in_plane[c].x(), in_plane[c].y(), 1.0);
   }
+  if (isDegenerate(normalized) || isDegenerate(plane))
+    return false;
   Eigen::Matrix3d homography =
       fromProjectiveBasis(normalized) * fromProjectiveBasis(plane).inverse();
   homography /= homography(2, 2);

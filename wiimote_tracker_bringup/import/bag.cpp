@@ -1,6 +1,6 @@
 #include "bag.h"
 
-#include "number_table.h"
+#include "wiimote_tracker_calibration/import/number_table.h"
 
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 

@@ -1,7 +1,7 @@
 #include "solution.h"
 
-#include "number_table.h"
-#include "pinhole.h"
+#include "wiimote_tracker_calibration/import/number_table.h"
+#include "wiimote_tracker_calibration/import/pinhole.h"
 
 #include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/similarity.h"
@@ -83,27 +83,12 @@ geometry::Rig rigOf(const Reconstruction& reconstruction, const std::string& met
   return rig;
 }
 
-/// The cameras of the shipped matrices. Their world may be a mirror image (flydra's is), and the
-/// sign of each matrix means nothing; the light was in front of the cameras only in one of the two.
+/// The cameras of the shipped matrices.
 Solution fromProjections(const Recording& recording) {
+  const ShippedCameras shipped = shippedCameras(recording, bundle::Options());
+  Reconstruction best = shipped.reconstruction;
   Solution solution;
-  Reconstruction best;
-  std::size_t most = 0;
-  for (const bool mirrored : {false, true}) {
-    std::vector<geometry::Camera> cameras;
-    std::vector<Pixels> frames = recording.frames;
-    for (std::size_t i = 0; i < recording.cameras.size(); ++i)
-      cameras.push_back(rectify(recording.cameras[i], mirrored, i, &frames));
-    Reconstruction reconstruction = reconstructionOf(cameras, frames);
-    const std::size_t inliers = triangulate(bundle::Options(), &reconstruction);
-    if (inliers > most) {
-      most = inliers;
-      best = reconstruction;
-      solution.frames = frames;
-    }
-  }
-  if (most == 0)
-    throw ImportError("Pmatrices.dat does not fit to the points: no point is seen by two cameras");
+  solution.frames = shipped.frames;
   if (hasCenters(recording))
     alignToCenters(recording, &best);
   solution.rig = rigOf(best, "import: shipped projection matrices");

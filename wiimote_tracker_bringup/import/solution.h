@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_IMPORT_SOLUTION_H
 #define WIIMOTE_TRACKER_BRINGUP_IMPORT_SOLUTION_H
 
-#include "recording.h"
+#include "wiimote_tracker_calibration/import/recording.h"
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 

@@ -1,6 +1,6 @@
-#include "number_table.h"
-#include "pinhole.h"
-#include "recording.h"
+#include "wiimote_tracker_calibration/import/number_table.h"
+#include "wiimote_tracker_calibration/import/pinhole.h"
+#include "wiimote_tracker_calibration/import/recording.h"
 #include "solution.h"
 
 #include <gtest/gtest.h>

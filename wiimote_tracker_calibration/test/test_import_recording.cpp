@@ -1,6 +1,6 @@
 #include "import_folder.h"
-#include "number_table.h"
-#include "recording.h"
+#include "wiimote_tracker_calibration/import/number_table.h"
+#include "wiimote_tracker_calibration/import/recording.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_IMPORT_RECORDING_H
-#define WIIMOTE_TRACKER_BRINGUP_IMPORT_RECORDING_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_IMPORT_RECORDING_H
+#define WIIMOTE_TRACKER_CALIBRATION_IMPORT_RECORDING_H
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
@@ -17,6 +17,7 @@ using Pixels = std::vector<std::optional<Eigen::Vector2d>>;  ///< Per camera [px
 struct RecordedCamera {
   std::string name;                            ///< Fit for a ROS name.
   geometry::Intrinsics intrinsics;             ///< Of basenameN.rad and Res.dat.
+  bool has_intrinsics = true;                  ///< False: there is no basenameN.rad, only a size.
   std::optional<ProjectionMatrix> projection;  ///< World to undistorted pixels.
   std::optional<Eigen::Vector3d> center;       ///< As shipped [m].
 };
@@ -29,10 +30,11 @@ struct Recording {
 };
 
 /// Reads a folder in the layout of MultiCamSelfCal (points.dat) or flydra (camN.points4cal.dat);
-/// see README.md. The unit of lengths is that of calibration_units.txt, else the metre.
+/// see doc/self_calibrate.md. The unit of lengths is that of calibration_units.txt, else the metre.
+/// A folder without any basenameN.rad is read only if intrinsics are not required.
 /// @throws ImportError: a file is missing, damaged, or does not fit to the others.
-Recording readRecording(const std::string& folder);
+Recording readRecording(const std::string& folder, bool intrinsics_required = true);
 
 }  // namespace wiimote_tracker::import
 
-#endif  // WIIMOTE_TRACKER_BRINGUP_IMPORT_RECORDING_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_IMPORT_RECORDING_H

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_IMPORT_NUMBER_TABLE_H
-#define WIIMOTE_TRACKER_BRINGUP_IMPORT_NUMBER_TABLE_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_IMPORT_NUMBER_TABLE_H
+#define WIIMOTE_TRACKER_CALIBRATION_IMPORT_NUMBER_TABLE_H
 
 #include <stdexcept>
 #include <string>
@@ -32,4 +32,4 @@ double parseNumber(const std::string& text, const std::string& where);
 
 }  // namespace wiimote_tracker::import
 
-#endif  // WIIMOTE_TRACKER_BRINGUP_IMPORT_NUMBER_TABLE_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_IMPORT_NUMBER_TABLE_H

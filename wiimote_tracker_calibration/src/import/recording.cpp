@@ -1,6 +1,6 @@
-#include "recording.h"
+#include "wiimote_tracker_calibration/import/recording.h"
 
-#include "number_table.h"
+#include "wiimote_tracker_calibration/import/number_table.h"
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
@@ -79,7 +79,8 @@ geometry::Intrinsics readIntrinsics(const std::string& path, double width, doubl
   intrinsics.fy = value("K22");
   intrinsics.cx = value("K13");
   intrinsics.cy = value("K23");
-  intrinsics.distortion = {value("kc1"), value("kc2"), value("kc3"), value("kc4"), 0.0};
+  const double k3 = keys.count("kc5") == 0 ? 0.0 : value("kc5");
+  intrinsics.distortion = {value("kc1"), value("kc2"), value("kc3"), value("kc4"), k3};
   try {
     intrinsics.check();
   } catch (const geometry::Error& error) {
@@ -208,11 +209,15 @@ void readCorrespondences(const std::string& folder, double meters_per_unit, Reco
 
 }  // namespace
 
-Recording readRecording(const std::string& folder) {
+Recording readRecording(const std::string& folder, bool intrinsics_required) {
   const std::string sizes_path = folder + "/Res.dat";
   const NumberTable sizes = readNumberTable(sizes_path, 0, 2);
   const std::vector<std::string> names = readNames(folder, sizes.size());
   const double meters_per_unit = readMetersPerUnit(folder);
+  const auto lens_path = [&](std::size_t camera) {
+    return folder + "/basename" + std::to_string(camera + 1) + ".rad";
+  };
+  const bool has_intrinsics = intrinsics_required || fileExists(lens_path(0));
   Recording recording;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     for (const double length : sizes[i]) {
@@ -222,8 +227,11 @@ Recording readRecording(const std::string& folder) {
     }
     RecordedCamera camera;
     camera.name = names[i];
-    camera.intrinsics = readIntrinsics(folder + "/basename" + std::to_string(i + 1) + ".rad",
-                                       sizes[i][0], sizes[i][1]);
+    camera.has_intrinsics = has_intrinsics;
+    camera.intrinsics.width = static_cast<int>(sizes[i][0]);
+    camera.intrinsics.height = static_cast<int>(sizes[i][1]);
+    if (has_intrinsics)
+      camera.intrinsics = readIntrinsics(lens_path(i), sizes[i][0], sizes[i][1]);
     recording.cameras.push_back(camera);
   }
   readCenters(folder, meters_per_unit, &recording);

@@ -1,4 +1,4 @@
-#include "number_table.h"
+#include "wiimote_tracker_calibration/import/number_table.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -1,0 +1,61 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_IMPORT_COMPARISON_H
+#define WIIMOTE_TRACKER_CALIBRATION_IMPORT_COMPARISON_H
+
+#include "wiimote_tracker_calibration/bundle/self_calibrate.h"
+#include "wiimote_tracker_calibration/import/recording.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::import {
+
+/// Reprojection errors of what one camera saw [px]; over the inliers.
+struct Errors {
+  std::size_t observations = 0;
+  std::size_t inliers = 0;
+  double median = 0.0;
+  double mean = 0.0;
+  double p95 = 0.0;
+};
+
+/// Of errors, some of which belong to no inlier (infinite).
+Errors errorsOf(std::vector<double> errors);
+
+/// Own errors, per camera.
+std::vector<Errors> errorsOf(const bundle::Reconstruction& reconstruction);
+
+/// Distances between own and shipped points that both have, after an alignment [the shipped unit].
+struct Distances {
+  double rms = 0.0;
+  double median = 0.0;
+  double p95 = 0.0;
+};
+
+/// A solution beside the calibration that was shipped with the recording.
+struct Comparison {
+  std::string what;             ///< What was shipped, and in which pixels the errors are.
+  std::vector<Errors> own;      ///< Per camera.
+  std::vector<Errors> shipped;  ///< Same pixels, same limit for inliers.
+  std::size_t points = 0;       ///< That both solutions have.
+  double extent = 0.0;          ///< RMS distance of these from their mean, as shipped.
+  Distances similar;            ///< After the best similarity.
+  Distances projective;         ///< After the best projective transformation.
+  /// RMS distance that own uncertainty alone lets expect after a similarity; nothing when open.
+  std::optional<double> expected;
+};
+
+/// Nothing when neither projection matrices nor intrinsics were shipped.
+///
+/// Matrices: errors of both are in the undistorted pixels that they are for. Intrinsics only: the
+/// shipped solution is what bundle::solve makes of them; errors are in pixels as recorded.
+/// An observation is an inlier within options.maximum_error of the point of that solution.
+/// @throws ImportError: the matrices do not fit to the pixels.
+std::optional<Comparison> compare(const Recording& recording,
+                                  const bundle::SelfCalibration& solution,
+                                  const bundle::Options& options);
+
+}  // namespace wiimote_tracker::import
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_IMPORT_COMPARISON_H

@@ -1,0 +1,223 @@
+#include "wiimote_tracker_calibration/import/comparison.h"
+
+#include "wiimote_tracker_calibration/bundle/error.h"
+#include "wiimote_tracker_calibration/bundle/similarity.h"
+#include "wiimote_tracker_calibration/import/pinhole.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace wiimote_tracker::import {
+
+namespace {
+
+constexpr double kNoInlier = std::numeric_limits<double>::infinity();
+
+using Points = std::vector<Eigen::Vector3d>;
+
+/// Value below which a share of the sorted values lies, interpolated.
+double quantile(const std::vector<double>& sorted, double share) {
+  if (sorted.empty())
+    return std::numeric_limits<double>::quiet_NaN();
+  const double place = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+Distances distancesBetween(const Points& a, const Points& b) {
+  std::vector<double> distances;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    distances.push_back((a[i] - b[i]).norm());
+    squares += distances.back() * distances.back();
+  }
+  std::sort(distances.begin(), distances.end());
+  return {std::sqrt(squares / static_cast<double>(a.size())), quantile(distances, 0.5),
+          quantile(distances, 0.95)};
+}
+
+/// Brings points to mean 0 and RMS distance sqrt(3), for a well-conditioned fit.
+Eigen::Matrix4d normalizing(const Points& points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points)
+    mean += point / static_cast<double>(points.size());
+  double squares = 0.0;
+  for (const Eigen::Vector3d& point : points)
+    squares += (point - mean).squaredNorm() / static_cast<double>(points.size());
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topLeftCorner<3, 3>() *= std::sqrt(3.0 / squares);
+  matrix.topRightCorner<3, 1>() = -std::sqrt(3.0 / squares) * mean;
+  return matrix;
+}
+
+/// Projective transformation of space between points (direct linear transformation).
+Eigen::Matrix4d fitProjective(const Points& from, const Points& to) {
+  const Eigen::Matrix4d from_scale = normalizing(from);
+  const Eigen::Matrix4d to_scale = normalizing(to);
+  Eigen::Matrix<double, 16, 16> normal = Eigen::Matrix<double, 16, 16>::Zero();
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const Eigen::RowVector4d a = (from_scale * from[i].homogeneous()).transpose();
+    const Eigen::Vector4d b = to_scale * to[i].homogeneous();
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      Eigen::Matrix<double, 1, 16> row = Eigen::Matrix<double, 1, 16>::Zero();
+      row.segment<4>(4 * axis) = b(3) * a;
+      row.segment<4>(12) = -b(axis) * a;
+      normal += row.transpose() * row;
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 16, 16>> eigen(normal);
+  const Eigen::Matrix<double, 16, 1> best = eigen.eigenvectors().col(0);
+  Eigen::Matrix4d matrix;
+  for (Eigen::Index row = 0; row < 4; ++row)
+    matrix.row(row) = best.segment<4>(4 * row).transpose();
+  return to_scale.inverse() * matrix * from_scale;
+}
+
+/// Fits a transformation twice, the second time without the tenth that fits worst.
+template <typename Fit, typename Apply>
+Points aligned(const Points& from, const Points& to, const Fit& fit, const Apply& apply) {
+  Points moved = apply(fit(from, to), from);
+  std::vector<std::size_t> order(from.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return (moved[a] - to[a]).norm() < (moved[b] - to[b]).norm();
+  });
+  Points good_from;
+  Points good_to;
+  for (std::size_t i = 0; i < (9 * order.size() + 9) / 10; ++i) {
+    good_from.push_back(from[order[i]]);
+    good_to.push_back(to[order[i]]);
+  }
+  return apply(fit(good_from, good_to), from);
+}
+
+void comparePoints(const bundle::Reconstruction& own,
+                   const bundle::Reconstruction& shipped,
+                   const std::optional<double>& expected,
+                   Comparison* comparison) {
+  Points from;
+  Points to;
+  for (std::size_t i = 0; i < own.points.size(); ++i) {
+    if (own.points[i] && shipped.points[i]) {
+      from.push_back(*own.points[i]);
+      to.push_back(*shipped.points[i]);
+    }
+  }
+  comparison->points = from.size();
+  if (from.size() < 10)
+    return;
+  const auto move = [](const bundle::Similarity& similarity, const Points& points) {
+    Points moved;
+    for (const Eigen::Vector3d& point : points)
+      moved.push_back(similarity * point);
+    return moved;
+  };
+  const auto project = [](const Eigen::Matrix4d& matrix, const Points& points) {
+    Points moved;
+    for (const Eigen::Vector3d& point : points) {
+      const Eigen::Vector4d image = matrix * point.homogeneous();
+      moved.push_back(image.head<3>() / image(3));
+    }
+    return moved;
+  };
+  comparison->similar = distancesBetween(aligned(from, to, bundle::fitSimilarity, move), to);
+  comparison->projective = distancesBetween(aligned(from, to, fitProjective, project), to);
+  const Points mean(to.size(),
+                    std::accumulate(to.begin(), to.end(), Eigen::Vector3d(0.0, 0.0, 0.0)) /
+                        static_cast<double>(to.size()));
+  comparison->extent = distancesBetween(mean, to).rms;
+  if (expected)
+    comparison->expected = *expected * bundle::fitSimilarity(from, to).scale;
+}
+
+/// Own errors in the pixels of the shipped matrices.
+std::vector<Errors> rectifiedErrors(const bundle::Reconstruction& own,
+                                    const ShippedCameras& shipped,
+                                    double maximum_error) {
+  std::vector<std::vector<double>> errors(own.cameras.size());
+  for (const bundle::Observation& observation : own.observations) {
+    const auto& rectify = shipped.rectifications[observation.camera];
+    const auto& point = own.points[observation.point];
+    const auto seen = rectify(observation.pixel);
+    const auto projected = point ? own.cameras[observation.camera].project(*point) : std::nullopt;
+    const auto expected = projected ? rectify(*projected) : std::nullopt;
+    const double error = seen && expected ? (*seen - *expected).norm() : kNoInlier;
+    errors[observation.camera].push_back(error <= maximum_error ? error : kNoInlier);
+  }
+  std::vector<Errors> result;
+  for (const std::vector<double>& of_camera : errors)
+    result.push_back(errorsOf(of_camera));
+  return result;
+}
+
+}  // namespace
+
+Errors errorsOf(std::vector<double> errors) {
+  Errors result;
+  result.observations = errors.size();
+  errors.erase(std::remove_if(errors.begin(), errors.end(),
+                              [](double error) { return !std::isfinite(error); }),
+               errors.end());
+  std::sort(errors.begin(), errors.end());
+  result.inliers = errors.size();
+  result.median = quantile(errors, 0.5);
+  result.mean = std::accumulate(errors.begin(), errors.end(), 0.0) /
+                static_cast<double>(std::max<std::size_t>(errors.size(), 1));
+  result.p95 = quantile(errors, 0.95);
+  return result;
+}
+
+std::vector<Errors> errorsOf(const bundle::Reconstruction& reconstruction) {
+  std::vector<std::vector<double>> errors(reconstruction.cameras.size());
+  for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
+    const bundle::Observation& observation = reconstruction.observations[i];
+    const auto error = bundle::reprojectionError(reconstruction, observation);
+    errors[observation.camera].push_back(reconstruction.inliers[i] && error ? *error : kNoInlier);
+  }
+  std::vector<Errors> result;
+  for (const std::vector<double>& of_camera : errors)
+    result.push_back(errorsOf(of_camera));
+  return result;
+}
+
+std::optional<Comparison> compare(const Recording& recording,
+                                  const bundle::SelfCalibration& solution,
+                                  const bundle::Options& options) {
+  const auto all = [&](const auto& has) {
+    return std::all_of(recording.cameras.begin(), recording.cameras.end(), has);
+  };
+  if (!all([](const RecordedCamera& camera) { return camera.has_intrinsics; }))
+    return std::nullopt;
+  const bundle::Reconstruction& own = solution.reconstruction;
+  Comparison comparison;
+  if (all([](const RecordedCamera& camera) { return camera.projection.has_value(); })) {
+    const ShippedCameras shipped = shippedCameras(recording, options);
+    comparison.what = "shipped projection matrices; errors in undistorted pixels";
+    comparison.own = rectifiedErrors(own, shipped, options.maximum_error);
+    comparison.shipped = errorsOf(shipped.reconstruction);
+    comparePoints(own, shipped.reconstruction, solution.expected_shape_error, &comparison);
+    return comparison;
+  }
+  std::vector<geometry::Camera> cameras = own.cameras;
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    cameras[i].intrinsics = recording.cameras[i].intrinsics;
+  bundle::Reconstruction shipped;
+  try {
+    shipped = bundle::solve(cameras, own.observations, own.points.size(), options);
+  } catch (const bundle::BundleError& error) {
+    comparison.what = std::string("the shipped intrinsics lead to no solution: ") + error.what();
+    return comparison;
+  }
+  comparison.what = "shipped intrinsics, poses solved with them; errors in pixels as recorded";
+  comparison.own = errorsOf(own);
+  comparison.shipped = errorsOf(shipped);
+  comparePoints(own, shipped, solution.expected_shape_error, &comparison);
+  return comparison;
+}
+
+}  // namespace wiimote_tracker::import

@@ -1,0 +1,30 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SELF_CALIBRATE_REPORT_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_SELF_CALIBRATE_REPORT_H
+
+#include "wiimote_tracker_calibration/bundle/self_calibrate.h"
+#include "wiimote_tracker_calibration/import/comparison.h"
+
+#include <cstdio>
+#include <optional>
+#include <string>
+
+namespace wiimote_tracker::import {
+
+/// What self_calibrate has to say.
+struct Report {
+  std::string source;  ///< Where the pixels are from.
+  std::size_t frames = 0;
+  bool lenses_given = false;
+  bundle::SelfCalibration solution;
+  std::optional<Comparison> comparison;
+};
+
+/// Tables for people. @param points also the 3D points, one per line.
+void print(const Report& report, bool points, std::FILE* file);
+
+/// The same figures, all cameras and all points.
+void printJson(const Report& report, std::FILE* file);
+
+}  // namespace wiimote_tracker::import
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SELF_CALIBRATE_REPORT_H

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include <cmath>
+
 namespace wiimote_tracker::wave {
 
 bool project(const geometry::Camera& camera, const Eigen::Vector3d& point, Projection* result) {
@@ -29,8 +31,14 @@ bool project(const geometry::Camera& camera, const Eigen::Vector3d& point, Proje
   by_camera(1, 7) = (result->pixel.y() - lens.cy) / lens.fy;
   by_camera(0, 8) = 1.0;
   by_camera(1, 9) = 1.0;
-  by_camera(0, 10) = lens.fx * normalized.x() * r2;
-  by_camera(1, 10) = lens.fy * normalized.y() * r2;
+  // k1 goes with the third power of the radius, or of the angle from the axis.
+  double by_k1 = r2;
+  if (lens.distortion_model == geometry::DistortionModel::kEquidistant && r2 > 0.0) {
+    const double r = std::sqrt(r2);
+    by_k1 = std::pow(std::atan(r), 3) / r;
+  }
+  by_camera(0, 10) = lens.fx * normalized.x() * by_k1;
+  by_camera(1, 10) = lens.fy * normalized.y() * by_k1;
   return true;
 }
 

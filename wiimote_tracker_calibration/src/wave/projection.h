@@ -8,7 +8,8 @@
 namespace wiimote_tracker::wave {
 
 /// Parameters of one camera: rotation 3 [rad] and position 3 [m] as in RigCalibration.msg; fx, fy,
-/// cx, cy [px]; k1; time offset [s]. The other coefficients of the distortion are held.
+/// cx, cy [px]; k1 of whichever lens model; time offset [s]. The other coefficients of the
+/// distortion are held.
 constexpr Eigen::Index kCameraSize = 12;
 /// Where the time offset stands among them.
 constexpr Eigen::Index kOffset = 11;

@@ -88,7 +88,8 @@ std::optional<square::PlanarPose> minimise(const PoseTrial& trial, geometry::Cam
     const geometry::Camera next = moved(camera, step);
     const bool better = evaluate(trial, next, &next_residuals) &&
                         next_residuals.squaredNorm() < residuals.squaredNorm();
-    const bool converged = damping < 1.0 && -gradient.dot(step) < 1e-13;
+    // What cannot be gained because of rounding counts as well.
+    const bool converged = damping < 1.0 && -gradient.dot(step) < (better ? 1e-13 : 1e-9);
     if (better) {
       camera = next;
       residuals = next_residuals;

@@ -4,7 +4,10 @@
 #include "simulated_square.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/Cholesky>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -123,6 +126,126 @@ TEST_F(FourCameras, a_camera_that_misses_a_corner_is_left_out_and_named) {
   ASSERT_EQ(solution.warnings.size(), 2U);
   EXPECT_SAYS(solution.warnings[0], "camera_2 did not see corner 3");
   EXPECT_SAYS(solution.warnings[1], "camera_4 saw no corner");
+}
+
+class ThreeCorners : public ::testing::TestWithParam<Method> {};
+
+TEST_P(ThreeCorners, place_a_camera_that_has_an_accelerometer) {
+  Random random(31);
+  SolveOptions options;
+  options.method = GetParam();
+  int solved = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const SquareLayout layout = rectangle(uniform(random, 1.0, 2.5), uniform(random, 1.0, 2.5));
+    const bool z_up = trial % 2 == 0;
+    const auto poses = posesAround(layout, z_up, 3, random);
+    SimulatedSquare simulated = simulateSquare(poses, layout, z_up, Errors(), true, random);
+    simulated.sightings[1].corners[static_cast<std::size_t>(trial % 4)].reset();
+    const SquareSolution solution = solveSquare(layout, simulated.sightings, options);
+    const auto warning = std::find_if(
+        solution.warnings.begin(), solution.warnings.end(), [](const std::string& text) {
+          return text.find("camera_2 saw only three corners") != std::string::npos;
+        });
+    ASSERT_NE(warning, solution.warnings.end());
+    if (solution.rig.cameras.size() == 2) {
+      EXPECT_SAYS(*warning, "was left out");
+      continue;
+    }
+    ++solved;
+    ASSERT_EQ(solution.rig.cameras.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const geometry::RigCamera& camera = solution.rig.cameras[i];
+      EXPECT_EQ(camera.camera.name, simulated.truth[i].name);
+      EXPECT_LT((camera.camera.center() - poses[i].translation()).norm(), 1e-6) << trial;
+      EXPECT_LT(rotationBetween(camera.camera.world_from_camera, poses[i]), 1e-6) << trial;
+      EXPECT_EQ(camera.observations, i == 1 ? 3U : 4U);
+    }
+    EXPECT_TRUE(solution.rig.covariance.allFinite());
+    EXPECT_EQ(solution.branches.size(), 3U);
+    EXPECT_EQ(solution.chosen[1], 0U);
+  }
+  EXPECT_GT(solved, 30);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods,
+                         ThreeCorners,
+                         ::testing::Values(Method::kJoint, Method::kPerCamera));
+
+TEST(ThreeCornersWithErrors, are_known_as_well_as_their_covariance_says) {
+  Random random(37);
+  const SquareLayout layout = rectangle(2.5, 2.0);
+  const Uncertainty assumed;
+  Errors errors;
+  errors.pixel = assumed.pixel;
+  errors.placement = assumed.placement;
+  errors.gravity = assumed.gravity;
+  SolveOptions options;
+  options.uncertainty.focal = 1e-4;
+  options.uncertainty.aspect = 1e-5;
+  options.uncertainty.principal_point = 0.01;
+  options.uncertainty.k1 = 1e-5;
+  double sum = 0.0;
+  int count = 0;
+  for (int trial = 0; trial < 120; ++trial) {
+    const auto poses = posesAround(layout, true, 3, random);
+    SimulatedSquare simulated = simulateSquare(poses, layout, true, errors, true, random);
+    simulated.sightings[2].corners[static_cast<std::size_t>(trial % 4)].reset();
+    const geometry::Rig rig = solveSquare(layout, simulated.sightings, options).rig;
+    if (rig.cameras.size() < 3)
+      continue;
+    const Eigen::Isometry3d& estimate = rig.cameras[2].camera.world_from_camera;
+    const Eigen::AngleAxisd turn(
+        Eigen::Matrix3d(poses[2].linear() * estimate.linear().transpose()));
+    Eigen::Matrix<double, 6, 1> error;
+    error << turn.angle() * turn.axis(), poses[2].translation() - estimate.translation();
+    const Eigen::Matrix<double, 6, 6> covariance = rig.covariance.block<6, 6>(32, 32);
+    sum += error.dot(covariance.ldlt().solve(error));
+    ++count;
+  }
+  ASSERT_GT(count, 80);
+  // Chi-square: the mean of n squares scatters by sqrt(2 / n), 6 % here; four times that.
+  EXPECT_NEAR(sum / (6.0 * count), 1.0, 4.0 * std::sqrt(2.0 / (6.0 * count)));
+}
+
+TEST_F(FourCameras, three_corners_whose_place_is_not_clear_are_left_out) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector3d up = simulated_.truth[i].world_from_camera.linear().row(2);
+    simulated_.sightings[i].gravity = 9.81 * up;
+  }
+  simulated_.sightings[1].corners[0].reset();
+  EXPECT_EQ(solveSquare(layout_, simulated_.sightings, SolveOptions()).rig.cameras.size(), 4U);
+  SolveOptions careful;
+  careful.branch_odds = 1e300;
+  simulated_.sightings = {simulated_.sightings[0], simulated_.sightings[1]};
+  const std::string text = refusalOf(layout_, simulated_.sightings, careful);
+  EXPECT_SAYS(text, "camera_2 saw only three corners and was left out");
+  EXPECT_SAYS(text, "does not tell which");
+}
+
+TEST(WideLens, is_solved_exactly) {
+  Random random(41);
+  const SquareLayout layout = rectangle(2.5, 2.0);
+  SimulatedSquare simulated;
+  geometry::Intrinsics lens;
+  lens.distortion_model = geometry::DistortionModel::kEquidistant;
+  lens.fx = lens.fy = 600.0;
+  lens.distortion = {0.02, -0.01, 0.003, 0.0, 0.0};
+  const auto poses = posesAround(layout, true, 3, random);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    geometry::Camera camera;
+    camera.name = "camera_" + std::to_string(i + 1);
+    camera.intrinsics = lens;
+    camera.world_from_camera = poses[i];
+    CameraSightings sightings;
+    sightings.name = camera.name;
+    sightings.intrinsics = lens;
+    for (std::size_t c = 0; c < 4; ++c)
+      sightings.corners[c] = camera.project(layout.corners(true)[c]).value();
+    simulated.sightings.push_back(sightings);
+  }
+  const SquareSolution solution = solveSquare(layout, simulated.sightings, SolveOptions());
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    EXPECT_LT((solution.rig.cameras[i].camera.center() - poses[i].translation()).norm(), 1e-6);
 }
 
 TEST_F(FourCameras, fewer_than_two_cameras_are_refused_by_name) {

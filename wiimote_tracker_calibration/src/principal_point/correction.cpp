@@ -30,8 +30,10 @@ std::optional<Eigen::Vector3d> measure(const std::vector<geometry::Camera>& ray_
                                        std::size_t corner,
                                        geometry::TriangulationMethod method) {
   std::vector<geometry::Observation> observations;
-  for (std::size_t i = 0; i < ray_cameras.size(); ++i)
-    observations.push_back({&ray_cameras[i], *sightings[i].corners[corner]});
+  for (std::size_t i = 0; i < ray_cameras.size(); ++i) {
+    if (sightings[i].corners[corner])
+      observations.push_back({&ray_cameras[i], *sightings[i].corners[corner]});
+  }
   geometry::TriangulationOptions options;
   options.method = method;
   const auto point = geometry::triangulate(observations, options);

@@ -12,19 +12,20 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 }  // namespace
 
-CornerOrder cornerOrder(const std::array<Eigen::Vector2d, 4>& pixels, double tolerance) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = i + 1; j < 4; ++j) {
+CornerOrder cornerOrder(const std::vector<Eigen::Vector2d>& pixels, double tolerance) {
+  const std::size_t count = pixels.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j) {
       if ((pixels[i] - pixels[j]).norm() < tolerance)
         return CornerOrder::kCoincident;
     }
   }
 
   // Turn at each corner: positive is clockwise for the viewer, because v points down.
-  int clockwise = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Eigen::Vector2d& before = pixels[(i + 3) % 4];
-    const Eigen::Vector2d& after = pixels[(i + 1) % 4];
+  std::size_t clockwise = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector2d& before = pixels[(i + count - 1) % count];
+    const Eigen::Vector2d& after = pixels[(i + 1) % count];
     const double area = cross(pixels[i] - before, after - pixels[i]);
     const double longest = std::max(
         {(pixels[i] - before).norm(), (after - pixels[i]).norm(), (after - before).norm()});
@@ -32,16 +33,11 @@ CornerOrder cornerOrder(const std::array<Eigen::Vector2d, 4>& pixels, double tol
       return CornerOrder::kCollinear;
     clockwise += area > 0.0;
   }
-  switch (clockwise) {
-    case 0:
-      return CornerOrder::kCounterClockwise;
-    case 2:
-      return CornerOrder::kCrossing;
-    case 4:
-      return CornerOrder::kClockwise;
-    default:
-      return CornerOrder::kNotConvex;
-  }
+  if (clockwise == 0)
+    return CornerOrder::kCounterClockwise;
+  if (clockwise == count)
+    return CornerOrder::kClockwise;
+  return clockwise == 2 ? CornerOrder::kCrossing : CornerOrder::kNotConvex;
 }
 
 }  // namespace wiimote_tracker::square

@@ -38,6 +38,7 @@ struct PixelResidual {
   Eigen::Vector2d pixel;
   Eigen::Vector3d nominal_corner;
   Eigen::Matrix3d world_from_start;
+  geometry::DistortionModel model;
   std::array<double, 5> distortion;
   double stddev;
 
@@ -52,18 +53,45 @@ struct PixelResidual {
       return false;
     const T x = point[0] / point[2];
     const T y = point[1] / point[2];
-    const T& k1 = lens[4];
+    T distorted[2];
+    if (model == geometry::DistortionModel::kEquidistant)
+      distortEquidistant(x, y, lens[4], distorted);
+    else
+      distortPlumbBob(x, y, lens[4], distorted);
+    residual[0] = (lens[0] * distorted[0] + lens[2] - pixel.x()) / stddev;
+    residual[1] = (lens[1] * distorted[1] + lens[3] - pixel.y()) / stddev;
+    return true;
+  }
+
+  template <typename T>
+  void distortPlumbBob(const T& x, const T& y, const T& k1, T* out) const {
     const double k2 = distortion[1];
     const double p1 = distortion[2];
     const double p2 = distortion[3];
     const double k3 = distortion[4];
     const T r2 = x * x + y * y;
     const T radial = T(1.0) + r2 * (k1 + r2 * (k2 + r2 * k3));
-    const T distorted_x = x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x);
-    const T distorted_y = y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y;
-    residual[0] = (lens[0] * distorted_x + lens[2] - pixel.x()) / stddev;
-    residual[1] = (lens[1] * distorted_y + lens[3] - pixel.y()) / stddev;
-    return true;
+    out[0] = x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x);
+    out[1] = y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y;
+  }
+
+  template <typename T>
+  void distortEquidistant(const T& x, const T& y, const T& k1, T* out) const {
+    using std::atan2;
+    using std::sqrt;
+    const T r2 = x * x + y * y;
+    T radial =
+        T(1.0) + (k1 - 1.0 / 3.0) * r2;  // the first terms: on the axis the root has no slope
+    if (r2 > T(1e-12)) {
+      const T r = sqrt(r2);
+      const T angle = atan2(r, T(1.0));
+      const T a2 = angle * angle;
+      radial =
+          angle / r *
+          (T(1.0) + a2 * (k1 + a2 * (distortion[1] + a2 * (distortion[2] + a2 * distortion[3]))));
+    }
+    out[0] = x * radial;
+    out[1] = y * radial;
   }
 };
 

@@ -121,13 +121,6 @@ class RigModel::Problem {
     return 2.0 * summary.final_cost;
   }
 
-  void holdAllButPoses() {
-    for (auto& lens : lens_)
-      problem_.SetParameterBlockConstant(lens.data());
-    for (auto& corner : corner_)
-      problem_.SetParameterBlockConstant(corner.data());
-  }
-
   Eigen::MatrixXd jacobian() {
     ceres::Problem::EvaluateOptions options;
     options.residual_blocks = residuals_;
@@ -152,10 +145,12 @@ class RigModel::Problem {
     for (std::size_t i = 0; i < model_.sightings_.size(); ++i) {
       const geometry::Camera& camera = state_.cameras[i];
       for (std::size_t c = 0; c < 4; ++c) {
+        if (!model_.sightings_[i].corners[c])
+          continue;
         auto* residual =
-            new PixelResidual{model_.sightings_[i].corners[c].value(), model_.nominal_corners_[c],
-                              camera.world_from_camera.linear(), camera.intrinsics.distortion,
-                              model_.uncertainty_.pixel};
+            new PixelResidual{*model_.sightings_[i].corners[c],  model_.nominal_corners_[c],
+                              camera.world_from_camera.linear(), camera.intrinsics.distortion_model,
+                              camera.intrinsics.distortion,      model_.uncertainty_.pixel};
         residuals_.push_back(problem_.AddResidualBlock(
             new ceres::AutoDiffCostFunction<PixelResidual, 2, kPoseSize, kLensSize, kCornerSize>(
                 residual),
@@ -251,27 +246,15 @@ RigState RigModel::start(const std::vector<Eigen::Isometry3d>& world_from_camera
   return state;
 }
 
-std::optional<RigState> RigModel::refinePoses(RigState start) const {
-  // Gravity must not pull at the paper's solution.
-  RigModel without_gravity = *this;
-  for (CameraSightings& sightings : without_gravity.sightings_)
-    sightings.gravity.reset();
-  Problem problem(without_gravity, start);
-  problem.holdAllButPoses();
-  if (!problem.solve(&start, Precision::kFine))
-    return std::nullopt;
-  return start;
-}
-
 std::optional<double> RigModel::refineAll(RigState* state, Precision precision) const {
   return Problem(*this, *state).solve(state, precision);
 }
 
 int RigModel::degreesOfFreedom() const {
   int result = 0;
-  // Eight pixel coordinates for six parameters of the pose; every other parameter has its prior.
+  // Pixel coordinates, and six parameters of the pose; every other parameter has its prior.
   for (const CameraSightings& sightings : sightings_)
-    result += sightings.gravity ? 4 : 2;
+    result += 2 * static_cast<int>(sightings.cornersSeen()) - 6 + (sightings.gravity ? 2 : 0);
   return result;
 }
 
@@ -280,10 +263,25 @@ Eigen::MatrixXd RigModel::covarianceOfAll(const RigState& state) const {
   return inMessageOrder(invert(jacobian.transpose() * jacobian), sightings_.size());
 }
 
+CornerEstimates RigModel::cornerEstimates(const RigState& state) const {
+  const Eigen::MatrixXd jacobian = Problem(*this, state).jacobian();
+  const Eigen::MatrixXd covariance = invert(jacobian.transpose() * jacobian);
+  const auto first = kCameraSize * static_cast<Eigen::Index>(sightings_.size());
+  CornerEstimates estimates;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const Eigen::Index row = first + kCornerSize * static_cast<Eigen::Index>(c);
+    estimates.offsets[c] = state.corners[c] - nominal_corners_[c];
+    estimates.covariances[c] = covariance.block<kCornerSize, kCornerSize>(row, row);
+  }
+  return estimates;
+}
+
 Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
   const Eigen::MatrixXd jacobian = Problem(*this, state).jacobian();
   const auto cameras = static_cast<Eigen::Index>(sightings_.size());
-  const Eigen::Index pixel_rows = 8 * cameras;
+  Eigen::Index pixel_rows = 0;
+  for (const CameraSightings& sightings : sightings_)
+    pixel_rows += 2 * static_cast<Eigen::Index>(sightings.cornersSeen());
   const Eigen::Index corner_column = kCameraSize * cameras;
   constexpr Eigen::Index kCorners = 4 * kCornerSize;
 
@@ -291,8 +289,11 @@ Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
   // the corners and the pixels, in this order.
   const Eigen::Index errors = kLensSize * cameras + kCorners + pixel_rows;
   Eigen::MatrixXd parameters_from_errors = Eigen::MatrixXd::Zero(kCameraSize * cameras, errors);
+  Eigen::Index row = 0;
   for (Eigen::Index i = 0; i < cameras; ++i) {
-    const auto rows = jacobian.middleRows(8 * i, 8);
+    const auto count =
+        2 * static_cast<Eigen::Index>(sightings_[static_cast<std::size_t>(i)].cornersSeen());
+    const auto rows = jacobian.middleRows(row, count);
     const Eigen::MatrixXd pose = rows.middleCols(kCameraSize * i, kPoseSize);
     const Eigen::MatrixXd lens = rows.middleCols(kCameraSize * i + kPoseSize, kLensSize);
     const Eigen::MatrixXd corners = rows.middleCols(corner_column, kCorners);
@@ -303,7 +304,8 @@ Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
     auto pose_rows = parameters_from_errors.middleRows(kCameraSize * i, kPoseSize);
     pose_rows.middleCols(kLensSize * i, kLensSize) = -solve * lens * lens_from_errors;
     pose_rows.middleCols(kLensSize * cameras, kCorners) = -solve * corners * uncertainty_.placement;
-    pose_rows.middleCols(kLensSize * cameras + kCorners + 8 * i, 8) = -solve;
+    pose_rows.middleCols(kLensSize * cameras + kCorners + row, count) = -solve;
+    row += count;
     parameters_from_errors.block(kCameraSize * i + kPoseSize, kLensSize * i, kLensSize, kLensSize) =
         lens_from_errors;
   }
@@ -314,12 +316,14 @@ Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
 double RigModel::reprojectionError(const RigState& state, std::size_t camera) const {
   double sum = 0.0;
   for (std::size_t c = 0; c < 4; ++c) {
+    if (!sightings_[camera].corners[c])
+      continue;
     const auto pixel = state.cameras[camera].project(state.corners[c]);
     if (!pixel)
       return std::numeric_limits<double>::infinity();
     sum += (*pixel - *sightings_[camera].corners[c]).squaredNorm();
   }
-  return std::sqrt(sum / 4.0);
+  return std::sqrt(sum / static_cast<double>(sightings_[camera].cornersSeen()));
 }
 
 double RigModel::lensDeviation(const RigState& state, std::size_t camera) const {

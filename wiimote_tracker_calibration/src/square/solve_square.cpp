@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 namespace wiimote_tracker::square {
@@ -32,16 +33,47 @@ std::string number(const char* format, double value) {
   return text;
 }
 
-std::vector<std::vector<Branch>> branchesOfAll(const RigModel& model) {
+/// Cameras with their branches.
+struct Candidates {
+  std::vector<CameraSightings> cameras;
   std::vector<std::vector<Branch>> branches;
+};
+
+/// The branches of all cameras. Of those that saw three corners only the most probable, which their
+/// accelerometers must tell: the others know nothing of it. Cameras of which it is not clear are
+/// left out.
+Candidates findCandidates(const RigModel& model, double odds, std::vector<std::string>* warnings) {
+  Candidates result;
   for (std::size_t i = 0; i < model.sightings().size(); ++i) {
-    branches.push_back(findBranches(model, i));
-    if (branches.back().empty())
-      throw SquareError("no place explains what " + model.sightings()[i].name +
-                        " saw of the square: check its starting intrinsics and the sides of the "
-                        "square, and capture the corners again");
+    const CameraSightings& camera = model.sightings()[i];
+    std::vector<Branch> branches = findBranches(model, i);
+    if (camera.cornersSeen() == 4) {
+      if (branches.empty())
+        throw SquareError("no place explains what " + camera.name +
+                          " saw of the square: check its starting intrinsics and the sides of the "
+                          "square, and capture the corners again");
+    } else if (branches.empty() || (branches.size() > 1 &&
+                                    branches[1].cost - branches[0].cost < 2.0 * std::log(odds))) {
+      warnings->push_back(
+          camera.name + " saw only three corners and was left out, because " +
+          (branches.empty()
+               ? "no place explains them"
+               : std::to_string(branches.size()) +
+                     " places explain them and its accelerometer does not tell which") +
+          ": let it see the fourth");
+      continue;
+    } else {
+      warnings->push_back(camera.name +
+                          " saw only three corners: its place follows from them and its "
+                          "accelerometer, with less to check it by");
+      branches.resize(1);
+    }
+    result.cameras.push_back(camera);
+    result.branches.push_back(std::move(branches));
   }
-  return branches;
+  if (result.cameras.size() < 2)
+    throw SquareError("fewer than two cameras can be placed: " + warnings->back());
+  return result;
 }
 
 void refuseUndecided(const RigModel& model,
@@ -77,15 +109,20 @@ bool isAbsurd(const RigModel& model, const RigState& state) {
   return false;
 }
 
-/// The camera without which the others agree; -1 when there is none.
-int oddOneOut(const RigModel& model,
-              const SquareLayout& layout,
-              const BranchChoice& choice,
-              const Uncertainty& uncertainty) {
+/// A reason why the cameras disagree, and how much they do without it.
+struct Explanation {
+  double misfit = std::numeric_limits<double>::infinity();
+  std::string text;
+};
+
+/// The camera without which the others agree.
+Explanation oddOneOut(const RigModel& model,
+                      const SquareLayout& layout,
+                      const BranchChoice& choice,
+                      const Uncertainty& uncertainty) {
+  Explanation odd;
   if (model.sightings().size() < 3)
-    return -1;
-  int odd = -1;
-  double least = kWarnRatio;
+    return odd;
   for (std::size_t i = 0; i < model.sightings().size(); ++i) {
     std::vector<CameraSightings> others = model.sightings();
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
@@ -97,12 +134,29 @@ int oddOneOut(const RigModel& model,
     }
     RigState state = without.start(poses);
     const std::optional<double> cost = without.refineAll(&state, RigModel::Precision::kCoarse);
-    if (cost && misfit(*cost, without) < least) {
-      least = misfit(*cost, without);
-      odd = static_cast<int>(i);
-    }
+    if (cost && misfit(*cost, without) < odd.misfit)
+      odd = {misfit(*cost, without),
+             ", and " + model.sightings()[i].name +
+                 " alone contradicts the others: check that it did not move and that its spot was "
+                 "the LED"};
   }
   return odd;
+}
+
+/// The corner whose place is best not believed.
+Explanation displacedCorner(const RigModel& model,
+                            const BranchChoice& choice,
+                            const std::optional<SuspectCorner>& suspect) {
+  Explanation result;
+  if (!suspect)
+    return result;
+  const double freedom = std::max(1, model.degreesOfFreedom() - 2);
+  result.misfit = std::sqrt(std::max(0.0, choice.cost - suspect->chi_squared) / freedom);
+  result.text = ", most at corner " + std::to_string(suspect->corner + 1) + " (" +
+                number("%.0f mm", 1e3 * suspect->distance) +
+                " off): check the sides of the square and capture that corner again, or state a "
+                "larger placement error";
+  return result;
 }
 
 void checkGravity(const RigModel& model, const RigState& state, const Uncertainty& uncertainty) {
@@ -117,41 +171,32 @@ void checkGravity(const RigModel& model, const RigState& state, const Uncertaint
   }
 }
 
-/// Warns about, or refuses, residuals that the uncertainties do not explain.
+/// Warns about, or refuses, residuals that the uncertainties do not explain. Where a camera
+/// explains them, no corner is suspect.
 void checkMisfit(const RigModel& model,
                  const SquareLayout& layout,
                  const BranchChoice& choice,
                  const Uncertainty& uncertainty,
-                 std::vector<std::string>* warnings) {
+                 SquareSolution* solution) {
   const double ratio = misfit(choice.cost, model);
   const bool absurd = isAbsurd(model, choice.state);
   if (ratio < kWarnRatio && !absurd)
     return;
-  std::size_t worst = 0;
-  double farthest = 0.0;
-  for (std::size_t c = 0; c < 4; ++c) {
-    const double offset = (choice.state.corners[c] - model.nominalCorners()[c]).norm();
-    if (offset > farthest) {
-      farthest = offset;
-      worst = c;
-    }
-  }
   std::string reason = "the cameras disagree " + number("%.1f", ratio) +
                        " times as much as the stated errors explain";
-  const int odd = oddOneOut(model, layout, choice, uncertainty);
-  if (odd >= 0)
-    reason += ", and " + model.sightings()[static_cast<std::size_t>(odd)].name +
-              " alone contradicts the others: check that it did not move and that its spot was the "
-              "LED";
-  else
-    reason +=
-        ", most at corner " + std::to_string(worst + 1) + " (" +
-        number("%.0f mm", 1000.0 * farthest) +
-        " off): check the sides of the square and capture that corner again, or state a larger "
-        "placement error";
+  const Explanation odd = oddOneOut(model, layout, choice, uncertainty);
+  const Explanation displaced = displacedCorner(model, choice, solution->suspect);
+  if (odd.misfit < std::min(kWarnRatio, displaced.misfit)) {
+    reason += odd.text;
+    solution->suspect.reset();
+  } else if (solution->suspect) {
+    reason += displaced.text;
+  } else {
+    reason += ": check the sides of the square, the starting intrinsics and that no camera moved";
+  }
   if (ratio > kRefuseRatio || absurd)
     throw SquareError(reason);
-  warnings->push_back(reason);
+  solution->warnings.push_back(reason);
 }
 
 geometry::RigCamera rigCamera(const RigModel& model, const RigState& state, std::size_t i) {
@@ -164,8 +209,8 @@ geometry::RigCamera rigCamera(const RigModel& model, const RigState& state, std:
     distance += 0.25 * (corner - result.camera.center()).norm();
   const geometry::Intrinsics& lens = result.camera.intrinsics;
   result.residual_m = result.residual_px * distance / std::sqrt(lens.fx * lens.fy);
-  result.observations = 4;
-  result.inliers = 4;
+  result.observations = static_cast<std::uint32_t>(model.sightings()[i].cornersSeen());
+  result.inliers = result.observations;
   return result;
 }
 
@@ -197,15 +242,22 @@ SquareSolution solveSquare(const SquareLayout& layout,
   layout.check();
   options.uncertainty.check();
   const UsableCameras usable = usableCameras(cameras);
-  const RigModel model(usable.cameras, layout, usable.z_up, options.uncertainty);
-  const std::vector<std::vector<Branch>> branches = branchesOfAll(model);
-  const BranchChoice choice = chooseBranches(model, branches, options.branch_odds);
-
   SquareSolution solution;
   solution.z_up = usable.z_up;
   solution.warnings = usable.warnings;
+  const Candidates candidates =
+      findCandidates(RigModel(usable.cameras, layout, usable.z_up, options.uncertainty),
+                     options.branch_odds, &solution.warnings);
+  const RigModel model(candidates.cameras, layout, usable.z_up, options.uncertainty);
+  const std::vector<std::vector<Branch>>& branches = candidates.branches;
+  const BranchChoice choice = chooseBranches(model, branches, options.branch_odds);
+  solution.branches = branches;
+  solution.chosen = choice.chosen;
   checkGravity(model, choice.state, options.uncertainty);
-  checkMisfit(model, layout, choice, options.uncertainty, &solution.warnings);
+  if (!isAbsurd(model, choice.state))
+    solution.suspect =
+        suspectCorner(model.cornerEstimates(choice.state), options.uncertainty.placement);
+  checkMisfit(model, layout, choice, options.uncertainty, &solution);
   refuseUndecided(model, branches, choice);
 
   RigState state = choice.state;

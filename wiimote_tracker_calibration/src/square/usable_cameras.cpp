@@ -25,16 +25,17 @@ std::vector<std::string> missingCorners(const CameraSightings& camera) {
 
 CornerOrder orderSeenBy(const CameraSightings& camera) {
   const geometry::Intrinsics& lens = camera.intrinsics;
-  std::array<Eigen::Vector2d, 4> pixels;
-  for (std::size_t c = 0; c < pixels.size(); ++c) {
+  std::vector<Eigen::Vector2d> pixels;
+  for (std::size_t c = 0; c < camera.corners.size(); ++c) {
+    if (!camera.corners[c])
+      continue;
     const auto normalized = lens.normalizedFromPixel(*camera.corners[c]);
     if (!normalized)
       throw SquareError("corner " + std::to_string(c + 1) + " lies where the lens of " +
                         camera.name +
                         " cannot image anything: correct the distortion coefficients of its "
                         "starting intrinsics");
-    pixels[c] =
-        Eigen::Vector2d(lens.fx * normalized->x() + lens.cx, lens.fy * normalized->y() + lens.cy);
+    pixels.emplace_back(lens.fx * normalized->x() + lens.cx, lens.fy * normalized->y() + lens.cy);
   }
   return cornerOrder(pixels, kTolerance);
 }
@@ -74,11 +75,13 @@ UsableCameras usableCameras(const std::vector<CameraSightings>& cameras) {
   UsableCameras usable;
   std::array<bool, 4> seen{};
   std::vector<std::string> missing;
+  std::size_t complete = 0;
   for (const CameraSightings& camera : cameras) {
     for (std::size_t c = 0; c < seen.size(); ++c)
       seen[c] = seen[c] || camera.corners[c].has_value();
     const std::vector<std::string> corners = missingCorners(camera);
-    if (corners.empty())
+    complete += corners.empty();
+    if (corners.empty() || (corners.size() == 1 && camera.gravity))
       usable.cameras.push_back(camera);
     else if (corners.size() == 4)
       missing.push_back(camera.name + " saw no corner");
@@ -89,10 +92,17 @@ UsableCameras usableCameras(const std::vector<CameraSightings>& cameras) {
   if (captured < 4)
     throw SquareError("only " + std::to_string(captured) +
                       " of 4 corners are captured: capture the others first");
-  if (usable.cameras.size() < 2)
+  if (usable.cameras.size() < 2 || complete < 1) {
+    for (const CameraSightings& camera : usable.cameras) {
+      if (camera.cornersSeen() < 4)
+        missing.push_back(camera.name + " did not see corner " + listOf(missingCorners(camera)));
+    }
+    if (missing.empty())
+      missing.push_back("there is only one camera");
     throw SquareError("at least two cameras must see all four corners, but " + listOf(missing) +
                       ": turn the cameras so that they see the whole square, or capture those "
                       "corners again");
+  }
   for (const std::string& camera : missing)
     usable.warnings.push_back(camera + " and was left out");
 

@@ -8,15 +8,16 @@
 
 namespace wiimote_tracker::square {
 
-/// The cameras that saw all four corners, and which way round.
+/// The cameras that saw enough of the corners, and which way round.
 struct UsableCameras {
   std::vector<CameraSightings> cameras;
   bool z_up = true;  ///< The corners go round counter-clockwise seen from above.
   std::vector<std::string> warnings;
 };
 
-/// Leaves out cameras that miss corners (with a warning), and checks the order of the corners in
-/// every image, on the grounds that all cameras are above the floor.
+/// Leaves out cameras that miss corners (with a warning), unless they saw three of them and know
+/// gravity, and checks the order of the corners in every image, on the grounds that all cameras are
+/// above the floor.
 /// @throws SquareError as solveSquare().
 UsableCameras usableCameras(const std::vector<CameraSightings>& cameras);
 

@@ -16,8 +16,9 @@ struct Branch {
   double cost;  ///< RigModel::refineAll() of this camera alone, from here (-2 log likelihood).
 };
 
-/// The branches of one camera of the model: one or two, the more probable first; gravity is
-/// weighed in where it is known. Empty when nothing explains what it saw.
+/// The branches of one camera of the model: one or two, up to four when it saw only three corners;
+/// the more probable first; gravity is weighed in where it is known. Empty when nothing explains
+/// what it saw.
 std::vector<Branch> findBranches(const RigModel& model, std::size_t camera);
 
 /// Which branch each camera stands on, decided for all cameras together.
@@ -32,7 +33,7 @@ struct BranchChoice {
 /// Weighs combinations of the branches that are not clear from one camera alone: the cameras saw
 /// the same four places, so that a branch which needs other displacements of the corners than the
 /// other cameras do is less probable.
-/// @param branches per camera, from findBranches(), none empty.
+/// @param branches per camera, from findBranches(): one or two.
 /// @param odds least ratio of probabilities between the chosen branch and the other [> 1].
 /// @throws SquareError: nothing can be evaluated.
 BranchChoice chooseBranches(const RigModel& model,

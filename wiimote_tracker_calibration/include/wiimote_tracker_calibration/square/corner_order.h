@@ -3,11 +3,11 @@
 
 #include <Eigen/Core>
 
-#include <array>
+#include <vector>
 
 namespace wiimote_tracker::square {
 
-/// How the four corners lie in one image.
+/// How the corners lie in one image.
 enum class CornerOrder {
   kCounterClockwise,  ///< As a viewer sees them who looks at the floor from the camera.
   kClockwise,
@@ -17,9 +17,9 @@ enum class CornerOrder {
   kNotConvex,   ///< One corner inside the triangle of the others: no view of a rectangle.
 };
 
-/// @param pixels places without lens distortion, v down [px].
+/// @param pixels three or four places without lens distortion, v down [px].
 /// @param tolerance distances below this are taken for zero [px, > 0].
-CornerOrder cornerOrder(const std::array<Eigen::Vector2d, 4>& pixels, double tolerance);
+CornerOrder cornerOrder(const std::vector<Eigen::Vector2d>& pixels, double tolerance);
 
 }  // namespace wiimote_tracker::square
 

@@ -3,6 +3,7 @@
 
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
+#include "wiimote_tracker_calibration/square/suspect_corner.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
@@ -27,7 +28,7 @@ struct Uncertainty {
   void check() const;
 };
 
-/// Cameras that all saw the four corners, and the corners.
+/// Cameras that saw the corners, and the corners.
 struct RigState {
   std::vector<geometry::Camera> cameras;  ///< In the order of the sightings.
   Corners corners;                        ///< Where the LED was put [m].
@@ -35,7 +36,7 @@ struct RigState {
 
 /// All that was observed of one square, and the statistical model of it: Gaussian errors of the
 /// pixels, of the placement of the LED, of the starting intrinsics, and of the accelerometers.
-/// Every camera must have seen all four corners.
+/// Every camera must have seen three corners or four.
 class RigModel {
  public:
   /// @param z_up as in SquareLayout::corners().
@@ -54,16 +55,12 @@ class RigModel {
   /// Starting intrinsics, corners as laid out, and the given poses.
   RigState start(const std::vector<Eigen::Isometry3d>& world_from_camera) const;
 
-  /// Least reprojection error over the poses, intrinsics and corners held (the paper, IV.B:
-  /// Levenberg-Marquardt). Nothing when it cannot be evaluated at the start: a corner lies behind
-  /// a camera.
-  std::optional<RigState> refinePoses(RigState start) const;
-
   /// How far to drive a minimisation: kCoarse suffices to compare costs, and is ten times faster.
   enum class Precision { kCoarse, kFine };
 
   /// Most probable poses, intrinsics and corners (Levenberg-Marquardt, in place).
-  /// @returns the sum of the squared whitened residuals; nothing as for refinePoses().
+  /// @returns the sum of the squared whitened residuals; nothing when it cannot be evaluated at the
+  /// start: a corner lies behind a camera.
   std::optional<double> refineAll(RigState* state, Precision precision = Precision::kFine) const;
 
   /// Residuals beyond the number of parameters of refineAll(): what its cost is on average.
@@ -72,8 +69,12 @@ class RigModel {
   /// Covariance of refineAll(), order and units as in RigCalibration.msg.
   Eigen::MatrixXd covarianceOfAll(const RigState& state) const;
 
-  /// Covariance of refinePoses() to first order, from the same uncertainties, order and units as
-  /// in RigCalibration.msg. The cameras are correlated through the corners.
+  /// Where the corners are by refineAll().
+  CornerEstimates cornerEstimates(const RigState& state) const;
+
+  /// Covariance, to first order, of poses of least reprojection error at exact intrinsics and
+  /// corners (the paper, IV.B), from the same uncertainties, order and units as in
+  /// RigCalibration.msg. The cameras are correlated through the corners.
   Eigen::MatrixXd covarianceOfPoses(const RigState& state) const;
 
   /// sqrt(mean(du^2 + dv^2)) of one camera [px]; infinite when a corner is behind it.

@@ -5,7 +5,9 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -18,6 +20,12 @@ struct CameraSightings {
   geometry::Intrinsics intrinsics;                        ///< Starting values.
   std::array<std::optional<Eigen::Vector2d>, 4> corners;  ///< Distorted [px]; nothing: not seen.
   std::optional<Eigen::Vector3d> gravity;  ///< Specific force at rest, optical frame [m/s^2].
+
+  /// How many of the corners it saw.
+  std::size_t cornersSeen() const {
+    return static_cast<std::size_t>(
+        std::count_if(corners.begin(), corners.end(), [](const auto& c) { return c.has_value(); }));
+  }
 };
 
 }  // namespace wiimote_tracker::square

@@ -1,12 +1,15 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_SOLVE_SQUARE_H
 #define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SOLVE_SQUARE_H
 
+#include "wiimote_tracker_calibration/square/branches.h"
 #include "wiimote_tracker_calibration/square/rig_model.h"
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
+#include "wiimote_tracker_calibration/square/suspect_corner.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,16 +32,23 @@ struct SquareSolution {
   /// Poses, intrinsics, residuals, joint covariance, verdict; without solved_at and world_frame.
   geometry::Rig rig;
   bool z_up = true;
+  /// Per camera of the rig: every way of standing that explains what it saw alone, with its
+  /// likelihood, and which of them was chosen in view of all.
+  std::vector<std::vector<Branch>> branches;
+  std::vector<std::size_t> chosen;
   /// Displacement of the corners from the layout, as estimated [m]; zero with kPerCamera.
   Corners corner_offsets;
+  /// The corner that contradicts the rest most; nothing when that tells nothing.
+  std::optional<SuspectCorner> suspect;
   /// expectedError() in the box over the square [m]. NaN when no two cameras look into it.
   double expected_error = 0.0;
   /// One sentence each. They are part of rig.verdict too.
   std::vector<std::string> warnings;
 };
 
-/// Solves where the cameras stand. Cameras that did not see all four corners are left out with a
-/// warning that names them.
+/// Solves where the cameras stand. A camera that saw three corners is placed by them and its
+/// accelerometer, with a warning; others that did not see all four are left out, with a warning
+/// that names them.
 /// @throws SquareError: fewer than two cameras saw all corners; corners not captured, in one place,
 /// on one line, in crossing order; order not the same for all cameras; a pose that can be on either
 /// branch of the planar ambiguity; cameras that contradict the square, gravity or one another.

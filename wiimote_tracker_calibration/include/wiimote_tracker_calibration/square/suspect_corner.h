@@ -1,0 +1,44 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_SUSPECT_CORNER_H
+#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SUSPECT_CORNER_H
+
+#include "wiimote_tracker_calibration/square/square_layout.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace wiimote_tracker::square {
+
+/// Displacement of the corners from the layout as a solver estimated it, and how well.
+struct CornerEstimates {
+  Corners offsets{};                             ///< Horizontal [m].
+  std::array<Eigen::Matrix2d, 4> covariances{};  ///< Of x and y [m^2].
+};
+
+/// A corner that the LED was probably not put on.
+struct SuspectCorner {
+  std::size_t corner = 0;  ///< 0..3.
+  double distance = 0.0;   ///< From where it should have been, by all the rest [m].
+  /// By how much the rest fits better without believing in this corner's place (chi-squared, two
+  /// degrees of freedom).
+  double chi_squared = 0.0;
+  /// The other corner that explains most, and by how much less it does.
+  std::optional<std::size_t> runner_up;
+  double lead = 0.0;
+};
+
+/// The corner whose disbelief explains most. What is left out is the prior knowledge that the LED
+/// was put there within `placement`; what is left then tells where it was: the statistics of
+/// deleting one observation (Cook and Weisberg, Residuals and Influence in Regression, 1982).
+/// @param placement standard deviation of every corner, per axis [m, > 0].
+/// @returns nothing when the rest says nothing of any corner.
+std::optional<SuspectCorner> suspectCorner(const CornerEstimates& estimates, double placement);
+
+/// Whether it is no accident: one in 2500 calibrations has such a corner by chance.
+bool isDisplaced(const SuspectCorner& suspect);
+
+}  // namespace wiimote_tracker::square
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_SUSPECT_CORNER_H

@@ -6,6 +6,7 @@
 #include "suspicion.h"
 
 #include "wiimote_tracker_calibration/bundle/error.h"
+#include "wiimote_tracker_calibration/bundle/statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -238,11 +239,6 @@ class Search {
     attempt.reconstruction.cameras = solved.reconstruction.cameras;
     attempt.placed.assign(all_.cameras.size(), true);
     settle(options_.bundle, maximumError(), &attempt);
-    tell("adjusting with all points", 0.9);
-    // Now that the noise is known, so is how much what is known of lenses counts.
-    Options weighed = options_.bundle;
-    weighed.pixel_stddev = Certainty(attempt.reconstruction, options_.bundle, false).pixelStddev();
-    settle(weighed, maximumError(), &attempt);
     return attempt;
   }
 
@@ -276,6 +272,33 @@ void judgeLenses(const SelfCalibrationOptions& options, bool ambiguous, SelfCali
   }
 }
 
+/// Adjusts with what fits as well as most does: a wrong observation that is off by less than
+/// Options::maximum_error pulls all the same. Then says again what is within that of its point.
+void refine(const SelfCalibrationOptions& options, Reconstruction* reconstruction) {
+  const int kRounds = 5;
+  const double kMedians = 6.0;  // 5.2 sigma of the larger of two coordinates, roughly
+  const std::vector<bool> all(reconstruction->cameras.size(), true);
+  const auto triangulateWithin = [&](double limit) {
+    triangulatePoints(reconstruction, all, limit, options.bundle.minimum_angle);
+  };
+  Options tight = options.bundle;
+  Held held;
+  held.intrinsics = options.fixed_lenses;
+  for (int round = 0; round < kRounds; ++round) {
+    const double median = statistics(*reconstruction).median;
+    tight.maximum_error = std::min(kMedians * median, options.bundle.maximum_error);
+    tight.loss_scale = std::max(std::min(2.0 * median, options.bundle.loss_scale), 1e-3);
+    // Exact pixels have no median to speak of.
+    tight.maximum_error = std::max(tight.maximum_error, 0.01 * options.bundle.maximum_error);
+    tight.pixel_stddev = Certainty(*reconstruction, tight, options.fixed_lenses).pixelStddev();
+    tight.pixel_stddev = std::max(tight.pixel_stddev, 1e-3);
+    tight.rough = round + 1 < kRounds;
+    triangulateWithin(tight.maximum_error);
+    adjust(reconstruction, tight, held);
+  }
+  triangulateWithin(options.bundle.maximum_error);
+}
+
 SelfCalibration solveOnce(const Reconstruction& all,
                           const SelfCalibrationOptions& options,
                           const ProgressCallback& progress) {
@@ -289,6 +312,9 @@ SelfCalibration solveOnce(const Reconstruction& all,
     refuseUnexplained(result.reconstruction, options.bundle);
     ambiguous = search.isAmbiguous();
   }
+  if (progress && !progress("telling wrong spots apart", 0.9))
+    throw Cancelled("stopped before the cameras were solved");
+  refine(options, &result.reconstruction);
   judgeLenses(options, ambiguous, &result);
   return result;
 }

@@ -155,6 +155,31 @@ std::vector<Errors> rectifiedErrors(const bundle::Reconstruction& own,
   return result;
 }
 
+/// Shipped cameras with lenses that can be had here: matrices of the shipped intrinsics, without
+/// skew. Nothing for others.
+std::optional<bundle::Reconstruction> withLenses(const Recording& recording,
+                                                 const ShippedCameras& shipped,
+                                                 const bundle::Reconstruction& own,
+                                                 const bundle::Options& options) {
+  const double kEqual = 1e-6;
+  bundle::Reconstruction result = own;
+  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
+    const geometry::Intrinsics& lens = recording.cameras[i].intrinsics;
+    const Pinhole& pinhole = shipped.rectifications[i].pinhole();
+    const Eigen::Matrix<double, 5, 1> difference =
+        (Eigen::Matrix<double, 5, 1>() << pinhole.fx - lens.fx, pinhole.fy - lens.fy,
+         pinhole.cx - lens.cx, pinhole.cy - lens.cy, pinhole.skew)
+            .finished();
+    if (difference.norm() > kEqual * lens.fx)
+      return std::nullopt;
+    result.cameras[i].intrinsics = lens;
+    result.cameras[i].world_from_camera = pinhole.world_from_camera;
+  }
+  bundle::triangulatePoints(&result, std::vector<bool>(result.cameras.size(), true),
+                            options.maximum_error, options.minimum_angle);
+  return result;
+}
+
 }  // namespace
 
 Errors errorsOf(std::vector<double> errors) {
@@ -197,6 +222,13 @@ std::optional<Comparison> compare(const Recording& recording,
   Comparison comparison;
   if (all([](const RecordedCamera& camera) { return camera.projection.has_value(); })) {
     const ShippedCameras shipped = shippedCameras(recording, options);
+    if (const auto same_pixels = withLenses(recording, shipped, own, options)) {
+      comparison.what = "shipped lenses and poses; errors in pixels as recorded";
+      comparison.own = errorsOf(own);
+      comparison.shipped = errorsOf(*same_pixels);
+      comparePoints(own, *same_pixels, solution.expected_shape_error, &comparison);
+      return comparison;
+    }
     comparison.what = "shipped projection matrices; errors in undistorted pixels";
     comparison.own = rectifiedErrors(own, shipped, options.maximum_error);
     comparison.shipped = errorsOf(shipped.reconstruction);

@@ -48,7 +48,8 @@ struct Comparison {
 
 /// Nothing when neither projection matrices nor intrinsics were shipped.
 ///
-/// Matrices: errors of both are in the undistorted pixels that they are for. Intrinsics only: the
+/// Matrices of the intrinsics that are there too: errors are in pixels as recorded. Other matrices:
+/// errors of both are in the undistorted pixels that they are for. Intrinsics only: the
 /// shipped solution is what bundle::solve makes of them; errors are in pixels as recorded.
 /// An observation is an inlier within options.maximum_error of the point of that solution.
 /// @throws ImportError: the matrices do not fit to the pixels.

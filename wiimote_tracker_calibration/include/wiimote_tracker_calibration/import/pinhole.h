@@ -37,6 +37,9 @@ class Rectification {
   /// The pinhole.
   const geometry::Camera& camera() const { return camera_; }
 
+  /// As the matrix has it, before the image grew.
+  const Pinhole& pinhole() const { return pinhole_; }
+
   /// Nothing for a pixel that has no ray.
   std::optional<Eigen::Vector2d> operator()(const Eigen::Vector2d& pixel) const;
 

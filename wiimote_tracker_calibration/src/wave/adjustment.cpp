@@ -408,8 +408,8 @@ Eigen::MatrixXd Adjustment::covariance(const State& state) {
     throw WaveError(kSingular);
   const Eigen::MatrixXd inverse =
       solver.solve(Eigen::MatrixXd::Identity(reduced.rows(), reduced.cols()));
-  Eigen::MatrixXd result = (scale.asDiagonal() * inverse * scale.asDiagonal())
-                               .topLeftCorner(cornerColumn(), cornerColumn());
+  Eigen::MatrixXd result =
+      (scale.asDiagonal() * inverse * scale.asDiagonal()).topLeftCorner(wandColumn(), wandColumn());
   const auto release = [&result](Eigen::Index column) {
     result.row(column).setZero();
     result.col(column).setZero();

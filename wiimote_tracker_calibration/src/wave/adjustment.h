@@ -36,7 +36,7 @@ class Adjustment {
   /// @returns the number of iterations. @throws WaveError when it fails.
   int solve(State* state, const std::function<bool()>& keep_going);
 
-  /// Joint covariance of the cameras (kCameraSize each) at a solution.
+  /// Joint covariance of the cameras (kCameraSize each), then the corners (2 each), at a solution.
   Eigen::MatrixXd covariance(const State& state);
 
   /// Square root of the mean whitened squared residual of the matches, corrected for the

@@ -144,6 +144,29 @@ void checkMatching(const Recording& recording, const Matching& matching) {
   }
 }
 
+namespace {
+
+void checkCorners(double placement, WaveSolution* solution) {
+  double farthest = 0.0;
+  for (const Eigen::Vector3d& offset : solution->corner_offsets)
+    farthest = std::max(farthest, offset.norm());
+  const std::optional<square::SuspectCorner>& suspect = solution->suspect;
+  if (!suspect)
+    return;
+  const std::string corner = "corner " + std::to_string(suspect->corner + 1);
+  const std::string off = number("%.0f mm", 1e3 * suspect->distance) + " beside its place";
+  if (farthest > kRefuseDeviation * placement)
+    throw WaveError("the wave contradicts the square, most of all " + corner +
+                    ", which would have been " + off +
+                    ": check the sides of the square and that no camera moved, and capture the "
+                    "corners again");
+  if (square::isDisplaced(*suspect))
+    solution->warnings.push_back(corner + " seems to have been " + off +
+                                 ": check the sides of the square and capture that corner again");
+}
+
+}  // namespace
+
 void checkSolution(const Recording& recording, const WaveOptions& options, WaveSolution* solution) {
   const Eigen::Vector3d& extent = solution->extent;
   if (extent.y() < kThinnest * extent.x())
@@ -187,20 +210,8 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
                       ": wave faster than the " + number("%.1f m/s", solution->median_speed) +
                       " it was, and longer where it sees the LED");
   }
-  for (std::size_t c = 0; recording.square && c < 4; ++c) {
-    const double off = solution->corner_offsets[c].norm();
-    if (off > kRefuseDeviation * options.uncertainty.placement)
-      throw WaveError("the wave contradicts the square, most of all corner " +
-                      std::to_string(c + 1) + ", which would have been " +
-                      number("%.0f mm", 1e3 * off) +
-                      " beside its place: check the sides of the square and that no camera moved, "
-                      "and capture the corners again");
-    if (off > kWarnDeviation * options.uncertainty.placement)
-      solution->warnings.push_back("corner " + std::to_string(c + 1) + " seems to have been " +
-                                   number("%.0f mm", 1e3 * off) +
-                                   " beside its place: check the sides of the square and capture "
-                                   "that corner again");
-  }
+  if (recording.square)
+    checkCorners(options.uncertainty.placement, solution);
   if (recording.wand) {
     const double off = solution->wand_length - recording.wand->length;
     if (recording.square && std::abs(off) > kWarnDeviation * recording.wand->stddev)

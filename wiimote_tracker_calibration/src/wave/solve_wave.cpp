@@ -274,7 +274,9 @@ WaveSolution solveFrom(StartPoses poses,
   solution.pixel_stddev = fit.pixel_stddev;
   solution.iterations = fit.iterations;
   describePath(state, fit.matching, &solution);
-  Eigen::MatrixXd covariance = adjustment.covariance(state);
+  const Eigen::MatrixXd joint = adjustment.covariance(state);
+  const Eigen::Index corner_column = kCameraSize * static_cast<Eigen::Index>(state.cameras.size());
+  Eigen::MatrixXd covariance = joint.topLeftCorner(corner_column, corner_column);
   addWander(options, solution.seconds_seen, &covariance);
   geometry::Rig& rig = solution.rig;
   rig.method = recording.wand ? "wand" : "wave";
@@ -297,8 +299,14 @@ WaveSolution solveFrom(StartPoses poses,
     rig.method = "square+" + rig.method;
     rig.square_sides = {recording.square->side_x, recording.square->side_y};
     rig.led_height = recording.square->led_height;
-    for (std::size_t c = 0; c < 4; ++c)
+    square::CornerEstimates corners;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Eigen::Index row = corner_column + 2 * static_cast<Eigen::Index>(c);
       solution.corner_offsets[c] = state.corners[c] - nominal_corners[c];
+      corners.offsets[c] = solution.corner_offsets[c];
+      corners.covariances[c] = joint.block<2, 2>(row, row);
+    }
+    solution.suspect = square::suspectCorner(corners, options.uncertainty.placement);
   } else {
     solution.corner_offsets.fill(Eigen::Vector3d::Zero());
   }

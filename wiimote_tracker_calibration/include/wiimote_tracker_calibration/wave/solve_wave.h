@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_WAVE_SOLVE_WAVE_H
 
 #include "wiimote_tracker_calibration/square/rig_model.h"
+#include "wiimote_tracker_calibration/square/suspect_corner.h"
 #include "wiimote_tracker_calibration/wave/recording.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
@@ -53,9 +54,11 @@ struct WaveSolution {
   std::size_t reference = 0;          ///< The camera whose time offset was set to 0.
   double pixel_stddev = 0.0;          ///< Of a moving spot, per axis, as estimated [px].
   square::Corners corner_offsets{};   ///< Displacement from the layout, as estimated [m].
-  double wand_length = 0.0;           ///< As estimated [m]; 0 without wand.
-  double median_speed = 0.0;          ///< Of the LED [m/s].
-  double seconds_seen = 0.0;          ///< In which two cameras or more saw it [s].
+  /// The corner that contradicts the rest most; nothing without square.
+  std::optional<square::SuspectCorner> suspect;
+  double wand_length = 0.0;                          ///< As estimated [m]; 0 without wand.
+  double median_speed = 0.0;                         ///< Of the LED [m/s].
+  double seconds_seen = 0.0;                         ///< In which two cameras or more saw it [s].
   Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< Of the path: principal stddevs [m].
   std::vector<Eigen::Vector3d> path;                 ///< A point of it per knot that was seen [m].
   /// Expected RMS error of a point on the path as far as it comes from the calibration [m].

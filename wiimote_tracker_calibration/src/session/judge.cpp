@@ -1,0 +1,223 @@
+#include "judge.h"
+
+#include "predicted_accuracy.h"
+#include "wiimote_tracker_calibration/place/camera_parameters.h"
+
+#include <wiimote_tracker_triangulation/geometry/triangulate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+namespace wiimote_tracker::session {
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+// The paper's cube is as high as this over the corners [m].
+constexpr double kAbove = 2.5;
+// Predicted error of a point, as a share of its distance from the cameras. doc/session.md says why.
+constexpr double kGoodShare = 0.004;
+constexpr double kUsableShare = 0.02;
+// Between the corner that is to be taken again and the next: likelihoods are 100 to 1
+// (chi-squared).
+constexpr double kClearLead = 9.2;
+// Of a camera's observations that must fit for its calibration to be good.
+constexpr double kGoodInliers = 0.8;
+
+std::string number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string millimetres(double value) {
+  return number("%.0f mm", 1e3 * value);
+}
+
+CameraVerdict judgeCamera(const geometry::Rig& rig, std::size_t index) {
+  const geometry::RigCamera& camera = rig.cameras[index];
+  CameraVerdict verdict;
+  verdict.name = camera.camera.name;
+  verdict.residual_px = camera.residual_px;
+  verdict.residual_m = camera.residual_m;
+  verdict.inlier_share =
+      camera.observations > 0 ? static_cast<double>(camera.inliers) / camera.observations : kNan;
+  const Eigen::Index first = place::firstParameter(index);
+  const auto variance = [&](Eigen::Index parameter) {
+    return place::hasCovariance(rig) ? rig.covariance(first + parameter, first + parameter) : kNan;
+  };
+  const auto rootOfTrace = [&](Eigen::Index begin) {
+    return std::sqrt(variance(begin) + variance(begin + 1) + variance(begin + 2));
+  };
+  verdict.rotation_stddev = rootOfTrace(place::kRotation);
+  verdict.position_stddev = rootOfTrace(place::kPosition);
+  verdict.focal_stddev = std::sqrt(std::max(variance(place::kLens), variance(place::kLens + 1)));
+  verdict.principal_point_stddev =
+      std::sqrt(std::max(variance(place::kLens + 2), variance(place::kLens + 3)));
+  verdict.k1_stddev = std::sqrt(variance(place::kDistortion));
+  verdict.time_offset_stddev =
+      std::isnan(camera.time_offset) ? kNan : std::sqrt(variance(place::kTimeOffset));
+  return verdict;
+}
+
+/// How far the corners are from where they were laid out, measured with the rig from what it was
+/// solved from: RMS over those that two cameras saw [m]; NaN when there is none.
+double cornerError(const Session& session, const geometry::Rig& rig, bool z_up) {
+  const square::Corners nominal = session.recording.square->corners(z_up);
+  std::vector<geometry::Camera> cameras;
+  for (const geometry::RigCamera& camera : rig.cameras)
+    cameras.push_back(rig.rayCamera(camera));
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t c = 0; c < nominal.size(); ++c) {
+    std::vector<geometry::Observation> observations;
+    for (const geometry::Camera& camera : cameras) {
+      for (const wave::CameraRecording& recorded : session.recording.cameras) {
+        const auto& pixel = recorded.sightings.corners[c];
+        if (recorded.sightings.name == camera.name && pixel)
+          observations.push_back({&camera, *pixel});
+      }
+    }
+    const auto point = geometry::triangulate(observations, {});
+    if (!point)
+      continue;
+    sum += (point->position - nominal[c]).squaredNorm();
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : kNan;
+}
+
+/// Of a place from the cameras of the rig, on average [m].
+double meanDistance(const geometry::Rig& rig, const Eigen::Vector3d& place) {
+  double sum = 0.0;
+  for (const geometry::RigCamera& camera : rig.cameras)
+    sum += (camera.camera.center() - place).norm();
+  return sum / static_cast<double>(rig.cameras.size());
+}
+
+/// The largest finite value; NaN when there is none.
+double largest(std::vector<double>::const_iterator begin, std::vector<double>::const_iterator end) {
+  double result = kNan;
+  for (auto value = begin; value != end; ++value)
+    result = std::fmax(result, *value);
+  return result;
+}
+
+/// What decides between good, usable and redo, worst first.
+struct Accuracy {
+  double share = kNan;  ///< Largest error as a share of the distance.
+  std::string text;
+};
+
+Accuracy accuracyOf(const Session& session,
+                    const geometry::Rig& rig,
+                    const Findings& findings,
+                    const Verdict& verdict) {
+  Accuracy accuracy;
+  if (!session.recording.square) {
+    if (findings.shape_error) {
+      accuracy.share = *findings.shape_error / meanDistance(rig, Eigen::Vector3d::Zero());
+      accuracy.text = "points are known to " + millimetres(*findings.shape_error) +
+                      " to one another (RMS where the LED was waved)";
+    }
+    return accuracy;
+  }
+  if (rig.ray_model == geometry::RayModel::kImageCenter) {
+    const double error = cornerError(session, rig, findings.z_up);
+    accuracy.share = error / meanDistance(rig, verdict.predicted_at[0]);
+    accuracy.text = "the corners are measured " + millimetres(error) +
+                    " beside their places (RMS), and points elsewhere farther off, because the "
+                    "rays of the image_center model are not those of the calibrated lenses";
+    return accuracy;
+  }
+  for (std::size_t i = 0; i < verdict.predicted_at.size(); ++i)
+    accuracy.share = std::fmax(
+        accuracy.share, verdict.predicted_stddev[i] / meanDistance(rig, verdict.predicted_at[i]));
+  const auto middle = verdict.predicted_stddev.begin() + 4;
+  const double below = largest(verdict.predicted_stddev.begin(), middle);
+  const double above = largest(middle, verdict.predicted_stddev.end());
+  if (std::isfinite(below))
+    accuracy.text = "points are known to " + millimetres(below) + " at the corners";
+  if (std::isfinite(above))
+    accuracy.text += (accuracy.text.empty() ? "points are known to " : " and ") +
+                     millimetres(above) + " at 2.5 m above them";
+  if (accuracy.text.empty())
+    accuracy.text = "no two cameras look at a corner or at 2.5 m above one";
+  return accuracy;
+}
+
+/// Why the rig is not good, or empty.
+std::vector<std::string> shortcomings(const Accuracy& accuracy,
+                                      const Findings& findings,
+                                      const Verdict& verdict) {
+  std::vector<std::string> reasons;
+  if (!(accuracy.share <= kGoodShare))
+    reasons.push_back(
+        std::isnan(accuracy.share)
+            ? "nothing says how accurate it is: point two cameras or more at the square"
+            : "it is not as accurate as it could be: wave an LED or a wand through the volume, or "
+              "use a larger square");
+  for (const CameraVerdict& camera : verdict.cameras) {
+    if (camera.inlier_share < kGoodInliers)
+      reasons.push_back(number("%.0f %%", 100.0 * (1.0 - camera.inlier_share)) + " of what " +
+                        camera.name + " saw was not the LED: cover lamps and reflections");
+  }
+  if (findings.doubts)
+    reasons.emplace_back("read the warnings");
+  return reasons;
+}
+
+std::string redoCorner(const square::SuspectCorner& suspect) {
+  std::string text = "redo corner " + std::to_string(suspect.corner + 1);
+  if (suspect.runner_up && suspect.lead < kClearLead)
+    text += " or " + std::to_string(*suspect.runner_up + 1);
+  return text + ": by all the rest the LED was " + millimetres(suspect.distance) +
+         " beside it; put it there again, capture that corner again and solve";
+}
+
+}  // namespace
+
+Verdict judge(const Session& session, const geometry::Rig& rig, const Findings& findings) {
+  Verdict verdict;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
+    verdict.cameras.push_back(judgeCamera(rig, i));
+  if (session.recording.square) {
+    const square::Corners corners = session.recording.square->corners(findings.z_up);
+    const Eigen::Vector3d above(0.0, 0.0, findings.z_up ? kAbove : -kAbove);
+    verdict.predicted_at.assign(corners.begin(), corners.end());
+    for (const Eigen::Vector3d& corner : corners)
+      verdict.predicted_at.push_back(corner + above);
+    for (const Eigen::Vector3d& place : verdict.predicted_at)
+      verdict.predicted_stddev.push_back(
+          rig.ray_model == geometry::RayModel::kCalibrated ? predictedStddev(rig, place) : kNan);
+  }
+  const Accuracy accuracy = accuracyOf(session, rig, findings, verdict);
+  const std::vector<std::string> reasons = shortcomings(accuracy, findings, verdict);
+  if (findings.suspect && square::isDisplaced(*findings.suspect)) {
+    verdict.grade = Grade::kRedo;
+    verdict.redo_corner = findings.suspect->corner;
+    verdict.text = redoCorner(*findings.suspect);
+  } else if (accuracy.share > kUsableShare) {
+    verdict.grade = Grade::kRedo;
+    verdict.text =
+        "redo: points would be far off; use a larger square, place the cameras so that they look "
+        "at it from different sides, or wave an LED through the volume";
+  } else if (!reasons.empty()) {
+    verdict.grade = Grade::kUsable;
+    verdict.text = "usable: ";
+    for (const std::string& reason : reasons)
+      verdict.text += (&reason == &reasons.front() ? "" : ", and ") + reason;
+  } else {
+    verdict.grade = Grade::kGood;
+    verdict.text = "good";
+  }
+  if (!accuracy.text.empty())
+    verdict.text += "; " + accuracy.text;
+  verdict.text += "; " + rig.verdict;
+  return verdict;
+}
+
+}  // namespace wiimote_tracker::session

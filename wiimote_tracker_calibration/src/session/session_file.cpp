@@ -1,0 +1,110 @@
+#include "wiimote_tracker_calibration/session/session_file.h"
+
+#include "frame_lines.h"
+#include "number_text.h"
+#include "session_yaml.h"
+#include "wiimote_tracker_calibration/session/error.h"
+
+#include <wiimote_tracker_triangulation/geometry/atomic_file.h>
+
+#include <cmath>
+#include <set>
+
+namespace wiimote_tracker::session {
+
+namespace {
+
+// Between the two YAML documents of the file.
+constexpr const char* kFramesLine =
+    "--- # Images of the wave, camera by camera: time [s], then x and y [px] of every spot.";
+// Before the frames of each camera.
+constexpr const char* kCameraLine = "- |";
+// A file cut off at any place lacks it.
+constexpr const char* kEndLine = "...";
+
+void require(bool condition, const std::string& what) {
+  if (!condition)
+    throw SessionError(what + "; correct it or capture again");
+}
+
+void checkCamera(const wave::CameraRecording& camera,
+                 const std::vector<geometry::ImageMask>& masks) {
+  const square::CameraSightings& sightings = camera.sightings;
+  const std::string& name = sightings.name;
+  sightings.intrinsics.check();
+  for (const auto& corner : sightings.corners)
+    require(!corner || corner->allFinite(), "a corner that " + name + " saw is not finite");
+  require(!sightings.gravity || sightings.gravity->allFinite(),
+          "the gravity of " + name + " is not finite");
+  for (const geometry::ImageMask& mask : masks)
+    require(mask.center.allFinite() && std::isfinite(mask.radius) && mask.radius > 0.0,
+            "a mask of " + name + " is not finite or its radius not above 0");
+  for (const wave::Frame& frame : camera.frames) {
+    require(std::isfinite(frame.stamp), "the time of an image of " + name + " is not finite");
+    for (const Eigen::Vector2d& spot : frame.spots)
+      require(spot.allFinite(), "a spot of " + name + " is not finite");
+  }
+}
+
+/// What holds for every session that a file can bear.
+void check(const Session& session) {
+  const wave::Recording& recording = session.recording;
+  require(!session.world_frame.empty(), "the world frame has no name");
+  if (recording.square)
+    recording.square->check();
+  if (recording.wand)
+    require(std::isfinite(recording.wand->length) && recording.wand->length > 0.0 &&
+                std::isfinite(recording.wand->stddev) && recording.wand->stddev > 0.0,
+            "the length of the wand, or its standard deviation, is not above 0");
+  require(session.masks.size() == recording.cameras.size(),
+          "the masks are not of as many cameras as were captured");
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
+    const std::string& name = recording.cameras[i].sightings.name;
+    require(!name.empty(), "a camera has no name");
+    require(names.insert(name).second, "two cameras are called " + name);
+    checkCamera(recording.cameras[i], session.masks[i]);
+  }
+}
+
+}  // namespace
+
+void writeSessionFile(const Session& session, const std::string& path) {
+  check(session);
+  const ClassicLocale locale;
+  std::string text = yamlFromSession(session);
+  text += std::string("\n") + kFramesLine + "\n";
+  for (const wave::CameraRecording& camera : session.recording.cameras) {
+    text += std::string(kCameraLine) + "\n";
+    appendFrames(camera.frames, &text);
+  }
+  text += std::string(kEndLine) + "\n";
+  geometry::writeFileAtomically(path, text);
+}
+
+Session readSessionFile(const std::string& path) {
+  const std::string text = geometry::readFile(path);
+  const std::size_t head_end = text.find(std::string("\n") + kFramesLine + "\n");
+  if (head_end == std::string::npos)
+    throw SessionError(path +
+                       " is cut off, or holds no samples of a calibration; restore it from its "
+                       "backup, or choose a file that save_samples wrote");
+  const ClassicLocale locale;
+  SessionHead head = headFromYaml(text.substr(0, head_end + 1), path);
+  Lines lines(text, head_end + 1, path);
+  lines.expect(kFramesLine);
+  for (std::size_t i = 0; i < head.frames.size(); ++i) {
+    lines.expect(kCameraLine);
+    head.session.recording.cameras[i].frames = lines.frames(head.frames[i]);
+  }
+  lines.expect(kEndLine);
+  lines.expectEnd();
+  try {
+    check(head.session);
+  } catch (const geometry::Error& error) {
+    throw SessionError(path + ": " + error.what());
+  }
+  return head.session;
+}
+
+}  // namespace wiimote_tracker::session

@@ -1,0 +1,267 @@
+#include "session_yaml.h"
+
+#include "number_text.h"
+
+#include <wiimote_tracker_triangulation/geometry/yaml_map.h>
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+namespace wiimote_tracker::session {
+
+namespace {
+
+using geometry::RigFileError;
+using geometry::YamlMap;
+
+constexpr const char* kFormat = "wiimote_tracker_samples";
+constexpr int kVersion = 1;
+
+std::string textOf(double value) {
+  std::string text;
+  appendNumber(value, &text);
+  return text;
+}
+
+template <typename Numbers>
+void emitNumbers(const Numbers& numbers, YAML::Emitter& out) {
+  out << YAML::Flow << YAML::BeginSeq;
+  for (const double number : numbers)
+    out << textOf(number);
+  out << YAML::EndSeq;
+}
+
+std::vector<double> valuesOf(const Eigen::VectorXd& vector) {
+  return {vector.data(), vector.data() + vector.size()};
+}
+
+void emitKey(const std::string& key, double value, YAML::Emitter& out) {
+  out << YAML::Key << key << YAML::Value << textOf(value);
+}
+
+void emitSquare(const std::optional<square::SquareLayout>& square, YAML::Emitter& out) {
+  out << YAML::Key << "square" << YAML::Value;
+  if (!square) {
+    out << YAML::Null;
+    return;
+  }
+  out << YAML::BeginMap;
+  emitKey("side_x", square->side_x, out);
+  emitKey("side_y", square->side_y, out);
+  emitKey("led_height", square->led_height, out);
+  out << YAML::Key << "origin" << YAML::Value;
+  emitNumbers(valuesOf(square->origin), out);
+  emitKey("yaw", square->yaw, out);
+  out << YAML::EndMap;
+}
+
+void emitWand(const std::optional<wave::Wand>& wand, YAML::Emitter& out) {
+  out << YAML::Key << "wand" << YAML::Value;
+  if (!wand) {
+    out << YAML::Null;
+    return;
+  }
+  out << YAML::BeginMap;
+  emitKey("length", wand->length, out);
+  emitKey("stddev", wand->stddev, out);
+  out << YAML::EndMap;
+}
+
+void emitLens(const geometry::Intrinsics& lens, YAML::Emitter& out) {
+  out << YAML::Key << "lens" << YAML::Value << YAML::BeginMap;
+  out << YAML::Key << "width" << YAML::Value << lens.width;
+  out << YAML::Key << "height" << YAML::Value << lens.height;
+  emitKey("fx", lens.fx, out);
+  emitKey("fy", lens.fy, out);
+  emitKey("cx", lens.cx, out);
+  emitKey("cy", lens.cy, out);
+  out << YAML::Key << "distortion_model" << YAML::Value << geometry::nameOf(lens.distortion_model);
+  out << YAML::Key << "distortion" << YAML::Value;
+  emitNumbers(std::vector<double>(
+                  lens.distortion.begin(),
+                  lens.distortion.begin() + static_cast<std::ptrdiff_t>(
+                                                geometry::coefficientCount(lens.distortion_model))),
+              out);
+  out << YAML::EndMap;
+}
+
+void emitCamera(const wave::CameraRecording& camera,
+                const std::vector<geometry::ImageMask>& masks,
+                YAML::Emitter& out) {
+  const square::CameraSightings& sightings = camera.sightings;
+  out << YAML::BeginMap;
+  out << YAML::Key << "name" << YAML::Value << YAML::DoubleQuoted << sightings.name;
+  out << YAML::Key << "identity" << YAML::Value << YAML::DoubleQuoted << sightings.identity;
+  emitLens(sightings.intrinsics, out);
+  out << YAML::Key << "gravity" << YAML::Value;
+  if (sightings.gravity)
+    emitNumbers(valuesOf(*sightings.gravity), out);
+  else
+    out << YAML::Null;
+  out << YAML::Key << "clock_epoch" << YAML::Value << camera.clock_epoch;
+  out << YAML::Key << "corners" << YAML::Value << YAML::BeginSeq;
+  for (const auto& corner : sightings.corners) {
+    if (corner)
+      emitNumbers(valuesOf(*corner), out);
+    else
+      out << YAML::Null;
+  }
+  out << YAML::EndSeq;
+  out << YAML::Key << "masks" << YAML::Value << YAML::BeginSeq;
+  for (const geometry::ImageMask& mask : masks) {
+    out << YAML::Flow << YAML::BeginMap << YAML::Key << "center" << YAML::Value;
+    emitNumbers(valuesOf(mask.center), out);
+    emitKey("radius", mask.radius, out);
+    out << YAML::EndMap;
+  }
+  out << YAML::EndSeq;
+  out << YAML::Key << "frames" << YAML::Value << camera.frames.size();
+  out << YAML::EndMap;
+}
+
+Eigen::VectorXd readVector(YamlMap& map, const std::string& key, Eigen::Index size) {
+  const std::vector<double> numbers = map.numbers(key);
+  if (static_cast<Eigen::Index>(numbers.size()) != size)
+    throw RigFileError(map.at(key) + " is not a list of " + std::to_string(size) +
+                       " numbers; restore the file from its backup or capture again");
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), size);
+}
+
+square::SquareLayout readSquare(YamlMap map) {
+  square::SquareLayout square;
+  square.side_x = map.get<double>("side_x");
+  square.side_y = map.get<double>("side_y");
+  square.led_height = map.get<double>("led_height");
+  square.origin = readVector(map, "origin", 2);
+  square.yaw = map.get<double>("yaw");
+  map.refuseUnknown();
+  return square;
+}
+
+wave::Wand readWand(YamlMap map) {
+  wave::Wand wand;
+  wand.length = map.get<double>("length");
+  wand.stddev = map.get<double>("stddev");
+  map.refuseUnknown();
+  return wand;
+}
+
+geometry::Intrinsics readLens(YamlMap map) {
+  constexpr int kLargest = std::numeric_limits<int>::max();
+  geometry::Intrinsics lens;
+  lens.width = map.whole<int>("width", 1, kLargest);
+  lens.height = map.whole<int>("height", 1, kLargest);
+  lens.fx = map.get<double>("fx");
+  lens.fy = map.get<double>("fy");
+  lens.cx = map.get<double>("cx");
+  lens.cy = map.get<double>("cy");
+  const auto model = geometry::distortionModelFromName(map.get<std::string>("distortion_model"));
+  if (!model)
+    throw RigFileError(map.at("distortion_model") +
+                       " is not known; read the file with the version of this package that wrote "
+                       "it");
+  lens.distortion_model = *model;
+  const Eigen::VectorXd distortion =
+      readVector(map, "distortion", static_cast<Eigen::Index>(geometry::coefficientCount(*model)));
+  std::copy(distortion.begin(), distortion.end(), lens.distortion.begin());
+  map.refuseUnknown();
+  return lens;
+}
+
+std::array<std::optional<Eigen::Vector2d>, 4> readCorners(YamlMap& map) {
+  std::array<std::optional<Eigen::Vector2d>, 4> corners;
+  const auto list = map.get<std::vector<YAML::Node>>("corners");
+  bool good = list.size() == corners.size();
+  for (std::size_t c = 0; good && c < corners.size(); ++c) {
+    if (list[c].IsNull())
+      continue;
+    good = list[c].IsSequence() && list[c].size() == 2;
+    double x = 0.0;
+    double y = 0.0;
+    good = good && YAML::convert<double>::decode(list[c][0], x) &&
+           YAML::convert<double>::decode(list[c][1], y);
+    corners[c] = Eigen::Vector2d(x, y);
+  }
+  if (!good)
+    throw RigFileError(map.at("corners") +
+                       " is not a list of four places, each two numbers or null; restore the file "
+                       "from its backup or capture again");
+  return corners;
+}
+
+void readCamera(YamlMap map, SessionHead* head) {
+  wave::CameraRecording camera;
+  square::CameraSightings& sightings = camera.sightings;
+  sightings.name = map.get<std::string>("name");
+  sightings.identity = map.get<std::string>("identity");
+  sightings.intrinsics = readLens(map.map("lens"));
+  if (!map.get<YAML::Node>("gravity").IsNull())
+    sightings.gravity = Eigen::Vector3d(readVector(map, "gravity", 3));
+  camera.clock_epoch =
+      map.whole<std::uint32_t>("clock_epoch", 0, std::numeric_limits<std::uint32_t>::max());
+  sightings.corners = readCorners(map);
+  head->session.masks.emplace_back();
+  for (YamlMap& mask : map.maps("masks")) {
+    const Eigen::Vector2d center = readVector(mask, "center", 2);
+    head->session.masks.back().push_back({center, mask.get<double>("radius")});
+    mask.refuseUnknown();
+  }
+  head->frames.push_back(
+      map.whole<std::size_t>("frames", 0, std::numeric_limits<std::int32_t>::max()));
+  map.refuseUnknown();
+  head->session.recording.cameras.push_back(camera);
+}
+
+}  // namespace
+
+std::string yamlFromSession(const Session& session) {
+  YAML::Emitter out;
+  out << YAML::Comment("What was captured to calibrate a rig; units as in doc/session.md.");
+  out << YAML::BeginMap;
+  out << YAML::Key << "format" << YAML::Value << kFormat;
+  out << YAML::Key << "version" << YAML::Value << kVersion;
+  out << YAML::Key << "world_frame" << YAML::Value << YAML::DoubleQuoted << session.world_frame;
+  emitSquare(session.recording.square, out);
+  emitWand(session.recording.wand, out);
+  out << YAML::Key << "cameras" << YAML::Value << YAML::BeginSeq;
+  for (std::size_t i = 0; i < session.recording.cameras.size(); ++i)
+    emitCamera(session.recording.cameras[i], session.masks[i], out);
+  out << YAML::EndSeq << YAML::EndMap;
+  return out.c_str();
+}
+
+SessionHead headFromYaml(const std::string& text, const std::string& where) {
+  YAML::Node root;
+  try {
+    root = YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    throw RigFileError(where + " is not YAML (" + error.what() +
+                       "); restore the file from its backup or capture again");
+  }
+  YamlMap map(root, where);
+  if (map.get<std::string>("format") != kFormat)
+    throw RigFileError(map.at("format") + " is not " + kFormat +
+                       "; choose a file that save_samples wrote");
+  const auto version = map.get<int>("version");
+  if (version != kVersion)
+    throw RigFileError(map.at("version") + " is " + std::to_string(version) + ", but only " +
+                       std::to_string(kVersion) +
+                       " is understood; read the file with the version of this package that wrote "
+                       "it");
+  SessionHead head;
+  head.session.world_frame = map.get<std::string>("world_frame");
+  if (!map.get<YAML::Node>("square").IsNull())
+    head.session.recording.square = readSquare(map.map("square"));
+  if (!map.get<YAML::Node>("wand").IsNull())
+    head.session.recording.wand = readWand(map.map("wand"));
+  for (const YamlMap& camera : map.maps("cameras"))
+    readCamera(camera, &head);
+  map.refuseUnknown();
+  return head;
+}
+
+}  // namespace wiimote_tracker::session

@@ -1,0 +1,277 @@
+// Two rigs in one world, drawn round a known truth from known covariances.
+
+#include "wiimote_tracker_calibration/session/error.h"
+#include "wiimote_tracker_calibration/session/join_rigs.h"
+
+#include <wiimote_tracker_triangulation/geometry/triangulate.h>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::session {
+namespace {
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+std::string refusalOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const SessionError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+/// Six cameras in a row of two rooms, in the first world.
+std::vector<geometry::Camera> trueCameras() {
+  std::vector<geometry::Camera> cameras;
+  for (int i = 0; i < 6; ++i) {
+    geometry::Camera camera;
+    camera.name = "camera_" + std::to_string(i + 1);
+    const Eigen::Vector3d position(2.0 * i, i % 2 == 0 ? -4.0 : 6.0, 2.0 + 0.1 * i);
+    camera.world_from_camera =
+        geometry::lookAt(position, Eigen::Vector3d(5.0, 1.0, 1.0), Eigen::Vector3d::UnitZ());
+    cameras.push_back(camera);
+  }
+  return cameras;
+}
+
+Eigen::Isometry3d worldFromSecond() {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() =
+      Eigen::AngleAxisd(2.0, Eigen::Vector3d(0.1, -0.2, 1.0).normalized()).toRotationMatrix();
+  motion.translation() = Eigen::Vector3d(7.0, 1.0, -0.3);
+  return motion;
+}
+
+/// Correlated errors of the poses of millimetres and milliradians; 16 parameters per camera.
+Eigen::MatrixXd poseCovariance(std::size_t cameras, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  const auto size = static_cast<Eigen::Index>(6 * cameras);
+  const Eigen::MatrixXd mixed = Eigen::MatrixXd::NullaryExpr(
+      size, size, [&] { return 0.003 / std::sqrt(static_cast<double>(size)) * normal(random); });
+  const Eigen::MatrixXd poses = mixed * mixed.transpose();
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(16 * cameras),
+                                                     static_cast<Eigen::Index>(16 * cameras));
+  for (Eigen::Index i = 0; i < size / 6; ++i) {
+    for (Eigen::Index j = 0; j < size / 6; ++j)
+      covariance.block<6, 6>(16 * i, 16 * j) = poses.block<6, 6>(6 * i, 6 * j);
+  }
+  return covariance;
+}
+
+Eigen::Matrix3d turn(const Eigen::Vector3d& vector) {
+  return Eigen::AngleAxisd(vector.norm(), vector.normalized()).toRotationMatrix();
+}
+
+/// Cameras `begin` to before `end`, in the world `world`.
+geometry::Rig exactRig(int begin,
+                       int end,
+                       const Eigen::Isometry3d& world,
+                       std::mt19937_64& random) {
+  geometry::Rig rig;
+  for (int i = begin; i < end; ++i) {
+    geometry::RigCamera camera;
+    camera.camera = trueCameras()[static_cast<std::size_t>(i)];
+    camera.camera.world_from_camera = world.inverse() * camera.camera.world_from_camera;
+    rig.cameras.push_back(camera);
+  }
+  rig.covariance = poseCovariance(rig.cameras.size(), random);
+  return rig;
+}
+
+/// The same as somebody calibrates it: with errors of its covariance.
+geometry::Rig drawn(geometry::Rig rig, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  const Eigen::Index size = rig.covariance.rows();
+  const Eigen::MatrixXd regular = rig.covariance + 1e-18 * Eigen::MatrixXd::Identity(size, size);
+  const Eigen::MatrixXd root = regular.llt().matrixL();
+  const Eigen::VectorXd errors =
+      root * Eigen::VectorXd::NullaryExpr(size, [&] { return normal(random); });
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    Eigen::Isometry3d& pose = rig.cameras[i].camera.world_from_camera;
+    const Eigen::VectorXd error = errors.segment(16 * static_cast<Eigen::Index>(i), 6);
+    pose.linear() = turn(-error.head<3>()) * pose.linear();
+    pose.translation() -= error.tail<3>();
+  }
+  return rig;
+}
+
+/// Squared normalised error of all poses; on average their number of parameters.
+double normalizedSquare(const geometry::Rig& rig, int begin) {
+  const auto cameras = static_cast<Eigen::Index>(rig.cameras.size());
+  Eigen::VectorXd errors(6 * cameras);
+  Eigen::MatrixXd covariance(6 * cameras, 6 * cameras);
+  for (Eigen::Index i = 0; i < cameras; ++i) {
+    const Eigen::Isometry3d& pose =
+        rig.cameras[static_cast<std::size_t>(i)].camera.world_from_camera;
+    const Eigen::Isometry3d truth =
+        trueCameras()[static_cast<std::size_t>(begin + i)].world_from_camera;
+    const Eigen::AngleAxisd off(truth.linear() * pose.linear().transpose());
+    errors.segment<3>(6 * i) = off.angle() * off.axis();
+    errors.segment<3>(6 * i + 3) = truth.translation() - pose.translation();
+    for (Eigen::Index j = 0; j < cameras; ++j)
+      covariance.block<6, 6>(6 * i, 6 * j) = rig.covariance.block<6, 6>(16 * i, 16 * j);
+  }
+  return errors.dot(covariance.ldlt().solve(errors));
+}
+
+class JoinRigs : public ::testing::Test {
+ protected:
+  std::mt19937_64 random_{1};
+  geometry::Rig first_ = exactRig(0, 4, Eigen::Isometry3d::Identity(), random_);
+  geometry::Rig second_ = exactRig(2, 6, worldFromSecond(), random_);
+};
+
+TEST_F(JoinRigs, exact_rigs_make_an_exact_one) {
+  const JoinedRigs joined = joinRigs(first_, second_);
+  EXPECT_LT((joined.first_from_second.matrix() - worldFromSecond().matrix()).norm(), 1e-9);
+  EXPECT_EQ(joined.shared, (std::vector<std::string>{"camera_3", "camera_4"}));
+  EXPECT_EQ(joined.degrees_of_freedom, 6);
+  EXPECT_SAYS(joined.message, "2 cameras joined to the 4 of the first rig over camera_3 and");
+  ASSERT_EQ(joined.rig.cameras.size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const geometry::Camera truth = trueCameras()[i];
+    const geometry::Camera& camera = joined.rig.cameras[i].camera;
+    EXPECT_EQ(camera.name, truth.name);
+    EXPECT_LT((camera.world_from_camera.matrix() - truth.world_from_camera.matrix()).norm(), 1e-9);
+  }
+  EXPECT_EQ(joined.rig.covariance.rows(), 96);
+  // What the first room had stays.
+  EXPECT_LT((joined.rig.covariance.topLeftCorner(64, 64) - first_.covariance).norm(), 1e-15);
+}
+
+TEST_F(JoinRigs, errors_are_as_large_as_stated) {
+  for (const int shared : {1, 2}) {
+    const geometry::Rig second = exactRig(4 - shared, 6, worldFromSecond(), random_);
+    const int kRuns = 200;
+    double sum = 0.0;
+    double disagreement = 0.0;
+    for (int run = 0; run < kRuns; ++run) {
+      const JoinedRigs joined = joinRigs(drawn(first_, random_), drawn(second, random_));
+      sum += normalizedSquare(joined.rig, 0) / kRuns;
+      disagreement += joined.chi_squared / kRuns;
+    }
+    // Means of chi-squared with 36 and 6 degrees of freedom, to within four standard deviations.
+    EXPECT_NEAR(sum, 36.0, 4.0 * std::sqrt(72.0 / kRuns));
+    EXPECT_NEAR(disagreement, 6.0 * (shared - 1), 4.0 * std::sqrt(12.0 / kRuns));
+  }
+}
+
+TEST_F(JoinRigs, a_camera_that_was_moved_is_named) {
+  second_.cameras[1].camera.world_from_camera.translation().x() += 0.2;
+  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, second_); }), "camera_3 and camera_4 do not stand");
+  geometry::Rig second = exactRig(1, 6, worldFromSecond(), random_);
+  second.cameras[1].camera.world_from_camera.translation().x() += 0.2;
+  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, second); }),
+              "camera_3 does not stand to the other shared cameras");
+  first_.cameras[3].gravity = Eigen::Vector3d(0.0, -9.8, 0.0);
+  second_.cameras[1].gravity = Eigen::Vector3d(0.0, -9.7, 0.9);
+  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, second_); }), "camera_4 was turned by 5.3 degrees");
+}
+
+TEST_F(JoinRigs, what_cannot_be_joined_is_refused) {
+  const auto refusal = [this] { return refusalOf([this] { joinRigs(first_, second_); }); };
+  first_.cameras[2].camera.identity = "00:19:1d:00:00:01";
+  second_.cameras[0].camera.identity = "00:19:1d:00:00:02";
+  EXPECT_SAYS(refusal(), "camera_3 is another device in the second rig");
+  second_.cameras[0].camera.identity.clear();
+  second_.cameras[2].camera.identity = "00:19:1d:00:00:01";
+  EXPECT_SAYS(refusal(), "is called camera_5 in the second rig, but camera_3 in the first");
+  second_.cameras[2].camera.identity.clear();
+  second_.ray_model = geometry::RayModel::kImageCenter;
+  EXPECT_SAYS(refusal(), "calibrate both with the same ray_model");
+  second_.ray_model = geometry::RayModel::kCalibrated;
+  second_.cameras[0].camera.name = "camera_7";
+  second_.cameras[1].camera.name = "camera_8";
+  EXPECT_SAYS(refusal(), "the rigs share no camera");
+  second_.covariance.resize(0, 0);
+  EXPECT_SAYS(refusal(), "the second rig does not say how certain");
+}
+
+TEST_F(JoinRigs, clocks_are_joined_where_a_shared_one_ran_on) {
+  for (geometry::Rig* rig : {&first_, &second_}) {
+    for (geometry::RigCamera& camera : rig->cameras) {
+      camera.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
+      camera.time_offset_epoch = 5;
+      camera.time_offset = 0.0;
+    }
+  }
+  first_.cameras[3].time_offset = 0.004;
+  second_.cameras[0].time_offset_epoch = 6;
+  second_.cameras[1].time_offset = 0.001;
+  second_.cameras[2].time_offset = 0.002;
+  EXPECT_DOUBLE_EQ(joinRigs(first_, second_).rig.cameras[4].time_offset, 0.005);
+  second_.cameras[1].time_offset_epoch = 6;
+  const geometry::Rig rig = joinRigs(first_, second_).rig;
+  EXPECT_TRUE(std::isnan(rig.cameras[4].time_offset));
+  EXPECT_EQ(rig.cameras[4].time_offset_rule, geometry::TimeOffsetRule::kNone);
+  EXPECT_EQ(rig.cameras[3].time_offset, 0.004);
+}
+
+/// Places in both rooms, measured with the second rig by perfect pixels.
+std::vector<CommonPlace> places(const geometry::Rig& second,
+                                double stddev,
+                                std::mt19937_64& random) {
+  std::normal_distribution<double> normal(0.0, stddev);
+  std::vector<CommonPlace> result;
+  for (const Eigen::Vector3d& truth :
+       {Eigen::Vector3d(5.0, 1.0, 1.0), Eigen::Vector3d(5.8, 1.2, 0.6),
+        Eigen::Vector3d(4.6, 1.9, 1.3), Eigen::Vector3d(5.2, 0.4, 1.5)}) {
+    std::vector<geometry::Observation> observations;
+    for (const geometry::RigCamera& camera : second.cameras) {
+      for (const geometry::Camera& real : trueCameras()) {
+        if (real.name == camera.camera.name && real.sees(truth))
+          observations.push_back({&camera.camera, *real.project(truth)});
+      }
+    }
+    const Eigen::Vector3d known =
+        truth + Eigen::Vector3d(normal(random), normal(random), normal(random));
+    result.push_back({known, geometry::triangulate(observations, {})->position, stddev});
+  }
+  return result;
+}
+
+TEST_F(JoinRigs, places_join_rigs_without_a_common_camera) {
+  const geometry::Rig first = exactRig(0, 3, Eigen::Isometry3d::Identity(), random_);
+  const geometry::Rig second = exactRig(3, 6, worldFromSecond(), random_);
+  const int kRuns = 200;
+  double sum = 0.0;
+  double disagreement = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    const geometry::Rig measuring = drawn(second, random_);
+    const JoinedRigs joined =
+        joinRigs(drawn(first, random_), measuring, places(measuring, 0.003, random_));
+    sum += normalizedSquare(joined.rig, 0) / kRuns;
+    disagreement += joined.chi_squared / kRuns;
+  }
+  EXPECT_NEAR(sum, 36.0, 4.0 * std::sqrt(72.0 / kRuns));
+  EXPECT_NEAR(disagreement, 6.0, 4.0 * std::sqrt(12.0 / kRuns));
+}
+
+TEST_F(JoinRigs, places_that_tell_too_little_or_contradict_are_refused) {
+  const geometry::Rig first = exactRig(0, 3, Eigen::Isometry3d::Identity(), random_);
+  const geometry::Rig second = exactRig(3, 6, worldFromSecond(), random_);
+  std::vector<CommonPlace> common = places(second, 0.003, random_);
+  const auto refusal = [&] { return refusalOf([&] { joinRigs(first, second, common); }); };
+  common[2].in_first.z() += 0.2;
+  EXPECT_SAYS(refusal(), "place 3 does not lie");
+  common.resize(3);
+  EXPECT_SAYS(refusal(), "the three common places do not lie");
+  common[2].in_second = common[0].in_second + 2.0 * (common[1].in_second - common[0].in_second);
+  EXPECT_SAYS(refusal(), "on one line");
+  common[2].in_second = worldFromSecond().inverse() * Eigen::Vector3d(5.0, 1.0, 8.0);
+  EXPECT_SAYS(refusal(), "look at place 3");
+  common.resize(2);
+  EXPECT_SAYS(refusal(), "2 common places do not tell");
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::session

@@ -1,0 +1,375 @@
+// Solving all that was captured, and the verdict on it. All simulated.
+#include "simulated_square.h"
+#include "simulated_wave.h"
+#include "wave_trial.h"
+
+#include "wiimote_tracker_calibration/session/error.h"
+#include "wiimote_tracker_calibration/session/session_file.h"
+#include "wiimote_tracker_calibration/session/solve_session.h"
+#include "wiimote_tracker_calibration/square/error.h"
+#include "wiimote_tracker_calibration/wave/error.h"
+
+#include <wiimote_tracker_triangulation/geometry/triangulate.h>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::session {
+namespace {
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+std::string refusalOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const geometry::Error& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+/// The same in all bits, as far as anybody reads it.
+void expectSame(const Solution& a, const Solution& b) {
+  EXPECT_EQ(a.rig.id(), b.rig.id());
+  EXPECT_TRUE(a.rig.covariance == b.rig.covariance);
+  EXPECT_EQ(a.rig.verdict, b.rig.verdict);
+  ASSERT_EQ(a.verdict.cameras.size(), b.verdict.cameras.size());
+  for (std::size_t i = 0; i < a.verdict.cameras.size(); ++i) {
+    EXPECT_EQ(a.verdict.cameras[i].residual_px, b.verdict.cameras[i].residual_px);
+    EXPECT_EQ(a.verdict.cameras[i].position_stddev, b.verdict.cameras[i].position_stddev);
+  }
+  const std::vector<double>& predicted = a.verdict.predicted_stddev;
+  ASSERT_EQ(predicted.size(), b.verdict.predicted_stddev.size());
+  for (std::size_t i = 0; i < predicted.size(); ++i)
+    EXPECT_EQ(std::memcmp(&predicted[i], &b.verdict.predicted_stddev[i], sizeof(double)), 0);
+  ASSERT_EQ(a.trace.has_value(), b.trace.has_value());
+  if (a.trace) {
+    EXPECT_EQ(principal_point::table(*a.trace), principal_point::table(*b.trace));
+  }
+}
+
+Session throughFile(const Session& session) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("test_session_" + std::to_string(::getpid()));
+  const std::string path = (folder / "samples.yaml").string();
+  writeSessionFile(session, path);
+  const Session read = readSessionFile(path);
+  std::filesystem::remove_all(folder);
+  return read;
+}
+
+square::SquareLayout paperSquare() {
+  square::SquareLayout layout;
+  layout.side_x = 2.5;
+  layout.side_y = 2.5;
+  return layout;
+}
+
+/// As far off as the solver is told to expect.
+square::Errors expectedErrors(const square::Uncertainty& u) {
+  square::Errors errors;
+  errors.pixel = u.pixel;
+  errors.placement = u.placement;
+  errors.focal = u.focal;
+  errors.aspect = u.aspect;
+  errors.principal_point = u.principal_point;
+  errors.k1 = u.k1;
+  errors.gravity = u.gravity;
+  return errors;
+}
+
+/// The paper's four cameras, or the first two, before the square.
+square::SimulatedSquare paperScene(std::size_t cameras,
+                                   square::Random& random,
+                                   const square::Uncertainty& uncertainty = {}) {
+  std::vector<Eigen::Isometry3d> poses = square::paperRig();
+  poses.resize(cameras);
+  return square::simulateSquare(poses, paperSquare(), true, expectedErrors(uncertainty), true,
+                                random);
+}
+
+Session sessionOf(const square::SquareLayout& layout,
+                  const std::vector<square::CameraSightings>& sightings) {
+  Session session;
+  session.recording.square = layout;
+  for (const square::CameraSightings& camera : sightings) {
+    session.recording.cameras.emplace_back();
+    session.recording.cameras.back().sightings = camera;
+  }
+  session.masks.resize(sightings.size());
+  return session;
+}
+
+Session sessionOf(const wave::SimulatedWave& wave) {
+  Session session;
+  session.recording = wave.recording;
+  session.masks.resize(wave.recording.cameras.size());
+  return session;
+}
+
+SolveOptions optionsOf(const wave::WaveScene& scene) {
+  SolveOptions options;
+  options.wave = wave::optionsFor(scene);
+  options.square.uncertainty = options.wave.uncertainty;
+  return options;
+}
+
+wave::WaveScene shortScene() {
+  wave::WaveScene scene;
+  scene.duration = 6.0;
+  scene.rate = 60.0;
+  return scene;
+}
+
+TEST(SolveSession, TheSquareAloneIsSolvedByTheChosenMethod) {
+  square::Random random(1);
+  Session session = sessionOf(paperSquare(), paperScene(4, random).sightings);
+  session.world_frame = "hall";
+  session.masks[2] = {{Eigen::Vector2d(100.0, 200.0), 12.0}};
+  SolveOptions options;
+  for (const square::Method method : {square::Method::kJoint, square::Method::kPerCamera}) {
+    options.square.method = method;
+    std::vector<square::CameraSightings> sightings;
+    for (const wave::CameraRecording& camera : session.recording.cameras)
+      sightings.push_back(camera.sightings);
+    geometry::Rig expected = square::solveSquare(paperSquare(), sightings, options.square).rig;
+    expected.world_frame = "hall";
+    expected.cameras[2].masks = session.masks[2];
+    const Solution solution = solveSession(session, options);
+    EXPECT_EQ(solution.rig.id(), expected.id());
+    EXPECT_EQ(solution.rig.method, expected.method);
+    EXPECT_TRUE(solution.rig.covariance == expected.covariance);
+    EXPECT_SAYS(solution.rig.verdict, expected.verdict);
+    EXPECT_FALSE(solution.trace);
+    expectSame(solution, solveSession(throughFile(session), options));
+  }
+}
+
+TEST(SolveSession, GravityIsKeptAlsoWhereItIsNotUsed) {
+  square::Random random(2);
+  Session session = sessionOf(paperSquare(), paperScene(4, random).sightings);
+  SolveOptions options;
+  options.use_gravity = false;
+  const Solution solution = solveSession(session, options);
+  for (const geometry::RigCamera& camera : solution.rig.cameras)
+    EXPECT_TRUE(camera.gravity);
+  for (wave::CameraRecording& camera : session.recording.cameras)
+    camera.sightings.gravity.reset();
+  EXPECT_EQ(solution.rig.id(), solveSession(session, SolveOptions()).rig.id());
+}
+
+TEST(SolveSession, PrincipalPointsAreCorrectedOnRequest) {
+  square::Random random(3);
+  const Session session = sessionOf(paperSquare(), paperScene(4, random).sightings);
+  SolveOptions options;
+  options.correct_principal_points = true;
+  options.correction.rounds = 3;
+  options.ray_model = geometry::RayModel::kImageCenter;
+  const Solution solution = solveSession(session, options);
+  ASSERT_TRUE(solution.trace);
+  ASSERT_EQ(solution.trace->rounds.size(), 4U);
+  EXPECT_LT(solution.trace->rounds.back().origin_error, solution.trace->rounds[0].origin_error);
+  EXPECT_EQ(solution.rig.ray_model, geometry::RayModel::kImageCenter);
+  EXPECT_EQ(solution.rig.cameras[1].camera.intrinsics.cx,
+            solution.trace->rounds.back().principal_points[1].x());
+  // Its rays have errors that the covariance knows nothing of.
+  for (const double stddev : solution.verdict.predicted_stddev)
+    EXPECT_TRUE(std::isnan(stddev));
+  EXPECT_SAYS(solution.verdict.text, "the corners are measured");
+  expectSame(solution, solveSession(throughFile(session), options));
+}
+
+TEST(SolveSession, CamerasThatSawLittleOfTheSquareComeFromTheWave) {
+  const wave::WaveScene scene = shortScene();
+  wave::SimulatedWave wave = wave::simulateWave(scene, 4);
+  wave.recording.cameras[1].sightings.corners[2].reset();
+  wave.recording.cameras[3].sightings.corners.fill(std::nullopt);
+  const Session session = sessionOf(wave);
+  const SolveOptions options = optionsOf(scene);
+  const Solution solution = solveSession(session, options);
+  EXPECT_EQ(solution.rig.method, "square+wave");
+  ASSERT_EQ(solution.rig.cameras.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const CameraVerdict& camera = solution.verdict.cameras[i];
+    const double off = (solution.rig.cameras[i].camera.center() - wave.cameras[i].center()).norm();
+    EXPECT_LT(off, 4.0 * camera.position_stddev) << i;
+    EXPECT_LT(camera.position_stddev, 0.1) << i;
+    EXPECT_GT(camera.inlier_share, 0.85) << i;
+    EXPECT_LT(camera.time_offset_stddev, 0.0005) << i;
+  }
+  expectSame(solution, solveSession(throughFile(session), options));
+}
+
+TEST(SolveSession, AWandNeedsNoSquare) {
+  wave::WaveScene scene = shortScene();
+  scene.square = false;
+  scene.length = 0.5;
+  const Session session = sessionOf(wave::simulateWave(scene, 5));
+  const Solution solution = solveSession(session, optionsOf(scene));
+  EXPECT_EQ(solution.rig.method, "wand");
+  EXPECT_TRUE(solution.verdict.predicted_at.empty());
+  EXPECT_TRUE(solution.verdict.predicted_stddev.empty());
+  EXPECT_EQ(solution.verdict.cameras[0].position_stddev, 0.0);
+  EXPECT_SAYS(solution.verdict.text, "to one another");
+}
+
+TEST(SolveSession, WhatTheSolversRefuseComesThrough) {
+  square::Random random(6);
+  const square::SimulatedSquare scene = paperScene(2, random);
+  Session session = sessionOf(paperSquare(), scene.sightings);
+  const auto refusal = [&] { return refusalOf([&] { solveSession(session, SolveOptions()); }); };
+  session.recording.cameras[1].sightings.corners[1].reset();
+  session.recording.cameras[1].sightings.corners[2].reset();
+  EXPECT_THROW(solveSession(session, SolveOptions()), square::SquareError);
+  EXPECT_SAYS(refusal(), "camera_2 did not see");
+  session.recording.square.reset();
+  EXPECT_SAYS(refusal(), "nothing was captured");
+  session.recording.cameras[0].frames.resize(200);
+  EXPECT_THROW(solveSession(session, SolveOptions()), wave::WaveError);
+  EXPECT_SAYS(refusal(), "nothing tells how large the room is");
+  session.masks.pop_back();
+  EXPECT_SAYS(refusal(), "the masks are not of as many cameras");
+}
+
+TEST(SolveSession, CanBeCancelled) {
+  square::Random random(7);
+  const Session session = sessionOf(paperSquare(), paperScene(4, random).sightings);
+  SolveOptions options;
+  EXPECT_THROW(solveSession(session, options, [](const wave::Progress&) { return false; }),
+               wave::Cancelled);
+  options.correct_principal_points = true;
+  EXPECT_THROW(solveSession(session, options,
+                            [](const wave::Progress& progress) { return progress.fraction < 0.1; }),
+               wave::Cancelled);
+}
+
+/// Squared errors at the places of the verdict, of points from perfect pixels, and their predicted
+/// squares.
+struct Errors {
+  double squared = 0.0;
+  double predicted = 0.0;
+  int count = 0;
+
+  void add(const Solution& solution, const std::vector<geometry::Camera>& truth) {
+    for (std::size_t p = 0; p < solution.verdict.predicted_at.size(); ++p) {
+      const Eigen::Vector3d& place = solution.verdict.predicted_at[p];
+      std::vector<geometry::Observation> observations;
+      for (std::size_t i = 0; i < truth.size(); ++i) {
+        const auto pixel = truth[i].project(place);
+        if (pixel && truth[i].sees(place))
+          observations.push_back({&solution.rig.cameras[i].camera, *pixel});
+      }
+      const auto point = geometry::triangulate(observations, {});
+      const double stddev = solution.verdict.predicted_stddev[p];
+      if (!point || std::isnan(stddev))
+        continue;
+      squared += (point->position - place).squaredNorm();
+      predicted += stddev * stddev;
+      ++count;
+    }
+  }
+
+  double ratio() const { return std::sqrt(squared / predicted); }
+};
+
+TEST(Verdict, PredictsTheErrorsOfASquare) {
+  for (const square::Method method : {square::Method::kJoint, square::Method::kPerCamera}) {
+    for (const std::size_t cameras : {2U, 4U}) {
+      square::Random random(8);
+      SolveOptions options;
+      options.square.method = method;
+      Errors errors;
+      int displaced = 0;
+      for (int run = 0; run < 60; ++run) {
+        const square::SimulatedSquare scene = paperScene(cameras, random);
+        const Solution solution = solveSession(sessionOf(paperSquare(), scene.sightings), options);
+        errors.add(solution, scene.truth);
+        displaced += solution.verdict.redo_corner ? 1 : 0;
+      }
+      EXPECT_GT(errors.count, 400);
+      EXPECT_GT(errors.ratio(), 0.85) << cameras;
+      EXPECT_LT(errors.ratio(), 1.15) << cameras;
+      EXPECT_EQ(displaced, 0);
+    }
+  }
+}
+
+TEST(Verdict, PredictsTheErrorsOfAWave) {
+  const wave::WaveScene scene = shortScene();
+  Errors errors;
+  for (std::uint64_t seed = 100; seed < 115; ++seed) {
+    const wave::SimulatedWave wave = wave::simulateWave(scene, seed);
+    const Solution solution = solveSession(sessionOf(wave), optionsOf(scene));
+    errors.add(solution, wave.cameras);
+  }
+  EXPECT_GT(errors.ratio(), 0.75);
+  EXPECT_LT(errors.ratio(), 1.25);
+}
+
+TEST(Verdict, NamesACornerThatWasDisplaced) {
+  // Lenses as they come from the board of LEDs: one that may be off by 3 % explains nearly as well
+  // what a corner does.
+  SolveOptions options;
+  options.square.uncertainty.focal = 0.003;
+  options.square.uncertainty.aspect = 0.001;
+  options.square.uncertainty.principal_point = 2.0;
+  options.square.uncertainty.k1 = 0.005;
+  square::Random random(9);
+  int named = 0;
+  int second = 0;
+  const int kRuns = 40;
+  for (int run = 0; run < kRuns; ++run) {
+    const std::size_t corner = static_cast<std::size_t>(run) % 4;
+    square::SimulatedSquare scene = paperScene(4, random, options.square.uncertainty);
+    const double angle = square::uniform(random, -M_PI, M_PI);
+    const Eigen::Vector3d beside = paperSquare().corners(true)[corner] +
+                                   0.05 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+    for (std::size_t i = 0; i < 4; ++i)
+      scene.sightings[i].corners[corner] = *scene.truth[i].project(beside);
+    const std::string name = "corner " + std::to_string(corner + 1);
+    try {
+      const Solution solution = solveSession(sessionOf(paperSquare(), scene.sightings), options);
+      const Verdict& verdict = solution.verdict;
+      if (!verdict.redo_corner)
+        continue;
+      EXPECT_EQ(verdict.grade, Grade::kRedo);
+      EXPECT_SAYS(verdict.text, "redo corner " + std::to_string(*verdict.redo_corner + 1));
+      if (verdict.redo_corner == corner) {
+        ++named;
+      } else {
+        // Another explains a little more, and the right one is named beside it.
+        ++second;
+        EXPECT_SAYS(verdict.text, " or " + std::to_string(corner + 1) + ":");
+      }
+    } catch (const square::SquareError& error) {
+      EXPECT_SAYS(std::string(error.what()), name);
+      ++named;
+    }
+  }
+  EXPECT_GE(named, 36);
+  EXPECT_LE(second, 2);
+}
+
+TEST(Verdict, NamesACornerThatTheWaveContradicts) {
+  const wave::WaveScene scene = shortScene();
+  wave::SimulatedWave wave = wave::simulateWave(scene, 10);
+  const Eigen::Vector3d beside = wave.corners[2] + Eigen::Vector3d(0.05, 0.02, 0.0);
+  for (std::size_t i = 0; i < 4; ++i)
+    wave.recording.cameras[i].sightings.corners[2] = *wave.cameras[i].project(beside);
+  const Solution solution = solveSession(sessionOf(wave), optionsOf(scene));
+  EXPECT_EQ(solution.verdict.grade, Grade::kRedo);
+  EXPECT_EQ(solution.verdict.redo_corner, std::size_t{2}) << solution.verdict.text;
+  EXPECT_SAYS(solution.verdict.text, "redo corner 3: ");
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::session

@@ -1,0 +1,342 @@
+// The file of what was captured: every number comes back, and damage is refused.
+
+#include "wiimote_tracker_calibration/session/error.h"
+#include "wiimote_tracker_calibration/session/session_file.h"
+
+#include <wiimote_tracker_triangulation/geometry/atomic_file.h>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <clocale>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace wiimote_tracker::session {
+namespace {
+
+/// A file that is gone after the test.
+class SessionFile : public ::testing::Test {
+ protected:
+  SessionFile() {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("test_session_file_" + std::to_string(::getpid()));
+    path_ = (folder_ / "deeper" / "samples.yaml").string();
+  }
+  ~SessionFile() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& text) {
+    std::filesystem::create_directories(std::filesystem::path(path_).parent_path());
+    std::ofstream(path_, std::ios::binary) << text;
+  }
+
+  std::string refusal() {
+    try {
+      readSessionFile(path_);
+    } catch (const geometry::Error& error) {
+      return error.what();
+    }
+    return "not refused";
+  }
+
+  std::filesystem::path folder_;
+  std::string path_;
+};
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+const char* const kText = R"(# What was captured to calibrate a rig; units as in doc/session.md.
+format: wiimote_tracker_samples
+version: 1
+world_frame: "world"
+square:
+  side_x: 2.5
+  side_y: 2
+  led_height: 0.012
+  origin: [1.25, -1]
+  yaw: 0.1
+wand:
+  length: 0.5
+  stddev: 0.0002
+cameras:
+  - name: "wiimote_1"
+    identity: "00:19:1d:5a:0b:01"
+    lens:
+      width: 1024
+      height: 768
+      fx: 1306.3
+      fy: 1302.3
+      cx: 535
+      cy: 401.7
+      distortion_model: plumb_bob
+      distortion: [-0.01, 0, 0, 0, 0]
+    gravity: [0.1, -9.7, -1.25]
+    clock_epoch: 3
+    corners:
+      - [100.5, 200]
+      - ~
+      - [300, 400.25]
+      - [1e-05, 7]
+    masks:
+      - {center: [10, 20], radius: 6.5}
+    frames: 2
+  - name: "wiimote_2"
+    identity: ""
+    lens:
+      width: 1024
+      height: 768
+      fx: 700
+      fy: 701
+      cx: 512
+      cy: 384
+      distortion_model: equidistant
+      distortion: [0.1, 0.2, 0.3, 0.4]
+    gravity: ~
+    clock_epoch: 0
+    corners:
+      - ~
+      - ~
+      - ~
+      - ~
+    masks:
+      []
+    frames: 3
+--- # Images of the wave, camera by camera: time [s], then x and y [px] of every spot.
+- |
+  1700000000.125 512 384.5
+  1700000000.1328125 513 384.5 1 2
+- |
+  1700000000.13
+  1700000000.14 5 6
+  1700000000.15
+...
+)";
+
+Session expectedSession() {
+  Session session;
+  wave::Recording& recording = session.recording;
+  recording.square = square::SquareLayout();
+  recording.square->side_x = 2.5;
+  recording.square->side_y = 2.0;
+  recording.square->led_height = 0.012;
+  recording.square->origin = {1.25, -1.0};
+  recording.square->yaw = 0.1;
+  recording.wand = wave::Wand{0.5, 0.0002};
+  recording.cameras.resize(2);
+  wave::CameraRecording& one = recording.cameras[0];
+  one.sightings.name = "wiimote_1";
+  one.sightings.identity = "00:19:1d:5a:0b:01";
+  one.sightings.intrinsics.cx = 535.0;
+  one.sightings.intrinsics.distortion[0] = -0.01;
+  one.sightings.gravity = Eigen::Vector3d(0.1, -9.7, -1.25);
+  one.sightings.corners[0] = Eigen::Vector2d(100.5, 200.0);
+  one.sightings.corners[2] = Eigen::Vector2d(300.0, 400.25);
+  one.sightings.corners[3] = Eigen::Vector2d(1e-5, 7.0);
+  one.clock_epoch = 3;
+  one.frames = {{1700000000.125, {{512.0, 384.5}}},
+                {1700000000.1328125, {{513.0, 384.5}, {1.0, 2.0}}}};
+  wave::CameraRecording& two = recording.cameras[1];
+  two.sightings.name = "wiimote_2";
+  geometry::Intrinsics& lens = two.sightings.intrinsics;
+  lens.fx = 700.0;
+  lens.fy = 701.0;
+  lens.cx = 512.0;
+  lens.cy = 384.0;
+  lens.distortion_model = geometry::DistortionModel::kEquidistant;
+  lens.distortion = {0.1, 0.2, 0.3, 0.4, 0.0};
+  two.frames = {{1700000000.13, {}}, {1700000000.14, {{5.0, 6.0}}}, {1700000000.15, {}}};
+  session.masks = {{{Eigen::Vector2d(10.0, 20.0), 6.5}}, {}};
+  return session;
+}
+
+/// Compares bits: 0 is not -0.
+void expectSame(double a, double b) {
+  EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0) << a << " " << b;
+}
+
+template <typename A, typename B>
+void expectSameVector(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
+  for (Eigen::Index i = 0; i < a.size(); ++i)
+    expectSame(a(i), b(i));
+}
+
+void expectSameLens(const geometry::Intrinsics& a, const geometry::Intrinsics& b) {
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_EQ(a.height, b.height);
+  expectSame(a.fx, b.fx);
+  expectSame(a.fy, b.fy);
+  expectSame(a.cx, b.cx);
+  expectSame(a.cy, b.cy);
+  EXPECT_EQ(a.distortion_model, b.distortion_model);
+  for (std::size_t i = 0; i < a.distortion.size(); ++i)
+    expectSame(a.distortion[i], b.distortion[i]);
+}
+
+void expectSameCamera(const wave::CameraRecording& a, const wave::CameraRecording& b) {
+  EXPECT_EQ(a.sightings.name, b.sightings.name);
+  EXPECT_EQ(a.sightings.identity, b.sightings.identity);
+  expectSameLens(a.sightings.intrinsics, b.sightings.intrinsics);
+  ASSERT_EQ(a.sightings.gravity.has_value(), b.sightings.gravity.has_value());
+  if (a.sightings.gravity)
+    expectSameVector(*a.sightings.gravity, *b.sightings.gravity);
+  for (std::size_t c = 0; c < 4; ++c) {
+    ASSERT_EQ(a.sightings.corners[c].has_value(), b.sightings.corners[c].has_value());
+    if (a.sightings.corners[c])
+      expectSameVector(*a.sightings.corners[c], *b.sightings.corners[c]);
+  }
+  EXPECT_EQ(a.clock_epoch, b.clock_epoch);
+  ASSERT_EQ(a.frames.size(), b.frames.size());
+  for (std::size_t i = 0; i < a.frames.size(); ++i) {
+    expectSame(a.frames[i].stamp, b.frames[i].stamp);
+    ASSERT_EQ(a.frames[i].spots.size(), b.frames[i].spots.size());
+    for (std::size_t s = 0; s < a.frames[i].spots.size(); ++s)
+      expectSameVector(a.frames[i].spots[s], b.frames[i].spots[s]);
+  }
+}
+
+void expectSameSession(const Session& a, const Session& b) {
+  EXPECT_EQ(a.world_frame, b.world_frame);
+  ASSERT_EQ(a.recording.square.has_value(), b.recording.square.has_value());
+  if (a.recording.square) {
+    expectSame(a.recording.square->side_x, b.recording.square->side_x);
+    expectSame(a.recording.square->side_y, b.recording.square->side_y);
+    expectSame(a.recording.square->led_height, b.recording.square->led_height);
+    expectSameVector(a.recording.square->origin, b.recording.square->origin);
+    expectSame(a.recording.square->yaw, b.recording.square->yaw);
+  }
+  ASSERT_EQ(a.recording.wand.has_value(), b.recording.wand.has_value());
+  if (a.recording.wand) {
+    expectSame(a.recording.wand->length, b.recording.wand->length);
+    expectSame(a.recording.wand->stddev, b.recording.wand->stddev);
+  }
+  ASSERT_EQ(a.recording.cameras.size(), b.recording.cameras.size());
+  ASSERT_EQ(a.masks.size(), b.masks.size());
+  for (std::size_t i = 0; i < a.masks.size(); ++i) {
+    expectSameCamera(a.recording.cameras[i], b.recording.cameras[i]);
+    ASSERT_EQ(a.masks[i].size(), b.masks[i].size());
+    for (std::size_t m = 0; m < a.masks[i].size(); ++m) {
+      expectSameVector(a.masks[i][m].center, b.masks[i][m].center);
+      expectSame(a.masks[i][m].radius, b.masks[i][m].radius);
+    }
+  }
+}
+
+TEST_F(SessionFile, is_what_the_documentation_shows) {
+  write(kText);
+  expectSameSession(readSessionFile(path_), expectedSession());
+  std::filesystem::remove(path_);
+  writeSessionFile(expectedSession(), path_);
+  EXPECT_EQ(geometry::readFile(path_), kText);
+}
+
+TEST_F(SessionFile, brings_any_number_and_name_back) {
+  std::mt19937_64 random(1);
+  const auto any = [&random] {
+    double value = 0.0;
+    do {
+      const std::uint64_t bits = random();
+      std::memcpy(&value, &bits, sizeof value);
+    } while (!std::isfinite(value));
+    return value;
+  };
+  Session session = expectedSession();
+  session.world_frame = "map: #1 \"\xc3\xbc\"\n---\n";
+  session.recording.cameras[0].sightings.name = "/room 1/wiimote";
+  session.recording.cameras[1].sightings.name = "~";
+  session.recording.cameras[0].sightings.gravity = Eigen::Vector3d(any(), any(), -0.0);
+  session.recording.cameras[1].frames.clear();
+  for (int i = 0; i < 2000; ++i)
+    session.recording.cameras[1].frames.push_back({any(), {{any(), any()}, {any(), any()}}});
+  session.recording.cameras[1].frames.push_back(
+      {std::numeric_limits<double>::denorm_min(), {{-0.0, std::numeric_limits<double>::max()}}});
+  writeSessionFile(session, path_);
+  expectSameSession(readSessionFile(path_), session);
+}
+
+TEST_F(SessionFile, has_a_decimal_point_where_people_write_a_comma) {
+  if (!std::setlocale(LC_NUMERIC, "de_DE.UTF-8"))
+    GTEST_SKIP() << "no German locale here";
+  writeSessionFile(expectedSession(), path_);
+  EXPECT_EQ(geometry::readFile(path_), kText);
+  expectSameSession(readSessionFile(path_), expectedSession());
+  std::setlocale(LC_NUMERIC, "C");
+}
+
+TEST_F(SessionFile, keeps_what_was_there_before) {
+  Session session = expectedSession();
+  writeSessionFile(session, path_);
+  session.recording.square->side_x = 3.0;
+  writeSessionFile(session, path_);
+  EXPECT_EQ(geometry::readFile(path_ + ".bak"), kText);
+  session.recording.cameras[0].frames[0].spots[0].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(writeSessionFile(session, path_), SessionError);
+  EXPECT_EQ(readSessionFile(path_).recording.square->side_x, 3.0);
+}
+
+TEST_F(SessionFile, cut_off_anywhere_is_refused) {
+  const std::string text = kText;
+  for (std::size_t length = 0; length < text.size(); ++length) {
+    write(text.substr(0, length));
+    EXPECT_NE(refusal(), "not refused") << length;
+  }
+}
+
+TEST_F(SessionFile, damage_is_refused_or_harmless) {
+  const std::string text = kText;
+  std::mt19937_64 random(2);
+  int refused = 0;
+  for (std::size_t i = 0; i < 2 * text.size(); ++i) {
+    std::string damaged = text;
+    const std::size_t place = i % text.size();
+    if (i < text.size())
+      damaged[place] = static_cast<char>(random() % 256);
+    else
+      damaged.erase(place, 1 + random() % 40);
+    write(damaged);
+    try {
+      // What can be read can be written.
+      writeSessionFile(readSessionFile(path_), path_ + ".again");
+    } catch (const geometry::Error& error) {
+      ++refused;
+      EXPECT_GT(std::strlen(error.what()), 20U);
+    }
+  }
+  EXPECT_GT(refused, static_cast<int>(text.size()));
+}
+
+TEST_F(SessionFile, says_what_is_wrong_with_it) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = kText;
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  EXPECT_SAYS(refusal(), "cannot read");
+  write("wiimote_tracker_rig: 1\n");
+  EXPECT_SAYS(refusal(), "holds no samples");
+  write(with("version: 1", "version: 2"));
+  EXPECT_SAYS(refusal(), "version is 2, but only 1 is understood");
+  write(with("wiimote_tracker_samples", "wiimote_tracker_rig"));
+  EXPECT_SAYS(refusal(), "choose a file that save_samples wrote");
+  write(with("side_x: 2.5", "side_x: -2.5"));
+  EXPECT_SAYS(refusal(), "the side of the square from the first to the second");
+  write(with("frames: 2", "frames: 3"));
+  EXPECT_SAYS(refusal(), "line 61 is not an image");
+  write(with("512 384.5", "512 384.5 7"));
+  EXPECT_SAYS(refusal(), "line 59 is not the time of an image");
+  write(with("512 384.5", "nan 384.5"));
+  EXPECT_SAYS(refusal(), "line 59 is not the time of an image");
+  write(with("name: \"wiimote_2\"", "name: \"wiimote_1\""));
+  EXPECT_SAYS(refusal(), "two cameras are called wiimote_1");
+  write(with("clock_epoch: 3", "clock_epoch: 3\n    colour: 4"));
+  EXPECT_SAYS(refusal(), "cameras[0]: colour is an unknown key");
+  write(std::string(kText) + "more\n");
+  EXPECT_SAYS(refusal(), "is not the last");
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::session

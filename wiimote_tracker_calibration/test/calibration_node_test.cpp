@@ -1,195 +1,9 @@
 // Drives the calibration node like a person, with cameras that this test plays.
 
-#include "fake_cameras.h"
-
-#include <wiimote_tracker_triangulation/geometry/rig_file.h>
-#include <wiimote_tracker_triangulation/ros/conversions.h>
-
-#include <actionlib/client/simple_action_client.h>
-#include <gtest/gtest.h>
-#include <std_srvs/Trigger.h>
-#include <tf2_eigen/tf2_eigen.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
-#include <wiimote_tracker_msgs/CalibrationStatus.h>
-#include <wiimote_tracker_msgs/CaptureCornerAction.h>
-#include <wiimote_tracker_msgs/CheckConnection.h>
-#include <wiimote_tracker_msgs/LoadRig.h>
-#include <wiimote_tracker_msgs/RigCalibration.h>
-#include <wiimote_tracker_msgs/SaveRig.h>
-#include <wiimote_tracker_msgs/SolveCalibration.h>
-#include <wiimote_tracker_msgs/StartCalibration.h>
-
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cstdio>
-#include <fstream>
-#include <functional>
-#include <memory>
-#include <sstream>
+#include "node_fixture.h"
 
 namespace wiimote_tracker {
 namespace {
-
-using wiimote_tracker_msgs::CalibrationStatus;
-using wiimote_tracker_msgs::RigCalibration;
-using Client = actionlib::SimpleActionClient<wiimote_tracker_msgs::CaptureCornerAction>;
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
-
-constexpr double kPatience = 30.0;  // [s] far beyond what anything here takes
-
-bool waitUntil(const std::function<bool()>& condition) {
-  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(kPatience);
-  while (ros::ok() && ros::SteadyTime::now() < end) {
-    if (condition())
-      return true;
-    ros::WallDuration(0.01).sleep();
-  }
-  return condition();
-}
-
-bool exists(const std::string& path) {
-  struct stat info;
-  return stat(path.c_str(), &info) == 0;
-}
-
-std::string contents(const std::string& path) {
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
-/// Latest message of a latched topic.
-template <typename Message>
-class Latest {
- public:
-  explicit Latest(const std::string& topic)
-      : subscriber_(nh_.subscribe<Message>(topic,
-                                           100,
-                                           [this](const boost::shared_ptr<const Message>& message) {
-                                             const std::lock_guard<std::mutex> lock(mutex_);
-                                             message_ = message;
-                                           })) {}
-
-  boost::shared_ptr<const Message> get() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return message_;
-  }
-
- private:
-  ros::NodeHandle nh_;
-  mutable std::mutex mutex_;
-  boost::shared_ptr<const Message> message_;
-  ros::Subscriber subscriber_;
-};
-
-class Node : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    cameras_ = std::make_unique<FakeCameras>();
-    status_ = std::make_unique<Latest<CalibrationStatus>>("calibration/status");
-    capture_ = std::make_unique<Client>("calibration/capture_corner", true);
-    std::string rig_file;
-    ASSERT_TRUE(ros::param::get("/calibration/rig_file", rig_file));
-    folder_ = rig_file.substr(0, rig_file.rfind('/'));
-    ASSERT_TRUE(capture_->waitForServer(ros::Duration(kPatience)));
-    ASSERT_TRUE(waitUntil([] {
-      const auto status = status_->get();
-      int connected = 0;
-      if (status) {
-        for (const auto& camera : status->cameras)
-          connected += camera.connected;
-      }
-      return connected == 4;
-    }));
-  }
-  static void TearDownTestSuite() {
-    capture_.reset();
-    status_.reset();
-    cameras_.reset();
-    if (folder_.compare(0, 5, "/tmp/") == 0) {
-      EXPECT_EQ(std::system(("rm -r '" + folder_ + "'").c_str()), 0);
-    }
-  }
-  void SetUp() override { cameras_->blind({}); }
-
-  template <typename Service>
-  static typename Service::Response call(const std::string& name,
-                                         const typename Service::Request& request = {}) {
-    typename Service::Response response;
-    EXPECT_TRUE(ros::service::waitForService(name, ros::Duration(kPatience)));
-    EXPECT_TRUE(ros::service::call(name, const_cast<typename Service::Request&>(request), response))
-        << name;
-    return response;
-  }
-
-  static wiimote_tracker_msgs::StartCalibration::Response start(double side_x,
-                                                                double side_y = 0.0) {
-    wiimote_tracker_msgs::StartCalibration::Request request;
-    request.side_x = side_x;
-    request.side_y = side_y;
-    return call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request);
-  }
-
-  /// Puts the LED down, and waits until the node sees it there.
-  static void putLed(const Eigen::Vector3d& place) {
-    cameras_->putLed(place);
-    ASSERT_TRUE(waitUntil([&] {
-      wiimote_tracker_msgs::CheckConnection::Request request;
-      request.duration = 0.05;
-      const auto response =
-          call<wiimote_tracker_msgs::CheckConnection>("calibration/check_connection", request);
-      for (std::size_t i = 0; i < response.cameras.size(); ++i) {
-        const auto& camera = response.cameras[i];
-        const Eigen::Vector2d pixel = cameras_->truth[i].project(place).value();
-        if (camera.blobs == 1 && !((Eigen::Vector2d(camera.x, camera.y) - pixel).norm() < 1.0))
-          return false;
-      }
-      return response.cameras.size() == 4;
-    }));
-  }
-
-  static wiimote_tracker_msgs::CaptureCornerResult capture(int retake = -1) {
-    wiimote_tracker_msgs::CaptureCornerGoal goal;
-    goal.retake = retake >= 0;
-    goal.corner = static_cast<std::uint32_t>(std::max(retake, 0));
-    capture_->sendGoal(goal);
-    EXPECT_TRUE(capture_->waitForResult(ros::Duration(kPatience)));
-    return *capture_->getResult();
-  }
-
-  static void captureAll() {
-    const auto started = start(2.5);
-    ASSERT_TRUE(started.success) << started.message;
-    for (const Eigen::Vector3d& corner : kCorners) {
-      putLed(corner);
-      const auto result = capture();
-      ASSERT_TRUE(result.success) << result.message;
-    }
-  }
-
-  static bool waitForStep(std::uint8_t step) {
-    return waitUntil([step] { return status_->get()->step == step; });
-  }
-
-  static const std::vector<Eigen::Vector3d> kCorners;
-  static std::unique_ptr<FakeCameras> cameras_;
-  static std::unique_ptr<Latest<CalibrationStatus>> status_;
-  static std::unique_ptr<Client> capture_;
-  static std::string folder_;
-};
-
-const std::vector<Eigen::Vector3d> Node::kCorners = {{0.0, 0.0, 0.0},
-                                                     {2.5, 0.0, 0.0},
-                                                     {2.5, 2.5, 0.0},
-                                                     {0.0, 2.5, 0.0}};
-std::unique_ptr<FakeCameras> Node::cameras_;
-std::unique_ptr<Latest<CalibrationStatus>> Node::status_;
-std::unique_ptr<Client> Node::capture_;
-std::string Node::folder_;
 
 TEST_F(Node, a_person_without_a_rig_is_told_what_to_do) {
   EXPECT_TRUE(status_->get()->rig_id.empty());
@@ -365,6 +179,15 @@ TEST_F(Node, four_corners_are_solved_saved_and_loaded) {
               0.01);
   }
 
+  // The verdict of the node comes to all as well.
+  Latest<wiimote_tracker_msgs::CalibrationVerdict> verdict("calibration/verdict");
+  ASSERT_TRUE(waitUntil([&] { return verdict.get() != nullptr; }));
+  EXPECT_EQ(verdict.get()->rig_id, solved.rig.id);
+  EXPECT_EQ(verdict.get()->text, solved.verdict.text);
+  EXPECT_FALSE(solved.verdict.text.empty());
+  EXPECT_EQ(verdict.get()->cameras.size(), 4U);
+  EXPECT_EQ(verdict.get()->predicted_stddev.size(), 8U);
+
   // Saving writes the rig, a file per camera, and tells the drivers.
   const auto saved = call<wiimote_tracker_msgs::SaveRig>("calibration/save");
   ASSERT_TRUE(saved.success) << saved.message;
@@ -406,34 +229,9 @@ TEST_F(Node, four_corners_are_solved_saved_and_loaded) {
   EXPECT_SAYS(loaded.message, solved.rig.id);
 }
 
-// The node in processes of their own.
-
-/// A calibration node started by this test, in a namespace of its own.
-class Process {
- public:
-  Process(const std::string& name_space, const std::string& rig_file) : pid_(fork()) {
-    if (pid_ == 0) {
-      const std::string ns = "__ns:=" + name_space;
-      const std::string file = "_rig_file:=" + rig_file;
-      execlp("rosrun", "rosrun", "wiimote_tracker_calibration", "calibration_node", ns.c_str(),
-             file.c_str(), static_cast<char*>(nullptr));
-      _exit(127);
-    }
-  }
-  ~Process() {
-    kill(pid_, SIGINT);
-    int status = 0;
-    waitpid(pid_, &status, 0);
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
-  }
-
- private:
-  pid_t pid_;
-};
-
 TEST_F(Node, the_last_saved_rig_is_loaded_at_start) {
   ASSERT_TRUE(exists(folder_ + "/rig.yaml"));  // from the test before
-  const Process process("/stored", folder_ + "/rig.yaml");
+  const Process process("/stored", {"_rig_file:=" + folder_ + "/rig.yaml"});
   Latest<RigCalibration> rig("/stored/calibration/rig");
   Latest<CalibrationStatus> status("/stored/calibration/status");
   ASSERT_TRUE(waitUntil([&] { return rig.get() && status.get(); }));
@@ -443,7 +241,7 @@ TEST_F(Node, the_last_saved_rig_is_loaded_at_start) {
 
 TEST_F(Node, a_damaged_rig_at_start_does_not_stop_the_node) {
   ASSERT_TRUE(exists(folder_ + "/half.yaml"));  // from the test before
-  const Process process("/damaged", folder_ + "/half.yaml");
+  const Process process("/damaged", {"_rig_file:=" + folder_ + "/half.yaml"});
   Latest<CalibrationStatus> status("/damaged/calibration/status");
   ASSERT_TRUE(waitUntil([&] { return status.get() != nullptr; }));
   EXPECT_EQ(status.get()->step, CalibrationStatus::IDLE);

@@ -9,7 +9,9 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <random>
@@ -20,8 +22,18 @@
 
 namespace wiimote_tracker {
 
-/// The paper's four cameras as drivers would show them, and an LED that is carried about. camera_1
-/// has an accelerometer; camera_4 offers no set_camera_info.
+/// Takes what the cameras publish.
+class Recorder {
+ public:
+  virtual ~Recorder() = default;
+  virtual void write(const std::string& topic,
+                     const wiimote_tracker_msgs::IrBlobArray& message) = 0;
+  virtual void write(const std::string& topic, const sensor_msgs::Imu& message) = 0;
+};
+
+/// The paper's four cameras as drivers would show them, and an LED that is carried or waved about,
+/// beside lamps that are always there. camera_1 has an accelerometer; camera_4 offers no
+/// set_camera_info.
 class FakeCameras {
  public:
   FakeCameras() {
@@ -37,6 +49,8 @@ class FakeCameras {
         services_.push_back(nh_.advertiseService<sensor_msgs::SetCameraInfo::Request,
                                                  sensor_msgs::SetCameraInfo::Response>(
             camera.name + "/set_camera_info", [this, camera](auto& request, auto& response) {
+              while (hangs(camera.name) && ros::ok())
+                ros::WallDuration(0.01).sleep();
               const std::lock_guard<std::mutex> lock(mutex_);
               camera_infos_[camera.name] = request.camera_info;
               response.success = true;
@@ -58,6 +72,37 @@ class FakeCameras {
     led_ = place;
     led_speed_ = speed;
   }
+  /// Carries the LED to a place, within that time [s].
+  void carryLed(const Eigen::Vector3d& place, double duration) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    carried_from_ = led_;
+    carried_to_ = place;
+    carried_at_ = ros::Time::now().toSec();
+    carried_for_ = duration;
+  }
+  /// Waves the LED on a smooth way through the volume, from now on.
+  void waveLed(bool waves) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    waves_ = waves;
+  }
+  void switchLed(bool on) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    led_on_ = on;
+  }
+  void setLamps(const std::vector<Eigen::Vector3d>& lamps) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    lamps_ = lamps;
+  }
+  /// This camera's set_camera_info does not answer; empty: all do.
+  void hang(const std::string& camera) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    hanging_ = camera;
+  }
+  /// Hands all messages of the cameras on to it, too; nullptr: no more.
+  void record(Recorder* recorder) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    recorder_ = recorder;
+  }
   void blind(const std::set<std::string>& cameras) {
     const std::lock_guard<std::mutex> lock(mutex_);
     blind_ = cameras;
@@ -70,6 +115,11 @@ class FakeCameras {
   std::vector<geometry::Camera> truth;
 
  private:
+  bool hangs(const std::string& camera) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return hanging_ == camera;
+  }
+
   // The remote's own axes: left, to its back, up.
   void publishImuFrame() {
     geometry_msgs::TransformStamped transform;
@@ -90,46 +140,66 @@ class FakeCameras {
     std::mt19937 random(8);
     std::normal_distribution<double> noise(0.0, 0.1);
     while (!stop_ && ros::ok()) {
-      std::set<std::string> blind;
-      Eigen::Vector3d led;
       {
         const std::lock_guard<std::mutex> lock(mutex_);
-        led_.x() += led_speed_ / 200.0;
-        led = led_;
-        blind = blind_;
-      }
-      for (std::size_t i = 0; i < truth.size(); ++i) {
-        wiimote_tracker_msgs::IrBlobArray message;
-        message.header.stamp = message.arrival = ros::Time::now();
-        message.header.frame_id = truth[i].name + "_optical_frame";
-        message.camera = truth[i].name;
-        message.identity = "00:1e:35:00:00:0" + std::to_string(i + 1);
-        message.width = 1024;
-        message.height = 768;
-        message.max_blobs = 4;
-        if (blind.count(truth[i].name) == 0) {
-          const Eigen::Vector2d pixel = truth[i].project(led).value();
-          wiimote_tracker_msgs::IrBlob blob;
-          blob.x = pixel.x() + noise(random);
-          blob.y = pixel.y() + noise(random);
-          message.blobs.push_back(blob);
+        const ros::Time stamp = ros::Time::now();
+        moveLed(stamp.toSec());
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+          wiimote_tracker_msgs::IrBlobArray message;
+          message.header.stamp = message.arrival = stamp;
+          message.header.frame_id = truth[i].name + "_optical_frame";
+          message.camera = truth[i].name;
+          message.identity = "00:1e:35:00:00:0" + std::to_string(i + 1);
+          message.width = 1024;
+          message.height = 768;
+          message.max_blobs = 4;
+          std::vector<Eigen::Vector3d> lights = lamps_;
+          if (led_on_ && blind_.count(truth[i].name) == 0)
+            lights.push_back(led_);
+          for (const Eigen::Vector3d& light : lights) {
+            const Eigen::Vector2d pixel = truth[i].project(light).value();
+            wiimote_tracker_msgs::IrBlob blob;
+            blob.x = pixel.x() + noise(random);
+            blob.y = pixel.y() + noise(random);
+            message.blobs.push_back(blob);
+          }
+          publish(publishers_[i], truth[i].name + "/ir_blobs", message);
         }
-        publishers_[i].publish(message);
+        publishImu(stamp);
       }
-      publishImu();
       rate.sleep();
     }
   }
 
-  void publishImu() {
+  void moveLed(double now) {
+    led_.x() += led_speed_ / 200.0;
+    if (carried_for_ > 0.0) {
+      const double share = std::min(1.0, (now - carried_at_) / carried_for_);
+      led_ = carried_from_ + share * (carried_to_ - carried_from_);
+      if (share == 1.0)
+        carried_for_ = 0.0;
+    }
+    if (waves_)
+      led_ = Eigen::Vector3d(1.25 + 0.9 * std::sin(1.3 * now), 1.25 + 0.9 * std::cos(1.7 * now),
+                             1.0 + 0.7 * std::sin(2.1 * now));
+  }
+
+  template <typename Message>
+  void publish(ros::Publisher& publisher, const std::string& topic, const Message& message) {
+    if (recorder_ != nullptr)
+      recorder_->write("/" + topic, message);
+    publisher.publish(message);
+  }
+
+  void publishImu(const ros::Time& stamp) {
     const Eigen::Vector3d up = truth[0].world_from_camera.linear().row(2);  // optical frame
     sensor_msgs::Imu message;
-    message.header.stamp = ros::Time::now();
+    message.header.stamp = stamp;
     message.header.frame_id = "camera_1_imu_frame";
     message.linear_acceleration.x = -9.81 * up.x();
     message.linear_acceleration.y = -9.81 * up.z();
     message.linear_acceleration.z = -9.81 * up.y();
-    imu_.publish(message);
+    publish(imu_, "camera_1/imu/data_raw", message);
   }
 
   ros::NodeHandle nh_;
@@ -140,6 +210,15 @@ class FakeCameras {
   mutable std::mutex mutex_;
   Eigen::Vector3d led_ = Eigen::Vector3d::Zero();
   double led_speed_ = 0.0;
+  bool led_on_ = true;
+  bool waves_ = false;
+  Eigen::Vector3d carried_from_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d carried_to_ = Eigen::Vector3d::Zero();
+  double carried_at_ = 0.0;   // [s]
+  double carried_for_ = 0.0;  // [s]; 0: not carried
+  std::vector<Eigen::Vector3d> lamps_;
+  std::string hanging_;
+  Recorder* recorder_ = nullptr;
   std::set<std::string> blind_;
   std::map<std::string, sensor_msgs::CameraInfo> camera_infos_;
   std::atomic<bool> stop_{false};

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
+#include <cmath>
+
 namespace wiimote_tracker {
 namespace {
 
@@ -25,7 +27,11 @@ TEST(Parameters, the_file_says_what_the_defaults_are) {
   EXPECT_EQ(file.side_length, none.side_length);
   EXPECT_EQ(file.second_side_length, none.second_side_length);
   EXPECT_EQ(file.rig_file, none.rig_file);
-  EXPECT_EQ(file.use_gravity, none.use_gravity);
+  EXPECT_EQ(file.set_camera_info_timeout, none.set_camera_info_timeout);
+  EXPECT_EQ(file.hands_free, none.hands_free);
+  EXPECT_EQ(file.button_remote, none.button_remote);
+  EXPECT_EQ(file.masks.share, capture::MaskOptions().share);
+  EXPECT_EQ(file.masks.margin, capture::MaskOptions().margin);
   expectSame(file.intrinsics, none.intrinsics);
   expectSame(none.intrinsics, geometry::Intrinsics());
   EXPECT_TRUE(file.own_intrinsics.empty());
@@ -37,9 +43,34 @@ TEST(Parameters, the_file_says_what_the_defaults_are) {
   EXPECT_EQ(a.capture.spread_limit, b.capture.spread_limit);
   EXPECT_EQ(a.capture.drift_limit, b.capture.drift_limit);
   EXPECT_EQ(a.capture.timeout, b.capture.timeout);
-  EXPECT_EQ(a.solve.method, b.solve.method);
-  EXPECT_EQ(a.solve.branch_odds, b.solve.branch_odds);
-  const square::Uncertainty& u = a.solve.uncertainty;
+  EXPECT_EQ(a.hands_free.hold, b.hands_free.hold);
+  EXPECT_EQ(a.hands_free.distance, b.hands_free.distance);
+  EXPECT_EQ(a.hands_free.minimum_cameras, b.hands_free.minimum_cameras);
+  EXPECT_EQ(a.coverage.seconds, b.coverage.seconds);
+  EXPECT_EQ(a.coverage.image_share, b.coverage.image_share);
+  EXPECT_EQ(a.coverage.image_speed, b.coverage.image_speed);
+  EXPECT_EQ(a.coverage.volume, b.coverage.volume);
+  EXPECT_EQ(a.coverage.speed, b.coverage.speed);
+  EXPECT_EQ(a.coverage.distraction, b.coverage.distraction);
+  const session::SolveOptions& s = file.solve;
+  const session::SolveOptions t;
+  EXPECT_EQ(s.use_gravity, t.use_gravity);
+  EXPECT_EQ(s.wave.pixel, t.wave.pixel);
+  EXPECT_EQ(s.wave.stamp, t.wave.stamp);
+  EXPECT_EQ(s.wave.wander, t.wave.wander);
+  EXPECT_EQ(s.wave.offset, t.wave.offset);
+  EXPECT_EQ(s.wave.knot_spacing, t.wave.knot_spacing);
+  EXPECT_EQ(s.wave.acceleration, t.wave.acceleration);
+  EXPECT_EQ(s.wave.maximum_offset_stddev, t.wave.maximum_offset_stddev);
+  EXPECT_EQ(s.correct_principal_points, t.correct_principal_points);
+  EXPECT_EQ(s.correction.points, t.correction.points);
+  EXPECT_EQ(s.correction.rounds, t.correction.rounds);
+  EXPECT_EQ(s.correction.limit, t.correction.limit);
+  EXPECT_EQ(s.ray_model, t.ray_model);
+  EXPECT_TRUE(std::isnan(s.virtual_hfov));
+  EXPECT_EQ(s.square.method, t.square.method);
+  EXPECT_EQ(s.square.branch_odds, t.square.branch_odds);
+  const square::Uncertainty& u = s.square.uncertainty;
   const square::Uncertainty v;
   EXPECT_EQ(u.pixel, v.pixel);
   EXPECT_EQ(u.placement, v.placement);
@@ -61,10 +92,23 @@ TEST(Parameters, single_cameras_can_have_their_own_intrinsics) {
   EXPECT_EQ(own.intrinsicsOf("wiimote_1").fy, 1302.3);
   EXPECT_EQ(own.intrinsicsOf("hall/wiimote_2").distortion[0], 0.1);
   EXPECT_EQ(own.intrinsicsOf("another").fx, 1306.3);
+  const geometry::Intrinsics& fisheye = own.intrinsicsOf("wiimote_3");
+  EXPECT_EQ(fisheye.distortion_model, geometry::DistortionModel::kEquidistant);
+  EXPECT_EQ(fisheye.distortion[3], 0.4);
+  EXPECT_EQ(fisheye.distortion[4], 0.0);
+}
+
+TEST(Parameters, what_the_paper_does_can_be_chosen) {
+  const Parameters paper = readParameters(ros::NodeHandle("~paper"));
+  EXPECT_EQ(paper.solve.square.method, square::Method::kPerCamera);
+  EXPECT_TRUE(paper.solve.correct_principal_points);
+  EXPECT_EQ(paper.solve.correction.points, principal_point::Points::kAllCorners);
+  EXPECT_EQ(paper.solve.ray_model, geometry::RayModel::kImageCenter);
+  EXPECT_EQ(paper.solve.virtual_hfov, 0.7156);
 }
 
 TEST(Parameters, bad_values_are_refused_by_name) {
-  for (const std::string key : {"short", "word"}) {
+  for (const std::string key : {"short", "word", "mounted", "fisheye"}) {
     try {
       readParameters(ros::NodeHandle("~" + key));
       FAIL() << key;

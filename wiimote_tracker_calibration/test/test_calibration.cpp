@@ -2,6 +2,8 @@
 
 #include "wiimote_tracker_calibration/workflow/calibration.h"
 
+#include "wiimote_tracker_calibration/session/solve_session.h"
+
 #include "simulated_square.h"
 
 #include <gtest/gtest.h>
@@ -38,8 +40,8 @@ class Workflow : public ::testing::Test {
       for (const geometry::Camera& camera : cameras_)
         calibration_.addImage({camera.name, now_, 0, {camera.project(place).value()}, {}});
       calibration_.update(now_);
-      if (calibration_.captureOutcome())
-        return *calibration_.captureOutcome();
+      if (calibration_.square().outcome())
+        return *calibration_.square().outcome();
     }
     return {false, "never ended"};
   }
@@ -48,6 +50,35 @@ class Workflow : public ::testing::Test {
     ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
     for (const Eigen::Vector3d& corner : kCorners)
       ASSERT_TRUE(capture(corner).success);
+  }
+
+  Reply solve(double time) {
+    const Reply begun = calibration_.beginSolve();
+    if (!begun.success)
+      return begun;
+    try {
+      session::Solution solution =
+          session::solveSession(calibration_.session(facts_, {}), session::SolveOptions());
+      solution.rig.solved_at = time;
+      return calibration_.finishSolve(solution.rig);
+    } catch (const geometry::Error& error) {
+      const Reply failed = {false, error.what()};
+      calibration_.end(failed);
+      return failed;
+    }
+  }
+
+  /// A smooth way through the volume, seen for `duration`; each camera at times of its own.
+  void wave(double duration, std::uint32_t epoch_of_first = 0) {
+    for (const double end = now_ + duration; now_ < end; now_ += 0.01) {
+      for (std::size_t i = 0; i < cameras_.size(); ++i) {
+        const double t = now_ + 0.002 * static_cast<double>(i);
+        const Eigen::Vector3d led(1.25 + 0.9 * std::sin(1.3 * t), 1.25 + 0.9 * std::cos(1.7 * t),
+                                  1.0 + 0.7 * std::sin(2.1 * t));
+        calibration_.addImage(
+            {names_[i], t, i == 0 ? epoch_of_first : 0U, {cameras_[i].project(led).value()}, {}});
+      }
+    }
   }
 
   const std::vector<Eigen::Vector3d> kCorners = {{0.0, 0.0, 0.0},
@@ -65,7 +96,7 @@ TEST_F(Workflow, four_corners_make_a_rig) {
   captureAll();
   EXPECT_EQ(calibration_.step(), Step::kComplete);
   EXPECT_EQ(calibration_.progress(), 1.0);
-  const Reply reply = calibration_.solve(facts_, 1234.5);
+  const Reply reply = solve(1234.5);
   ASSERT_TRUE(reply.success) << reply.message;
   EXPECT_EQ(calibration_.step(), Step::kSolved);
   ASSERT_TRUE(calibration_.rig());
@@ -85,7 +116,7 @@ TEST_F(Workflow, four_corners_make_a_rig) {
 TEST_F(Workflow, requests_out_of_turn_are_refused_with_a_reason) {
   EXPECT_SAYS(calibration_.beginCapture(std::nullopt, 0.0).message, "start one first");
   EXPECT_SAYS(calibration_.undo().message, "no captured corner");
-  EXPECT_SAYS(calibration_.solve(facts_, 0.0).message, "only 0 of 4 corners");
+  EXPECT_SAYS(calibration_.beginSolve().message, "only 0 of 4 corners");
   EXPECT_EQ(calibration_.step(), Step::kIdle);
 
   ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
@@ -93,7 +124,7 @@ TEST_F(Workflow, requests_out_of_turn_are_refused_with_a_reason) {
   EXPECT_EQ(calibration_.step(), Step::kCapturing);
   for (const Reply& reply :
        {calibration_.beginCapture(std::nullopt, now_), calibration_.start(1.0, 1.0, names_),
-        calibration_.undo(), calibration_.solve(facts_, 0.0), calibration_.load(geometry::Rig())}) {
+        calibration_.undo(), calibration_.beginSolve(), calibration_.load(geometry::Rig())}) {
     EXPECT_FALSE(reply.success);
     EXPECT_SAYS(reply.message, "being captured");
   }
@@ -108,10 +139,10 @@ TEST_F(Workflow, a_bad_start_keeps_the_run) {
   EXPECT_SAYS(calibration_.start(0.0, 0.0, names_).message, "greater than 0");
   EXPECT_SAYS(calibration_.start(2.5, std::nan(""), names_).message, "greater than 0");
   EXPECT_SAYS(calibration_.start(2.5, 2.5, {"a", "a"}).message, "at least two cameras");
-  EXPECT_EQ(calibration_.corners().size(), 1U);
+  EXPECT_EQ(calibration_.square().corners().size(), 1U);
   EXPECT_EQ(calibration_.sides(), std::vector<double>({2.5, 2.0}));
   ASSERT_TRUE(calibration_.start(1.0, 1.0, names_).success);
-  EXPECT_EQ(calibration_.corners().size(), 0U);
+  EXPECT_EQ(calibration_.square().corners().size(), 0U);
 }
 
 TEST_F(Workflow, a_moved_led_loses_no_corner) {
@@ -120,17 +151,17 @@ TEST_F(Workflow, a_moved_led_loses_no_corner) {
   const Reply moved = capture(kCorners[1], std::nullopt, 0.1);
   EXPECT_FALSE(moved.success);
   EXPECT_SAYS(moved.message, "corner 2 was not captured");
-  EXPECT_EQ(calibration_.corners().size(), 1U);
+  EXPECT_EQ(calibration_.square().corners().size(), 1U);
   EXPECT_EQ(calibration_.step(), Step::kReady);
   EXPECT_TRUE(capture(kCorners[1]).success);
-  EXPECT_EQ(calibration_.corners().size(), 2U);
+  EXPECT_EQ(calibration_.square().corners().size(), 2U);
 }
 
 TEST_F(Workflow, an_led_that_was_not_carried_on_is_refused) {
   ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
   ASSERT_TRUE(capture(kCorners[0]).success);
   EXPECT_SAYS(capture(kCorners[0]).message, "still where corner 1");
-  EXPECT_EQ(calibration_.corners().size(), 1U);
+  EXPECT_EQ(calibration_.square().corners().size(), 1U);
   EXPECT_TRUE(capture(kCorners[0], 0).success);  // retaking is another matter
 }
 
@@ -138,62 +169,186 @@ TEST_F(Workflow, undo_drops_the_last_corner_and_retake_replaces_one) {
   captureAll();
   EXPECT_SAYS(capture(kCorners[0]).message, "all four corners are captured");
   ASSERT_TRUE(calibration_.undo().success);
-  EXPECT_EQ(calibration_.corners().size(), 3U);
+  EXPECT_EQ(calibration_.square().corners().size(), 3U);
   EXPECT_EQ(calibration_.step(), Step::kReady);
   EXPECT_SAYS(capture(kCorners[3], 3).message, "cannot be taken again");
   ASSERT_TRUE(capture(kCorners[3]).success);
 
-  const Eigen::Vector2d before = calibration_.corners()[1].at("camera_1").pixel;
+  const Eigen::Vector2d before = calibration_.square().corners()[1].at("camera_1").pixel;
   ASSERT_TRUE(capture(kCorners[1] + Eigen::Vector3d(0.0, 0.05, 0.0), 1).success);
-  EXPECT_EQ(calibration_.corners().size(), 4U);
-  EXPECT_GT((calibration_.corners()[1].at("camera_1").pixel - before).norm(), 1.0);
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+  EXPECT_GT((calibration_.square().corners()[1].at("camera_1").pixel - before).norm(), 1.0);
   EXPECT_EQ(calibration_.step(), Step::kComplete);
 
-  const Eigen::Vector2d kept = calibration_.corners()[1].at("camera_1").pixel;
+  const Eigen::Vector2d kept = calibration_.square().corners()[1].at("camera_1").pixel;
   EXPECT_FALSE(capture(kCorners[1], 1, 0.1).success);  // a failed retake changes nothing
-  EXPECT_EQ(calibration_.corners()[1].at("camera_1").pixel, kept);
+  EXPECT_EQ(calibration_.square().corners()[1].at("camera_1").pixel, kept);
 }
 
 TEST_F(Workflow, a_failed_solve_keeps_corners_and_rig) {
   captureAll();
-  ASSERT_TRUE(calibration_.solve(facts_, 1.0).success);
+  ASSERT_TRUE(solve(1.0).success);
   const std::string id = calibration_.rig()->id();
   ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
   for (const std::size_t c : {0, 1, 3, 2})
     ASSERT_TRUE(capture(kCorners[c]).success);
-  const Reply crossing = calibration_.solve(facts_, 2.0);
+  const Reply crossing = solve(2.0);
   EXPECT_FALSE(crossing.success);
   EXPECT_SAYS(crossing.message, "out of order");
   EXPECT_EQ(calibration_.step(), Step::kComplete);
-  EXPECT_EQ(calibration_.corners().size(), 4U);
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
   EXPECT_EQ(calibration_.rig()->id(), id);
 }
 
 TEST_F(Workflow, cancel_drops_the_run_and_keeps_the_rig) {
   captureAll();
-  ASSERT_TRUE(calibration_.solve(facts_, 1.0).success);
+  ASSERT_TRUE(solve(1.0).success);
   ASSERT_TRUE(calibration_.start(1.0, 1.0, names_).success);
   ASSERT_TRUE(calibration_.beginCapture(std::nullopt, now_).success);
   EXPECT_TRUE(calibration_.cancel().success);
   EXPECT_EQ(calibration_.step(), Step::kIdle);
-  EXPECT_FALSE(calibration_.currentCapture());
+  EXPECT_FALSE(calibration_.square().capture());
   EXPECT_TRUE(calibration_.rig());
   EXPECT_FALSE(calibration_.beginCapture(std::nullopt, now_).success);
 }
 
 TEST_F(Workflow, a_loaded_rig_does_not_disturb_a_run) {
   captureAll();
-  ASSERT_TRUE(calibration_.solve(facts_, 1.0).success);
+  ASSERT_TRUE(solve(1.0).success);
   const geometry::Rig rig = *calibration_.rig();
   ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
   ASSERT_TRUE(capture(kCorners[0]).success);
   EXPECT_TRUE(calibration_.load(rig).success);
   EXPECT_EQ(calibration_.step(), Step::kReady);
-  EXPECT_EQ(calibration_.corners().size(), 1U);
+  EXPECT_EQ(calibration_.square().corners().size(), 1U);
 
   Calibration fresh{CalibrationOptions()};
   EXPECT_TRUE(fresh.load(rig).success);
   EXPECT_EQ(fresh.step(), Step::kSaved);
+}
+
+TEST_F(Workflow, a_wave_is_recorded_covered_and_kept_beside_the_square) {
+  EXPECT_SAYS(calibration_.beginWave(cameras_, true, std::nullopt, now_).message,
+              "start one first");
+  EXPECT_SAYS(calibration_.endWave().message, "no wave is being recorded");
+  captureAll();
+  EXPECT_TRUE(calibration_.missing().empty());
+  ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
+  EXPECT_EQ(calibration_.step(), Step::kWaving);
+  EXPECT_SAYS(calibration_.beginSolve().message, "a wave is being recorded");
+  wave(5.0);
+  EXPECT_FALSE(calibration_.missing().empty());
+  EXPECT_GT(calibration_.progress(), 0.2);
+  EXPECT_LT(calibration_.progress(), 0.5);
+  wave(13.0);
+  EXPECT_TRUE(calibration_.missing().empty()) << calibration_.missing().front();
+  const Reply reply = calibration_.endWave();
+  EXPECT_TRUE(reply.success);
+  EXPECT_SAYS(reply.message, "enough: solve");
+  const session::Session session = calibration_.session(facts_, {});
+  EXPECT_NEAR(static_cast<double>(session.recording.cameras[2].frames.size()), 1800.0, 2.0);
+  wave(1.0);  // after the end
+  EXPECT_EQ(calibration_.session(facts_, {}).recording.cameras[2].frames.size(),
+            session.recording.cameras[2].frames.size());
+  EXPECT_TRUE(calibration_.undo().success);
+  EXPECT_FALSE(calibration_.wave());
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+}
+
+TEST_F(Workflow, frames_of_an_older_clock_epoch_are_dropped_and_that_is_told) {
+  captureAll();
+  ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
+  wave(3.0, 6);
+  wave(2.0, 7);
+  const session::Session session = calibration_.session(facts_, {});
+  EXPECT_EQ(session.recording.cameras[0].clock_epoch, 7U);
+  EXPECT_NEAR(static_cast<double>(session.recording.cameras[0].frames.size()), 200.0, 2.0);
+  EXPECT_NEAR(static_cast<double>(session.recording.cameras[1].frames.size()), 500.0, 2.0);
+  EXPECT_SAYS(calibration_.missing().back(), names_[0] + " connected anew");
+}
+
+TEST_F(Workflow, without_a_square_it_takes_a_wand) {
+  ASSERT_TRUE(calibration_.startWithoutSquare(names_).success);
+  EXPECT_TRUE(calibration_.sides().empty());
+  EXPECT_SAYS(calibration_.beginCapture(std::nullopt, now_).message, "without a square");
+  EXPECT_SAYS(calibration_.beginSolve().message, "no wand was waved");
+  EXPECT_SAYS(calibration_.beginWave(cameras_, false, std::nullopt, now_).message, "no scale");
+  wave::Wand wand;
+  wand.length = -0.5;
+  EXPECT_FALSE(calibration_.beginWave(cameras_, false, wand, now_).success);
+  wand.length = 0.5;
+  ASSERT_TRUE(calibration_.beginWave(cameras_, false, wand, now_).success);
+  calibration_.endWave();
+  EXPECT_EQ(calibration_.step(), Step::kComplete);
+  EXPECT_FALSE(calibration_.session(facts_, {}).recording.square);
+  EXPECT_EQ(calibration_.session(facts_, {}).recording.wand->length, 0.5);
+}
+
+TEST_F(Workflow, corners_are_captured_hands_free) {
+  ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
+  calibration_.setHandsFree(true);
+  EXPECT_TRUE(calibration_.isHandsFree());
+  Eigen::Vector3d before = kCorners[0];
+  for (const Eigen::Vector3d& corner : kCorners) {
+    for (int i = 0; i < 600; ++i, now_ += 0.01) {  // carried for 2 s, then let lie
+      const Eigen::Vector3d led = before + std::min(1.0, i / 200.0) * (corner - before);
+      for (const geometry::Camera& camera : cameras_)
+        calibration_.addImage({camera.name, now_, 0, {camera.project(led).value()}, {}});
+    }
+    before = corner;
+  }
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+  EXPECT_TRUE(solve(1.0).success);
+}
+
+TEST_F(Workflow, cancel_stops_a_long_task_first) {
+  captureAll();
+  ASSERT_TRUE(calibration_.beginSolve().success);
+  EXPECT_EQ(calibration_.step(), Step::kSolving);
+  EXPECT_SAYS(calibration_.undo().message, "the solver runs");
+  EXPECT_SAYS(calibration_.begin(Step::kMasking, "").message, "the solver runs");
+  EXPECT_TRUE(calibration_.cancel().success);
+  EXPECT_EQ(calibration_.step(), Step::kComplete);
+  EXPECT_FALSE(calibration_.isBusyWith(Step::kSolving));
+  ASSERT_TRUE(calibration_.begin(Step::kMeasuring, "measuring").success);
+  calibration_.setProgress(0.5);
+  EXPECT_EQ(calibration_.progress(), 0.5);
+  calibration_.end({true, "measured"});
+  EXPECT_EQ(calibration_.message(), "measured");
+  EXPECT_EQ(calibration_.step(), Step::kComplete);
+}
+
+TEST_F(Workflow, samples_that_are_restored_are_the_same_samples) {
+  captureAll();
+  ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
+  wave(2.0);
+  calibration_.endWave();
+  const capture::Masks masks = {{names_[1], {{{3.0, 4.0}, 5.0}}}};
+  const session::Session session = calibration_.session(facts_, masks);
+  CalibrationOptions other;
+  other.led_height = 0.5;  // what was captured has its own
+  other.world_frame = "elsewhere";
+  Calibration fresh{other};
+  ASSERT_TRUE(fresh.restore(session).success);
+  EXPECT_TRUE(fresh.isRestored());
+  EXPECT_EQ(fresh.step(), Step::kComplete);
+  const session::Session again = fresh.session({}, masks);
+  EXPECT_EQ(again.world_frame, "world");
+  EXPECT_EQ(again.recording.square->led_height, 0.0);
+  ASSERT_EQ(again.recording.cameras.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const wave::CameraRecording& a = session.recording.cameras[i];
+    const wave::CameraRecording& b = again.recording.cameras[i];
+    EXPECT_EQ(a.sightings.name, b.sightings.name);
+    EXPECT_EQ(a.sightings.identity, b.sightings.identity);
+    EXPECT_EQ(a.sightings.corners, b.sightings.corners);
+    ASSERT_EQ(a.frames.size(), b.frames.size());
+    for (std::size_t k = 0; k < a.frames.size(); ++k) {
+      EXPECT_EQ(a.frames[k].stamp, b.frames[k].stamp);
+      EXPECT_EQ(a.frames[k].spots, b.frames[k].spots);
+    }
+  }
+  EXPECT_EQ(again.masks[1].size(), 1U);
 }
 
 }  // namespace

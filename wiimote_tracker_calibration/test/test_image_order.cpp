@@ -1,5 +1,4 @@
 #include "wiimote_tracker_calibration/capture/image_order.h"
-#include "wiimote_tracker_calibration/capture/masks.h"
 
 #include <gtest/gtest.h>
 
@@ -73,20 +72,6 @@ TEST(ImageOrder, a_late_image_is_not_lost_and_one_from_a_clock_set_back_begins_a
   ASSERT_EQ(result.size(), 4U);
   EXPECT_EQ(result[1].first, 100.0);
   EXPECT_EQ(result[3].first, 10.0);
-}
-
-TEST(Masks, a_masked_spot_is_set_aside_in_its_own_camera_only) {
-  const Masks masks = {{"a", {{{100.0, 100.0}, 10.0}}}};
-  Image image = at("a", 1.0);
-  image.spots = {{105.0, 105.0}, {300.0, 300.0}, {100.0, 110.5}};
-  Image other = image;
-  other.camera = "b";
-  applyMasks(masks, &image);
-  applyMasks(masks, &other);
-  EXPECT_EQ(image.spots, Blobs({{300.0, 300.0}, {100.0, 110.5}}));
-  EXPECT_EQ(image.masked, Blobs({{105.0, 105.0}}));
-  EXPECT_EQ(other.spots.size(), 3U);
-  EXPECT_TRUE(other.masked.empty());
 }
 
 }  // namespace

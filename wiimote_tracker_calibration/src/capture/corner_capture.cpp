@@ -29,21 +29,22 @@ CornerCapture::CornerCapture(const std::vector<std::string>& cameras,
     cameras_[name];
 }
 
-void CornerCapture::add(const std::string& name, double time, const Blobs& blobs) {
-  const auto found = cameras_.find(name);
-  if (found == cameras_.end() || state_ != State::kCollecting || time < start_time_)
+void CornerCapture::add(const Image& image) {
+  const auto found = cameras_.find(image.camera);
+  if (found == cameras_.end() || state_ != State::kCollecting || image.stamp < start_time_)
     return;
   Camera& camera = found->second;
   camera.seen = true;
-  camera.blobs = blobs.size();
-  if (blobs.size() == 1 && blobs.front().allFinite()) {
-    camera.spot.add(blobs.front());
-    camera.last_sample = time;
+  camera.blobs = image.spots.size();
+  camera.masked = image.masked.size();
+  if (!isComplete(camera) && image.spots.size() == 1 && image.spots.front().allFinite()) {
+    camera.spot.add(image.spots.front());
+    camera.last_sample = image.stamp;
     const std::string moved = movement(camera.spot);
     if (!moved.empty())
-      refuse(name + ": " + moved);
+      refuse(image.camera + ": " + moved);
   }
-  update(time);
+  update(image.stamp);
 }
 
 CornerCapture::State CornerCapture::update(double now) {
@@ -107,6 +108,9 @@ std::string CornerCapture::problem(const std::string& name) const {
     return "";
   if (!camera.seen)
     return "sends no images: check its battery, its connection and its driver";
+  if (camera.blobs == 0 && camera.masked > 0)
+    return "sees lights that are masked only: if the LED stands in front of one of them, move that "
+           "lamp or the camera and learn the masks again";
   if (camera.blobs != 1)
     return spotCountProblem(camera.blobs);
   return "has " + std::to_string(camera.spot.samples()) + " of " +

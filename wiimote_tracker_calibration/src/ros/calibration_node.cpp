@@ -8,7 +8,7 @@ CalibrationNode::CalibrationNode(const ros::NodeHandle& nh, const Parameters& pa
   status_timer_ =
       context_.nh().createWallTimer(ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) {
         const Lock lock(context_.mutex());
-        context_.calibration(lock).update(NodeContext::now());
+        context_.calibration(lock).update(NodeContext::now() - NodeContext::kUnderWay);
         context_.publishStatus(lock);
       });
   const Lock lock(context_.mutex());

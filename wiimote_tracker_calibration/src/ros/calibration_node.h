@@ -2,9 +2,11 @@
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_CALIBRATION_NODE_H
 
 #include "capture_services.h"
+#include "mask_services.h"
 #include "node_context.h"
 #include "rig_services.h"
 #include "solve_services.h"
+#include "wave_services.h"
 
 #include <ros/node_handle.h>
 
@@ -21,6 +23,8 @@ class CalibrationNode {
   NodeContext context_;
   RigServices rig_{&context_};
   CaptureServices capture_{&context_};
+  WaveServices wave_{&context_};
+  MaskServices masks_{&context_};
   SolveServices solve_{&context_};
   ros::WallTimer status_timer_;
 };

@@ -2,20 +2,19 @@
 
 namespace wiimote_tracker {
 
-workflow::Reply collectFacts(NodeContext* context,
-                             const Lock& lock,
+workflow::Reply collectFacts(const std::vector<std::string>& names,
+                             const std::map<std::string, CameraInput>& inputs,
+                             const Parameters& parameters,
                              std::map<std::string, workflow::CameraFacts>* facts) {
-  const Parameters& parameters = context->parameters(lock);
-  for (const std::string& name : context->calibration(lock).cameras()) {
-    const auto found = context->inputs().cameras().find(name);
-    if (found == context->inputs().cameras().end())
+  for (const std::string& name : names) {
+    const auto found = inputs.find(name);
+    if (found == inputs.end())
       continue;
     const CameraInput& input = found->second;
     workflow::CameraFacts fact;
     fact.identity = input.identity;
     fact.intrinsics = parameters.intrinsicsOf(name);
-    if (parameters.use_gravity)
-      fact.gravity = input.gravity.mean();
+    fact.gravity = input.gravity.mean();
     const bool sized = input.width > 0;
     if (sized && (input.width != fact.intrinsics.width || input.height != fact.intrinsics.height))
       return {false, "the images of " + name + " are " + std::to_string(input.width) + " x " +

@@ -15,10 +15,12 @@ const char kSuffix[] = "/ir_blobs";
 
 CameraInputs::CameraInputs(const ros::NodeHandle& nh,
                            const std::vector<std::string>& names,
+                           const std::string& ignored,
                            std::mutex* mutex,
                            std::condition_variable* changed)
     : nh_(nh),
       discovers_(names.empty()),
+      ignored_(ignored),
       mutex_(mutex),
       changed_(changed),
       listener_(transforms_),
@@ -54,7 +56,10 @@ void CameraInputs::discover() {
         name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0 ||
         name.compare(0, own_namespace.size(), own_namespace) != 0)
       continue;
-    watch(name.substr(own_namespace.size(), name.size() - suffix.size() - own_namespace.size()));
+    const std::string camera =
+        name.substr(own_namespace.size(), name.size() - suffix.size() - own_namespace.size());
+    if (camera != ignored_)
+      watch(camera);
   }
 }
 
@@ -96,6 +101,7 @@ void CameraInputs::onBlobs(const std::string& name,
     camera.identity = message.identity;
     camera.width = static_cast<int>(message.width);
     camera.height = static_cast<int>(message.height);
+    camera.max_blobs = static_cast<int>(message.max_blobs);
     camera.optical_frame = message.header.frame_id;
     capture::applyMasks(masks_, &image);
     order_.add(std::move(image), [this, &lock](const capture::Image& next) {

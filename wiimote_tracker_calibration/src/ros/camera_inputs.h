@@ -31,8 +31,9 @@ using Lock = std::unique_lock<std::mutex>;
 /// Last known facts of one camera, and its latest images.
 struct CameraInput {
   std::string identity;
-  int width = 0;   ///< Image size [px]; 0 until an image came.
-  int height = 0;  ///< [px]
+  int width = 0;      ///< Image size [px]; 0 until an image came.
+  int height = 0;     ///< [px]
+  int max_blobs = 0;  ///< Most spots in one image; 0: not known.
   std::string optical_frame;
   capture::CameraMonitor monitor;  ///< Its times are stamps.
   capture::RestGravity gravity;    ///< Since restartGravity().
@@ -49,9 +50,11 @@ class CameraInputs {
                                        const Lock& lock)>;
 
   /// @param names cameras to watch; empty: every topic that ends in /ir_blobs.
+  /// @param ignored a device that is no camera though it sends images; empty: none.
   /// @param mutex guards everything this class hands out; @param changed notified at each image.
   CameraInputs(const ros::NodeHandle& nh,
                const std::vector<std::string>& names,
+               const std::string& ignored,
                std::mutex* mutex,
                std::condition_variable* changed);
 
@@ -86,6 +89,7 @@ class CameraInputs {
 
   ros::NodeHandle nh_;
   bool discovers_;
+  std::string ignored_;
   std::mutex* mutex_;
   std::condition_variable* changed_;
   std::vector<OnImage> on_image_;

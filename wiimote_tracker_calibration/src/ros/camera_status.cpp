@@ -13,13 +13,13 @@ using wiimote_tracker_msgs::CalibrationStatus;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void addContribution(const workflow::Calibration& calibration, CalibrationCameraStatus* status) {
-  for (const capture::CapturedCorner& corner : calibration.corners()) {
+  for (const capture::CapturedCorner& corner : calibration.square().corners()) {
     const auto view = corner.find(status->name);
     const bool seen = view != corner.end();
     status->samples.push_back(seen ? static_cast<std::uint32_t>(view->second.samples) : 0);
     status->spread.push_back(seen ? view->second.spread : kNan);
   }
-  const auto& capture = calibration.currentCapture();
+  const auto& capture = calibration.square().capture();
   if (!capture)
     return;
   const std::vector<std::string>& names = calibration.cameras();
@@ -28,12 +28,25 @@ void addContribution(const workflow::Calibration& calibration, CalibrationCamera
   const capture::StillSpot& spot = capture->spot(status->name);
   const auto samples = static_cast<std::uint32_t>(spot.samples());
   // A corner that is taken again stands in its old place, a new one at the end.
-  const std::size_t corner = calibration.currentCorner();
+  const std::size_t corner = calibration.square().currentCorner();
   status->samples.resize(std::max(status->samples.size(), corner + 1));
   status->spread.resize(std::max(status->spread.size(), corner + 1));
   status->samples[corner] = samples;
   status->spread[corner] = spot.spread();
   status->problem = capture->problem(status->name);
+}
+
+void addWave(const std::vector<wave::CameraCoverage>& waved, CalibrationCameraStatus* status) {
+  const auto found =
+      std::find_if(waved.begin(), waved.end(),
+                   [&](const wave::CameraCoverage& camera) { return camera.name == status->name; });
+  if (found == waved.end())
+    return;
+  status->image_coverage = found->image_share;
+  status->speed = found->image_speed;
+  status->wave_seconds = found->together;
+  for (const auto& row : found->filled)
+    status->image_cells.insert(status->image_cells.end(), row.begin(), row.end());
 }
 
 }  // namespace
@@ -42,6 +55,9 @@ std::vector<CalibrationCameraStatus> cameraStatus(const workflow::Calibration& c
                                                   const std::map<std::string, CameraInput>& cameras,
                                                   double now,
                                                   double window) {
+  std::vector<wave::CameraCoverage> waved;
+  if (calibration.wave())
+    waved = calibration.wave()->report().cameras;
   std::vector<CalibrationCameraStatus> result;
   for (const auto& entry : cameras) {
     const capture::CameraView view = entry.second.monitor.view(now, window);
@@ -56,8 +72,10 @@ std::vector<CalibrationCameraStatus> cameraStatus(const workflow::Calibration& c
     status.y = view.pixel.y();
     status.image_coverage = kNan;
     status.speed = kNan;
+    status.wave_seconds = kNan;
     status.problem = view.problem;
     addContribution(calibration, &status);
+    addWave(waved, &status);
     result.push_back(status);
   }
   return result;
@@ -79,9 +97,17 @@ CalibrationStatus calibrationStatus(const workflow::Calibration& calibration) {
   status.step = static_cast<std::uint8_t>(calibration.step());
   status.message = calibration.message();
   status.progress = calibration.progress();
-  status.corners_captured = static_cast<std::uint32_t>(calibration.corners().size());
-  status.corners_needed = workflow::Calibration::kCorners;
+  status.corners_captured = static_cast<std::uint32_t>(calibration.square().corners().size());
   status.square_sides = calibration.sides();
+  const bool squareless = !calibration.cameras().empty() && status.square_sides.empty();
+  status.corners_needed = squareless ? 0 : workflow::SquareRun::kCorners;
+  status.missing = calibration.missing();
+  status.hands_free = calibration.isHandsFree();
+  if (calibration.wave()) {
+    status.wave_seconds = calibration.wave()->report().seconds;
+    if (calibration.wave()->wand())
+      status.wand_length = calibration.wave()->wand()->length;
+  }
   if (calibration.rig())
     status.rig_id = calibration.rig()->id();
   return status;

@@ -1,5 +1,6 @@
 #include "node_context.h"
 
+#include "camera_facts.h"
 #include "camera_status.h"
 
 #include <wiimote_tracker_msgs/CalibrationStatus.h>
@@ -22,7 +23,7 @@ NodeContext::NodeContext(const ros::NodeHandle& nh, const Parameters& parameters
       status_publisher_(
           nh_.advertise<wiimote_tracker_msgs::CalibrationStatus>("calibration/status", 1, true)),
       rig_output_(nh_),
-      inputs_(nh_, parameters.cameras, &mutex_, &changed_) {}
+      inputs_(nh_, parameters.cameras, parameters.button_remote, &mutex_, &changed_) {}
 
 double NodeContext::now() {
   return ros::Time::now().toSec();
@@ -60,6 +61,30 @@ void NodeContext::end(const workflow::Reply& outcome, const Lock& lock) {
 void NodeContext::show(const std::string& message, const Lock& lock) {
   calibration_.note(message);
   publishStatus(lock);
+}
+
+workflow::Reply NodeContext::session(session::Session* session, const Lock&) {
+  std::map<std::string, workflow::CameraFacts> facts;
+  if (!calibration_.isRestored()) {
+    const workflow::Reply reply =
+        collectFacts(calibration_.cameras(), inputs_.cameras(), parameters_, &facts);
+    if (!reply.success)
+      return reply;
+  }
+  *session = calibration_.session(facts, inputs_.masks());
+  return {true, ""};
+}
+
+workflow::Reply NodeContext::setSession(const session::Session& session, const Lock& lock) {
+  const workflow::Reply reply = calibration_.restore(session);
+  if (reply.success) {
+    capture::Masks masks = inputs_.masks();
+    for (std::size_t i = 0; i < session.masks.size(); ++i)
+      masks[session.recording.cameras[i].sightings.name] = session.masks[i];
+    inputs_.setMasks(masks);
+  }
+  publishStatus(lock);
+  return reply;
 }
 
 void NodeContext::setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock) {

@@ -46,6 +46,10 @@ class NodeContext {
   /// The clock of the images' stamps: ROS time, simulated or not [s].
   static double now();
 
+  /// Images of the last second may still be under way [s]: what is decided by their stamps must not
+  /// be decided by the clock before.
+  static constexpr double kUnderWay = 1.0;
+
   /// Waits until done() is true (checked with the mutex locked at each image, and ten times a
   /// second at least), until now() is beyond `end`, or until the node is to end. Simulated time
   /// that stands still for ten seconds, as of a bag that is over, ends the wait too.
@@ -69,6 +73,12 @@ class NodeContext {
 
   /// Shows a message in the status at once.
   void show(const std::string& message, const Lock& lock);
+
+  /// All that was captured so far, to be solved or saved. Fails, with a sentence, when starting
+  /// intrinsics do not fit a camera's images.
+  workflow::Reply session(session::Session* session, const Lock& lock);
+  /// Goes on from what was captured before; its masks are in force from now on.
+  workflow::Reply setSession(const session::Session& session, const Lock& lock);
 
   /// Publishes a rig that was made of the one before (not saved yet): a camera calibrated anew, a
   /// correction of the volume, rooms that were joined.

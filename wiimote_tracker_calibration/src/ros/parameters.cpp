@@ -28,6 +28,55 @@ void readCapture(ParameterReader* reader, capture::CornerCaptureOptions* options
   options->timeout = reader->bounded("capture_timeout", options->timeout, 0.1, 3600.0);
 }
 
+void readHandsFree(ParameterReader* reader, capture::HandsFreeOptions* options) {
+  options->hold = reader->bounded("hands_free_hold", options->hold, 0.5, 60.0);
+  options->distance = reader->bounded("hands_free_distance", options->distance, 5.0, 10000.0);
+}
+
+void readMasks(ParameterReader* reader, capture::MaskOptions* options) {
+  options->share = reader->bounded("mask_share", options->share, 0.001, 1.0);
+  options->margin = reader->bounded("mask_margin", options->margin, 0.0, 1000.0);
+}
+
+void readCoverage(ParameterReader* reader, wave::CoverageOptions* options) {
+  options->seconds = reader->bounded("wave_seconds", options->seconds, 1.0, 600.0);
+  options->image_share = reader->bounded("wave_image_share", options->image_share, 0.0, 1.0);
+  options->image_speed = reader->bounded("wave_image_speed", options->image_speed, 0.0, 1e4);
+  options->volume = reader->bounded("wave_volume", options->volume, 0.0, 1e6);
+  options->speed = reader->bounded("wave_speed", options->speed, 0.0, 100.0);
+  options->distraction = reader->bounded("wave_distraction", options->distraction, 0.0, 1.0);
+}
+
+void readWave(ParameterReader* reader, wave::WaveOptions* options) {
+  options->pixel = reader->bounded("wave_pixel_stddev", options->pixel, 1e-3, 100.0);
+  options->stamp = reader->bounded("stamp_stddev", options->stamp, 0.0, 1.0);
+  options->wander = reader->bounded("stamp_wander", options->wander, 0.0, 1.0);
+  options->offset = reader->bounded("time_offset_stddev", options->offset, 1e-6, 10.0);
+  options->knot_spacing = reader->bounded("knot_spacing", options->knot_spacing, 0.005, 0.05);
+  options->acceleration = reader->bounded("wave_acceleration", options->acceleration, 0.1, 1e4);
+  options->maximum_offset_stddev =
+      reader->bounded("maximum_offset_stddev", options->maximum_offset_stddev, 1e-6, 10.0);
+}
+
+void readRays(ParameterReader* reader, session::SolveOptions* options) {
+  const std::string correction =
+      reader->choice("principal_point_correction", "none", {"none", "origin", "corners"});
+  options->correct_principal_points = correction != "none";
+  options->correction.points = correction == "corners" ? principal_point::Points::kAllCorners
+                                                       : principal_point::Points::kOrigin;
+  options->correction.rounds =
+      reader->bounded("correction_rounds", options->correction.rounds, 0, 1000);
+  options->correction.limit =
+      reader->bounded("correction_limit", options->correction.limit, 0.0, 1000.0);
+  const std::string rays =
+      reader->choice("ray_model", "calibrated", {"calibrated", "image_center"});
+  options->ray_model =
+      rays == "calibrated" ? geometry::RayModel::kCalibrated : geometry::RayModel::kImageCenter;
+  const double hfov = reader->bounded("virtual_hfov", 0.0, 0.0, 3.0);
+  if (hfov > 0.0)
+    options->virtual_hfov = hfov;
+}
+
 void readSolve(ParameterReader* reader, square::SolveOptions* options) {
   const std::string method = reader->choice("method", "joint", {"joint", "per_camera"});
   options->method = method == "joint" ? square::Method::kJoint : square::Method::kPerCamera;
@@ -53,13 +102,22 @@ geometry::Intrinsics readIntrinsics(const ros::NodeHandle& nh,
   lens.fy = reader->bounded(prefix + "fy", lens.fy, 1.0, 1e6);
   lens.cx = reader->bounded(prefix + "cx", lens.cx, -1e5, 1e5);
   lens.cy = reader->bounded(prefix + "cy", lens.cy, -1e5, 1e5);
+  const std::string model =
+      reader->choice(prefix + "distortion_model", geometry::nameOf(lens.distortion_model),
+                     {geometry::nameOf(geometry::DistortionModel::kPlumbBob),
+                      geometry::nameOf(geometry::DistortionModel::kEquidistant)});
+  if (model != geometry::nameOf(lens.distortion_model))
+    lens.distortion.fill(0.0);
+  lens.distortion_model = *geometry::distortionModelFromName(model);
+  const auto count = static_cast<std::ptrdiff_t>(geometry::coefficientCount(lens.distortion_model));
   const std::vector<double> distortion = reader->optional<std::vector<double>>(
-      prefix + "distortion", {lens.distortion.begin(), lens.distortion.end()});
+      prefix + "distortion", {lens.distortion.begin(), lens.distortion.begin() + count});
   const bool finite = std::all_of(distortion.begin(), distortion.end(),
                                   [](double value) { return std::isfinite(value); });
-  if (distortion.size() != lens.distortion.size() || !finite)
+  if (static_cast<std::ptrdiff_t>(distortion.size()) != count || !finite)
     throw ParameterError(nh.resolveName(prefix + "distortion") +
-                         " must have five numbers: k1, k2, p1, p2, k3");
+                         (count == 5 ? " must have five numbers: k1, k2, p1, p2, k3"
+                                     : " must have four numbers: k1, k2, k3, k4"));
   std::copy(distortion.begin(), distortion.end(), lens.distortion.begin());
   return lens;
 }
@@ -106,8 +164,28 @@ Parameters readParameters(const ros::NodeHandle& nh) {
   calibration.origin.y() = reader.bounded("origin_y", calibration.origin.y(), -1000.0, 1000.0);
   calibration.yaw = reader.bounded("yaw", calibration.yaw, -2.0 * M_PI, 2.0 * M_PI);
   readCapture(&reader, &calibration.capture);
-  readSolve(&reader, &calibration.solve);
-  parameters.use_gravity = reader.optional("use_gravity", parameters.use_gravity);
+  parameters.hands_free = reader.optional("hands_free", parameters.hands_free);
+  readHandsFree(&reader, &calibration.hands_free);
+  calibration.hands_free.minimum_cameras = calibration.capture.minimum_cameras;
+  parameters.button_remote = reader.optional<std::string>("button_remote", "");
+  if (std::count(parameters.cameras.begin(), parameters.cameras.end(), parameters.button_remote) >
+      0)
+    throw ParameterError(nh.resolveName("button_remote") + " is " + parameters.button_remote +
+                         ", which is one of the cameras, and pressing moves it: name a spare "
+                         "remote that is held in the hand");
+  readMasks(&reader, &parameters.masks);
+  readCoverage(&reader, &calibration.coverage);
+  readSolve(&reader, &parameters.solve.square);
+  readWave(&reader, &parameters.solve.wave);
+  readRays(&reader, &parameters.solve);
+  parameters.solve.use_gravity = reader.optional("use_gravity", parameters.solve.use_gravity);
+  parameters.set_camera_info_timeout =
+      reader.bounded("set_camera_info_timeout", parameters.set_camera_info_timeout, 0.1, 60.0);
+  parameters.board.column_spacing =
+      reader.bounded("board_column_spacing", parameters.board.column_spacing, 0.001, 10.0);
+  const double row_spacing = reader.bounded("board_row_spacing", 0.0, 0.0, 10.0);
+  parameters.board.row_spacing = row_spacing > 0.0 ? row_spacing : parameters.board.column_spacing;
+  parameters.board_views = reader.bounded("board_views", parameters.board_views, 3, 1000);
   parameters.intrinsics = readIntrinsics(nh, &reader, "intrinsics", parameters.intrinsics);
   for (const std::string& name : camerasWithOwnIntrinsics(nh))
     parameters.own_intrinsics[name] =

@@ -1,6 +1,9 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_PARAMETERS_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_PARAMETERS_H
 
+#include "wiimote_tracker_calibration/capture/mask_learner.h"
+#include "wiimote_tracker_calibration/intrinsics/board.h"
+#include "wiimote_tracker_calibration/session/solve_session.h"
 #include "wiimote_tracker_calibration/workflow/calibration.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
@@ -19,8 +22,14 @@ struct Parameters {
   double side_length = 0.0;          ///< First to second corner [m]; 0: not given.
   double second_side_length = 0.0;   ///< Second to third corner [m]; 0: the same.
   std::string rig_file;
-  bool use_gravity = true;
+  double set_camera_info_timeout = 3.0;  ///< [s]
+  bool hands_free = false;
+  std::string button_remote;  ///< Namespace of a spare remote; empty: none.
+  capture::MaskOptions masks;
   workflow::CalibrationOptions calibration;
+  session::SolveOptions solve;
+  intrinsics::Board board;  ///< The 16-LED board.
+  int board_views = 12;     ///< That a lens is solved from.
   geometry::Intrinsics intrinsics;                             ///< Of all cameras but these:
   std::map<std::string, geometry::Intrinsics> own_intrinsics;  ///< by name.
 

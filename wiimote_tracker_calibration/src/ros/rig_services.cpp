@@ -32,9 +32,11 @@ bool RigServices::save(wiimote_tracker_msgs::SaveRig::Request& request,
                        wiimote_tracker_msgs::SaveRig::Response& response) {
   response.path = pathOr(request.path);
   std::optional<geometry::Rig> rig;
+  double timeout = 0.0;
   {
     const Lock lock(context_.mutex());
     rig = context_.rig(lock);
+    timeout = context_.parameters(lock).set_camera_info_timeout;
   }
   if (!rig) {
     response.message = "there is no rig to save: solve or load one first";
@@ -48,7 +50,7 @@ bool RigServices::save(wiimote_tracker_msgs::SaveRig::Request& request,
     response.message = error.what();
     return true;
   }
-  for (const std::string& warning : sendCameraInfo(*rig, context_.nh()))
+  for (const std::string& warning : sendCameraInfo(*rig, context_.nh(), timeout))
     warnings.push_back(warning);
   response.success = true;
   response.message = "saved to " + response.path + joined(warnings);
@@ -81,8 +83,14 @@ workflow::Reply RigServices::loadFile(const std::string& path) {
     return reply;
   }
   reply = context_.calibration(lock).load(*rig);
-  if (reply.success)
+  if (reply.success) {
+    // Lamps are where they were when the rig was made.
+    capture::Masks masks = context_.inputs().masks();
+    for (const geometry::RigCamera& camera : rig->cameras)
+      masks[camera.camera.name] = camera.masks;
+    context_.inputs().setMasks(masks);
     context_.publishRig(lock);
+  }
   context_.publishStatus(lock);
   return reply;
 }

@@ -7,7 +7,7 @@
 
 namespace wiimote_tracker {
 
-/// From what was captured to a rig: solve.
+/// From what was captured to a rig and its verdict: solve; topics verdict, principal_point_trace.
 class SolveServices {
  public:
   explicit SolveServices(NodeContext* context);
@@ -15,8 +15,12 @@ class SolveServices {
  private:
   bool solve(wiimote_tracker_msgs::SolveCalibration::Request& request,
              wiimote_tracker_msgs::SolveCalibration::Response& response);
+  void publish(const session::Solution& solution,
+               wiimote_tracker_msgs::SolveCalibration::Response* response);
 
   NodeContext& context_;
+  ros::Publisher verdict_;
+  ros::Publisher trace_;
   ros::ServiceServer service_;
 };
 

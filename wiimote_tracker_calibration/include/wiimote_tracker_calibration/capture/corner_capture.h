@@ -32,7 +32,8 @@ struct CornerView {
 using CapturedCorner = std::map<std::string, CornerView>;
 
 /// Captures one corner: the LED lies still while every camera that sees it gives samples. A camera
-/// that does not see exactly one spot is left out, and said so. Times [s] are of one steady clock.
+/// that does not see exactly one spot is left out, and said so. Times [s] are of the images'
+/// stamps.
 class CornerCapture {
  public:
   enum class State { kCollecting, kDone, kRefused };
@@ -41,8 +42,9 @@ class CornerCapture {
                 const CornerCaptureOptions& options,
                 double start_time);
 
-  /// One image. Ignored for unknown cameras and when the capture has ended.
-  void add(const std::string& camera, double time, const Blobs& blobs);
+  /// One image. Ignored for unknown cameras, when the capture has ended, and for a camera that has
+  /// its samples: what is captured does not depend on how long the others take.
+  void add(const Image& image);
 
   /// Looks at the clock: ends the capture when every camera that sees the LED has its samples, or
   /// at the time-out.
@@ -70,7 +72,8 @@ class CornerCapture {
   struct Camera {
     StillSpot spot;
     bool seen = false;          // any image came
-    std::size_t blobs = 0;      // in the latest image
+    std::size_t blobs = 0;      // in the latest image, without masked ones
+    std::size_t masked = 0;     // in the latest image
     double last_sample = -1e9;  // time of the latest image with exactly one spot [s]
   };
 

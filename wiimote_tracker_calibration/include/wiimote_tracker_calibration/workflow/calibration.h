@@ -2,7 +2,13 @@
 #define WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_CALIBRATION_H
 
 #include "wiimote_tracker_calibration/capture/corner_capture.h"
-#include "wiimote_tracker_calibration/square/solve_square.h"
+#include "wiimote_tracker_calibration/capture/hands_free.h"
+#include "wiimote_tracker_calibration/capture/masks.h"
+#include "wiimote_tracker_calibration/session/session.h"
+#include "wiimote_tracker_calibration/wave/coverage.h"
+#include "wiimote_tracker_calibration/workflow/reply.h"
+#include "wiimote_tracker_calibration/workflow/square_run.h"
+#include "wiimote_tracker_calibration/workflow/wave_recorder.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -13,13 +19,6 @@
 #include <vector>
 
 namespace wiimote_tracker::workflow {
-
-/// Answer to one request: whether it was done, and one sentence that says what was done, or why
-/// not and what to do.
-struct Reply {
-  bool success = false;
-  std::string message;
-};
 
 /// Values as in CalibrationStatus.msg.
 enum class Step {
@@ -37,7 +36,8 @@ enum class Step {
 
 struct CalibrationOptions {
   capture::CornerCaptureOptions capture;
-  square::SolveOptions solve;
+  capture::HandsFreeOptions hands_free;
+  wave::CoverageOptions coverage;
   double led_height = 0.0;                           ///< As in square::SquareLayout [m].
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< As in square::SquareLayout [m].
   double yaw = 0.0;                                  ///< As in square::SquareLayout [rad].
@@ -56,33 +56,44 @@ struct CameraFacts {
 /// goes on, all but cancel() is refused. Times [s] are of the clock that stamps the images.
 class Calibration {
  public:
-  static constexpr std::size_t kCorners = 4;
-
   explicit Calibration(const CalibrationOptions& options) : options_(options) {}
 
-  /// Starts anew; drops the corners of the run before, keeps the rig.
+  /// Starts anew with a square; drops what the run before has captured, keeps the rig.
   /// @param side_x, side_y sides of the rectangle [m].
   Reply start(double side_x, double side_y, const std::vector<std::string>& cameras);
+
+  /// Same for a wand that is waved without a square.
+  Reply startWithoutSquare(const std::vector<std::string>& cameras);
 
   /// Begins to capture the next missing corner, or `retake` again (0..3).
   Reply beginCapture(std::optional<std::size_t> retake, double now);
 
-  /// One image of one camera; images in the order of their stamps. Ends a capture that is over.
+  /// Gives up the capture that goes on; what was captured before stays.
+  void abandonCapture(const std::string& why);
+
+  /// From now on a corner is captured by itself when the LED is held still at a new place.
+  void setHandsFree(bool on);
+  bool isHandsFree() const { return hands_free_on_; }
+
+  /// Begins to record a wave; the one before in this run is dropped.
+  /// @param cameras of this run: names, image sizes; poses if `posed`, for the volume that is
+  /// passed through. @param wand nothing: one LED is waved.
+  Reply beginWave(const std::vector<geometry::Camera>& cameras,
+                  bool posed,
+                  const std::optional<wave::Wand>& wand,
+                  double now);
+  Reply endWave();
+
+  /// One image of one camera; images in the order of their stamps.
   void addImage(const capture::Image& image);
 
   /// Looks at the clock, which goes on without images too.
   void update(double now);
 
-  /// How the last capture ended; nothing while it goes on, and before the first.
-  const std::optional<Reply>& captureOutcome() const { return capture_outcome_; }
-
-  /// Gives up the capture that goes on; what was captured before stays.
-  void abandonCapture(const std::string& why);
-
-  /// Drops the corner that was captured last.
+  /// Drops what was captured last: the wave, else the last corner.
   Reply undo();
 
-  /// Stops what goes on. A capture, or nothing, goes on: drops the whole run; keeps the rig.
+  /// Stops what goes on. A capture, a wave, or nothing goes on: drops the whole run; keeps the rig.
   Reply cancel();
 
   /// Begins something that takes time and is done elsewhere: kMasking or kMeasuring. Refused while
@@ -98,12 +109,23 @@ class Calibration {
   /// Ends it, and shows how it ended. Nothing to end after a cancel().
   void end(const Reply& outcome);
 
-  /// Announces solve(), so that it can be shown. Refused when corners are missing.
+  /// Begins kSolving: session() is solved elsewhere, which ends with finishSolve(), or with end()
+  /// when it fails. Refused when there is not enough to be solved.
   Reply beginSolve();
 
-  /// Solves the rig from the corners. On failure the rig before and the corners stay.
-  /// @param facts for every camera of the run that is known. @param time for Rig::solved_at [s].
-  Reply solve(const std::map<std::string, CameraFacts>& facts, double time);
+  /// Takes over the result. @returns its verdict.
+  Reply finishSolve(const geometry::Rig& rig);
+
+  /// All that was captured so far. @param facts, masks for every camera of the run that is known;
+  /// after restore() those of what was restored take the place of the facts.
+  session::Session session(const std::map<std::string, CameraFacts>& facts,
+                           const capture::Masks& masks) const;
+
+  /// Goes on from what was captured before, in the place of the run so far; keeps the rig.
+  Reply restore(const session::Session& session);
+
+  /// Whether the run was restored, so that it has its own facts.
+  bool isRestored() const { return !restored_facts_.empty(); }
 
   /// Takes over a rig that was read from a file. Refused while something goes on.
   Reply load(const geometry::Rig& rig);
@@ -120,37 +142,43 @@ class Calibration {
   Step step() const { return busy_.value_or(step_); }
   const std::string& message() const { return message_; }
   double progress() const;
+  /// What is still missing before this can be solved, most urgent first; one sentence each.
+  std::vector<std::string> missing() const;
+  /// Empty when nothing is started.
   const std::vector<std::string>& cameras() const { return cameras_; }
-  const std::vector<capture::CapturedCorner>& corners() const { return corners_; }
-  /// Along x, along y [m]; empty before the start.
-  const std::vector<double>& sides() const { return sides_; }
-  /// The corner that is being captured, counted from 0.
-  std::size_t currentCorner() const { return current_corner_; }
-  /// Nothing unless a corner is being captured.
-  const std::optional<capture::CornerCapture>& currentCapture() const { return capture_; }
+  const SquareRun& square() const { return square_; }
+  /// Along x, along y [m]; empty without a square.
+  std::vector<double> sides() const;
+  /// The wave that is being recorded, or was.
+  const std::optional<WaveRecorder>& wave() const { return wave_; }
   const std::optional<geometry::Rig>& rig() const { return rig_; }
 
  private:
-  /// Why nothing can be begun now; empty when it can.
+  Reply startWith(const std::vector<std::string>& cameras,
+                  const std::optional<square::SquareLayout>& layout);
+  /// Why nothing can be begun now.
   std::string occupied() const;
   Reply refuse(const std::string& message);
   Reply accept(const std::string& message);
-  void finishCapture();
-  void endCapture(const Reply& outcome);
+  Reply shown(const Reply& reply);
+  void clear();
   void settle();
-  std::optional<std::size_t> cornerInSamePlace(const capture::CapturedCorner& corner) const;
+  bool hasWand() const { return wave_ && wave_->wand(); }
 
   CalibrationOptions options_;
   Step step_ = Step::kIdle;   // when nothing goes on
   std::optional<Step> busy_;  // what goes on
-  double progress_ = 0.0;     // of that, unless a corner is being captured
+  double progress_ = 0.0;     // of that, where it is told from outside
   std::string message_ = "nothing started: start a calibration, or load a rig";
+  // What was captured.
   std::vector<std::string> cameras_;
-  std::vector<double> sides_;
-  std::vector<capture::CapturedCorner> corners_;
-  std::size_t current_corner_ = 0;
-  std::optional<capture::CornerCapture> capture_;
-  std::optional<Reply> capture_outcome_;
+  std::optional<square::SquareLayout> layout_;
+  SquareRun square_;
+  std::optional<WaveRecorder> wave_;
+  std::map<std::string, CameraFacts> restored_facts_;
+  std::string world_frame_;
+  bool hands_free_on_ = false;
+  std::optional<capture::HandsFree> hands_free_;
   std::optional<geometry::Rig> rig_;
 };
 

@@ -1,0 +1,86 @@
+#include "wiimote_tracker_calibration/capture/mask_learner.h"
+
+#include <algorithm>
+
+namespace wiimote_tracker::capture {
+
+namespace {
+
+constexpr std::size_t kFewestImages = 20;  // that say anything
+constexpr std::size_t kAccident = 3;       // images in which anything can flash up
+
+}  // namespace
+
+MaskLearner::MaskLearner(const std::vector<std::string>& cameras, const MaskOptions& options)
+    : options_(options) {
+  for (const std::string& name : cameras)
+    cameras_[name];
+}
+
+void MaskLearner::add(const Image& image) {
+  const auto found = cameras_.find(image.camera);
+  if (found == cameras_.end())
+    return;
+  ++found->second.images;
+  for (const Blobs* spots : {&image.spots, &image.masked}) {
+    for (const Eigen::Vector2d& spot : *spots) {
+      if (spot.allFinite())
+        addSpot(spot, &found->second);
+    }
+  }
+}
+
+void MaskLearner::addSpot(const Eigen::Vector2d& spot, Camera* camera) const {
+  Light* nearest = nullptr;
+  for (Light& light : camera->lights) {
+    if (nearest == nullptr || (light.mean - spot).norm() < (nearest->mean - spot).norm())
+      nearest = &light;
+  }
+  if (nearest == nullptr || (nearest->mean - spot).norm() > 2.0 * options_.reach) {
+    camera->lights.push_back({spot, spot, spot, 1});
+    return;
+  }
+  ++nearest->images;
+  nearest->mean += (spot - nearest->mean) / static_cast<double>(nearest->images);
+  nearest->lower = nearest->lower.cwiseMin(spot);
+  nearest->upper = nearest->upper.cwiseMax(spot);
+}
+
+std::map<std::string, LearnedMasks> MaskLearner::result() const {
+  std::map<std::string, LearnedMasks> result;
+  for (const auto& camera : cameras_)
+    result[camera.first] = learned(camera.second);
+  return result;
+}
+
+LearnedMasks MaskLearner::learned(const Camera& camera) const {
+  LearnedMasks result;
+  if (camera.images < kFewestImages) {
+    result.problem =
+        camera.images == 0
+            ? "sends no images: check its battery, its connection and its driver"
+            : "sent " + std::to_string(camera.images) + " images only: look for a longer time";
+    return result;
+  }
+  const double needed =
+      std::max(options_.share * static_cast<double>(camera.images), static_cast<double>(kAccident));
+  std::size_t moving = 0;  // images with a light that leaves a trail, or that wanders
+  for (const Light& light : camera.lights) {
+    const double radius = 0.5 * (light.upper - light.lower).norm();
+    if (radius > options_.reach) {
+      moving += light.images;
+    } else if (static_cast<double>(light.images) >= needed) {
+      result.masks.push_back({0.5 * (light.lower + light.upper), radius + options_.margin});
+    }
+  }
+  // A light that is carried about leaves a chain of places behind, each of them wide.
+  if (static_cast<double>(moving) >= needed) {
+    result.masks.clear();
+    result.problem =
+        "sees a light that moves: switch the LED off, keep out of its view with all that shines or "
+        "reflects, and learn again";
+  }
+  return result;
+}
+
+}  // namespace wiimote_tracker::capture

@@ -1,0 +1,21 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_VERDICT_MESSAGES_H
+#define WIIMOTE_TRACKER_CALIBRATION_ROS_VERDICT_MESSAGES_H
+
+#include "wiimote_tracker_calibration/principal_point/trace.h"
+#include "wiimote_tracker_calibration/session/verdict.h"
+
+#include <wiimote_tracker_msgs/CalibrationVerdict.h>
+#include <wiimote_tracker_msgs/PrincipalPointTrace.h>
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+namespace wiimote_tracker {
+
+wiimote_tracker_msgs::CalibrationVerdict toMessage(const session::Verdict& verdict,
+                                                   const geometry::Rig& rig);
+
+wiimote_tracker_msgs::PrincipalPointTrace toMessage(const principal_point::Trace& trace,
+                                                    const geometry::Rig& rig);
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_VERDICT_MESSAGES_H

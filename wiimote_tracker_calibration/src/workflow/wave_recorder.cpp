@@ -1,0 +1,61 @@
+#include "wiimote_tracker_calibration/workflow/wave_recorder.h"
+
+namespace wiimote_tracker::workflow {
+
+WaveRecorder::WaveRecorder(const std::vector<geometry::Camera>& cameras,
+                           bool posed,
+                           const std::optional<wave::Wand>& wand,
+                           const wave::CoverageOptions& options,
+                           double start)
+    : cameras_(cameras),
+      posed_(posed),
+      wand_(wand),
+      options_(options),
+      start_(start),
+      tracks_(cameras.size()),
+      coverage_(cameras, posed, wand ? 2 : 1, options) {
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    index_[cameras[i].name] = i;
+}
+
+void WaveRecorder::add(const capture::Image& image) {
+  const auto found = index_.find(image.camera);
+  if (found == index_.end() || image.stamp < start_ || image.stamp > start_ + kLongest)
+    return;
+  const std::size_t index = found->second;
+  Track& track = tracks_[index];
+  if (track.frames.empty()) {
+    track.clock_epoch = image.clock_epoch;
+  } else if (image.clock_epoch != track.clock_epoch) {
+    track = Track{image.clock_epoch, {}, true};
+    coverage_ = wave::Coverage(cameras_, posed_, wand_ ? 2 : 1, options_);
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      for (const wave::Frame& frame : tracks_[i].frames)
+        coverage_.add(i, frame);
+    }
+  } else if (image.stamp <= track.frames.back().stamp) {
+    return;
+  }
+  track.frames.push_back({image.stamp, image.spots});
+  coverage_.add(index, track.frames.back());
+}
+
+const WaveRecorder::Track* WaveRecorder::track(const std::string& camera) const {
+  const auto found = index_.find(camera);
+  return found != index_.end() ? &tracks_[found->second] : nullptr;
+}
+
+wave::CoverageReport WaveRecorder::report() const {
+  wave::CoverageReport report = coverage_.report();
+  if (report.enough())
+    return report;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (tracks_[i].reconnected)
+      report.missing.push_back(cameras_[i].name +
+                               " connected anew during the wave, so what it saw before does not "
+                               "count: go on waving where it looks");
+  }
+  return report;
+}
+
+}  // namespace wiimote_tracker::workflow

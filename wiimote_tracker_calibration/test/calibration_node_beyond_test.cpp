@@ -1,0 +1,247 @@
+// Beyond the square: waves, masks, hands-free capture and the button, a bag.
+
+#include "node_fixture.h"
+
+#include <rosbag/bag.h>
+#include <sensor_msgs/Joy.h>
+#include <std_srvs/SetBool.h>
+#include <wiimote_tracker_msgs/LearnMasks.h>
+#include <wiimote_tracker_msgs/PrincipalPointTrace.h>
+#include <wiimote_tracker_msgs/StartWave.h>
+
+namespace wiimote_tracker {
+namespace {
+
+using wiimote_tracker_msgs::SolveCalibration;
+using wiimote_tracker_msgs::StartWave;
+
+class Beyond : public Node {
+ protected:
+  static std_srvs::SetBool::Response handsFree(const std::string& node, bool on) {
+    std_srvs::SetBool::Request request;
+    request.data = on;
+    return call<std_srvs::SetBool>(node + "calibration/hands_free", request);
+  }
+
+  /// Carries the LED from corner to corner until each is captured.
+  static void carryAround() {
+    for (std::size_t c = 0; c < kCorners.size(); ++c) {
+      cameras_->carryLed(kCorners[c], 0.5);
+      ASSERT_TRUE(waitUntil([c] { return status_->get()->corners_captured == c + 1; }))
+          << status_->get()->message;
+    }
+  }
+
+  static void wave() {
+    cameras_->waveLed(true);
+    const auto started = call<StartWave>("calibration/start_wave");
+    ASSERT_TRUE(started.success) << started.message;
+    ASSERT_TRUE(waitForStep(CalibrationStatus::WAVING));
+    ASSERT_TRUE(waitUntil([] { return status_->get()->missing.empty(); }))
+        << status_->get()->missing.front();
+    const auto stopped = call<std_srvs::Trigger>("calibration/stop_wave");
+    ASSERT_TRUE(stopped.success) << stopped.message;
+    EXPECT_SAYS(stopped.message, "enough: solve");
+    cameras_->waveLed(false);
+  }
+};
+
+TEST_F(Beyond, a_wave_is_recorded_with_its_coverage_and_solved_with_the_square) {
+  EXPECT_FALSE(call<StartWave>("calibration/start_wave").success);
+  EXPECT_SAYS(call<std_srvs::Trigger>("calibration/stop_wave").message, "no wave");
+  captureAll();
+  cameras_->waveLed(true);
+  ASSERT_TRUE(call<StartWave>("calibration/start_wave").success);
+  EXPECT_TRUE(waitUntil([] {
+    const auto status = status_->get();
+    return status->step == CalibrationStatus::WAVING && status->wave_seconds > 0.5;
+  }));
+  const auto status = status_->get();
+  EXPECT_FALSE(status->missing.empty());
+  EXPECT_LT(status->progress, 1.0);
+  ASSERT_EQ(status->cameras[2].image_cells.size(), 48U);
+  EXPECT_GT(status->cameras[2].image_coverage, 0.0);
+  EXPECT_GT(status->cameras[2].speed, 10.0);
+  EXPECT_GT(status->cameras[2].wave_seconds, 0.0);
+  EXPECT_SAYS(call<SolveCalibration>("calibration/solve").message, "a wave is being recorded");
+  call<std_srvs::Trigger>("calibration/stop_wave");
+  wave();
+
+  // The solver can be stopped; nothing of what was captured is lost.
+  std::string outcome;
+  for (int attempt = 0; attempt < 5 && outcome.find("cancelled") == std::string::npos; ++attempt) {
+    std::thread solver([&] { outcome = call<SolveCalibration>("calibration/solve").message; });
+    EXPECT_TRUE(waitUntil([] { return status_->get()->step == CalibrationStatus::SOLVING; }));
+    if (status_->get()->step == CalibrationStatus::SOLVING)
+      call<std_srvs::Trigger>("calibration/cancel");
+    solver.join();
+  }
+  EXPECT_SAYS(outcome, "cancelled");
+  EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));
+
+  const auto solved = call<SolveCalibration>("calibration/solve");
+  ASSERT_TRUE(solved.success) << solved.message;
+  EXPECT_SAYS(solved.rig.method, "wave");
+  ASSERT_EQ(solved.rig.cameras.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto& position = solved.rig.cameras[i].world_from_camera.position;
+    EXPECT_LT(
+        (Eigen::Vector3d(position.x, position.y, position.z) - cameras_->truth[i].center()).norm(),
+        0.03);
+    EXPECT_LT(std::abs(solved.rig.cameras[i].time_offset), 0.0005);
+  }
+}
+
+TEST_F(Beyond, lamps_are_learned_masked_and_go_into_the_rig) {
+  const Eigen::Vector3d lamp(0.4, 1.9, 1.4);
+  cameras_->setLamps({lamp});
+  cameras_->switchLed(false);
+  wiimote_tracker_msgs::LearnMasks::Request request;
+  request.duration = 0.5;
+  auto learned = call<wiimote_tracker_msgs::LearnMasks>("calibration/learn_masks", request);
+  EXPECT_TRUE(waitUntil([&] {  // the LED's last images may still have been under way
+    learned = call<wiimote_tracker_msgs::LearnMasks>("calibration/learn_masks", request);
+    return learned.success && learned.masks == std::vector<std::uint32_t>({1, 1, 1, 1});
+  })) << learned.message;
+  EXPECT_SAYS(learned.message, "exactly one light: if that is the LED");
+  EXPECT_TRUE(waitUntil([] {
+    const auto& camera = status_->get()->cameras[3];
+    return camera.masks == 1 && camera.blobs == 0;
+  }));
+
+  cameras_->switchLed(true);
+  captureAll();
+  const auto solved = call<SolveCalibration>("calibration/solve");
+  ASSERT_TRUE(solved.success) << solved.message;
+  for (std::size_t i = 0; i < 4; ++i) {
+    ASSERT_EQ(solved.rig.cameras[i].masks.size(), 1U);
+    const Eigen::Vector2d pixel = cameras_->truth[i].project(lamp).value();
+    const auto& mask = solved.rig.cameras[i].masks[0];
+    EXPECT_LT((Eigen::Vector2d(mask.x, mask.y) - pixel).norm(), 1.0);
+    EXPECT_LT(mask.radius, 12.0);
+  }
+  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/clear_masks").success);
+  EXPECT_TRUE(waitUntil([] {
+    const auto& camera = status_->get()->cameras[3];
+    return camera.masks == 0 && camera.blobs == 2;
+  }));
+}
+
+TEST_F(Beyond, the_button_of_a_spare_remote_captures) {
+  wiimote_tracker_msgs::StartCalibration::Request request;
+  request.side_x = 2.5;
+  request.cameras = {"camera_1", "camera_2", "spare"};
+  EXPECT_SAYS(call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request).message,
+              "pressing moves it");
+  ASSERT_TRUE(start(2.5).success);
+  putLed(kCorners[0]);
+  ros::NodeHandle nh;
+  ros::Publisher joy = nh.advertise<sensor_msgs::Joy>("spare/joy", 10, true);
+  ASSERT_TRUE(waitUntil([&] { return joy.getNumSubscribers() > 0; }));
+  sensor_msgs::Joy message;
+  message.buttons.assign(11, 0);
+  joy.publish(message);
+  message.buttons[3] = 1;  // B
+  joy.publish(message);
+  message.buttons[2] = 1;  // and A
+  joy.publish(message);
+  joy.publish(message);  // still held
+  ASSERT_TRUE(waitUntil([] { return status_->get()->corners_captured == 1; }))
+      << status_->get()->message;
+  EXPECT_SAYS(status_->get()->message, "corner 1 captured by 4 of 4");
+}
+
+TEST_F(Beyond, a_driver_that_does_not_answer_holds_up_no_saving) {
+  captureAll();
+  ASSERT_TRUE(call<SolveCalibration>("calibration/solve").success);
+  cameras_->hang("camera_3");
+  const auto saved = call<wiimote_tracker_msgs::SaveRig>("calibration/save");
+  EXPECT_TRUE(saved.success);
+  EXPECT_SAYS(saved.message, "camera_3 does not answer set_camera_info in time");
+  EXPECT_EQ(saved.message.find("camera_2"), std::string::npos);
+  cameras_->hang("");
+  EXPECT_TRUE(waitUntil([] { return cameras_->cameraInfos().count("camera_3") == 1; }));
+}
+
+class BagWriter : public Recorder {
+ public:
+  explicit BagWriter(const std::string& path) : bag_(path, rosbag::bagmode::Write) {}
+  void write(const std::string& topic, const wiimote_tracker_msgs::IrBlobArray& message) override {
+    bag_.write(topic, message.header.stamp, message);
+  }
+  void write(const std::string& topic, const sensor_msgs::Imu& message) override {
+    bag_.write(topic, message.header.stamp, message);
+  }
+
+ private:
+  rosbag::Bag bag_;
+};
+
+TEST_F(Beyond, a_bag_gives_the_same_rig_as_life) {
+  // Live: hands-free, and recorded.
+  const std::string path = folder_ + "/session.bag";
+  cameras_->switchLed(false);
+  cameras_->putLed(kCorners[0] - Eigen::Vector3d(1.0, 0.0, 0.0));
+  ASSERT_TRUE(start(2.5).success);
+  ASSERT_TRUE(handsFree("", true).success);
+  {
+    BagWriter bag(path);
+    cameras_->record(&bag);
+    // All cameras are in the bag before there is anything to see.
+    ASSERT_TRUE(waitUntil([] {
+      for (const auto& camera : status_->get()->cameras) {
+        if (camera.blobs != 0)
+          return false;
+      }
+      return true;
+    }));
+    cameras_->switchLed(true);
+    carryAround();
+    cameras_->record(nullptr);
+  }
+  EXPECT_TRUE(status_->get()->hands_free);
+  ASSERT_TRUE(handsFree("", false).success);
+  const auto live = call<SolveCalibration>("calibration/solve");
+  ASSERT_TRUE(live.success) << live.message;
+
+  // From the bag, three times as fast; only the new node lives in simulated time.
+  ros::param::set("/use_sim_time", true);
+  {
+    const Process process("/replayed",
+                          {"_rig_file:=" + folder_ + "/replayed.yaml", "_minimum_samples:=20",
+                           "_hands_free:=true", "_hands_free_hold:=0.5"});
+    ASSERT_TRUE(
+        ros::service::waitForService("/replayed/calibration/start", ros::Duration(kPatience)));
+    wiimote_tracker_msgs::StartCalibration::Request request;
+    request.side_x = 2.5;
+    request.cameras = {"camera_1", "camera_2", "camera_3", "camera_4"};
+    const std::string play = "rosbag play --clock -r 3 -d 2 --queue=100000 --prefix=/replayed '" +
+                             path + "' > /dev/null 2>&1";
+    Latest<CalibrationStatus> status("/replayed/calibration/status");
+    std::thread player([&] { EXPECT_EQ(std::system(play.c_str()), 0); });
+    // The bag's cameras are advertised before the first message is sent.
+    EXPECT_TRUE(waitUntil([&] {
+      return call<wiimote_tracker_msgs::StartCalibration>("/replayed/calibration/start", request)
+          .success;
+    }));
+    player.join();
+    EXPECT_TRUE(waitUntil([&] { return status.get() && status.get()->corners_captured == 4; }))
+        << status.get()->message;
+    const auto replayed = call<SolveCalibration>("/replayed/calibration/solve");
+    EXPECT_TRUE(replayed.success) << replayed.message;
+    EXPECT_EQ(replayed.rig.id, live.rig.id);
+    EXPECT_EQ(replayed.rig.covariance, live.rig.covariance);
+  }
+  ros::param::set("/use_sim_time", false);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "calibration_node_beyond_test");
+  ros::AsyncSpinner spinner(4);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,265 @@
+#!/usr/bin/env python3
+"""A person calibrates a simulated rig as the program calibrate says; what comes out is as good as
+it claims to be."""
+
+import fcntl
+import os
+import pty
+import queue
+import re
+import select
+import shutil
+import struct
+import subprocess
+import sys
+import termios
+import threading
+import time
+import unittest
+
+import numpy as np
+import rospkg
+import rospy
+import rosservice
+import rostest
+from geometry_msgs.msg import Vector3
+from wiimote_tracker_evaluation import experiment, scene
+from wiimote_tracker_msgs.msg import CalibrationVerdict, RigCalibration
+from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
+
+CALIBRATE = ['rosrun', 'wiimote_tracker_calibration', 'calibrate']
+DEADLINE = 60.0   # [s]
+ATTEMPTS = 5
+CARRY_SPEED = 5.0  # [m/s]
+WAVE_SPEED = 1.3  # [m/s]
+WAVE_MIDDLE, WAVE_BOX = (1.25, 1.25, 1.2), (2.3, 2.3, 2.1)  # [m]
+# Square root of the 99.9 % and 0.1 % quantiles of chi-squared / degrees of freedom, for three: as
+# few as there are when the errors of all places are one and the same.
+LARGEST, SMALLEST = 2.33, 0.09
+
+
+class Program(object):
+    """calibrate --plain, talked to as a person would."""
+
+    def __init__(self, *arguments):
+        self._process = subprocess.Popen(CALIBRATE + ['--plain'] + list(arguments),
+                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                         stderr=subprocess.STDOUT, universal_newlines=True)
+        self._lines = queue.Queue()
+        self.heard = []
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _read(self):
+        for line in self._process.stdout:
+            self._lines.put(line.rstrip('\n'))
+        self._lines.put(None)
+
+    def type(self, line):
+        self._process.stdin.write(line + '\n')
+        self._process.stdin.flush()
+
+    def expect(self, pattern):
+        """The next line in which the pattern is; None stands for the end."""
+        end = time.monotonic() + DEADLINE
+        while True:
+            try:
+                line = self._lines.get(timeout=max(end - time.monotonic(), 0.0))
+            except queue.Empty:
+                raise AssertionError('no "%s" within %.0f s of:\n%s' % (
+                    pattern, DEADLINE, '\n'.join(self.heard)))
+            if line is None:
+                raise AssertionError('it ended without "%s":\n%s' % (pattern,
+                                                                     '\n'.join(self.heard)))
+            self.heard.append(line)
+            if re.search(pattern, line):
+                return line
+
+    def end(self):
+        """Exit status."""
+        self._process.stdin.close()
+        return self._process.wait(DEADLINE)
+
+
+class Screen(object):
+    """calibrate on a terminal of 80 x 24."""
+
+    def __init__(self):
+        self._terminal, slave = pty.openpty()
+        fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack('HHHH', 24, 80, 0, 0))
+        self._process = subprocess.Popen(CALIBRATE, stdin=slave, stdout=slave, stderr=slave,
+                                         env=dict(os.environ, TERM='xterm'), start_new_session=True)
+        os.close(slave)
+        self.seen = ''
+
+    def type(self, text):
+        os.write(self._terminal, text.encode())
+
+    def expect(self, pattern):
+        end = time.monotonic() + DEADLINE
+        while not re.search(pattern, self.seen):
+            if time.monotonic() > end:
+                raise AssertionError('no "%s" on the screen: %r' % (pattern, self.seen[-4000:]))
+            if select.select([self._terminal], [], [], 0.1)[0]:
+                try:
+                    text = os.read(self._terminal, 65536).decode(errors='replace')
+                except OSError:
+                    raise AssertionError('it ended without "%s": %r' % (pattern, self.seen[-4000:]))
+                # Moves of the cursor part words that were drawn at different times.
+                self.seen += re.sub(r'\x1b\[[0-9;?]*[A-Za-z]|\x1b\([A-Z]', ' ', text)
+
+    def end(self):
+        return self._process.wait(DEADLINE)
+
+
+def triangulated(cameras, pixels):
+    """The place with the least reprojection error. cameras: (parameters, rotation, position)."""
+    place = np.array([1.25, 1.25, 1.0])
+    for _ in range(20):
+        def residuals(at):
+            return np.concatenate([scene.project(*camera, points=at)[0] - pixel
+                                   for camera, pixel in zip(cameras, pixels)])
+        step = 1e-6
+        jacobian = np.stack([(residuals(place + step * axis) - residuals(place - step * axis)) /
+                             (2 * step) for axis in np.eye(3)], axis=1)
+        place = place - np.linalg.lstsq(jacobian, residuals(place), rcond=None)[0]
+    return place
+
+
+def solved_camera(camera):
+    q, p = camera.world_from_camera.orientation, camera.world_from_camera.position
+    x, y, z, w = q.x, q.y, q.z, q.w
+    rotation = np.array([
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    return ([camera.fx, camera.fy, camera.cx, camera.cy, camera.distortion[0]], rotation,
+            np.array([p.x, p.y, p.z]))
+
+
+class GuidedCalibration(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('guided_calibration_rostest')
+        cls.rig_file = rospy.get_param('~rig_file')
+        cls.scene = scene.read_scene(os.path.join(
+            rospkg.RosPack().get_path('wiimote_tracker_bringup'), 'simulation/paper_rig.yaml'))
+        rospy.wait_for_service('simulation/set_led', DEADLINE)
+        cls.set_led = staticmethod(rospy.ServiceProxy('simulation/set_led', SetLed))
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(os.path.dirname(cls.rig_file), ignore_errors=True)
+
+    def led(self, led='led', on=True, target=None, motion=SetLedRequest.HOLD, **more):
+        """Switches or moves an LED; returns when it is where it should be."""
+        request = SetLedRequest(led=led, on=on, motion=motion, **more)
+        if target is not None:
+            request.target.x, request.target.y, request.target.z = target
+        response = self.set_led(request)
+        self.assertTrue(response.success, response.message)
+        while rospy.get_time() < response.arrival.to_sec() + 0.1:
+            rospy.sleep(0.01)
+
+    def carry(self, target):
+        self.led(target=target, motion=SetLedRequest.LINE, speed=CARRY_SPEED)
+
+    def wait_for_cameras(self, program):
+        """Until all drivers deliver; who starts calibrate sooner is told to wait."""
+        end = time.monotonic() + DEADLINE
+        while True:
+            program.type('connection')
+            if 'all 4 cameras' in program.expect('see exactly one spot|refused: '):
+                return
+            self.assertLess(time.monotonic(), end, program.heard)
+
+    def capture(self, program, number):
+        """A computer that is slow shows the LED on its way still; what is refused is tried again,
+        as the refusal says. @return how often it was."""
+        for refused in range(ATTEMPTS):
+            program.type('next')
+            if 'refused' not in program.expect('^corner %d captured by 4|refused' % number):
+                return refused
+        self.fail('\n'.join(program.heard))
+
+    def test_square_wave_solve_save(self):
+        # The drivers take a while: a program of its own, that may fail.
+        self.carry(experiment.CORNERS[0])
+        starting = Program()
+        self.wait_for_cameras(starting)
+        starting.end()
+
+        self.led('lamp', on=True)  # that somebody left on
+        self.led(on=False)
+        program = Program('--side', '%g' % experiment.SIDE)
+        program.expect('Switch the LED off')
+        program.type('next')
+        program.expect('Switch the LED on')
+        self.led(on=True)
+        program.type('next')
+        program.expect('all 4 cameras see exactly one spot')
+        program.expect('next: .*SPACE starts with 2.5 m')
+        program.type('next')
+        refused = 0
+        for number, place in enumerate(experiment.placed_corners(1), 1):
+            program.expect('Put the LED on corner %d' % number)
+            self.carry(place)
+            refused += self.capture(program, number)
+        program.expect('SPACE begins the wave')
+        self.led(target=WAVE_MIDDLE, motion=SetLedRequest.WAVE, speed=WAVE_SPEED,
+                 box=Vector3(*WAVE_BOX), path=1)
+        program.type('next')
+        program.expect('Wave through the whole volume')
+        program.type('wait %g' % DEADLINE)
+        program.type('next')
+        program.expect('next: SPACE solves')
+        program.type('next')
+        program.expect('next: Read the verdict')
+        program.type('next')
+        program.expect('next|c checks the rig')
+        program.type('quit')
+        took = program.expect('Calibrated and saved in')
+        print(took)
+        self.assertEqual(program.end(), 1 if refused else 0, program.heard)
+        self.assertTrue(os.path.exists(self.rig_file))
+
+        rig = rospy.wait_for_message('calibration/rig', RigCalibration, DEADLINE)
+        verdict = rospy.wait_for_message('calibration/verdict', CalibrationVerdict, DEADLINE)
+        self.assertEqual(verdict.rig_id, rig.id)
+        self.assertIn('wave', rig.method)
+        self.assertEqual([len(camera.masks) for camera in rig.cameras], [1] * 4)
+        self.compare_with_truth(rig, verdict)
+        self.check_on_the_screen()
+
+    def compare_with_truth(self, rig, verdict):
+        by_name = {camera.name.strip('/'): solved_camera(camera) for camera in rig.cameras}
+        self.assertEqual(set(by_name), {camera.name for camera in self.scene.cameras})
+        self.assertEqual(len(verdict.predicted_at), 8)
+        ratios = []
+        for at, sigma in zip(verdict.predicted_at, verdict.predicted_stddev):
+            place = np.array([at.x, at.y, at.z])
+            pixels = [camera.project(place)[0] for camera in self.scene.cameras]
+            measured = triangulated([by_name[camera.name] for camera in self.scene.cameras], pixels)
+            error = np.linalg.norm(measured - place)
+            ratios.append(error / sigma)
+            print('(%.2f, %.2f, %.2f): %.1f mm off, %.1f mm foretold' % (
+                tuple(place) + (1e3 * error, 1e3 * sigma)))
+        rms = np.sqrt(np.mean(np.square(ratios)))
+        self.assertLess(rms, LARGEST)
+        self.assertGreater(rms, SMALLEST)
+
+    def check_on_the_screen(self):
+        """The check of the next morning, with keys."""
+        self.carry((1.25, 1.25, 1.0))
+        screen = Screen()
+        screen.expect('wiimote_4')
+        screen.type('c')
+        screen.expect('Where is the LED')
+        screen.type('1.25 1.25 1.0\n')
+        offered = 'check' in [name.rsplit('/')[-1] for name in rosservice.get_service_list()]
+        screen.expect(r'\d mm' if offered else 'does not answer')
+        screen.type('q')
+        self.assertEqual(screen.end(), 0)
+
+
+if __name__ == '__main__':
+    sys.exit(rostest.rosrun('wiimote_tracker_bringup', 'guided_calibration', GuidedCalibration))

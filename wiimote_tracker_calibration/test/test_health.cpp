@@ -1,7 +1,6 @@
 // Whether cameras that were moved are noticed, and only these: over many simulated minutes.
 
-#include "simulated_rig.h"
-#include "simulated_wave.h"
+#include "waved_led.h"
 
 #include "wiimote_tracker_calibration/health/alarm.h"
 #include "wiimote_tracker_calibration/health/drift_watch.h"
@@ -38,57 +37,6 @@ RigErrors wellCalibrated() {
   errors.k1 = 5e-4;
   return errors;
 }
-
-/// An LED that is waved before true cameras.
-class Scene {
- public:
-  Scene(std::vector<geometry::RigCamera> truth, std::uint64_t seed)
-      : truth_(std::move(truth)), random_(seed), path_(0.0, random_) {
-    for (std::size_t i = 0; i < truth_.size(); ++i)
-      next_.push_back(uniform(random_, 0.0, kPeriod));
-  }
-
-  /// Images up to a time, in its order.
-  template <typename OnImage>
-  void runUntil(double time, const OnImage& on_image) {
-    while (true) {
-      const auto first = std::min_element(next_.begin(), next_.end());
-      if (*first >= time)
-        return;
-      const auto camera = static_cast<std::size_t>(first - next_.begin());
-      on_image(imageOf(camera, *first));
-      *first += kPeriod;
-    }
-  }
-
-  std::vector<geometry::RigCamera> truth_;
-  double wrong_share = 0.05;
-  double pixel = 0.4;
-  std::uint32_t epoch = 7;
-  std::optional<Eigen::Vector3d> still;  ///< The LED lies there.
-
- private:
-  static constexpr double kPeriod = 0.02;
-
-  capture::Image imageOf(std::size_t index, double exposure) {
-    const geometry::RigCamera& camera = truth_[index];
-    capture::Image image;
-    image.camera = camera.camera.name;
-    image.stamp = 1.7e9 + exposure - camera.time_offset;
-    image.clock_epoch = epoch;
-    const Eigen::Vector3d led = still ? *still : path_.position(exposure, 0);
-    Eigen::Vector2d spot = camera.camera.project(led).value();
-    spot += Eigen::Vector2d(normal(random_, pixel), normal(random_, pixel));
-    if (uniform(random_, 0.0, 1.0) < wrong_share)
-      spot = {uniform(random_, 0.0, 1023.0), uniform(random_, 0.0, 767.0)};
-    image.spots.emplace_back(std::round(spot.x()), std::round(spot.y()));
-    return image;
-  }
-
-  Random random_;
-  wave::SimulatedPath path_;
-  std::vector<double> next_;
-};
 
 /// Cameras whose drift reached the limit in the latest judgement.
 std::set<std::string> drifted(const geometry::Rig& rig, const DriftWatch& watch) {
@@ -230,7 +178,7 @@ TEST(DriftWatch, RaisesNoFalseAlarm) {
     const std::size_t cameras = trial % 2 == 0 ? 4 : 2;
     // Half of the rigs are calibrated well, half by a square alone.
     const geometry::Rig rig = paperRigWith(trial % 4 < 2 ? wellCalibrated() : RigErrors(), cameras);
-    Scene scene(drawTruth(rig, random), 100 + static_cast<std::uint64_t>(trial));
+    WavedLed scene(drawTruth(rig, random), 100 + static_cast<std::uint64_t>(trial));
     DriftWatch watch(rig, {});
     scene.runUntil(240.0, [&](const capture::Image& image) {
       if (!watch.add(image))
@@ -259,7 +207,7 @@ TEST(DriftWatch, NamesTheCameraThatDriftedByOnePixel) {
     const double angle = uniform(random, -M_PI, M_PI);
     truth[moved].camera.intrinsics.cx += std::cos(angle);
     truth[moved].camera.intrinsics.cy += std::sin(angle);
-    Scene scene(truth, 200 + static_cast<std::uint64_t>(trial));
+    WavedLed scene(truth, 200 + static_cast<std::uint64_t>(trial));
     DriftWatch watch(rig, {});
     scene.runUntil(62.0, [&](const capture::Image& image) { watch.add(image); });
     const auto names = drifted(rig, watch);
@@ -284,7 +232,7 @@ TEST(DriftWatch, NamesTheCameraThatWasBumped) {
     const std::size_t moved = static_cast<std::size_t>(trial) % 4;
     const Eigen::Vector3d axis(normal(random, 1.0), normal(random, 1.0), 0.0);
     truth[moved] = turned(truth[moved], 0.5 * kDegree * axis.normalized());
-    Scene scene(truth, 300 + static_cast<std::uint64_t>(trial));
+    WavedLed scene(truth, 300 + static_cast<std::uint64_t>(trial));
     DriftWatch watch(rig, {});
     scene.runUntil(62.0, [&](const capture::Image& image) { watch.add(image); });
     const auto names = drifted(rig, watch);
@@ -302,7 +250,7 @@ TEST(DriftWatch, TwoCamerasAreNamedBoth) {
   const geometry::Rig rig = paperRigWith(wellCalibrated(), 2);
   auto truth = drawTruth(rig, random);
   truth[1].camera.intrinsics.cy += 3.0;
-  Scene scene(truth, 400);
+  WavedLed scene(truth, 400);
   DriftWatch watch(rig, {});
   scene.runUntil(62.0, [&](const capture::Image& image) { watch.add(image); });
   ASSERT_TRUE(watch.drifts()[0]);
@@ -318,7 +266,7 @@ TEST(DriftWatch, JudgesByMotionAndByKnownClocksOnly) {
   Random random(25);
   const geometry::Rig rig = paperRigWith(wellCalibrated());
   // A still LED gives the same rounding again and again.
-  Scene still(rig.cameras, 500);
+  WavedLed still(rig.cameras, 500);
   still.still = Eigen::Vector3d(1.0, 1.1, 0.9);
   still.pixel = 0.0;
   still.wrong_share = 0.0;
@@ -329,7 +277,7 @@ TEST(DriftWatch, JudgesByMotionAndByKnownClocksOnly) {
   auto truth = rig.cameras;
   for (geometry::RigCamera& camera : truth)
     camera.time_offset += uniform(random, -0.01, 0.01);
-  Scene fast(truth, 501);
+  WavedLed fast(truth, 501);
   fast.epoch = 8;
   DriftWatch unclocked(rig, {});
   fast.runUntil(62.0, [&](const capture::Image& image) { unclocked.add(image); });
@@ -337,7 +285,7 @@ TEST(DriftWatch, JudgesByMotionAndByKnownClocksOnly) {
   // The paper's virtual model fits its calibration by intention not.
   geometry::Rig image_center = rig;
   image_center.ray_model = geometry::RayModel::kImageCenter;
-  Scene scene(rig.cameras, 502);
+  WavedLed scene(rig.cameras, 502);
   DriftWatch paper(image_center, {});
   scene.runUntil(20.0, [&](const capture::Image& image) { EXPECT_FALSE(paper.add(image)); });
 }
@@ -346,11 +294,11 @@ TEST(DriftWatch, StartsAnewWhenTheClockIsSetBack) {
   Random random(26);
   const geometry::Rig rig = paperRigWith(wellCalibrated());
   DriftWatch watch(rig, {});
-  Scene scene(rig.cameras, 600);
+  WavedLed scene(rig.cameras, 600);
   scene.runUntil(30.0, [&](const capture::Image& image) { watch.add(image); });
   EXPECT_TRUE(watch.drifts()[0]);
   bool judged = false;
-  Scene again(rig.cameras, 600);
+  WavedLed again(rig.cameras, 600);
   again.runUntil(4.0, [&](const capture::Image& image) { judged = watch.add(image) || judged; });
   EXPECT_FALSE(judged);
   EXPECT_FALSE(watch.drifts()[0]);
@@ -360,15 +308,15 @@ TEST(DriftWatch, StartsAnewWhenTheClockIsSetBack) {
 }
 
 /// Feeds a watch with images and readings for a while.
-void track(Scene* scene, double from, double until, HealthWatch* watch, Random* random) {
-  const std::vector<geometry::RigCamera>& truth = scene->truth_;
+void track(WavedLed* scene, double from, double until, HealthWatch* watch, Random* random) {
+  const std::vector<geometry::RigCamera>& truth = scene->truth;
   double next = from;
   scene->runUntil(until, [&](const capture::Image& image) {
     for (const geometry::RigCamera& camera : truth) {
       if (camera.camera.name == image.camera)
         watch->addImage(image, camera.camera.identity);
     }
-    for (; next < image.stamp - 1.7e9; next += 0.05) {
+    for (; next < image.stamp - WavedLed::kClock; next += 0.05) {
       for (const geometry::RigCamera& camera : truth) {
         const Eigen::Vector3d up = camera.camera.world_from_camera.linear().row(2);
         watch->addAcceleration(camera.camera.name, next, reading(9.81 * up, 0.03, 0.18, *random));
@@ -381,7 +329,7 @@ TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
   Random random(31);
   const geometry::Rig rig = paperRigWith(wellCalibrated());
   HealthWatch watch(rig, {});
-  Scene scene(drawTruth(rig, random), 700);
+  WavedLed scene(drawTruth(rig, random), 700);
   track(&scene, 0.0, 90.0, &watch, &random);
   EXPECT_TRUE(watch.takeNews().empty());
   for (const auto& camera : watch.cameras()) {
@@ -390,8 +338,8 @@ TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
     EXPECT_TRUE(camera.second.drift) << camera.first;
   }
 
-  const geometry::RigCamera before = scene.truth_[2];
-  scene.truth_[2] = turned(before, Eigen::Vector3d(3.0 * kDegree, 0.0, 0.0));
+  const geometry::RigCamera before = scene.truth[2];
+  scene.truth[2] = turned(before, Eigen::Vector3d(3.0 * kDegree, 0.0, 0.0));
   track(&scene, 90.0, 180.0, &watch, &random);
   const std::vector<std::string> news = watch.takeNews();
   ASSERT_EQ(news.size(), 1u) << news.back();
@@ -402,7 +350,7 @@ TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
   EXPECT_SAYS(text, "drifted");
   EXPECT_EQ(watch.cameras().at("camera_1").text, "");
 
-  scene.truth_[2] = before;
+  scene.truth[2] = before;
   track(&scene, 180.0, 300.0, &watch, &random);
   EXPECT_EQ(watch.cameras().at("camera_3").text, "");
 }

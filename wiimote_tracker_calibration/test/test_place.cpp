@@ -209,6 +209,29 @@ TEST(CheckPlace, SaysWhatItIs) {
   EXPECT_THROW(checkPlace(place, {nan, 0.0, 0.0}, 0.0), PlaceError);
 }
 
+// A correction that moves all points up by 50 mm; one of another calibration does nothing.
+TEST(MeasurePlace, IsCorrectedAsTheTrackerDoesIt) {
+  Random random(8);
+  geometry::Rig rig = paperRigWith({});
+  const Eigen::Vector3d led(1.0, 0.7, 0.4);
+  const MeasuredPlace place = measurePlace(rig, seen(rig.cameras, led, 0.0, random), kPixel);
+  EXPECT_EQ(corrected(rig, place).position, place.position);
+  remap::Remap correction;
+  correction.rig_id = rig.id();
+  correction.parameters.assign(12, 0.0);
+  correction.parameters[2] = 0.05;
+  for (const double x : {0.0, 2.5}) {
+    for (const double y : {0.0, 2.5}) {
+      for (const double z : {0.0, 2.5})
+        correction.support.emplace_back(x, y, z);
+    }
+  }
+  rig.remap = correction;
+  EXPECT_LT((corrected(rig, place).position - led - Eigen::Vector3d(0.0, 0.0, 0.05)).norm(), 1e-6);
+  rig.remap->rig_id = "another";
+  EXPECT_EQ(corrected(rig, place).position, place.position);
+}
+
 TEST(MeasurePlace, RefusesWhatDoesNotDetermineAPoint) {
   Random random(7);
   const geometry::Rig rig = paperRigWith({});

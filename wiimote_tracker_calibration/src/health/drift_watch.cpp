@@ -29,6 +29,8 @@ constexpr double kNextPlace = 2.0;  // [px]
 constexpr double kClockKnown = 0.0005;   // [s]
 constexpr double kClockUnknown = 0.005;  // [s]
 constexpr double kLargestShift = 0.5;    // [px]
+// Judgements within the window.
+constexpr double kJudgements = 12.0;
 constexpr double kNoDrift = 0.0;
 
 /// What geometry::triangulate() makes of it all is a point without regard to how far the rays miss
@@ -73,7 +75,7 @@ bool DriftWatch::add(const capture::Image& image) {
     started_ = true;
     newest_ = frame.time;
     next_sample_ = frame.time;
-    next_judgement_ = frame.time + options_.period;
+    next_judgement_ = frame.time + options_.window / kJudgements;
   }
   if (found->frames.empty() || frame.time > found->frames.newest().time)
     found->frames.push(frame);
@@ -81,7 +83,7 @@ bool DriftWatch::add(const capture::Image& image) {
   sampleUntil(newest_ - kPatience);
   if (newest_ < next_judgement_)
     return false;
-  next_judgement_ = newest_ + options_.period;
+  next_judgement_ = newest_ + options_.window / kJudgements;
   judge();
   return true;
 }

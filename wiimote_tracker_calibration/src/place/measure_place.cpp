@@ -5,6 +5,7 @@
 #include "wiimote_tracker_calibration/place/error.h"
 
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
+#include <wiimote_tracker_triangulation/remap/correction.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -150,6 +151,18 @@ MeasuredPlace measurePlace(const geometry::Rig& rig,
   place.rays_agree = disagreement(rig, *measurement, pixel_stddev) <= 1.0;
   if (!place.rays_agree)
     place.suspects = suspectsOf(rig, views, pixel_stddev);
+  return place;
+}
+
+MeasuredPlace corrected(const geometry::Rig& rig, MeasuredPlace place) {
+  const std::string id = rig.id();
+  if (!rig.remap || rig.remap->rig_id != id)
+    return place;
+  const auto point = remap::Correction(*rig.remap, id).apply(place.position, place.covariance);
+  if (point) {
+    place.position = point->position;
+    place.covariance = point->covariance;
+  }
   return place;
 }
 

@@ -20,8 +20,7 @@ namespace wiimote_tracker::health {
 
 struct DriftOptions {
   double limit = 0.7;    ///< Mean residual that is no longer taken for nothing [px, > 0].
-  double window = 60.0;  ///< Over which it is taken [s, > 0].
-  double period = 5.0;   ///< From one judgement to the next [s, > 0].
+  double window = 60.0;  ///< Over which it is taken; judged twelve times in that [s, > 0].
 };
 
 /// How far a camera's images are from what the other cameras see.

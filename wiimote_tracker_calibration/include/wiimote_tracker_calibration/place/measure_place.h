@@ -44,6 +44,10 @@ MeasuredPlace measurePlace(const geometry::Rig& rig,
                            const capture::CapturedCorner& seen,
                            double pixel_stddev);
 
+/// The same after the rig's correction of the volume, if there is one that belongs to it: as the
+/// tracker publishes it. @throws remap::RemapError: a correction that cannot be used.
+MeasuredPlace corrected(const geometry::Rig& rig, MeasuredPlace place);
+
 }  // namespace wiimote_tracker::place
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_PLACE_MEASURE_PLACE_H

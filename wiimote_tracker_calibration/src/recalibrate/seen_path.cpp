@@ -1,0 +1,137 @@
+#include "seen_path.h"
+
+#include "../wave/moving_spots.h"
+
+#include <wiimote_tracker_triangulation/geometry/triangulate.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace wiimote_tracker::recalibrate {
+
+namespace {
+
+// Between two images further apart the LED's way is not known.
+constexpr double kLongestGap = 0.05;  // [s]
+// The velocity is taken over twice this [s].
+constexpr double kStep = 0.02;
+// Rays that miss each other by more are of different lights: RMS [px], and that of a fast spot
+// whose time is not known.
+constexpr double kLargestMiss = 6.0;
+constexpr double kLargestMissUnclocked = 20.0;
+// Cameras that face each other hardly tell where on the line between them the LED is: a point less
+// certain than this for 1 px is left out [m].
+constexpr double kLargestSpread = 0.02;
+
+}  // namespace
+
+std::optional<double> timeOffset(const geometry::RigCamera& camera, std::uint32_t clock_epoch) {
+  using geometry::TimeOffsetRule;
+  if (camera.time_offset_rule == TimeOffsetRule::kAlways ||
+      (camera.time_offset_rule == TimeOffsetRule::kOneEpoch &&
+       camera.time_offset_epoch == clock_epoch))
+    return camera.time_offset;
+  return std::nullopt;
+}
+
+std::vector<capture::Image> movingLights(const std::vector<capture::Image>& images,
+                                         const std::string& camera) {
+  std::vector<capture::Image> own;
+  std::vector<wave::Frame> frames;
+  for (const capture::Image& image : images) {
+    if (image.camera != camera)
+      continue;
+    own.push_back(image);
+    frames.push_back({image.stamp, image.spots});
+  }
+  frames = wave::movingSpots(frames);
+  for (std::size_t i = 0; i < own.size(); ++i)
+    own[i].spots = frames[i].spots;
+  return own;
+}
+
+SeenPath::SeenPath(const geometry::Rig& rig,
+                   const std::vector<capture::Image>& images,
+                   const std::string& without) {
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const geometry::RigCamera& camera = rig.cameras[i];
+    Track track;
+    track.rays = rig.rayCamera(camera);
+    if (camera.camera.name != without) {
+      for (const capture::Image& image : movingLights(images, camera.camera.name)) {
+        const auto offset = timeOffset(camera, image.clock_epoch);
+        track.clock_known = offset.has_value();
+        const double time = image.stamp + offset.value_or(0.0);
+        if (image.spots.size() == 1 && (track.spots.empty() || time > track.spots.back().time))
+          track.spots.push_back({time, image.spots.front()});
+      }
+    }
+    if (!track.spots.empty())
+      seeing_.push_back(i);
+    tracks_.push_back(std::move(track));
+  }
+}
+
+SeenPath::Sight SeenPath::positionAt(double time, PathPoint* point) const {
+  std::vector<geometry::Observation> observations;
+  point->cameras.clear();
+  double largest_miss = kLargestMiss;
+  for (const std::size_t i : seeing_) {
+    const Track& track = tracks_[i];
+    const auto after =
+        std::lower_bound(track.spots.begin(), track.spots.end(), time,
+                         [](const Spot& spot, double value) { return spot.time < value; });
+    if (after == track.spots.end() || after == track.spots.begin())
+      continue;
+    const auto before = after - 1;
+    const double gap = after->time - before->time;
+    if (gap > kLongestGap)
+      continue;
+    const double share = (time - before->time) / gap;
+    observations.push_back({&track.rays, before->pixel + share * (after->pixel - before->pixel)});
+    point->cameras.push_back(i);
+    if (!track.clock_known)
+      largest_miss = kLargestMissUnclocked;
+  }
+  if (observations.size() < 2)
+    return Sight::kNotSeen;
+  geometry::TriangulationOptions options;
+  options.pixel_stddev = 1.0;
+  auto result = geometry::triangulate(observations, options);
+  // One of three or more that sees another light is left out.
+  if (observations.size() > 2 && (!result || result->reprojection_error > largest_miss)) {
+    std::size_t left_out = 0;
+    for (std::size_t i = 0; i < observations.size(); ++i) {
+      std::vector<geometry::Observation> others = observations;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+      const auto without = geometry::triangulate(others, options);
+      if (without && (!result || without->reprojection_error < result->reprojection_error)) {
+        result = without;
+        left_out = i;
+      }
+    }
+    point->cameras.erase(point->cameras.begin() + static_cast<std::ptrdiff_t>(left_out));
+  }
+  if (!result || result->reprojection_error > largest_miss)
+    return Sight::kContradictory;
+  if (result->covariance.trace() > kLargestSpread * kLargestSpread)
+    return Sight::kNotSeen;
+  point->position = result->position;
+  point->unit_covariance = result->covariance;
+  return Sight::kSeen;
+}
+
+SeenPath::Sight SeenPath::at(double time, PathPoint* point) const {
+  PathPoint before;
+  PathPoint after;
+  for (const auto& part : {std::make_pair(time - kStep, &before),
+                           std::make_pair(time + kStep, &after), std::make_pair(time, point)}) {
+    const Sight sight = positionAt(part.first, part.second);
+    if (sight != Sight::kSeen)
+      return sight;
+  }
+  point->velocity = (after.position - before.position) / (2.0 * kStep);
+  return Sight::kSeen;
+}
+
+}  // namespace wiimote_tracker::recalibrate

@@ -1,0 +1,75 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_SEEN_PATH_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_SEEN_PATH_H
+
+#include "wiimote_tracker_calibration/capture/image.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::recalibrate {
+
+/// Where the LED is at some time.
+struct PathPoint {
+  Eigen::Vector3d position;          ///< [m]
+  Eigen::Vector3d velocity;          ///< [m/s]
+  Eigen::Matrix3d unit_covariance;   ///< Of the position, for pixel errors of 1 px [m^2].
+  std::vector<std::size_t> cameras;  ///< That saw it, as the rig counts them.
+};
+
+/// The LED's path as all cameras but one see it. Each is taken at its own times; between two of its
+/// images the spot is taken to move straight. That averages the errors of neighbouring images, but
+/// as each of these enters several points the average over many points is no better for it: the
+/// covariance is that of single images.
+class SeenPath {
+ public:
+  /// Images with another number of spots than one, lamps left out, take no part.
+  SeenPath(const geometry::Rig& rig,
+           const std::vector<capture::Image>& images,
+           const std::string& without);
+
+  /// What one asks for is there, or why not.
+  enum class Sight { kSeen, kNotSeen, kContradictory };
+
+  /// Not seen: fewer than two cameras see the LED then. Contradictory: their rays miss each other.
+  Sight at(double time, PathPoint* point) const;
+
+  /// Cameras that saw the LED at all.
+  const std::vector<std::size_t>& cameras() const { return seeing_; }
+
+  /// Whether a camera's time offset is known for these images.
+  bool clockKnown(std::size_t camera) const { return tracks_[camera].clock_known; }
+
+ private:
+  struct Spot {
+    double time;  // Of the exposure [s].
+    Eigen::Vector2d pixel;
+  };
+  struct Track {
+    geometry::Camera rays;
+    bool clock_known = false;
+    std::vector<Spot> spots;
+  };
+
+  Sight positionAt(double time, PathPoint* point) const;
+
+  std::vector<Track> tracks_;
+  std::vector<std::size_t> seeing_;
+};
+
+/// Time offset of a camera for images of one epoch [s]; nothing when it is not known.
+std::optional<double> timeOffset(const geometry::RigCamera& camera, std::uint32_t clock_epoch);
+
+/// The images of one camera without lamps: spots that stay in one place.
+std::vector<capture::Image> movingLights(const std::vector<capture::Image>& images,
+                                         const std::string& camera);
+
+}  // namespace wiimote_tracker::recalibrate
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_SEEN_PATH_H

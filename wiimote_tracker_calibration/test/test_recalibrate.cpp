@@ -1,0 +1,226 @@
+// A camera that was moved or replaced, solved against the others from a waved LED.
+
+#include "waved_led.h"
+
+#include "wiimote_tracker_calibration/recalibrate/error.h"
+#include "wiimote_tracker_calibration/recalibrate/recalibrate_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::recalibrate {
+namespace {
+
+using square::normal;
+using square::Random;
+using square::uniform;
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+constexpr double kDegree = M_PI / 180.0;
+
+/// A rig whose images fit together to about 0.2 px.
+RigErrors wellCalibrated() {
+  RigErrors errors;
+  errors.rotation = 1e-4;
+  errors.position = 5e-4;
+  errors.focal = 0.5;
+  errors.principal_point = 0.1;
+  errors.k1 = 1e-3;
+  return errors;
+}
+
+Request record(WavedLed* led, const std::string& camera, double duration = 15.0) {
+  Request request;
+  request.camera = camera;
+  led->runUntil(duration, [&](const capture::Image& image) { request.images.push_back(image); });
+  return request;
+}
+
+/// A camera that was knocked.
+geometry::RigCamera knocked(const geometry::RigCamera& camera, Random& random) {
+  geometry::RigCamera result = camera;
+  const Eigen::Vector3d axis(normal(random, 1.0), normal(random, 1.0), normal(random, 1.0));
+  result.camera.world_from_camera.linear() =
+      camera.camera.world_from_camera.linear() *
+      Eigen::AngleAxisd(3.0 * kDegree, axis.normalized()).toRotationMatrix();
+  result.camera.world_from_camera.translation() += 0.05 * Eigen::Vector3d::Random().normalized();
+  result.time_offset = uniform(random, -0.02, 0.02);
+  return result;
+}
+
+/// Estimated less true pose and time offset, as RigCalibration.msg counts them.
+Eigen::Matrix<double, 7, 1> errorOf(const geometry::RigCamera& estimate,
+                                    const geometry::RigCamera& truth) {
+  const Eigen::AngleAxisd turn(truth.camera.world_from_camera.linear() *
+                               estimate.camera.world_from_camera.linear().transpose());
+  Eigen::Matrix<double, 7, 1> error;
+  error.head<3>() = turn.angle() * turn.axis();
+  error.segment<3>(3) = truth.camera.center() - estimate.camera.center();
+  error[6] = truth.time_offset - estimate.time_offset;
+  return error;
+}
+
+Eigen::Matrix<double, 7, 7> covarianceOf(const geometry::Rig& rig, std::size_t camera) {
+  const Eigen::Index first = place::firstParameter(camera);
+  Eigen::Matrix<double, 7, 7> result;
+  result.topLeftCorner<6, 6>() = rig.covariance.block<6, 6>(first, first);
+  result.bottomLeftCorner<1, 6>() = rig.covariance.block<1, 6>(first + place::kTimeOffset, first);
+  result.topRightCorner<6, 1>() = result.bottomLeftCorner<1, 6>().transpose();
+  result(6, 6) = rig.covariance(first + place::kTimeOffset, first + place::kTimeOffset);
+  return result;
+}
+
+std::string refusal(const geometry::Rig& rig, const Request& request, const Options& options = {}) {
+  try {
+    recalibrateCamera(rig, request, options);
+  } catch (const RecalibrateError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Recalibrate, FindsAKnockedCamera) {
+  Random random(1);
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  auto truth = rig.cameras;
+  truth[1] = knocked(truth[1], random);
+  WavedLed led(truth, 11);
+  Request request = record(&led, "camera_2");
+  request.gravity = Eigen::Vector3d(0.0, -9.8, 0.1);
+  const Recalibration result = recalibrateCamera(rig, request, {});
+  const geometry::RigCamera& camera = result.rig.cameras[1];
+  EXPECT_LT((camera.camera.center() - truth[1].camera.center()).norm(), 0.01);
+  EXPECT_NEAR(camera.time_offset, truth[1].time_offset, 3e-4);
+  EXPECT_NEAR(result.turned, 3.0 * kDegree, 0.1 * kDegree);
+  EXPECT_NEAR(result.moved, 0.05, 0.01);
+  EXPECT_GT(result.images, 500u);
+  EXPECT_SAYS(result.message, "camera_2 moved by");
+  // Its own, of this moment.
+  EXPECT_EQ(camera.gravity->z(), 0.1);
+  EXPECT_EQ(camera.time_offset_epoch, 7u);
+  EXPECT_EQ(camera.time_offset_rule, geometry::TimeOffsetRule::kOneEpoch);
+  EXPECT_LT(camera.residual_px, 1.5);
+  // The others are as they were.
+  for (const std::size_t i : {0u, 2u, 3u}) {
+    EXPECT_EQ(result.rig.cameras[i].camera.world_from_camera.matrix(),
+              rig.cameras[i].camera.world_from_camera.matrix());
+    const Eigen::Index k = place::firstParameter(i);
+    EXPECT_EQ((result.rig.covariance.block<16, 16>(k, k)), (rig.covariance.block<16, 16>(k, k)));
+  }
+  EXPECT_NE(result.rig.id(), rig.id());
+}
+
+// With right covariances the mean of the normalised squared error is 1, and 95 % are within the
+// 95 % region.
+TEST(Recalibrate, KnowsHowCertainItIs) {
+  const int kTrials = 40;
+  for (const bool replaced : {false, true}) {
+    Random random(2);
+    double pose = 0.0;
+    double offset = 0.0;
+    int covered = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      const geometry::Rig rig = paperRigWith(wellCalibrated());
+      auto truth = drawTruth(rig, random);
+      const std::size_t index = static_cast<std::size_t>(trial) % 4;
+      truth[index] = knocked(truth[index], random);
+      Options options;
+      Request start;
+      if (replaced) {
+        geometry::Intrinsics& lens = truth[index].camera.intrinsics;
+        lens = start.intrinsics;
+        const double scale = std::exp(normal(random, options.uncertainty.focal));
+        const double aspect = std::exp(0.5 * normal(random, options.uncertainty.aspect));
+        lens.fx *= scale * aspect;
+        lens.fy *= scale / aspect;
+        lens.cx += normal(random, options.uncertainty.principal_point);
+        lens.cy += normal(random, options.uncertainty.principal_point);
+        lens.distortion[0] += normal(random, options.uncertainty.k1);
+      }
+      WavedLed led(truth, 1000 + static_cast<std::uint64_t>(trial));
+      Request request = record(&led, truth[index].camera.name, 12.0);
+      if (replaced)
+        request.identity = "00:1e:35:ff:ff:ff";
+      const Recalibration result = recalibrateCamera(rig, request, options);
+      const auto error = errorOf(result.rig.cameras[index], truth[index]);
+      const auto covariance = covarianceOf(result.rig, index);
+      const double squared = error.dot(covariance.ldlt().solve(error));
+      pose += error.head<6>().dot(covariance.topLeftCorner<6, 6>().ldlt().solve(error.head<6>()));
+      offset += error[6] * error[6] / covariance(6, 6);
+      covered += squared <= 14.067;  // chi-squared, seven degrees of freedom, 95 %
+      EXPECT_EQ(result.rig.cameras[index].camera.identity,
+                replaced ? request.identity : rig.cameras[index].camera.identity);
+      // A covariance that no errors could have is none.
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(result.rig.covariance);
+      EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-9 * eigen.eigenvalues().maxCoeff());
+    }
+    const std::string kind = replaced ? "replaced_" : "knocked_";
+    RecordProperty(kind + "pose", std::to_string(pose / (6.0 * kTrials)));
+    RecordProperty(kind + "offset", std::to_string(offset / kTrials));
+    RecordProperty(kind + "covered", covered);
+    EXPECT_NEAR(pose / (6.0 * kTrials), 1.0, 0.3);
+    // Slow errors of the stamps, which are allowed for, are not simulated here.
+    EXPECT_LT(offset / kTrials, 1.3);
+    EXPECT_GE(covered, kTrials * 88 / 100);
+  }
+}
+
+TEST(Recalibrate, SaysWhyNot) {
+  Random random(3);
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  WavedLed waved(rig.cameras, 31);
+  const Request good = record(&waved, "camera_2");
+  EXPECT_EQ(refusal(rig, good), "");
+
+  Request request = good;
+  request.camera = "camera_9";
+  EXPECT_SAYS(refusal(rig, request), "no camera 'camera_9'");
+
+  geometry::Rig image_center = rig;
+  image_center.ray_model = geometry::RayModel::kImageCenter;
+  EXPECT_SAYS(refusal(image_center, good), "image centre");
+
+  request = good;
+  request.images.erase(std::remove_if(request.images.begin(), request.images.end(),
+                                      [](const capture::Image& image) {
+                                        return image.camera == "camera_3" ||
+                                               image.camera == "camera_4";
+                                      }),
+                       request.images.end());
+  EXPECT_SAYS(refusal(rig, request), "camera_1 alone");
+
+  WavedLed brief(rig.cameras, 31);
+  const Request short_wave = record(&brief, "camera_2", 1.2);
+  EXPECT_SAYS(refusal(rig, short_wave), "wave longer");
+
+  WavedLed flat(rig.cameras, 32);
+  flat.path.reach.z() = 0.0;
+  EXPECT_NE(refusal(rig, record(&flat, "camera_2")), "");
+
+  // It is knocked again while the LED is waved.
+  WavedLed moved(rig.cameras, 33);
+  request = record(&moved, "camera_2", 7.0);
+  moved.truth[1] = knocked(moved.truth[1], random);
+  const Request rest = record(&moved, "camera_2", 15.0);
+  request.images.insert(request.images.end(), rest.images.begin(), rest.images.end());
+  EXPECT_SAYS(refusal(rig, request), "fit to what the others saw");
+
+  Options options;
+  options.maximum_offset_stddev = 1e-6;
+  EXPECT_SAYS(refusal(rig, good, options), "time offset");
+  options.pixel = 0.0;
+  EXPECT_SAYS(refusal(rig, good, options), "above 0");
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::recalibrate

@@ -84,6 +84,7 @@ class FakeCameras {
   void waveLed(bool waves) {
     const std::lock_guard<std::mutex> lock(mutex_);
     waves_ = waves;
+    waved_at_ = 0.0;
   }
   void switchLed(bool on) {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -179,9 +180,13 @@ class FakeCameras {
       if (share == 1.0)
         carried_for_ = 0.0;
     }
-    if (waves_)
-      led_ = Eigen::Vector3d(1.25 + 0.9 * std::sin(1.3 * now), 1.25 + 0.9 * std::cos(1.7 * now),
-                             1.0 + 0.7 * std::sin(2.1 * now));
+    if (!waves_)
+      return;
+    // From its beginning always the same way, and through the whole volume within three seconds.
+    waved_at_ = waved_at_ > 0.0 ? waved_at_ : now;
+    const double t = now - waved_at_;
+    led_ = Eigen::Vector3d(1.25 + 0.9 * std::sin(2.6 * t), 1.25 + 0.9 * std::cos(3.4 * t),
+                           1.0 + 0.7 * std::sin(4.2 * t));
   }
 
   template <typename Message>
@@ -212,6 +217,7 @@ class FakeCameras {
   double led_speed_ = 0.0;
   bool led_on_ = true;
   bool waves_ = false;
+  double waved_at_ = 0.0;  // [s]; 0: not yet
   Eigen::Vector3d carried_from_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d carried_to_ = Eigen::Vector3d::Zero();
   double carried_at_ = 0.0;   // [s]

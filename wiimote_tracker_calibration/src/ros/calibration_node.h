@@ -1,10 +1,16 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_CALIBRATION_NODE_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_CALIBRATION_NODE_H
 
+#include "board_services.h"
 #include "capture_services.h"
+#include "health_monitor.h"
+#include "join_services.h"
 #include "mask_services.h"
 #include "node_context.h"
+#include "place_services.h"
+#include "recalibrate_services.h"
 #include "rig_services.h"
+#include "sample_services.h"
 #include "solve_services.h"
 #include "wave_services.h"
 
@@ -26,6 +32,12 @@ class CalibrationNode {
   WaveServices wave_{&context_};
   MaskServices masks_{&context_};
   SolveServices solve_{&context_};
+  SampleServices samples_{&context_};
+  JoinServices join_{&context_};
+  BoardServices board_{&context_};
+  PlaceServices place_{&context_};
+  RecalibrateServices recalibrate_{&context_};
+  HealthMonitor health_{&context_};
   ros::WallTimer status_timer_;
 };
 

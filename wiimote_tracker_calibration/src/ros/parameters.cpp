@@ -91,6 +91,16 @@ void readSolve(ParameterReader* reader, square::SolveOptions* options) {
   options->branch_odds = reader->bounded("branch_odds", options->branch_odds, 1.5, 1e9);
 }
 
+void readHealth(ParameterReader* reader, health::HealthOptions* options) {
+  health::TiltOptions& tilt = options->tilt;
+  tilt.limit = reader->bounded("bump_limit", tilt.limit, 1e-4, 1.0);
+  tilt.window = reader->bounded("bump_window", tilt.window, 1.0, 3600.0);
+  tilt.resolution = reader->bounded("accelerometer_resolution", tilt.resolution, 0.0, 10.0);
+  health::DriftOptions& drift = options->drift;
+  drift.limit = reader->bounded("residual_drift_limit", drift.limit, 0.01, 1000.0);
+  drift.window = reader->bounded("residual_drift_window", drift.window, 5.0, 3600.0);
+}
+
 geometry::Intrinsics readIntrinsics(const ros::NodeHandle& nh,
                                     ParameterReader* reader,
                                     const std::string& key,
@@ -178,6 +188,8 @@ Parameters readParameters(const ros::NodeHandle& nh) {
   readSolve(&reader, &parameters.solve.square);
   readWave(&reader, &parameters.solve.wave);
   readRays(&reader, &parameters.solve);
+  readHealth(&reader, &parameters.health);
+  reader.allow("diagnostic_period");  // read by diagnostic_updater
   parameters.solve.use_gravity = reader.optional("use_gravity", parameters.solve.use_gravity);
   parameters.set_camera_info_timeout =
       reader.bounded("set_camera_info_timeout", parameters.set_camera_info_timeout, 0.1, 60.0);

@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_PARAMETERS_H
 
 #include "wiimote_tracker_calibration/capture/mask_learner.h"
+#include "wiimote_tracker_calibration/health/health_watch.h"
 #include "wiimote_tracker_calibration/intrinsics/board.h"
 #include "wiimote_tracker_calibration/session/solve_session.h"
 #include "wiimote_tracker_calibration/workflow/calibration.h"
@@ -28,6 +29,7 @@ struct Parameters {
   capture::MaskOptions masks;
   workflow::CalibrationOptions calibration;
   session::SolveOptions solve;
+  health::HealthOptions health;
   intrinsics::Board board;  ///< The 16-LED board.
   int board_views = 12;     ///< That a lens is solved from.
   geometry::Intrinsics intrinsics;                             ///< Of all cameras but these:

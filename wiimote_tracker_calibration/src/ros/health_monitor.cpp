@@ -1,0 +1,88 @@
+#include "health_monitor.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace wiimote_tracker {
+
+namespace {
+
+constexpr double kPeriod = 0.5;  // [s]
+
+std::string number(const char* format, double a, double b) {
+  char text[96];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+}  // namespace
+
+HealthMonitor::HealthMonitor(NodeContext* context) : context_(*context) {
+  context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
+    if (watch_)
+      watch_->addImage(image, context_.inputs().cameras().at(image.camera).identity);
+  });
+  context_.inputs().subscribeGravity([this](const std::string& camera, double stamp,
+                                            const Eigen::Vector3d& specific_force, const Lock&) {
+    if (watch_)
+      watch_->addAcceleration(camera, stamp, specific_force);
+  });
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("cameras", this, &HealthMonitor::report);
+  timer_ = context_.nh().createWallTimer(ros::WallDuration(kPeriod),
+                                         [this](const ros::WallTimerEvent&) { update(); });
+}
+
+void HealthMonitor::update() {
+  {
+    const Lock lock(context_.mutex());
+    const auto& rig = context_.rig(lock);
+    const std::string id = rig ? rig->id() : "";
+    if (id != rig_id_) {
+      rig_id_ = id;
+      if (watch_) {
+        for (const auto& camera : watch_->cameras())
+          context_.setHealth(camera.first, "", lock);
+      }
+      watch_.reset();
+      if (rig)
+        watch_.emplace(*rig, context_.parameters(lock).health);
+    }
+    if (watch_) {
+      for (const auto& camera : watch_->cameras())
+        context_.setHealth(camera.first, camera.second.text, lock);
+      for (const std::string& news : watch_->takeNews())
+        ROS_WARN_STREAM(news);
+    }
+  }
+  diagnostics_.update();
+}
+
+void HealthMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const Lock lock(context_.mutex());
+  if (!watch_) {
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "no rig yet");
+    return;
+  }
+  std::string troubles;
+  for (const auto& camera : watch_->cameras()) {
+    const health::CameraHealth& health = camera.second;
+    if (!health.text.empty())
+      troubles += (troubles.empty() ? "" : "; ") + camera.first + " " + health.text;
+    status.add(camera.first + " tilt [degrees]",
+               health.tilt ? number("%.2f +- %.2f", health.tilt->angle * 180.0 / M_PI,
+                                    health.tilt->stddev * 180.0 / M_PI)
+                           : std::string("not judged"));
+    status.add(camera.first + " drift [px]",
+               health.drift
+                   ? number("%.2f +- %.2f", health.drift->bias.norm(), health.drift->stddev)
+                   : std::string("not judged"));
+  }
+  if (troubles.empty())
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK,
+                   "nothing is known against any camera's place");
+  else
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, troubles);
+}
+
+}  // namespace wiimote_tracker

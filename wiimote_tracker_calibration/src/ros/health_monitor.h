@@ -1,0 +1,34 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_HEALTH_MONITOR_H
+#define WIIMOTE_TRACKER_CALIBRATION_ROS_HEALTH_MONITOR_H
+
+#include "wiimote_tracker_calibration/health/health_watch.h"
+
+#include "node_context.h"
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include <optional>
+#include <string>
+
+namespace wiimote_tracker {
+
+/// Watches the cameras of the current rig: health in the status, /diagnostics, and one warning in
+/// the log when something begins. It never changes the rig.
+class HealthMonitor {
+ public:
+  explicit HealthMonitor(NodeContext* context);
+
+ private:
+  void update();
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  NodeContext& context_;
+  std::string rig_id_;
+  std::optional<health::HealthWatch> watch_;  // Nothing without a rig.
+  diagnostic_updater::Updater diagnostics_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_HEALTH_MONITOR_H

@@ -1,0 +1,38 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_RECALIBRATE_SERVICES_H
+#define WIIMOTE_TRACKER_CALIBRATION_ROS_RECALIBRATE_SERVICES_H
+
+#include "wiimote_tracker_calibration/capture/rest_gravity.h"
+#include "wiimote_tracker_calibration/recalibrate/recalibrate_camera.h"
+
+#include "node_context.h"
+
+#include <wiimote_tracker_msgs/RecalibrateCamera.h>
+
+#include <optional>
+#include <string>
+
+namespace wiimote_tracker {
+
+/// One camera solved anew against the others: recalibrate_camera.
+class RecalibrateServices {
+ public:
+  explicit RecalibrateServices(NodeContext* context);
+
+ private:
+  bool recalibrate(wiimote_tracker_msgs::RecalibrateCamera::Request& request,
+                   wiimote_tracker_msgs::RecalibrateCamera::Response& response);
+  /// Records the wave. Nothing when it was cancelled.
+  std::optional<recalibrate::Request> record(const std::string& camera,
+                                             double duration,
+                                             Lock* lock);
+
+  NodeContext& context_;
+  // While an LED is waved:
+  std::optional<recalibrate::Request> recording_;
+  capture::RestGravity gravity_;
+  ros::ServiceServer service_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_RECALIBRATE_SERVICES_H

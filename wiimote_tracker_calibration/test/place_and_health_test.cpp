@@ -1,0 +1,260 @@
+// The services and the watch that need a calibrated rig, with cameras that this test plays: the
+// rig that is loaded is not always the true one.
+
+#include "node_fixture.h"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <wiimote_tracker_msgs/AddKnownPlace.h>
+#include <wiimote_tracker_msgs/CheckPlace.h>
+#include <wiimote_tracker_msgs/FitRemap.h>
+#include <wiimote_tracker_msgs/RecalibrateCamera.h>
+
+#include <future>
+
+namespace wiimote_tracker {
+namespace {
+
+using wiimote_tracker_msgs::AddKnownPlace;
+using wiimote_tracker_msgs::CheckPlace;
+using wiimote_tracker_msgs::FitRemap;
+using wiimote_tracker_msgs::RecalibrateCamera;
+
+geometry_msgs::Point pointMessage(const Eigen::Vector3d& point) {
+  geometry_msgs::Point message;
+  message.x = point.x();
+  message.y = point.y();
+  message.z = point.z();
+  return message;
+}
+
+class CalibratedNode : public Node {
+ protected:
+  /// The rig as it stands, with no uncertainty but that of the pixels.
+  static geometry::Rig trueRig() {
+    geometry::Rig rig;
+    for (std::size_t i = 0; i < cameras_->truth.size(); ++i) {
+      geometry::RigCamera camera;
+      camera.camera = cameras_->truth[i];
+      camera.camera.identity = "00:1e:35:00:00:0" + std::to_string(i + 1);
+      camera.time_offset = 0.0;
+      camera.time_offset_rule = geometry::TimeOffsetRule::kAlways;
+      rig.cameras.push_back(camera);
+    }
+    rig.cameras[0].gravity =
+        9.81 * cameras_->truth[0].world_from_camera.linear().row(2).transpose();
+    rig.method = "test";
+    rig.covariance = Eigen::MatrixXd::Zero(64, 64);
+    return rig;
+  }
+
+  static void load(const geometry::Rig& rig) {
+    wiimote_tracker_msgs::LoadRig::Request request;
+    request.path = folder_ + "/loaded.yaml";
+    geometry::writeRigFile(rig, request.path);
+    const auto response = call<wiimote_tracker_msgs::LoadRig>("calibration/load", request);
+    ASSERT_TRUE(response.success) << response.message;
+  }
+
+  static CheckPlace::Response check(const Eigen::Vector3d& known) {
+    CheckPlace::Request request;
+    request.known = pointMessage(known);
+    request.known_stddev = 0.001;
+    return call<CheckPlace>("calibration/check", request);
+  }
+
+  static std::string health(const std::string& camera) {
+    for (const auto& status : status_->get()->cameras) {
+      if (status.name == camera)
+        return status.health;
+    }
+    return "";
+  }
+};
+
+TEST_F(CalibratedNode, ChecksAKnownPlace) {
+  load(trueRig());
+  const Eigen::Vector3d place(1.0, 0.8, 0.3);
+  putLed(place);
+  CheckPlace::Response response = check(place);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_TRUE(response.consistent) << response.message;
+  EXPECT_LT(response.error, 0.005);
+  EXPECT_GT(response.expected_stddev, 0.001);
+  EXPECT_GT(response.covariance[0], 0.0);
+  EXPECT_EQ(response.cameras.size(), 4u);
+  EXPECT_EQ(response.residual.size(), 4u);
+  EXPECT_SAYS(response.message, "holds");
+  EXPECT_EQ(status_->get()->message, response.message);
+
+  response = check(place + Eigen::Vector3d(0.05, 0.0, 0.0));
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_FALSE(response.consistent);
+  EXPECT_NEAR(response.error, 0.05, 0.005);
+
+  geometry::Rig moved = trueRig();
+  moved.cameras[1].camera.intrinsics.cy += 20.0;
+  load(moved);
+  response = check(place);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_SAYS(response.message, "camera_2 contradicts");
+}
+
+TEST_F(CalibratedNode, SaysWhyAPlaceIsNotMeasured) {
+  load(trueRig());
+  putLed({1.0, 0.8, 0.3});
+  cameras_->blind({"camera_1", "camera_2", "camera_3"});
+  CheckPlace::Response response = check({1.0, 0.8, 0.3});
+  EXPECT_FALSE(response.success);
+  EXPECT_SAYS(response.message, "sees no spot");
+  EXPECT_TRUE(std::isnan(response.error));
+  EXPECT_TRUE(std::isnan(response.measured.x));
+  cameras_->blind({});
+
+  CheckPlace::Request request;
+  request.duration = -1.0;
+  EXPECT_SAYS(call<CheckPlace>("calibration/check", request).message, "0 and 3600 s");
+
+  // Cancelled while it waits.
+  cameras_->switchLed(false);
+  auto waiting = std::async(std::launch::async, [&] { return check({1.0, 0.8, 0.3}); });
+  ASSERT_TRUE(waitForStep(CalibrationStatus::MEASURING));
+  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/cancel").success);
+  EXPECT_SAYS(waiting.get().message, "cancelled");
+}
+
+TEST_F(CalibratedNode, CorrectsTheVolumeFromKnownPlaces) {
+  load(trueRig());
+  call<std_srvs::Trigger>("calibration/known_places/clear");
+  EXPECT_FALSE(call<std_srvs::Trigger>("calibration/known_places/undo").success);
+  EXPECT_SAYS(call<FitRemap>("calibration/known_places/fit").message, "6");
+
+  // The known places are those of a world that is 2 % larger.
+  std::uint32_t places = 0;
+  for (const double x : {0.4, 2.1}) {
+    for (const double y : {0.4, 2.1}) {
+      for (const double z : {0.1, 1.6}) {
+        const Eigen::Vector3d place(x, y, z);
+        putLed(place);
+        AddKnownPlace::Request request;
+        request.known = pointMessage(1.02 * place);
+        const auto response = call<AddKnownPlace>("calibration/known_places/add", request);
+        ASSERT_TRUE(response.success) << response.message;
+        EXPECT_EQ(response.places, ++places);
+        EXPECT_NEAR(response.measured.x, x, 0.005);
+      }
+    }
+  }
+  AddKnownPlace::Request request;
+  request.known = pointMessage({0.0, 0.0, 0.0});
+  EXPECT_TRUE(call<AddKnownPlace>("calibration/known_places/add", request).success);
+  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/known_places/undo").success);
+
+  FitRemap::Request fit;
+  fit.models = {"bent"};
+  EXPECT_FALSE(call<FitRemap>("calibration/known_places/fit", fit).success);
+  fit.models = {"affine"};
+  const auto fitted = call<FitRemap>("calibration/known_places/fit", fit);
+  ASSERT_TRUE(fitted.success) << fitted.message;
+  EXPECT_EQ(fitted.model, "affine");
+  EXPECT_GT(fitted.uncorrected_error, 0.02);
+  EXPECT_LT(fitted.expected_error, 0.01);
+  EXPECT_FALSE(fitted.table.empty());
+
+  Latest<RigCalibration> rig("calibration/rig");
+  ASSERT_TRUE(waitUntil([&] { return rig.get() && rig.get()->remap.model == "affine"; }));
+  EXPECT_EQ(rig.get()->remap.rig_id, rig.get()->id);
+  // What is measured from now on is corrected.
+  const Eigen::Vector3d place(1.2, 1.3, 0.8);
+  putLed(place);
+  const CheckPlace::Response checked = check(1.02 * place);
+  EXPECT_TRUE(checked.success) << checked.message;
+  EXPECT_LT(checked.error, 0.005);
+
+  // Another calibration: the places are worth nothing.
+  geometry::Rig other = trueRig();
+  other.cameras[0].camera.intrinsics.fx += 1.0;
+  load(other);
+  EXPECT_SAYS(call<FitRemap>("calibration/known_places/fit").message, "8 places");
+}
+
+TEST_F(CalibratedNode, WarnsOfCamerasThatAreNotWhereTheyWere) {
+  Latest<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  cameras_->waveLed(true);
+  load(trueRig());
+  const auto says = [&](const std::string& camera, const std::string& part) {
+    return waitUntil([&] { return health(camera).find(part) != std::string::npos; });
+  };
+  // Judged, and nothing found.
+  ASSERT_TRUE(waitUntil([&] {
+    const auto message = diagnostics.get();
+    if (!message || message->status.front().values.size() < 8)
+      return false;
+    for (const auto& value : message->status.front().values) {
+      if (value.key.find("drift") != std::string::npos && value.value == "not judged")
+        return false;
+    }
+    return true;
+  }));
+  for (const auto& camera : status_->get()->cameras)
+    EXPECT_EQ(camera.health, "") << camera.name;
+
+  geometry::Rig rig = trueRig();
+  rig.cameras[0].gravity =
+      Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()) * *rig.cameras[0].gravity;
+  rig.cameras[1].camera.identity = "00:1e:35:ff:ff:ff";
+  rig.cameras[2].camera.intrinsics.cy += 5.0;
+  load(rig);
+  EXPECT_TRUE(says("camera_1", "tilted by 5.7 degrees")) << health("camera_1");
+  EXPECT_TRUE(says("camera_2", "another device")) << health("camera_2");
+  EXPECT_TRUE(says("camera_3", "drifted")) << health("camera_3");
+  EXPECT_EQ(health("camera_4"), "");
+  ASSERT_TRUE(waitUntil([&] {
+    const auto& status = diagnostics.get()->status.front();
+    return status.level == diagnostic_msgs::DiagnosticStatus::WARN &&
+           status.message.find("camera_3 drifted") != std::string::npos;
+  }));
+  // Nothing was moved by itself.
+  Latest<RigCalibration> published("calibration/rig");
+  ASSERT_TRUE(waitUntil([&] { return published.get() != nullptr; }));
+  EXPECT_EQ(published.get()->id, rig.id());
+}
+
+TEST_F(CalibratedNode, RecalibratesOneCamera) {
+  geometry::Rig rig = trueRig();
+  Eigen::Isometry3d& pose = rig.cameras[1].camera.world_from_camera;
+  pose.translation() += Eigen::Vector3d(0.05, 0.0, 0.0);
+  pose.linear() = pose.linear() * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY());
+  load(rig);
+  RecalibrateCamera::Request request;
+  request.camera = "camera_9";
+  EXPECT_SAYS(call<RecalibrateCamera>("calibration/recalibrate_camera", request).message,
+              "no camera 'camera_9'");
+  request.camera = "camera_2";
+  request.duration = 2.0;
+  putLed({1.0, 1.0, 1.0});
+  const auto refused = call<RecalibrateCamera>("calibration/recalibrate_camera", request);
+  EXPECT_FALSE(refused.success);
+
+  cameras_->waveLed(true);
+  request.duration = 6.0;
+  const auto response = call<RecalibrateCamera>("calibration/recalibrate_camera", request);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_NEAR(response.moved, 0.05, 0.01);
+  EXPECT_NEAR(response.turned, 0.05, 0.003);
+  Latest<RigCalibration> published("calibration/rig");
+  ASSERT_TRUE(waitUntil([&] { return published.get() && published.get()->id != rig.id(); }));
+  const geometry::Rig result = fromMessage(*published.get());
+  EXPECT_LT((result.cameras[1].camera.center() - cameras_->truth[1].center()).norm(), 0.01);
+  EXPECT_EQ(status_->get()->message, response.message);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "place_and_health_test");
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}

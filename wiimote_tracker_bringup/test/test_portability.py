@@ -64,7 +64,12 @@ def python_programs():
 def violations(paths, rules):
     for path in paths:
         with open(path, encoding='utf-8') as file:
+            guarded = False  # between #if ..._VERSION... and its #else or #endif
             for number, line in enumerate(file, 1):
+                if line.startswith('#'):
+                    guarded = line.startswith('#if') and '_VERSION' in line
+                if guarded:
+                    continue
                 code = line.split('//')[0] if path.endswith(('.h', '.cpp')) else line
                 for rule, since in rules.items():
                     if re.search(rule, code):
@@ -78,6 +83,9 @@ def test_the_rules_find_what_they_are_meant_to_find(tmp_path):
                    'auto s = std::format("{}", 1);\nParameters p{.a = 1};\nEigen::seq(0, 2);\n'
                    'problem.SetManifold(q, m);\n')
     assert len({v.split(':')[1] for v in violations([str(bad)], CPP)}) == 7
+    guard = tmp_path / 'guard.cpp'
+    guard.write_text('#if CV_VERSION_MAJOR > 4\ncv::SOLVEPNP_SQPNP;\n#endif\ncv::SOLVEPNP_SQPNP;\n')
+    assert [v.split(':')[1].split()[0] for v in violations([str(guard)], CPP)] == ['4']
     bad = tmp_path / 'bad.py'
     bad.write_text('match value:\ns.removeprefix("a")\ndef f(a: list[int]):\n')
     assert len(list(violations([str(bad)], PYTHON))) == 3

@@ -143,13 +143,16 @@ void runMethods(int runs, const RowCallback& row) {
                                   : std::optional<Eigen::Isometry3d>(poses[0].world_from_camera);
                      }});
   const std::vector<std::pair<std::string, int>> opencv = {
-      {"ITERATIVE", cv::SOLVEPNP_ITERATIVE},
-      {"EPNP", cv::SOLVEPNP_EPNP},
-      {"P3P", cv::SOLVEPNP_P3P},
-      {"AP3P", cv::SOLVEPNP_AP3P},
-      {"IPPE", cv::SOLVEPNP_IPPE},
-      {"IPPE_SQUARE", cv::SOLVEPNP_IPPE_SQUARE},
-      {"SQPNP", cv::SOLVEPNP_SQPNP}};
+    {"ITERATIVE", cv::SOLVEPNP_ITERATIVE},
+    {"EPNP", cv::SOLVEPNP_EPNP},
+    {"P3P", cv::SOLVEPNP_P3P},
+    {"AP3P", cv::SOLVEPNP_AP3P},
+    {"IPPE", cv::SOLVEPNP_IPPE},
+    {"IPPE_SQUARE", cv::SOLVEPNP_IPPE_SQUARE},
+#if CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 5)
+    {"SQPNP", cv::SOLVEPNP_SQPNP},
+#endif
+  };
   for (const auto& [name, method] : opencv) {
     const int flag = method;
     methods.push_back({"cv::solvePnP " + name,

@@ -1,0 +1,32 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_CAMERA_IMAGE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_CAMERA_IMAGE_H
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace wiimote_tracker::tracking {
+
+/// One bright spot in an image; fields as in IrBlob.msg.
+struct Spot {
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();         ///< Distorted [px].
+  double size = std::numeric_limits<double>::quiet_NaN();  ///< The camera's own unit; NaN: unknown.
+  int slot = -1;                                           ///< Place in the report; -1: unknown.
+};
+
+/// An image as it comes from a camera; fields as in IrBlobArray.msg.
+struct CameraImage {
+  double stamp = 0.0;    ///< Middle of the exposure, without the rig's time offset [s].
+  double arrival = 0.0;  ///< When it reached the computer [s].
+  double stamp_stddev = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: unknown.
+  std::uint32_t clock_epoch = 0;
+  std::size_t maximum_spots = 4;  ///< With as many spots as this, further lights may be hidden.
+  std::vector<Spot> spots;
+};
+
+}  // namespace wiimote_tracker::tracking
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TRACKING_CAMERA_IMAGE_H

@@ -1,0 +1,60 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_SNAPSHOT_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_SNAPSHOT_H
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::tracking {
+
+/// As in TrackedPoint.msg.
+enum class TrackState { kTentative, kTracked, kPredicted, kLost };
+
+/// One LED at the time of its snapshot; fields as in TrackedPoint.msg.
+struct TrackedLed {
+  std::uint32_t id = 0;  ///< Never used again for another LED.
+  TrackState state = TrackState::kTentative;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();             ///< World [m].
+  Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  ///< World [m^2].
+  std::optional<Eigen::Vector3d> velocity;                        ///< World [m/s].
+  Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  ///< [m^2/s^2]; with a velocity.
+  std::vector<std::size_t> cameras;  ///< Whose rays entered, in the order of the rig.
+  std::size_t rays_possible = 0;     ///< Cameras that ought to see it, or whose rays entered.
+
+  /// sqrt(mean(du^2 + dv^2)) over the rays that entered [px]; NaN without any.
+  double residual = std::numeric_limits<double>::quiet_NaN();
+  double first_seen = 0.0;     ///< [s]
+  double last_observed = 0.0;  ///< [s]
+};
+
+/// What became of one spot.
+enum class SpotUse { kUnassigned, kMasked, kAssigned };
+
+struct SeenSpot {
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< Distorted [px].
+  SpotUse use = SpotUse::kUnassigned;
+  std::uint32_t led = 0;  ///< Id of the LED it was assigned to.
+};
+
+/// What one camera last contributed.
+struct CameraView {
+  std::optional<double> time;  ///< Exposure of its newest image [s]; nothing before the first.
+  std::vector<SeenSpot> spots;
+};
+
+/// All LEDs at one time.
+struct Snapshot {
+  double time = 0.0;              ///< [s]
+  double latest_arrival = 0.0;    ///< Of the newest image that was looked at, dark ones too [s].
+  double skew = 0.0;              ///< Largest distance from time to an image that entered [s].
+  std::vector<TrackedLed> leds;   ///< In the order of their ids.
+  std::vector<CameraView> views;  ///< One per camera, in the order of the rig.
+};
+
+}  // namespace wiimote_tracker::tracking
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TRACKING_SNAPSHOT_H

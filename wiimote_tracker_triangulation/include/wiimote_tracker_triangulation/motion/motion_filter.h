@@ -1,0 +1,117 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_FILTER_H
+#define WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_FILTER_H
+
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+#include "wiimote_tracker_triangulation/motion/kinematic_state.h"
+#include "wiimote_tracker_triangulation/motion/motion_options.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <optional>
+
+namespace wiimote_tracker::motion {
+
+/// How exact a pixel is.
+struct PixelNoise {
+  double pixel_stddev = 0.5;  ///< Of each coordinate [px, > 0].
+  double stamp_stddev = 0.0;  ///< Of the image's time [s, >= 0]: a moving LED smears along its way.
+};
+
+/// Where in a camera's image an LED is expected: a mixture of normal distributions, one for each
+/// way it may move.
+class PixelPrediction {
+ public:
+  const Eigen::Vector2d& pixel() const { return pixel_; }  ///< Mean [px].
+
+  /// Innovation covariance: of a measured pixel about the mean, noise and all [px^2].
+  Eigen::Matrix2d covariance() const;
+
+  /// Squared Mahalanobis distance to the nearest of the ways to move, however unlikely that way is
+  /// [1]: for gates, so that a sudden start is not shut out. Chi square with two degrees of freedom
+  /// or less for the LED's own spot. NaN for a pixel that is.
+  double squaredDistance(const Eigen::Vector2d& pixel) const;
+
+  /// Logarithm of the density of the LED's spot [1/px^2].
+  double logLikelihood(const Eigen::Vector2d& pixel) const;
+
+ private:
+  friend class MotionFilter;
+
+  struct Component {
+    double weight = 0.0;
+    Eigen::Vector2d offset;  // of its mean from pixel_ [px]
+    Eigen::Matrix2d whiten;  // lower triangle [1/px]
+  };
+
+  Eigen::Vector2d pixel_;
+  Eigen::Matrix<double, 2, 3> jacobian_;  // d pixel / d position [px/m]
+  Eigen::Vector3d smear_;                 // standard deviation that the stamp's makes [m]
+  double pixel_variance_;                 // [px^2]
+  std::array<Component, 3> components_;
+};
+
+/// One LED's state in continuous time, updated by each camera's spot at that image's own time: an
+/// interacting multiple model filter (Blom and Bar-Shalom 1988) over the three ways to move of
+/// MotionOptions. A value: copies are independent, and nothing here allocates.
+///
+/// The covariances are of exact cameras: what the calibration adds is systematic, not averaged out
+/// by more images, and belongs added to what is published.
+class MotionFilter {
+ public:
+  /// From a triangulated point. @param options not owned. @param time [s], finite.
+  /// @param position [m], finite. @param covariance [m^2], positive definite.
+  MotionFilter(const MotionOptions& options,
+               double time,
+               const Eigen::Vector3d& position,
+               const Eigen::Matrix3d& covariance);
+
+  double time() const { return time_; }  ///< [s]
+
+  /// Goes on to a time [s]; one that is not after time() changes nothing.
+  void predict(double time);
+
+  /// At time(). Nothing when the LED is not before the camera (see Camera::project).
+  std::optional<PixelPrediction> predictPixel(const geometry::Camera& camera,
+                                              const PixelNoise& noise) const;
+
+  /// Takes in the pixel of the LED's spot at time(). The prediction must be this filter's as it is.
+  /// False, and nothing changes, when the pixel is not finite.
+  bool update(const geometry::Camera& camera,
+              const PixelPrediction& prediction,
+              const Eigen::Vector2d& pixel);
+
+  Eigen::Vector3d position() const;            ///< Mean, world [m].
+  Eigen::Matrix3d positionCovariance() const;  ///< [m^2]
+  Eigen::Vector3d velocity() const;            ///< Mean, world [m/s].
+  Eigen::Matrix3d velocityCovariance() const;  ///< [m^2/s^2]
+
+  double stillProbability() const { return weights_[kStill]; }  ///< [0..1]
+  double briskProbability() const { return weights_[kBrisk]; }  ///< [0..1]
+
+ private:
+  static constexpr int kStill = 0;
+  static constexpr int kGentle = 1;
+  static constexpr int kBrisk = 2;
+  static constexpr int kModels = 3;
+
+  void change(double duration);
+  bool linearize(const geometry::Camera& camera,
+                 const Eigen::Vector3d& point,
+                 PixelPrediction* prediction) const;
+  bool isLinear(const geometry::Camera& camera,
+                const PixelPrediction& prediction,
+                const Eigen::Vector2d& pixel) const;
+  void apply(const PixelPrediction& prediction, const Eigen::Vector2d& pixel);
+
+  const MotionOptions* options_;
+  double time_;
+  std::array<double, kModels> weights_;  // probabilities of the ways to move
+  Eigen::Vector3d still_p_;
+  Eigen::Matrix3d still_pp_;
+  std::array<KinematicState, 2> moving_;  // gentle, brisk
+};
+
+}  // namespace wiimote_tracker::motion
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_FILTER_H

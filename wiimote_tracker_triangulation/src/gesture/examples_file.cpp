@@ -1,0 +1,83 @@
+#include "wiimote_tracker_triangulation/gesture/examples_file.h"
+
+#include "wiimote_tracker_triangulation/geometry/atomic_file.h"
+#include "wiimote_tracker_triangulation/geometry/yaml_map.h"
+#include "wiimote_tracker_triangulation/gesture/error.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <cstdio>
+
+namespace wiimote_tracker::gesture {
+namespace {
+
+constexpr const char* kFormat = "wiimote_tracker_gestures";
+constexpr int kFormatVersion = 1;
+constexpr const char* kAdvice = "restore the file from its backup or record the gestures again";
+
+std::string exact(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.17g", value);
+  return text;
+}
+
+Example readExample(geometry::YamlMap map) {
+  Example example;
+  example.gesture = map.get<std::string>("gesture");
+  example.zone = map.get<std::string>("zone");
+  for (const std::vector<double>& row : map.get<std::vector<std::vector<double>>>("path")) {
+    if (row.size() != 4)
+      throw GestureError(map.at("path") + " has a point that is not [t, x, y, z]; " + kAdvice);
+    example.path.push_back({row[0], {row[1], row[2], row[3]}});
+  }
+  map.refuseUnknown();
+  return example;
+}
+
+}  // namespace
+
+std::vector<Example> readExamples(const std::string& file) {
+  YAML::Node node;
+  try {
+    node = YAML::Load(geometry::readFile(file));
+  } catch (const YAML::Exception& e) {
+    throw GestureError(file + " is not YAML (" + e.what() + "); " + kAdvice);
+  }
+  geometry::YamlMap map(node, file, kAdvice);
+  if (map.get<std::string>("format") != kFormat)
+    throw GestureError(map.at("format") + " is not " + kFormat +
+                       "; give a file that the gesture recogniser wrote");
+  const int version = map.get<int>("version");
+  if (version != kFormatVersion)
+    throw GestureError(map.at("version") + " is " + std::to_string(version) +
+                       ", which this program does not know; update it");
+  std::vector<Example> examples;
+  for (const geometry::YamlMap& example : map.maps("examples"))
+    examples.push_back(readExample(example));
+  map.refuseUnknown();
+  return examples;
+}
+
+void writeExamples(const std::string& file, const std::vector<Example>& examples) {
+  YAML::Emitter out;
+  out << YAML::BeginMap;
+  out << YAML::Key << "format" << YAML::Value << kFormat;
+  out << YAML::Key << "version" << YAML::Value << kFormatVersion;
+  out << YAML::Key << "examples" << YAML::Value << YAML::BeginSeq;
+  for (const Example& example : examples) {
+    out << YAML::BeginMap;
+    out << YAML::Key << "gesture" << YAML::Value << YAML::DoubleQuoted << example.gesture;
+    out << YAML::Key << "zone" << YAML::Value << YAML::DoubleQuoted << example.zone;
+    out << YAML::Key << "path" << YAML::Comment("t [s], x, y, z [m]") << YAML::Value
+        << YAML::BeginSeq;
+    for (const PathPoint& point : example.path) {
+      out << YAML::Flow << YAML::BeginSeq << exact(point.time) << exact(point.position.x())
+          << exact(point.position.y()) << exact(point.position.z()) << YAML::EndSeq;
+    }
+    out << YAML::EndSeq << YAML::EndMap;
+  }
+  out << YAML::EndSeq << YAML::EndMap;
+  geometry::writeFileAtomically(file, std::string(out.c_str()) + "\n");
+}
+
+}  // namespace wiimote_tracker::gesture

@@ -1,0 +1,84 @@
+#include "wiimote_tracker_triangulation/gesture/segmenter.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace wiimote_tracker::gesture {
+
+std::optional<Path> Segmenter::add(const PathPoint& point) {
+  if (!path_.empty() && !(point.time > path_.back().time))
+    return std::nullopt;
+  std::optional<Path> ended = advance(point.time);
+  if (options_.boundary == Boundary::kButton && !pressed_)
+    return ended;
+  path_.push_back(point);
+  forgetBefore(point.time - options_.maximum_duration);
+  if (options_.boundary != Boundary::kRest)
+    return ended;
+
+  const bool at_rest = isAtRest();
+  if (moving_ && at_rest) {
+    moving_ = false;
+    // The rest at the end is not part of it.
+    const double end_time = point.time - options_.rest_time;
+    while (path_.size() > 1 && path_[path_.size() - 2].time >= end_time)
+      path_.pop_back();
+    ended = end();
+    path_.push_back(point);
+  } else if (!moving_ && at_rest) {
+    forgetBefore(point.time - options_.rest_time);
+  } else {
+    moving_ = true;
+  }
+  return ended;
+}
+
+std::optional<Path> Segmenter::advance(double time) {
+  if (path_.empty() || time - path_.back().time <= options_.dark_time)
+    return std::nullopt;
+  // Whatever the boundary: a way with a hole in it is not the way that was drawn. Only switching
+  // off is an end that counts.
+  std::optional<Path> ended = end();
+  return options_.boundary == Boundary::kLight ? ended : std::nullopt;
+}
+
+std::optional<Path> Segmenter::button(double time, bool pressed) {
+  std::optional<Path> ended = advance(time);
+  if (pressed_ && !pressed)
+    ended = end();
+  pressed_ = pressed;
+  return options_.boundary == Boundary::kButton ? ended : std::nullopt;
+}
+
+void Segmenter::reset() {
+  path_.clear();
+  moving_ = false;
+}
+
+std::optional<Path> Segmenter::end() {
+  Path path = std::exchange(path_, {});
+  moving_ = false;
+  if (path.size() < 2 || path.back().time - path.front().time < options_.minimum_duration)
+    return std::nullopt;
+  return path;
+}
+
+bool Segmenter::isAtRest() const {
+  const PathPoint& newest = path_.back();
+  for (std::size_t i = path_.size(); i-- > 0;) {
+    if ((path_[i].position - newest.position).norm() > options_.rest_radius)
+      return false;
+    if (newest.time - path_[i].time >= options_.rest_time)
+      return true;
+  }
+  // Too little is known yet: an LED that has just appeared may be moving.
+  return false;
+}
+
+void Segmenter::forgetBefore(double time) {
+  const auto first =
+      std::find_if(path_.begin(), path_.end(), [&](const PathPoint& p) { return p.time >= time; });
+  path_.erase(path_.begin(), first);
+}
+
+}  // namespace wiimote_tracker::gesture

@@ -1,0 +1,73 @@
+#include "wiimote_tracker_triangulation/gesture/spotter.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace wiimote_tracker::gesture {
+namespace {
+
+double durationOf(const Path& path) {
+  return path.back().time - path.front().time;
+}
+
+}  // namespace
+
+std::optional<Spotted> Spotter::add(const PathPoint& point,
+                                    const Recognizer& recognizer,
+                                    const std::string& zone) {
+  if (!motion_.empty() && !(point.time > motion_.back().time))
+    return std::nullopt;
+  std::optional<Spotted> found;
+  if (!motion_.empty() && point.time - motion_.back().time > options_.longest_hole) {
+    found = report();
+    motion_.clear();
+  }
+  if (motion_.empty())
+    next_look_ = point.time + options_.shortest;
+  motion_.push_back(point);
+  motion_.erase(motion_.begin(), std::find_if(motion_.begin(), motion_.end(), [&](const auto& p) {
+                  return p.time >= point.time - options_.longest;
+                }));
+  if (point.time >= next_look_) {
+    next_look_ = point.time + options_.interval;
+    look(recognizer, zone);
+  }
+  if (!found && best_ && point.time - best_->path.back().time >= 0.5 * durationOf(best_->path))
+    found = report();
+  return found;
+}
+
+void Spotter::reset() {
+  motion_.clear();
+  best_.reset();
+}
+
+/// What was reported is not looked at again.
+std::optional<Spotted> Spotter::report() {
+  std::optional<Spotted> spotted = std::exchange(best_, std::nullopt);
+  if (spotted) {
+    const double end = spotted->path.back().time;
+    motion_.erase(motion_.begin(), std::find_if(motion_.begin(), motion_.end(),
+                                                [&](const auto& p) { return p.time >= end; }));
+  }
+  return spotted;
+}
+
+void Spotter::look(const Recognizer& recognizer, const std::string& zone) {
+  const double now = motion_.back().time;
+  for (double duration = options_.shortest; duration <= options_.longest * 1.0001;
+       duration *= options_.step) {
+    if (durationOf(motion_) < duration - options_.interval)
+      break;
+    const auto first = std::find_if(motion_.begin(), motion_.end(),
+                                    [&](const auto& p) { return p.time >= now - duration; });
+    Path path(first, motion_.end());
+    const std::optional<Recognition> recognition = recognizer.recognize(path, zone);
+    if (!recognition || recognition->score < options_.minimum_score)
+      continue;
+    if (!best_ || recognition->score > best_->recognition.score)
+      best_ = Spotted{std::move(path), *recognition};
+  }
+}
+
+}  // namespace wiimote_tracker::gesture

@@ -1,0 +1,32 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_GESTURE_TOOL_DATASET_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_GESTURE_TOOL_DATASET_H
+
+#include "wiimote_tracker_triangulation/gesture/shape.h"
+
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::gesture_tool {
+
+/// One gesture, as a person drew it.
+struct Sample {
+  std::string gesture;  ///< The file's name without .csv.
+  gesture::Path path;   ///< In whatever unit of length the file has.
+};
+
+struct Person {
+  std::string folder;  ///< Its path, without symbolic links.
+  std::vector<Sample> samples;
+};
+
+/// A folder per person, in it a CSV per gesture: rows `x y z t_ms`, separated by blanks or commas;
+/// lines before the first row of numbers are passed over. In the order of the names.
+/// @throws gesture::GestureError naming the file and line, or the folder that is empty.
+std::vector<Person> readPeople(const std::string& folder);
+
+/// Rows of numbers of a file as above, `columns` or more in each. @throws gesture::GestureError.
+std::vector<std::vector<double>> readRows(const std::string& file, std::size_t columns);
+
+}  // namespace wiimote_tracker::gesture_tool
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_GESTURE_TOOL_DATASET_H

@@ -94,24 +94,6 @@ void meanClosest(const Sights& sights, double minimum_sine_squared, Triangulated
   point->covariance = variance / (pairs * pairs);
 }
 
-void leastSquares(const Sights& sights, TriangulatedPoint* point) {
-  const Vector3 base = sights.first->origin;  // keeps the numbers small
-  Matrix3 A = Matrix3::Zero();
-  Vector3 b = Vector3::Zero();
-  for (const Sight& s : sights) {
-    const Matrix3 across = acrossRay(s);
-    A += across;
-    b += across * (s.origin - base);
-  }
-  const Matrix3 inverse = A.inverse();
-  point->position = base + inverse * b;
-  point->covariance.setZero();
-  for (const Sight& s : sights) {
-    const Matrix32 position_by_pixel = positionByPixel(inverse, point->position, s);
-    point->covariance += position_by_pixel * position_by_pixel.transpose();
-  }
-}
-
 /// Normal equations of a least squares problem in three unknowns: A x = b.
 class NormalEquations {
  public:
@@ -128,15 +110,16 @@ class NormalEquations {
     b_ += J.transpose() * r;
   }
 
-  /// Three rows (I - d d^T) x = (I - d d^T) p, d of unit length.
-  void addAcross(const Vector3& d, const Vector3& p) {
-    xx_ += 1.0 - d.x() * d.x();
-    xy_ -= d.x() * d.y();
-    xz_ -= d.x() * d.z();
-    yy_ += 1.0 - d.y() * d.y();
-    yz_ -= d.y() * d.z();
-    zz_ += 1.0 - d.z() * d.z();
-    b_ += p - d.dot(p) * d;
+  /// Three rows (I - d d^T) x = (I - d d^T) p, d of unit length, with a weight.
+  void addAcross(const Vector3& d, const Vector3& p, double weight) {
+    const Vector3 weighted = weight * d;
+    xx_ += weight - weighted.x() * d.x();
+    xy_ -= weighted.x() * d.y();
+    xz_ -= weighted.x() * d.z();
+    yy_ += weight - weighted.y() * d.y();
+    yz_ -= weighted.y() * d.z();
+    zz_ += weight - weighted.z() * d.z();
+    b_ += weight * p - d.dot(p) * weighted;
   }
 
   const Vector3& b() const { return b_; }
@@ -161,13 +144,47 @@ class NormalEquations {
   Vector3 b_ = Vector3::Zero();
 };
 
-/// The point with the least sum of squared distances to all rays, at no more cost than that.
-Vector3 nearestToRays(const Sights& sights) {
-  const Vector3 base = sights.first->origin;  // keeps the numbers small
-  NormalEquations equations;
-  for (const Sight& s : sights)
-    equations.addAcross(s.direction, s.origin - base);
-  return base + equations.inverse() * equations.b();
+/// The point with the least weighted sum of squared distances to all rays, and the inverse of its
+/// normal equations.
+struct Nearest {
+  template <typename Weight>
+  Nearest(const Sights& sights, const Weight& weight) {
+    const Vector3 base = sights.first->origin;  // keeps the numbers small
+    NormalEquations equations;
+    for (const Sight& s : sights)
+      equations.addAcross(s.direction, s.origin - base, weight(s));
+    inverse = equations.inverse();
+    position = base + inverse * equations.b();
+  }
+  Matrix3 inverse;
+  Vector3 position;
+};
+
+constexpr auto kEqualWeights = [](const Sight&) { return 1.0; };
+
+/// From the rays with weights that hardly change with the pixels, such as those of their ranges.
+template <typename Weight>
+void takeNearest(const Sights& sights, const Weight& weight, TriangulatedPoint* point) {
+  const Nearest nearest(sights, weight);
+  point->position = nearest.position;
+  point->covariance.setZero();
+  for (const Sight& s : sights) {
+    const Matrix32 position_by_pixel =
+        weight(s) * positionByPixel(nearest.inverse, nearest.position, s);
+    point->covariance += position_by_pixel * position_by_pixel.transpose();
+  }
+}
+
+/// One pass with equal weights for the ranges, one in which each ray's distance counts in pixels.
+void reweightedMidpoint(const Sights& sights, TriangulatedPoint* point) {
+  const Vector3 first = Nearest(sights, kEqualWeights).position;
+  takeNearest(
+      sights,
+      [&](const Sight& s) {
+        const double depth = s.depth(first);
+        return s.pixel_by_offset.squaredNorm() / (depth * depth);
+      },
+      point);
 }
 
 /// Gauss-Newton on the residuals. False when it does not settle.
@@ -175,7 +192,7 @@ bool maximumLikelihood(const Sights& sights, TriangulatedPoint* point) {
   constexpr int kMaximumSteps = 100;
   constexpr double kNegligible = 1e-6;  // of the cost: far below what noise makes of it
   constexpr double kRounding = 1e-18;   // [px^2]
-  Vector3 position = nearestToRays(sights);
+  Vector3 position = Nearest(sights, kEqualWeights).position;
   Vector3 step = Vector3::Zero();
   double best_cost = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaximumSteps; ++i) {
@@ -257,7 +274,10 @@ std::optional<TriangulatedPoint> triangulate(const Sight* first,
       meanClosest(sights, minimum_sine_squared, &point);
       break;
     case TriangulationMethod::kLeastSquares:
-      leastSquares(sights, &point);
+      takeNearest(sights, kEqualWeights, &point);
+      break;
+    case TriangulationMethod::kReweightedMidpoint:
+      reweightedMidpoint(sights, &point);
       break;
     case TriangulationMethod::kMaximumLikelihood:
       if (!maximumLikelihood(sights, &point))

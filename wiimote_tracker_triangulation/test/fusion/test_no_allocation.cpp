@@ -48,7 +48,8 @@ TEST(NoAllocation, Triangulate) {
   observations[0].pixel.x() += 1.0;
   for (const auto method :
        {geometry::TriangulationMethod::kMeanClosest, geometry::TriangulationMethod::kLeastSquares,
-        geometry::TriangulationMethod::kMaximumLikelihood}) {
+        geometry::TriangulationMethod::kMaximumLikelihood,
+        geometry::TriangulationMethod::kReweightedMidpoint}) {
     geometry::TriangulationOptions options;
     options.method = method;
     const int before = g_allocations;

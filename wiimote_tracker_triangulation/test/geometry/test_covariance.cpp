@@ -52,12 +52,13 @@ double boundAt(const std::vector<OpenCvCamera>& cameras, const Vector3d& point) 
 }
 
 /// The paper's Fig. 1: cameras 4.5 m outside the vertical edges of a cube of 2.5 m, on its
-/// diagonals, 2.0 m high, aimed at the centre; lenses that differ and distort.
-Rig paperRig(Random& random) {
+/// diagonals, 2.0 m high, aimed at the centre; lenses that differ and distort. Beyond four: between
+/// them. Fewer: neighbours.
+Rig paperRig(Random& random, int cameras) {
   Rig rig;
   const Vector3d center(1.25, 1.25, 1.25);
-  for (int i = 0; i < 4; ++i) {
-    const double angle = M_PI / 4.0 + i * M_PI / 2.0;
+  for (int i = 0; i < cameras; ++i) {
+    const double angle = (i < 4 ? M_PI / 4.0 : 0.0) + i * M_PI / 2.0;
     const double distance = 1.25 * std::sqrt(2.0) + 4.5;
     RigCamera camera;
     camera.camera.name = "wiimote_" + std::to_string(i + 1);
@@ -78,9 +79,9 @@ struct Score {
   double claimed_over_rms = 0.0;  // RMS that the covariance claims, over the true one
 };
 
-Score score(TriangulationMethod method, unsigned seed) {
+Score score(TriangulationMethod method, unsigned seed, int cameras = 4) {
   Random random(seed);
-  const Rig rig = paperRig(random);
+  const Rig rig = paperRig(random, cameras);
   std::vector<OpenCvCamera> references;
   std::vector<Observation> observations;
   for (const RigCamera& camera : rig.cameras) {
@@ -131,6 +132,25 @@ TEST(Covariance, MaximumLikelihoodIsHonestAndReachesTheBound) {
   const Score s = score(TriangulationMethod::kMaximumLikelihood, 21);
   report("maximum likelihood", s);
   EXPECT_NEAR(s.nees, 3.0, 0.04);
+  EXPECT_GE(s.rms_over_bound, 0.99);
+  EXPECT_LE(s.rms_over_bound, 1.01);
+}
+
+TEST(Covariance, MaximumLikelihoodReachesTheBoundWithAnyNumberOfCameras) {
+  for (const int cameras : {2, 3, 8}) {
+    const Score s = score(TriangulationMethod::kMaximumLikelihood, 24, cameras);
+    report("maximum likelihood, " + std::to_string(cameras) + " cameras", s);
+    EXPECT_NEAR(s.nees, 3.0, 0.04);
+    EXPECT_GE(s.rms_over_bound, 0.99);
+    EXPECT_LE(s.rms_over_bound, 1.01);
+  }
+}
+
+TEST(Covariance, ReweightedMidpointIsHonestAndAllButReachesTheBound) {
+  const Score s = score(TriangulationMethod::kReweightedMidpoint, 25);
+  report("reweighted midpoint", s);
+  EXPECT_NEAR(s.nees, 3.0, 0.04);
+  EXPECT_NEAR(s.claimed_over_rms, 1.0, 0.01);
   EXPECT_GE(s.rms_over_bound, 0.99);
   EXPECT_LE(s.rms_over_bound, 1.01);
 }

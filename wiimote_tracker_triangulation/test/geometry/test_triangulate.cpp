@@ -17,9 +17,9 @@ using Eigen::Vector3d;
 using test::OpenCvCamera;
 using test::Random;
 
-constexpr TriangulationMethod kMethods[] = {TriangulationMethod::kMeanClosest,
-                                            TriangulationMethod::kLeastSquares,
-                                            TriangulationMethod::kMaximumLikelihood};
+constexpr TriangulationMethod kMethods[] = {
+    TriangulationMethod::kMeanClosest, TriangulationMethod::kLeastSquares,
+    TriangulationMethod::kMaximumLikelihood, TriangulationMethod::kReweightedMidpoint};
 
 TriangulationOptions optionsFor(TriangulationMethod method) {
   TriangulationOptions options;
@@ -103,6 +103,28 @@ TEST(Triangulate, MeanClosestAveragesOverAllPairs) {
   EXPECT_LT((point->position - Vector3d(0.25, 0.5, 3.0)).norm(), 1e-12);
 }
 
+TEST(Triangulate, ReweightedMidpointCountsARayByItsRange) {
+  // Rays along x, y and z that pass the origin at (0, a, 0), (b, 0, 0) and (0, 0, 0), from 2, 4 and
+  // 8 m away: weights 16, 4 and 1 but for a factor. Each coordinate is the weighted mean of what
+  // the two rays across it say.
+  const double a = 0.001, b = 0.002;  // [m] so small that the first point's ranges are these
+  const Vector3d passes[] = {{0.0, a, 0.0}, {b, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+  const double ranges[] = {2.0, 4.0, 8.0};
+  Rig rig = parallelRig({0.0, 0.0, 0.0});
+  std::vector<Observation> observations;
+  for (int i = 0; i < 3; ++i) {
+    geometry::Camera& camera = rig.cameras[i].camera;
+    camera.world_from_camera =
+        lookAt(passes[i] - ranges[i] * Vector3d::Unit(i), passes[i], Vector3d::Unit((i + 1) % 3));
+    observations.push_back({&camera, Vector2d(camera.intrinsics.cx, camera.intrinsics.cy)});
+  }
+  const auto point =
+      triangulate(observations, optionsFor(TriangulationMethod::kReweightedMidpoint));
+  ASSERT_TRUE(point);
+  const Vector3d expected((4.0 * b + 1.0 * 0.0) / 5.0, (16.0 * a + 1.0 * 0.0) / 17.0, 0.0);
+  EXPECT_LT((point->position - expected).norm(), 1e-3 * a);
+}
+
 /// OpenCV's point (direct linear transform) from two undistorted views.
 Vector3d opencvPoint(const std::vector<Observation>& observations) {
   cv::Mat_<double> P[2], pixels[2];
@@ -122,7 +144,7 @@ TEST(Triangulate, AgreesWithOpenCvForTwoViews) {
   constexpr double kNoise = 0.5;  // [px]
   Random random(12);
   double opencv_sum = 0.0;
-  double sums[3] = {};
+  double sums[4] = {};
   for (int i = 0; i < 2000; ++i) {
     Rig rig = test::randomRig(random, 2);
     for (RigCamera& camera : rig.cameras)
@@ -140,7 +162,7 @@ TEST(Triangulate, AgreesWithOpenCvForTwoViews) {
       o.pixel += kNoise * Vector2d(u, v);
     }
     opencv_sum += (opencvPoint(observations) - truth).squaredNorm();
-    for (int m = 0; m < 3; ++m) {
+    for (int m = 0; m < 4; ++m) {
       const auto point = triangulate(observations, optionsFor(kMethods[m]));
       ASSERT_TRUE(point);
       sums[m] += (point->position - truth).squaredNorm();
@@ -262,7 +284,8 @@ TEST(Triangulate, MaximumLikelihoodFitsThePixelsBest) {
         triangulate(observations, optionsFor(TriangulationMethod::kMaximumLikelihood));
     ASSERT_TRUE(best);
     for (const TriangulationMethod method :
-         {TriangulationMethod::kMeanClosest, TriangulationMethod::kLeastSquares}) {
+         {TriangulationMethod::kMeanClosest, TriangulationMethod::kLeastSquares,
+          TriangulationMethod::kReweightedMidpoint}) {
       EXPECT_LE(best->reprojection_error,
                 triangulate(observations, optionsFor(method))->reprojection_error + 1e-12);
     }

@@ -19,10 +19,12 @@ struct Observation {
 };
 
 enum class TriangulationMethod {
-  kMeanClosest,        ///< Mean of the closest points of all ray pairs (the paper, section IV.B);
-                       ///< pairs below minimum_angle are left out.
-  kLeastSquares,       ///< Point with the least sum of squared distances to all rays.
-  kMaximumLikelihood,  ///< Least sum of squared pixel residuals (Gauss-Newton).
+  kMeanClosest,         ///< Mean of the closest points of all ray pairs (the paper, section IV.B);
+                        ///< pairs below minimum_angle are left out.
+  kLeastSquares,        ///< Point with the least sum of squared distances to all rays.
+  kMaximumLikelihood,   ///< Least sum of squared pixel residuals (Gauss-Newton).
+  kReweightedMidpoint,  ///< kLeastSquares, then once more with each distance in pixels at the first
+                        ///< point's range: all but as good as kMaximumLikelihood, in closed form.
 };
 
 struct TriangulationOptions {
@@ -42,7 +44,7 @@ struct TriangulatedPoint {
 /// @returns nothing when it is not determined: fewer than two observations, all rays (nearly)
 /// parallel, a pixel without a ray, the point behind any of the cameras, not finite.
 /// kMaximumLikelihood: for pixel noise that is Gaussian, independent and equal in both axes.
-/// The covariance of the two linear methods is propagated to first order from the same noise.
+/// The covariance of the other methods is propagated to first order from the same noise.
 std::optional<TriangulatedPoint> triangulate(const std::vector<Observation>& observations,
                                              const TriangulationOptions& options);
 

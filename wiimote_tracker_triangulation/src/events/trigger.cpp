@@ -1,0 +1,162 @@
+#include "wiimote_tracker_triangulation/events/trigger.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wiimote_tracker::events {
+namespace {
+
+using tracking::TrackedLed;
+using tracking::TrackState;
+
+TrackState lessCertain(TrackState a, TrackState b) {
+  for (const TrackState state :
+       {TrackState::kLost, TrackState::kTentative, TrackState::kPredicted}) {
+    if (a == state || b == state)
+      return state;
+  }
+  return TrackState::kTracked;
+}
+
+const TrackedLed* find(const std::vector<TrackedLed>& leds, std::uint32_t id) {
+  const auto led =
+      std::find_if(leds.begin(), leds.end(), [&](const TrackedLed& l) { return l.id == id; });
+  return led == leds.end() ? nullptr : &*led;
+}
+
+}  // namespace
+
+std::string describe(TriggerResult result, const TriggerOptions& options) {
+  switch (result) {
+    case TriggerResult::kAnswered:
+      break;
+    case TriggerResult::kGap:
+      return "no images were used within " + std::to_string(options.maximum_gap) +
+             " s around it: see whether the cameras' drivers run";
+    case TriggerResult::kTooOld:
+      return "it is older than what is remembered, at most " + std::to_string(options.history) +
+             " s: ask sooner, and set all computers to the same clock";
+    case TriggerResult::kTooEarly:
+      return "it is more than " + std::to_string(options.history) +
+             " s ahead of the images: set all computers to the same clock";
+    case TriggerResult::kTooMany:
+      return "too many others wait for images: see whether the cameras' drivers run";
+  }
+  return "";
+}
+
+TrackedLed interpolate(const TrackedLed& before,
+                       double time_before,
+                       const TrackedLed& after,
+                       double time_after,
+                       double time) {
+  const double duration = time_after - time_before;
+  const double s = (time - time_before) / duration;
+  TrackedLed led = s <= 0.5 ? before : after;
+  led.state = lessCertain(before.state, after.state);
+  led.first_seen = before.first_seen;
+  led.last_observed = std::max(before.last_observed, std::min(after.last_observed, time));
+  if (!before.velocity || !after.velocity) {
+    led.velocity.reset();
+    led.position = (1.0 - s) * before.position + s * after.position;
+    led.position_covariance =
+        (1.0 - s) * before.position_covariance + s * after.position_covariance;
+    return led;
+  }
+  // Hermite's basis.
+  const double weight = s * s * (3.0 - 2.0 * s);
+  const double pull_before = duration * s * (1.0 - s) * (1.0 - s);
+  const double pull_after = -duration * s * s * (1.0 - s);
+  led.position = (1.0 - weight) * before.position + weight * after.position +
+                 pull_before * *before.velocity + pull_after * *after.velocity;
+  led.position_covariance = (1.0 - weight) * before.position_covariance +
+                            weight * after.position_covariance +
+                            pull_before * pull_before * before.velocity_covariance +
+                            pull_after * pull_after * after.velocity_covariance;
+  led.velocity = (1.0 - s) * *before.velocity + s * *after.velocity;
+  led.velocity_covariance = (1.0 - s) * before.velocity_covariance + s * after.velocity_covariance;
+  return led;
+}
+
+void Trigger::ask(double time, std::uint64_t request) {
+  pending_.push_back({time, request, pending_.size() >= kMaximumPending});
+}
+
+void Trigger::add(const tracking::Snapshot& snapshot) {
+  if (size_ > 0 && snapshot.time <= at(size_ - 1).time)
+    size_ = 0;
+  while (size_ > 1 && at(1).time < snapshot.time - options_.history) {
+    first_ = (first_ + 1) % ring_.size();
+    --size_;
+  }
+  if (size_ == ring_.size()) {
+    std::rotate(ring_.begin(), ring_.begin() + static_cast<std::ptrdiff_t>(first_), ring_.end());
+    first_ = 0;
+    ring_.resize(2 * ring_.size() + 8);
+  }
+  Kept& kept = ring_[(first_ + size_) % ring_.size()];
+  ++size_;
+  kept.time = snapshot.time;
+  kept.latest_arrival = snapshot.latest_arrival;
+  kept.skew = snapshot.skew;
+  kept.leds = snapshot.leds;
+}
+
+const TriggerAnswer* Trigger::next() {
+  for (auto request = pending_.begin(); request != pending_.end(); ++request) {
+    if (!answer(*request))
+      continue;
+    pending_.erase(request);
+    return &answer_;
+  }
+  return nullptr;
+}
+
+void Trigger::finish() {
+  finished_ = true;
+}
+
+bool Trigger::answer(const Request& request) {
+  answer_.request = request.number;
+  answer_.snapshot.time = request.time;
+  answer_.snapshot.leds.clear();
+  const double newest = size_ > 0 ? at(size_ - 1).time : -std::numeric_limits<double>::infinity();
+  if (request.is_one_too_many) {
+    answer_.result = TriggerResult::kTooMany;
+  } else if (size_ > 0 && request.time > newest + options_.history) {
+    answer_.result = TriggerResult::kTooEarly;
+  } else if (request.time > newest || size_ == 0) {
+    answer_.result = TriggerResult::kGap;
+    return finished_;
+  } else if (request.time < at(0).time) {
+    answer_.result = TriggerResult::kTooOld;
+  } else {
+    std::size_t after = 0;
+    while (at(after).time < request.time)
+      ++after;
+    const std::size_t before = at(after).time == request.time ? after : after - 1;
+    answer_.result = at(after).time - at(before).time <= options_.maximum_gap
+                         ? TriggerResult::kAnswered
+                         : TriggerResult::kGap;
+    if (answer_.result == TriggerResult::kAnswered)
+      answerBetween(at(before), at(after));
+  }
+  return true;
+}
+
+void Trigger::answerBetween(const Kept& before, const Kept& after) {
+  tracking::Snapshot& snapshot = answer_.snapshot;
+  snapshot.latest_arrival = std::max(before.latest_arrival, after.latest_arrival);
+  snapshot.skew = std::max(before.skew, after.skew);
+  for (const TrackedLed& led : before.leds) {
+    const TrackedLed* later = find(after.leds, led.id);
+    if (!later || lessCertain(led.state, later->state) == TrackState::kLost)
+      continue;
+    snapshot.leds.push_back(before.time == after.time
+                                ? led
+                                : interpolate(led, before.time, *later, after.time, snapshot.time));
+  }
+}
+
+}  // namespace wiimote_tracker::events

@@ -1,0 +1,148 @@
+#include "wiimote_tracker_triangulation/events/zone_watch.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace wiimote_tracker::events {
+namespace {
+
+using geometry::Zone;
+
+/// The part of a way that lies in a zone, as shares of the way [0 to 1].
+struct Stay {
+  double begin = 0.0;
+  double end = 1.0;
+};
+
+/// Clips the way to the slabs between opposite sides (Kay and Kajiya 1986).
+std::optional<Stay> stayOf(const Eigen::Vector3d& from,
+                           const Eigen::Vector3d& to,
+                           const Zone& zone) {
+  Stay stay;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double step = to[axis] - from[axis];
+    double begin = zone.minimum[axis] - from[axis];
+    double end = zone.maximum[axis] - from[axis];
+    if (step == 0.0) {
+      if (begin > 0.0 || end < 0.0)
+        return std::nullopt;
+      continue;
+    }
+    if (step < 0.0)
+      std::swap(begin, end);
+    stay.begin = std::max(stay.begin, begin / step);
+    stay.end = std::min(stay.end, end / step);
+  }
+  if (stay.begin > stay.end)
+    return std::nullopt;
+  return stay;
+}
+
+double distanceOutside(const Eigen::Vector3d& position, const Zone& zone) {
+  return (position - position.cwiseMax(zone.minimum).cwiseMin(zone.maximum)).norm();
+}
+
+}  // namespace
+
+void ZoneWatch::setZones(const std::vector<Zone>& zones) {
+  const auto indexOf = [](const std::vector<Zone>& list, const std::string& name) {
+    return std::find_if(list.begin(), list.end(), [&](const Zone& z) { return z.name == name; }) -
+           list.begin();
+  };
+  const auto old_count = static_cast<std::ptrdiff_t>(zones_.size());
+  for (Led& led : leds_) {
+    for (std::size_t i = 0; i < zones_.size(); ++i) {
+      const bool stays = indexOf(zones, zones_[i].name) < static_cast<std::ptrdiff_t>(zones.size());
+      if (led.presences[i].inside && !stays)
+        gone_.push_back({zones_[i].name, led.id, false, 0.0, led.position});
+    }
+    std::vector<Presence> presences;
+    for (const Zone& zone : zones) {
+      const std::ptrdiff_t i = indexOf(zones_, zone.name);
+      presences.push_back(i < old_count ? led.presences[static_cast<std::size_t>(i)] : Presence());
+    }
+    led.presences = std::move(presences);
+  }
+  zones_ = zones;
+}
+
+const std::vector<ZoneCrossing>& ZoneWatch::update(const tracking::Snapshot& snapshot) {
+  crossings_.swap(gone_);
+  gone_.clear();
+  for (ZoneCrossing& crossing : crossings_)
+    crossing.time = snapshot.time;
+
+  const bool time_went_back = snapshot.time < newest_;
+  newest_ = snapshot.time;
+  const auto isGone = [&](const Led& led) {
+    if (!time_went_back && snapshot.time - led.time <= options_.timeout)
+      return false;
+    lose(led);
+    return true;
+  };
+  leds_.erase(std::remove_if(leds_.begin(), leds_.end(), isGone), leds_.end());
+
+  for (const tracking::TrackedLed& seen : snapshot.leds) {
+    const auto place =
+        std::lower_bound(leds_.begin(), leds_.end(), seen.id,
+                         [](const Led& led, std::uint32_t id) { return led.id < id; });
+    const bool known = place != leds_.end() && place->id == seen.id;
+    switch (seen.state) {
+      case tracking::TrackState::kTentative:
+        break;
+      case tracking::TrackState::kTracked:
+      case tracking::TrackState::kPredicted:
+        if (known)
+          step(seen.position, &*place);
+        else
+          step(seen.position, &*leds_.insert(place, {seen.id, newest_, seen.position,
+                                                     std::vector<Presence>(zones_.size())}));
+        break;
+      case tracking::TrackState::kLost:
+        if (known) {
+          lose(*place);
+          leds_.erase(place);
+        }
+        break;
+    }
+  }
+  return crossings_;
+}
+
+void ZoneWatch::step(const Eigen::Vector3d& to, Led* led) {
+  const auto first = static_cast<std::ptrdiff_t>(crossings_.size());
+  const Eigen::Vector3d from = led->position;
+  const double began = led->time;
+  const double duration = newest_ - began;
+  for (std::size_t i = 0; i < zones_.size(); ++i) {
+    Presence& presence = led->presences[i];
+    const std::optional<Stay> stay = stayOf(from, to, zones_[i]);
+    if (stay && !presence.inside) {
+      presence.inside = true;
+      crossings_.push_back({zones_[i].name, led->id, true, began + stay->begin * duration,
+                            from + stay->begin * (to - from)});
+    }
+    if (stay && stay->end < 1.0) {
+      presence.crossed = began + stay->end * duration;
+      presence.crossed_at = from + stay->end * (to - from);
+    }
+    if (presence.inside && distanceOutside(to, zones_[i]) > options_.hysteresis) {
+      presence.inside = false;
+      crossings_.push_back({zones_[i].name, led->id, false, presence.crossed, presence.crossed_at});
+    }
+  }
+  led->position = to;
+  led->time = newest_;
+  std::stable_sort(crossings_.begin() + first, crossings_.end(),
+                   [](const auto& a, const auto& b) { return a.time < b.time; });
+}
+
+void ZoneWatch::lose(const Led& led) {
+  for (std::size_t i = 0; i < zones_.size(); ++i) {
+    if (led.presences[i].inside)
+      crossings_.push_back({zones_[i].name, led.id, false, newest_, led.position});
+  }
+}
+
+}  // namespace wiimote_tracker::events

@@ -1,0 +1,31 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURE_PARAMETERS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURE_PARAMETERS_H
+
+#include "wiimote_tracker_triangulation/gesture/recognizer.h"
+#include "wiimote_tracker_triangulation/gesture/segmenter.h"
+#include "wiimote_tracker_triangulation/gesture/spotter.h"
+
+#include <ros/node_handle.h>
+
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// Parameters of the node; meaning and ranges: config/gestures.yaml.
+struct GestureParameters {
+  std::string file;                 ///< Never empty once read.
+  std::vector<std::string> labels;  ///< Of the LEDs that draw; empty: all.
+  bool continuous = false;
+  int button = 2;  ///< Index in joy; 2 is A of a Wii Remote.
+  gesture::RecognizerOptions recognizer;
+  gesture::SegmenterOptions segmenter;
+  gesture::SpotterOptions spotter;
+
+  /// @throws ParameterError naming the key that is wrong or unknown.
+  static GestureParameters read(const ros::NodeHandle& nh);
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURE_PARAMETERS_H

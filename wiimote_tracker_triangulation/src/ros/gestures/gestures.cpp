@@ -1,0 +1,306 @@
+#include "gestures.h"
+
+#include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/gesture/error.h"
+#include "wiimote_tracker_triangulation/gesture/examples_file.h"
+#include "wiimote_tracker_triangulation/ros/conversions.h"
+
+#include <visualization_msgs/MarkerArray.h>
+#include <wiimote_tracker_msgs/GestureEvent.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace wiimote_tracker {
+
+using wiimote_tracker_msgs::GestureEvent;
+using wiimote_tracker_msgs::TrackedPoint;
+
+namespace {
+
+// A bag that starts over; small steps back are left to each LED's own order.
+constexpr double kJump = 1.0;  // [s]
+
+geometry_msgs::Point toMessage(const Eigen::Vector3d& v) {
+  geometry_msgs::Point point;
+  point.x = v.x();
+  point.y = v.y();
+  point.z = v.z();
+  return point;
+}
+
+bool holds(const geometry::Zone& zone, const Eigen::Vector3d& p) {
+  return (p.array() >= zone.minimum.array()).all() && (p.array() <= zone.maximum.array()).all();
+}
+
+}  // namespace
+
+Gestures::Hand::Hand(const GestureParameters& parameters, bool is_pressed, double time)
+    : segmenter(parameters.segmenter), spotter(parameters.spotter) {
+  if (is_pressed)
+    segmenter.button(time, true);
+}
+
+Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
+    : nh_(nh),
+      parameters_(GestureParameters::read(private_nh)),
+      recognizer_(parameters_.recognizer) {
+  if (std::filesystem::exists(parameters_.file)) {
+    for (const gesture::Example& example : gesture::readExamples(parameters_.file))
+      recognizer_.add(example);
+    ROS_INFO("%zu examples of gestures from %s.", recognizer_.examples().size(),
+             parameters_.file.c_str());
+  } else {
+    ROS_INFO("No gestures are known yet: record some with the service %s.",
+             nh_.resolveName("gestures/record").c_str());
+  }
+  events_publisher_ = nh_.advertise<GestureEvent>("gestures", 20);
+  markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("gesture_markers", 5);
+  services_ = {nh_.advertiseService("gestures/record", &Gestures::record, this),
+               nh_.advertiseService("gestures/remove", &Gestures::remove, this),
+               nh_.advertiseService("gestures/list", &Gestures::list, this)};
+  rig_subscriber_ = nh_.subscribe("calibration/rig", 5, &Gestures::onRig, this);
+  points_subscriber_ =
+      nh_.subscribe("points", 200, &Gestures::onPoints, this, ros::TransportHints().tcpNoDelay());
+  if (!parameters_.continuous && parameters_.segmenter.boundary == gesture::Boundary::kButton)
+    joy_subscriber_ = nh_.subscribe("joy", 50, &Gestures::onJoy, this);
+}
+
+void Gestures::onRig(const wiimote_tracker_msgs::RigCalibrationConstPtr& message) {
+  try {
+    zones_ = fromMessage(*message).zones;
+  } catch (const geometry::Error& e) {
+    ROS_ERROR("The zones of the rig on %s are not used: %s", rig_subscriber_.getTopic().c_str(),
+              e.what());
+  }
+}
+
+void Gestures::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& message) {
+  const double time = message->header.stamp.toSec();
+  if (time < time_ - kJump) {
+    hands_.clear();
+    ROS_WARN_THROTTLE(10.0, "Time jumped back by more than %.0f s; gestures begin anew.", kJump);
+  }
+  time_ = time;
+  world_frame_ = message->header.frame_id;
+  for (const TrackedPoint& point : message->points)
+    onPoint(point, time);
+
+  // An LED that is no longer spoken of is out.
+  for (auto hand = hands_.begin(); hand != hands_.end();) {
+    const auto path = hand->second.segmenter.advance(time);
+    if (path)
+      onGesture(*path, hand->first, hand->second.label);
+    const bool gone =
+        std::none_of(message->points.begin(), message->points.end(), [&](const TrackedPoint& p) {
+          return p.id == hand->first && p.state != TrackedPoint::LOST;
+        });
+    // The segmenter needs some time to believe it.
+    hand = gone && time > hand->second.last_seen + 2.0 * parameters_.segmenter.dark_time
+               ? hands_.erase(hand)
+               : std::next(hand);
+  }
+}
+
+void Gestures::onPoint(const TrackedPoint& point, double time) {
+  if (point.state != TrackedPoint::TRACKED)
+    return;
+  if (!parameters_.labels.empty() && std::find(parameters_.labels.begin(), parameters_.labels.end(),
+                                               point.label) == parameters_.labels.end())
+    return;
+  Hand& hand = hands_.try_emplace(point.id, parameters_, pressed_, time).first->second;
+  hand.label = point.label;
+  hand.last_seen = time;
+  const gesture::PathPoint here{time, {point.position.x, point.position.y, point.position.z}};
+  // What is to be recorded must have a beginning and an end.
+  if (parameters_.continuous && !wanted_) {
+    if (const auto spotted = hand.spotter.add(here, recognizer_, zoneOf({here})))
+      publish(GestureEvent::RECOGNISED, spotted->recognition, spotted->path, point.id, point.label);
+  }
+  const auto path = hand.segmenter.add(here);
+  if (path && (!parameters_.continuous || wanted_))
+    onGesture(*path, point.id, point.label);
+}
+
+void Gestures::onJoy(const sensor_msgs::JoyConstPtr& message) {
+  const auto index = static_cast<std::size_t>(parameters_.button);
+  if (index >= message->buttons.size()) {
+    ROS_ERROR_THROTTLE(10.0, "%s has %zu buttons and none with index %d; set ~button.",
+                       joy_subscriber_.getTopic().c_str(), message->buttons.size(),
+                       parameters_.button);
+    return;
+  }
+  const bool pressed = message->buttons[index] != 0;
+  if (pressed == pressed_)
+    return;
+  pressed_ = pressed;
+  for (auto& [id, hand] : hands_) {
+    if (const auto path = hand.segmenter.button(message->header.stamp.toSec(), pressed))
+      onGesture(*path, id, hand.label);
+  }
+}
+
+void Gestures::onGesture(const gesture::Path& path, std::uint32_t id, const std::string& label) {
+  if (wanted_) {
+    keepExample(path, id, label);
+    return;
+  }
+  const auto recognition = recognizer_.recognize(path, zoneOf(path));
+  if (recognition)
+    publish(recognition->accepted() ? GestureEvent::RECOGNISED : GestureEvent::REJECTED,
+            *recognition, path, id, label);
+}
+
+void Gestures::keepExample(const gesture::Path& path, std::uint32_t id, const std::string& label) {
+  gesture::Recognizer with_it = recognizer_;
+  gesture::Example example = *wanted_;
+  example.path = path;
+  try {
+    with_it.add(example);
+    gesture::writeExamples(parameters_.file, with_it.examples());
+  } catch (const gesture::GestureError&) {
+    return;  // A twitch; the gesture is still to come.
+  } catch (const geometry::Error& e) {
+    ROS_ERROR("The example of '%s' is not kept: %s", example.gesture.c_str(), e.what());
+    wanted_.reset();
+    return;
+  }
+  recognizer_ = with_it;
+  wanted_.reset();
+  ROS_INFO("An example of '%s' is kept in %s.", example.gesture.c_str(), parameters_.file.c_str());
+  publish(GestureEvent::RECORDED, {example.gesture, 1.0, "", 0.0}, path, id, label);
+}
+
+void Gestures::publish(std::uint8_t event,
+                       const gesture::Recognition& recognition,
+                       const gesture::Path& path,
+                       std::uint32_t id,
+                       const std::string& label) {
+  GestureEvent message;
+  message.header.stamp.fromSec(path.back().time);
+  message.header.frame_id = world_frame_;
+  message.event = event;
+  message.gesture = recognition.gesture;
+  message.score = static_cast<float>(recognition.score);
+  message.runner_up = recognition.runner_up;
+  message.runner_up_score = static_cast<float>(recognition.runner_up_score);
+  message.id = id;
+  message.label = label;
+  message.zone = zoneOf(path);
+  message.begin.fromSec(path.front().time);
+  message.end.fromSec(path.back().time);
+  Eigen::Array3d minimum = path.front().position;
+  Eigen::Array3d maximum = path.front().position;
+  for (const gesture::PathPoint& point : path) {
+    minimum = minimum.min(point.position.array());
+    maximum = maximum.max(point.position.array());
+  }
+  message.minimum = toMessage(minimum);
+  message.maximum = toMessage(maximum);
+  events_publisher_.publish(message);
+  if (markers_publisher_.getNumSubscribers() > 0) {
+    static const char* const kWords[] = {"", " (rejected)", " (recorded)"};
+    draw(recognition.gesture + kWords[event], path, id);
+  }
+}
+
+/// The way that was drawn and its name, for a few seconds.
+void Gestures::draw(const std::string& text, const gesture::Path& path, std::uint32_t id) {
+  visualization_msgs::Marker way;
+  way.header.frame_id = world_frame_;
+  way.header.stamp.fromSec(path.back().time);
+  way.ns = "way";
+  way.id = static_cast<int>(id);
+  way.type = visualization_msgs::Marker::LINE_STRIP;
+  way.pose.orientation.w = 1.0;
+  way.scale.x = 0.01;
+  way.color.r = 1.0;
+  way.color.g = 0.6f;
+  way.color.a = 1.0;
+  way.lifetime = ros::Duration(3.0);
+  for (const gesture::PathPoint& point : path)
+    way.points.push_back(toMessage(point.position));
+
+  visualization_msgs::Marker name = way;
+  name.ns = "name";
+  name.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
+  name.points.clear();
+  name.text = text;
+  name.scale.x = 0.0;
+  name.scale.z = 0.15;
+  name.pose.position = toMessage(path.back().position + Eigen::Vector3d(0.0, 0.0, 0.15));
+
+  visualization_msgs::MarkerArray array;
+  array.markers = {way, name};
+  markers_publisher_.publish(array);
+}
+
+bool Gestures::record(wiimote_tracker_msgs::RecordGesture::Request& request,
+                      wiimote_tracker_msgs::RecordGesture::Response& response) {
+  response.success = true;
+  if (request.gesture.empty()) {
+    wanted_.reset();
+    response.message = "nothing will be recorded";
+    return true;
+  }
+  const bool known_zone = request.zone.empty() ||
+                          std::any_of(zones_.begin(), zones_.end(),
+                                      [&](const auto& zone) { return zone.name == request.zone; });
+  if (!known_zone) {
+    response.success = false;
+    response.message = "the rig has no zone '" + request.zone + "'; name one of its zones, or none";
+    return true;
+  }
+  wanted_ = gesture::Example{request.gesture, request.zone, {}};
+  response.message = "draw '" + request.gesture + "' now; the next gesture is kept as an example";
+  return true;
+}
+
+bool Gestures::remove(wiimote_tracker_msgs::RemoveGesture::Request& request,
+                      wiimote_tracker_msgs::RemoveGesture::Response& response) {
+  gesture::Recognizer without = recognizer_;
+  const std::size_t removed = without.remove(request.gesture);
+  response.success = false;
+  if (removed == 0) {
+    response.message = "no gesture '" + request.gesture + "' is known; see gestures/list";
+    return true;
+  }
+  try {
+    gesture::writeExamples(parameters_.file, without.examples());
+  } catch (const geometry::Error& e) {
+    response.message = e.what();
+    return true;
+  }
+  recognizer_ = without;
+  response.success = true;
+  response.message =
+      std::to_string(removed) + " examples of '" + request.gesture + "' are forgotten";
+  return true;
+}
+
+bool Gestures::list(wiimote_tracker_msgs::ListGestures::Request&,
+                    wiimote_tracker_msgs::ListGestures::Response& response) {
+  for (const gesture::Example& example : recognizer_.examples()) {
+    std::size_t row = 0;
+    while (row < response.gestures.size() &&
+           (response.gestures[row] != example.gesture || response.zones[row] != example.zone))
+      ++row;
+    if (row == response.gestures.size()) {
+      response.gestures.push_back(example.gesture);
+      response.zones.push_back(example.zone);
+      response.examples.push_back(0);
+    }
+    ++response.examples[row];
+  }
+  return true;
+}
+
+/// The first zone that holds the middle of the way.
+std::string Gestures::zoneOf(const gesture::Path& path) const {
+  const Eigen::Vector3d& middle = path[path.size() / 2].position;
+  const auto zone = std::find_if(zones_.begin(), zones_.end(),
+                                 [&](const geometry::Zone& z) { return holds(z, middle); });
+  return zone == zones_.end() ? "" : zone->name;
+}
+
+}  // namespace wiimote_tracker

@@ -1,0 +1,85 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURES_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURES_H
+
+#include "gesture_parameters.h"
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/gesture/recognizer.h"
+#include "wiimote_tracker_triangulation/gesture/segmenter.h"
+#include "wiimote_tracker_triangulation/gesture/spotter.h"
+
+#include <ros/ros.h>
+#include <sensor_msgs/Joy.h>
+#include <wiimote_tracker_msgs/ListGestures.h>
+#include <wiimote_tracker_msgs/RecordGesture.h>
+#include <wiimote_tracker_msgs/RemoveGesture.h>
+#include <wiimote_tracker_msgs/RigCalibration.h>
+#include <wiimote_tracker_msgs/TrackedPointArray.h>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// Points in, gestures out. Node and nodelet are two mains over this class. All callbacks must come
+/// from one thread.
+class Gestures {
+ public:
+  /// @throws ParameterError. geometry::Error: the file of examples is damaged.
+  Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
+
+ private:
+  /// One LED that may draw.
+  struct Hand {
+    Hand(const GestureParameters& parameters, bool is_pressed, double time);
+    std::string label;
+    double last_seen = 0.0;  // [s]
+    gesture::Segmenter segmenter;
+    gesture::Spotter spotter;
+  };
+
+  void onRig(const wiimote_tracker_msgs::RigCalibrationConstPtr& message);
+  void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& message);
+  void onPoint(const wiimote_tracker_msgs::TrackedPoint& point, double time);
+  void onJoy(const sensor_msgs::JoyConstPtr& message);
+  void onGesture(const gesture::Path& path, std::uint32_t id, const std::string& label);
+  void keepExample(const gesture::Path& path, std::uint32_t id, const std::string& label);
+  void publish(std::uint8_t event,
+               const gesture::Recognition& recognition,
+               const gesture::Path& path,
+               std::uint32_t id,
+               const std::string& label);
+  void draw(const std::string& text, const gesture::Path& path, std::uint32_t id);
+
+  bool record(wiimote_tracker_msgs::RecordGesture::Request& request,
+              wiimote_tracker_msgs::RecordGesture::Response& response);
+  bool remove(wiimote_tracker_msgs::RemoveGesture::Request& request,
+              wiimote_tracker_msgs::RemoveGesture::Response& response);
+  bool list(wiimote_tracker_msgs::ListGestures::Request& request,
+            wiimote_tracker_msgs::ListGestures::Response& response);
+
+  std::string zoneOf(const gesture::Path& path) const;
+
+  ros::NodeHandle nh_;
+  GestureParameters parameters_;
+  gesture::Recognizer recognizer_;
+  std::vector<geometry::Zone> zones_;
+  std::map<std::uint32_t, Hand> hands_;  // by the id of the LED
+  std::string world_frame_;
+  double time_ = 0.0;  // of the newest points [s]
+  bool pressed_ = false;
+  std::optional<gesture::Example> wanted_;  // to be recorded; its path is still empty
+
+  ros::Publisher events_publisher_;
+  ros::Publisher markers_publisher_;
+  ros::Subscriber rig_subscriber_;
+  ros::Subscriber points_subscriber_;
+  ros::Subscriber joy_subscriber_;
+  std::vector<ros::ServiceServer> services_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURES_H

@@ -1,0 +1,252 @@
+// The running node or nodelet: points in, gestures out. Whether they are marked by rests or by
+// light is read from its parameter.
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/gesture/examples_file.h"
+#include "wiimote_tracker_triangulation/ros/conversions.h"
+
+#include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <visualization_msgs/MarkerArray.h>
+#include <wiimote_tracker_msgs/GestureEvent.h>
+#include <wiimote_tracker_msgs/ListGestures.h>
+#include <wiimote_tracker_msgs/RecordGesture.h>
+#include <wiimote_tracker_msgs/RemoveGesture.h>
+#include <wiimote_tracker_msgs/TrackedPointArray.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+namespace {
+
+using Eigen::Vector3d;
+using wiimote_tracker_msgs::GestureEvent;
+using wiimote_tracker_msgs::TrackedPoint;
+using wiimote_tracker_msgs::TrackedPointArray;
+
+Vector3d circle(double s) {
+  return {0.2 * std::cos(2 * M_PI * s) - 0.2, 0.0, 0.2 * std::sin(2 * M_PI * s)};
+}
+
+Vector3d corner(double s) {
+  return s < 0.5 ? Vector3d(0.0, 0.8 * s, 0.0) : Vector3d(0.0, 0.4, -0.8 * (s - 0.5));
+}
+
+/// Draws, and collects what comes back; one for all tests, which follow each other in time.
+class Bench {
+ public:
+  Bench() {
+    ros::param::get("gestures/boundary", boundary_);
+    ros::param::get("gestures/file", file_);
+    points_ = nh_.advertise<TrackedPointArray>("points", 1000);
+    rig_ = nh_.advertise<wiimote_tracker_msgs::RigCalibration>("calibration/rig", 1, true);
+    subscribers_ = {nh_.subscribe<GestureEvent>("gestures", 100,
+                                                [this](const auto& m) { events_.push_back(*m); }),
+                    nh_.subscribe<visualization_msgs::MarkerArray>(
+                        "gesture_markers", 100, [this](const auto& m) { markers_.push_back(*m); })};
+  }
+
+  static bool waitFor(const std::function<bool()>& condition) {
+    const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(40.0);
+    while (ros::ok() && !condition() && ros::WallTime::now() < deadline)
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+    return condition();
+  }
+
+  bool isConnected() {
+    return waitFor([&] {
+      return points_.getNumSubscribers() > 0 && subscribers_[0].getNumPublishers() > 0 &&
+             subscribers_[1].getNumPublishers() > 0 && rig_.getNumSubscribers() > 0;
+    });
+  }
+
+  void publishRig(const geometry::Rig& rig) { rig_.publish(toMessage(rig)); }
+
+  void publish(const Vector3d* position) {
+    TrackedPointArray array;
+    array.header.stamp.fromSec(time_);
+    array.header.frame_id = "world";
+    if (position) {
+      TrackedPoint point;
+      point.id = id_;
+      point.label = "led";
+      point.state = TrackedPoint::TRACKED;
+      point.position.x = position->x();
+      point.position.y = position->y();
+      point.position.z = position->z();
+      array.points.push_back(point);
+    }
+    points_.publish(array);
+    time_ += 0.01;
+  }
+
+  /// A gesture with whatever marks its beginning and end, 1 s long.
+  void draw(const std::function<Vector3d(double)>& curve, const Vector3d& place) {
+    const bool rests = boundary_ == "rest";
+    const auto at = [&](double s) { return Vector3d(place + curve(s)); };
+    begin_ = time_ + (rests ? 0.5 : 0.0);
+    for (int i = rests ? -50 : 0; i <= (rests ? 150 : 100); ++i) {
+      const Vector3d position = at(std::min(std::max(0.01 * i, 0.0), 1.0));
+      publish(&position);
+    }
+    for (int i = 0; i < 40; ++i)
+      publish(nullptr);
+    ++id_;
+  }
+
+  /// The next event; nothing marked by `event` == 255 when none came.
+  GestureEvent nextEvent() {
+    waitFor([&] { return events_.size() > taken_; });
+    GestureEvent none;
+    none.event = 255;
+    return events_.size() > taken_ ? events_[taken_++] : none;
+  }
+
+  template <typename Service>
+  typename Service::Response call(const std::string& name,
+                                  const typename Service::Request& request) {
+    Service service;
+    service.request = request;
+    EXPECT_TRUE(ros::service::waitForService(name, 40000));
+    EXPECT_TRUE(ros::service::call(name, service));
+    return service.response;
+  }
+
+  std::string record(const std::string& gesture, const std::string& zone = "") {
+    wiimote_tracker_msgs::RecordGesture::Request request;
+    request.gesture = gesture;
+    request.zone = zone;
+    const auto response = call<wiimote_tracker_msgs::RecordGesture>("gestures/record", request);
+    return response.success ? "" : response.message;
+  }
+
+  bool remove(const std::string& gesture) {
+    wiimote_tracker_msgs::RemoveGesture::Request request;
+    request.gesture = gesture;
+    return call<wiimote_tracker_msgs::RemoveGesture>("gestures/remove", request).success;
+  }
+
+  wiimote_tracker_msgs::ListGestures::Response list() {
+    return call<wiimote_tracker_msgs::ListGestures>("gestures/list", {});
+  }
+
+  std::string boundary_;
+  std::string file_;
+  std::vector<GestureEvent> events_;
+  std::vector<visualization_msgs::MarkerArray> markers_;
+  double begin_ = 0.0;  // of the gesture drawn last
+  double time_ = 1000.0;
+  std::uint32_t id_ = 0;
+
+ private:
+  ros::NodeHandle nh_;
+  ros::Publisher points_;
+  ros::Publisher rig_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::size_t taken_ = 0;
+};
+
+class GesturesTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    bench_ = new Bench;
+    ASSERT_TRUE(bench_->isConnected());
+  }
+  static void TearDownTestSuite() {
+    delete bench_;
+    bench_ = nullptr;
+  }
+  static Bench* bench_;
+};
+
+Bench* GesturesTest::bench_ = nullptr;
+
+TEST_F(GesturesTest, AreRecordedRecognisedRejectedAndRemoved) {
+  ASSERT_EQ(bench_->record("circle"), "");
+  bench_->draw(circle, {0.0, 0.0, 1.0});
+  const GestureEvent recorded = bench_->nextEvent();
+  ASSERT_EQ(recorded.event, GestureEvent::RECORDED);
+  EXPECT_EQ(recorded.gesture, "circle");
+  ASSERT_EQ(bench_->record("corner"), "");
+  bench_->draw(corner, {0.0, 0.0, 1.0});
+  ASSERT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
+
+  const auto known = bench_->list();
+  EXPECT_EQ(known.gestures, (std::vector<std::string>{"circle", "corner"}));
+  EXPECT_EQ(known.examples, (std::vector<std::uint32_t>{1, 1}));
+  EXPECT_EQ(gesture::readExamples(bench_->file_).size(), 2u);
+
+  bench_->draw([](double s) { return Vector3d(1.6 * circle(s)); }, {2.0, 1.0, 0.5});
+  const GestureEvent found = bench_->nextEvent();
+  EXPECT_EQ(found.event, GestureEvent::RECOGNISED);
+  EXPECT_EQ(found.gesture, "circle");
+  EXPECT_GT(found.score, 0.9);
+  EXPECT_EQ(found.runner_up, "corner");
+  EXPECT_LT(found.runner_up_score, 0.5);
+  EXPECT_EQ(found.label, "led");
+  EXPECT_EQ(found.header.frame_id, "world");
+  EXPECT_NEAR(found.begin.toSec(), bench_->begin_, 0.3);
+  EXPECT_NEAR(found.end.toSec(), bench_->begin_ + 1.0, 0.1);
+  EXPECT_NEAR(found.minimum.x, 2.0 - 0.64, 0.02);
+  EXPECT_NEAR(found.maximum.x, 2.0, 0.02);
+  EXPECT_NEAR(found.maximum.z - found.minimum.z, 0.64, 0.02);
+
+  bench_->draw([](double s) { return corner(1.0 - s); }, {0.0, 0.0, 1.0});
+  EXPECT_EQ(bench_->nextEvent().event, GestureEvent::REJECTED);
+
+  EXPECT_TRUE(Bench::waitFor([&] { return bench_->markers_.size() >= 4; }));
+  EXPECT_EQ(bench_->markers_[2].markers.at(1).text, "circle");
+
+  EXPECT_TRUE(bench_->remove("circle"));
+  EXPECT_FALSE(bench_->remove("circle"));
+  bench_->draw(circle, {0.0, 0.0, 1.0});
+  EXPECT_EQ(bench_->nextEvent().event, GestureEvent::REJECTED);
+  EXPECT_TRUE(bench_->remove("corner"));
+  EXPECT_TRUE(bench_->list().gestures.empty());
+}
+
+TEST_F(GesturesTest, ZonesHaveTheirOwn) {
+  geometry::Rig rig;
+  geometry::RigCamera camera;
+  camera.camera.name = "camera";
+  rig.cameras = {camera};
+  rig.zones = {{"kitchen", {0.0, -2.0, 0.0}, {4.0, 2.0, 3.0}},
+               {"studio", {10.0, -2.0, 0.0}, {14.0, 2.0, 3.0}}};
+  bench_->publishRig(rig);
+  ASSERT_TRUE(Bench::waitFor([&] { return bench_->record("lights", "kitchen").empty(); }));
+  EXPECT_NE(bench_->record("lights", "cellar"), "");
+  bench_->draw(circle, {2.0, 0.0, 1.0});
+  EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
+  bench_->draw(circle, {12.0, 0.0, 1.0});
+  bench_->draw(circle, {2.0, 0.0, 1.0});
+  // In the studio nothing is known, so that nothing is said.
+  const GestureEvent event = bench_->nextEvent();
+  EXPECT_EQ(event.event, GestureEvent::RECOGNISED);
+  EXPECT_EQ(event.zone, "kitchen");
+  EXPECT_NEAR(event.end.toSec(), bench_->begin_ + 1.0, 0.1);
+  EXPECT_EQ(bench_->list().zones, (std::vector<std::string>{"kitchen"}));
+  EXPECT_TRUE(bench_->remove("lights"));
+}
+
+TEST_F(GesturesTest, GoOnAfterABagStartsOver) {
+  ASSERT_EQ(bench_->record("circle"), "");
+  bench_->draw(circle, {0.0, 0.0, 1.0});
+  EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
+  bench_->time_ = 500.0;
+  bench_->draw(circle, {0.0, 0.0, 1.0});
+  EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECOGNISED);
+  EXPECT_TRUE(bench_->remove("circle"));
+}
+
+}  // namespace
+}  // namespace wiimote_tracker
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "test_gestures");
+  ros::NodeHandle nh;
+  return RUN_ALL_TESTS();
+}

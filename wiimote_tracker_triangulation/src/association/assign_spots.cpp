@@ -1,0 +1,164 @@
+#include "wiimote_tracker_triangulation/association/assign_spots.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace wiimote_tracker::association {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kNobody = -1;
+
+/// Spots are rows, tracks are columns. Being a ghost is one more column, which any number of rows
+/// may share. A pair costs what it adds to the track's miss, so that idle columns cost nothing.
+class Assignment {
+ public:
+  explicit Assignment(const SpotCosts& costs) : costs_(costs) {
+    track_of_spot_.fill(kGhost);
+    spot_of_track_.fill(kNobody);
+    track_price_.fill(0.0);
+  }
+
+  /// Gives each spot the track it likes best where nobody else has it. What is left over, as two
+  /// spots like one track, is sorted out along shortest paths.
+  const std::array<int, kMaximumSpots>& solve() {
+    std::array<std::size_t, kMaximumSpots> left_over;
+    std::size_t left_over_count = 0;
+    for (std::size_t spot = 0; spot < costs_.spots; ++spot) {
+      const int best = cheapest(spot);
+      if (best != kGhost && spot_of_track_[best] != kNobody)
+        left_over[left_over_count++] = spot;
+      else
+        give(spot, best);
+    }
+    for (std::size_t i = 0; i < left_over_count; ++i)
+      insert(left_over[i]);
+    return track_of_spot_;
+  }
+
+ private:
+  double extra(std::size_t spot, std::size_t track) const {
+    return costs_.pair[spot][track] - costs_.miss[track];
+  }
+
+  /// Also sets the spot's price, so that no reduced cost is below zero.
+  int cheapest(std::size_t spot) {
+    int best = kGhost;
+    double least = costs_.ghost[spot];
+    for (std::size_t track = 0; track < costs_.tracks; ++track) {
+      const double cost = extra(spot, track);
+      if (cost < least) {
+        least = cost;
+        best = static_cast<int>(track);
+      }
+    }
+    spot_price_[spot] = least;
+    return best;
+  }
+
+  void give(std::size_t spot, int track) {
+    track_of_spot_[spot] = track;
+    if (track != kGhost)
+      spot_of_track_[track] = static_cast<int>(spot);
+  }
+
+  /// The shortest path, by reduced costs, from a spot without a column over tracks that change
+  /// hands to a track that is free or to the column of ghosts.
+  void insert(std::size_t spot) {
+    constexpr int kStart = -2;  // before the spot itself
+    std::array<bool, kMaximumTracks> reached{};
+    std::array<double, kMaximumTracks> distance;  // from the tree of reached tracks
+    std::array<int, kMaximumTracks> previous;     // the reached track before
+    distance.fill(kInfinity);
+    double ghost_distance = kInfinity;
+    int ghost_previous = kStart;
+
+    int last = kStart;  // the track reached last
+    std::size_t owner = spot;
+    int end = kStart;
+    int end_previous = kStart;
+    for (;;) {
+      const double ghost = costs_.ghost[owner] - spot_price_[owner];
+      if (ghost < ghost_distance) {
+        ghost_distance = ghost;
+        ghost_previous = last;
+      }
+      double step = ghost_distance;
+      int nearest = kGhost;
+      for (std::size_t track = 0; track < costs_.tracks; ++track) {
+        if (reached[track])
+          continue;
+        const double cost = extra(owner, track) - spot_price_[owner] - track_price_[track];
+        if (cost < distance[track]) {
+          distance[track] = cost;
+          previous[track] = last;
+        }
+        if (distance[track] < step) {
+          step = distance[track];
+          nearest = static_cast<int>(track);
+        }
+      }
+      spot_price_[spot] += step;
+      for (std::size_t track = 0; track < costs_.tracks; ++track) {
+        if (reached[track]) {
+          spot_price_[spot_of_track_[track]] += step;
+          track_price_[track] -= step;
+        } else {
+          distance[track] -= step;
+        }
+      }
+      ghost_distance -= step;
+      if (nearest == kGhost || spot_of_track_[nearest] == kNobody) {
+        end = nearest;
+        end_previous = nearest == kGhost ? ghost_previous : previous[nearest];
+        break;
+      }
+      reached[nearest] = true;
+      last = nearest;
+      owner = static_cast<std::size_t>(spot_of_track_[nearest]);
+    }
+    // Along the path, every owner hands its track on to the one before it.
+    for (int track = end, before = end_previous;; track = before, before = previous[before]) {
+      if (before == kStart) {
+        give(spot, track);
+        return;
+      }
+      give(static_cast<std::size_t>(spot_of_track_[before]), track);
+    }
+  }
+
+  const SpotCosts& costs_;
+  std::array<int, kMaximumSpots> track_of_spot_;
+  std::array<int, kMaximumTracks> spot_of_track_;
+  std::array<double, kMaximumSpots> spot_price_;    // dual variables
+  std::array<double, kMaximumTracks> track_price_;  // at most zero
+};
+
+}  // namespace
+
+void SpotCosts::reset(std::size_t spot_count,
+                      std::size_t track_count,
+                      double ghost_cost,
+                      double miss_cost) {
+  spots = spot_count;
+  tracks = track_count;
+  for (std::size_t spot = 0; spot < spots; ++spot)
+    std::fill_n(pair[spot].begin(), tracks, kInfinity);
+  std::fill_n(ghost.begin(), spots, ghost_cost);
+  std::fill_n(miss.begin(), tracks, miss_cost);
+}
+
+SpotAssignment assignSpots(const SpotCosts& costs) {
+  SpotAssignment result;
+  result.track_of_spot = Assignment(costs).solve();
+  for (std::size_t track = 0; track < costs.tracks; ++track)
+    result.cost += costs.miss[track];
+  for (std::size_t spot = 0; spot < costs.spots; ++spot) {
+    const int track = result.track_of_spot[spot];
+    result.cost +=
+        track == kGhost ? costs.ghost[spot] : costs.pair[spot][track] - costs.miss[track];
+  }
+  return result;
+}
+
+}  // namespace wiimote_tracker::association

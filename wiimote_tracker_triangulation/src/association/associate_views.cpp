@@ -1,0 +1,187 @@
+#include "wiimote_tracker_triangulation/association/associate_views.h"
+
+#include "epipolar.h"
+#include "point_search.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace wiimote_tracker::association {
+namespace {
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+}  // namespace
+
+struct ViewAssociator::Workspace {
+  /// One spot, as a link of two chains.
+  struct Link {
+    std::size_t view;
+    std::size_t index;              // in its view
+    std::size_t root;               // towards the first spot of its component
+    std::size_t next_in_component;  // kNone: the last
+    std::size_t last_in_component;  // of a root
+    std::size_t first_edge;         // to a later spot; kNone: none
+    std::size_t place;              // in the component
+  };
+  /// Two spots that can be one point.
+  struct Edge {
+    std::size_t later_spot;
+    std::size_t next;  // of the same earlier spot; kNone: the last
+    double chi_squared;
+  };
+
+  Workspace(const geometry::Rig& rig,
+            std::vector<std::vector<std::size_t>> partners,
+            const AssociationOptions& association_options)
+      : options(association_options), search(rig, std::move(partners), association_options) {}
+
+  void collectSpots(const std::vector<View>& views);
+  void findEdges(const std::vector<View>& views, std::size_t a, std::size_t b);
+  std::size_t rootOf(std::size_t spot);
+  void chainComponents();
+  void solve(const std::vector<View>& views, std::size_t root);
+  void collectComponent(const std::vector<View>& views, std::size_t root);
+
+  AssociationOptions options;
+  PointSearch search;
+  std::vector<std::size_t> first_spot;  // of each view, and one past the last of all
+  std::vector<Link> links;              // of all spots
+  std::vector<EpipolarSpot> epipolar;   // of all spots
+  std::vector<Edge> edges;
+  std::vector<Eigen::Vector3d> normals;
+  Component component;
+  Association result;
+};
+
+ViewAssociator::ViewAssociator(const geometry::Rig& rig,
+                               std::vector<std::vector<std::size_t>> partners,
+                               const AssociationOptions& options)
+    : workspace_(std::make_unique<Workspace>(rig, std::move(partners), options)) {}
+
+ViewAssociator::~ViewAssociator() = default;
+ViewAssociator::ViewAssociator(ViewAssociator&&) noexcept = default;
+ViewAssociator& ViewAssociator::operator=(ViewAssociator&&) noexcept = default;
+
+const Association& ViewAssociator::associate(const std::vector<View>& views) {
+  Workspace& w = *workspace_;
+  w.collectSpots(views);
+  for (std::size_t a = 0; a < views.size(); ++a) {
+    if (views[a].count == 0)
+      continue;
+    for (const std::size_t b : w.search.partners(a)) {
+      if (b > a && views[b].count > 0)
+        w.findEdges(views, a, b);
+    }
+  }
+  w.chainComponents();
+  w.result.points.clear();
+  w.result.spots.clear();
+  w.result.cost = 0.0;
+  w.result.steps = 0;
+  w.result.proven = true;
+  for (std::size_t spot = 0; spot < w.links.size(); ++spot) {
+    if (w.links[spot].root == spot)
+      w.solve(views, spot);
+  }
+  return w.result;
+}
+
+void ViewAssociator::Workspace::collectSpots(const std::vector<View>& views) {
+  first_spot.clear();
+  links.clear();
+  epipolar.clear();
+  edges.clear();
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    first_spot.push_back(links.size());
+    for (std::size_t i = 0; i < views[view].count; ++i) {
+      const std::size_t spot = links.size();
+      links.push_back({view, i, spot, kNone, spot, kNone, 0});
+      epipolar.emplace_back(views[view].sights[i], options.pixel_stddev);
+    }
+  }
+  first_spot.push_back(links.size());
+}
+
+/// All pairs of spots of two views that can be one point.
+void ViewAssociator::Workspace::findEdges(const std::vector<View>& views,
+                                          std::size_t a,
+                                          std::size_t b) {
+  const Eigen::Vector3d baseline = views[b].sights[0].origin - views[a].sights[0].origin;
+  normals.clear();
+  for (std::size_t spot = first_spot[b]; spot < first_spot[b + 1]; ++spot)
+    normals.push_back(baseline.cross(epipolar[spot].direction));
+  for (std::size_t spot_a = first_spot[a]; spot_a < first_spot[a + 1]; ++spot_a) {
+    const Eigen::Vector3d normal = baseline.cross(epipolar[spot_a].direction);
+    for (std::size_t spot_b = first_spot[b]; spot_b < first_spot[b + 1]; ++spot_b) {
+      const double chi_squared = epipolarChiSquared(epipolar[spot_a], normal, epipolar[spot_b],
+                                                    normals[spot_b - first_spot[b]]);
+      if (!(chi_squared <= options.maximum_pair_chi_squared))
+        continue;
+      edges.push_back({spot_b, links[spot_a].first_edge, chi_squared});
+      links[spot_a].first_edge = edges.size() - 1;
+      const std::size_t root_a = rootOf(spot_a);
+      const std::size_t root_b = rootOf(spot_b);
+      links[std::max(root_a, root_b)].root = std::min(root_a, root_b);
+    }
+  }
+}
+
+std::size_t ViewAssociator::Workspace::rootOf(std::size_t spot) {
+  while (links[spot].root != spot) {
+    links[spot].root = links[links[spot].root].root;
+    spot = links[spot].root;
+  }
+  return spot;
+}
+
+void ViewAssociator::Workspace::chainComponents() {
+  for (std::size_t spot = 0; spot < links.size(); ++spot) {
+    Link& root = links[rootOf(spot)];
+    if (root.last_in_component != spot)
+      links[root.last_in_component].next_in_component = spot;
+    root.last_in_component = spot;
+  }
+}
+
+void ViewAssociator::Workspace::solve(const std::vector<View>& views, std::size_t root) {
+  if (links[root].next_in_component == kNone) {  // a spot that fits to no other
+    result.cost += options.ghost;
+    return;
+  }
+  collectComponent(views, root);
+  const std::size_t steps = search.solve(component, views, options.maximum_steps - result.steps);
+  result.steps += steps;
+  result.proven = result.proven && result.steps < options.maximum_steps;
+  result.cost += search.cost();
+  for (std::size_t i = 0; i < search.pointCount(); ++i) {
+    const PointSearch::Point& point = search.point(i);
+    result.points.push_back({point.location, point.cost, result.spots.size(), point.spots.size()});
+    for (const std::size_t place : point.spots) {
+      const Component::Spot& spot = component.spots[place];
+      result.spots.push_back({spot.view, spot.index});
+    }
+  }
+}
+
+void ViewAssociator::Workspace::collectComponent(const std::vector<View>& views, std::size_t root) {
+  component.spots.clear();
+  for (std::size_t spot = root; spot != kNone; spot = links[spot].next_in_component) {
+    Link& link = links[spot];
+    link.place = component.spots.size();
+    component.spots.push_back({link.view, link.index, &views[link.view].sights[link.index]});
+  }
+  const std::size_t size = component.spots.size();
+  component.pair_chi_squared.assign(size * size, std::numeric_limits<double>::infinity());
+  for (std::size_t spot = root; spot != kNone; spot = links[spot].next_in_component) {
+    for (std::size_t edge = links[spot].first_edge; edge != kNone; edge = edges[edge].next) {
+      const std::size_t place = links[spot].place;
+      const std::size_t later_place = links[edges[edge].later_spot].place;
+      component.pair_chi_squared[place * size + later_place] = edges[edge].chi_squared;
+      component.pair_chi_squared[later_place * size + place] = edges[edge].chi_squared;
+    }
+  }
+}
+
+}  // namespace wiimote_tracker::association

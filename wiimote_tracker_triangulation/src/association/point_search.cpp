@@ -1,0 +1,247 @@
+#include "point_search.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace wiimote_tracker::association {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kMaskSize = 64;
+
+}  // namespace
+
+PointSearch::PointSearch(const geometry::Rig& rig,
+                         std::vector<std::vector<std::size_t>> partners,
+                         const AssociationOptions& options)
+    : options_(options), partners_(std::move(partners)) {
+  triangulation_.method = geometry::TriangulationMethod::kMaximumLikelihood;
+  triangulation_.pixel_stddev = options.pixel_stddev;
+  triangulation_.minimum_angle = options.minimum_angle;
+  for (const geometry::RigCamera& camera : rig.cameras)
+    cameras_.push_back(camera.camera);
+}
+
+std::size_t PointSearch::solve(const Component& component,
+                               const std::vector<View>& views,
+                               std::size_t maximum_steps) {
+  component_ = &component;
+  views_ = &views;
+  steps_ = 0;
+  maximum_steps_ = maximum_steps;
+  if (drafts_.size() < component.spots.size()) {
+    drafts_.resize(component.spots.size());
+    best_.resize(component.spots.size());
+  }
+  prepare();
+  draft_count_ = 0;
+  best_count_ = 0;
+  best_cost_ = options_.ghost * static_cast<double>(component.spots.size());
+  has_division_ = false;
+  decide(0, 0);
+  return steps_;
+}
+
+void PointSearch::prepare() {
+  const std::size_t size = component_->spots.size();
+  view_ends_.resize(size);
+  for (std::size_t spot = size; spot-- > 0;) {
+    const bool is_last =
+        spot + 1 == size || component_->spots[spot + 1].view != component_->spots[spot].view;
+    view_ends_[spot] = is_last ? spot + 1 : view_ends_[spot + 1];
+  }
+  partner_spots_.assign(size, 0);
+  least_costs_.resize(size);
+  for (std::size_t spot = 0; spot < size; ++spot) {
+    std::size_t rays = 1;
+    for (std::size_t begin = 0; begin < size; begin = view_ends_[begin]) {
+      bool has_partner = false;
+      for (std::size_t other = begin; other < view_ends_[begin]; ++other) {
+        if (component_->pair(spot, other) == kInfinity)
+          continue;
+        has_partner = true;
+        if (other < kMaskSize)
+          partner_spots_[spot] |= Mask{1} << other;
+      }
+      rays += has_partner;
+    }
+    least_costs_[spot] = std::min(options_.ghost, options_.point / static_cast<double>(rays));
+  }
+}
+
+/// What becomes of this spot and of all after it.
+void PointSearch::decide(std::size_t spot, std::size_t ghosts) {
+  if (spot == component_->spots.size()) {
+    finish(ghosts);
+    return;
+  }
+  if (steps_ == maximum_steps_)
+    return;
+  ++steps_;
+  tryJoining(spot, ghosts);
+  tryBeginning(spot, ghosts);
+  if (isWorthwhile(spot + 1, ghosts + 1))
+    decide(spot + 1, ghosts + 1);
+}
+
+/// The points that fit best come first, so that the first division is a good one.
+void PointSearch::tryJoining(std::size_t spot, std::size_t ghosts) {
+  std::pair<double, std::size_t> last(-kInfinity, 0);
+  for (;;) {
+    std::pair<double, std::size_t> next(kInfinity, 0);
+    for (std::size_t i = 0; i < draft_count_; ++i) {
+      const std::pair<double, std::size_t> candidate(meanPairCost(drafts_[i], spot), i);
+      if (candidate > last && candidate < next)
+        next = candidate;
+    }
+    if (next.first == kInfinity)
+      return;
+    last = next;
+
+    Draft& draft = drafts_[next.second];
+    const Fit before = draft.fit;
+    const Mask possible_before = draft.possible;
+    draft.spots.push_back(spot);
+    draft.possible &= partner_spots_[spot];
+    draft.fit.is_known = false;
+    if (has_division_)
+      findFit(&draft);
+    if (isWorthwhile(spot + 1, ghosts))
+      decide(spot + 1, ghosts);
+    draft.spots.pop_back();
+    draft.possible = possible_before;
+    draft.fit = before;
+  }
+}
+
+void PointSearch::tryBeginning(std::size_t spot, std::size_t ghosts) {
+  bool has_partner = false;
+  for (std::size_t later = spot + 1; later < component_->spots.size() && !has_partner; ++later)
+    has_partner = component_->pair(spot, later) < kInfinity;
+  if (!has_partner)
+    return;
+  Draft& draft = drafts_[draft_count_++];
+  draft.spots.assign(1, spot);
+  draft.possible = partner_spots_[spot];
+  draft.fit.is_known = false;
+  draft.fit.chi_squared = 0.0;
+  if (isWorthwhile(spot + 1, ghosts))
+    decide(spot + 1, ghosts);
+  --draft_count_;
+}
+
+/// Whether what has been decided can still become better than the best.
+bool PointSearch::isWorthwhile(std::size_t next_spot, std::size_t ghosts) const {
+  double cost = options_.ghost * static_cast<double>(ghosts);
+  for (std::size_t i = 0; i < draft_count_; ++i)
+    cost += options_.point + drafts_[i].fit.chi_squared;
+  return cost < best_cost_ && cost + leastCostOfSurplus(next_spot) < best_cost_ &&
+         cost + leastCostOfStrangers(next_spot) < best_cost_;
+}
+
+/// Where a view has more spots left than there are points, each of the others is a ghost or begins
+/// a point, and a new point serves all views: the least over the number of new points.
+double PointSearch::leastCostOfSurplus(std::size_t next_spot) const {
+  double least = kInfinity;
+  for (std::size_t begun = 0;; ++begun) {
+    std::size_t ghosts = 0;
+    for (std::size_t spot = next_spot; spot < view_ends_.size(); spot = view_ends_[spot]) {
+      const std::size_t left = view_ends_[spot] - spot;
+      if (left > draft_count_ + begun)
+        ghosts += left - draft_count_ - begun;
+    }
+    least = std::min(least, options_.point * static_cast<double>(begun) +
+                                options_.ghost * static_cast<double>(ghosts));
+    if (ghosts == 0)
+      return least;
+  }
+}
+
+/// A spot that can not join any point that was begun is a ghost or in a new one, of which it is at
+/// most one of as many spots as there are views with partners of it.
+double PointSearch::leastCostOfStrangers(std::size_t next_spot) const {
+  Mask joinable = 0;
+  for (std::size_t i = 0; i < draft_count_; ++i)
+    joinable |= drafts_[i].possible;
+  double cost = 0.0;
+  for (std::size_t spot = next_spot; spot < std::min(least_costs_.size(), kMaskSize); ++spot) {
+    if ((joinable >> spot & 1) == 0)
+      cost += least_costs_[spot];
+  }
+  return cost;
+}
+
+/// All spots are decided: is it the best? The spots of a draft that is no point are ghosts.
+void PointSearch::finish(std::size_t ghosts) {
+  has_division_ = true;
+  double cost = options_.ghost * static_cast<double>(ghosts);
+  costs_.clear();
+  for (std::size_t i = 0; i < draft_count_; ++i) {
+    Draft& draft = drafts_[i];
+    if (!draft.fit.is_known)
+      findFit(&draft);
+    const double as_ghosts = options_.ghost * static_cast<double>(draft.spots.size());
+    const double as_point =
+        isPoint(draft) ? options_.point + draft.fit.chi_squared + missesOf(draft) : kInfinity;
+    costs_.push_back(as_point);
+    cost += std::min(as_point, as_ghosts);
+    if (!(cost < best_cost_))
+      return;
+  }
+  best_cost_ = cost;
+  best_count_ = 0;
+  for (std::size_t i = 0; i < draft_count_; ++i) {
+    const Draft& draft = drafts_[i];
+    if (costs_[i] > options_.ghost * static_cast<double>(draft.spots.size()))
+      continue;
+    Point& point = best_[best_count_++];
+    point.spots = draft.spots;
+    point.location = draft.fit.location;
+    point.cost = costs_[i];
+  }
+}
+
+bool PointSearch::isPoint(const Draft& draft) const {
+  return draft.spots.size() >= options_.minimum_rays && draft.fit.is_possible;
+}
+
+/// Infinite when the spot can not be one point with all spots of the draft.
+double PointSearch::meanPairCost(const Draft& draft, std::size_t spot) const {
+  double sum = 0.0;
+  for (const std::size_t other : draft.spots)
+    sum += component_->pair(other, spot);
+  return sum / static_cast<double>(draft.spots.size());
+}
+
+void PointSearch::findFit(Draft* draft) {
+  sights_.clear();
+  for (const std::size_t spot : draft->spots)
+    sights_.push_back(*component_->spots[spot].sight);
+  const auto point = geometry::triangulate(sights_.data(), sights_.size(), triangulation_);
+  draft->fit.is_known = true;
+  draft->fit.is_possible = point.has_value();
+  if (!point)
+    return;
+  draft->fit.location = *point;
+  draft->fit.chi_squared = point->reprojection_error * point->reprojection_error *
+                           static_cast<double>(sights_.size()) /
+                           (options_.pixel_stddev * options_.pixel_stddev);
+}
+
+double PointSearch::missesOf(const Draft& draft) const {
+  double cost = 0.0;
+  auto spot = draft.spots.begin();
+  for (const std::size_t camera : partners_[component_->spots[draft.spots.front()].view]) {
+    while (spot != draft.spots.end() && component_->spots[*spot].view < camera)
+      ++spot;
+    const bool is_seen = spot != draft.spots.end() && component_->spots[*spot].view == camera;
+    const View& view = (*views_)[camera];
+    if (!is_seen && view.watching && !view.full &&
+        cameras_[camera].sees(draft.fit.location.position))
+      cost += options_.miss;
+  }
+  return cost;
+}
+
+}  // namespace wiimote_tracker::association

@@ -1,0 +1,109 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_POINT_SEARCH_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_POINT_SEARCH_H
+
+#include "wiimote_tracker_triangulation/association/associate_views.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace wiimote_tracker::association {
+
+/// Spots that chains of possible pairs connect, in the order of their views.
+struct Component {
+  struct Spot {
+    std::size_t view;
+    std::size_t index;  ///< In its view.
+    const geometry::Sight* sight;
+  };
+  std::vector<Spot> spots;
+
+  /// Of two spots, chi^2 of their pair; infinite when they can not be one point. Row by row.
+  std::vector<double> pair_chi_squared;
+
+  double pair(std::size_t a, std::size_t b) const { return pair_chi_squared[a * spots.size() + b]; }
+};
+
+/// Divides the spots of one component into points and ghosts at the least cost. One spot after the
+/// other joins a point that was begun, begins one, or is a ghost; depth first. A branch ends when
+/// what has been decided costs no less than the best division found.
+class PointSearch {
+ public:
+  struct Point {
+    std::vector<std::size_t> spots;  ///< Places in the component, ascending.
+    geometry::TriangulatedPoint location;
+    double cost = 0.0;  ///< As in AssociatedPoint.
+  };
+
+  PointSearch(const geometry::Rig& rig,
+              std::vector<std::vector<std::size_t>> partners,
+              const AssociationOptions& options);
+
+  const std::vector<std::size_t>& partners(std::size_t camera) const { return partners_[camera]; }
+
+  /// Takes no more than `maximum_steps` steps, and as many when what it found is not proven.
+  /// @returns the number of steps taken.
+  std::size_t solve(const Component& component,
+                    const std::vector<View>& views,
+                    std::size_t maximum_steps);
+
+  // What solve() found.
+  std::size_t pointCount() const { return best_count_; }
+  const Point& point(std::size_t i) const { return best_[i]; }
+  double cost() const { return best_cost_; }  ///< Of the points and the ghosts.
+
+ private:
+  using Mask = std::uint64_t;  // one bit for each of the first 64 spots
+
+  /// How well the spots of a draft fit together.
+  struct Fit {
+    bool is_known = false;     // else chi_squared is a lower bound and the rest means nothing
+    bool is_possible = false;  // they meet in a point; with more spots they might even if not
+    double chi_squared = 0.0;
+    geometry::TriangulatedPoint location;
+  };
+  /// A point that has been begun.
+  struct Draft {
+    std::vector<std::size_t> spots;
+    Mask possible = 0;  // spots that can be one point with all of them
+    Fit fit;
+  };
+
+  void prepare();
+  void decide(std::size_t spot, std::size_t ghosts);
+  void tryJoining(std::size_t spot, std::size_t ghosts);
+  void tryBeginning(std::size_t spot, std::size_t ghosts);
+  void finish(std::size_t ghosts);
+  bool isWorthwhile(std::size_t next_spot, std::size_t ghosts) const;
+  double leastCostOfSurplus(std::size_t next_spot) const;
+  double leastCostOfStrangers(std::size_t next_spot) const;
+  bool isPoint(const Draft& draft) const;
+  double meanPairCost(const Draft& draft, std::size_t spot) const;
+  void findFit(Draft* draft);
+  double missesOf(const Draft& draft) const;
+
+  AssociationOptions options_;
+  geometry::TriangulationOptions triangulation_;
+  std::vector<geometry::Camera> cameras_;
+  std::vector<std::vector<std::size_t>> partners_;
+
+  const Component* component_ = nullptr;
+  const std::vector<View>* views_ = nullptr;
+  std::vector<std::size_t> view_ends_;  // of each spot, one past the last spot of its view
+  std::vector<Mask> partner_spots_;     // of each spot, those that can be one point with it
+  std::vector<double> least_costs_;     // of each spot, its share in the cost of any point
+  std::size_t steps_ = 0;
+  std::size_t maximum_steps_ = 0;
+  std::vector<Draft> drafts_;  // the first draft_count_ are in use; the others keep their memory
+  std::size_t draft_count_ = 0;
+  std::vector<Point> best_;  // likewise
+  std::size_t best_count_ = 0;
+  double best_cost_ = 0.0;
+  bool has_division_ = false;            // one has been finished
+  std::vector<geometry::Sight> sights_;  // of one draft
+  std::vector<double> costs_;            // of the drafts
+};
+
+}  // namespace wiimote_tracker::association
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_POINT_SEARCH_H

@@ -1,0 +1,58 @@
+#include "wiimote_tracker_triangulation/association/shared_views.h"
+
+#include <algorithm>
+
+namespace wiimote_tracker::association {
+namespace {
+
+/// Points all over what a camera sees: a grid of pixels, at depths that grow by a constant factor.
+std::vector<Eigen::Vector3d> pointsInView(const geometry::Camera& camera, double range) {
+  constexpr int kColumns = 12;
+  constexpr int kRows = 9;
+  constexpr double kGrowth = 1.25;  // from one distance to the next
+  constexpr double kNearest = 0.2;  // [m]
+  std::vector<Eigen::Vector3d> points;
+  for (int row = 0; row <= kRows; ++row) {
+    for (int column = 0; column <= kColumns; ++column) {
+      const Eigen::Vector2d pixel((camera.intrinsics.width - 1.0) * column / kColumns,
+                                  (camera.intrinsics.height - 1.0) * row / kRows);
+      const auto ray = geometry::rayFromPixel(camera, pixel);
+      if (!ray)
+        continue;
+      for (double distance = range; distance >= std::min(kNearest, range); distance /= kGrowth)
+        points.push_back(ray->origin + distance * ray->direction);
+    }
+  }
+  return points;
+}
+
+bool seesAny(const geometry::Camera& camera,
+             const std::vector<Eigen::Vector3d>& points,
+             double range) {
+  return std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
+    return (point - camera.center()).squaredNorm() <= range * range && camera.sees(point);
+  });
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> sharedViews(const geometry::Rig& rig, double range) {
+  const std::size_t count = rig.cameras.size();
+  std::vector<std::vector<Eigen::Vector3d>> points;
+  for (const geometry::RigCamera& camera : rig.cameras)
+    points.push_back(pointsInView(camera.camera, range));
+  std::vector<std::vector<std::size_t>> shared(count);
+  for (std::size_t a = 0; a < count; ++a) {
+    for (std::size_t b = 0; b < count; ++b) {
+      const geometry::Camera& camera_a = rig.cameras[a].camera;
+      const geometry::Camera& camera_b = rig.cameras[b].camera;
+      const bool near = (camera_a.center() - camera_b.center()).norm() <= 2.0 * range;
+      if (a != b && near &&
+          (seesAny(camera_b, points[a], range) || seesAny(camera_a, points[b], range)))
+        shared[a].push_back(b);
+    }
+  }
+  return shared;
+}
+
+}  // namespace wiimote_tracker::association

@@ -1,0 +1,178 @@
+// Spots of several cameras to points, against exhaustive search.
+#include "association/exhaustive.h"
+#include "association/simulated_views.h"
+#include "wiimote_tracker_triangulation/association/associate_views.h"
+#include "wiimote_tracker_triangulation/association/shared_views.h"
+
+#include <gtest/gtest.h>
+
+namespace wiimote_tracker::association {
+namespace {
+
+using Eigen::Vector3d;
+using test::bestDivision;
+using test::bestPermutation;
+using test::Disturbance;
+using test::Division;
+using test::divisionOf;
+using test::Random;
+using test::randomLeds;
+using test::ringRig;
+using test::SimulatedViews;
+using test::simulateViews;
+
+constexpr double kRange = 10.0;  // [m]
+
+/// Identical, or two divisions between which rounding decides.
+void expectSame(const Division& expected, const Division& found, int frame) {
+  EXPECT_NEAR(expected.cost, found.cost, 1e-3 * expected.cost) << "frame " << frame;
+  EXPECT_EQ(expected.points, found.points) << "frame " << frame;
+}
+
+TEST(AssociateViews, FourLedsInFourCamerasAreTheBestOfAllPermutations) {
+  Random random(21);
+  const geometry::Rig rig = ringRig(4);
+  const AssociationOptions options;
+  ViewAssociator associator(rig, sharedViews(rig, kRange), options);
+  for (int frame = 0; frame < 150; ++frame) {
+    const SimulatedViews views = simulateViews(random, rig, randomLeds(random, rig, 4), {});
+    const Association& association = associator.associate(views.views);
+    EXPECT_TRUE(association.proven);
+    expectSame(bestPermutation(rig, views, options), divisionOf(association, 4), frame);
+  }
+}
+
+TEST(AssociateViews, WithMissingAndGhostSpotsItIsTheBestOfAllDivisions) {
+  Random random(22);
+  const geometry::Rig rig = ringRig(4);
+  const AssociationOptions options;
+  ViewAssociator associator(rig, sharedViews(rig, kRange), options);
+  Disturbance disturbance;
+  disturbance.dropout = 0.1;
+  disturbance.ghosts = 1;
+  for (int frame = 0; frame < 150; ++frame) {
+    const SimulatedViews views =
+        simulateViews(random, rig, randomLeds(random, rig, 4), disturbance);
+    const Association& association = associator.associate(views.views);
+    EXPECT_TRUE(association.proven);
+    expectSame(bestDivision(rig, views, options), divisionOf(association, 4), frame);
+  }
+}
+
+TEST(AssociateViews, WhereAlmostEverythingFitsItIsTheBestOfAllDivisions) {
+  // Noise of 3 px and LEDs close together: many divisions are nearly as good.
+  Random random(23);
+  AssociationOptions options;
+  options.pixel_stddev = 3.0;
+  options.ghost = 22.0;
+  options.point = 22.0;
+  options.maximum_pair_chi_squared = 60.0;  // the oracle has no gate
+  Disturbance disturbance;
+  disturbance.pixel_stddev = 3.0;
+  disturbance.dropout = 0.2;
+  disturbance.ghosts = 1;
+  for (const int cameras : {2, 3, 4}) {
+    const geometry::Rig rig = geometry::test::randomRig(random, cameras);
+    ViewAssociator associator(rig, sharedViews(rig, kRange), options);
+    for (int frame = 0; frame < 60; ++frame) {
+      std::vector<Vector3d> leds;
+      for (int i = 0; i < 3; ++i)
+        leds.push_back(random.inBox(0.3));
+      SimulatedViews views = simulateViews(random, rig, leds, disturbance);
+      views.views[0].full = frame % 3 == 0;
+      views.views[1].watching = frame % 3 != 1 || views.views[1].count > 0;
+      const Association& association = associator.associate(views.views);
+      EXPECT_TRUE(association.proven);
+      expectSame(bestDivision(rig, views, options),
+                 divisionOf(association, static_cast<std::size_t>(cameras)), frame);
+    }
+  }
+}
+
+TEST(AssociateViews, GivesThePointOfItsSpotsAndWhatItCosts) {
+  Random random(24);
+  const geometry::Rig rig = ringRig(4);
+  const AssociationOptions options;
+  ViewAssociator associator(rig, sharedViews(rig, kRange), options);
+  const Vector3d led(0.2, -0.3, 1.0);
+  SimulatedViews views = simulateViews(random, rig, {led}, {});
+  views.views[2].count = 0;  // a miss
+  const Association& association = associator.associate(views.views);
+  ASSERT_EQ(1u, association.points.size());
+  const AssociatedPoint& point = association.points[0];
+  EXPECT_EQ(3u, point.spot_count);
+  EXPECT_EQ(0u, association.spots[0].view);
+  EXPECT_EQ(1u, association.spots[1].view);
+  EXPECT_EQ(3u, association.spots[2].view);
+  const double stddev = std::sqrt(point.point.covariance.trace());
+  EXPECT_LT((point.point.position - led).norm(), 5.0 * stddev);
+  const double chi_squared = 3.0 * std::pow(point.point.reprojection_error / 0.5, 2);
+  EXPECT_NEAR(options.point + options.miss + chi_squared, point.cost, 1e-9);
+  views.views[2].watching = false;
+  EXPECT_NEAR(options.point + chi_squared, associator.associate(views.views).cost, 1e-9);
+  views.views[2].watching = true;
+  views.views[2].full = true;
+  EXPECT_NEAR(options.point + chi_squared, associator.associate(views.views).cost, 1e-9);
+}
+
+TEST(AssociateViews, WantsAsManyRaysAsItIsTold) {
+  Random random(25);
+  const geometry::Rig rig = ringRig(4);
+  AssociationOptions options;
+  options.minimum_rays = 3;
+  ViewAssociator associator(rig, sharedViews(rig, kRange), options);
+  SimulatedViews views = simulateViews(random, rig, {Vector3d(0.2, -0.3, 1.0)}, {});
+  views.views[2].count = 0;
+  EXPECT_EQ(1u, associator.associate(views.views).points.size());
+  views.views[0].count = 0;
+  const Association& association = associator.associate(views.views);
+  EXPECT_TRUE(association.points.empty());
+  EXPECT_EQ(2.0 * options.ghost, association.cost);
+}
+
+TEST(AssociateViews, NothingSeen) {
+  const geometry::Rig rig = ringRig(3);
+  ViewAssociator associator(rig, sharedViews(rig, kRange), {});
+  const std::vector<View> views(3);
+  const Association& association = associator.associate(views);
+  EXPECT_TRUE(association.points.empty());
+  EXPECT_EQ(0.0, association.cost);
+  EXPECT_TRUE(association.proven);
+}
+
+TEST(AssociateViews, ABoundedSearchSaysThatItProvesNothing) {
+  Random random(26);
+  const geometry::Rig rig = ringRig(4);
+  AssociationOptions options;
+  options.pixel_stddev = 50.0;  // everything fits to everything
+  options.ghost = 30.0;
+  options.maximum_steps = 20;
+  ViewAssociator associator(rig, sharedViews(rig, kRange), options);
+  const SimulatedViews views = simulateViews(random, rig, randomLeds(random, rig, 4), {});
+  const Association& association = associator.associate(views.views);
+  EXPECT_FALSE(association.proven);
+  EXPECT_EQ(20u, association.steps);
+  EXPECT_FALSE(association.points.empty()) << "the best that was found";
+}
+
+TEST(SharedViews, AreOnlyThoseThatSeeTheSame) {
+  // Two rooms of four cameras, 30 m apart, and one camera that looks away.
+  geometry::Rig rig = ringRig(4);
+  const geometry::Rig other = ringRig(4);
+  for (geometry::RigCamera camera : other.cameras) {
+    camera.camera.name += "_far";
+    camera.camera.world_from_camera.pretranslate(Vector3d(30.0, 0.0, 0.0));
+    rig.cameras.push_back(camera);
+  }
+  geometry::RigCamera away = rig.cameras[0];
+  away.camera.world_from_camera =
+      geometry::lookAt({0.0, 8.0, 2.0}, {0.0, 20.0, 2.0}, Vector3d::UnitZ());
+  rig.cameras.push_back(away);
+  const auto shared = sharedViews(rig, kRange);
+  const std::vector<std::vector<std::size_t>> expected = {
+      {1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}, {5, 6, 7}, {4, 6, 7}, {4, 5, 7}, {4, 5, 6}, {}};
+  EXPECT_EQ(expected, shared);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::association

@@ -145,13 +145,13 @@ TEST(AssociateViews, ABoundedSearchSaysThatItProvesNothing) {
   const geometry::Rig rig = ringRig(4);
   AssociationOptions options;
   options.pixel_stddev = 50.0;  // everything fits to everything
-  options.ghost = 30.0;
-  options.maximum_steps = 20;
+  options.point = 20.0;
+  options.maximum_steps = 50;
   ViewAssociator associator(rig, sharedViews(rig, kRange), options);
   const SimulatedViews views = simulateViews(random, rig, randomLeds(random, rig, 4), {});
   const Association& association = associator.associate(views.views);
   EXPECT_FALSE(association.proven);
-  EXPECT_EQ(20u, association.steps);
+  EXPECT_EQ(50u, association.steps);
   EXPECT_FALSE(association.points.empty()) << "the best that was found";
 }
 

@@ -1,0 +1,60 @@
+#include "part_file.h"
+
+#include "wiimote_tracker_triangulation/measurements/error.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+namespace wiimote_tracker::measurements {
+
+std::string partOf(const std::string& path) {
+  return path + ".part";
+}
+
+void failToWrite(const std::string& path, int error) {
+  throw WriteError("cannot write " + path + " (" + std::strerror(error) +
+                   "): choose another place or make room there");
+}
+
+void createPart(const std::string& path) {
+  namespace fs = std::filesystem;
+  try {
+    fs::create_directories(fs::absolute(path).parent_path());
+    if (fs::is_directory(path))
+      failToWrite(path, EISDIR);
+  } catch (const fs::filesystem_error& e) {
+    failToWrite(path, e.code().value());
+  }
+  std::FILE* file = std::fopen(partOf(path).c_str(), "wb");
+  if (!file)
+    failToWrite(path, errno);
+  std::fclose(file);
+}
+
+void finishPart(const std::string& path) {
+  const std::string part = partOf(path);
+  const int file = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0)
+    failToWrite(path, errno);
+  const int synced = ::fsync(file);
+  const int error = errno;
+  ::close(file);
+  if (synced != 0)
+    failToWrite(path, error);
+  const std::string kept = path + ".bak";
+  if (::access(path.c_str(), F_OK) == 0) {
+    if (::unlink(kept.c_str()) != 0 && errno != ENOENT)
+      failToWrite(kept, errno);
+    if (::link(path.c_str(), kept.c_str()) != 0)
+      failToWrite(kept, errno);
+  }
+  if (std::rename(part.c_str(), path.c_str()) != 0)
+    failToWrite(path, errno);
+}
+
+}  // namespace wiimote_tracker::measurements

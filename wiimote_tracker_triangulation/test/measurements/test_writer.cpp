@@ -1,0 +1,254 @@
+// Tables of measurements: every number comes back bit for bit, files are whole or not there, and
+// what goes wrong is said. How programs of others read the MATLAB file: test_track_bag.py.
+#include "wiimote_tracker_triangulation/measurements/error.h"
+#include "wiimote_tracker_triangulation/measurements/writer.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <clocale>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::measurements {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::string contentOf(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// A line's cells; the quotes of RFC 4180 are undone.
+std::vector<std::string> cellsOf(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && is_quoted && i + 1 < line.size() && line[i + 1] == '"')
+      cells.back() += line[i++];
+    else if (line[i] == '"')
+      is_quoted = !is_quoted;
+    else if (line[i] == ',' && !is_quoted)
+      cells.emplace_back();
+    else
+      cells.back() += line[i];
+  }
+  return cells;
+}
+
+bool isSame(double a, double b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+class WriterTest : public testing::Test {
+ protected:
+  WriterTest() {
+    std::string name = (fs::temp_directory_path() / "test_writer_XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~WriterTest() override { fs::remove_all(folder_); }
+
+  static Measurement measurement() {
+    Measurement m;
+    m.stamp = 1700000000123456789;
+    m.id = 4294967295u;
+    m.label = "led";
+    m.state = "tracked";
+    m.position = {0.1, -2.0 / 3.0, 1e-300};
+    m.velocity.setConstant(kNaN);
+    m.position_covariance << 1e-6, 2e-7, 3e-7, 2e-7, 4e-6, 5e-7, 3e-7, 5e-7, 6e-6;
+    m.velocity_covariance.setConstant(kNaN);
+    m.rays_used = 3;
+    m.rays_possible = 4;
+    m.residual = 0.3;
+    m.last_observed = 1700000000003000001;
+    m.age = 12.5;
+    m.remapped = true;
+    m.frame = "world";
+    m.rig_id = "0123456789abcdef";
+    m.method = "track";
+    return m;
+  }
+
+  /// Cells of the rows, without the header.
+  std::vector<std::vector<std::string>> written(const std::vector<Measurement>& measurements) {
+    const fs::path path = folder_ / "out.csv";
+    const auto writer = makeCsvWriter(path.string());
+    for (const Measurement& m : measurements)
+      writer->add(m);
+    writer->finish();
+    std::istringstream stream(contentOf(path));
+    std::string line;
+    std::vector<std::vector<std::string>> rows;
+    while (std::getline(stream, line))
+      rows.push_back(cellsOf(line));
+    header_ = rows.at(0);
+    rows.erase(rows.begin());
+    return rows;
+  }
+
+  fs::path folder_;
+  std::vector<std::string> header_;
+};
+
+TEST_F(WriterTest, CsvHoldsEveryFieldUnderItsNameAndUnit) {
+  const auto rows = written({measurement()});
+  ASSERT_EQ(1u, rows.size());
+  const std::vector<std::string>& row = rows[0];
+  ASSERT_EQ(header_.size(), row.size());
+  const auto cell = [&](const std::string& name) {
+    for (std::size_t i = 0; i < header_.size(); ++i) {
+      if (header_[i] == name)
+        return row[i];
+    }
+    return "no column " + name;
+  };
+  EXPECT_EQ("1700000000.123456789", cell("time [s]"));
+  EXPECT_EQ("0", cell("triggered"));
+  EXPECT_EQ("4294967295", cell("id"));
+  EXPECT_EQ("led", cell("label"));
+  EXPECT_EQ("tracked", cell("state"));
+  EXPECT_EQ(0.1, std::stod(cell("x [m]")));
+  EXPECT_EQ(-2.0 / 3.0, std::stod(cell("y [m]")));
+  EXPECT_EQ(1e-300, std::stod(cell("z [m]")));
+  EXPECT_EQ("nan", cell("vy [m/s]"));
+  EXPECT_EQ(3e-7, std::stod(cell("cov_xz [m^2]")));
+  EXPECT_EQ(5e-7, std::stod(cell("cov_yz [m^2]")));
+  EXPECT_EQ(6e-6, std::stod(cell("cov_zz [m^2]")));
+  EXPECT_EQ("nan", cell("vcov_xx [m^2/s^2]"));
+  EXPECT_EQ("3", cell("rays_used"));
+  EXPECT_EQ("4", cell("rays_possible"));
+  EXPECT_EQ(0.3, std::stod(cell("residual [px]")));
+  EXPECT_EQ("1700000000.003000001", cell("last_observed [s]"));
+  EXPECT_EQ("12.5", cell("age [s]"));
+  EXPECT_EQ("1", cell("remapped"));
+  EXPECT_EQ("world", cell("frame"));
+  EXPECT_EQ("0123456789abcdef", cell("rig_id"));
+  EXPECT_EQ("track", cell("method"));
+}
+
+TEST_F(WriterTest, CsvGivesNumbersBackBitForBit) {
+  std::mt19937_64 random(3);
+  std::vector<Measurement> measurements;
+  while (measurements.size() < 500) {
+    Measurement m = measurement();
+    for (int i = 0; i < 3; ++i) {
+      const std::uint64_t bits = random();
+      std::memcpy(&m.position[i], &bits, sizeof bits);
+    }
+    if (m.position.allFinite())
+      measurements.push_back(m);
+  }
+  measurements[0].position = {-0.0, std::numeric_limits<double>::denorm_min(),
+                              std::numeric_limits<double>::max()};
+  const auto rows = written(measurements);
+  ASSERT_EQ(measurements.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_TRUE(isSame(measurements[i].position[axis],
+                         std::strtod(rows[i][static_cast<std::size_t>(5 + axis)].c_str(), nullptr)))
+          << rows[i][static_cast<std::size_t>(5 + axis)];
+  }
+}
+
+TEST_F(WriterTest, CsvDoesNotKnowAboutLocales) {
+  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) {
+    if (std::setlocale(LC_ALL, name))
+      break;
+  }
+  const auto rows = written({measurement()});
+  std::setlocale(LC_ALL, "C");
+  ASSERT_EQ(header_.size(), rows.at(0).size());
+  EXPECT_EQ("0.10000000000000001", rows[0][5]);
+}
+
+TEST_F(WriterTest, CsvQuotesWordsWithCommas) {
+  Measurement m = measurement();
+  m.label = "left, \"upper\"";
+  EXPECT_EQ(m.label, written({m}).at(0).at(3));
+}
+
+TEST_F(WriterTest, NeverSaysMinusNan) {
+  Measurement m = measurement();
+  m.residual = -kNaN;
+  EXPECT_EQ("nan", written({m}).at(0).at(25));
+}
+
+TEST_F(WriterTest, TheFileHasItsNameWhenItIsWhole) {
+  const fs::path path = folder_ / "new folder" / "out.csv";
+  {
+    const auto writer = makeCsvWriter(path.string());
+    writer->add(measurement());
+    writer->flush();
+    EXPECT_FALSE(fs::exists(path));
+    EXPECT_NE(std::string::npos, contentOf(path.string() + ".part").find("4294967295"))
+        << "a crash now would lose nothing";
+    writer->finish();
+  }
+  EXPECT_TRUE(fs::exists(path));
+  EXPECT_FALSE(fs::exists(path.string() + ".part"));
+  const std::string first = contentOf(path);
+  makeCsvWriter(path.string())->finish();
+  EXPECT_EQ(first, contentOf(path.string() + ".bak"));
+  EXPECT_LT(contentOf(path).size(), first.size());
+}
+
+TEST_F(WriterTest, SaysWhatToDoWhenItCannotWrite) {
+  std::ofstream(folder_ / "file").put('x');
+  for (const fs::path& path : {folder_ / "file" / "out", folder_}) {
+    for (const auto make : {makeCsvWriter, makeMatlabWriter}) {
+      try {
+        make(path.string());
+        ADD_FAILURE() << path;
+      } catch (const WriteError& e) {
+        EXPECT_NE(std::string::npos, std::string(e.what()).find(path.string())) << e.what();
+      }
+    }
+  }
+  if (fs::exists("/dev/full")) {
+    fs::create_symlink("/dev/full", folder_ / "full.csv.part");
+    try {
+      const auto writer = makeCsvWriter((folder_ / "full.csv").string());
+      writer->add(measurement());
+      writer->finish();
+      ADD_FAILURE();
+    } catch (const WriteError& e) {
+      EXPECT_NE(std::string::npos, std::string(e.what()).find("make room")) << e.what();
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "full.csv"));
+  }
+}
+
+TEST_F(WriterTest, EqualMeasurementsGiveEqualMatlabFiles) {
+  if (!hasMatlab())
+    GTEST_SKIP() << "built without matio";
+  for (const char* name : {"a.mat", "b.mat"}) {
+    const auto writer = makeMatlabWriter((folder_ / name).string());
+    for (int i = 0; i < 100; ++i)
+      writer->add(measurement());
+    writer->finish();
+  }
+  const std::string content = contentOf(folder_ / "a.mat");
+  EXPECT_EQ(content, contentOf(folder_ / "b.mat"));
+  EXPECT_EQ(0u, content.find("MATLAB 5.0 MAT-file"));
+}
+
+TEST_F(WriterTest, AMatlabFileMayBeEmpty) {
+  if (!hasMatlab())
+    GTEST_SKIP() << "built without matio";
+  makeMatlabWriter((folder_ / "empty.mat").string())->finish();
+  EXPECT_GT(fs::file_size(folder_ / "empty.mat"), 128u);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::measurements

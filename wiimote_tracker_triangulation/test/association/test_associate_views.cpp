@@ -144,13 +144,15 @@ TEST(AssociateViews, ABoundedSearchSaysThatItProvesNothing) {
   Random random(26);
   const geometry::Rig rig = ringRig(4);
   AssociationOptions options;
-  options.maximum_steps = 5;  // one for each spot of the first point, and one
-  ViewAssociator associator(rig, sharedViews(rig, kRange), options);
-  const SimulatedViews views = simulateViews(random, rig, randomLeds(random, rig, 4), {});
-  const Association& association = associator.associate(views.views);
-  EXPECT_FALSE(association.proven);
-  EXPECT_EQ(5u, association.steps);
-  EXPECT_EQ(1u, association.points.size());
+  const SimulatedViews views = simulateViews(random, rig, {Vector3d(0.2, -0.3, 1.0)}, {});
+  for (const std::size_t bound : {3u, 4u, 1000u}) {  // one step for each spot leads to the point
+    options.maximum_steps = bound;
+    ViewAssociator associator(rig, sharedViews(rig, kRange), options);
+    const Association& association = associator.associate(views.views);
+    EXPECT_EQ(bound > 4, association.proven);
+    EXPECT_LE(association.steps, bound);
+    EXPECT_EQ(bound < 4 ? 0u : 1u, association.points.size());
+  }
 }
 
 TEST(SharedViews, AreOnlyThoseThatSeeTheSame) {

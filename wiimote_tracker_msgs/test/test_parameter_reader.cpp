@@ -67,6 +67,48 @@ TEST(ParameterReader, AllowedGroupIsNotUnknown) {
   EXPECT_NO_THROW(reader.refuseUnknown());
 }
 
+/// {side: 2.5, whole: 3, name: square, list: [a, b], flag: true, group: {inner: 1}}
+ParameterTree tree() {
+  XmlRpc::XmlRpcValue values;
+  values["side"] = 2.5;
+  values["whole"] = 3;
+  values["name"] = "square";
+  values["list"][0] = "a";
+  values["list"][1] = "b";
+  values["flag"] = true;
+  values["group"]["inner"] = 1;
+  return {"file.yaml", values};
+}
+
+TEST(ParameterReaderOfAFile, ReadsWhatTheServerWouldGive) {
+  ParameterReader reader(tree());
+  EXPECT_EQ(2.5, reader.required<double>("side", "the side length [m]"));
+  EXPECT_EQ(3.0, reader.bounded("whole", 1.0, 0.0, 5.0)) << "a whole number is a number";
+  EXPECT_EQ(3, reader.bounded("whole", 1, 0, 5));
+  EXPECT_EQ("square", reader.choice("name", "circle", {"circle", "square"}));
+  EXPECT_EQ((std::vector<std::string>{"a", "b"}),
+            reader.optional("list", std::vector<std::string>{}));
+  EXPECT_TRUE(reader.optional("flag", false));
+  EXPECT_EQ(7.0, reader.bounded("absent", 7.0, 0.0, 10.0));
+  EXPECT_EQ(7, reader.bounded("side/absent", 7, 0, 10));
+  const std::string error = errorOf([&] { reader.refuseUnknown(); });
+  EXPECT_TRUE(contains(error, "unknown parameter file.yaml/group/inner:")) << error;
+  EXPECT_EQ(1, reader.bounded("group/inner", 0, 0, 5));
+  EXPECT_NO_THROW(reader.refuseUnknown());
+}
+
+TEST(ParameterReaderOfAFile, ErrorsNameFileAndKey) {
+  ParameterReader reader(tree());
+  EXPECT_TRUE(contains(errorOf([&] { reader.optional<int>("side", 1); }),
+                       "file.yaml/side has the wrong type: expected a whole number"));
+  EXPECT_TRUE(contains(errorOf([&] { reader.optional("list", std::vector<double>{}); }),
+                       "file.yaml/list has the wrong type"));
+  EXPECT_TRUE(contains(errorOf([&] { reader.optional<double>("group", 1.0); }),
+                       "file.yaml/group has the wrong type"));
+  EXPECT_TRUE(contains(errorOf([&] { reader.required<double>("absent", "the side [m]"); }),
+                       "set file.yaml/absent: the side [m]"));
+}
+
 }  // namespace
 }  // namespace wiimote_tracker
 

@@ -1,12 +1,15 @@
 #ifndef WIIMOTE_TRACKER_MSGS_PARAMETER_READER_H
 #define WIIMOTE_TRACKER_MSGS_PARAMETER_READER_H
 
+#include "wiimote_tracker_msgs/parameter_tree.h"
+
 #include <ros/node_handle.h>
 
 #include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -16,27 +19,35 @@ struct ParameterError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads a node's parameters and refuses what it does not understand, so that a typing error in a
-/// YAML file is an error and not a default. Every read names a key below the given namespace;
-/// refuseUnknown() then throws for keys that are set there and that nobody read.
+/// Reads a node's parameters, or those in a file, and refuses what it does not understand, so that
+/// a typing error in a YAML file is an error and not a default. Every read names a key below the
+/// given namespace; refuseUnknown() then throws for keys that are set there and that nobody read.
 class ParameterReader {
  public:
-  explicit ParameterReader(const ros::NodeHandle& nh) : nh_(nh) {}
+  explicit ParameterReader(const ros::NodeHandle& nh) : source_(nh) {}
+
+  /// Reads what a file says instead.
+  explicit ParameterReader(const ParameterTree& tree) : source_(tree) {}
+
+  /// The key in full, as errors call it.
+  std::string nameOf(const std::string& key) const {
+    return std::visit([&](const auto& source) { return source.resolveName(key); }, source_);
+  }
 
   /// @throws ParameterError when the key is absent or of the wrong type.
   template <typename T>
   T required(const std::string& key, const std::string& what_to_set) {
-    used_.insert(nh_.resolveName(key));
-    if (!nh_.hasParam(key))
-      throw ParameterError("set " + nh_.resolveName(key) + ": " + what_to_set);
+    used_.insert(nameOf(key));
+    if (!isSet(key))
+      throw ParameterError("set " + nameOf(key) + ": " + what_to_set);
     return get<T>(key);
   }
 
   /// @throws ParameterError when the key is present with the wrong type.
   template <typename T>
   T optional(const std::string& key, const T& default_value) {
-    used_.insert(nh_.resolveName(key));
-    return nh_.hasParam(key) ? get<T>(key) : default_value;
+    used_.insert(nameOf(key));
+    return isSet(key) ? get<T>(key) : default_value;
   }
 
   /// A number within [minimum, maximum]. @throws ParameterError when it is not.
@@ -62,17 +73,22 @@ class ParameterReader {
         return value;
       list += (list.empty() ? "" : ", ") + word;
     }
-    throw ParameterError(nh_.resolveName(key) + " is '" + value + "', but must be one of: " + list);
+    throw ParameterError(nameOf(key) + " is '" + value + "', but must be one of: " + list);
   }
 
   /// Declares a key, and everything below it, as known without reading it.
-  void allow(const std::string& key) { used_.insert(nh_.resolveName(key)); }
+  void allow(const std::string& key) { used_.insert(nameOf(key)); }
 
   /// @throws ParameterError naming every key below the namespace that was not read.
   void refuseUnknown() const {
     std::vector<std::string> all;
-    nh_.getParamNames(all);
-    const std::string prefix = nh_.getNamespace() + "/";
+    std::string prefix;
+    std::visit(
+        [&](const auto& source) {
+          source.getParamNames(all);
+          prefix = source.getNamespace() + "/";
+        },
+        source_);
     std::string unknown;
     for (const std::string& name : all) {
       if (name.compare(0, prefix.size(), prefix) == 0 && !isUsed(name))
@@ -83,11 +99,15 @@ class ParameterReader {
   }
 
  private:
+  bool isSet(const std::string& key) const {
+    return std::visit([&](const auto& source) { return source.hasParam(key); }, source_);
+  }
+
   template <typename T>
   T get(const std::string& key) const {
     T value;
-    if (!nh_.getParam(key, value))
-      throw ParameterError(nh_.resolveName(key) + " has the wrong type: expected " + typeName(T()));
+    if (!std::visit([&](const auto& source) { return source.getParam(key, value); }, source_))
+      throw ParameterError(nameOf(key) + " has the wrong type: expected " + typeName(T()));
     return value;
   }
 
@@ -96,7 +116,7 @@ class ParameterReader {
     if (minimum <= value && value <= maximum)  // false for NaN
       return value;
     std::ostringstream text;
-    text << nh_.resolveName(key) << " is " << value << ", but must be within " << minimum << " and "
+    text << nameOf(key) << " is " << value << ", but must be within " << minimum << " and "
          << maximum;
     throw ParameterError(text.str());
   }
@@ -122,7 +142,7 @@ class ParameterReader {
     return "another type";
   }
 
-  ros::NodeHandle nh_;
+  std::variant<ros::NodeHandle, ParameterTree> source_;
   std::set<std::string> used_;
 };
 

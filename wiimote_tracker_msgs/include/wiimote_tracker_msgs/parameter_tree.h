@@ -1,0 +1,121 @@
+#ifndef WIIMOTE_TRACKER_MSGS_PARAMETER_TREE_H
+#define WIIMOTE_TRACKER_MSGS_PARAMETER_TREE_H
+
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// Parameters that come from a file instead of the parameter server: a struct whose members are
+/// values, lists or structs again. Has the functions of ros::NodeHandle that ParameterReader needs,
+/// and needs no master.
+class ParameterTree {
+ public:
+  /// `name`: stands before the keys in error messages, such as the file.
+  ParameterTree(const std::string& name, const XmlRpc::XmlRpcValue& values)
+      : name_(name), values_(values) {}
+
+  const std::string& getNamespace() const { return name_; }
+
+  std::string resolveName(const std::string& key) const { return name_ + "/" + key; }
+
+  bool hasParam(const std::string& key) const {
+    XmlRpc::XmlRpcValue value;
+    return find(key, &value);
+  }
+
+  /// False when it is absent or of the wrong type.
+  template <typename T>
+  bool getParam(const std::string& key, T& value) const {
+    XmlRpc::XmlRpcValue found;
+    return find(key, &found) && read(found, &value);
+  }
+
+  /// Full names of all values.
+  void getParamNames(std::vector<std::string>& names) const { appendNames(name_, values_, &names); }
+
+ private:
+  using Value = XmlRpc::XmlRpcValue;
+
+  bool find(const std::string& key, Value* found) const {
+    Value value = values_;
+    for (std::size_t begin = 0; begin <= key.size();) {
+      const std::size_t end = std::min(key.find('/', begin), key.size());
+      const std::string member = key.substr(begin, end - begin);
+      if (value.getType() != Value::TypeStruct || !value.hasMember(member))
+        return false;
+      const Value inner = value[member];
+      value = inner;
+      begin = end + 1;
+    }
+    *found = value;
+    return true;
+  }
+
+  static bool read(Value& from, bool* value) {
+    if (from.getType() != Value::TypeBoolean)
+      return false;
+    *value = static_cast<bool>(from);
+    return true;
+  }
+
+  static bool read(Value& from, int* value) {
+    if (from.getType() != Value::TypeInt)
+      return false;
+    *value = static_cast<int>(from);
+    return true;
+  }
+
+  static bool read(Value& from, double* value) {
+    if (from.getType() == Value::TypeInt) {
+      *value = static_cast<int>(from);
+      return true;
+    }
+    if (from.getType() != Value::TypeDouble)
+      return false;
+    *value = static_cast<double>(from);
+    return true;
+  }
+
+  static bool read(Value& from, std::string* value) {
+    if (from.getType() != Value::TypeString)
+      return false;
+    *value = static_cast<std::string>(from);
+    return true;
+  }
+
+  template <typename T>
+  static bool read(Value& from, std::vector<T>* values) {
+    if (from.getType() != Value::TypeArray)
+      return false;
+    std::vector<T> result(static_cast<std::size_t>(from.size()));
+    for (int i = 0; i < from.size(); ++i) {
+      T entry;
+      if (!read(from[i], &entry))
+        return false;
+      result[static_cast<std::size_t>(i)] = entry;
+    }
+    *values = result;
+    return true;
+  }
+
+  static void appendNames(const std::string& prefix, Value value, std::vector<std::string>* names) {
+    if (value.getType() != Value::TypeStruct) {
+      names->push_back(prefix);
+      return;
+    }
+    for (const auto& member : value)
+      appendNames(prefix + "/" + member.first, member.second, names);
+  }
+
+  std::string name_;
+  Value values_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_MSGS_PARAMETER_TREE_H

@@ -1,115 +1,18 @@
 #include "description.h"
 
+#include "section.h"
+
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
-#include <sstream>
 
 namespace wiimote_tracker::simulation {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// One mapping of the file. Knows its place, so that errors can name the key in full, and which
-/// keys were read, so that a misspelt one is noticed.
-class Section {
- public:
-  Section(const YAML::Node& node, const std::string& file, const std::string& path)
-      : node_(node), file_(file), path_(path) {
-    if (!node_.IsMap())
-      throw DescriptionError(file_ + ": " + (path_.empty() ? "the file" : path_) +
-                             " must be a mapping of keys to values");
-  }
-
-  Section section(const std::string& key) { return Section(get(key), file_, name(key)); }
-
-  bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }
-
-  template <typename T>
-  T value(const std::string& key) {
-    try {
-      return get(key).as<T>();
-    } catch (const YAML::Exception&) {
-      throw error(key, "has the wrong type");
-    }
-  }
-
-  template <typename T>
-  T value(const std::string& key, const T& default_value) {
-    return has(key) ? value<T>(key) : default_value;
-  }
-
-  double number(const std::string& key, double minimum, double maximum) {
-    const double number = value<double>(key);
-    if (minimum <= number && number <= maximum)  // false for NaN
-      return number;
-    std::ostringstream text;
-    text << "is " << number << ", but must be within " << minimum << " and " << maximum;
-    throw error(key, text.str());
-  }
-
-  double number(const std::string& key, double minimum, double maximum, double default_value) {
-    return has(key) ? number(key, minimum, maximum) : default_value;
-  }
-
-  Eigen::Vector3d point(const std::string& key) {
-    const auto values = value<std::vector<double>>(key);
-    if (values.size() != 3)
-      throw error(key, "must have three numbers: x, y, z");
-    const Eigen::Vector3d point(values[0], values[1], values[2]);
-    if (!point.allFinite())
-      throw error(key, "must be finite");
-    return point;
-  }
-
-  /// Names and contents of the mappings in this one, in the order of the file.
-  std::vector<std::pair<std::string, Section>> entries() {
-    std::vector<std::pair<std::string, Section>> entries;
-    for (const auto& entry : node_) {
-      const auto key = entry.first.as<std::string>();
-      read_.insert(key);
-      for (const auto& other : entries) {
-        if (other.first == key)
-          throw error(key, "is there twice");
-      }
-      entries.emplace_back(key, Section(entry.second, file_, name(key)));
-    }
-    if (entries.empty())
-      throw DescriptionError(file_ + ": " + path_ + " is empty; describe at least one");
-    return entries;
-  }
-
-  void refuseUnknown() const {
-    for (const auto& entry : node_) {
-      const auto key = entry.first.as<std::string>();
-      if (read_.count(key) == 0)
-        throw error(key, "is not known; remove it or correct its spelling");
-    }
-  }
-
-  DescriptionError error(const std::string& key, const std::string& what) const {
-    return DescriptionError(file_ + ": " + name(key) + " " + what);
-  }
-
- private:
-  std::string name(const std::string& key) const { return path_.empty() ? key : path_ + "/" + key; }
-
-  YAML::Node get(const std::string& key) {
-    read_.insert(key);
-    if (!has(key))
-      throw error(key, "is missing");
-    return node_[key];
-  }
-
-  const YAML::Node node_;
-  std::string file_;
-  std::string path_;
-  std::set<std::string> read_;
-};
 
 geometry::Intrinsics readIntrinsics(Section section) {
   geometry::Intrinsics intrinsics;
@@ -173,6 +76,38 @@ CameraDescription readCamera(const std::string& name, Section section) {
   return description;
 }
 
+/// Where something lies, or that it is waved or circles from the beginning on.
+LedMotion readMotion(Section* section) {
+  LedMotion motion(section->point("position"));
+  if (section->has("wave") && section->has("circle"))
+    throw section->error("circle", "and wave exclude each other; remove one of them");
+  if (section->has("wave")) {
+    Section wave = section->section("wave");
+    const Eigen::Vector3d box = wave.point("box");
+    if (!(box.minCoeff() >= 0.0 && box.maxCoeff() > 0.0))
+      throw wave.error("box", "must have sides of 0 or more, and one of more than 0");
+    motion.wave(0.0, wave.point("middle"), box, wave.number("speed", 0.001, 100.0),
+                static_cast<std::uint32_t>(wave.number("path", 0, 2147483647)));
+    wave.refuseUnknown();
+  }
+  if (section->has("circle")) {
+    Section circle = section->section("circle");
+    const double radius = circle.number("radius", 0.001, 100.0);
+    motion.circle(0.0, circle.point("middle"), radius, circle.number("speed", 0.001, 100.0));
+    circle.refuseUnknown();
+  }
+  return motion;
+}
+
+/// Size, brightness and switch of anything that shines.
+template <typename Shining>
+void readLight(Section* section, Shining* shining) {
+  if (section->has("size"))
+    shining->size = section->number("size", 0.0, 15.0);
+  shining->brightness = section->number("brightness", 0.0, kInfinity, shining->brightness);
+  shining->lit = section->value<bool>("lit", shining->lit);
+}
+
 LedDescription readLed(const std::string& name, Section section) {
   LedDescription led;
   led.name = name;
@@ -183,36 +118,76 @@ LedDescription readLed(const std::string& name, Section section) {
                         turns.number("rate", 0.0, 100.0)};
     turns.refuseUnknown();
   } else {
-    led.position = section.point("position");
+    led.motion = readMotion(&section);
+    led.carried_by = section.value<std::string>("carried_by", "");
   }
-  if (section.has("size"))
-    led.size = section.number("size", 0.0, 15.0);
-  led.brightness = section.number("brightness", 0.0, kInfinity, led.brightness);
-  led.lit = section.value<bool>("lit", led.lit);
+  readLight(&section, &led);
   section.refuseUnknown();
   return led;
 }
 
-/// An LED turns about one that is there, and that does not turn itself.
-void checkTurns(const std::string& name, Section section, const std::vector<LedDescription>& leds) {
-  const auto find = [&leds](const std::string& wanted) {
-    return std::find_if(leds.begin(), leds.end(),
-                        [&](const LedDescription& led) { return led.name == wanted; });
-  };
-  const auto& turns = find(name)->turns;
-  if (!turns)
-    return;
-  const auto around = find(turns->around);
-  if (around == leds.end() || around->turns)
-    throw section.error("turns/around", "must be the name of an LED that does not turn itself");
+PersonDescription readPerson(const std::string& name, Section section) {
+  PersonDescription person;
+  person.name = name;
+  person.motion = readMotion(&section);
+  person.turn_rate = section.number("turn_rate", -100.0, 100.0, person.turn_rate);
+  person.radius = section.number("radius", 0.001, 10.0, person.radius);
+  person.height = section.number("height", 0.001, 10.0, person.height);
+  person.present = section.value<bool>("present", person.present);
+  section.refuseUnknown();
+  return person;
 }
 
-BoardDescription readBoard(Section section, const std::vector<CameraDescription>& cameras) {
+ReflectionDescription readReflection(const std::string& name, Section section) {
+  ReflectionDescription reflection;
+  reflection.name = name;
+  reflection.camera = section.value<std::string>("camera");
+  const auto pixel = section.value<std::vector<double>>("pixel");
+  if (pixel.size() != 2 || !std::isfinite(pixel[0]) || !std::isfinite(pixel[1]))
+    throw section.error("pixel", "must have two numbers: u, v");
+  reflection.pixel = {pixel[0], pixel[1]};
+  readLight(&section, &reflection);
+  section.refuseUnknown();
+  return reflection;
+}
+
+bool hasCamera(const Description& description, const std::string& name) {
+  return std::any_of(description.cameras.begin(), description.cameras.end(),
+                     [&](const CameraDescription& camera) { return camera.camera.name == name; });
+}
+
+template <typename Things>
+const typename Things::value_type* find(const Things& things, const std::string& name) {
+  const auto found = std::find_if(things.begin(), things.end(),
+                                  [&](const auto& thing) { return thing.name == name; });
+  return found == things.end() ? nullptr : &*found;
+}
+
+/// An LED turns about one that is there, and that does not turn itself; who carries one is there.
+void checkHolders(const std::string& name, const Section& section, const Description& description) {
+  const LedDescription& led = *find(description.leds, name);
+  if (led.turns) {
+    const LedDescription* around = find(description.leds, led.turns->around);
+    if (!around || around->turns)
+      throw section.error("turns/around", "must be the name of an LED that does not turn itself");
+  }
+  if (!led.carried_by.empty() && !find(description.people, led.carried_by))
+    throw section.error("carried_by", "must be the name of one of the people");
+}
+
+/// simulation/set_led knows all by their names.
+template <typename Things>
+void takeNames(const Things& things, const Section& section, std::set<std::string>* names) {
+  for (const auto& thing : things) {
+    if (!names->insert(thing.name).second)
+      throw section.error(thing.name, "is the name of something else, too; give it another one");
+  }
+}
+
+BoardDescription readBoard(Section section, const Description& description) {
   BoardDescription board;
   board.before = section.value<std::string>("before");
-  if (std::none_of(cameras.begin(), cameras.end(), [&](const CameraDescription& camera) {
-        return camera.camera.name == board.before;
-      }))
+  if (!hasCamera(description, board.before))
     throw section.error("before", "must be the name of a camera");
   board.column_spacing = section.number("column_spacing", 0.001, 1.0, board.column_spacing);
   board.row_spacing = section.number("row_spacing", 0.001, 1.0, board.row_spacing);
@@ -242,13 +217,30 @@ Description readDescription(const std::string& path) {
   Section cameras = file.section("cameras");
   for (const auto& [name, section] : cameras.entries())
     description.cameras.push_back(readCamera(name, section));
+  std::set<std::string> names = {"board"};
   Section leds = file.section("leds");
   for (const auto& [name, section] : leds.entries())
     description.leds.push_back(readLed(name, section));
-  for (auto& [name, section] : leds.entries())
-    checkTurns(name, section, description.leds);
+  takeNames(description.leds, leds, &names);
+  if (file.has("people")) {
+    Section people = file.section("people");
+    for (const auto& [name, section] : people.entries())
+      description.people.push_back(readPerson(name, section));
+    takeNames(description.people, people, &names);
+  }
+  for (const auto& [name, section] : leds.entries())
+    checkHolders(name, section, description);
+  if (file.has("reflections")) {
+    Section reflections = file.section("reflections");
+    for (const auto& [name, section] : reflections.entries()) {
+      description.reflections.push_back(readReflection(name, section));
+      if (!hasCamera(description, description.reflections.back().camera))
+        throw section.error("camera", "must be the name of a camera");
+    }
+    takeNames(description.reflections, reflections, &names);
+  }
   if (file.has("board"))
-    description.board = readBoard(file.section("board"), description.cameras);
+    description.board = readBoard(file.section("board"), description);
   file.refuseUnknown();
   return description;
 }

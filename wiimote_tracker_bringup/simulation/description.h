@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
 #define WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
 
+#include "led_motion.h"
+
 #include "wiimote_tracker_driver/virtual_wiimote/frame_times.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
@@ -32,13 +34,35 @@ struct TurnDescription {
   double rate = 0.0;      ///< About the vertical [rad/s]; nods up and down meanwhile.
 };
 
-/// An LED before it is moved.
+/// An LED before simulation/set_led moves it.
 struct LedDescription {
   std::string name;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]; not read with `turns`.
+  LedMotion motion = LedMotion(Eigen::Vector3d::Zero());  ///< Without effect with `turns`.
   std::optional<TurnDescription> turns;
+  std::string
+      carried_by;  ///< Name of a person, in whose axes (see Person) the motion is; or empty.
   std::optional<double> size;  ///< As of a Lamp [0..15].
   double brightness = 1.0;     ///< As of a Lamp [>= 0].
+  bool lit = true;
+};
+
+/// Somebody who stands or walks on the floor and hides what is behind them: an upright cylinder.
+struct PersonDescription {
+  std::string name;
+  LedMotion motion = LedMotion(Eigen::Vector3d::Zero());  ///< Without its z.
+  double turn_rate = 0.0;                                 ///< About the vertical [rad/s].
+  double radius = 0.2;                                    ///< [m]
+  double height = 1.75;                                   ///< [m]
+  bool present = true;
+};
+
+/// A spot that one camera sees always at the same place: a lamp's reflection in a window.
+struct ReflectionDescription {
+  std::string name;
+  std::string camera;                               ///< Name of the camera.
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< In the image, v down [px].
+  std::optional<double> size;                       ///< As of a Lamp [0..15].
+  double brightness = 1.0;                          ///< As it reaches the camera [>= 0].
   bool lit = true;
 };
 
@@ -58,10 +82,12 @@ struct Description {
   double truth_rate = 200.0;  ///< [Hz]
   std::vector<CameraDescription> cameras;
   std::vector<LedDescription> leds;
+  std::vector<PersonDescription> people;
+  std::vector<ReflectionDescription> reflections;
   std::optional<BoardDescription> board;
 };
 
-/// Reads a description (layout: paper_rig.yaml). Unknown keys are refused.
+/// Reads a description (layout: paper_rig.yaml, people_rig.yaml). Unknown keys are refused.
 /// @throws DescriptionError.
 Description readDescription(const std::string& path);
 

@@ -9,9 +9,11 @@ namespace wiimote_tracker::simulation {
 Rig::Rig(const Description& description, Deliver deliver, Truth truth)
     : deliver_(std::move(deliver)),
       truth_(std::move(truth)),
-      truth_period_(1.0 / description.truth_rate) {
+      truth_period_(1.0 / description.truth_rate),
+      people_(description.people.begin(), description.people.end()),
+      reflections_(description.reflections) {
   for (const LedDescription& led : description.leds)
-    leds_.push_back({led, LedMotion(led.position), led.lit});
+    leds_.push_back({led, led.motion, led.lit});
   for (const CameraDescription& camera : description.cameras) {
     // A seed of its own for each camera's pixels and each camera's link.
     const auto number = static_cast<std::uint32_t>(cameras_.size());
@@ -20,8 +22,11 @@ Rig::Rig(const Description& description, Deliver deliver, Truth truth)
     sequence.generate(seeds, seeds + 2);
     virtual_wiimote::FrameTimes times(camera.timing, seeds[1]);
     const virtual_wiimote::FrameTime first = times.next();
-    cameras_.push_back(
-        {VirtualCamera(camera.camera, description.pixel_noise, seeds[0]), times, first, {}});
+    cameras_.push_back({camera.camera.name,
+                        VirtualCamera(camera.camera, description.pixel_noise, seeds[0]),
+                        times,
+                        first,
+                        {}});
     push(first.exposure, Event::kExposure, number);
     if (description.board && description.board->before == camera.camera.name)
       board_.emplace(*description.board, camera.camera);
@@ -56,7 +61,33 @@ Rig::Led* Rig::findLed(const std::string& name) {
   return nullptr;
 }
 
+Person* Rig::findPerson(const std::string& name) {
+  for (Person& person : people_) {
+    if (person.name() == name)
+      return &person;
+  }
+  return nullptr;
+}
+
+ReflectionDescription* Rig::findReflection(const std::string& name) {
+  for (ReflectionDescription& reflection : reflections_) {
+    if (reflection.name == name)
+      return &reflection;
+  }
+  return nullptr;
+}
+
+bool Rig::isInRoom(const Led& led) const {
+  return std::none_of(people_.begin(), people_.end(), [&](const Person& person) {
+    return person.name() == led.description.carried_by && !person.present;
+  });
+}
+
 Eigen::Vector3d Rig::positionOf(const Led& led, double time) const {
+  for (const Person& person : people_) {
+    if (person.name() == led.description.carried_by)
+      return person.worldFromPerson(time) * led.motion.position(time);
+  }
   if (!led.description.turns)
     return led.motion.position(time);
   const TurnDescription& turns = *led.description.turns;
@@ -67,7 +98,7 @@ Eigen::Vector3d Rig::positionOf(const Led& led, double time) const {
   constexpr double kSteepest = 1.0;  // [rad]
   const double azimuth = turns.rate * time;
   const double elevation = kSteepest * std::sin(kNod * azimuth);
-  return around->motion.position(time) +
+  return positionOf(*around, time) +
          turns.distance * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
                                           std::cos(elevation) * std::sin(azimuth),
                                           std::sin(elevation));
@@ -79,15 +110,25 @@ void Rig::push(double time, Event::Kind kind, std::size_t camera) {
 
 void Rig::expose(std::size_t number) {
   Camera& camera = cameras_[number];
+  const double time = camera.next.exposure;
   lamps_.clear();
   for (const Led& led : leds_) {
-    if (led.lit)
-      lamps_.push_back({positionOf(led, camera.next.exposure), led.description.size,
-                        led.description.brightness});
+    if (led.lit && isInRoom(led))
+      lamps_.push_back({positionOf(led, time), led.description.size, led.description.brightness});
   }
   if (board_)
-    board_->addLamps(camera.next.exposure, &lamps_);
-  const virtual_wiimote::Senses senses = camera.optics.sense(lamps_);
+    board_->addLamps(time, &lamps_);
+  bodies_.clear();
+  for (const Person& person : people_) {
+    if (person.present)
+      bodies_.push_back(person.body(time));
+  }
+  glints_.clear();
+  for (const ReflectionDescription& reflection : reflections_) {
+    if (reflection.lit && reflection.camera == camera.name)
+      glints_.push_back({reflection.pixel, reflection.size, reflection.brightness});
+  }
+  const virtual_wiimote::Senses senses = camera.optics.sense(lamps_, bodies_, glints_);
   if (!camera.next.lost) {
     camera.travelling.push(senses);
     push(camera.next.arrival, Event::kDelivery, number);

@@ -4,6 +4,7 @@
 #include "description.h"
 #include "led_board.h"
 #include "led_motion.h"
+#include "person.h"
 #include "virtual_camera.h"
 
 #include <cstddef>
@@ -15,9 +16,10 @@
 
 namespace wiimote_tracker::simulation {
 
-/// All cameras and LEDs of a description as a queue of events: exposures, deliveries of reports,
-/// instants of truth. Reads no clock: whoever owns it says how far time has come. The same
-/// description and the same motions give the same events, however time is cut into steps.
+/// All cameras, LEDs, people and reflections of a description as a queue of events: exposures,
+/// deliveries of reports, instants of truth. Reads no clock: whoever owns it says how far time has
+/// come. The same description and the same motions give the same events, however time is cut into
+/// steps.
 class Rig {
  public:
   /// Receives what camera number `camera` senses, when its report is due.
@@ -37,10 +39,18 @@ class Rig {
   /// Nothing (nullptr) when there is no LED of that name.
   struct Led {
     LedDescription description;
-    LedMotion motion;  ///< Without effect on an LED that turns.
+    LedMotion
+        motion;  ///< Without effect on an LED that turns; of a carried one in its person's axes.
     bool lit;
   };
   Led* findLed(const std::string& name);
+
+  /// Somebody of the description, or nothing (nullptr). Run until the moment of a change first.
+  Person* findPerson(const std::string& name);
+
+  /// A reflection of the description, or nothing (nullptr); its `lit` may be changed. Run until the
+  /// moment of a change first.
+  ReflectionDescription* findReflection(const std::string& name);
 
   /// The board of the description, or nothing (nullptr). Run until the moment of a change first.
   LedBoard* board() { return board_ ? &*board_ : nullptr; }
@@ -59,6 +69,7 @@ class Rig {
   };
 
   struct Camera {
+    std::string name;
     VirtualCamera optics;
     virtual_wiimote::FrameTimes times;
     virtual_wiimote::FrameTime next;
@@ -66,6 +77,7 @@ class Rig {
   };
 
   Eigen::Vector3d positionOf(const Led& led, double time) const;
+  bool isInRoom(const Led& led) const;
   void push(double time, Event::Kind kind, std::size_t camera);
   void expose(std::size_t number);
   void tellTruth(double time);
@@ -76,8 +88,12 @@ class Rig {
   std::uint64_t truths_ = 0;
   std::vector<Camera> cameras_;
   std::vector<Led> leds_;
+  std::vector<Person> people_;
+  std::vector<ReflectionDescription> reflections_;
   std::optional<LedBoard> board_;
-  std::vector<Lamp> lamps_;
+  std::vector<Lamp> lamps_;  // reused, as are the next two
+  std::vector<Pillar> bodies_;
+  std::vector<Glint> glints_;
   std::priority_queue<Event, std::vector<Event>, std::greater<Event>> events_;
   std::uint64_t event_count_ = 0;
 };

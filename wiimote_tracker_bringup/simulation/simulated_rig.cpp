@@ -75,38 +75,70 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
   const std::lock_guard<std::mutex> lock(mutex_);
   if (request.led == "board" && rig_.board())
     return setBoard(request, response);
+  if (ReflectionDescription* reflection = rig_.findReflection(request.led))
+    return setReflection(request, reflection, response);
   Rig::Led* led = rig_.findLed(request.led);
-  if (!led) {
-    response.message = "there is no LED '" + request.led + "' in the rig's description";
+  Person* person = rig_.findPerson(request.led);
+  if (!led && !person) {
+    response.message =
+        "there is no LED, person or reflection '" + request.led + "' in the rig's description";
     return true;
   }
-  if (led->description.turns && request.motion != SetLed::Request::HOLD) {
-    response.message = "LED '" + request.led + "' goes where '" + led->description.turns->around +
-                       "' goes: move that one";
+  const std::string holder = led && led->description.turns ? led->description.turns->around
+                             : led                         ? led->description.carried_by
+                                                           : std::string();
+  if (!holder.empty() && request.motion != SetLed::Request::HOLD) {
+    response.message = "LED '" + request.led + "' goes where '" + holder + "' goes: move that one";
     return true;
   }
   const double time = now();
   rig_.runUntil(time);
-  const Eigen::Vector3d target(request.target.x, request.target.y, request.target.z);
   double arrival = time;
-  if (request.motion == SetLed::Request::HOLD)
-    led->motion.hold(time);
-  else if (request.motion == SetLed::Request::LINE)
-    arrival = led->motion.line(time, target, request.speed);
-  else if (request.motion == SetLed::Request::CIRCLE)
-    arrival = led->motion.circle(time, target, request.radius, request.speed);
-  else
-    arrival =
-        led->motion.wave(time, target, Eigen::Vector3d(request.box.x, request.box.y, request.box.z),
-                         request.speed, request.path);
-  led->lit = request.on;
+  if (holder.empty())
+    arrival = move(request, time, led ? &led->motion : &person->motion);
+  (led ? led->lit : person->present) = request.on;
 
   response.success = true;
   response.arrival = stamp(arrival);
   std::ostringstream text;
-  text << "LED '" << request.led << "' " << (request.on ? "shines" : "is dark") << ", there in "
-       << arrival - time << " s";
+  text << "'" << request.led << "' "
+       << (led ? (request.on ? "shines" : "is dark") : (request.on ? "is there" : "is away"))
+       << ", arrives in " << arrival - time << " s";
   response.message = text.str();
+  return true;
+}
+
+/// @returns when the motion that is asked for arrives [s].
+double SimulatedRig::move(const SetLed::Request& request, double time, LedMotion* motion) {
+  const Eigen::Vector3d target(request.target.x, request.target.y, request.target.z);
+  switch (request.motion) {
+    case SetLed::Request::LINE:
+      return motion->line(time, target, request.speed);
+    case SetLed::Request::CIRCLE:
+      return motion->circle(time, target, request.radius, request.speed);
+    case SetLed::Request::WAVE:
+      return motion->wave(time, target,
+                          Eigen::Vector3d(request.box.x, request.box.y, request.box.z),
+                          request.speed, request.path);
+    default:
+      motion->hold(time);
+      return time;
+  }
+}
+
+bool SimulatedRig::setReflection(const SetLed::Request& request,
+                                 ReflectionDescription* reflection,
+                                 SetLed::Response& response) {
+  if (request.motion != SetLed::Request::HOLD) {
+    response.message = "reflection '" + request.led + "' can only be switched (HOLD)";
+    return true;
+  }
+  const double time = now();
+  rig_.runUntil(time);
+  reflection->lit = request.on;
+  response.success = true;
+  response.arrival = stamp(time);
+  response.message = "reflection '" + request.led + (request.on ? "' shines" : "' is dark");
   return true;
 }
 

@@ -34,6 +34,12 @@ class SimulatedRig {
               wiimote_tracker_msgs::SetLed::Response& response);
   bool setBoard(const wiimote_tracker_msgs::SetLed::Request& request,
                 wiimote_tracker_msgs::SetLed::Response& response);
+  bool setReflection(const wiimote_tracker_msgs::SetLed::Request& request,
+                     ReflectionDescription* reflection,
+                     wiimote_tracker_msgs::SetLed::Response& response);
+  static double move(const wiimote_tracker_msgs::SetLed::Request& request,
+                     double time,
+                     LedMotion* motion);
   std::string refusal(const wiimote_tracker_msgs::SetLed::Request& request) const;
   double now() const;                  ///< [s since the start]
   ros::Time stamp(double time) const;  ///< Of a time since the start.

@@ -1,5 +1,7 @@
 #include "virtual_camera.h"
 
+#include <algorithm>
+
 namespace wiimote_tracker::simulation {
 namespace {
 
@@ -22,27 +24,45 @@ VirtualCamera::VirtualCamera(const geometry::Camera& camera, double pixel_noise,
       acceleration_(opticalFromImu().transpose() * camera.world_from_camera.linear().transpose() *
                     Eigen::Vector3d::UnitZ()) {}
 
-virtual_wiimote::Senses VirtualCamera::sense(const std::vector<Lamp>& lamps) {
+virtual_wiimote::Light VirtualCamera::lightAt(const Eigen::Vector2d& pixel,
+                                              const Eigen::Vector2d& noise,
+                                              const std::optional<double>& size,
+                                              double brightness) const {
+  virtual_wiimote::Light light;
+  light.x = pixel.x() + noise.x();
+  // The sensor's y grows upwards.
+  light.y = camera_.intrinsics.height - 1 - (pixel.y() + noise.y());
+  light.size = size;
+  light.brightness = brightness;
+  return light;
+}
+
+virtual_wiimote::Senses VirtualCamera::sense(const std::vector<Lamp>& lamps,
+                                             const std::vector<Pillar>& bodies,
+                                             const std::vector<Glint>& glints) {
   virtual_wiimote::Senses senses;
   senses.acceleration = {acceleration_.x(), acceleration_.y(), acceleration_.z()};
   std::normal_distribution<double> normal;
-  for (const Lamp& lamp : lamps) {
-    // Drawn for every lamp, seen or not, so that one lamp's noise does not hang on another's place.
+  const auto draw = [&] {
     const double noise_u = pixel_noise_ * normal(random_);
     const double noise_v = pixel_noise_ * normal(random_);
+    return Eigen::Vector2d(noise_u, noise_v);
+  };
+  for (const Lamp& lamp : lamps) {
+    // Drawn for every lamp, seen or not, so that one lamp's noise does not hang on another's place.
+    const Eigen::Vector2d noise = draw();
     const auto pixel = camera_.project(lamp.position);
-    if (!pixel)
+    if (!pixel || std::any_of(bodies.begin(), bodies.end(), [&](const Pillar& body) {
+          return body.hides(camera_.center(), lamp.position);
+        }))
       continue;
-    virtual_wiimote::Light light;
-    light.x = pixel->x() + noise_u;
-    light.y =
-        camera_.intrinsics.height - 1 - (pixel->y() + noise_v);  // the sensor's y grows upwards
-    light.size = lamp.size;
-    light.brightness = lamp.brightness;
-    if (!lamp.size)
-      light.brightness /= (lamp.position - camera_.center()).squaredNorm();
-    senses.lights.push_back(light);
+    const double squared_distance = (lamp.position - camera_.center()).squaredNorm();
+    senses.lights.push_back(
+        lightAt(*pixel, noise, lamp.size,
+                lamp.size ? lamp.brightness : lamp.brightness / squared_distance));
   }
+  for (const Glint& glint : glints)
+    senses.lights.push_back(lightAt(glint.pixel, draw(), glint.size, glint.brightness));
   return senses;
 }
 

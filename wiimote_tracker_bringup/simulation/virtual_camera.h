@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_VIRTUAL_CAMERA_H
 #define WIIMOTE_TRACKER_BRINGUP_SIMULATION_VIRTUAL_CAMERA_H
 
+#include "person.h"
+
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
@@ -22,6 +24,13 @@ struct Lamp {
   double brightness;
 };
 
+/// A reflection that shines, where one camera sees it.
+struct Glint {
+  Eigen::Vector2d pixel;       ///< v down [px].
+  std::optional<double> size;  ///< As of a Lamp [0..15].
+  double brightness;           ///< As it reaches the camera.
+};
+
 /// The optics of one Wii Remote and the way it is mounted: from lamps in the world to what the
 /// device senses. What the sensor itself does (rounding, edges, choice of four) is the device's.
 class VirtualCamera {
@@ -29,10 +38,18 @@ class VirtualCamera {
   /// `pixel_noise`: standard deviation of each coordinate [px].
   VirtualCamera(const geometry::Camera& camera, double pixel_noise, std::uint32_t seed);
 
-  /// Lights of the lamps before the camera, with noise, and gravity.
-  virtual_wiimote::Senses sense(const std::vector<Lamp>& lamps);
+  /// Lights of the lamps before the camera that no body hides, and of its reflections, with noise;
+  /// and gravity.
+  virtual_wiimote::Senses sense(const std::vector<Lamp>& lamps,
+                                const std::vector<Pillar>& bodies = {},
+                                const std::vector<Glint>& glints = {});
 
  private:
+  virtual_wiimote::Light lightAt(const Eigen::Vector2d& pixel,
+                                 const Eigen::Vector2d& noise,
+                                 const std::optional<double>& size,
+                                 double brightness) const;
+
   geometry::Camera camera_;
   double pixel_noise_;
   std::mt19937 random_;

@@ -129,7 +129,7 @@ class SimulatedRig(unittest.TestCase):
 
     def test_a_request_that_makes_no_sense_is_refused_in_words(self):
         refused = [
-            (dict(led='candle', motion=SetLedRequest.HOLD), "no LED 'candle'"),
+            (dict(led='candle', motion=SetLedRequest.HOLD), "reflection 'candle'"),
             (dict(led='led', motion=9), 'HOLD, LINE, CIRCLE or WAVE'),
             (dict(led='led', motion=SetLedRequest.LINE, speed=-1.0), 'speed'),
             (dict(led='led', motion=SetLedRequest.LINE, speed=float('nan')), 'speed'),

@@ -157,6 +157,68 @@ TEST_F(DescriptionFile, a_board_is_held_before_a_camera_that_is_there) {
             std::string::npos);
 }
 
+TEST_F(DescriptionFile, things_may_move_from_the_beginning_on) {
+  std::string text = kGood;
+  text.replace(text.find("size: 5"), 7,
+               "wave: {middle: [1, 2, 1], box: [1, 1, 0], speed: 0.5, path: 3}");
+  LedMotion wave(Eigen::Vector3d(1, 1, 0));
+  wave.wave(0.0, Eigen::Vector3d(1, 2, 1), Eigen::Vector3d(1, 1, 0), 0.5, 3);
+  EXPECT_EQ(read(text).leds[0].motion.position(7.0), wave.position(7.0));
+  text = kGood;
+  text.replace(text.find("size: 5"), 7, "circle: {middle: [1, 2, 1], radius: 0.5, speed: 0.25}");
+  LedMotion circle(Eigen::Vector3d(1, 1, 0));
+  circle.circle(0.0, Eigen::Vector3d(1, 2, 1), 0.5, 0.25);
+  EXPECT_EQ(read(text).leds[0].motion.position(20.0), circle.position(20.0));
+
+  EXPECT_NE(complaint("size: 5", "wave: {middle: [1, 2, 1], box: [0, 0, 0], speed: 1, path: 3}")
+                .find("leds/led/wave/box must have sides of 0 or more"),
+            std::string::npos);
+  EXPECT_NE(complaint("size: 5", "circle: {middle: [1, 2, 1], radius: 0, speed: 1}")
+                .find("leds/led/circle/radius is 0"),
+            std::string::npos);
+  EXPECT_NE(complaint("size: 5", "circle: {}, wave: {}").find("leds/led/circle and wave exclude"),
+            std::string::npos);
+}
+
+TEST_F(DescriptionFile, people_carry_leds_and_cameras_see_reflections) {
+  const std::string more = R"(
+people:
+  anna: {position: [1, 2, 0], turn_rate: -0.5, radius: 0.25, height: 1.6, present: false}
+reflections:
+  window: {camera: first, pixel: [10, 20], size: 4, brightness: 2, lit: false}
+)";
+  std::string text = kGood + more;
+  text.replace(text.find("size: 5"), 7, "carried_by: anna");
+  const Description d = read(text);
+  ASSERT_EQ(d.people.size(), 1u);
+  EXPECT_EQ(d.people[0].name, "anna");
+  EXPECT_EQ(d.people[0].motion.position(0.0), Eigen::Vector3d(1, 2, 0));
+  EXPECT_EQ(d.people[0].turn_rate, -0.5);
+  EXPECT_EQ(d.people[0].radius, 0.25);
+  EXPECT_EQ(d.people[0].height, 1.6);
+  EXPECT_FALSE(d.people[0].present);
+  EXPECT_EQ(d.leds[0].carried_by, "anna");
+  ASSERT_EQ(d.reflections.size(), 1u);
+  EXPECT_EQ(d.reflections[0].camera, "first");
+  EXPECT_EQ(d.reflections[0].pixel, Eigen::Vector2d(10, 20));
+  EXPECT_EQ(d.reflections[0].size, 4.0);
+  EXPECT_EQ(d.reflections[0].brightness, 2.0);
+  EXPECT_FALSE(d.reflections[0].lit);
+
+  EXPECT_NE(complaint("size: 5", "carried_by: ben")
+                .find("leds/led/carried_by must be the name of one of the people"),
+            std::string::npos);
+  EXPECT_NE(complaint("leds:", "reflections: {window: {camera: third, pixel: [1, 2]}}\nleds:")
+                .find("reflections/window/camera must be the name of a camera"),
+            std::string::npos);
+  EXPECT_NE(complaint("leds:", "reflections: {window: {camera: first, pixel: [1]}}\nleds:")
+                .find("reflections/window/pixel must have two numbers"),
+            std::string::npos);
+  EXPECT_NE(complaint("leds:", "people: {led: {position: [1, 2, 0]}}\nleds:")
+                .find("people/led is the name of something else"),
+            std::string::npos);
+}
+
 TEST_F(DescriptionFile, errors_name_file_key_and_reason) {
   const auto has = [](const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;

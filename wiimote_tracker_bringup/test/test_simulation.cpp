@@ -212,7 +212,7 @@ Description twoCameras() {
       {cameraAt(Vector3d(0, -3, 1), Vector3d(0, 0, 1)), {0.0101, 0.007, 0.004, 0.003}}};
   LedDescription led;
   led.name = "led";
-  led.position = Vector3d(0, 0, 1);
+  led.motion = LedMotion(Vector3d(0, 0, 1));
   description.leds = {led};
   return description;
 }

@@ -1,0 +1,43 @@
+#include "person.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::simulation {
+
+bool Pillar::hides(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  // Seen from above: the part of the way inside the circle, as shares s of the whole. With
+  // a = (to - from), b = (from - foot): |b + s a|^2 <= radius^2.
+  const Eigen::Vector2d a = (to - from).head<2>();
+  const Eigen::Vector2d b = (from - foot).head<2>();
+  const double outside = b.squaredNorm() - radius * radius;
+  double first = 0.0, last = 1.0;
+  if (a.squaredNorm() > 0.0) {
+    const double middle = -a.dot(b) / a.squaredNorm();
+    const double squared = middle * middle - outside / a.squaredNorm();
+    if (squared < 0.0)
+      return false;
+    first = std::max(first, middle - std::sqrt(squared));
+    last = std::min(last, middle + std::sqrt(squared));
+  } else if (outside > 0.0) {
+    return false;
+  }
+  if (first > last)
+    return false;
+  const auto level = [&](double share) { return (from + share * (to - from)).z() - foot.z(); };
+  return std::max(level(first), level(last)) >= 0.0 &&
+         std::min(level(first), level(last)) <= height;
+}
+
+Eigen::Isometry3d Person::worldFromPerson(double time) const {
+  Eigen::Vector3d place = motion.position(time);
+  place.z() = 0.0;
+  return Eigen::Translation3d(place) *
+         Eigen::AngleAxisd(description_.turn_rate * time, Eigen::Vector3d::UnitZ());
+}
+
+Pillar Person::body(double time) const {
+  return {worldFromPerson(time).translation(), description_.radius, description_.height};
+}
+
+}  // namespace wiimote_tracker::simulation

@@ -1,0 +1,208 @@
+// People: what they carry and hide; reflections; and that people_rig.yaml can be tracked at all.
+
+#include "rig.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace wiimote_tracker::simulation {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// Uniform in [low, high), the same with every library.
+class Random {
+ public:
+  double operator()(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+  }
+  Vector3d place() {
+    const double x = (*this)(-1.0, 1.0), y = (*this)(-1.0, 1.0);
+    return {x, y, (*this)(-0.5, 2.5)};
+  }
+
+ private:
+  std::mt19937 engine_{7};
+};
+
+TEST(Pillar, hides_what_has_it_in_the_way) {
+  const Pillar pillar{Vector3d(1.0, 0.0, 0.0), 0.2, 1.8};
+  const Vector3d from(0.0, 0.0, 1.0);
+  EXPECT_TRUE(pillar.hides(from, Vector3d(2.0, 0.0, 1.0)));
+  EXPECT_TRUE(pillar.hides(from, Vector3d(2.0, 0.35, 1.0)));
+  EXPECT_FALSE(pillar.hides(from, Vector3d(2.0, 0.5, 1.0))) << "beside it";
+  EXPECT_FALSE(pillar.hides(from, Vector3d(0.7, 0.0, 1.0))) << "before it";
+  EXPECT_FALSE(pillar.hides(from, Vector3d(-2.0, 0.0, 1.0))) << "the other way";
+  EXPECT_FALSE(pillar.hides(Vector3d(0.0, 0.0, 2.0), Vector3d(2.0, 0.0, 2.0))) << "above it";
+  EXPECT_TRUE(pillar.hides(Vector3d(0.0, 0.0, 2.0), Vector3d(2.0, 0.0, 1.0))) << "down into it";
+  EXPECT_TRUE(pillar.hides(Vector3d(1.0, 0.0, 3.0), Vector3d(1.0, 0.0, 1.0))) << "from above";
+  EXPECT_FALSE(pillar.hides(Vector3d(1.3, 0.0, 3.0), Vector3d(1.3, 0.0, 0.0))) << "straight down";
+}
+
+TEST(Pillar, agrees_with_walking_along_the_way_step_by_step) {
+  Random random;
+  const int steps = 2000;
+  int hidden = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Pillar pillar{random.place().cwiseProduct(Vector3d(1, 1, 0)), random(0.05, 0.5),
+                        random(0.5, 2.0)};
+    const Vector3d from = random.place(), to = random.place();
+    const auto inside = [&](double margin) {
+      for (int s = 0; s <= steps; ++s) {
+        const Vector3d at = from + (to - from) * s / steps - pillar.foot;
+        if (at.head<2>().norm() <= pillar.radius + margin && at.z() >= -margin &&
+            at.z() <= pillar.height + margin)
+          return true;
+      }
+      return false;
+    };
+    const double margin = 2.0 * (to - from).norm() / steps;
+    if (inside(-margin)) {
+      EXPECT_TRUE(pillar.hides(from, to));
+      ++hidden;
+    } else if (!inside(margin)) {
+      EXPECT_FALSE(pillar.hides(from, to));
+    }
+  }
+  EXPECT_GT(hidden, 150);
+}
+
+CameraDescription cameraAt(const std::string& name, const Vector3d& position) {
+  CameraDescription description;
+  description.camera.name = name;
+  description.camera.world_from_camera =
+      geometry::lookAt(position, Vector3d(0, 0, 1), Vector3d::UnitZ());
+  description.timing = {0.01, 0.0, 0.0, 0.0};
+  return description;
+}
+
+/// Camera "front" looks along +x at the origin, "back" along -x. Somebody stands in the origin and
+/// holds an LED before them.
+Description carriedLed() {
+  Description description;
+  description.pixel_noise = 0.0;
+  description.truth_rate = 100.0;
+  description.cameras = {cameraAt("front", {5, 0, 1}), cameraAt("back", {-5, 0, 1})};
+  PersonDescription person;
+  person.name = "anna";
+  person.turn_rate = M_PI;  // half a turn each second
+  description.people = {person};
+  LedDescription led;
+  led.name = "led";
+  led.carried_by = "anna";
+  led.motion = LedMotion(Vector3d(0.3, 0.0, 1.0));
+  description.leds = {led};
+  return description;
+}
+
+/// What the cameras see, and the truth about the first LED.
+struct Watched {
+  explicit Watched(const Description& description)
+      : rig(
+            description,
+            [this](std::size_t camera, const virtual_wiimote::Senses& senses) {
+              lights[camera] = senses.lights;
+            },
+            [this](std::size_t, double, const Vector3d& position) { truth = position; }) {}
+  std::vector<virtual_wiimote::Light> lights[2];
+  Vector3d truth;
+  Rig rig;
+};
+
+TEST(Person, carries_an_led_and_turns_with_it) {
+  Description description = carriedLed();
+  description.people[0].motion.line(0.0, Vector3d(0.0, 1.0, 5.0), 1.0);
+  Watched watched(description);
+  watched.rig.runUntil(0.0);
+  EXPECT_LT((watched.truth - Vector3d(0.3, 0.0, 1.0)).norm(), 1e-12);
+  watched.rig.runUntil(0.5);  // 1 / sqrt(26) of a metre each second, and a quarter turn
+  EXPECT_LT((watched.truth - Vector3d(0.0, 0.3 + 0.5 / std::sqrt(26.0), 1.0)).norm(), 1e-12)
+      << "they stay on the floor";
+}
+
+TEST(Person, hides_what_is_behind_them) {
+  Watched watched(carriedLed());
+  watched.rig.runUntil(0.005);
+  EXPECT_EQ(watched.lights[0].size(), 1u) << "before the body";
+  EXPECT_EQ(watched.lights[1].size(), 0u) << "behind it";
+  watched.rig.runUntil(1.005);
+  EXPECT_EQ(watched.lights[0].size(), 0u) << "half a turn later";
+  EXPECT_EQ(watched.lights[1].size(), 1u);
+}
+
+TEST(Person, who_is_away_hides_nothing_and_takes_what_they_carry_along) {
+  Description description = carriedLed();
+  LedDescription other;
+  other.name = "other";
+  other.motion = LedMotion(Vector3d(-0.5, 0.0, 1.0));
+  description.leds.push_back(other);
+  Watched watched(description);
+  watched.rig.runUntil(0.005);
+  ASSERT_EQ(watched.lights[0].size(), 1u);
+  watched.rig.findPerson("anna")->present = false;
+  watched.rig.runUntil(0.015);
+  ASSERT_EQ(watched.lights[0].size(), 1u) << "the other one only";
+  ASSERT_EQ(watched.lights[1].size(), 1u);
+  EXPECT_EQ(watched.rig.findPerson("ben"), nullptr);
+}
+
+TEST(Reflection, stands_still_in_one_camera_until_it_is_switched_off) {
+  Description description = carriedLed();
+  ReflectionDescription window;
+  window.name = "window";
+  window.camera = "back";
+  window.pixel = Vector2d(100.0, 200.0);
+  window.size = 4.0;
+  window.brightness = 2.0;
+  description.reflections = {window};
+  Watched watched(description);
+  watched.rig.runUntil(0.005);
+  EXPECT_EQ(watched.lights[0].size(), 1u) << "the LED";
+  ASSERT_EQ(watched.lights[1].size(), 1u);
+  const virtual_wiimote::Light light = watched.lights[1][0];
+  EXPECT_EQ(light.x, 100.0);
+  EXPECT_EQ(light.y, 767.0 - 200.0) << "the sensor's y grows upwards";
+  EXPECT_EQ(light.size, 4.0);
+  EXPECT_EQ(light.brightness, 2.0);
+  watched.rig.findReflection("window")->lit = false;
+  watched.rig.runUntil(0.015);
+  EXPECT_TRUE(watched.lights[1].empty());
+  EXPECT_EQ(watched.rig.findReflection("door"), nullptr);
+}
+
+TEST(PeopleRig, two_cameras_always_see_each_of_four_leds) {
+  const Description description = readDescription(SIMULATION_FOLDER "/people_rig.yaml");
+  ASSERT_EQ(description.leds.size(), 4u);
+  std::vector<Person> people(description.people.begin(), description.people.end());
+  ASSERT_EQ(people.size(), 2u);
+  const int steps = 3000;
+  int hidden = 0, enough = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double time = 0.02 * i;
+    for (const LedDescription& led : description.leds) {
+      const Person& carrier = people[led.carried_by == people[0].name() ? 0 : 1];
+      const Vector3d place = carrier.worldFromPerson(time) * led.motion.position(time);
+      EXPECT_GT(place.minCoeff(), 0.0);
+      EXPECT_LT(place.maxCoeff(), 2.5) << "in the paper's cube";
+      int views = 0;
+      for (const CameraDescription& camera : description.cameras) {
+        const bool is_hidden = std::any_of(people.begin(), people.end(), [&](const Person& person) {
+          return person.body(time).hides(camera.camera.center(), place);
+        });
+        hidden += is_hidden;
+        views += !is_hidden && camera.camera.sees(place);
+      }
+      enough += views >= 2;
+    }
+  }
+  EXPECT_GT(hidden, steps / 10) << "they are in the way now and then";
+  EXPECT_EQ(enough, 4 * steps) << "two cameras always see an LED";
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::simulation

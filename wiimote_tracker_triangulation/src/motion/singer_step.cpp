@@ -9,6 +9,13 @@ namespace {
 /// time; there the series of the exponentials are summed from the first term that does not cancel.
 constexpr double kSeriesBelow = 0.5;
 
+constexpr int kTerms = 18;
+constexpr double kNegligible = 1e-15;
+constexpr double kInverse[kTerms + 1] = {0.0,      1.0,      1.0 / 2,  1.0 / 3,  1.0 / 4,
+                                         1.0 / 5,  1.0 / 6,  1.0 / 7,  1.0 / 8,  1.0 / 9,
+                                         1.0 / 10, 1.0 / 11, 1.0 / 12, 1.0 / 13, 1.0 / 14,
+                                         1.0 / 15, 1.0 / 16, 1.0 / 17, 1.0 / 18};
+
 }  // namespace
 
 SingerStep::SingerStep(double duration, double acceleration_time) {
@@ -19,16 +26,20 @@ SingerStep::SingerStep(double duration, double acceleration_time) {
     q_pp = q_pv = q_pa = q_vv = 0.0;
     double term = 0.5 * x2;  // (-x)^n / n!
     double power = 4.0;      // 2^n
-    for (int n = 3; n <= 16 && term != 0.0; ++n) {
-      term *= -x / n;
+    for (int n = 3; n <= kTerms; ++n) {
+      term *= -x * kInverse[n];
       power *= 2.0;
       p_a += term;
       q_vv += term * (4.0 - power);
       q_pa += term * (2.0 * n - power);
       if (n >= 4)
         q_pv += term * (power - 2.0 - 2.0 * n);
-      if (n >= 5)
-        q_pp += term * (4.0 * n - power);
+      if (n >= 5) {
+        const double change = term * (4.0 * n - power);
+        q_pp += change;
+        if (std::abs(change) < kNegligible * q_pp)
+          break;  // the others go faster
+      }
     }
     a_a = 1.0 - x + p_a;
   } else {

@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_FILTER_H
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
-#include "wiimote_tracker_triangulation/motion/kinematic_state.h"
+#include "wiimote_tracker_triangulation/motion/kinematic_states.h"
 #include "wiimote_tracker_triangulation/motion/motion_options.h"
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ struct PixelNoise {
 };
 
 /// Where in a camera's image an LED is expected: a mixture of normal distributions, one for each
-/// way it may move.
+/// way it may move (see MotionOptions).
 class PixelPrediction {
  public:
   const Eigen::Vector2d& pixel() const { return pixel_; }  ///< Mean [px].
@@ -28,8 +28,8 @@ class PixelPrediction {
   Eigen::Matrix2d covariance() const;
 
   /// Squared Mahalanobis distance to the nearest of the ways to move, however unlikely that way is
-  /// [1]: for gates, so that a sudden start is not shut out. Chi square with two degrees of freedom
-  /// or less for the LED's own spot. NaN for a pixel that is.
+  /// [1]: for gates, so that a sudden start is not shut out. For the LED's own spot no more than
+  /// chi square with two degrees of freedom. NaN for a pixel that is.
   double squaredDistance(const Eigen::Vector2d& pixel) const;
 
   /// Logarithm of the density of the LED's spot [1/px^2].
@@ -38,22 +38,26 @@ class PixelPrediction {
  private:
   friend class MotionFilter;
 
+  // What is still comes first, then the four that move; a weight of 0: to be left out.
   struct Component {
     double weight = 0.0;
-    Eigen::Vector2d offset;  // of its mean from pixel_ [px]
-    Eigen::Matrix2d whiten;  // lower triangle [1/px]
+    Eigen::Vector2d offset;                  // of its mean from pixel_ [px]
+    double whiten_uu, whiten_vu, whiten_vv;  // lower triangle [1/px]
+
+    Eigen::Vector2d whitened(const Eigen::Vector2d& from_mean) const;
   };
 
   Eigen::Vector2d pixel_;
   Eigen::Matrix<double, 2, 3> jacobian_;  // d pixel / d position [px/m]
   Eigen::Vector3d smear_;                 // standard deviation that the stamp's makes [m]
   double pixel_variance_;                 // [px^2]
-  std::array<Component, 3> components_;
+  std::array<Component, 5> components_;
 };
 
 /// One LED's state in continuous time, updated by each camera's spot at that image's own time: an
-/// interacting multiple model filter (Blom and Bar-Shalom 1988) over the three ways to move of
-/// MotionOptions. A value: copies are independent, and nothing here allocates.
+/// interacting multiple model filter (Blom and Bar-Shalom 1988) over the five ways of
+/// MotionOptions, linearised at the prediction, and again at the result where that is not close
+/// enough. A value: copies are independent. Nothing here allocates.
 ///
 /// The covariances are of exact cameras: what the calibration adds is systematic, not averaged out
 /// by more images, and belongs added to what is published.
@@ -86,14 +90,10 @@ class MotionFilter {
   Eigen::Vector3d velocity() const;            ///< Mean, world [m/s].
   Eigen::Matrix3d velocityCovariance() const;  ///< [m^2/s^2]
 
-  double stillProbability() const { return weights_[kStill]; }  ///< [0..1]
-  double briskProbability() const { return weights_[kBrisk]; }  ///< [0..1]
+  double stillProbability() const { return still_weight_; }  ///< [0..1]
 
  private:
-  static constexpr int kStill = 0;
-  static constexpr int kGentle = 1;
-  static constexpr int kBrisk = 2;
-  static constexpr int kModels = 3;
+  static constexpr int kMoving = 4;  // smooth, gentle, brisk, sudden
 
   void change(double duration);
   bool linearize(const geometry::Camera& camera,
@@ -106,10 +106,12 @@ class MotionFilter {
 
   const MotionOptions* options_;
   double time_;
-  std::array<double, kModels> weights_;  // probabilities of the ways to move
+  double changed_until_;  // ways to move have been changed up to here [s]
+  double still_weight_;   // probability
+  Lanes moving_weights_;  // probabilities
   Eigen::Vector3d still_p_;
   Eigen::Matrix3d still_pp_;
-  std::array<KinematicState, 2> moving_;  // gentle, brisk
+  KinematicStates moving_;
 };
 
 }  // namespace wiimote_tracker::motion

@@ -3,18 +3,26 @@
 
 namespace wiimote_tracker::motion {
 
-/// How LEDs move. An LED is still, or moves gently, or briskly, and changes between the three at
-/// random times. Moving, its acceleration wanders about zero: normal in each axis, of a standard
-/// deviation that tells gentle from brisk, forgotten over acceleration_time (Singer 1970).
+/// A way to move: the acceleration wanders about zero, in each axis on its own (Singer 1970).
+struct Wandering {
+  double stddev;  ///< Standard deviation of the acceleration [m/s^2, > 0].
+  double time;    ///< After which it is alike to 1/e [s, > 0].
+};
+
+/// How LEDs move. An LED is still or moves in one of four ways, and changes between these five at
+/// random times. How fast it goes makes no difference, only how it changes.
 struct MotionOptions {
-  double gentle_acceleration = 1.0;  ///< Standard deviation per axis [m/s^2, > 0].
-  double brisk_acceleration = 15.0;  ///< Standard deviation per axis [m/s^2, >= gentle].
-  double acceleration_time = 0.3;    ///< After which accelerations are alike to 1/e [s, > 0].
-  double still_drift = 2e-5;         ///< Random walk of an LED that is still [m/sqrt(s), >= 0].
-  double start_rate = 1.0;           ///< Of an LED that is still to move [1/s, >= 0].
-  double stop_rate = 1.0;            ///< Of one that moves to be still [1/s, >= 0]; 0: never is.
-  double change_rate = 5.0;          ///< Between gentle and brisk, each way [1/s, >= 0].
-  double initial_speed = 1.0;        ///< Standard deviation per axis of a new LED [m/s, > 0].
+  double still_drift = 1e-4;        ///< Random walk of what is still [m/sqrt(s), >= 0].
+  Wandering smooth{0.015, 100.0};   ///< All but constant acceleration: what turns or swings freely.
+  Wandering gentle{0.25, 1.0};      ///< A hand that is led with care.
+  Wandering brisk{6.0, 0.2};        ///< A hand that gestures.
+  double sudden_random_walk = 3.0;  ///< Of the velocity, of what is thrown about and bumps into
+                                    ///< things [m/s/sqrt(s), > 0].
+  double start_rate = 7.0;          ///< How often what is still starts to move [1/s, >= 0].
+  double stop_rate = 0.2;      ///< How often what moves stops [1/s, >= 0]; 0: nothing is still.
+  double rise_rate = 0.1;      ///< How often it changes to one of the rasher ways [1/s, >= 0].
+  double settle_rate = 0.001;  ///< How often to one of the calmer ways [1/s, >= 0].
+  double initial_speed = 1.0;  ///< Standard deviation per axis of a new LED [m/s, > 0].
 };
 
 }  // namespace wiimote_tracker::motion

@@ -1,0 +1,66 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_KINEMATIC_STATES_H
+#define WIIMOTE_TRACKER_TRIANGULATION_MOTION_KINEMATIC_STATES_H
+
+#include <Eigen/Core>
+
+#include <array>
+
+namespace wiimote_tracker::motion {
+
+/// Four numbers of the same meaning, one for each of four states.
+using Lanes = Eigen::Array4d;
+
+/// The transition of four states over a duration, alike in each axis: a linear one of position,
+/// velocity and acceleration, plus noise.
+///   p' = p + p_v v + p_a a,  v' = v + v_a a,  a' = a_a a
+struct KinematicSteps {
+  double p_v;                          ///< The duration [s].
+  Lanes p_a, v_a, a_a;                 ///< [s^2], [s], [1]
+  Lanes noise_pp, noise_pv, noise_pa;  ///< [m^2], [m^2/s], [m^2/s^2]
+  Lanes noise_vv, noise_va, noise_aa;  ///< [m^2/s^2], [m^2/s^3], [m^2/s^4]
+};
+
+/// The image of four positions beside a pixel.
+struct Innovations {
+  Eigen::Matrix<double, 2, 3> jacobian;   ///< d pixel / d position [px/m].
+  Lanes whiten_uu, whiten_vu, whiten_vv;  ///< Lower triangle that whitens: of unit covariance then.
+  Lanes u, v;                             ///< The innovation, whitened [1].
+};
+
+/// Four normal distributions of one LED's position, velocity and acceleration in the world [m, s],
+/// of which one at most is right. All four take the same steps at once.
+///
+/// The covariance of the nine is kept by blocks: of the symmetric ones xx, xy, xz, yy, yz, zz; of
+/// the others row by row (so pv[3 * i + j] is the covariance of p[i] and v[j]).
+struct KinematicStates {
+  std::array<Lanes, 3> p, v, a;
+  std::array<Lanes, 6> pp, vv, aa;
+  std::array<Lanes, 9> pv, pa, va;
+
+  void setZero();
+  void predict(const KinematicSteps& steps);
+
+  /// Kalman update of each state with its own innovation.
+  void update(const Innovations& innovations);
+
+  /// Each state becomes what the mixture of the old ones has for mean and covariance.
+  /// @param shares column i holds state i's share of each new state. What a column lacks to 1 is
+  /// the share of a state at rest at `position` with the covariance `position_covariance` and
+  /// `acceleration_variance` per axis in each new state.
+  void mix(const Eigen::Matrix4d& shares,
+           const Lanes& rest_shares,
+           const Eigen::Vector3d& rest_position,
+           const Eigen::Matrix3d& rest_covariance);
+
+  Eigen::Vector3d position(int state) const { return {p[0][state], p[1][state], p[2][state]}; }
+  Eigen::Vector3d velocity(int state) const { return {v[0][state], v[1][state], v[2][state]}; }
+  Eigen::Matrix3d positionCovariance(int state) const { return matrix(pp, state); }
+  Eigen::Matrix3d velocityCovariance(int state) const { return matrix(vv, state); }
+
+ private:
+  static Eigen::Matrix3d matrix(const std::array<Lanes, 6>& s, int state);
+};
+
+}  // namespace wiimote_tracker::motion
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_MOTION_KINEMATIC_STATES_H

@@ -1,4 +1,4 @@
-#include "part_file.h"
+#include "wiimote_tracker_triangulation/measurements/part_file.h"
 
 #include "wiimote_tracker_triangulation/measurements/error.h"
 

@@ -62,9 +62,8 @@ bool DriftWatch::add(const capture::Image& image) {
   found->clock_known = calibrated.time_offset_rule == TimeOffsetRule::kAlways ||
                        (calibrated.time_offset_rule == TimeOffsetRule::kOneEpoch &&
                         calibrated.time_offset_epoch == image.clock_epoch);
-  fusion::Frame frame;
+  Frame frame;
   frame.time = image.stamp + (found->clock_known ? calibrated.time_offset : 0.0);
-  frame.arrival = frame.time;
   if (image.spots.size() == 1)
     frame.pixel = image.spots.front();
   if (!std::isfinite(frame.time))
@@ -114,23 +113,22 @@ void DriftWatch::sampleAt(double time) {
     Camera& camera = cameras_[i];
     camera.frames.forgetBefore(time);
     const auto bracket = camera.frames.bracket(time);
-    if (!bracket || bracket->gap() > kLongestGap)
+    if (!bracket || bracket->gap() > kLongestGap || !bracket->before->pixel ||
+        !bracket->after->pixel)
       continue;
-    const auto pixel = bracket->pixelAt(time);
-    if (!pixel)
-      continue;
+    const Eigen::Vector2d way = *bracket->after->pixel - *bracket->before->pixel;
+    const Eigen::Vector2d pixel = *bracket->before->pixel + bracket->shareAt(time) * way;
     if (bracket->gap() > 0.0) {
-      const double speed =
-          (*bracket->after->pixel - *bracket->before->pixel).norm() / bracket->gap();
+      const double speed = way.norm() / bracket->gap();
       if (speed * (camera.clock_known ? kClockKnown : kClockUnknown) > kLargestShift)
         continue;
     }
-    const auto sight = geometry::sightFromPixel(camera.rays, *pixel);
+    const auto sight = geometry::sightFromPixel(camera.rays, pixel);
     if (!sight)
       continue;
     pixels[i] = pixel;
     somewhere_else =
-        somewhere_else || !camera.last_sample || (*pixel - *camera.last_sample).norm() > kNextPlace;
+        somewhere_else || !camera.last_sample || (pixel - *camera.last_sample).norm() > kNextPlace;
     sample.sights.emplace_back(i, *sight);
   }
   if (sample.sights.size() < 2 || !somewhere_else)

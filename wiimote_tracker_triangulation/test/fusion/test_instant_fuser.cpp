@@ -1,10 +1,12 @@
-// One LED in front of cameras that are not synchronised, that go blind, die and come back.
+// LEDs in front of cameras that are not synchronised, that go blind, die and come back.
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <functional>
 
@@ -16,6 +18,12 @@ using Eigen::Vector3d;
 using geometry::Rig;
 using geometry::RigCamera;
 using geometry::test::Random;
+using tracking::CameraImage;
+using tracking::Snapshot;
+using tracking::Spot;
+using tracking::SpotUse;
+using tracking::TrackedLed;
+using tracking::TrackState;
 
 constexpr double kPeriod = 0.01;   // [s]
 constexpr double kLatency = 0.02;  // [s]
@@ -31,12 +39,18 @@ struct Delivery {
   CameraImage image;
 };
 
+Spot spotAt(const Vector2d& pixel) {
+  Spot spot;
+  spot.pixel = pixel;
+  return spot;
+}
+
 CameraImage imageOf(const RigCamera& camera, const Vector3d& led, double stamp) {
   CameraImage image;
   image.stamp = stamp;
   image.arrival = stamp + kLatency;
   if (const auto pixel = camera.camera.project(led))
-    image.pixels.push_back(*pixel);
+    image.spots.push_back(spotAt(*pixel));
   return image;
 }
 
@@ -58,34 +72,49 @@ std::vector<Delivery> film(const Rig& rig,
   return deliveries;
 }
 
-std::vector<Instant> fuse(InstantFuser& fuser, const std::vector<Delivery>& deliveries) {
-  std::vector<Instant> instants;
+/// The first LED that is there; null when none is.
+const TrackedLed* ledOf(const Snapshot& snapshot) {
+  const auto led = std::find_if(snapshot.leds.begin(), snapshot.leds.end(),
+                                [](const auto& l) { return l.state != TrackState::kLost; });
+  return led == snapshot.leds.end() ? nullptr : &*led;
+}
+
+bool uses(const TrackedLed& led, std::size_t camera) {
+  return std::count(led.cameras.begin(), led.cameras.end(), camera) > 0;
+}
+
+std::vector<Snapshot> fuse(InstantFuser& fuser, const std::vector<Delivery>& deliveries) {
+  std::vector<Snapshot> instants;
   for (const Delivery& delivery : deliveries) {
     fuser.add(delivery.camera, delivery.image);
-    while (const Instant* instant = fuser.next())
+    while (const Snapshot* instant = fuser.next())
       instants.push_back(*instant);
   }
   return instants;
 }
 
-void expectIncreasing(const std::vector<Instant>& instants) {
+void expectIncreasing(const std::vector<Snapshot>& instants) {
   for (std::size_t i = 1; i < instants.size(); ++i)
     ASSERT_GT(instants[i].time, instants[i - 1].time);
 }
 
-void expectIdentical(const std::vector<Instant>& a, const std::vector<Instant>& b) {
+void expectIdentical(const std::vector<Snapshot>& a, const std::vector<Snapshot>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(a[i].time, b[i].time);
     ASSERT_EQ(a[i].latest_arrival, b[i].latest_arrival);
     ASSERT_EQ(a[i].skew, b[i].skew);
-    ASSERT_EQ(a[i].point.has_value(), b[i].point.has_value());
-    if (a[i].point) {
-      ASSERT_EQ(a[i].rays_used, b[i].rays_used);
-      ASSERT_EQ(a[i].point->position, b[i].point->position);
-      ASSERT_EQ(a[i].point->covariance, b[i].point->covariance);
+    ASSERT_EQ(a[i].leds.size(), b[i].leds.size());
+    for (std::size_t l = 0; l < a[i].leds.size(); ++l) {
+      ASSERT_EQ(a[i].leds[l].cameras, b[i].leds[l].cameras);
+      ASSERT_EQ(a[i].leds[l].position, b[i].leds[l].position);
+      ASSERT_EQ(a[i].leds[l].position_covariance, b[i].leds[l].position_covariance);
     }
   }
+}
+
+std::uint64_t lateImages(const InstantFuser& fuser) {
+  return fuser.counters().late + fuser.counters().repeated;
 }
 
 Vector3d still(double) {
@@ -104,15 +133,15 @@ TEST(InstantFuser, FindsALedAtRest) {
   EXPECT_GT(instants.size(), 290u) << "every image is an instant";
   expectIncreasing(instants);
   int complete = 0;
-  for (const Instant& instant : instants) {
-    if (!instant.point)
+  for (const Snapshot& instant : instants) {
+    if (!ledOf(instant))
       continue;
-    EXPECT_LT((instant.point->position - still(0)).norm(), 1e-9);
-    complete += instant.rays_used == 3;
-    EXPECT_EQ(3u, instant.rays_possible);
+    EXPECT_LT((ledOf(instant)->position - still(0)).norm(), 1e-9);
+    complete += ledOf(instant)->cameras.size() == 3;
+    EXPECT_EQ(3u, ledOf(instant)->rays_possible);
   }
   EXPECT_GT(complete, 290);
-  EXPECT_EQ(0u, fuser.lateFrames());
+  EXPECT_EQ(0u, lateImages(fuser));
 }
 
 TEST(InstantFuser, InterpolationIsExactForPixelsThatMoveLinearly) {
@@ -125,13 +154,13 @@ TEST(InstantFuser, InterpolationIsExactForPixelsThatMoveLinearly) {
   };
   std::vector<Delivery> deliveries = film(rig, 100.0, 100.5, still);
   for (Delivery& d : deliveries)
-    d.image.pixels = {pixel(d.camera, d.image.stamp)};
+    d.image.spots = {spotAt(pixel(d.camera, d.image.stamp))};
   int compared = 0;
-  for (const Instant& instant : fuse(fuser, deliveries)) {
+  for (const Snapshot& instant : fuse(fuser, deliveries)) {
     for (std::size_t c = 0; c < 3; ++c) {
-      if (!instant.sightings[c].pixel)
+      if (instant.views[c].spots.empty())
         continue;
-      EXPECT_LT((*instant.sightings[c].pixel - pixel(c, instant.time)).norm(), 1e-9);
+      EXPECT_LT((instant.views[c].spots[0].pixel - pixel(c, instant.time)).norm(), 1e-9);
       ++compared;
     }
   }
@@ -143,10 +172,10 @@ TEST(InstantFuser, FollowsALedThatMoves) {
   const Rig rig = threeCameras();
   InstantFuser fuser(rig, {});
   int found = 0;
-  for (const Instant& instant : fuse(fuser, film(rig, 100.0, 101.0, circle))) {
-    if (!instant.point || instant.rays_used < 3)
+  for (const Snapshot& instant : fuse(fuser, film(rig, 100.0, 101.0, circle))) {
+    if (!ledOf(instant) || ledOf(instant)->cameras.size() < 3)
       continue;
-    EXPECT_LT((instant.point->position - circle(instant.time)).norm(), 5e-5);
+    EXPECT_LT((ledOf(instant)->position - circle(instant.time)).norm(), 5e-5);
     ++found;
   }
   EXPECT_GT(found, 290);
@@ -157,10 +186,11 @@ TEST(InstantFuser, SaysHowOldAndHowFarApartItsImagesAre) {
   InstantFuser fuser(rig, {});
   const auto instants = fuse(fuser, film(rig, 100.0, 101.0, still));
   for (std::size_t i = 20; i < instants.size(); ++i) {
-    const Instant& instant = instants[i];
+    const Snapshot& instant = instants[i];
     // The third camera's bracket reaches furthest: 7 or 4 ms to one side.
     EXPECT_NEAR(instant.skew, 0.007, 1e-6);
-    EXPECT_NEAR(instant.last_observed, instant.time, 1e-9) << "the image of this time shows it";
+    EXPECT_NEAR(ledOf(instant)->last_observed, instant.time, 1e-9)
+        << "the image of this time shows it";
     EXPECT_GE(instant.latest_arrival, instant.time + kLatency);
     EXPECT_LE(instant.latest_arrival, instant.time + kLatency + kPeriod);
   }
@@ -172,16 +202,16 @@ TEST(InstantFuser, ABlindCameraStopsNothing) {
   std::vector<Delivery> deliveries = film(rig, 100.0, 101.0, still);
   for (Delivery& d : deliveries) {
     if (d.camera == 1)
-      d.image.pixels.clear();
+      d.image.spots.clear();
   }
   const auto instants = fuse(fuser, deliveries);
   EXPECT_GT(instants.size(), 290u);
   for (std::size_t i = 10; i < instants.size(); ++i) {
-    ASSERT_TRUE(instants[i].point);
-    EXPECT_EQ(2u, instants[i].rays_used);
-    EXPECT_EQ(3u, instants[i].rays_possible);
-    EXPECT_FALSE(instants[i].sightings[1].used);
-    EXPECT_LT((instants[i].point->position - still(0)).norm(), 1e-9);
+    ASSERT_TRUE(ledOf(instants[i]));
+    EXPECT_EQ(2u, ledOf(instants[i])->cameras.size());
+    EXPECT_EQ(3u, ledOf(instants[i])->rays_possible);
+    EXPECT_FALSE(uses(*ledOf(instants[i]), 1));
+    EXPECT_LT((ledOf(instants[i])->position - still(0)).norm(), 1e-9);
   }
 }
 
@@ -190,11 +220,11 @@ TEST(InstantFuser, SaysWhenNothingIsSeen) {
   InstantFuser fuser(rig, {});
   std::vector<Delivery> deliveries = film(rig, 100.0, 100.2, still);
   for (Delivery& d : deliveries)
-    d.image.pixels.clear();
+    d.image.spots.clear();
   const auto instants = fuse(fuser, deliveries);
   EXPECT_GT(instants.size(), 50u);
-  for (const Instant& instant : instants)
-    EXPECT_FALSE(instant.point);
+  for (const Snapshot& instant : instants)
+    EXPECT_FALSE(ledOf(instant));
 }
 
 TEST(InstantFuser, NeverReportsAnOldPointAsNew) {
@@ -203,10 +233,10 @@ TEST(InstantFuser, NeverReportsAnOldPointAsNew) {
   std::vector<Delivery> deliveries = film(rig, 100.0, 101.0, still);
   for (Delivery& d : deliveries) {
     if (d.image.stamp >= 100.5)
-      d.image.pixels.clear();
+      d.image.spots.clear();
   }
-  for (const Instant& instant : fuse(fuser, deliveries))
-    EXPECT_FALSE(instant.point && instant.time >= 100.5);
+  for (const Snapshot& instant : fuse(fuser, deliveries))
+    EXPECT_FALSE(ledOf(instant) && instant.time >= 100.5);
 }
 
 TEST(InstantFuser, ADeadCameraDelaysByItsTimeoutOnceAndIsUsedAgain) {
@@ -225,24 +255,24 @@ TEST(InstantFuser, ADeadCameraDelaysByItsTimeoutOnceAndIsUsedAgain) {
   int again = 0;
   for (const Delivery& d : deliveries) {
     fuser.add(d.camera, d.image);
-    while (const Instant* instant = fuser.next()) {
+    while (const Snapshot* instant = fuser.next()) {
       const double wait = d.image.arrival - (instant->time + kLatency);
       longest_wait = std::max(longest_wait, wait);
       if (instant->time > 100.7)
         longest_wait_later = std::max(longest_wait_later, wait);
       if (instant->time > 100.52 && instant->time < 101.49) {
-        ASSERT_TRUE(instant->point);
-        EXPECT_EQ(2u, instant->rays_used);
-        EXPECT_EQ(3u, instant->rays_possible);
+        ASSERT_TRUE(ledOf(*instant));
+        EXPECT_EQ(2u, ledOf(*instant)->cameras.size());
+        EXPECT_EQ(3u, ledOf(*instant)->rays_possible);
         ++without;
       }
       if (instant->time > 101.52) {
-        ASSERT_TRUE(instant->point);
-        EXPECT_EQ(3u, instant->rays_used);
+        ASSERT_TRUE(ledOf(*instant));
+        EXPECT_EQ(3u, ledOf(*instant)->cameras.size());
         ++again;
       }
-      if (instant->point) {
-        EXPECT_LT((instant->point->position - circle(instant->time)).norm(), 1e-4);
+      if (ledOf(*instant)) {
+        EXPECT_LT((ledOf(*instant)->position - circle(instant->time)).norm(), 1e-4);
       }
     }
   }
@@ -275,10 +305,10 @@ TEST(InstantFuser, DoesNotInterpolateAcrossALongGap) {
       deliveries.push_back(d);
   }
   int inside = 0;
-  for (const Instant& instant : fuse(fuser, deliveries)) {
+  for (const Snapshot& instant : fuse(fuser, deliveries)) {
     if (instant.time > 100.502 && instant.time < 100.579) {
-      EXPECT_FALSE(instant.sightings[0].pixel);
-      EXPECT_TRUE(instant.point);
+      EXPECT_TRUE(instant.views[0].spots.empty());
+      EXPECT_TRUE(ledOf(instant));
       ++inside;
     }
   }
@@ -297,13 +327,13 @@ TEST(InstantFuser, CountsAndIgnoresImagesThatComeLateOrTwice) {
       with_repeats.push_back(deliveries[i]);  // twice
       Delivery old = deliveries[i];           // out of order, with other content
       old.image.stamp -= 0.5 * kPeriod;
-      old.image.pixels = {Vector2d(1.0, 1.0)};
+      old.image.spots = {spotAt({1.0, 1.0})};
       with_repeats.push_back(old);
     }
   }
   expectIdentical(fuse(clean, deliveries), fuse(disturbed, with_repeats));
-  EXPECT_EQ(0u, clean.lateFrames());
-  EXPECT_EQ(with_repeats.size() - deliveries.size(), disturbed.lateFrames());
+  EXPECT_EQ(0u, lateImages(clean));
+  EXPECT_EQ(with_repeats.size() - deliveries.size(), lateImages(disturbed));
 }
 
 TEST(InstantFuser, StartsOverWhenTimeJumpsBack) {
@@ -311,8 +341,8 @@ TEST(InstantFuser, StartsOverWhenTimeJumpsBack) {
   InstantFuser fuser(rig, {});
   const auto first = fuse(fuser, film(rig, 100.0, 102.0, circle));
   const auto second = fuse(fuser, film(rig, 100.0, 102.0, circle));
-  EXPECT_EQ(1u, fuser.resets());
-  EXPECT_EQ(0u, fuser.lateFrames());
+  EXPECT_EQ(1u, fuser.counters().resets);
+  EXPECT_EQ(0u, lateImages(fuser));
   expectIdentical(first, second);
 }
 
@@ -321,8 +351,8 @@ TEST(InstantFuser, DoesNotStartOverForASmallStepBack) {
   InstantFuser fuser(rig, {});
   fuse(fuser, film(rig, 100.0, 100.5, circle));
   fuse(fuser, film(rig, 100.0, 100.4, circle));
-  EXPECT_EQ(0u, fuser.resets());
-  EXPECT_EQ(120u, fuser.lateFrames());
+  EXPECT_EQ(0u, fuser.counters().resets);
+  EXPECT_EQ(120u, lateImages(fuser));
 }
 
 /// Each camera's images stay in order; otherwise anything goes, as long as no image is overtaken by
@@ -351,7 +381,7 @@ TEST(InstantFuser, TheOrderOfCallbacksBetweenCamerasDoesNotMatter) {
   auto deliveries = film(rig, 100.0, 101.0, circle);
   for (Delivery& d : deliveries) {
     if (random.uniform(0, 1) < 0.1)
-      d.image.pixels.clear();
+      d.image.spots.clear();
   }
   InstantFuser reference(rig, {});
   const auto expected = fuse(reference, deliveries);
@@ -359,7 +389,7 @@ TEST(InstantFuser, TheOrderOfCallbacksBetweenCamerasDoesNotMatter) {
     InstantFuser fuser(rig, {});
     const auto mixed = shuffled(deliveries, 0.09, random);
     auto instants = fuse(fuser, mixed);
-    EXPECT_EQ(0u, fuser.lateFrames());
+    EXPECT_EQ(0u, lateImages(fuser));
     // What is due at the end depends on what came last; both have seen the same by then.
     expectIdentical(expected, instants);
   }
@@ -384,10 +414,10 @@ TEST(InstantFuser, AppliesTimeOffsetsByTheirRule) {
     InstantFuser fuser(used, {});
     double worst = 0.0;
     int found = 0;
-    for (const Instant& instant : fuse(fuser, deliveries)) {
-      if (!instant.point || instant.rays_used < 3)
+    for (const Snapshot& instant : fuse(fuser, deliveries)) {
+      if (!ledOf(instant) || ledOf(instant)->cameras.size() < 3)
         continue;
-      worst = std::max(worst, (instant.point->position - circle(instant.time)).norm());
+      worst = std::max(worst, (ledOf(instant)->position - circle(instant.time)).norm());
       ++found;
     }
     EXPECT_GT(found, 190);
@@ -402,24 +432,32 @@ TEST(InstantFuser, AppliesTimeOffsetsByTheirRule) {
   EXPECT_GT(worstError(other_epoch), 1e-3);
 }
 
-TEST(InstantFuser, IgnoresMaskedSpotsAndImagesWithSeveral) {
+TEST(InstantFuser, LampsTakeNoPart) {
   Rig rig = threeCameras();
   rig.cameras[0].masks = {{Vector2d(5.0, 5.0), 3.0}};
   auto deliveries = film(rig, 100.0, 100.5, still);
   for (Delivery& d : deliveries) {
     if (d.camera == 0)
-      d.image.pixels.insert(d.image.pixels.begin(), Vector2d(6.0, 6.0));  // masked lamp
+      d.image.spots.insert(d.image.spots.begin(), spotAt({6.0, 6.0}));  // masked lamp
     if (d.camera == 1)
-      d.image.pixels.push_back(Vector2d(6.0, 6.0));  // unmasked lamp
+      d.image.spots.push_back(spotAt({6.0, 6.0}));  // unmasked lamp
   }
   InstantFuser fuser(rig, {});
   const auto instants = fuse(fuser, deliveries);
   for (std::size_t i = 10; i < instants.size(); ++i) {
-    ASSERT_TRUE(instants[i].point);
-    EXPECT_TRUE(instants[i].sightings[0].used);
-    EXPECT_FALSE(instants[i].sightings[1].pixel);
-    EXPECT_TRUE(instants[i].sightings[2].used);
-    EXPECT_LT((instants[i].point->position - still(0)).norm(), 1e-9);
+    ASSERT_TRUE(ledOf(instants[i]));
+    EXPECT_TRUE(uses(*ledOf(instants[i]), 0));
+    EXPECT_TRUE(uses(*ledOf(instants[i]), 1));
+    EXPECT_TRUE(uses(*ledOf(instants[i]), 2));
+    EXPECT_EQ(1u, instants[i].leds.size());
+    const auto& masked = instants[i].views[0].spots;
+    ASSERT_EQ(2u, masked.size());
+    EXPECT_EQ(SpotUse::kAssigned, masked[0].use);
+    EXPECT_EQ(ledOf(instants[i])->id, masked[0].led);
+    EXPECT_EQ(SpotUse::kMasked, masked[1].use);
+    EXPECT_EQ(Vector2d(6.0, 6.0), masked[1].pixel);
+    EXPECT_EQ(SpotUse::kUnassigned, instants[i].views[1].spots[1].use);
+    EXPECT_LT((ledOf(instants[i])->position - still(0)).norm(), 1e-9);
   }
 }
 
@@ -429,15 +467,15 @@ TEST(InstantFuser, DropsTheOneCameraThatSeesSomethingElse) {
   auto deliveries = film(rig, 100.0, 100.5, still);
   for (Delivery& d : deliveries) {
     if (d.camera == 2)
-      d.image.pixels[0] += Vector2d(150.0, -120.0);
+      d.image.spots[0].pixel += Vector2d(150.0, -120.0);
   }
   InstantFuser fuser(rig, {});
   const auto instants = fuse(fuser, deliveries);
   for (std::size_t i = 10; i < instants.size(); ++i) {
-    ASSERT_TRUE(instants[i].point);
-    EXPECT_EQ(3u, instants[i].rays_used);
-    EXPECT_FALSE(instants[i].sightings[2].used);
-    EXPECT_LT((instants[i].point->position - still(0)).norm(), 1e-9);
+    ASSERT_TRUE(ledOf(instants[i]));
+    EXPECT_EQ(3u, ledOf(instants[i])->cameras.size());
+    EXPECT_FALSE(uses(*ledOf(instants[i]), 2));
+    EXPECT_LT((ledOf(instants[i])->position - still(0)).norm(), 1e-9);
   }
 }
 
@@ -447,13 +485,13 @@ TEST(InstantFuser, TwoCamerasThatDisagreeGiveNoPoint) {
   auto deliveries = film(rig, 100.0, 100.5, still);
   for (Delivery& d : deliveries) {
     if (d.camera == 1)
-      d.image.pixels[0] += Vector2d(100.0, 100.0);
+      d.image.spots[0].pixel += Vector2d(100.0, 100.0);
   }
   InstantFuser fuser(rig, {});
   const auto instants = fuse(fuser, deliveries);
   EXPECT_GT(instants.size(), 90u);
-  for (const Instant& instant : instants)
-    EXPECT_FALSE(instant.point);
+  for (const Snapshot& instant : instants)
+    EXPECT_FALSE(ledOf(instant));
 }
 
 TEST(InstantFuser, OneCameraGivesNoPoint) {
@@ -462,8 +500,8 @@ TEST(InstantFuser, OneCameraGivesNoPoint) {
   InstantFuser fuser(rig, {});
   const auto instants = fuse(fuser, film(rig, 100.0, 100.2, still));
   EXPECT_GT(instants.size(), 15u);
-  for (const Instant& instant : instants)
-    EXPECT_FALSE(instant.point);
+  for (const Snapshot& instant : instants)
+    EXPECT_FALSE(ledOf(instant));
 }
 
 TEST(InstantFuser, ImagesWithoutATimeAreIgnored) {
@@ -475,13 +513,210 @@ TEST(InstantFuser, ImagesWithoutATimeAreIgnored) {
   EXPECT_EQ(nullptr, fuser.next());
 }
 
-TEST(InstantFuser, ContinuesAfterAnEarlierOne) {
+TEST(InstantFuser, ANewRigTakesEffectAtOnceAndTimeGoesOn) {
+  const Rig rig = threeCameras();
+  Rig moved = rig;
+  for (RigCamera& camera : moved.cameras)
+    camera.camera.world_from_camera.pretranslate(Vector3d(0.02, 0.0, 0.0));
+  InstantFuser fuser(rig, {});
+  const auto deliveries = film(rig, 100.0, 101.0, still);
+  double newest = 0.0;
+  for (std::size_t i = 0; i < deliveries.size(); ++i) {
+    if (i == 150)
+      fuser.setRig(moved);
+    fuser.add(deliveries[i].camera, deliveries[i].image);
+    while (const Snapshot* instant = fuser.next()) {
+      EXPECT_GT(instant->time, newest);
+      newest = instant->time;
+      if (const TrackedLed* led = ledOf(*instant)) {
+        const Vector3d expected = still(0) + Vector3d(i < 150 ? 0.0 : 0.02, 0.0, 0.0);
+        EXPECT_LT((led->position - expected).norm(), 1e-9) << "never from old and new cameras";
+        EXPECT_EQ(0u, led->id);
+      }
+    }
+  }
+  EXPECT_GT(newest, 100.97);
+}
+
+TEST(InstantFuser, AnUnusableRigIsRefusedAndTheOneBeforeStays) {
   const Rig rig = threeCameras();
   InstantFuser fuser(rig, {});
-  fuser.continueFrom(100.25, 7);
-  const auto instants = fuse(fuser, film(rig, 100.0, 100.5, still));
-  EXPECT_GT(instants.front().time, 100.25);
-  EXPECT_GT(fuser.lateFrames(), 7u);
+  auto deliveries = film(rig, 100.0, 100.5, still);
+  fuse(fuser, {deliveries.begin(), deliveries.begin() + 60});
+  Rig unusable = rig;
+  unusable.cameras[1].camera.intrinsics.fx = -1.0;
+  EXPECT_THROW(fuser.setRig(unusable), geometry::InvalidRigError);
+  const auto instants = fuse(fuser, {deliveries.begin() + 60, deliveries.end()});
+  EXPECT_GT(instants.size(), 80u);
+  for (const Snapshot& instant : instants)
+    EXPECT_TRUE(ledOf(instant));
+}
+
+/// Four LEDs on circles of their own, 1 m/s; two of them cross each other's way.
+Vector3d pathOf(std::size_t led, double t) {
+  const double angle = 2.0 * t + 1.3 * static_cast<double>(led);
+  const double radius = 0.3 + 0.1 * static_cast<double>(led % 2);
+  return {radius * std::cos(angle), radius * std::sin(led % 2 ? angle : -angle),
+          0.25 * static_cast<double>(led) - 0.3};
+}
+
+struct Crowd {
+  std::size_t leds = 4;
+  double noise = 0.0;  // [px]
+  std::function<bool(std::size_t led, double time)> is_dark = nullptr;
+};
+
+/// As film(), of several LEDs, in an order that changes all the time.
+std::vector<Delivery> filmCrowd(const Rig& rig, double begin, double end, const Crowd& crowd) {
+  Random random(55);
+  std::vector<Delivery> deliveries = film(rig, begin, end, still);
+  for (Delivery& d : deliveries) {
+    d.image.spots.clear();
+    for (std::size_t led = 0; led < crowd.leds; ++led) {
+      if (crowd.is_dark && crowd.is_dark(led, d.image.stamp))
+        continue;
+      const auto pixel = rig.cameras[d.camera].camera.project(pathOf(led, d.image.stamp));
+      const double u = pixel->x() + crowd.noise * random.gaussian();
+      const double v = pixel->y() + crowd.noise * random.gaussian();
+      d.image.spots.push_back(spotAt({u, v}));
+    }
+    const auto shift =
+        static_cast<std::ptrdiff_t>(random.uniform(0.0, static_cast<double>(d.image.spots.size())));
+    std::rotate(d.image.spots.begin(), d.image.spots.begin() + shift, d.image.spots.end());
+  }
+  return deliveries;
+}
+
+Rig fourCameras() {
+  Random random(54);
+  return geometry::test::randomRig(random, 4);
+}
+
+/// The LED of the crowd that is nearest to a tracked one.
+std::size_t nearest(const TrackedLed& led, double time) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    if ((pathOf(i, time) - led.position).norm() < (pathOf(best, time) - led.position).norm())
+      best = i;
+  }
+  return best;
+}
+
+TEST(InstantFuser, KeepsFourLedsApart) {
+  const Rig rig = fourCameras();
+  InstantFuser fuser(rig, {});
+  Crowd crowd;
+  crowd.noise = 0.5;
+  std::array<int, 4> id_of_led = {-1, -1, -1, -1};
+  int complete = 0;
+  const auto instants = fuse(fuser, filmCrowd(rig, 100.0, 103.0, crowd));
+  for (const Snapshot& instant : instants) {
+    for (const TrackedLed& led : instant.leds) {
+      const std::size_t i = nearest(led, instant.time);
+      if (id_of_led[i] < 0)
+        id_of_led[i] = static_cast<int>(led.id);
+      EXPECT_EQ(id_of_led[i], static_cast<int>(led.id)) << instant.time;
+      const double stddev = std::sqrt(led.position_covariance.trace());
+      EXPECT_LT((led.position - pathOf(i, instant.time)).norm(), 6.0 * stddev);
+    }
+    complete += instant.leds.size() == 4;
+  }
+  EXPECT_GT(complete, 0.98 * static_cast<double>(instants.size()));
+}
+
+TEST(InstantFuser, AnIdLastsThroughAShortAbsenceAndLossIsSaidOnce) {
+  const Rig rig = fourCameras();
+  InstantFuserOptions options;
+  options.maximum_absence = 0.2;
+  InstantFuser fuser(rig, options);
+  Crowd crowd;
+  crowd.leds = 1;
+  crowd.is_dark = [](std::size_t, double t) {
+    return (t > 100.5 && t < 100.65) || (t > 101.0 && t < 101.5);
+  };
+  std::vector<double> lost;
+  for (const Snapshot& instant : fuse(fuser, filmCrowd(rig, 100.0, 102.0, crowd))) {
+    const double t = instant.time;
+    for (const TrackedLed& led : instant.leds) {
+      if (led.state == TrackState::kLost) {
+        lost.push_back(t);
+        EXPECT_EQ(0u, led.id);
+        EXPECT_TRUE(led.cameras.empty());
+        EXPECT_TRUE(std::isnan(led.residual));
+        EXPECT_LT(led.last_observed, 101.001);
+        EXPECT_LT((led.position - pathOf(0, 101.0)).norm(), 0.02) << "where it was last";
+      } else {
+        EXPECT_EQ(t < 101.2 ? 0u : 1u, led.id) << t;
+        EXPECT_FALSE(crowd.is_dark(0, t)) << t;
+      }
+    }
+  }
+  ASSERT_EQ(1u, lost.size());
+  EXPECT_NEAR(101.2, lost[0], kPeriod);
+}
+
+TEST(InstantFuser, AnLedIsTentativeAtFirst) {
+  const Rig rig = fourCameras();
+  InstantFuserOptions options;
+  options.confirmations = 5;
+  InstantFuser fuser(rig, options);
+  Crowd crowd;
+  crowd.leds = 1;
+  int seen = 0;
+  for (const Snapshot& instant : fuse(fuser, filmCrowd(rig, 100.0, 100.3, crowd))) {
+    if (const TrackedLed* led = ledOf(instant)) {
+      ++seen;
+      EXPECT_EQ(seen < 5 ? TrackState::kTentative : TrackState::kTracked, led->state);
+    }
+  }
+  EXPECT_GT(seen, 100);
+}
+
+TEST(InstantFuser, HasNoMoreLedsThanItIsTold) {
+  const Rig rig = fourCameras();
+  InstantFuserOptions options;
+  options.maximum_leds = 2;
+  InstantFuser fuser(rig, options);
+  const auto instants = fuse(fuser, filmCrowd(rig, 100.0, 101.0, {}));
+  for (const Snapshot& instant : instants) {
+    EXPECT_LE(instant.leds.size(), 2u);
+    for (const TrackedLed& led : instant.leds)
+      EXPECT_LT(led.id, 2u) << "the others do not push them out";
+  }
+  EXPECT_EQ(2u, instants.back().leds.size());
+}
+
+TEST(InstantFuser, WantsAsManyRaysAsItIsTold) {
+  const Rig rig = fourCameras();
+  InstantFuserOptions options;
+  options.minimum_rays = 3;
+  InstantFuser fuser(rig, options);
+  auto deliveries = film(rig, 100.0, 101.0, still);
+  for (Delivery& d : deliveries) {
+    if (d.camera == 0 || (d.camera == 1 && d.image.stamp > 100.5))
+      d.image.spots.clear();
+  }
+  for (const Snapshot& instant : fuse(fuser, deliveries)) {
+    const bool is_enough = instant.time < 100.495;
+    EXPECT_TRUE(instant.time < 100.05 || is_enough == (ledOf(instant) != nullptr)) << instant.time;
+  }
+}
+
+TEST(InstantFuser, EveryMethodFindsEveryLed) {
+  const Rig rig = fourCameras();
+  using geometry::TriangulationMethod;
+  for (const auto method : {TriangulationMethod::kMeanClosest, TriangulationMethod::kLeastSquares,
+                            TriangulationMethod::kMaximumLikelihood}) {
+    InstantFuserOptions options;
+    options.triangulation.method = method;
+    InstantFuser fuser(rig, options);
+    const auto instants = fuse(fuser, filmCrowd(rig, 100.0, 100.3, {}));
+    ASSERT_EQ(4u, instants.back().leds.size());
+    for (const TrackedLed& led : instants.back().leds) {
+      const double time = instants.back().time;
+      EXPECT_LT((led.position - pathOf(nearest(led, time), time)).norm(), 1e-4);
+    }
+  }
 }
 
 }  // namespace

@@ -67,8 +67,8 @@ TEST(NoAllocation, InstantFuser) {
   std::vector<Eigen::Vector2d> pixels;
   for (const geometry::RigCamera& camera : rig.cameras)
     pixels.push_back(*camera.camera.project({0.1, 0.2, 0.3}));
-  fusion::CameraImage image;
-  image.pixels.resize(1);
+  tracking::CameraImage image;
+  image.spots.resize(1);
   int points = 0;
   int before = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -77,12 +77,12 @@ TEST(NoAllocation, InstantFuser) {
     for (std::size_t c = 0; c < 4; ++c) {
       image.stamp = 100.0 + 0.01 * i + 0.002 * static_cast<double>(c);
       image.arrival = image.stamp + 0.01;
-      image.pixels[0] = pixels[c];
+      image.spots[0].pixel = pixels[c];
       if (c == 3 && i % 2)
-        image.pixels[0].x() += 300.0;  // leaving a camera out must not allocate either
+        image.spots[0].pixel.x() += 300.0;  // leaving a camera out must not allocate either
       fuser.add(c, image);
-      while (const fusion::Instant* instant = fuser.next())
-        points += instant->point.has_value();
+      while (const tracking::Snapshot* snapshot = fuser.next())
+        points += !snapshot->leds.empty();
     }
   }
   const int after = g_allocations;

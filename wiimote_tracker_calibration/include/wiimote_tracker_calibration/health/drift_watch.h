@@ -49,9 +49,13 @@ class DriftWatch {
   const std::vector<std::optional<Drift>>& drifts() const { return drifts_; }
 
  private:
+  struct Frame {
+    double time = 0.0;                     // Of the exposure [s].
+    std::optional<Eigen::Vector2d> pixel;  // Nothing unless there was exactly one spot.
+  };
   struct Camera {
     geometry::Camera rays;
-    fusion::FrameHistory frames;
+    fusion::FrameHistory<Frame> frames;
     bool clock_known = false;                    // The time offset holds for the latest image.
     std::optional<Eigen::Vector2d> last_sample;  // [px]
   };

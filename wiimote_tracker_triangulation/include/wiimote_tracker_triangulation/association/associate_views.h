@@ -11,11 +11,7 @@
 
 namespace wiimote_tracker::association {
 
-/// Costs are -2 log likelihood, like chi^2. The defaults are those of Poisson numbers of LEDs
-/// (0.25 per m^3) and ghosts (0.1 per image of 1024 x 768 px): with pixel_stddev = s,
-///   ghost = -2 log(2 pi s^2 0.1 / (1024 * 768)),
-///   point = -2 log(0.25 (2 pi)^(3/2) v), v the square root of the determinant of the covariance
-/// of a typical point, (3.4 mm / px * s)^3 in the paper's cube.
+/// Costs are -2 log likelihood, like chi^2. For the defaults see typicalCosts.
 struct AssociationOptions {
   double pixel_stddev = 0.5;  ///< Of each pixel coordinate, the calibration's error included [px].
   double ghost = 31.0;        ///< A spot that belongs to no point [> 0].
@@ -32,6 +28,13 @@ struct AssociationOptions {
   /// After this many steps the best points found are taken, proven or not.
   std::size_t maximum_steps = 20000;
 };
+
+/// Costs for Poisson numbers of LEDs (0.25 per m^3) and of ghosts (0.1 per image of 1024 x 768 px),
+/// and cameras that miss 10 % of what they ought to see. With pixel_stddev = s [px],
+///   ghost = -2 log(2 pi s^2 0.1 / (1024 * 768)),
+///   point = -2 log(0.25 (2 pi)^(3/2) v), v the square root of the determinant of the covariance
+/// of a typical point, (3.4 mm / px * s)^3 in a cube of 2.5 m; at least 1 and 0.
+AssociationOptions typicalCosts(double pixel_stddev);
 
 /// The spots of one camera.
 struct View {

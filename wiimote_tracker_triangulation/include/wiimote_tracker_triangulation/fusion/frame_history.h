@@ -1,35 +1,29 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_FUSION_FRAME_HISTORY_H
 #define WIIMOTE_TRACKER_TRIANGULATION_FUSION_FRAME_HISTORY_H
 
-#include <Eigen/Core>
-
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace wiimote_tracker::fusion {
 
-/// What one camera saw in one image.
-struct Frame {
-  double time = 0.0;                     ///< Of the exposure [s].
-  double arrival = 0.0;                  ///< When it reached the computer [s].
-  std::optional<Eigen::Vector2d> pixel;  ///< The spot [px]; nothing unless there was exactly one.
-};
-
 /// The images of one camera on both sides of an instant; the same one twice when it was taken just
 /// then.
+template <typename Frame>
 struct Bracket {
   const Frame* before;
   const Frame* after;
 
   double gap() const { return after->time - before->time; }
 
-  /// The pixel at time t, linearly interpolated. Nothing unless both images show one spot.
-  std::optional<Eigen::Vector2d> pixelAt(double t) const;
+  /// Where t lies: 0 at before, 1 at after.
+  double shareAt(double t) const { return before == after ? 0.0 : (t - before->time) / gap(); }
 };
 
-/// The latest images of one camera, in the order of their times. Allocates only while it grows to
-/// its working size.
+/// The latest images of one camera, in the order of their times: Frame::time [s]. Allocates only
+/// while it grows to its working size, as long as assigning one Frame to another does not allocate.
+template <typename Frame>
 class FrameHistory {
  public:
   /// Most images kept; older ones are dropped.
@@ -39,22 +33,73 @@ class FrameHistory {
   const Frame& newest() const { return at(size_ - 1); }
 
   /// The frame's time must be above that of newest().
-  void push(const Frame& frame);
+  void push(const Frame& frame) {
+    if (size_ == kMaximumSize) {
+      first_ = (first_ + 1) % ring_.size();
+      --size_;
+    }
+    if (size_ == ring_.size()) {
+      std::rotate(ring_.begin(), ring_.begin() + static_cast<std::ptrdiff_t>(first_), ring_.end());
+      first_ = 0;
+      ring_.resize(std::min(kMaximumSize, 2 * ring_.size() + 8));
+    }
+    ring_[(first_ + size_) % ring_.size()] = frame;
+    ++size_;
+  }
 
   /// Drops what no instant after t needs: all images before the last one at or before t.
-  void forgetBefore(double t);
+  void forgetBefore(double t) {
+    const std::size_t count = countUpTo(t);
+    if (count < 2)
+      return;
+    first_ = (first_ + count - 1) % ring_.size();
+    size_ -= count - 1;
+  }
 
   /// Time of the first image after t; nothing when there is none.
-  std::optional<double> firstTimeAfter(double t) const;
+  std::optional<double> firstTimeAfter(double t) const {
+    const std::size_t i = countUpTo(t);
+    if (i == size_)
+      return std::nullopt;
+    return at(i).time;
+  }
+
+  /// The last image at or before t; null when there is none.
+  const Frame* lastUpTo(double t) const {
+    const std::size_t count = countUpTo(t);
+    return count == 0 ? nullptr : &at(count - 1);
+  }
 
   /// Nothing when t lies outside the images kept.
-  std::optional<Bracket> bracket(double t) const;
+  std::optional<Bracket<Frame>> bracket(double t) const {
+    const std::size_t count = countUpTo(t);
+    if (count == 0)
+      return std::nullopt;
+    const Frame& before = at(count - 1);
+    if (before.time == t)
+      return Bracket<Frame>{&before, &before};
+    if (count == size_)
+      return std::nullopt;
+    return Bracket<Frame>{&before, &at(count)};
+  }
 
   void clear() { size_ = 0; }
 
  private:
   const Frame& at(std::size_t i) const { return ring_[(first_ + i) % ring_.size()]; }
-  std::size_t countUpTo(double t) const;  // images at or before t
+
+  std::size_t countUpTo(double t) const {  // images at or before t
+    std::size_t low = 0;
+    std::size_t high = size_;
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      if (at(middle).time <= t)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    return low;
+  }
 
   std::vector<Frame> ring_;
   std::size_t first_ = 0;

@@ -1,0 +1,93 @@
+#include "led_memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace wiimote_tracker::fusion {
+namespace {
+
+using tracking::TrackState;
+
+constexpr double kSlack = 0.1;              // beyond what the speed explains [m]
+constexpr double kTentativeAbsence = 0.05;  // [s]
+
+}  // namespace
+
+void LedMemory::match(double time, const std::vector<Point>& points) {
+  dropLost();
+  taken_.assign(points.size(), false);
+  findPairs(time, points);
+  for (Led& led : leds_)
+    led.point = kNone;
+  for (const Pair& pair : pairs_) {
+    Led& led = leds_[pair.led];
+    if (led.point != kNone || taken_[pair.point])
+      continue;
+    taken_[pair.point] = true;
+    take(time, pair.point, points[pair.point], &led);
+  }
+  giveUpAbsent(time);
+  auto count = static_cast<std::size_t>(std::count_if(
+      leds_.begin(), leds_.end(), [](const Led& led) { return led.state != TrackState::kLost; }));
+  for (std::size_t i = 0; i < points.size() && count < options_.maximum_leds; ++i) {
+    if (taken_[i])
+      continue;
+    Led led;
+    led.id = next_id_++;
+    led.first_seen = time;
+    take(time, i, points[i], &led);
+    leds_.push_back(led);
+    ++count;
+  }
+}
+
+void LedMemory::dropLost() {
+  leds_.erase(std::remove_if(leds_.begin(), leds_.end(),
+                             [](const Led& led) { return led.state == TrackState::kLost; }),
+              leds_.end());
+}
+
+/// All pairs that the greatest speed allows, the likeliest first: -2 log of a normal density whose
+/// width grows with the time the LED was absent.
+void LedMemory::findPairs(double time, const std::vector<Point>& points) {
+  constexpr double kWidths = 3.0;  // within reach
+  pairs_.clear();
+  for (std::size_t l = 0; l < leds_.size(); ++l) {
+    const double reach = kSlack + options_.maximum_speed * (time - leds_[l].last_seen);
+    const double width = reach / kWidths;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const double distance = (points[p].position - leds_[l].position).norm();
+      if (distance <= reach)
+        pairs_.push_back({std::pow(distance / width, 2) + 6.0 * std::log(width), l, p});
+    }
+  }
+  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
+    return std::tie(a.cost, a.led, a.point) < std::tie(b.cost, b.led, b.point);
+  });
+}
+
+/// Nobody need hear of the loss of a tentative one.
+void LedMemory::giveUpAbsent(double time) {
+  const auto isNone = [time](const Led& led) {
+    return led.state == TrackState::kTentative && time - led.last_seen > kTentativeAbsence;
+  };
+  leds_.erase(std::remove_if(leds_.begin(), leds_.end(), isNone), leds_.end());
+  for (Led& led : leds_) {
+    if (time - led.last_seen > options_.maximum_absence)
+      led.state = TrackState::kLost;
+  }
+}
+
+void LedMemory::take(double time, std::size_t index, const Point& point, Led* led) const {
+  led->point = index;
+  led->position = point.position;
+  led->covariance = point.covariance;
+  led->last_seen = time;
+  led->last_observed = point.last_observed;
+  ++led->sightings;
+  if (led->sightings >= options_.confirmations)
+    led->state = TrackState::kTracked;
+}
+
+}  // namespace wiimote_tracker::fusion

@@ -1,0 +1,61 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_LOCATOR_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_LOCATOR_H
+
+#include "synchronizer.h"
+#include "wiimote_tracker_triangulation/association/associate_views.h"
+#include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/geometry/triangulate.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::fusion {
+
+/// From the spots of one instant to points.
+class Locator {
+ public:
+  struct Point {
+    geometry::TriangulatedPoint located;
+    std::size_t first_spot;  ///< In spots().
+    std::size_t spot_count;
+  };
+
+  /// The rig must be good (Rig::check).
+  Locator(const geometry::Rig& rig, const InstantFuserOptions& options);
+
+  /// Fills in points(), those of the most rays and the least error first.
+  void locate(const std::vector<ViewThen>& views);
+
+  const std::vector<Point>& points() const { return points_; }
+
+  /// Whose rays entered the points: each point's in the order of the views.
+  const std::vector<association::SpotReference>& spots() const { return spots_; }
+
+ private:
+  void associate(const std::vector<ViewThen>& views);
+  bool fits(const std::optional<geometry::TriangulatedPoint>& point) const;
+  std::optional<geometry::TriangulatedPoint> triangulateWithoutWorst();
+
+  InstantFuserOptions options_;
+  std::vector<geometry::Camera> ray_cameras_;
+  association::ViewAssociator associator_;
+
+  // Of one instant.
+  std::vector<std::vector<geometry::Sight>> sights_;     // of each view
+  std::vector<std::vector<std::size_t>> spot_of_sight_;  // in its view
+  std::vector<association::View> views_;
+  const association::Association* association_ = nullptr;
+  std::vector<Point> points_;
+  std::vector<association::SpotReference> spots_;
+
+  // Of one point.
+  std::vector<association::SpotReference> rays_;
+  std::vector<geometry::Observation> observations_;  // of rays_
+  std::vector<geometry::Observation> subset_;
+};
+
+}  // namespace wiimote_tracker::fusion
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_LOCATOR_H

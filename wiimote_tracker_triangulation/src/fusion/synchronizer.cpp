@@ -1,0 +1,166 @@
+#include "synchronizer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace wiimote_tracker::fusion {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double timeOffset(const geometry::RigCamera& camera, std::uint32_t clock_epoch) {
+  switch (camera.time_offset_rule) {
+    case geometry::TimeOffsetRule::kAlways:
+      return camera.time_offset;
+    case geometry::TimeOffsetRule::kOneEpoch:
+      return clock_epoch == camera.time_offset_epoch ? camera.time_offset : 0.0;
+    case geometry::TimeOffsetRule::kNone:
+      break;
+  }
+  return 0.0;
+}
+
+bool isMasked(const geometry::RigCamera& camera, const Eigen::Vector2d& pixel) {
+  return std::any_of(camera.masks.begin(), camera.masks.end(),
+                     [&](const auto& mask) { return (pixel - mask.center).norm() <= mask.radius; });
+}
+
+bool hasImageAt(const FrameHistory<Frame>& frames, double time) {
+  const Frame* frame = frames.lastUpTo(time);
+  return frame && frame->time == time;
+}
+
+}  // namespace
+
+void Synchronizer::setRig(const geometry::Rig& rig) {
+  cameras_.clear();
+  for (const geometry::RigCamera& camera : rig.cameras)
+    cameras_.push_back({camera, {}});
+  views_.assign(cameras_.size(), ViewThen());
+  has_begun_ = false;
+}
+
+void Synchronizer::add(std::size_t camera_index,
+                       const tracking::CameraImage& image,
+                       tracking::Counters* counters) {
+  CameraState& camera = cameras_.at(camera_index);
+  readFrame(camera.calibration, image);
+  if (!std::isfinite(frame_.time) || !std::isfinite(frame_.arrival))
+    return;
+  FrameHistory<Frame>& frames = camera.frames;
+  if (!has_begun_) {
+    begin(frame_.arrival);
+  } else if (!frames.empty() && frame_.arrival < frames.newest().arrival - InstantFuser::kJump) {
+    ++counters->resets;
+    time_ = -kInfinity;
+    begin(frame_.arrival);
+  } else if (frame_.arrival < newest_arrival_) {
+    ++counters->disordered;
+  }
+  newest_arrival_ = std::max(newest_arrival_, frame_.arrival);
+
+  const bool is_newest = frames.empty() || frame_.time > frames.newest().time;
+  if (!is_newest && hasImageAt(frames, frame_.time)) {
+    ++counters->repeated;
+    return;
+  }
+  if (!is_newest || frame_.time <= time_)
+    ++counters->late;
+  if (!is_newest) {
+    ++counters->dropped;
+    return;
+  }
+  if (!frames.empty() && frame_.time - frames.newest().time <= options_.maximum_gap)
+    followSpots(frames.newest(), options_.maximum_spot_speed, &frame_);
+  frames.push(frame_);
+}
+
+bool Synchronizer::advance() {
+  double time = kInfinity;
+  for (const CameraState& camera : cameras_)
+    time = std::min(time, camera.frames.firstTimeAfter(time_).value_or(time));
+  if (!(time <= reachedByAll()))
+    return false;
+  time_ = time;
+  latest_arrival_ = -kInfinity;
+  skew_ = 0.0;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    look(cameras_[i], &views_[i]);
+    cameras_[i].frames.forgetBefore(time_);
+  }
+  return true;
+}
+
+void Synchronizer::begin(double arrival) {
+  has_begun_ = true;
+  begun_at_ = arrival;
+  newest_arrival_ = arrival;
+  for (CameraState& camera : cameras_)
+    camera.frames.clear();
+}
+
+void Synchronizer::readFrame(const geometry::RigCamera& camera,
+                             const tracking::CameraImage& image) {
+  frame_.time = image.stamp + timeOffset(camera, image.clock_epoch);
+  frame_.arrival = image.arrival;
+  frame_.is_full = image.spots.size() >= image.maximum_spots;
+  frame_.spots.clear();
+  frame_.masked.clear();
+  for (const tracking::Spot& spot : image.spots) {
+    if (isMasked(camera, spot.pixel)) {
+      frame_.masked.push_back(spot.pixel);
+    } else {
+      frame_.spots.emplace_back();
+      frame_.spots.back().pixel = spot.pixel;
+      frame_.spots.back().slot = spot.slot;
+    }
+  }
+}
+
+/// The latest time up to which no active camera can still have something to say. Infinite when none
+/// is active.
+double Synchronizer::reachedByAll() const {
+  double reached = kInfinity;
+  for (const CameraState& camera : cameras_) {
+    const bool heard = !camera.frames.empty();
+    const double arrival = heard ? camera.frames.newest().arrival : begun_at_;
+    if (arrival < newest_arrival_ - options_.camera_timeout)
+      continue;
+    reached = std::min(reached, heard ? camera.frames.newest().time : -kInfinity);
+  }
+  return reached;
+}
+
+void Synchronizer::look(const CameraState& camera, ViewThen* view) {
+  view->spots.clear();
+  view->masked.clear();
+  view->exposure.reset();
+  if (const Frame* newest = camera.frames.lastUpTo(time_)) {
+    view->exposure = newest->time;
+    view->masked = newest->masked;
+  }
+  const auto bracket = camera.frames.bracket(time_);
+  view->is_watching = bracket && bracket->gap() <= options_.maximum_gap;
+  if (!view->is_watching)
+    return;
+  const Frame& before = *bracket->before;
+  const Frame& after = *bracket->after;
+  view->is_full = before.is_full || after.is_full;
+  latest_arrival_ = std::max({latest_arrival_, before.arrival, after.arrival});
+  skew_ = std::max({skew_, time_ - before.time, after.time - time_});
+  if (bracket->before == bracket->after) {
+    for (const FrameSpot& spot : before.spots)
+      view->spots.push_back({spot.pixel, before.time});
+    return;
+  }
+  const double share = bracket->shareAt(time_);
+  for (const FrameSpot& spot : after.spots) {
+    if (spot.before == kNoSpot)
+      continue;
+    const Eigen::Vector2d& start = before.spots[static_cast<std::size_t>(spot.before)].pixel;
+    view->spots.push_back({start + share * (spot.pixel - start), before.time});
+  }
+}
+
+}  // namespace wiimote_tracker::fusion

@@ -42,6 +42,11 @@ class Estimator {
   virtual const Snapshot* next() = 0;
 
   virtual const Counters& counters() const = 0;
+
+  /// Writes all LEDs at a time [s] to which no image has come yet: for output at a fixed rate, and
+  /// for what is now. False, and nothing is written: the estimator can not, has seen no image, or
+  /// has gone beyond that time.
+  virtual bool predictTo(double /*time*/, Snapshot* /*snapshot*/) const { return false; }
 };
 
 }  // namespace wiimote_tracker::tracking

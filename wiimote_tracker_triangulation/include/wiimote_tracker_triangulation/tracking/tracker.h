@@ -1,0 +1,79 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_H
+
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/tracking/estimator.h"
+#include "wiimote_tracker_triangulation/tracking/tracker_options.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::tracking {
+
+class CameraGroup;
+class Ids;
+class SnapshotWriter;
+class TimeWatch;
+struct StoredImage;
+
+/// Tracks of LEDs in continuous time. Each image updates the tracks that its camera may see, at its
+/// own time and at once; nothing waits. A late image is put in at its time and what followed is
+/// repeated. Cameras that share no view, as those of several rooms, cost each other nothing.
+///
+/// An image that is newer than all others makes a snapshot of all LEDs at its time: tentative until
+/// images enough of cameras enough have shown them; predicted while none does; lost once, in the
+/// snapshot after they were given up. LEDs that were still being seen when time jumped back are
+/// lost with the first snapshot of the time after.
+class Tracker : public Estimator {
+ public:
+  /// @throws geometry::InvalidRigError (see Rig::check).
+  Tracker(const geometry::Rig& rig, const TrackerOptions& options);
+  ~Tracker() override;
+  Tracker(const Tracker&) = delete;
+  Tracker& operator=(const Tracker&) = delete;
+
+  /// Tracks go on where the new cameras see what the old ones saw. A rig with the id of the one
+  /// before changes nothing.
+  void setRig(const geometry::Rig& rig) override;
+
+  void add(std::size_t camera, const CameraImage& image) override;
+  const Snapshot* next() override;
+  const Counters& counters() const override;
+
+  /// What was lost is not in it.
+  bool predictTo(double time, Snapshot* snapshot) const override;
+
+ private:
+  struct Place {
+    std::size_t group;
+    std::size_t member;
+  };
+
+  void useRig(const geometry::Rig& rig);
+  void takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before);
+  void store(std::size_t camera, const CameraImage& image);
+
+  TrackerOptions options_;
+  geometry::Rig rig_;
+  std::string rig_id_;
+  std::vector<std::unique_ptr<CameraGroup>> groups_;
+  std::vector<Place> places_;  // of each camera of the rig
+  std::unique_ptr<TimeWatch> time_watch_;
+  std::unique_ptr<Ids> ids_;
+  std::unique_ptr<StoredImage> image_;
+  std::unique_ptr<SnapshotWriter> writer_;
+  std::vector<CameraView> views_;
+  Counters counters_;
+  std::uint64_t images_ = 0;
+  double newest_time_;     // of all images that were taken in [s]
+  double newest_arrival_;  // of those [s]
+  double last_output_;     // [s]
+  Snapshot snapshot_;
+};
+
+}  // namespace wiimote_tracker::tracking
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_H

@@ -1,0 +1,123 @@
+#include "births.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::tracking {
+namespace {
+
+/// In the terms of AssociationOptions, for pixels as uncertain as motion makes them.
+association::AssociationOptions associationOptions(const TrackerOptions& options) {
+  constexpr double kImageArea = 1024.0 * 768.0;  // [px^2]
+  constexpr double kLedDensity = 0.25;           // [1/m^3]
+  constexpr double kMetersPerPixel = 0.0034;     // of a typical point
+  association::AssociationOptions result;
+  const double s = options.birth_pixel_stddev;
+  result.pixel_stddev = s;
+  result.ghost = -2.0 * std::log(2.0 * M_PI * s * s * options.ghost_rate / kImageArea);
+  result.point =
+      -2.0 * std::log(kLedDensity * std::pow(2.0 * M_PI, 1.5) * std::pow(kMetersPerPixel * s, 3));
+  result.miss = -2.0 * std::log(1.0 - options.detection_probability);
+  result.minimum_angle = options.minimum_angle;
+  return result;
+}
+
+}  // namespace
+
+void Unexplained::remove(std::size_t spot) {
+  for (--count; spot < count; ++spot) {
+    pixels[spot] = pixels[spot + 1];
+    keys[spot] = keys[spot + 1];
+  }
+}
+
+Births::Births(const geometry::Rig& rig,
+               const std::vector<std::vector<std::size_t>>& partners,
+               const TrackerOptions& options)
+    : options_(options),
+      partners_(partners),
+      associator_(rig, partners, associationOptions(options)),
+      sights_(rig.cameras.size()),
+      spots_(rig.cameras.size()),
+      views_(rig.cameras.size()) {}
+
+void Births::find(const std::vector<GroupCamera>& cameras,
+                  std::size_t newest,
+                  std::vector<Unexplained>* unexplained,
+                  std::vector<Track>* tracks,
+                  Ids* ids) {
+  if (!collectViews(cameras, newest, *unexplained))
+    return;
+  const double time = (*unexplained)[newest].time;
+  const association::Association& found = associator_.associate(views_);
+  used_.clear();
+  for (const association::AssociatedPoint& point : found.points) {
+    const auto* first = found.spots.data() + point.first_spot;
+    const auto* last = first + point.spot_count;
+    if (std::none_of(first, last, [&](auto& spot) { return spot.view == newest; }) ||
+        !isWelcome(point))
+      continue;
+    founders_.clear();
+    for (const auto* spot = first; spot != last; ++spot) {
+      used_.push_back({spot->view, spots_[spot->view][spot->spot]});
+      founders_.push_back((*unexplained)[spot->view].keys[used_.back().spot]);
+    }
+    const std::uint32_t id = ids->idFor(founders_, time, [&](std::uint32_t candidate) {
+      return std::any_of(tracks->begin(), tracks->end(),
+                         [&](const Track& track) { return track.id == candidate; });
+    });
+    tracks->emplace_back(
+        motion::MotionFilter(options_.motion, time, point.point.position, point.point.covariance),
+        id);
+  }
+  // From the back, so that the places of the others stay.
+  std::sort(used_.begin(), used_.end(), [](auto& a, auto& b) { return a.spot > b.spot; });
+  for (const association::SpotReference& spot : used_)
+    (*unexplained)[spot.view].remove(spot.spot);
+}
+
+/// False when nothing can meet.
+bool Births::collectViews(const std::vector<GroupCamera>& cameras,
+                          std::size_t newest,
+                          const std::vector<Unexplained>& unexplained) {
+  const double time = unexplained[newest].time;
+  const auto isRecent = [&](std::size_t camera) {
+    return unexplained[camera].time >= time - options_.birth_window;
+  };
+  const auto hasSome = [&](std::size_t camera) {
+    return isRecent(camera) && unexplained[camera].count > 0;
+  };
+  if (unexplained[newest].count == 0 ||
+      std::none_of(partners_[newest].begin(), partners_[newest].end(), hasSome))
+    return false;
+  std::fill(views_.begin(), views_.end(), association::View());
+  const auto collect = [&](std::size_t camera) {
+    association::View& view = views_[camera];
+    view.watching = isRecent(camera);
+    view.full = unexplained[camera].full;
+    view.sights = sights_[camera].data();
+    for (std::size_t spot = 0; hasSome(camera) && spot < unexplained[camera].count; ++spot) {
+      const auto sight =
+          geometry::sightFromPixel(cameras[camera].forRays(), unexplained[camera].pixels[spot]);
+      if (!sight)
+        continue;
+      spots_[camera][view.count] = spot;
+      sights_[camera][view.count++] = *sight;
+    }
+  };
+  for (association::View& view : views_)
+    view.watching = false;
+  collect(newest);
+  for (const std::size_t partner : partners_[newest])
+    collect(partner);
+  return true;
+}
+
+bool Births::isWelcome(const association::AssociatedPoint& point) const {
+  const Eigen::Vector3d& place = point.point.position;
+  return place.allFinite() && point.point.covariance.allFinite() &&
+         (place.array() >= options_.minimum_corner.array()).all() &&
+         (place.array() <= options_.maximum_corner.array()).all();
+}
+
+}  // namespace wiimote_tracker::tracking

@@ -1,0 +1,152 @@
+#include "camera_group.h"
+
+#include <algorithm>
+
+namespace wiimote_tracker::tracking {
+namespace {
+
+geometry::Rig rigOf(const geometry::Rig& rig, const std::vector<std::size_t>& members) {
+  geometry::Rig result;
+  for (const std::size_t member : members) {
+    geometry::RigCamera camera = rig.cameras[member];
+    camera.camera = rig.rayCamera(camera);
+    result.cameras.push_back(camera);
+  }
+  return result;
+}
+
+/// With the members' places among themselves.
+std::vector<std::vector<std::size_t>> partnersOf(
+    const std::vector<std::vector<std::size_t>>& partners,
+    const std::vector<std::size_t>& members) {
+  std::vector<std::vector<std::size_t>> result(members.size());
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    for (const std::size_t partner : partners[members[i]]) {
+      const auto place = std::lower_bound(members.begin(), members.end(), partner);
+      result[i].push_back(static_cast<std::size_t>(place - members.begin()));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+CameraGroup::CameraGroup(const geometry::Rig& rig,
+                         const std::vector<std::size_t>& members,
+                         const std::vector<std::vector<std::size_t>>& partners,
+                         const TrackerOptions& options)
+    : options_(options),
+      members_(members),
+      update_(options),
+      births_(rigOf(rig, members), partnersOf(partners, members), options),
+      history_(2 * members.size()) {
+  for (const std::size_t member : members_)
+    cameras_.emplace_back(rig, member);
+  state_.unexplained.resize(cameras_.size());
+}
+
+CameraGroup::Fate CameraGroup::add(const StoredImage& image,
+                                   Ids* ids,
+                                   std::vector<CameraView>* views) {
+  const auto& images = history_.images();
+  if (!images.empty() && image.time < images.back().time - options_.history)
+    return Fate::kDropped;
+  const auto place = history_.placeOf(image);
+  if (!place)
+    return Fate::kDropped;
+  if (*place > images.begin()) {
+    const StoredImage& before = images.at(*place - 1);
+    if (before.time == image.time && before.camera == image.camera)
+      return Fate::kRepeated;
+  }
+  const bool is_late = *place < images.end();
+  const std::uint64_t start = is_late ? history_.rollBack(*place, &state_) : *place;
+  history_.insert(*place, image);
+  for (std::uint64_t i = start; i < images.end(); ++i) {
+    history_.keep(i, state_);
+    step(images.at(i), ids, views);
+  }
+  history_.forgetBefore(images.back().time - options_.history);
+  return is_late ? Fate::kLate : Fate::kTaken;
+}
+
+void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views) {
+  const GroupCamera& camera = cameras_[image.camera];
+  std::vector<Track>& tracks = state_.tracks;
+  update_.apply(camera, image, &tracks);
+  show(image, views);
+  collectUnexplained(image);
+  births_.find(cameras_, image.camera, &state_.unexplained, &tracks, ids);
+  for (Track& track : tracks)
+    track.judge(image.time, options_);
+  tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
+                              [](const Track& track) { return track.isOver(); }),
+               tracks.end());
+}
+
+void CameraGroup::collectUnexplained(const StoredImage& image) {
+  Unexplained& rest = state_.unexplained[image.camera];
+  rest.time = image.time;
+  rest.full = image.full;
+  rest.count = 0;
+  for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
+    if (update_.trackOfSpot()[spot] != association::kGhost)
+      continue;
+    rest.pixels[rest.count] = image.pixels[spot];
+    rest.keys[rest.count++] = {image.number, spot};
+  }
+}
+
+void CameraGroup::show(const StoredImage& image, std::vector<CameraView>* views) const {
+  CameraView& view = (*views)[members_[image.camera]];
+  view.time = image.time;
+  view.spots.resize(image.total_count);
+  for (std::size_t spot = 0; spot < image.total_count; ++spot) {
+    SeenSpot& seen = view.spots[spot];
+    seen = SeenSpot();
+    seen.pixel = image.pixels[spot];
+    if (spot >= image.spot_count) {
+      seen.use = SpotUse::kMasked;
+    } else if (update_.trackOfSpot()[spot] != association::kGhost) {
+      seen.use = SpotUse::kAssigned;
+      seen.led = state_.tracks[static_cast<std::size_t>(update_.trackOfSpot()[spot])].id;
+    }
+  }
+}
+
+void CameraGroup::adopt(const Track& track) {
+  state_.tracks.push_back(track);
+  state_.tracks.back().forgetCameras();
+  std::sort(state_.tracks.begin(), state_.tracks.end(),
+            [](auto& a, auto& b) { return a.id < b.id; });
+}
+
+void CameraGroup::clear() {
+  history_.clear();
+  state_.tracks.clear();
+  std::fill(state_.unexplained.begin(), state_.unexplained.end(), Unexplained());
+}
+
+std::vector<std::vector<std::size_t>> groupsOf(
+    const std::vector<std::vector<std::size_t>>& partners) {
+  std::vector<std::vector<std::size_t>> groups;
+  std::vector<bool> taken(partners.size());
+  for (std::size_t first = 0; first < partners.size(); ++first) {
+    if (taken[first])
+      continue;
+    std::vector<std::size_t> group = {first};
+    taken[first] = true;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      for (const std::size_t partner : partners[group[i]]) {
+        if (!taken[partner])
+          group.push_back(partner);
+        taken[partner] = true;
+      }
+    }
+    std::sort(group.begin(), group.end());
+    groups.push_back(group);
+  }
+  return groups;
+}
+
+}  // namespace wiimote_tracker::tracking

@@ -1,0 +1,51 @@
+#include "group_camera.h"
+
+#include "wiimote_tracker_triangulation/geometry/image_rules.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::tracking {
+namespace {
+
+constexpr double kConeMargin = 0.1;  // [rad]
+
+double squaredCosineOfView(const geometry::Intrinsics& lens) {
+  double widest = 0.0;
+  for (const double u : {0.0, lens.width - 1.0}) {
+    for (const double v : {0.0, lens.height - 1.0}) {
+      const auto corner = lens.normalizedFromPixel({u, v});
+      if (!corner)
+        return 0.0;
+      widest = std::max(widest, std::atan(corner->norm()));
+    }
+  }
+  const double cosine = std::cos(std::min(widest + kConeMargin, 0.5 * M_PI));
+  return cosine * cosine;
+}
+
+}  // namespace
+
+GroupCamera::GroupCamera(const geometry::Rig& rig, std::size_t index)
+    : index_(index),
+      calibration_(rig.cameras[index]),
+      for_rays_(rig.rayCamera(calibration_)),
+      squared_cosine_(squaredCosineOfView(for_rays_.intrinsics)) {}
+
+bool GroupCamera::mayShow(const Eigen::Vector3d& place) const {
+  const Eigen::Vector3d sight = place - for_rays_.center();
+  const double depth = for_rays_.world_from_camera.linear().col(2).dot(sight);
+  return depth > 0.0 && depth * depth >= squared_cosine_ * sight.squaredNorm();
+}
+
+bool GroupCamera::isInImage(const Eigen::Vector2d& pixel, double margin) const {
+  const geometry::Intrinsics& lens = for_rays_.intrinsics;
+  return pixel.x() >= -margin && pixel.x() <= lens.width - 1 + margin && pixel.y() >= -margin &&
+         pixel.y() <= lens.height - 1 + margin;
+}
+
+bool GroupCamera::isMasked(const Eigen::Vector2d& pixel) const {
+  return geometry::isMasked(calibration_, pixel);
+}
+
+}  // namespace wiimote_tracker::tracking

@@ -1,0 +1,35 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H
+
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+
+namespace wiimote_tracker::tracking {
+
+/// A camera of a rig, made ready for questions about its view.
+class GroupCamera {
+ public:
+  GroupCamera(const geometry::Rig& rig, std::size_t index);
+
+  const geometry::Camera& forRays() const { return for_rays_; }
+  std::size_t index() const { return index_; }  // in the rig
+
+  /// Cheap; true for everything in the image and some of what is beside it.
+  bool mayShow(const Eigen::Vector3d& place) const;
+
+  bool isInImage(const Eigen::Vector2d& pixel, double margin) const;
+  bool isMasked(const Eigen::Vector2d& pixel) const;
+
+ private:
+  std::size_t index_;
+  geometry::RigCamera calibration_;
+  geometry::Camera for_rays_;
+  double squared_cosine_;  // of the cone about the optical axis that holds the view; 0: any
+};
+
+}  // namespace wiimote_tracker::tracking
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H

@@ -1,0 +1,131 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_HISTORY_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_HISTORY_H
+
+#include "stored_image.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::tracking {
+
+/// A queue whose places are numbered from the first element that ever was. Reuses its elements, so
+/// that it does not allocate once it has grown to its working size.
+template <typename T>
+class NumberedQueue {
+ public:
+  std::uint64_t begin() const { return begin_; }
+  std::uint64_t end() const { return begin_ + size_; }
+  bool empty() const { return size_ == 0; }
+
+  T& at(std::uint64_t number) { return ring_[number % ring_.size()]; }
+  const T& at(std::uint64_t number) const { return ring_[number % ring_.size()]; }
+  const T& front() const { return at(begin()); }
+  const T& back() const { return at(end() - 1); }
+
+  /// A place at the end, with whatever an element before has left in it.
+  T& push() {
+    if (size_ == ring_.size())
+      grow();
+    ++size_;
+    return at(end() - 1);
+  }
+
+  void popFront() {
+    ++begin_;
+    --size_;
+  }
+  void popBack() { --size_; }
+
+  void clear() {
+    begin_ = 0;
+    size_ = 0;
+  }
+
+ private:
+  void grow() {
+    std::vector<T> larger(2 * ring_.size() + 8);
+    for (std::uint64_t number = begin(); number < end(); ++number)
+      std::swap(larger[number % larger.size()], at(number));
+    ring_.swap(larger);
+  }
+
+  std::vector<T> ring_;
+  std::uint64_t begin_ = 0;
+  std::size_t size_ = 0;
+};
+
+/// The latest images in the order of their times, and the state of things before some of them, so
+/// that a late image can be put in at its time and what followed be repeated.
+template <typename State>
+class History {
+ public:
+  /// @param interval images from one kept state to the next.
+  explicit History(std::size_t interval) : interval_(interval) {}
+
+  const NumberedQueue<StoredImage>& images() const { return images_; }
+
+  /// Where the image belongs; nothing when that is before everything that can be repeated.
+  std::optional<std::uint64_t> placeOf(const StoredImage& image) const {
+    std::uint64_t place = images_.end();
+    while (place > images_.begin() && image < images_.at(place - 1))
+      --place;
+    if (!states_.empty() && place < states_.front().before)
+      return std::nullopt;
+    return place;
+  }
+
+  void insert(std::uint64_t place, const StoredImage& image) {
+    images_.push();
+    for (std::uint64_t i = images_.end() - 1; i > place; --i)
+      images_.at(i) = images_.at(i - 1);
+    images_.at(place) = image;
+  }
+
+  /// Brings back the last kept state before that place, and says where it stands. Call before
+  /// insert().
+  std::uint64_t rollBack(std::uint64_t place, State* state) {
+    while (states_.back().before > place)
+      states_.popBack();
+    *state = states_.back().state;
+    return states_.back().before;
+  }
+
+  /// Keeps the state before the image at `place` when it is time to.
+  void keep(std::uint64_t place, const State& state) {
+    if (!states_.empty() && place < states_.back().before + interval_)
+      return;
+    Kept& kept = states_.push();
+    kept.before = place;
+    kept.state = state;
+  }
+
+  /// Drops what is older than a time [s], but for what is needed to repeat from there.
+  void forgetBefore(double time) {
+    while (states_.end() - states_.begin() > 1 &&
+           images_.at(states_.at(states_.begin() + 1).before).time < time)
+      states_.popFront();
+    while (!images_.empty() && images_.begin() < states_.front().before)
+      images_.popFront();
+  }
+
+  void clear() {
+    images_.clear();
+    states_.clear();
+  }
+
+ private:
+  struct Kept {
+    std::uint64_t before = 0;  // the image that comes next
+    State state;
+  };
+
+  std::size_t interval_;
+  NumberedQueue<StoredImage> images_;
+  NumberedQueue<Kept> states_;
+};
+
+}  // namespace wiimote_tracker::tracking
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_HISTORY_H

@@ -1,0 +1,140 @@
+#include "image_update.h"
+
+#include <cmath>
+#include <limits>
+
+namespace wiimote_tracker::tracking {
+
+ImageUpdate::ImageUpdate(const TrackerOptions& options) : options_(options) {}
+
+void ImageUpdate::apply(const GroupCamera& camera,
+                        const StoredImage& image,
+                        std::vector<Track>* tracks) {
+  noise_.pixel_stddev = options_.pixel_stddev;
+  noise_.stamp_stddev = image.stamp_stddev;
+  collectCandidates(camera, image, tracks);
+  assign(image, *tracks);
+  for (std::size_t i = 0; i < candidate_count_; ++i) {
+    const Candidate& candidate = candidates_[i];
+    Track& track = (*tracks)[candidate.track];
+    const Candidate* other = mergedWith(candidate, *tracks);
+    if (other)
+      updateMerged(camera, image, candidate, *other,
+                   candidate.spot == kNone ? other->spot : candidate.spot, &track);
+    else if (candidate.spot != kNone)
+      updateTrack(camera, image, candidate, &track);
+    else if (candidate.expected)
+      track.miss(image.camera, image.time);
+  }
+}
+
+void ImageUpdate::collectCandidates(const GroupCamera& camera,
+                                    const StoredImage& image,
+                                    std::vector<Track>* tracks) {
+  candidate_count_ = 0;
+  for (std::size_t i = 0; i < tracks->size(); ++i) {
+    Track& track = (*tracks)[i];
+    if (candidate_count_ == candidates_.size())
+      return;
+    if (!camera.mayShow(track.roughPlace(image.time)))
+      continue;
+    track.filter.predict(image.time);
+    const auto prediction = track.filter.predictPixel(camera.forRays(), noise_);
+    if (!prediction || !camera.isInImage(prediction->pixel(), options_.merging_distance))
+      continue;
+    Candidate& candidate = candidates_[candidate_count_++];
+    candidate.track = i;
+    candidate.prediction = *prediction;
+    candidate.expected = !image.full && camera.isInImage(prediction->pixel(), 0.0) &&
+                         !camera.isMasked(prediction->pixel());
+    candidate.spot = kNone;
+  }
+}
+
+/// Costs are negative log likelihoods; a spot's density is that of its prediction, or uniform over
+/// the image for what is no LED's.
+void ImageUpdate::assign(const StoredImage& image, const std::vector<Track>& tracks) {
+  constexpr double kImageArea = 1024.0 * 768.0;  // of a Wii Remote [px^2]; others are near enough
+  constexpr double kTentativeCost = 3.0;         // what may be an LED yields to what is
+  const double detected = -std::log(options_.detection_probability);
+  const double missed = -std::log(1.0 - options_.detection_probability);
+  costs_.reset(image.spot_count, candidate_count_, -std::log(options_.ghost_rate / kImageArea),
+               missed);
+  for (std::size_t i = 0; i < candidate_count_; ++i) {
+    const Candidate& candidate = candidates_[i];
+    if (!candidate.expected)
+      costs_.miss[i] = detected;
+    const double extra = detected + (tracks[candidate.track].isConfirmed() ? 0.0 : kTentativeCost);
+    for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
+      if (candidate.prediction.squaredDistance(image.pixels[spot]) <= options_.gate)
+        costs_.pair[spot][i] = extra - candidate.prediction.logLikelihood(image.pixels[spot]);
+    }
+  }
+  const association::SpotAssignment best = association::assignSpots(costs_);
+  track_of_spot_.fill(association::kGhost);
+  for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
+    if (best.track_of_spot[spot] == association::kGhost)
+      continue;
+    Candidate& candidate = candidates_[static_cast<std::size_t>(best.track_of_spot[spot])];
+    candidate.spot = static_cast<int>(spot);
+    track_of_spot_[spot] = static_cast<int>(candidate.track);
+  }
+}
+
+void ImageUpdate::updateTrack(const GroupCamera& camera,
+                              const StoredImage& image,
+                              const Candidate& candidate,
+                              Track* track) const {
+  const Eigen::Vector2d& pixel = image.pixels[static_cast<std::size_t>(candidate.spot)];
+  if (track->filter.update(camera.forRays(), candidate.prediction, pixel))
+    track->hit(image.camera, pixel - candidate.prediction.pixel());
+}
+
+/// The other LED whose light fell into the same spot: one of the two has a spot, the other none,
+/// and they are expected so close together that the camera can not tell them apart.
+const ImageUpdate::Candidate* ImageUpdate::mergedWith(const Candidate& candidate,
+                                                      const std::vector<Track>& tracks) const {
+  const Candidate* nearest = nullptr;
+  double least = options_.merging_distance;
+  if (!tracks[candidate.track].isConfirmed())
+    return nullptr;
+  for (std::size_t i = 0; i < candidate_count_; ++i) {
+    const Candidate& other = candidates_[i];
+    if (other.track == candidate.track || (other.spot == kNone) == (candidate.spot == kNone) ||
+        !tracks[other.track].isConfirmed())
+      continue;
+    const double distance = (other.prediction.pixel() - candidate.prediction.pixel()).norm();
+    if (distance < least) {
+      least = distance;
+      nearest = &other;
+    }
+  }
+  return nearest;
+}
+
+/// One spot of two LEDs lies between them, perhaps nearer to the brighter one. It moves both by the
+/// same, so that they keep their distance, and says no more than that about either.
+void ImageUpdate::updateMerged(const GroupCamera& camera,
+                               const StoredImage& image,
+                               const Candidate& candidate,
+                               const Candidate& other,
+                               int spot,
+                               Track* track) const {
+  const Eigen::Vector2d between = candidate.prediction.pixel() - other.prediction.pixel();
+  const Eigen::Vector2d middle = image.pixels[static_cast<std::size_t>(spot)];
+  motion::PixelNoise noise = noise_;
+  noise.pixel_stddev =
+      std::sqrt(noise_.pixel_stddev * noise_.pixel_stddev + between.squaredNorm() / 12.0 +
+                0.5 * other.prediction.covariance().trace());
+  const auto prediction = track->filter.predictPixel(camera.forRays(), noise);
+  const Eigen::Vector2d pixel = middle + 0.5 * between;
+  if (!prediction || !(prediction->squaredDistance(pixel) <= options_.gate)) {
+    track->miss(image.camera, image.time);
+    return;
+  }
+  const Eigen::Vector2d residual = pixel - prediction->pixel();
+  if (track->filter.update(camera.forRays(), *prediction, pixel))
+    track->hit(image.camera, residual);
+}
+
+}  // namespace wiimote_tracker::tracking

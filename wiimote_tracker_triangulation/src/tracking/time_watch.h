@@ -1,0 +1,48 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TIME_WATCH_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TIME_WATCH_H
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace wiimote_tracker::tracking {
+
+/// Tells from the times of images when all time jumped back, as at the end of a bag that is played
+/// in a loop, and when one camera's clock is ahead of all others'.
+class TimeWatch {
+ public:
+  static constexpr double kJump = 1.0;  ///< [s]
+
+  explicit TimeWatch(std::size_t cameras) : cameras_(cameras) {}
+
+  enum class Verdict {
+    kUsable,
+    kAhead,      ///< Not to be used: it would make all others' images too old.
+    kJumpedBack  ///< Usable, when all before it is forgotten.
+  };
+
+  /// @param time of the exposure [s] @param arrival [s]
+  Verdict look(std::size_t camera, double time, double arrival);
+
+  /// Whether an image that arrived later was looked at before the last one.
+  bool isDisordered() const { return disordered_; }
+
+ private:
+  struct Newest {
+    double time = -std::numeric_limits<double>::infinity();
+    double arrival = -std::numeric_limits<double>::infinity();
+  };
+
+  /// As many images in a row of one camera, and the others count as silent.
+  static constexpr int kSilence = 100;
+
+  std::vector<Newest> cameras_;
+  double newest_arrival_ = -std::numeric_limits<double>::infinity();
+  bool disordered_ = false;
+  std::size_t last_camera_ = 0;
+  int in_a_row_ = 0;
+};
+
+}  // namespace wiimote_tracker::tracking
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TIME_WATCH_H

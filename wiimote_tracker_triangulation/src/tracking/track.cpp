@@ -1,0 +1,156 @@
+#include "track.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::tracking {
+namespace {
+
+constexpr unsigned kRecentImages = 0xf;  // the last four
+
+int bits(unsigned x) {
+  int count = 0;
+  for (; x; x &= x - 1)
+    ++count;
+  return count;
+}
+
+}  // namespace
+
+Track::Track(const motion::MotionFilter& start, std::uint32_t led_id)
+    : filter(start),
+      id(led_id),
+      born_(start.time()),
+      last_observed_(born_),
+      last_located_(born_),
+      place_(start.position()),
+      velocity_(Eigen::Vector3d::Zero()),
+      place_time_(born_) {}
+
+Look& Track::lookOf(std::size_t camera, double time) {
+  for (std::size_t i = 0; i < look_count_; ++i) {
+    if (looks_[i].camera == camera)
+      return looks_[i];
+  }
+  std::size_t place = look_count_;
+  if (look_count_ < kMaximumLooks) {
+    ++look_count_;
+  } else {
+    const auto stalest = std::min_element(looks_.begin(), looks_.end(),
+                                          [](auto& a, auto& b) { return a.time < b.time; });
+    place = static_cast<std::size_t>(stalest - looks_.begin());
+  }
+  looks_[place] = Look();
+  looks_[place].camera = camera;
+  looks_[place].time = time;
+  looks_[place].hit = -std::numeric_limits<double>::infinity();
+  return looks_[place];
+}
+
+void Track::miss(std::size_t camera, double time) {
+  Look& look = lookOf(camera, time);
+  look.time = time;
+  look.recent = look.recent << 1 & kRecentImages;
+  ++misses_in_a_row_;
+}
+
+void Track::hit(std::size_t camera, const Eigen::Vector2d& residual) {
+  const double time = filter.time();
+  Look& look = lookOf(camera, time);
+  look.time = time;
+  look.hit = time;
+  look.squared_residual = residual.squaredNorm();
+  look.recent = (look.recent << 1 | 1) & kRecentImages;
+  ++hits_;
+  misses_in_a_row_ = 0;
+  last_observed_ = time;
+  place_ = filter.position();
+  velocity_ = filter.velocity();
+  place_time_ = time;
+}
+
+void Track::judge(double time, const TrackerOptions& options) {
+  std::size_t seen_by = 0;
+  std::size_t possible = 0;
+  for (std::size_t i = 0; i < look_count_; ++i) {
+    possible += looks_[i].time >= time - options.tracked_time;
+    seen_by += looks_[i].hit >= time - options.tracked_time;
+  }
+  if (seen_by >= 2)
+    last_located_ = time;
+  if (confirmed_) {
+    over_ = time - last_observed_ > options.prediction_time ||
+            time - last_located_ > options.single_view_time;
+    return;
+  }
+  const std::size_t supported = supporters(time, options);
+  if (hits_ >= options.confirmation_hits && supported >= 2 &&
+      static_cast<double>(supported) >= options.minimum_support * static_cast<double>(possible)) {
+    confirmed_ = true;
+    return;
+  }
+  constexpr double kLongestTrial = 0.5;  // [s]
+  over_ =
+      time - last_observed_ > options.tracked_time || time - last_located_ > options.tracked_time ||
+      misses_in_a_row_ >= 2 * std::max<std::size_t>(possible, 2) || time - born_ > kLongestTrial;
+}
+
+/// Cameras that showed it in three of their last four images.
+std::size_t Track::supporters(double time, const TrackerOptions& options) const {
+  return static_cast<std::size_t>(
+      std::count_if(looks_.begin(), looks_.begin() + static_cast<std::ptrdiff_t>(look_count_),
+                    [&](const Look& look) {
+                      return look.time >= time - options.tracked_time && bits(look.recent) >= 2;
+                    }));
+}
+
+Eigen::Vector3d Track::roughPlace(double time) const {
+  return place_ + (time - place_time_) * velocity_;
+}
+
+TrackState Track::state(double time, const TrackerOptions& options) const {
+  if (!confirmed_)
+    return TrackState::kTentative;
+  return time - last_observed_ <= options.tracked_time ? TrackState::kTracked
+                                                       : TrackState::kPredicted;
+}
+
+void Track::report(double time,
+                   const TrackerOptions& options,
+                   const std::vector<std::size_t>& rig_index,
+                   TrackedLed* led) const {
+  const auto fill = [&](const motion::MotionFilter& at_time) {
+    led->position = at_time.position();
+    led->position_covariance = at_time.positionCovariance();
+    led->velocity = at_time.velocity();
+    led->velocity_covariance = at_time.velocityCovariance();
+  };
+  if (filter.time() < time) {
+    motion::MotionFilter later = filter;
+    later.predict(time);
+    fill(later);
+  } else {
+    fill(filter);
+  }
+  led->id = id;
+  led->state = state(time, options);
+  led->first_seen = born_;
+  led->last_observed = last_observed_;
+  led->cameras.clear();
+  led->rays_possible = 0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < look_count_; ++i) {
+    const Look& look = looks_[i];
+    if (look.time < time - options.tracked_time)
+      continue;
+    ++led->rays_possible;
+    if (look.hit < time - options.tracked_time)
+      continue;
+    led->cameras.push_back(rig_index[look.camera]);
+    squares += look.squared_residual;
+  }
+  std::sort(led->cameras.begin(), led->cameras.end());
+  led->residual = std::sqrt(squares / static_cast<double>(led->cameras.size()));  // NaN: none
+}
+
+}  // namespace wiimote_tracker::tracking

@@ -1,0 +1,181 @@
+#include "wiimote_tracker_triangulation/tracking/tracker.h"
+
+#include "camera_group.h"
+#include "ids.h"
+#include "snapshot_writer.h"
+#include "time_watch.h"
+#include "wiimote_tracker_triangulation/association/shared_views.h"
+#include "wiimote_tracker_triangulation/geometry/image_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace wiimote_tracker::tracking {
+namespace {
+
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Tracker::Tracker(const geometry::Rig& rig, const TrackerOptions& options)
+    : options_(options),
+      ids_(std::make_unique<Ids>()),
+      image_(std::make_unique<StoredImage>()),
+      writer_(std::make_unique<SnapshotWriter>(options)),
+      newest_time_(kNever),
+      newest_arrival_(kNever),
+      last_output_(kNever) {
+  rig.check();
+  useRig(rig);
+}
+
+Tracker::~Tracker() = default;
+
+void Tracker::setRig(const geometry::Rig& rig) {
+  rig.check();
+  if (rig.id() == rig_id_) {
+    rig_ = rig;
+    return;
+  }
+  const auto before = std::move(groups_);
+  useRig(rig);
+  takeOverTracks(before);
+}
+
+void Tracker::useRig(const geometry::Rig& rig) {
+  rig_ = rig;
+  rig_id_ = rig.id();
+  groups_.clear();
+  places_.resize(rig_.cameras.size());
+  const auto partners = association::sharedViews(rig_, options_.maximum_range);
+  for (const std::vector<std::size_t>& members : groupsOf(partners)) {
+    for (std::size_t i = 0; i < members.size(); ++i)
+      places_[members[i]] = {groups_.size(), i};
+    groups_.push_back(std::make_unique<CameraGroup>(rig_, members, partners, options_));
+  }
+  time_watch_ = std::make_unique<TimeWatch>(rig_.cameras.size());
+  views_.assign(rig_.cameras.size(), CameraView());
+}
+
+/// Each track goes on before the group of which most cameras may see it.
+void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before) {
+  for (const auto& old_group : before) {
+    for (const Track& track : old_group->tracks()) {
+      const Eigen::Vector3d place = track.filter.position();
+      const auto viewers = [&](const std::unique_ptr<CameraGroup>& group) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < group->members().size(); ++i)
+          count += group->camera(i).mayShow(place);
+        return count;
+      };
+      const auto best = std::max_element(groups_.begin(), groups_.end(),
+                                         [&](auto& a, auto& b) { return viewers(a) < viewers(b); });
+      if (viewers(*best) > 0)
+        (*best)->adopt(track);
+    }
+  }
+}
+
+void Tracker::add(std::size_t camera, const CameraImage& image) {
+  const double time =
+      image.stamp + geometry::timeOffset(rig_.cameras.at(camera), image.clock_epoch);
+  if (!std::isfinite(time) || !std::isfinite(image.arrival)) {
+    ++counters_.dropped;
+    return;
+  }
+  const TimeWatch::Verdict verdict = time_watch_->look(camera, time, image.arrival);
+  counters_.disordered += time_watch_->isDisordered();
+  if (verdict == TimeWatch::Verdict::kAhead) {
+    ++counters_.dropped;
+    return;
+  }
+  if (verdict == TimeWatch::Verdict::kJumpedBack) {
+    ++counters_.resets;
+    for (const auto& group : groups_)
+      group->clear();
+    newest_time_ = newest_arrival_ = last_output_ = kNever;
+  }
+  store(camera, image);
+  image_->time = time;
+  switch (groups_[places_[camera].group]->add(*image_, ids_.get(), &views_)) {
+    case CameraGroup::Fate::kRepeated:
+      ++counters_.repeated;
+      return;
+    case CameraGroup::Fate::kDropped:
+      ++counters_.dropped;
+      return;
+    case CameraGroup::Fate::kLate:
+      ++counters_.late;
+      break;
+    case CameraGroup::Fate::kTaken:
+      break;
+  }
+  newest_time_ = std::max(newest_time_, time);
+  newest_arrival_ = std::max(newest_arrival_, image.arrival);
+  ids_->forgetBefore(newest_time_ - 2.0 * options_.history);
+}
+
+/// Into image_: the spots that are of use, and then the masked ones; the others are left out.
+void Tracker::store(std::size_t camera, const CameraImage& image) {
+  const geometry::RigCamera& calibration = rig_.cameras[camera];
+  image_->camera = places_[camera].member;
+  image_->arrival = image.arrival;
+  image_->number = images_++;
+  image_->stamp_stddev = std::isfinite(image.stamp_stddev) && image.stamp_stddev >= 0.0
+                             ? image.stamp_stddev
+                             : options_.stamp_stddev;
+  image_->full = image.spots.size() >= image.maximum_spots;
+  const geometry::Intrinsics& lens = calibration.camera.intrinsics;
+  const auto collect = [&](bool masked) {
+    for (const Spot& spot : image.spots) {
+      const Eigen::Vector2d& pixel = spot.pixel;
+      const bool usable = pixel.x() >= -0.5 && pixel.x() <= lens.width - 0.5 && pixel.y() >= -0.5 &&
+                          pixel.y() <= lens.height - 0.5;
+      if (usable && geometry::isMasked(calibration, pixel) == masked &&
+          image_->total_count < image_->pixels.size())
+        image_->pixels[image_->total_count++] = pixel;
+    }
+  };
+  image_->total_count = 0;
+  collect(false);
+  image_->spot_count = image_->total_count;
+  collect(true);
+}
+
+const Snapshot* Tracker::next() {
+  if (!(newest_time_ > last_output_ && newest_time_ >= last_output_ + options_.output_interval))
+    return nullptr;
+  last_output_ = newest_time_;
+  writer_->write(groups_, newest_time_, &snapshot_);
+  snapshot_.latest_arrival = newest_arrival_;
+  snapshot_.views = views_;
+  snapshot_.skew = 0.0;
+  for (const CameraView& view : views_) {
+    if (view.time && *view.time >= newest_time_ - options_.tracked_time)
+      snapshot_.skew = std::max(snapshot_.skew, newest_time_ - *view.time);
+  }
+  return &snapshot_;
+}
+
+bool Tracker::predictTo(double time, Snapshot* snapshot) const {
+  if (newest_time_ == kNever || !(time >= newest_time_))
+    return false;
+  snapshot->leds.resize(countTracks(groups_));
+  writeLeds(groups_, time, options_, snapshot);
+  snapshot->latest_arrival = newest_arrival_;
+  snapshot->views = views_;
+  snapshot->skew = 0.0;
+  for (const CameraView& view : views_) {
+    if (view.time && *view.time >= time - options_.tracked_time)
+      snapshot->skew = std::max(snapshot->skew, time - *view.time);
+  }
+  return true;
+}
+
+const Counters& Tracker::counters() const {
+  return counters_;
+}
+
+}  // namespace wiimote_tracker::tracking

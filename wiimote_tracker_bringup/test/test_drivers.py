@@ -70,3 +70,49 @@ def test_a_list_that_cannot_be_used_is_refused_in_words(tmp_path, text, complain
 def test_a_missing_file_is_named(tmp_path):
     with pytest.raises(drivers.CamerasError, match='nothing.yaml cannot be read'):
         drivers.read_devices(str(tmp_path / 'nothing.yaml'), '')
+
+
+def test_discovered_remotes_keep_the_names_that_they_get(tmp_path, monkeypatch):
+    path = tmp_path / 'cameras.yaml'
+    path.write_text('discover: true\ncameras:\n')
+    assert drivers.is_discovering(str(path))
+    assert drivers.read_devices(str(path), '') == []
+    # In list_wiimotes' place: one that has found a remote.
+    finder = tmp_path / 'finder'
+    finder.write_text('#!/bin/sh\n[ "$1" = --write ] || exit 2\n'
+                      'printf \'  wiimote_1: "00:1f:32:00:00:01"\\n\' >> "$2"\n')
+    finder.chmod(0o755)
+    monkeypatch.setattr(drivers.roslib.packages, 'find_node', lambda *_: [str(finder)])
+    drivers.discover(str(path))
+    assert drivers.read_devices(str(path), '') == [('wiimote_1', '00:1f:32:00:00:01')]
+    assert drivers.is_discovering(str(path))
+
+
+def test_the_program_that_discovers_takes_a_file_that_asks_for_it(tmp_path):
+    path = tmp_path / 'cameras.yaml'
+    path.write_text('discover: true\ncameras:\n  a: "00:1f:32:00:00:01"\n')
+    drivers.discover(str(path))
+    assert drivers.read_devices(str(path), '')[0] == ('a', '00:1f:32:00:00:01')
+    path.write_text('cameras: {a: "00:1f:32:00:00:01"}\n')  # not a line for each
+    with pytest.raises(drivers.CamerasError, match='remotes cannot be looked for'):
+        drivers.discover(str(path))
+
+
+def test_discovery_is_asked_for_in_so_many_words(tmp_path):
+    path = tmp_path / 'cameras.yaml'
+    path.write_text('discover: maybe\ncameras: {a: "00:1f:32:00:00:01"}')
+    with pytest.raises(drivers.CamerasError, match='"discover" must be true or false'):
+        drivers.is_discovering(str(path))
+    path.write_text('cameras: {a: "00:1f:32:00:00:01"}')
+    assert not drivers.is_discovering(str(path))
+
+
+def test_more_remotes_than_the_adapters_connect_are_named():
+    def remotes(number):
+        return [('wiimote_%d' % i, '00:1f:32:00:00:%02x' % i) for i in range(number)]
+    assert drivers.too_many(remotes(7), 1) is None
+    assert '8 remotes' in drivers.too_many(remotes(8), 1)
+    assert drivers.too_many(remotes(14), 2) is None
+    assert drivers.too_many(remotes(15), 2)
+    assert drivers.too_many(remotes(7), 0) is None, 'adapters that cannot be counted'
+    assert drivers.too_many([('a%d' % i, 'virtual:/tmp/%d' % i) for i in range(30)], 1) is None

@@ -236,6 +236,13 @@ TEST(CameraList, ACameraMayHaveMoreThanADevice) {
       list.text());
 }
 
+TEST(CameraList, ItMayAskForDriversOfOtherRemotes) {
+  CameraList list("discover: true  # whatever is there\n\ncameras:\n");
+  EXPECT_EQ("wiimote_1", list.add("00:1f:32:00:00:01"));
+  EXPECT_EQ("discover: true  # whatever is there\n\ncameras:\n  wiimote_1: \"00:1f:32:00:00:01\"\n",
+            list.text());
+}
+
 TEST(CameraList, WhatItCannotKeepItRefuses) {
   for (const char* text :
        {"", "# nothing\n", "wiimote_1: \"00:1f:32:00:00:01\"\n", "cameras: {a: \"x\"}\n",

@@ -61,7 +61,9 @@ CameraList::CameraList(const std::string& text) {
     };
     const std::string indent = line.substr(0, line.find_first_not_of(" \t"));
     const std::optional<Assignment> assignment = parseAssignment(line);
-    if (isBlankOrComment(line)) {
+    const bool is_discover =
+        !in_cameras && indent.empty() && assignment && assignment->key == "discover";
+    if (isBlankOrComment(line) || is_discover) {
       // stays as it is
     } else if (!in_cameras) {
       if (!assignment || assignment->key != "cameras" || !assignment->value.empty() ||

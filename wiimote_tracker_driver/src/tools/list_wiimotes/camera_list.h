@@ -15,7 +15,8 @@ struct CameraListError : std::runtime_error {
 
 /// The remotes of a rig by name: the text of a cameras.yaml, which is "cameras:" and below it for
 /// each camera one line 'name: "device"', or 'name:' with 'identity: "device"' among the lines
-/// below it. All else stays as it is: order, comments, other lines below a name.
+/// below it. Above it "discover: true" may stand, which asks for drivers of other remotes, too. All
+/// else stays as it is: order, comments, other lines below a name.
 class CameraList {
  public:
   struct Entry {

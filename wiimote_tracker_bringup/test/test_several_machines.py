@@ -1,0 +1,52 @@
+"""Which computer runs what when the tracker runs on several."""
+
+import importlib.machinery
+import importlib.util
+import os
+
+import roslaunch.config
+import roslaunch.core
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+LAUNCH_FILE = os.path.join(HERE, '../launch/several_machines.launch')
+CONFIG = os.path.join(HERE, '../config')
+loader = importlib.machinery.SourceFileLoader('drivers', os.path.join(HERE, '../launch/drivers'))
+spec = importlib.util.spec_from_loader('drivers', loader)
+drivers = importlib.util.module_from_spec(spec)
+loader.exec_module(drivers)
+
+
+def load(*arguments):
+    return roslaunch.config.load_config_default([(LAUNCH_FILE, list(arguments))], None,
+                                                verbose=False, assign_machines=False)
+
+
+def test_drivers_run_near_the_remotes_and_all_else_here():
+    config = load('first:=192.0.2.1', 'second:=192.0.2.2', 'user:=tracker', 'first_cameras:=/etc/a.yaml')
+    machines = {node.name: node.machine_name for node in config.nodes}
+    assert machines.pop('first_drivers') == 'first'
+    assert machines.pop('second_drivers') == 'second'
+    assert {'calibration', 'triangulation'} <= set(machines)
+    assert not any(machines.values())
+    assert 'drivers' not in machines, 'none here'
+    for name, address in (('first', '192.0.2.1'), ('second', '192.0.2.2')):
+        machine = config.machines[name]
+        assert (machine.address, machine.user) == (address, 'tracker')
+        assert not roslaunch.core.is_machine_local(machine)
+        assert machine.env_loader, 'without one, a node far away has no environment'
+    assert config.params['/first_drivers/file'].value == '/etc/a.yaml'
+
+
+def test_without_arguments_all_runs_here():
+    machines = load().machines
+    assert machines
+    assert all(roslaunch.core.is_machine_local(machine) for machine in machines.values())
+
+
+def test_the_lists_fit_to_one_adapter_each_and_name_no_camera_twice():
+    names = []
+    for file in ('first_machine.yaml', 'second_machine.yaml'):
+        devices = drivers.read_devices(os.path.join(CONFIG, file), '')
+        assert drivers.too_many(devices, 1) is None
+        names += [name for name, _ in devices]
+    assert len(names) == len(set(names))

@@ -134,7 +134,10 @@ def wanted(package):
             else:
                 names.add(words[0])
         for arguments in re.findall(r'pkg_check_modules\(([^)]*)\)', text):
-            names.update(w for w in arguments.split()[1:] if w not in ('REQUIRED', 'IMPORTED_TARGET'))
+            words = arguments.split()
+            if 'QUIET' in words:  # optional
+                continue
+            names.update(w for w in words[1:] if w not in ('REQUIRED', 'IMPORTED_TARGET'))
     return {ROSDEP_KEY.get(name, name) for name in names - NOT_PACKAGES}
 
 

@@ -15,10 +15,9 @@ struct Wave {
   double phase;      // [rad]
 };
 
-/// Reflects a coordinate at the walls -half_side and half_side.
-double folded(double x, double half_side) {
-  const double y = std::fabs(std::remainder(x - half_side, 4.0 * half_side));
-  return half_side - y;
+/// Keeps a coordinate between the walls -half_side and half_side, and smooth.
+double turnedBack(double x, double half_side) {
+  return half_side * std::sin(x / half_side);
 }
 
 }  // namespace
@@ -59,7 +58,7 @@ Path wandering(geometry::test::Random& random,
       double x = 0.0;
       for (const Wave& wave : waves[static_cast<std::size_t>(axis)])
         x += wave.amplitude * std::sin(wave.rate * t + wave.phase);
-      place[axis] += folded(x, half_side);
+      place[axis] += turnedBack(x, half_side);
     }
     return place;
   };

@@ -23,8 +23,8 @@ Path circle(const Eigen::Vector3d& center, double radius, double speed, double p
 Path straight(const Eigen::Vector3d& point, const Eigen::Vector3d& velocity, double when = 0.0);
 
 /// A smooth random wandering inside a box, as a hand's: six sine waves of 0.1 to 1.2 Hz per axis,
-/// of the same share of the velocity's variance each. @param speed RMS [m/s]; what would leave the
-/// box is folded back at its walls.
+/// of the same share of the velocity's variance each. @param speed RMS [m/s], less where the box is
+/// so small that it turns back at its walls.
 Path wandering(geometry::test::Random& random,
                const Eigen::Vector3d& center,
                double half_side,

@@ -1,0 +1,45 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_TRACKING_IDENTITY_CHECK_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TEST_TRACKING_IDENTITY_CHECK_H
+
+#include "tracking/paths.h"
+#include "wiimote_tracker_triangulation/tracking/snapshot.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace wiimote_tracker::tracking::test {
+
+/// Holds snapshots against where the LEDs truly were.
+class IdentityCheck {
+ public:
+  /// A track this near to an LED [m] is its.
+  static constexpr double kNear = 0.1;
+
+  explicit IdentityCheck(const std::vector<Path>& leds) : leds_(leds), last_ids_(leds.size(), -1) {}
+
+  void look(const Snapshot& snapshot);
+
+  std::uint64_t snapshots = 0;
+  std::uint64_t switches = 0;      ///< A track went over to an LED that had not been its.
+  std::uint64_t renamed = 0;       ///< An LED's track was given up, and it got another.
+  std::uint64_t uncovered = 0;     ///< LEDs in snapshots without a confirmed track near.
+  std::uint64_t false_tracks = 0;  ///< Tracked in snapshots where no LED is near.
+  double squared_error = 0.0;      ///< Of those near [m^2], summed.
+  std::uint64_t near = 0;
+
+  double rms() const;
+
+  /// Ids of the tracks that each LED last had; -1: none yet.
+  const std::vector<std::int64_t>& ids() const { return last_ids_; }
+
+ private:
+  std::vector<Path> leds_;
+  std::vector<std::int64_t> last_ids_;
+  std::map<std::uint32_t, std::size_t> led_of_id_;
+};
+
+}  // namespace wiimote_tracker::tracking::test
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_TRACKING_IDENTITY_CHECK_H

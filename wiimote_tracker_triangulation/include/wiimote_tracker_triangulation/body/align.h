@@ -1,0 +1,29 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_ALIGN_H
+#define WIIMOTE_TRACKER_TRIANGULATION_BODY_ALIGN_H
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstddef>
+
+namespace wiimote_tracker::body {
+
+struct PointPair {
+  Eigen::Vector3d in_body;   ///< [m]
+  Eigen::Vector3d in_world;  ///< [m]
+  double weight = 1.0;       ///< [> 0]
+};
+
+struct Alignment {
+  Eigen::Isometry3d world_from_body;
+  double cost;  ///< Sum of weight times squared distance.
+};
+
+/// The pose that fits pairs of points best (least squares; Horn 1987, in the form of Umeyama 1991),
+/// never a mirrored one. Of fewer than three pairs, or pairs on a line, one of the best. Never
+/// allocates.
+Alignment align(const PointPair* pairs, std::size_t count);
+
+}  // namespace wiimote_tracker::body
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_ALIGN_H

@@ -1,0 +1,80 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_FILTER_H
+#define WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_FILTER_H
+
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <optional>
+
+namespace wiimote_tracker::body {
+
+struct PoseFilterOptions {
+  /// Of the random acceleration that moves a body, white in time [m/s^2 / sqrt(Hz), >= 0].
+  double acceleration_density = 0.7;
+
+  /// The same of its turning [rad/s^2 / sqrt(Hz), >= 0].
+  double angular_acceleration_density = 7.0;
+
+  double initial_speed = 2.0;          ///< Standard deviation per axis at the start [m/s, > 0].
+  double initial_angular_speed = 6.0;  ///< The same of turning [rad/s, > 0].
+};
+
+using PoseCovariance = Eigen::Matrix<double, 6, 6>;
+
+/// Where a camera will see an LED of a body.
+struct LedPrediction {
+  Eigen::Vector2d pixel;                 ///< [px]
+  Eigen::Matrix2d covariance;            ///< Innovation covariance [px^2].
+  Eigen::Matrix<double, 2, 6> jacobian;  ///< d pixel / d (position, rotation) [px/m, px/rad].
+  double depth;                          ///< Along the optical axis [m].
+};
+
+/// A rigid body's state in continuous time: pose, velocity, turning; updated by each camera's spots
+/// at that image's own time (extended Kalman filter; the rotation's error is a small rotation about
+/// the world axes, R_true = exp([w]x) R). A value; never allocates.
+class PoseFilter {
+ public:
+  /// @param options not owned. @param covariance of position [m^2] and rotation about the world
+  /// axes [rad^2], in this order.
+  PoseFilter(const PoseFilterOptions& options,
+             double time,
+             const Eigen::Isometry3d& world_from_body,
+             const PoseCovariance& covariance);
+
+  double time() const { return time_; }  ///< [s]
+
+  /// Goes on to a time [s]; one that is not after time() changes nothing.
+  void predict(double time);
+
+  /// At time(). Nothing when the LED is not before the camera.
+  std::optional<LedPrediction> predictLed(const geometry::Camera& camera,
+                                          const Eigen::Vector3d& led,
+                                          double pixel_stddev) const;
+
+  /// Takes in the pixel of an LED's spot at time(). The prediction must be of this filter as it is,
+  /// since each update moves it.
+  void update(const LedPrediction& prediction, const Eigen::Vector2d& pixel, double pixel_stddev);
+
+  Eigen::Isometry3d worldFromBody() const;
+  PoseCovariance poseCovariance() const { return covariance_.topLeftCorner<6, 6>(); }
+  const Eigen::Vector3d& velocity() const { return velocity_; }        ///< World [m/s].
+  const Eigen::Vector3d& angularVelocity() const { return turning_; }  ///< World [rad/s].
+
+ private:
+  using State = Eigen::Matrix<double, 12, 1>;
+  using Covariance = Eigen::Matrix<double, 12, 12>;  // position, rotation, velocity, turning
+
+  const PoseFilterOptions* options_;
+  double time_;
+  Eigen::Vector3d position_;
+  Eigen::Quaterniond rotation_;
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d turning_ = Eigen::Vector3d::Zero();
+  Covariance covariance_;
+};
+
+}  // namespace wiimote_tracker::body
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_FILTER_H

@@ -1,0 +1,40 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_SOLVE_POSE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_BODY_SOLVE_POSE_H
+
+#include "wiimote_tracker_triangulation/body/pose_filter.h"
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <optional>
+
+namespace wiimote_tracker::body {
+
+/// One camera's spot of one LED.
+struct LedObservation {
+  const geometry::Camera* camera = nullptr;  ///< Not owned.
+  Eigen::Vector3d led;                       ///< In the body's frame [m].
+  Eigen::Vector2d pixel;                     ///< Distorted [px].
+};
+
+struct SolvedPose {
+  Eigen::Isometry3d world_from_body;
+  PoseCovariance covariance;  ///< Of position [m^2], then rotation about the world axes [rad^2].
+  double reprojection_error;  ///< sqrt(mean(du^2 + dv^2)) [px].
+};
+
+/// The pose of a body at one time with the greatest likelihood for Gaussian pixel noise: least sum
+/// of squared pixel residuals over all cameras and LEDs (Gauss-Newton with Levenberg's damping),
+/// begun at `start`. Never allocates.
+/// @returns nothing when the pose is not determined: fewer than three observations, or an LED
+/// behind its camera, or no convergence.
+std::optional<SolvedPose> solvePose(const LedObservation* observations,
+                                    std::size_t count,
+                                    const Eigen::Isometry3d& start,
+                                    double pixel_stddev);
+
+}  // namespace wiimote_tracker::body
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_SOLVE_POSE_H

@@ -1,0 +1,125 @@
+#include "wiimote_tracker_triangulation/body/constellation.h"
+
+#include "wiimote_tracker_triangulation/body/align.h"
+#include "wiimote_tracker_triangulation/body/error.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <cstdio>
+
+namespace wiimote_tracker::body {
+namespace {
+
+/// Depth first over all permutations, cutting off those whose distances already differ too much.
+class SymmetrySearch {
+ public:
+  explicit SymmetrySearch(const std::vector<Eigen::Vector3d>& leds) : leds_(leds) {}
+
+  Symmetry run() {
+    extend();
+    return best_;
+  }
+
+ private:
+  void extend() {
+    const std::size_t i = chosen_.size();
+    if (i == leds_.size()) {
+      judge();
+      return;
+    }
+    for (std::size_t candidate = 0; candidate < leds_.size(); ++candidate) {
+      if (!isPossible(i, candidate))
+        continue;
+      chosen_.push_back(candidate);
+      extend();
+      chosen_.pop_back();
+    }
+  }
+
+  /// A root mean square residual r of n points changes no distance by more than r sqrt(2 n).
+  bool isPossible(std::size_t i, std::size_t candidate) const {
+    const double slack = best_.residual * std::sqrt(2.0 * static_cast<double>(leds_.size()));
+    for (std::size_t k = 0; k < i; ++k) {
+      if (chosen_[k] == candidate)
+        return false;
+      const double change =
+          (leds_[i] - leds_[k]).norm() - (leds_[candidate] - leds_[chosen_[k]]).norm();
+      if (std::abs(change) > slack)
+        return false;
+    }
+    return true;
+  }
+
+  void judge() {
+    bool is_identity = true;
+    std::vector<PointPair> pairs;
+    for (std::size_t i = 0; i < leds_.size(); ++i) {
+      is_identity = is_identity && chosen_[i] == i;
+      pairs.push_back({leds_[i], leds_[chosen_[i]], 1.0});
+    }
+    if (is_identity)
+      return;
+    const double residual =
+        std::sqrt(align(pairs.data(), pairs.size()).cost / static_cast<double>(pairs.size()));
+    if (residual < best_.residual)
+      best_ = {chosen_, residual};
+  }
+
+  const std::vector<Eigen::Vector3d>& leds_;
+  std::vector<std::size_t> chosen_;
+  Symmetry best_;
+};
+
+}  // namespace
+
+void Constellation::check() const {
+  if (name.empty())
+    throw BodyError("a body has no name; give it one");
+  const std::string who = "body '" + name + "'";
+  if (leds.size() < 3 || leds.size() > kMaximumLeds)
+    throw BodyError(who + " has " + std::to_string(leds.size()) + " LEDs, but must have 3 to " +
+                    std::to_string(kMaximumLeds));
+  double breadth = 0.0;  // largest triangle's height over its longest side
+  for (std::size_t i = 0; i < leds.size(); ++i) {
+    if (!leds[i].allFinite())
+      throw BodyError(who + " has an LED whose position is not finite; correct it");
+    for (std::size_t k = 0; k < i; ++k) {
+      const Eigen::Vector3d side = leds[i] - leds[k];
+      if (side.norm() < 0.001)
+        throw BodyError(who + " has LEDs " + std::to_string(k) + " and " + std::to_string(i) +
+                        " at one place; positions are in metres");
+      for (std::size_t m = 0; m < k; ++m) {
+        const Eigen::Vector3d other = leds[m] - leds[k];
+        const double longest = std::max({side.norm(), other.norm(), (side - other).norm()});
+        breadth = std::max(breadth, side.cross(other).norm() / longest);
+      }
+    }
+  }
+  if (breadth < 0.005)
+    throw BodyError(who +
+                    " has all LEDs on one line, so that turning about it cannot be seen; "
+                    "move one of them off it");
+}
+
+Symmetry nearestSymmetry(const Constellation& constellation) {
+  return SymmetrySearch(constellation.leds).run();
+}
+
+std::string describe(const Constellation& constellation, const Symmetry& symmetry) {
+  std::string exchanged;
+  for (std::size_t i = 0; i < symmetry.permutation.size(); ++i) {
+    if (symmetry.permutation[i] != i)
+      exchanged += (exchanged.empty() ? "" : ", ") + std::to_string(i) + " for " +
+                   std::to_string(symmetry.permutation[i]);
+  }
+  char distance[32];
+  std::snprintf(distance, sizeof(distance), "%.1f mm", 1e3 * symmetry.residual);
+  const std::string same = "body '" + constellation.name + "' looks the same within " + distance +
+                           " when it is turned such that LED " + exchanged + " is taken";
+  return same + (symmetry.residual < kSymmetric
+                     ? "; move an LED by some centimetres, so that its orientation can be seen"
+                     : "; orientations may be confused: move an LED, or have them blink");
+}
+
+}  // namespace wiimote_tracker::body

@@ -1,0 +1,129 @@
+#include "wiimote_tracker_triangulation/body/match_points.h"
+
+#include "wiimote_tracker_triangulation/body/align.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::body {
+namespace {
+
+/// Depth first: each LED in turn takes a point that fits those before it, or none.
+class MatchSearch {
+ public:
+  MatchSearch(const Constellation& constellation,
+              const std::vector<MeasuredPoint>& points,
+              const MatchOptions& options)
+      : leds_(constellation.leds), points_(points), options_(options) {
+    chosen_.fill(kUnseen);
+  }
+
+  std::optional<Match> run() {
+    extend(0, 0);
+    if (!found_)
+      return std::nullopt;
+    best_.margin = runner_up_cost_ - best_cost_;
+    return best_;
+  }
+
+ private:
+  void extend(std::size_t led, std::size_t seen) {
+    if (led == leds_.size()) {
+      if (seen >= options_.minimum_seen)
+        judge(seen);
+      return;
+    }
+    const std::size_t left = leds_.size() - led;
+    const double unseen = static_cast<double>(led - seen) * options_.unseen_cost;
+    // What costs more than the runner-up changes nothing.
+    if (seen + left < options_.minimum_seen || unseen > runner_up_cost_)
+      return;
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      if (points_[p].taken || !agrees(led, p))
+        continue;
+      chosen_[led] = static_cast<int>(p);
+      extend(led + 1, seen + 1);
+    }
+    chosen_[led] = kUnseen;
+    extend(led + 1, seen);
+  }
+
+  bool agrees(std::size_t led, std::size_t p) const {
+    for (std::size_t other = 0; other < led; ++other) {
+      if (chosen_[other] == kUnseen)
+        continue;
+      const auto q = static_cast<std::size_t>(chosen_[other]);
+      if (q == p)
+        return false;
+      const double difference =
+          (leds_[led] - leds_[other]).norm() - (points_[p].position - points_[q].position).norm();
+      if (std::abs(difference) > options_.gate * std::hypot(points_[p].stddev, points_[q].stddev))
+        return false;
+    }
+    return true;
+  }
+
+  void judge(std::size_t seen) {
+    std::array<PointPair, kMaximumLeds> pairs;
+    std::size_t count = 0;
+    for (std::size_t led = 0; led < leds_.size(); ++led) {
+      if (chosen_[led] == kUnseen)
+        continue;
+      const MeasuredPoint& point = points_[static_cast<std::size_t>(chosen_[led])];
+      pairs[count++] = {leds_[led], point.position, 1.0 / (point.stddev * point.stddev)};
+    }
+    const Alignment alignment = align(pairs.data(), count);
+    // Beyond this the distances agreed by chance (a mirrored body, say).
+    if (alignment.cost > static_cast<double>(count) * options_.gate * options_.gate)
+      return;
+    const double cost =
+        alignment.cost + static_cast<double>(leds_.size() - seen) * options_.unseen_cost;
+    if (cost < best_cost_) {
+      // The same pose with an LED more or less is no rival.
+      if (found_ && !isSamePose(best_.world_from_body, alignment.world_from_body))
+        runner_up_cost_ = best_cost_;
+      found_ = true;
+      best_cost_ = cost;
+      best_.point_of_led = chosen_;
+      best_.seen = seen;
+      best_.world_from_body = alignment.world_from_body;
+      best_.chi_squared = alignment.cost;
+    } else if (cost < runner_up_cost_ &&
+               !isSamePose(best_.world_from_body, alignment.world_from_body)) {
+      runner_up_cost_ = cost;
+    }
+  }
+
+  /// Whether no LED lies elsewhere by more than half the distance to its nearest neighbour.
+  bool isSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
+    for (std::size_t i = 0; i < leds_.size(); ++i) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < leds_.size(); ++k) {
+        if (k != i)
+          nearest = std::min(nearest, (leds_[i] - leds_[k]).norm());
+      }
+      if ((a * leds_[i] - b * leds_[i]).norm() > 0.5 * nearest)
+        return false;
+    }
+    return true;
+  }
+
+  const std::vector<Eigen::Vector3d>& leds_;
+  const std::vector<MeasuredPoint>& points_;
+  const MatchOptions& options_;
+  std::array<int, kMaximumLeds> chosen_;
+  bool found_ = false;
+  Match best_;
+  double best_cost_ = std::numeric_limits<double>::infinity();
+  double runner_up_cost_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+std::optional<Match> matchPoints(const Constellation& constellation,
+                                 const std::vector<MeasuredPoint>& points,
+                                 const MatchOptions& options) {
+  return MatchSearch(constellation, points, options).run();
+}
+
+}  // namespace wiimote_tracker::body

@@ -1,0 +1,102 @@
+#include "wiimote_tracker_triangulation/body/solve_pose.h"
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+
+namespace wiimote_tracker::body {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+struct Normal {
+  PoseCovariance information = PoseCovariance::Zero();
+  Vector6 gradient = Vector6::Zero();
+  double cost = 0.0;  // sum of squared residuals [px^2]
+};
+
+Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
+std::optional<Normal> normalAt(const LedObservation* observations,
+                               std::size_t count,
+                               const Eigen::Isometry3d& pose) {
+  Normal normal;
+  for (std::size_t i = 0; i < count; ++i) {
+    const LedObservation& observation = observations[i];
+    const Eigen::Vector3d arm = pose.linear() * observation.led;
+    Eigen::Matrix<double, 2, 3> by_point;
+    const auto pixel = observation.camera->project(pose.translation() + arm, &by_point);
+    if (!pixel)
+      return std::nullopt;
+    Eigen::Matrix<double, 2, 6> jacobian;
+    jacobian.leftCols<3>() = by_point;
+    jacobian.rightCols<3>() = -by_point * skew(arm);
+    const Eigen::Vector2d residual = observation.pixel - *pixel;
+    normal.information.noalias() += jacobian.transpose() * jacobian;
+    normal.gradient.noalias() += jacobian.transpose() * residual;
+    normal.cost += residual.squaredNorm();
+  }
+  return normal;
+}
+
+Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vector6& step) {
+  Eigen::Isometry3d result = pose;
+  const double angle = step.tail<3>().norm();
+  if (angle > 0.0)
+    result.linear() =
+        Eigen::AngleAxisd(angle, step.tail<3>() / angle).toRotationMatrix() * pose.linear();
+  result.translation() += step.head<3>();
+  return result;
+}
+
+}  // namespace
+
+std::optional<SolvedPose> solvePose(const LedObservation* observations,
+                                    std::size_t count,
+                                    const Eigen::Isometry3d& start,
+                                    double pixel_stddev) {
+  if (count < 3)
+    return std::nullopt;
+  constexpr int kMaximumSteps = 30;
+  Eigen::Isometry3d pose = start;
+  std::optional<Normal> normal = normalAt(observations, count, pose);
+  double damping = 1e-6;
+  bool converged = false;
+  for (int i = 0; normal && !converged && i < kMaximumSteps; ++i) {
+    PoseCovariance damped = normal->information;
+    damped.diagonal() *= 1.0 + damping;
+    const Vector6 step = damped.ldlt().solve(normal->gradient);
+    if (!step.allFinite())
+      return std::nullopt;
+    const Eigen::Isometry3d next = moved(pose, step);
+    const std::optional<Normal> there = normalAt(observations, count, next);
+    if (there && there->cost <= normal->cost) {
+      // A hundredth of the standard deviation in every direction.
+      converged = step.dot(normal->gradient) < 1e-4 * pixel_stddev * pixel_stddev;
+      pose = next;
+      normal = there;
+      damping = std::max(0.1 * damping, 1e-9);
+    } else {
+      // At the minimum rounding alone keeps the cost from falling.
+      converged = step.dot(normal->gradient) < 1e-9 * (normal->cost + 1e-12);
+      damping = std::max(10.0 * damping, 1e-3);
+    }
+  }
+  if (!normal || !converged)
+    return std::nullopt;
+  const Eigen::LLT<PoseCovariance> factor(normal->information);
+  // Positions in metres and angles in radians are both of the order of 1 px per mm and mrad here.
+  if (factor.info() != Eigen::Success || factor.rcond() < 1e-12)
+    return std::nullopt;
+  SolvedPose solved;
+  solved.world_from_body = pose;
+  solved.covariance = pixel_stddev * pixel_stddev * factor.solve(PoseCovariance::Identity());
+  solved.reprojection_error = std::sqrt(normal->cost / static_cast<double>(count));
+  return solved;
+}
+
+}  // namespace wiimote_tracker::body

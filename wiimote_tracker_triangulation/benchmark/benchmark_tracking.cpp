@@ -78,7 +78,7 @@ int usage() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<BenchmarkSection> sections = {};
+  const std::vector<BenchmarkSection> sections = {associationSection()};
   const char* json = nullptr;
   const char* only = nullptr;
   BenchmarkSettings settings;

@@ -32,6 +32,17 @@ struct BenchmarkSection {
   std::function<void(const BenchmarkSettings& settings, const RowCallback& row)> run;
 };
 
+BenchmarkSection associationSection();
+
+/// The tracker over time: identities, encounters, lost tracks.
+BenchmarkSection identitySection();
+
+/// Frame sets per second on one core.
+BenchmarkSection throughputSection();
+
+/// Many rooms on one core.
+BenchmarkSection scaleSection();
+
 }  // namespace wiimote_tracker
 
 #endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_TRACKING_SECTIONS_H

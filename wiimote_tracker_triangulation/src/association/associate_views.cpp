@@ -23,8 +23,8 @@ AssociationOptions typicalCosts(double pixel_stddev) {
   const double spread = kSpread * pixel_stddev;
   AssociationOptions options;
   options.pixel_stddev = pixel_stddev;
-  options.ghost = std::max(
-      1.0, -2.0 * std::log(2.0 * M_PI * pixel_stddev * pixel_stddev * kGhostDensity));
+  options.ghost =
+      std::max(1.0, -2.0 * std::log(2.0 * M_PI * pixel_stddev * pixel_stddev * kGhostDensity));
   options.point = std::max(
       0.0, -2.0 * std::log(kLedDensity * std::pow(2.0 * M_PI, 1.5) * spread * spread * spread));
   options.miss = -2.0 * std::log(kMissed / (1.0 - kMissed));
@@ -40,6 +40,7 @@ struct ViewAssociator::Workspace {
     std::size_t next_in_component;  // kNone: the last
     std::size_t last_in_component;  // of a root
     std::size_t first_edge;         // to a later spot; kNone: none
+    std::size_t edge_count;         // to later spots
     std::size_t place;              // in the component
   };
   /// Two spots that can be one point.
@@ -60,6 +61,7 @@ struct ViewAssociator::Workspace {
   void chainComponents();
   void solve(const std::vector<View>& views, std::size_t root);
   void collectComponent(const std::vector<View>& views, std::size_t root);
+  void collectPairs(std::size_t root);
 
   AssociationOptions options;
   PointSearch search;
@@ -114,7 +116,7 @@ void ViewAssociator::Workspace::collectSpots(const std::vector<View>& views) {
     first_spot.push_back(links.size());
     for (std::size_t i = 0; i < views[view].count; ++i) {
       const std::size_t spot = links.size();
-      links.push_back({view, i, spot, kNone, spot, kNone, 0});
+      links.push_back({view, i, spot, kNone, spot, kNone, 0, 0});
       epipolar.emplace_back(views[view].sights[i], options.pixel_stddev);
     }
   }
@@ -126,18 +128,26 @@ void ViewAssociator::Workspace::findEdges(const std::vector<View>& views,
                                           std::size_t a,
                                           std::size_t b) {
   const Eigen::Vector3d baseline = views[b].sights[0].origin - views[a].sights[0].origin;
+  // Most pairs miss each other so widely that their own derivatives need not be known.
+  const double widest = options.maximum_pair_chi_squared * baseline.squaredNorm();
   normals.clear();
   for (std::size_t spot = first_spot[b]; spot < first_spot[b + 1]; ++spot)
     normals.push_back(baseline.cross(epipolar[spot].direction));
   for (std::size_t spot_a = first_spot[a]; spot_a < first_spot[a + 1]; ++spot_a) {
-    const Eigen::Vector3d normal = baseline.cross(epipolar[spot_a].direction);
+    const EpipolarSpot& one = epipolar[spot_a];
+    const Eigen::Vector3d normal = baseline.cross(one.direction);
     for (std::size_t spot_b = first_spot[b]; spot_b < first_spot[b + 1]; ++spot_b) {
-      const double chi_squared = epipolarChiSquared(epipolar[spot_a], normal, epipolar[spot_b],
-                                                    normals[spot_b - first_spot[b]]);
+      const EpipolarSpot& other = epipolar[spot_b];
+      const double f = normal.dot(other.direction);
+      if (f * f > widest * (one.spread + other.spread))
+        continue;
+      const double chi_squared =
+          epipolarChiSquared(one, normal, other, normals[spot_b - first_spot[b]], f);
       if (!(chi_squared <= options.maximum_pair_chi_squared))
         continue;
       edges.push_back({spot_b, links[spot_a].first_edge, chi_squared});
       links[spot_a].first_edge = edges.size() - 1;
+      ++links[spot_a].edge_count;
       const std::size_t root_a = rootOf(spot_a);
       const std::size_t root_b = rootOf(spot_b);
       links[std::max(root_a, root_b)].root = std::min(root_a, root_b);
@@ -168,9 +178,11 @@ void ViewAssociator::Workspace::solve(const std::vector<View>& views, std::size_
     return;
   }
   collectComponent(views, root);
-  const std::size_t steps = search.solve(component, views, options.maximum_steps - result.steps);
-  result.steps += steps;
-  result.proven = result.proven && result.steps < options.maximum_steps;
+  if (!search.solveAsOnePoint(component, views)) {
+    collectPairs(root);
+    result.steps += search.solve(component, views, options.maximum_steps - result.steps);
+    result.proven = result.proven && result.steps < options.maximum_steps;
+  }
   result.cost += search.cost();
   for (std::size_t i = 0; i < search.pointCount(); ++i) {
     const PointSearch::Point& point = search.point(i);
@@ -184,11 +196,16 @@ void ViewAssociator::Workspace::solve(const std::vector<View>& views, std::size_
 
 void ViewAssociator::Workspace::collectComponent(const std::vector<View>& views, std::size_t root) {
   component.spots.clear();
+  component.pair_count = 0;
   for (std::size_t spot = root; spot != kNone; spot = links[spot].next_in_component) {
     Link& link = links[spot];
     link.place = component.spots.size();
     component.spots.push_back({link.view, link.index, &views[link.view].sights[link.index]});
+    component.pair_count += link.edge_count;
   }
+}
+
+void ViewAssociator::Workspace::collectPairs(std::size_t root) {
   const std::size_t size = component.spots.size();
   component.pair_chi_squared.assign(size * size, std::numeric_limits<double>::infinity());
   for (std::size_t spot = root; spot != kNone; spot = links[spot].next_in_component) {

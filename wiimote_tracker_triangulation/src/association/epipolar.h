@@ -11,21 +11,24 @@ namespace wiimote_tracker::association {
 /// What the epipolar constraint of two spots needs of one of them.
 struct EpipolarSpot {
   EpipolarSpot(const geometry::Sight& sight, double pixel_stddev)
-      : direction(sight.direction), direction_by_pixel(sight.directionByPixel() * pixel_stddev) {}
+      : direction(sight.direction),
+        direction_by_pixel(sight.directionByPixel() * pixel_stddev),
+        spread(direction_by_pixel.squaredNorm()) {}
 
   Eigen::Vector3d direction;
   Eigen::Matrix<double, 3, 2> direction_by_pixel;  ///< For one standard deviation.
+  double spread;                                   ///< No change of the direction is larger.
 };
 
 /// Squared distance of two spots from the constraint that their rays meet, over the variance of a
 /// pixel: f^2 / |d f / d (pixel a, pixel b)|^2 with f = baseline . (direction a x direction b)
-/// (Sampson's distance). normal_a = baseline x direction a, normal_b likewise. Infinite where the
-/// constraint says nothing.
+/// (Sampson's distance). normal_a = baseline x direction a, normal_b likewise; f = normal_a .
+/// direction b.
 inline double epipolarChiSquared(const EpipolarSpot& a,
                                  const Eigen::Vector3d& normal_a,
                                  const EpipolarSpot& b,
-                                 const Eigen::Vector3d& normal_b) {
-  const double f = normal_a.dot(b.direction);
+                                 const Eigen::Vector3d& normal_b,
+                                 double f) {
   const double by_a = (normal_b.transpose() * a.direction_by_pixel).squaredNorm();
   const double by_b = (normal_a.transpose() * b.direction_by_pixel).squaredNorm();
   return f * f / (by_a + by_b);

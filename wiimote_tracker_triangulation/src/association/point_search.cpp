@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace wiimote_tracker::association {
@@ -23,24 +24,49 @@ PointSearch::PointSearch(const geometry::Rig& rig,
     cameras_.push_back(camera.camera);
 }
 
+bool PointSearch::solveAsOnePoint(const Component& component, const std::vector<View>& views) {
+  const std::size_t size = component.spots.size();
+  if (component.pair_count != size * (size - 1) / 2 || size < options_.minimum_rays)
+    return false;  // two spots of one view are no pair either
+  begin(component, views);
+  Draft& draft = drafts_[draft_count_++];
+  draft.spots.resize(size);
+  std::iota(draft.spots.begin(), draft.spots.end(), std::size_t{0});
+  findFit(&draft);
+  if (!draft.fit.is_possible)
+    return false;
+  // Any other division has one more point or ghost, or has ghosts only.
+  const double misfit = draft.fit.chi_squared + missesOf(draft);
+  const double least_other =
+      std::min(options_.point + std::min(options_.point, options_.ghost), best_cost_);
+  if (options_.point + misfit > least_other)
+    return false;
+  finish(0);
+  return true;
+}
+
 std::size_t PointSearch::solve(const Component& component,
                                const std::vector<View>& views,
                                std::size_t maximum_steps) {
+  begin(component, views);
+  prepare();
+  maximum_steps_ = maximum_steps;
+  decide(0, 0);
+  return steps_;
+}
+
+void PointSearch::begin(const Component& component, const std::vector<View>& views) {
   component_ = &component;
   views_ = &views;
   steps_ = 0;
-  maximum_steps_ = maximum_steps;
   if (drafts_.size() < component.spots.size()) {
     drafts_.resize(component.spots.size());
     best_.resize(component.spots.size());
   }
-  prepare();
   draft_count_ = 0;
   best_count_ = 0;
   best_cost_ = options_.ghost * static_cast<double>(component.spots.size());
   has_division_ = false;
-  decide(0, 0);
-  return steps_;
 }
 
 void PointSearch::prepare() {

@@ -17,6 +17,7 @@ struct Component {
     const geometry::Sight* sight;
   };
   std::vector<Spot> spots;
+  std::size_t pair_count = 0;  ///< Of spots that can be one point.
 
   /// Of two spots, chi^2 of their pair; infinite when they can not be one point. Row by row.
   std::vector<double> pair_chi_squared;
@@ -41,13 +42,18 @@ class PointSearch {
 
   const std::vector<std::size_t>& partners(std::size_t camera) const { return partners_[camera]; }
 
+  /// The usual case without a search, and without pair_chi_squared: no two spots of one view, all
+  /// pairs possible, and together they fit so well that every other division costs more. False when
+  /// that is not so.
+  bool solveAsOnePoint(const Component& component, const std::vector<View>& views);
+
   /// Takes no more than `maximum_steps` steps, and as many when what it found is not proven.
   /// @returns the number of steps taken.
   std::size_t solve(const Component& component,
                     const std::vector<View>& views,
                     std::size_t maximum_steps);
 
-  // What solve() found.
+  // What was found.
   std::size_t pointCount() const { return best_count_; }
   const Point& point(std::size_t i) const { return best_[i]; }
   double cost() const { return best_cost_; }  ///< Of the points and the ghosts.
@@ -69,6 +75,7 @@ class PointSearch {
     Fit fit;
   };
 
+  void begin(const Component& component, const std::vector<View>& views);
   void prepare();
   void decide(std::size_t spot, std::size_t ghosts);
   void tryJoining(std::size_t spot, std::size_t ghosts);

@@ -14,11 +14,11 @@ namespace wiimote_tracker::association::test {
 using geometry::test::Random;
 
 /// The paper's arrangement: cameras on a circle of 4 m around a cube of 2.5 m, 2.5 m high, all
-/// looking at its centre; for four, on its diagonals.
+/// looking at its centre; four are on its diagonals, two or three on some of them.
 inline geometry::Rig ringRig(int cameras) {
   geometry::Rig rig;
   for (int i = 0; i < cameras; ++i) {
-    const double angle = 2.0 * M_PI * (i + 0.5) / cameras;
+    const double angle = 2.0 * M_PI * (i + 0.5) / std::max(cameras, 4);
     geometry::RigCamera camera;
     camera.camera.name = "camera_" + std::to_string(i);
     camera.camera.world_from_camera =

@@ -26,7 +26,7 @@ struct AssociationOptions {
   double minimum_angle = 0.02;   ///< Largest angle between any two rays of a point [rad].
 
   /// After this many steps the best points found are taken, proven or not.
-  std::size_t maximum_steps = 20000;
+  std::size_t maximum_steps = 5000;
 };
 
 /// Costs for Poisson numbers of LEDs (0.25 per m^3) and of ghosts (0.1 per image of 1024 x 768 px),

@@ -1,0 +1,176 @@
+#include "association/exhaustive.h"
+#include "association/simulated_views.h"
+#include "benchmark_tracking_sections.h"
+#include "wiimote_tracker_triangulation/association/assign_spots.h"
+#include "wiimote_tracker_triangulation/association/associate_views.h"
+#include "wiimote_tracker_triangulation/association/shared_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+namespace {
+
+using association::test::Disturbance;
+using association::test::Division;
+using association::test::Random;
+using association::test::SimulatedViews;
+using association::test::Tuple;
+
+constexpr int kLeds = 4;
+constexpr int kTimedTogether = 100;  // frames
+
+/// Of this process on its processors [s]: others on the machine do not count.
+double processTime() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// The LEDs that two cameras see.
+Division truthOf(const SimulatedViews& views) {
+  Division truth;
+  for (int led = 0; led < kLeds; ++led) {
+    Tuple tuple;
+    int rays = 0;
+    for (const std::vector<int>& leds : views.leds) {
+      const auto spot = std::find(leds.begin(), leds.end(), led);
+      tuple.push_back(spot == leds.end() ? -1 : static_cast<int>(spot - leds.begin()));
+      rays += spot != leds.end();
+    }
+    if (rays >= 2)
+      truth.points.insert(tuple);
+  }
+  return truth;
+}
+
+struct Case {
+  std::string name;
+  int cameras;
+  Disturbance disturbance;
+  /// What is the best; null where it would take too long.
+  Division (*oracle)(const geometry::Rig&,
+                     const SimulatedViews&,
+                     const association::AssociationOptions&);
+};
+
+BenchmarkRow runCase(const Case& c, const BenchmarkSettings& settings) {
+  Random random(settings.seed);
+  const geometry::Rig rig = association::test::ringRig(c.cameras);
+  const auto options = association::typicalCosts(c.disturbance.pixel_stddev);
+  association::ViewAssociator associator(rig, association::sharedViews(rig, 10.0), options);
+  const std::size_t cameras = rig.cameras.size();
+  int frames = 0;
+  int identical = 0;
+  int right = 0;
+  int proven = 0;
+  double seconds = 0.0;
+  double longest = 0.0;
+  for (int run = 0; run < settings.runs; ++run) {
+    std::vector<SimulatedViews> batch;
+    for (int i = 0; i < kTimedTogether; ++i) {
+      const auto leds = association::test::randomLeds(random, rig, kLeds);
+      batch.push_back(association::test::simulateViews(random, rig, leds, c.disturbance));
+    }
+    const double start = processTime();
+    for (const SimulatedViews& views : batch)
+      associator.associate(views.views);
+    seconds += processTime() - start;
+    for (const SimulatedViews& views : batch) {
+      const double frame_start = processTime();
+      const association::Association& association = associator.associate(views.views);
+      longest = std::max(longest, processTime() - frame_start);
+      const Division found = association::test::divisionOf(association, cameras);
+      ++frames;
+      proven += association.proven;
+      right += found.points == truthOf(views).points;
+      if (c.oracle)
+        identical += found.points == c.oracle(rig, views, options).points;
+    }
+  }
+  const double count = frames;
+  return {c.name,
+          {{"frames", count},
+           {"identical", c.oracle ? identical / count : std::numeric_limits<double>::quiet_NaN()},
+           {"proven", proven / count},
+           {"right", right / count},
+           {"us", 1e6 * seconds / count},
+           {"us_worst", 1e6 * longest}}};
+}
+
+/// Spots of one image to tracks: a noisy spot for each track, and one that is nobody's.
+BenchmarkRow runOneImage(int tracks, const BenchmarkSettings& settings) {
+  constexpr double kGate = 30.0;  // [px^2 of one standard deviation]
+  Random random(settings.seed);
+  std::vector<association::SpotCosts> images(kTimedTogether);
+  for (association::SpotCosts& costs : images) {
+    std::vector<Eigen::Vector2d> places;
+    for (int i = 0; i < tracks; ++i)
+      places.emplace_back(random.uniform(0.0, 100.0), random.uniform(0.0, 100.0));
+    const auto count = static_cast<std::size_t>(tracks);
+    costs.reset(std::min(count + 1, association::kMaximumSpots), count, 20.0, 4.0);
+    for (std::size_t i = 0; i < costs.spots; ++i) {
+      const Eigen::Vector2d spot =
+          i < count ? Eigen::Vector2d(places[i] + Eigen::Vector2d(2.0 * random.gaussian(),
+                                                                  2.0 * random.gaussian()))
+                    : Eigen::Vector2d(random.uniform(0.0, 100.0), random.uniform(0.0, 100.0));
+      for (std::size_t j = 0; j < count; ++j) {
+        const double cost = (spot - places[j]).squaredNorm() / 4.0;
+        if (cost < kGate)
+          costs.pair[i][j] = cost;
+      }
+    }
+  }
+  constexpr int kRepetitions = 100;
+  double sum = 0.0;
+  double seconds = 0.0;
+  for (int run = 0; run < settings.runs; ++run) {
+    const double start = processTime();
+    for (int i = 0; i < kRepetitions; ++i) {
+      for (const association::SpotCosts& costs : images)
+        sum += association::assignSpots(costs).cost;
+    }
+    seconds += processTime() - start;
+  }
+  const double count = static_cast<double>(kRepetitions * kTimedTogether) * settings.runs;
+  return {"one image, " + std::to_string(tracks) + " tracks, one spot more",
+          {{"images", count}, {"us", 1e6 * seconds / count}, {"mean_cost", sum / count}}};
+}
+
+void run(const BenchmarkSettings& settings, const RowCallback& row) {
+  using association::test::bestDivision;
+  using association::test::bestPermutation;
+  Disturbance clean;
+  Disturbance noisy;
+  noisy.pixel_stddev = 1.0;
+  Disturbance disturbed;
+  disturbed.dropout = 0.1;
+  disturbed.ghosts = 1;
+  for (const Case& c :
+       {Case{"2 cameras", 2, clean, bestPermutation}, Case{"4 cameras", 4, clean, bestPermutation},
+        Case{"4 cameras, 1 px", 4, noisy, bestPermutation}, Case{"8 cameras", 8, clean, nullptr},
+        Case{"2 cameras, 10 % missing, a ghost each", 2, disturbed, bestDivision},
+        Case{"4 cameras, 10 % missing, a ghost each", 4, disturbed, bestDivision},
+        Case{"8 cameras, 10 % missing, a ghost each", 8, disturbed, nullptr}})
+    row(runCase(c, settings));
+  for (const int tracks : {1, 4, 15})
+    row(runOneImage(tracks, settings));
+}
+
+}  // namespace
+
+BenchmarkSection associationSection() {
+  return {"association",
+          "four identical LEDs at random in the paper's cube, noise of 0.5 px, single frames of at "
+          "most four spots; identical: share of frames in which the same points are found as by "
+          "looking at all possibilities (all spots seen: at all permutations; else at all "
+          "divisions into points and ghosts); right: all points that two cameras see, and no "
+          "other; us: per frame, from sights (the lens undone), mean and longest",
+          run};
+}
+
+}  // namespace wiimote_tracker

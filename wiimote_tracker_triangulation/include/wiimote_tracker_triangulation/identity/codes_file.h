@@ -1,0 +1,18 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_CODES_FILE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_CODES_FILE_H
+
+#include "wiimote_tracker_triangulation/identity/blink_codes.h"
+
+#include <string>
+
+namespace wiimote_tracker::identity {
+
+/// The codes of a YAML file (format wiimote_tracker_blink_codes, version 1; see
+/// config/blink_codes.yaml and config/blink_codes_paper.yaml). Strict: keys that are missing or
+/// unknown, foreign formats and versions are refused by name.
+/// @throws geometry::Error.
+BlinkCodes readBlinkCodes(const std::string& file);
+
+}  // namespace wiimote_tracker::identity
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_CODES_FILE_H

@@ -1,0 +1,55 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_SNAPSHOT_SIGHTINGS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_SNAPSHOT_SIGHTINGS_H
+
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/identity/identifier.h"
+#include "wiimote_tracker_triangulation/tracking/snapshot.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::identity {
+
+struct SnapshotSightingsOptions {
+  double exposure = 0.001;  ///< Length, and the doubt about when it was [s, 0..0.02].
+
+  /// An LED closer than this to another one's spot may have become one with it [px, 0..200].
+  double merging_distance = 10.0;
+
+  /// As in CameraImage: with as many spots as this, further lights may be hidden.
+  std::size_t maximum_spots = 4;
+};
+
+struct TrackSighting {
+  std::uint32_t led;  ///< The tracker's id.
+  Sighting sighting;
+};
+
+/// Tells an Identifier what a tracker's snapshots say: for each image that is new, which LEDs it
+/// shows, and which ones it does not show though it ought to. Does not allocate once warm.
+class SnapshotSightings {
+ public:
+  explicit SnapshotSightings(const SnapshotSightingsOptions& options) : options_(options) {}
+
+  /// Adds the sightings of a snapshot, forgets the LEDs that are lost, and decides.
+  /// @param rig the one that the snapshot was made with.
+  void add(const geometry::Rig& rig, const tracking::Snapshot& snapshot, Identifier* identifier);
+
+  /// Only the sightings of a snapshot. Valid until the next call.
+  const std::vector<TrackSighting>& collect(const geometry::Rig& rig,
+                                            const tracking::Snapshot& snapshot);
+
+ private:
+  std::optional<bool> isSeen(const geometry::RigCamera& camera,
+                             const tracking::CameraView& view,
+                             const tracking::TrackedLed& led) const;
+
+  SnapshotSightingsOptions options_;
+  std::vector<TrackSighting> sightings_;
+  std::vector<std::optional<double>> times_;  // of each camera's last image [s]
+};
+
+}  // namespace wiimote_tracker::identity
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_SNAPSHOT_SIGHTINGS_H

@@ -1,0 +1,113 @@
+#include "wiimote_tracker_triangulation/identity/hypotheses.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::identity {
+namespace {
+
+// Between neighbouring frequencies the phase goes apart by this within the memory [periods].
+constexpr double kPhasePerFrequency = 0.06;
+
+// A sighting's phase is rounded to a part of the grid's step.
+constexpr std::size_t kStepsPerPhase = 4;
+
+// Lengths of exposures are rounded to this [periods]; longer ones than the last count as that.
+constexpr double kBlurStep = 1.0 / 32.0;
+constexpr std::size_t kBlurs = 13;
+
+std::size_t phasesFor(const BlinkCodes& codes) {
+  double shortest = 1.0;
+  for (const BlinkCode& code : codes.codes)
+    shortest = std::min(shortest, shortestRun(code.waveform));
+  const double phases = std::clamp(std::ceil(4.0 / shortest), 32.0, 256.0);
+  return 8 * static_cast<std::size_t>(std::ceil(phases / 8.0));  // whole vectors of floats
+}
+
+std::vector<double> frequenciesOf(const BlinkCodes& codes, double memory) {
+  const double lowest = 1.0 / codes.longest_period;
+  const double highest = 1.0 / codes.shortest_period;
+  const auto steps =
+      static_cast<std::size_t>(std::ceil((highest - lowest) * memory / kPhasePerFrequency));
+  std::vector<double> frequencies;
+  for (std::size_t i = 0; i <= steps; ++i)
+    frequencies.push_back(steps == 0 ? lowest
+                                     : lowest + (highest - lowest) * static_cast<double>(i) /
+                                                    static_cast<double>(steps));
+  return frequencies;
+}
+
+const BlinkCodes& checked(const BlinkCodes& codes) {
+  codes.check();
+  return codes;
+}
+
+}  // namespace
+
+Hypotheses::Hypotheses(const BlinkCodes& codes, const SeeingModel& seeing, double memory)
+    : codes_(checked(codes)),
+      seeing_(seeing),
+      memory_(std::max(memory, 3.0 * codes.longest_period)),
+      phases_(phasesFor(codes)),
+      frequencies_(frequenciesOf(codes, memory_)) {
+  doubt_ = 1.0 / static_cast<double>(phases_);
+  if (frequencies_.size() > 1)
+    doubt_ += 0.5 * kPhasePerFrequency;
+  likeness_.resize(kBlurs * 2 * kStepsPerPhase * labels() * 2 * phases_);
+  for (std::size_t blur = 0; blur < kBlurs; ++blur) {
+    for (const bool seen : {false, true}) {
+      for (std::size_t step = 0; step < kStepsPerPhase; ++step) {
+        for (std::size_t label = 0; label < labels(); ++label)
+          fillRow(blur, seen, step, label);
+      }
+    }
+  }
+}
+
+std::size_t Hypotheses::rowStart(std::size_t blur, bool seen, std::size_t step) const {
+  return ((blur * 2 + (seen ? 1 : 0)) * kStepsPerPhase + step) * labels() * 2 * phases_;
+}
+
+void Hypotheses::fillRow(std::size_t blur, bool seen, std::size_t step, std::size_t label) {
+  constexpr int kSamples = 16;  // over the doubt about the phase
+  const double phases = static_cast<double>(phases_);
+  const double exposure = kBlurStep * static_cast<double>(blur);
+  float* const row = &likeness_[rowStart(blur, seen, step) + label * 2 * phases_];
+  for (std::size_t i = 0; i < 2 * phases_; ++i) {
+    const double middle = (static_cast<double>(step) + 0.5) / (kStepsPerPhase * phases) -
+                          static_cast<double>(i) / phases;
+    double light = 0.0;
+    for (int k = 0; k < kSamples; ++k) {
+      const double phase = middle + doubt_ * ((k + 0.5) / kSamples - 0.5);
+      light += litShare(codes_.codes[label].waveform, phase - 0.5 * exposure, exposure) / kSamples;
+    }
+    const double probability =
+        seeing_.seen_when_off + (seeing_.seen_when_on - seeing_.seen_when_off) * light;
+    // Hidden and off look alike.
+    row[i] =
+        static_cast<float>(seen ? std::log(probability)
+                                : std::log((1.0 - probability) / (1.0 - seeing_.seen_when_off)));
+  }
+}
+
+Hypotheses::Lookup Hypotheses::lookup(const Sighting& sighting,
+                                      double frequency,
+                                      double periods) const {
+  const double blurs = sighting.exposure * frequency / kBlurStep + 0.5;
+  const auto blur = static_cast<std::size_t>(std::min(blurs, kBlurs - 1.0));
+  const double phase = periods - std::floor(periods);
+  const auto fine =
+      std::min(static_cast<std::size_t>(phase * static_cast<double>(kStepsPerPhase * phases_)),
+               kStepsPerPhase * phases_ - 1);
+  const std::size_t step = fine % kStepsPerPhase;
+  // A row runs over two rounds, so that every phase finds its whole round in one piece.
+  const std::size_t first = phases_ - fine / kStepsPerPhase;
+  return {&likeness_[rowStart(blur, sighting.seen, step) + first], 2 * phases_};
+}
+
+double Hypotheses::steady(bool seen) const {
+  return seen ? std::log(seeing_.seen_when_on)
+              : std::log((1.0 - seeing_.seen_when_on) / (1.0 - seeing_.seen_when_off));
+}
+
+}  // namespace wiimote_tracker::identity

@@ -1,0 +1,150 @@
+#include "wiimote_tracker_triangulation/identity/identifier.h"
+
+#include "wiimote_tracker_triangulation/identity/error.h"
+
+#include <algorithm>
+#include <string>
+
+namespace wiimote_tracker::identity {
+namespace {
+
+const IdentifierOptions& checked(const IdentifierOptions& options) {
+  options.check();
+  return options;
+}
+
+}  // namespace
+
+void IdentifierOptions::check() const {
+  const auto within = [](const char* name, double value, double least, double most) {
+    if (!(value >= least && value <= most))
+      throw IdentityError(std::string(name) + " is out of range; see its range in identifier.h");
+  };
+  within("seen_when_on", seeing.seen_when_on, 0.5, 0.999);
+  within("seen_when_off", seeing.seen_when_off, 0.0001, 0.2);
+  within("hidden", seeing.hidden, 1e-6, 0.1);
+  within("steady", steady, 1e-9, 0.5);
+  within("decide_at", decide_at, 0.6, 0.999999);
+  within("memory", memory, 0.1, 60.0);
+  within("interval", interval, 0.0, 1.0);
+}
+
+Identifier::Identifier(const BlinkCodes& codes, const IdentifierOptions& options)
+    : options_(checked(options)),
+      hypotheses_(codes, options.seeing, options.memory),
+      posterior_(hypotheses_, options.steady) {}
+
+Identifier::Led* Identifier::find(std::uint32_t id) {
+  for (const auto& led : leds_) {
+    if (led->used && led->id == id)
+      return led.get();
+  }
+  return nullptr;
+}
+
+Identifier::Led* Identifier::place(std::uint32_t id) {
+  Led* free = nullptr;
+  for (const auto& led : leds_) {
+    if (!led->used)
+      free = led.get();
+  }
+  if (!free) {
+    leds_.push_back(std::make_unique<Led>(Led{id, true, Evidence(hypotheses_), {}, {}}));
+    free = leds_.back().get();
+    evidence_.reserve(leds_.size());
+  }
+  free->id = id;
+  free->used = true;
+  free->identity = {};
+  free->probabilities.setZero(static_cast<Eigen::Index>(hypotheses_.labels() + 1));
+  free->evidence.reset(*origin_);
+  return free;
+}
+
+void Identifier::add(std::uint32_t id, const Sighting& sighting) {
+  if (!origin_)
+    origin_ = sighting.time;
+  Led* led = find(id);
+  if (!led)
+    led = place(id);
+  led->evidence.add(sighting);
+}
+
+void Identifier::forget(std::uint32_t id) {
+  if (Led* led = find(id))
+    led->used = false;
+}
+
+void Identifier::reset() {
+  for (const auto& led : leds_)
+    led->used = false;
+  origin_.reset();
+  decided_.reset();
+}
+
+void Identifier::decide(double time) {
+  if (decided_ && time < *decided_) {
+    origin_ = time;
+    for (const auto& led : leds_)
+      led->evidence.reset(time);
+  } else if (decided_ && time < *decided_ + options_.interval) {
+    return;
+  }
+  decided_ = time;
+  evidence_.clear();
+  for (const auto& led : leds_) {
+    if (led->used)
+      evidence_.push_back(&led->evidence);
+  }
+  if (evidence_.empty())
+    return;
+  const Eigen::MatrixXd& probabilities = posterior_.compute(evidence_);
+  Eigen::Index column = 0;
+  for (const auto& led : leds_) {
+    if (led->used)
+      led->probabilities = probabilities.col(column++);
+  }
+  for (const auto& led : leds_) {
+    if (led->used)
+      judge(led.get(), time);
+  }
+  for (const auto& led : leds_) {
+    Identity& identity = led->identity;
+    identity.confidence = identity.label ? led->probabilityOf(*identity.label) : 0.0;
+  }
+}
+
+void Identifier::judge(Led* led, double time) {
+  Eigen::Index best = 0;
+  if (led->probabilities.maxCoeff(&best) < options_.decide_at)
+    return;
+  const auto label = static_cast<std::size_t>(best);
+  if (label == hypotheses_.labels()) {
+    led->identity = {};
+  } else if (led->identity.label != label && takeFromOthers(label)) {
+    led->identity.label = label;
+    led->identity.since = time;
+  }
+}
+
+bool Identifier::takeFromOthers(std::size_t label) {
+  for (const auto& led : leds_) {
+    if (!led->used || led->identity.label != label)
+      continue;
+    // Whoever is still likely to be the one keeps the label: the other is its mirror image.
+    if (led->probabilityOf(label) >= 0.5)
+      return false;
+    led->identity = {};
+  }
+  return true;
+}
+
+const Identity* Identifier::identityOf(std::uint32_t id) const {
+  for (const auto& led : leds_) {
+    if (led->used && led->id == id)
+      return &led->identity;
+  }
+  return nullptr;
+}
+
+}  // namespace wiimote_tracker::identity

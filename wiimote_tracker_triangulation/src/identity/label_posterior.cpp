@@ -1,0 +1,154 @@
+#include "wiimote_tracker_triangulation/identity/label_posterior.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::identity {
+namespace {
+
+// What is e^-16 as likely as the best does not count.
+constexpr float kNegligible = 16.0f;
+
+// With more possible periods and phases than this, nothing is known yet.
+constexpr Eigen::Index kMostCells = 2000;
+
+}  // namespace
+
+LabelPosterior::LabelPosterior(const Hypotheses& hypotheses, double steady)
+    : hypotheses_(hypotheses), steady_prior_(steady) {}
+
+double LabelPosterior::logWeightOfSteady(std::size_t led) const {
+  return steady_[led] + std::log(steady_prior_ / (1.0 - steady_prior_) *
+                                 static_cast<double>(hypotheses_.labels()));
+}
+
+const Eigen::MatrixXd& LabelPosterior::compute(const std::vector<const Evidence*>& leds) {
+  while (cells_.size() < leds.size()) {
+    cells_.emplace_back(static_cast<Eigen::Index>(hypotheses_.cells()));
+    steady_.push_back(0.0);
+  }
+  posterior_.setZero(static_cast<Eigen::Index>(hypotheses_.labels() + 1),
+                     static_cast<Eigen::Index>(leds.size()));
+  for (std::size_t led = 0; led < leds.size(); ++led) {
+    leds[led]->read(&cells_[led], &steady_[led]);
+  }
+  if (hypotheses_.codes().synchronous && leds.size() > 1) {
+    computeTogether(leds.size());
+  } else {
+    for (std::size_t led = 0; led < leds.size(); ++led)
+      computeAlone(led);
+  }
+  return posterior_;
+}
+
+void LabelPosterior::computeAlone(std::size_t led) {
+  const auto phases = static_cast<Eigen::Index>(hypotheses_.phases());
+  const std::size_t labels = hypotheses_.labels();
+  const std::size_t frequencies = hypotheses_.frequencies().size();
+  const double steady = logWeightOfSteady(led);
+  const double reference = std::max(steady, static_cast<double>(cells_[led].maxCoeff()));
+  auto column = posterior_.col(static_cast<Eigen::Index>(led));
+  for (std::size_t i = 0; i < frequencies * labels; ++i) {
+    const auto cells = cells_[led].segment(static_cast<Eigen::Index>(i) * phases, phases);
+    if (cells.maxCoeff() < reference - kNegligible)
+      continue;
+    column(static_cast<Eigen::Index>(i % labels)) +=
+        static_cast<double>((cells - static_cast<float>(reference)).exp().sum());
+  }
+  column /= static_cast<double>(frequencies * hypotheses_.phases());
+  column(static_cast<Eigen::Index>(labels)) = std::exp(steady - reference);
+  column /= column.sum();
+}
+
+void LabelPosterior::computeTogether(std::size_t leds) {
+  const auto phases = static_cast<Eigen::Index>(hypotheses_.phases());
+  const auto labels = static_cast<Eigen::Index>(hypotheses_.labels());
+  const auto frequencies = static_cast<Eigen::Index>(hypotheses_.frequencies().size());
+  // No way of giving labels is likelier than each LED's best.
+  bound_.setZero(frequencies * phases);
+  for (std::size_t led = 0; led < leds; ++led) {
+    const auto steady = static_cast<float>(logWeightOfSteady(led));
+    for (Eigen::Index f = 0; f < frequencies; ++f) {
+      best_.setConstant(phases, steady);
+      for (Eigen::Index label = 0; label < labels; ++label)
+        best_ = best_.max(cells_[led].segment((f * labels + label) * phases, phases));
+      bound_.segment(f * phases, phases) += best_;
+    }
+  }
+  Eigen::Index likeliest = 0;
+  const float best = bound_.maxCoeff(&likeliest);
+  if ((bound_ > best - kNegligible).count() > kMostCells) {
+    posterior_.setConstant((1.0 - steady_prior_) / static_cast<double>(labels));
+    posterior_.row(labels).setConstant(steady_prior_);
+    return;
+  }
+  // What every weight of an LED is divided by, lest they leave the range of numbers.
+  reference_.resize(leds);
+  for (std::size_t led = 0; led < leds; ++led) {
+    reference_[led] = logWeightOfSteady(led);
+    for (Eigen::Index label = 0; label < labels; ++label)
+      reference_[led] =
+          std::max(reference_[led],
+                   static_cast<double>(cells_[led]((likeliest / phases * labels + label) * phases +
+                                                   likeliest % phases)));
+  }
+  for (Eigen::Index cell = 0; cell < bound_.size(); ++cell) {
+    if (bound_(cell) > best - kNegligible)
+      addCell(static_cast<std::size_t>(cell / phases), static_cast<std::size_t>(cell % phases),
+              leds);
+  }
+  for (Eigen::Index led = 0; led < posterior_.cols(); ++led)
+    posterior_.col(led) /= posterior_.col(led).sum();
+}
+
+// The sum over all ways to give the LEDs different labels, or none, is a permanent; here by going
+// through the LEDs with the set of labels that are taken, forwards and backwards.
+void LabelPosterior::addCell(std::size_t frequency, std::size_t phase, std::size_t leds) {
+  const std::size_t labels = hypotheses_.labels();
+  const std::size_t sets = std::size_t{1} << labels;
+  weights_.resize(leds * (labels + 1));
+  forward_.assign((leds + 1) * sets, 0.0);
+  backward_.assign((leds + 1) * sets, 0.0);
+  for (std::size_t led = 0; led < leds; ++led) {
+    for (std::size_t label = 0; label < labels; ++label)
+      weights_[led * (labels + 1) + label] =
+          std::exp(cells_[led](static_cast<Eigen::Index>(
+                       (frequency * labels + label) * hypotheses_.phases() + phase)) -
+                   reference_[led]);
+    weights_[led * (labels + 1) + labels] = std::exp(logWeightOfSteady(led) - reference_[led]);
+  }
+  forward_[0] = 1.0;
+  std::fill(backward_.end() - static_cast<std::ptrdiff_t>(sets), backward_.end(), 1.0);
+  for (std::size_t led = 0; led < leds; ++led) {
+    const double* weight = &weights_[led * (labels + 1)];
+    const double* from = &forward_[led * sets];
+    double* to = &forward_[(led + 1) * sets];
+    for (std::size_t taken = 0; taken < sets; ++taken) {
+      to[taken] += from[taken] * weight[labels];
+      for (std::size_t label = 0; label < labels; ++label) {
+        if (!(taken >> label & 1))
+          to[taken | std::size_t{1} << label] += from[taken] * weight[label];
+      }
+    }
+  }
+  for (std::size_t led = leds; led-- > 0;) {
+    const double* weight = &weights_[led * (labels + 1)];
+    const double* from = &backward_[(led + 1) * sets];
+    double* to = &backward_[led * sets];
+    const double* before = &forward_[led * sets];
+    for (std::size_t taken = 0; taken < sets; ++taken) {
+      to[taken] = from[taken] * weight[labels];
+      const auto column = static_cast<Eigen::Index>(led);
+      posterior_(static_cast<Eigen::Index>(labels), column) += before[taken] * to[taken];
+      for (std::size_t label = 0; label < labels; ++label) {
+        if (taken >> label & 1)
+          continue;
+        const double rest = weight[label] * from[taken | std::size_t{1} << label];
+        to[taken] += rest;
+        posterior_(static_cast<Eigen::Index>(label), column) += before[taken] * rest;
+      }
+    }
+  }
+}
+
+}  // namespace wiimote_tracker::identity

@@ -1,0 +1,184 @@
+#include "wiimote_tracker_triangulation/identity/schemes.h"
+
+#include "wiimote_tracker_triangulation/identity/error.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace wiimote_tracker::identity {
+namespace {
+
+constexpr std::size_t kLongestWord = 20;
+
+Waveform waveformOf(const CyclicLed& led) {
+  Waveform waveform;
+  const double length = static_cast<double>(led.word.size());
+  for (std::size_t i = 0; i < led.word.size(); ++i) {
+    if (led.word[i] != '0' && led.word[i] != '1')
+      throw IdentityError("the word of " + led.label + " is '" + led.word +
+                          "'; write it with 0 and 1");
+    if (led.word[i] == '0')
+      continue;
+    const double to = static_cast<double>(i + 1) / length;
+    if (i > 0 && led.word[i - 1] == '1')
+      waveform.back().to = to;
+    else
+      waveform.push_back({static_cast<double>(i) / length, to});
+  }
+  return waveform;
+}
+
+/// A word of up to 20 chips as bits.
+using Bits = std::uint32_t;
+
+Bits rotated(Bits word, std::size_t length) {
+  return (word >> 1) | ((word & 1u) << (length - 1));
+}
+
+int ones(Bits word) {
+  int count = 0;
+  for (; word; word &= word - 1)
+    ++count;
+  return count;
+}
+
+std::size_t distanceOf(Bits one, Bits other, std::size_t length) {
+  int least = static_cast<int>(length);
+  for (std::size_t i = 0; i < length; ++i, other = rotated(other, length))
+    least = std::min(least, ones(one ^ other));
+  return static_cast<std::size_t>(least);
+}
+
+/// Whether no rotation of the word is a smaller number: one of all its rotations.
+bool isSmallestRotation(Bits word, std::size_t length) {
+  Bits other = word;
+  for (std::size_t i = 1; i < length; ++i) {
+    other = rotated(other, length);
+    if (other < word)
+      return false;
+  }
+  return true;
+}
+
+/// Whether some `dark` chips in a row are off. A word that is its own smallest rotation begins with
+/// its longest darkness.
+bool isDarkFor(Bits word, std::size_t length, std::size_t dark) {
+  return dark <= length && (word >> (length - dark)) == 0;
+}
+
+/// All words of a length that may be used, those that are on for longest first.
+std::vector<Bits> usableWords(std::size_t length, std::size_t longest_dark) {
+  std::vector<Bits> words;
+  const Bits all = (Bits{1} << length) - 1;
+  for (Bits word = 1; word < all; ++word) {
+    if (!isDarkFor(word, length, longest_dark + 1) && isSmallestRotation(word, length))
+      words.push_back(word);
+  }
+  std::stable_sort(words.begin(), words.end(), [](Bits a, Bits b) { return ones(a) > ones(b); });
+  return words;
+}
+
+/// Goes through the candidates from `first` on and takes each that is far enough from those taken.
+std::vector<Bits> takeInTurn(const std::vector<Bits>& candidates,
+                             std::size_t first,
+                             std::size_t count,
+                             std::size_t length,
+                             std::size_t distance) {
+  std::vector<Bits> taken;
+  for (std::size_t i = first; i < candidates.size() && taken.size() < count; ++i) {
+    if (std::all_of(taken.begin(), taken.end(), [&](Bits other) {
+          return distanceOf(candidates[i], other, length) >= distance;
+        }))
+      taken.push_back(candidates[i]);
+  }
+  return taken;
+}
+
+std::string text(Bits word, std::size_t length) {
+  std::string chips;
+  for (std::size_t i = length; i-- > 0;)
+    chips += (word >> i) & 1u ? '1' : '0';
+  return chips;
+}
+
+}  // namespace
+
+BlinkCodes dutyCodes(const std::vector<DutyLed>& leds, double shortest, double longest) {
+  BlinkCodes codes;
+  codes.synchronous = true;
+  codes.shortest_period = shortest;
+  codes.longest_period = longest;
+  for (const DutyLed& led : leds) {
+    if (!(led.share > 0.0 && led.share < 1.0))
+      throw IdentityError("the share of " + led.label + " must be between 0 and 1; correct it");
+    codes.codes.push_back({led.label, {{0.5 - 0.5 * led.share, 0.5 + 0.5 * led.share}}});
+  }
+  codes.check();
+  return codes;
+}
+
+BlinkCodes cyclicCodes(const std::vector<CyclicLed>& leds, double chip, double tolerance) {
+  if (!(tolerance >= 0.0 && tolerance <= 0.05))
+    throw IdentityError("the clocks' tolerance must be within 0 and 0.05; correct it");
+  if (!(chip >= 0.001 && chip <= 1.0))
+    throw IdentityError("a chip must last 0.001 to 1 s; correct it");
+  BlinkCodes codes;
+  for (const CyclicLed& led : leds) {
+    if (led.word.size() != leds.front().word.size() || led.word.size() < 2 ||
+        led.word.size() > kLongestWord)
+      throw IdentityError("the word of " + led.label +
+                          " has another length than that of the first LED, or not 2 to 20 chips; "
+                          "take words of one length");
+    codes.codes.push_back({led.label, waveformOf(led)});
+  }
+  const double period = leds.empty() ? chip : chip * static_cast<double>(leds[0].word.size());
+  codes.shortest_period = period * (1.0 - tolerance);
+  codes.longest_period = period * (1.0 + tolerance);
+  codes.check();
+  return codes;
+}
+
+std::size_t rotationDistance(const std::string& one, const std::string& other) {
+  std::size_t least = one.size();
+  for (std::size_t shift = 0; shift < one.size(); ++shift) {
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < one.size(); ++i)
+      differing += one[i] != other[(i + shift) % other.size()];
+    least = std::min(least, differing);
+  }
+  return least;
+}
+
+std::vector<std::string> chooseWords(std::size_t count, const WordRules& rules) {
+  for (std::size_t length = 3; length <= std::min(rules.longest_word, kLongestWord); ++length) {
+    const std::vector<Bits> candidates = usableWords(length, rules.longest_dark);
+    for (std::size_t first = 0; first + count <= candidates.size(); ++first) {
+      const std::vector<Bits> chosen = takeInTurn(candidates, first, count, length, rules.distance);
+      if (chosen.size() < count)
+        continue;
+      std::vector<std::string> words;
+      for (const Bits word : chosen)
+        words.push_back(text(word, length));
+      return words;
+    }
+  }
+  return {};
+}
+
+std::vector<std::string> chooseWords(std::size_t count) {
+  WordRules rules;
+  rules.longest_dark = 1;
+  rules.longest_word = 8;
+  std::vector<std::string> words = chooseWords(count, rules);
+  if (words.empty()) {
+    rules.longest_dark = 2;
+    rules.longest_word = kLongestWord;
+    words = chooseWords(count, rules);
+  }
+  if (words.empty())
+    throw IdentityError("there are no words for " + std::to_string(count) +
+                        " LEDs; ask for at least 1 and at most a few hundred");
+  return words;
+}
+
+}  // namespace wiimote_tracker::identity

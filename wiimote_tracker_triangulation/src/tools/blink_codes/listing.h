@@ -1,0 +1,26 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TOOLS_BLINK_CODES_LISTING_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TOOLS_BLINK_CODES_LISTING_H
+
+#include "wiimote_tracker_triangulation/identity/blink_codes.h"
+
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::blink_codes_tool {
+
+/// When each LED is switched on and off in a period of this length [s], as a table.
+std::string table(const identity::BlinkCodes& codes, double period);
+
+/// An Arduino sketch that blinks all LEDs, one pin each, with a period of this length [s].
+std::string sketch(const identity::BlinkCodes& codes, double period);
+
+/// What is to be known of codes that are valid: how far they are apart, how long a track must live
+/// without light, and what cameras of 100 images per second may miss.
+std::string remarks(const identity::BlinkCodes& codes);
+
+/// A file of cyclic codes for these labels, for readBlinkCodes. @throws identity::IdentityError.
+std::string cyclicFile(const std::vector<std::string>& labels, double chip, double tolerance);
+
+}  // namespace wiimote_tracker::blink_codes_tool
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TOOLS_BLINK_CODES_LISTING_H

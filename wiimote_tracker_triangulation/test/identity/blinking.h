@@ -1,0 +1,87 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_IDENTITY_BLINKING_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TEST_IDENTITY_BLINKING_H
+
+#include "geometry/random_rigs.h"
+#include "wiimote_tracker_triangulation/identity/blink_codes.h"
+#include "wiimote_tracker_triangulation/identity/sighting.h"
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+namespace wiimote_tracker::identity::test {
+
+/// How LEDs blink and cameras see. LED i has label i.
+struct BlinkingOptions {
+  BlinkCodes codes;
+  double period = 0.1;            ///< [s]
+  std::vector<std::size_t> leds;  ///< Which are there; a number beyond the labels does not blink.
+  std::size_t cameras = 1;
+  double start = 1000.0;         ///< [s]
+  double duration = 1.0;         ///< [s]
+  double image_interval = 0.01;  ///< Of each camera, at a phase of its own [s].
+  double exposure = 0.001;       ///< [s]
+  double drop = 0.0;             ///< Probability that an LED that is on is not seen.
+  double flip = 0.0;             ///< Probability of any sighting to be the contrary.
+
+  /// Whether something is in the way of an LED.
+  std::function<bool(std::size_t camera, std::size_t led, double time)> hidden;
+};
+
+struct LedSighting {
+  std::size_t led;  ///< Index in BlinkingOptions::leds.
+  Sighting sighting;
+};
+
+/// The sightings of blinking LEDs by cameras that are not synchronised, in the order of time. An
+/// LED's begin when it is first seen, as a tracker's do.
+inline std::vector<LedSighting> simulateBlinking(const BlinkingOptions& options,
+                                                 geometry::test::Random* random) {
+  const double common_phase = random->uniform(0.0, 1.0);
+  std::vector<double> phases;
+  // The share of an exposure that must be lit differs with distance and brightness.
+  std::vector<double> thresholds;
+  for (std::size_t i = 0; i < options.leds.size(); ++i) {
+    phases.push_back(options.codes.synchronous ? common_phase : random->uniform(0.0, 1.0));
+    for (std::size_t camera = 0; camera < options.cameras; ++camera)
+      thresholds.push_back(random->uniform(0.05, 0.95));
+  }
+  std::vector<LedSighting> sightings;
+  for (std::size_t camera = 0; camera < options.cameras; ++camera) {
+    const double first = options.start + options.image_interval * random->uniform(0.0, 1.0);
+    for (int k = 0; first + k * options.image_interval < options.start + options.duration; ++k) {
+      const double time = first + k * options.image_interval;
+      for (std::size_t i = 0; i < options.leds.size(); ++i) {
+        bool on = true;
+        if (options.leds[i] < options.codes.codes.size()) {
+          const double begin = (time - options.start - 0.5 * options.exposure) / options.period;
+          on = litShare(options.codes.codes[options.leds[i]].waveform, begin + phases[i],
+                        options.exposure / options.period) >
+               thresholds[i * options.cameras + camera];
+        }
+        bool seen = on && random->uniform(0.0, 1.0) >= options.drop;
+        if (random->uniform(0.0, 1.0) < options.flip)
+          seen = !seen;
+        if (options.hidden && options.hidden(camera, i, time))
+          seen = false;
+        sightings.push_back({i, {camera, time, options.exposure, seen}});
+      }
+    }
+  }
+  std::stable_sort(
+      sightings.begin(), sightings.end(),
+      [](const LedSighting& a, const LedSighting& b) { return a.sighting.time < b.sighting.time; });
+  std::vector<char> begun(options.leds.size(), 0);
+  const auto too_early = [&](const LedSighting& s) {
+    begun[s.led] |= static_cast<char>(s.sighting.seen);
+    return !begun[s.led];
+  };
+  // In order: std::remove_if applies its condition to each once, from the first to the last.
+  sightings.erase(std::remove_if(sightings.begin(), sightings.end(), std::ref(too_early)),
+                  sightings.end());
+  return sightings;
+}
+
+}  // namespace wiimote_tracker::identity::test
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_IDENTITY_BLINKING_H

@@ -53,7 +53,11 @@ struct ViewAssociator::Workspace {
   Workspace(const geometry::Rig& rig,
             std::vector<std::vector<std::size_t>> partners,
             const AssociationOptions& association_options)
-      : options(association_options), search(rig, std::move(partners), association_options) {}
+      : options(association_options), search(rig, std::move(partners), association_options) {
+    constexpr std::size_t kUsual = 64;  // most spots that are ever connected
+    component.spots.reserve(kUsual);
+    component.pair_chi_squared.reserve(kUsual * kUsual);
+  }
 
   void collectSpots(const std::vector<View>& views);
   void findEdges(const std::vector<View>& views, std::size_t a, std::size_t b);

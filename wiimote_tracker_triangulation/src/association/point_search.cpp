@@ -22,6 +22,22 @@ PointSearch::PointSearch(const geometry::Rig& rig,
   triangulation_.minimum_angle = options.minimum_angle;
   for (const geometry::RigCamera& camera : rig.cameras)
     cameras_.push_back(camera.camera);
+  reserve(kMaskSize);
+}
+
+/// Memory for components of that many spots.
+void PointSearch::reserve(std::size_t spots) {
+  drafts_.resize(spots);
+  best_.resize(spots);
+  for (Draft& draft : drafts_)
+    draft.spots.reserve(cameras_.size());
+  for (Point& point : best_)
+    point.spots.reserve(cameras_.size());
+  view_ends_.reserve(spots);
+  partner_spots_.reserve(spots);
+  least_costs_.reserve(spots);
+  costs_.reserve(spots);
+  sights_.reserve(cameras_.size());
 }
 
 bool PointSearch::solveAsOnePoint(const Component& component, const std::vector<View>& views) {
@@ -59,10 +75,8 @@ void PointSearch::begin(const Component& component, const std::vector<View>& vie
   component_ = &component;
   views_ = &views;
   steps_ = 0;
-  if (drafts_.size() < component.spots.size()) {
-    drafts_.resize(component.spots.size());
-    best_.resize(component.spots.size());
-  }
+  if (drafts_.size() < component.spots.size())
+    reserve(component.spots.size());
   draft_count_ = 0;
   best_count_ = 0;
   best_cost_ = options_.ghost * static_cast<double>(component.spots.size());

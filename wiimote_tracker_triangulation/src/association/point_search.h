@@ -75,6 +75,7 @@ class PointSearch {
     Fit fit;
   };
 
+  void reserve(std::size_t spots);
   void begin(const Component& component, const std::vector<View>& views);
   void prepare();
   void decide(std::size_t spot, std::size_t ghosts);

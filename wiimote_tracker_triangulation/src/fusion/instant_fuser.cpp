@@ -141,6 +141,7 @@ void InstantFuser::Parts::describeRays(const Locator::Point& point, TrackedLed* 
 TrackedLed& InstantFuser::Parts::nextLed() {
   if (spare_leds.empty()) {
     snapshot.leds.emplace_back();
+    snapshot.leds.back().cameras.reserve(cameras.size());
   } else {
     snapshot.leds.push_back(std::move(spare_leds.back()));
     spare_leds.pop_back();

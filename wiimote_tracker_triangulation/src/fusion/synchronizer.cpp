@@ -1,30 +1,14 @@
 #include "synchronizer.h"
 
+#include "wiimote_tracker_triangulation/geometry/image_rules.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace wiimote_tracker::fusion {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double timeOffset(const geometry::RigCamera& camera, std::uint32_t clock_epoch) {
-  switch (camera.time_offset_rule) {
-    case geometry::TimeOffsetRule::kAlways:
-      return camera.time_offset;
-    case geometry::TimeOffsetRule::kOneEpoch:
-      return clock_epoch == camera.time_offset_epoch ? camera.time_offset : 0.0;
-    case geometry::TimeOffsetRule::kNone:
-      break;
-  }
-  return 0.0;
-}
-
-bool isMasked(const geometry::RigCamera& camera, const Eigen::Vector2d& pixel) {
-  return std::any_of(camera.masks.begin(), camera.masks.end(),
-                     [&](const auto& mask) { return (pixel - mask.center).norm() <= mask.radius; });
-}
 
 bool hasImageAt(const FrameHistory<Frame>& frames, double time) {
   const Frame* frame = frames.lastUpTo(time);
@@ -102,13 +86,13 @@ void Synchronizer::begin(double arrival) {
 
 void Synchronizer::readFrame(const geometry::RigCamera& camera,
                              const tracking::CameraImage& image) {
-  frame_.time = image.stamp + timeOffset(camera, image.clock_epoch);
+  frame_.time = image.stamp + geometry::timeOffset(camera, image.clock_epoch);
   frame_.arrival = image.arrival;
   frame_.is_full = image.spots.size() >= image.maximum_spots;
   frame_.spots.clear();
   frame_.masked.clear();
   for (const tracking::Spot& spot : image.spots) {
-    if (isMasked(camera, spot.pixel)) {
+    if (geometry::isMasked(camera, spot.pixel)) {
       frame_.masked.push_back(spot.pixel);
     } else {
       frame_.spots.emplace_back();

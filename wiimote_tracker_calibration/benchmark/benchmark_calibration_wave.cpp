@@ -105,15 +105,21 @@ void runWave(int runs, const RowCallback& row) {
     row(rowOf(name + "square + wave, stamps 0.3 ms", scene, runs));
     scene.wander = 0.0;
     scene.length = 0.5;
-    row(rowOf(name + "square + wand", scene, runs));
+    for (const double pixel : {0.3, 0.5}) {
+      scene.pixel = pixel;
+      char text[40];
+      std::snprintf(text, sizeof text, "square + wand, %.1f px", pixel);
+      row(rowOf(name + text, scene, runs));
+    }
+    scene.pixel = 0.3;
     scene.side = 1.5;
-    row(rowOf(name + "square of 1.5 m + wand", scene, runs));
+    row(rowOf(name + "square of 1.5 m + wand, 0.3 px", scene, runs));
     scene.side = 2.5;
     scene.wander = 0.0003;
     row(rowOf(name + "square + wand, stamps 0.3 ms", scene, runs));
     scene.wander = 0.0;
     scene.square = false;
-    row(rowOf(name + "wand alone", scene, runs));
+    row(rowOf(name + "wand alone, 0.3 px", scene, runs));
   }
 }
 

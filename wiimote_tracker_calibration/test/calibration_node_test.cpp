@@ -137,6 +137,9 @@ TEST_F(Node, a_capture_can_be_called_off_and_cancelled) {
   EXPECT_TRUE(call<std_srvs::Trigger>("calibration/cancel").success);
   EXPECT_TRUE(capture_->waitForResult(ros::Duration(kPatience)));
   EXPECT_FALSE(capture_->getResult()->success);
+  EXPECT_SAYS(capture_->getResult()->message, "it was cancelled");
+  EXPECT_TRUE(waitForStep(CalibrationStatus::READY));  // the run goes on
+  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/cancel").success);
   EXPECT_TRUE(waitForStep(CalibrationStatus::IDLE));
 }
 

@@ -118,6 +118,11 @@ TEST_F(CalibratedNode, SaysWhyAPlaceIsNotMeasured) {
   cameras_->switchLed(false);
   auto waiting = std::async(std::launch::async, [&] { return check({1.0, 0.8, 0.3}); });
   ASSERT_TRUE(waitForStep(CalibrationStatus::MEASURING));
+  // Another one is refused, and does not end it.
+  EXPECT_SAYS(check({1.0, 0.8, 0.3}).message, "is being measured: wait");
+  EXPECT_TRUE(waitUntil(
+      [] { return status_->get()->message.find("is being measured") != std::string::npos; }));
+  EXPECT_EQ(status_->get()->step, CalibrationStatus::MEASURING);
   EXPECT_TRUE(call<std_srvs::Trigger>("calibration/cancel").success);
   EXPECT_SAYS(waiting.get().message, "cancelled");
 }

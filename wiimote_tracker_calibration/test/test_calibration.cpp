@@ -200,16 +200,52 @@ TEST_F(Workflow, a_failed_solve_keeps_corners_and_rig) {
   EXPECT_EQ(calibration_.rig()->id(), id);
 }
 
-TEST_F(Workflow, cancel_drops_the_run_and_keeps_the_rig) {
+TEST_F(Workflow, cancel_stops_what_goes_on_and_a_second_one_drops_the_run) {
   captureAll();
   ASSERT_TRUE(solve(1.0).success);
   ASSERT_TRUE(calibration_.start(1.0, 1.0, names_).success);
+  ASSERT_TRUE(capture(kCorners[0]).success);
   ASSERT_TRUE(calibration_.beginCapture(std::nullopt, now_).success);
+  EXPECT_SAYS(calibration_.cancel().message, "corner 2 was not captured");
+  EXPECT_EQ(calibration_.step(), Step::kReady);
+  EXPECT_FALSE(calibration_.square().capture());
+  EXPECT_EQ(calibration_.square().corners().size(), 1U);
   EXPECT_TRUE(calibration_.cancel().success);
   EXPECT_EQ(calibration_.step(), Step::kIdle);
-  EXPECT_FALSE(calibration_.square().capture());
   EXPECT_TRUE(calibration_.rig());
   EXPECT_FALSE(calibration_.beginCapture(std::nullopt, now_).success);
+}
+
+TEST_F(Workflow, a_cancelled_wave_is_dropped_and_the_square_stays) {
+  captureAll();
+  ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
+  wave(1.0);
+  EXPECT_SAYS(calibration_.cancel().message, "the corners stay");
+  EXPECT_EQ(calibration_.step(), Step::kComplete);
+  EXPECT_FALSE(calibration_.wave());
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+}
+
+TEST_F(Workflow, a_cancel_that_comes_too_late_for_the_solver_drops_nothing) {
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  EXPECT_SAYS(calibration_.cancel().message, "nothing was dropped");
+  EXPECT_EQ(calibration_.step(), Step::kSolved);
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+  // The same when it failed.
+  ASSERT_TRUE(calibration_.beginSolve().success);
+  calibration_.end({false, "no solution"});
+  EXPECT_SAYS(calibration_.cancel().message, "nothing was dropped");
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+  EXPECT_TRUE(calibration_.cancel().success);
+  EXPECT_EQ(calibration_.step(), Step::kIdle);
+  EXPECT_TRUE(calibration_.square().corners().empty());
+  // Once something else was done it is the run that is meant.
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  calibration_.saved("saved");
+  calibration_.cancel();
+  EXPECT_EQ(calibration_.step(), Step::kIdle);
 }
 
 TEST_F(Workflow, a_loaded_rig_does_not_disturb_a_run) {
@@ -308,8 +344,14 @@ TEST_F(Workflow, cancel_stops_a_long_task_first) {
   EXPECT_SAYS(calibration_.undo().message, "the solver runs");
   EXPECT_SAYS(calibration_.begin(Step::kMasking, "").message, "the solver runs");
   EXPECT_TRUE(calibration_.cancel().success);
-  EXPECT_EQ(calibration_.step(), Step::kComplete);
   EXPECT_FALSE(calibration_.isBusyWith(Step::kSolving));
+  // It takes its time to stop; nothing else begins meanwhile, and nothing is dropped.
+  EXPECT_SAYS(calibration_.begin(Step::kMeasuring, "").message, "not stopped yet");
+  EXPECT_SAYS(calibration_.beginSolve().message, "not stopped yet");
+  EXPECT_TRUE(calibration_.cancel().success);
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+  calibration_.end({false, "it was cancelled"});
+  EXPECT_EQ(calibration_.step(), Step::kComplete);
   ASSERT_TRUE(calibration_.begin(Step::kMeasuring, "measuring").success);
   calibration_.setProgress(0.5);
   EXPECT_EQ(calibration_.progress(), 0.5);

@@ -159,6 +159,17 @@ TEST(CornerCapture, too_few_samples_until_the_time_is_up_are_refused_with_the_re
   EXPECT_SAYS(capture.message(), "c sends no images");
 }
 
+TEST(CornerCapture, nothing_is_made_of_the_silence_before_the_first_image) {
+  CornerCapture capture({"a", "b"}, CornerCaptureOptions(), 10.0);
+  capture.update(10.0);
+  EXPECT_SAYS(capture.problem("a"), "has 0 of 50 samples");
+  capture.add(image("a", 10.3, one(10, 10)));
+  EXPECT_SAYS(capture.problem("a"), "has 1 of 50 samples");
+  EXPECT_SAYS(capture.problem("b"), "has 0 of 50 samples");
+  capture.update(10.6);
+  EXPECT_SAYS(capture.problem("b"), "sends no images");
+}
+
 TEST(CornerCapture, one_camera_is_not_enough) {
   CornerCaptureOptions options;
   options.timeout = 1.0;

@@ -130,6 +130,14 @@ class JoinRigs : public ::testing::Test {
   geometry::Rig second_ = exactRig(2, 6, worldFromSecond(), random_);
 };
 
+TEST_F(JoinRigs, a_rig_is_not_joined_with_itself) {
+  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, first_); }), "the same rig");
+  geometry::Rig again = exactRig(0, 3, worldFromSecond(), random_);
+  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, again); }), "nothing to join");
+  // The other way round there is one to add.
+  EXPECT_EQ(joinRigs(again, first_).rig.cameras.size(), 4U);
+}
+
 TEST_F(JoinRigs, exact_rigs_make_an_exact_one) {
   const JoinedRigs joined = joinRigs(first_, second_);
   EXPECT_LT((joined.first_from_second.matrix() - worldFromSecond().matrix()).norm(), 1e-9);

@@ -219,7 +219,7 @@ RIG = [
     Command('load_samples', 'O', 'read what was captured before, to solve it',
             with_path('load_samples', 'LoadSamples'),
             '[FILE]', 'Samples file; Enter: the one beside the rig file'),
-    Command('cancel', 'x', 'drop all that was captured', trigger('cancel'), '',
+    Command('cancel', 'x', 'stop what goes on, or drop all', trigger('cancel'), '',
             'Drop all that was captured? Enter: yes, Escape: no'),
 ]
 

@@ -8,7 +8,8 @@ namespace wiimote_tracker::capture {
 
 namespace {
 
-// A camera holds up the capture only while it keeps giving samples.
+// A camera holds up the capture only while it keeps giving samples; and for so long after the
+// beginning nothing is made of its silence.
 constexpr double kHold = 0.5;  // [s]
 // Fewer samples say nothing about stillness.
 constexpr std::size_t kSamplesToJudge = 10;
@@ -106,12 +107,13 @@ std::string CornerCapture::problem(const std::string& name) const {
     return moved;
   if (isComplete(camera))
     return "";
-  if (!camera.seen)
+  const bool just_begun = now_ - start_time_ < std::min(kHold, options_.timeout);
+  if (!camera.seen && !just_begun)
     return "sends no images: check its battery, its connection and its driver";
   if (camera.blobs == 0 && camera.masked > 0)
     return "sees lights that are masked only: if the LED stands in front of one of them, move that "
            "lamp or the camera and learn the masks again";
-  if (camera.blobs != 1)
+  if (camera.seen && camera.blobs != 1)
     return spotCountProblem(camera.blobs);
   return "has " + std::to_string(camera.spot.samples()) + " of " +
          std::to_string(options_.minimum_samples) + " samples: keep the LED still";

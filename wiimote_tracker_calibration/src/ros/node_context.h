@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H
 
+#include "wiimote_tracker_calibration/place/known_places.h"
 #include "wiimote_tracker_calibration/workflow/calibration.h"
 
 #include "camera_inputs.h"
@@ -63,11 +64,13 @@ class NodeContext {
   /// A copy may be taken; a unit may change what is its own, such as a camera's intrinsics.
   Parameters& parameters(const Lock&) { return parameters_; }
   workflow::Calibration& calibration(const Lock&) { return calibration_; }
+  /// Measured with the current rig after useRig(); before that perhaps with another.
+  place::KnownPlaces& knownPlaces(const Lock&) { return known_places_; }
 
   /// See workflow::Calibration::begin(), end(). The status shows it at once.
   workflow::Reply begin(workflow::Step step, const std::string& message, const Lock& lock);
   void setProgress(double progress, const Lock&) { calibration_.setProgress(progress); }
-  /// Whether what was begun is over, by cancel or by end().
+  /// Whether what was begun is to stop. Whoever began it calls end() all the same.
   bool stopped(workflow::Step step, const Lock&) const { return !calibration_.isBusyWith(step); }
   void end(const workflow::Reply& outcome, const Lock& lock);
 
@@ -104,6 +107,7 @@ class NodeContext {
   std::condition_variable changed_;
   Parameters parameters_;
   workflow::Calibration calibration_;
+  place::KnownPlaces known_places_;
   std::map<std::string, std::string> health_;
   ros::Publisher status_publisher_;
   RigOutput rig_output_;

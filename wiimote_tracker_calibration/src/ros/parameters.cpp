@@ -101,8 +101,7 @@ void readHealth(ParameterReader* reader, health::HealthOptions* options) {
   drift.window = reader->bounded("residual_drift_window", drift.window, 5.0, 3600.0);
 }
 
-geometry::Intrinsics readIntrinsics(const ros::NodeHandle& nh,
-                                    ParameterReader* reader,
+geometry::Intrinsics readIntrinsics(ParameterReader* reader,
                                     const std::string& key,
                                     geometry::Intrinsics lens) {
   const std::string prefix = key + "/";
@@ -125,7 +124,7 @@ geometry::Intrinsics readIntrinsics(const ros::NodeHandle& nh,
   const bool finite = std::all_of(distortion.begin(), distortion.end(),
                                   [](double value) { return std::isfinite(value); });
   if (static_cast<std::ptrdiff_t>(distortion.size()) != count || !finite)
-    throw ParameterError(nh.resolveName(prefix + "distortion") +
+    throw ParameterError(reader->nameOf(prefix + "distortion") +
                          (count == 5 ? " must have five numbers: k1, k2, p1, p2, k3"
                                      : " must have four numbers: k1, k2, k3, k4"));
   std::copy(distortion.begin(), distortion.end(), lens.distortion.begin());
@@ -133,10 +132,10 @@ geometry::Intrinsics readIntrinsics(const ros::NodeHandle& nh,
 }
 
 /// Names below cameras_intrinsics. A name may contain slashes; its keys are the last part.
-std::set<std::string> camerasWithOwnIntrinsics(const ros::NodeHandle& nh) {
-  const std::string prefix = nh.resolveName("cameras_intrinsics") + "/";
-  std::vector<std::string> all;
-  nh.getParamNames(all);
+/// @param all names of all parameters, in full.
+std::set<std::string> camerasWithOwnIntrinsics(const ParameterReader& reader,
+                                               const std::vector<std::string>& all) {
+  const std::string prefix = reader.nameOf("cameras_intrinsics") + "/";
   std::set<std::string> names;
   for (const std::string& name : all) {
     if (name.compare(0, prefix.size(), prefix) != 0)
@@ -149,17 +148,11 @@ std::set<std::string> camerasWithOwnIntrinsics(const ros::NodeHandle& nh) {
   return names;
 }
 
-}  // namespace
-
-const geometry::Intrinsics& Parameters::intrinsicsOf(const std::string& camera) const {
-  const auto own = own_intrinsics.find(camera);
-  return own != own_intrinsics.end() ? own->second : intrinsics;
-}
-
-Parameters readParameters(const ros::NodeHandle& nh) {
+template <typename Source>
+Parameters readFrom(const Source& source) {
   Parameters parameters;
   workflow::CalibrationOptions& calibration = parameters.calibration;
-  ParameterReader reader(nh);
+  ParameterReader reader(source);
   parameters.cameras = reader.optional<std::vector<std::string>>("cameras", {});
   parameters.side_length = reader.bounded("side_length", 0.0, 0.0, 1000.0);
   parameters.second_side_length = reader.bounded("second_side_length", 0.0, 0.0, 1000.0);
@@ -169,7 +162,7 @@ Parameters readParameters(const ros::NodeHandle& nh) {
   calibration.led_height = reader.bounded("led_height", calibration.led_height, 0.0, 1000.0);
   calibration.world_frame = reader.optional("world_frame", calibration.world_frame);
   if (calibration.world_frame.empty())
-    throw ParameterError(nh.resolveName("world_frame") + " is empty: give the frame a name");
+    throw ParameterError(reader.nameOf("world_frame") + " is empty: give the frame a name");
   calibration.origin.x() = reader.bounded("origin_x", calibration.origin.x(), -1000.0, 1000.0);
   calibration.origin.y() = reader.bounded("origin_y", calibration.origin.y(), -1000.0, 1000.0);
   calibration.yaw = reader.bounded("yaw", calibration.yaw, -2.0 * M_PI, 2.0 * M_PI);
@@ -180,7 +173,7 @@ Parameters readParameters(const ros::NodeHandle& nh) {
   parameters.button_remote = reader.optional<std::string>("button_remote", "");
   if (std::count(parameters.cameras.begin(), parameters.cameras.end(), parameters.button_remote) >
       0)
-    throw ParameterError(nh.resolveName("button_remote") + " is " + parameters.button_remote +
+    throw ParameterError(reader.nameOf("button_remote") + " is " + parameters.button_remote +
                          ", which is one of the cameras, and pressing moves it: name a spare "
                          "remote that is held in the hand");
   readMasks(&reader, &parameters.masks);
@@ -198,12 +191,29 @@ Parameters readParameters(const ros::NodeHandle& nh) {
   const double row_spacing = reader.bounded("board_row_spacing", 0.0, 0.0, 10.0);
   parameters.board.row_spacing = row_spacing > 0.0 ? row_spacing : parameters.board.column_spacing;
   parameters.board_views = reader.bounded("board_views", parameters.board_views, 3, 1000);
-  parameters.intrinsics = readIntrinsics(nh, &reader, "intrinsics", parameters.intrinsics);
-  for (const std::string& name : camerasWithOwnIntrinsics(nh))
+  parameters.intrinsics = readIntrinsics(&reader, "intrinsics", parameters.intrinsics);
+  std::vector<std::string> all;
+  source.getParamNames(all);
+  for (const std::string& name : camerasWithOwnIntrinsics(reader, all))
     parameters.own_intrinsics[name] =
-        readIntrinsics(nh, &reader, "cameras_intrinsics/" + name, parameters.intrinsics);
+        readIntrinsics(&reader, "cameras_intrinsics/" + name, parameters.intrinsics);
   reader.refuseUnknown();
   return parameters;
+}
+
+}  // namespace
+
+const geometry::Intrinsics& Parameters::intrinsicsOf(const std::string& camera) const {
+  const auto own = own_intrinsics.find(camera);
+  return own != own_intrinsics.end() ? own->second : intrinsics;
+}
+
+Parameters readParameters(const ros::NodeHandle& private_nh) {
+  return readFrom(private_nh);
+}
+
+Parameters readParameters(const ParameterTree& file) {
+  return readFrom(file);
 }
 
 }  // namespace wiimote_tracker

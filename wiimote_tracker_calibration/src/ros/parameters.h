@@ -10,6 +10,7 @@
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
 #include <ros/node_handle.h>
+#include <wiimote_tracker_msgs/parameter_tree.h>
 
 #include <map>
 #include <string>
@@ -30,8 +31,8 @@ struct Parameters {
   workflow::CalibrationOptions calibration;
   session::SolveOptions solve;
   health::HealthOptions health;
-  intrinsics::Board board;  ///< The 16-LED board.
-  int board_views = 12;     ///< That a lens is solved from.
+  intrinsics::Board board;                                     ///< The 16-LED board.
+  int board_views = 12;                                        ///< That a lens is solved from.
   geometry::Intrinsics intrinsics;                             ///< Of all cameras but these:
   std::map<std::string, geometry::Intrinsics> own_intrinsics;  ///< by name.
 
@@ -41,6 +42,9 @@ struct Parameters {
 
 /// @throws ParameterError naming the key that is unknown, of the wrong type or out of range.
 Parameters readParameters(const ros::NodeHandle& private_nh);
+
+/// Same from a file like config/calibration.yaml.
+Parameters readParameters(const ParameterTree& file);
 
 }  // namespace wiimote_tracker
 

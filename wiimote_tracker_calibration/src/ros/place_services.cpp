@@ -68,7 +68,8 @@ PlaceServices::Outcome PlaceServices::measure(double duration, Lock* lock) {
   }
   outcome.rig = *context_.rig(*lock);
   outcome.reply = context_.begin(Step::kMeasuring, "keep the LED still on the place", *lock);
-  if (!outcome.reply.success)
+  outcome.begun = outcome.reply.success;
+  if (!outcome.begun)
     return outcome;
   std::vector<std::string> names;
   for (const geometry::RigCamera& camera : outcome.rig.cameras)
@@ -97,6 +98,13 @@ PlaceServices::Outcome PlaceServices::measure(double duration, Lock* lock) {
     }
   }
   return outcome;
+}
+
+void PlaceServices::finish(const Outcome& outcome, const Lock& lock) {
+  if (outcome.begun)
+    context_.end(outcome.reply, lock);
+  else
+    context_.show(outcome.reply.message, lock);
 }
 
 bool PlaceServices::check(wiimote_tracker_msgs::CheckPlace::Request& request,
@@ -134,15 +142,14 @@ bool PlaceServices::check(wiimote_tracker_msgs::CheckPlace::Request& request,
       outcome.reply = {false, error.what()};
     }
   }
-  if (!context_.stopped(Step::kMeasuring, lock))
-    context_.end(outcome.reply, lock);
+  finish(outcome, lock);
   fill(outcome.reply, &response);
   return true;
 }
 
 std::string PlaceServices::dropPlacesOfOtherRigs(const Lock& lock) {
   const auto& rig = context_.rig(lock);
-  const std::size_t dropped = places_.useRig(rig ? rig->id() : "");
+  const std::size_t dropped = context_.knownPlaces(lock).useRig(rig ? rig->id() : "");
   return dropped == 0 ? ""
                       : "; " + std::to_string(dropped) +
                             " places that were measured with another calibration were dropped";
@@ -164,34 +171,35 @@ bool PlaceServices::add(wiimote_tracker_msgs::AddKnownPlace::Request& request,
     outcome.reply = {false, place::checkPlace(*outcome.place, known, 0.0).message};
   } else if (outcome.place) {
     // Without correction: what is fitted is to replace the one there is.
-    places_.add({known, outcome.place->position});
+    context_.knownPlaces(lock).add({known, outcome.place->position});
     response.measured = toMessage(outcome.place->position);
-    outcome.reply = {true, "place " + std::to_string(places_.places().size()) + " measured at " +
-                               metres(outcome.place->position)};
+    outcome.reply = {true, "place " + std::to_string(context_.knownPlaces(lock).places().size()) +
+                               " measured at " + metres(outcome.place->position)};
   }
   outcome.reply.message += dropped;
-  if (!context_.stopped(Step::kMeasuring, lock))
-    context_.end(outcome.reply, lock);
+  finish(outcome, lock);
   fill(outcome.reply, &response);
-  response.places = static_cast<std::uint32_t>(places_.places().size());
+  response.places = static_cast<std::uint32_t>(context_.knownPlaces(lock).places().size());
   return true;
 }
 
 bool PlaceServices::undo(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   const Lock lock(context_.mutex());
   const std::string dropped = dropPlacesOfOtherRigs(lock);
-  response.success = places_.undo();
-  response.message = (response.success ? "the latest place was dropped, " +
-                                             std::to_string(places_.places().size()) + " are left"
-                                       : "there is no known place to drop") +
-                     dropped;
+  response.success = context_.knownPlaces(lock).undo();
+  response.message =
+      (response.success
+           ? "the latest place was dropped, " +
+                 std::to_string(context_.knownPlaces(lock).places().size()) + " are left"
+           : "there is no known place to drop") +
+      dropped;
   context_.show(response.message, lock);
   return true;
 }
 
 bool PlaceServices::clear(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   const Lock lock(context_.mutex());
-  places_.clear();
+  context_.knownPlaces(lock).clear();
   response.success = true;
   response.message = "all known places were dropped";
   context_.show(response.message, lock);
@@ -205,9 +213,9 @@ bool PlaceServices::fit(wiimote_tracker_msgs::FitRemap::Request& request,
   Lock lock(context_.mutex());
   const std::string dropped = dropPlacesOfOtherRigs(lock);
   std::vector<remap::KnownPoint> points;
-  for (const place::KnownPlace& place : places_.places())
+  for (const place::KnownPlace& place : context_.knownPlaces(lock).places())
     points.push_back({place.measured, place.known});
-  const std::string rig_id = places_.rigId();
+  const std::string rig_id = context_.knownPlaces(lock).rigId();
   lock.unlock();
   workflow::Reply reply;
   std::optional<remap::FitResult> result;

@@ -35,19 +35,21 @@ class PlaceServices {
 
   /// What the LED's place was found to be, with the rig of that time.
   struct Outcome {
+    bool begun = false;
     workflow::Reply reply;
     std::optional<place::MeasuredPlace> place;
     geometry::Rig rig;
   };
-  /// Begins to measure and waits until the LED has lain still; the caller ends the step.
+  /// Begins to measure and waits until the LED has lain still; finish() is to follow.
   /// @param duration [s]; 0: as the parameter says.
   Outcome measure(double duration, Lock* lock);
+  /// Ends the step, if it was begun, and shows the reply.
+  void finish(const Outcome& outcome, const Lock& lock);
   /// Places of another calibration are dropped. @returns what to say of that.
   std::string dropPlacesOfOtherRigs(const Lock& lock);
 
   NodeContext& context_;
   std::optional<capture::CornerCapture> capture_;  // while a place is being measured
-  place::KnownPlaces places_;
   std::vector<ros::ServiceServer> services_;
 };
 

@@ -89,17 +89,17 @@ bool RecalibrateServices::recalibrate(wiimote_tracker_msgs::RecalibrateCamera::R
       lock.lock();
       if (context_.stopped(Step::kMeasuring, lock)) {
         reply = {false, "it was cancelled; the rig is as it was"};
+      } else if (result && context_.rig(lock)->id() != rig.id()) {
+        reply = {false, "the rig was replaced in the meantime: solve the camera anew once more"};
       } else if (result) {
         reply = {true, result->message};
         response.moved = result->moved;
         response.turned = result->turned;
         result->rig.solved_at = NodeContext::now();
-        context_.end(reply, lock);
         context_.setRig(result->rig, reply.message, lock);
       }
     }
-    if (!context_.stopped(Step::kMeasuring, lock))
-      context_.end(reply, lock);
+    context_.end(reply, lock);
   }
   fill(reply, &response);
   return true;

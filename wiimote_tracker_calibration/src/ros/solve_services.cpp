@@ -55,12 +55,14 @@ bool SolveServices::solve(wiimote_tracker_msgs::SolveCalibration::Request&,
   }
 
   lock.lock();
-  if (context_.stopped(Step::kSolving, lock))
+  if (context_.stopped(Step::kSolving, lock)) {
+    solution.reset();
     reply = {false, "it was cancelled; what was captured stays"};
-  else if (!solution)
-    context_.end(reply, lock);
-  else
+  }
+  if (solution)
     reply = calibration.finishSolve(solution->rig);
+  else
+    context_.end(reply, lock);
   fill(reply, &response);
   if (reply.success) {
     context_.publishRig(lock);

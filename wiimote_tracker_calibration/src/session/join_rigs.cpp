@@ -346,6 +346,13 @@ geometry::Rig joined(const geometry::Rig& first,
 void checkRigs(const geometry::Rig& first, const geometry::Rig& second) {
   first.check();
   second.check();
+  if (first.id() == second.id())
+    throw SessionError("both are the same rig, " + first.id() +
+                       ": name the rig file of the other room");
+  if (std::all_of(second.cameras.begin(), second.cameras.end(),
+                  [&](const geometry::RigCamera& c) { return first.find(c.camera.name); }))
+    throw SessionError(
+        "all cameras of the second rig are in the first one already: there is nothing to join");
   for (const geometry::Rig* rig : {&first, &second}) {
     if (!place::hasCovariance(*rig))
       throw SessionError(std::string("the ") + (rig == &first ? "first" : "second") +
@@ -428,7 +435,8 @@ JoinedRigs joinRigs(const geometry::Rig& first, const geometry::Rig& second) {
   if (names.empty())
     throw SessionError(
         "the rigs share no camera: calibrate the second room together with a camera of the first "
-        "that stays where it is");
+        "that stays where it is, or measure three known places or more of the first world with the "
+        "second rig");
   const Motion motion = fitMotion(first, second, joint, joint.count());
   if (contradicts(motion)) {
     const std::string advice =

@@ -1,5 +1,7 @@
 // Solves what calibration/save_samples wrote, without the node.
 
+#include "../ros/parameters.h"
+#include "parameter_file.h"
 #include "wiimote_tracker_calibration/session/session_file.h"
 #include "wiimote_tracker_calibration/session/solve_session.h"
 
@@ -15,11 +17,14 @@ namespace {
 using namespace wiimote_tracker;
 
 const char* const kUsage =
-    "usage: solve_samples FILE [--rig OUT] [--method joint|per_camera] [--without-gravity]\n"
-    "                     [--correct-principal-points] [--ray-model calibrated|image_center]\n"
-    "Solves what calibration/save_samples wrote, with the node's default parameters but for what "
-    "is\n"
-    "said here, and prints the verdict. --rig writes the rig file.\n";
+    "usage: solve_samples FILE [--params YAML] [--rig OUT] [--method joint|per_camera]\n"
+    "                     [--without-gravity] [--correct-principal-points]\n"
+    "                     [--ray-model calibrated|image_center]\n"
+    "Solves what calibration/save_samples wrote, and prints the verdict. --params: the node's "
+    "parameters,\n"
+    "a file like config/calibration.yaml; without it their defaults. What is said behind it goes "
+    "before it.\n"
+    "--rig writes the rig file.\n";
 
 struct Arguments {
   std::string samples;
@@ -49,6 +54,8 @@ Arguments argumentsOf(int argc, char** argv) {
     };
     if (option == "--rig")
       arguments.rig = value();
+    else if (option == "--params")
+      arguments.options = readParameters(readParameterTree(value())).solve;
     else if (option == "--method")
       arguments.options.square.method = isSecond(option, value(), "joint", "per_camera")
                                             ? square::Method::kPerCamera

@@ -69,8 +69,10 @@ Reply Calibration::beginCapture(std::optional<std::size_t> retake, double now) {
   if (!layout_)
     return refuse("this calibration was started without a square: wave a wand, or start anew");
   const Reply reply = square_.begin(retake, now);
-  if (reply.success)
+  if (reply.success) {
     busy_ = Step::kCapturing;
+    just_solved_ = false;
+  }
   return shown(reply);
 }
 
@@ -108,6 +110,7 @@ Reply Calibration::beginWave(const std::vector<geometry::Camera>& cameras,
     return refuse(error.what());
   }
   busy_ = Step::kWaving;
+  just_solved_ = false;
   return accept(std::string("recording: wave the ") + (wand ? "wand" : "LED") +
                 " through the whole volume, at all heights, without haste");
 }
@@ -153,6 +156,7 @@ void Calibration::update(double now) {
 Reply Calibration::undo() {
   if (busy_)
     return refuse(occupied());
+  just_solved_ = false;
   if (wave_) {
     wave_.reset();
     settle();
@@ -165,33 +169,49 @@ Reply Calibration::undo() {
 }
 
 Reply Calibration::cancel() {
-  if (busy_ && *busy_ != Step::kCapturing && *busy_ != Step::kWaving) {
-    busy_.reset();
-    return accept("stopped; what was captured before stays");
+  if (busy_ == Step::kCapturing) {
+    abandonCapture("it was cancelled");
+    return accept(message_);
   }
-  abandonCapture("it was cancelled");
-  busy_.reset();
-  // The outcome stays: whoever waits for the capture finds it.
+  if (busy_ == Step::kWaving) {
+    busy_.reset();
+    wave_.reset();
+    settle();
+    return accept("the wave was stopped and dropped; the corners stay");
+  }
+  if (busy_) {
+    stopping_ = true;
+    return accept("stopping; what was captured before stays");
+  }
+  if (just_solved_) {
+    just_solved_ = false;
+    return accept(
+        "the solver was done already, and nothing was dropped: cancel once more to drop all that "
+        "was captured");
+  }
+  // The outcome of the last capture stays: whoever waits for it finds it.
   const SquareRun square = square_;
   clear();
   square_ = square;
   square_.restore({});
   step_ = Step::kIdle;
-  return accept(rig_ ? "cancelled; the rig from before stays in use" : "cancelled");
+  return accept(rig_ ? "all that was captured was dropped; the rig from before stays in use"
+                     : "all that was captured was dropped");
 }
 
 Reply Calibration::begin(Step step, const std::string& message) {
   if (busy_)
     return refuse(occupied());
   busy_ = step;
+  just_solved_ = false;
   progress_ = 0.0;
   return accept(message);
 }
 
 void Calibration::end(const Reply& outcome) {
-  if (!busy_)
-    return;
+  just_solved_ = isBusyWith(Step::kSolving);
   busy_.reset();
+  stopping_ = false;
   message_ = outcome.message;
 }
 
@@ -208,10 +228,11 @@ Reply Calibration::beginSolve() {
 }
 
 Reply Calibration::finishSolve(const geometry::Rig& rig) {
-  busy_.reset();
+  const Reply reply = {true, rig.verdict};
+  end(reply);
   rig_ = rig;
   step_ = Step::kSolved;
-  return accept(rig.verdict);
+  return reply;
 }
 
 session::Session Calibration::session(const std::map<std::string, CameraFacts>& live,
@@ -319,6 +340,7 @@ void Calibration::setRig(const geometry::Rig& rig, const std::string& message) {
 void Calibration::saved(const std::string& message) {
   if (step_ == Step::kSolved)
     step_ = Step::kSaved;
+  just_solved_ = false;
   message_ = message;
 }
 
@@ -360,6 +382,8 @@ std::vector<double> Calibration::sides() const {
 }
 
 std::string Calibration::occupied() const {
+  if (stopping_)
+    return "what was cancelled has not stopped yet: try again in a moment";
   switch (*busy_) {
     case Step::kCapturing:
       return "a corner is being captured: wait until that is over, or cancel";
@@ -395,6 +419,7 @@ void Calibration::clear() {
   wave_.reset();
   restored_facts_.clear();
   hands_free_.reset();
+  just_solved_ = false;
 }
 
 /// The step between two requests, by what is captured.

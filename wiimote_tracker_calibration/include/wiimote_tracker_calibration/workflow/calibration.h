@@ -53,7 +53,7 @@ struct CameraFacts {
 
 /// The calibration from start to a saved rig, step by step. A request that cannot be done now is
 /// refused with a reason, and loses nothing. One thing at a time: while something that takes time
-/// goes on, all but cancel() is refused. Times [s] are of the clock that stamps the images.
+/// goes on, all but cancel() is refused; also while it is being stopped. Times [s] are of the clock that stamps the images.
 class Calibration {
  public:
   explicit Calibration(const CalibrationOptions& options) : options_(options) {}
@@ -93,20 +93,23 @@ class Calibration {
   /// Drops what was captured last: the wave, else the last corner.
   Reply undo();
 
-  /// Stops what goes on. A capture, a wave, or nothing goes on: drops the whole run; keeps the rig.
+  /// Stops what goes on, and nothing else: what was captured before stays. When nothing goes on the
+  /// run is dropped, but not right after the solver: a cancel that comes too late to stop it drops
+  /// nothing, and says so. The rig stays.
   Reply cancel();
 
   /// Begins something that takes time and is done elsewhere: kMasking or kMeasuring. Refused while
   /// something else goes on.
   Reply begin(Step step, const std::string& message);
 
-  /// Whether it goes on; no longer so after end() or cancel().
-  bool isBusyWith(Step step) const { return busy_ == step; }
+  /// Whether it goes on and is not to stop; no longer so after end() or cancel(). Whoever began it
+  /// calls end() in any case.
+  bool isBusyWith(Step step) const { return busy_ == step && !stopping_; }
 
   /// How far it is [0..1].
   void setProgress(double progress) { progress_ = progress; }
 
-  /// Ends it, and shows how it ended. Nothing to end after a cancel().
+  /// Ends it, and shows how it ended.
   void end(const Reply& outcome);
 
   /// Begins kSolving: session() is solved elsewhere, which ends with finishSolve(), or with end()
@@ -168,6 +171,8 @@ class Calibration {
   CalibrationOptions options_;
   Step step_ = Step::kIdle;   // when nothing goes on
   std::optional<Step> busy_;  // what goes on
+  bool stopping_ = false;     // that is to stop, but has not yet
+  bool just_solved_ = false;  // nothing was asked for since the solver ended
   double progress_ = 0.0;     // of that, where it is told from outside
   std::string message_ = "nothing started: start a calibration, or load a rig";
   // What was captured.

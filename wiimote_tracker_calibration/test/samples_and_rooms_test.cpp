@@ -1,0 +1,285 @@
+// What was captured goes through a file and is solved again; a solver that runs is cancelled; two
+// rooms come into one world. With cameras that this test plays.
+
+#include "node_fixture.h"
+
+#include <wiimote_tracker_msgs/AddKnownPlace.h>
+#include <wiimote_tracker_msgs/JoinRig.h>
+#include <wiimote_tracker_msgs/LoadSamples.h>
+#include <wiimote_tracker_msgs/SaveSamples.h>
+#include <wiimote_tracker_msgs/StartWave.h>
+
+#include <future>
+
+namespace wiimote_tracker {
+namespace {
+
+using std_srvs::Trigger;
+using wiimote_tracker_msgs::AddKnownPlace;
+using wiimote_tracker_msgs::JoinRig;
+using wiimote_tracker_msgs::LoadSamples;
+using wiimote_tracker_msgs::SaveSamples;
+using wiimote_tracker_msgs::SolveCalibration;
+
+class Samples : public Node {
+ protected:
+  /// The square and a wave, from messages.
+  static void captureSquareAndWave() {
+    captureAll();
+    cameras_->waveLed(true);
+    ASSERT_TRUE(call<wiimote_tracker_msgs::StartWave>("calibration/start_wave").success);
+    ASSERT_TRUE(waitForStep(CalibrationStatus::WAVING));
+    ASSERT_TRUE(waitUntil([] { return status_->get()->missing.empty(); }));
+    const auto stopped = call<Trigger>("calibration/stop_wave");
+    ASSERT_TRUE(stopped.success) << stopped.message;
+    cameras_->waveLed(false);
+  }
+
+  static SaveSamples::Response save(const std::string& path) {
+    SaveSamples::Request request;
+    request.path = path;
+    return call<SaveSamples>("calibration/save_samples", request);
+  }
+
+  static LoadSamples::Response load(const std::string& node, const std::string& path) {
+    LoadSamples::Request request;
+    request.path = path;
+    return call<LoadSamples>(node + "calibration/load_samples", request);
+  }
+
+  /// Nothing is captured.
+  static void clear() {
+    ASSERT_TRUE(waitUntil([] {
+      call<Trigger>("calibration/cancel");
+      return status_->get()->step == CalibrationStatus::IDLE;
+    }));
+  }
+};
+
+TEST_F(Samples, without_any_there_is_nothing_to_save_and_a_failed_load_changes_nothing) {
+  EXPECT_SAYS(save("").message, "nothing was captured");
+  EXPECT_SAYS(load("", "").message, folder_ + "/samples.yaml");
+  ASSERT_TRUE(start(2.5).success);
+  putLed(kCorners[0]);
+  ASSERT_TRUE(capture().success);
+  EXPECT_EQ(std::system(("mkdir -p '" + folder_ + "'").c_str()), 0);
+  std::ofstream(folder_ + "/broken.yaml") << "format: [";
+  EXPECT_FALSE(load("", folder_ + "/broken.yaml").success);
+  EXPECT_TRUE(
+      waitUntil([] { return status_->get()->message.find("broken") != std::string::npos; }));
+  EXPECT_EQ(status_->get()->corners_captured, 1U);
+  // Half a square is worth keeping, too.
+  ASSERT_TRUE(save(folder_ + "/half.yaml").success);
+  clear();
+  const auto loaded = load("", folder_ + "/half.yaml");
+  ASSERT_TRUE(loaded.success) << loaded.message;
+  EXPECT_TRUE(waitUntil([] { return status_->get()->corners_captured == 1; }));
+  putLed(kCorners[1]);
+  const auto captured = capture();
+  EXPECT_TRUE(captured.success) << captured.message;
+  EXPECT_EQ(captured.corner, 1U);
+}
+
+TEST_F(Samples, solved_again_they_give_the_identical_rig) {
+  captureSquareAndWave();
+  const auto live = call<SolveCalibration>("calibration/solve");
+  ASSERT_TRUE(live.success) << live.message;
+  EXPECT_SAYS(live.rig.method, "wave");
+  const auto saved = save("");
+  ASSERT_TRUE(saved.success) << saved.message;
+  EXPECT_EQ(saved.path, folder_ + "/samples.yaml");
+
+  // In the same node, after all was dropped.
+  clear();
+  EXPECT_FALSE(call<SolveCalibration>("calibration/solve").success);
+  const auto loaded = load("", "");
+  ASSERT_TRUE(loaded.success) << loaded.message;
+  EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));
+  const auto again = call<SolveCalibration>("calibration/solve");
+  ASSERT_TRUE(again.success) << again.message;
+  EXPECT_EQ(again.rig.id, live.rig.id);
+  EXPECT_EQ(again.rig.covariance, live.rig.covariance);
+  EXPECT_EQ(again.verdict.text, live.verdict.text);
+  // Saved once more it is the same file.
+  ASSERT_TRUE(save(folder_ + "/again.yaml").success);
+  EXPECT_EQ(contents(folder_ + "/again.yaml"), contents(saved.path));
+}
+
+/// Exit status and what it says, of the program that solves without the node.
+std::pair<int, std::string> solveSamples(const std::string& arguments) {
+  const std::string command = "rosrun wiimote_tracker_calibration solve_samples " + arguments;
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  std::string output;
+  char buffer[256];
+  while (fgets(buffer, sizeof buffer, pipe) != nullptr)
+    output += buffer;
+  return {WEXITSTATUS(pclose(pipe)), output};
+}
+
+TEST_F(Samples, are_solved_without_the_node_by_its_parameters) {
+  ASSERT_TRUE(load("", "").success);  // of the test before
+  const auto live = call<SolveCalibration>("calibration/solve");
+  ASSERT_TRUE(live.success) << live.message;
+  const std::string samples = "'" + folder_ + "/samples.yaml' --params '" + folder_;
+  // This node's parameters are not the default ones.
+  std::ofstream(folder_ + "/parameters.yaml") << "stamp_wander: 0.0002\nside_length: 2.5\n";
+  auto outcome = solveSamples(samples + "/parameters.yaml' --rig '" + folder_ + "/offline.yaml'");
+  EXPECT_EQ(outcome.first, 0);
+  EXPECT_SAYS(outcome.second, "rig " + live.rig.id);
+  EXPECT_EQ(geometry::readRigFile(folder_ + "/offline.yaml").id(), live.rig.id);
+  outcome = solveSamples("'" + folder_ + "/samples.yaml'");
+  EXPECT_EQ(outcome.first, 0);
+  EXPECT_EQ(outcome.second.find("rig " + live.rig.id), std::string::npos);
+
+  std::ofstream(folder_ + "/misspelt.yaml") << "stamp_wonder: 0.0002\n";
+  outcome = solveSamples(samples + "/misspelt.yaml'");
+  EXPECT_EQ(outcome.first, 1);
+  EXPECT_SAYS(outcome.second, "misspelt.yaml/stamp_wonder");
+  std::ofstream(folder_ + "/wrong.yaml") << "stamp_wander: a little\n";
+  outcome = solveSamples(samples + "/wrong.yaml'");
+  EXPECT_EQ(outcome.first, 1);
+  EXPECT_SAYS(outcome.second, "wrong.yaml/stamp_wander has the wrong type");
+  EXPECT_EQ(solveSamples(samples + "/absent.yaml'").first, 1);
+}
+
+TEST_F(Samples, a_cancelled_solver_stops_and_nothing_is_lost) {
+  ASSERT_TRUE(load("", "").success);  // of the test before
+  // Whoever is too late to stop the solver loses nothing either, and may try again.
+  SolveCalibration::Response response;
+  ASSERT_TRUE(waitUntil([&] {
+    auto solving =
+        std::async(std::launch::async, [] { return call<SolveCalibration>("calibration/solve"); });
+    waitUntil([&] {
+      return status_->get()->step == CalibrationStatus::SOLVING ||
+             solving.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    });
+    EXPECT_TRUE(call<Trigger>("calibration/cancel").success);
+    response = solving.get();
+    return !response.success;
+  }));
+  EXPECT_SAYS(response.message, "cancelled; what was captured stays");
+  EXPECT_TRUE(response.rig.cameras.empty());
+  EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));
+  EXPECT_EQ(status_->get()->corners_captured, 4U);
+  EXPECT_GT(status_->get()->wave_seconds, 2.0);
+
+  // A cancel a moment after the solver has finished.
+  const auto solved = call<SolveCalibration>("calibration/solve");
+  ASSERT_TRUE(solved.success) << solved.message;
+  EXPECT_SAYS(call<Trigger>("calibration/cancel").message, "nothing was dropped");
+  EXPECT_TRUE(waitForStep(CalibrationStatus::SOLVED));
+  EXPECT_EQ(status_->get()->corners_captured, 4U);
+  EXPECT_EQ(status_->get()->rig_id, solved.rig.id);
+  // One more is meant.
+  EXPECT_TRUE(call<Trigger>("calibration/cancel").success);
+  EXPECT_TRUE(waitForStep(CalibrationStatus::IDLE));
+  EXPECT_EQ(status_->get()->corners_captured, 0U);
+  EXPECT_EQ(status_->get()->rig_id, solved.rig.id);
+}
+
+class Rooms : public Node {
+ protected:
+  /// Cameras of the true rig in the world `world`, each known to 1 mm and 1 mrad.
+  static geometry::Rig room(const std::vector<std::size_t>& cameras,
+                            const Eigen::Isometry3d& world) {
+    geometry::Rig rig;
+    for (const std::size_t i : cameras) {
+      geometry::RigCamera camera;
+      camera.camera = cameras_->truth[i];
+      camera.camera.world_from_camera = world.inverse() * camera.camera.world_from_camera;
+      camera.time_offset = 0.0;
+      camera.time_offset_rule = geometry::TimeOffsetRule::kAlways;
+      rig.cameras.push_back(camera);
+    }
+    const auto size = static_cast<Eigen::Index>(16 * cameras.size());
+    rig.covariance = Eigen::MatrixXd::Zero(size, size);
+    for (Eigen::Index at = 0; at < size; at += 16)
+      rig.covariance.diagonal().segment<6>(at).setConstant(1e-6);
+    rig.method = "test";
+    return rig;
+  }
+
+  static Eigen::Isometry3d secondWorld() {
+    Eigen::Isometry3d world = Eigen::Isometry3d::Identity();
+    world.linear() = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    world.translation() = Eigen::Vector3d(3.0, -1.0, 0.2);
+    return world;
+  }
+
+  static void use(const geometry::Rig& rig) {
+    wiimote_tracker_msgs::LoadRig::Request request;
+    request.path = folder_ + "/second.yaml";
+    EXPECT_EQ(std::system(("mkdir -p '" + folder_ + "'").c_str()), 0);
+    geometry::writeRigFile(rig, request.path);
+    const auto response = call<wiimote_tracker_msgs::LoadRig>("calibration/load", request);
+    ASSERT_TRUE(response.success) << response.message;
+  }
+
+  static JoinRig::Response join(const std::string& file) {
+    JoinRig::Request request;
+    request.path = folder_ + "/" + file;
+    return call<JoinRig>("calibration/join", request);
+  }
+
+  static void expectTruth(const wiimote_tracker_msgs::RigCalibration& message, double tolerance) {
+    const geometry::Rig rig = fromMessage(message);
+    ASSERT_EQ(rig.cameras.size(), 4U);
+    for (const geometry::Camera& truth : cameras_->truth)
+      EXPECT_LT((rig.find(truth.name)->camera.center() - truth.center()).norm(), tolerance)
+          << truth.name;
+  }
+};
+
+TEST_F(Rooms, are_joined_over_the_cameras_that_they_share) {
+  use(room({2, 3}, secondWorld()));
+  geometry::writeRigFile(room({0, 1, 2}, Eigen::Isometry3d::Identity()), folder_ + "/first.yaml");
+  EXPECT_SAYS(join("missing.yaml").message, "missing.yaml");
+  EXPECT_SAYS(join("second.yaml").message, "the same rig");
+  const auto joined = join("first.yaml");
+  ASSERT_TRUE(joined.success) << joined.message;
+  EXPECT_SAYS(joined.message, "over camera_3");
+  expectTruth(joined.rig, 1e-6);
+  Latest<RigCalibration> published("calibration/rig");
+  EXPECT_TRUE(waitUntil([&] { return published.get() && published.get()->id == joined.rig.id; }));
+  EXPECT_TRUE(waitUntil([&] { return status_->get()->rig_id == joined.rig.id; }));
+  EXPECT_TRUE(waitForStep(CalibrationStatus::SOLVED));  // and not saved yet
+}
+
+TEST_F(Rooms, without_a_shared_camera_are_joined_over_known_places) {
+  geometry::writeRigFile(room({0, 1}, Eigen::Isometry3d::Identity()), folder_ + "/first.yaml");
+  use(room({2, 3}, secondWorld()));
+  EXPECT_SAYS(join("first.yaml").message, "share no camera");
+  for (const Eigen::Vector3d& place :
+       {Eigen::Vector3d(0.4, 0.4, 0.1), Eigen::Vector3d(2.1, 0.4, 0.3),
+        Eigen::Vector3d(2.1, 2.1, 0.1), Eigen::Vector3d(0.8, 1.9, 1.3)}) {
+    putLed(place);
+    AddKnownPlace::Request request;
+    request.known.x = place.x();
+    request.known.y = place.y();
+    request.known.z = place.z();
+    const auto added = call<AddKnownPlace>("calibration/known_places/add", request);
+    ASSERT_TRUE(added.success) << added.message;
+    if (added.places < 3) {
+      EXPECT_SAYS(join("first.yaml").message, "three or more");
+    }
+  }
+  const auto joined = join("first.yaml");
+  ASSERT_TRUE(joined.success) << joined.message;
+  EXPECT_SAYS(joined.message, "over 4 common places");
+  // Pixels of 0.1 px at 6 m, averaged over twenty images; the rooms' axes are held by places 2 m
+  // apart, and the cameras stand 5 m away.
+  expectTruth(joined.rig, 0.005);
+  EXPECT_SAYS(call<Trigger>("calibration/known_places/undo").message,
+              "4 places that were measured with another calibration were dropped");
+}
+
+}  // namespace
+}  // namespace wiimote_tracker
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "samples_and_rooms_test");
+  ros::AsyncSpinner spinner(4);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}

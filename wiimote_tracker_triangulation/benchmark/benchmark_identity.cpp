@@ -1,0 +1,11 @@
+// How often LEDs that blink are taken for others: one table per section.
+#include "benchmark_identity_sections.h"
+#include "benchmark_program.h"
+
+int main(int argc, char** argv) {
+  using namespace wiimote_tracker;
+  return runBenchmark("benchmark_identity",
+                      {paperSection(), someInViewSection(), periodsSection(), cyclicSection(),
+                       movingSection(), timeSection()},
+                      argc, argv);
+}

@@ -1,0 +1,20 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_PROGRAM_H
+#define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_PROGRAM_H
+
+#include "benchmark_tracking_sections.h"
+
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// A benchmark's main(): runs all sections, or the one that is asked for, and prints their tables
+/// and writes them as JSON.
+int runBenchmark(const std::string& program,
+                 const std::vector<BenchmarkSection>& sections,
+                 int argc,
+                 char** argv);
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_PROGRAM_H

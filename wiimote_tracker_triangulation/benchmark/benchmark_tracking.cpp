@@ -78,7 +78,9 @@ int usage() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<BenchmarkSection> sections = {associationSection()};
+  const std::vector<BenchmarkSection> sections = {
+      filterSection(),   unsynchronisedSection(), associationSection(),
+      identitySection(), throughputSection(),     scaleSection()};
   const char* json = nullptr;
   const char* only = nullptr;
   BenchmarkSettings settings;

@@ -124,7 +124,7 @@ void Scene::expose(std::size_t camera) {
 void Scene::collectLights(std::size_t camera_index, double time) {
   const geometry::Camera& camera = rig_.cameras[camera_index].camera;
   lights_.clear();
-  const auto add = [&](Eigen::Vector2d pixel, double distance, std::uint32_t leds) {
+  const auto add = [&](Eigen::Vector2d pixel, double distance, std::uint64_t leds) {
     pixel += options_.pixel_noise * Eigen::Vector2d(random_.gaussian(), random_.gaussian());
     if (options_.integer_pixels)
       pixel = pixel.array().round();
@@ -140,7 +140,7 @@ void Scene::collectLights(std::size_t camera_index, double time) {
       continue;
     if (options_.hidden && options_.hidden(camera_index, led, time))
       continue;
-    add(*pixel, distance, 1u << led);
+    add(*pixel, distance, std::uint64_t{1} << led);
   }
   if (camera_index < options_.reflections.size()) {
     for (const Eigen::Vector2d& pixel : options_.reflections[camera_index])
@@ -181,7 +181,7 @@ void Scene::merge() {
 
 /// A light that was there stays in its place of the report; a new one takes the first that is free.
 void Scene::keepSlots(std::size_t camera, SceneImage* image) {
-  std::vector<std::uint32_t>& slots = slots_[camera];
+  std::vector<std::uint64_t>& slots = slots_[camera];
   slots.resize(options_.maximum_spots);
   std::vector<const Light*> placed(options_.maximum_spots);
   for (const Light& light : lights_) {

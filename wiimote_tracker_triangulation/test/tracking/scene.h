@@ -53,7 +53,7 @@ struct SceneImage {
   double true_time = 0.0;  ///< Of the exposure [s].
 
   /// Of each spot, bit i: LED i made it, or went into it. 0: a ghost or a reflection.
-  std::vector<std::uint32_t> leds_of_spot;
+  std::vector<std::uint64_t> leds_of_spot;
 };
 
 /// LEDs before cameras that run on their own clocks; gives their images in the order of arrival,
@@ -79,7 +79,7 @@ class Scene {
   struct Light {
     Eigen::Vector2d pixel;
     double distance;  // [m]
-    std::uint32_t leds;
+    std::uint64_t leds;
   };
 
   void expose(std::size_t camera);
@@ -92,7 +92,7 @@ class Scene {
   SceneOptions options_;
   geometry::test::Random random_;
   std::vector<Clock> clocks_;
-  std::vector<std::vector<std::uint32_t>> slots_;  // of each camera, what made each slot's spot
+  std::vector<std::vector<std::uint64_t>> slots_;  // of each camera, what made each slot's spot
   std::vector<SceneImage> on_the_way_;             // a heap, the next to arrive at the front
   std::vector<Light> lights_;
   SceneImage current_;

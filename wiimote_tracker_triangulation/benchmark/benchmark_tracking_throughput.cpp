@@ -1,0 +1,157 @@
+#include "benchmark_tracking_sections.h"
+#include "tracking/scene.h"
+#include "wiimote_tracker_triangulation/tracking/tracker.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+
+namespace wiimote_tracker {
+namespace {
+
+using namespace tracking;
+using namespace tracking::test;
+
+constexpr double kPixelNoise = 0.3;  // [px]
+
+/// Of the processor since `start` [s].
+double since(std::clock_t start) {
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+struct Timing {
+  double seconds = 0.0;  // of the processor
+  double images = 0.0;
+  double snapshots = 0.0;
+  double leds = 0.0;  // confirmed in the last snapshot
+};
+
+/// Images are made in batches, of which only the tracker's part is timed.
+Timing timed(const geometry::Rig& rig,
+             const std::vector<Path>& leds,
+             const SceneOptions& options,
+             const TrackerOptions& tracker_options,
+             int batches,
+             unsigned seed) {
+  constexpr std::size_t kBatch = 4000;
+  Scene scene(rig, leds, options, seed);
+  Tracker tracker(rig, tracker_options);
+  std::vector<SceneImage> batch(kBatch);
+  Timing timing;
+  for (int i = 0; i <= batches; ++i) {  // the first warms up
+    for (SceneImage& image : batch)
+      image = scene.next();
+    const std::clock_t start = std::clock();
+    for (const SceneImage& image : batch) {
+      tracker.add(image.camera, image.image);
+      while (const Snapshot* snapshot = tracker.next()) {
+        timing.snapshots += i > 0;
+        timing.leds = static_cast<double>(
+            std::count_if(snapshot->leds.begin(), snapshot->leds.end(),
+                          [](auto& led) { return led.state == TrackState::kTracked; }));
+      }
+    }
+    if (i == 0)
+      continue;
+    timing.seconds += since(start);
+    timing.images += kBatch;
+  }
+  return timing;
+}
+
+TrackerOptions trackerOptions() {
+  TrackerOptions options;
+  options.pixel_stddev = kPixelNoise;
+  options.stamp_stddev = 0.0;
+  return options;
+}
+
+SceneOptions sceneOptions() {
+  SceneOptions options;
+  options.pixel_noise = kPixelNoise;
+  options.clock_skew = 1e-4;
+  return options;
+}
+
+std::vector<Path> ledsIn(geometry::test::Random& random, const Eigen::Vector3d& middle) {
+  std::vector<Path> leds;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector3d offset(i % 2 ? 0.5 : -0.5, i / 2 ? 0.5 : -0.5, 0.0);
+    leds.push_back(wandering(random, middle + offset, 0.25, 1.0));
+  }
+  return leds;
+}
+
+void runThroughput(const BenchmarkSettings& settings, const RowCallback& row) {
+  geometry::test::Random random(settings.seed);
+  const std::vector<Path> leds = ledsIn(random, {1.25, 1.25, 1.0});
+  const auto add = [&](const char* name, const SceneOptions& options) {
+    const Timing timing =
+        timed(paperRig(), leds, options, trackerOptions(), settings.runs, settings.seed);
+    row({name,
+         {{"images", timing.images},
+          {"us/image", 1e6 * timing.seconds / timing.images},
+          {"sets/s", timing.images / 4.0 / timing.seconds},
+          {"snapshots", timing.snapshots},
+          {"leds", timing.leds}}});
+  };
+  SceneOptions options = sceneOptions();
+  add("images in order", options);
+  options.dropout = 0.1;
+  options.ghosts = 1.0;
+  add("10 % dropouts, a ghost in each", options);
+  options = sceneOptions();
+  options.delay_jitter = 0.0024;
+  add("delays of 2.4 ms jitter: late images", options);
+}
+
+void runScale(const BenchmarkSettings& settings, const RowCallback& row) {
+  for (const int rooms : {1, 4, 16}) {
+    geometry::test::Random random(settings.seed);
+    std::vector<Path> leds;
+    for (int room = 0; room < rooms; ++room) {
+      for (const Path& led : ledsIn(random, {100.0 * room, 0.0, 1.0}))
+        leds.push_back(led);
+    }
+    for (const double interval : {0.0, 0.0025}) {
+      SceneOptions options = sceneOptions();
+      options.delay_jitter = 0.0024;
+      TrackerOptions tracker_options = trackerOptions();
+      tracker_options.output_interval = interval;
+      const Timing timing =
+          timed(roomsRig(rooms, 4), leds, options, tracker_options, settings.runs, settings.seed);
+      const double seconds = timing.images / (400.0 * rooms);  // that the images stand for
+      char name[80];
+      std::snprintf(name, sizeof(name), "%d cameras, %d LEDs, %d rooms, output %s", 4 * rooms,
+                    4 * rooms, rooms, interval > 0.0 ? "every 2.5 ms" : "at once");
+      row({name,
+           {{"images", timing.images},
+            {"us/image", 1e6 * timing.seconds / timing.images},
+            {"load", timing.seconds / seconds},
+            {"snapshots/s", timing.snapshots / seconds},
+            {"leds", timing.leds}}});
+    }
+  }
+}
+
+}  // namespace
+
+BenchmarkSection throughputSection() {
+  return {"throughput",
+          "four LEDs at 1 m/s in the paper's rig, one core, 4000 images per run; processor time "
+          "of the tracker alone, snapshots with it.\n"
+          "Images; time per image [us]; sets of four images per second; snapshots; LEDs tracked "
+          "at the end.",
+          runThroughput};
+}
+
+BenchmarkSection scaleSection() {
+  return {"scale",
+          "rooms with four cameras and four LEDs at 1 m/s each, 100 images per second and camera, "
+          "delays of 2.4 ms jitter, 4000 images per run.\n"
+          "Images; processor time per image [us]; load of one core in real time [1]; snapshots, "
+          "of all LEDs, per second; LEDs tracked at the end.",
+          runScale};
+}
+
+}  // namespace wiimote_tracker

@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
@@ -166,14 +168,6 @@ Division bestPermutation(const geometry::Rig& rig,
                          const SimulatedViews& views,
                          const AssociationOptions& options) {
   const std::size_t leds = views.pixels[0].size();
-  std::map<Tuple, double> known;  // chi^2
-  const auto cost = [&](const Tuple& tuple) {
-    const auto found = known.find(tuple);
-    if (found != known.end())
-      return found->second;
-    Eigen::Vector3d position;
-    return known[tuple] = chiSquared(rig, views, tuple, options.pixel_stddev, &position);
-  };
   std::vector<Tuple> orders(rig.cameras.size(), Tuple(leds));  // of each camera
   for (Tuple& order : orders)
     std::iota(order.begin(), order.end(), 0);
@@ -183,12 +177,23 @@ Division bestPermutation(const geometry::Rig& rig,
       tuple.push_back(order[led]);
     return tuple;
   };
+  std::vector<double> known;  // chi^2, by the number whose digits are the tuple; below 0: not yet
+  known.assign(static_cast<std::size_t>(std::pow(leds, orders.size())), -1.0);
+  const auto cost = [&](std::size_t led) {
+    std::size_t number = 0;
+    for (const Tuple& order : orders)
+      number = number * leds + static_cast<std::size_t>(order[led]);
+    Eigen::Vector3d position;
+    if (known[number] < 0.0)
+      known[number] = chiSquared(rig, views, tupleOf(led), options.pixel_stddev, &position);
+    return known[number];
+  };
   double least = kInfinity;
-  std::vector<Tuple> best;
+  std::vector<Tuple> best = orders;
   for (bool more = true; more;) {
     double sum = 0.0;
     for (std::size_t led = 0; led < leds; ++led)
-      sum += cost(tupleOf(led));
+      sum += cost(led);
     if (sum < least) {
       least = sum;
       best = orders;

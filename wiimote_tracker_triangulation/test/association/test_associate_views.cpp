@@ -34,7 +34,7 @@ TEST(AssociateViews, FourLedsInFourCamerasAreTheBestOfAllPermutations) {
   const geometry::Rig rig = ringRig(4);
   const AssociationOptions options;
   ViewAssociator associator(rig, sharedViews(rig, kRange), options);
-  for (int frame = 0; frame < 150; ++frame) {
+  for (int frame = 0; frame < 40; ++frame) {
     const SimulatedViews views = simulateViews(random, rig, randomLeds(random, rig, 4), {});
     const Association& association = associator.associate(views.views);
     EXPECT_TRUE(association.proven);
@@ -50,7 +50,7 @@ TEST(AssociateViews, WithMissingAndGhostSpotsItIsTheBestOfAllDivisions) {
   Disturbance disturbance;
   disturbance.dropout = 0.1;
   disturbance.ghosts = 1;
-  for (int frame = 0; frame < 150; ++frame) {
+  for (int frame = 0; frame < 40; ++frame) {
     const SimulatedViews views =
         simulateViews(random, rig, randomLeds(random, rig, 4), disturbance);
     const Association& association = associator.associate(views.views);
@@ -74,7 +74,7 @@ TEST(AssociateViews, WhereAlmostEverythingFitsItIsTheBestOfAllDivisions) {
   for (const int cameras : {2, 3, 4}) {
     const geometry::Rig rig = geometry::test::randomRig(random, cameras);
     ViewAssociator associator(rig, sharedViews(rig, kRange), options);
-    for (int frame = 0; frame < 60; ++frame) {
+    for (int frame = 0; frame < 25; ++frame) {
       std::vector<Vector3d> leds;
       for (int i = 0; i < 3; ++i)
         leds.push_back(random.inBox(0.3));

@@ -8,7 +8,8 @@
 namespace wiimote_tracker::tracking {
 
 /// Tells from the times of images when all time jumped back, as at the end of a bag that is played
-/// in a loop, and when one camera's clock is ahead of all others'.
+/// in a loop, and when one camera's clock is ahead of all others'. When that camera came first,
+/// time jumps back to where the others agree.
 class TimeWatch {
  public:
   static constexpr double kJump = 1.0;  ///< [s]
@@ -28,6 +29,8 @@ class TimeWatch {
   bool isDisordered() const { return disordered_; }
 
  private:
+  std::size_t countNear(double time) const;
+
   struct Newest {
     double time = -std::numeric_limits<double>::infinity();
     double arrival = -std::numeric_limits<double>::infinity();
@@ -37,6 +40,7 @@ class TimeWatch {
   static constexpr int kSilence = 100;
 
   std::vector<Newest> cameras_;
+  double used_until_ = -std::numeric_limits<double>::infinity();
   double newest_arrival_ = -std::numeric_limits<double>::infinity();
   bool disordered_ = false;
   std::size_t last_camera_ = 0;

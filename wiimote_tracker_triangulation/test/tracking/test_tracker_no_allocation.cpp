@@ -1,0 +1,80 @@
+// A tracker that is warm takes images and gives snapshots without allocating.
+#include "tracking/scene.h"
+#include "wiimote_tracker_triangulation/tracking/tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <vector>
+
+namespace {
+int g_allocations = 0;
+}  // namespace
+
+// Never inlined: the compiler would see free() on memory that came from new.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++g_allocations;
+  if (void* memory = std::malloc(size))
+    return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace wiimote_tracker::tracking {
+namespace {
+
+TEST(TrackerNoAllocation, TheCounterCounts) {
+  const int before = g_allocations;
+  const auto something = std::make_unique<std::vector<int>>(3);
+  EXPECT_EQ(3u, something->size());
+  EXPECT_EQ(before + 2, g_allocations);
+}
+
+/// Of `count` images, after as many that warm up.
+int allocations(const test::SceneOptions& options, int count) {
+  geometry::test::Random random(3);
+  std::vector<test::Path> leds;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector3d center(i % 2 ? 1.7 : 0.8, i / 2 ? 1.7 : 0.8, 1.0);
+    leds.push_back(test::wandering(random, center, 0.25, 1.0));
+  }
+  test::Scene scene(test::paperRig(), leds, options, 5);
+  std::vector<test::SceneImage> images;
+  for (int i = 0; i < 2 * count; ++i)
+    images.push_back(scene.next());
+  TrackerOptions tracker_options;
+  tracker_options.pixel_stddev = options.pixel_noise;
+  Tracker tracker(test::paperRig(), tracker_options);
+  int before = 0;
+  std::size_t leds_seen = 0;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (i == images.size() / 2)
+      before = g_allocations;
+    tracker.add(images[i].camera, images[i].image);
+    while (const Snapshot* snapshot = tracker.next())
+      leds_seen += snapshot->leds.size();
+  }
+  const int result = g_allocations - before;
+  EXPECT_GT(leds_seen, images.size() * 2);
+  return result;
+}
+
+TEST(TrackerNoAllocation, ImagesInOrder) {
+  EXPECT_EQ(0, allocations(test::SceneOptions(), 1000));
+}
+
+TEST(TrackerNoAllocation, LateImages) {
+  test::SceneOptions options;
+  options.delay_jitter = 0.003;
+  EXPECT_EQ(0, allocations(options, 1000));
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::tracking

@@ -10,7 +10,8 @@ import pytest
 from geometry_msgs.msg import Point
 from wiimote_tracker_msgs import srv
 from wiimote_tracker_msgs.msg import (BoardStatus, CalibrationCameraStatus, CalibrationStatus,
-                                      CalibrationVerdict, CameraVerdict, CaptureCornerGoal)
+                                      CalibrationVerdict, CameraVerdict, CaptureCornerGoal,
+                                      PrincipalPointTrace)
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../scripts'))
@@ -120,6 +121,21 @@ def test_a_verdict_is_a_table():
         '  at (0.00, 2.50, 2.50) m: - mm']
 
 
+def test_the_correction_of_the_principal_points_is_a_table():
+    guide = guide_at(status(CalibrationStatus.SOLVED))
+    assert 'not corrected' in screen.render(guide, 1.0, 'trace')[3]
+    guide.trace = PrincipalPointTrace(
+        cameras=['wiimote_1', 'wiimote_2'], origin_error=[0.168, 0.042], corner_error=[0.2, 0.061],
+        cx=[535.0, 535.0, 520.5, 521.0], cy=[401.7, 401.7, 390.25, 391.0], table='the table\n')
+    assert [line for line in screen.render(guide, 1.0, 'trace')[3:] if line][:6] == [
+        'camera          principal point before and after [px]',
+        'wiimote_1         535.0    401.7      520.5    390.2',
+        'wiimote_2         535.0    401.7      521.0    391.0',
+        'round  error of the first corner, of all corners [mm]',
+        '    0       168.0      200.0',
+        '    1        42.0       61.0']
+
+
 def test_a_board_has_four_bars():
     guide = guide_at(status(CalibrationStatus.IDLE))
     guide.on_board(BoardStatus(camera='wiimote_1', views=5, views_needed=12, x=0.5, y=0.6,
@@ -150,7 +166,10 @@ def screens(rows, columns):
                 predicted_at=[Point()] * 8, predicted_stddev=[1e9] * 8)
             guide.on_board(BoardStatus(camera='wiimote_1', x=NAN, missing=[long_text] * 9,
                                        message=long_text))
-            for view in ('cameras', 'verdict', 'keys'):
+            guide.trace = PrincipalPointTrace(
+                cameras=['c' * 40] * 16, origin_error=[1e9] * 15, corner_error=[NAN] * 15,
+                cx=[-1e9] * 240, cy=[NAN] * 240)
+            for view in ('cameras', 'verdict', 'trace', 'keys'):
                 for prompt in (None, ('a question?', 'typed ' * 40)):
                     yield screen.render(guide, 1.0, view, 3, rows, columns, prompt, commands.RIG)
             yield board_screen.render(guide, 1.0, 'wiimote_1', rows, columns)
@@ -313,7 +332,9 @@ def test_words_become_requests():
                                        known_stddev=0.0)),
             ('save /tmp/a b.yaml', Request('save', 'SaveRig', path='/tmp/a b.yaml')),
             ('recalibrate wiimote_2', Request('recalibrate_camera', 'RecalibrateCamera',
-                                              camera='wiimote_2')),
+                                              camera='wiimote_2', duration=0.0)),
+            ('recalibrate wiimote_2 8', Request('recalibrate_camera', 'RecalibrateCamera',
+                                                camera='wiimote_2', duration=8.0)),
             ('fit affine', Request('known_places/fit', 'FitRemap', models=['affine']))):
         words = line.split()
         assert commands.find(commands.RIG, words[0]).build(waving, words[1:]) == expected

@@ -146,8 +146,10 @@ def fit_places(status, arguments):
 
 
 def recalibrate(status, arguments):
+    at_most(arguments, 2, 'the camera to solve anew and, if need be, for how many seconds')
     return Request('recalibrate_camera', 'RecalibrateCamera',
-                   camera=one_name(arguments, 'the camera to solve anew'))
+                   camera=one_name(arguments[:1], 'the camera to solve anew'),
+                   duration=optional_number(arguments, 1, 'the duration'))
 
 
 def with_path(name, type_):
@@ -203,7 +205,7 @@ RIG = [
     Command('load', 'l', 'use a rig from a file', with_path('load', 'LoadRig'), '[FILE]',
             'Rig file; Enter: as the node says'),
     Command('recalibrate', 'r', 'solve one camera anew while the LED is waved',
-            recalibrate, 'CAMERA',
+            recalibrate, 'CAMERA [SECONDS]',
             'Camera to solve anew while the LED is waved'),
     Command('join', 'j', 'put this rig into the world of another',
             with_path('join', 'JoinRig'), '[FILE]',

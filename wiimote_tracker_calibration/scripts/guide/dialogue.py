@@ -73,6 +73,8 @@ class Dialogue(object):
                 ring = self.guide.on_status(event[1], now) or ring
             elif event[0] == 'verdict':
                 self.guide.verdict = event[1]
+            elif event[0] == 'trace':
+                self.guide.trace = event[1]
             elif event[0] == 'board':
                 ring = self.guide.on_board(event[1]) or ring
             elif event[0] == 'feedback':

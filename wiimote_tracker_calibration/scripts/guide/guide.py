@@ -27,6 +27,7 @@ class Guide(object):
         self.status_at = None
         self.statuses_since_answer = 0
         self.verdict = None
+        self.trace = None       # of the principal points' correction
         self.board = None
         self.answer = ''
         self.answer_good = True

@@ -10,7 +10,7 @@ import threading
 import actionlib
 import rospy
 from wiimote_tracker_msgs.msg import (BoardStatus, CalibrationStatus, CalibrationVerdict,
-                                      CaptureCornerAction, CaptureCornerGoal)
+                                      CaptureCornerAction, CaptureCornerGoal, PrincipalPointTrace)
 
 SERVICE_TIMEOUT = 1.0   # [s] In which a service that exists is found.
 ACTION_TIMEOUT = 5.0    # [s] In which the action's server is found.
@@ -19,16 +19,18 @@ ACTION_PATIENCE = 1.0   # [s] Between looks at a capture that goes on.
 
 class Node(object):
     """events: a queue.Queue of ('status', message), ('verdict', message), ('board', message),
-    ('feedback', text, share) and ('answer', word, good, text)."""
+    ('trace', message), ('feedback', text, share) and ('answer', word, good, text)."""
 
     def __init__(self):
         self.events = queue.Queue()
         self._capture = actionlib.SimpleActionClient('calibration/capture_corner',
                                                      CaptureCornerAction)
-        for topic, type_ in (('status', CalibrationStatus), ('verdict', CalibrationVerdict),
-                             ('board', BoardStatus)):
+        for event, topic, type_ in (('status', 'status', CalibrationStatus),
+                                    ('verdict', 'verdict', CalibrationVerdict),
+                                    ('board', 'board', BoardStatus),
+                                    ('trace', 'principal_point_trace', PrincipalPointTrace)):
             rospy.Subscriber('calibration/' + topic, type_,
-                             lambda message, topic=topic: self.events.put((topic, message)))
+                             lambda message, event=event: self.events.put((event, message)))
 
     def send(self, word, request):
         """Carries out a request; its answer becomes an event."""

@@ -124,6 +124,8 @@ class Plain(object):
                        '%s  %s' % (figure(100.0 * status.progress, '%3.0f %%'), status.message))
         self._tell_new('missing', tuple(status.missing[:1]),
                        'missing: %s' % status.missing[0] if status.missing else '')
+        if guide.trace is not None:
+            self._tell_new('trace', guide.trace.table, guide.trace.table.rstrip())
         if guide.running:
             return  # what a capture lacks changes all the time; what it lacked in the end is told
         for camera in status.cameras:

@@ -23,7 +23,8 @@ def steps(status):
 
 def render(guide, now, view='cameras', page=0, rows=ROWS, columns=COLUMNS, prompt=None,
            command_list=()):
-    """Exactly `rows` lines of at most `columns` characters. view: 'cameras', 'verdict' or 'keys'.
+    """Exactly `rows` lines of at most `columns` characters. view: 'cameras', 'verdict',
+    'trace' or 'keys'.
     prompt: a question with what was typed so far, instead of the keys."""
     if rows < ROWS or columns < COLUMNS:
         lines = wrapped('Make this window at least %d x %d; it is %d x %d now. Or use --plain.'
@@ -64,6 +65,8 @@ def body(guide, view, page, room, columns, command_list):
         return padded(key_lines(command_list), room)
     if view == 'verdict':
         return padded(verdict_lines(guide.verdict, columns), room)
+    if view == 'trace':
+        return padded(trace_lines(guide.trace), room)
     if guide.status is None:
         return [''] * room
     lines = panels(guide, page, columns)
@@ -205,10 +208,26 @@ def verdict_lines(verdict, columns):
     return lines
 
 
+def trace_lines(trace):
+    """How the correction of the principal points went."""
+    if trace is None:
+        return ['The principal points were not corrected (see doc/principal_point.md).']
+    lines = ['camera          principal point before and after [px]']
+    count, last = len(trace.cameras), len(trace.origin_error) - 1
+    for number, name in enumerate(trace.cameras):
+        end = last * count + number
+        lines.append('%-14s %8.1f %8.1f   %8.1f %8.1f' % (
+            name[:14], trace.cx[number], trace.cy[number], trace.cx[end], trace.cy[end]))
+    lines.append('round  error of the first corner, of all corners [mm]')
+    return lines + ['%5d  %10.1f %10.1f' % (round_, 1e3 * origin, 1e3 * corners)
+                    for round_, (origin, corners) in enumerate(zip(trace.origin_error,
+                                                                   trace.corner_error))]
+
+
 def key_lines(command_list):
     """Two columns: keys, and the words that stand for them with --plain."""
     rows = ['%-3s %s %s' % (command.key, command.word, command.arguments)
             for command in command_list]
     half = (len(rows) + 1) // 2
-    return ['?   back', ''] + [left.ljust(COLUMNS // 2) + right for left, right in
+    return ['?   back       y   how the principal points were corrected', ''] + [left.ljust(COLUMNS // 2) + right for left, right in
                                zip(rows[:half], rows[half:] + [''])]

@@ -16,9 +16,9 @@ using Matrix3 = Eigen::Matrix3d;
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
 
-/// How finely changes between ways to move are followed [s]: far more often than there are any,
-/// less often than there are images.
-constexpr double kChangeInterval = 0.01;
+/// Changes between ways to move are followed at every image, but no more finely than this [s]. Any
+/// less would cost accuracy where an LED stops: what is still is then where it last was followed.
+constexpr double kChangeInterval = 0.002;
 
 /// Probability of a change within a duration, at a rate.
 double probabilityOf(double rate, double duration) {
@@ -27,6 +27,11 @@ double probabilityOf(double rate, double duration) {
 
 double square(double x) {
   return x * x;
+}
+
+/// Sudden, the last, may be left out.
+int waysToMove(const MotionOptions& options) {
+  return options.sudden_random_walk > 0.0 ? 4 : 3;
 }
 
 /// Variance of the acceleration with which each way to move is taken up [m^2/s^4].
@@ -46,8 +51,10 @@ MotionFilter::MotionFilter(const MotionOptions& options,
       changed_until_(time),
       still_p_(position),
       still_pp_(covariance) {
-  still_weight_ = options.stop_rate > 0.0 ? 1.0 / (kMoving + 1) : 0.0;
-  moving_weights_.setConstant((1.0 - still_weight_) / kMoving);
+  const int ways = waysToMove(options);
+  still_weight_ = options.stop_rate > 0.0 ? 1.0 / (ways + 1) : 0.0;
+  moving_weights_.setZero();
+  moving_weights_.head(ways).setConstant((1.0 - still_weight_) / ways);
   moving_.setZero();
   const Lanes variances = accelerationVariances(options);
   for (int i = 0, k = 0; i < 3; ++i) {
@@ -63,7 +70,7 @@ MotionFilter::MotionFilter(const MotionOptions& options,
 }
 
 void MotionFilter::predict(double time) {
-  if (!(time > time_))
+  if (!(time > time_) || !std::isfinite(time))
     return;
   const double duration = time - time_;
   moving_.predict(motionSteps(*options_, duration));
@@ -79,21 +86,23 @@ void MotionFilter::predict(double time) {
 void MotionFilter::change(double duration) {
   // Joint probabilities of the way before (column) and the way after (row).
   const double start = still_weight_ * probabilityOf(options_->start_rate, duration);
+  const int ways = waysToMove(*options_);
   Eigen::Matrix4d joint = Eigen::Matrix4d::Zero();
-  Lanes stop;
-  for (int i = 0; i < kMoving; ++i) {
-    const int rasher = kMoving - 1 - i;
+  Lanes stop = Lanes::Zero();
+  for (int i = 0; i < ways; ++i) {
+    const int rasher = ways - 1 - i;
     const double rise = rasher > 0 ? options_->rise_rate : 0.0;
     const double settle = i > 0 ? options_->settle_rate : 0.0;
     const double rate = options_->stop_rate + rise + settle;
     const double per_rate =  // probability for each 1/s
         moving_weights_[i] * duration / (1.0 + rate * duration);
     stop[i] = per_rate * options_->stop_rate;
-    for (int j = 0; j < kMoving; ++j)
+    for (int j = 0; j < ways; ++j)
       joint(j, i) = j < i ? per_rate * settle / i : per_rate * rise / rasher;
     joint(i, i) = moving_weights_[i] - per_rate * rate;
   }
-  const Lanes started = Lanes::Constant(start / kMoving);
+  Lanes started = Lanes::Zero();
+  started.head(ways).setConstant(start / ways);
   const Lanes weights = joint.rowwise().sum().array() + started;
 
   // What takes up another way does so with an acceleration of that way.
@@ -213,7 +222,8 @@ bool MotionFilter::update(const geometry::Camera& camera,
                           const PixelPrediction& prediction,
                           const Vector2& pixel) {
   constexpr int kIterations = 3;
-  if (!pixel.allFinite())
+  constexpr double kAbsurd = 1e9;  // [px]
+  if (!((pixel - prediction.pixel_).squaredNorm() < kAbsurd * kAbsurd))
     return false;
   if (isLinear(camera, prediction, pixel)) {
     apply(prediction, pixel);

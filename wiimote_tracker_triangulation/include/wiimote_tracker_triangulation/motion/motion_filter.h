@@ -70,6 +70,11 @@ class MotionFilter {
                const Eigen::Vector3d& position,
                const Eigen::Matrix3d& covariance);
 
+  MotionFilter(const MotionOptions&&,
+               double,
+               const Eigen::Vector3d&,
+               const Eigen::Matrix3d&) = delete;  // a temporary would be gone
+
   double time() const { return time_; }  ///< [s]
 
   /// Goes on to a time [s]; one that is not after time() changes nothing.
@@ -80,7 +85,7 @@ class MotionFilter {
                                               const PixelNoise& noise) const;
 
   /// Takes in the pixel of the LED's spot at time(). The prediction must be this filter's as it is.
-  /// False, and nothing changes, when the pixel is not finite.
+  /// False, and nothing changes, when the pixel is not finite or absurdly far away (1e9 px).
   bool update(const geometry::Camera& camera,
               const PixelPrediction& prediction,
               const Eigen::Vector2d& pixel);

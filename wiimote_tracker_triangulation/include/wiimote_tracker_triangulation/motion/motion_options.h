@@ -12,17 +12,17 @@ struct Wandering {
 /// How LEDs move. An LED is still or moves in one of four ways, and changes between these five at
 /// random times. How fast it goes makes no difference, only how it changes.
 struct MotionOptions {
-  double still_drift = 1e-4;        ///< Random walk of what is still [m/sqrt(s), >= 0].
-  Wandering smooth{0.015, 100.0};   ///< All but constant acceleration: what turns or swings freely.
-  Wandering gentle{0.25, 1.0};      ///< A hand that is led with care.
-  Wandering brisk{6.0, 0.2};        ///< A hand that gestures.
-  double sudden_random_walk = 3.0;  ///< Of the velocity, of what is thrown about and bumps into
-                                    ///< things [m/s/sqrt(s), > 0].
-  double start_rate = 7.0;          ///< How often what is still starts to move [1/s, >= 0].
-  double stop_rate = 0.2;      ///< How often what moves stops [1/s, >= 0]; 0: nothing is still.
-  double rise_rate = 0.1;      ///< How often it changes to one of the rasher ways [1/s, >= 0].
-  double settle_rate = 0.001;  ///< How often to one of the calmer ways [1/s, >= 0].
-  double initial_speed = 1.0;  ///< Standard deviation per axis of a new LED [m/s, > 0].
+  double still_drift = 5e-5;        ///< Random walk of what is still [m/sqrt(s), >= 0].
+  Wandering smooth{0.0003, 20.0};   ///< All but constant acceleration: what turns or swings freely.
+  Wandering gentle{0.5, 8.0};       ///< A hand that is led with care.
+  Wandering brisk{4.0, 0.2};        ///< A hand that gestures.
+  double sudden_random_walk = 3.3;  ///< Of the velocity, of what is thrown about and bumps into
+                                    ///< things [m/s/sqrt(s), >= 0]; 0: nothing is.
+  double start_rate = 1.2;          ///< How often what is still starts to move [1/s, >= 0].
+  double stop_rate = 0.1;       ///< How often what moves stops [1/s, >= 0]; 0: nothing is still.
+  double rise_rate = 2.4;       ///< How often it changes to one of the rasher ways [1/s, >= 0].
+  double settle_rate = 0.0008;  ///< How often to one of the calmer ways [1/s, >= 0].
+  double initial_speed = 1.0;   ///< Standard deviation per axis of a new LED [m/s, > 0].
 };
 
 }  // namespace wiimote_tracker::motion

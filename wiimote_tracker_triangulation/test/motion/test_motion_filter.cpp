@@ -1,0 +1,488 @@
+#include "geometry/random_rigs.h"
+#include "motion/known_mode.h"
+#include "motion/textbook_imm.h"
+#include "wiimote_tracker_triangulation/motion/motion_filter.h"
+#include "wiimote_tracker_triangulation/motion/singer_step.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <new>
+
+namespace {
+int g_allocations = 0;
+}  // namespace
+
+// Never inlined: the compiler would see free() on memory that came from new.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++g_allocations;
+  if (void* memory = std::malloc(size))
+    return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace wiimote_tracker::motion {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using geometry::Camera;
+using geometry::test::Random;
+
+const MotionOptions kDefault;
+constexpr double kPixelStddev = 0.5;
+constexpr double kStep = 0.0025;  // from one camera's image to the next camera's [s]
+
+/// Four cameras about the origin, 4.2 m away.
+std::vector<Camera> ring() {
+  std::vector<Camera> cameras(4);
+  for (int i = 0; i < 4; ++i) {
+    const double angle = M_PI / 4.0 + i * M_PI / 2.0;
+    cameras[i].world_from_camera = geometry::lookAt(
+        {4.1 * std::cos(angle), 4.1 * std::sin(angle), 1.0}, Vector3d::Zero(), Vector3d::UnitZ());
+  }
+  return cameras;
+}
+
+Vector2d noisyPixel(const Camera& camera, const Vector3d& point, Random& random) {
+  const double u = random.gaussian();
+  return *camera.project(point) + kPixelStddev * Vector2d(u, random.gaussian());
+}
+
+/// As a tracker does with each image. False when the LED is not before the camera.
+bool takeIn(MotionFilter* filter, double time, const Camera& camera, const Vector2d& pixel) {
+  filter->predict(time);
+  const auto prediction = filter->predictPixel(camera, {kPixelStddev, 0.0});
+  return prediction && filter->update(camera, *prediction, pixel);
+}
+
+double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return (a - b).norm() / b.norm();
+}
+
+/// A path with everything in it: still, a sudden start, a curve, a sudden stop.
+Vector3d variedPath(double time) {
+  if (time < 0.5)
+    return {0.2, 0.1, 0.3};
+  if (time < 0.8)
+    return Vector3d(0.2, 0.1, 0.3) + (time - 0.5) * Vector3d(1.0, 0.5, -0.3);
+  const double angle = std::min(3.0 * (time - 0.8), 2.0);
+  return {0.5 + 0.4 * std::sin(angle), 0.25 + 0.4 * (1.0 - std::cos(angle)), 0.21};
+}
+
+TEST(SingerStep, IsTheSolutionOfItsStochasticDifferentialEquation) {
+  for (const double time : {0.2, 1.0, 100.0}) {
+    // The halves lie on both sides of where the series end.
+    for (const double share : {1e-5, 0.0025, 0.1, 0.4999, 0.5, 2.0, 10.0}) {
+      const double duration = share * time;
+      SCOPED_TRACE(testing::Message() << time << " s, " << duration << " s");
+      const test::Transition truth = test::singerTransition(1.0, time, duration);
+      const SingerStep step(duration, time);
+      // The exponential of the matrix holds that of the share, which is rounded as a whole.
+      const auto near = [share](double expected, double actual) {
+        EXPECT_NEAR(expected, actual, 1e-10 * std::exp(share) * std::abs(expected));
+      };
+      near(truth.F(0, 1), step.p_v);
+      near(truth.F(0, 2), step.p_a);
+      near(truth.F(1, 2), step.v_a);
+      near(truth.F(2, 2), step.a_a);
+      if (share < 0.001)
+        continue;  // there the exponential of the matrix is the less exact of the two
+      near(truth.Q(0, 0), step.q_pp);
+      near(truth.Q(0, 1), step.q_pv);
+      near(truth.Q(0, 2), step.q_pa);
+      near(truth.Q(1, 1), step.q_vv);
+      near(truth.Q(1, 2), step.q_va);
+      near(truth.Q(2, 2), step.q_aa);
+    }
+  }
+}
+
+TEST(SingerStep, OfNoLengthIsNothing) {
+  const SingerStep step(0.0, 0.3);
+  EXPECT_EQ(0.0, step.p_v);
+  EXPECT_EQ(0.0, step.p_a);
+  EXPECT_EQ(0.0, step.v_a);
+  EXPECT_EQ(1.0, step.a_a);
+  EXPECT_EQ(0.0, step.q_pp);
+  EXPECT_EQ(0.0, step.q_aa);
+}
+
+TEST(MotionFilter, IsTheTextbooksFilter) {
+  const std::vector<Camera> cameras = ring();
+  MotionOptions options;
+  options.settle_rate = 0.5;  // so that every change counts
+  Random random(1);
+  const Matrix3d covariance = Vector3d(1e-6, 2e-6, 3e-6).asDiagonal();
+  MotionFilter filter(options, 0.0, variedPath(0.0), covariance);
+  test::TextbookImm textbook(options, 0.0, variedPath(0.0), covariance);
+  double changed = 0.0;
+  for (int i = 1; i < 800; ++i) {
+    // Cameras drop out for a while: steps of different length.
+    if (i % 200 > 50 && i % 200 < 70 && i % 7 != 0)
+      continue;
+    const double time = kStep * i;
+    const Camera& camera = cameras[i % 4];
+    const Vector2d pixel = noisyPixel(camera, variedPath(time), random);
+    filter.predict(time);
+    textbook.predict(time);
+    if (time - changed >= 0.002) {
+      textbook.change(time - changed);
+      changed = time;
+    }
+    const auto prediction = filter.predictPixel(camera, {kPixelStddev, 0.0});
+    ASSERT_TRUE(prediction);
+    EXPECT_NEAR(std::log(textbook.density(camera, pixel, kPixelStddev)),
+                prediction->logLikelihood(pixel), 1e-4);
+    ASSERT_TRUE(filter.update(camera, *prediction, pixel));
+    textbook.update(camera, pixel, kPixelStddev);
+
+    ASSERT_LT((textbook.mean().head<3>() - filter.position()).norm(), 1e-8) << time;
+    ASSERT_LT((textbook.mean().segment<3>(3) - filter.velocity()).norm(), 1e-5) << time;
+    ASSERT_NEAR(textbook.models()[0].probability, filter.stillProbability(), 1e-4) << time;
+    ASSERT_LT(relative(filter.positionCovariance(), textbook.covariance().topLeftCorner<3, 3>()),
+              1e-3);
+    ASSERT_LT(relative(filter.velocityCovariance(), textbook.covariance().block<3, 3>(3, 3)), 1e-3);
+  }
+}
+
+TEST(PixelPrediction, IsTheMixturesDensityAndMoments) {
+  const Camera camera = ring()[1];
+  MotionFilter filter(kDefault, 0.0, {0.1, 0.2, 0.3}, 1e-6 * Matrix3d::Identity());
+  Random random(3);
+  for (int i = 1; i < 200; ++i) {
+    const double time = kStep * i;
+    ASSERT_TRUE(
+        takeIn(&filter, time, ring()[i % 4], noisyPixel(ring()[i % 4], variedPath(time), random)));
+  }
+  filter.predict(filter.time() + 0.02);
+  const auto prediction = filter.predictPixel(camera, {kPixelStddev, 0.0});
+  ASSERT_TRUE(prediction);
+  // Integrated on a grid that reaches far enough.
+  constexpr double kCell = 0.1;
+  double sum = 0.0;
+  Vector2d mean = Vector2d::Zero();
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
+  for (double u = -40.0; u <= 40.0; u += kCell) {
+    for (double v = -40.0; v <= 40.0; v += kCell) {
+      const Vector2d d(u, v);
+      const double share =
+          std::exp(prediction->logLikelihood(prediction->pixel() + d)) * kCell * kCell;
+      sum += share;
+      mean += share * d;
+      second += share * d * d.transpose();
+    }
+  }
+  EXPECT_NEAR(1.0, sum, 1e-3);
+  EXPECT_LT(mean.norm(), 1e-3);
+  EXPECT_LT(relative(prediction->covariance(), second), 0.01);
+  EXPECT_EQ(*camera.project(filter.position()), prediction->pixel());
+  EXPECT_TRUE(std::isnan(prediction->squaredDistance({NAN, 0.0})));
+}
+
+TEST(PixelPrediction, AnUncertainStampSmearsAlongTheWay) {
+  const std::vector<Camera> cameras = ring();
+  MotionFilter filter(kDefault, 0.0, Vector3d(-0.2, 0.0, 0.1), 1e-6 * Matrix3d::Identity());
+  Random random(4);
+  const Vector3d velocity(1.0, 0.5, -0.2);
+  for (int i = 1; i < 100; ++i) {
+    const Vector3d truth = Vector3d(-0.2, 0.0, 0.1) + velocity * kStep * i;
+    ASSERT_TRUE(
+        takeIn(&filter, kStep * i, cameras[i % 4], noisyPixel(cameras[i % 4], truth, random)));
+  }
+  constexpr double kStampStddev = 0.003;
+  const auto exact = filter.predictPixel(cameras[0], {kPixelStddev, 0.0});
+  const auto smeared = filter.predictPixel(cameras[0], {kPixelStddev, kStampStddev});
+  ASSERT_TRUE(exact && smeared);
+  // By differences: how far the pixel goes in that time.
+  constexpr double kSmall = 1e-4;
+  const Vector2d speed = (*cameras[0].project(filter.position() + kSmall * filter.velocity()) -
+                          *cameras[0].project(filter.position() - kSmall * filter.velocity())) /
+                         (2.0 * kSmall);
+  const Eigen::Matrix2d expected = kStampStddev * kStampStddev * speed * speed.transpose();
+  EXPECT_LT(relative(smeared->covariance() - exact->covariance(), expected), 1e-4);
+}
+
+/// Errors beside a bound, and whether the covariance tells the truth about them.
+struct Accuracy {
+  double squared = 0.0;
+  double bound = 0.0;
+  double nees = 0.0;
+  int count = 0;
+
+  void add(const MotionFilter& filter, const Vector3d& truth, double squared_bound) {
+    const Vector3d error = filter.position() - truth;
+    squared += error.squaredNorm();
+    nees += error.dot(filter.positionCovariance().llt().solve(error));
+    bound += squared_bound;
+    ++count;
+  }
+  double ratio() const { return std::sqrt(squared / bound); }
+};
+
+TEST(MotionFilter, ReachesThePosteriorCramerRaoBoundOfItsOwnModel) {
+  constexpr int kRuns = 60;
+  constexpr double kStddev = 2.0, kTime = 0.2;
+  MotionOptions options;  // one way to move, and no other
+  options.smooth = options.gentle = options.brisk = {kStddev, kTime};
+  options.sudden_random_walk = options.stop_rate = 0.0;
+  options.initial_speed = 0.3;
+  const Matrix3d covariance = 4e-6 * Matrix3d::Identity();
+  const std::vector<Camera> cameras = ring();
+  Random random(5);
+  Accuracy all;
+  std::vector<double> nees_of_runs, ratio_of_runs;
+  for (int run = 0; run < kRuns; ++run) {
+    test::SingerTruth truth(kStddev, kTime, kStep);
+    const Vector3d position = random.inBox(0.3);
+    Vector3d velocity, error;
+    for (int i = 0; i < 3; ++i) {
+      velocity[i] = options.initial_speed * random.gaussian();
+      error[i] = 2e-3 * random.gaussian();
+    }
+    truth.place(position, velocity);
+    truth.startMoving(random);
+    MotionFilter filter(options, 0.0, position + error, covariance);
+    test::KnownModeBound bound(kStddev, kTime, kStep, covariance, options.initial_speed);
+    Accuracy one;
+    for (int i = 1; i <= 320; ++i) {
+      truth.step(random);
+      bound.step();
+      const Camera& camera = cameras[i % 4];
+      ASSERT_TRUE(takeIn(&filter, kStep * i, camera, noisyPixel(camera, truth.position(), random)));
+      bound.observe(camera, truth.position(), kPixelStddev);
+      one.add(filter, truth.position(), bound.squaredError());
+      all.add(filter, truth.position(), bound.squaredError());
+    }
+    nees_of_runs.push_back(one.nees / one.count);
+    ratio_of_runs.push_back(one.squared / one.bound);
+  }
+  // Within four standard errors, estimated from the runs, which are independent.
+  const auto standardError = [](const std::vector<double>& values) {
+    double sum = 0.0, squares = 0.0;
+    for (const double v : values) {
+      sum += v;
+      squares += v * v;
+    }
+    const double n = static_cast<double>(values.size());
+    return std::sqrt((squares / n - sum * sum / (n * n)) / (n - 1.0));
+  };
+  EXPECT_NEAR(3.0, all.nees / all.count, 4.0 * standardError(nees_of_runs));
+  EXPECT_NEAR(1.0, all.squared / all.bound, 4.0 * standardError(ratio_of_runs));
+  EXPECT_LT(standardError(nees_of_runs), 0.15);
+}
+
+TEST(MotionFilter, IsQuietWhenStillAndKeepsUpWithJumps) {
+  constexpr int kRuns = 12;
+  constexpr double kAcceleration = 2.0, kTime = 0.2;  // none of the ways that the filter knows
+  const std::vector<Camera> cameras = ring();
+  const Matrix3d covariance = 4e-6 * Matrix3d::Identity();
+  Random random(6);
+  Accuracy all, still;
+  for (int run = 0; run < kRuns; ++run) {
+    test::SingerTruth truth(kAcceleration, kTime, kStep);
+    truth.place(random.inBox(0.2), Vector3d::Zero());
+    const Vector3d start = truth.position() + random.inBox(2e-3);
+    MotionFilter filter(kDefault, 0.0, start, covariance);
+    test::KnownModeBound bound(kAcceleration, kTime, kStep, covariance, 0.0);
+    bound.stop();
+    for (int i = 1; i <= 2800; ++i) {
+      if (i % 1400 == 800) {  // 2 s still, 1.5 s moving
+        truth.startMoving(random);
+        bound.startMoving();
+      } else if (i % 1400 == 0) {
+        truth.stop();
+        bound.stop();
+      }
+      truth.step(random);
+      bound.step();
+      const Camera& camera = cameras[i % 4];
+      const auto pixel = camera.project(truth.position());
+      ASSERT_TRUE(pixel);
+      filter.predict(kStep * i);
+      const auto prediction = filter.predictPixel(camera, {kPixelStddev, 0.0});
+      ASSERT_TRUE(prediction);
+      const Vector2d measured = noisyPixel(camera, truth.position(), random);
+      // No gate needs to be wider than this, but for the shock of a stop at full speed.
+      EXPECT_LT(prediction->squaredDistance(measured), i % 1400 < 4 ? 100.0 : 36.0);
+      ASSERT_TRUE(filter.update(camera, *prediction, measured));
+      bound.observe(camera, truth.position(), kPixelStddev);
+      all.add(filter, truth.position(), bound.squaredError());
+      if (!truth.moves())
+        still.add(filter, truth.position(), bound.squaredError());
+    }
+  }
+  EXPECT_LT(all.ratio(), 1.10);
+  EXPECT_LT(still.ratio(), 1.4);
+}
+
+TEST(MotionFilter, FollowsASuddenStartAtThreeMetresPerSecond) {
+  const std::vector<Camera> cameras = ring();
+  Random random(7);
+  MotionFilter filter(kDefault, 0.0, Vector3d(-0.5, 0.0, 0.0), 1e-6 * Matrix3d::Identity());
+  for (int i = 1; i <= 1000; ++i) {
+    const double time = kStep * i;
+    const Vector3d truth(-0.5 + 3.0 * std::max(0.0, time - 2.2), 0.0, 0.0);
+    const Camera& camera = cameras[i % 4];
+    ASSERT_TRUE(takeIn(&filter, time, camera, noisyPixel(camera, truth, random)));
+    const Vector3d error = filter.position() - truth;
+    EXPECT_LT(error.norm(), 0.06) << time;
+    if (time > 2.3) {
+      EXPECT_LT(error.norm(), 0.01) << time;
+    }
+  }
+  EXPECT_LT((filter.velocity() - Vector3d(3.0, 0.0, 0.0)).norm(), 0.3);
+}
+
+TEST(MotionFilter, GrowsUncertainInAGapAndFindsBack) {
+  const std::vector<Camera> cameras = ring();
+  Random random(8);
+  for (const double gap : {0.1, 0.5, 3.0, 1000.0}) {
+    MotionFilter filter(kDefault, 0.0, variedPath(0.0), 1e-6 * Matrix3d::Identity());
+    for (int i = 1; i < 400; ++i)
+      ASSERT_TRUE(takeIn(&filter, kStep * i, cameras[i % 4],
+                         noisyPixel(cameras[i % 4], variedPath(kStep * i), random)));
+    double before = filter.positionCovariance().trace();
+    const double end = filter.time() + gap;
+    for (double time = filter.time() + 0.02 * gap; time < end; time += 0.05 * gap) {
+      filter.predict(time);
+      const double now = filter.positionCovariance().trace();
+      EXPECT_GT(now, before);
+      before = now;
+    }
+    filter.predict(end);
+    ASSERT_TRUE(filter.position().allFinite());
+    ASSERT_EQ(Eigen::Success, filter.positionCovariance().llt().info());
+    if (gap > 10.0)
+      continue;  // nothing is known of where it is
+    const Vector3d truth = variedPath(end);
+    const Vector3d error = filter.position() - truth;
+    EXPECT_LT(error.dot(filter.positionCovariance().llt().solve(error)), 16.3);  // 99.9 %
+    for (int i = 0; i < 40; ++i)
+      takeIn(&filter, end + kStep * i, cameras[i % 4], noisyPixel(cameras[i % 4], truth, random));
+    EXPECT_LT((filter.position() - truth).norm(), 0.01) << gap;
+  }
+}
+
+TEST(MotionFilter, IteratesFromAPoorStart) {
+  // Depth all but unknown: a single linearisation would miss by several standard deviations.
+  const std::vector<Camera> cameras = ring();
+  const Vector3d truth(0.1, 0.2, 0.3);
+  const Vector3d away = (truth - cameras[0].center()).normalized();
+  Matrix3d covariance = 1e-6 * Matrix3d::Identity() + 0.09 * away * away.transpose();
+  MotionOptions options;
+  options.initial_speed = 1e-3;
+  MotionFilter filter(options, 0.0, truth + 0.4 * away, covariance);
+  for (const int i : {1, 2, 3}) {
+    const auto prediction = filter.predictPixel(cameras[i], {kPixelStddev, 0.0});
+    ASSERT_TRUE(prediction);
+    ASSERT_TRUE(filter.update(cameras[i], *prediction, *cameras[i].project(truth)));
+  }
+  const Vector3d error = filter.position() - truth;
+  EXPECT_LT(error.dot(filter.positionCovariance().llt().solve(error)), 0.05);
+}
+
+TEST(MotionFilter, TheOrderOfImagesOfOneTimeMakesNoDifference) {
+  const std::vector<Camera> cameras = ring();
+  Random random(9);
+  MotionFilter filter(kDefault, 0.0, variedPath(0.0), 1e-6 * Matrix3d::Identity());
+  for (int i = 1; i < 250; ++i)
+    ASSERT_TRUE(takeIn(&filter, kStep * i, cameras[i % 4],
+                       noisyPixel(cameras[i % 4], variedPath(kStep * i), random)));
+  const double time = filter.time() + 0.01;
+  std::vector<Vector2d> pixels;
+  for (const Camera& camera : cameras)
+    pixels.push_back(noisyPixel(camera, variedPath(time), random));
+  MotionFilter forwards = filter, backwards = filter;
+  for (int i = 0; i < 4; ++i) {
+    ASSERT_TRUE(takeIn(&forwards, time, cameras[i], pixels[i]));
+    ASSERT_TRUE(takeIn(&backwards, time, cameras[3 - i], pixels[3 - i]));
+  }
+  // But for where each was linearised: a small part of the standard deviation.
+  const double stddev = std::sqrt(forwards.positionCovariance().trace());
+  EXPECT_LT((forwards.position() - backwards.position()).norm(), 0.01 * stddev);
+  EXPECT_LT(relative(forwards.positionCovariance(), backwards.positionCovariance()), 0.01);
+  EXPECT_NEAR(forwards.stillProbability(), backwards.stillProbability(), 0.01);
+}
+
+TEST(MotionFilter, ACopyIsIndependentAndTheSame) {
+  const std::vector<Camera> cameras = ring();
+  Random random(10);
+  MotionFilter filter(kDefault, 0.0, variedPath(0.0), 1e-6 * Matrix3d::Identity());
+  const auto goOn = [&](MotionFilter* f, int from, unsigned seed) {
+    Random noise(seed);
+    for (int i = from; i < from + 100; ++i)
+      ASSERT_TRUE(takeIn(f, kStep * i, cameras[i % 4],
+                         noisyPixel(cameras[i % 4], variedPath(kStep * i), noise)));
+  };
+  goOn(&filter, 1, 11);
+  const MotionFilter kept = filter;
+  const Vector3d position = kept.position();
+  goOn(&filter, 101, 12);
+  EXPECT_EQ(position, kept.position());
+  MotionFilter again = kept;
+  goOn(&again, 101, 12);
+  EXPECT_EQ(filter.position(), again.position());
+  EXPECT_EQ(filter.positionCovariance(), again.positionCovariance());
+  EXPECT_EQ(filter.velocity(), again.velocity());
+}
+
+TEST(MotionFilter, AbsurdInputIsRefusedOrSurvived) {
+  const Camera camera = ring()[0];
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  MotionFilter filter(kDefault, 10.0, Vector3d::Zero(), 1e-6 * Matrix3d::Identity());
+  for (const double time : {nan, infinity, -infinity, 9.0, 10.0})
+    filter.predict(time);
+  EXPECT_EQ(10.0, filter.time());
+  const auto prediction = filter.predictPixel(camera, {kPixelStddev, 0.0});
+  ASSERT_TRUE(prediction);
+  const Vector3d position = filter.position();
+  for (const Vector2d& pixel : {Vector2d(nan, 0.0), Vector2d(0.0, infinity), Vector2d(1e300, 0.0)})
+    EXPECT_FALSE(filter.update(camera, *prediction, pixel));
+  EXPECT_EQ(position, filter.position());
+  EXPECT_TRUE(filter.update(camera, *prediction, {1e6, -1e6}));
+  EXPECT_TRUE(filter.position().allFinite());
+  EXPECT_TRUE(filter.velocity().allFinite());
+  EXPECT_TRUE(filter.positionCovariance().allFinite());
+  filter.predict(10.0 + 1e9);
+  EXPECT_TRUE(filter.positionCovariance().allFinite());
+
+  const MotionFilter behind(kDefault, 0.0, 2.0 * camera.center(), 1e-6 * Matrix3d::Identity());
+  EXPECT_FALSE(behind.predictPixel(camera, {kPixelStddev, 0.0}));
+}
+
+TEST(MotionFilter, DoesNotAllocate) {
+  const std::vector<Camera> cameras = ring();
+  const int start = g_allocations;
+  const auto something = std::make_unique<std::vector<int>>(3);
+  EXPECT_EQ(3u, something->size());
+  EXPECT_EQ(start + 2, g_allocations);  // it counts
+  Random random(13);
+  std::vector<Vector2d> pixels;
+  for (int i = 0; i < 400; ++i)
+    pixels.push_back(noisyPixel(cameras[i % 4], variedPath(kStep * i), random));
+  const int before = g_allocations;
+  MotionFilter filter(kDefault, 0.0, variedPath(0.0), Matrix3d::Identity());
+  double sum = 0.0;
+  for (int i = 1; i < 400; ++i) {
+    takeIn(&filter, kStep * i, cameras[i % 4], pixels[i]);
+    sum += filter.positionCovariance().trace() + filter.velocityCovariance().trace();
+  }
+  EXPECT_EQ(before, g_allocations);
+  EXPECT_GT(sum, 0.0);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::motion

@@ -1,0 +1,67 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_MOTION_TEXTBOOK_IMM_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TEST_MOTION_TEXTBOOK_IMM_H
+
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+#include "wiimote_tracker_triangulation/motion/motion_options.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace wiimote_tracker::motion::test {
+
+/// A linear system with white noise in continuous time, dx = A x dt + noise of a density, over a
+/// duration: Van Loan's method (1978), by the exponential of a matrix.
+struct Transition {
+  Transition(const Eigen::MatrixXd& A, const Eigen::MatrixXd& density, double duration);
+
+  /// The same in three axes: all positions, then all velocities, then all accelerations.
+  Transition inThreeAxes() const;
+
+  Eigen::MatrixXd F, Q;
+};
+
+/// A Singer model of one axis: position, velocity, acceleration.
+Transition singerTransition(double stddev, double time, double duration);
+
+/// The interacting multiple model filter as the textbook has it (Bar-Shalom, Li, Kirubarajan 2001,
+/// section 11.6.6), over the ways to move of MotionOptions, with general matrices of nine rows:
+/// written for reading, not for speed. Linearised at the mean of the mixture, once.
+class TextbookImm {
+ public:
+  struct Model {
+    double probability;
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd covariance;
+  };
+
+  TextbookImm(const MotionOptions& options,
+              double time,
+              const Eigen::Vector3d& position,
+              const Eigen::Matrix3d& covariance);
+
+  void predict(double time);
+
+  /// Changes between ways to move, which are due after what has passed.
+  void change(double duration);
+
+  void update(const geometry::Camera& camera, const Eigen::Vector2d& pixel, double pixel_stddev);
+
+  /// Density of a pixel [1/px^2].
+  double density(const geometry::Camera& camera,
+                 const Eigen::Vector2d& pixel,
+                 double pixel_stddev) const;
+
+  Eigen::VectorXd mean() const;
+  Eigen::MatrixXd covariance() const;
+  const std::vector<Model>& models() const { return models_; }
+
+ private:
+  MotionOptions options_;
+  double time_;
+  std::vector<Model> models_;  // still, then the ways to move
+};
+
+}  // namespace wiimote_tracker::motion::test
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_MOTION_TEXTBOOK_IMM_H

@@ -34,6 +34,12 @@ struct BenchmarkSection {
 
 BenchmarkSection associationSection();
 
+/// One LED's motion filter, beside the bounds.
+BenchmarkSection filterSection();
+
+/// Cameras on clocks of their own, uncertain stamps.
+BenchmarkSection unsynchronisedSection();
+
 /// The tracker over time: identities, encounters, lost tracks.
 BenchmarkSection identitySection();
 

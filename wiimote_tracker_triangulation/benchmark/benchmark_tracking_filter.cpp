@@ -1,0 +1,357 @@
+// How well the motion filter follows one LED, beside what is possible at best.
+#include "benchmark_tracking_sections.h"
+#include "constant_noise_filter.h"
+#include "motion/known_mode.h"
+#include "tracking/paths.h"
+#include "tracking/scene.h"
+#include "wiimote_tracker_triangulation/motion/motion_filter.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace wiimote_tracker {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using geometry::Camera;
+using geometry::test::Random;
+using motion::MotionFilter;
+using motion::MotionOptions;
+using tracking::test::Path;
+
+constexpr double kPixelStddev = 0.5;
+constexpr double kPeriod = 0.01;           // of each camera's images [s]
+constexpr double kStep = kPeriod / 4.0;    // from one camera's image to the next one's [s]
+constexpr double kStartStddev = 2e-3;      // of the first position, per axis [m]
+constexpr double kSettled = 0.5;           // the start is not counted [s]
+constexpr double kWithin95 = 7.814727903;  // quantile of chi square with three degrees of freedom
+
+/// Errors, what could be had, and what the covariance says of them.
+struct Figures {
+  double squared = 0.0;        // [m^2]
+  double bound_squared = 0.0;  // [m^2]
+  double nees = 0.0;
+  int within = 0;
+  int count = 0;
+
+  void add(const Vector3d& error, const Matrix3d& covariance) {
+    const double squared_distance = error.dot(covariance.llt().solve(error));
+    squared += error.squaredNorm();
+    nees += squared_distance;
+    within += squared_distance < kWithin95;
+    ++count;
+  }
+
+  BenchmarkRow row(const std::string& name) const {
+    const double rms = std::sqrt(squared / count);
+    const double bound = std::sqrt(bound_squared / count);
+    return {name,
+            {{"RMS mm", 1e3 * rms},
+             {"bound mm", 1e3 * bound},
+             {"ratio", rms / bound},
+             {"NEES", nees / count},
+             {"in 95 %", 100.0 * within / count}}};
+  }
+};
+
+Vector3d gaussian(Random& random, double stddev) {
+  Vector3d v;
+  for (int i = 0; i < 3; ++i)
+    v[i] = stddev * random.gaussian();
+  return v;
+}
+
+std::vector<Camera> cameras() {
+  std::vector<Camera> result;
+  for (const geometry::RigCamera& camera : tracking::test::paperRig().cameras)
+    result.push_back(camera.camera);
+  return result;
+}
+
+bool takeIn(MotionFilter* filter, double time, const Camera& camera, const Vector2d& pixel) {
+  filter->predict(time);
+  const auto prediction = filter->predictPixel(camera, {kPixelStddev, 0.0});
+  return prediction && filter->update(camera, *prediction, pixel);
+}
+
+void takeIn(ConstantNoiseFilter* filter, double time, const Camera& camera, const Vector2d& pixel) {
+  filter->predict(time);
+  filter->update(camera, pixel);
+}
+
+/// A truth that the bound knows all about, but for its noise.
+struct Drawn {
+  double stddev, time;  // of the acceleration
+  bool jumps;           // still for 1 to 3 s, moving for 1 to 2 s; else it always moves
+  double duration;      // [s]
+};
+
+/// Adds one run; `moving` and `still` may be one. Ends early where the LED leaves a view.
+void runDrawn(const Drawn& drawn,
+              const MotionOptions& options,
+              Random& random,
+              Figures* moving,
+              Figures* still) {
+  static const std::vector<Camera> all = cameras();
+  motion::test::SingerTruth truth(drawn.stddev, drawn.time, kStep);
+  const Matrix3d covariance = kStartStddev * kStartStddev * Matrix3d::Identity();
+  const double speed = drawn.jumps ? 0.0 : options.initial_speed;
+  truth.place(Vector3d(1.25, 1.25, 1.2) + random.inBox(0.2), gaussian(random, speed));
+  motion::test::KnownModeBound bound(drawn.stddev, drawn.time, kStep, covariance, speed);
+  double next_jump = std::numeric_limits<double>::infinity();
+  if (drawn.jumps) {
+    bound.stop();
+    next_jump = random.uniform(1.0, 3.0);
+  } else {
+    truth.startMoving(random);
+  }
+  MotionFilter filter(options, 0.0, truth.position() + gaussian(random, kStartStddev), covariance);
+  for (int i = 1; i * kStep < drawn.duration; ++i) {
+    const double time = i * kStep;
+    if (time >= next_jump) {
+      if (truth.moves()) {
+        truth.stop();
+        bound.stop();
+        next_jump = time + random.uniform(1.0, 3.0);
+      } else {
+        truth.startMoving(random);
+        bound.startMoving();
+        next_jump = time + random.uniform(1.0, 2.0);
+      }
+    }
+    truth.step(random);
+    bound.step();
+    const Camera& camera = all[i % all.size()];
+    if (!camera.sees(truth.position()))
+      return;
+    const double u = kPixelStddev * random.gaussian();
+    const Vector2d pixel =
+        *camera.project(truth.position()) + Vector2d(u, kPixelStddev * random.gaussian());
+    takeIn(&filter, time, camera, pixel);
+    bound.observe(camera, truth.position(), kPixelStddev);
+    Figures* figures = truth.moves() ? moving : still;
+    figures->add(filter.position() - truth.position(), filter.positionCovariance());
+    figures->bound_squared += bound.squaredError();
+  }
+}
+
+Figures sum(const Figures& a, const Figures& b) {
+  return {a.squared + b.squared, a.bound_squared + b.bound_squared, a.nees + b.nees,
+          a.within + b.within, a.count + b.count};
+}
+
+/// One way to move, and no other: what is left is a Kalman filter.
+void ownModel(const BenchmarkSettings& settings, const RowCallback& row) {
+  const Drawn drawn{2.0, 0.2, false, 1.0};
+  MotionOptions options;
+  options.smooth = options.gentle = options.brisk = {drawn.stddev, drawn.time};
+  options.sudden_random_walk = options.stop_rate = 0.0;
+  options.initial_speed = 0.3;
+  Random random(settings.seed);
+  Figures figures;
+  for (int run = 0; run < 20 * settings.runs; ++run)
+    runDrawn(drawn, options, random, &figures, &figures);
+  row(figures.row("(a) of its own single model"));
+}
+
+void jumps(const BenchmarkSettings& settings, const RowCallback& row) {
+  const MotionOptions options;
+  Random random(settings.seed + 1);
+  Figures moving, still;
+  for (int run = 0; run < 4 * settings.runs; ++run)
+    runDrawn({2.0, 0.2, true, 12.0}, options, random, &moving, &still);
+  row(sum(moving, still).row("(b) still and moving by jumps"));
+  row(still.row("    while still"));
+  row(moving.row("    while moving"));
+}
+
+/// Images of one LED, in order, and where it was.
+struct Sample {
+  double time;
+  std::size_t camera;
+  Vector2d pixel;
+  Vector3d truth;
+  int speed_class;
+};
+
+std::vector<Sample> watch(const Path& path,
+                          double duration,
+                          const std::function<int(double)>& speed_class,
+                          unsigned seed) {
+  tracking::test::SceneOptions options;
+  options.start = 0.0;
+  options.period = kPeriod;
+  options.pixel_noise = kPixelStddev;
+  tracking::test::Scene scene(tracking::test::paperRig(), {path}, options, seed);
+  std::vector<Sample> samples;
+  while (true) {
+    const tracking::test::SceneImage& image = scene.next();
+    if (image.true_time >= duration)
+      return samples;
+    if (!image.image.spots.empty()) {
+      samples.push_back({image.true_time, image.camera, image.image.spots.front().pixel,
+                         path(image.true_time), speed_class(image.true_time)});
+    }
+  }
+}
+
+/// Runs a filter, made for the first sample, over all of them.
+template <typename Filter>
+void follow(const std::vector<Sample>& samples,
+            Filter* filter,
+            const std::function<void(const Sample&)>& look) {
+  static const std::vector<Camera> all = cameras();
+  for (const Sample& sample : samples) {
+    takeIn(filter, sample.time, all[sample.camera], sample.pixel);
+    if (sample.time > kSettled)
+      look(sample);
+  }
+}
+
+/// Figures per speed class, each beside the constant noise that suits that class best.
+void besideHindsight(const std::vector<std::vector<Sample>>& recordings,
+                     const std::vector<std::string>& classes,
+                     const RowCallback& row) {
+  std::vector<Figures> figures(classes.size());
+  std::vector<double> best(classes.size(), std::numeric_limits<double>::infinity());
+  const MotionOptions options;
+  const Matrix3d covariance = kStartStddev * kStartStddev * Matrix3d::Identity();
+  for (const std::vector<Sample>& samples : recordings) {
+    MotionFilter filter(options, samples.front().time, samples.front().truth, covariance);
+    follow<MotionFilter>(samples, &filter, [&](const Sample& sample) {
+      figures[sample.speed_class].add(filter.position() - sample.truth,
+                                      filter.positionCovariance());
+    });
+  }
+  // Velocity, or acceleration, a random walk of a density from 1e-6 to 1e4, two to the decade.
+  for (const int order : {2, 3}) {
+    for (int exponent = -12; exponent <= 8; ++exponent) {
+      std::vector<double> squared(classes.size(), 0.0);
+      for (const std::vector<Sample>& samples : recordings) {
+        ConstantNoiseFilter filter(order, std::pow(10.0, 0.5 * exponent), samples.front().time,
+                                   samples.front().truth, covariance, kPixelStddev);
+        follow<ConstantNoiseFilter>(samples, &filter, [&](const Sample& sample) {
+          squared[sample.speed_class] += (filter.position() - sample.truth).squaredNorm();
+        });
+      }
+      for (std::size_t i = 0; i < classes.size(); ++i)
+        best[i] = std::min(best[i], squared[i]);
+    }
+  }
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    if (figures[i].count == 0)
+      continue;
+    figures[i].bound_squared = best[i];
+    row(figures[i].row(classes[i]));
+  }
+}
+
+void circles(const BenchmarkSettings& settings, const RowCallback& row) {
+  for (const double speed : {0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0}) {
+    std::vector<std::vector<Sample>> recordings;
+    for (int run = 0; run < settings.runs; ++run) {
+      const Path path =
+          tracking::test::circle({1.25, 1.25, 1.2}, 0.75, speed, 2.0 * M_PI * run / settings.runs);
+      recordings.push_back(watch(
+          path, 3.0, [](double) { return 0; }, settings.seed + run));
+    }
+    char name[64];
+    std::snprintf(name, sizeof name, "(c) circle of 0.75 m at %.1f m/s", speed);
+    besideHindsight(recordings, {name}, row);
+  }
+}
+
+/// Through samples, smoothly (Catmull and Rom 1974).
+Path smoothed(const std::vector<Vector3d>& samples, double interval) {
+  return [=](double time) {
+    const double place = std::clamp(time / interval, 1.0, static_cast<double>(samples.size()) - 3);
+    const std::size_t i = std::min(static_cast<std::size_t>(place), samples.size() - 3);
+    const double s = place - static_cast<double>(i);
+    const Vector3d &a = samples[i - 1], &b = samples[i], &c = samples[i + 1], &d = samples[i + 2];
+    return Vector3d(
+        b +
+        0.5 * s * (c - a + s * (2.0 * a - 5.0 * b + 4.0 * c - d + s * (3.0 * (b - c) + d - a))));
+  };
+}
+
+/// All markers of a recording of 60 Hz; what stands on the floor is lifted into view.
+void recorded(const BenchmarkSettings& settings, const RowCallback& row) {
+  constexpr double kInterval = 1.0 / 60.0;
+  const std::array<double, 3> limits{0.1, 0.5, 1.5};  // of the classes [m/s]
+  std::vector<std::vector<Sample>> recordings;
+  constexpr int kMarkers = 28;
+  for (int marker = 0; marker < std::min(kMarkers, settings.runs); ++marker) {
+    // With few runs, markers of all the body.
+    const int column = 1 + 3 * (marker * kMarkers / std::min(kMarkers, settings.runs));
+    std::vector<Vector3d> samples = tracking::test::readMotion(settings.motion, column);
+    for (Vector3d& sample : samples)
+      sample += Vector3d(1.19, 1.05, 0.4);
+    const double duration = kInterval * (static_cast<double>(samples.size()) - 4);
+    const Path path = smoothed(samples, kInterval);
+    const auto speed_class = [path, limits](double time) {
+      constexpr double kSmall = 0.005;
+      const double speed = (path(time + kSmall) - path(time - kSmall)).norm() / (2.0 * kSmall);
+      int i = 0;
+      while (i < 3 && speed >= limits[i])
+        ++i;
+      return i;
+    };
+    recordings.push_back(watch(path, duration, speed_class, settings.seed + 100 + marker));
+  }
+  besideHindsight(recordings,
+                  {"(c) recorded, below 0.1 m/s", "(c) recorded, 0.1 to 0.5 m/s",
+                   "(c) recorded, 0.5 to 1.5 m/s", "(c) recorded, above 1.5 m/s"},
+                  row);
+}
+
+/// Time of an image's prediction, innovation and update.
+void speed(const BenchmarkSettings& settings, const RowCallback& row) {
+  static const std::vector<Camera> all = cameras();
+  const std::vector<Sample> samples = watch(
+      tracking::test::circle({1.25, 1.25, 1.2}, 0.75, 1.0), 10.0, [](double) { return 0; },
+      settings.seed);
+  const MotionOptions options;
+  double best = std::numeric_limits<double>::infinity();
+  for (int run = 0; run < settings.runs; ++run) {
+    MotionFilter filter(options, samples.front().time, samples.front().truth,
+                        1e-6 * Matrix3d::Identity());
+    const auto start = std::chrono::steady_clock::now();
+    for (const Sample& sample : samples)
+      takeIn(&filter, sample.time, all[sample.camera], sample.pixel);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    best = std::min(best, time.count() / static_cast<double>(samples.size()));
+  }
+  row({"time per image, fastest run", {{"ns", 1e9 * best}}});
+}
+
+void run(const BenchmarkSettings& settings, const RowCallback& row) {
+  ownModel(settings, row);
+  jumps(settings, row);
+  circles(settings, row);
+  if (!settings.motion.empty())
+    recorded(settings, row);
+  speed(settings, row);
+}
+
+}  // namespace
+
+BenchmarkSection filterSection() {
+  return {"filter",
+          "one LED before four cameras that take turns every 2.5 ms, 0.5 px of noise. (a) truth of "
+          "the filter's own single model and (b) truth that jumps between still (1 to 3 s) and "
+          "moving (1 to 2 s, "
+          "accelerations of 2 m/s^2, forgotten in 0.2 s), beside "
+          "the posterior Cramer-Rao bound, which knows the mode; (c) beside the constant-velocity "
+          "or constant-acceleration filter whose noise suits that row best in hindsight. NEES: 3 "
+          "when the covariance is honest.",
+          run};
+}
+
+}  // namespace wiimote_tracker

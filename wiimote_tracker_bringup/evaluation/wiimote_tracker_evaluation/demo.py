@@ -134,7 +134,7 @@ class Demo(object):
             'socket_directory:=' + os.path.join(scratch, 'remotes'),
             'camera_info_directory:=' + os.path.join(scratch, 'cameras'),
             'rig_file:=' + self._file('rig.yaml'), 'side_length:=%g' % experiment.SIDE,
-            'label:=' + LED, 'rviz:=%s' % ('true' if rviz else 'false')], log)
+            'labels:=' + LED, 'mode:=instant', 'rviz:=%s' % ('true' if rviz else 'false')], log)
         deadline = time.monotonic() + 30.0
         while not rosgraph.is_master_online():
             self._processes.check()

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <string>
+#include <utility>
 
 namespace wiimote_tracker {
 namespace {
@@ -13,12 +15,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using visualization_msgs::Marker;
+using wiimote_tracker_msgs::TrackedPoint;
 
 constexpr double kPointDiameter = 0.03;  // [m]
 constexpr double kBlobDiameter = 0.02;   // [m]
 constexpr double kLineWidth = 0.005;     // [m]
 constexpr double kTextHeight = 0.1;      // [m]
 constexpr double kRayLength = 10.0;      // where there is no point to end in [m]
+constexpr double kOldView = 0.2;         // what a camera saw longer ago is not drawn [s]
 // Square root of the 95 % quantile of the chi-squared distribution with three degrees of freedom.
 constexpr double kSigmas95 = 2.7955;
 
@@ -30,11 +34,39 @@ geometry_msgs::Point pointOf(const Vector3d& v) {
   return p;
 }
 
-void setColor(float r, float g, float b, float a, Marker* marker) {
-  marker->color.r = r;
-  marker->color.g = g;
-  marker->color.b = b;
-  marker->color.a = a;
+Vector3d vectorOf(const geometry_msgs::Point& p) {
+  return {p.x, p.y, p.z};
+}
+
+std_msgs::ColorRGBA color(float r, float g, float b, float a) {
+  std_msgs::ColorRGBA color;
+  color.r = r;
+  color.g = g;
+  color.b = b;
+  color.a = a;
+  return color;
+}
+
+std_msgs::ColorRGBA colorOf(tracking::SpotUse use) {
+  switch (use) {
+    case tracking::SpotUse::kAssigned:
+      return color(0.2f, 1.0f, 0.2f, 0.6f);
+    case tracking::SpotUse::kMasked:
+      return color(0.5f, 0.5f, 0.5f, 0.6f);
+    case tracking::SpotUse::kUnassigned:
+      break;
+  }
+  return color(1.0f, 0.5f, 0.0f, 0.6f);
+}
+
+/// Neighbours in time look different.
+std_msgs::ColorRGBA colorOfLed(std::uint32_t id, float alpha) {
+  static const std::array<std_msgs::ColorRGBA, 6> colors = {
+      color(1.0f, 0.2f, 0.2f, 1.0f), color(0.3f, 0.6f, 1.0f, 1.0f), color(1.0f, 0.9f, 0.2f, 1.0f),
+      color(0.9f, 0.4f, 1.0f, 1.0f), color(0.2f, 0.9f, 0.8f, 1.0f), color(1.0f, 0.6f, 0.5f, 1.0f)};
+  std_msgs::ColorRGBA result = colors[id % colors.size()];
+  result.a = alpha;
+  return result;
 }
 
 void setScale(const Vector3d& scale, Marker* marker) {
@@ -66,7 +98,8 @@ std::array<Vector3d, 4> imageCorners(const geometry::Camera& camera, double dist
 void MarkerBuilder::setRig(const geometry::Rig& rig) {
   rig_ = rig;
   must_clear_ = true;
-  trail_.clear();
+  drawn_.clear();
+  trails_.clear();
   time_ = -std::numeric_limits<double>::infinity();
 }
 
@@ -74,10 +107,13 @@ bool MarkerBuilder::isDue(double time) const {
   return time >= time_ + 1.0 / options_.rate || time < time_;
 }
 
-visualization_msgs::MarkerArray MarkerBuilder::build(const fusion::Instant& instant) {
-  if (instant.time < time_)
-    trail_.clear();
-  time_ = instant.time;
+visualization_msgs::MarkerArray MarkerBuilder::build(
+    const wiimote_tracker_msgs::TrackedPointArray& points,
+    const std::vector<tracking::CameraView>& views) {
+  const double time = points.header.stamp.toSec();
+  if (time < time_)
+    trails_.clear();
+  time_ = time;
   array_.markers.clear();
   if (must_clear_) {
     Marker clear;
@@ -85,10 +121,23 @@ visualization_msgs::MarkerArray MarkerBuilder::build(const fusion::Instant& inst
     array_.markers.push_back(clear);
     must_clear_ = false;
   }
-  for (std::size_t i = 0; i < rig_.cameras.size(); ++i)
-    addCamera(i, instant);
-  addPoint(instant);
-  addTrail(instant);
+  for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+    addCamera(i);
+    addMasks(i);
+    addView(i, i < views.size() ? views[i] : tracking::CameraView(), points);
+  }
+  std::set<std::uint32_t> gone;
+  gone.swap(drawn_);
+  for (const TrackedPoint& point : points.points) {
+    if (point.state == TrackedPoint::LOST)
+      continue;
+    addLed(point);
+    drawn_.insert(point.id);
+    gone.erase(point.id);
+  }
+  for (const std::uint32_t id : gone)
+    removeLed(id);
+  addTrails();
   return array_;
 }
 
@@ -105,22 +154,20 @@ Marker MarkerBuilder::marker(const std::string& ns, std::size_t id, int type) co
   return marker;
 }
 
-void MarkerBuilder::addCamera(std::size_t index, const fusion::Instant& instant) {
+void MarkerBuilder::addCamera(std::size_t index) {
   const geometry::Camera& camera = rig_.cameras[index].camera;
-  const geometry::Camera ray_camera = rig_.rayCamera(rig_.cameras[index]);
-  const double distance = options_.image_plane_distance;
-  const std::array<Vector3d, 4> corners = imageCorners(camera, distance);
+  const std::array<Vector3d, 4> corners = imageCorners(camera, options_.image_plane_distance);
 
   Marker name = marker("camera", index, Marker::TEXT_VIEW_FACING);
   name.pose.position = pointOf(camera.center() + kTextHeight * Vector3d::UnitZ());
   name.text = camera.name;
   name.scale.z = kTextHeight;
-  setColor(1.0f, 1.0f, 1.0f, 1.0f, &name);
+  name.color = color(1.0f, 1.0f, 1.0f, 1.0f);
   array_.markers.push_back(name);
 
   Marker frustum = marker("frustum", index, Marker::LINE_LIST);
   frustum.scale.x = kLineWidth;
-  setColor(0.6f, 0.6f, 0.6f, 1.0f, &frustum);
+  frustum.color = color(0.6f, 0.6f, 0.6f, 1.0f);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     frustum.points.push_back(pointOf(camera.center()));
     frustum.points.push_back(pointOf(corners[i]));
@@ -131,80 +178,137 @@ void MarkerBuilder::addCamera(std::size_t index, const fusion::Instant& instant)
 
   Marker plane = marker("image_plane", index, Marker::TRIANGLE_LIST);
   setScale(Vector3d::Ones(), &plane);
-  setColor(0.4f, 0.6f, 1.0f, 0.3f, &plane);
+  plane.color = color(0.4f, 0.6f, 1.0f, 0.3f);
   for (const std::size_t i : {0, 1, 2, 0, 2, 3})
     plane.points.push_back(pointOf(corners[i]));
   array_.markers.push_back(plane);
+}
 
-  const fusion::Sighting& sighting = instant.sightings[index];
-  Marker blob = marker("blob", index, Marker::SPHERE);
-  Marker ray = marker("ray", index, Marker::LINE_LIST);
-  const auto direction =
-      sighting.pixel ? geometry::rayFromPixel(ray_camera, *sighting.pixel) : std::nullopt;
-  if (direction) {
-    blob.pose.position = pointOf(onImagePlane(ray_camera, *sighting.pixel, distance));
-    setScale(Vector3d::Constant(kBlobDiameter), &blob);
-    setColor(1.0f, 1.0f, 0.2f, 1.0f, &blob);
-    const double length = instant.point && sighting.used
-                              ? (instant.point->position - camera.center()).norm()
+/// Discs on the image plane.
+void MarkerBuilder::addMasks(std::size_t index) {
+  constexpr int kSides = 24;
+  const geometry::RigCamera& camera = rig_.cameras[index];
+  Marker discs = marker("mask", index, Marker::TRIANGLE_LIST);
+  setScale(Vector3d::Ones(), &discs);
+  discs.color = color(0.2f, 0.2f, 0.2f, 0.8f);
+  for (const geometry::ImageMask& mask : camera.masks) {
+    const auto border = [&](int i) {
+      const double angle = 2.0 * M_PI * i / kSides;
+      return pointOf(onImagePlane(
+          camera.camera, mask.center + mask.radius * Vector2d(std::cos(angle), std::sin(angle)),
+          options_.image_plane_distance));
+    };
+    const geometry_msgs::Point center =
+        pointOf(onImagePlane(camera.camera, mask.center, options_.image_plane_distance));
+    for (int i = 0; i < kSides; ++i)
+      discs.points.insert(discs.points.end(), {center, border(i), border(i + 1)});
+  }
+  add(discs);
+}
+
+/// Spots and rays of one camera.
+void MarkerBuilder::addView(std::size_t index,
+                            const tracking::CameraView& view,
+                            const wiimote_tracker_msgs::TrackedPointArray& points) {
+  const geometry::Camera camera = rig_.rayCamera(rig_.cameras[index]);
+  Marker blobs = marker("blob", index, Marker::SPHERE_LIST);
+  setScale(Vector3d::Constant(kBlobDiameter), &blobs);
+  blobs.color = color(1.0f, 1.0f, 1.0f, 1.0f);
+  Marker rays = marker("ray", index, Marker::LINE_LIST);
+  rays.scale.x = kLineWidth;
+  rays.color = color(1.0f, 1.0f, 1.0f, 1.0f);
+  const bool is_new = view.time && std::abs(time_ - *view.time) < kOldView;
+  for (const tracking::SeenSpot& spot : is_new ? view.spots : std::vector<tracking::SeenSpot>()) {
+    const auto ray = geometry::rayFromPixel(camera, spot.pixel);
+    if (!ray)
+      continue;
+    blobs.points.push_back(
+        pointOf(onImagePlane(camera, spot.pixel, options_.image_plane_distance)));
+    blobs.colors.push_back(colorOf(spot.use));
+    if (spot.use == tracking::SpotUse::kMasked)
+      continue;
+    const auto led =
+        std::find_if(points.points.begin(), points.points.end(), [&](const TrackedPoint& point) {
+          return spot.use == tracking::SpotUse::kAssigned && point.id == spot.led;
+        });
+    const double length = led != points.points.end()
+                              ? (vectorOf(led->position) - camera.center()).norm()
                               : kRayLength;
-    ray.scale.x = kLineWidth;
-    ray.points = {pointOf(camera.center()),
-                  pointOf(camera.center() + length * direction->direction)};
-    if (sighting.used)
-      setColor(0.2f, 1.0f, 0.2f, 0.6f, &ray);
-    else
-      setColor(1.0f, 0.5f, 0.0f, 0.6f, &ray);
-  } else {
-    blob.action = Marker::DELETE;
-    ray.action = Marker::DELETE;
+    rays.points.push_back(pointOf(camera.center()));
+    rays.points.push_back(pointOf(camera.center() + length * ray->direction));
+    rays.colors.insert(rays.colors.end(), 2, colorOf(spot.use));
   }
-  array_.markers.push_back(blob);
-  array_.markers.push_back(ray);
+  add(blobs);
+  add(rays);
 }
 
-void MarkerBuilder::addPoint(const fusion::Instant& instant) {
-  Marker point = marker("point", 0, Marker::SPHERE);
-  Marker ellipsoid = marker("covariance", 0, Marker::SPHERE);
-  if (instant.point) {
-    point.pose.position = pointOf(instant.point->position);
-    setScale(Vector3d::Constant(kPointDiameter), &point);
-    setColor(1.0f, 0.2f, 0.2f, 1.0f, &point);
+/// Adds a marker that consists of points, or takes it away when there are none.
+void MarkerBuilder::add(Marker marker) {
+  if (marker.points.empty())
+    marker.action = Marker::DELETE;
+  array_.markers.push_back(std::move(marker));
+}
 
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(instant.point->covariance);
-    Eigen::Matrix3d rotation = axes.eigenvectors();
-    if (rotation.determinant() < 0.0)
-      rotation.col(0) = -rotation.col(0);
-    const Eigen::Quaterniond q(rotation);
-    ellipsoid.pose.position = point.pose.position;
-    ellipsoid.pose.orientation.w = q.w();
-    ellipsoid.pose.orientation.x = q.x();
-    ellipsoid.pose.orientation.y = q.y();
-    ellipsoid.pose.orientation.z = q.z();
-    // rviz warns about a scale of 0.
-    setScale(2.0 * kSigmas95 * axes.eigenvalues().cwiseMax(1e-12).cwiseSqrt(), &ellipsoid);
-    setColor(1.0f, 0.2f, 1.0f, 0.4f, &ellipsoid);
-  } else {
-    point.action = Marker::DELETE;
-    ellipsoid.action = Marker::DELETE;
-  }
+void MarkerBuilder::addLed(const TrackedPoint& led) {
+  // What is not certain is pale.
+  const float alpha = led.state == TrackedPoint::TRACKED ? 1.0f : 0.4f;
+  Marker point = marker("point", led.id, Marker::SPHERE);
+  point.pose.position = led.position;
+  setScale(Vector3d::Constant(kPointDiameter), &point);
+  point.color = colorOfLed(led.id, alpha);
   array_.markers.push_back(point);
+
+  Marker ellipsoid = marker("covariance", led.id, Marker::SPHERE);
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
+      Eigen::Map<const RowMajor>(led.position_covariance.data()));
+  Eigen::Matrix3d rotation = axes.eigenvectors();
+  if (rotation.determinant() < 0.0)
+    rotation.col(0) = -rotation.col(0);
+  const Eigen::Quaterniond q(rotation);
+  ellipsoid.pose.position = led.position;
+  ellipsoid.pose.orientation.w = q.w();
+  ellipsoid.pose.orientation.x = q.x();
+  ellipsoid.pose.orientation.y = q.y();
+  ellipsoid.pose.orientation.z = q.z();
+  // rviz warns about a scale of 0.
+  setScale(2.0 * kSigmas95 * axes.eigenvalues().cwiseMax(1e-12).cwiseSqrt(), &ellipsoid);
+  ellipsoid.color = color(1.0f, 0.2f, 1.0f, 0.4f * alpha);
   array_.markers.push_back(ellipsoid);
+
+  Marker label = marker("label", led.id, Marker::TEXT_VIEW_FACING);
+  label.pose.position = pointOf(vectorOf(led.position) + kTextHeight * Vector3d::UnitZ());
+  label.text = led.label;
+  label.scale.z = kTextHeight;
+  label.color = colorOfLed(led.id, alpha);
+  array_.markers.push_back(label);
+
+  if (led.state != TrackedPoint::TENTATIVE)
+    trails_[led.id].push_back({time_, led.position});
 }
 
-void MarkerBuilder::addTrail(const fusion::Instant& instant) {
-  while (!trail_.empty() && trail_.front().first < instant.time - options_.trail_duration)
-    trail_.pop_front();
-  if (instant.point)
-    trail_.emplace_back(instant.time, instant.point->position);
-  Marker trail = marker("trail", 0, Marker::LINE_STRIP);
-  trail.scale.x = kLineWidth;
-  setColor(1.0f, 0.6f, 0.6f, 0.8f, &trail);
-  for (const auto& entry : trail_)
-    trail.points.push_back(pointOf(entry.second));
-  if (trail_.size() < 2)
-    trail.action = Marker::DELETE;
-  array_.markers.push_back(trail);
+void MarkerBuilder::removeLed(std::uint32_t id) {
+  for (const char* ns : {"point", "covariance", "label"}) {
+    array_.markers.push_back(marker(ns, id, Marker::SPHERE));
+    array_.markers.back().action = Marker::DELETE;
+  }
+}
+
+void MarkerBuilder::addTrails() {
+  for (auto trail = trails_.begin(); trail != trails_.end();) {
+    std::deque<Place>& places = trail->second;
+    while (!places.empty() && places.front().time < time_ - options_.trail_duration)
+      places.pop_front();
+    Marker line = marker("trail", trail->first, Marker::LINE_STRIP);
+    line.scale.x = kLineWidth;
+    line.color = colorOfLed(trail->first, 0.8f);
+    for (const Place& place : places)
+      line.points.push_back(place.position);
+    if (line.points.size() < 2)
+      line.points.clear();
+    add(line);
+    trail = places.empty() ? trails_.erase(trail) : std::next(trail);
+  }
 }
 
 }  // namespace wiimote_tracker

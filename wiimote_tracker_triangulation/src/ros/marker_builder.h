@@ -1,14 +1,19 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_BUILDER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_BUILDER_H
 
-#include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/tracking/snapshot.h"
 
 #include <visualization_msgs/MarkerArray.h>
+#include <wiimote_tracker_msgs/TrackedPointArray.h>
 
+#include <cstdint>
 #include <deque>
 #include <limits>
-#include <utility>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace wiimote_tracker {
 
@@ -18,9 +23,10 @@ struct MarkerOptions {
   double trail_duration = 10.0;       ///< [s, >= 0].
 };
 
-/// Draws a rig and an instant for rviz, in the world frame. Namespaces: camera, frustum,
-/// image_plane, blob, ray (one id per camera, in the order of the rig); point, covariance (95 %
-/// ellipsoid), trail (id 0).
+/// Draws a rig, what its cameras see and the LEDs, for rviz, in the world frame. Namespaces:
+/// camera, frustum, image_plane, mask, blob, ray (one id per camera, in the order of the rig);
+/// point, covariance (95 % ellipsoid), label, trail (one per LED, with its id). Spots and rays are
+/// green when they belong to an LED, orange when they do not, and grey when masked.
 class MarkerBuilder {
  public:
   explicit MarkerBuilder(const MarkerOptions& options) : options_(options) {}
@@ -31,19 +37,35 @@ class MarkerBuilder {
   /// Whether 1 / rate has passed since the last array, or time jumped back.
   bool isDue(double time) const;
 
-  visualization_msgs::MarkerArray build(const fusion::Instant& instant);
+  /// `views`: one per camera of the rig. LEDs that were drawn and are there no more, or lost, are
+  /// taken away; their trails fade.
+  visualization_msgs::MarkerArray build(const wiimote_tracker_msgs::TrackedPointArray& points,
+                                        const std::vector<tracking::CameraView>& views);
 
  private:
+  /// Where an LED was.
+  struct Place {
+    double time;  // [s]
+    geometry_msgs::Point position;
+  };
+
   visualization_msgs::Marker marker(const std::string& ns, std::size_t id, int type) const;
-  void addCamera(std::size_t index, const fusion::Instant& instant);
-  void addPoint(const fusion::Instant& instant);
-  void addTrail(const fusion::Instant& instant);
+  void add(visualization_msgs::Marker marker);
+  void addCamera(std::size_t index);
+  void addMasks(std::size_t index);
+  void addView(std::size_t index,
+               const tracking::CameraView& view,
+               const wiimote_tracker_msgs::TrackedPointArray& points);
+  void addLed(const wiimote_tracker_msgs::TrackedPoint& point);
+  void removeLed(std::uint32_t id);
+  void addTrails();
 
   MarkerOptions options_;
   geometry::Rig rig_;
   bool must_clear_ = false;
   double time_ = -std::numeric_limits<double>::infinity();
-  std::deque<std::pair<double, Eigen::Vector3d>> trail_;
+  std::set<std::uint32_t> drawn_;                      // ids of LEDs
+  std::map<std::uint32_t, std::deque<Place>> trails_;  // by id
   visualization_msgs::MarkerArray array_;
 };
 

@@ -2,26 +2,41 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_PARAMETERS_H
 
 #include "marker_builder.h"
-#include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
+#include "wiimote_tracker_triangulation/events/trigger.h"
+#include "wiimote_tracker_triangulation/events/zone_watch.h"
+#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
-#include <ros/node_handle.h>
+#include <wiimote_tracker_msgs/parameter_reader.h>
 
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker {
 
-/// Parameters of the node; meaning and ranges: config/triangulation.yaml.
-struct TriangulationParameters {
-  std::string label = "led";
-  fusion::InstantFuserOptions fuser;
-  MarkerOptions markers;
-
-  /// @throws ParameterError naming the key that is wrong or unknown.
-  static TriangulationParameters read(const ros::NodeHandle& nh);
+/// When `points` go out.
+struct OutputOptions {
+  bool on_update = true;           ///< For every image, as far as it says something new.
+  double rate = 0.0;               ///< At this rate [Hz]; 0: not at a rate.
+  bool predict_to_now = false;     ///< For the arrival of the newest image, not its exposure.
+  bool publish_predicted = false;  ///< Hidden LEDs too have their point topic and transform.
 };
 
-/// The word for a method in parameters and messages.
-std::string methodName(geometry::TriangulationMethod method);
+/// Parameters of the node and of track_bag; meaning and ranges: config/triangulation.yaml.
+struct TrackingParameters {
+  std::vector<std::string> labels = {"led"};
+  tracking::EstimatorOptions estimator;
+  OutputOptions output;
+  events::ZoneWatchOptions zones;
+  events::TriggerOptions trigger;
+  MarkerOptions markers;
+  double clock_tolerance = 0.02;  ///< See ClockWatch [s].
+
+  /// @throws ParameterError naming the key that is wrong or unknown.
+  static TrackingParameters read(ParameterReader reader);
+};
+
+/// How points are computed, in a word: "track", or the triangulation method.
+std::string methodWord(const tracking::EstimatorOptions& options);
 
 }  // namespace wiimote_tracker
 

@@ -6,59 +6,106 @@
 namespace wiimote_tracker {
 namespace {
 
+using wiimote_tracker_msgs::TrackedPoint;
+using wiimote_tracker_msgs::TrackedPointArray;
+
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-ros::Time timeOf(double seconds) {
-  return ros::Time(std::max(0.0, seconds));
+static_assert(static_cast<int>(tracking::TrackState::kTentative) == TrackedPoint::TENTATIVE &&
+                  static_cast<int>(tracking::TrackState::kTracked) == TrackedPoint::TRACKED &&
+                  static_cast<int>(tracking::TrackState::kPredicted) == TrackedPoint::PREDICTED &&
+                  static_cast<int>(tracking::TrackState::kLost) == TrackedPoint::LOST,
+              "enumerations of core and messages must agree");
+
+template <typename Message>  // Point, Vector3
+void set(const Eigen::Vector3d& v, Message* message) {
+  message->x = v.x();
+  message->y = v.y();
+  message->z = v.z();
 }
 
-wiimote_tracker_msgs::TrackedPoint trackedPoint(const fusion::Instant& instant,
-                                                const geometry::Rig& rig,
-                                                const PointContext& context) {
-  wiimote_tracker_msgs::TrackedPoint point;
-  point.id = 0;  // there is one LED
-  point.label = context.label;
-  point.label_confidence = std::numeric_limits<float>::quiet_NaN();
-  point.state = wiimote_tracker_msgs::TrackedPoint::TRACKED;
-  point.position.x = instant.point->position.x();
-  point.position.y = instant.point->position.y();
-  point.position.z = instant.point->position.z();
-  point.velocity.x = point.velocity.y = point.velocity.z = kNaN;
+template <typename Array>
+void set(const Eigen::Matrix3d& m, Array* row_major) {
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c)
-      point.position_covariance[3 * r + c] = instant.point->covariance(r, c);
+      (*row_major)[static_cast<std::size_t>(3 * r + c)] = m(r, c);
   }
-  point.velocity_covariance.fill(kNaN);
-  point.rays_used = static_cast<std::uint32_t>(instant.rays_used);
-  point.rays_possible = static_cast<std::uint32_t>(instant.rays_possible);
-  for (std::size_t i = 0; i < instant.sightings.size(); ++i) {
-    if (instant.sightings[i].used)
-      point.cameras.push_back(rig.cameras[i].camera.name);
-  }
-  point.residual = instant.point->reprojection_error;
-  point.last_observed = timeOf(instant.last_observed);
-  point.age = instant.time - context.first_seen;
-  point.remapped = context.remapped;
-  return point;
 }
 
 }  // namespace
 
-wiimote_tracker_msgs::TrackedPointArray pointMessage(const fusion::Instant& instant,
-                                                     const geometry::Rig& rig,
-                                                     std::uint64_t late_frames,
-                                                     const PointContext& context) {
-  wiimote_tracker_msgs::TrackedPointArray message;
-  message.header.stamp = timeOf(instant.time);
+TrackedPoint trackedPoint(const CorrectedSnapshot& corrected,
+                          std::size_t index,
+                          const geometry::Rig& rig,
+                          const LedLabels& labels) {
+  const tracking::TrackedLed& led = corrected.snapshot.leds[index];
+  TrackedPoint point;
+  point.id = led.id;
+  point.label = labels.of(led.id);
+  point.label_confidence = std::numeric_limits<float>::quiet_NaN();
+  point.state = static_cast<std::uint8_t>(led.state);
+  set(led.position, &point.position);
+  set(led.position_covariance, &point.position_covariance);
+  set(led.velocity.value_or(Eigen::Vector3d::Constant(kNaN)), &point.velocity);
+  set(led.velocity ? led.velocity_covariance : Eigen::Matrix3d(Eigen::Matrix3d::Constant(kNaN)),
+      &point.velocity_covariance);
+  point.rays_used = static_cast<std::uint32_t>(led.cameras.size());
+  point.rays_possible = static_cast<std::uint32_t>(led.rays_possible);
+  for (const std::size_t camera : led.cameras)
+    point.cameras.push_back(rig.cameras[camera].camera.name);
+  point.residual = led.residual;
+  point.last_observed = timeOf(led.last_observed);
+  point.age = corrected.snapshot.time - led.first_seen;
+  point.remapped = corrected.remapped[index];
+  return point;
+}
+
+TrackedPointArray pointMessage(const CorrectedSnapshot& corrected,
+                               const geometry::Rig& rig,
+                               const LedLabels& labels,
+                               const PointContext& context) {
+  const tracking::Snapshot& snapshot = corrected.snapshot;
+  TrackedPointArray message;
+  message.header.stamp = timeOf(snapshot.time);
   message.header.frame_id = rig.world_frame;
   message.rig_id = context.rig_id;
   message.method = context.method;
-  message.latest_arrival = timeOf(instant.latest_arrival);
-  message.skew = instant.skew;
-  message.late_frames = late_frames;
-  if (instant.point)
-    message.points.push_back(trackedPoint(instant, rig, context));
+  message.latest_arrival = timeOf(snapshot.latest_arrival);
+  message.skew = snapshot.skew;
+  message.late_frames = context.late_frames;
+  message.points.reserve(snapshot.leds.size());
+  for (std::size_t i = 0; i < snapshot.leds.size(); ++i)
+    message.points.push_back(trackedPoint(corrected, i, rig, labels));
   return message;
+}
+
+bool isPosition(const TrackedPoint& point, bool publish_predicted) {
+  return point.state == TrackedPoint::TRACKED ||
+         (publish_predicted && point.state == TrackedPoint::PREDICTED);
+}
+
+geometry_msgs::PointStamped pointStamped(const TrackedPointArray& array,
+                                         const TrackedPoint& point) {
+  geometry_msgs::PointStamped message;
+  message.header = array.header;
+  message.point = point.position;
+  return message;
+}
+
+geometry_msgs::TransformStamped transform(const TrackedPointArray& array,
+                                          const TrackedPoint& point) {
+  geometry_msgs::TransformStamped message;
+  message.header = array.header;
+  message.child_frame_id = point.label;
+  message.transform.translation.x = point.position.x;
+  message.transform.translation.y = point.position.y;
+  message.transform.translation.z = point.position.z;
+  message.transform.rotation.w = 1.0;
+  return message;
+}
+
+ros::Time timeOf(double seconds) {
+  return ros::Time(std::max(0.0, seconds));
 }
 
 }  // namespace wiimote_tracker

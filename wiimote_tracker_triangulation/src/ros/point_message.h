@@ -1,29 +1,51 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_POINT_MESSAGE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_POINT_MESSAGE_H
 
-#include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
+#include "led_labels.h"
+#include "volume_correction.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
+#include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 
+#include <cstdint>
 #include <string>
 
 namespace wiimote_tracker {
 
-/// What the message says besides the instant itself.
+/// What the message says besides the snapshot itself.
 struct PointContext {
-  std::string label;       ///< Of the LED.
-  std::string method;      ///< Word of the triangulation method.
-  std::string rig_id;      ///< Id of the rig, as published.
-  double first_seen = 0.;  ///< When the LED was first seen [s]; only used with a point.
-  bool remapped = false;   ///< The point was corrected and lies in the corrected volume.
+  std::string method;             ///< How the points were computed.
+  std::string rig_id;             ///< Id of the rig, as published.
+  std::uint64_t late_frames = 0;  ///< As in TrackedPointArray.msg.
 };
 
-/// The message of one instant: one point, or none. `time` of the core becomes ros::Time.
-wiimote_tracker_msgs::TrackedPointArray pointMessage(const fusion::Instant& instant,
+/// The message of a snapshot with all of its LEDs. The core's seconds become ros::Time.
+wiimote_tracker_msgs::TrackedPointArray pointMessage(const CorrectedSnapshot& corrected,
                                                      const geometry::Rig& rig,
-                                                     std::uint64_t late_frames,
+                                                     const LedLabels& labels,
                                                      const PointContext& context);
+
+/// The LED at `index` in the snapshot.
+wiimote_tracker_msgs::TrackedPoint trackedPoint(const CorrectedSnapshot& corrected,
+                                                std::size_t index,
+                                                const geometry::Rig& rig,
+                                                const LedLabels& labels);
+
+/// Whether a point goes out by itself and as a transform: when it was seen at this instant, and if
+/// so wished also while it is hidden and extrapolated.
+bool isPosition(const wiimote_tracker_msgs::TrackedPoint& point, bool publish_predicted);
+
+geometry_msgs::PointStamped pointStamped(const wiimote_tracker_msgs::TrackedPointArray& array,
+                                         const wiimote_tracker_msgs::TrackedPoint& point);
+
+/// World frame -> label, without rotation.
+geometry_msgs::TransformStamped transform(const wiimote_tracker_msgs::TrackedPointArray& array,
+                                          const wiimote_tracker_msgs::TrackedPoint& point);
+
+/// Not below 0, where ros::Time ends.
+ros::Time timeOf(double seconds);
 
 }  // namespace wiimote_tracker
 

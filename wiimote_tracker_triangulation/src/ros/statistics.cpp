@@ -1,32 +1,98 @@
 #include "statistics.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace wiimote_tracker {
+namespace {
 
-void Statistics::add(const fusion::Instant& instant, double latency) {
+// A view counts at the time it was taken at, not again in the snapshots after it.
+constexpr double kSameTime = 1e-6;  // [s]
+
+double quotient(double sum, std::size_t count) {
+  return count > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+double CameraStatistics::shareOfInliers() const {
+  return quotient(static_cast<double>(assigned), spots);
+}
+
+double CameraStatistics::meanDelay() const {
+  return quotient(delay_sum, images);
+}
+
+double CameraStatistics::residual() const {
+  return std::sqrt(quotient(squares_sum, assigned));
+}
+
+void Statistics::setRig(const geometry::Rig& rig) {
+  for_rays_.clear();
+  for (const geometry::RigCamera& camera : rig.cameras)
+    for_rays_.push_back(rig.rayCamera(camera));
+  clear();
+}
+
+void Statistics::clear() {
+  cameras_.assign(for_rays_.size(), CameraStatistics());
+  snapshots_ = 0;
+  latencies_.clear();
+}
+
+void Statistics::addImage(std::size_t camera, const tracking::CameraImage& image) {
+  ++cameras_[camera].images;
+  cameras_[camera].delay_sum += image.arrival - image.stamp;
+}
+
+void Statistics::addProblem(std::size_t camera, const std::string& problem) {
+  cameras_[camera].problem = problem;
+}
+
+void Statistics::addSnapshot(const tracking::Snapshot& snapshot) {
+  ++snapshots_;
+  leds_.fill(0);
+  for (const tracking::TrackedLed& led : snapshot.leds)
+    ++leds_[static_cast<std::size_t>(led.state)];
+  for (std::size_t i = 0; i < snapshot.views.size() && i < cameras_.size(); ++i) {
+    const tracking::CameraView& view = snapshot.views[i];
+    if (!view.time || std::abs(*view.time - snapshot.time) > kSameTime)
+      continue;
+    for (const tracking::SeenSpot& spot : view.spots)
+      addSpot(i, spot, snapshot.leds);
+  }
+}
+
+void Statistics::addSpot(std::size_t camera,
+                         const tracking::SeenSpot& spot,
+                         const std::vector<tracking::TrackedLed>& leds) {
+  CameraStatistics& statistics = cameras_[camera];
+  if (spot.use == tracking::SpotUse::kMasked) {
+    ++statistics.masked;
+    return;
+  }
+  ++statistics.spots;
+  if (spot.use != tracking::SpotUse::kAssigned)
+    return;
+  for (const tracking::TrackedLed& led : leds) {
+    if (led.id != spot.led)
+      continue;
+    if (const auto pixel = for_rays_[camera].project(led.position)) {
+      ++statistics.assigned;
+      statistics.squares_sum += (*pixel - spot.pixel).squaredNorm();
+    }
+  }
+}
+
+void Statistics::addLatency(double latency) {
   constexpr std::size_t kMaximumLatencies = 100000;  // nobody may ever clear
-  ++instants_;
-  points_ += instant.point.has_value();
-  used_.resize(instant.sightings.size());
-  for (std::size_t i = 0; i < used_.size(); ++i)
-    used_[i] += instant.sightings[i].used;
   if (latencies_.size() < kMaximumLatencies)
     latencies_.push_back(latency);
 }
 
-void Statistics::clear(std::size_t cameras) {
-  instants_ = 0;
-  points_ = 0;
-  used_.assign(cameras, 0);
-  latencies_.clear();
-}
-
-double Statistics::shareUsed(std::size_t camera) const {
-  if (instants_ == 0 || camera >= used_.size())
-    return std::numeric_limits<double>::quiet_NaN();
-  return static_cast<double>(used_[camera]) / static_cast<double>(instants_);
+std::size_t Statistics::leds(tracking::TrackState state) const {
+  return leds_[static_cast<std::size_t>(state)];
 }
 
 double Statistics::latency(double q) const {

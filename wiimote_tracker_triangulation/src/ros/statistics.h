@@ -1,33 +1,62 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_STATISTICS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_STATISTICS_H
 
-#include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
+#include "image_message.h"
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/tracking/snapshot.h"
 
+#include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace wiimote_tracker {
 
-/// Counts of the instants since the last clear(), for diagnostics.
+/// What one camera contributed since the last clear(). Quotients are NaN where nothing was counted.
+struct CameraStatistics {
+  std::size_t images = 0;
+  std::size_t spots = 0;     ///< In used images, without masked ones.
+  std::size_t masked = 0;    ///< Spots.
+  std::size_t assigned = 0;  ///< Spots that belong to an LED.
+  double delay_sum = 0.0;    ///< From exposure to arrival [s].
+  double squares_sum = 0.0;  ///< Of the distances of assigned spots from their LEDs [px^2].
+  std::string problem;       ///< The last fault of an image in words; empty without one.
+
+  double shareOfInliers() const;  ///< [0..1]
+  double meanDelay() const;       ///< [s]
+  double residual() const;        ///< sqrt(mean(du^2 + dv^2)) [px]
+};
+
+/// Counts for diagnostics.
 class Statistics {
  public:
-  /// `latency`: from the arrival of the newest image to the publication [s].
-  void add(const fusion::Instant& instant, double latency);
-  void clear(std::size_t cameras);
+  /// Counts for the cameras of this rig from now on.
+  void setRig(const geometry::Rig& rig);
 
-  std::size_t instants() const { return instants_; }
-  std::size_t points() const { return points_; }
+  void addImage(std::size_t camera, const tracking::CameraImage& image);
+  void addProblem(std::size_t camera, const std::string& problem);
+  void addSnapshot(const tracking::Snapshot& snapshot);
+  void addLatency(double latency);  ///< From the newest image's arrival to the publication [s].
+  void clear();
 
-  /// Share of the instants with a ray of this camera in the point [0..1]; NaN without instants.
-  double shareUsed(std::size_t camera) const;
+  std::size_t snapshots() const { return snapshots_; }
+  const CameraStatistics& camera(std::size_t i) const { return cameras_.at(i); }
 
-  /// Quantile of the latency [s], q in [0..1]; NaN without instants.
+  /// LEDs of the newest snapshot in a state.
+  std::size_t leds(tracking::TrackState state) const;
+
+  /// Quantile of the latency [s], q in [0..1]; NaN without outputs.
   double latency(double q) const;
 
  private:
-  std::size_t instants_ = 0;
-  std::size_t points_ = 0;
-  std::vector<std::size_t> used_;
+  void addSpot(std::size_t camera,
+               const tracking::SeenSpot& spot,
+               const std::vector<tracking::TrackedLed>& leds);
+
+  std::vector<geometry::Camera> for_rays_;  // see Rig::rayCamera
+  std::vector<CameraStatistics> cameras_;
+  std::size_t snapshots_ = 0;
+  std::array<std::size_t, 4> leds_{};  // by state
   std::vector<double> latencies_;
 };
 

@@ -1,71 +1,58 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRIANGULATION_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRIANGULATION_H
 
+#include "led_publishers.h"
 #include "marker_builder.h"
+#include "message_tracker.h"
 #include "parameters.h"
-#include "point_message.h"
-#include "statistics.h"
-#include "volume_correction.h"
-#include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
+#include "tracking_diagnostics.h"
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
-#include <tf2_ros/transform_broadcaster.h>
+#include <std_msgs/Header.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 
 #include <map>
-#include <memory>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker {
 
-/// ROS side of the fusion: blobs and rig in, points, TF and markers out. Node and nodelet are two
-/// mains over this class. All callbacks must come from one thread.
-class Triangulation {
+/// The tracker's topics: rig, blobs and triggers in; points, TF, markers, events and diagnostics
+/// out. Node and nodelet are two mains over this class. All callbacks must come from one thread.
+class Triangulation : private MessageSink {
  public:
   /// @throws ParameterError.
   Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
 
  private:
+  using BlobEvent = ros::MessageEvent<const wiimote_tracker_msgs::IrBlobArray>;
+
   void onRig(const wiimote_tracker_msgs::RigCalibrationConstPtr& message);
-  void takeRig(const geometry::Rig& rig, const std::string& published_id);
-  void takeCorrection(const geometry::Rig& rig);
-  void onBlobs(const wiimote_tracker_msgs::IrBlobArrayConstPtr& message, const std::string& camera);
-  bool isUsable(const wiimote_tracker_msgs::IrBlobArray& message,
-                const geometry::RigCamera& camera) const;
-  void checkIdentity(const wiimote_tracker_msgs::IrBlobArray& message, std::size_t camera);
-  void publish(const fusion::Instant& measured);
+  void onBlobs(const std::string& camera, const BlobEvent& event);
   void onTimer(const ros::WallTimerEvent& event);
-  void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void subscribeToCameras();
+
+  void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
+                const std::vector<tracking::CameraView>& views) override;
+  void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) override;
+  void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& points) override;
+  void onProblem(const std::string& sentence) override;
 
   ros::NodeHandle nh_;
-  TriangulationParameters parameters_;
-
-  geometry::Rig rig_;
-  std::string computed_id_;  // of rig_; empty before the first
-  std::map<std::string, std::size_t> camera_index_;
-  std::vector<std::string> strangers_;  // per camera: device that was not calibrated, or empty
-  std::unique_ptr<fusion::InstantFuser> fuser_;
-  VolumeCorrection correction_;
-  fusion::Instant corrected_;  // reused
-  PointContext context_;
-  double newest_instant_ = -std::numeric_limits<double>::infinity();
-  double first_seen_ = std::numeric_limits<double>::quiet_NaN();
-  std::uint64_t resets_ = 0;
-  fusion::CameraImage image_;  // reused
-
+  TrackingParameters parameters_;
+  MessageTracker tracker_;
   MarkerBuilder markers_;
-  Statistics statistics_;
-  ros::WallTime statistics_since_ = ros::WallTime::now();
-  diagnostic_updater::Updater diagnostics_;
+  LedPublishers leds_;
+  TrackingDiagnostics diagnostics_;
 
   ros::Publisher points_publisher_;
-  ros::Publisher point_publisher_;
   ros::Publisher markers_publisher_;
-  tf2_ros::TransformBroadcaster transforms_;
+  ros::Publisher zone_publisher_;
+  ros::Publisher triggered_publisher_;
   ros::Subscriber rig_subscriber_;
-  std::map<std::string, ros::Subscriber> blob_subscribers_;
+  ros::Subscriber trigger_subscriber_;
+  std::map<std::string, ros::Subscriber> blob_subscribers_;  // by camera
   ros::WallTimer timer_;
 };
 

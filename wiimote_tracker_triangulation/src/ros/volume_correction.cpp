@@ -22,14 +22,28 @@ bool VolumeCorrection::take(const geometry::Rig& rig) {
   return remap_ || !had_none;
 }
 
-bool VolumeCorrection::apply(geometry::TriangulatedPoint* point) const {
+void VolumeCorrection::apply(const tracking::Snapshot& snapshot,
+                             CorrectedSnapshot* corrected) const {
+  corrected->snapshot = snapshot;
+  corrected->remapped.clear();
+  for (tracking::TrackedLed& led : corrected->snapshot.leds)
+    corrected->remapped.push_back(apply(&led));
+}
+
+/// @returns whether the LED lay in the volume that the correction was measured in.
+bool VolumeCorrection::apply(tracking::TrackedLed* led) const {
   if (!correction_)
     return false;
-  const auto corrected = correction_->apply(point->position, point->covariance);
+  const auto corrected = correction_->apply(led->position, led->position_covariance);
   if (!corrected)
     return false;
-  point->position = corrected->position;
-  point->covariance = corrected->covariance;
+  led->position = corrected->position;
+  led->position_covariance = corrected->covariance;
+  if (led->velocity) {
+    const Eigen::Matrix3d& J = corrected->jacobian;
+    led->velocity = Eigen::Vector3d(J * *led->velocity);
+    led->velocity_covariance = J * led->velocity_covariance.eval() * J.transpose();
+  }
   return corrected->inside;
 }
 

@@ -2,13 +2,19 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_VOLUME_CORRECTION_H
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
-#include "wiimote_tracker_triangulation/geometry/triangulate.h"
 #include "wiimote_tracker_triangulation/remap/correction.h"
+#include "wiimote_tracker_triangulation/tracking/snapshot.h"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker {
+
+struct CorrectedSnapshot {
+  tracking::Snapshot snapshot;
+  std::vector<bool> remapped;  ///< Per LED: whether it lay where the correction was measured.
+};
 
 /// The correction of the volume that the rig in use carries, if any, and why it is not used if so.
 class VolumeCorrection {
@@ -16,10 +22,10 @@ class VolumeCorrection {
   /// @returns whether it is another one than before.
   bool take(const geometry::Rig& rig);
 
-  /// Corrects position and covariance. @returns whether the point lay in the volume that the
-  /// correction was measured in. Outside, it is displaced as the border is (remap::Correction), and
-  /// without a correction it stays as it is: then false. Never allocates.
-  bool apply(geometry::TriangulatedPoint* point) const;
+  /// Corrects positions, velocities and their covariances. Outside the volume that the correction
+  /// was measured in, an LED is displaced as the border is (remap::Correction). Without a
+  /// correction all stays as it is. Does not allocate once `corrected` is warm.
+  void apply(const tracking::Snapshot& snapshot, CorrectedSnapshot* corrected) const;
 
   /// For people: "none", the name of the model, or "void".
   std::string state() const;
@@ -28,6 +34,8 @@ class VolumeCorrection {
   const std::string& problem() const { return problem_; }
 
  private:
+  bool apply(tracking::TrackedLed* led) const;
+
   std::string rig_id_;
   std::optional<remap::Remap> remap_;
   std::optional<remap::Correction> correction_;

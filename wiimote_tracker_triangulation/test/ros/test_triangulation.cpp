@@ -1,4 +1,4 @@
-// The running node or nodelet: a rig and blobs in; points, TF and markers out.
+// The running node or nodelet: a rig, blobs and triggers in; points, TF, markers and events out.
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
@@ -7,14 +7,22 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Log.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <std_msgs/Header.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/transform_listener.h>
 #include <visualization_msgs/MarkerArray.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
+#include <wiimote_tracker_msgs/ZoneEvent.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
+#include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -28,14 +36,26 @@ namespace {
 using Eigen::Vector3d;
 using geometry::Rig;
 using wiimote_tracker_msgs::IrBlobArray;
+using wiimote_tracker_msgs::TrackedPoint;
 using wiimote_tracker_msgs::TrackedPointArray;
 
 constexpr double kPeriod = 0.01;
 constexpr double kBatch = 0.05;  // below the camera time-out, so that the order of topics is free
 
+// Exact pixels: what remains is what the motion model makes of a circle, far below this [m].
+constexpr double kNear = 2e-3;
+
+// Outputs in 0.2 s, however the images of different cameras overtake each other: those of the
+// camera whose images are the newest, but for the last one.
+constexpr std::size_t kFewest = 19;
+
 /// 0.5 m/s, in view of all cameras.
 Vector3d ledAt(double t) {
   return {0.5 * std::cos(t), 0.5 * std::sin(t), 0.2};
+}
+
+Vector3d otherLedAt(double t) {
+  return ledAt(t) + Vector3d(0.0, 0.0, 0.4);
 }
 
 /// Collects everything and feeds cameras; one for all tests, which follow each other in time.
@@ -54,6 +74,19 @@ class Bench {
                                          [this](const auto& m) { arrays_.push_back(*m); }),
         nh_.subscribe<geometry_msgs::PointStamped>(
             "led/point", 10000, [this](const auto& m) { points_.push_back(*m); }),
+        nh_.subscribe<geometry_msgs::PointStamped>(
+            "second/point", 10000, [this](const auto& m) { second_points_.push_back(*m); }),
+        nh_.subscribe<TrackedPointArray>("steady/points", 10000,
+                                         [this](const auto& m) { steady_arrays_.push_back(*m); }),
+        nh_.subscribe<TrackedPointArray>("triggered_points", 100,
+                                         [this](const auto& m) { triggered_.push_back(*m); }),
+        nh_.subscribe<wiimote_tracker_msgs::ZoneEvent>(
+            "zone_events", 100, [this](const auto& m) { zone_events_.push_back(*m); }),
+        nh_.subscribe<tf2_msgs::TFMessage>(
+            "/tf", 10000,
+            [this](const auto& m) {
+              transforms_.insert(transforms_.end(), m->transforms.begin(), m->transforms.end());
+            }),
         nh_.subscribe<visualization_msgs::MarkerArray>(
             "markers", 1000, [this](const auto& m) { markers_.push_back(*m); }),
         nh_.subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1000,
@@ -61,8 +94,11 @@ class Bench {
                                                           for (const auto& status : m->status)
                                                             diagnostics_.push_back(status);
                                                         }),
-        nh_.subscribe<rosgraph_msgs::Log>("/rosout", 1000,
-                                          [this](const auto& m) { log_ += m->msg + "\n"; })};
+        nh_.subscribe<rosgraph_msgs::Log>("/rosout", 1000, [this](const auto& m) {
+          if (m->name.find("steady") == std::string::npos)
+            log_ += m->msg + "\n";
+        })};
+    trigger_publisher_ = nh_.advertise<std_msgs::Header>("trigger", 10);
     newest_.assign(3, -1.0);
   }
 
@@ -81,10 +117,11 @@ class Bench {
     return waitFor([&] { return log_.find(words) != std::string::npos; });
   }
 
+  /// Of the tracker and of the one with a fixed rate.
   bool waitForSubscriptions() {
     return waitFor([&] {
       return std::all_of(blob_publishers_.begin(), blob_publishers_.end(),
-                         [](const auto& p) { return p.getNumSubscribers() > 0; });
+                         [](const auto& p) { return p.getNumSubscribers() > 1; });
     });
   }
 
@@ -95,15 +132,17 @@ class Bench {
     blobs.header.frame_id = opticalFrame(c.name);
     blobs.camera = c.name;
     blobs.identity = c.identity;
-    blobs.arrival.fromSec(time + 0.002);
+    blobs.arrival.fromSec(time + 0.002 + (camera == 1 ? arrival_error_ : 0.0));
     blobs.width = static_cast<std::uint32_t>(c.intrinsics.width);
     blobs.height = static_cast<std::uint32_t>(c.intrinsics.height);
     blobs.max_blobs = 4;
-    if (const auto pixel = c.project(ledAt(time))) {
-      wiimote_tracker_msgs::IrBlob blob;
-      blob.x = pixel->x();
-      blob.y = pixel->y();
-      blobs.blobs.push_back(blob);
+    for (const auto& led : leds_) {
+      if (const auto pixel = c.project(led(time))) {
+        wiimote_tracker_msgs::IrBlob blob;
+        blob.x = pixel->x();
+        blob.y = pixel->y();
+        blobs.blobs.push_back(blob);
+      }
     }
     return blobs;
   }
@@ -145,12 +184,20 @@ class Bench {
   ros::NodeHandle nh_;
   Rig rig_;
   double now_ = 1000.0;
+  double arrival_error_ = 0.0;  // of camera 1 [s]
   std::vector<double> newest_;
+  std::vector<std::function<Vector3d(double)>> leds_ = {ledAt};
+  ros::Publisher trigger_publisher_;
   ros::Publisher rig_publisher_;
   std::vector<ros::Publisher> blob_publishers_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<TrackedPointArray> arrays_;
+  std::vector<TrackedPointArray> steady_arrays_;
+  std::vector<TrackedPointArray> triggered_;
+  std::vector<wiimote_tracker_msgs::ZoneEvent> zone_events_;
+  std::vector<geometry_msgs::TransformStamped> transforms_;
   std::vector<geometry_msgs::PointStamped> points_;
+  std::vector<geometry_msgs::PointStamped> second_points_;
   std::vector<visualization_msgs::MarkerArray> markers_;
   std::vector<diagnostic_msgs::DiagnosticStatus> diagnostics_;
   std::string log_;
@@ -158,14 +205,19 @@ class Bench {
 
 std::unique_ptr<Bench> g_bench;
 
+Vector3d vectorOf(const geometry_msgs::Point& p) {
+  return {p.x, p.y, p.z};
+}
+
 void expectOnPath(const TrackedPointArray& array, std::size_t rays) {
   ASSERT_EQ(1u, array.points.size());
-  const wiimote_tracker_msgs::TrackedPoint& point = array.points[0];
-  const Vector3d position(point.position.x, point.position.y, point.position.z);
-  EXPECT_LT((position - ledAt(array.header.stamp.toSec())).norm(), 2e-5);
+  const TrackedPoint& point = array.points[0];
+  EXPECT_EQ("led", point.label);
+  EXPECT_EQ(TrackedPoint::TRACKED, point.state);
+  EXPECT_LT((vectorOf(point.position) - ledAt(array.header.stamp.toSec())).norm(), kNear);
   EXPECT_EQ(rays, point.rays_used);
   EXPECT_EQ(rays, point.cameras.size());
-  EXPECT_LT(point.residual, 0.1);
+  EXPECT_LT(point.residual, 0.5);
 }
 
 // In the order in which they stand: each continues where the one before ended.
@@ -185,13 +237,13 @@ TEST(Triangulation, TracksWithAGoodRig) {
   g_bench->rig_publisher_.publish(toMessage(g_bench->rig_));
   ASSERT_TRUE(g_bench->waitForSubscriptions());
   ASSERT_TRUE(g_bench->film(1.0, {0, 1, 2}));
-  const auto arrays = g_bench->arraysSince(1000.05);
-  ASSERT_GT(arrays.size(), 250u);
+  const auto arrays = g_bench->arraysSince(1000.3);
+  ASSERT_GT(arrays.size(), 60u);  // at least those of the camera whose images are the newest
   for (std::size_t i = 0; i < arrays.size(); ++i) {
     expectOnPath(arrays[i], 3);
     EXPECT_EQ("world", arrays[i].header.frame_id);
     EXPECT_EQ(g_bench->rig_.id(), arrays[i].rig_id);
-    EXPECT_EQ("maximum_likelihood", arrays[i].method);
+    EXPECT_EQ("track", arrays[i].method);
     EXPECT_GT(arrays[i].latest_arrival, arrays[i].header.stamp);
     if (i > 0) {
       EXPECT_GT(arrays[i].header.stamp, arrays[i - 1].header.stamp);
@@ -218,7 +270,34 @@ TEST(Triangulation, PublishesTheTransform) {
   }));
   const auto transform = buffer.lookupTransform("world", "led", ros::Time(0));
   const auto& t = transform.transform.translation;
-  EXPECT_LT((Vector3d(t.x, t.y, t.z) - ledAt(transform.header.stamp.toSec())).norm(), 2e-5);
+  EXPECT_LT((Vector3d(t.x, t.y, t.z) - ledAt(transform.header.stamp.toSec())).norm(), kNear);
+}
+
+/// tf2 warns about a stamp that it has had before.
+TEST(Triangulation, SendsATransformOncePerStamp) {
+  std::set<std::pair<std::string, ros::Time>> stamps;
+  ASSERT_GT(g_bench->transforms_.size(), 50u);
+  for (const auto& transform : g_bench->transforms_)
+    EXPECT_TRUE(stamps.insert({transform.child_frame_id, transform.header.stamp}).second)
+        << transform.child_frame_id << " " << transform.header.stamp;
+}
+
+TEST(Triangulation, GivesPointsAtAFixedRate) {
+  const auto arrives = [] {
+    return !g_bench->steady_arrays_.empty() &&
+           g_bench->steady_arrays_.back().header.stamp.toSec() > g_bench->now_ - 0.1;
+  };
+  ASSERT_TRUE(Bench::waitFor(arrives));
+  const auto& arrays = g_bench->steady_arrays_;
+  ASSERT_GT(arrays.size(), 15u);
+  for (const TrackedPointArray& array : arrays) {
+    const double tick = 20.0 * array.header.stamp.toSec();
+    EXPECT_NEAR(std::round(tick), tick, 1e-4);
+    if (array.header.stamp.toSec() < 1000.3)
+      continue;
+    ASSERT_EQ(1u, array.points.size()) << array.header.stamp;
+    EXPECT_EQ("steady_led", array.points[0].label);
+  }
 }
 
 TEST(Triangulation, PublishesMarkers) {
@@ -228,68 +307,209 @@ TEST(Triangulation, PublishesMarkers) {
   for (const auto& marker : g_bench->markers_.back().markers)
     kinds.insert(marker.ns);
   EXPECT_EQ((std::set<std::string>{"blob", "camera", "covariance", "frustum", "image_plane",
-                                   "point", "ray", "trail"}),
+                                   "label", "mask", "point", "ray", "trail"}),
             kinds);
-  // Throttled: 20 per second of the images' time, while there are 300 instants.
-  EXPECT_LT(g_bench->markers_.size(), g_bench->arrays_.size() / 10);
+  // Throttled: 20 per second of the images' time.
+  EXPECT_LT(static_cast<double>(g_bench->markers_.size()), 21.0 * (g_bench->now_ - 1000.0) + 1.0);
 }
 
-TEST(Triangulation, ReportsDiagnostics) {
-  const auto reported = [] {
-    for (const auto& status : g_bench->diagnostics_) {
-      if (status.message == "tracking" && status.hardware_id == "rig " + g_bench->rig_.id())
-        return true;
-    }
-    return false;
-  };
-  ASSERT_TRUE(Bench::waitFor([&] { return g_bench->film(kBatch, {0, 1, 2}) && reported(); }));
+/// Films until a status of the tracker matches.
+bool reports(const std::function<bool(const diagnostic_msgs::DiagnosticStatus&)>& matches) {
+  g_bench->diagnostics_.clear();
+  return Bench::waitFor([&] {
+    return g_bench->film(kBatch, {0, 1, 2}) &&
+           std::any_of(g_bench->diagnostics_.begin(), g_bench->diagnostics_.end(),
+                       [&](const auto& status) {
+                         return status.name.find("steady") == std::string::npos && matches(status);
+                       });
+  });
 }
 
-TEST(Triangulation, DiagnosticsNameACameraThatIsAnotherDevice) {
-  const auto reported = [](const std::string& words) {
-    g_bench->diagnostics_.clear();
-    return Bench::waitFor([&] {
-      if (!g_bench->film(kBatch, {0, 1, 2}))
-        return false;
-      return std::any_of(g_bench->diagnostics_.begin(), g_bench->diagnostics_.end(),
-                         [&](const auto& s) { return s.message.find(words) != std::string::npos; });
-    });
-  };
+/// The first part of its name is the process, that is a nodelet's manager.
+bool isOf(const std::string& camera, const diagnostic_msgs::DiagnosticStatus& status) {
+  const std::string end = ": " + camera;
+  return status.name.size() > end.size() &&
+         status.name.compare(status.name.size() - end.size(), end.size(), end) == 0;
+}
+
+bool warns(const std::string& camera, const std::string& words) {
+  return reports([&](const diagnostic_msgs::DiagnosticStatus& status) {
+    return isOf(camera, status) && status.level == diagnostic_msgs::DiagnosticStatus::WARN &&
+           status.message.find(words) != std::string::npos;
+  });
+}
+
+bool isWell(const std::string& camera) {
+  return reports([&](const diagnostic_msgs::DiagnosticStatus& status) {
+    return isOf(camera, status) && status.message == "in use";
+  });
+}
+
+std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key) {
+  for (const auto& value : status.values) {
+    if (value.key == key)
+      return value.value;
+  }
+  return "";
+}
+
+TEST(Triangulation, ReportsDiagnosticsOfAllAndOfEachCamera) {
+  EXPECT_TRUE(reports([](const diagnostic_msgs::DiagnosticStatus& status) {
+    return status.message == "tracking" && status.hardware_id == "rig " + g_bench->rig_.id() &&
+           valueOf(status, "LEDs tracked") == "1";
+  }));
+  EXPECT_TRUE(reports([](const diagnostic_msgs::DiagnosticStatus& status) {
+    return isOf("camera_1", status) && status.message == "in use" &&
+           valueOf(status, "spots that belong to an LED [%]") == "100.0" &&
+           std::atof(valueOf(status, "residual [px]").c_str()) < 0.5;
+  }));
+}
+
+TEST(Triangulation, IgnoresACameraThatIsAnotherDeviceAndSaysSo) {
   std::string& identity = g_bench->rig_.cameras[1].camera.identity;  // of the images to come
   const std::string calibrated = identity;
   identity = "00:00:00:00:00:99";
-  EXPECT_TRUE(reported("camera_1 is device 00:00:00:00:00:99, but was calibrated as " + calibrated +
-                       ": calibrate again"));
+  EXPECT_TRUE(warns("camera_1",
+                    "camera_1 is device 00:00:00:00:00:99, but was calibrated as " + calibrated));
+  const double begin = g_bench->now_;
+  ASSERT_TRUE(g_bench->film(0.3, {0, 1, 2}));
+  for (const auto& array : g_bench->arraysSince(begin + 0.2))
+    expectOnPath(array, 2);
   identity = calibrated;
-  EXPECT_TRUE(reported("tracking"));
+  EXPECT_TRUE(isWell("camera_1"));
+}
+
+TEST(Triangulation, NamesImpossibleSpotsOnce) {
+  IrBlobArray image = g_bench->image(2, g_bench->now_);
+  ASSERT_FALSE(image.blobs.empty());
+  image.blobs[0].x = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 3; ++i)
+    g_bench->blob_publishers_[2].publish(image);
+  const std::string words = "camera_2 reports spots outside its image";
+  EXPECT_TRUE(warns("camera_2", words));
+  EXPECT_TRUE(isWell("camera_2"));
+  ASSERT_TRUE(g_bench->waitForLog(words));
+}
+
+TEST(Triangulation, NamesALensThatContradictsTheRig) {
+  ros::Publisher publisher =
+      g_bench->nh_.advertise<sensor_msgs::CameraInfo>("camera_0/camera_info", 1, true);
+  const geometry::Intrinsics& lens = g_bench->rig_.cameras[0].camera.intrinsics;
+  sensor_msgs::CameraInfo info;
+  info.width = static_cast<std::uint32_t>(lens.width);
+  info.height = static_cast<std::uint32_t>(lens.height);
+  info.distortion_model = "plumb_bob";
+  info.D.assign(lens.distortion.begin(), lens.distortion.end());
+  info.K[0] = lens.fx + 50.0;
+  info.K[2] = lens.cx;
+  info.K[4] = lens.fy;
+  info.K[5] = lens.cy;
+  publisher.publish(info);
+  EXPECT_TRUE(warns("camera_0", "camera_info of camera_0 contradicts the rig"));
+  info.K[0] = lens.fx;
+  publisher.publish(info);
+  EXPECT_TRUE(isWell("camera_0"));
+}
+
+TEST(Triangulation, NamesACameraWhoseComputerHasAnotherClock) {
+  g_bench->arrival_error_ = 0.5;
+  EXPECT_TRUE(warns("camera_1", "run chrony on all computers"));
+  g_bench->arrival_error_ = 0.0;
+  EXPECT_TRUE(isWell("camera_1"));
 }
 
 TEST(Triangulation, GoesOnWhenOneCameraStopsAndWhenItComesBack) {
   ASSERT_TRUE(g_bench->film(0.6, {1, 2}));
-  for (const auto& array : g_bench->arraysSince(g_bench->now_ - 0.2)) {
+  for (const auto& array : g_bench->arraysSince(g_bench->now_ - 0.2))
     expectOnPath(array, 2);
-    EXPECT_EQ(3u, array.points.at(0).rays_possible);
-  }
   ASSERT_TRUE(g_bench->film(0.4, {0, 1, 2}));
   const auto arrays = g_bench->arraysSince(g_bench->now_ - 0.2);
-  EXPECT_GT(arrays.size(), 40u);
+  EXPECT_GE(arrays.size(), kFewest);
   for (const auto& array : arrays)
     expectOnPath(array, 3);
 }
 
 TEST(Triangulation, SaysWhenNothingIsSeen) {
   const double begin = g_bench->now_;
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (const double t : {begin, begin + 0.01, begin + 0.02}) {
-      IrBlobArray dark = g_bench->image(c, t);
-      dark.blobs.clear();
-      g_bench->blob_publishers_[c].publish(dark);
+  g_bench->leds_.clear();
+  ASSERT_TRUE(g_bench->film(3.0, {0, 1, 2}));
+  g_bench->leds_ = {ledAt};
+  std::set<int> states;
+  int lost = 0;
+  for (const auto& array : g_bench->arraysSince(begin)) {
+    for (const TrackedPoint& point : array.points) {
+      states.insert(point.state);
+      lost += point.state == TrackedPoint::LOST;
     }
   }
-  ASSERT_TRUE(Bench::waitFor([&] { return g_bench->arraysSince(begin + 0.0199).size() > 0; }));
-  for (const auto& array : g_bench->arraysSince(begin - 0.001))
-    EXPECT_TRUE(array.points.empty());
-  g_bench->now_ = begin + kBatch;
+  EXPECT_EQ(1u, states.count(TrackedPoint::PREDICTED));
+  EXPECT_EQ(1, lost);
+  EXPECT_TRUE(g_bench->arrays_.back().points.empty());
+  // A little while it still counts as seen; then nothing that is not measured goes out by itself.
+  for (const auto& point : g_bench->points_)
+    EXPECT_LT(point.header.stamp.toSec(), begin + 0.06);
+}
+
+TEST(Triangulation, CallsEachOfSeveralLedsByItsName) {
+  g_bench->leds_ = {ledAt, otherLedAt};
+  const double begin = g_bench->now_;
+  ASSERT_TRUE(g_bench->film(0.6, {0, 1, 2}));
+  ASSERT_TRUE(Bench::waitFor([] { return !g_bench->second_points_.empty(); }));
+  const TrackedPointArray& last = g_bench->arrays_.back();
+  ASSERT_EQ(2u, last.points.size());
+  std::map<std::string, Vector3d> places;
+  for (const TrackedPoint& point : last.points)
+    places[point.label] = vectorOf(point.position);
+  ASSERT_EQ(1u, places.count("led"));
+  ASSERT_EQ(1u, places.count("second"));
+  const double height = places["led"].z();
+  EXPECT_NEAR(0.4, std::abs(places["second"].z() - height), 2.0 * kNear);
+  for (const auto& point : g_bench->points_) {
+    if (point.header.stamp.toSec() > begin) {
+      EXPECT_NEAR(height, point.point.z, kNear);
+    }
+  }
+  // Both leave; the next one alone is the first again.
+  g_bench->leds_.clear();
+  ASSERT_TRUE(g_bench->film(3.0, {0, 1, 2}));
+  g_bench->leds_ = {ledAt};
+  ASSERT_TRUE(g_bench->film(0.6, {0, 1, 2}));
+  ASSERT_EQ(1u, g_bench->arrays_.back().points.size());
+  EXPECT_EQ("led", g_bench->arrays_.back().points[0].label);
+}
+
+TEST(Triangulation, AnswersATrigger) {
+  std_msgs::Header trigger;
+  trigger.stamp.fromSec(g_bench->now_ + 0.123);
+  g_bench->trigger_publisher_.publish(trigger);
+  ASSERT_TRUE(g_bench->film(0.3, {0, 1, 2}));
+  ASSERT_TRUE(Bench::waitFor([] { return !g_bench->triggered_.empty(); }));
+  const TrackedPointArray& answer = g_bench->triggered_.back();
+  EXPECT_EQ(trigger.stamp, answer.header.stamp);
+  ASSERT_EQ(1u, answer.points.size());
+  EXPECT_LT((vectorOf(answer.points[0].position) - ledAt(trigger.stamp.toSec())).norm(), kNear);
+
+  trigger.stamp = ros::Time(500);
+  g_bench->trigger_publisher_.publish(trigger);
+  EXPECT_TRUE(g_bench->waitForLog("there are no points for the trigger at 500"));
+}
+
+TEST(Triangulation, SaysWhoEntersAndLeavesAZone) {
+  const double begin = g_bench->now_;
+  const Vector3d here = ledAt(begin);
+  Rig rig = g_bench->rig_;
+  rig.zones = {{"here", here - Vector3d::Constant(0.3), here + Vector3d::Constant(0.3)}};
+  g_bench->rig_publisher_.publish(toMessage(rig));
+  ASSERT_TRUE(Bench::waitFor([] {
+    return g_bench->film(kBatch, {0, 1, 2}) && g_bench->zone_events_.size() >= 2;
+  }));
+  const auto& events = g_bench->zone_events_;
+  EXPECT_EQ("here", events[0].zone);
+  EXPECT_EQ("led", events[0].label);
+  EXPECT_EQ(wiimote_tracker_msgs::ZoneEvent::ENTERED, events[0].event);
+  EXPECT_EQ(wiimote_tracker_msgs::ZoneEvent::LEFT, events[1].event);
+  const Vector3d way = vectorOf(events[1].position) - here;
+  EXPECT_NEAR(0.3, way.cwiseAbs().maxCoeff(), kNear);
 }
 
 TEST(Triangulation, KeepsItsRigWhenABadOneComes) {
@@ -299,7 +519,7 @@ TEST(Triangulation, KeepsItsRigWhenABadOneComes) {
   ASSERT_TRUE(g_bench->waitForLog("is refused, the one before stays in use: camera 'camera_1'"));
   ASSERT_TRUE(g_bench->film(0.3, {0, 1, 2}));
   const auto arrays = g_bench->arraysSince(g_bench->now_ - 0.2);
-  EXPECT_GT(arrays.size(), 40u);
+  EXPECT_GE(arrays.size(), kFewest);
   for (const auto& array : arrays) {
     expectOnPath(array, 3);
     EXPECT_EQ(g_bench->rig_.id(), array.rig_id);
@@ -333,7 +553,7 @@ void expectCorrected(const std::optional<remap::Remap>& remap, double height, bo
   const double begin = g_bench->now_;
   ASSERT_TRUE(g_bench->film(0.2, {0, 1, 2}));
   const auto arrays = g_bench->arraysSince(begin);
-  EXPECT_GT(arrays.size(), 40u);
+  EXPECT_GE(arrays.size(), kFewest);
   for (const auto& array : arrays) {
     ASSERT_EQ(1u, array.points.size());
     EXPECT_EQ(rig.id(), array.rig_id);
@@ -341,7 +561,7 @@ void expectCorrected(const std::optional<remap::Remap>& remap, double height, bo
     const auto& p = array.points[0].position;
     Vector3d expected = ledAt(array.header.stamp.toSec());
     expected.z() = height;
-    EXPECT_LT((Vector3d(p.x, p.y, p.z) - expected).norm(), 2e-5);
+    EXPECT_LT((Vector3d(p.x, p.y, p.z) - expected).norm(), kNear);
   }
 }
 
@@ -388,24 +608,39 @@ TEST(Triangulation, TakesANewRigAtOnce) {
   ASSERT_NE(std::string::npos, place);
   EXPECT_EQ(std::string::npos, g_bench->log_.find(first, place + 1)) << "taken once only";
   ASSERT_TRUE(g_bench->film(0.3, {0, 1, 2}));
-  int found = 0;
-  for (const auto& array : g_bench->arraysSince(g_bench->now_ - 0.3)) {
+  for (const auto& array : g_bench->arraysSince(g_bench->now_ - 0.3))
     EXPECT_EQ(shifted.id(), array.rig_id);
-    if (array.points.empty())
-      continue;
-    const auto& p = array.points[0].position;
+  // No LED is where it was taken to be; it is found where it is.
+  ASSERT_TRUE(g_bench->film(2.0, {0, 1, 2}));
+  std::size_t found = 0;
+  for (const auto& array : g_bench->arraysSince(g_bench->now_ - 0.5)) {
+    ASSERT_EQ(1u, array.points.size());
     const Vector3d expected = ledAt(array.header.stamp.toSec()) + Vector3d(1.0, 0.0, 0.0);
-    EXPECT_LT((Vector3d(p.x, p.y, p.z) - expected).norm(), 2e-5);
+    EXPECT_LT((vectorOf(array.points[0].position) - expected).norm(), kNear);
     ++found;
   }
-  EXPECT_GT(found, 40);
+  EXPECT_GE(found, kFewest);
+  g_bench->rig_publisher_.publish(toMessage(g_bench->rig_));
+  ASSERT_TRUE(g_bench->film(2.0, {0, 1, 2}));
 }
 
 TEST(Triangulation, IgnoresImagesOfAnotherSize) {
   IrBlobArray image = g_bench->image(0, g_bench->now_);
   image.width += 1;
   g_bench->blob_publishers_[0].publish(image);
-  EXPECT_TRUE(g_bench->waitForLog("Images of camera_0 have"));
+  EXPECT_TRUE(g_bench->waitForLog("images of camera_0 have"));
+}
+
+TEST(Triangulation, StartsAnewWhenABagStartsOver) {
+  g_bench->now_ = 1000.0;
+  g_bench->newest_.assign(3, -1.0);
+  g_bench->arrays_.clear();
+  ASSERT_TRUE(g_bench->film(1.0, {0, 1, 2}));
+  EXPECT_TRUE(g_bench->waitForLog("time jumped back, tracking starts anew"));
+  const TrackedPointArray& last = g_bench->arrays_.back();
+  EXPECT_LT(last.header.stamp.toSec(), 1001.1);
+  ASSERT_EQ(1u, last.points.size());
+  EXPECT_EQ("led", last.points[0].label);
 }
 
 /// Output of a command line and whether it failed.
@@ -421,10 +656,11 @@ std::pair<std::string, bool> run(const std::string& command) {
 }
 
 TEST(TriangulationNode, LeavesWithAnErrorThatNamesTheParameter) {
-  const auto [output, failed] = run(
-      "rosrun wiimote_tracker_triangulation triangulation_node __name:=wrong _camera_timeout:=-1");
+  const auto [output, failed] =
+      run("rosrun wiimote_tracker_triangulation triangulation_node __name:=wrong "
+          "_instant/camera_timeout:=-1");
   EXPECT_TRUE(failed);
-  EXPECT_NE(std::string::npos, output.find("/wrong/camera_timeout is -1")) << output;
+  EXPECT_NE(std::string::npos, output.find("/wrong/instant/camera_timeout is -1")) << output;
 }
 
 TEST(TriangulationNode, LeavesWithAnErrorWithoutAMaster) {

@@ -1,0 +1,92 @@
+#include "image_message.h"
+
+#include <limits>
+
+namespace wiimote_tracker {
+namespace {
+
+using wiimote_tracker_msgs::IrBlob;
+using wiimote_tracker_msgs::IrBlobArray;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::string sizeOf(std::int64_t width, std::int64_t height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " pixels";
+}
+
+ImageFault faultOf(const IrBlobArray& message, const geometry::Camera& calibrated) {
+  if (message.header.stamp.isZero())
+    return ImageFault::kNoTime;
+  if (!message.camera.empty() && message.camera != calibrated.name)
+    return ImageFault::kOtherCamera;
+  if (!message.identity.empty() && !calibrated.identity.empty() &&
+      message.identity != calibrated.identity)
+    return ImageFault::kOtherDevice;
+  if (static_cast<std::int64_t>(message.width) != calibrated.intrinsics.width ||
+      static_cast<std::int64_t>(message.height) != calibrated.intrinsics.height)
+    return ImageFault::kOtherSize;
+  return ImageFault::kNone;
+}
+
+/// False for NaN.
+bool isPossible(const IrBlob& blob, const geometry::Intrinsics& intrinsics) {
+  return blob.x >= -0.5 && blob.x <= intrinsics.width - 0.5 && blob.y >= -0.5 &&
+         blob.y <= intrinsics.height - 0.5;
+}
+
+}  // namespace
+
+ImageFault readImage(const IrBlobArray& message,
+                     const geometry::Camera& calibrated,
+                     tracking::CameraImage* image) {
+  ImageFault fault = faultOf(message, calibrated);
+  if (!isUsable(fault))
+    return fault;
+  image->stamp = message.header.stamp.toSec();
+  image->arrival = (message.arrival.isZero() ? message.header.stamp : message.arrival).toSec();
+  image->stamp_stddev = message.stamp_stddev >= 0.0 ? message.stamp_stddev : kNaN;
+  image->clock_epoch = message.clock_epoch;
+  image->maximum_spots =
+      message.max_blobs > 0 ? message.max_blobs : std::numeric_limits<std::size_t>::max();
+  image->spots.clear();
+  for (const IrBlob& blob : message.blobs) {
+    if (!isPossible(blob, calibrated.intrinsics)) {
+      fault = ImageFault::kImpossibleSpots;
+      continue;
+    }
+    tracking::Spot spot;
+    spot.pixel = {blob.x, blob.y};
+    spot.size = blob.size;
+    spot.slot = blob.slot;
+    image->spots.push_back(spot);
+  }
+  return fault;
+}
+
+std::string describe(ImageFault fault,
+                     const IrBlobArray& message,
+                     const geometry::Camera& calibrated) {
+  const geometry::Intrinsics& lens = calibrated.intrinsics;
+  switch (fault) {
+    case ImageFault::kNone:
+      break;
+    case ImageFault::kImpossibleSpots:
+      return calibrated.name + " reports spots outside its image of " +
+             sizeOf(lens.width, lens.height) + ", which are ignored: repair its driver";
+    case ImageFault::kNoTime:
+      return "images of " + calibrated.name + " carry no time and are ignored: repair their driver";
+    case ImageFault::kOtherCamera:
+      return "images on the topic of " + calibrated.name + " are from " + message.camera +
+             " and are ignored: let each driver publish under its own camera's name";
+    case ImageFault::kOtherDevice:
+      return calibrated.name + " is device " + message.identity + ", but was calibrated as " +
+             calibrated.identity + ", and is ignored: exchange them or calibrate again";
+    case ImageFault::kOtherSize:
+      return "images of " + calibrated.name + " have " + sizeOf(message.width, message.height) +
+             ", but it was calibrated with " + sizeOf(lens.width, lens.height) +
+             ", and are ignored: calibrate again";
+  }
+  return "";
+}
+
+}  // namespace wiimote_tracker

@@ -1,0 +1,40 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_IMAGE_MESSAGE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_IMAGE_MESSAGE_H
+
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+#include "wiimote_tracker_triangulation/tracking/camera_image.h"
+
+#include <wiimote_tracker_msgs/IrBlobArray.h>
+
+#include <string>
+
+namespace wiimote_tracker {
+
+/// What is wrong with an image.
+enum class ImageFault {
+  kNone,
+  kImpossibleSpots,  ///< Spots that are not finite or lie outside the image; the others are good.
+  kNoTime,           ///< From here on the image must not be used at all.
+  kOtherCamera,
+  kOtherDevice,
+  kOtherSize,
+};
+
+constexpr bool isUsable(ImageFault fault) {
+  return fault <= ImageFault::kImpossibleSpots;
+}
+
+/// Reads a camera's image as the core wants it, without impossible spots.
+/// @param calibrated the camera as the rig knows it.
+ImageFault readImage(const wiimote_tracker_msgs::IrBlobArray& message,
+                     const geometry::Camera& calibrated,
+                     tracking::CameraImage* image);
+
+/// The fault of that image in one sentence that says what to do.
+std::string describe(ImageFault fault,
+                     const wiimote_tracker_msgs::IrBlobArray& message,
+                     const geometry::Camera& calibrated);
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_IMAGE_MESSAGE_H

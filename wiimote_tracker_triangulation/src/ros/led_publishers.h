@@ -1,0 +1,39 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LED_PUBLISHERS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LED_PUBLISHERS_H
+
+#include <ros/node_handle.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <wiimote_tracker_msgs/TrackedPointArray.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// Publishes each LED by itself: its point on <label>/point, and the transform world -> label. The
+/// topics of listed labels are there from the start, those of others while their LEDs are.
+class LedPublishers {
+ public:
+  /// `publish_predicted`: also of LEDs that are hidden.
+  LedPublishers(const ros::NodeHandle& nh,
+                const std::vector<std::string>& labels,
+                bool publish_predicted);
+
+  void publish(const wiimote_tracker_msgs::TrackedPointArray& points);
+
+ private:
+  ros::Publisher& publisherOf(const std::string& label);
+
+  ros::NodeHandle nh_;
+  std::set<std::string> listed_;
+  bool publish_predicted_;
+  std::map<std::string, ros::Publisher> publishers_;  // by label
+  tf2_ros::TransformBroadcaster broadcaster_;
+  std::vector<geometry_msgs::TransformStamped> transforms_;  // reused
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LED_PUBLISHERS_H

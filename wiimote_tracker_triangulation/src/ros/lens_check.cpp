@@ -1,0 +1,100 @@
+#include "lens_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+namespace wiimote_tracker {
+namespace {
+
+// Lenses that map every direction to within this are the same [px].
+constexpr double kSameLens = 2.0;
+
+std::optional<geometry::Intrinsics> lensOf(const sensor_msgs::CameraInfo& info) {
+  const auto model = geometry::distortionModelFromName(info.distortion_model);
+  if (!model || info.D.size() != geometry::coefficientCount(*model))
+    return std::nullopt;
+  geometry::Intrinsics lens;
+  lens.width = static_cast<int>(info.width);
+  lens.height = static_cast<int>(info.height);
+  lens.fx = info.K[0];
+  lens.cx = info.K[2];
+  lens.fy = info.K[4];
+  lens.cy = info.K[5];
+  lens.distortion_model = *model;
+  std::copy(info.D.begin(), info.D.end(), lens.distortion.begin());
+  return lens;
+}
+
+/// Largest distance of the pixels of one direction, over the image [px]; not finite when b is not.
+double distanceOf(const geometry::Intrinsics& a, const geometry::Intrinsics& b) {
+  constexpr int kSteps = 8;
+  double largest = 0.0;
+  for (int x = 0; x <= kSteps; ++x) {
+    for (int y = 0; y <= kSteps; ++y) {
+      const Eigen::Vector2d pixel(x * (a.width - 1.0) / kSteps, y * (a.height - 1.0) / kSteps);
+      if (const auto direction = a.normalizedFromPixel(pixel)) {
+        const double distance = (b.pixelFromNormalized(*direction) - pixel).norm();
+        if (!std::isfinite(distance))
+          return distance;
+        largest = std::max(largest, distance);
+      }
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+std::string contradictionOf(const sensor_msgs::CameraInfo& info,
+                            const geometry::Camera& calibrated) {
+  if (info.K[0] == 0.0)
+    return "";
+  const std::string what_to_do =
+      "; the rig counts: save it again, so that the driver takes it over, or calibrate again";
+  const geometry::Intrinsics& rig = calibrated.intrinsics;
+  if (static_cast<int>(info.width) != rig.width || static_cast<int>(info.height) != rig.height)
+    return "camera_info of " + calibrated.name + " is for another image size than the rig" +
+           what_to_do;
+  const auto lens = lensOf(info);
+  if (!lens)
+    return "camera_info of " + calibrated.name + " has a lens model '" + info.distortion_model +
+           "' that is not known here" + what_to_do;
+  const double distance = distanceOf(rig, *lens);
+  if (distance <= kSameLens)
+    return "";
+  std::ostringstream text;
+  text << "camera_info of " << calibrated.name << " contradicts the rig by up to " << distance
+       << " px" << what_to_do;
+  return text.str();
+}
+
+void LensCheck::setRig(const geometry::Rig& rig) {
+  subscribers_.clear();
+  problems_.clear();
+  for (const geometry::RigCamera& rig_camera : rig.cameras) {
+    const geometry::Camera& camera = rig_camera.camera;
+    subscribers_[camera.name] = nh_.subscribe<sensor_msgs::CameraInfo>(
+        camera.name + "/camera_info", 1,
+        [this, camera](const sensor_msgs::CameraInfoConstPtr& info) { compare(*info, camera); });
+  }
+}
+
+void LensCheck::compare(const sensor_msgs::CameraInfo& info, const geometry::Camera& calibrated) {
+  const std::string problem = contradictionOf(info, calibrated);
+  std::string& known = problems_[calibrated.name];
+  if (known.empty() && !problem.empty())
+    ROS_WARN("%s.", problem.c_str());
+  known = problem;
+  // The queue keeps this callback alive until it returns.
+  if (problem.empty())
+    subscribers_.erase(calibrated.name);
+}
+
+std::string LensCheck::problemOf(const std::string& camera) const {
+  const auto found = problems_.find(camera);
+  return found != problems_.end() ? found->second : "";
+}
+
+}  // namespace wiimote_tracker

@@ -1,0 +1,229 @@
+#include "message_tracker.h"
+
+#include "wiimote_tracker_triangulation/ros/conversions.h"
+#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
+
+#include <boost/make_shared.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+
+namespace wiimote_tracker {
+namespace {
+
+using wiimote_tracker_msgs::TrackedPoint;
+using wiimote_tracker_msgs::TrackedPointArray;
+
+// After a longer silence of all cameras, the outputs that nobody could be given are left out [s].
+constexpr double kLongestSilence = 0.5;
+
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+bool isSame(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && a == b;
+}
+
+/// Adds what is missing in the message, in the order of the ids.
+void insertMissing(const std::vector<TrackedPoint>& points, TrackedPointArray* message) {
+  for (const TrackedPoint& point : points) {
+    const auto place =
+        std::lower_bound(message->points.begin(), message->points.end(), point.id,
+                         [](const TrackedPoint& p, std::uint32_t id) { return p.id < id; });
+    if (place == message->points.end() || place->id != point.id)
+      message->points.insert(place, point);
+  }
+}
+
+}  // namespace
+
+MessageTracker::MessageTracker(const TrackingParameters& parameters, MessageSink* sink)
+    : parameters_(parameters),
+      sink_(sink),
+      labels_(parameters.labels),
+      zones_(parameters.zones),
+      trigger_(parameters.trigger) {
+  newest_.snapshot.time = kNever;
+}
+
+MessageTracker::RigChange MessageTracker::takeRig(
+    const wiimote_tracker_msgs::RigCalibration& message) {
+  const geometry::Rig rig = fromMessage(message);
+  const std::string id = rig.id();
+  RigChange change;
+  if (!estimator_) {
+    estimator_ = tracking::makeEstimator(rig, parameters_.estimator);
+    change.cameras = true;
+  } else if (id != computed_id_ || !isSame(rig.covariance, rig_.covariance)) {
+    estimator_->setRig(rig);
+    change.cameras = true;
+  }
+  if (change.cameras) {
+    computed_id_ = id;
+    rig_id_ = message.id.empty() ? id : message.id;
+    camera_index_.clear();
+    for (std::size_t i = 0; i < rig.cameras.size(); ++i)
+      camera_index_[rig.cameras[i].camera.name] = i;
+    noticed_.clear();
+    statistics_.setRig(rig);
+  }
+  rig_ = rig;
+  zones_.setZones(rig_.zones);
+  change.correction = correction_.take(rig_);
+  return change;
+}
+
+void MessageTracker::takeImage(const std::string& camera,
+                               const wiimote_tracker_msgs::IrBlobArray& message) {
+  const auto found = camera_index_.find(camera);
+  if (found == camera_index_.end())
+    return;
+  const std::size_t index = found->second;
+  const ImageFault fault = readImage(message, rig_.cameras[index].camera, &image_);
+  if (fault != ImageFault::kNone)
+    noticeFault(index, fault, message);
+  if (!isUsable(fault))
+    return;
+  statistics_.addImage(index, image_);
+
+  publishTicksUntil(image_.arrival);
+  estimator_->add(index, image_);
+  if (estimator_->counters().resets != resets_)
+    startAnew();
+  while (const tracking::Snapshot* snapshot = estimator_->next())
+    takeSnapshot(*snapshot);
+}
+
+void MessageTracker::noticeFault(std::size_t camera,
+                                 ImageFault fault,
+                                 const wiimote_tracker_msgs::IrBlobArray& message) {
+  const std::string sentence = describe(fault, message, rig_.cameras[camera].camera);
+  statistics_.addProblem(camera, sentence);
+  if (noticed_.emplace(camera, fault).second)
+    sink_->onProblem(sentence);
+}
+
+void MessageTracker::startAnew() {
+  resets_ = estimator_->counters().resets;
+  labels_.clear();
+  lost_.clear();
+  newest_.snapshot.time = kNever;
+  newest_output_ = kNever;
+  newest_tick_.reset();
+  sink_->onProblem(
+      "time jumped back, tracking starts anew; when no bag started over, set the computers to the "
+      "same clock");
+}
+
+void MessageTracker::takeSnapshot(const tracking::Snapshot& snapshot) {
+  statistics_.addSnapshot(snapshot);
+  labels_.update(snapshot.leds);
+  correction_.apply(snapshot, &newest_);
+  for (std::size_t i = 0; i < snapshot.leds.size(); ++i) {
+    if (snapshot.leds[i].state == tracking::TrackState::kLost)
+      lost_.push_back(trackedPoint(newest_, i, rig_, labels_));
+  }
+  publishZoneEvents(newest_.snapshot);
+  trigger_.add(snapshot);
+  answerTriggers();
+  if (!parameters_.output.on_update)
+    return;
+  if (parameters_.output.predict_to_now)
+    publishPredicted(std::max(snapshot.time, snapshot.latest_arrival));
+  else
+    publish(newest_);
+}
+
+void MessageTracker::publishZoneEvents(const tracking::Snapshot& snapshot) {
+  for (const events::ZoneCrossing& crossing : zones_.update(snapshot)) {
+    wiimote_tracker_msgs::ZoneEvent event;
+    event.header.stamp = timeOf(crossing.time);
+    event.header.frame_id = rig_.world_frame;
+    event.zone = crossing.zone;
+    event.id = crossing.led;
+    event.label = labels_.of(crossing.led);
+    event.event = crossing.entered ? wiimote_tracker_msgs::ZoneEvent::ENTERED
+                                   : wiimote_tracker_msgs::ZoneEvent::LEFT;
+    event.position.x = crossing.position.x();
+    event.position.y = crossing.position.y();
+    event.position.z = crossing.position.z();
+    sink_->onZoneEvent(event);
+  }
+}
+
+void MessageTracker::takeTrigger(const std_msgs::Header& trigger) {
+  triggers_[next_trigger_] = trigger;
+  trigger_.ask(trigger.stamp.toSec(), next_trigger_);
+  ++next_trigger_;
+  answerTriggers();
+}
+
+void MessageTracker::finish() {
+  trigger_.finish();
+  answerTriggers();
+}
+
+void MessageTracker::answerTriggers() {
+  while (const events::TriggerAnswer* answer = trigger_.next()) {
+    const auto request = triggers_.find(answer->request);
+    if (answer->result == events::TriggerResult::kAnswered) {
+      correction_.apply(answer->snapshot, &corrected_);
+      TrackedPointArray message = messageOf(corrected_);
+      message.header.stamp = request->second.stamp;  // to the nanosecond
+      sink_->onTriggeredPoints(message);
+    } else {
+      std::ostringstream sentence;
+      sentence << "there are no points for the trigger at " << request->second.stamp
+               << " s: " << events::describe(answer->result, parameters_.trigger);
+      sink_->onProblem(sentence.str());
+    }
+    triggers_.erase(request);
+  }
+}
+
+/// Output at a fixed rate, by the arrivals of the images: what is due at a time goes out with the
+/// first image that arrived then or later, and knows nothing of it.
+void MessageTracker::publishTicksUntil(double now) {
+  const double rate = parameters_.output.rate;
+  if (!(rate > 0.0))
+    return;
+  const auto last = static_cast<std::int64_t>(std::floor(now * rate));
+  const auto longest = static_cast<std::int64_t>(kLongestSilence * rate);
+  if (!newest_tick_ || last > *newest_tick_ + longest)
+    newest_tick_ = last - 1;
+  while (*newest_tick_ < last) {
+    ++*newest_tick_;
+    if (parameters_.output.predict_to_now)
+      publishPredicted(static_cast<double>(*newest_tick_) / rate);
+    else
+      publish(newest_);
+  }
+}
+
+void MessageTracker::publishPredicted(double time) {
+  if (time < newest_.snapshot.time || !estimator_->predictTo(time, &predicted_))
+    return;
+  correction_.apply(predicted_, &corrected_);
+  publish(corrected_);
+}
+
+void MessageTracker::publish(const CorrectedSnapshot& corrected) {
+  if (!(corrected.snapshot.time > newest_output_))
+    return;
+  newest_output_ = corrected.snapshot.time;
+  const auto message = boost::make_shared<TrackedPointArray>(messageOf(corrected));
+  insertMissing(lost_, message.get());
+  lost_.clear();
+  sink_->onPoints(message, corrected.snapshot.views);
+}
+
+TrackedPointArray MessageTracker::messageOf(const CorrectedSnapshot& corrected) const {
+  PointContext context;
+  context.method = methodWord(parameters_.estimator);
+  context.rig_id = rig_id_;
+  context.late_frames = estimator_->counters().late;
+  return pointMessage(corrected, rig_, labels_, context);
+}
+
+}  // namespace wiimote_tracker

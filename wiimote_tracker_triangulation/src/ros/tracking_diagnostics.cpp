@@ -1,0 +1,148 @@
+#include "tracking_diagnostics.h"
+
+#include <ros/master.h>
+#include <ros/network.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace wiimote_tracker {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using tracking::TrackState;
+
+/// Name of the computer that a node runs on; empty when the master does not know.
+std::string hostOf(const std::string& node) {
+  XmlRpc::XmlRpcValue arguments, result, uri;
+  arguments[0] = ros::this_node::getName();
+  arguments[1] = node;
+  if (!ros::master::execute("lookupNode", arguments, result, uri, false))
+    return "";
+  std::string host;
+  std::uint32_t port = 0;
+  return ros::network::splitURI(uri, host, port) ? host : "";
+}
+
+unsigned long long count(std::uint64_t n) {
+  return n;
+}
+
+}  // namespace
+
+TrackingDiagnostics::TrackingDiagnostics(const ros::NodeHandle& nh,
+                                         const ros::NodeHandle& private_nh,
+                                         MessageTracker* tracker,
+                                         double clock_tolerance)
+    : tracker_(tracker),
+      clocks_(clock_tolerance),
+      lenses_(nh),
+      updater_(nh, private_nh),
+      reported_clocks_(clock_tolerance) {
+  updater_.setHardwareID("none");
+  updater_.add("triangulation", this, &TrackingDiagnostics::report);
+}
+
+void TrackingDiagnostics::setRig() {
+  for (const std::string& camera : cameras_)
+    updater_.removeByName(camera);
+  cameras_.clear();
+  for (const geometry::RigCamera& camera : tracker_->rig().cameras)
+    cameras_.push_back(camera.camera.name);
+  nodes_.assign(cameras_.size(), "");
+  clocks_.clear(cameras_.size());
+  reported_clocks_ = clocks_;
+  reported_ = tracker_->statistics();
+  lenses_.setRig(tracker_->rig());
+  since_ = ros::WallTime::now();
+  updater_.setHardwareID("rig " + tracker_->rigId());
+  for (std::size_t i = 0; i < cameras_.size(); ++i)
+    updater_.add(cameras_[i], [this, i](Status& status) { reportCamera(i, status); });
+}
+
+void TrackingDiagnostics::addArrival(const std::string& camera,
+                                     const ros::Time& arrival,
+                                     const std::string& node) {
+  // A bag's clock is too coarse to be compared with.
+  if (arrival.isZero() || ros::Time::isSimTime())
+    return;
+  const auto place = std::find(cameras_.begin(), cameras_.end(), camera);
+  if (place == cameras_.end())
+    return;
+  const auto index = static_cast<std::size_t>(place - cameras_.begin());
+  nodes_[index] = node;
+  clocks_.add(index, (ros::Time::now() - arrival).toSec());
+}
+
+/// Comes before those of the cameras.
+void TrackingDiagnostics::report(Status& status) {
+  if (!tracker_->hasRig()) {
+    status.summary(DiagnosticStatus::WARN, "no rig: calibrate, or load a saved one");
+    return;
+  }
+  const ros::WallTime now = ros::WallTime::now();
+  period_ = (now - since_).toSec();
+  since_ = now;
+  reported_ = tracker_->statistics();
+  tracker_->statistics().clear();
+  reported_clocks_ = clocks_;
+  clocks_.clear(cameras_.size());
+
+  if (reported_.snapshots() == 0)
+    status.summary(DiagnosticStatus::WARN, "no images: start the cameras' drivers");
+  else if (reported_.leds(TrackState::kTracked) == 0)
+    status.summary(DiagnosticStatus::OK, "no LED in view of two cameras");
+  else
+    status.summary(DiagnosticStatus::OK, "tracking");
+  const VolumeCorrection& correction = tracker_->correction();
+  if (!correction.problem().empty())
+    status.mergeSummary(DiagnosticStatus::WARN, correction.problem());
+  status.add("rig", tracker_->rigId());
+  status.add("correction of the volume", correction.state());
+  status.add("LEDs tracked", reported_.leds(TrackState::kTracked));
+  status.add("LEDs predicted", reported_.leds(TrackState::kPredicted));
+  status.add("LEDs tentative", reported_.leds(TrackState::kTentative));
+  status.addf("rate [Hz]", "%.1f", static_cast<double>(reported_.snapshots()) / period_);
+  status.addf("latency p50 [ms]", "%.3f", 1e3 * reported_.latency(0.50));
+  status.addf("latency p99 [ms]", "%.3f", 1e3 * reported_.latency(0.99));
+  const tracking::Counters& counters = tracker_->counters();
+  status.addf("images late", "%llu", count(counters.late));
+  status.addf("images dropped as too late", "%llu", count(counters.dropped));
+  status.addf("images repeated", "%llu", count(counters.repeated));
+  status.addf("images out of the order of arrival", "%llu", count(counters.disordered));
+  status.addf("times that time jumped back", "%llu", count(counters.resets));
+}
+
+void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
+  const CameraStatistics& statistics = reported_.camera(camera);
+  status.summary(DiagnosticStatus::OK, "in use");
+  if (statistics.images == 0)
+    status.summary(DiagnosticStatus::WARN, "no images");
+  for (const std::string& problem :
+       {statistics.problem, lenses_.problemOf(cameras_[camera]), clockProblem(camera)}) {
+    if (!problem.empty())
+      status.mergeSummary(DiagnosticStatus::WARN, problem);
+  }
+  status.addf("images [Hz]", "%.1f", static_cast<double>(statistics.images) / period_);
+  status.addf("delay from exposure to arrival [ms]", "%.3f", 1e3 * statistics.meanDelay());
+  status.addf("spots that belong to an LED [%]", "%.1f", 100.0 * statistics.shareOfInliers());
+  status.addf("residual [px]", "%.3f", statistics.residual());
+  status.add("spots masked", statistics.masked);
+}
+
+std::string TrackingDiagnostics::clockProblem(std::size_t camera) const {
+  const auto ahead = reported_clocks_.ahead(camera);
+  if (!ahead)
+    return "";
+  const std::string host = hostOf(nodes_[camera]);
+  std::ostringstream text;
+  text.precision(3);
+  text << "the clock " << (host.empty() ? "" : "of " + host + " ") << "behind " << cameras_[camera]
+       << " (" << nodes_[camera] << ") is " << (*ahead > 0.0 ? *ahead : -*ahead) << " s "
+       << (*ahead > 0.0 ? "ahead" : "behind, or its network is slow")
+       << ": run chrony on all computers";
+  return text.str();
+}
+
+}  // namespace wiimote_tracker

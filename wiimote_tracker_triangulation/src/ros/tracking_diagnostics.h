@@ -1,0 +1,58 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKING_DIAGNOSTICS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKING_DIAGNOSTICS_H
+
+#include "clock_watch.h"
+#include "lens_check.h"
+#include "message_tracker.h"
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// Says on /diagnostics how the tracking goes: one status for all, and one for each camera.
+class TrackingDiagnostics {
+ public:
+  /// `tracker` must live longer. `clock_tolerance`: see ClockWatch [s].
+  TrackingDiagnostics(const ros::NodeHandle& nh,
+                      const ros::NodeHandle& private_nh,
+                      MessageTracker* tracker,
+                      double clock_tolerance);
+
+  /// The tracker has taken a new rig.
+  void setRig();
+
+  /// An image of a camera of the rig was handled now. `node`: that published it.
+  void addArrival(const std::string& camera, const ros::Time& arrival, const std::string& node);
+
+  /// Publishes when it is time to.
+  void update() { updater_.update(); }
+
+ private:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  void report(Status& status);
+  void reportCamera(std::size_t camera, Status& status);
+  std::string clockProblem(std::size_t camera) const;
+
+  MessageTracker* tracker_;
+  ClockWatch clocks_;
+  LensCheck lenses_;
+  std::vector<std::string> cameras_;
+  std::vector<std::string> nodes_;  // per camera
+  diagnostic_updater::Updater updater_;
+
+  // Since the last report began; what the cameras' reports are about.
+  Statistics reported_;
+  ClockWatch reported_clocks_;
+  ros::WallTime since_ = ros::WallTime::now();
+  double period_ = 0.0;  // [s]
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKING_DIAGNOSTICS_H

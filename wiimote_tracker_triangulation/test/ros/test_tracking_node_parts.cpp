@@ -1,0 +1,334 @@
+// What the node knows besides tracking: names of LEDs, bad images, clocks, lenses, statistics.
+#include "clock_watch.h"
+#include "geometry/random_rigs.h"
+#include "image_message.h"
+#include "led_labels.h"
+#include "lens_check.h"
+#include "statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace wiimote_tracker {
+namespace {
+
+using geometry::Rig;
+using tracking::TrackedLed;
+using tracking::TrackState;
+using wiimote_tracker_msgs::IrBlob;
+using wiimote_tracker_msgs::IrBlobArray;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Rig someRig(int cameras) {
+  geometry::test::Random random(91);
+  return geometry::test::randomRig(random, cameras);
+}
+
+TrackedLed led(std::uint32_t id, TrackState state) {
+  TrackedLed led;
+  led.id = id;
+  led.state = state;
+  return led;
+}
+
+TEST(LedLabels, AreGivenInTheOrderOfConfirmation) {
+  LedLabels labels({"left", "right"});
+  labels.update({led(0, TrackState::kTentative), led(1, TrackState::kTentative)});
+  EXPECT_EQ("led_0", labels.of(0));
+  labels.update({led(0, TrackState::kTentative), led(1, TrackState::kTracked)});
+  EXPECT_EQ("led_0", labels.of(0));
+  EXPECT_EQ("left", labels.of(1));
+  labels.update(
+      {led(0, TrackState::kTracked), led(1, TrackState::kPredicted), led(2, TrackState::kTracked)});
+  EXPECT_EQ("right", labels.of(0));
+  EXPECT_EQ("left", labels.of(1)) << "kept while hidden";
+  EXPECT_EQ("led_2", labels.of(2));
+}
+
+TEST(LedLabels, OfALostTrackGoToTheNextNewOne) {
+  LedLabels labels({"led"});
+  labels.update({led(3, TrackState::kTracked), led(4, TrackState::kTracked)});
+  EXPECT_EQ("led", labels.of(3));
+  labels.update({led(3, TrackState::kLost), led(4, TrackState::kTracked)});
+  EXPECT_EQ("led", labels.of(3)) << "in the message that says so";
+  labels.update({led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
+  EXPECT_EQ("led_4", labels.of(4)) << "a track keeps its name";
+  EXPECT_EQ("led", labels.of(5));
+  EXPECT_EQ("led", labels.of(3)) << "still known to what looks back one snapshot";
+  labels.update({led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
+  EXPECT_EQ("led_3", labels.of(3));
+}
+
+TEST(LedLabels, AreAllFreeWhenTimeStartsAnew) {
+  LedLabels labels({"a", "b"});
+  labels.update({led(0, TrackState::kTracked), led(1, TrackState::kTracked)});
+  labels.clear();
+  EXPECT_EQ("a", labels.of(0));
+  labels.update({led(2, TrackState::kTracked)});
+  EXPECT_EQ("a", labels.of(2));
+}
+
+TEST(LedLabels, MayAllComeFromIds) {
+  LedLabels labels({});
+  labels.update({led(7, TrackState::kTracked)});
+  EXPECT_EQ("led_7", labels.of(7));
+}
+
+IrBlobArray goodImage(const geometry::Camera& camera) {
+  IrBlobArray image;
+  image.header.stamp = ros::Time(100, 250000000);
+  image.camera = camera.name;
+  image.identity = camera.identity;
+  image.arrival = ros::Time(100, 260000000);
+  image.stamp_stddev = 0.001;
+  image.clock_epoch = 3;
+  image.width = static_cast<std::uint32_t>(camera.intrinsics.width);
+  image.height = static_cast<std::uint32_t>(camera.intrinsics.height);
+  image.max_blobs = 4;
+  for (int i = 0; i < 2; ++i) {
+    IrBlob blob;
+    blob.x = 10.0 + i;
+    blob.y = 20.0;
+    blob.size = 5.0f;
+    blob.slot = static_cast<std::uint8_t>(2 + i);
+    image.blobs.push_back(blob);
+  }
+  return image;
+}
+
+TEST(ImageMessage, IsReadAsItStands) {
+  const geometry::Camera camera = someRig(1).cameras[0].camera;
+  tracking::CameraImage image;
+  EXPECT_EQ(ImageFault::kNone, readImage(goodImage(camera), camera, &image));
+  EXPECT_EQ(100.25, image.stamp);
+  EXPECT_EQ(100.26, image.arrival);
+  EXPECT_EQ(0.001, image.stamp_stddev);
+  EXPECT_EQ(3u, image.clock_epoch);
+  EXPECT_EQ(4u, image.maximum_spots);
+  ASSERT_EQ(2u, image.spots.size());
+  EXPECT_EQ(Eigen::Vector2d(11.0, 20.0), image.spots[1].pixel);
+  EXPECT_EQ(5.0, image.spots[1].size);
+  EXPECT_EQ(3, image.spots[1].slot);
+}
+
+TEST(ImageMessage, UnknownIsUnknown) {
+  const geometry::Camera camera = someRig(1).cameras[0].camera;
+  IrBlobArray message = goodImage(camera);
+  message.camera = message.identity = "";
+  message.arrival = ros::Time();
+  message.stamp_stddev = -1.0;
+  message.max_blobs = 0;
+  tracking::CameraImage image;
+  EXPECT_EQ(ImageFault::kNone, readImage(message, camera, &image));
+  EXPECT_EQ(image.stamp, image.arrival);
+  EXPECT_TRUE(std::isnan(image.stamp_stddev));
+  EXPECT_GT(image.maximum_spots, 1000000u) << "no number of spots means that the image is full";
+}
+
+TEST(ImageMessage, ImpossibleSpotsAreLeftOut) {
+  const geometry::Camera camera = someRig(1).cameras[0].camera;
+  const double width = camera.intrinsics.width;
+  const double height = camera.intrinsics.height;
+  for (const auto& [x, y] : std::vector<std::pair<double, double>>{{kNaN, 1.0},
+                                                                   {1.0, kNaN},
+                                                                   {kInfinity, 1.0},
+                                                                   {-1.0, 1.0},
+                                                                   {1.0, -1.0},
+                                                                   {width, 1.0},
+                                                                   {1.0, height},
+                                                                   {1e300, 1.0}}) {
+    IrBlobArray message = goodImage(camera);
+    message.blobs[0].x = x;
+    message.blobs[0].y = y;
+    tracking::CameraImage image;
+    const ImageFault fault = readImage(message, camera, &image);
+    EXPECT_EQ(ImageFault::kImpossibleSpots, fault) << x << " " << y;
+    EXPECT_TRUE(isUsable(fault));
+    ASSERT_EQ(1u, image.spots.size());
+    EXPECT_EQ(11.0, image.spots[0].pixel.x());
+    EXPECT_NE(std::string::npos, describe(fault, message, camera).find(camera.name));
+  }
+  IrBlobArray message = goodImage(camera);
+  message.blobs[0].x = width - 1.0;
+  message.blobs[1].y = 0.0;
+  tracking::CameraImage image;
+  EXPECT_EQ(ImageFault::kNone, readImage(message, camera, &image)) << "the border is inside";
+}
+
+TEST(ImageMessage, OfNoUseIsNamed) {
+  const geometry::Camera camera = someRig(1).cameras[0].camera;
+  const auto says = [&](const IrBlobArray& message, ImageFault expected, const std::string& words) {
+    tracking::CameraImage image;
+    const ImageFault fault = readImage(message, camera, &image);
+    EXPECT_EQ(expected, fault);
+    EXPECT_FALSE(isUsable(fault));
+    EXPECT_NE(std::string::npos, describe(fault, message, camera).find(words))
+        << describe(fault, message, camera);
+  };
+  IrBlobArray message = goodImage(camera);
+  message.header.stamp = ros::Time();
+  says(message, ImageFault::kNoTime, "carry no time");
+  message = goodImage(camera);
+  message.camera = "stranger";
+  says(message, ImageFault::kOtherCamera, "are from stranger");
+  message = goodImage(camera);
+  message.identity = "00:00:00:00:00:99";
+  says(message, ImageFault::kOtherDevice, "is device 00:00:00:00:00:99");
+  message = goodImage(camera);
+  message.width += 1;
+  says(message, ImageFault::kOtherSize, "calibrate again");
+  message = goodImage(camera);
+  message.height = 4294967295u;
+  says(message, ImageFault::kOtherSize, "4294967295");
+}
+
+TEST(ClockWatch, FindsNothingWhereClocksAgree) {
+  ClockWatch watch(0.02);
+  watch.clear(3);
+  EXPECT_FALSE(watch.ahead(0)) << "nothing known";
+  for (int i = 0; i < 100; ++i) {
+    watch.add(0, 0.001 + 0.0001 * i);
+    watch.add(1, 0.5 - 0.0049 * i);  // mostly slow
+  }
+  for (std::size_t camera = 0; camera < 3; ++camera)
+    EXPECT_FALSE(watch.ahead(camera)) << camera;
+}
+
+TEST(ClockWatch, FindsAClockThatIsAhead) {
+  ClockWatch watch(0.02);
+  watch.clear(3);
+  watch.add(0, 0.001);
+  watch.add(1, -0.1);
+  watch.add(2, 0.002);
+  EXPECT_FALSE(watch.ahead(0));
+  ASSERT_TRUE(watch.ahead(1));
+  EXPECT_NEAR(0.1, *watch.ahead(1), 1e-12);
+  EXPECT_FALSE(watch.ahead(2));
+  // From the future, also without others to compare with.
+  watch.clear(1);
+  watch.add(0, -0.1);
+  ASSERT_TRUE(watch.ahead(0));
+}
+
+TEST(ClockWatch, FindsTheOneThatIsBehindTheOthers) {
+  ClockWatch watch(0.02);
+  watch.clear(4);
+  for (std::size_t camera = 0; camera < 4; ++camera)
+    watch.add(camera, camera == 2 ? 0.3 : 0.001);
+  EXPECT_FALSE(watch.ahead(0));
+  ASSERT_TRUE(watch.ahead(2));
+  EXPECT_NEAR(-0.299, *watch.ahead(2), 1e-12);
+  // Of two, it is the one whose images take longer.
+  watch.clear(2);
+  watch.add(0, 0.3);
+  watch.add(1, 0.001);
+  EXPECT_TRUE(watch.ahead(0));
+  EXPECT_FALSE(watch.ahead(1));
+}
+
+TEST(ClockWatch, TakesADelayThatAllHaveForADelay) {
+  ClockWatch watch(0.02);
+  watch.clear(3);
+  for (std::size_t camera = 0; camera < 3; ++camera)
+    watch.add(camera, 1.7e9);  // a bag without its clock
+  for (std::size_t camera = 0; camera < 3; ++camera)
+    EXPECT_FALSE(watch.ahead(camera));
+}
+
+sensor_msgs::CameraInfo infoOf(const geometry::Intrinsics& lens) {
+  sensor_msgs::CameraInfo info;
+  info.width = static_cast<std::uint32_t>(lens.width);
+  info.height = static_cast<std::uint32_t>(lens.height);
+  info.distortion_model = "plumb_bob";
+  info.D.assign(lens.distortion.begin(), lens.distortion.end());
+  info.K[0] = lens.fx;
+  info.K[2] = lens.cx;
+  info.K[4] = lens.fy;
+  info.K[5] = lens.cy;
+  return info;
+}
+
+TEST(LensCheck, AgreesWithTheSameLensAndWithAnUnknownOne) {
+  const geometry::Camera camera = someRig(1).cameras[0].camera;
+  sensor_msgs::CameraInfo info = infoOf(camera.intrinsics);
+  EXPECT_EQ("", contradictionOf(info, camera));
+  info.K[2] += 1.0;  // as precise as a lens is known
+  EXPECT_EQ("", contradictionOf(info, camera));
+  info = sensor_msgs::CameraInfo();
+  EXPECT_EQ("", contradictionOf(info, camera)) << "not calibrated";
+}
+
+TEST(LensCheck, NamesAContradiction) {
+  const geometry::Camera camera = someRig(1).cameras[0].camera;
+  const auto contradicts = [&](const std::function<void(sensor_msgs::CameraInfo&)>& change) {
+    sensor_msgs::CameraInfo info = infoOf(camera.intrinsics);
+    change(info);
+    return contradictionOf(info, camera).find("camera_info of " + camera.name) == 0;
+  };
+  EXPECT_TRUE(contradicts([](auto& i) { i.K[0] *= 1.02; }));
+  EXPECT_TRUE(contradicts([](auto& i) { i.K[5] += 3.0; }));
+  EXPECT_TRUE(contradicts([](auto& i) { i.K[4] = kNaN; }));
+  EXPECT_TRUE(contradicts([](auto& i) { i.D[0] += 0.2; }));
+  EXPECT_TRUE(contradicts([](auto& i) { i.D.pop_back(); }));
+  EXPECT_TRUE(contradicts([](auto& i) { i.distortion_model = "rubber"; }));
+  EXPECT_TRUE(contradicts([](auto& i) { i.width += 1; }));
+}
+
+TEST(Statistics, CountsEachViewOnceAndNotWhatIsMasked) {
+  const Rig rig = someRig(2);
+  Statistics statistics;
+  statistics.setRig(rig);
+  const Eigen::Vector3d place(0.1, 0.2, 0.3);
+  tracking::Snapshot snapshot;
+  snapshot.time = 100.0;
+  snapshot.leds = {led(5, TrackState::kTracked), led(6, TrackState::kPredicted)};
+  snapshot.leds[0].position = place;
+  snapshot.views.resize(2);
+  snapshot.views[0].time = 100.0;
+  const Eigen::Vector2d pixel = *rig.cameras[0].camera.project(place);
+  snapshot.views[0].spots = {{pixel + Eigen::Vector2d(3.0, 4.0), tracking::SpotUse::kAssigned, 5},
+                             {{10.0, 10.0}, tracking::SpotUse::kMasked, 0},
+                             {{20.0, 10.0}, tracking::SpotUse::kUnassigned, 0}};
+  snapshot.views[1].time = 99.99;
+  snapshot.views[1].spots = {{{1.0, 1.0}, tracking::SpotUse::kUnassigned, 0}};
+  statistics.addSnapshot(snapshot);
+  EXPECT_EQ(1u, statistics.snapshots());
+  EXPECT_EQ(1u, statistics.leds(TrackState::kTracked));
+  EXPECT_EQ(1u, statistics.leds(TrackState::kPredicted));
+  EXPECT_EQ(0.5, statistics.camera(0).shareOfInliers());
+  EXPECT_EQ(1u, statistics.camera(0).masked);
+  EXPECT_NEAR(5.0, statistics.camera(0).residual(), 1e-9);
+  EXPECT_TRUE(std::isnan(statistics.camera(1).shareOfInliers())) << "counted at its own time";
+  EXPECT_TRUE(std::isnan(statistics.camera(1).residual()));
+}
+
+TEST(Statistics, DelaysLatenciesAndProblemsLastUntilTheyAreCleared) {
+  Statistics statistics;
+  statistics.setRig(someRig(1));
+  EXPECT_TRUE(std::isnan(statistics.latency(0.5)));
+  EXPECT_TRUE(std::isnan(statistics.camera(0).meanDelay()));
+  for (int i = 0; i <= 100; ++i)
+    statistics.addLatency(0.001 * ((i * 37) % 101));
+  EXPECT_NEAR(0.050, statistics.latency(0.50), 1e-12);
+  EXPECT_NEAR(0.099, statistics.latency(0.99), 1e-12);
+  tracking::CameraImage image;
+  image.stamp = 100.0;
+  for (const double arrival : {100.01, 100.03}) {
+    image.arrival = arrival;
+    statistics.addImage(0, image);
+  }
+  statistics.addProblem(0, "broken");
+  EXPECT_NEAR(0.02, statistics.camera(0).meanDelay(), 1e-9);
+  EXPECT_EQ(2u, statistics.camera(0).images);
+  EXPECT_EQ("broken", statistics.camera(0).problem);
+  statistics.clear();
+  EXPECT_EQ(0u, statistics.camera(0).images);
+  EXPECT_EQ("", statistics.camera(0).problem);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker

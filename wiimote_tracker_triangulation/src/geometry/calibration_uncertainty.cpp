@@ -1,0 +1,91 @@
+#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
+
+#include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::geometry {
+namespace {
+
+using Matrix3 = Eigen::Matrix3d;
+using Vector3 = Eigen::Vector3d;
+
+constexpr double kCellSize = 0.2;     // [m]
+constexpr std::size_t kCells = 1024;  // remembered at once
+constexpr double kSingular = 1e-10;
+constexpr double kFarthest = 1e6;  // [m]
+
+}  // namespace
+
+CalibrationUncertainty::CalibrationUncertainty(const Rig& rig) : rig_(rig), cells_(kCells) {}
+
+std::optional<Matrix3> CalibrationUncertainty::covarianceOf(const Vector3& point,
+                                                            const std::size_t* cameras,
+                                                            std::size_t count) const {
+  count = std::min(count, kMaximumCameras);
+  if (!isKnown() || count < 2)
+    return std::nullopt;
+  Matrix3 information = Matrix3::Zero();
+  std::array<Eigen::Matrix<double, 3, kParameters>, kMaximumCameras> by_parameters;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto projection = rayProjection(rig_, cameras[i], point);
+    if (!projection)
+      return std::nullopt;
+    information.noalias() += projection->by_point.transpose() * projection->by_point;
+    by_parameters[i].noalias() = projection->by_point.transpose() * projection->by_parameters;
+  }
+  // All from one place or in one line: below any angle that a point is triangulated from.
+  const double trace = information.trace();
+  if (!(information.determinant() > kSingular * trace * trace * trace))
+    return std::nullopt;
+  Matrix3 sum = Matrix3::Zero();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < count; ++j) {
+      const auto block = rig_.covariance.block<kParameters, kParameters>(
+          firstParameter(cameras[i]), firstParameter(cameras[j]));
+      const Eigen::Matrix<double, 3, kParameters> left = by_parameters[i].lazyProduct(block);
+      sum.noalias() += left * by_parameters[j].transpose();
+    }
+  }
+  const Matrix3 inverse = information.inverse();
+  const Matrix3 covariance = inverse * sum * inverse;
+  if (!covariance.allFinite())
+    return std::nullopt;
+  return Matrix3(0.5 * (covariance + covariance.transpose()));
+}
+
+std::optional<Matrix3> CalibrationUncertainty::covarianceNear(const Vector3& point,
+                                                              const std::size_t* cameras,
+                                                              std::size_t count) {
+  count = std::min(count, kMaximumCameras);
+  if (!isKnown() || count < 2 || !(point.cwiseAbs().maxCoeff() < kFarthest))
+    return std::nullopt;
+  std::array<std::int32_t, 3> place;
+  std::uint64_t hash = 1469598103934665603u;  // Fowler, Noll and Vo
+  const auto take = [&hash](std::uint64_t value) { hash = (hash ^ value) * 1099511628211u; };
+  for (int i = 0; i < 3; ++i) {
+    place[i] = static_cast<std::int32_t>(std::floor(point[i] / kCellSize));
+    take(static_cast<std::uint32_t>(place[i]));
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    take(cameras[i]);
+  Cell& cell = cells_[(hash ^ (hash >> 32)) % kCells];
+  if (cell.known && cell.place == place && cell.count == count &&
+      std::equal(cameras, cameras + count, cell.cameras.begin()))
+    return cell.covariance;
+
+  Vector3 middle;
+  for (int i = 0; i < 3; ++i)
+    middle[i] = kCellSize * (place[i] + 0.5);
+  cell.covariance = covarianceOf(middle, cameras, count);
+  cell.place = place;
+  cell.count = count;
+  std::copy(cameras, cameras + count, cell.cameras.begin());
+  cell.known = true;
+  return cell.covariance;
+}
+
+}  // namespace wiimote_tracker::geometry

@@ -1,0 +1,155 @@
+#include "geometry/random_rigs.h"
+#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
+#include "wiimote_tracker_triangulation/geometry/triangulate.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Cholesky>
+
+#include <cmath>
+
+namespace wiimote_tracker::geometry {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using test::Random;
+
+constexpr Eigen::Index kPerCamera = 16;
+constexpr std::size_t kAll[] = {0, 1, 2, 3};
+
+/// Four cameras whose parameters are uncertain, and correlated between cameras.
+Rig uncertainRig(Random& random) {
+  Rig rig = test::randomRig(random, 4);
+  const Eigen::Index n = kPerCamera * 4;
+  VectorXd scale(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Index k = i % kPerCamera;
+    scale[i] = k < 3 ? 1e-3 : k < 6 ? 3e-3 : k < 10 ? 2.0 : k < 15 ? 1e-3 : 0.0;
+  }
+  MatrixXd root = 0.3 * MatrixXd::Identity(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j)
+      root(i, j) += 0.15 * random.gaussian();
+  }
+  root = (scale.asDiagonal() * root).eval();
+  rig.covariance = root * root.transpose();
+  return rig;
+}
+
+/// The rig with its parameters off by that much, as RigCalibration.msg defines them.
+Rig shifted(const Rig& rig, const VectorXd& by) {
+  Rig result = rig;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const auto d = by.segment<kPerCamera>(kPerCamera * static_cast<Eigen::Index>(i));
+    Camera& camera = result.cameras[i].camera;
+    const Vector3d w = d.head<3>();
+    if (w.norm() > 0.0)
+      camera.world_from_camera.linear() =
+          Eigen::AngleAxisd(w.norm(), w.normalized()) * camera.world_from_camera.linear();
+    camera.world_from_camera.translation() += d.segment<3>(3);
+    camera.intrinsics.fx += d[6];
+    camera.intrinsics.fy += d[7];
+    camera.intrinsics.cx += d[8];
+    camera.intrinsics.cy += d[9];
+    for (int k = 0; k < 5; ++k)
+      camera.intrinsics.distortion[static_cast<std::size_t>(k)] += d[10 + k];
+  }
+  return result;
+}
+
+/// Where the rig says that a point is which other cameras, the true ones, see.
+Vector3d measured(const Rig& rig, const Rig& truth, const Vector3d& point) {
+  std::vector<Observation> observations;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
+    observations.push_back({&rig.cameras[i].camera, *truth.cameras[i].camera.project(point)});
+  return triangulate(observations, {})->position;
+}
+
+TEST(CalibrationUncertainty, IsTheSpreadOfPointsOverRigsDrawnFromTheCovariance) {
+  Random random(41);
+  const Rig rig = uncertainRig(random);
+  const Vector3d point(0.3, -0.2, 0.4);
+  const CalibrationUncertainty uncertainty(rig);
+  ASSERT_TRUE(uncertainty.isKnown());
+  const auto covariance = uncertainty.covarianceOf(point, kAll, 4);
+  ASSERT_TRUE(covariance);
+  // Small, so that it is linear; scaled back.
+  constexpr double kSmall = 0.05;
+  constexpr int kDraws = 4000;
+  MatrixXd root = rig.covariance;
+  root.diagonal().array() += 1e-15;
+  root = MatrixXd(root.llt().matrixL());
+  Matrix3d spread = Matrix3d::Zero();
+  for (int draw = 0; draw < kDraws; ++draw) {
+    VectorXd z(rig.covariance.rows());
+    for (Eigen::Index i = 0; i < z.size(); ++i)
+      z[i] = random.gaussian();
+    const Vector3d error =
+        (measured(rig, shifted(rig, kSmall * (root * z)), point) - point) / kSmall;
+    spread += error * error.transpose() / kDraws;
+  }
+  // Whitened, it is the identity, each element within four standard errors.
+  const Matrix3d whiten = covariance->llt().matrixL().solve(Matrix3d::Identity());
+  const Matrix3d whitened = whiten * spread * whiten.transpose();
+  const double standard_error = std::sqrt(2.0 / kDraws);
+  EXPECT_LT((whitened - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 4.0 * standard_error + 0.01);
+}
+
+TEST(CalibrationUncertainty, IsSystematic) {
+  // All cameras moved alike: the point moves with them, however many they are.
+  Random random(42);
+  Rig rig = test::randomRig(random, 4);
+  constexpr double kShift = 0.01;
+  rig.covariance = MatrixXd::Zero(4 * kPerCamera, 4 * kPerCamera);
+  for (int a = 0; a < 4; ++a) {
+    for (int b = 0; b < 4; ++b)
+      rig.covariance.block<3, 3>(kPerCamera * a + 3, kPerCamera * b + 3) =
+          kShift * kShift * Matrix3d::Identity();
+  }
+  const CalibrationUncertainty uncertainty(rig);
+  for (const std::size_t count : {2u, 3u, 4u}) {
+    const auto covariance = uncertainty.covarianceOf({0.1, 0.2, 0.3}, kAll, count);
+    ASSERT_TRUE(covariance);
+    EXPECT_LT((*covariance / (kShift * kShift) - Matrix3d::Identity()).norm(), 1e-6) << count;
+  }
+}
+
+TEST(CalibrationUncertainty, NearIsOfTheCellAndNeverOfAnother) {
+  Random random(43);
+  const Rig rig = uncertainRig(random);
+  CalibrationUncertainty uncertainty(rig);
+  for (int i = 0; i < 3000; ++i) {  // more than are remembered
+    const Vector3d point = random.inBox(1.0);
+    const std::size_t count = 2 + static_cast<std::size_t>(i) % 3;
+    const Vector3d middle = 0.2 * ((point / 0.2).array().floor() + 0.5).matrix();
+    const auto exact = uncertainty.covarianceOf(middle, kAll, count);
+    const auto near = uncertainty.covarianceNear(point, kAll, count);
+    ASSERT_EQ(exact.has_value(), near.has_value());
+    if (exact) {
+      ASSERT_LT((*exact - *near).norm(), 1e-9 * exact->norm());
+    }
+  }
+}
+
+TEST(CalibrationUncertainty, SaysWhenItDoesNotKnow) {
+  Random random(44);
+  Rig rig = uncertainRig(random);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  {
+    CalibrationUncertainty uncertainty(rig);
+    EXPECT_FALSE(uncertainty.covarianceOf({0.0, 0.0, 0.0}, kAll, 1));
+    EXPECT_FALSE(uncertainty.covarianceNear({nan, 0.0, 0.0}, kAll, 4));
+    EXPECT_FALSE(uncertainty.covarianceOf({0.0, 0.0, 1000.0}, kAll, 4));  // behind a camera
+    const std::size_t same[] = {0, 0};
+    EXPECT_FALSE(uncertainty.covarianceOf({0.0, 0.0, 0.0}, same, 2));
+  }
+  rig.covariance.resize(0, 0);
+  CalibrationUncertainty uncertainty(rig);
+  EXPECT_FALSE(uncertainty.isKnown());
+  EXPECT_FALSE(uncertainty.covarianceNear({0.0, 0.0, 0.0}, kAll, 4));
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::geometry

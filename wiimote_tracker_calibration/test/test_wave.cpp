@@ -58,6 +58,9 @@ WaveScene exactScene() {
   return scene;
 }
 
+// Where the length of the wave does not matter [s].
+constexpr double kShort = 8.0;
+
 TEST(Wave, WithoutNoiseEverythingIsFound) {
   const WaveScene scene = exactScene();
   const SimulatedWave wave = simulateWave(scene, 1);
@@ -81,6 +84,7 @@ TEST(Wave, WithoutNoiseEverythingIsFound) {
 TEST(Wave, IsAsAccurateAsTheFisherBoundAllows) {
   for (const std::size_t cameras : {2, 4}) {
     WaveScene scene;
+    scene.duration = kShort;
     scene.camera_count = cameras;
     double error = 0.0;
     double bound = 0.0;
@@ -107,6 +111,7 @@ TEST(Wave, IsAsAccurateAsTheFisherBoundAllows) {
 
 TEST(Wave, CovarianceIsTheInverseOfTheFisherInformation) {
   WaveScene scene;
+  scene.duration = kShort;
   scene.wrong_share = 0.0;
   scene.camera_count = 2;
   for (const double length : {0.0, 0.5}) {
@@ -168,6 +173,7 @@ TEST(Wave, AWrongStartIsTriedAgainFromElsewhere) {
 
 TEST(Wave, WandIsNearlyAsGoodAsPerfectCameras) {
   WaveScene scene;
+  scene.duration = kShort;
   scene.length = 0.5;
   for (const std::size_t cameras : {2, 4}) {
     scene.camera_count = cameras;
@@ -261,6 +267,7 @@ TEST(Wave, LampsDoNotHinderAStartWithoutSquare) {
 
 TEST(Wave, SlowErrorsOfTheStampsAreStatedInTheOffsets) {
   WaveScene scene;
+  scene.duration = kShort;
   scene.wander = 0.0003;
   double squared = 0.0;
   double stated = 0.0;
@@ -376,6 +383,7 @@ TEST(WaveRefuses, LedInAPlaneOrOnALine) {
 
 TEST(WaveRefuses, MirroredImage) {
   WaveScene scene;
+  scene.duration = kShort;
   SimulatedWave wave = simulateWave(scene, 1);
   const auto mirror = [](Eigen::Vector2d* pixel) { pixel->x() = 1023.0 - pixel->x(); };
   CameraRecording& camera = wave.recording.cameras[1];
@@ -404,6 +412,7 @@ TEST(WaveRefuses, CameraThatWasMovedAfterTheSquare) {
 
 TEST(WaveRefuses, LensThatCannotBe) {
   WaveScene scene;
+  scene.duration = kShort;
   scene.square = false;
   scene.camera_count = 2;
   scene.length = 0.5;

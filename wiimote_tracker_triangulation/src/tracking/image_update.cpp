@@ -1,5 +1,6 @@
 #include "image_update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,9 +21,10 @@ void ImageUpdate::apply(const GroupCamera& camera,
     const Candidate* other = mergedWith(candidate, *tracks);
     if (other)
       updateMerged(camera, image, candidate, *other,
-                   candidate.spot == kNone ? other->spot : candidate.spot, &track);
+                   candidate.spot == kNone ? other->spot : candidate.spot,
+                   isAlone(candidate, *tracks), &track);
     else if (candidate.spot != kNone)
-      updateTrack(camera, image, candidate, &track);
+      updateTrack(camera, image, candidate, isAlone(candidate, *tracks), &track);
     else if (candidate.expected)
       track.miss(image.camera, image.time);
   }
@@ -84,10 +86,25 @@ void ImageUpdate::assign(const StoredImage& image, const std::vector<Track>& tra
 void ImageUpdate::updateTrack(const GroupCamera& camera,
                               const StoredImage& image,
                               const Candidate& candidate,
+                              bool is_alone,
                               Track* track) const {
   const Eigen::Vector2d& pixel = image.pixels[static_cast<std::size_t>(candidate.spot)];
   if (track->filter.update(camera.forRays(), candidate.prediction, pixel))
-    track->hit(image.camera, pixel - candidate.prediction.pixel());
+    track->hit(image.camera, pixel - candidate.prediction.pixel(), is_alone);
+}
+
+/// False when an older LED, expected so near that the camera can not tell the two apart, is without
+/// a spot, or has one that this one would be in: the two may be one and the same.
+bool ImageUpdate::isAlone(const Candidate& candidate, const std::vector<Track>& tracks) const {
+  return std::none_of(
+      candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(candidate_count_),
+      [&](const Candidate& other) {
+        return tracks[other.track].isConfirmed() &&
+               tracks[other.track].id < tracks[candidate.track].id &&
+               (other.spot == kNone) != (candidate.spot == kNone) &&
+               (other.prediction.pixel() - candidate.prediction.pixel()).squaredNorm() <
+                   options_.merging_distance * options_.merging_distance;
+      });
 }
 
 /// The other LED whose light fell into the same spot: one of the two has a spot, the other none,
@@ -119,6 +136,7 @@ void ImageUpdate::updateMerged(const GroupCamera& camera,
                                const Candidate& candidate,
                                const Candidate& other,
                                int spot,
+                               bool is_alone,
                                Track* track) const {
   const Eigen::Vector2d between = candidate.prediction.pixel() - other.prediction.pixel();
   const Eigen::Vector2d middle = image.pixels[static_cast<std::size_t>(spot)];
@@ -134,7 +152,7 @@ void ImageUpdate::updateMerged(const GroupCamera& camera,
   }
   const Eigen::Vector2d residual = pixel - prediction->pixel();
   if (track->filter.update(camera.forRays(), *prediction, pixel))
-    track->hit(image.camera, residual);
+    track->hit(image.camera, residual, is_alone);
 }
 
 }  // namespace wiimote_tracker::tracking

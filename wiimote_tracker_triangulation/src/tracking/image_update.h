@@ -41,13 +41,16 @@ class ImageUpdate {
   void updateTrack(const GroupCamera& camera,
                    const StoredImage& image,
                    const Candidate& candidate,
+                   bool is_alone,
                    Track* track) const;
+  bool isAlone(const Candidate& candidate, const std::vector<Track>& tracks) const;
   const Candidate* mergedWith(const Candidate& candidate, const std::vector<Track>& tracks) const;
   void updateMerged(const GroupCamera& camera,
                     const StoredImage& image,
                     const Candidate& candidate,
                     const Candidate& other,
                     int spot,
+                    bool is_alone,
                     Track* track) const;
 
   TrackerOptions options_;

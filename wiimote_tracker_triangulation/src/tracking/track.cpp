@@ -8,6 +8,11 @@ namespace {
 
 constexpr unsigned kRecentImages = 0xf;  // the last four
 
+// A track that shares nearly all of about so many spots with an older one is that one's LED; two
+// LEDs that pass each other do so for fewer.
+constexpr double kAloneRate = 1.0 / 64.0;
+constexpr double kLeastAlone = 0.15;
+
 int bits(unsigned x) {
   int count = 0;
   for (; x; x &= x - 1)
@@ -54,14 +59,15 @@ void Track::miss(std::size_t camera, double time) {
   ++misses_in_a_row_;
 }
 
-void Track::hit(std::size_t camera, const Eigen::Vector2d& residual) {
+void Track::hit(std::size_t camera, const Eigen::Vector2d& residual, bool alone) {
   const double time = filter.time();
   Look& look = lookOf(camera, time);
   look.time = time;
   look.hit = time;
   look.squared_residual = residual.squaredNorm();
   look.recent = (look.recent << 1 | 1) & kRecentImages;
-  ++hits_;
+  hits_ += alone;
+  alone_ += kAloneRate * ((alone ? 1.0 : 0.0) - alone_);
   misses_in_a_row_ = 0;
   last_observed_ = time;
   place_ = filter.position();
@@ -80,7 +86,7 @@ void Track::judge(double time, const TrackerOptions& options) {
     last_located_ = time;
   if (confirmed_) {
     over_ = time - last_observed_ > options.prediction_time ||
-            time - last_located_ > options.single_view_time;
+            time - last_located_ > options.single_view_time || alone_ < kLeastAlone;
     return;
   }
   const std::size_t supported = supporters(time, options);

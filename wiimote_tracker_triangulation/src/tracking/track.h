@@ -33,8 +33,9 @@ class Track {
   /// A camera ought to have shown it, and did not.
   void miss(std::size_t camera, double time);
 
-  /// A camera's spot was taken in at the filter's time. @param residual [px]
-  void hit(std::size_t camera, const Eigen::Vector2d& residual);
+  /// A camera's spot was taken in at the filter's time. @param residual [px] @param alone no older
+  /// LED may be behind that spot.
+  void hit(std::size_t camera, const Eigen::Vector2d& residual, bool alone);
 
   /// Forgets which cameras saw it, for a rig whose cameras are others.
   void forgetCameras() { look_count_ = 0; }
@@ -67,6 +68,7 @@ class Track {
   double born_;           // [s]
   double last_observed_;  // by any camera [s]
   double last_located_;   // by two cameras at about one time [s]
+  double alone_ = 1.0;    // share of its recent spots that no older LED may be behind
   std::size_t hits_ = 0;
   std::size_t misses_in_a_row_ = 0;
   bool confirmed_ = false;

@@ -1,0 +1,138 @@
+#include "latency_probe.h"
+
+#include <boost/make_shared.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+namespace wiimote_tracker {
+namespace {
+
+constexpr std::size_t kWarmUp = 1000;   // points before the measurement begins
+constexpr double kPingPeriod = 0.0025;  // [s] as often as four cameras' images come
+constexpr double kPatience = 1.0;       // [s] for a pong
+
+/// Quantiles of latencies in seconds, as a line of YAML in milliseconds.
+std::string summary(const std::string& name, std::vector<double> seconds) {
+  if (seconds.empty())
+    return name + ": {count: 0}\n";
+  std::sort(seconds.begin(), seconds.end());
+  const auto at = [&](double share) {
+    return std::to_string(
+        1e3 * seconds[static_cast<std::size_t>(share * static_cast<double>(seconds.size() - 1))]);
+  };
+  return name + ": {count: " + std::to_string(seconds.size()) + ", p50: " + at(0.5) +
+         ", p95: " + at(0.95) + ", p99: " + at(0.99) + ", max: " + at(1.0) + "}\n";
+}
+
+}  // namespace
+
+LatencyProbe::LatencyProbe(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
+    : file_(private_nh.param<std::string>("file", "")),
+      seconds_(private_nh.param("seconds", 10.0)) {
+  if (file_.empty())
+    throw std::runtime_error("set " + private_nh.resolveName("file") +
+                             " to the file for the results");
+  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+  ros::NodeHandle handle(nh);
+  ping_ = handle.advertise<geometry_msgs::PointStamped>("latency/ping", 10);
+  pong_ = handle.subscribe("latency/pong", 10, &LatencyProbe::onPong, this, no_delay);
+  points_ = handle.subscribe("points", 1000, &LatencyProbe::onPoints, this, no_delay);
+  point_ = handle.subscribe(private_nh.param<std::string>("label", "led") + "/point", 1000,
+                            &LatencyProbe::onPoint, this, no_delay);
+  thread_ = std::thread([this] { run(); });
+}
+
+LatencyProbe::~LatencyProbe() {
+  ended_ = true;
+  change_.notify_all();
+  thread_.join();
+}
+
+void LatencyProbe::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  reported_[points->header.stamp] = points->latest_arrival;
+}
+
+void LatencyProbe::onPoint(const geometry_msgs::PointStampedConstPtr& point) {
+  const ros::Time now = ros::Time::now();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  came_[point->header.stamp] = now;
+}
+
+void LatencyProbe::onPong(const geometry_msgs::PointStampedConstPtr&) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_back_ = true;
+  }
+  change_.notify_all();
+}
+
+/// @returns whether to go on.
+bool LatencyProbe::wait(double seconds) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  change_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return ended_.load(); });
+  return !ended_;
+}
+
+void LatencyProbe::run() {
+  const auto count = [this] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return came_.size();
+  };
+  while (count() < kWarmUp || ping_.getNumSubscribers() == 0 || pong_.getNumPublishers() == 0) {
+    if (!wait(0.1))
+      return;
+  }
+  const std::string points = summary("points", measurePoints());
+  const std::string round_trips = summary("round_trips", measureRoundTrips());
+  if (ended_)
+    return;
+  std::ofstream(file_ + ".part") << points << round_trips;
+  std::rename((file_ + ".part").c_str(), file_.c_str());  // so that it is never half there
+}
+
+std::vector<double> LatencyProbe::measurePoints() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    came_.clear();
+    reported_.clear();
+  }
+  std::vector<double> latencies;
+  if (!wait(seconds_))
+    return latencies;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& [stamp, came] : came_) {
+    const auto reported = reported_.find(stamp);
+    if (reported != reported_.end())
+      latencies.push_back((came - reported->second).toSec());
+  }
+  return latencies;
+}
+
+std::vector<double> LatencyProbe::measureRoundTrips() {
+  using Clock = std::chrono::steady_clock;
+  using Seconds = std::chrono::duration<double>;
+  std::vector<double> latencies;
+  const Clock::time_point end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(Seconds(seconds_));
+  for (auto due = Clock::now(); due < end && !ended_;
+       due += std::chrono::duration_cast<Clock::duration>(Seconds(kPingPeriod))) {
+    std::this_thread::sleep_until(due);
+    std::unique_lock<std::mutex> lock(mutex_);
+    is_back_ = false;
+    lock.unlock();
+    const auto ping = boost::make_shared<geometry_msgs::PointStamped>();
+    const Clock::time_point begin = Clock::now();
+    ping_.publish(ping);
+    lock.lock();
+    if (change_.wait_for(lock, Seconds(kPatience), [this] { return is_back_; }))
+      latencies.push_back(Seconds(Clock::now() - begin).count());
+  }
+  return latencies;
+}
+
+}  // namespace wiimote_tracker

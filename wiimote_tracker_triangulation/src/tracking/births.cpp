@@ -35,6 +35,7 @@ Births::Births(const geometry::Rig& rig,
                const std::vector<std::vector<std::size_t>>& partners,
                const TrackerOptions& options)
     : options_(options),
+      motion_(&options.motion),
       partners_(partners),
       associator_(rig, partners, associationOptions(options)),
       sights_(rig.cameras.size()),
@@ -67,8 +68,7 @@ void Births::find(const std::vector<GroupCamera>& cameras,
                          [&](const Track& track) { return track.id == candidate; });
     });
     tracks->emplace_back(
-        motion::MotionFilter(options_.motion, time, point.point.position, point.point.covariance),
-        id);
+        motion::MotionFilter(*motion_, time, point.point.position, point.point.covariance), id);
   }
   // From the back, so that the places of the others stay.
   std::sort(used_.begin(), used_.end(), [](auto& a, auto& b) { return a.spot > b.spot; });

@@ -30,6 +30,7 @@ struct Unexplained {
 class Births {
  public:
   /// @param rig of the group's cameras alone. @param partners see association::sharedViews.
+  /// @param options must outlive the tracks: their filters refer to options.motion.
   Births(const geometry::Rig& rig,
          const std::vector<std::vector<std::size_t>>& partners,
          const TrackerOptions& options);
@@ -49,6 +50,7 @@ class Births {
   bool isWelcome(const association::AssociatedPoint& point) const;
 
   TrackerOptions options_;
+  const motion::MotionOptions* motion_;
   std::vector<std::vector<std::size_t>> partners_;
   association::ViewAssociator associator_;
   std::vector<std::array<geometry::Sight, association::kMaximumSpots>> sights_;

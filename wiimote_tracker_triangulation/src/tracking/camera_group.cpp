@@ -73,7 +73,8 @@ CameraGroup::Fate CameraGroup::add(const StoredImage& image,
 void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views) {
   const GroupCamera& camera = cameras_[image.camera];
   std::vector<Track>& tracks = state_.tracks;
-  update_.apply(camera, image, &tracks);
+  update_.apply(camera, image, &tracks, &state_.encounters);
+  endEncounters(image.time);
   show(image, views);
   collectUnexplained(image);
   births_.find(cameras_, image.camera, &state_.unexplained, &tracks, ids);
@@ -82,6 +83,22 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
                               [](const Track& track) { return track.isOver(); }),
                tracks.end());
+}
+
+/// Those that are decided, and those of tracks that are no more.
+void CameraGroup::endEncounters(double time) {
+  std::vector<Encounter>& encounters = state_.encounters;
+  const auto is_over = [&](const Encounter& encounter) {
+    std::array<motion::MotionFilter*, 2> filters{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (Track& track : state_.tracks) {
+        if (track.id == encounter.ids()[i])
+          filters[i] = &track.filter;
+      }
+    }
+    return !filters[0] || !filters[1] || encounter.decide(time, filters);
+  };
+  encounters.erase(std::remove_if(encounters.begin(), encounters.end(), is_over), encounters.end());
 }
 
 void CameraGroup::collectUnexplained(const StoredImage& image) {
@@ -124,6 +141,7 @@ void CameraGroup::adopt(const Track& track) {
 void CameraGroup::clear() {
   history_.clear();
   state_.tracks.clear();
+  state_.encounters.clear();
   std::fill(state_.unexplained.begin(), state_.unexplained.end(), Unexplained());
 }
 

@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_GROUP_H
 
 #include "births.h"
+#include "encounter.h"
 #include "group_camera.h"
 #include "history.h"
 #include "ids.h"
@@ -24,6 +25,7 @@ class CameraGroup {
   enum class Fate { kTaken, kLate, kRepeated, kDropped };
 
   /// @param members their places in the rig, ascending. @param partners of all cameras of the rig.
+  /// @param options must outlive the tracks, also where another group adopts them.
   CameraGroup(const geometry::Rig& rig,
               const std::vector<std::size_t>& members,
               const std::vector<std::vector<std::size_t>>& partners,
@@ -46,10 +48,12 @@ class CameraGroup {
   /// All that a late image may change.
   struct State {
     std::vector<Track> tracks;
+    std::vector<Encounter> encounters;
     std::vector<Unexplained> unexplained;  // of each camera
   };
 
   void step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
+  void endEncounters(double time);
   void collectUnexplained(const StoredImage& image);
   void show(const StoredImage& image, std::vector<CameraView>* views) const;
 

@@ -10,14 +10,20 @@ ImageUpdate::ImageUpdate(const TrackerOptions& options) : options_(options) {}
 
 void ImageUpdate::apply(const GroupCamera& camera,
                         const StoredImage& image,
-                        std::vector<Track>* tracks) {
+                        std::vector<Track>* tracks,
+                        std::vector<Encounter>* encounters) {
   noise_.pixel_stddev = options_.pixel_stddev;
   noise_.stamp_stddev = image.stamp_stddev;
   collectCandidates(camera, image, tracks);
   assign(image, *tracks);
+  findPartingSpots(camera, image, *tracks, *encounters);
+  openEncounters(*tracks, encounters);
+  followEncounters(camera, image, tracks, encounters);
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const Candidate& candidate = candidates_[i];
     Track& track = (*tracks)[candidate.track];
+    if (candidate.updated)
+      continue;
     const Candidate* other = mergedWith(candidate, *tracks);
     if (other)
       updateMerged(camera, image, candidate, *other,
@@ -50,6 +56,7 @@ void ImageUpdate::collectCandidates(const GroupCamera& camera,
     candidate.expected = !image.full && camera.isInImage(prediction->pixel(), 0.0) &&
                          !camera.isMasked(prediction->pixel());
     candidate.spot = kNone;
+    candidate.updated = false;
   }
 }
 
@@ -127,6 +134,84 @@ const ImageUpdate::Candidate* ImageUpdate::mergedWith(const Candidate& candidate
     }
   }
   return nearest;
+}
+
+/// Where one of two that met has no spot, but there is one where it may be by now.
+void ImageUpdate::findPartingSpots(const GroupCamera& camera,
+                                   const StoredImage& image,
+                                   const std::vector<Track>& tracks,
+                                   const std::vector<Encounter>& encounters) {
+  for (const Encounter& encounter : encounters) {
+    for (std::size_t i = 0; i < 2 && !encounter.hasParted(); ++i) {
+      Candidate* candidate = find(tracks, encounter.ids()[i]);
+      if (!candidate || candidate->spot != kNone)
+        continue;
+      const auto prediction =
+          encounter.motionOf(i, image.time).predictPixel(camera.forRays(), noise_);
+      double least = options_.gate;
+      for (std::size_t spot = 0; prediction && spot < image.spot_count; ++spot) {
+        const double distance = prediction->squaredDistance(image.pixels[spot]);
+        if (track_of_spot_[spot] != association::kGhost || !(distance < least))
+          continue;
+        least = distance;
+        candidate->spot = static_cast<int>(spot);
+      }
+      if (candidate->spot != kNone)
+        track_of_spot_[static_cast<std::size_t>(candidate->spot)] =
+            static_cast<int>(candidate->track);
+    }
+  }
+}
+
+void ImageUpdate::openEncounters(const std::vector<Track>& tracks,
+                                 std::vector<Encounter>* encounters) const {
+  for (std::size_t i = 0; i < candidate_count_; ++i) {
+    const Candidate& candidate = candidates_[i];
+    const Candidate* other = candidate.spot == kNone ? nullptr : mergedWith(candidate, tracks);
+    if (!other)
+      continue;
+    const Track& a = tracks[candidate.track];
+    const Track& b = tracks[other->track];
+    const bool is_open =
+        std::any_of(encounters->begin(), encounters->end(), [&](const Encounter& encounter) {
+          const auto& ids = encounter.ids();
+          return std::count(ids.begin(), ids.end(), a.id) ||
+                 std::count(ids.begin(), ids.end(), b.id);
+        });
+    if (!is_open)
+      encounters->emplace_back(a.id, b.id, Encounter::Filters{a.filter, b.filter});
+  }
+}
+
+void ImageUpdate::followEncounters(const GroupCamera& camera,
+                                   const StoredImage& image,
+                                   std::vector<Track>* tracks,
+                                   std::vector<Encounter>* encounters) {
+  for (Encounter& encounter : *encounters) {
+    const std::array<Candidate*, 2> both = {find(*tracks, encounter.ids()[0]),
+                                            find(*tracks, encounter.ids()[1])};
+    if (!both[0] || !both[1] || both[0]->spot == kNone || both[1]->spot == kNone)
+      continue;
+    Encounter::Pixels pixels;
+    std::array<motion::MotionFilter*, 2> filters;
+    for (std::size_t i = 0; i < 2; ++i) {
+      pixels[i] = image.pixels[static_cast<std::size_t>(both[i]->spot)];
+      filters[i] = &(*tracks)[both[i]->track].filter;
+    }
+    encounter.take(camera.forRays(), noise_, pixels, filters);
+    for (std::size_t i = 0; i < 2; ++i) {
+      both[i]->updated = true;
+      (*tracks)[both[i]->track].hit(image.camera, pixels[i] - both[i]->prediction.pixel(), true);
+    }
+  }
+}
+
+ImageUpdate::Candidate* ImageUpdate::find(const std::vector<Track>& tracks, std::uint32_t id) {
+  for (std::size_t i = 0; i < candidate_count_; ++i) {
+    if (tracks[candidates_[i].track].id == id)
+      return &candidates_[i];
+  }
+  return nullptr;
 }
 
 /// One spot of two LEDs lies between them, perhaps nearer to the brighter one. It moves both by the

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_UPDATE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_UPDATE_H
 
+#include "encounter.h"
 #include "group_camera.h"
 #include "stored_image.h"
 #include "track.h"
@@ -9,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
@@ -19,7 +21,10 @@ class ImageUpdate {
  public:
   explicit ImageUpdate(const TrackerOptions& options);
 
-  void apply(const GroupCamera& camera, const StoredImage& image, std::vector<Track>* tracks);
+  void apply(const GroupCamera& camera,
+             const StoredImage& image,
+             std::vector<Track>* tracks,
+             std::vector<Encounter>* encounters);
 
   /// Of each spot of that image, its place in `tracks` or association::kGhost.
   const std::array<int, association::kMaximumSpots>& trackOfSpot() const { return track_of_spot_; }
@@ -31,6 +36,7 @@ class ImageUpdate {
     motion::PixelPrediction prediction;
     bool expected;  // the image ought to show it
     int spot;       // given to it, or kNone
+    bool updated;   // by an encounter
   };
   static constexpr int kNone = -1;
 
@@ -52,6 +58,17 @@ class ImageUpdate {
                     int spot,
                     bool is_alone,
                     Track* track) const;
+
+  void findPartingSpots(const GroupCamera& camera,
+                        const StoredImage& image,
+                        const std::vector<Track>& tracks,
+                        const std::vector<Encounter>& encounters);
+  void openEncounters(const std::vector<Track>& tracks, std::vector<Encounter>* encounters) const;
+  void followEncounters(const GroupCamera& camera,
+                        const StoredImage& image,
+                        std::vector<Track>* tracks,
+                        std::vector<Encounter>* encounters);
+  Candidate* find(const std::vector<Track>& tracks, std::uint32_t id);
 
   TrackerOptions options_;
   motion::PixelNoise noise_;  // of the image

@@ -23,14 +23,20 @@ import rospy
 import rosservice
 import rostest
 from geometry_msgs.msg import Vector3
+from sensor_msgs.msg import CameraInfo
 from wiimote_tracker_evaluation import experiment, scene
-from wiimote_tracker_msgs.msg import CalibrationVerdict, RigCalibration
-from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
+from wiimote_tracker_msgs.msg import BoardStatus, CalibrationVerdict, RigCalibration
+from wiimote_tracker_msgs.srv import (SetLed, SetLedRequest, SolveBoard,
+                                      SolveBoardRequest)
 
 CALIBRATE = ['rosrun', 'wiimote_tracker_calibration', 'calibrate']
 DEADLINE = 60.0   # [s]
 ATTEMPTS = 5
 CARRY_SPEED = 5.0  # [m/s]
+BOARD_STILL = 6.0  # [s] three cycles of the board
+SIGMAS = 4.0
+KNOWN_PLACES = ((0.3, 0.3, 0.2), (2.2, 0.3, 0.4), (2.2, 2.2, 0.2), (0.3, 2.2, 1.4),
+                (2.2, 0.3, 1.6), (1.2, 1.3, 1.0), (0.4, 0.5, 1.5), (1.9, 2.0, 1.5))
 WAVE_SPEED = 1.3  # [m/s]
 WAVE_MIDDLE, WAVE_BOX = (1.25, 1.25, 1.2), (2.3, 2.3, 2.1)  # [m]
 # Square root of the 99.9 % and 0.1 % quantiles of chi-squared / degrees of freedom, for three: as
@@ -83,10 +89,10 @@ class Program(object):
 class Screen(object):
     """calibrate on a terminal of 80 x 24."""
 
-    def __init__(self):
+    def __init__(self, *arguments):
         self._terminal, slave = pty.openpty()
         fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack('HHHH', 24, 80, 0, 0))
-        self._process = subprocess.Popen(CALIBRATE, stdin=slave, stdout=slave, stderr=slave,
+        self._process = subprocess.Popen(CALIBRATE + list(arguments), stdin=slave, stdout=slave, stderr=slave,
                                          env=dict(os.environ, TERM='xterm'), start_new_session=True)
         os.close(slave)
         self.seen = ''
@@ -229,6 +235,8 @@ class GuidedCalibration(unittest.TestCase):
         self.assertEqual([len(camera.masks) for camera in rig.cameras], [1] * 4)
         self.compare_with_truth(rig, verdict)
         self.check_on_the_screen()
+        self.correct_the_volume_and_recalibrate()
+        self.lens_by_the_board_on_the_screen()
 
     def compare_with_truth(self, rig, verdict):
         by_name = {camera.name.strip('/'): solved_camera(camera) for camera in rig.cameras}
@@ -259,6 +267,84 @@ class GuidedCalibration(unittest.TestCase):
         screen.expect(r'\d mm' if offered else 'does not answer')
         screen.type('q')
         self.assertEqual(screen.end(), 0)
+
+    def ask(self, program, line, answer):
+        """Asks until it is not refused: an LED that a slow computer shows on its way still."""
+        for _ in range(ATTEMPTS):
+            program.type(line)
+            if 'refused' not in program.expect('^(%s|refused)' % answer):
+                return
+        self.fail('\n'.join(program.heard))
+
+    def correct_the_volume_and_recalibrate(self):
+        """What else there is once a rig is solved, by words."""
+        program = Program()
+        program.expect('c checks the rig')
+        program.type('fit')
+        program.expect('^refused: ')
+        for number, place in enumerate(KNOWN_PLACES, 1):
+            self.carry(place)
+            self.ask(program, 'place %g %g %g' % place, 'place %d measured at' % number)
+        self.ask(program, 'fit affine', r'the volume is corrected \(affine\)')
+        self.carry((1.25, 1.25, 1.0))
+        self.ask(program, 'check 1.25 1.25 1.0', 'measured')
+        self.led(target=WAVE_MIDDLE, motion=SetLedRequest.WAVE, speed=WAVE_SPEED,
+                 box=Vector3(*WAVE_BOX), path=2)
+        self.ask(program, 'recalibrate wiimote_2 8', 'wiimote_2')
+        program.type('join %s' % self.rig_file)
+        program.expect('^refused: all cameras of the second rig are in the first')
+        program.type('quit')
+        program.expect('Nothing was calibrated and saved')
+        program.end()
+
+    def lens_by_the_board_on_the_screen(self):
+        """calibrate --board, from the first view to the driver's new lens."""
+        self.led(on=False)
+        views = []
+        rospy.Subscriber('calibration/board', BoardStatus,
+                         lambda board: views.append((board.views, len(board.missing))))
+        screen = Screen('--board', 'wiimote_1')
+        screen.expect('Hold the 16-LED board in front of wiimote_1')
+        screen.type(' ')
+        # What stays the same on the screen is not drawn again.
+        screen.expect('board still for two seconds')
+        self.show_board_until_enough(views)
+        screen.expect('solves the lens')
+        screen.type(' ')
+        screen.expect('saves the lens')
+        screen.type(' ')
+        screen.expect('driver has it')
+        screen.type('q')
+        self.assertEqual(screen.end(), 0)
+        self.led('board', on=False)
+        self.led(on=True)
+        while True:  # the driver's next images
+            info = rospy.wait_for_message('wiimote_1/camera_info', CameraInfo, DEADLINE)
+            if info.K[0] > 0.0:
+                break
+        # The views are still there: the same lens again, and one as the simulated lens is.
+        solve = rospy.ServiceProxy('calibration/board/solve', SolveBoard)
+        self.assertEqual(info.K, solve(SolveBoardRequest.AUTOMATIC).camera_info.K)
+        lens = solve(SolveBoardRequest.K1)
+        self.assertTrue(lens.success, lens.message)
+        truth = self.scene.cameras[0].parameters
+        for measured, true, sigma in zip((lens.camera_info.K[0], lens.camera_info.K[4]), truth,
+                                         lens.stddev):
+            print('focal length %.1f +- %.1f px, truly %.1f px' % (measured, sigma, true))
+            self.assertLess(abs(measured - true), SIGMAS * sigma)
+
+    def show_board_until_enough(self, views):
+        """One pose after the other; a computer that is slow gets more of them."""
+        end = time.monotonic() + 2 * DEADLINE
+        pose = 0
+        while not views or views[-1][0] == 0 or views[-1][1] > 0:
+            self.assertLess(time.monotonic(), end, views)
+            pose += 1
+            self.led('board', motion=SetLedRequest.SHOW, path=pose)
+            before = views[-1][0] if views else 0
+            still = time.monotonic() + BOARD_STILL
+            while time.monotonic() < still and not (views and views[-1][0] > before):
+                time.sleep(0.05)
 
 
 if __name__ == '__main__':

@@ -313,6 +313,35 @@ TEST(Tracker, TwoThatAreOneSpotInOneViewKeepTheirNames) {
   EXPECT_EQ(0u, check.uncovered);
 }
 
+TEST(Tracker, TwoThatAreOneSpotInAllViewsAreToldApartByTheirMotion) {
+  // They pass each other 1 cm apart, which no view resolves.
+  const Eigen::Vector3d middle(1.25, 1.25, 1.0);
+  for (const double speed : {0.3, 0.6, 1.2}) {
+    const Eigen::Vector3d velocity = speed * Eigen::Vector3d(0.6, 0.0, 0.8);
+    const std::vector<Path> leds = {
+        test::straight(middle, velocity, 1001.5),
+        test::straight(middle + Eigen::Vector3d(0.0, 0.01, 0.0), -velocity, 1001.5)};
+    SceneOptions options;
+    options.merging_distance = 8.0;
+    options.start = 1001.1;
+    const std::vector<SceneImage> images = imagesOf(paperRig(), leds, options, 320);
+    std::set<std::size_t> merged;
+    for (const SceneImage& image : images) {
+      if (image.leds_of_spot == std::vector<std::uint64_t>{3})
+        merged.insert(image.camera);
+    }
+    EXPECT_EQ(4u, merged.size());
+    Tracker tracker(paperRig(), exact());
+    IdentityCheck check(leds);
+    for (const Snapshot& snapshot : track(&tracker, images)) {
+      if (snapshot.time > 1001.3)
+        check.look(snapshot);
+    }
+    EXPECT_EQ(0u, check.switches) << speed;
+    EXPECT_EQ(0u, check.renamed) << speed;
+  }
+}
+
 TEST(Tracker, LightsOfSingleCamerasAreNoLeds) {
   SceneOptions options;
   options.reflections = {{{100.0, 700.0}, {700.0, 60.0}}, {{900.0, 40.0}}, {}, {{60.0, 60.0}}};

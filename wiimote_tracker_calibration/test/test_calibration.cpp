@@ -353,6 +353,7 @@ TEST_F(Workflow, cancel_stops_a_long_task_first) {
   calibration_.end({false, "it was cancelled"});
   EXPECT_EQ(calibration_.step(), Step::kComplete);
   ASSERT_TRUE(calibration_.begin(Step::kMeasuring, "measuring").success);
+  EXPECT_TRUE(calibration_.isBusyWith(Step::kMeasuring));
   calibration_.setProgress(0.5);
   EXPECT_EQ(calibration_.progress(), 0.5);
   calibration_.end({true, "measured"});

@@ -1,0 +1,67 @@
+#include "measurement_message.h"
+
+#include <string>
+
+namespace wiimote_tracker {
+namespace {
+
+using wiimote_tracker_msgs::TrackedPoint;
+
+std::string wordOf(std::uint8_t state) {
+  switch (state) {
+    case TrackedPoint::TENTATIVE:
+      return "tentative";
+    case TrackedPoint::TRACKED:
+      return "tracked";
+    case TrackedPoint::PREDICTED:
+      return "predicted";
+    case TrackedPoint::LOST:
+      return "lost";
+  }
+  return std::to_string(state);  // of a later version of the message
+}
+
+std::int64_t nanoseconds(const ros::Time& time) {
+  return static_cast<std::int64_t>(time.toNSec());
+}
+
+template <typename Vector>  // Point, Vector3
+Eigen::Vector3d vector(const Vector& v) {
+  return {v.x, v.y, v.z};
+}
+
+template <typename Array>
+Eigen::Matrix3d matrix(const Array& row_major) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(row_major.data());
+}
+
+}  // namespace
+
+void writeMeasurements(const wiimote_tracker_msgs::TrackedPointArray& points,
+                       bool triggered,
+                       measurements::Writer* writer) {
+  measurements::Measurement m;
+  m.stamp = nanoseconds(points.header.stamp);
+  m.triggered = triggered;
+  m.frame = points.header.frame_id;
+  m.rig_id = points.rig_id;
+  m.method = points.method;
+  for (const TrackedPoint& point : points.points) {
+    m.id = point.id;
+    m.label = point.label;
+    m.state = wordOf(point.state);
+    m.position = vector(point.position);
+    m.position_covariance = matrix(point.position_covariance);
+    m.velocity = vector(point.velocity);
+    m.velocity_covariance = matrix(point.velocity_covariance);
+    m.rays_used = point.rays_used;
+    m.rays_possible = point.rays_possible;
+    m.residual = point.residual;
+    m.last_observed = nanoseconds(point.last_observed);
+    m.age = point.age;
+    m.remapped = point.remapped;
+    writer->add(m);
+  }
+}
+
+}  // namespace wiimote_tracker

@@ -1,0 +1,33 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_EARLIER_RESULTS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_EARLIER_RESULTS_H
+
+#include "topics.h"
+
+#include <topic_tools/shape_shifter.h>
+
+#include <boost/shared_ptr.hpp>
+
+#include <set>
+#include <string>
+
+namespace wiimote_tracker {
+
+/// Knows which messages of a bag a tracker computed before.
+class EarlierResults {
+ public:
+  /// @param labels of LEDs, in the earlier results.
+  EarlierResults(const Topics& topics, const std::set<std::string>& labels);
+
+  /// What of a message is not an earlier result; null when all of it is.
+  boost::shared_ptr<const topic_tools::ShapeShifter> rest(
+      const std::string& topic,
+      const boost::shared_ptr<const topic_tools::ShapeShifter>& message) const;
+
+ private:
+  std::set<std::string> topics_;
+  std::set<std::string> labels_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_EARLIER_RESULTS_H

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""record_points writes what is published on points and triggered_points, whole when it is stopped."""
+
+import csv
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import genpy
+import roslib.packages
+import rospy
+from wiimote_tracker_msgs.msg import TrackedPoint, TrackedPointArray
+
+PACKAGE = 'wiimote_tracker_triangulation'
+PROGRAM = roslib.packages.find_node(PACKAGE, 'record_points')[0]
+
+
+def wait_for(condition, what):
+    end = time.monotonic() + 60.0
+    while not condition():
+        if time.monotonic() > end or rospy.is_shutdown():
+            raise AssertionError('waited in vain for ' + what)
+        time.sleep(0.005)
+
+
+def array(number, *ids):
+    message = TrackedPointArray(rig_id='0123', method='track')
+    message.header.stamp = genpy.Time(1600000000, number)
+    message.header.frame_id = 'world'
+    for i in ids:
+        point = TrackedPoint(id=i, label='led', state=TrackedPoint.TRACKED, residual=0.1 * i)
+        point.position.x = number / 3.0
+        message.points.append(point)
+    return message
+
+
+class RecordPoints(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.path = os.path.join(self.folder, 'out.csv')
+
+    def start(self, *arguments):
+        process = subprocess.Popen([PROGRAM] + list(arguments), stdout=subprocess.PIPE,
+                                   stderr=subprocess.STDOUT, universal_newlines=True)
+        self.addCleanup(lambda: process.poll() is None and process.kill())
+        return process
+
+    def rows(self, path):
+        with open(path, newline='') as stream:
+            return [(r['time [s]'], r['triggered'], r['id'], float(r['x [m]']))
+                    for r in csv.DictReader(stream)]
+
+    def lines(self, path):
+        """Whole ones, without the header."""
+        with open(path) as stream:
+            return stream.read().count('\n') - 1
+
+    def test_rows_arrive_and_the_file_is_whole_at_the_end(self):
+        points = rospy.Publisher('/points', TrackedPointArray, queue_size=100)
+        triggered = rospy.Publisher('/triggered_points', TrackedPointArray, queue_size=100)
+        process = self.start('_csv:=' + self.path, '_flush_period:=0.05')
+        for publisher in (points, triggered):
+            wait_for(lambda: publisher.get_num_connections() > 0, publisher.resolved_name)
+        for number in range(50):
+            points.publish(array(number, 3, 7))
+        part = self.path + '.part'
+        wait_for(lambda: os.path.exists(part) and self.lines(part) == 100, 'rows on the disk')
+        triggered.publish(array(77, 3))
+        wait_for(lambda: self.lines(part) == 101, 'the row of the trigger')
+        self.assertFalse(os.path.exists(self.path))
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(60), 0)
+        expected = [('1600000000.%09d' % n, '0', str(i), n / 3.0) for n in range(50) for i in (3, 7)]
+        self.assertEqual(self.rows(self.path),
+                         expected + [('1600000000.000000077', '1', '3', 77 / 3.0)])
+
+    def test_says_what_is_missing_or_wrong(self):
+        for arguments, words in [((), 'csv or'), (('_csv:=' + self.path, '_cvs:=x'), 'unknown'),
+                                 (('_csv:=' + self.folder,), 'cannot write')]:
+            name = '__name:=recorder_%d' % len(words)
+            process = self.start(name, *arguments)
+            output = process.communicate(timeout=60)[0]
+            self.assertEqual(process.returncode, 1)
+            self.assertIn(words, output)
+
+
+if __name__ == '__main__':
+    import rostest
+    rospy.init_node('record_points_test')
+    rostest.rosrun(PACKAGE, 'record_points', RecordPoints, sys.argv)

@@ -67,6 +67,7 @@ TEST(AssociateViews, WhereAlmostEverythingFitsItIsTheBestOfAllDivisions) {
   options.ghost = 22.0;
   options.point = 22.0;
   options.maximum_pair_chi_squared = 60.0;  // the oracle has no gate
+  options.maximum_steps = 100000;
   Disturbance disturbance;
   disturbance.pixel_stddev = 3.0;
   disturbance.dropout = 0.2;
@@ -74,10 +75,10 @@ TEST(AssociateViews, WhereAlmostEverythingFitsItIsTheBestOfAllDivisions) {
   for (const int cameras : {2, 3, 4}) {
     const geometry::Rig rig = geometry::test::randomRig(random, cameras);
     ViewAssociator associator(rig, sharedViews(rig, kRange), options);
-    for (int frame = 0; frame < 25; ++frame) {
+    for (int frame = 0; frame < 60; ++frame) {
       std::vector<Vector3d> leds;
       for (int i = 0; i < 3; ++i)
-        leds.push_back(random.inBox(0.3));
+        leds.push_back(random.inBox(0.15));
       SimulatedViews views = simulateViews(random, rig, leds, disturbance);
       views.views[0].full = frame % 3 == 0;
       views.views[1].watching = frame % 3 != 1 || views.views[1].count > 0;
@@ -87,6 +88,29 @@ TEST(AssociateViews, WhereAlmostEverythingFitsItIsTheBestOfAllDivisions) {
                  divisionOf(association, static_cast<std::size_t>(cameras)), frame);
     }
   }
+}
+
+TEST(AssociateViews, SpotsThatFitBadlyEnterWhereThatIsTheBestOfAllDivisions) {
+  Random random(27);
+  const geometry::Rig rig = ringRig(4);
+  AssociationOptions options;
+  options.maximum_pair_chi_squared = 300.0;  // the oracle has no gate
+  options.maximum_steps = 100000;
+  ViewAssociator associator(rig, sharedViews(rig, kRange), options);
+  std::size_t kept = 0;
+  for (int frame = 0; frame < 40; ++frame) {
+    SimulatedViews views = simulateViews(random, rig, randomLeds(random, rig, 3), {});
+    const auto view = static_cast<std::size_t>(random.uniform(0.0, 4.0));
+    Eigen::Vector2d& pixel = views.pixels[view][0];
+    pixel.x() += random.uniform(2.0, 6.0);  // 4 to 12 standard deviations
+    views.sights[view][0] = *geometry::sightFromPixel(rig.cameras[view].camera, pixel);
+    const Association& association = associator.associate(views.views);
+    EXPECT_TRUE(association.proven);
+    expectSame(bestDivision(rig, views, options), divisionOf(association, 4), frame);
+    kept += association.spots.size();
+  }
+  EXPECT_GT(kept, 40u * 11u + 3u) << "sometimes it enters";
+  EXPECT_LT(kept, 40u * 12u - 3u) << "and sometimes not";
 }
 
 TEST(AssociateViews, GivesThePointOfItsSpotsAndWhatItCosts) {

@@ -564,6 +564,7 @@ struct Crowd {
   std::size_t leds = 4;
   double noise = 0.0;  // [px]
   std::function<bool(std::size_t led, double time)> is_dark = nullptr;
+  std::function<Vector3d(std::size_t led, double time)> path = pathOf;
 };
 
 /// As film(), of several LEDs, in an order that changes all the time.
@@ -575,7 +576,7 @@ std::vector<Delivery> filmCrowd(const Rig& rig, double begin, double end, const 
     for (std::size_t led = 0; led < crowd.leds; ++led) {
       if (crowd.is_dark && crowd.is_dark(led, d.image.stamp))
         continue;
-      const auto pixel = rig.cameras[d.camera].camera.project(pathOf(led, d.image.stamp));
+      const auto pixel = rig.cameras[d.camera].camera.project(crowd.path(led, d.image.stamp));
       const double u = pixel->x() + crowd.noise * random.gaussian();
       const double v = pixel->y() + crowd.noise * random.gaussian();
       d.image.spots.push_back(spotAt({u, v}));
@@ -653,6 +654,27 @@ TEST(InstantFuser, AnIdLastsThroughAShortAbsenceAndLossIsSaidOnce) {
   }
   ASSERT_EQ(1u, lost.size());
   EXPECT_NEAR(101.2, lost[0], kPeriod);
+}
+
+TEST(InstantFuser, AnLedThatIsThereIsNotTakenForOneThatIsAbsent) {
+  // The second LED passes right where the first one went dark.
+  const Rig rig = fourCameras();
+  InstantFuser fuser(rig, {});
+  Crowd crowd;
+  crowd.leds = 2;
+  crowd.is_dark = [](std::size_t led, double t) { return led == 0 && t > 100.3; };
+  crowd.path = [](std::size_t led, double t) {
+    return led == 0 ? Vector3d(0.1, 0.0, 0.0) : Vector3d(t - 100.5, 0.0, 0.0);
+  };
+  std::uint32_t second = 0;
+  for (const Snapshot& instant : fuse(fuser, filmCrowd(rig, 100.0, 100.75, crowd))) {
+    for (const TrackedLed& led : instant.leds) {
+      const bool is_second = std::abs(led.position.x() - (instant.time - 100.5)) < 1e-3;
+      if (is_second && instant.time < 100.3)
+        second = led.id;
+      EXPECT_TRUE(!is_second || instant.time < 100.3 || led.id == second) << instant.time;
+    }
+  }
 }
 
 TEST(InstantFuser, AnLedIsTentativeAtFirst) {

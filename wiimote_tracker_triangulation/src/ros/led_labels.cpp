@@ -20,8 +20,8 @@ void LedLabels::update(const std::vector<tracking::TrackedLed>& leds) {
 void LedLabels::giveFreeLabel(std::uint32_t id) {
   const auto label = std::find_if(listed_.begin(), listed_.end(),
                                   [&](const std::string& l) { return !isTaken(l); });
-  // Also without a listed one, so that it keeps this name when another one becomes free.
-  given_[id] = label != listed_.end() ? *label : unlisted(id);
+  if (label != listed_.end())
+    given_[id] = *label;
 }
 
 bool LedLabels::isTaken(const std::string& label) const {

@@ -11,9 +11,9 @@
 namespace wiimote_tracker {
 
 /// The names of the LEDs. A track that is confirmed takes the first name of a list that is free,
-/// and keeps it until it is lost; then the name is free for the next track that is confirmed. So a
-/// room with one LED always has it under the first name. Before that, and when the list is used up,
-/// a track is called led_<id>.
+/// and keeps it until it is lost; then the name goes to the oldest track that has none, or to the
+/// next that is confirmed. So a room with one LED always has it under the first name. A track
+/// without a name of the list is called led_<id>.
 class LedLabels {
  public:
   explicit LedLabels(const std::vector<std::string>& labels) : listed_(labels) {}
@@ -35,7 +35,7 @@ class LedLabels {
   bool isTaken(const std::string& label) const;
 
   std::vector<std::string> listed_;
-  std::map<std::uint32_t, std::string> given_;  // by id of the track
+  std::map<std::uint32_t, std::string> given_;  // listed ones, by id of the track
   std::vector<std::uint32_t> lost_;             // since the last update began
   std::vector<std::uint32_t> forgotten_;        // before; their labels are free
 };

@@ -2,6 +2,9 @@
 
 #include "point_message.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace wiimote_tracker {
 
 using wiimote_tracker_msgs::TrackedPoint;
@@ -17,8 +20,6 @@ LedPublishers::LedPublishers(const ros::NodeHandle& nh,
 void LedPublishers::publish(const wiimote_tracker_msgs::TrackedPointArray& points) {
   transforms_.clear();
   for (const TrackedPoint& point : points.points) {
-    if (point.state == TrackedPoint::LOST && listed_.count(point.label) == 0)
-      publishers_.erase(point.label);
     if (!isPosition(point, publish_predicted_))
       continue;
     publisherOf(point.label).publish(pointStamped(points, point));
@@ -26,6 +27,21 @@ void LedPublishers::publish(const wiimote_tracker_msgs::TrackedPointArray& point
   }
   if (!transforms_.empty())
     broadcaster_.sendTransform(transforms_);
+  if (publishers_.size() > listed_.size())
+    dropUnused(points);
+}
+
+/// Topics of LEDs that are lost, or have got a listed label.
+void LedPublishers::dropUnused(const wiimote_tracker_msgs::TrackedPointArray& points) {
+  for (auto publisher = publishers_.begin(); publisher != publishers_.end();) {
+    const std::string& label = publisher->first;
+    const bool is_used =
+        listed_.count(label) > 0 ||
+        std::any_of(points.points.begin(), points.points.end(), [&](const TrackedPoint& point) {
+          return point.label == label && point.state != TrackedPoint::LOST;
+        });
+    publisher = is_used ? std::next(publisher) : publishers_.erase(publisher);
+  }
 }
 
 ros::Publisher& LedPublishers::publisherOf(const std::string& label) {

@@ -25,6 +25,7 @@ class LedPublishers {
 
  private:
   ros::Publisher& publisherOf(const std::string& label);
+  void dropUnused(const wiimote_tracker_msgs::TrackedPointArray& points);
 
   ros::NodeHandle nh_;
   std::set<std::string> listed_;

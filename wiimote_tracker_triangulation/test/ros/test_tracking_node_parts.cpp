@@ -51,16 +51,32 @@ TEST(LedLabels, AreGivenInTheOrderOfConfirmation) {
 
 TEST(LedLabels, OfALostTrackGoToTheNextNewOne) {
   LedLabels labels({"led"});
-  labels.update({led(3, TrackState::kTracked), led(4, TrackState::kTracked)});
-  EXPECT_EQ("led", labels.of(3));
-  labels.update({led(3, TrackState::kLost), led(4, TrackState::kTracked)});
+  labels.update({led(3, TrackState::kTracked)});
+  labels.update({led(3, TrackState::kLost)});
   EXPECT_EQ("led", labels.of(3)) << "in the message that says so";
-  labels.update({led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
-  EXPECT_EQ("led_4", labels.of(4)) << "a track keeps its name";
-  EXPECT_EQ("led", labels.of(5));
+  labels.update({led(5, TrackState::kTentative)});
   EXPECT_EQ("led", labels.of(3)) << "still known to what looks back one snapshot";
-  labels.update({led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
+  labels.update({led(5, TrackState::kTracked)});
+  EXPECT_EQ("led", labels.of(5));
   EXPECT_EQ("led_3", labels.of(3));
+}
+
+/// An LED that was hidden may be found again before its old track is given up.
+TEST(LedLabels, OfALostTrackGoToTheOldestThatHasNone) {
+  LedLabels labels({"led"});
+  labels.update({led(3, TrackState::kPredicted), led(4, TrackState::kTentative)});
+  labels.update({led(2, TrackState::kTracked)});
+  labels.update(
+      {led(2, TrackState::kPredicted), led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
+  EXPECT_EQ("led", labels.of(2));
+  EXPECT_EQ("led_4", labels.of(4));
+  labels.update(
+      {led(2, TrackState::kLost), led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
+  EXPECT_EQ("led", labels.of(2));
+  EXPECT_EQ("led_4", labels.of(4)) << "no two of one name in one snapshot";
+  labels.update({led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
+  EXPECT_EQ("led", labels.of(4));
+  EXPECT_EQ("led_5", labels.of(5));
 }
 
 TEST(LedLabels, AreAllFreeWhenTimeStartsAnew) {

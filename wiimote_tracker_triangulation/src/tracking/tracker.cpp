@@ -37,6 +37,7 @@ void Tracker::setRig(const geometry::Rig& rig) {
   rig.check();
   if (rig.id() == rig_id_) {
     rig_ = rig;
+    uncertainty_ = std::make_unique<geometry::CalibrationUncertainty>(rig_);
     return;
   }
   const auto before = std::move(groups_);
@@ -47,6 +48,7 @@ void Tracker::setRig(const geometry::Rig& rig) {
 void Tracker::useRig(const geometry::Rig& rig) {
   rig_ = rig;
   rig_id_ = rig.id();
+  uncertainty_ = std::make_unique<geometry::CalibrationUncertainty>(rig_);
   groups_.clear();
   places_.resize(rig_.cameras.size());
   const auto partners = association::sharedViews(rig_, options_.maximum_range);
@@ -149,6 +151,11 @@ const Snapshot* Tracker::next() {
     return nullptr;
   last_output_ = newest_time_;
   writer_->write(groups_, newest_time_, &snapshot_);
+  for (TrackedLed& led : snapshot_.leds) {
+    if (const auto covariance =
+            uncertainty_->covarianceNear(led.position, led.cameras.data(), led.cameras.size()))
+      led.position_covariance += *covariance;
+  }
   snapshot_.latest_arrival = newest_arrival_;
   snapshot_.views = views_;
   snapshot_.skew = 0.0;
@@ -164,6 +171,11 @@ bool Tracker::predictTo(double time, Snapshot* snapshot) const {
     return false;
   snapshot->leds.resize(countTracks(groups_));
   writeLeds(groups_, time, options_, snapshot);
+  for (TrackedLed& led : snapshot->leds) {
+    if (const auto covariance =
+            uncertainty_->covarianceOf(led.position, led.cameras.data(), led.cameras.size()))
+      led.position_covariance += *covariance;
+  }
   snapshot->latest_arrival = newest_arrival_;
   snapshot->views = views_;
   snapshot->skew = 0.0;

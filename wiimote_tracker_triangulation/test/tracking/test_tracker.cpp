@@ -507,6 +507,26 @@ TEST(Tracker, RoomsDoNotKnowOfEachOther) {
   EXPECT_EQ(a.leds[first_is_0 ? 0 : 1].position, b.leds[0].position);
 }
 
+TEST(Tracker, TheCalibrationsUncertaintyIsInTheCovariance) {
+  const Eigen::Vector3d place(1.25, 1.25, 1.0);
+  const auto images = imagesOf(paperRig(), {test::still(place)}, SceneOptions(), 800);
+  Tracker exactly(paperRig(), exact());
+  const TrackedLed known = track(&exactly, images).back().leds.at(0);
+  geometry::Rig rig = paperRig();
+  rig.covariance = 1e-6 * Eigen::MatrixXd::Identity(64, 64);
+  geometry::CalibrationUncertainty uncertainty(rig);
+  const auto share =
+      uncertainty.covarianceNear(known.position, known.cameras.data(), known.cameras.size());
+  ASSERT_TRUE(share);
+  EXPECT_GT(share->trace(), 0.0);
+  Tracker uncertain(rig, exact());
+  const TrackedLed led = track(&uncertain, images).back().leds.at(0);
+  EXPECT_EQ(known.position, led.position);
+  EXPECT_LT((led.position_covariance - known.position_covariance - *share).norm(),
+            1e-9 * share->norm());
+  EXPECT_EQ(known.velocity_covariance, led.velocity_covariance);
+}
+
 TEST(Tracker, OutputAtAnyTime) {
   Tracker tracker(paperRig(), exact());
   Snapshot snapshot;

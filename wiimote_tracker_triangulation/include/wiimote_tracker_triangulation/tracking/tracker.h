@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_H
 
+#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
@@ -25,8 +26,10 @@ struct StoredImage;
 ///
 /// An image that is newer than all others makes a snapshot of all LEDs at its time: tentative until
 /// images enough of cameras enough have shown them; predicted while none does; lost once, in the
-/// snapshot after they were given up. LEDs that were still being seen when time jumped back are
-/// lost with the first snapshot of the time after.
+/// snapshot after they were given up. The covariance of a position is that of its filter and, as
+/// far as two cameras see it now and the rig says how certain it is, that of the calibration. LEDs
+/// that were still being seen when time jumped back are lost with the first snapshot of the time
+/// after.
 class Tracker : public Estimator {
  public:
   /// @throws geometry::InvalidRigError (see Rig::check).
@@ -65,6 +68,7 @@ class Tracker : public Estimator {
   std::unique_ptr<Ids> ids_;
   std::unique_ptr<StoredImage> image_;
   std::unique_ptr<SnapshotWriter> writer_;
+  std::unique_ptr<geometry::CalibrationUncertainty> uncertainty_;
   std::vector<CameraView> views_;
   Counters counters_;
   std::uint64_t images_ = 0;

@@ -3,7 +3,7 @@
 
 #include "simulated_square.h"
 
-#include "wiimote_tracker_calibration/place/camera_parameters.h"
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -42,14 +42,14 @@ inline geometry::Rig paperRigWith(const RigErrors& errors, std::size_t cameras =
     camera.gravity = 9.81 * poses[i].linear().row(2).transpose();
     rig.cameras.push_back(camera);
   }
-  const Eigen::Index size = place::kParameters;
+  const Eigen::Index size = geometry::kParameters;
   Eigen::VectorXd stddev = Eigen::VectorXd::Zero(size);
-  stddev.segment<3>(place::kRotation).setConstant(errors.rotation);
-  stddev.segment<3>(place::kPosition).setConstant(errors.position);
-  stddev.segment<2>(place::kLens).setConstant(errors.focal);
-  stddev.segment<2>(place::kLens + 2).setConstant(errors.principal_point);
-  stddev[place::kDistortion] = errors.k1;
-  stddev[place::kTimeOffset] = errors.time_offset;
+  stddev.segment<3>(geometry::kRotation).setConstant(errors.rotation);
+  stddev.segment<3>(geometry::kPosition).setConstant(errors.position);
+  stddev.segment<2>(geometry::kLens).setConstant(errors.focal);
+  stddev.segment<2>(geometry::kLens + 2).setConstant(errors.principal_point);
+  stddev[geometry::kDistortion] = errors.k1;
+  stddev[geometry::kTimeOffset] = errors.time_offset;
   const auto n = static_cast<Eigen::Index>(cameras);
   rig.covariance.resize(n * size, n * size);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -63,18 +63,18 @@ inline geometry::Rig paperRigWith(const RigErrors& errors, std::size_t cameras =
 /// A camera whose parameters differ by `delta` (order and meaning as in RigCalibration.msg).
 inline geometry::RigCamera displaced(geometry::RigCamera camera, const Eigen::VectorXd& delta) {
   geometry::Camera& c = camera.camera;
-  const Eigen::Vector3d w = delta.segment<3>(place::kRotation);
+  const Eigen::Vector3d w = delta.segment<3>(geometry::kRotation);
   if (w.norm() > 0.0)
     c.world_from_camera.linear() =
         Eigen::AngleAxisd(w.norm(), w.normalized()) * c.world_from_camera.linear();
-  c.world_from_camera.translation() += delta.segment<3>(place::kPosition);
-  c.intrinsics.fx += delta[place::kLens];
-  c.intrinsics.fy += delta[place::kLens + 1];
-  c.intrinsics.cx += delta[place::kLens + 2];
-  c.intrinsics.cy += delta[place::kLens + 3];
-  for (Eigen::Index k = place::kDistortion; k < place::kTimeOffset; ++k)
-    c.intrinsics.distortion[static_cast<std::size_t>(k - place::kDistortion)] += delta[k];
-  camera.time_offset += delta[place::kTimeOffset];
+  c.world_from_camera.translation() += delta.segment<3>(geometry::kPosition);
+  c.intrinsics.fx += delta[geometry::kLens];
+  c.intrinsics.fy += delta[geometry::kLens + 1];
+  c.intrinsics.cx += delta[geometry::kLens + 2];
+  c.intrinsics.cy += delta[geometry::kLens + 3];
+  for (Eigen::Index k = geometry::kDistortion; k < geometry::kTimeOffset; ++k)
+    c.intrinsics.distortion[static_cast<std::size_t>(k - geometry::kDistortion)] += delta[k];
+  camera.time_offset += delta[geometry::kTimeOffset];
   return camera;
 }
 
@@ -91,8 +91,8 @@ inline std::vector<geometry::RigCamera> drawTruth(const geometry::Rig& rig,
       factor.transpositionsP().transpose() * (factor.matrixL() * scaled).eval();
   std::vector<geometry::RigCamera> truth;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
-    truth.push_back(
-        displaced(rig.cameras[i], delta.segment<place::kParameters>(place::firstParameter(i))));
+    truth.push_back(displaced(rig.cameras[i],
+                              delta.segment<geometry::kParameters>(geometry::firstParameter(i))));
   return truth;
 }
 

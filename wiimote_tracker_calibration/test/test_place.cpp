@@ -65,12 +65,12 @@ TEST(CameraParameters, DerivativesAreThoseOfDisplacedCameras) {
   camera.camera.intrinsics.distortion = {-0.1, 0.02, 0.003, -0.002, 0.01};
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::Vector3d point = somewhere(random);
-    const auto projection = projectionOf(camera.camera, point);
+    const auto projection = geometry::projectionOf(camera.camera, point);
     ASSERT_TRUE(projection);
     EXPECT_LT((projection->pixel - camera.camera.project(point).value()).norm(), 1e-9);
-    for (Eigen::Index k = 0; k < kTimeOffset; ++k) {
+    for (Eigen::Index k = 0; k < geometry::kTimeOffset; ++k) {
       const double step = 1e-5;
-      const Eigen::VectorXd delta = step * Eigen::VectorXd::Unit(kParameters, k);
+      const Eigen::VectorXd delta = step * Eigen::VectorXd::Unit(geometry::kParameters, k);
       const Eigen::Vector2d difference = (displaced(camera, delta).camera.project(point).value() -
                                           displaced(camera, -delta).camera.project(point).value()) /
                                          (2.0 * step);
@@ -78,7 +78,7 @@ TEST(CameraParameters, DerivativesAreThoseOfDisplacedCameras) {
                 1e-4 * std::max(1.0, difference.norm()))
           << k;
     }
-    EXPECT_EQ(projection->by_parameters.col(kTimeOffset).norm(), 0.0);
+    EXPECT_EQ(projection->by_parameters.col(geometry::kTimeOffset).norm(), 0.0);
   }
 }
 
@@ -86,15 +86,15 @@ TEST(CameraParameters, WhatTheRayModelSetsIsNoErrorOfTheCalibration) {
   geometry::Rig rig = paperRigWith({});
   rig.ray_model = geometry::RayModel::kImageCenter;
   const Eigen::Vector3d point(1.0, 1.2, 1.0);
-  auto projection = rayProjection(rig, 0, point);
+  auto projection = geometry::rayProjection(rig, 0, point);
   ASSERT_TRUE(projection);
-  EXPECT_GT(projection->by_parameters.col(kLens).norm(), 0.0);
+  EXPECT_GT(projection->by_parameters.col(geometry::kLens).norm(), 0.0);
   EXPECT_EQ(projection->by_parameters.rightCols<8>().norm(), 0.0);
   rig.virtual_hfov = 0.7;
-  projection = rayProjection(rig, 0, point);
+  projection = geometry::rayProjection(rig, 0, point);
   ASSERT_TRUE(projection);
-  EXPECT_EQ(projection->by_parameters.col(kLens).norm(), 0.0);
-  EXPECT_GT(projection->by_parameters.col(kPosition).norm(), 0.0);
+  EXPECT_EQ(projection->by_parameters.col(geometry::kLens).norm(), 0.0);
+  EXPECT_GT(projection->by_parameters.col(geometry::kPosition).norm(), 0.0);
 }
 
 TEST(MeasurePlace, IsExactWithoutErrors) {
@@ -119,8 +119,8 @@ TEST(MeasurePlace, CamerasThatMoveTogetherMoveThePoint) {
   const Eigen::Matrix3d common = Eigen::Vector3d(1e-4, 4e-4, 9e-4).asDiagonal();
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j)
-      rig.covariance.block<3, 3>(firstParameter(i) + kPosition, firstParameter(j) + kPosition) =
-          common;
+      rig.covariance.block<3, 3>(geometry::firstParameter(i) + geometry::kPosition,
+                                 geometry::firstParameter(j) + geometry::kPosition) = common;
   }
   const MeasuredPlace place = measurePlace(rig, corner, kPixel);
   EXPECT_LT((place.covariance - pixels_only - common).norm(), 1e-12);
@@ -166,11 +166,12 @@ TEST(CheckPlace, NamesTheCameraThatWasMoved) {
     auto truth = drawTruth(rig, random);
     const std::size_t moved = static_cast<std::size_t>(trial) % 4;
     const std::string& name = truth[moved].camera.name;
-    Eigen::VectorXd turn = Eigen::VectorXd::Zero(kParameters);
+    Eigen::VectorXd turn = Eigen::VectorXd::Zero(geometry::kParameters);
     // About the vertical, and a little downwards: of a turn about the vertical alone the camera
     // on the other side may be accused as well.
-    turn.segment<3>(kRotation) = Eigen::Vector3d(0.0, 0.0, 2.0) * M_PI / 180.0 +
-                                 0.03 * truth[moved].camera.world_from_camera.linear().col(0);
+    turn.segment<3>(geometry::kRotation) =
+        Eigen::Vector3d(0.0, 0.0, 2.0) * M_PI / 180.0 +
+        0.03 * truth[moved].camera.world_from_camera.linear().col(0);
     truth[moved] = displaced(truth[moved], turn);
     const Eigen::Vector3d led = somewhere(random);
     const MeasuredPlace place = measurePlace(rig, seen(truth, led, kPixel, random), kPixel);

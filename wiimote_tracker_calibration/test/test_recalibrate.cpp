@@ -71,12 +71,13 @@ Eigen::Matrix<double, 7, 1> errorOf(const geometry::RigCamera& estimate,
 }
 
 Eigen::Matrix<double, 7, 7> covarianceOf(const geometry::Rig& rig, std::size_t camera) {
-  const Eigen::Index first = place::firstParameter(camera);
+  const Eigen::Index first = geometry::firstParameter(camera);
   Eigen::Matrix<double, 7, 7> result;
   result.topLeftCorner<6, 6>() = rig.covariance.block<6, 6>(first, first);
-  result.bottomLeftCorner<1, 6>() = rig.covariance.block<1, 6>(first + place::kTimeOffset, first);
+  result.bottomLeftCorner<1, 6>() =
+      rig.covariance.block<1, 6>(first + geometry::kTimeOffset, first);
   result.topRightCorner<6, 1>() = result.bottomLeftCorner<1, 6>().transpose();
-  result(6, 6) = rig.covariance(first + place::kTimeOffset, first + place::kTimeOffset);
+  result(6, 6) = rig.covariance(first + geometry::kTimeOffset, first + geometry::kTimeOffset);
   return result;
 }
 
@@ -114,7 +115,7 @@ TEST(Recalibrate, FindsAKnockedCamera) {
   for (const std::size_t i : {0u, 2u, 3u}) {
     EXPECT_EQ(result.rig.cameras[i].camera.world_from_camera.matrix(),
               rig.cameras[i].camera.world_from_camera.matrix());
-    const Eigen::Index k = place::firstParameter(i);
+    const Eigen::Index k = geometry::firstParameter(i);
     EXPECT_EQ((result.rig.covariance.block<16, 16>(k, k)), (rig.covariance.block<16, 16>(k, k)));
   }
   EXPECT_NE(result.rig.id(), rig.id());

@@ -2,7 +2,7 @@
 
 #include "residual_mean.h"
 
-#include "wiimote_tracker_calibration/place/camera_parameters.h"
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
@@ -164,25 +164,25 @@ std::optional<Drift> DriftWatch::driftAgainst(const Cameras& active, std::size_t
     if (!point || !(own->depth(*point) > 0.0))
       continue;
     Residual residual{own->residual(*point), {}};
-    if (number++ % stride == 0 && place::hasCovariance(rig_)) {
+    if (number++ % stride == 0 && geometry::hasCovariance(rig_)) {
       // The others' errors move the point, and with it the prediction.
-      const auto of_own = place::rayProjection(rig_, camera, *point);
+      const auto of_own = geometry::rayProjection(rig_, camera, *point);
       Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
       Eigen::MatrixXd right = Eigen::MatrixXd::Zero(3, rig_.covariance.rows());
       bool complete = of_own.has_value();
       for (const std::size_t other : others) {
-        const auto projection = place::rayProjection(rig_, other, *point);
+        const auto projection = geometry::rayProjection(rig_, other, *point);
         complete = complete && projection;
         if (!complete)
           break;
         information += projection->by_point.transpose() * projection->by_point;
-        right.middleCols<place::kParameters>(place::firstParameter(other)) =
+        right.middleCols<geometry::kParameters>(geometry::firstParameter(other)) =
             projection->by_point.transpose() * projection->by_parameters;
       }
       if (complete) {
         residual.by_parameters = -of_own->by_point * (information.inverse() * right);
-        residual.by_parameters.middleCols<place::kParameters>(place::firstParameter(camera)) +=
-            of_own->by_parameters;
+        residual.by_parameters.middleCols<geometry::kParameters>(
+            geometry::firstParameter(camera)) += of_own->by_parameters;
       }
     }
     residuals.push_back(std::move(residual));
@@ -223,16 +223,16 @@ std::optional<Drift> DriftWatch::driftOfPair(std::size_t a, std::size_t b) const
     // In one camera's pixels: both share what one of them is off.
     across *= std::sqrt(2.0);
     Residual result{Eigen::Vector2d(across.dot(residual), 0.0), {}};
-    if (number++ % stride == 0 && place::hasCovariance(rig_)) {
-      const auto first = place::rayProjection(rig_, std::min(a, b), *point);
-      const auto second = place::rayProjection(rig_, std::max(a, b), *point);
+    if (number++ % stride == 0 && geometry::hasCovariance(rig_)) {
+      const auto first = geometry::rayProjection(rig_, std::min(a, b), *point);
+      const auto second = geometry::rayProjection(rig_, std::max(a, b), *point);
       if (first && second) {
         result.by_parameters = Eigen::MatrixXd::Zero(2, rig_.covariance.rows());
-        result.by_parameters.block<1, place::kParameters>(0,
-                                                          place::firstParameter(std::min(a, b))) =
+        result.by_parameters.block<1, geometry::kParameters>(
+            0, geometry::firstParameter(std::min(a, b))) =
             across.head<2>().transpose() * first->by_parameters;
-        result.by_parameters.block<1, place::kParameters>(0,
-                                                          place::firstParameter(std::max(a, b))) =
+        result.by_parameters.block<1, geometry::kParameters>(
+            0, geometry::firstParameter(std::max(a, b))) =
             across.tail<2>().transpose() * second->by_parameters;
       }
     }

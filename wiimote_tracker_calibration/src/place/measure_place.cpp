@@ -1,6 +1,6 @@
 #include "wiimote_tracker_calibration/place/measure_place.h"
 
-#include "wiimote_tracker_calibration/place/camera_parameters.h"
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include "wiimote_tracker_calibration/place/chi_squared.h"
 #include "wiimote_tracker_calibration/place/error.h"
 
@@ -54,16 +54,16 @@ std::optional<Measurement> measure(const geometry::Rig& rig,
   result.position = point->position;
   result.residuals.resize(rows);
   result.by_point.resize(rows, 3);
-  result.by_parameters = Eigen::MatrixXd::Zero(rows, firstParameter(rig.cameras.size()));
+  result.by_parameters = Eigen::MatrixXd::Zero(rows, geometry::firstParameter(rig.cameras.size()));
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const auto projection = rayProjection(rig, views[i].camera, point->position);
+    const auto projection = geometry::rayProjection(rig, views[i].camera, point->position);
     if (!projection)
       return std::nullopt;
     const auto row = static_cast<Eigen::Index>(2 * i);
     result.residuals.segment<2>(row) = projection->pixel - views[i].pixel;
     result.by_point.middleRows<2>(row) = projection->by_point;
-    result.by_parameters.block<2, kParameters>(row, firstParameter(views[i].camera)) =
-        projection->by_parameters;
+    result.by_parameters.block<2, geometry::kParameters>(
+        row, geometry::firstParameter(views[i].camera)) = projection->by_parameters;
   }
   return result;
 }
@@ -74,7 +74,7 @@ Eigen::MatrixXd pixelCovariance(const geometry::Rig& rig,
                                 double pixel_stddev) {
   const Eigen::Index rows = measurement.residuals.size();
   Eigen::MatrixXd covariance = pixel_stddev * pixel_stddev * Eigen::MatrixXd::Identity(rows, rows);
-  if (hasCovariance(rig))
+  if (geometry::hasCovariance(rig))
     covariance +=
         measurement.by_parameters * rig.covariance * measurement.by_parameters.transpose();
   return covariance;
@@ -139,7 +139,7 @@ MeasuredPlace measurePlace(const geometry::Rig& rig,
 
   MeasuredPlace place;
   place.position = measurement->position;
-  place.calibration_known = hasCovariance(rig);
+  place.calibration_known = geometry::hasCovariance(rig);
   const Eigen::MatrixXd gain =
       (measurement->by_point.transpose() * measurement->by_point).inverse() *
       measurement->by_point.transpose();

@@ -3,7 +3,7 @@
 #include "resection.h"
 #include "seen_path.h"
 
-#include "wiimote_tracker_calibration/place/camera_parameters.h"
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include "wiimote_tracker_calibration/recalibrate/error.h"
 
 #include <Eigen/Cholesky>
@@ -19,13 +19,13 @@ namespace wiimote_tracker::recalibrate {
 
 namespace {
 
-using place::firstParameter;
-using place::kDistortion;
-using place::kLens;
-using place::kParameters;
-using place::kPosition;
-using place::kRotation;
-using place::kTimeOffset;
+using geometry::firstParameter;
+using geometry::kDistortion;
+using geometry::kLens;
+using geometry::kParameters;
+using geometry::kPosition;
+using geometry::kRotation;
+using geometry::kTimeOffset;
 
 // Time offset of a camera before anything is known [s].
 constexpr double kOffsetStddev = 0.05;
@@ -111,7 +111,7 @@ Knowledge knowledgeOf(const geometry::Rig& rig,
   Knowledge knowledge;
   const bool same = sameDevice(calibrated, request);
   knowledge.prior.lens = same ? calibrated.camera.intrinsics : request.intrinsics;
-  knowledge.lens_of_rig = same && place::hasCovariance(rig);
+  knowledge.lens_of_rig = same && geometry::hasCovariance(rig);
   if (knowledge.lens_of_rig) {
     const auto n = kTimeOffset - kLens;
     const Eigen::Index first = firstParameter(index) + kLens;
@@ -195,7 +195,7 @@ Eigen::MatrixXd answerToOthers(const geometry::Rig& rig,
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     Eigen::MatrixXd by_parameters = Eigen::MatrixXd::Zero(3, size);
     for (const std::size_t other : match.point.cameras) {
-      auto projection = place::rayProjection(rig, other, match.point.position);
+      auto projection = geometry::rayProjection(rig, other, match.point.position);
       if (!projection)
         continue;
       projection->by_parameters.col(kTimeOffset) = projection->by_point * match.point.velocity;
@@ -264,7 +264,7 @@ ParameterMatrix updateCovariance(const SeenPath& path,
   }
   ParameterMatrix own = inverse * noise * inverse;
   own(kTimeOffset, kTimeOffset) += wander(fit, options);
-  if (!place::hasCovariance(*rig))
+  if (!geometry::hasCovariance(*rig))
     return own;
   const Eigen::MatrixXd answer = inverse * answerToOthers(*rig, index, knowledge, options, fit);
   Eigen::MatrixXd others = rig->covariance;

@@ -91,7 +91,7 @@ Pose firstPose(const SeenPath& path,
                const Prior& prior) {
   std::optional<Pose> best;
   const bool offset_known =
-      prior.covariance(place::kTimeOffset, place::kTimeOffset) < kOffsetStep * kOffsetStep;
+      prior.covariance(geometry::kTimeOffset, geometry::kTimeOffset) < kOffsetStep * kOffsetStep;
   const int steps = offset_known ? 0 : static_cast<int>(std::lround(kFarthestOffset / kOffsetStep));
   for (int step = -steps; step <= steps; ++step) {
     auto pose = searchPose(path, images, start, prior.time_offset + kOffsetStep * step);
@@ -151,42 +151,42 @@ void matchSpots(const SeenPath& path,
 }
 
 void apply(const ParameterVector& step, geometry::Camera* camera, double* time_offset) {
-  const Eigen::Vector3d turn = step.segment<3>(place::kRotation);
+  const Eigen::Vector3d turn = step.segment<3>(geometry::kRotation);
   Eigen::Quaterniond rotation(camera->world_from_camera.linear());
   if (turn.norm() > 0.0)
     rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * rotation;
   camera->world_from_camera.linear() = rotation.normalized().toRotationMatrix();
-  camera->world_from_camera.translation() += step.segment<3>(place::kPosition);
+  camera->world_from_camera.translation() += step.segment<3>(geometry::kPosition);
   geometry::Intrinsics& lens = camera->intrinsics;
-  lens.fx += step[place::kLens];
-  lens.fy += step[place::kLens + 1];
-  lens.cx += step[place::kLens + 2];
-  lens.cy += step[place::kLens + 3];
-  for (Eigen::Index k = place::kDistortion; k < place::kTimeOffset; ++k)
-    lens.distortion[static_cast<std::size_t>(k - place::kDistortion)] += step[k];
-  *time_offset += step[place::kTimeOffset];
+  lens.fx += step[geometry::kLens];
+  lens.fy += step[geometry::kLens + 1];
+  lens.cx += step[geometry::kLens + 2];
+  lens.cy += step[geometry::kLens + 3];
+  for (Eigen::Index k = geometry::kDistortion; k < geometry::kTimeOffset; ++k)
+    lens.distortion[static_cast<std::size_t>(k - geometry::kDistortion)] += step[k];
+  *time_offset += step[geometry::kTimeOffset];
 }
 
 /// Lens and time offset less what they were taken to be beforehand; pose: 0.
 ParameterVector deviation(const Fit& fit, const Prior& prior) {
   ParameterVector result = ParameterVector::Zero();
   const geometry::Intrinsics& lens = fit.camera.intrinsics;
-  result[place::kLens] = lens.fx - prior.lens.fx;
-  result[place::kLens + 1] = lens.fy - prior.lens.fy;
-  result[place::kLens + 2] = lens.cx - prior.lens.cx;
-  result[place::kLens + 3] = lens.cy - prior.lens.cy;
-  for (Eigen::Index k = place::kDistortion; k < place::kTimeOffset; ++k) {
-    const auto i = static_cast<std::size_t>(k - place::kDistortion);
+  result[geometry::kLens] = lens.fx - prior.lens.fx;
+  result[geometry::kLens + 1] = lens.fy - prior.lens.fy;
+  result[geometry::kLens + 2] = lens.cx - prior.lens.cx;
+  result[geometry::kLens + 3] = lens.cy - prior.lens.cy;
+  for (Eigen::Index k = geometry::kDistortion; k < geometry::kTimeOffset; ++k) {
+    const auto i = static_cast<std::size_t>(k - geometry::kDistortion);
     result[k] = lens.distortion[i] - prior.lens.distortion[i];
   }
-  result[place::kTimeOffset] = fit.time_offset - prior.time_offset;
+  result[geometry::kTimeOffset] = fit.time_offset - prior.time_offset;
   return result;
 }
 
 /// Inverse of the covariance of what is not held.
 ParameterMatrix informationOf(const ParameterMatrix& covariance) {
   std::vector<Eigen::Index> known;
-  for (Eigen::Index k = place::kLens; k < place::kParameters; ++k) {
+  for (Eigen::Index k = geometry::kLens; k < geometry::kParameters; ++k) {
     if (covariance(k, k) > 0.0)
       known.push_back(k);
   }
@@ -245,7 +245,7 @@ double normalEquations(const Fit& fit,
     if (!linear)
       return std::numeric_limits<double>::infinity();
     const Eigen::Matrix2d weight = linear->covariance.inverse();
-    const Eigen::Matrix<double, place::kParameters, 2> weighted =
+    const Eigen::Matrix<double, geometry::kParameters, 2> weighted =
         linear->jacobian.transpose() * weight;
     information->noalias() += weighted * linear->jacobian;
     gradient->noalias() += weighted * linear->residual;
@@ -302,7 +302,7 @@ std::optional<Linearized> linearize(const geometry::Camera& camera,
                                     const Match& match,
                                     double pixel_stddev,
                                     double stamp_stddev) {
-  const auto projection = place::projectionOf(camera, match.point.position);
+  const auto projection = geometry::projectionOf(camera, match.point.position);
   if (!projection)
     return std::nullopt;
   Linearized linear;
@@ -310,7 +310,7 @@ std::optional<Linearized> linearize(const geometry::Camera& camera,
   linear.jacobian = projection->by_parameters;
   linear.by_point = projection->by_point;
   const Eigen::Vector2d by_time = projection->by_point * match.point.velocity;
-  linear.jacobian.col(place::kTimeOffset) = by_time;
+  linear.jacobian.col(geometry::kTimeOffset) = by_time;
   const double variance = pixel_stddev * pixel_stddev;
   linear.covariance =
       variance * (Eigen::Matrix2d::Identity() + projection->by_point * match.point.unit_covariance *
@@ -330,8 +330,8 @@ Fit resect(const SeenPath& path,
   fit.time_offset = pose.time_offset;
   fit.pixel_stddev = options.pixel;
   fit.prior_information = informationOf(prior.covariance);
-  for (Eigen::Index k = 0; k < place::kParameters; ++k) {
-    if (k < place::kLens || prior.covariance(k, k) > 0.0)
+  for (Eigen::Index k = 0; k < geometry::kParameters; ++k) {
+    if (k < geometry::kLens || prior.covariance(k, k) > 0.0)
       fit.free.push_back(k);
   }
   for (const double gate : kWideGates) {

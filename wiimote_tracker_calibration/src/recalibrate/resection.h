@@ -3,7 +3,7 @@
 
 #include "seen_path.h"
 
-#include "wiimote_tracker_calibration/place/camera_parameters.h"
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
@@ -15,8 +15,8 @@
 
 namespace wiimote_tracker::recalibrate {
 
-using ParameterVector = Eigen::Matrix<double, place::kParameters, 1>;
-using ParameterMatrix = Eigen::Matrix<double, place::kParameters, place::kParameters>;
+using ParameterVector = Eigen::Matrix<double, geometry::kParameters, 1>;
+using ParameterMatrix = Eigen::Matrix<double, geometry::kParameters, geometry::kParameters>;
 
 /// What is known of the camera beforehand.
 struct Prior {
@@ -55,7 +55,7 @@ struct ResectionOptions {
 /// covariance.
 struct Linearized {
   Eigen::Vector2d residual;
-  place::ParameterJacobian jacobian;
+  geometry::ParameterJacobian jacobian;
   Eigen::Matrix<double, 2, 3> by_point;
   Eigen::Matrix2d covariance;
 };

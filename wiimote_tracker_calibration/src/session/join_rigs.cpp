@@ -1,7 +1,7 @@
 #include "wiimote_tracker_calibration/session/join_rigs.h"
 
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include "predicted_accuracy.h"
-#include "wiimote_tracker_calibration/place/camera_parameters.h"
 #include "wiimote_tracker_calibration/place/chi_squared.h"
 #include "wiimote_tracker_calibration/session/error.h"
 
@@ -115,8 +115,8 @@ class SharedCameras : public Joint {
       const Eigen::Isometry3d expected = pose(first_, pairs_[i].first);
       const Eigen::Isometry3d second = pose(second_, pairs_[i].second);
       const Eigen::Isometry3d moved = motion * second;
-      const Eigen::Index first_column = place::firstParameter(pairs_[i].first);
-      const Eigen::Index second_column = place::firstParameter(pairs_[i].second);
+      const Eigen::Index first_column = geometry::firstParameter(pairs_[i].first);
+      const Eigen::Index second_column = geometry::firstParameter(pairs_[i].second);
       result.residual.segment<3>(row) =
           vectorFromRotation(moved.linear() * expected.linear().transpose());
       result.residual.segment<3>(row + 3) = moved.translation() - expected.translation();
@@ -124,8 +124,8 @@ class SharedCameras : public Joint {
       result.by_motion.block<3, 3>(row + 3, 0) =
           -crossMatrix(motion.linear() * second.translation());
       result.by_first.block<6, 6>(row, first_column) = -Eigen::Matrix<double, 6, 6>::Identity();
-      result.by_second.block<3, 3>(row, second_column + place::kRotation) = motion.linear();
-      result.by_second.block<3, 3>(row + 3, second_column + place::kPosition) = motion.linear();
+      result.by_second.block<3, 3>(row, second_column + geometry::kRotation) = motion.linear();
+      result.by_second.block<3, 3>(row + 3, second_column + geometry::kPosition) = motion.linear();
       row += 6;
     }
     return result;
@@ -278,7 +278,7 @@ ClockShift clockShift(const geometry::Rig& first, const geometry::Rig& second) {
 }
 
 Eigen::Index offsetParameter(std::size_t camera) {
-  return place::firstParameter(camera) + place::kTimeOffset;
+  return geometry::firstParameter(camera) + geometry::kTimeOffset;
 }
 
 /// The first rig, and the cameras that only the second has moved into its world.
@@ -301,8 +301,8 @@ geometry::Rig joined(const geometry::Rig& first,
       continue;
     geometry::RigCamera camera = second.cameras[j];
     const Eigen::Vector3d turned = moved.linear() * camera.camera.center();
-    const Eigen::Index column = place::firstParameter(j);
-    by_second.block<place::kParameters, place::kParameters>(row, column).setIdentity();
+    const Eigen::Index column = geometry::firstParameter(j);
+    by_second.block<geometry::kParameters, geometry::kParameters>(row, column).setIdentity();
     by_second.block<3, 3>(row, column) = moved.linear();
     by_second.block<3, 3>(row + 3, column + 3) = moved.linear();
     Eigen::Matrix<double, 6, 6> by_motion = Eigen::Matrix<double, 6, 6>::Identity();
@@ -311,7 +311,7 @@ geometry::Rig joined(const geometry::Rig& first,
     by_first.middleRows<6>(row) += by_conditions * conditions.by_first;
     by_second.middleRows<6>(row) += by_conditions * conditions.by_second;
     by_noise.middleRows<6>(row) = by_conditions;
-    const Eigen::Index offset = row + place::kTimeOffset;
+    const Eigen::Index offset = row + geometry::kTimeOffset;
     for (const auto& shared : clock.cameras) {
       const double share = 1.0 / static_cast<double>(clock.cameras.size());
       by_first(offset, offsetParameter(shared.first)) += share;
@@ -330,7 +330,7 @@ geometry::Rig joined(const geometry::Rig& first,
             .normalized()
             .toRotationMatrix();
     rig.cameras.push_back(camera);
-    row += place::kParameters;
+    row += geometry::kParameters;
   }
   by_first.conservativeResize(row, Eigen::NoChange);
   by_second.conservativeResize(row, Eigen::NoChange);
@@ -354,7 +354,7 @@ void checkRigs(const geometry::Rig& first, const geometry::Rig& second) {
     throw SessionError(
         "all cameras of the second rig are in the first one already: there is nothing to join");
   for (const geometry::Rig* rig : {&first, &second}) {
-    if (!place::hasCovariance(*rig))
+    if (!geometry::hasCovariance(*rig))
       throw SessionError(std::string("the ") + (rig == &first ? "first" : "second") +
                          " rig does not say how certain its cameras are: calibrate it anew");
   }

@@ -1,7 +1,7 @@
 #include "judge.h"
 
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include "predicted_accuracy.h"
-#include "wiimote_tracker_calibration/place/camera_parameters.h"
 
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
@@ -45,21 +45,23 @@ CameraVerdict judgeCamera(const geometry::Rig& rig, std::size_t index) {
   verdict.residual_m = camera.residual_m;
   verdict.inlier_share =
       camera.observations > 0 ? static_cast<double>(camera.inliers) / camera.observations : kNan;
-  const Eigen::Index first = place::firstParameter(index);
+  const Eigen::Index first = geometry::firstParameter(index);
   const auto variance = [&](Eigen::Index parameter) {
-    return place::hasCovariance(rig) ? rig.covariance(first + parameter, first + parameter) : kNan;
+    return geometry::hasCovariance(rig) ? rig.covariance(first + parameter, first + parameter)
+                                        : kNan;
   };
   const auto rootOfTrace = [&](Eigen::Index begin) {
     return std::sqrt(variance(begin) + variance(begin + 1) + variance(begin + 2));
   };
-  verdict.rotation_stddev = rootOfTrace(place::kRotation);
-  verdict.position_stddev = rootOfTrace(place::kPosition);
-  verdict.focal_stddev = std::sqrt(std::max(variance(place::kLens), variance(place::kLens + 1)));
+  verdict.rotation_stddev = rootOfTrace(geometry::kRotation);
+  verdict.position_stddev = rootOfTrace(geometry::kPosition);
+  verdict.focal_stddev =
+      std::sqrt(std::max(variance(geometry::kLens), variance(geometry::kLens + 1)));
   verdict.principal_point_stddev =
-      std::sqrt(std::max(variance(place::kLens + 2), variance(place::kLens + 3)));
-  verdict.k1_stddev = std::sqrt(variance(place::kDistortion));
+      std::sqrt(std::max(variance(geometry::kLens + 2), variance(geometry::kLens + 3)));
+  verdict.k1_stddev = std::sqrt(variance(geometry::kDistortion));
   verdict.time_offset_stddev =
-      std::isnan(camera.time_offset) ? kNan : std::sqrt(variance(place::kTimeOffset));
+      std::isnan(camera.time_offset) ? kNan : std::sqrt(variance(geometry::kTimeOffset));
   return verdict;
 }
 

@@ -1,6 +1,6 @@
 #include "predicted_accuracy.h"
 
-#include "wiimote_tracker_calibration/place/camera_parameters.h"
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 
 #include <Eigen/LU>
 
@@ -13,17 +13,17 @@ std::optional<Eigen::MatrixXd> pointByParameters(const geometry::Rig& rig,
                                                  const Eigen::Vector3d& point) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::MatrixXd by_parameters =
-      Eigen::MatrixXd::Zero(3, place::firstParameter(rig.cameras.size()));
+      Eigen::MatrixXd::Zero(3, geometry::firstParameter(rig.cameras.size()));
   int views = 0;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     if (!rig.rayCamera(rig.cameras[i]).sees(point))
       continue;
-    const auto projection = place::rayProjection(rig, i, point);
+    const auto projection = geometry::rayProjection(rig, i, point);
     if (!projection)
       continue;
     ++views;
     information += projection->by_point.transpose() * projection->by_point;
-    by_parameters.middleCols<place::kParameters>(place::firstParameter(i)) =
+    by_parameters.middleCols<geometry::kParameters>(geometry::firstParameter(i)) =
         -projection->by_point.transpose() * projection->by_parameters;
   }
   if (views < 2)
@@ -35,7 +35,8 @@ std::optional<Eigen::MatrixXd> pointByParameters(const geometry::Rig& rig,
 }
 
 double predictedStddev(const geometry::Rig& rig, const Eigen::Vector3d& point) {
-  const auto derivative = place::hasCovariance(rig) ? pointByParameters(rig, point) : std::nullopt;
+  const auto derivative =
+      geometry::hasCovariance(rig) ? pointByParameters(rig, point) : std::nullopt;
   if (!derivative)
     return std::numeric_limits<double>::quiet_NaN();
   return std::sqrt((*derivative * rig.covariance * derivative->transpose()).trace());

@@ -1,11 +1,11 @@
 // Solves what calibration/save_samples wrote, without the node.
 
 #include "../ros/parameters.h"
-#include "parameter_file.h"
 #include "wiimote_tracker_calibration/session/session_file.h"
 #include "wiimote_tracker_calibration/session/solve_session.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
+#include <wiimote_tracker_triangulation/ros/parameter_file.h>
 
 #include <cstdio>
 #include <ctime>

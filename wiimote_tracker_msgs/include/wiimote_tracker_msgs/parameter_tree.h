@@ -35,6 +35,9 @@ class ParameterTree {
     return find(key, &found) && read(found, &value);
   }
 
+  /// Of the highest level; as if it stood in the file.
+  void setParam(const std::string& key, const std::string& value) { values_[key] = value; }
+
   /// Full names of all values.
   void getParamNames(std::vector<std::string>& names) const { appendNames(name_, values_, &names); }
 

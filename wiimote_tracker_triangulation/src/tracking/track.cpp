@@ -101,7 +101,7 @@ void Track::judge(double time, const TrackerOptions& options) {
       misses_in_a_row_ >= 2 * std::max<std::size_t>(possible, 2) || time - born_ > kLongestTrial;
 }
 
-/// Cameras that showed it in three of their last four images.
+/// Cameras that showed it in two of their last four images.
 std::size_t Track::supporters(double time, const TrackerOptions& options) const {
   return static_cast<std::size_t>(
       std::count_if(looks_.begin(), looks_.begin() + static_cast<std::ptrdiff_t>(look_count_),

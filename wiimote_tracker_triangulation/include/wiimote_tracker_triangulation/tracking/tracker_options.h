@@ -18,7 +18,7 @@ struct TrackerOptions {
   double stamp_stddev = 0.0005;        ///< Of images that do not say theirs [s, 0..0.1].
   double detection_probability = 0.9;  ///< That a camera shows an LED in its view [0.01..0.999].
   double ghost_rate = 0.5;             ///< Spots in an image that are no LED's, mean [0.001..16].
-  double merging_distance = 8.0;       ///< LEDs closer than this may be one spot [px, 0..100].
+  double merging_distance = 24.0;      ///< LEDs closer than this may be one spot [px, 0..100].
   double maximum_range = 20.0;         ///< Cameras share no view beyond this [m, 0.1..1000].
 
   /// A spot further than this from an LED's prediction is not its: squared Mahalanobis distance

@@ -1,4 +1,5 @@
 // Nothing on the way from a blob to a point allocates, once warm.
+#include "allocation_counter.h"
 #include "association/simulated_views.h"
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/association/assign_spots.h"
@@ -11,27 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
-#include <new>
-
-namespace {
-int g_allocations = 0;
-}  // namespace
-
-// Never inlined: the compiler would see free() on memory that came from new.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size))
-    return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace wiimote_tracker {
 namespace {

@@ -1,4 +1,5 @@
 // Which LED is which: against an exhaustive computation, by counting errors, and in odd situations.
+#include "allocation_counter.h"
 #include "identity/blinking.h"
 #include "identity/exhaustive_labels.h"
 #include "wiimote_tracker_triangulation/identity/error.h"
@@ -9,31 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <new>
-
-namespace {
-int g_allocations = 0;
-}  // namespace
-
-// Never inlined: the compiler would see free() on memory that came from new.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size))
-    return memory;
-  throw std::bad_alloc();
-}
-// std::stable_sort takes its memory from this one.
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++g_allocations;
-  return std::malloc(size);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace wiimote_tracker::identity {
 namespace {

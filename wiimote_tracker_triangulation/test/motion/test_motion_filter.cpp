@@ -1,3 +1,4 @@
+#include "allocation_counter.h"
 #include "geometry/random_rigs.h"
 #include "motion/known_mode.h"
 #include "motion/textbook_imm.h"
@@ -8,28 +9,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include <cstdlib>
 #include <limits>
 #include <memory>
-#include <new>
-
-namespace {
-int g_allocations = 0;
-}  // namespace
-
-// Never inlined: the compiler would see free() on memory that came from new.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size))
-    return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace wiimote_tracker::motion {
 namespace {

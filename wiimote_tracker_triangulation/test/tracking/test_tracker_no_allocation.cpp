@@ -1,31 +1,12 @@
 // A tracker that is warm takes images and gives snapshots without allocating.
+#include "allocation_counter.h"
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <vector>
-
-namespace {
-int g_allocations = 0;
-}  // namespace
-
-// Never inlined: the compiler would see free() on memory that came from new.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* memory = std::malloc(size))
-    return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace wiimote_tracker::tracking {
 namespace {

@@ -1,0 +1,130 @@
+"""The evaluation: its sections one after the other, and the report."""
+
+import argparse
+import os
+import shutil
+import signal
+import sys
+import time
+import traceback
+
+from wiimote_tracker_evaluation import sections, stack
+from wiimote_tracker_evaluation.demo import Interrupted, interrupt, package_file
+from wiimote_tracker_evaluation.page import write_report
+from wiimote_tracker_evaluation.progress import Progress
+from wiimote_tracker_evaluation.section import Run
+
+REPORT_FILES = ('report.html', 'report.md', 'figures.json')
+
+
+class OutputError(Exception):
+    """The folder for the results cannot be used; the text says why and what to do."""
+
+
+def parse(arguments):
+    names = sections.names()
+    parser = argparse.ArgumentParser(
+        prog='evaluate', description="The paper's evaluation, on the simulated rig or, with --live, "
+        'on a real one; writes report.html, report.md, figures.json, tables and plots.')
+    parser.add_argument('--rig', metavar='FILE', default=package_file('simulation/paper_rig.yaml'),
+                        help='description of the rig (default: that of the paper\'s Fig. 1)')
+    parser.add_argument('--sections', metavar='A,B', default=','.join(names),
+                        help='only these, of: %s' % ', '.join(names))
+    parser.add_argument('--quick', action='store_true', help='fewer repetitions, minutes in all')
+    parser.add_argument('--live', action='store_true',
+                        help='lead a person through it on a tracker that is running')
+    parser.add_argument('--output', metavar='DIR', default='wiimote_tracker_evaluation',
+                        help='folder for the results (default: ./wiimote_tracker_evaluation)')
+    parser.add_argument('--seed', type=int, default=1, help='of everything random (default: 1)')
+    options = parser.parse_args(arguments)
+    chosen = options.sections.split(',')
+    for name in chosen:
+        if name not in names:
+            parser.error('there is no section %r; choose from %s' % (name, ', '.join(names)))
+    options.sections = [name for name in names if name in chosen]
+    if not os.path.isfile(options.rig):
+        parser.error('there is no rig description %s' % options.rig)
+    if not 0 <= options.seed < 2 ** 31:
+        parser.error('--seed must be within 0 and 2^31 - 1')
+    options.rig, options.output = os.path.abspath(options.rig), os.path.abspath(options.output)
+    return options
+
+
+def prepare(folder, names):
+    """Makes the output folder and removes what an earlier run left of what this one writes."""
+    try:
+        os.makedirs(folder, exist_ok=True)
+        for name in REPORT_FILES:
+            if os.path.exists(os.path.join(folder, name)):
+                os.remove(os.path.join(folder, name))
+        for name in names:
+            shutil.rmtree(os.path.join(folder, name), ignore_errors=True)
+    except OSError as error:
+        raise OutputError('cannot write to %s: %s; choose another folder with --output'
+                          % (folder, error.strerror))
+
+
+def carry_out(module, run, live):
+    """Runs a section; what goes wrong in it is written down in it."""
+    try:
+        (module.live if live else module.run)(run)
+    except Exception as error:  # the others go on, whatever happened in this one
+        run.failure = str(error) or type(error).__name__
+        with open(run.file('failure.txt'), 'w') as file:
+            traceback.print_exc(file=file)
+    finally:
+        stack.stop()
+
+
+def evaluate(options):
+    """Carries the sections out; 0 when all went well."""
+    modules = [sections.load(name) for name in options.sections]
+    if options.live:
+        modules = [module for module in modules if hasattr(module, 'live')]
+    prepare(options.output, [module.NAME for module in modules])
+    progress = Progress([(module.NAME, sections.seconds(module.NAME, options.quick))
+                         for module in modules])
+    begin, runs = time.time(), []
+    try:
+        for module in modules:
+            run = Run(module.NAME, module.TITLE, options.rig,
+                      os.path.join(options.output, module.NAME), options.quick, options.seed,
+                      not options.live, progress.within)
+            runs.append(run)
+            run.failure = 'It was interrupted.'
+            progress.begin(module.NAME, module.TITLE)
+            started = time.monotonic()
+            try:
+                run.failure = ''
+                carry_out(module, run, options.live)
+            except Interrupted:
+                run.failure = 'It was interrupted before its end.'
+                raise
+            finally:
+                run.duration = time.monotonic() - started
+                write_report(options, runs, time.time() - begin)
+            progress.end('failed: ' + run.failure if run.failure else 'done')
+    except Interrupted:
+        progress.line('Interrupted; what was done until now is in the report.')
+        progress.line(os.path.join(options.output, 'report.html'))
+        return 130
+    finally:
+        stack.stop_all()
+    failed = [run.name for run in runs if run.failure]
+    progress.line(os.path.join(options.output, 'report.html'))
+    if failed:
+        progress.line('Failed: %s; the report says why.' % ', '.join(failed))
+    return 1 if failed else 0
+
+
+def main(arguments=None):
+    options = parse(arguments)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, interrupt)
+    try:
+        return evaluate(options)
+    except Interrupted:
+        return 130
+    except OutputError as error:
+        print(error, file=sys.stderr)
+        return 1

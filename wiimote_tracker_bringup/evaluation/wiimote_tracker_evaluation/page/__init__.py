@@ -1,0 +1,33 @@
+"""What the evaluation leaves behind: report.html, report.md, figures.json, and a folder of tables and
+plots for each section."""
+
+import os
+
+from wiimote_tracker_evaluation.page import data, html, markdown
+
+
+class Report(object):
+    """What all the pages are made of. command: the options of the run; seconds: it took."""
+
+    def __init__(self, options, runs, seconds):
+        self.rig = options.rig
+        self.quick, self.live, self.seed = options.quick, options.live, options.seed
+        self.runs = runs
+        self.seconds = seconds
+
+
+def write_report(options, runs, seconds):
+    """Writes everything anew from the sections there are until now."""
+    report = Report(options, runs, seconds)
+    for run in runs:
+        data.write_section(run)
+    write(os.path.join(options.output, 'figures.json'), data.figures_json(report))
+    write(os.path.join(options.output, 'report.md'), markdown.page(report))
+    write(os.path.join(options.output, 'report.html'), html.page(report))
+
+
+def write(path, text):
+    """Never leaves half a file."""
+    with open(path + '.part', 'w', encoding='utf-8') as file:
+        file.write(text)
+    os.replace(path + '.part', path)

@@ -1,0 +1,78 @@
+"""Figures, tables and plots as files for other programs."""
+
+import csv
+import json
+import os
+
+import numpy as np
+
+from wiimote_tracker_evaluation.section import Plot, Table
+
+FORMAT = 1  # of figures.json
+
+
+def figure_entry(run, figure):
+    return {'name': figure.name, 'section': run.name, 'value': figure.value, 'unit': figure.unit,
+            'note': figure.note, 'seed': run.seed, 'samples': figure.samples,
+            'interval': list(figure.interval) if figure.interval else None,
+            'simulated': run.simulated, 'end_to_end': figure.end_to_end,
+            'headline': figure.headline}
+
+
+def figures_json(report):
+    return json.dumps({
+        'format': FORMAT, 'quick': report.quick, 'seed': report.seed,
+        'rig': os.path.basename(report.rig), 'simulated': not report.live,
+        'failed': [run.name for run in report.runs if run.failure],
+        'figures': [figure_entry(run, figure) for run in report.runs for figure in run.figures],
+    }, indent=1, ensure_ascii=False) + '\n'
+
+
+def write_section(run):
+    """CSV of every table, SVG of every plot, and one MATLAB file."""
+    for each in run.contents:
+        if isinstance(each, Table):
+            write_csv(run.file(each.name + '.csv'), each)
+        elif isinstance(each, Plot):
+            with open(run.file(each.name + '.svg'), 'w', encoding='utf-8') as file:
+                file.write(each.svg)
+    write_matlab(run.file(run.name + '.mat'), run)
+
+
+def write_csv(path, table):
+    """The first line has names with units, as in `error_mm`."""
+    with open(path, 'w', newline='', encoding='utf-8') as file:
+        writer = csv.writer(file, lineterminator='\n')
+        writer.writerow([name + ('_' + word(unit) if unit else '') for name, unit in table.columns])
+        writer.writerows(table.rows)
+
+
+def word(unit):
+    """A unit as part of a name."""
+    text = unit.replace('%', 'percent').replace('/', '_per_').replace('°', 'deg')
+    text = text.replace('µ', 'u').replace('²', '2').replace('³', '3')
+    return ''.join(letter if letter.isalnum() and letter.isascii() else '_' for letter in text)
+
+
+def column(values):
+    """A table's column for MATLAB: numbers (NaN where there is none), or texts."""
+    if any(isinstance(value, str) for value in values):
+        return np.array(['' if value is None else str(value) for value in values], dtype=object)
+    return np.array([np.nan if value is None else float(value) for value in values]).reshape(-1, 1)
+
+
+def write_matlab(path, run):
+    """One struct named as the section: figures.<name>, and one struct of columns for each table."""
+    import scipy.io
+    content = {'title': run.title, 'seed': float(run.seed), 'simulated': run.simulated,
+               'quick': run.quick, 'failure': run.failure}
+    content['figures'] = {figure.name: {
+        'value': figure.value, 'unit': figure.unit, 'samples': float(figure.samples),
+        'interval': np.array(figure.interval if figure.interval else (np.nan, np.nan)),
+        'end_to_end': figure.end_to_end, 'note': figure.note} for figure in run.figures}
+    for table in run.contents:
+        if isinstance(table, Table):
+            columns = zip(*table.rows) if table.rows else [()] * len(table.columns)
+            content['table_' + table.name] = {
+                name: column(values) for (name, _), values in zip(table.columns, columns)}
+    scipy.io.savemat(path, {run.name: content}, long_field_names=True, do_compression=True)

@@ -1,0 +1,57 @@
+"""report.md: the report for people who read text."""
+
+from wiimote_tracker_evaluation.page import words
+from wiimote_tracker_evaluation.section import Plot, Table, Text
+
+TITLE = 'Evaluation of the Wiimote tracker'
+
+
+def page(report):
+    lines = ['# ' + TITLE, '', words.about(report), '', '## In short', '']
+    for run in report.runs:
+        lines += ['- ' + sentence for sentence in run.summaries]
+        if run.failure:
+            lines.append('- **%s failed:** %s' % (run.title, run.failure))
+    for run in report.runs:
+        lines += section(run)
+    return '\n'.join(lines) + '\n'
+
+
+def section(run):
+    lines = ['', '## ' + run.title, '', '*%s*' % words.kinds(run)]
+    for each in run.contents:
+        lines.append('')
+        if isinstance(each, Text):
+            lines.append(each.markdown)
+        elif isinstance(each, Plot):
+            lines += ['![%s](%s/%s.svg)' % (each.name, run.name, each.name), '', each.caption]
+        elif isinstance(each, Table):
+            lines += content_table(run, each)
+    if run.failure:
+        lines += ['', '**This section failed:** ' + run.failure]
+    if run.figures:
+        lines += ['', '### Figures', ''] + figures_table(run)
+    return lines
+
+
+def row(cells):
+    return '| ' + ' | '.join(cell.replace('|', '\\|').replace('\n', ' ') for cell in cells) + ' |'
+
+
+def content_table(run, table):
+    link = '[%s.csv](%s/%s.csv)' % (table.name, run.name, table.name)
+    if not table.shown:
+        return ['%s %d rows: %s' % (table.caption or words.plain(table.name) + '.',
+                                    len(table.rows), link)]
+    lines = [row([words.with_unit(name, unit) for name, unit in table.columns]),
+             '|' + '---|' * len(table.columns)]
+    lines += [row([words.number(cell) for cell in cells]) for cells in table.rows]
+    return lines + ['', (table.caption + ' ' if table.caption else '') + link]
+
+
+def figures_table(run):
+    return [row(['', 'value', '95 %', 'samples', '']), '|---|---|---|---|---|'] + [
+        row([figure.note or words.plain(figure.name),
+             (words.number(figure.value) + ' ' + figure.unit).strip(), words.interval(figure),
+             '%d' % figure.samples, words.kind(run.simulated, figure.end_to_end)])
+        for figure in run.figures]

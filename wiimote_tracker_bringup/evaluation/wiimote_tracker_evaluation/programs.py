@@ -1,0 +1,81 @@
+"""Programs that are run to their end, two at a time, and their tables."""
+
+import collections
+import os
+import signal
+import subprocess
+import time
+
+import numpy as np
+
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.processes import prctl, PR_SET_PDEATHSIG
+
+AT_ONCE = 2
+
+
+def find_program(name):
+    """Path of 'program', of this package, or of 'package/program'."""
+    import roslib.packages
+    package, _, program = name.rpartition('/')
+    package = package or 'wiimote_tracker_bringup'
+    found = roslib.packages.find_node(package, program)
+    if not found:
+        raise ExperimentError('the program %s of %s is not there; build and source the workspace'
+                              % (program, package))
+    return found[0]
+
+
+def run_programs(commands, log, progress=lambda done, of: None):
+    """Runs every command (a list of words, the first as for find_program) and waits for all.
+
+    log: file for what they print. progress: told how many have ended.
+    @raise ExperimentError: one has failed; the others are ended.
+    """
+    waiting = collections.deque([find_program(command[0])] + [str(word) for word in command[1:]]
+                                for command in commands)
+    of, running = len(waiting), []
+    try:
+        while waiting or running:
+            while waiting and len(running) < AT_ONCE:
+                running.append(start(waiting.popleft(), log))
+            time.sleep(0.02)
+            for process in [each for each in running if each.poll() is not None]:
+                running.remove(process)
+                if process.returncode != 0:
+                    raise ExperimentError('%s failed (status %d): %s' % (
+                        os.path.basename(process.args[0]), process.returncode, last_line(log)))
+                progress(of - len(waiting) - len(running), of)
+    finally:
+        for process in running:
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+
+
+def start(command, log):
+    with open(log, 'ab') as file:
+        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=file,
+                                stderr=subprocess.STDOUT, start_new_session=True,
+                                preexec_fn=lambda: prctl(PR_SET_PDEATHSIG, signal.SIGTERM))
+
+
+def last_line(path):
+    with open(path, errors='replace') as file:
+        lines = [line.strip() for line in file if line.strip()]
+    return lines[-1] if lines else 'it said nothing'
+
+
+def read_csv(path):
+    """A table with names in its first line, as arrays by name: numbers where all are, else texts."""
+    import csv
+    with open(path, newline='') as file:
+        rows = list(csv.reader(file))
+    if not rows:
+        raise ExperimentError('%s is empty' % path)
+    columns = {}
+    for name, texts in zip(rows[0], zip(*rows[1:]) if len(rows) > 1 else [()] * len(rows[0])):
+        try:
+            columns[name] = np.array(texts, dtype=float)
+        except ValueError:
+            columns[name] = np.array(texts)
+    return columns

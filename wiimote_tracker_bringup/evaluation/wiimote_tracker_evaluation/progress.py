@@ -1,0 +1,66 @@
+"""How far the evaluation is, and how long it will still take."""
+
+import sys
+import time
+
+QUIET_PERIOD = 15.0  # without a terminal, between lines of one section [s]
+
+
+class Progress(object):
+    """One line per section; with a terminal, a line below that is overwritten."""
+
+    def __init__(self, expected, output=None, now=time.monotonic):
+        """expected: name and about how many seconds, of every section to come."""
+        self._expected = list(expected)
+        self._output = output or sys.stdout
+        self._now = now
+        self._live = self._output.isatty()
+        self._number = -1
+        self._pending = False
+        self._begin = self._said = now()
+        self._share = 0.0
+
+    def begin(self, name, title):
+        self._number += 1
+        self._share = 0.0
+        self._begin = self._said = self._now()
+        self.line('[%d/%d] %s' % (self._number + 1, len(self._expected), title))
+        self.within(0, 1)
+
+    def within(self, done, of, what=''):
+        """The section that is going on is at done of so many."""
+        self._share = min(max(float(done) / of, 0.0), 1.0) if of else 0.0
+        text = '%3.0f %%  %-12s %s' % (100.0 * self._share, remaining_text(self.remaining()), what)
+        if self._live:
+            self._output.write('\r\033[K      ' + text[:100])
+            self._output.flush()
+            self._pending = True
+        elif self._now() - self._said >= QUIET_PERIOD:
+            self._said = self._now()
+            self.line('      ' + text)
+
+    def end(self, text):
+        self.line('      %s after %.0f s' % (text, self._now() - self._begin))
+
+    def line(self, text):
+        if self._pending:
+            self._output.write('\r\033[K')
+            self._pending = False
+        self._output.write(text + '\n')
+        self._output.flush()
+
+    def remaining(self):
+        """Of all sections together [s]: what is expected at first, what is seen more and more."""
+        expected = self._expected[max(self._number, 0)][1]
+        elapsed = self._now() - self._begin
+        total = max(expected, elapsed)
+        if self._share > 0.0:
+            total = (1.0 - self._share) * total + self._share * (elapsed / self._share)
+        here = max(total * (1.0 - self._share), 0.0)
+        return here + sum(seconds for _, seconds in self._expected[self._number + 1:])
+
+
+def remaining_text(seconds):
+    if seconds < 55:
+        return '%d s left' % (5 * round(seconds / 5.0 + 0.5))
+    return '%d min left' % round(seconds / 60.0 + 0.4)

@@ -1,0 +1,137 @@
+"""What a section of the evaluation gets to work with, and what it leaves behind.
+
+A section is a module in sections/ with NAME (as in --sections), TITLE, and run(run), which gets a
+Run and tells it what was found. One that a person can be led through on a real rig also has
+live(run).
+"""
+
+import io
+import math
+import os
+import re
+
+from wiimote_tracker_evaluation import programs
+
+
+class Figure(object):
+    """A number of the report; see Run.figure()."""
+
+    def __init__(self, name, value, unit, samples, interval, note, end_to_end, headline):
+        self.name, self.value, self.unit, self.samples = name, value, unit, samples
+        self.interval, self.note = interval, note
+        self.end_to_end, self.headline = end_to_end, headline
+
+
+class Table(object):
+    def __init__(self, name, columns, rows, caption, shown):
+        self.name, self.columns, self.rows = name, columns, rows
+        self.caption, self.shown = caption, shown
+
+
+class Plot(object):
+    def __init__(self, name, svg, caption):
+        self.name, self.svg, self.caption = name, svg, caption
+
+
+class Text(object):
+    def __init__(self, markdown):
+        self.markdown = markdown
+
+
+class Run(object):
+    """One section being carried out.
+
+    quick: keep it short. seed: of everything random. rig: path of the rig's description. folder: for
+    files of one's own; what table() and plot() write goes there, too. simulated: False when a person
+    leads a real rig.
+    """
+
+    SHOWN_ROWS = 40  # a longer table is in the report only as a link
+
+    def __init__(self, name, title, rig, folder, quick=False, seed=1, simulated=True,
+                 on_progress=lambda done, of, what: None):
+        self.name, self.title = name, title
+        self.quick, self.seed, self.rig, self.folder = quick, seed, rig, folder
+        self.simulated = simulated
+        self.contents = []   # Text, Plot, Table, in their order
+        self.figures = []
+        self.summaries = []  # sentences for the head of the report
+        self.failure = ''    # why it did not come to its end
+        self._on_progress = on_progress
+        os.makedirs(folder, exist_ok=True)
+
+    # --- While it goes on
+
+    def progress(self, done, of, what=''):
+        """How far this section is, done of so many, and what is going on."""
+        self._on_progress(done, of, what)
+
+    def compute(self, commands, what, begin=0.0, end=1.0):
+        """Runs programs to their end, two at a time; each a list of words, the first `program` of
+        this package or `package/program`. They take the section from the share `begin` to `end`."""
+        self.progress(begin, 1.0, what)
+        programs.run_programs(commands, self.file('programs.log'), lambda done, of: self.progress(
+            begin + (end - begin) * done / of, 1.0, what))
+
+    def file(self, name):
+        """Path of a file in this section's folder."""
+        return os.path.join(self.folder, name)
+
+    # --- What was found
+
+    def summary(self, sentence):
+        """A sentence for the head of the report: what the rig can be trusted for."""
+        self.summaries.append(sentence)
+
+    def say(self, markdown):
+        """A paragraph, a heading (###), or a list, in this place. Knows **bold**, *italic*, `code`
+        and [links](...)."""
+        self.contents.append(Text(markdown))
+
+    def figure(self, name, value, unit, samples, interval=None, note='', end_to_end=False,
+               headline=False):
+        """A number. name: under_scored, never changed. samples: how many independent measurements it
+        comes from. interval: (low, high), 95 %. note: what it is, in words. end_to_end: through the
+        full stack, rather than the cores in process. headline: stands in the README's table too."""
+        check_name(name, [figure.name for figure in self.figures])
+        numbers = [value] + (list(interval) if interval is not None else [])
+        if not all(math.isfinite(number) for number in numbers):
+            raise ValueError('figure %s is not a finite number: %s' % (name, numbers))
+        self.figures.append(Figure(
+            name, float(value), unit, int(samples),
+            None if interval is None else (float(interval[0]), float(interval[1])),
+            note, bool(end_to_end), bool(headline)))
+
+    def table(self, name, columns, rows, caption='', shown=None):
+        """A table in this place, as a CSV file, and as a struct in the section's .mat. columns:
+        (name, unit) each, under_scored; rows: numbers or texts, None where there is none. shown:
+        whether the report holds it or a link; by default when it is short."""
+        check_name(name, [each.name for each in self.contents if isinstance(each, Table)])
+        taken = []
+        for column, _ in columns:
+            check_name(column, taken)
+            taken.append(column)
+        rows = [list(row) for row in rows]
+        if any(len(row) != len(columns) for row in rows):
+            raise ValueError('table %s: every row needs %d cells' % (name, len(columns)))
+        self.contents.append(Table(name, list(columns), rows, caption,
+                                   len(rows) <= self.SHOWN_ROWS if shown is None else shown))
+
+    def plot(self, name, figure, caption):
+        """A matplotlib figure in this place and as an SVG file. It is closed."""
+        check_name(name, [each.name for each in self.contents if isinstance(each, Plot)])
+        import matplotlib
+        import matplotlib.pyplot as plt
+        text = io.StringIO()
+        # Text stays text; the same figure gives the same bytes.
+        with matplotlib.rc_context({'svg.fonttype': 'none', 'svg.hashsalt': self.name + name}):
+            figure.savefig(text, format='svg', bbox_inches='tight', metadata={'Date': None})
+        plt.close(figure)
+        self.contents.append(Plot(name, text.getvalue(), caption))
+
+
+def check_name(name, taken):
+    if not re.match(r'[A-Za-z][A-Za-z0-9_]*$', name):
+        raise ValueError('%r must be letters, digits and _, a letter first' % name)
+    if name in taken:
+        raise ValueError('%s is there twice' % name)

@@ -1,0 +1,80 @@
+"""The full stack on virtual Wii Remotes, for sections that are measured end to end.
+
+One ROS master and one node of this process serve all of them, since a Python process can be one node
+only; what a section launches has ended before the next begins.
+"""
+
+import os
+import shutil
+import tempfile
+import time
+
+from wiimote_tracker_evaluation.demo import free_port
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.processes import Processes
+
+MASTER_DEADLINE = 30.0  # [s]
+
+_processes = None
+_scratch = None
+_launched = []
+
+
+def master(log):
+    """Starts the master and makes this process a node, once. log: file for what it prints."""
+    global _processes, _scratch
+    if _processes is not None:
+        return
+    import rosgraph
+    _processes = Processes()
+    _scratch = tempfile.mkdtemp(prefix='wiimote_tracker_evaluation_')
+    port = free_port()
+    os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % port
+    os.environ['ROS_HOSTNAME'] = 'localhost'
+    os.environ['ROS_HOME'] = _scratch
+    _processes.start('rosmaster', ['rosmaster', '--core', '-p', str(port)], log)
+    deadline = time.monotonic() + MASTER_DEADLINE
+    while not rosgraph.is_master_online():
+        check()
+        if time.monotonic() > deadline:
+            raise ExperimentError('no ROS master within %.0f s; see %s' % (MASTER_DEADLINE, log))
+        time.sleep(0.02)
+    import rospy  # not earlier: it reads the master's address when it is imported
+    rospy.init_node('evaluation', disable_signals=True)
+
+
+def launch(run, file, **arguments):
+    """Starts a launch file of this package (a path within it, or a whole one) for a section; ends
+    what the section has launched before. Returns a folder that is empty, for its files."""
+    import rospkg
+    log = run.file('nodes.log')
+    master(log)
+    stop()
+    folder = tempfile.mkdtemp(dir=_scratch)
+    path = file if os.path.isabs(file) else os.path.join(
+        rospkg.RosPack().get_path('wiimote_tracker_bringup'), file)
+    words = ['%s:=%s' % (name, str(value).replace('{folder}', folder))
+             for name, value in sorted(arguments.items())]
+    _launched.append(_processes.start('roslaunch', ['roslaunch', '--wait', path] + words, log))
+    return folder
+
+
+def check():
+    """@raise ProcessEnded: something that is needed has ended."""
+    _processes.check()
+
+
+def stop():
+    """Ends what was launched; the master stays."""
+    while _launched:
+        _processes.stop(_launched.pop())
+
+
+def stop_all():
+    """Ends everything, the master too."""
+    global _processes
+    _launched.clear()
+    if _processes is not None:
+        _processes.stop_all()
+        shutil.rmtree(_scratch, ignore_errors=True)
+        _processes = None

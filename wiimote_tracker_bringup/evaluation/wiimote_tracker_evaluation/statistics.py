@@ -1,0 +1,54 @@
+"""Confidence intervals. Every one is (low, high) and repeatable."""
+
+import numpy as np
+
+CONFIDENCE = 0.95
+NORMAL_QUANTILE = 1.959963984540054  # of CONFIDENCE, both sides
+
+
+def bootstrap(units, statistic=np.mean, seed=1, resamples=1000, confidence=CONFIDENCE):
+    """Interval of statistic(all values), by drawing whole units again (percentile bootstrap, B.
+    Efron, 1979).
+
+    units: one array of values (or of rows) for each independent unit, such as a session; values of
+    one unit may depend on each other. statistic: of one array to a number. @raise ValueError: fewer
+    than two units.
+    """
+    units = [np.atleast_1d(np.asarray(unit, dtype=float)) for unit in units]
+    if len(units) < 2:
+        raise ValueError('an interval needs at least two independent units')
+    random = np.random.RandomState(seed)
+    drawn = [statistic(np.concatenate([units[i] for i in random.randint(0, len(units), len(units))]))
+             for _ in range(resamples)]
+    tail = 50.0 * (1.0 - confidence)
+    low, high = np.percentile(drawn, [tail, 100.0 - tail])
+    return float(low), float(high)
+
+
+def wilson(successes, trials):
+    """Interval of a probability after so many independent trials (E. B. Wilson, JASA 22, 1927).
+    @raise ValueError: no trials."""
+    if not 0 <= successes <= trials or trials < 1:
+        raise ValueError('successes must be within 0 and the number of trials, which is 1 or more')
+    z2 = NORMAL_QUANTILE ** 2
+    share = successes / trials
+    middle = (share + z2 / (2.0 * trials)) / (1.0 + z2 / trials)
+    half = NORMAL_QUANTILE / (1.0 + z2 / trials) * np.sqrt(
+        share * (1.0 - share) / trials + z2 / (4.0 * trials ** 2))
+    return float(max(0.0, middle - half)), float(min(1.0, middle + half))
+
+
+def rms(values):
+    """Root mean square."""
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def quantile(share):
+    """The statistic "this quantile", for bootstrap()."""
+    return lambda values: float(np.quantile(values, share))
+
+
+def blocks(values, number):
+    """A series in time cut into so many contiguous pieces, as units for bootstrap() when neighbours
+    depend on each other."""
+    return [piece for piece in np.array_split(np.asarray(values, dtype=float), number) if len(piece)]

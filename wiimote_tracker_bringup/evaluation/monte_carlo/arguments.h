@@ -1,0 +1,30 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_ARGUMENTS_H
+#define WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_ARGUMENTS_H
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace wiimote_tracker::monte_carlo {
+
+/// What every program of the evaluation is told: --rig FILE --output FILE [--seed N] [--sessions N]
+struct Arguments {
+  std::string rig;         ///< Path of a rig's description.
+  std::string output;      ///< Path of the table (or folder) that is written.
+  std::uint32_t seed = 1;  ///< Of everything random.
+  int sessions = 1;        ///< Independent repetitions [1..100000].
+};
+
+/// Seed of one session; those of different seeds and sessions have nothing in common.
+std::uint32_t sessionSeed(const Arguments& arguments, int session);
+
+/// A program's main(): parses the arguments and measures; what goes wrong is one sentence on
+/// stderr. @param purpose one sentence for --help. @returns the exit status.
+int runProgram(int argc,
+               char** argv,
+               const std::string& purpose,
+               const std::function<void(const Arguments&)>& measure);
+
+}  // namespace wiimote_tracker::monte_carlo
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_ARGUMENTS_H

@@ -1,0 +1,151 @@
+// What cameras cost that expose when they like, and what it helps to estimate when that was: an LED
+// on a circle, followed in three ways.
+#include "arguments.h"
+#include "room.h"
+#include "table.h"
+
+#include "wiimote_tracker_triangulation/geometry/triangulate.h"
+#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace wiimote_tracker::monte_carlo {
+namespace {
+
+constexpr double kDuration = 8.0;     // of a session [s]
+constexpr double kSettled = 3.0;      // not counted before: clocks and tracks are young [s]
+constexpr double kRadius = 0.75;      // the paper's circle [m]
+constexpr double kNear = 0.5;         // what is further off is not the LED [m]
+constexpr double kLongestKept = 0.1;  // a spot older than this is not used any more [s]
+
+struct Score {
+  double squared = 0.0;  // errors [m^2]
+  int seen = 0;
+  int instants = 0;
+
+  void add(const Eigen::Vector3d* position, const Eigen::Vector3d& truth) {
+    ++instants;
+    if (!position || (*position - truth).norm() > kNear)
+      return;
+    squared += (*position - truth).squaredNorm();
+    ++seen;
+  }
+};
+
+Path circleOf(double speed, double phase) {
+  return [=](double time) {
+    const double angle = phase + speed / kRadius * time;
+    return Eigen::Vector3d(1.25 + kRadius * std::cos(angle), 1.25 + kRadius * std::sin(angle),
+                           0.95);
+  };
+}
+
+/// The tracker's two ways; `lateness` of the stamps [s].
+Score follow(const geometry::Rig& rig,
+             const std::vector<RoomImage>& images,
+             const Path& path,
+             double lateness,
+             tracking::Mode mode) {
+  tracking::EstimatorOptions options;
+  options.mode = mode;
+  const auto estimator = tracking::makeEstimator(rig, options);
+  Score score;
+  for (const RoomImage& image : images) {
+    estimator->add(image.camera, image.image);
+    while (const tracking::Snapshot* snapshot = estimator->next()) {
+      const double time = snapshot->time - lateness;
+      if (time < kSettled)
+        continue;
+      const Eigen::Vector3d truth = path(time);
+      const Eigen::Vector3d* nearest = nullptr;
+      for (const tracking::TrackedLed& led : snapshot->leds) {
+        if (!nearest || (led.position - truth).norm() < (*nearest - truth).norm())
+          nearest = &led.position;
+      }
+      score.add(nearest, truth);
+    }
+  }
+  return score;
+}
+
+/// As a program would that knows nothing of time: with each image that arrives, the rays of what
+/// every camera showed last. The place is that of the moment at which the mean of its images was
+/// exposed, which is the best that can be said for it.
+Score intersectLatest(const geometry::Rig& rig,
+                      const std::vector<RoomImage>& images,
+                      const Path& path) {
+  std::vector<const RoomImage*> latest(rig.cameras.size(), nullptr);
+  geometry::TriangulationOptions options;
+  options.method = geometry::TriangulationMethod::kMeanClosest;
+  Score score;
+  for (const RoomImage& image : images) {
+    latest[image.camera] = &image;
+    std::vector<geometry::Observation> observations;
+    double time = 0.0;
+    for (const RoomImage* last : latest) {
+      if (!last || last->image.spots.empty() ||
+          image.image.arrival - last->image.arrival > kLongestKept)
+        continue;
+      observations.push_back({&rig.cameras[last->camera].camera, last->image.spots[0].pixel});
+      time += last->exposure;
+    }
+    if (observations.empty())
+      continue;
+    time /= static_cast<double>(observations.size());
+    if (time < kSettled)
+      continue;
+    const auto point = geometry::triangulate(observations, options);
+    score.add(point ? &point->position : nullptr, path(time));
+  }
+  return score;
+}
+
+void measure(const Arguments& arguments) {
+  const simulation::Description description = simulation::readDescription(arguments.rig);
+  const geometry::Rig rig = trueRig(description);
+  Table table(arguments.output, {"session", "speed_m_per_s", "clocks", "stamps", "method", "rms_mm",
+                                 "seen_share", "lateness_ms", "instants"});
+  for (int session = 0; session < arguments.sessions; ++session) {
+    const std::uint32_t seed = sessionSeed(arguments, session);
+    for (const double speed : {0.5, 1.0, 2.0, 3.0}) {
+      const Path path = circleOf(speed, 1e-3 * (seed % 6283));
+      for (const bool synchronised : {false, true}) {
+        for (const auto& [stamping, name] : {std::make_pair(Stamping::kExact, "exact"),
+                                             std::make_pair(Stamping::kEstimated, "estimated"),
+                                             std::make_pair(Stamping::kArrival, "arrival")}) {
+          RoomOptions options;
+          options.synchronised = synchronised;
+          options.stamping = stamping;
+          Room room(description, {path}, options, seed);
+          const std::vector<RoomImage> images = record(&room, kDuration);
+          const double lateness = medianLateness(images);
+          const auto write = [&](const std::string& method, const Score& score) {
+            table << session << speed << (synchronised ? "synchronised" : "own") << name << method
+                  << 1e3 * std::sqrt(score.squared / score.seen)
+                  << static_cast<double>(score.seen) / score.instants << 1e3 * lateness
+                  << score.instants;
+          };
+          write("tracks", follow(rig, images, path, lateness, tracking::Mode::kTracks));
+          write("instants", follow(rig, images, path, lateness, tracking::Mode::kInstant));
+          if (stamping == Stamping::kExact)  // it makes no use of stamps
+            write("latest", intersectLatest(rig, images, path));
+        }
+      }
+    }
+  }
+  table.close();
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::monte_carlo
+
+int main(int argc, char** argv) {
+  return wiimote_tracker::monte_carlo::runProgram(
+      argc, argv,
+      "RMS error of a moving LED with cameras that expose at once or by clocks of their own, and "
+      "with stamps that are exact, estimated, or the arrivals.",
+      wiimote_tracker::monte_carlo::measure);
+}

@@ -1,0 +1,73 @@
+#include "remote_camera.h"
+
+#include "wiimote_tracker_driver/protocol/input_reports.h"
+#include "wiimote_tracker_driver/protocol/output_reports.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace wiimote_tracker::monte_carlo {
+namespace {
+
+constexpr std::uint8_t kExtendedReport = 0x33;
+
+virtual_wiimote::Bytes bytesOf(const protocol::Report& report) {
+  return {report.bytes.begin(), report.bytes.begin() + report.size};
+}
+
+protocol::Report reportOf(const virtual_wiimote::Bytes& bytes) {
+  protocol::Report report;
+  report.size = std::min(bytes.size(), report.bytes.size());
+  std::copy_n(bytes.begin(), report.size, report.bytes.begin());
+  return report;
+}
+
+template <typename Data>
+protocol::Report registers(std::uint32_t address, const Data& data) {
+  return protocol::writeMemory(protocol::Space::kRegisters, address, data.data(), data.size());
+}
+
+protocol::Report registerByte(std::uint32_t address, std::uint8_t value) {
+  return protocol::writeMemory(protocol::Space::kRegisters, address, &value, 1);
+}
+
+}  // namespace
+
+RemoteCamera::RemoteCamera(const std::string& sensitivity)
+    : device_(std::make_unique<virtual_wiimote::Device>()) {
+  const auto setting = protocol::irSensitivity(sensitivity);
+  if (!setting)
+    throw std::invalid_argument("there is no sensitivity '" + sensitivity +
+                                "'; wii_1 to wii_5, marcan and max are known");
+  for (const protocol::Report& report :
+       {protocol::setIrClock(true), protocol::setIrLogic(true),
+        registerByte(protocol::kIrControlRegister, protocol::kIrControlSetup),
+        registers(protocol::kIrBlock1Register, setting->block1),
+        registers(protocol::kIrBlock2Register, setting->block2),
+        registerByte(protocol::kIrModeRegister,
+                     static_cast<std::uint8_t>(protocol::IrFormat::kExtended)),
+        registerByte(protocol::kIrControlRegister, protocol::kIrControlRun),
+        protocol::setReportMode(kExtendedReport, true)})
+    device_->handleOutput(bytesOf(report));
+}
+
+const std::vector<tracking::Spot>& RemoteCamera::look(const virtual_wiimote::Senses& senses) {
+  spots_.clear();
+  const auto bytes = device_->sample(senses);
+  const auto report = bytes ? protocol::decodeDataReport(reportOf(*bytes)) : std::nullopt;
+  if (!report)
+    throw std::logic_error("the virtual Wii Remote sends no images");
+  for (std::size_t slot = 0; slot < report->spots.size(); ++slot) {
+    const protocol::IrSpot& seen = report->spots[slot];
+    if (!seen.seen)
+      continue;
+    tracking::Spot spot;
+    spot.pixel = {seen.x, protocol::kSensorHeight - 1 - seen.y};
+    spot.size = seen.size;
+    spot.slot = static_cast<int>(slot);
+    spots_.push_back(spot);
+  }
+  return spots_;
+}
+
+}  // namespace wiimote_tracker::monte_carlo

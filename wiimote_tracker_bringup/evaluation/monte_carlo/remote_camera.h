@@ -1,0 +1,32 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_REMOTE_CAMERA_H
+#define WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_REMOTE_CAMERA_H
+
+#include "wiimote_tracker_driver/protocol/ir_camera.h"
+#include "wiimote_tracker_driver/virtual_wiimote/device.h"
+#include "wiimote_tracker_triangulation/tracking/camera_image.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::monte_carlo {
+
+/// The camera of a virtual Wii Remote, set up and read by its protocol: what it makes of the light
+/// that falls on its sensor, from the choice of four to whole pixels.
+class RemoteCamera {
+ public:
+  /// @param sensitivity a name (see protocol::irSensitivity). @throws std::invalid_argument: of
+  /// none.
+  explicit RemoteCamera(const std::string& sensitivity);
+
+  /// One image. Spots with v down [px], in the order of their slots. Valid until the next call.
+  const std::vector<tracking::Spot>& look(const virtual_wiimote::Senses& senses);
+
+ private:
+  std::unique_ptr<virtual_wiimote::Device> device_;
+  std::vector<tracking::Spot> spots_;
+};
+
+}  // namespace wiimote_tracker::monte_carlo
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_REMOTE_CAMERA_H

@@ -1,0 +1,137 @@
+#include "room.h"
+
+#include <algorithm>
+#include <random>
+#include <utility>
+
+namespace wiimote_tracker::monte_carlo {
+namespace {
+
+// Size of the LEDs as the sensor reports it; with a size an LED is as bright at any distance.
+constexpr double kLedSize = 3.0;
+constexpr double kLedBrightness = 1.0;
+// Of an exposure that came by its exact stamp [s].
+constexpr double kExactStampStddev = 1e-6;
+
+virtual_wiimote::FrameTimesModel timesOf(const virtual_wiimote::FrameTimesModel& described,
+                                         bool synchronised,
+                                         double phase) {
+  virtual_wiimote::FrameTimesModel model = described;
+  model.phase = synchronised ? 0.0 : phase;
+  if (synchronised) {
+    model.period_tolerance = 0.0;
+    model.wander = 0.0;
+  }
+  return model;
+}
+
+bool arrivesLater(const RoomImage& a, const RoomImage& b) {
+  return std::make_pair(a.image.arrival, a.camera) > std::make_pair(b.image.arrival, b.camera);
+}
+
+}  // namespace
+
+Room::Room(const simulation::Description& description,
+           const std::vector<Path>& leds,
+           const RoomOptions& options,
+           std::uint32_t seed)
+    : leds_(leds), options_(options) {
+  std::mt19937 random(seed);
+  for (const simulation::CameraDescription& camera : description.cameras) {
+    // Each session has other phases than the description, which is one draw of them.
+    const double phase = camera.timing.period * (random() / 4294967296.0);
+    const auto pixel_seed = static_cast<std::uint32_t>(random());
+    const auto time_seed = static_cast<std::uint64_t>(random());
+    virtual_wiimote::FrameTimes times(timesOf(camera.timing, options.synchronised, phase),
+                                      time_seed);
+    const virtual_wiimote::FrameTime first = times.next();
+    cameras_.push_back(
+        {simulation::VirtualCamera(camera.camera, description.pixel_noise, pixel_seed),
+         RemoteCamera(options.sensitivity), times, first, exposure_clock::ExposureClock()});
+  }
+}
+
+const RoomImage& Room::next() {
+  for (;;) {
+    const auto camera = std::min_element(cameras_.begin(), cameras_.end(), [](auto& a, auto& b) {
+      return a.coming.exposure < b.coming.exposure;
+    });
+    // What is exposed later arrives later than it is exposed.
+    if (!on_the_way_.empty() && on_the_way_.front().image.arrival <= camera->coming.exposure)
+      break;
+    expose(static_cast<std::size_t>(camera - cameras_.begin()));
+  }
+  std::pop_heap(on_the_way_.begin(), on_the_way_.end(), arrivesLater);
+  std::swap(current_, on_the_way_.back());
+  on_the_way_.pop_back();
+  tracking::CameraImage& image = current_.image;
+  const exposure_clock::Estimate estimate = cameras_[current_.camera].clock.update(image.arrival);
+  switch (options_.stamping) {
+    case Stamping::kExact:
+      image.stamp = current_.exposure;
+      image.stamp_stddev = kExactStampStddev;
+      break;
+    case Stamping::kEstimated:
+      image.stamp = estimate.exposure;
+      image.stamp_stddev = estimate.stddev;
+      break;
+    case Stamping::kArrival:
+      image.stamp = image.arrival;
+      break;
+  }
+  return current_;
+}
+
+void Room::expose(std::size_t number) {
+  Camera& camera = cameras_[number];
+  const virtual_wiimote::FrameTime frame = camera.coming;
+  camera.coming = camera.times.next();
+  lamps_.clear();
+  for (std::size_t led = 0; led < leds_.size(); ++led) {
+    if (!options_.hidden || !options_.hidden(number, led, frame.exposure))
+      lamps_.push_back({leds_[led](frame.exposure), kLedSize, kLedBrightness});
+  }
+  const std::vector<tracking::Spot>& spots = camera.sensor.look(camera.optics.sense(lamps_));
+  if (frame.lost)
+    return;
+  RoomImage result;
+  result.camera = number;
+  result.exposure = frame.exposure;
+  result.image.arrival = frame.arrival;
+  result.image.spots = spots;
+  on_the_way_.push_back(std::move(result));
+  std::push_heap(on_the_way_.begin(), on_the_way_.end(), arrivesLater);
+}
+
+std::vector<RoomImage> record(Room* room, double duration) {
+  std::vector<RoomImage> images;
+  // Nothing that is exposed within the duration arrives later than this after it.
+  constexpr double kLatest = 1.0;
+  while (images.empty() || images.back().image.arrival < duration + kLatest)
+    images.push_back(room->next());
+  images.erase(std::remove_if(images.begin(), images.end(),
+                              [&](const RoomImage& image) { return image.exposure > duration; }),
+               images.end());
+  return images;
+}
+
+double medianLateness(const std::vector<RoomImage>& images) {
+  std::vector<double> lateness;
+  for (const RoomImage& image : images)
+    lateness.push_back(image.image.stamp - image.exposure);
+  const auto middle = lateness.begin() + static_cast<std::ptrdiff_t>(lateness.size() / 2);
+  std::nth_element(lateness.begin(), middle, lateness.end());
+  return *middle;
+}
+
+geometry::Rig trueRig(const simulation::Description& description) {
+  geometry::Rig rig;
+  for (const simulation::CameraDescription& camera : description.cameras) {
+    geometry::RigCamera known;
+    known.camera = camera.camera;
+    rig.cameras.push_back(known);
+  }
+  return rig;
+}
+
+}  // namespace wiimote_tracker::monte_carlo

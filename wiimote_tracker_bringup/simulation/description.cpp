@@ -3,9 +3,12 @@
 #include "section.h"
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/gesture/error.h"
+#include "wiimote_tracker_triangulation/gesture/path_file.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <set>
 
@@ -151,6 +154,21 @@ ReflectionDescription readReflection(const std::string& name, Section section) {
   return reflection;
 }
 
+/// @param folder that the file's name counts from.
+Drawing readDrawing(Section section, const std::filesystem::path& folder) {
+  const auto file = section.value<std::string>("file");
+  const double size = section.number("size", 0.001, 100.0);
+  const double rest = section.number("rest", 0.0, 60.0, 0.0);
+  section.refuseUnknown();
+  try {
+    return Drawing(gesture::readPath((folder / file).string()), size, rest);
+  } catch (const gesture::GestureError& error) {
+    throw section.error("file", std::string("cannot be used: ") + error.what());
+  } catch (const std::invalid_argument& error) {
+    throw section.error("file", error.what());
+  }
+}
+
 bool hasCamera(const Description& description, const std::string& name) {
   return std::any_of(description.cameras.begin(), description.cameras.end(),
                      [&](const CameraDescription& camera) { return camera.camera.name == name; });
@@ -241,6 +259,12 @@ Description readDescription(const std::string& path) {
   }
   if (file.has("board"))
     description.board = readBoard(file.section("board"), description);
+  if (file.has("drawings")) {
+    Section drawings = file.section("drawings");
+    for (const auto& [name, section] : drawings.entries())
+      description.drawings.emplace(name,
+                                   readDrawing(section, std::filesystem::path(path).parent_path()));
+  }
   file.refuseUnknown();
   return description;
 }

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
 #define WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
 
+#include "drawing.h"
 #include "led_motion.h"
 
 #include "wiimote_tracker_driver/virtual_wiimote/frame_times.h"
@@ -9,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -85,6 +87,7 @@ struct Description {
   std::vector<PersonDescription> people;
   std::vector<ReflectionDescription> reflections;
   std::optional<BoardDescription> board;
+  std::map<std::string, Drawing> drawings;  ///< By name.
 };
 
 /// Reads a description (layout: paper_rig.yaml, people_rig.yaml). Unknown keys are refused.

@@ -11,6 +11,8 @@ Eigen::Vector3d LedMotion::position(double time) const {
     return from_ + (time - begin_) / (arrival_ - begin_) * (to_ - from_);
   if (wave_)
     return wave_->position(time - arrival_);
+  if (drawing_)
+    return middle_ + drawing_->position(time - arrival_ - drawing_->rest());
   const double angle = angular_speed_ * (time - arrival_);
   return to_ + radius_ * Eigen::Vector3d(std::cos(angle) - 1.0, std::sin(angle), 0.0);
 }
@@ -27,6 +29,7 @@ double LedMotion::line(double time, const Eigen::Vector3d& target, double speed)
   radius_ = 0.0;
   angular_speed_ = 0.0;
   wave_.reset();
+  drawing_.reset();
   return arrival_;
 }
 
@@ -46,6 +49,23 @@ double LedMotion::wave(double time,
   line(time, path.position(0.0), speed);
   wave_ = path;
   return arrival_;
+}
+
+double LedMotion::draw(double time,
+                       const Drawing& drawing,
+                       const Eigen::Vector3d& middle,
+                       double speed) {
+  line(time, middle + drawing.position(0.0), speed);
+  drawing_ = drawing;
+  middle_ = middle;
+  return arrival_ + drawing.rest();
+}
+
+bool LedMotion::isDrawing(double time) const {
+  if (!drawing_)
+    return false;
+  const double since = time - arrival_ - drawing_->rest();
+  return 0.0 <= since && since <= drawing_->duration();
 }
 
 }  // namespace wiimote_tracker::simulation

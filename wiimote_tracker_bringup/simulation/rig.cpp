@@ -113,7 +113,7 @@ void Rig::expose(std::size_t number) {
   const double time = camera.next.exposure;
   lamps_.clear();
   for (const Led& led : leds_) {
-    if (led.lit && isInRoom(led))
+    if ((led.lit || led.motion.isDrawing(time)) && isInRoom(led))
       lamps_.push_back({positionOf(led, time), led.description.size, led.description.brightness});
   }
   if (board_)

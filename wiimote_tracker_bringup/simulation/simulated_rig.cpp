@@ -32,6 +32,7 @@ SimulatedRig::SimulatedRig(ros::NodeHandle nh,
                            const Description& description,
                            const std::string& socket_directory)
     : world_frame_(description.world_frame),
+      drawings_(description.drawings),
       rig_(
           description,
           [this](std::size_t camera, const virtual_wiimote::Senses& senses) {
@@ -109,7 +110,7 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
 }
 
 /// @returns when the motion that is asked for arrives [s].
-double SimulatedRig::move(const SetLed::Request& request, double time, LedMotion* motion) {
+double SimulatedRig::move(const SetLed::Request& request, double time, LedMotion* motion) const {
   const Eigen::Vector3d target(request.target.x, request.target.y, request.target.z);
   switch (request.motion) {
     case SetLed::Request::LINE:
@@ -120,6 +121,8 @@ double SimulatedRig::move(const SetLed::Request& request, double time, LedMotion
       return motion->wave(time, target,
                           Eigen::Vector3d(request.box.x, request.box.y, request.box.z),
                           request.speed, request.path);
+    case SetLed::Request::DRAW:
+      return motion->draw(time, drawings_.at(request.drawing), target, request.speed);
     default:
       motion->hold(time);
       return time;
@@ -164,15 +167,16 @@ std::string SimulatedRig::refusal(const SetLed::Request& request) const {
   const bool circle = request.motion == SetLed::Request::CIRCLE;
   const Eigen::Vector3d sides(request.box.x, request.box.y, request.box.z);
   const bool wave = request.motion == SetLed::Request::WAVE;
+  const bool draw = request.motion == SetLed::Request::DRAW;
   if (request.motion == SetLed::Request::SHOW)
     return request.led == "board" ? "" : "only the board can be shown (SHOW)";
-  if (!line && !circle && !wave && request.motion != SetLed::Request::HOLD)
-    return "motion must be HOLD, LINE, CIRCLE or WAVE";
-  if ((line || circle || wave) &&
+  if (!line && !circle && !wave && !draw && request.motion != SetLed::Request::HOLD)
+    return "motion must be HOLD, LINE, CIRCLE, WAVE or DRAW";
+  if ((line || circle || wave || draw) &&
       !(std::isfinite(request.target.x) && std::isfinite(request.target.y) &&
         std::isfinite(request.target.z)))
     return "target must be finite";
-  if (line && !(request.speed >= 0.0 && std::isfinite(request.speed)))
+  if ((line || draw) && !(request.speed >= 0.0 && std::isfinite(request.speed)))
     return "speed must be 0 (at once) or more";
   if ((circle || wave) && !(request.speed > 0.0 && std::isfinite(request.speed)))
     return "speed must be more than 0";
@@ -180,6 +184,8 @@ std::string SimulatedRig::refusal(const SetLed::Request& request) const {
     return "radius must be more than 0";
   if (wave && !(sides.minCoeff() > 0.0 && sides.allFinite()))
     return "the sides of the box must be more than 0";
+  if (draw && drawings_.count(request.drawing) == 0)
+    return "the rig's description has no drawing '" + request.drawing + "'";
   return "";
 }
 

@@ -10,6 +10,7 @@
 #include <wiimote_tracker_msgs/SetLed.h>
 
 #include <chrono>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -37,15 +38,16 @@ class SimulatedRig {
   bool setReflection(const wiimote_tracker_msgs::SetLed::Request& request,
                      ReflectionDescription* reflection,
                      wiimote_tracker_msgs::SetLed::Response& response);
-  static double move(const wiimote_tracker_msgs::SetLed::Request& request,
-                     double time,
-                     LedMotion* motion);
+  double move(const wiimote_tracker_msgs::SetLed::Request& request,
+              double time,
+              LedMotion* motion) const;
   std::string refusal(const wiimote_tracker_msgs::SetLed::Request& request) const;
   double now() const;                  ///< [s since the start]
   ros::Time stamp(double time) const;  ///< Of a time since the start.
   void publishTruth(std::size_t led, double time, const Eigen::Vector3d& position);
 
   std::string world_frame_;
+  std::map<std::string, Drawing> drawings_;
   std::chrono::steady_clock::time_point start_;
   ros::Time start_stamp_;
   std::vector<std::unique_ptr<virtual_wiimote::Server>> servers_;

@@ -130,7 +130,7 @@ class SimulatedRig(unittest.TestCase):
     def test_a_request_that_makes_no_sense_is_refused_in_words(self):
         refused = [
             (dict(led='candle', motion=SetLedRequest.HOLD), "reflection 'candle'"),
-            (dict(led='led', motion=9), 'HOLD, LINE, CIRCLE or WAVE'),
+            (dict(led='led', motion=9), 'HOLD, LINE, CIRCLE, WAVE or DRAW'),
             (dict(led='led', motion=SetLedRequest.LINE, speed=-1.0), 'speed'),
             (dict(led='led', motion=SetLedRequest.LINE, speed=float('nan')), 'speed'),
             (dict(led='led', motion=SetLedRequest.CIRCLE, speed=0.0, radius=1.0), 'speed'),
@@ -139,6 +139,7 @@ class SimulatedRig(unittest.TestCase):
             (dict(led='board', motion=SetLedRequest.LINE), 'only HOLD or be shown'),
             (dict(led='led', motion=SetLedRequest.WAVE, speed=1.0), 'sides of the box'),
             (dict(led='led', motion=SetLedRequest.WAVE, box=Vector3(1, 1, 1)), 'speed'),
+            (dict(led='led', motion=SetLedRequest.DRAW, drawing='face'), "no drawing 'face'"),
             (dict(led='wand_end', motion=SetLedRequest.LINE), "where 'led' goes")]
         for fields, word in refused:
             response = self.set_led(SetLedRequest(on=True, **fields))

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <utility>
 
 namespace wiimote_tracker::simulation {
 namespace {
@@ -142,6 +143,39 @@ TEST_F(DescriptionFile, an_led_may_turn_about_another_one_that_does_not) {
   nowhere.replace(nowhere.find("distance: 0.5"), 13, "distance: 0");
   EXPECT_NE(complaint("lit: false}", nowhere).find("leds/end/turns/distance is 0"),
             std::string::npos);
+}
+
+TEST_F(DescriptionFile, drawings_come_from_files_beside_it) {
+  const std::string csv = path_ + ".csv";
+  const std::string name = csv.substr(csv.rfind('/') + 1);
+  const std::string key = "leds:\n  led";
+  const std::string drawing =
+      "drawings: {roof: {file: " + name + ", size: 0.5, rest: 0.3}}\n" + key;
+  std::string text = kGood;
+  text.replace(text.find(key), key.size(), drawing);
+  const std::string missing = complaint(key, drawing);
+  EXPECT_NE(missing.find("drawings/roof/file cannot be used: " + csv), std::string::npos)
+      << missing;
+
+  std::ofstream(csv) << "x y z t_ms\n0 0 0 100\n2 0 1 1100\n4 0 0 4100\n";
+  const Description d = read(text);
+  ASSERT_EQ(d.drawings.count("roof"), 1u);
+  EXPECT_EQ(d.drawings.at("roof").rest(), 0.3);
+  EXPECT_EQ(d.drawings.at("roof").duration(), 4.0);
+  EXPECT_LT((d.drawings.at("roof").position(0.0) - Eigen::Vector3d(-0.25, 0.0, -0.0625)).norm(),
+            1e-12);
+
+  const std::pair<const char*, const char*> faults[] = {{"0 0 0 0\n", "fewer than two points"},
+                                                        {"0 0 0 5\n1 0 0 5\n", "do not increase"},
+                                                        {"1 1 1 0\n1 1 1 5\n", "never moves"},
+                                                        {"0 0 0 0\nnan 1 1 5\n", "not finite"}};
+  for (const auto& [rows, reason] : faults) {
+    std::ofstream(csv) << rows;
+    const std::string refusal = complaint(key, drawing);
+    EXPECT_NE(refusal.find("drawings/roof/file"), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find(reason), std::string::npos) << refusal;
+  }
+  std::remove(csv.c_str());
 }
 
 TEST_F(DescriptionFile, a_board_is_held_before_a_camera_that_is_there) {

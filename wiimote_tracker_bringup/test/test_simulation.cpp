@@ -121,6 +121,35 @@ TEST(LedMotion, a_wave_begins_where_the_way_to_it_ends_and_can_be_held) {
   EXPECT_EQ(motion.position(arrival + 9.0), held);
 }
 
+/// A roof: up in 1 s, down in 3 s, in decimetres and from 5 s on.
+Drawing roof(double size, double rest) {
+  return Drawing({{5.0, {7.0, 0.0, 0.0}}, {6.0, {9.0, 0.0, 1.0}}, {9.0, {11.0, 0.0, 0.0}}}, size,
+                 rest);
+}
+
+TEST(LedMotion, draws_in_the_box_it_is_told_after_a_rest_and_stays_at_the_end) {
+  LedMotion motion(Vector3d(0.0, 0.0, 1.0));
+  const Vector3d middle(1.0, 2.0, 1.0);
+  // The longest side is 0.8 m, hence the other one 0.2 m; the beginning is (0.6, 2, 0.9).
+  const double begin = motion.draw(10.0, roof(0.8, 0.5), middle, 2.0);
+  const double way = Vector3d(0.6, 2.0, -0.1).norm();
+  EXPECT_DOUBLE_EQ(begin, 10.0 + way / 2.0 + 0.5);
+  EXPECT_EQ(motion.position(10.0), Vector3d(0.0, 0.0, 1.0));
+  EXPECT_LT((motion.position(begin - 0.49) - Vector3d(0.6, 2.0, 0.9)).norm(), 1e-12);
+  EXPECT_LT((motion.position(begin) - Vector3d(0.6, 2.0, 0.9)).norm(), 1e-12);
+  EXPECT_LT((motion.position(begin + 0.5) - Vector3d(0.8, 2.0, 1.0)).norm(), 1e-12);
+  EXPECT_LT((motion.position(begin + 1.0) - Vector3d(1.0, 2.0, 1.1)).norm(), 1e-12);
+  EXPECT_LT((motion.position(begin + 2.5) - Vector3d(1.2, 2.0, 1.0)).norm(), 1e-12);
+  EXPECT_LT((motion.position(begin + 50.0) - Vector3d(1.4, 2.0, 0.9)).norm(), 1e-12);
+  EXPECT_FALSE(motion.isDrawing(begin - 0.01));
+  EXPECT_TRUE(motion.isDrawing(begin + 0.01));
+  EXPECT_TRUE(motion.isDrawing(begin + 3.99));
+  EXPECT_FALSE(motion.isDrawing(begin + 4.01));
+  motion.hold(begin + 0.5);
+  EXPECT_FALSE(motion.isDrawing(begin + 0.6));
+  EXPECT_LT((motion.position(begin + 9.0) - Vector3d(0.8, 2.0, 1.0)).norm(), 1e-12);
+}
+
 // --- Optics and mounting
 
 geometry::Camera cameraAt(const Vector3d& position, const Vector3d& target) {

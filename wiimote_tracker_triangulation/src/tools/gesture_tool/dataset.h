@@ -19,13 +19,9 @@ struct Person {
   std::vector<Sample> samples;
 };
 
-/// A folder per person, in it a CSV per gesture: rows `x y z t_ms`, separated by blanks or commas;
-/// lines before the first row of numbers are passed over. In the order of the names.
+/// A folder per person, in it a CSV per gesture (see gesture::readPath). In the order of the names.
 /// @throws gesture::GestureError naming the file and line, or the folder that is empty.
 std::vector<Person> readPeople(const std::string& folder);
-
-/// Rows of numbers of a file as above, `columns` or more in each. @throws gesture::GestureError.
-std::vector<std::vector<double>> readRows(const std::string& file, std::size_t columns);
 
 }  // namespace wiimote_tracker::gesture_tool
 

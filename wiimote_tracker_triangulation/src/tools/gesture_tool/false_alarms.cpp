@@ -1,6 +1,7 @@
 #include "false_alarms.h"
 
 #include "wiimote_tracker_triangulation/gesture/error.h"
+#include "wiimote_tracker_triangulation/gesture/path_file.h"
 #include "wiimote_tracker_triangulation/gesture/spotter.h"
 
 #include <cmath>
@@ -19,7 +20,7 @@ FalseAlarms countFalseAlarms(const std::vector<Person>& teachers,
       recognizer.add({sample.gesture, "", sample.path});
   }
 
-  const std::vector<std::vector<double>> rows = readRows(motion, 4);
+  const std::vector<std::vector<double>> rows = gesture::readRows(motion, 4);
   FalseAlarms alarms;
   for (std::size_t marker = 1; marker + 3 <= rows[0].size(); marker += 3) {
     gesture::Spotter spotter{gesture::SpotterOptions()};

@@ -26,8 +26,8 @@ def parse(arguments):
     parser = argparse.ArgumentParser(
         prog='evaluate', description="The paper's evaluation, on the simulated rig or, with --live, "
         'on a real one; writes report.html, report.md, figures.json, tables and plots.')
-    parser.add_argument('--rig', metavar='FILE', default=package_file('simulation/paper_rig.yaml'),
-                        help='description of the rig (default: that of the paper\'s Fig. 1)')
+    parser.add_argument('--rig', metavar='FILE',
+                        help="description of the rig (default: that of the paper's Fig. 1)")
     parser.add_argument('--sections', metavar='A,B', default=','.join(names),
                         help='only these, of: %s' % ', '.join(names))
     parser.add_argument('--quick', action='store_true', help='fewer repetitions, minutes in all')
@@ -37,6 +37,7 @@ def parse(arguments):
                         help='folder for the results (default: ./wiimote_tracker_evaluation)')
     parser.add_argument('--seed', type=int, default=1, help='of everything random (default: 1)')
     options = parser.parse_args(arguments)
+    options.rig = options.rig or package_file('simulation/paper_rig.yaml')
     chosen = options.sections.split(',')
     for name in chosen:
         if name not in names:

@@ -59,6 +59,24 @@ def launch(run, file, **arguments):
     return folder
 
 
+def start(run, command):
+    """Starts a command beside what was launched; it ends with it, or by end()."""
+    process = _processes.start(command[0], command, run.file('nodes.log'))
+    _launched.append(process)
+    return process
+
+
+def end(process):
+    """Ends what start() started, in good order."""
+    _launched.remove(process)
+    _processes.stop(process)
+
+
+def cores():
+    """Processor cores that this process may use."""
+    return len(os.sched_getaffinity(0))
+
+
 def check():
     """@raise ProcessEnded: something that is needed has ended."""
     _processes.check()

@@ -1,0 +1,45 @@
+"""How plots of the report look: small, plain, text as text."""
+
+import matplotlib
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+INK, SOFT = '#1c2430', '#8a94a3'
+BLUE, ORANGE, GREEN, RED, PURPLE = '#1f5fa8', '#d97a1e', '#3a8a4d', '#b8323a', '#7653a6'
+COLORS = (BLUE, ORANGE, GREEN, RED, PURPLE, SOFT)
+WIDTH = 9.0  # of the page [inch]
+
+STYLE = {
+    'font.size': 9.0, 'axes.labelsize': 9.0, 'axes.titlesize': 9.5, 'axes.titlelocation': 'left',
+    'legend.frameon': False, 'legend.fontsize': 8.5, 'axes.spines.top': False,
+    'axes.spines.right': False, 'axes.edgecolor': SOFT, 'axes.labelcolor': INK, 'text.color': INK,
+    'xtick.color': INK, 'ytick.color': INK, 'axes.linewidth': 0.8, 'lines.linewidth': 1.6,
+    'axes.grid': True, 'grid.color': '#e6e9ee', 'grid.linewidth': 0.7, 'axes.axisbelow': True}
+
+
+def figure(rows=1, columns=1, height=3.4, width=WIDTH, **more):
+    """A matplotlib figure and its axes, as plt.subplots gives them."""
+    with matplotlib.rc_context({name: value for name, value in STYLE.items()
+                                if name in matplotlib.rcParams}):
+        return plt.subplots(rows, columns, figsize=(width, height), constrained_layout=True, **more)
+
+
+def cumulative(axes, values, color, label=None, **style):
+    """Share of the values that are not larger, as steps."""
+    values = np.sort(np.asarray(values, dtype=float))
+    if len(values) > 2000:  # as many as can be seen
+        values = np.quantile(values, np.linspace(0.0, 1.0, 500))
+    share = np.arange(1, len(values) + 1) / len(values)
+    axes.step(np.concatenate([values[:1], values]), np.concatenate([[0.0], share]), where='post',
+              color=color, label=label, **style)
+    axes.set_ylim(0.0, 1.0)
+
+
+def key(axes, loc='best', extra=()):
+    """The legend; extra: (line style, text) of what several curves share."""
+    handles, labels = axes.get_legend_handles_labels()
+    for style, text in extra:
+        handles.append(plt.Line2D([], [], color=INK, linestyle=style))
+        labels.append(text)
+    axes.legend(handles, labels, loc=loc, frameon=False, fontsize=8.5)

@@ -1,0 +1,41 @@
+"""How much of the processor nodes use."""
+
+import os
+import time
+import xmlrpc.client
+
+import numpy as np
+
+TICK = 1.0 / os.sysconf('SC_CLK_TCK')  # [s]
+
+
+def process_of(node):
+    """Process id of a node, by asking it."""
+    import rosgraph
+    uri = rosgraph.Master('/evaluation').lookupNode(node)
+    return xmlrpc.client.ServerProxy(uri).getPid('/evaluation')[2]
+
+
+def processor_time(process):
+    """Of a process and its threads until now, in user and kernel [s]."""
+    with open('/proc/%d/stat' % process) as file:
+        # The name in parentheses may itself hold spaces and parentheses.
+        fields = file.read().rpartition(')')[2].split()
+    return TICK * (int(fields[11]) + int(fields[12]))
+
+
+def measure(processes, seconds, check, interval=1.0):
+    """Share of one core that each of the processes (by name) uses, one value per interval; check is
+    called while waiting."""
+    names = list(processes)
+    samples = [[processor_time(processes[name]) for name in names]]
+    times = [time.monotonic()]
+    while times[-1] - times[0] < seconds:
+        due = times[0] + interval * len(times)
+        while time.monotonic() < due:
+            check()
+            time.sleep(min(0.1, max(0.0, due - time.monotonic())))
+        samples.append([processor_time(processes[name]) for name in names])
+        times.append(time.monotonic())
+    shares = np.diff(np.array(samples), axis=0) / np.diff(times)[:, None]
+    return {name: shares[:, i] for i, name in enumerate(names)}

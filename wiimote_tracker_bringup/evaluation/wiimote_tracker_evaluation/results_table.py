@@ -1,0 +1,111 @@
+"""The results table of a README, made from figures.json; and whether it still agrees with a run."""
+
+import argparse
+import json
+import sys
+
+from wiimote_tracker_evaluation.page import words
+
+BEGIN, END = '<!-- results: begin -->', '<!-- results: end -->'
+
+
+class TableError(Exception):
+    """The table cannot be made; the text says why and what to do."""
+
+
+def interval_of(entry):
+    return '–' if entry['interval'] is None else '%s … %s' % tuple(
+        words.number(limit) for limit in entry['interval'])
+
+
+def cells(entry):
+    """A figure's row: what it is, value with unit, interval, how it came about."""
+    return [(entry['note'] or words.plain(entry['name'])).replace('|', '/'),
+            ('%s %s' % (words.number(entry['value']), entry['unit'])).strip(), interval_of(entry),
+            words.kind(entry['simulated'], entry['end_to_end'])]
+
+
+def headlines(content):
+    entries = [entry for entry in content['figures'] if entry['headline']]
+    if not entries:
+        raise TableError('figures.json has no headline; run evaluate with all sections')
+    return entries
+
+
+def lines(content):
+    """The table as Markdown."""
+    return (['| | value | 95 % interval | how |', '|---|---|---|---|'] + [
+        '| ' + ' | '.join(cells(entry)) + ' |' for entry in headlines(content)] + [
+        '', 'By `rosrun wiimote_tracker_bringup evaluate%s --seed %d`, rig `%s`.' % (
+            ' --quick' if content['quick'] else '', content['seed'], content['rig'])])
+
+
+def split(text):
+    """Text before, between and after the marks."""
+    if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
+        raise TableError('the README needs the lines "%s" and "%s", once each' % (BEGIN, END))
+    before, rest = text.split(BEGIN)
+    between, after = rest.split(END)
+    return before, between, after
+
+
+def written(text, content):
+    """The README's text with the table between its marks."""
+    before, _, after = split(text)
+    return before + BEGIN + '\n' + '\n'.join(lines(content)) + '\n' + END + after
+
+
+def numbers_of(row):
+    """Value and interval that a row of the README states; without an interval the value twice."""
+    value = float(row[1].split()[0])
+    if row[2] == '–':
+        return value, (value, value)
+    low, _, high = row[2].split()
+    return value, (float(low), float(high))
+
+
+def disagreements(text, content):
+    """Sentences about figures of a run whose interval does not meet the one in the README."""
+    stated = {}
+    for line in split(text)[1].splitlines():
+        row = [cell.strip() for cell in line.strip().strip('|').split('|')]
+        if len(row) == 4 and row[0] and not set(row[0]) <= set('-'):
+            stated[row[0]] = numbers_of(row)
+    found = []
+    for entry in headlines(content):
+        name = cells(entry)[0]
+        if name not in stated:
+            found.append('%s: not in the README' % name)
+            continue
+        value, (low, high) = stated[name]
+        new_low, new_high = entry['interval'] or (entry['value'], entry['value'])
+        slack = 0.005 * abs(value)  # the README's three digits
+        if new_low > high + slack or new_high < low - slack:
+            found.append('%s: the README says %s (%s … %s), this run %s (%s … %s) %s' % (
+                (name,) + tuple(words.number(v) for v in (
+                    value, low, high, entry['value'], new_low, new_high)) + (entry['unit'],)))
+    return found
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog='results_table', description=__doc__)
+    parser.add_argument('figures', help='figures.json of an evaluation')
+    parser.add_argument('readme', help='README.md with the two marks')
+    parser.add_argument('--check', action='store_true',
+                        help='write nothing; say where the table and the figures disagree')
+    options = parser.parse_args(arguments)
+    try:
+        with open(options.figures, encoding='utf-8') as file:
+            content = json.load(file)
+        with open(options.readme, encoding='utf-8') as file:
+            text = file.read()
+        if options.check:
+            found = disagreements(text, content)
+            print('\n'.join(found) or 'The table agrees with these figures.')
+            return 1 if found else 0
+        with open(options.readme, 'w', encoding='utf-8') as file:
+            file.write(written(text, content))
+    except (OSError, ValueError, TableError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    return 0

@@ -1,0 +1,66 @@
+"""Descriptions of simulated rigs that are made from another one."""
+
+import math
+
+import numpy as np
+import yaml
+
+from wiimote_tracker_evaluation import experiment
+
+MIDDLE = np.array([experiment.SIDE / 2.0, experiment.SIDE / 2.0, 0.0])  # of the rig's floor [m]
+
+
+def read(path):
+    with open(path) as file:
+        return yaml.safe_load(file)
+
+
+def write(path, description):
+    with open(path, 'w') as file:
+        yaml.safe_dump(description, file, sort_keys=False)
+
+
+def identities(description):
+    """Bluetooth address of every camera."""
+    return {name: camera['identity'] for name, camera in description['cameras'].items()}
+
+
+def centred(description, scale):
+    """The rig about the origin instead of the floor's middle, every distance times `scale`."""
+    moved = dict(description)
+    moved['cameras'] = {name: dict(camera, **{
+        key: (scale * (np.array(camera[key]) - MIDDLE)).tolist() for key in ('position', 'look_at')})
+        for name, camera in description['cameras'].items()}
+    return with_leds(moved, [scale * np.array([0.0, 0.0, 0.1])])
+
+
+def with_leds(description, positions):
+    """The rig with these LEDs [m] and nothing else: led, led_2, ..., of the size of its first one."""
+    first = next(iter(description['leds'].values()))
+    like = {key: first[key] for key in ('size', 'brightness') if key in first}
+    changed = {key: value for key, value in description.items()
+               if key not in ('board', 'people', 'reflections', 'drawings')}
+    changed['leds'] = {('led' if number == 0 else 'led_%d' % (number + 1)): dict(
+        like, position=[float(v) for v in position], lit=True)
+        for number, position in enumerate(positions)}
+    return changed
+
+
+def with_cameras(description, number):
+    """The first `number` cameras; when there are not so many, more stand between them, on the same
+    circle about the floor's middle, alike but for their clocks and addresses."""
+    cameras = dict(list(description['cameras'].items())[:number])
+    originals = list(description['cameras'].values())
+    for extra in range(number - len(cameras)):
+        like = originals[extra % len(originals)]
+        turn = math.pi / len(originals) * (1 + extra // len(originals))
+        rotation = np.array([[math.cos(turn), -math.sin(turn), 0.0],
+                             [math.sin(turn), math.cos(turn), 0.0], [0.0, 0.0, 1.0]])
+        position = rotation @ (np.array(like['position']) - MIDDLE) + MIDDLE
+        clock = dict(like['clock'], phase=(like['clock'].get('phase', 0.0) + 0.0011) % 0.01)
+        cameras['wiimote_%d' % (len(cameras) + 1)] = dict(
+            like, position=position.tolist(), clock=clock,
+            identity='00:1f:32:00:01:%02x' % extra)
+    changed = dict(description, cameras=cameras)
+    changed.pop('board', None)  # it is held before a camera that may be gone
+    return changed

@@ -30,6 +30,8 @@ Constellation readBody(geometry::YamlMap map) {
       throw BodyError(map.at("leds") + " has an LED that is not [x, y, z]; " + kAdvice);
     body.leds.emplace_back(led[0], led[1], led[2]);
   }
+  if (map.has("labels"))
+    body.labels = map.get<std::vector<std::string>>("labels");
   map.refuseUnknown();
   return body;
 }
@@ -94,7 +96,14 @@ void writeBodies(const std::string& file, const std::vector<Constellation>& bodi
     for (const Eigen::Vector3d& led : body.leds)
       out << YAML::Flow << YAML::BeginSeq << exact(led.x()) << exact(led.y()) << exact(led.z())
           << YAML::EndSeq;
-    out << YAML::EndSeq << YAML::EndMap;
+    out << YAML::EndSeq;
+    if (!body.labels.empty()) {
+      out << YAML::Key << "labels" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+      for (const std::string& label : body.labels)
+        out << YAML::DoubleQuoted << label;
+      out << YAML::EndSeq;
+    }
+    out << YAML::EndMap;
   }
   out << YAML::EndSeq << YAML::EndMap;
   geometry::writeFileAtomically(file, std::string(out.c_str()) + "\n");

@@ -1,9 +1,8 @@
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 
+#include "pose_from_labels.h"
 #include "wiimote_tracker_triangulation/association/assign_spots.h"
 #include "wiimote_tracker_triangulation/association/shared_views.h"
-#include "wiimote_tracker_triangulation/body/solve_pose.h"
-#include "wiimote_tracker_triangulation/geometry/sight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,48 +41,63 @@ BodyTracker::BodyTracker(const geometry::Rig& rig,
                   association::sharedViews(rig, options.maximum_range),
                   associationOptions(options)) {
   rig.check();
-  for (const Constellation& constellation : constellations)
+  for (const Constellation& constellation : constellations) {
     constellation.check();
+    has_clear_shape_.push_back(nearestSymmetry(constellation).residual >= kSymmetric);
+  }
   for (const geometry::RigCamera& camera : rig_.cameras)
     cameras_.push_back(rig_.rayCamera(camera));
+  sights_.resize(cameras_.size());
+  views_.resize(cameras_.size());
   reset();
 }
 
 void BodyTracker::reset() {
-  state_.bodies.assign(constellations_.size(), std::nullopt);
-  state_.images.assign(cameras_.size(), {});
+  bodies_.assign(constellations_.size(), std::nullopt);
+  images_.assign(cameras_.size(), {});
   history_.clear();
   time_ = -std::numeric_limits<double>::infinity();
   estimates_.assign(constellations_.size(), std::nullopt);
 }
 
 bool BodyTracker::add(std::size_t camera, double time, const std::vector<Eigen::Vector2d>& pixels) {
+  taken_.assign(pixels.size(), false);
   if (time < time_ - options_.history)
     return false;
   // Those that were taken too early are taken again, after this one.
-  std::deque<Entry> again;
-  while (!history_.empty() && history_.back().time > time) {
-    state_ = std::move(history_.back().before);
-    again.push_front(std::move(history_.back()));
-    history_.pop_back();
+  auto next = history_.end();
+  const auto comesAfter = [&](const Entry& entry) {
+    return entry.time != time ? entry.time > time : entry.camera > camera;
+  };
+  while (next != history_.begin() && comesAfter(*std::prev(next))) {
+    --next;
+    std::swap(bodies_, next->bodies_before);
+    std::swap(images_[next->camera], next->image_before);
   }
-  take(camera, time, pixels);
-  for (const Entry& entry : again)
-    take(entry.camera, entry.time, entry.pixels);
+  if (spare_.empty())
+    spare_.emplace_back();
+  history_.splice(next, spare_, spare_.begin());
+  const auto entry = std::prev(next);
+  entry->camera = camera;
+  entry->time = time;
+  entry->pixels = pixels;
+  take(entry);
+  std::swap(taken_, spots_taken_);
+  for (; next != history_.end(); ++next)
+    take(next);
   time_ = std::max(time_, time);
   while (history_.front().time < time_ - options_.history)
-    history_.pop_front();
+    spare_.splice(spare_.end(), history_, history_.begin());
   estimate();
   return true;
 }
 
-void BodyTracker::take(std::size_t camera,
-                       double time,
-                       const std::vector<Eigen::Vector2d>& pixels) {
-  history_.push_back({camera, time, pixels, state_});
-  follow(camera, time, pixels);
-  dropLost(time);
-  find(time);
+void BodyTracker::take(std::list<Entry>::iterator entry) {
+  entry->bodies_before = bodies_;
+  entry->image_before = images_[entry->camera];
+  follow(entry->camera, entry->time, entry->pixels);
+  dropLost(entry->time);
+  find(entry->time);
 }
 
 void BodyTracker::follow(std::size_t camera,
@@ -94,10 +108,10 @@ void BodyTracker::follow(std::size_t camera,
   std::array<Column, association::kMaximumTracks> columns;
   const std::size_t spots = std::min(pixels.size(), association::kMaximumSpots);
   std::size_t tracks = 0;
-  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
-    if (!state_.bodies[b])
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!bodies_[b])
       continue;
-    state_.bodies[b]->filter.predict(time);
+    bodies_[b]->filter.predict(time);
     for (std::size_t led = 0; led < constellations_[b].leds.size(); ++led) {
       if (tracks < association::kMaximumTracks)
         columns[tracks++] = {b, led};
@@ -107,7 +121,7 @@ void BodyTracker::follow(std::size_t camera,
   // many spots as possible find an LED.
   costs.reset(spots, tracks, options_.gate, 0.0);
   for (std::size_t t = 0; t < tracks; ++t) {
-    const auto prediction = state_.bodies[columns[t].body]->filter.predictLed(
+    const auto prediction = bodies_[columns[t].body]->filter.predictLed(
         view, constellations_[columns[t].body].leds[columns[t].led], options_.pixel_stddev);
     if (!prediction)
       continue;
@@ -121,9 +135,11 @@ void BodyTracker::follow(std::size_t camera,
   }
   const association::SpotAssignment assignment = association::assignSpots(costs);
 
-  LastImage& image = state_.images[camera];
+  LastImage& image = images_[camera];
   image.time = time;
+  image.taken.clear();
   image.free.clear();
+  spots_taken_.assign(pixels.size(), false);
   for (std::size_t s = 0; s < pixels.size(); ++s) {
     const int track = s < spots ? assignment.track_of_spot[s] : association::kGhost;
     if (track == association::kGhost) {
@@ -132,7 +148,7 @@ void BodyTracker::follow(std::size_t camera,
       continue;
     }
     const Column& column = columns[static_cast<std::size_t>(track)];
-    Body& body = *state_.bodies[column.body];
+    Body& body = *bodies_[column.body];
     const auto prediction = body.filter.predictLed(
         view, constellations_[column.body].leds[column.led], options_.pixel_stddev);
     if (!prediction)
@@ -142,13 +158,16 @@ void BodyTracker::follow(std::size_t camera,
     body.surprise += kSurpriseMemory * (0.5 * squared - body.surprise);
     body.filter.update(*prediction, pixels[s], options_.pixel_stddev);
     body.last_observed = time;
-    body.led_time[column.led] = time;
-    body.led_deviation[column.led] = innovation.norm() * prediction->depth / view.intrinsics.fx;
+    body.led_times[column.led] = time;
+    const double residual = innovation.norm();
+    image.taken.push_back(
+        {column.body, column.led, residual, residual * prediction->depth / view.intrinsics.fx});
+    spots_taken_[s] = true;
   }
 }
 
 void BodyTracker::dropLost(double time) {
-  for (std::optional<Body>& body : state_.bodies) {
+  for (std::optional<Body>& body : bodies_) {
     if (body && (time - body->last_observed > options_.prediction_time ||
                  body->surprise > kAbsurd || !body->filter.poseCovariance().allFinite()))
       body.reset();
@@ -156,39 +175,38 @@ void BodyTracker::dropLost(double time) {
 }
 
 void BodyTracker::find(double time) {
-  if (std::all_of(state_.bodies.begin(), state_.bodies.end(),
+  if (std::all_of(bodies_.begin(), bodies_.end(),
                   [](const auto& body) { return body.has_value(); }))
     return;
-  std::vector<std::vector<geometry::Sight>> sights(cameras_.size());
-  std::vector<association::View> views(cameras_.size());
   for (std::size_t c = 0; c < cameras_.size(); ++c) {
-    const LastImage& image = state_.images[c];
-    views[c].watching = time - image.time <= options_.window;
-    if (!views[c].watching)
-      continue;
-    for (const Eigen::Vector2d& pixel : image.free)
-      sights[c].push_back(*geometry::sightFromPixel(cameras_[c], pixel));
-    views[c].sights = sights[c].data();
-    views[c].count = sights[c].size();
-    views[c].full = true;  // the body itself may hide its LEDs: nothing was missed for sure
+    const LastImage& image = images_[c];
+    sights_[c].clear();
+    views_[c].watching = time - image.time <= options_.window;
+    views_[c].full = true;  // the body itself may hide its LEDs: nothing was missed for sure
+    for (const Eigen::Vector2d& pixel : image.free) {
+      if (views_[c].watching)
+        sights_[c].push_back(*geometry::sightFromPixel(cameras_[c], pixel));
+    }
+    views_[c].sights = sights_[c].data();
+    views_[c].count = sights_[c].size();
   }
-  const association::Association& found = associator_.associate(views);
+  const association::Association& found = associator_.associate(views_);
 
-  std::vector<MeasuredPoint> points;
+  points_.clear();
   for (const association::AssociatedPoint& point : found.points)
-    points.push_back({point.point.position,
-                      std::hypot(std::sqrt(point.point.covariance.trace() / 3.0) / kWindowNoise,
-                                 options_.window_motion),
-                      false});
-  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
-    if (state_.bodies[b])
+    points_.push_back({point.point.position,
+                       std::hypot(std::sqrt(point.point.covariance.trace() / 3.0) / kWindowNoise,
+                                  options_.window_motion),
+                       false});
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b] || !has_clear_shape_[b])
       continue;
-    const std::optional<Match> match = matchPoints(constellations_[b], points, options_.match);
+    const std::optional<Match> match = matchPoints(constellations_[b], points_, options_.match);
     if (!match || match->margin < options_.minimum_margin || !start(b, *match, found, time))
       continue;
     for (const int p : match->point_of_led) {
       if (p != kUnseen)
-        points[static_cast<std::size_t>(p)].taken = true;
+        points_[static_cast<std::size_t>(p)].taken = true;
     }
   }
 }
@@ -197,7 +215,7 @@ bool BodyTracker::start(std::size_t body,
                         const Match& match,
                         const association::Association& found,
                         double time) {
-  std::vector<LedObservation> observations;
+  observations_.clear();
   for (std::size_t led = 0; led < constellations_[body].leds.size(); ++led) {
     if (match.point_of_led[led] == kUnseen)
       continue;
@@ -205,47 +223,86 @@ bool BodyTracker::start(std::size_t body,
         found.points[static_cast<std::size_t>(match.point_of_led[led])];
     for (std::size_t i = 0; i < point.spot_count; ++i) {
       const association::SpotReference& spot = found.spots[point.first_spot + i];
-      observations.push_back({&cameras_[spot.view], constellations_[body].leds[led],
-                              state_.images[spot.view].free[spot.spot]});
+      observations_.push_back({&cameras_[spot.view], constellations_[body].leds[led],
+                               images_[spot.view].free[spot.spot]});
     }
   }
   // What moves within the window counts as noise; the motion is found by the images to come.
   const double noise = kWindowNoise * options_.pixel_stddev;
   const auto solved =
-      solvePose(observations.data(), observations.size(), match.world_from_body, noise);
+      solvePose(observations_.data(), observations_.size(), match.world_from_body, noise);
   if (!solved || solved->reprojection_error > 3.0 * noise)
     return false;
-  Body started{PoseFilter(options_.motion, time, solved->world_from_body, solved->covariance),
-               time,
-               1.0,
-               {},
-               {}};
-  started.led_time.fill(-std::numeric_limits<double>::infinity());
-  started.led_deviation.fill(std::numeric_limits<double>::quiet_NaN());
-  state_.bodies[body] = started;
+  startAt(body, *solved, time);
   return true;
 }
 
-void BodyTracker::estimate() {
-  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
-    estimates_[b].reset();
-    if (!state_.bodies[b])
+void BodyTracker::startFromLabels(const std::vector<LabelledPoint>& points) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b] || constellations_[b].labels.empty())
       continue;
-    const Body& body = *state_.bodies[b];
+    if (const auto pose = poseFromLabels(constellations_[b], points))
+      startAt(b, *pose, time_);
+  }
+  estimate();
+}
+
+void BodyTracker::startAt(std::size_t body, const SolvedPose& pose, double time) {
+  Body started{PoseFilter(options_.motion, time, pose.world_from_body, pose.covariance),
+               time,
+               time,
+               1.0,
+               {}};
+  started.led_times.fill(-std::numeric_limits<double>::infinity());
+  bodies_[body] = started;
+}
+
+void BodyTracker::estimate() {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!bodies_[b]) {
+      estimates_[b].reset();
+      continue;
+    }
+    const Body& body = *bodies_[b];
     PoseFilter now = body.filter;
     now.predict(time_);
-    BodyEstimate estimate;
+    if (!estimates_[b])
+      estimates_[b].emplace();
+    BodyEstimate& estimate = *estimates_[b];
     estimate.tracked = time_ - body.last_observed <= options_.tracked_time;
     estimate.world_from_body = now.worldFromBody();
-    estimate.covariance = now.poseCovariance();
+    estimate.covariance = now.covariance();
     estimate.velocity = now.velocity();
     estimate.angular_velocity = now.angularVelocity();
+    estimate.first_seen = body.first_seen;
     estimate.last_observed = body.last_observed;
-    for (std::size_t led = 0; led < kMaximumLeds; ++led)
-      estimate.deviation[led] = time_ - body.led_time[led] <= options_.tracked_time
-                                    ? body.led_deviation[led]
-                                    : std::numeric_limits<double>::quiet_NaN();
-    estimates_[b] = estimate;
+    estimateLeds(b, &estimate);
+  }
+}
+
+void BodyTracker::estimateLeds(std::size_t body, BodyEstimate* estimate) const {
+  const Constellation& constellation = constellations_[body];
+  estimate->leds.resize(constellation.leds.size());
+  for (std::size_t i = 0; i < constellation.leds.size(); ++i) {
+    LedEstimate& led = estimate->leds[i];
+    led.position = estimate->world_from_body * constellation.leds[i];
+    led.last_observed = bodies_[body]->led_times[i];
+    led.cameras.clear();
+    led.residual = led.deviation = std::numeric_limits<double>::quiet_NaN();
+  }
+  for (std::size_t c = 0; c < images_.size(); ++c) {
+    if (time_ - images_[c].time > options_.tracked_time)
+      continue;
+    for (const BodySpot& spot : images_[c].taken) {
+      LedEstimate& led = estimate->leds[spot.led];
+      if (spot.body != body || images_[c].time > led.last_observed)
+        continue;
+      led.cameras.push_back(c);
+      if (images_[c].time == led.last_observed) {
+        led.residual = spot.residual;
+        led.deviation = spot.deviation;
+      }
+    }
   }
 }
 

@@ -5,8 +5,10 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 namespace wiimote_tracker::body {
 namespace {
@@ -71,11 +73,30 @@ class SymmetrySearch {
   Symmetry best_;
 };
 
+bool isWord(const std::string& text) {
+  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return isLetter(text[0]) && std::all_of(text.begin(), text.end(), [&](char c) {
+           return isLetter(c) || (c >= '0' && c <= '9') || c == '_';
+         });
+}
+
+void checkLabels(const Constellation& body) {
+  const std::set<std::string> different(body.labels.begin(), body.labels.end());
+  if (!body.labels.empty() &&
+      (body.labels.size() != body.leds.size() || different.size() != body.labels.size()))
+    throw BodyError("body '" + body.name + "' must have no labels, or one of its own for each of " +
+                    std::to_string(body.leds.size()) + " LEDs");
+}
+
 }  // namespace
 
 void Constellation::check() const {
   if (name.empty())
     throw BodyError("a body has no name; give it one");
+  if (!isWord(name))
+    throw BodyError("'" + name +
+                    "' can not be a body's name, which must be a letter, then letters, "
+                    "digits and underscores");
   const std::string who = "body '" + name + "'";
   if (leds.size() < 3 || leds.size() > kMaximumLeds)
     throw BodyError(who + " has " + std::to_string(leds.size()) + " LEDs, but must have 3 to " +
@@ -100,6 +121,14 @@ void Constellation::check() const {
     throw BodyError(who +
                     " has all LEDs on one line, so that turning about it cannot be seen; "
                     "move one of them off it");
+  checkLabels(*this);
+  const Symmetry symmetry = labels.empty() ? nearestSymmetry(*this) : Symmetry();
+  if (symmetry.residual < kSymmetric)
+    throw BodyError(describe(*this, symmetry));
+}
+
+std::string Constellation::labelOf(std::size_t led) const {
+  return labels.empty() ? std::to_string(led) : labels[led];
 }
 
 Symmetry nearestSymmetry(const Constellation& constellation) {
@@ -117,9 +146,11 @@ std::string describe(const Constellation& constellation, const Symmetry& symmetr
   std::snprintf(distance, sizeof(distance), "%.1f mm", 1e3 * symmetry.residual);
   const std::string same = "body '" + constellation.name + "' looks the same within " + distance +
                            " when it is turned such that LED " + exchanged + " is taken";
-  return same + (symmetry.residual < kSymmetric
-                     ? "; move an LED by some centimetres, so that its orientation can be seen"
-                     : "; orientations may be confused: move an LED, or have them blink");
+  return same +
+         (symmetry.residual < kSymmetric
+              ? "; move an LED by some centimetres, so that its orientation can be seen, or have "
+                "them blink"
+              : "; orientations may be confused: move an LED, or have them blink");
 }
 
 }  // namespace wiimote_tracker::body

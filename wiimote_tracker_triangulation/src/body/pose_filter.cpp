@@ -122,7 +122,7 @@ void PoseFilter::update(const LedPrediction& prediction,
   covariance_ = reduced;
   covariance_.noalias() -= left * gain.transpose();
   covariance_.noalias() += (pixel_stddev * pixel_stddev) * gain * gain.transpose();
-  const Covariance symmetric = 0.5 * (covariance_ + covariance_.transpose());
+  const MotionCovariance symmetric = 0.5 * (covariance_ + covariance_.transpose());
   covariance_ = symmetric;
 }
 

@@ -1,4 +1,4 @@
-#include "time_watch.h"
+#include "wiimote_tracker_triangulation/tracking/time_watch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 #include "camera_group.h"
 #include "ids.h"
 #include "snapshot_writer.h"
-#include "time_watch.h"
 #include "wiimote_tracker_triangulation/association/shared_views.h"
 #include "wiimote_tracker_triangulation/geometry/image_rules.h"
+#include "wiimote_tracker_triangulation/tracking/time_watch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -413,7 +413,8 @@ Score score(Follow* follow, double seconds) {
     score.rotation += turn * turn;
     position_bound += least.topLeftCorner<3, 3>().trace();
     rotation_bound += least.bottomRightCorner<3, 3>().trace();
-    score.nees += squaredError(truth, found, follow->estimate()->covariance) / 6.0 * 8.0;
+    score.nees += squaredError(truth, found, follow->estimate()->covariance.topLeftCorner<6, 6>()) /
+                  6.0 * 8.0;
   }
   score.position = std::sqrt(score.position / position_bound);
   score.rotation = std::sqrt(score.rotation / rotation_bound);
@@ -500,8 +501,10 @@ TEST(BodyTracker, OneLedOfFourMayBeHidden) {
   EXPECT_EQ(result.known, 1.0);
   EXPECT_EQ(result.wrong, 0.0);
   ASSERT_TRUE(follow.estimate());
-  EXPECT_TRUE(std::isnan(follow.estimate()->deviation[2]));
-  EXPECT_LT(follow.estimate()->deviation[0], 0.02);
+  EXPECT_TRUE(std::isnan(follow.estimate()->leds[2].deviation));
+  EXPECT_LT(follow.estimate()->leds[0].deviation, 0.02);
+  EXPECT_TRUE(follow.estimate()->leds[2].cameras.empty());
+  EXPECT_GE(follow.estimate()->leds[0].cameras.size(), 2u);
 }
 
 TEST(BodyTracker, FindsTheBodyAgainSoonAfterItWasHidden) {

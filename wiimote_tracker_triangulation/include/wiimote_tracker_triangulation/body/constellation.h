@@ -14,11 +14,19 @@ constexpr std::size_t kMaximumLeds = 8;  ///< Of one body.
 
 /// The LEDs of a rigid body.
 struct Constellation {
-  std::string name;                   ///< Also its TF frame.
+  std::string name;                   ///< Also its TF frame: a letter, then letters, digits, _.
   std::vector<Eigen::Vector3d> leds;  ///< In the body's frame [m]; 3 to kMaximumLeds.
 
-  /// @throws BodyError naming what is wrong: no name, too few or too many LEDs, two closer than
-  /// 1 mm, all on one line, or positions that are not finite.
+  /// Of LEDs that blink, one for each, by which they are told apart where the shape does not tell;
+  /// or none.
+  std::vector<std::string> labels = {};
+
+  /// Label of an LED, or its number.
+  std::string labelOf(std::size_t led) const;
+
+  /// @throws BodyError naming what is wrong: its name, too few or too many LEDs, two closer than
+  /// 1 mm, all on one line, positions that are not finite, labels that are not one for each and all
+  /// different, or a symmetric shape without labels.
   void check() const;
 };
 

@@ -22,6 +22,7 @@ struct PoseFilterOptions {
 };
 
 using PoseCovariance = Eigen::Matrix<double, 6, 6>;
+using MotionCovariance = Eigen::Matrix<double, 12, 12>;
 
 /// Where a camera will see an LED of a body.
 struct LedPrediction {
@@ -59,12 +60,14 @@ class PoseFilter {
 
   Eigen::Isometry3d worldFromBody() const;
   PoseCovariance poseCovariance() const { return covariance_.topLeftCorner<6, 6>(); }
+
+  /// Of position, rotation, velocity and turning, in this order.
+  const MotionCovariance& covariance() const { return covariance_; }
   const Eigen::Vector3d& velocity() const { return velocity_; }        ///< World [m/s].
   const Eigen::Vector3d& angularVelocity() const { return turning_; }  ///< World [rad/s].
 
  private:
   using State = Eigen::Matrix<double, 12, 1>;
-  using Covariance = Eigen::Matrix<double, 12, 12>;  // position, rotation, velocity, turning
 
   const PoseFilterOptions* options_;
   double time_;
@@ -72,7 +75,7 @@ class PoseFilter {
   Eigen::Quaterniond rotation_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d turning_ = Eigen::Vector3d::Zero();
-  Covariance covariance_;
+  MotionCovariance covariance_;
 };
 
 }  // namespace wiimote_tracker::body

@@ -1,0 +1,102 @@
+#include "wiimote_tracker_triangulation/body/body_follower.h"
+
+#include "wiimote_tracker_triangulation/geometry/image_rules.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::body {
+
+void BodyFollower::setRig(const geometry::Rig& rig) {
+  useTracker(rig, constellations_);
+  rig_ = rig;
+  time_watch_ = std::make_unique<tracking::TimeWatch>(rig_.cameras.size());
+}
+
+void BodyFollower::setBodies(const std::vector<Constellation>& constellations) {
+  for (const Constellation& constellation : constellations)
+    constellation.check();
+  if (time_watch_)
+    useTracker(rig_, constellations);
+  constellations_ = constellations;
+  snapshot_ = BodySnapshot();
+}
+
+void BodyFollower::useTracker(const geometry::Rig& rig,
+                              const std::vector<Constellation>& constellations) {
+  tracker_ = constellations.empty() ? nullptr
+                                    : std::make_unique<BodyTracker>(rig, constellations, options_);
+}
+
+void BodyFollower::take(std::size_t camera, tracking::CameraImage* image) {
+  const geometry::RigCamera& calibration = rig_.cameras[camera];
+  const double time = image->stamp + geometry::timeOffset(calibration, image->clock_epoch);
+  if (!tracker_ || !std::isfinite(time) || !std::isfinite(image->arrival))
+    return;
+  switch (time_watch_->look(camera, time, image->arrival)) {
+    case tracking::TimeWatch::Verdict::kAhead:
+      return;
+    case tracking::TimeWatch::Verdict::kJumpedBack:
+      tracker_->reset();
+      latest_arrival_ = image->arrival;
+      last_output_ = -std::numeric_limits<double>::infinity();
+      break;
+    case tracking::TimeWatch::Verdict::kUsable:
+      break;
+  }
+  pixels_.clear();
+  spots_.clear();
+  for (std::size_t i = 0; i < image->spots.size(); ++i) {
+    if (geometry::isMasked(calibration, image->spots[i].pixel))
+      continue;
+    pixels_.push_back(image->spots[i].pixel);
+    spots_.push_back(i);
+  }
+  if (!tracker_->add(camera, time, pixels_))
+    return;
+  latest_arrival_ = std::max(latest_arrival_, image->arrival);
+
+  is_taken_.assign(image->spots.size(), false);
+  for (std::size_t i = 0; i < spots_.size(); ++i)
+    is_taken_[spots_[i]] = tracker_->taken()[i];
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < image->spots.size(); ++i) {
+    if (!is_taken_[i])
+      image->spots[left++] = image->spots[i];
+  }
+  // The places that bodies have taken are not free for other lights.
+  const std::size_t taken = image->spots.size() - left;
+  image->maximum_spots -= std::min(taken, image->maximum_spots);
+  image->spots.resize(left);
+}
+
+void BodyFollower::startFromLabels(const std::vector<LabelledPoint>& points) {
+  if (tracker_)
+    tracker_->startFromLabels(points);
+}
+
+const BodySnapshot* BodyFollower::next() {
+  if (!tracker_ || !(tracker_->time() > last_output_))
+    return nullptr;
+  last_output_ = tracker_->time();
+  const auto& bodies = tracker_->bodies();
+  snapshot_.time = last_output_;
+  snapshot_.latest_arrival = latest_arrival_;
+  // Those that were lost in the snapshot before have been told.
+  for (const std::size_t lost : snapshot_.lost)
+    snapshot_.bodies[lost].reset();
+  snapshot_.lost.clear();
+  snapshot_.bodies.resize(bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b]) {
+      snapshot_.bodies[b] = bodies[b];
+    } else if (snapshot_.bodies[b]) {
+      snapshot_.lost.push_back(b);
+      for (LedEstimate& led : snapshot_.bodies[b]->leds)
+        led.cameras.clear();
+    }
+  }
+  return &snapshot_;
+}
+
+}  // namespace wiimote_tracker::body

@@ -1,0 +1,66 @@
+#include "pose_from_labels.h"
+
+#include "wiimote_tracker_triangulation/body/align.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <array>
+
+namespace wiimote_tracker::body {
+namespace {
+
+// Points of LEDs that are seen badly, or a label that is wrong: squared standard deviations per
+// coordinate. And what the LEDs move between the points' images [m].
+constexpr double kWorst = 9.0;
+constexpr double kMotion = 0.002;
+
+Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
+}  // namespace
+
+std::optional<SolvedPose> poseFromLabels(const Constellation& constellation,
+                                         const std::vector<LabelledPoint>& points) {
+  std::array<PointPair, kMaximumLeds> pairs;
+  std::array<Eigen::Matrix3d, kMaximumLeds> information;
+  std::size_t count = 0;
+  for (std::size_t led = 0; led < constellation.leds.size(); ++led) {
+    const auto point =
+        std::find_if(points.begin(), points.end(), [&](const LabelledPoint& candidate) {
+          return candidate.label == constellation.labels[led];
+        });
+    if (point == points.end())
+      continue;
+    const Eigen::Matrix3d covariance =
+        point->covariance + kMotion * kMotion * Eigen::Matrix3d::Identity();
+    information[count] = covariance.inverse();
+    pairs[count++] = {constellation.leds[led], point->position, 3.0 / covariance.trace()};
+  }
+  if (count < 3)
+    return std::nullopt;
+  const Alignment alignment = align(pairs.data(), count);
+  if (alignment.cost > kWorst * static_cast<double>(3 * count))
+    return std::nullopt;
+
+  PoseCovariance normal = PoseCovariance::Zero();
+  for (std::size_t i = 0; i < count; ++i) {
+    Eigen::Matrix<double, 3, 6> jacobian;
+    jacobian.leftCols<3>().setIdentity();
+    jacobian.rightCols<3>() = -skew(alignment.world_from_body.linear() * pairs[i].in_body);
+    normal += jacobian.transpose() * information[i] * jacobian;
+  }
+  const Eigen::LLT<PoseCovariance> factor(normal);
+  if (factor.info() != Eigen::Success || factor.rcond() < 1e-12)
+    return std::nullopt;
+  SolvedPose pose;
+  pose.world_from_body = alignment.world_from_body;
+  pose.covariance = factor.solve(PoseCovariance::Identity());
+  pose.reprojection_error = 0.0;
+  return pose;
+}
+
+}  // namespace wiimote_tracker::body

@@ -1,0 +1,18 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_POSE_FROM_LABELS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_POSE_FROM_LABELS_H
+
+#include "wiimote_tracker_triangulation/body/body_tracker.h"
+
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::body {
+
+/// The pose of a body whose LEDs have labels, from points in space. Nothing when fewer than three
+/// of its LEDs are among them, those lie on a line, or not as they do on the body.
+std::optional<SolvedPose> poseFromLabels(const Constellation& constellation,
+                                         const std::vector<LabelledPoint>& points);
+
+}  // namespace wiimote_tracker::body
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_POSE_FROM_LABELS_H

@@ -28,11 +28,10 @@ void addOuter(double sign, const Vector& x, const Vector& y, Square* block) {
 }
 
 template <typename Block>
-void mixEach(const Eigen::Matrix4d& shares, Block* block) {
+void mixEach(const std::array<Lanes, 4>& shares, Block* block) {
   for (Lanes& lanes : *block) {
-    const Eigen::Vector4d old = lanes.matrix();
-    lanes = shares.col(0).array() * old[0] + shares.col(1).array() * old[1] +
-            shares.col(2).array() * old[2] + shares.col(3).array() * old[3];
+    const double old[] = {lanes[0], lanes[1], lanes[2], lanes[3]};
+    lanes = shares[0] * old[0] + shares[1] * old[1] + shares[2] * old[2] + shares[3] * old[3];
   }
 }
 
@@ -135,7 +134,7 @@ void KinematicStates::update(const Innovations& n) {
   addOuter(-1.0, a_v, &aa);
 }
 
-void KinematicStates::mix(const Eigen::Matrix4d& shares,
+void KinematicStates::mix(const std::array<Lanes, 4>& shares,
                           const Lanes& rest_shares,
                           const Eigen::Vector3d& rest_position,
                           const Eigen::Matrix3d& rest_covariance) {
@@ -166,15 +165,6 @@ void KinematicStates::mix(const Eigen::Matrix4d& shares,
     for (int j = i; j < 3; ++j)
       pp[kSymmetric[i][j]] += rest_shares * rest_covariance(i, j);
   }
-}
-
-Eigen::Matrix3d KinematicStates::matrix(const Symmetric& s, int state) {
-  Eigen::Matrix3d m;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j)
-      m(i, j) = s[kSymmetric[i][j]][state];
-  }
-  return m;
 }
 
 }  // namespace wiimote_tracker::motion

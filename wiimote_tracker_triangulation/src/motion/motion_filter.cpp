@@ -1,8 +1,7 @@
 #include "wiimote_tracker_triangulation/motion/motion_filter.h"
 
-#include "motion_steps.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,9 +15,12 @@ using Matrix3 = Eigen::Matrix3d;
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
 
-/// Changes between ways to move are followed at every image, but no more finely than this [s]. Any
-/// less would cost accuracy where an LED stops: what is still is then where it last was followed.
-constexpr double kChangeInterval = 0.002;
+/// What moves may stop at every image, but no more finely than this [s]. Any less would cost
+/// accuracy where an LED stops: what is still is then where it last was followed.
+constexpr double kStopInterval = 0.002;
+
+/// All other changes between ways to move [s]: in so short a time they take an LED nowhere.
+constexpr double kChangeInterval = 0.01;
 
 /// Probability of a change within a duration, at a rate.
 double probabilityOf(double rate, double duration) {
@@ -40,6 +42,23 @@ Lanes accelerationVariances(const MotionOptions& options) {
           square(options.brisk.stddev), 0.0};
 }
 
+/// Of a mixture of four normal distributions, about its mean.
+Matrix3 covarianceAbout(const Vector3& mean,
+                        const Lanes& weights,
+                        const std::array<Lanes, 3>& means,
+                        const std::array<Lanes, 6>& covariances) {
+  std::array<Lanes, 3> d;
+  for (int i = 0; i < 3; ++i)
+    d[i] = means[i] - mean[i];
+  Matrix3 result;
+  for (int i = 0, k = 0; i < 3; ++i) {
+    const Lanes weighted = weights * d[i];
+    for (int j = i; j < 3; ++j, ++k)
+      result(i, j) = result(j, i) = (weights * covariances[k] + weighted * d[j]).sum();
+  }
+  return result;
+}
+
 }  // namespace
 
 MotionFilter::MotionFilter(const MotionOptions& options,
@@ -48,6 +67,7 @@ MotionFilter::MotionFilter(const MotionOptions& options,
                            const Matrix3& covariance)
     : options_(&options),
       time_(time),
+      stopped_until_(time),
       changed_until_(time),
       still_p_(position),
       still_pp_(covariance) {
@@ -70,69 +90,93 @@ MotionFilter::MotionFilter(const MotionOptions& options,
 }
 
 void MotionFilter::predict(double time) {
+  MotionSteps steps(*options_);
+  predict(time, &steps);
+}
+
+void MotionFilter::predict(double time, MotionSteps* steps) {
   if (!(time > time_) || !std::isfinite(time))
     return;
   const double duration = time - time_;
-  moving_.predict(motionSteps(*options_, duration));
+  moving_.predict(steps->over(duration));
   still_pp_.diagonal().array() += square(options_->still_drift) * duration;
   time_ = time;
+  if (time - stopped_until_ >= kStopInterval) {
+    stop(time - stopped_until_);
+    stopped_until_ = time;
+  }
   if (time - changed_until_ >= kChangeInterval) {
     change(time - changed_until_);
     changed_until_ = time;
   }
 }
 
+/// The part of the interaction (see change) that leads to rest.
+void MotionFilter::stop(double duration) {
+  const Lanes stops = moving_weights_ * probabilityOf(options_->stop_rate, duration);
+  const double weight = still_weight_ + stops.sum();
+  if (!(weight > 0.0))
+    return;
+  // By moments about the place of rest, where they stay small.
+  const Lanes shares = stops / weight;
+  Vector3 step;
+  std::array<Lanes, 3> d, share_d;
+  for (int i = 0; i < 3; ++i) {
+    d[i] = moving_.p[i] - still_p_[i];
+    share_d[i] = shares * d[i];
+    step[i] = share_d[i].sum();
+  }
+  const double stays = still_weight_ / weight;
+  for (int i = 0, k = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j, ++k) {
+      const double second = (shares * moving_.pp[k] + share_d[i] * d[j]).sum();
+      still_pp_(i, j) = still_pp_(j, i) = stays * still_pp_(i, j) + second - step[i] * step[j];
+    }
+  }
+  still_p_ += step;
+  still_weight_ = weight;
+  moving_weights_ -= stops;
+}
+
 /// The interaction: each way to move goes on from the mixture of those that may have led to it.
 void MotionFilter::change(double duration) {
-  // Joint probabilities of the way before (column) and the way after (row).
   const double start = still_weight_ * probabilityOf(options_->start_rate, duration);
   const int ways = waysToMove(*options_);
-  Eigen::Matrix4d joint = Eigen::Matrix4d::Zero();
-  Lanes stop = Lanes::Zero();
-  for (int i = 0; i < ways; ++i) {
+  // Joint probabilities of the way before (first index) and the way after.
+  std::array<Lanes, kMoving> joint;
+  Lanes taken_up = Lanes::Zero();  // by what is still or was less rash
+  taken_up.head(ways).setConstant(start / ways);
+  Lanes weights = taken_up;
+  const Lanes started = taken_up;
+  for (int i = 0; i < kMoving; ++i) {
+    joint[i].setZero();
+    if (i >= ways)
+      continue;
     const int rasher = ways - 1 - i;
     const double rise = rasher > 0 ? options_->rise_rate : 0.0;
     const double settle = i > 0 ? options_->settle_rate : 0.0;
-    const double rate = options_->stop_rate + rise + settle;
     const double per_rate =  // probability for each 1/s
-        moving_weights_[i] * duration / (1.0 + rate * duration);
-    stop[i] = per_rate * options_->stop_rate;
-    for (int j = 0; j < ways; ++j)
-      joint(j, i) = j < i ? per_rate * settle / i : per_rate * rise / rasher;
-    joint(i, i) = moving_weights_[i] - per_rate * rate;
+        moving_weights_[i] * duration / (1.0 + (rise + settle) * duration);
+    for (int j = 0; j < ways; ++j) {
+      joint[i][j] = j < i ? per_rate * settle / i : per_rate * rise / rasher;
+      if (j > i)
+        taken_up[j] += joint[i][j];
+    }
+    joint[i][i] = moving_weights_[i] - per_rate * (rise + settle);
+    weights += joint[i];
   }
-  Lanes started = Lanes::Zero();
-  started.head(ways).setConstant(start / ways);
-  const Lanes weights = joint.rowwise().sum().array() + started;
+  Lanes inverse;
+  for (int i = 0; i < kMoving; ++i)
+    inverse[i] = weights[i] > 0.0 ? 1.0 / weights[i] : 0.0;
+  for (Lanes& shares : joint)
+    shares *= inverse;
+  moving_.mix(joint, started * inverse, still_p_, still_pp_);
 
   // What takes up another way does so with an acceleration of that way.
-  const Lanes taken_up =
-      started +
-      joint.triangularView<Eigen::StrictlyLower>().toDenseMatrix().rowwise().sum().array();
-  const Lanes inverse = (weights > 0.0).select(1.0 / weights, 0.0);
-  const Eigen::Matrix4d shares = inverse.matrix().asDiagonal() * joint;
-
-  const double still_weight = still_weight_ - start + stop.sum();
-  const Vector3 rest_p = still_p_;
-  const Matrix3 rest_pp = still_pp_;
-  if (still_weight > 0.0) {
-    const double stays = (still_weight_ - start) / still_weight;
-    const Lanes stops = stop / still_weight;
-    Vector3 step = Vector3::Zero();  // from rest_p
-    Matrix3 second = stays * rest_pp;
-    for (int i = 0; i < kMoving; ++i) {
-      const Vector3 d = moving_.position(i) - rest_p;
-      step += stops[i] * d;
-      second += stops[i] * (moving_.positionCovariance(i) + d * d.transpose());
-    }
-    still_p_ += step;
-    still_pp_ = second - step * step.transpose();
-  }
-  moving_.mix(shares, started * inverse, rest_p, rest_pp);
   const Lanes added = taken_up * inverse * accelerationVariances(*options_);
   for (const int diagonal : {0, 3, 5})
     moving_.aa[diagonal] += added;
-  still_weight_ = still_weight;
+  still_weight_ -= start;
   moving_weights_ = weights;
 }
 
@@ -150,29 +194,33 @@ std::optional<PixelPrediction> MotionFilter::predictPixel(const geometry::Camera
 bool MotionFilter::linearize(const geometry::Camera& camera,
                              const Vector3& point,
                              PixelPrediction* prediction) const {
-  const std::optional<Vector2> pixel = camera.project(point, &prediction->jacobian_);
+  PixelPrediction& to = *prediction;
+  const std::optional<Vector2> pixel = camera.project(point, &to.jacobian_);
   if (!pixel)
     return false;
-  const Matrix23& H = prediction->jacobian_;
+  const Matrix23& H = to.jacobian_;
   const Vector3 mean = position();
-  prediction->pixel_ = *pixel + H * (mean - point);
-  const Vector2 smear = H * prediction->smear_;
-  const double noise_uu = square(smear.x()) + prediction->pixel_variance_;
+  to.pixel_ = *pixel + H * (mean - point);
+  const Vector2 smear = H * to.smear_;
+  const double noise_uu = square(smear.x()) + to.pixel_variance_;
   const double noise_uv = smear.x() * smear.y();
-  const double noise_vv = square(smear.y()) + prediction->pixel_variance_;
+  const double noise_vv = square(smear.y()) + to.pixel_variance_;
 
-  PixelPrediction::Component& still = prediction->components_[0];
-  still.weight = still_weight_;
-  if (still.weight > 0.0) {
-    still.offset.noalias() = H * (still_p_ - mean);
-    const Matrix32 gain = still_pp_ * H.transpose();
+  double reach = 0.0;
+  to.still_weight_ = still_weight_;
+  if (still_weight_ > 0.0) {
+    const Vector2 offset = H * (still_p_ - mean);
+    const Matrix32 gain = still_pp_.lazyProduct(H.transpose());
     const double uu = H.row(0).dot(gain.col(0)) + noise_uu;
     const double uv = H.row(0).dot(gain.col(1)) + noise_uv;
     const double vv = H.row(1).dot(gain.col(1)) + noise_vv;
-    still.whiten_uu = 1.0 / std::sqrt(uu);
-    const double l_vu = uv * still.whiten_uu;
-    still.whiten_vv = 1.0 / std::sqrt(vv - l_vu * l_vu);
-    still.whiten_vu = -l_vu * still.whiten_uu * still.whiten_vv;
+    to.still_u_ = offset.x();
+    to.still_v_ = offset.y();
+    to.still_whiten_uu_ = 1.0 / std::sqrt(uu);
+    const double l_vu = uv * to.still_whiten_uu_;
+    to.still_whiten_vv_ = 1.0 / std::sqrt(vv - l_vu * l_vu);
+    to.still_whiten_vu_ = -l_vu * to.still_whiten_uu_ * to.still_whiten_vv_;
+    reach = offset.squaredNorm() + uu + vv;
   }
 
   const auto& pp = moving_.pp;
@@ -189,18 +237,16 @@ bool MotionFilter::linearize(const geometry::Camera& camera,
   const Lanes uu = H(0, 0) * gain_u[0] + H(0, 1) * gain_u[1] + H(0, 2) * gain_u[2] + noise_uu;
   const Lanes uv = H(0, 0) * gain_v[0] + H(0, 1) * gain_v[1] + H(0, 2) * gain_v[2] + noise_uv;
   const Lanes vv = H(1, 0) * gain_v[0] + H(1, 1) * gain_v[1] + H(1, 2) * gain_v[2] + noise_vv;
-  const Lanes whiten_uu = 1.0 / uu.sqrt();
-  const Lanes l_vu = uv * whiten_uu;
-  const Lanes whiten_vv = 1.0 / (vv - l_vu * l_vu).sqrt();
-  const Lanes whiten_vu = -l_vu * whiten_uu * whiten_vv;
-  for (int i = 0; i < kMoving; ++i) {
-    PixelPrediction::Component& component = prediction->components_[i + 1];
-    component.weight = moving_weights_[i];
-    component.offset = {offset_u[i], offset_v[i]};
-    component.whiten_uu = whiten_uu[i];
-    component.whiten_vu = whiten_vu[i];
-    component.whiten_vv = whiten_vv[i];
-  }
+  to.moving_weights_ = moving_weights_;
+  to.moving_u_ = offset_u;
+  to.moving_v_ = offset_v;
+  to.moving_whiten_uu_ = 1.0 / uu.sqrt();
+  const Lanes l_vu = uv * to.moving_whiten_uu_;
+  to.moving_whiten_vv_ = 1.0 / (vv - l_vu * l_vu).sqrt();
+  to.moving_whiten_vu_ = -l_vu * to.moving_whiten_uu_ * to.moving_whiten_vv_;
+  const Lanes moving_reach = offset_u.square() + offset_v.square() + uu + vv;
+  // (|offset| + sqrt(gate * largest variance))^2 is less, for gates of 1 and more.
+  to.squared_reach_ = 2.0 * std::max(reach, moving_reach.maxCoeff());
   return true;
 }
 
@@ -244,39 +290,39 @@ bool MotionFilter::update(const geometry::Camera& camera,
 
 void MotionFilter::apply(const PixelPrediction& prediction, const Vector2& pixel) {
   const Vector2 from_mean = pixel - prediction.pixel_;
-  const PixelPrediction::Component& still = prediction.components_[0];
   double still_squared = std::numeric_limits<double>::infinity();
-  if (still.weight > 0.0) {
-    const Vector2 whitened = still.whitened(from_mean);
-    const Vector3 image_u = prediction.jacobian_.row(0).transpose() * still.whiten_uu;
-    const Vector3 image_v = prediction.jacobian_.row(0).transpose() * still.whiten_vu +
-                            prediction.jacobian_.row(1).transpose() * still.whiten_vv;
+  if (still_weight_ > 0.0) {
+    const double u = from_mean.x() - prediction.still_u_;
+    const double v = from_mean.y() - prediction.still_v_;
+    const double whitened_u = prediction.still_whiten_uu_ * u;
+    const double whitened_v = prediction.still_whiten_vu_ * u + prediction.still_whiten_vv_ * v;
+    const Vector3 image_u = prediction.jacobian_.row(0).transpose() * prediction.still_whiten_uu_;
+    const Vector3 image_v = prediction.jacobian_.row(0).transpose() * prediction.still_whiten_vu_ +
+                            prediction.jacobian_.row(1).transpose() * prediction.still_whiten_vv_;
     const Vector3 w_u = still_pp_ * image_u;
     const Vector3 w_v = still_pp_ * image_v;
-    still_p_ += w_u * whitened.x() + w_v * whitened.y();
+    still_p_ += w_u * whitened_u + w_v * whitened_v;
     still_pp_ -= w_u * w_u.transpose() + w_v * w_v.transpose();
-    still_squared = whitened.squaredNorm();
+    still_squared = square(whitened_u) + square(whitened_v);
   }
 
   Innovations innovations;
   innovations.jacobian = prediction.jacobian_;
-  for (int i = 0; i < kMoving; ++i) {
-    const PixelPrediction::Component& component = prediction.components_[i + 1];
-    innovations.whiten_uu[i] = component.whiten_uu;
-    innovations.whiten_vu[i] = component.whiten_vu;
-    innovations.whiten_vv[i] = component.whiten_vv;
-    const Vector2 whitened = component.whitened(from_mean);
-    innovations.u[i] = whitened.x();
-    innovations.v[i] = whitened.y();
-  }
+  innovations.whiten_uu = prediction.moving_whiten_uu_;
+  innovations.whiten_vu = prediction.moving_whiten_vu_;
+  innovations.whiten_vv = prediction.moving_whiten_vv_;
+  const Lanes u = from_mean.x() - prediction.moving_u_;
+  innovations.u = prediction.moving_whiten_uu_ * u;
+  innovations.v = prediction.moving_whiten_vu_ * u +
+                  prediction.moving_whiten_vv_ * (from_mean.y() - prediction.moving_v_);
   moving_.update(innovations);
 
   // Probabilities by Bayes; all likelihoods over the greatest exponential, lest all become 0.
   const Lanes squared = innovations.u.square() + innovations.v.square();
   const double least = std::min(still_squared, squared.minCoeff());
-  still_weight_ = still.weight > 0.0 ? still.weight * still.whiten_uu * still.whiten_vv *
-                                           std::exp(0.5 * (least - still_squared))
-                                     : 0.0;
+  if (still_weight_ > 0.0)
+    still_weight_ *= prediction.still_whiten_uu_ * prediction.still_whiten_vv_ *
+                     std::exp(0.5 * (least - still_squared));
   moving_weights_ *=
       innovations.whiten_uu * innovations.whiten_vv * (0.5 * (least - squared)).exp();
   const double scale = 1.0 / (still_weight_ + moving_weights_.sum());
@@ -294,12 +340,8 @@ Vector3 MotionFilter::position() const {
 Matrix3 MotionFilter::positionCovariance() const {
   const Vector3 mean = position();
   const Vector3 offset = still_p_ - mean;
-  Matrix3 covariance = still_weight_ * (still_pp_ + offset * offset.transpose());
-  for (int i = 0; i < kMoving; ++i) {
-    const Vector3 d = moving_.position(i) - mean;
-    covariance += moving_weights_[i] * (moving_.positionCovariance(i) + d * d.transpose());
-  }
-  return covariance;
+  return still_weight_ * (still_pp_ + offset * offset.transpose()) +
+         covarianceAbout(mean, moving_weights_, moving_.p, moving_.pp);
 }
 
 Vector3 MotionFilter::velocity() const {
@@ -311,64 +353,78 @@ Vector3 MotionFilter::velocity() const {
 
 Matrix3 MotionFilter::velocityCovariance() const {
   const Vector3 mean = velocity();
-  Matrix3 covariance = still_weight_ * mean * mean.transpose();
-  for (int i = 0; i < kMoving; ++i) {
-    const Vector3 d = moving_.velocity(i) - mean;
-    covariance += moving_weights_[i] * (moving_.velocityCovariance(i) + d * d.transpose());
-  }
-  return covariance;
-}
-
-Vector2 PixelPrediction::Component::whitened(const Vector2& from_mean) const {
-  const Vector2 d = from_mean - offset;
-  return {whiten_uu * d.x(), whiten_vu * d.x() + whiten_vv * d.y()};
+  return still_weight_ * mean * mean.transpose() +
+         covarianceAbout(mean, moving_weights_, moving_.v, moving_.vv);
 }
 
 Matrix2 PixelPrediction::covariance() const {
   Matrix2 covariance = Matrix2::Zero();
   Vector2 mean = Vector2::Zero();
-  for (const Component& c : components_) {
-    if (!(c.weight > 0.0))
-      continue;
-    const double l_uu = 1.0 / c.whiten_uu;
-    const double l_vv = 1.0 / c.whiten_vv;
-    const double l_vu = -c.whiten_vu * l_uu * l_vv;
+  const auto add = [&](double weight, const Vector2& offset, double uu, double vu, double vv) {
+    if (!(weight > 0.0))
+      return;
+    const double l_uu = 1.0 / uu;
+    const double l_vv = 1.0 / vv;
     Matrix2 lower;
-    lower << l_uu, 0.0, l_vu, l_vv;
-    covariance += c.weight * (lower * lower.transpose() + c.offset * c.offset.transpose());
-    mean += c.weight * c.offset;
-  }
+    lower << l_uu, 0.0, -vu * l_uu * l_vv, l_vv;
+    covariance += weight * (lower * lower.transpose() + offset * offset.transpose());
+    mean += weight * offset;
+  };
+  add(still_weight_, {still_u_, still_v_}, still_whiten_uu_, still_whiten_vu_, still_whiten_vv_);
+  for (int i = 0; i < 4; ++i)
+    add(moving_weights_[i], {moving_u_[i], moving_v_[i]}, moving_whiten_uu_[i],
+        moving_whiten_vu_[i], moving_whiten_vv_[i]);
   return covariance - mean * mean.transpose();
 }
 
-double PixelPrediction::squaredDistance(const Vector2& pixel) const {
-  double least = std::numeric_limits<double>::quiet_NaN();
-  for (const Component& c : components_) {
-    if (!(c.weight > 0.0))
-      continue;
-    const double squared = c.whitened(pixel - pixel_).squaredNorm();
-    if (!(squared >= least))
-      least = squared;
+PixelPrediction::SquaredDistances PixelPrediction::squaredDistances(const Vector2& pixel) const {
+  const Vector2 from_mean = pixel - pixel_;
+  SquaredDistances result;
+  result.still = std::numeric_limits<double>::infinity();
+  if (still_weight_ > 0.0) {
+    const double u = from_mean.x() - still_u_;
+    const double v = from_mean.y() - still_v_;
+    result.still =
+        square(still_whiten_uu_ * u) + square(still_whiten_vu_ * u + still_whiten_vv_ * v);
   }
-  return least;
+  const Lanes u = from_mean.x() - moving_u_;
+  const Lanes v = from_mean.y() - moving_v_;
+  result.moving =
+      (moving_whiten_uu_ * u).square() + (moving_whiten_vu_ * u + moving_whiten_vv_ * v).square();
+  result.least = result.still;
+  for (int i = 0; i < 4; ++i) {
+    if (moving_weights_[i] > 0.0 && !(result.moving[i] >= result.least))
+      result.least = result.moving[i];
+  }
+  return result;
+}
+
+double PixelPrediction::logDensity(const SquaredDistances& distances) const {
+  double sum = (moving_weights_ * moving_whiten_uu_ * moving_whiten_vv_ *
+                (0.5 * (distances.least - distances.moving)).exp())
+                   .sum();
+  if (still_weight_ > 0.0)
+    sum += still_weight_ * still_whiten_uu_ * still_whiten_vv_ *
+           std::exp(0.5 * (distances.least - distances.still));
+  return std::log(sum / (2.0 * M_PI)) - 0.5 * distances.least;
+}
+
+double PixelPrediction::squaredDistance(const Vector2& pixel) const {
+  return squaredDistances(pixel).least;
 }
 
 double PixelPrediction::logLikelihood(const Vector2& pixel) const {
-  double squared[5];
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 5; ++i) {
-    squared[i] = std::numeric_limits<double>::infinity();
-    if (components_[i].weight > 0.0)
-      squared[i] = components_[i].whitened(pixel - pixel_).squaredNorm();
-    least = std::min(least, squared[i]);
-  }
-  double sum = 0.0;
-  for (int i = 0; i < 5; ++i) {
-    const Component& c = components_[i];
-    if (c.weight > 0.0)
-      sum += c.weight * c.whiten_uu * c.whiten_vv * std::exp(0.5 * (least - squared[i]));
-  }
-  return std::log(sum / (2.0 * M_PI)) - 0.5 * least;
+  return logDensity(squaredDistances(pixel));
+}
+
+std::optional<double> PixelPrediction::logLikelihoodWithin(double gate,
+                                                           const Vector2& pixel) const {
+  if ((pixel - pixel_).squaredNorm() > gate * squared_reach_)
+    return std::nullopt;
+  const SquaredDistances distances = squaredDistances(pixel);
+  if (!(distances.least <= gate))
+    return std::nullopt;
+  return logDensity(distances);
 }
 
 }  // namespace wiimote_tracker::motion

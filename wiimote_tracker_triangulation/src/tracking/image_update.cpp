@@ -6,7 +6,8 @@
 
 namespace wiimote_tracker::tracking {
 
-ImageUpdate::ImageUpdate(const TrackerOptions& options) : options_(options) {}
+ImageUpdate::ImageUpdate(const TrackerOptions& options)
+    : options_(options), steps_(options.motion) {}
 
 void ImageUpdate::apply(const GroupCamera& camera,
                         const StoredImage& image,
@@ -46,7 +47,7 @@ void ImageUpdate::collectCandidates(const GroupCamera& camera,
       return;
     if (!camera.mayShow(track.roughPlace(image.time)))
       continue;
-    track.filter.predict(image.time);
+    track.filter.predict(image.time, &steps_);
     const auto prediction = track.filter.predictPixel(camera.forRays(), noise_);
     if (!prediction || !camera.isInImage(prediction->pixel(), options_.merging_distance))
       continue;
@@ -75,8 +76,9 @@ void ImageUpdate::assign(const StoredImage& image, const std::vector<Track>& tra
       costs_.miss[i] = detected;
     const double extra = detected + (tracks[candidate.track].isConfirmed() ? 0.0 : kTentativeCost);
     for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
-      if (candidate.prediction.squaredDistance(image.pixels[spot]) <= options_.gate)
-        costs_.pair[spot][i] = extra - candidate.prediction.logLikelihood(image.pixels[spot]);
+      if (const auto likelihood =
+              candidate.prediction.logLikelihoodWithin(options_.gate, image.pixels[spot]))
+        costs_.pair[spot][i] = extra - *likelihood;
     }
   }
   const association::SpotAssignment best = association::assignSpots(costs_);

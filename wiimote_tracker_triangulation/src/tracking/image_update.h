@@ -71,6 +71,7 @@ class ImageUpdate {
   Candidate* find(const std::vector<Track>& tracks, std::uint32_t id);
 
   TrackerOptions options_;
+  motion::MotionSteps steps_;
   motion::PixelNoise noise_;  // of the image
   std::size_t candidate_count_ = 0;
   std::array<Candidate, association::kMaximumTracks> candidates_;

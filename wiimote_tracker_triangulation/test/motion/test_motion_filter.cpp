@@ -108,7 +108,7 @@ TEST(MotionFilter, IsTheTextbooksFilter) {
   const Matrix3d covariance = Vector3d(1e-6, 2e-6, 3e-6).asDiagonal();
   MotionFilter filter(options, 0.0, variedPath(0.0), covariance);
   test::TextbookImm textbook(options, 0.0, variedPath(0.0), covariance);
-  double changed = 0.0;
+  double stopped = 0.0, changed = 0.0;
   for (int i = 1; i < 800; ++i) {
     // Cameras drop out for a while: steps of different length.
     if (i % 200 > 50 && i % 200 < 70 && i % 7 != 0)
@@ -118,7 +118,11 @@ TEST(MotionFilter, IsTheTextbooksFilter) {
     const Vector2d pixel = noisyPixel(camera, variedPath(time), random);
     filter.predict(time);
     textbook.predict(time);
-    if (time - changed >= 0.002) {
+    if (time - stopped >= 0.002) {
+      textbook.stop(time - stopped);
+      stopped = time;
+    }
+    if (time - changed >= 0.01) {
       textbook.change(time - changed);
       changed = time;
     }
@@ -170,6 +174,35 @@ TEST(PixelPrediction, IsTheMixturesDensityAndMoments) {
   EXPECT_LT(relative(prediction->covariance(), second), 0.01);
   EXPECT_EQ(*camera.project(filter.position()), prediction->pixel());
   EXPECT_TRUE(std::isnan(prediction->squaredDistance({NAN, 0.0})));
+}
+
+TEST(PixelPrediction, AGateLetsThroughWhatIsWithinAndNothingElse) {
+  const Camera camera = ring()[1];
+  MotionFilter filter(kDefault, 0.0, {0.1, 0.2, 0.3}, 1e-6 * Matrix3d::Identity());
+  Random random(13);
+  int within = 0;
+  for (int i = 1; i < 400; ++i) {
+    const double time = kStep * i;
+    filter.predict(time);
+    const auto prediction = filter.predictPixel(camera, {kPixelStddev, 0.001});
+    ASSERT_TRUE(prediction);
+    for (const double gate : {1.0, 4.0, 25.0, 100.0}) {
+      for (int j = 0; j < 20; ++j) {
+        const double range = std::pow(10.0, random.uniform(-1.0, 3.0));  // [px]
+        const Vector2d pixel =
+            prediction->pixel() + range * Vector2d(random.gaussian(), random.gaussian());
+        const auto likelihood = prediction->logLikelihoodWithin(gate, pixel);
+        ASSERT_EQ(prediction->squaredDistance(pixel) <= gate, likelihood.has_value()) << gate;
+        if (likelihood) {
+          EXPECT_EQ(prediction->logLikelihood(pixel), *likelihood);
+        }
+        within += likelihood.has_value();
+      }
+    }
+    EXPECT_FALSE(prediction->logLikelihoodWithin(1e9, {NAN, 0.0}));
+    ASSERT_TRUE(filter.update(camera, *prediction, noisyPixel(camera, variedPath(time), random)));
+  }
+  EXPECT_GT(within, 3000);
 }
 
 TEST(PixelPrediction, AnUncertainStampSmearsAlongTheWay) {

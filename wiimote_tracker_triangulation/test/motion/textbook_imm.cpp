@@ -150,24 +150,28 @@ void TextbookImm::predict(double time) {
   time_ = time;
 }
 
+void TextbookImm::stop(double duration) {
+  Rates rates = Rates::Zero();
+  rates.col(kStill).tail<4>().setConstant(options_.stop_rate);
+  interact(rates, duration);
+}
+
 void TextbookImm::change(double duration) {
-  // Transition probabilities, from row to column.
-  Eigen::Matrix<double, 5, 5> rates = Eigen::Matrix<double, 5, 5>::Zero();
-  for (int i = 0; i < 5; ++i) {
-    for (int j = 0; j < 5; ++j) {
-      if (i == j)
-        continue;
-      if (i == kStill)
-        rates(i, j) = options_.start_rate / 4.0;
-      else if (j == kStill)
-        rates(i, j) = options_.stop_rate;
-      else if (j > i)
+  Rates rates = Rates::Zero();
+  rates.row(kStill).tail<4>().setConstant(options_.start_rate / 4.0);
+  for (int i = 1; i < 5; ++i) {
+    for (int j = 1; j < 5; ++j) {
+      if (j > i)
         rates(i, j) = options_.rise_rate / (kSudden - i);
-      else
+      else if (j < i)
         rates(i, j) = options_.settle_rate / (i - 1);
     }
   }
-  Eigen::Matrix<double, 5, 5> p;
+  interact(rates, duration);
+}
+
+void TextbookImm::interact(const Rates& rates, double duration) {
+  Rates p;  // probabilities
   for (int i = 0; i < 5; ++i) {
     p.row(i) = rates.row(i) * duration / (1.0 + rates.row(i).sum() * duration);
     p(i, i) = 1.0 - p.row(i).sum();

@@ -42,7 +42,10 @@ class TextbookImm {
 
   void predict(double time);
 
-  /// Changes between ways to move, which are due after what has passed.
+  /// Stops that are due after what has passed.
+  void stop(double duration);
+
+  /// All other changes between ways to move that are.
   void change(double duration);
 
   void update(const geometry::Camera& camera, const Eigen::Vector2d& pixel, double pixel_stddev);
@@ -57,6 +60,9 @@ class TextbookImm {
   const std::vector<Model>& models() const { return models_; }
 
  private:
+  using Rates = Eigen::Matrix<double, 5, 5>;  // from row to column [1/s]
+  void interact(const Rates& rates, double duration);
+
   MotionOptions options_;
   double time_;
   std::vector<Model> models_;  // still, then the ways to move

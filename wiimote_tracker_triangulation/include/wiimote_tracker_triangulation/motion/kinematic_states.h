@@ -44,21 +44,15 @@ struct KinematicStates {
   void update(const Innovations& innovations);
 
   /// Each state becomes what the mixture of the old ones has for mean and covariance.
-  /// @param shares column i holds state i's share of each new state. What a column lacks to 1 is
-  /// the share of a state at rest at `position` with the covariance `position_covariance` and
-  /// `acceleration_variance` per axis in each new state.
-  void mix(const Eigen::Matrix4d& shares,
+  /// @param shares shares[i] holds old state i's share of each new state. @param rest_shares of a
+  /// state at rest at `rest_position` with the covariance `rest_covariance`; with it, all shares of
+  /// a new state add up to 1.
+  void mix(const std::array<Lanes, 4>& shares,
            const Lanes& rest_shares,
            const Eigen::Vector3d& rest_position,
            const Eigen::Matrix3d& rest_covariance);
 
   Eigen::Vector3d position(int state) const { return {p[0][state], p[1][state], p[2][state]}; }
-  Eigen::Vector3d velocity(int state) const { return {v[0][state], v[1][state], v[2][state]}; }
-  Eigen::Matrix3d positionCovariance(int state) const { return matrix(pp, state); }
-  Eigen::Matrix3d velocityCovariance(int state) const { return matrix(vv, state); }
-
- private:
-  static Eigen::Matrix3d matrix(const std::array<Lanes, 6>& s, int state);
 };
 
 }  // namespace wiimote_tracker::motion

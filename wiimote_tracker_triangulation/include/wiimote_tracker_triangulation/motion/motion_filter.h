@@ -4,10 +4,10 @@
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/motion/kinematic_states.h"
 #include "wiimote_tracker_triangulation/motion/motion_options.h"
+#include "wiimote_tracker_triangulation/motion/motion_steps.h"
 
 #include <Eigen/Core>
 
-#include <array>
 #include <optional>
 
 namespace wiimote_tracker::motion {
@@ -35,23 +35,35 @@ class PixelPrediction {
   /// Logarithm of the density of the LED's spot [1/px^2].
   double logLikelihood(const Eigen::Vector2d& pixel) const;
 
+  /// The same, but nothing where squaredDistance is not within the gate [1, >= 1]. What is far from
+  /// all that is expected costs little.
+  std::optional<double> logLikelihoodWithin(double gate, const Eigen::Vector2d& pixel) const;
+
  private:
   friend class MotionFilter;
 
-  // What is still comes first, then the four that move; a weight of 0: to be left out.
-  struct Component {
-    double weight = 0.0;
-    Eigen::Vector2d offset;                  // of its mean from pixel_ [px]
-    double whiten_uu, whiten_vu, whiten_vv;  // lower triangle [1/px]
-
-    Eigen::Vector2d whitened(const Eigen::Vector2d& from_mean) const;
+  /// Distances of one pixel to each way to move [1].
+  struct SquaredDistances {
+    double still;
+    Lanes moving;
+    double least;
   };
+  SquaredDistances squaredDistances(const Eigen::Vector2d& pixel) const;
+  double logDensity(const SquaredDistances& distances) const;
 
   Eigen::Vector2d pixel_;
   Eigen::Matrix<double, 2, 3> jacobian_;  // d pixel / d position [px/m]
   Eigen::Vector3d smear_;                 // standard deviation that the stamp's makes [m]
   double pixel_variance_;                 // [px^2]
-  std::array<Component, 5> components_;
+  double squared_reach_;  // a pixel within gate g is not further than sqrt(g) times this [px^2]
+
+  // Of what is still, and of the four that move; a weight of 0: to be left out.
+  double still_weight_;
+  double still_u_, still_v_;                                    // its mean from pixel_ [px]
+  double still_whiten_uu_, still_whiten_vu_, still_whiten_vv_;  // lower triangle [1/px]
+  Lanes moving_weights_;
+  Lanes moving_u_, moving_v_;
+  Lanes moving_whiten_uu_, moving_whiten_vu_, moving_whiten_vv_;
 };
 
 /// One LED's state in continuous time, updated by each camera's spot at that image's own time: an
@@ -80,6 +92,9 @@ class MotionFilter {
   /// Goes on to a time [s]; one that is not after time() changes nothing.
   void predict(double time);
 
+  /// The same, where many LEDs go on by the same duration. @param steps of this filter's options
+  void predict(double time, MotionSteps* steps);
+
   /// At time(). Nothing when the LED is not before the camera (see Camera::project).
   std::optional<PixelPrediction> predictPixel(const geometry::Camera& camera,
                                               const PixelNoise& noise) const;
@@ -100,6 +115,7 @@ class MotionFilter {
  private:
   static constexpr int kMoving = 4;  // smooth, gentle, brisk, sudden
 
+  void stop(double duration);
   void change(double duration);
   bool linearize(const geometry::Camera& camera,
                  const Eigen::Vector3d& point,
@@ -111,7 +127,8 @@ class MotionFilter {
 
   const MotionOptions* options_;
   double time_;
-  double changed_until_;  // ways to move have been changed up to here [s]
+  double stopped_until_;  // stops are taken into account up to here [s]
+  double changed_until_;  // all other changes between ways to move up to here [s]
   double still_weight_;   // probability
   Lanes moving_weights_;  // probabilities
   Eigen::Vector3d still_p_;

@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_TRIAL_H
 #define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_TRIAL_H
 
-#include "simulated_wave.h"
-#include "wave_bound.h"
+#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
+#include "wiimote_tracker_calibration/simulation/wave_bound.h"
 
 #include "wiimote_tracker_calibration/wave/solve_wave.h"
 

@@ -1,6 +1,6 @@
 // From the views of the board to points: a rig of which one camera has a wide-angle lens.
 
-#include "intrinsics_simulation.h"
+#include "wiimote_tracker_calibration/simulation/simulated_board.h"
 #include "simulated_square.h"
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
 #include "wiimote_tracker_calibration/square/expected_error.h"

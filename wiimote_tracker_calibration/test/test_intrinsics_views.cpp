@@ -1,4 +1,4 @@
-#include "intrinsics_simulation.h"
+#include "wiimote_tracker_calibration/simulation/simulated_board.h"
 
 #include "wiimote_tracker_calibration/intrinsics/error.h"
 #include "wiimote_tracker_calibration/intrinsics/samples_file.h"

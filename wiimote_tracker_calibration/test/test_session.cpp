@@ -1,6 +1,6 @@
 // Solving all that was captured, and the verdict on it. All simulated.
 #include "simulated_square.h"
-#include "simulated_wave.h"
+#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 #include "wave_trial.h"
 
 #include "wiimote_tracker_calibration/session/error.h"

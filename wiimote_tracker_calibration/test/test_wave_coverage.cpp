@@ -1,5 +1,5 @@
 // What a person is told while waving.
-#include "simulated_wave.h"
+#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
 #include "wiimote_tracker_calibration/wave/coverage.h"
 #include "wiimote_tracker_calibration/wave/error.h"

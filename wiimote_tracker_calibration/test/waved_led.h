@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_TEST_WAVED_LED_H
 
 #include "simulated_rig.h"
-#include "simulated_wave.h"
+#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
 #include "wiimote_tracker_calibration/capture/image.h"
 

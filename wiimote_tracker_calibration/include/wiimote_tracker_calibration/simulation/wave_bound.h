@@ -1,12 +1,13 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_BOUND_H
-#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_BOUND_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SIMULATION_WAVE_BOUND_H
+#define WIIMOTE_TRACKER_CALIBRATION_SIMULATION_WAVE_BOUND_H
 
-#include "simulated_wave.h"
+#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::wave {
@@ -42,6 +43,7 @@ struct WaveBound {
   VolumeError volume;
 };
 
+/// Of a wave without views it is the bound of the square alone.
 /// @param pixel standard deviation of what the cameras report, rounding included [px].
 /// @param wand_stddev of the wand's length [m].
 WaveBound waveBound(const WaveScene& scene,
@@ -51,6 +53,15 @@ WaveBound waveBound(const WaveScene& scene,
                     double wand_stddev,
                     const std::vector<Eigen::Vector3d>& points);
 
+/// Cramér-Rao bound of a still point that these cameras see [m^2]: the information of its own
+/// pixels together with that of the cameras' parameters. Nothing when fewer than two see it.
+/// @param covariance of the cameras, as WaveBound::covariance. @param pixel standard deviation of
+/// the pixel coordinates of the point, as averaged [px, > 0].
+std::optional<Eigen::Matrix3d> pointBound(const std::vector<geometry::Camera>& cameras,
+                                          const Eigen::MatrixXd& covariance,
+                                          const Eigen::Vector3d& point,
+                                          double pixel);
+
 }  // namespace wiimote_tracker::wave
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_BOUND_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SIMULATION_WAVE_BOUND_H

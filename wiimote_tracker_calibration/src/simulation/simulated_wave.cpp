@@ -1,4 +1,4 @@
-#include "simulated_wave.h"
+#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
 #include <cmath>
 #include <string>
@@ -17,6 +17,59 @@ double normal(std::mt19937_64& random, double stddev) {
 
 bool inImage(const geometry::Intrinsics& lens, const Eigen::Vector2d& pixel) {
   return pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() < lens.width && pixel.y() < lens.height;
+}
+
+constexpr double kClock = 1.7e9;  // Stamps are as large as those of the system's clock.
+
+/// What one more camera sees of the LED's way. `reference`: offset of the first camera's clock [s].
+void recordWave(const WaveScene& scene,
+                std::size_t index,
+                double offset,
+                double reference,
+                std::mt19937_64& random,
+                SimulatedWave* wave) {
+  const geometry::Camera& camera = wave->cameras[index];
+  CameraRecording& recording = wave->recording.cameras[index];
+  const geometry::Intrinsics& lens = camera.intrinsics;
+  const int leds = scene.length > 0.0 ? 2 : 1;
+  const auto anywhere = [&] {
+    return Eigen::Vector2d(uniform(random, 0.0, lens.width - 1.0),
+                           uniform(random, 0.0, lens.height - 1.0));
+  };
+  const Eigen::Vector2d lamp = anywhere();
+  double wander = normal(random, scene.wander);
+  const double period = (1.0 + normal(random, 1e-4)) / scene.rate;
+  const double keep = std::exp(-period / 2.0);
+  for (double time = uniform(random, 0.0, period); time < scene.duration; time += period) {
+    wander = keep * wander + normal(random, scene.wander * std::sqrt(1.0 - keep * keep));
+    Frame frame;
+    frame.stamp = kClock + time - offset + wander + normal(random, scene.stamp);
+    for (int led = 0; led < leds; ++led) {
+      const auto pixel = camera.project(wave->path.position(time, led));
+      if (!pixel || !inImage(lens, *pixel))
+        continue;
+      if (uniform(random, 0.0, 1.0) < scene.wrong_share) {
+        frame.spots.push_back(anywhere());
+        continue;
+      }
+      const Eigen::Vector2d noise(normal(random, scene.pixel), normal(random, scene.pixel));
+      frame.spots.push_back(*pixel + noise);
+      wave->views.push_back({index, led, kClock + time - reference, time});
+    }
+    if (scene.lamp)
+      frame.spots.push_back(lamp + Eigen::Vector2d(normal(random, 0.4), normal(random, 0.4)));
+    if (uniform(random, 0.0, 1.0) < scene.extra_share)
+      frame.spots.push_back(anywhere());
+    if (frame.spots.size() >= 2 && uniform(random, 0.0, 1.0) < 0.5)
+      std::swap(frame.spots.front(), frame.spots.back());
+    for (Eigen::Vector2d& spot : frame.spots) {
+      if (scene.quantized)
+        spot = spot.array().round();
+    }
+    // Stamps of a wandering clock stay in order.
+    if (recording.frames.empty() || frame.stamp > recording.frames.back().stamp)
+      recording.frames.push_back(frame);
+  }
 }
 
 }  // namespace
@@ -94,11 +147,9 @@ SimulatedWave simulateWave(const WaveScene& scene, SimulatedPath path, std::mt19
       corner += Eigen::Vector3d(normal(random, scene.uncertainty.placement),
                                 normal(random, scene.uncertainty.placement), 0.0);
   }
-  const int leds = scene.length > 0.0 ? 2 : 1;
-  if (leds == 2)
+  if (scene.length > 0.0)
     result.recording.wand = Wand{scene.length};
 
-  const double kClock = 1.7e9;  // Stamps are as large as those of the system's clock.
   double reference = 0.0;
   for (const Eigen::Isometry3d& pose : scene.poses()) {
     const std::size_t index = result.cameras.size();
@@ -124,47 +175,24 @@ SimulatedWave simulateWave(const WaveScene& scene, SimulatedPath path, std::mt19
     const double offset = uniform(random, -scene.offset, scene.offset);
     reference = index == 0 ? offset : reference;
     result.offsets.push_back(offset - reference);
-    const geometry::Intrinsics& lens = camera.intrinsics;
-    const auto anywhere = [&] {
-      return Eigen::Vector2d(uniform(random, 0.0, lens.width - 1.0),
-                             uniform(random, 0.0, lens.height - 1.0));
-    };
-    const Eigen::Vector2d lamp = anywhere();
-    double wander = normal(random, scene.wander);
-    const double period = (1.0 + normal(random, 1e-4)) / scene.rate;
-    const double keep = std::exp(-period / 2.0);
-    for (double time = uniform(random, 0.0, period); time < scene.duration; time += period) {
-      wander = keep * wander + normal(random, scene.wander * std::sqrt(1.0 - keep * keep));
-      Frame frame;
-      frame.stamp = kClock + time - offset + wander + normal(random, scene.stamp);
-      for (int led = 0; led < leds; ++led) {
-        const auto pixel = camera.project(path.position(time, led));
-        if (!pixel || !inImage(lens, *pixel))
-          continue;
-        if (uniform(random, 0.0, 1.0) < scene.wrong_share) {
-          frame.spots.push_back(anywhere());
-          continue;
-        }
-        const Eigen::Vector2d noise(normal(random, scene.pixel), normal(random, scene.pixel));
-        frame.spots.push_back(*pixel + noise);
-        result.views.push_back({index, led, kClock + time - reference, time});
-      }
-      if (scene.lamp)
-        frame.spots.push_back(lamp + Eigen::Vector2d(normal(random, 0.4), normal(random, 0.4)));
-      if (uniform(random, 0.0, 1.0) < scene.extra_share)
-        frame.spots.push_back(anywhere());
-      if (frame.spots.size() >= 2 && uniform(random, 0.0, 1.0) < 0.5)
-        std::swap(frame.spots.front(), frame.spots.back());
-      for (Eigen::Vector2d& spot : frame.spots) {
-        if (scene.quantized)
-          spot = spot.array().round();
-      }
-      // Stamps of a wandering clock stay in order.
-      if (recording.frames.empty() || frame.stamp > recording.frames.back().stamp)
-        recording.frames.push_back(frame);
-    }
     result.cameras.push_back(camera);
     result.recording.cameras.push_back(recording);
+    recordWave(scene, index, offset, reference, random, &result);
+  }
+  return result;
+}
+
+SimulatedWave waveAgain(const WaveScene& scene, const SimulatedWave& before, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  SimulatedWave result = before;
+  result.path = SimulatedPath(scene.length, random);
+  result.views.clear();
+  result.recording.wand.reset();
+  if (scene.length > 0.0)
+    result.recording.wand = Wand{scene.length};
+  for (std::size_t i = 0; i < result.cameras.size(); ++i) {
+    result.recording.cameras[i].frames.clear();
+    recordWave(scene, i, before.offsets[i], 0.0, random, &result);
   }
   return result;
 }

@@ -1,7 +1,9 @@
-#include "wave_bound.h"
+#include "wiimote_tracker_calibration/simulation/wave_bound.h"
 
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
@@ -172,8 +174,10 @@ WaveBound waveBound(const WaveScene& scene,
     start = std::min(start, view.time);
     end = std::max(end, view.time);
   }
-  const auto intervals = static_cast<Eigen::Index>(std::ceil((end - start) / knot_spacing)) + 1;
-  const Eigen::Index controls = intervals + 3;
+  const Eigen::Index intervals =
+      wave.views.empty() ? 0
+                         : static_cast<Eigen::Index>(std::ceil((end - start) / knot_spacing)) + 1;
+  const Eigen::Index controls = intervals > 0 ? intervals + 3 : 0;
   const Eigen::Index leds = scene.length > 0.0 ? 2 : 1;
   Information information(path_column + 3 * leds * controls);
 
@@ -300,6 +304,32 @@ WaveBound waveBound(const WaveScene& scene,
   };
   bound.volume = {rms(errors), rms(rigid), rms(similarity)};
   return bound;
+}
+
+std::optional<Eigen::Matrix3d> pointBound(const std::vector<geometry::Camera>& cameras,
+                                          const Eigen::MatrixXd& covariance,
+                                          const Eigen::Vector3d& point,
+                                          double pixel) {
+  std::vector<std::size_t> seeing;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (cameras[i].sees(point))
+      seeing.push_back(i);
+  }
+  if (seeing.size() < 2)
+    return std::nullopt;
+  const auto rows = 2 * static_cast<Eigen::Index>(seeing.size());
+  Eigen::MatrixXd by_cameras = Eigen::MatrixXd::Zero(rows, covariance.rows());
+  Eigen::MatrixXd by_point(rows, 3);
+  for (std::size_t k = 0; k < seeing.size(); ++k) {
+    const auto row = 2 * static_cast<Eigen::Index>(k);
+    const auto column = kPerCamera * static_cast<Eigen::Index>(seeing[k]);
+    by_cameras.block<2, kPerCamera>(row, column) = byCamera(cameras[seeing[k]], point);
+    by_point.middleRows<2>(row) = byPoint(cameras[seeing[k]], point);
+  }
+  const Eigen::MatrixXd noise = by_cameras * covariance * by_cameras.transpose() +
+                                pixel * pixel * Eigen::MatrixXd::Identity(rows, rows);
+  const Eigen::Matrix3d information = by_point.transpose() * noise.ldlt().solve(by_point).eval();
+  return information.inverse().eval();
 }
 
 }  // namespace wiimote_tracker::wave

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_SIMULATED_WAVE_H
-#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_SIMULATED_WAVE_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SIMULATION_SIMULATED_WAVE_H
+#define WIIMOTE_TRACKER_CALIBRATION_SIMULATION_SIMULATED_WAVE_H
 
 #include "wiimote_tracker_calibration/square/rig_model.h"
 #include "wiimote_tracker_calibration/wave/recording.h"
@@ -84,6 +84,10 @@ SimulatedWave simulateWave(const WaveScene& scene, std::uint64_t seed);
 /// Same with a path of one's own.
 SimulatedWave simulateWave(const WaveScene& scene, SimulatedPath path, std::mt19937_64& random);
 
+/// Another wave before the cameras of a session that was simulated before, with the same lenses,
+/// time offsets and corners: `scene` says how it is waved and seen.
+SimulatedWave waveAgain(const WaveScene& scene, const SimulatedWave& before, std::uint64_t seed);
+
 }  // namespace wiimote_tracker::wave
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_SIMULATED_WAVE_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SIMULATION_SIMULATED_WAVE_H

@@ -128,9 +128,9 @@ void Rig::expose(std::size_t number) {
     if (reflection.lit && reflection.camera == camera.name)
       glints_.push_back({reflection.pixel, reflection.size, reflection.brightness});
   }
-  const virtual_wiimote::Senses senses = camera.optics.sense(lamps_, bodies_, glints_);
+  const Image image{camera.optics.sense(lamps_, bodies_, glints_), time};
   if (!camera.next.lost) {
-    camera.travelling.push(senses);
+    camera.travelling.push(image);
     push(camera.next.arrival, Event::kDelivery, number);
   }
   camera.next = camera.times.next();

@@ -16,14 +16,19 @@
 
 namespace wiimote_tracker::simulation {
 
+/// What a camera senses in one image.
+struct Image : virtual_wiimote::Senses {
+  double exposure;  ///< When [s since the start].
+};
+
 /// All cameras, LEDs, people and reflections of a description as a queue of events: exposures,
 /// deliveries of reports, instants of truth. Reads no clock: whoever owns it says how far time has
 /// come. The same description and the same motions give the same events, however time is cut into
 /// steps.
 class Rig {
  public:
-  /// Receives what camera number `camera` senses, when its report is due.
-  using Deliver = std::function<void(std::size_t camera, const virtual_wiimote::Senses& senses)>;
+  /// Receives an image of camera number `camera`, when its report is due.
+  using Deliver = std::function<void(std::size_t camera, const Image& image)>;
   /// Receives the true position [m] of LED number `led` at `time` [s].
   using Truth = std::function<void(std::size_t led, double time, const Eigen::Vector3d& position)>;
 
@@ -73,7 +78,7 @@ class Rig {
     VirtualCamera optics;
     virtual_wiimote::FrameTimes times;
     virtual_wiimote::FrameTime next;
-    std::queue<virtual_wiimote::Senses> travelling;
+    std::queue<Image> travelling;
   };
 
   Eigen::Vector3d positionOf(const Led& led, double time) const;

@@ -1,6 +1,7 @@
 #include "simulated_rig.h"
 
 #include <geometry_msgs/PointStamped.h>
+#include <wiimote_tracker_msgs/IrBlobArray.h>
 
 #include <cmath>
 #include <random>
@@ -35,9 +36,7 @@ SimulatedRig::SimulatedRig(ros::NodeHandle nh,
       drawings_(description.drawings),
       rig_(
           description,
-          [this](std::size_t camera, const virtual_wiimote::Senses& senses) {
-            servers_[camera]->sample(senses);
-          },
+          [this](std::size_t camera, const Image& image) { deliver(camera, image); },
           [this](std::size_t led, double time, const Eigen::Vector3d& position) {
             publishTruth(led, time, position);
           }) {
@@ -46,7 +45,9 @@ SimulatedRig::SimulatedRig(ros::NodeHandle nh,
         socket_directory + "/" + camera.camera.name + ".sock", camera.camera.identity,
         deviceOptions(camera.camera,
                       description.seed + static_cast<std::uint32_t>(servers_.size()))));
+    cameras_.push_back(camera.camera.name);
   }
+  exposures_ = nh.advertise<wiimote_tracker_msgs::IrBlobArray>("simulation/exposures", 1000);
   for (const LedDescription& led : description.leds)
     truth_.push_back(
         nh.advertise<geometry_msgs::PointStamped>("simulation/truth/" + led.name, 1000));
@@ -195,6 +196,15 @@ double SimulatedRig::now() const {
 
 ros::Time SimulatedRig::stamp(double time) const {
   return start_stamp_ + ros::Duration(time);
+}
+
+void SimulatedRig::deliver(std::size_t camera, const Image& image) {
+  wiimote_tracker_msgs::IrBlobArray exposure;
+  exposure.header.stamp = stamp(image.exposure);
+  exposure.camera = cameras_[camera];
+  exposure.arrival = ros::Time::now();
+  servers_[camera]->sample(image);
+  exposures_.publish(exposure);
 }
 
 void SimulatedRig::publishTruth(std::size_t led, double time, const Eigen::Vector3d& position) {

@@ -19,7 +19,7 @@
 namespace wiimote_tracker::simulation {
 
 /// A Rig in real time: every camera as a virtual Wii Remote at <socket_directory>/<camera>.sock,
-/// service simulation/set_led, truth on simulation/truth/<led>.
+/// service simulation/set_led, truth on simulation/truth/<led> and simulation/exposures.
 class SimulatedRig {
  public:
   /// @throws std::system_error when a socket cannot be made.
@@ -44,6 +44,7 @@ class SimulatedRig {
   std::string refusal(const wiimote_tracker_msgs::SetLed::Request& request) const;
   double now() const;                  ///< [s since the start]
   ros::Time stamp(double time) const;  ///< Of a time since the start.
+  void deliver(std::size_t camera, const Image& image);
   void publishTruth(std::size_t led, double time, const Eigen::Vector3d& position);
 
   std::string world_frame_;
@@ -51,6 +52,8 @@ class SimulatedRig {
   std::chrono::steady_clock::time_point start_;
   ros::Time start_stamp_;
   std::vector<std::unique_ptr<virtual_wiimote::Server>> servers_;
+  std::vector<std::string> cameras_;
+  ros::Publisher exposures_;
   std::vector<ros::Publisher> truth_;
   std::mutex mutex_;  ///< Of rig_.
   Rig rig_;

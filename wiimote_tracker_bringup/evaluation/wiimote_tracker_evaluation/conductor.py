@@ -2,7 +2,8 @@
 
 import actionlib
 import rospy
-from wiimote_tracker_msgs.msg import (CalibrationStatus, CaptureCornerAction, CaptureCornerGoal)
+from wiimote_tracker_msgs.msg import (CalibrationStatus, CaptureCornerAction, CaptureCornerGoal,
+                                      TrackedPoint, TrackedPointArray)
 from wiimote_tracker_msgs.srv import (CheckConnection, SaveRig, SetLed, SetLedRequest,
                                       SolveCalibration, StartCalibration)
 
@@ -76,6 +77,17 @@ class Conductor(object):
         """Carries the LED straight to a place [m]; returns when it is there [s since 1970]."""
         return self._set_led(motion=SetLedRequest.LINE, target=target, speed=speed)
 
+    def circle_from(self, center, radius, speed):
+        """Lets the LED circle for ever; when its first lap begins, on the +x side [s since 1970]."""
+        return self._set_led(motion=SetLedRequest.CIRCLE, target=center, speed=speed, radius=radius)
+
+    def wave(self, led, middle, side, speed, path):
+        """Lets one of the LEDs be waved for ever through a cube of this side about its middle [m]."""
+        message = SetLedRequest(led=led, on=True, motion=SetLedRequest.WAVE, speed=speed, path=path)
+        message.target.x, message.target.y, message.target.z = middle
+        message.box.x = message.box.y = message.box.z = side
+        self._succeed('waving the LED', self._call('simulation/set_led', SetLed, message))
+
     def _set_led(self, target, **request):
         message = SetLedRequest(led=self._led, on=True, **request)
         message.target.x, message.target.y, message.target.z = target
@@ -98,6 +110,20 @@ class Conductor(object):
         except ExperimentError:
             raise ExperimentError('no images from %s within %.0f s; see the drivers\' messages'
                                   % (', '.join(missing()), deadline))
+
+    def wait_until_seen(self, names):
+        """Until every camera sees one spot."""
+        def seeing():
+            return {camera.name.strip('/') for camera in self._status.cameras if camera.sees_led}
+        self.wait(lambda: seeing().issuperset(names), 10.0, 'all cameras to see the LED')
+
+    def wait_for_leds(self, number):
+        """Until so many LEDs are tracked at once."""
+        tracked = []
+        subscriber = rospy.Subscriber('points', TrackedPointArray, lambda message: tracked.append(
+            sum(point.state == TrackedPoint.TRACKED for point in message.points)))
+        self.wait(lambda: number in tracked, 20.0, 'the tracker to find %d LEDs' % number)
+        subscriber.unregister()
 
     def check_connection(self, duration=1.0):
         """The node's answer to which cameras see the LED."""
@@ -147,8 +173,7 @@ class Conductor(object):
 
     def circle(self, name, center, radius, speed, duration):
         """Lets the LED circle for a while [s]."""
-        start = self._set_led(motion=SetLedRequest.CIRCLE, target=center, speed=speed,
-                              radius=radius) + SETTLE
+        start = self.circle_from(center, radius, speed) + SETTLE
         return self._measure(Segment('circle', name, center, start, start + duration))
 
     def _measure(self, segment):

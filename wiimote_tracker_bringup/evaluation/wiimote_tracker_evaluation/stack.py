@@ -55,7 +55,7 @@ def launch(run, file, **arguments):
         rospkg.RosPack().get_path('wiimote_tracker_bringup'), file)
     words = ['%s:=%s' % (name, str(value).replace('{folder}', folder))
              for name, value in sorted(arguments.items())]
-    _launched.append(_processes.start('roslaunch', ['roslaunch', '--wait', path] + words, log))
+    _launched.append(_processes.start('roslaunch', ['roslaunch', path] + words, log))
     return folder
 
 

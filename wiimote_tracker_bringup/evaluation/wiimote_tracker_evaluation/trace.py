@@ -1,0 +1,142 @@
+"""Where the time goes from an exposure to the published point: recorded while the full stack runs.
+
+Simulation, driver, tracker and recorder run on one computer and take their times from one clock.
+"""
+
+import os
+import time
+
+import numpy as np
+
+from wiimote_tracker_evaluation import stack
+from wiimote_tracker_evaluation.errors import ExperimentError
+
+EXPOSURES = '/simulation/exposures'
+DEADLINE = 20.0       # for the recorder to be there [s]
+ROUNDING = 2e-6       # of a time that was a floating-point number on its way [s]
+LONGEST_DRIVER = 0.5  # from a report's delivery to its arrival at the driver [s]
+
+
+class Trace(object):
+    """Times [s since 1970], one row per published output.
+
+    exposure: true, of the newest image that entered; delivered: its report was handed to the virtual
+    device; arrived: by the driver's clock; published: the point reached the recorder; transport: of
+    the exposure's own message from node to recorder, the same hop as that of a point [s].
+    stamp, position: of the LED's point. exposures: of all images, of all cameras.
+    """
+
+    def __init__(self, rows, exposures, triggered):
+        rows = np.array(sorted(rows, key=lambda row: row[3]), dtype=float).reshape(-1, 9)
+        self.exposure, self.delivered, self.arrived, self.published, self.transport = rows[:, :5].T
+        self.stamp = rows[:, 5]
+        self.position = rows[:, 6:9]
+        self.exposures = np.sort(np.array(exposures, dtype=float))
+        self.triggered = triggered  # position of the LED by the trigger's time
+
+    def between(self, start, end):
+        """Which outputs were published in this span of time."""
+        return (self.published >= start) & (self.published < end)
+
+    def parts(self, chosen):
+        """From exposure to published point and its parts, one row per chosen output [s]. What is
+        neither link nor transport is work: of the driver, then of the tracker."""
+        hop = float(np.median(self.transport))
+        return {'total': (self.published - self.exposure)[chosen],
+                'bluetooth': (self.delivered - self.exposure)[chosen],
+                'driver': (self.arrived - self.delivered)[chosen],
+                'filter': (self.published - self.arrived)[chosen] - 2.0 * hop,
+                'transport': np.full(int(np.sum(chosen)), 2.0 * hop)}
+
+    def waiting(self):
+        """Mean time from any instant to the next exposure of any camera [s]."""
+        gaps = np.diff(self.exposures)
+        return float((gaps ** 2).sum() / (2.0 * gaps.sum()))
+
+
+class Recorder(object):
+    """Records what a Trace is made of, from its making until read()."""
+
+    def __init__(self, run, cameras, name):
+        self._path = run.file(name + '.bag')
+        topics = ['/points', '/triggered_points', EXPOSURES]
+        self._cameras = cameras
+        topics += ['/%s/ir_blobs' % camera for camera in cameras]
+        self._process = stack.start(run, [
+            'rosrun', 'rosbag', 'record', '--quiet', '--tcpnodelay', '--buffsize=0',
+            '--output-name=' + self._path] + topics)
+        wait_until_subscribed('/record', topics)
+
+    def read(self):
+        stack.end(self._process)
+        try:
+            return read_trace(self._path, self._cameras)
+        finally:
+            os.remove(self._path)
+
+
+def wait_until_subscribed(node, topics):
+    import rosgraph
+    master = rosgraph.Master('/evaluation')
+    deadline = time.monotonic() + DEADLINE
+    while True:
+        subscribed = {topic for topic, nodes in master.getSystemState()[1]
+                      if any(each.startswith(node) for each in nodes)}
+        if subscribed.issuperset(topics):
+            return
+        stack.check()
+        if time.monotonic() > deadline:
+            raise ExperimentError('the recorder did not begin within %.0f s' % DEADLINE)
+        time.sleep(0.02)
+
+
+def read_trace(path, cameras):
+    """Trace of a bag. Images, exposures and points are brought together by their times."""
+    import rosbag
+    delivered = {camera: [] for camera in cameras}  # rows: delivered, exposure, transport
+    arrivals, points, triggered, exposures = [], [], {}, []
+    with rosbag.Bag(path) as bag:
+        for topic, message, received in bag.read_messages():
+            received = received.to_sec()
+            if topic == EXPOSURES:
+                handed = message.arrival.to_sec()
+                delivered[message.camera].append((handed, message.header.stamp.to_sec(),
+                                                  received - handed))
+                exposures.append(message.header.stamp.to_sec())
+            elif topic == '/points':
+                points.append((message, received))
+            elif topic == '/triggered_points':
+                position = first_position(message)
+                if position is not None:
+                    triggered[message.header.stamp.to_nsec()] = position
+            else:
+                arrivals.append((message.arrival.to_sec(), message.camera))
+    arrivals.sort()
+    arrival_times = np.array([when for when, _ in arrivals])
+    delivered = {camera: np.array(sorted(rows)).reshape(-1, 3) for camera, rows in delivered.items()}
+    rows = []
+    for message, published in points:
+        position = first_position(message)
+        arrived = message.latest_arrival.to_sec()
+        image = np.searchsorted(arrival_times, arrived - ROUNDING)
+        if position is None or image == len(arrivals) or arrivals[image][0] > arrived + ROUNDING:
+            continue
+        images = delivered[arrivals[image][1]]
+        index = np.searchsorted(images[:, 0], arrived, side='right') - 1
+        if index < 0 or arrived - images[index, 0] > LONGEST_DRIVER:
+            continue
+        handed, exposure, transport = images[index]
+        rows.append((exposure, handed, arrived, published, transport,
+                     message.header.stamp.to_sec()) + position)
+    if not rows:
+        raise ExperimentError('no point was published while the LED was measured; see nodes.log')
+    return Trace(rows, exposures, triggered)
+
+
+def first_position(message):
+    """Of the first LED that is seen, or None."""
+    from wiimote_tracker_msgs.msg import TrackedPoint
+    for point in message.points:
+        if point.state == TrackedPoint.TRACKED:
+            return (point.position.x, point.position.y, point.position.z)
+    return None

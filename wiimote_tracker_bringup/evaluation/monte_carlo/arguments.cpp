@@ -33,6 +33,8 @@ Arguments parse(int argc, char** argv) {
       arguments.seed = static_cast<std::uint32_t>(number(option, value, 0, 2147483647));
     else if (option == "--sessions")
       arguments.sessions = static_cast<int>(number(option, value, 1, 100000));
+    else if (option == "--first")
+      arguments.first = static_cast<int>(number(option, value, 0, 100000));
     else
       throw std::invalid_argument("there is no option " + option + "; --help lists them");
   }
@@ -58,7 +60,7 @@ int runProgram(int argc,
     for (int i = 1; i < argc; ++i) {
       if (std::string(argv[i]) == "--help" || std::string(argv[i]) == "-h") {
         std::printf(
-            "usage: %s --rig FILE --output FILE [--seed N] [--sessions N]\n%s\n"
+            "usage: %s --rig FILE --output FILE [--seed N] [--sessions N] [--first N]\n%s\n"
             "All of it is simulated; the same seed gives the same bytes.\n",
             argv[0], purpose.c_str());
         return 0;

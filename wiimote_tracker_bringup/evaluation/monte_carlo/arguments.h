@@ -7,12 +7,14 @@
 
 namespace wiimote_tracker::monte_carlo {
 
-/// What every program of the evaluation is told: --rig FILE --output FILE [--seed N] [--sessions N]
+/// What every program of the evaluation is told: --rig FILE --output FILE [--seed N]
+/// [--sessions N] [--first N]
 struct Arguments {
   std::string rig;         ///< Path of a rig's description.
   std::string output;      ///< Path of the table (or folder) that is written.
   std::uint32_t seed = 1;  ///< Of everything random.
   int sessions = 1;        ///< Independent repetitions [1..100000].
+  int first = 0;           ///< Number of the first of them, so that several programs share them.
 };
 
 /// Seed of one session; those of different seeds and sessions have nothing in common.

@@ -1,0 +1,183 @@
+// The paper's three circles at several speeds, followed after its calibration and after ours, by
+// cameras that are not synchronised.
+#include "arguments.h"
+#include "calibrations.h"
+#include "experiment.h"
+#include "room.h"
+#include "session.h"
+#include "table.h"
+
+#include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace wiimote_tracker::monte_carlo {
+namespace {
+
+constexpr double kSettling = 3.0;   // clocks and tracks are young [s]
+constexpr double kInterval = 0.05;  // between rows [s]
+constexpr double kNear = 0.5;       // what is further off is not the LED [m]
+
+/// A calibration and a way to follow the LED with it.
+struct Method {
+  std::string name;
+  geometry::Rig rig;
+  tracking::EstimatorOptions options;
+};
+
+/// The cameras of a session, in a description.
+simulation::Description describe(const simulation::Description& description,
+                                 const std::vector<std::size_t>& cameras,
+                                 const PaperSession& session) {
+  simulation::Description result = description;
+  result.cameras.clear();
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    result.cameras.push_back(description.cameras[cameras[i]]);
+    result.cameras.back().camera = session.wave.cameras[i];
+  }
+  return result;
+}
+
+/// Nothing when a camera of the session could not be solved.
+template <typename Solver>
+std::optional<geometry::Rig> solve(const PaperSession& session, const Solver& solver) {
+  try {
+    geometry::Rig rig = solver();
+    // The waved LED was seen by other clocks than the circles.
+    for (geometry::RigCamera& camera : rig.cameras)
+      camera.time_offset_rule = geometry::TimeOffsetRule::kNone;
+    if (rig.cameras.size() == session.wave.cameras.size())
+      return rig;
+  } catch (const geometry::Error&) {
+    // Told by the rows that are not there.
+  }
+  return std::nullopt;
+}
+
+std::vector<Method> methodsOf(const simulation::Description& described,
+                              const PaperSession& session) {
+  tracking::EstimatorOptions tracks;
+  tracking::EstimatorOptions instants;
+  instants.mode = tracking::Mode::kInstant;
+  tracking::EstimatorOptions paper = instants;
+  paper.instant.triangulation.method = geometry::TriangulationMethod::kMeanClosest;
+  std::vector<Method> methods;
+  const auto add = [&](const std::string& name, const std::optional<geometry::Rig>& rig,
+                       const tracking::EstimatorOptions& options) {
+    if (rig)
+      methods.push_back({name, *rig, options});
+  };
+  const auto case_3 = [&](geometry::RayModel model) {
+    return solve(session, [&] { return solvePaperCase(session, PaperCase::kC3, model).rig; });
+  };
+  const auto waved = solve(session, [&] { return solveWaved(session.wave); });
+  const auto wand = solve(session, [&] { return solveWaved(session.wand); });
+  add("C3_image_center", case_3(geometry::RayModel::kImageCenter), paper);
+  add("C3_calibrated", case_3(geometry::RayModel::kCalibrated), paper);
+  add("wave_instants", waved, instants);
+  add("wave_tracks", waved, tracks);
+  add("wand_tracks", wand, tracks);
+  add("exact_tracks", trueRig(described), tracks);
+  return methods;
+}
+
+/// Rows of one lap.
+class LapWriter {
+ public:
+  LapWriter(int session, std::size_t circle, double speed, double phase, Table* table)
+      : session_(session), circle_(circle), speed_(speed), phase_(phase), table_(table) {}
+
+  double duration() const { return 2.0 * M_PI * kCircleRadius / speed_; }
+
+  Eigen::Vector3d position(double time) const {
+    const double angle = phase_ + speed_ / kCircleRadius * time;
+    return circleCenters()[circle_] +
+           kCircleRadius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+  }
+
+  void follow(const Method& method, const std::vector<RoomImage>& images) const {
+    const double lateness = medianLateness(images);
+    const auto estimator = tracking::makeEstimator(method.rig, method.options);
+    double due = kSettling;
+    for (const RoomImage& image : images) {
+      estimator->add(image.camera, image.image);
+      while (const tracking::Snapshot* snapshot = estimator->next()) {
+        const double time = snapshot->time - lateness;
+        if (time < due || time > kSettling + duration())
+          continue;
+        due += kInterval * (1.0 + std::floor((time - due) / kInterval));
+        write(method, time, *snapshot);
+      }
+    }
+  }
+
+ private:
+  void write(const Method& method, double time, const tracking::Snapshot& snapshot) const {
+    const Eigen::Vector3d truth = position(time);
+    Eigen::Vector3d measured = Eigen::Vector3d::Constant(std::nan(""));
+    double nearest = kNear;
+    for (const tracking::TrackedLed& led : snapshot.leds) {
+      const double distance = (led.position - truth).norm();
+      if (distance < nearest) {
+        nearest = distance;
+        measured = led.position;
+      }
+    }
+    const Eigen::Vector3d center = circleCenters()[circle_];
+    *table_ << session_ << static_cast<int>(method.rig.cameras.size()) << method.name
+            << static_cast<int>(circle_ + 1) << speed_ << time << truth.x() << truth.y()
+            << truth.z() << measured.x() << measured.y() << measured.z()
+            << (measured - center).head<2>().norm() - kCircleRadius << measured.z() - center.z();
+  }
+
+  int session_;
+  std::size_t circle_;
+  double speed_;  // [m/s]
+  double phase_;  // [rad]
+  Table* table_;
+};
+
+void measureAll(const Arguments& arguments) {
+  const simulation::Description description = simulation::readDescription(arguments.rig);
+  Table table(arguments.output, {"session", "cameras", "method", "circle", "speed_m_per_s",
+                                 "time_s", "true_x", "true_y", "true_z", "measured_x", "measured_y",
+                                 "measured_z", "radial_error", "height_error"});
+  for (int number = arguments.first; number < arguments.first + arguments.sessions; ++number) {
+    const std::uint32_t seed = sessionSeed(arguments, number);
+    for (const std::size_t count : {std::size_t(2), std::size_t(4)}) {
+      if (count > description.cameras.size())
+        continue;
+      std::vector<std::size_t> cameras(count);
+      std::iota(cameras.begin(), cameras.end(), std::size_t(0));
+      const PaperSession session = drawPaperSession(description, cameras, seed);
+      const simulation::Description described = describe(description, cameras, session);
+      const std::vector<Method> methods = methodsOf(described, session);
+      for (std::size_t circle = 0; circle < circleCenters().size(); ++circle) {
+        for (const double speed : {0.5, 1.0, 2.0}) {
+          const LapWriter lap(number, circle, speed, 1e-3 * (seed % 6283), &table);
+          Room room(described, {[&](double time) { return lap.position(time); }}, RoomOptions(),
+                    seed + static_cast<std::uint32_t>(circle));
+          const std::vector<RoomImage> images = record(&room, kSettling + lap.duration());
+          for (const Method& method : methods)
+            lap.follow(method, images);
+        }
+      }
+    }
+  }
+  table.close();
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::monte_carlo
+
+int main(int argc, char** argv) {
+  return wiimote_tracker::monte_carlo::runProgram(
+      argc, argv,
+      "The paper's three circles at 0.5, 1 and 2 m/s, followed by two and by four cameras after "
+      "the paper's calibration and after others: a row for every 50 ms.",
+      wiimote_tracker::monte_carlo::measureAll);
+}

@@ -1,0 +1,266 @@
+// The paper's ten points, measured after the paper's calibrations and after ours, session by
+// session.
+#include "arguments.h"
+#include "calibrations.h"
+#include "session.h"
+#include "table.h"
+
+#include "wiimote_tracker_calibration/remap/error.h"
+#include "wiimote_tracker_calibration/remap/fit.h"
+#include "wiimote_tracker_calibration/simulation/wave_bound.h"
+#include "wiimote_tracker_calibration/wave/solve_wave.h"
+#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/remap/correction.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace wiimote_tracker::monte_carlo {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+const std::vector<std::string> kPointColumns = {
+    "session",   "cameras", "method", "ray_model", "point",      "nominal_x",  "nominal_y",
+    "nominal_z", "true_x",  "true_y", "true_z",    "measured_x", "measured_y", "measured_z",
+    "var_xx",    "var_xy",  "var_xz", "var_yy",    "var_yz",     "var_zz"};
+const std::vector<std::string> kTraceColumns = {
+    "session",  "cameras",  "case",         "ray_model",    "round",         "camera",
+    "center_u", "center_v", "difference_u", "difference_v", "origin_error_m"};
+
+/// What is measured of a point, and how far to trust it [m, m^2].
+struct Measured {
+  Eigen::Vector3d position = Eigen::Vector3d::Constant(kUnknown);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(kUnknown);
+};
+
+/// Cameras that measure together, numbered from 0, and what they are called in the tables.
+struct CameraSet {
+  std::string name;
+  std::vector<std::size_t> cameras;
+  bool ours;  ///< Whether the methods beyond the paper's are tried, too.
+};
+
+/// Two neighbours and all four, as in the paper; and two that face each other, since the paper
+/// speaks of opposite corners in one place.
+const std::vector<CameraSet> kCameraSets = {{"1 2", {0, 1}, true},
+                                            {"1 3", {0, 2}, false},
+                                            {"1 2 3 4", {0, 1, 2, 3}, true}};
+
+/// The rows of one session with one set of cameras.
+class SessionWriter {
+ public:
+  SessionWriter(int number,
+                const std::string& cameras,
+                const PaperSession& session,
+                double pixel,
+                Table* points,
+                Table* traces)
+      : number_(number),
+        cameras_(cameras),
+        session_(session),
+        pixel_(pixel),
+        points_(points),
+        traces_(traces) {}
+
+  void writePaper() {
+    for (const auto& [model, name] :
+         {std::make_pair(geometry::RayModel::kCalibrated, "calibrated"),
+          std::make_pair(geometry::RayModel::kImageCenter, "image_center")})
+      writeCases(model, name);
+  }
+
+  void writeOurs() {
+    const geometry::Rig square = solve([&] { return solveJointSquare(session_); });
+    writeSolved("square", square);
+    writeRemapped("square_remapped", "calibrated", square, ourOptions());
+    writeSolved("wave", solve([&] { return solveWaved(session_.wave); }));
+    writeSolved("wand", solve([&] { return solveWaved(session_.wand); }));
+    wave::SimulatedWave no_wave = session_.wave;
+    no_wave.views.clear();
+    writeBound("bound_square", session_.wave_scene, no_wave);
+    writeBound("bound_wave", session_.wave_scene, session_.wave);
+    writeBound("bound_wand", session_.wand_scene, session_.wand);
+  }
+
+ private:
+  /// A rig without cameras where there is none.
+  static geometry::Rig solve(const std::function<geometry::Rig()>& solver) {
+    try {
+      return solver();
+    } catch (const geometry::Error&) {
+      return {};
+    }
+  }
+
+  geometry::TriangulationOptions ourOptions() const {
+    geometry::TriangulationOptions options;
+    options.pixel_stddev = pixel_;
+    return options;
+  }
+
+  static geometry::TriangulationOptions paperOptions() {
+    geometry::TriangulationOptions options;
+    options.method = geometry::TriangulationMethod::kMeanClosest;
+    return options;
+  }
+
+  void writeCases(geometry::RayModel model, const std::string& model_name) {
+    for (const auto& [which, name] :
+         {std::make_pair(PaperCase::kC1, "C1"), std::make_pair(PaperCase::kC2, "C2"),
+          std::make_pair(PaperCase::kC3, "C3"), std::make_pair(PaperCase::kC4, "C4"),
+          std::make_pair(PaperCase::kC5, "C5")}) {
+      geometry::Rig rig;
+      try {
+        const principal_point::CorrectionResult result = solvePaperCase(session_, which, model);
+        rig = result.rig;
+        writeTrace(name, model_name, result.trace);
+      } catch (const geometry::Error&) {
+        // A rig without cameras measures nothing.
+      }
+      write(name, model_name, [&, &rig = rig](const StillLed& led) {
+        Measured measured;
+        if (const auto point = measure(session_, rig, led, paperOptions()))
+          measured.position = point->position;
+        return measured;
+      });
+      if (which == PaperCase::kC1)
+        writeRemapped("C1_remapped", model_name, rig, paperOptions());
+    }
+  }
+
+  void writeSolved(const std::string& method, const geometry::Rig& rig) {
+    const geometry::CalibrationUncertainty uncertainty(rig);
+    write(method, "calibrated", [&](const StillLed& led) {
+      Measured measured;
+      const auto point = measure(session_, rig, led, ourOptions());
+      if (!point)
+        return measured;
+      measured.position = point->position;
+      std::vector<std::size_t> seeing;
+      for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+        if (rig.cameras[i].camera.sees(point->position))
+          seeing.push_back(i);
+      }
+      const auto systematic =
+          uncertainty.covarianceOf(point->position, seeing.data(), seeing.size());
+      if (systematic)
+        measured.covariance = point->covariance + *systematic;
+      return measured;
+    });
+  }
+
+  /// The volume corrected from 27 places that are known as well as an LED can be put there.
+  void writeRemapped(const std::string& method,
+                     const std::string& model_name,
+                     const geometry::Rig& rig,
+                     const geometry::TriangulationOptions& options) {
+    std::optional<remap::Correction> correction;
+    try {
+      std::vector<remap::KnownPoint> known;
+      for (const StillLed& led : session_.known_places) {
+        if (const auto point = measure(session_, rig, led, options))
+          known.push_back({point->position, led.nominal});
+      }
+      correction.emplace(remap::fitRemap(known, "simulated").remap, "simulated");
+    } catch (const remap::RemapError&) {
+      // It says so, and the volume stays as it is.
+    }
+    write(method, model_name, [&](const StillLed& led) {
+      Measured measured;
+      const auto point = measure(session_, rig, led, options);
+      if (point)
+        measured.position = correction
+                                ? correction->apply(point->position, point->covariance)->position
+                                : point->position;
+      return measured;
+    });
+  }
+
+  void writeBound(const std::string& method,
+                  const wave::WaveScene& scene,
+                  const wave::SimulatedWave& wave) {
+    const double image_pixel = std::sqrt(scene.pixel * scene.pixel + 1.0 / 12.0);
+    const Eigen::MatrixXd covariance =
+        wave::waveBound(scene, wave, wave::WaveOptions().knot_spacing, image_pixel,
+                        wave::Wand().stddev, {session_.points.front().truth})
+            .covariance;
+    write(method, "calibrated", [&](const StillLed& led) {
+      Measured bound;
+      if (const auto least = wave::pointBound(wave.cameras, covariance, led.truth, pixel_))
+        bound.covariance = *least;
+      return bound;
+    });
+  }
+
+  void write(const std::string& method,
+             const std::string& model_name,
+             const std::function<Measured(const StillLed&)>& measure_point) {
+    for (std::size_t p = 0; p < session_.points.size(); ++p) {
+      const StillLed& led = session_.points[p];
+      const Measured measured = measure_point(led);
+      *points_ << number_ << cameras_ << method << model_name << static_cast<int>(p + 1);
+      for (const Eigen::Vector3d& place : {led.nominal, led.truth, measured.position})
+        *points_ << place.x() << place.y() << place.z();
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        for (Eigen::Index j = i; j < 3; ++j)
+          *points_ << measured.covariance(i, j);
+      }
+    }
+  }
+
+  void writeTrace(const std::string& name,
+                  const std::string& model_name,
+                  const principal_point::Trace& trace) {
+    for (std::size_t round = 0; round < trace.rounds.size(); ++round) {
+      const principal_point::Round& values = trace.rounds[round];
+      for (std::size_t i = 0; i < trace.cameras.size(); ++i)
+        *traces_ << number_ << cameras_ << name << model_name << static_cast<int>(round)
+                 << static_cast<int>(i + 1) << values.principal_points[i].x()
+                 << values.principal_points[i].y() << values.differences[i].x()
+                 << values.differences[i].y() << values.origin_error;
+    }
+  }
+
+  int number_;
+  std::string cameras_;
+  const PaperSession& session_;
+  double pixel_;
+  Table* points_;
+  Table* traces_;
+};
+
+void measureAll(const Arguments& arguments) {
+  const simulation::Description description = simulation::readDescription(arguments.rig);
+  Table points(arguments.output + "/points.csv", kPointColumns);
+  Table traces(arguments.output + "/traces.csv", kTraceColumns);
+  for (int number = arguments.first; number < arguments.first + arguments.sessions; ++number) {
+    for (const CameraSet& set : kCameraSets) {
+      if (set.cameras.back() >= description.cameras.size())
+        continue;
+      const PaperSession session =
+          drawPaperSession(description, set.cameras, sessionSeed(arguments, number));
+      SessionWriter writer(number, set.name, session, stillPixelStddev(description), &points,
+                           &traces);
+      writer.writePaper();
+      if (set.ours)
+        writer.writeOurs();
+    }
+  }
+  points.close();
+  traces.close();
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::monte_carlo
+
+int main(int argc, char** argv) {
+  return wiimote_tracker::monte_carlo::runProgram(
+      argc, argv,
+      "The paper's ten points measured after the paper's calibrations (cases C1 to C5, both ray "
+      "models) and after others, with two and with four cameras; writes points.csv and traces.csv "
+      "into the folder --output.",
+      wiimote_tracker::monte_carlo::measureAll);
+}

@@ -1,0 +1,143 @@
+#include "session.h"
+
+#include "experiment.h"
+
+#include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
+#include "wiimote_tracker_calibration/simulation/simulated_board.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace wiimote_tracker::monte_carlo {
+namespace {
+
+constexpr int kDraws = 2000;  // of lenses, at most
+constexpr int kImages = 100;  // of an LED that lies still
+constexpr std::size_t kBoardViews = 12;
+constexpr double kWandLength = 0.5;    // [m]
+constexpr double kStampWander = 3e-4;  // of the driver's clock estimate [s]
+constexpr double kGravity = 9.81;
+
+/// Everything that the experiment wants to be seen.
+std::vector<Eigen::Vector3d> whatMatters() {
+  std::vector<Eigen::Vector3d> points = tenPoints();
+  for (const Eigen::Vector3d& center : circleCenters()) {
+    for (int i = 0; i < 36; ++i) {
+      const double angle = 2.0 * M_PI * i / 36.0;
+      points.push_back(center +
+                       kCircleRadius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0));
+    }
+  }
+  return points;
+}
+
+/// Whether each camera sees what it sees in the description.
+bool isAimed(const simulation::Description& description,
+             const std::vector<std::size_t>& described,
+             const std::vector<geometry::Camera>& cameras) {
+  for (const Eigen::Vector3d& point : whatMatters()) {
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      if (description.cameras[described[i]].camera.sees(point) && !cameras[i].sees(point))
+        return false;
+    }
+  }
+  return true;
+}
+
+/// The mean of whole pixels, as a Wii Remote reports them.
+StillLed look(const Eigen::Vector3d& nominal,
+              const std::vector<geometry::Camera>& cameras,
+              double pixel_noise,
+              std::mt19937_64& random) {
+  StillLed led{nominal, placed(nominal, random), {}};
+  std::normal_distribution<double> normal;
+  for (const geometry::Camera& camera : cameras) {
+    led.pixels.emplace_back();
+    if (!camera.sees(led.truth))
+      continue;
+    const Eigen::Vector2d exact = *camera.project(led.truth);
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (int i = 0; i < kImages; ++i) {
+      const double u = std::round(exact.x() + pixel_noise * normal(random));
+      sum += Eigen::Vector2d(u, std::round(exact.y() + pixel_noise * normal(random)));
+    }
+    led.pixels.back() = sum / kImages;
+  }
+  return led;
+}
+
+geometry::Intrinsics lensFromBoard(const geometry::Intrinsics& truth,
+                                   double pixel_noise,
+                                   std::uint32_t seed) {
+  // As Matlab's toolbox, which reports how uncertain a result is, but does not refuse it.
+  intrinsics::SolverOptions options;
+  options.model = intrinsics::LensModel::kNoDistortion;
+  options.minimum_views = kBoardViews;
+  options.maximum_focal_stddev = std::numeric_limits<double>::max();
+  options.maximum_pixel_stddev = std::numeric_limits<double>::max();
+  options.maximum_aspect_error = std::numeric_limits<double>::max();
+  return intrinsics::solveIntrinsics(
+             intrinsics::simulatedSamples(truth, kBoardViews, pixel_noise, seed), options)
+      .intrinsics;
+}
+
+}  // namespace
+
+double stillPixelStddev(const simulation::Description& description) {
+  return std::sqrt((description.pixel_noise * description.pixel_noise + 1.0 / 12.0) / kImages);
+}
+
+PaperSession drawPaperSession(const simulation::Description& description,
+                              const std::vector<std::size_t>& cameras,
+                              std::uint32_t seed) {
+  std::mt19937_64 random(seed);
+  wave::WaveScene scene;
+  scene.uncertainty = square::Uncertainty();
+  scene.pixel = description.pixel_noise;
+  scene.wander = kStampWander;
+  for (const std::size_t i : cameras)
+    scene.cameras.push_back(description.cameras[i].camera.world_from_camera);
+
+  // Whether lenses suit can be seen without a wave.
+  wave::WaveScene still = scene;
+  still.duration = 0.0;
+  std::optional<wave::SimulatedWave> aimed;
+  for (int i = 0; i < kDraws && !aimed; ++i) {
+    const wave::SimulatedWave drawn = wave::simulateWave(still, random());
+    if (isAimed(description, cameras, drawn.cameras))
+      aimed = drawn;
+  }
+  if (!aimed)
+    throw std::runtime_error(
+        "the cameras of the rig's description hardly see the paper's points; aim them at the cube "
+        "of 2.5 m");
+  for (std::size_t i = 0; i < aimed->cameras.size(); ++i) {
+    square::CameraSightings& sightings = aimed->recording.cameras[i].sightings;
+    sightings.gravity = kGravity * (aimed->cameras[i].world_from_camera.linear().transpose() *
+                                    Eigen::Vector3d::UnitZ());
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (!aimed->cameras[i].sees(aimed->corners[c]))
+        sightings.corners[c].reset();
+    }
+  }
+
+  wave::WaveScene wand_scene = scene;
+  wand_scene.length = kWandLength;
+  PaperSession session{scene,      wave::waveAgain(scene, *aimed, random()),
+                       wand_scene, wave::waveAgain(wand_scene, *aimed, random()),
+                       {},         {},
+                       {}};
+  for (const geometry::Camera& camera : aimed->cameras)
+    session.board_lenses.push_back(lensFromBoard(camera.intrinsics, description.pixel_noise,
+                                                 static_cast<std::uint32_t>(random())));
+  for (const Eigen::Vector3d& point : tenPoints())
+    session.points.push_back(look(point, aimed->cameras, description.pixel_noise, random));
+  for (int i = 0; i < 27; ++i) {
+    const Eigen::Vector3d place = 0.5 * kSide * Eigen::Vector3d(i % 3, i / 3 % 3, i / 9);
+    session.known_places.push_back(look(place, aimed->cameras, description.pixel_noise, random));
+  }
+  return session;
+}
+
+}  // namespace wiimote_tracker::monte_carlo

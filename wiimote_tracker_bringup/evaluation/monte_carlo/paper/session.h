@@ -1,0 +1,53 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PAPER_SESSION_H
+#define WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PAPER_SESSION_H
+
+#include "description.h"
+
+#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <vector>
+
+namespace wiimote_tracker::monte_carlo {
+
+/// An LED that lay still somewhere: where it ought to, where it did, and the mean of its pixels in
+/// each camera that saw it.
+struct StillLed {
+  Eigen::Vector3d nominal;  ///< [m]
+  Eigen::Vector3d truth;    ///< [m]
+  std::vector<std::optional<Eigen::Vector2d>> pixels;
+};
+
+/// A measurement session of the paper (section V.B) before cameras that stand as a description has
+/// them, and all that this project could have recorded in it. Lenses differ from the paper's K (2)
+/// as square::Uncertainty says, and so do the corners from where they ought to be.
+struct PaperSession {
+  wave::WaveScene wave_scene;
+  wave::SimulatedWave wave;  ///< True cameras, the corners' sightings, a waved LED.
+  wave::WaveScene wand_scene;
+  wave::SimulatedWave wand;  ///< The same cameras and corners, a waved wand.
+  /// Of each camera, from 12 views of the board, distortion left out: the paper's C2.
+  std::vector<geometry::Intrinsics> board_lenses;
+  std::vector<StillLed> points;        ///< The paper's ten.
+  std::vector<StillLed> known_places;  ///< 27 all over the cube, for a correction of the volume.
+};
+
+/// Standard deviation of a coordinate of StillLed::pixels [px].
+double stillPixelStddev(const simulation::Description& description);
+
+/// @param cameras of the description. People aim until all is in view: lenses are drawn until each
+/// camera sees every point of the experiment that it sees in the description.
+/// @throws std::runtime_error: no such lenses are found.
+PaperSession drawPaperSession(const simulation::Description& description,
+                              const std::vector<std::size_t>& cameras,
+                              std::uint32_t seed);
+
+}  // namespace wiimote_tracker::monte_carlo
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PAPER_SESSION_H

@@ -7,8 +7,7 @@
 namespace wiimote_tracker::monte_carlo {
 namespace {
 
-// Size of the LEDs as the sensor reports it; with a size an LED is as bright at any distance.
-constexpr double kLedSize = 3.0;
+// Of the LEDs; with a size they are as bright at any distance.
 constexpr double kLedBrightness = 1.0;
 // Of an exposure that came by its exact stamp [s].
 constexpr double kExactStampStddev = 1e-6;
@@ -89,7 +88,7 @@ void Room::expose(std::size_t number) {
   lamps_.clear();
   for (std::size_t led = 0; led < leds_.size(); ++led) {
     if (!options_.hidden || !options_.hidden(number, led, frame.exposure))
-      lamps_.push_back({leds_[led](frame.exposure), kLedSize, kLedBrightness});
+      lamps_.push_back({leds_[led](frame.exposure), options_.led_size, kLedBrightness});
   }
   const std::vector<tracking::Spot>& spots = camera.sensor.look(camera.optics.sense(lamps_));
   if (frame.lost)
@@ -122,6 +121,13 @@ double medianLateness(const std::vector<RoomImage>& images) {
   const auto middle = lateness.begin() + static_cast<std::ptrdiff_t>(lateness.size() / 2);
   std::nth_element(lateness.begin(), middle, lateness.end());
   return *middle;
+}
+
+simulation::Description withCameras(const simulation::Description& description, std::size_t count) {
+  simulation::Description fewer = description;
+  while (fewer.cameras.size() > count)
+    fewer.cameras.pop_back();
+  return fewer;
 }
 
 geometry::Rig trueRig(const simulation::Description& description) {

@@ -34,6 +34,7 @@ struct RoomOptions {
   bool synchronised = false;  ///< All cameras expose at once; else each by its own clock.
   Stamping stamping = Stamping::kEstimated;
   std::string sensitivity = "wii_3";  ///< Of all cameras.
+  double led_size = 3.0;              ///< As the sensor reports it; nearer than that, LEDs merge.
 
   /// Whether an LED is dark for a camera whose exposure is at this time [s]: something is in the
   /// way, or it blinks.
@@ -84,6 +85,9 @@ std::vector<RoomImage> record(Room* room, double duration);
 /// By how much the images' stamps are late, median [s]: what all cameras have in common of it can
 /// be told by no arrival, and shifts nothing but the time of a point.
 double medianLateness(const std::vector<RoomImage>& images);
+
+/// A description with only its first cameras, at most so many.
+simulation::Description withCameras(const simulation::Description& description, std::size_t count);
 
 /// The cameras of a description as a rig that is exactly known.
 geometry::Rig trueRig(const simulation::Description& description);

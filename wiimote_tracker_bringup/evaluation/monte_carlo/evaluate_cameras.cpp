@@ -1,0 +1,139 @@
+// What more cameras are worth: two to eight on a ring, exactly known; single points, and an LED
+// that is followed.
+#include "arguments.h"
+#include "room.h"
+#include "table.h"
+
+#include "wiimote_tracker_triangulation/geometry/triangulate.h"
+#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::monte_carlo {
+namespace {
+
+constexpr int kPoints = 40;        // per session
+constexpr double kDuration = 6.0;  // of following an LED [s]
+constexpr double kSettled = 3.0;   // not counted before [s]
+const Eigen::Vector3d kMiddle(1.25, 1.25, 1.0);
+
+/// `count` cameras like the description's, at even angles around the cube, as far from its axis and
+/// as high as those; two at a right angle, as the paper's.
+simulation::Description ring(const simulation::Description& like, int count) {
+  simulation::Description description = like;
+  description.cameras.clear();
+  const Eigen::Vector3d first = like.cameras[0].camera.center() - kMiddle;
+  const double step = count == 2 ? 0.5 * M_PI : 2.0 * M_PI / count;
+  for (int i = 0; i < count; ++i) {
+    simulation::CameraDescription camera =
+        like.cameras[static_cast<std::size_t>(i) % like.cameras.size()];
+    const Eigen::Vector3d place =
+        kMiddle + Eigen::AngleAxisd(step * i, Eigen::Vector3d::UnitZ()) * first;
+    camera.camera.name = "wiimote_" + std::to_string(i + 1);
+    camera.camera.world_from_camera = geometry::lookAt(place, kMiddle, Eigen::Vector3d::UnitZ());
+    description.cameras.push_back(camera);
+  }
+  return description;
+}
+
+/// Points anywhere in the cube, from one image of each camera: with the noise of the description,
+/// rounded to whole pixels.
+void measurePoints(const simulation::Description& description,
+                   int session,
+                   std::mt19937* random,
+                   Table* table) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(0.0, 2.5);
+  for (int i = 0; i < kPoints; ++i) {
+    const double x = uniform(*random), y = uniform(*random), z = uniform(*random);
+    const Eigen::Vector3d place(x, y, z);
+    std::vector<geometry::Observation> observations;
+    for (const simulation::CameraDescription& camera : description.cameras) {
+      const double du = description.pixel_noise * normal(*random);
+      const double dv = description.pixel_noise * normal(*random);
+      if (!camera.camera.sees(place))
+        continue;
+      const Eigen::Vector2d pixel = *camera.camera.project(place) + Eigen::Vector2d(du, dv);
+      observations.push_back({&camera.camera, pixel.array().round().matrix()});
+    }
+    geometry::TriangulationOptions options;
+    // Rounding is noise of a twelfth of a square pixel.
+    options.pixel_stddev = std::sqrt(description.pixel_noise * description.pixel_noise + 1.0 / 12);
+    for (const auto& [method, name] :
+         {std::make_pair(geometry::TriangulationMethod::kMaximumLikelihood, "most_likely"),
+          std::make_pair(geometry::TriangulationMethod::kMeanClosest, "mean_closest")}) {
+      options.method = method;
+      const auto point = geometry::triangulate(observations, options);
+      *table << session << static_cast<int>(description.cameras.size()) << name << place.x()
+             << place.y() << place.z() << static_cast<int>(observations.size());
+      if (point)
+        *table << 1e3 * (point->position - place).norm()
+               << 1e3 * std::sqrt(point->covariance.trace());
+      else
+        *table << std::nan("") << std::nan("");
+    }
+  }
+}
+
+/// An LED that is carried about in circles, followed.
+void measureTrack(const simulation::Description& description,
+                  int session,
+                  std::uint32_t seed,
+                  Table* table) {
+  const double phase = 1e-3 * (seed % 6283);
+  const Path path = [=](double time) {
+    const double angle = phase + time / 0.75;
+    return Eigen::Vector3d(1.25 + 0.75 * std::cos(angle), 1.25 + 0.75 * std::sin(angle), 0.95);
+  };
+  Room room(description, {path}, {}, seed);
+  const std::vector<RoomImage> images = record(&room, kDuration);
+  const double lateness = medianLateness(images);
+  const auto estimator = tracking::makeEstimator(trueRig(description), {});
+  double squared = 0.0, predicted = 0.0;
+  int count = 0;
+  for (const RoomImage& image : images) {
+    estimator->add(image.camera, image.image);
+    while (const tracking::Snapshot* snapshot = estimator->next()) {
+      const double time = snapshot->time - lateness;
+      if (time < kSettled || snapshot->leds.empty())
+        continue;
+      squared += (snapshot->leds[0].position - path(time)).squaredNorm();
+      predicted += snapshot->leds[0].position_covariance.trace();
+      ++count;
+    }
+  }
+  *table << session << static_cast<int>(description.cameras.size()) << "tracks_1_m_per_s"
+         << std::nan("") << std::nan("") << std::nan("")
+         << static_cast<int>(description.cameras.size()) << 1e3 * std::sqrt(squared / count)
+         << 1e3 * std::sqrt(predicted / count);
+}
+
+void measure(const Arguments& arguments) {
+  const simulation::Description like = simulation::readDescription(arguments.rig);
+  Table table(arguments.output, {"session", "cameras", "method", "x_m", "y_m", "z_m", "rays",
+                                 "error_mm", "predicted_mm"});
+  for (int session = 0; session < arguments.sessions; ++session) {
+    const std::uint32_t seed = sessionSeed(arguments, session);
+    for (int count = 2; count <= 8; ++count) {
+      const simulation::Description description = ring(like, count);
+      std::mt19937 random(seed);
+      measurePoints(description, session, &random, &table);
+      measureTrack(description, session, seed, &table);
+    }
+  }
+  table.close();
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::monte_carlo
+
+int main(int argc, char** argv) {
+  return wiimote_tracker::monte_carlo::runProgram(
+      argc, argv,
+      "Errors of single points in the cube, by two methods, and of an LED that is followed, with "
+      "two to eight exactly known cameras on a ring; beside what the covariance says.",
+      wiimote_tracker::monte_carlo::measure);
+}

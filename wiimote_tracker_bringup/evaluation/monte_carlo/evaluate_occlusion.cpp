@@ -1,0 +1,160 @@
+// What is left of an LED's track when cameras lose sight of it now and then.
+#include "arguments.h"
+#include "room.h"
+#include "table.h"
+
+#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <random>
+#include <set>
+
+namespace wiimote_tracker::monte_carlo {
+namespace {
+
+constexpr double kDuration = 12.0;    // of a session [s]
+constexpr double kSettled = 2.0;      // not counted before [s]
+constexpr double kMeanHidden = 0.25;  // that an LED is out of a camera's sight, mean [s]
+constexpr double kNear = 0.05;        // what is further off is not the LED [m]
+constexpr double kStep = 0.005;       // of the time that is counted [s]
+
+/// When a camera does not see the LED: free and hidden times take turns, both exponential.
+class Curtain {
+ public:
+  Curtain(double hidden_share, std::mt19937* random) {
+    const auto exponential = [&](double mean) {
+      return -mean * std::log(((*random)() + 0.5) / 4294967296.0);
+    };
+    const double mean_free =
+        hidden_share > 0.0 ? kMeanHidden * (1.0 - hidden_share) / hidden_share : 1e9;
+    for (double time = exponential(mean_free); time < kDuration;
+         time = turns_.back() + exponential(mean_free)) {
+      turns_.push_back(time);
+      turns_.push_back(time + exponential(kMeanHidden));
+    }
+  }
+
+  bool isShut(double time) const {
+    return (std::upper_bound(turns_.begin(), turns_.end(), time) - turns_.begin()) % 2 == 1;
+  }
+
+ private:
+  std::vector<double> turns_;  // shut, open, shut, ... [s]
+};
+
+struct Score {
+  double squared = 0.0;  // of the errors [m^2]
+  int published = 0;     // points of the LED
+  int astray = 0;        // points where it is not
+  double covered = 0.0;  // time for which the newest point is fresh, and of the LED [s]
+  double longest_gap = 0.0;
+  std::set<std::uint32_t> ids;
+};
+
+Score follow(const geometry::Rig& rig,
+             const std::vector<RoomImage>& images,
+             const Path& path,
+             double lateness,
+             tracking::Mode mode) {
+  constexpr double kFresh = 0.025;  // a point older than this covers nothing [s]
+  tracking::EstimatorOptions options;
+  options.mode = mode;
+  const auto estimator = tracking::makeEstimator(rig, options);
+  Score score;
+  double last = kSettled;
+  for (const RoomImage& image : images) {
+    estimator->add(image.camera, image.image);
+    while (const tracking::Snapshot* snapshot = estimator->next()) {
+      const double time = snapshot->time - lateness;
+      if (time < kSettled || time > kDuration)
+        continue;
+      for (const tracking::TrackedLed& led : snapshot->leds) {
+        if (led.state == tracking::TrackState::kTentative ||
+            led.state == tracking::TrackState::kLost)
+          continue;
+        const double error = (led.position - path(time)).norm();
+        if (error > kNear) {
+          ++score.astray;
+          continue;
+        }
+        score.squared += error * error;
+        ++score.published;
+        score.covered += std::min(time - last, kFresh);
+        score.longest_gap = std::max(score.longest_gap, time - last);
+        score.ids.insert(led.id);
+        last = time;
+      }
+    }
+  }
+  score.longest_gap = std::max(score.longest_gap, kDuration - last);
+  return score;
+}
+
+/// Share of the time in which two cameras or more see the LED: nobody can intersect rays otherwise.
+double shareOfTwoViews(const std::vector<Curtain>& curtains) {
+  int seen = 0, all = 0;
+  for (double time = kSettled; time < kDuration; time += kStep) {
+    const auto open = std::count_if(curtains.begin(), curtains.end(),
+                                    [&](const Curtain& curtain) { return !curtain.isShut(time); });
+    seen += open >= 2;
+    ++all;
+  }
+  return static_cast<double>(seen) / all;
+}
+
+void measure(const Arguments& arguments) {
+  const simulation::Description all = simulation::readDescription(arguments.rig);
+  Table table(arguments.output,
+              {"session", "cameras", "hidden_share", "method", "covered_share", "two_views_share",
+               "astray_share", "rms_mm", "longest_gap_s", "ids"});
+  for (int session = 0; session < arguments.sessions; ++session) {
+    const std::uint32_t seed = sessionSeed(arguments, session);
+    for (const std::size_t cameras : {std::size_t{2}, all.cameras.size()}) {
+      const simulation::Description description = withCameras(all, cameras);
+      const geometry::Rig rig = trueRig(description);
+      for (const double hidden_share : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6}) {
+        std::mt19937 random(seed);
+        std::vector<Curtain> curtains;
+        for (std::size_t i = 0; i < description.cameras.size(); ++i)
+          curtains.emplace_back(hidden_share, &random);
+        const double phase = 2.0 * M_PI * (random() / 4294967296.0);
+        const Path path = [=](double time) {  // the paper's upper circle, 1 m/s
+          const double angle = phase + time / 0.75;
+          return Eigen::Vector3d(1.25 + 0.75 * std::cos(angle), 1.25 + 0.75 * std::sin(angle),
+                                 0.95);
+        };
+        RoomOptions options;
+        options.hidden = [&](std::size_t camera, std::size_t, double time) {
+          return curtains[camera].isShut(time);
+        };
+        Room room(description, {path}, options, seed);
+        const std::vector<RoomImage> images = record(&room, kDuration);
+        const double lateness = medianLateness(images);
+        for (const auto& [mode, name] : {std::make_pair(tracking::Mode::kTracks, "tracks"),
+                                         std::make_pair(tracking::Mode::kInstant, "instants")}) {
+          const Score score = follow(rig, images, path, lateness, mode);
+          table << session << static_cast<int>(description.cameras.size()) << hidden_share << name
+                << score.covered / (kDuration - kSettled) << shareOfTwoViews(curtains)
+                << static_cast<double>(score.astray) / (score.astray + score.published)
+                << 1e3 * std::sqrt(score.squared / score.published) << score.longest_gap
+                << static_cast<int>(score.ids.size());
+        }
+      }
+    }
+  }
+  table.close();
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::monte_carlo
+
+int main(int argc, char** argv) {
+  return wiimote_tracker::monte_carlo::runProgram(
+      argc, argv,
+      "An LED on a circle, hidden from each camera at random for a quarter of a second on average: "
+      "for how much of the time its place is known, how well, and under how many ids.",
+      wiimote_tracker::monte_carlo::measure);
+}

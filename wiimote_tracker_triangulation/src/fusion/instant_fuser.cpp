@@ -93,6 +93,7 @@ void InstantFuser::Parts::report() {
     const ViewThen& view = synchronizer.views()[v];
     CameraView& reported = snapshot.views[v];
     reported.time = view.exposure;
+    reported.full = view.is_full;
     reported.spots.clear();
     for (const SpotThen& spot : view.spots)
       reported.spots.push_back({spot.pixel, SpotUse::kUnassigned, 0});

@@ -120,10 +120,10 @@ void Identifier::judge(Led* led, double time) {
     return;
   const auto label = static_cast<std::size_t>(best);
   if (label == hypotheses_.labels()) {
-    led->identity = {};
+    if (!led->identity.steady)
+      led->identity = {std::nullopt, true, 0.0, time};
   } else if (led->identity.label != label && takeFromOthers(label)) {
-    led->identity.label = label;
-    led->identity.since = time;
+    led->identity = {label, false, 0.0, time};
   }
 }
 

@@ -5,20 +5,46 @@
 namespace wiimote_tracker::identity {
 
 using tracking::CameraView;
+using tracking::Snapshot;
 using tracking::TrackedLed;
 using tracking::TrackState;
 
-// Nothing: the image need not show the LED.
-std::optional<bool> SnapshotSightings::isSeen(const geometry::RigCamera& camera,
-                                              const CameraView& view,
-                                              const TrackedLed& led) const {
-  for (const tracking::SeenSpot& spot : view.spots) {
-    if (spot.use == tracking::SpotUse::kAssigned && spot.led == led.id)
+void SnapshotSightings::expectPixels(const geometry::Camera& camera, const Snapshot& snapshot) {
+  pixels_.clear();
+  for (const TrackedLed& led : snapshot.leds)
+    pixels_.push_back(camera.project(led.position));
+}
+
+/// Whether the spot there may be the light of another LED that is believed.
+bool SnapshotSightings::mayBeAnothers(const Eigen::Vector2d& pixel,
+                                      const Snapshot& snapshot,
+                                      std::size_t led) const {
+  const double distance = options_.merging_distance;
+  for (std::size_t other = 0; other < pixels_.size(); ++other) {
+    const TrackState state = snapshot.leds[other].state;
+    if (other != led && pixels_[other] &&
+        (state == TrackState::kTracked || state == TrackState::kPredicted) &&
+        (pixel - *pixels_[other]).squaredNorm() < distance * distance)
       return true;
   }
-  if (view.spots.size() >= options_.maximum_spots)
+  return false;
+}
+
+// Nothing: the image need not show the LED, or what it shows may be another.
+std::optional<bool> SnapshotSightings::isSeen(const geometry::RigCamera& camera,
+                                              const CameraView& view,
+                                              const Snapshot& snapshot,
+                                              std::size_t led) const {
+  for (const tracking::SeenSpot& spot : view.spots) {
+    if (spot.use != tracking::SpotUse::kAssigned || spot.led != snapshot.leds[led].id)
+      continue;
+    if (mayBeAnothers(spot.pixel, snapshot, led))
+      return std::nullopt;
+    return true;
+  }
+  if (view.full)
     return std::nullopt;
-  const std::optional<Eigen::Vector2d> pixel = camera.camera.project(led.position);
+  const std::optional<Eigen::Vector2d>& pixel = pixels_[led];
   const geometry::Intrinsics& image = camera.camera.intrinsics;
   const double border = options_.merging_distance;
   if (!pixel || pixel->x() < border || pixel->x() > image.width - 1 - border ||
@@ -33,7 +59,7 @@ std::optional<bool> SnapshotSightings::isSeen(const geometry::RigCamera& camera,
 }
 
 const std::vector<TrackSighting>& SnapshotSightings::collect(const geometry::Rig& rig,
-                                                             const tracking::Snapshot& snapshot) {
+                                                             const Snapshot& snapshot) {
   sightings_.clear();
   times_.resize(snapshot.views.size());
   for (std::size_t camera = 0; camera < snapshot.views.size(); ++camera) {
@@ -41,19 +67,21 @@ const std::vector<TrackSighting>& SnapshotSightings::collect(const geometry::Rig
     if (!view.time || view.time == times_[camera])
       continue;
     times_[camera] = view.time;
-    for (const TrackedLed& led : snapshot.leds) {
-      if (led.state == TrackState::kLost)
+    expectPixels(rig.cameras[camera].camera, snapshot);
+    for (std::size_t led = 0; led < snapshot.leds.size(); ++led) {
+      if (snapshot.leds[led].state == TrackState::kLost)
         continue;
-      const std::optional<bool> seen = isSeen(rig.cameras[camera], view, led);
+      const std::optional<bool> seen = isSeen(rig.cameras[camera], view, snapshot, led);
       if (seen)
-        sightings_.push_back({led.id, {camera, *view.time, options_.exposure, *seen}});
+        sightings_.push_back(
+            {snapshot.leds[led].id, {camera, *view.time, options_.exposure, *seen}});
     }
   }
   return sightings_;
 }
 
 void SnapshotSightings::add(const geometry::Rig& rig,
-                            const tracking::Snapshot& snapshot,
+                            const Snapshot& snapshot,
                             Identifier* identifier) {
   for (const TrackSighting& s : collect(rig, snapshot))
     identifier->add(s.led, s.sighting);

@@ -1,39 +1,63 @@
 #include "led_labels.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wiimote_tracker {
 
-void LedLabels::update(const std::vector<tracking::TrackedLed>& leds) {
+using identity::Identity;
+
+void LedLabels::update(const std::vector<tracking::TrackedLed>& leds,
+                       const identity::Identifier* identifier) {
   for (const std::uint32_t id : forgotten_)
     given_.erase(id);
   forgotten_.swap(lost_);
   lost_.clear();
   for (const tracking::TrackedLed& led : leds) {
-    if (led.state == tracking::TrackState::kTracked && given_.count(led.id) == 0)
-      giveFreeLabel(led.id);
-    if (led.state == tracking::TrackState::kLost)
+    if (led.state == tracking::TrackState::kLost) {
       lost_.push_back(led.id);
+      continue;
+    }
+    if (identifier)
+      takeIdentity(led.id, *identifier);
+    const Identity* identity = identifier ? identifier->identityOf(led.id) : nullptr;
+    const bool may_be_listed = !identifier || (identity && identity->steady);
+    if (may_be_listed && led.state == tracking::TrackState::kTracked && given_.count(led.id) == 0)
+      giveFreeLabel(led.id);
   }
+}
+
+void LedLabels::takeIdentity(std::uint32_t id, const identity::Identifier& identifier) {
+  const Identity* identity = identifier.identityOf(id);
+  const auto given = given_.find(id);
+  if (identity && identity->label)
+    given_[id] = {identifier.codes().codes[*identity->label].label, identity->confidence,
+                  identity->since};
+  else if (given != given_.end() && !std::isnan(given->second.confidence))
+    given_.erase(given);
 }
 
 void LedLabels::giveFreeLabel(std::uint32_t id) {
   const auto label = std::find_if(listed_.begin(), listed_.end(),
                                   [&](const std::string& l) { return !isTaken(l); });
   if (label != listed_.end())
-    given_[id] = *label;
+    given_[id].name = *label;
 }
 
 bool LedLabels::isTaken(const std::string& label) const {
   return std::any_of(given_.begin(), given_.end(), [&](const auto& given) {
-    return given.second == label &&
+    return given.second.name == label &&
            std::find(forgotten_.begin(), forgotten_.end(), given.first) == forgotten_.end();
   });
 }
 
-std::string LedLabels::of(std::uint32_t id) const {
+LedLabel LedLabels::of(std::uint32_t id) const {
   const auto given = given_.find(id);
-  return given != given_.end() ? given->second : unlisted(id);
+  if (given != given_.end())
+    return given->second;
+  LedLabel label;
+  label.name = unlisted(id);
+  return label;
 }
 
 void LedLabels::clear() {

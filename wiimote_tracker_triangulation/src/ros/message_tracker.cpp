@@ -41,10 +41,14 @@ void insertMissing(const std::vector<TrackedPoint>& points, TrackedPointArray* m
 MessageTracker::MessageTracker(const TrackingParameters& parameters, MessageSink* sink)
     : parameters_(parameters),
       sink_(sink),
+      sightings_({parameters.identity.exposure, parameters.estimator.tracks.merging_distance}),
       labels_(parameters.labels),
       zones_(parameters.zones),
       trigger_(parameters.trigger) {
   newest_.snapshot.time = kNever;
+  if (parameters.identity.codes)
+    identifier_ = std::make_unique<identity::Identifier>(*parameters.identity.codes,
+                                                         parameters.identity.identifier);
 }
 
 MessageTracker::RigChange MessageTracker::takeRig(
@@ -106,6 +110,8 @@ void MessageTracker::noticeFault(std::size_t camera,
 
 void MessageTracker::startAnew() {
   resets_ = estimator_->counters().resets;
+  if (identifier_)
+    identifier_->reset();
   labels_.clear();
   lost_.clear();
   newest_.snapshot.time = kNever;
@@ -118,7 +124,9 @@ void MessageTracker::startAnew() {
 
 void MessageTracker::takeSnapshot(const tracking::Snapshot& snapshot) {
   statistics_.addSnapshot(snapshot);
-  labels_.update(snapshot.leds);
+  if (identifier_)
+    sightings_.add(rig_, snapshot, identifier_.get());
+  labels_.update(snapshot.leds, identifier_.get());
   correction_.apply(snapshot, &newest_);
   for (std::size_t i = 0; i < snapshot.leds.size(); ++i) {
     if (snapshot.leds[i].state == tracking::TrackState::kLost)
@@ -142,7 +150,7 @@ void MessageTracker::publishZoneEvents(const tracking::Snapshot& snapshot) {
     event.header.frame_id = rig_.world_frame;
     event.zone = crossing.zone;
     event.id = crossing.led;
-    event.label = labels_.of(crossing.led);
+    event.label = labels_.of(crossing.led).name;
     event.event = crossing.entered ? wiimote_tracker_msgs::ZoneEvent::ENTERED
                                    : wiimote_tracker_msgs::ZoneEvent::LEFT;
     event.position.x = crossing.position.x();

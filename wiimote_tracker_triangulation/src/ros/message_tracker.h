@@ -10,6 +10,7 @@
 #include "wiimote_tracker_triangulation/events/trigger.h"
 #include "wiimote_tracker_triangulation/events/zone_watch.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/identity/snapshot_sightings.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
 
 #include <std_msgs/Header.h>
@@ -108,6 +109,8 @@ class MessageTracker {
   std::map<std::string, std::size_t> camera_index_;
   std::unique_ptr<tracking::Estimator> estimator_;  // null before the first rig
   VolumeCorrection correction_;
+  std::unique_ptr<identity::Identifier> identifier_;  // null: no LED blinks
+  identity::SnapshotSightings sightings_;
   LedLabels labels_;
   events::ZoneWatch zones_;
   events::Trigger trigger_;

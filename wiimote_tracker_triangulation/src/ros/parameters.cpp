@@ -1,7 +1,12 @@
 #include "parameters.h"
 
+#include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
+#include "wiimote_tracker_triangulation/identity/codes_file.h"
+
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 namespace wiimote_tracker {
 namespace {
@@ -39,6 +44,20 @@ std::vector<std::string> checkedLabels(const std::string& key,
       throw ParameterError(key + " has '" + label + "' twice");
   }
   return labels;
+}
+
+/// A blink code's label is a track's name as well.
+void checkCodes(const std::string& key,
+                const identity::BlinkCodes& codes,
+                const std::vector<std::string>& labels) {
+  for (const identity::BlinkCode& code : codes.codes) {
+    if (isNumbered(code.label))
+      throw ParameterError(key + ": rename the code " + code.label +
+                           ", since led_ with a number is what LEDs without a label are called");
+    if (std::count(labels.begin(), labels.end(), code.label) > 0)
+      throw ParameterError(key + " and labels both have '" + code.label +
+                           "': labels are for LEDs that do not blink, take it out there");
+  }
 }
 
 /// Reads the numbers of one group.
@@ -129,6 +148,27 @@ void readTracks(ParameterReader* reader, tracking::TrackerOptions* tracks) {
   group.read("output_interval", 0.0, 1.0, &tracks->output_interval);
 }
 
+void readIdentity(ParameterReader* reader, TrackingParameters* p) {
+  IdentityOptions& identity = p->identity;
+  const std::string key = reader->nameOf("identity/codes");
+  const std::string file = reader->optional<std::string>("identity/codes", "");
+  const Group group("identity", reader);
+  group.read("exposure", 0.0, 0.02, &identity.exposure);
+  group.read("decide_at", 0.6, 0.999999, &identity.identifier.decide_at);
+  if (file.empty())
+    return;
+  if (p->estimator.mode != tracking::Mode::kTracks)
+    throw ParameterError(key + " needs " + reader->nameOf("mode") +
+                         " tracks: single instants follow no LED through its darkness");
+  try {
+    identity.codes = identity::readBlinkCodes(file);
+  } catch (const geometry::Error& error) {
+    throw ParameterError(key + ": " + error.what());
+  }
+  checkCodes(key, *identity.codes, p->labels);
+  p->estimator.tracks = identity::forBlinking(*identity.codes, p->estimator.tracks);
+}
+
 void readOutput(ParameterReader* reader, tracking::Mode mode, OutputOptions* output) {
   output->on_update = reader->optional("output/on_update", output->on_update);
   output->rate = reader->bounded("output/rate", output->rate, 0.0, 1000.0);
@@ -152,6 +192,28 @@ std::string methodWord(const tracking::EstimatorOptions& options) {
   return methodNames()[static_cast<std::size_t>(options.instant.triangulation.method)];
 }
 
+std::vector<std::string> TrackingParameters::allLabels() const {
+  std::vector<std::string> all = labels;
+  if (identity.codes) {
+    for (const identity::BlinkCode& code : identity.codes->codes)
+      all.push_back(code.label);
+  }
+  return all;
+}
+
+std::string describeIdentity(const TrackingParameters& parameters) {
+  if (!parameters.identity.codes)
+    return "";
+  const identity::BlinkCodes& codes = *parameters.identity.codes;
+  const tracking::TrackerOptions& tracks = parameters.estimator.tracks;
+  std::ostringstream text;
+  text << codes.codes.size() << " LEDs are told by how they blink; since they may be dark for "
+       << codes.longestDark() << " s, the tracker uses tracks/prediction_time "
+       << tracks.prediction_time << " s, tracks/tracked_time " << tracks.tracked_time
+       << " s and tracks/detection_probability " << tracks.detection_probability;
+  return text.str();
+}
+
 TrackingParameters TrackingParameters::read(ParameterReader reader) {
   TrackingParameters p;
   p.labels = checkedLabels(reader.nameOf("labels"), reader.optional("labels", p.labels));
@@ -167,6 +229,7 @@ TrackingParameters TrackingParameters::read(ParameterReader reader) {
   readTracks(&reader, &estimator.tracks);
   readMotion(&reader, &estimator.tracks.motion);
   readInstant(&reader, &estimator.instant);
+  readIdentity(&reader, &p);
   readOutput(&reader, estimator.mode, &p.output);
 
   p.zones.hysteresis = reader.bounded("zones/hysteresis", p.zones.hysteresis, 0.0, 10.0);

@@ -4,10 +4,12 @@
 #include "marker_builder.h"
 #include "wiimote_tracker_triangulation/events/trigger.h"
 #include "wiimote_tracker_triangulation/events/zone_watch.h"
+#include "wiimote_tracker_triangulation/identity/identifier.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,10 +23,18 @@ struct OutputOptions {
   bool publish_predicted = false;  ///< Hidden LEDs too have their point topic and transform.
 };
 
+/// How LEDs that blink are told apart.
+struct IdentityOptions {
+  std::optional<identity::BlinkCodes> codes;  ///< Nothing: no LED blinks.
+  double exposure = 0.002;                    ///< See identity::SnapshotSightingsOptions [s].
+  identity::IdentifierOptions identifier;
+};
+
 /// Parameters of the node and of track_bag; meaning and ranges: config/triangulation.yaml.
 struct TrackingParameters {
   std::vector<std::string> labels = {"led"};
-  tracking::EstimatorOptions estimator;
+  IdentityOptions identity;
+  tracking::EstimatorOptions estimator;  ///< With codes: what they ask of it (see forBlinking).
   OutputOptions output;
   events::ZoneWatchOptions zones;
   events::TriggerOptions trigger;
@@ -33,7 +43,13 @@ struct TrackingParameters {
 
   /// @throws ParameterError naming the key that is wrong or unknown.
   static TrackingParameters read(ParameterReader reader);
+
+  /// `labels`, and those of the blink codes.
+  std::vector<std::string> allLabels() const;
 };
+
+/// With blink codes: what follows from them for the tracker, in a sentence; else empty.
+std::string describeIdentity(const TrackingParameters& parameters);
 
 /// How points are computed, in a word: "track", or the triangulation method.
 std::string methodWord(const tracking::EstimatorOptions& options);

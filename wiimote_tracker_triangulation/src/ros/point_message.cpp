@@ -41,8 +41,10 @@ TrackedPoint trackedPoint(const CorrectedSnapshot& corrected,
   const tracking::TrackedLed& led = corrected.snapshot.leds[index];
   TrackedPoint point;
   point.id = led.id;
-  point.label = labels.of(led.id);
-  point.label_confidence = std::numeric_limits<float>::quiet_NaN();
+  const LedLabel label = labels.of(led.id);
+  point.label = label.name;
+  point.label_confidence = static_cast<float>(label.confidence);
+  point.label_since = timeOf(label.since);
   point.state = static_cast<std::uint8_t>(led.state);
   set(led.position, &point.position);
   set(led.position_covariance, &point.position_covariance);

@@ -16,8 +16,10 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
       parameters_(TrackingParameters::read(ParameterReader(private_nh))),
       tracker_(parameters_, this),
       markers_(parameters_.markers),
-      leds_(nh, parameters_.labels, parameters_.output.publish_predicted),
+      leds_(nh, parameters_.allLabels(), parameters_.output.publish_predicted),
       diagnostics_(nh, private_nh, &tracker_, parameters_.clock_tolerance) {
+  if (parameters_.identity.codes)
+    ROS_INFO("%s.", describeIdentity(parameters_).c_str());
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   points_publisher_ = nh_.advertise<TrackedPointArray>("points", 100);
   markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 5);

@@ -117,6 +117,7 @@ void CameraGroup::collectUnexplained(const StoredImage& image) {
 void CameraGroup::show(const StoredImage& image, std::vector<CameraView>* views) const {
   CameraView& view = (*views)[members_[image.camera]];
   view.time = image.time;
+  view.full = image.full;
   view.spots.resize(image.total_count);
   for (std::size_t spot = 0; spot < image.total_count; ++spot) {
     SeenSpot& seen = view.spots[spot];

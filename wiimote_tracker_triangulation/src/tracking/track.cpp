@@ -96,9 +96,12 @@ void Track::judge(double time, const TrackerOptions& options) {
     return;
   }
   constexpr double kLongestTrial = 0.5;  // [s]
-  over_ =
-      time - last_observed_ > options.tracked_time || time - last_located_ > options.tracked_time ||
-      misses_in_a_row_ >= 2 * std::max<std::size_t>(possible, 2) || time - born_ > kLongestTrial;
+  const double unseen = time - last_observed_;
+  const double patience = options.tracked_time + options.dark_time;
+  over_ = unseen > patience || time - last_located_ > patience ||
+          (unseen >= options.dark_time &&
+           misses_in_a_row_ >= 2 * std::max<std::size_t>(possible, 2)) ||
+          time - born_ > kLongestTrial + options.dark_time;
 }
 
 /// Cameras that showed it in two of their last four images.

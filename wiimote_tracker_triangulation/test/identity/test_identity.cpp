@@ -2,14 +2,18 @@
 #include "allocation_counter.h"
 #include "identity/blinking.h"
 #include "identity/exhaustive_labels.h"
+#include "tracking/scene.h"
+#include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
 #include "wiimote_tracker_triangulation/identity/error.h"
 #include "wiimote_tracker_triangulation/identity/identifier.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 #include "wiimote_tracker_triangulation/identity/snapshot_sightings.h"
+#include "wiimote_tracker_triangulation/tracking/tracker.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 namespace wiimote_tracker::identity {
 namespace {
@@ -252,7 +256,9 @@ TEST(Identifier, LabelsComeWithConfidenceAndTime) {
 TEST(Identifier, ALightThatDoesNotBlinkHasNoLabel) {
   Blinking blinking(cyclicOptions({7, 1}, 1), 2);
   blinking.run(2.0, [&](double) { EXPECT_FALSE(blinking.labelOf(0)); });
+  EXPECT_TRUE(blinking.identifier().identityOf(0)->steady);
   EXPECT_EQ(1u, blinking.labelOf(1));
+  EXPECT_FALSE(blinking.identifier().identityOf(1)->steady);
 }
 
 TEST(Identifier, TheMindIsChangedOnlyOnEvidence) {
@@ -387,7 +393,7 @@ class Sightings : public testing::Test {
 
   geometry::Rig rig_ = threeCameras();
   tracking::Snapshot snapshot_;
-  SnapshotSightings sightings_{{0.002, 10.0, 4}};
+  SnapshotSightings sightings_{{0.002, 24.0}};
 };
 
 TEST_F(Sightings, SeenAndNotSeenByThoseThatLookThere) {
@@ -398,10 +404,22 @@ TEST_F(Sightings, SeenAndNotSeenByThoseThatLookThere) {
 }
 
 TEST_F(Sightings, AnImageThatNeedNotShowItSaysNothing) {
-  see(0, {9, 0}, 8);  // perhaps both in one spot
-  for (int i = 0; i < 4; ++i)
-    see(1, {100.0 + 50.0 * i, 0}, std::nullopt);  // perhaps crowded out
+  see(0, {9, 0}, 8);               // perhaps both in one spot
+  snapshot_.views[1].full = true;  // perhaps crowded out
   EXPECT_EQ("", collect());
+}
+
+TEST_F(Sightings, ASpotThatMayBeAnotherLedsSaysNothing) {
+  see(0, {9, 0}, 7);
+  tracking::TrackedLed other = snapshot_.leds[0];
+  other.id = 8;
+  snapshot_.leds.push_back(other);
+  snapshot_.views[1].time.reset();
+  EXPECT_EQ("", collect()) << "either LED's light";
+  snapshot_.views[0].time = 9.996;
+  snapshot_.leds[1].state = tracking::TrackState::kTentative;
+  EXPECT_EQ(1u, sightings_.collect(rig_, snapshot_).size())
+      << "not that of one that is not believed";
 }
 
 TEST_F(Sightings, WhereLightIsIgnoredNothingIsSeen) {
@@ -419,6 +437,65 @@ TEST_F(Sightings, LostLedsAreForgotten) {
   snapshot_.views[0].time = 10.005;
   sightings_.add(rig_, snapshot_, &identifier);
   EXPECT_EQ(nullptr, identifier.identityOf(7));
+}
+
+/// An LED with a label of the codes, among the first `cameras` of the paper's rig: how often it was
+/// tracked, under which ids, and what it was called in the end.
+struct Followed {
+  std::set<std::uint32_t> ids;
+  std::size_t tracked = 0, predicted = 0, lost = 0;
+  std::optional<std::size_t> label;
+};
+
+Followed follow(const BlinkCodes& codes, double period, std::size_t label, std::size_t cameras) {
+  tracking::test::SceneOptions scene_options;
+  scene_options.dropout = 0.02;
+  scene_options.hidden = [&](std::size_t, std::size_t, double time) {
+    return litShare(codes.codes[label].waveform, (time - 0.0005) / period, 0.001 / period) < 0.5;
+  };
+  geometry::Rig rig = tracking::test::paperRig();
+  rig.cameras.resize(cameras);
+  tracking::test::Scene scene(rig, {tracking::test::still({1.2, 1.3, 1.0})}, scene_options, 5);
+  tracking::Tracker tracker(rig, forBlinking(codes, tracking::TrackerOptions()));
+  Identifier identifier(codes, {});
+  SnapshotSightings sightings({});
+  Followed followed;
+  while (true) {
+    const tracking::test::SceneImage& image = scene.next();
+    if (image.true_time > scene_options.start + 4.0)
+      return followed;
+    tracker.add(image.camera, image.image);
+    while (const tracking::Snapshot* snapshot = tracker.next()) {
+      sightings.add(rig, *snapshot, &identifier);
+      for (const tracking::TrackedLed& led : snapshot->leds) {
+        followed.tracked += led.state == tracking::TrackState::kTracked;
+        followed.predicted += led.state == tracking::TrackState::kPredicted;
+        followed.lost += led.state == tracking::TrackState::kLost && followed.ids.count(led.id);
+        if (led.state == tracking::TrackState::kTracked)
+          followed.ids.insert(led.id);
+        if (identifier.identityOf(led.id))
+          followed.label = identifier.identityOf(led.id)->label;
+      }
+    }
+  }
+}
+
+TEST(BlinkingTracks, LiveThroughDarkness) {
+  const BlinkCodes paper = paperCodes(0.11, 0.25);
+  const BlinkCodes words = fourWords();
+  for (const std::size_t cameras : {2, 4}) {
+    for (std::size_t label = 0; label < 4; ++label) {
+      const Followed blinks = follow(words, 0.184, label, cameras);
+      EXPECT_EQ(1u, blinks.ids.size()) << "word " << label << ", cameras " << cameras;
+      EXPECT_EQ(0u, blinks.lost);
+      EXPECT_GT(blinks.predicted, 0u) << "it is dark for longer than an image";
+      EXPECT_EQ(label, blinks.label);
+      const Followed together = follow(paper, 0.15, label, cameras);
+      EXPECT_EQ(0u, together.lost);
+      EXPECT_EQ(1u, together.ids.size()) << "share " << label << ", cameras " << cameras;
+      EXPECT_EQ(label, together.label) << "cameras " << cameras;
+    }
+  }
 }
 
 TEST(NoAllocation, OnceWarm) {

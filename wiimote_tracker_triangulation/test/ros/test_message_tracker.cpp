@@ -2,6 +2,8 @@
 #include "geometry/random_rigs.h"
 #include "message_tracker.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
+#include "wiimote_tracker_triangulation/identity/schemes.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
 #include <gtest/gtest.h>
@@ -97,8 +99,10 @@ class Studio {
     image.width = static_cast<std::uint32_t>(c.intrinsics.width);
     image.height = static_cast<std::uint32_t>(c.intrinsics.height);
     image.max_blobs = 4;
-    for (const auto& led : leds) {
-      if (const auto pixel = c.project(led(time))) {
+    for (std::size_t i = 0; i < leds.size(); ++i) {
+      if (is_dark && is_dark(i, time))
+        continue;
+      if (const auto pixel = c.project(leds[i](time))) {
         wiimote_tracker_msgs::IrBlob blob;
         blob.x = pixel->x();
         blob.y = pixel->y();
@@ -150,6 +154,7 @@ class Studio {
   Rig rig;
   double now = 1000.0;
   std::function<void(std::size_t, IrBlobArray*)> spoil;
+  std::function<bool(std::size_t led, double time)> is_dark;
 };
 
 class InBothModes : public testing::TestWithParam<Mode> {};
@@ -381,6 +386,56 @@ TEST_P(InBothModes, TheSameMessagesGiveTheSameBytes) {
   second.film(0.5, {onCircle, besideCircle});
   ASSERT_FALSE(first.heard.arrays.empty());
   EXPECT_EQ(bytesOf(first.heard.arrays), bytesOf(second.heard.arrays));
+}
+
+TEST(Identity, LedsThatBlinkHaveTheirLabelsAndAreFollowedThroughTheDark) {
+  constexpr double kChip = 0.023;
+  const std::vector<std::string> words = {"01011111", "01010101"};
+  TrackingParameters parameters = parametersOf(Mode::kTracks);
+  parameters.labels = {"lamp"};
+  parameters.identity.codes =
+      identity::cyclicCodes({{"left", words[0]}, {"right", words[1]}}, kChip, 0.01);
+  parameters.estimator.tracks =
+      identity::forBlinking(*parameters.identity.codes, parameters.estimator.tracks);
+  Studio studio(parameters);
+  const auto chip = [&](double time) {
+    return static_cast<std::size_t>((time - 999.0) / kChip) % words[0].size();
+  };
+  studio.is_dark = [&](std::size_t led, double time) {
+    return led < words.size() && words[led][chip(time)] == '0';
+  };
+  const auto lamp = [](double t) { return Vector3d(0.3 * std::sin(t), -0.1, 0.4); };
+  const Paths paths = {onCircle, besideCircle, lamp};
+  studio.film(3.0, paths);
+
+  const std::vector<std::string> names = {"left", "right", "lamp"};
+  for (std::size_t led = 0; led < names.size(); ++led) {
+    const auto points = studio.pointsOf(names[led], 1001.0);
+    ASSERT_GT(points.size(), 500u) << names[led];
+    const TrackedPoint& first = points.front().second;
+    std::size_t predicted = 0;
+    for (const auto& [time, point] : points) {
+      const Vector3d position(point.position.x, point.position.y, point.position.z);
+      ASSERT_LT((position - paths[led](time)).norm(), 10.0 * kNear) << names[led] << " at " << time;
+      EXPECT_EQ(first.id, point.id);
+      EXPECT_EQ(first.label_since, point.label_since);
+      const double unseen = time - point.last_observed.toSec();
+      predicted += point.state == TrackedPoint::PREDICTED;
+      EXPECT_EQ(unseen > parameters.estimator.tracks.tracked_time ? TrackedPoint::PREDICTED
+                                                                  : TrackedPoint::TRACKED,
+                point.state);
+    }
+    if (led < words.size()) {
+      EXPECT_GT(first.label_confidence, 0.999);
+      EXPECT_LT(first.label_since.toSec(), 1001.0);
+      EXPECT_GT(predicted, 0u) << "no image shows it for " << kChip << " s";
+    } else {
+      EXPECT_TRUE(std::isnan(first.label_confidence));
+      EXPECT_TRUE(first.label_since.isZero());
+      EXPECT_EQ(0u, predicted);
+    }
+  }
+  EXPECT_TRUE(studio.heard.problems.empty());
 }
 
 TEST(Prediction, IsForTheArrivalOfTheNewestImage) {

@@ -64,6 +64,8 @@ std::map<std::string, double> numbersOf(const TrackingParameters& p) {
       {"instant/confirmations", number(instant.confirmations)},
       {"instant/maximum_speed", instant.maximum_speed},
       {"instant/maximum_absence", instant.maximum_absence},
+      {"identity/exposure", p.identity.exposure},
+      {"identity/decide_at", p.identity.identifier.decide_at},
       {"output/rate", p.output.rate},
       {"zones/hysteresis", p.zones.hysteresis},
       {"zones/timeout", p.zones.timeout},
@@ -82,7 +84,7 @@ TEST(Parameters, ShippedFileHoldsTheDefaults) {
   const TrackingParameters shipped = read(nh);
   for (const char* key :
        {"labels", "mode", "instant/method", "tracks/minimum_corner", "tracks/maximum_corner",
-        "output/on_update", "output/predict_to_now", "output/publish_predicted"})
+        "identity/codes", "output/on_update", "output/predict_to_now", "output/publish_predicted"})
     EXPECT_TRUE(nh.hasParam(key)) << key;
   EXPECT_EQ(defaults.labels, shipped.labels);
   EXPECT_EQ(defaults.estimator.mode, shipped.estimator.mode);
@@ -145,6 +147,22 @@ TEST(Parameters, WhatIsSetIsTaken) {
   EXPECT_TRUE(p.output.publish_predicted);
 }
 
+TEST(Parameters, BlinkCodesSayWhatTheyAskOfTheTracker) {
+  ros::NodeHandle nh("~blinking");
+  nh.setParam("identity/codes", BLINK_CODES_CONFIG "/blink_codes_paper.yaml");
+  const TrackingParameters p = read(nh);
+  ASSERT_TRUE(p.identity.codes);
+  EXPECT_EQ((std::vector<std::string>{"led", "left_hand", "right_hand", "head", "back"}),
+            p.allLabels());
+  const tracking::TrackerOptions plain;
+  EXPECT_EQ(p.identity.codes->longestDark(), p.estimator.tracks.dark_time);
+  EXPECT_EQ(2.0 * p.identity.codes->longestDark(), p.estimator.tracks.prediction_time);
+  EXPECT_NEAR((0.9 + 0.6 + 0.4 + 0.2) / 4 * plain.detection_probability,
+              p.estimator.tracks.detection_probability, 1e-12);
+  EXPECT_NE(std::string::npos, describeIdentity(p).find("tracks/prediction_time 0.8 s"));
+  EXPECT_TRUE(describeIdentity(TrackingParameters()).empty());
+}
+
 TEST(Parameters, EveryMethodHasItsWord) {
   using geometry::TriangulationMethod;
   tracking::EstimatorOptions options;
@@ -192,8 +210,18 @@ TEST(Parameters, WhatIsWrongIsNamedInFull) {
   EXPECT_TRUE(refuses("instant/maximum_gap", 0.2)) << "beyond the camera time-out";
   EXPECT_TRUE(refuses("tracks/minimum_corner", list({"1"})));
   EXPECT_TRUE(refuses("output/on_update", false)) << "nothing would go out";
+  EXPECT_TRUE(refuses("identity/codes", "/nowhere/codes.yaml"));
   EXPECT_TRUE(refuses("misspelt", 1));
   EXPECT_TRUE(refuses("label", "led")) << "there may be several";
+
+  ros::NodeHandle blinking("~blinking_instants");
+  blinking.setParam("identity/codes", BLINK_CODES_CONFIG "/blink_codes.yaml");
+  blinking.setParam("labels", std::vector<std::string>{"head"});
+  EXPECT_THROW(read(blinking), ParameterError) << "two LEDs of one name";
+  blinking.deleteParam("labels");
+  EXPECT_NO_THROW(read(blinking));
+  blinking.setParam("mode", "instant");
+  EXPECT_THROW(read(blinking), ParameterError) << "nothing is followed through darkness";
 
   ros::NodeHandle nh("~instant_prediction");
   nh.setParam("mode", "instant");

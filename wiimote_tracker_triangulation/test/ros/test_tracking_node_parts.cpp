@@ -5,6 +5,7 @@
 #include "led_labels.h"
 #include "lens_check.h"
 #include "statistics.h"
+#include "wiimote_tracker_triangulation/identity/schemes.h"
 
 #include <gtest/gtest.h>
 
@@ -38,27 +39,27 @@ TrackedLed led(std::uint32_t id, TrackState state) {
 TEST(LedLabels, AreGivenInTheOrderOfConfirmation) {
   LedLabels labels({"left", "right"});
   labels.update({led(0, TrackState::kTentative), led(1, TrackState::kTentative)});
-  EXPECT_EQ("led_0", labels.of(0));
+  EXPECT_EQ("led_0", labels.of(0).name);
   labels.update({led(0, TrackState::kTentative), led(1, TrackState::kTracked)});
-  EXPECT_EQ("led_0", labels.of(0));
-  EXPECT_EQ("left", labels.of(1));
+  EXPECT_EQ("led_0", labels.of(0).name);
+  EXPECT_EQ("left", labels.of(1).name);
   labels.update(
       {led(0, TrackState::kTracked), led(1, TrackState::kPredicted), led(2, TrackState::kTracked)});
-  EXPECT_EQ("right", labels.of(0));
-  EXPECT_EQ("left", labels.of(1)) << "kept while hidden";
-  EXPECT_EQ("led_2", labels.of(2));
+  EXPECT_EQ("right", labels.of(0).name);
+  EXPECT_EQ("left", labels.of(1).name) << "kept while hidden";
+  EXPECT_EQ("led_2", labels.of(2).name);
 }
 
 TEST(LedLabels, OfALostTrackGoToTheNextNewOne) {
   LedLabels labels({"led"});
   labels.update({led(3, TrackState::kTracked)});
   labels.update({led(3, TrackState::kLost)});
-  EXPECT_EQ("led", labels.of(3)) << "in the message that says so";
+  EXPECT_EQ("led", labels.of(3).name) << "in the message that says so";
   labels.update({led(5, TrackState::kTentative)});
-  EXPECT_EQ("led", labels.of(3)) << "still known to what looks back one snapshot";
+  EXPECT_EQ("led", labels.of(3).name) << "still known to what looks back one snapshot";
   labels.update({led(5, TrackState::kTracked)});
-  EXPECT_EQ("led", labels.of(5));
-  EXPECT_EQ("led_3", labels.of(3));
+  EXPECT_EQ("led", labels.of(5).name);
+  EXPECT_EQ("led_3", labels.of(3).name);
 }
 
 /// An LED that was hidden may be found again before its old track is given up.
@@ -68,30 +69,86 @@ TEST(LedLabels, OfALostTrackGoToTheOldestThatHasNone) {
   labels.update({led(2, TrackState::kTracked)});
   labels.update(
       {led(2, TrackState::kPredicted), led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
-  EXPECT_EQ("led", labels.of(2));
-  EXPECT_EQ("led_4", labels.of(4));
+  EXPECT_EQ("led", labels.of(2).name);
+  EXPECT_EQ("led_4", labels.of(4).name);
   labels.update(
       {led(2, TrackState::kLost), led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
-  EXPECT_EQ("led", labels.of(2));
-  EXPECT_EQ("led_4", labels.of(4)) << "no two of one name in one snapshot";
+  EXPECT_EQ("led", labels.of(2).name);
+  EXPECT_EQ("led_4", labels.of(4).name) << "no two of one name in one snapshot";
   labels.update({led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
-  EXPECT_EQ("led", labels.of(4));
-  EXPECT_EQ("led_5", labels.of(5));
+  EXPECT_EQ("led", labels.of(4).name);
+  EXPECT_EQ("led_5", labels.of(5).name);
 }
 
 TEST(LedLabels, AreAllFreeWhenTimeStartsAnew) {
   LedLabels labels({"a", "b"});
   labels.update({led(0, TrackState::kTracked), led(1, TrackState::kTracked)});
   labels.clear();
-  EXPECT_EQ("a", labels.of(0));
+  EXPECT_EQ("a", labels.of(0).name);
   labels.update({led(2, TrackState::kTracked)});
-  EXPECT_EQ("a", labels.of(2));
+  EXPECT_EQ("a", labels.of(2).name);
+}
+
+/// One camera sees LED `id` for 2 s from `start` on: as word 0 of two, or always.
+void see(identity::Identifier* identifier, std::uint32_t id, double start, bool steady) {
+  for (double time = start; time < start + 2.0; time += 0.01) {
+    const double phase = std::fmod((time - start) / 0.184, 1.0);
+    identifier->add(id, {0, time, 0.0, steady || phase >= 0.125});  // 01111111
+  }
+}
+
+TEST(LedLabels, AreToldByBlinking) {
+  identity::Identifier identifier(
+      identity::cyclicCodes({{"left", "01111111"}, {"right", "01010111"}}, 0.023, 0.001), {});
+  LedLabels labels({"lamp"});
+  const std::vector<TrackedLed> both = {led(0, TrackState::kTracked), led(1, TrackState::kTracked)};
+  labels.update(both, &identifier);
+  EXPECT_EQ("led_0", labels.of(0).name) << "it may yet turn out to blink";
+  EXPECT_TRUE(std::isnan(labels.of(0).confidence));
+
+  see(&identifier, 0, 100.0, true);
+  see(&identifier, 1, 100.0, false);
+  identifier.decide(102.0);
+  labels.update(both, &identifier);
+  EXPECT_EQ("lamp", labels.of(0).name) << "this one does not";
+  EXPECT_TRUE(std::isnan(labels.of(0).confidence));
+  EXPECT_EQ("left", labels.of(1).name);
+  EXPECT_GT(labels.of(1).confidence, 0.999);
+  EXPECT_EQ(102.0, labels.of(1).since);
+
+  // A label that was told is kept in the dark, and in the message that says that its LED is lost.
+  labels.update({led(1, TrackState::kPredicted)}, &identifier);
+  EXPECT_EQ("left", labels.of(1).name);
+  identifier.forget(1);
+  labels.update({led(1, TrackState::kLost)}, &identifier);
+  EXPECT_EQ("left", labels.of(1).name);
+}
+
+TEST(LedLabels, GoToWhomTheEvidenceSays) {
+  identity::Identifier identifier(
+      identity::cyclicCodes({{"left", "01111111"}, {"right", "01010111"}}, 0.023, 0.001), {});
+  LedLabels labels({"lamp"});
+  see(&identifier, 0, 100.0, true);
+  identifier.decide(102.0);
+  labels.update({led(0, TrackState::kTracked)}, &identifier);
+  EXPECT_EQ("lamp", labels.of(0).name);
+  see(&identifier, 0, 102.0, false);  // it has begun to blink
+  see(&identifier, 1, 102.0, true);
+  identifier.decide(104.0);
+  labels.update({led(0, TrackState::kTracked), led(1, TrackState::kTracked)}, &identifier);
+  EXPECT_EQ("left", labels.of(0).name);
+  EXPECT_EQ("lamp", labels.of(1).name) << "free again";
+  see(&identifier, 0, 104.0, true);  // and stops
+  identifier.decide(106.0);
+  labels.update({led(0, TrackState::kTracked), led(1, TrackState::kTracked)}, &identifier);
+  EXPECT_EQ("led_0", labels.of(0).name);
+  EXPECT_EQ("lamp", labels.of(1).name);
 }
 
 TEST(LedLabels, MayAllComeFromIds) {
   LedLabels labels({});
   labels.update({led(7, TrackState::kTracked)});
-  EXPECT_EQ("led_7", labels.of(7));
+  EXPECT_EQ("led_7", labels.of(7).name);
 }
 
 IrBlobArray goodImage(const geometry::Camera& camera) {

@@ -32,7 +32,8 @@ struct IdentifierOptions {
 
 /// Who an LED is thought to be.
 struct Identity {
-  std::optional<std::size_t> label;  ///< In BlinkCodes::codes; nothing: not decided.
+  std::optional<std::size_t> label;  ///< In BlinkCodes::codes; nothing: it has none, or not yet.
+  bool steady = false;               ///< It does not blink, and so has no label.
   double confidence = 0.0;           ///< Probability of the label, at the last decision [0..1].
   double since = 0.0;                ///< When it was decided [s].
 };

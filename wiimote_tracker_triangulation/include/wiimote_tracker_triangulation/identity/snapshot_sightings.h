@@ -12,13 +12,10 @@
 namespace wiimote_tracker::identity {
 
 struct SnapshotSightingsOptions {
-  double exposure = 0.001;  ///< Length, and the doubt about when it was [s, 0..0.02].
+  double exposure = 0.002;  ///< Length, and the doubt about when it was [s, 0..0.02].
 
-  /// An LED closer than this to another one's spot may have become one with it [px, 0..200].
-  double merging_distance = 10.0;
-
-  /// As in CameraImage: with as many spots as this, further lights may be hidden.
-  std::size_t maximum_spots = 4;
+  /// The tracker's: LEDs closer than this may be one spot [px, 0..100].
+  double merging_distance = 24.0;
 };
 
 struct TrackSighting {
@@ -41,11 +38,18 @@ class SnapshotSightings {
                                             const tracking::Snapshot& snapshot);
 
  private:
+  void expectPixels(const geometry::Camera& camera, const tracking::Snapshot& snapshot);
   std::optional<bool> isSeen(const geometry::RigCamera& camera,
                              const tracking::CameraView& view,
-                             const tracking::TrackedLed& led) const;
+                             const tracking::Snapshot& snapshot,
+                             std::size_t led) const;
+  bool mayBeAnothers(const Eigen::Vector2d& pixel,
+                     const tracking::Snapshot& snapshot,
+                     std::size_t led) const;
 
   SnapshotSightingsOptions options_;
+  std::vector<std::optional<Eigen::Vector2d>>
+      pixels_;  // where the view ought to show each LED [px]
   std::vector<TrackSighting> sightings_;
   std::vector<std::optional<double>> times_;  // of each camera's last image [s]
 };

@@ -43,6 +43,7 @@ struct SeenSpot {
 /// What one camera last contributed.
 struct CameraView {
   std::optional<double> time;  ///< Exposure of its newest image [s]; nothing before the first.
+  bool full = false;           ///< It shows as many spots as it can: further lights may be hidden.
   std::vector<SeenSpot> spots;
 };
 

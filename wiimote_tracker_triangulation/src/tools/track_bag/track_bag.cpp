@@ -60,14 +60,26 @@ std::set<std::string> labelsOf(const InputBag& input,
                                const Topics& topics,
                                const TrackingParameters& parameters) {
   std::set<std::string> labels = input.recordedLabels(topics.points());
-  labels.insert(parameters.labels.begin(), parameters.labels.end());
+  const std::vector<std::string> own = parameters.allLabels();
+  labels.insert(own.begin(), own.end());
   return labels;
+}
+
+std::set<std::string> bodiesOf(const InputBag& input,
+                               const Topics& topics,
+                               const TrackingParameters& parameters) {
+  std::set<std::string> names = input.recordedBodies(topics.bodies());
+  for (const body::Constellation& body : parameters.bodies.known)
+    names.insert(body.name);
+  return names;
 }
 
 void run(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   checkPaths(arguments);
   const TrackingParameters parameters = readParameterFile(arguments.parameters, arguments.mode);
+  if (parameters.identity.codes)
+    std::printf("%s.\n", describeIdentity(parameters).c_str());
   const InputBag input(arguments.input);
   if (input.images() == 0)
     throw BagError(arguments.input + " holds no images: record the cameras' ir_blobs");
@@ -92,7 +104,8 @@ void run(const Arguments& arguments) {
     results.addRig(rig, input.justBefore());
     tracker.takeRig(rig, input.justBefore());
   }
-  const EarlierResults earlier(topics, labelsOf(input, topics, parameters));
+  const EarlierResults earlier(topics, labelsOf(input, topics, parameters),
+                               bodiesOf(input, topics, parameters));
   for (std::size_t i = 0; i < input.size(); ++i) {
     const rosbag::MessageInstance& message = input[i];
     Item item;

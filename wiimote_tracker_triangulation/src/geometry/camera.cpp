@@ -19,6 +19,23 @@ void require(bool good, const std::string& what, double value) {
     throw InvalidRigError(what + " (is " + std::to_string(value) + "); calibrate again");
 }
 
+/// As Intrinsics::pixelFromNormalized; nothing beyond the fold.
+std::optional<Vector2> pixelBeforeFold(const Intrinsics& lens,
+                                       const Vector2& normalized,
+                                       Matrix2* jacobian) {
+  if (lens.distortion_model == DistortionModel::kEquidistant) {
+    if (!equidistant::isBeforeFold(lens.distortion, normalized))
+      return std::nullopt;
+    return lens.pixelFromNormalized(normalized, jacobian);
+  }
+  const auto distorted = plumb_bob::distortBeforeFold(lens.distortion, normalized, jacobian);
+  if (!distorted)
+    return std::nullopt;
+  jacobian->row(0) *= lens.fx;
+  jacobian->row(1) *= lens.fy;
+  return Vector2(lens.fx * distorted->x() + lens.cx, lens.fy * distorted->y() + lens.cy);
+}
+
 }  // namespace
 
 const char* nameOf(DistortionModel model) {
@@ -91,16 +108,20 @@ std::optional<Vector2> Camera::project(const Eigen::Vector3d& point,
   if (!(p.z() > 0.0))
     return std::nullopt;
   const Vector2 normalized = p.head<2>() / p.z();
-  if (!normalized.allFinite() || !intrinsics.isBeforeFold(normalized))
+  if (!normalized.allFinite())
     return std::nullopt;
-  if (!jacobian)
-    return intrinsics.pixelFromNormalized(normalized);
-  Eigen::Matrix<double, 2, 3> normalized_by_p;
-  normalized_by_p << 1.0, 0.0, -normalized.x(), 0.0, 1.0, -normalized.y();
-  normalized_by_p /= p.z();
   Matrix2 pixel_by_normalized;
-  const Vector2 pixel = intrinsics.pixelFromNormalized(normalized, &pixel_by_normalized);
-  jacobian->noalias() = pixel_by_normalized * normalized_by_p * camera_from_world;
+  const std::optional<Vector2> pixel =
+      pixelBeforeFold(intrinsics, normalized, &pixel_by_normalized);
+  if (!pixel || !jacobian)
+    return pixel;
+  // Of (x, y) = (X, Y) / Z: d x = (d X - x d Z) / Z.
+  const auto rotation = world_from_camera.linear();
+  for (int i = 0; i < 2; ++i) {
+    const Vector2 slope = pixel_by_normalized.row(i).transpose() / p.z();
+    const Eigen::Vector3d by_p(slope.x(), slope.y(), -slope.dot(normalized));
+    jacobian->row(i) = (rotation * by_p).transpose();
+  }
   return pixel;
 }
 

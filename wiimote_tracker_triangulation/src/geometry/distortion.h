@@ -24,6 +24,11 @@ std::optional<Eigen::Vector2d> undistort(const Coefficients& k, const Eigen::Vec
 
 bool isBeforeFold(const Coefficients& k, const Eigen::Vector2d& n);
 
+/// Both at once, which costs little more than one: nothing beyond the fold.
+std::optional<Eigen::Vector2d> distortBeforeFold(const Coefficients& k,
+                                                 const Eigen::Vector2d& n,
+                                                 Eigen::Matrix2d* jacobian);
+
 }  // namespace plumb_bob
 
 /// k1, k2, k3, k4, and a zero. With a, the angle from the axis, the radius becomes

@@ -82,12 +82,20 @@ std::optional<Vector2> undistort(const Coefficients& k, const Vector2& target) {
   return n;
 }
 
-bool isBeforeFold(const Coefficients& k, const Vector2& n) {
+std::optional<Vector2> distortBeforeFold(const Coefficients& k,
+                                         const Vector2& n,
+                                         Matrix2* jacobian) {
   if (!radiusGrowsUpTo(k, n.squaredNorm()))
-    return false;
+    return std::nullopt;
+  const Vector2 distorted = distort(k, n, jacobian);
+  if (!(jacobian->determinant() > 0.0))
+    return std::nullopt;
+  return distorted;
+}
+
+bool isBeforeFold(const Coefficients& k, const Vector2& n) {
   Matrix2 jacobian;
-  distort(k, n, &jacobian);
-  return jacobian.determinant() > 0.0;
+  return distortBeforeFold(k, n, &jacobian).has_value();
 }
 
 }  // namespace wiimote_tracker::geometry::plumb_bob

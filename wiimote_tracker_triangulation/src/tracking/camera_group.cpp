@@ -5,6 +5,10 @@
 namespace wiimote_tracker::tracking {
 namespace {
 
+/// Images from one kept state to the next: what a late image costs in steps that are repeated
+/// against what every image costs in copies.
+constexpr std::size_t kKeepInterval = 2;
+
 geometry::Rig rigOf(const geometry::Rig& rig, const std::vector<std::size_t>& members) {
   geometry::Rig result;
   for (const std::size_t member : members) {
@@ -39,7 +43,7 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
       members_(members),
       update_(options),
       births_(rigOf(rig, members), partnersOf(partners, members), options),
-      history_(2 * members.size()) {
+      history_(kKeepInterval) {
   for (const std::size_t member : members_)
     cameras_.emplace_back(rig, member);
   state_.unexplained.resize(cameras_.size());

@@ -5,14 +5,14 @@
 
 namespace wiimote_tracker::gesture {
 
-std::optional<Path> Segmenter::add(const PathPoint& point) {
+std::optional<Path> Segmenter::add(const PathPoint& point, double seen) {
   if (!path_.empty() && !(point.time > path_.back().time))
     return std::nullopt;
   std::optional<Path> ended = advance(point.time);
-  if (options_.boundary == Boundary::kButton && !pressed_)
-    return ended;
   path_.push_back(point);
-  forgetBefore(point.time - options_.maximum_duration);
+  seen_ = seen;
+  const bool waits = options_.boundary == Boundary::kButton && !pressed_ && !end_;
+  forgetBefore(point.time - (waits ? kButtonDelay : options_.maximum_duration));
   if (options_.boundary != Boundary::kRest)
     return ended;
 
@@ -34,8 +34,12 @@ std::optional<Path> Segmenter::add(const PathPoint& point) {
 }
 
 std::optional<Path> Segmenter::advance(double time) {
+  if (end_ && time > *end_)
+    return cutAtButton();
   if (path_.empty() || time - path_.back().time <= options_.dark_time)
     return std::nullopt;
+  while (!path_.empty() && path_.back().time > seen_)
+    path_.pop_back();
   // Whatever the boundary: a way with a hole in it is not the way that was drawn. Only switching
   // off is an end that counts.
   std::optional<Path> ended = end();
@@ -43,16 +47,36 @@ std::optional<Path> Segmenter::advance(double time) {
 }
 
 std::optional<Path> Segmenter::button(double time, bool pressed) {
-  std::optional<Path> ended = advance(time);
-  if (pressed_ && !pressed)
-    ended = end();
+  if (options_.boundary != Boundary::kButton || pressed == pressed_)
+    return std::nullopt;
   pressed_ = pressed;
-  return options_.boundary == Boundary::kButton ? ended : std::nullopt;
+  if (pressed) {
+    std::optional<Path> ended = end_ && *end_ < time ? cutAtButton() : std::nullopt;
+    end_.reset();  // of a time to come, where a bag has started over
+    begin_ = time;
+    return ended;
+  }
+  end_ = time;
+  return !path_.empty() && path_.back().time >= time ? cutAtButton() : std::nullopt;
 }
 
 void Segmenter::reset() {
   path_.clear();
   moving_ = false;
+  end_.reset();
+}
+
+/// What was drawn from when the button was pressed until it was released.
+std::optional<Path> Segmenter::cutAtButton() {
+  forgetBefore(begin_);
+  const auto after =
+      std::find_if(path_.begin(), path_.end(), [&](const PathPoint& p) { return p.time > *end_; });
+  Path later(after, path_.end());
+  path_.erase(after, path_.end());
+  end_.reset();
+  std::optional<Path> ended = end();
+  path_ = std::move(later);
+  return ended;
 }
 
 std::optional<Path> Segmenter::end() {

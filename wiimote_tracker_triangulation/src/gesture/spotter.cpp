@@ -17,11 +17,7 @@ std::optional<Spotted> Spotter::add(const PathPoint& point,
                                     const std::string& zone) {
   if (!motion_.empty() && !(point.time > motion_.back().time))
     return std::nullopt;
-  std::optional<Spotted> found;
-  if (!motion_.empty() && point.time - motion_.back().time > options_.longest_hole) {
-    found = report();
-    motion_.clear();
-  }
+  std::optional<Spotted> found = advance(point.time);
   if (motion_.empty())
     next_look_ = point.time + options_.shortest;
   motion_.push_back(point);
@@ -34,6 +30,14 @@ std::optional<Spotted> Spotter::add(const PathPoint& point,
   }
   if (!found && best_ && point.time - best_->path.back().time >= 0.5 * durationOf(best_->path))
     found = report();
+  return found;
+}
+
+std::optional<Spotted> Spotter::advance(double time) {
+  if (motion_.empty() || time - motion_.back().time <= options_.longest_hole)
+    return std::nullopt;
+  std::optional<Spotted> found = report();
+  motion_.clear();
   return found;
 }
 

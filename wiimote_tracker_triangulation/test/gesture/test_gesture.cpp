@@ -358,6 +358,49 @@ TEST(Segmenter, CutsAtTheButton) {
   EXPECT_FALSE(segmenter.button(1.6, false));
 }
 
+TEST(Segmenter, AButtonsNewsMayComeEarlyOrLate) {
+  SegmenterOptions options;
+  options.boundary = Boundary::kButton;
+  Drawing drawing;
+  drawing.duration = 3.0;
+  const Path path = draw(circle, drawing);
+  // Pressed from 0.995 s to 2.005 s; the news comes as much later than the positions of that time.
+  for (const double delay : {-0.4, -0.1, 0.0, 0.1, 0.4}) {
+    Segmenter segmenter(options);
+    std::vector<Path> found;
+    const auto take = [&](std::optional<Path> ended) {
+      if (ended)
+        found.push_back(*ended);
+    };
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const auto at = [&](double time) {
+        return i == static_cast<std::size_t>(std::lround(100.0 * (time + delay)));
+      };
+      if (at(1.0))
+        take(segmenter.button(0.995, true));
+      if (at(2.0))
+        take(segmenter.button(2.005, false));
+      take(segmenter.add(path[i]));
+    }
+    ASSERT_EQ(found.size(), 1u) << delay;
+    EXPECT_EQ(found[0].front().time, path[100].time) << delay;
+    EXPECT_EQ(found[0].back().time, path[200].time) << delay;
+    EXPECT_EQ(found[0].size(), 101u) << delay;
+  }
+}
+
+TEST(Segmenter, WhatIsForetoldAfterTheLightWentOutWasNotDrawn) {
+  SegmenterOptions options;
+  options.boundary = Boundary::kLight;
+  Segmenter segmenter(options);
+  const Path path = draw(circle, {});
+  for (const PathPoint& point : path)
+    segmenter.add(point, std::min(point.time, 1.42));
+  const auto found = segmenter.advance(1.7);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->back().time, path[142].time);
+}
+
 TEST(Segmenter, AHoleInTheWayIsNoGesture) {
   Segmenter segmenter{SegmenterOptions()};
   feed(&segmenter, stay(0.0, 1.0, circle(0.0)));

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <sensor_msgs/Joy.h>
 #include <visualization_msgs/MarkerArray.h>
 #include <wiimote_tracker_msgs/GestureEvent.h>
 #include <wiimote_tracker_msgs/ListGestures.h>
@@ -42,6 +43,7 @@ class Bench {
     ros::param::get("gestures/boundary", boundary_);
     ros::param::get("gestures/file", file_);
     points_ = nh_.advertise<TrackedPointArray>("points", 1000);
+    joy_ = nh_.advertise<sensor_msgs::Joy>("joy", 100);
     rig_ = nh_.advertise<wiimote_tracker_msgs::RigCalibration>("calibration/rig", 1, true);
     subscribers_ = {nh_.subscribe<GestureEvent>("gestures", 100,
                                                 [this](const auto& m) { events_.push_back(*m); }),
@@ -59,7 +61,8 @@ class Bench {
   bool isConnected() {
     return waitFor([&] {
       return points_.getNumSubscribers() > 0 && subscribers_[0].getNumPublishers() > 0 &&
-             subscribers_[1].getNumPublishers() > 0 && rig_.getNumSubscribers() > 0;
+             subscribers_[1].getNumPublishers() > 0 && rig_.getNumSubscribers() > 0 &&
+             (boundary_ != "button" || joy_.getNumSubscribers() > 0);
     });
   }
 
@@ -74,6 +77,7 @@ class Bench {
       point.id = id_;
       point.label = "led";
       point.state = TrackedPoint::TRACKED;
+      point.last_observed = array.header.stamp;
       point.position.x = position->x();
       point.position.y = position->y();
       point.position.z = position->z();
@@ -83,12 +87,25 @@ class Bench {
     time_ += 0.01;
   }
 
+  /// The button is held for the next second; the news of its release comes early.
+  void holdButton() {
+    sensor_msgs::Joy joy;
+    for (const bool pressed : {true, false}) {
+      joy.header.stamp.fromSec(time_ + (pressed ? 0.0 : 1.005));
+      joy.buttons = {0, 0, pressed};
+      joy_.publish(joy);
+    }
+    list();  // an answer: the news has gone ahead of what comes next, by half a second at least
+  }
+
   /// A gesture with whatever marks its beginning and end, 1 s long.
   void draw(const std::function<Vector3d(double)>& curve, const Vector3d& place) {
-    const bool rests = boundary_ == "rest";
+    const bool rests = boundary_ != "light";
     const auto at = [&](double s) { return Vector3d(place + curve(s)); };
     begin_ = time_ + (rests ? 0.5 : 0.0);
     for (int i = rests ? -50 : 0; i <= (rests ? 150 : 100); ++i) {
+      if (i == 0 && boundary_ == "button")
+        holdButton();
       const Vector3d position = at(std::min(std::max(0.01 * i, 0.0), 1.0));
       publish(&position);
     }
@@ -144,6 +161,7 @@ class Bench {
  private:
   ros::NodeHandle nh_;
   ros::Publisher points_;
+  ros::Publisher joy_;
   ros::Publisher rig_;
   std::vector<ros::Subscriber> subscribers_;
   std::size_t taken_ = 0;
@@ -239,6 +257,38 @@ TEST_F(GesturesTest, GoOnAfterABagStartsOver) {
   bench_->draw(circle, {0.0, 0.0, 1.0});
   EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECOGNISED);
   EXPECT_TRUE(bench_->remove("circle"));
+}
+
+class ContinuousGesturesTest : public GesturesTest {};
+
+TEST_F(ContinuousGesturesTest, AreFoundInMotionThatGoesOn) {
+  ASSERT_EQ(bench_->record("circle"), "");
+  bench_->draw(circle, {0.0, 0.0, 1.0});
+  EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
+  const auto straight = [](double s) { return Vector3d(0.5 * s, 0.3 * s, -0.2 * s); };
+  const auto on = [&](const std::function<Vector3d(double)>& curve, const Vector3d& place) {
+    for (int i = 0; i < 100; ++i) {
+      const Vector3d position = place + curve(0.01 * i);
+      bench_->publish(&position);
+    }
+  };
+  on(straight, {0.0, 0.0, 1.0});
+  const double begin = bench_->time_;
+  on(circle, {0.5, 0.3, 0.8});
+  on(straight, {0.5, 0.3, 0.8});
+  const GestureEvent found = bench_->nextEvent();
+  EXPECT_EQ(found.event, GestureEvent::RECOGNISED);
+  EXPECT_EQ(found.gesture, "circle");
+  EXPECT_GE(found.score, 0.7);
+  EXPECT_NEAR(found.begin.toSec(), begin, 0.2);
+  EXPECT_NEAR(found.end.toSec(), begin + 1.0, 0.2);
+  // The light goes out right after it, and it is told nevertheless.
+  on(circle, {1.0, 0.6, 0.6});
+  for (int i = 0; i < 40; ++i)
+    bench_->publish(nullptr);
+  const GestureEvent last = bench_->nextEvent();
+  EXPECT_EQ(last.gesture, "circle");
+  EXPECT_NEAR(last.end.toSec(), bench_->time_ - 0.4, 0.2);
 }
 
 }  // namespace

@@ -39,27 +39,38 @@ class Segmenter {
   explicit Segmenter(const SegmenterOptions& options) : options_(options) {}
 
   /// A position of the LED; times must increase, others are ignored.
+  /// @param seen when a camera last saw it [s]. A later position is foretold from its motion, and
+  /// is no part of a gesture if the LED is not seen again.
   /// @returns a gesture that has just ended.
-  std::optional<Path> add(const PathPoint& point);
+  std::optional<Path> add(const PathPoint& point, double seen);
+  std::optional<Path> add(const PathPoint& point) { return add(point, point.time); }
 
   /// Time has gone on to `time` [s] without a position (the LED is hidden or off).
   std::optional<Path> advance(double time);
 
-  /// @returns a gesture that has just ended, with Boundary::kButton.
+  /// With Boundary::kButton: it was pressed or released. Positions of times before and after that
+  /// may have been added already, or be added later, by less than kButtonDelay; the gesture is the
+  /// same. @returns a gesture that has just ended.
   std::optional<Path> button(double time, bool pressed);
+  static constexpr double kButtonDelay = 0.5;  // [s]
 
   /// Forgets everything, as after a jump of time.
   void reset();
 
  private:
   std::optional<Path> end();
+  std::optional<Path> cutAtButton();
   bool isAtRest() const;
   void forgetBefore(double time);
 
   SegmenterOptions options_;
   Path path_;            // with kRest also the rest before the gesture
+  double seen_ = 0.0;    // [s]
   bool moving_ = false;  // with kRest
+  // With kButton:
   bool pressed_ = false;
+  double begin_ = 0.0;         // when it was pressed last [s]
+  std::optional<double> end_;  // released, and not yet all positions before that are known [s]
 };
 
 }  // namespace wiimote_tracker::gesture

@@ -43,6 +43,9 @@ class Spotter {
                              const Recognizer& recognizer,
                              const std::string& zone = "");
 
+  /// Time has gone on to `time` [s] without a position (the LED is hidden or off).
+  std::optional<Spotted> advance(double time);
+
   /// Forgets everything, as after a jump of time.
   void reset();
 

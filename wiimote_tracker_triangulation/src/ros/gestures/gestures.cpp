@@ -35,10 +35,12 @@ bool holds(const geometry::Zone& zone, const Eigen::Vector3d& p) {
 
 }  // namespace
 
-Gestures::Hand::Hand(const GestureParameters& parameters, bool is_pressed, double time)
+Gestures::Hand::Hand(const GestureParameters& parameters, const ButtonNews& button)
     : segmenter(parameters.segmenter), spotter(parameters.spotter) {
-  if (is_pressed)
-    segmenter.button(time, true);
+  if (button.pressed)
+    segmenter.button(*button.pressed, true);
+  if (button.released)
+    segmenter.button(*button.released, false);
 }
 
 Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
@@ -88,8 +90,11 @@ void Gestures::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& m
 
   // An LED that is no longer spoken of is out.
   for (auto hand = hands_.begin(); hand != hands_.end();) {
+    if (const auto spotted = hand->second.spotter.advance(time))
+      publish(GestureEvent::RECOGNISED, spotted->recognition, spotted->path, hand->first,
+              hand->second.label);
     const auto path = hand->second.segmenter.advance(time);
-    if (path)
+    if (path && (!parameters_.continuous || wanted_))
       onGesture(*path, hand->first, hand->second.label);
     const bool gone =
         std::none_of(message->points.begin(), message->points.end(), [&](const TrackedPoint& p) {
@@ -108,7 +113,7 @@ void Gestures::onPoint(const TrackedPoint& point, double time) {
   if (!parameters_.labels.empty() && std::find(parameters_.labels.begin(), parameters_.labels.end(),
                                                point.label) == parameters_.labels.end())
     return;
-  Hand& hand = hands_.try_emplace(point.id, parameters_, pressed_, time).first->second;
+  Hand& hand = hands_.try_emplace(point.id, parameters_, button_).first->second;
   hand.label = point.label;
   hand.last_seen = time;
   const gesture::PathPoint here{time, {point.position.x, point.position.y, point.position.z}};
@@ -117,7 +122,7 @@ void Gestures::onPoint(const TrackedPoint& point, double time) {
     if (const auto spotted = hand.spotter.add(here, recognizer_, zoneOf({here})))
       publish(GestureEvent::RECOGNISED, spotted->recognition, spotted->path, point.id, point.label);
   }
-  const auto path = hand.segmenter.add(here);
+  const auto path = hand.segmenter.add(here, point.last_observed.toSec());
   if (path && (!parameters_.continuous || wanted_))
     onGesture(*path, point.id, point.label);
 }
@@ -131,11 +136,16 @@ void Gestures::onJoy(const sensor_msgs::JoyConstPtr& message) {
     return;
   }
   const bool pressed = message->buttons[index] != 0;
-  if (pressed == pressed_)
+  const double time = message->header.stamp.toSec();
+  const bool was_pressed = button_.pressed && !button_.released;
+  if (pressed == was_pressed)
     return;
-  pressed_ = pressed;
+  if (pressed)
+    button_ = {time, std::nullopt};
+  else
+    button_.released = time;
   for (auto& [id, hand] : hands_) {
-    if (const auto path = hand.segmenter.button(message->header.stamp.toSec(), pressed))
+    if (const auto path = hand.segmenter.button(time, pressed))
       onGesture(*path, id, hand.label);
   }
 }

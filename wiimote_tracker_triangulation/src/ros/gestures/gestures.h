@@ -31,9 +31,15 @@ class Gestures {
   Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
 
  private:
+  /// When the button was pressed last [s], and released after that.
+  struct ButtonNews {
+    std::optional<double> pressed;
+    std::optional<double> released;
+  };
+
   /// One LED that may draw.
   struct Hand {
-    Hand(const GestureParameters& parameters, bool is_pressed, double time);
+    Hand(const GestureParameters& parameters, const ButtonNews& button);
     std::string label;
     double last_seen = 0.0;  // [s]
     gesture::Segmenter segmenter;
@@ -69,7 +75,7 @@ class Gestures {
   std::map<std::uint32_t, Hand> hands_;  // by the id of the LED
   std::string world_frame_;
   double time_ = 0.0;  // of the newest points [s]
-  bool pressed_ = false;
+  ButtonNews button_;
   std::optional<gesture::Example> wanted_;  // to be recorded; its path is still empty
 
   ros::Publisher events_publisher_;

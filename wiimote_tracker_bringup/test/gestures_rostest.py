@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+"""What an LED draws in the air is recognised: from reports of virtual Wii Remotes to events.
+
+One node is told by the LED being switched on and off where a gesture begins and ends, the other one
+by its being held still. Anna teaches; Ben draws elsewhere, larger and in his own way.
+"""
+
+import collections
+import os
+import sys
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+import yaml
+from geometry_msgs.msg import Point, PointStamped
+from wiimote_tracker_evaluation import scene, true_rig
+from wiimote_tracker_msgs.msg import GestureEvent, RigCalibration, TrackedPointArray
+from wiimote_tracker_msgs.srv import ListGestures, RecordGesture, SetLed, SetLedRequest
+
+DEADLINE = 60.0       # [s]
+NODES = ('by_light', 'by_rest')
+TEACHING = (1.0, 1.2, 1.1)  # where Anna draws [m]
+ELSEWHERE = (1.6, 1.4, 1.3)  # and Ben
+REST_TIME, REST_RADIUS = 0.25, 0.015  # config/gestures.yaml [s], [m]
+APPEARS = 0.15        # an LED that was switched on is tracked within [s]
+FRAMES = 0.03         # three of them; the grain of what is said about time [s]
+SIGMAS = 5.0          # no coordinate of a hundred points is further off
+
+
+class Gestures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('gestures_rostest')
+        cls.path = rospy.get_param('~description')
+        with open(cls.path) as file:
+            cls.description = yaml.safe_load(file)
+        cls.truth, cls.points = [], []
+        cls.events = collections.defaultdict(list)
+        cls.taken = collections.Counter()
+        rospy.Subscriber('simulation/truth/led', PointStamped, cls.truth.append)
+        rospy.Subscriber('points', TrackedPointArray, cls.points.append, queue_size=1000)
+        for node in NODES:
+            rospy.Subscriber(node + '/gestures', GestureEvent, cls.events[node].append)
+        cls.rig_publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1,
+                                            latch=True)
+        rospy.wait_for_service('simulation/set_led', DEADLINE)
+        cls.set_led = staticmethod(rospy.ServiceProxy('simulation/set_led', SetLed))
+
+    def wait(self, condition, what):
+        deadline = rospy.get_time() + DEADLINE
+        while not condition():
+            self.assertLess(rospy.get_time(), deadline, 'waited too long for ' + what)
+            rospy.sleep(0.01)
+
+    def wait_until(self, time):
+        self.wait(lambda: self.truth[-1].header.stamp.to_sec() > time and
+                  self.points[-1].header.stamp.to_sec() > time, 'the instant %.3f' % time)
+
+    def test_gestures_are_taught_recognised_and_rejected(self):
+        true_scene = scene.read_scene(self.path)
+        self.rig_publisher.publish(true_rig.true_rig(true_scene, {
+            name: camera['identity'] for name, camera in self.description['cameras'].items()}))
+        self.wait(lambda: self.points and any(p.state == p.TRACKED for p in self.points[-1].points),
+                  'a tracked LED')
+        self.switch_off()
+
+        for gesture in ('circle', 'check'):
+            self.record(gesture)
+            self.draw(gesture, TEACHING, on=True)
+            for node in NODES:
+                event = self.next_event(node)
+                self.assertEqual((event.event, event.gesture), (GestureEvent.RECORDED, gesture))
+        for node in NODES:
+            known = rospy.ServiceProxy(node + '/gestures/list', ListGestures)()
+            self.assertEqual(list(zip(known.gestures, known.examples)),
+                             [('circle', 1), ('check', 1)])
+
+        begin, end = self.draw('circle_by_ben', ELSEWHERE, on=True)
+        for node in NODES:
+            event = self.next_event(node)
+            self.assertEqual((event.event, event.gesture, event.runner_up),
+                             (GestureEvent.RECOGNISED, 'circle', 'check'))
+            self.assertGreater(event.score, 0.5)
+            self.assertLess(event.runner_up_score, event.score)
+            self.assertEqual((event.label, event.header.frame_id), ('led', 'world'))
+            self.check_box(event)
+            if node == 'by_light':
+                self.check_times_by_light(event, begin, end)
+            else:
+                self.check_times_by_rest(event, begin, end)
+
+        # Lit while it draws and no longer: nobody sees it rest.
+        drawn = self.draw('check_by_ben', ELSEWHERE, on=False)
+        event = self.next_event('by_light')
+        self.assertEqual((event.event, event.gesture), (GestureEvent.RECOGNISED, 'check'))
+        self.check_times_by_light(event, *drawn)
+        self.check_box(event)
+
+        self.draw('spiral_by_ben', ELSEWHERE, on=True)
+        for node in NODES:  # of the check, the one that waits for rests said nothing
+            self.assertEqual(self.next_event(node).event, GestureEvent.REJECTED)
+
+    def record(self, gesture):
+        for node in NODES:
+            service = node + '/gestures/record'
+            rospy.wait_for_service(service, DEADLINE)
+            response = rospy.ServiceProxy(service, RecordGesture)(gesture=gesture)
+            self.assertTrue(response.success, response.message)
+
+    def draw(self, drawing, middle, on):
+        """Draws once. @returns when the LED was switched on and off [s]."""
+        response = self.set_led(SetLedRequest(led='led', on=on, motion=SetLedRequest.DRAW,
+                                              drawing=drawing, target=Point(*middle), speed=0.0))
+        self.assertTrue(response.success, response.message)
+        entry = self.description['drawings'][drawing]
+        begin = response.arrival.to_sec()
+        end = begin + duration_of(os.path.join(os.path.dirname(self.path), entry['file']))
+        print('%s: %.2f s' % (drawing, end - begin))
+        if not on:
+            self.wait_until(end)
+            return begin, end
+        self.wait_until(end + entry['rest'])
+        return begin - entry['rest'], self.switch_off()
+
+    def switch_off(self):
+        """And waits until the tracker has given the LED up. @returns when it went dark [s]."""
+        response = self.set_led(SetLedRequest(led='led', on=False, motion=SetLedRequest.HOLD))
+        self.assertTrue(response.success, response.message)
+        self.wait(lambda: not self.points[-1].points, 'the LED to be lost')
+        return response.arrival.to_sec()
+
+    def next_event(self, node):
+        self.wait(lambda: len(self.events[node]) > self.taken[node], 'an event ' + node)
+        event = self.events[node][self.taken[node]]
+        self.taken[node] += 1
+        print('%s: %d %s %.2f, then %s %.2f' % (node, event.event, event.gesture, event.score,
+                                                event.runner_up, event.runner_up_score))
+        return event
+
+    def truth_between(self, begin, end):
+        """Times [s] and N x 3 places [m]."""
+        messages = [m for m in list(self.truth) if begin <= m.header.stamp.to_sec() <= end]
+        return (np.array([m.header.stamp.to_sec() for m in messages]),
+                np.array([(m.point.x, m.point.y, m.point.z) for m in messages]))
+
+    def check_box(self, event):
+        """It holds where the LED truly was, as well as the tracker says it knows."""
+        begin, end = event.begin.to_sec(), event.end.to_sec()
+        sigma = np.sqrt(max(max(point.position_covariance[::4])
+                            for message in list(self.points)
+                            if begin <= message.header.stamp.to_sec() <= end
+                            for point in message.points))
+        _, places = self.truth_between(begin, end)
+        self.assertLess(SIGMAS * sigma, 0.1, 'that is a box')
+        for box, truth in ((event.minimum, places.min(axis=0)), (event.maximum, places.max(axis=0))):
+            np.testing.assert_allclose((box.x, box.y, box.z), truth, atol=SIGMAS * sigma)
+
+    def check_times_by_light(self, event, on, off):
+        self.assertGreater(event.begin.to_sec(), on - FRAMES)
+        self.assertLess(event.begin.to_sec(), on + APPEARS)
+        self.assertAlmostEqual(event.end.to_sec(), off, delta=FRAMES)
+
+    def check_times_by_rest(self, event, on, off):
+        """From the rest before to the rest after it; a position is known to half a rest's radius."""
+        times, places = self.truth_between(on, off)
+        from_begin = np.linalg.norm(places - places[0], axis=1)
+        from_end = np.linalg.norm(places - places[-1], axis=1)
+        near, far = 0.5 * REST_RADIUS, 1.5 * REST_RADIUS
+        self.assertGreater(event.begin.to_sec(),
+                           times[np.argmax(from_begin > near)] - REST_TIME - FRAMES)
+        self.assertLess(event.begin.to_sec(), times[np.argmax(from_begin > far)] + FRAMES)
+        self.assertGreater(event.end.to_sec(), times[np.flatnonzero(from_end > far)[-1]] - FRAMES)
+        self.assertLess(event.end.to_sec(), times[np.flatnonzero(from_end > near)[-1]] + FRAMES)
+
+
+def duration_of(csv):
+    rows = np.loadtxt(csv, skiprows=1)
+    return 1e-3 * (rows[-1, 3] - rows[0, 3])
+
+
+if __name__ == '__main__':
+    sys.exit(rostest.rosrun('wiimote_tracker_bringup', 'gestures', Gestures))

@@ -99,7 +99,7 @@ void measure(const Arguments& arguments) {
       {"session", "cameras", "led_size", "speed_m_per_s", "turning_rad_per_s", "known_share",
        "position_rms_mm", "rotation_rms_deg", "predicted_position_mm", "predicted_rotation_deg"});
   const double degrees = 180.0 / M_PI;
-  for (int session = 0; session < arguments.sessions; ++session) {
+  for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
     for (const std::size_t cameras : {std::size_t{2}, all.cameras.size()}) {
       const simulation::Description description = withCameras(all, cameras);
       // A small LED 6 m away is a cell or two of the sensor; a bright one is three, and soon one

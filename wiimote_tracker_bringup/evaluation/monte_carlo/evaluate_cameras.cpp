@@ -115,7 +115,7 @@ void measure(const Arguments& arguments) {
   const simulation::Description like = simulation::readDescription(arguments.rig);
   Table table(arguments.output, {"session", "cameras", "method", "x_m", "y_m", "z_m", "rays",
                                  "error_mm", "predicted_mm"});
-  for (int session = 0; session < arguments.sessions; ++session) {
+  for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
     const std::uint32_t seed = sessionSeed(arguments, session);
     for (int count = 2; count <= 8; ++count) {
       const simulation::Description description = ring(like, count);

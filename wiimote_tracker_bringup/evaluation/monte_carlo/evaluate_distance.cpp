@@ -67,7 +67,7 @@ void measure(const Arguments& arguments) {
   const simulation::Description description = simulation::readDescription(arguments.rig);
   Table table(arguments.output,
               {"session", "sensitivity", "brightness", "stopped_at_m", "last_seen_m"});
-  for (int session = 0; session < arguments.sessions; ++session) {
+  for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
     std::mt19937 random(sessionSeed(arguments, session));
     for (const char* sensitivity : {"wii_1", "wii_2", "wii_3", "wii_4", "wii_5", "max"}) {
       for (const double brightness : {0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0}) {

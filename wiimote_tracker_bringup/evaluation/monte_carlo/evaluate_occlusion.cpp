@@ -110,7 +110,7 @@ void measure(const Arguments& arguments) {
   Table table(arguments.output,
               {"session", "cameras", "hidden_share", "method", "covered_share", "two_views_share",
                "astray_share", "rms_mm", "longest_gap_s", "ids"});
-  for (int session = 0; session < arguments.sessions; ++session) {
+  for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
     const std::uint32_t seed = sessionSeed(arguments, session);
     for (const std::size_t cameras : {std::size_t{2}, all.cameras.size()}) {
       const simulation::Description description = withCameras(all, cameras);

@@ -108,7 +108,7 @@ void measure(const Arguments& arguments) {
   const geometry::Rig rig = trueRig(description);
   Table table(arguments.output, {"session", "speed_m_per_s", "clocks", "stamps", "method", "rms_mm",
                                  "seen_share", "lateness_ms", "instants"});
-  for (int session = 0; session < arguments.sessions; ++session) {
+  for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
     const std::uint32_t seed = sessionSeed(arguments, session);
     for (const double speed : {0.5, 1.0, 2.0, 3.0}) {
       const Path path = circleOf(speed, 1e-3 * (seed % 6283));

@@ -1,0 +1,240 @@
+// Gestures that made-up people draw with an LED before the cameras, as the tracker has them: a
+// folder per person, in it a CSV per gesture, as gesture_tool reads them.
+#include "arguments.h"
+#include "room.h"
+#include "table.h"
+
+#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::monte_carlo {
+namespace {
+
+using Eigen::Vector3d;
+using Line = std::vector<Vector3d>;  // in a unit square about the origin: x to the right, z up
+
+constexpr double kRest = 1.0;     // before and after a drawing [s]
+constexpr int kPoints = 400;      // of a drawn line
+constexpr double kMargin = 0.05;  // of the drawing's end that is cut off with the rest [s]
+
+Line arc(double from, double to, const std::function<double(double)>& radius) {
+  Line line;
+  for (int i = 0; i <= 60; ++i) {
+    const double share = i / 60.0;
+    const double angle = from + (to - from) * share;
+    line.push_back(radius(share) * Vector3d(std::cos(angle), 0.0, std::sin(angle)));
+  }
+  return line;
+}
+
+Line infinity() {
+  Line line;
+  for (int i = 0; i <= 80; ++i) {
+    const double angle = 2.0 * M_PI * i / 80.0;
+    line.push_back({0.5 * std::sin(angle), 0.0, 0.25 * std::sin(2.0 * angle)});
+  }
+  return line;
+}
+
+Line sCurve() {
+  Line line = arc(0.3 * M_PI, 1.5 * M_PI, [](double) { return 0.25; });
+  for (Vector3d& point : line)
+    point.z() += 0.25;
+  for (Vector3d point : arc(0.5 * M_PI, -0.7 * M_PI, [](double) { return 0.25; }))
+    line.push_back(point - Vector3d(0.0, 0.0, 0.25));
+  return line;
+}
+
+/// What there is to draw.
+std::map<std::string, Line> gestures() {
+  const auto corners = [](std::initializer_list<std::array<double, 2>> places) {
+    Line line;
+    for (const auto& [x, z] : places)
+      line.push_back({x, 0.0, z});
+    return line;
+  };
+  return {
+      {"arrow", corners({{-0.5, 0}, {0.5, 0}, {0.2, 0.3}, {0.5, 0}, {0.2, -0.3}})},
+      {"caret", corners({{-0.4, -0.4}, {0, 0.4}, {0.4, -0.4}})},
+      {"check", corners({{-0.4, 0}, {-0.15, -0.35}, {0.45, 0.45}})},
+      {"circle", arc(0.5 * M_PI, -1.5 * M_PI, [](double) { return 0.5; })},
+      {"hook", corners({{0.2, 0.5}, {0.2, -0.3}, {-0.1, -0.5}, {-0.3, -0.25}})},
+      {"infinity", infinity()},
+      {"s_curve", sCurve()},
+      {"spiral", arc(0.0, 5.0 * M_PI, [](double share) { return 0.08 + 0.42 * share; })},
+      {"square", corners({{-0.4, 0.4}, {0.4, 0.4}, {0.4, -0.4}, {-0.4, -0.4}, {-0.4, 0.4}})},
+      {"star",
+       corners(
+           {{-0.3, -0.45}, {0, 0.5}, {0.3, -0.45}, {-0.45, 0.15}, {0.45, 0.15}, {-0.3, -0.45}})},
+      {"triangle", corners({{0, 0.45}, {0.45, -0.4}, {-0.45, -0.4}, {0, 0.45}})},
+      {"zigzag", corners({{-0.5, 0.3}, {-0.15, -0.3}, {0.15, 0.3}, {0.5, -0.3}})},
+  };
+}
+
+/// `count` points at equal distances along a line.
+Line evenly(const Line& line, int count) {
+  std::vector<double> way = {0.0};
+  for (std::size_t i = 1; i < line.size(); ++i)
+    way.push_back(way.back() + (line[i] - line[i - 1]).norm());
+  Line result;
+  std::size_t piece = 1;
+  for (int i = 0; i < count; ++i) {
+    const double at = way.back() * i / (count - 1);
+    while (piece + 1 < way.size() && way[piece] < at)
+      ++piece;
+    const double share = (at - way[piece - 1]) / (way[piece] - way[piece - 1]);
+    result.push_back(line[piece - 1] + share * (line[piece] - line[piece - 1]));
+  }
+  return result;
+}
+
+/// How somebody draws, and every time a little differently.
+class Hand {
+ public:
+  explicit Hand(std::uint32_t seed) : random_(seed) {
+    size_ = uniform(0.25, 0.5);
+    slant_ = uniform(-0.3, 0.3);
+    aspect_ = uniform(0.75, 1.3);
+    heading_ = uniform(-0.25, 0.25);
+    roundness_ = uniform(0.01, 0.06);
+    speed_ = uniform(0.6, 1.4);
+    wobble_ = uniform(0.01, 0.04);
+  }
+
+  /// A drawing from time 0 on. @param duration of it [s].
+  Path draw(const Line& gesture, double* duration) {
+    Line line = round(evenly(distort(gesture), kPoints));
+    double length = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i)
+      length += (line[i] - line[i - 1]).norm();
+    const double time = length / speed_ * uniform(0.85, 1.15);
+    const double uneven = uniform(-0.3, 0.3), when = uniform(0.0, 2.0 * M_PI);
+    *duration = time;
+    return [=](double now) {
+      const double share = std::clamp(now / time, 0.0, 1.0);
+      // A soft beginning and end, and a pace that is not even.
+      const double soft = share - std::sin(2.0 * M_PI * share) / (2.0 * M_PI);
+      const double mixed = 0.5 * (share + soft);
+      const double way =
+          mixed + uneven / (2.0 * M_PI) * (std::sin(2.0 * M_PI * mixed + when) - std::sin(when));
+      const double at = std::clamp(way, 0.0, 1.0) * (kPoints - 1);
+      const auto index = std::min<std::size_t>(static_cast<std::size_t>(at), kPoints - 2);
+      const Vector3d& a = line[index];
+      return Vector3d(a + (at - static_cast<double>(index)) * (line[index + 1] - a));
+    };
+  }
+
+ private:
+  double uniform(double low, double high) {
+    return low + (high - low) * (random_() / 4294967296.0);
+  }
+
+  Line distort(const Line& gesture) {
+    const double size = size_ * uniform(0.9, 1.1);
+    const Eigen::Matrix3d turn =
+        (Eigen::AngleAxisd(heading_ + uniform(-0.1, 0.1), Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(uniform(-0.15, 0.15), Vector3d::UnitY()))
+            .toRotationMatrix();
+    const Vector3d place(uniform(0.9, 1.6), uniform(0.9, 1.6), uniform(1.0, 1.5));
+    // Waves along the line: nobody meets the corners.
+    Eigen::Matrix3d phases, amplitudes;
+    for (int i = 0; i < 9; ++i) {
+      phases(i) = uniform(0.0, 2.0 * M_PI);
+      amplitudes(i) = wobble_ * uniform(-1.0, 1.0);
+    }
+    Line line = evenly(gesture, kPoints);
+    for (int i = 0; i < kPoints; ++i) {
+      Vector3d& point = line[static_cast<std::size_t>(i)];
+      point.x() = aspect_ * point.x() + slant_ * point.z();
+      for (int wave = 0; wave < 3; ++wave) {
+        const double angle = 2.0 * M_PI * (wave + 1) * i / kPoints;
+        for (int axis = 0; axis < 3; ++axis)
+          point(axis) += amplitudes(axis, wave) * std::sin(angle + phases(axis, wave));
+      }
+      point = place + size * (turn * point);
+    }
+    return line;
+  }
+
+  /// Cuts the corners, as a moving hand does.
+  Line round(const Line& line) const {
+    const int reach = static_cast<int>(roundness_ * kPoints);
+    Line result;
+    for (int i = 0; i < kPoints; ++i) {
+      const int span = std::min({reach, i, kPoints - 1 - i});
+      Vector3d sum = Vector3d::Zero();
+      for (int j = i - span; j <= i + span; ++j)
+        sum += line[static_cast<std::size_t>(j)];
+      result.push_back(sum / (2 * span + 1));
+    }
+    return result;
+  }
+
+  std::mt19937 random_;
+  double size_, slant_, aspect_, heading_, roundness_, speed_, wobble_;
+};
+
+/// Has the tracker follow a drawing, and writes what it says.
+void writeTracked(const simulation::Description& description,
+                  const Path& drawing,
+                  double duration,
+                  std::uint32_t seed,
+                  const std::string& file) {
+  const Path path = [&](double time) { return drawing(time - kRest); };
+  Room room(description, {path}, {}, seed);
+  const std::vector<RoomImage> images = record(&room, duration + 2.0 * kRest);
+  const double lateness = medianLateness(images);
+  const auto estimator = tracking::makeEstimator(trueRig(description), {});
+  Table table(file, {"x", "y", "z", "t_ms"});
+  for (const RoomImage& image : images) {
+    estimator->add(image.camera, image.image);
+    while (const tracking::Snapshot* snapshot = estimator->next()) {
+      const double time = snapshot->time - lateness - kRest;
+      if (time < 0.0 || time > duration - kMargin || snapshot->leds.empty())
+        continue;
+      const Vector3d position = 1e3 * snapshot->leds[0].position;
+      table << position.x() << position.y() << position.z() << 1e3 * time;
+    }
+  }
+  table.close();
+}
+
+void measure(const Arguments& arguments) {
+  const simulation::Description description = simulation::readDescription(arguments.rig);
+  for (int person = arguments.first; person < arguments.first + arguments.sessions; ++person) {
+    const std::uint32_t seed = sessionSeed(arguments, person);
+    Hand hand(seed);
+    char name[32];
+    std::snprintf(name, sizeof name, "person_%03d", person + 1);
+    const std::filesystem::path folder = std::filesystem::path(arguments.output) / name;
+    std::filesystem::create_directories(folder);
+    for (const auto& [gesture, line] : gestures()) {
+      double duration = 0.0;
+      const Path drawing = hand.draw(line, &duration);
+      writeTracked(description, drawing, duration, seed, (folder / (gesture + ".csv")).string());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::monte_carlo
+
+int main(int argc, char** argv) {
+  return wiimote_tracker::monte_carlo::runProgram(
+      argc, argv,
+      "Twelve gestures, each drawn once by every made-up person (--sessions of them) and tracked; "
+      "--output is a folder for gesture_tool.",
+      wiimote_tracker::monte_carlo::measure);
+}

@@ -1,0 +1,82 @@
+// How well places all over the cube are known after a calibration, beside what the calibration says
+// of itself.
+#include "arguments.h"
+#include "calibrations.h"
+#include "table.h"
+
+#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::monte_carlo {
+namespace {
+
+/// The covariance of a measured place: of the calibration, and of the pixels' noise [m^2].
+Eigen::Matrix3d predicted(const PaperSession& session,
+                          const geometry::Rig& rig,
+                          const geometry::CalibrationUncertainty& calibration,
+                          const StillLed& led,
+                          const geometry::TriangulatedPoint& point) {
+  std::vector<std::size_t> cameras;  // of the rig, which can lack some
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    for (std::size_t j = 0; j < led.pixels.size(); ++j) {
+      if (led.pixels[j] && session.wave.cameras[j].name == rig.cameras[i].camera.name)
+        cameras.push_back(i);
+    }
+  }
+  const auto systematic = calibration.covarianceOf(point.position, cameras.data(), cameras.size());
+  return systematic ? Eigen::Matrix3d(*systematic + point.covariance)
+                    : Eigen::Matrix3d::Constant(std::nan(""));
+}
+
+void measurePlaces(const PaperSession& session,
+                   const geometry::Rig& rig,
+                   double pixel_stddev,
+                   int number,
+                   const std::string& method,
+                   Table* table) {
+  const geometry::CalibrationUncertainty calibration(rig);
+  geometry::TriangulationOptions options;
+  options.pixel_stddev = pixel_stddev;
+  for (const StillLed& led : session.known_places) {
+    const auto point = measure(session, rig, led, options);
+    if (!point)
+      continue;
+    const Eigen::Vector3d error = point->position - led.truth;
+    const Eigen::Matrix3d covariance = predicted(session, rig, calibration, led, *point);
+    *table << number << method << led.nominal.x() << led.nominal.y() << led.nominal.z()
+           << 1e3 * error.norm() << 1e3 * std::sqrt(covariance.trace())
+           << error.dot(covariance.inverse() * error) / 3.0;
+  }
+}
+
+void measureMap(const Arguments& arguments) {
+  const simulation::Description description = simulation::readDescription(arguments.rig);
+  std::vector<std::size_t> cameras;
+  for (std::size_t i = 0; i < description.cameras.size(); ++i)
+    cameras.push_back(i);
+  const double pixel_stddev = stillPixelStddev(description);
+  Table table(arguments.output, {"session", "method", "x_m", "y_m", "z_m", "error_mm",
+                                 "predicted_mm", "normalised_squared_error"});
+  for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
+    const PaperSession drawn =
+        drawPaperSession(description, cameras, sessionSeed(arguments, session));
+    measurePlaces(drawn, solveJointSquare(drawn), pixel_stddev, session, "square", &table);
+    measurePlaces(drawn, solveWaved(drawn.wave), pixel_stddev, session, "wave", &table);
+  }
+  table.close();
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::monte_carlo
+
+int main(int argc, char** argv) {
+  return wiimote_tracker::monte_carlo::runProgram(
+      argc, argv,
+      "Errors at 27 places all over the cube after a calibration by the square, and by square and "
+      "waved LED, beside the stated ones.",
+      wiimote_tracker::monte_carlo::measureMap);
+}

@@ -38,6 +38,7 @@ Births::Births(const geometry::Rig& rig,
       motion_(&options.motion),
       partners_(partners),
       associator_(rig, partners, associationOptions(options)),
+      known_(rig.cameras.size()),
       sights_(rig.cameras.size()),
       spots_(rig.cameras.size()),
       views_(rig.cameras.size()) {}
@@ -97,8 +98,7 @@ bool Births::collectViews(const std::vector<GroupCamera>& cameras,
     view.full = unexplained[camera].full;
     view.sights = sights_[camera].data();
     for (std::size_t spot = 0; hasSome(camera) && spot < unexplained[camera].count; ++spot) {
-      const auto sight =
-          geometry::sightFromPixel(cameras[camera].forRays(), unexplained[camera].pixels[spot]);
+      const auto& sight = sightOf(cameras[camera], camera, unexplained[camera], spot);
       if (!sight)
         continue;
       spots_[camera][view.count] = spot;
@@ -111,6 +111,20 @@ bool Births::collectViews(const std::vector<GroupCamera>& cameras,
   for (const std::size_t partner : partners_[newest])
     collect(partner);
   return true;
+}
+
+/// A spot without a partner is looked at again with every camera's next image.
+const std::optional<geometry::Sight>& Births::sightOf(const GroupCamera& camera,
+                                                      std::size_t index,
+                                                      const Unexplained& unexplained,
+                                                      std::size_t spot) {
+  const SpotKey& key = unexplained.keys[spot];
+  KnownSight& known = known_[index][key.spot];
+  if (known.image != key.image) {
+    known.image = key.image;
+    known.sight = geometry::sightFromPixel(camera.forRays(), unexplained.pixels[spot]);
+  }
+  return known.sight;
 }
 
 bool Births::isWelcome(const association::AssociatedPoint& point) const {

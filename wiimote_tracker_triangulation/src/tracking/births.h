@@ -11,6 +11,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
@@ -47,12 +50,23 @@ class Births {
   bool collectViews(const std::vector<GroupCamera>& cameras,
                     std::size_t newest,
                     const std::vector<Unexplained>& unexplained);
+  const std::optional<geometry::Sight>& sightOf(const GroupCamera& camera,
+                                                std::size_t index,
+                                                const Unexplained& unexplained,
+                                                std::size_t spot);
   bool isWelcome(const association::AssociatedPoint& point) const;
+
+  /// Of the spot at one place of an image.
+  struct KnownSight {
+    std::uint64_t image = std::numeric_limits<std::uint64_t>::max();  // none yet
+    std::optional<geometry::Sight> sight;
+  };
 
   TrackerOptions options_;
   const motion::MotionOptions* motion_;
   std::vector<std::vector<std::size_t>> partners_;
   association::ViewAssociator associator_;
+  std::vector<std::array<KnownSight, association::kMaximumSpots>> known_;  // of each camera
   std::vector<std::array<geometry::Sight, association::kMaximumSpots>> sights_;
   std::vector<std::array<std::size_t, association::kMaximumSpots>> spots_;  // of the sights
   std::vector<association::View> views_;

@@ -70,7 +70,7 @@ def carry_out(module, run, live):
     try:
         (module.live if live else module.run)(run)
     except Exception as error:  # the others go on, whatever happened in this one
-        run.failure = str(error) or type(error).__name__
+        run.failure = (str(error) or type(error).__name__) + stack.complaint(run)
         with open(run.file('failure.txt'), 'w') as file:
             traceback.print_exc(file=file)
     finally:

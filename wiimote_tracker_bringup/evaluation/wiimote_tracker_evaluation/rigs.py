@@ -34,14 +34,15 @@ def centred(description, scale):
     return with_leds(moved, [scale * np.array([0.0, 0.0, 0.1])])
 
 
-def with_leds(description, positions):
-    """The rig with these LEDs [m] and nothing else: led, led_2, ..., of the size of its first one."""
+def with_leds(description, positions, lit=True):
+    """The rig with LEDs at these places [m] and nothing else, like its first one; named led, led_b,
+    led_c, ..."""
     first = next(iter(description['leds'].values()))
     like = {key: first[key] for key in ('size', 'brightness') if key in first}
     changed = {key: value for key, value in description.items()
                if key not in ('board', 'people', 'reflections', 'drawings')}
-    changed['leds'] = {('led' if number == 0 else 'led_%d' % (number + 1)): dict(
-        like, position=[float(v) for v in position], lit=True)
+    changed['leds'] = {('led_' + chr(ord('a') + number) if number else 'led'): dict(
+        like, position=[float(v) for v in position], lit=lit)
         for number, position in enumerate(positions)}
     return changed
 

@@ -5,6 +5,7 @@ only; what a section launches has ended before the next begins.
 """
 
 import os
+import re
 import shutil
 import tempfile
 import time
@@ -70,6 +71,18 @@ def end(process):
     """Ends what start() started, in good order."""
     _launched.remove(process)
     _processes.stop(process)
+
+
+def complaint(run):
+    """What a node of this section said before it gave up, as an addition to another sentence; empty
+    when none did."""
+    try:
+        with open(run.file('nodes.log'), errors='replace') as file:
+            said = [line for line in file if 'FATAL' in line]
+    except OSError:
+        return ''
+    return '. A node said: ' + re.sub(r'\x1b\[\d*m|\[FATAL\]|\[[\d.]+\]:', '', said[-1]).strip() \
+        if said else ''
 
 
 def cores():

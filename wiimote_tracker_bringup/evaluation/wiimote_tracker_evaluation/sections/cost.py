@@ -1,0 +1,220 @@
+"""Cost: how much of a processor the tracker uses, and what load does to its latency."""
+
+import json
+import sys
+
+import numpy as np
+
+from wiimote_tracker_evaluation import charts, load, rigs, scene, stack, statistics
+from wiimote_tracker_evaluation.trace import Recorder
+
+NAME = 'cost'
+TITLE = 'Cost'
+
+SPEED = 1.0      # of every LED [m/s]
+BOX = 1.2        # through which it is waved [m]
+PLACES = ((0.9, 0.9, 0.9), (1.6, 1.6, 1.1), (0.9, 1.6, 1.3), (1.6, 0.9, 0.7))  # at first [m]
+# By number of cameras: LEDs, never fewer than before, and processes that do nothing but compute.
+QUICK = ((2, ((1, 0),)), (4, ((1, 0), (1, 2), (4, 0))))
+FULL = ((2, ((1, 0),)), (4, ((1, 0), (1, 1), (1, 2), (1, 4), (2, 0), (3, 0), (4, 0))),
+        (6, ((1, 0),)), (8, ((1, 0), (4, 0))))
+
+
+class Setting(object):
+    """What was measured. shares: of one core, by node, one value a second. own: from a report on the
+    device to the published point [s]."""
+
+    def __init__(self, cameras, leds, busy, shares, images, points, own):
+        self.cameras, self.leds, self.busy = cameras, leds, busy
+        self.shares, self.images, self.points, self.own = shares, images, points, own
+
+    def name(self):
+        return 'stack_%d_cameras_%d_leds%s' % (self.cameras, self.leds,
+                                         '_%d_busy' % self.busy if self.busy else '')
+
+    def words(self):
+        return '%d cameras, %d LED%s%s' % (
+            self.cameras, self.leds, '' if self.leds == 1 else 's',
+            ', %d busy process%s' % (self.busy, '' if self.busy == 1 else 'es')
+            if self.busy else '')
+
+    def drivers(self):
+        """One row per camera, one value a second [share of a core]."""
+        return np.array([share for name, share in self.shares.items() if name.endswith('/driver')])
+
+    def whole(self):
+        """Of drivers, tracker and calibration node together, one value a second."""
+        return sum(self.shares.values())
+
+
+def run(run):
+    rigs_wanted = QUICK if run.quick else FULL
+    seconds = 4.0 if run.quick else 15.0
+    of = sum(len(settings) for _, settings in rigs_wanted)
+    measured = []
+    for cameras, settings in rigs_wanted:
+        full_stack = FullStack(run, cameras)
+        for leds, busy in settings:
+            run.progress(0.9 * len(measured) / of, 1.0, '%d cameras, %d LEDs, %d busy processes'
+                         % (cameras, leds, busy))
+            measured.append(full_stack.measure(leds, busy, seconds))
+        full_stack.end()
+    tell(run, measured, measure_rooms(run), seconds)
+
+
+class FullStack(object):
+    """The whole system with so many cameras, and its rig as it truly is; no LED shines at first."""
+
+    def __init__(self, run, cameras):
+        self._run, self._number = run, cameras
+        description = rigs.with_leds(rigs.with_cameras(rigs.read(run.rig), cameras), PLACES, False)
+        description['seed'] = run.seed
+        path = run.file('%d_cameras_rig.yaml' % cameras)
+        rigs.write(path, description)
+        self._cameras, self._leds = list(description['cameras']), list(description['leds'])
+        stack.launch(run, 'evaluation/full_stack.launch', description=path, folder='{folder}',
+                     labels=','.join(self._leds))
+
+        # Not before there is a master's address: rospy reads it when it is imported.
+        import rospy
+        from wiimote_tracker_evaluation import true_rig
+        from wiimote_tracker_evaluation.conductor import Conductor
+        from wiimote_tracker_msgs.msg import RigCalibration
+        self._conductor = Conductor('led', None, stack.check)
+        self._conductor.wait_for_cameras(self._cameras)
+        self._rig = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
+        self._rig.publish(true_rig.true_rig(scene.read_scene(path), rigs.identities(description)))
+        self._processes = {node: load.process_of(node) for node in [
+            '/manager', '/calibration'] + ['/%s/driver' % camera for camera in self._cameras]}
+
+    def measure(self, leds, busy, seconds):
+        """What the nodes use while so many LEDs move, beside so many busy processes."""
+        import rospy
+        for number, label in enumerate(self._leds[:leds]):
+            self._conductor.wave(label, PLACES[number], BOX, SPEED, number + 1)
+        self._conductor.wait_for_leds(leds)
+        recorder = Recorder(self._run, self._cameras,
+                            '%d_%d_%d' % (self._number, leds, busy))
+        hogs = [stack.start(self._run, [sys.executable, '-c', 'while True: pass'])
+                for _ in range(busy)]
+        begin = rospy.get_time()
+        shares = load.measure(self._processes, seconds, stack.check)
+        end = rospy.get_time()
+        for hog in hogs:
+            stack.end(hog)
+        trace = recorder.read()
+        chosen = trace.between(begin, end)
+        images = np.sum((trace.exposures >= begin) & (trace.exposures < end)) / (end - begin)
+        return Setting(self._number, leds, busy, shares, images, np.sum(chosen) / (end - begin),
+                       (trace.published - trace.delivered)[chosen])
+
+    def end(self):
+        self._rig.unregister()
+        stack.stop()
+
+
+def measure_rooms(run):
+    """The tracker's core alone, in process: rows of the tracking benchmark."""
+    path = run.file('rooms.json')
+    run.compute([['wiimote_tracker_triangulation/benchmark_tracking', '--section', 'scale',
+                  '--runs', 3 if run.quick else 40, '--seed', run.seed, '--json', path]],
+                'the tracker alone, several rooms', 0.9, 1.0)
+    with open(path) as file:
+        return json.load(file)['scale']
+
+
+# --- What is told
+
+def tell(run, measured, rooms, seconds):
+    run.say(
+        'Processor time of the nodes, from `/proc/<pid>/stat`, while the whole system runs on the '
+        'simulated rig for %.0f s in each setting: one driver per camera, the tracker in its nodelet '
+        'manager, the calibration node. The simulation itself, the recorder and this program are not '
+        'counted, but they run on the same %d processor cores and take their share of the latency. '
+        'Every camera sends 100 images a second, less the lost ones; every LED moves at %.0f m/s. '
+        'Cameras beyond the rig\'s own stand between them. *Own latency*: from a report on the '
+        'virtual device to the point in another process, Bluetooth left out.'
+        % (seconds, stack.cores(), SPEED))
+    run.table('nodes', [
+        ('cameras', ''), ('leds', ''), ('busy_processes', ''), ('images', '1/s'), ('points', '1/s'),
+        ('driver_per_camera', '% of a core'), ('tracker', '% of a core'),
+        ('calibration', '% of a core'), ('all', '% of a core'), ('latency_median', 'ms'),
+        ('latency_p99', 'ms')], [
+            (s.cameras, s.leds, s.busy, round(s.images, 1), round(s.points, 1),
+             100 * s.drivers().mean(), 100 * s.shares['/manager'].mean(),
+             100 * s.shares['/calibration'].mean(), 100 * s.whole().mean(),
+             1e3 * np.median(s.own), 1e3 * np.quantile(s.own, 0.99)) for s in measured],
+        'Full stack. Points: messages on `/points`, each with all LEDs.')
+    for setting in measured:
+        figures_of(run, setting)
+    plot(run, measured)
+    rooms_of(run, rooms)
+    usual = next(s for s in measured if (s.cameras, s.leds, s.busy) == (4, 1, 0))
+    run.summary('**Cost**, simulated: with four Wiimotes and one LED all nodes together use %.0f %% '
+                'of one processor core, %.1f %% of it per camera\'s driver.'
+                % (100 * usual.whole().mean(), 100 * usual.drivers().mean()))
+
+
+def figures_of(run, setting):
+    name, words = setting.name(), setting.words()
+    headline = (setting.cameras, setting.leds, setting.busy) == (4, 1, 0)
+    run.figure(name + '_driver', 100 * setting.drivers().mean(), '% of a core', setting.cameras,
+               statistics.bootstrap(100 * setting.drivers(), np.mean, run.seed),
+               'driver, per camera, %s' % words, end_to_end=True, headline=headline)
+    for key, shares, what in (('tracker', setting.shares['/manager'], 'tracker'),
+                              ('all', setting.whole(), 'all nodes')):
+        low, high = statistics.bootstrap(100 * shares, np.mean, run.seed)
+        tick = 100 * load.TICK / len(shares)  # the kernel counts no finer
+        run.figure('%s_%s' % (name, key), 100 * shares.mean(), '% of a core', len(shares),
+                   (low - tick, high + tick),
+                   '%s, %s' % (what, words), end_to_end=True,
+                   headline=headline and key == 'all')
+    p99 = statistics.quantile(0.99)
+    own = 1e3 * setting.own
+    run.figure(name + '_latency_p99_ms', p99(own), 'ms', len(own),
+               statistics.bootstrap(statistics.blocks(own, 10), p99, run.seed),
+               'own latency, 99 %%, %s' % words, end_to_end=True)
+
+
+def plot(run, measured):
+    figure, (cost, latency) = charts.figure(1, 2, height=3.4)
+    idle = [s for s in measured if not s.busy]
+    for values, marker, label in (
+            ([(s.cameras, s) for s in idle if s.leds == 1], 'o', 'one LED'),
+            ([(s.cameras, s) for s in idle if s.leds == 4], 's', 'four LEDs')):
+        for part, color, text in ((lambda s: s.whole(), charts.INK, 'all nodes'),
+                                  (lambda s: s.shares['/manager'], charts.BLUE, 'tracker')):
+            cost.plot([n for n, _ in values], [100 * part(s).mean() for _, s in values],
+                      marker=marker, markersize=5, color=color,
+                      linestyle='-' if marker == 'o' else '--', label='%s, %s' % (text, label))
+    cost.set_xlabel('cameras')
+    cost.set_ylabel('processor [% of one core]')
+    cost.set_ylim(bottom=0.0)
+    cost.xaxis.get_major_locator().set_params(integer=True)
+    charts.key(cost, loc='upper left')
+    shown = [s for s in measured if (s.cameras, s.leds) == (4, 1)] + [
+        s for s in idle if s.cameras * s.leds == max(each.cameras * each.leds for each in idle)]
+    for setting, color in zip(shown, charts.COLORS):
+        charts.cumulative(latency, 1e3 * setting.own, color, setting.words())
+    latency.set_xscale('log')
+    latency.set_xlabel('own latency [ms]')
+    latency.set_ylabel('share of the points')
+    charts.key(latency, loc='lower right')
+    run.plot('cost', figure, 'Left: processor time against the number of cameras. Right: latency '
+             'without Bluetooth, idle and beside processes that do nothing but compute.')
+
+
+def rooms_of(run, rooms):
+    run.say('### The tracker alone\nIn process, in simulated time, without ROS and without drivers: '
+            'rooms of four cameras and four LEDs each, all in one tracker. *Load*: of one core in '
+            'real time.')
+    run.table('rooms', [('setting', ''), ('images', ''), ('time_per_image', 'µs'),
+                        ('load', '% of a core'), ('leds_tracked', '')],
+              [(row['name'], row['images'], row['us/image'], 100 * row['load'], row['leds'])
+               for row in rooms])
+    for row in rooms:
+        if 'at once' in row['name']:
+            cameras = int(row['name'].split()[0])
+            run.figure('core_%d_cameras_us_per_image' % cameras, row['us/image'], 'µs',
+                       row['images'], None, "the tracker's core, per image, %d cameras and as many "
+                       'LEDs' % cameras)

@@ -28,6 +28,8 @@ def parse(arguments):
         'on a real one; writes report.html, report.md, figures.json, tables and plots.')
     parser.add_argument('--rig', metavar='FILE',
                         help="description of the rig (default: that of the paper's Fig. 1)")
+    parser.add_argument('--led', metavar='FILE',
+                        help='description of your own LED, for the section distance')
     parser.add_argument('--sections', metavar='A,B', default=','.join(names),
                         help='only these, of: %s' % ', '.join(names))
     parser.add_argument('--quick', action='store_true', help='fewer repetitions, minutes in all')
@@ -45,6 +47,8 @@ def parse(arguments):
     options.sections = [name for name in names if name in chosen]
     if not os.path.isfile(options.rig):
         parser.error('there is no rig description %s' % options.rig)
+    if options.led and not os.path.isfile(options.led):
+        parser.error('there is no description of an LED %s' % options.led)
     if not 0 <= options.seed < 2 ** 31:
         parser.error('--seed must be within 0 and 2^31 - 1')
     options.rig, options.output = os.path.abspath(options.rig), os.path.abspath(options.output)
@@ -90,7 +94,7 @@ def evaluate(options):
         for module in modules:
             run = Run(module.NAME, module.TITLE, options.rig,
                       os.path.join(options.output, module.NAME), options.quick, options.seed,
-                      not options.live, progress.within)
+                      not options.live, progress.within, options.led)
             runs.append(run)
             run.failure = 'It was interrupted.'
             progress.begin(module.NAME, module.TITLE)

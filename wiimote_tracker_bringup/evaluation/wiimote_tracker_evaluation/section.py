@@ -43,16 +43,16 @@ class Run(object):
 
     quick: keep it short. seed: of everything random. rig: path of the rig's description. folder: for
     files of one's own; what table() and plot() write goes there, too. simulated: False when a person
-    leads a real rig.
+    leads a real rig. led: path of the description of the user's own LED, or None.
     """
 
     SHOWN_ROWS = 40  # a longer table is in the report only as a link
 
     def __init__(self, name, title, rig, folder, quick=False, seed=1, simulated=True,
-                 on_progress=lambda done, of, what: None):
+                 on_progress=lambda done, of, what: None, led=None):
         self.name, self.title = name, title
         self.quick, self.seed, self.rig, self.folder = quick, seed, rig, folder
-        self.simulated = simulated
+        self.simulated, self.led = simulated, led
         self.contents = []   # Text, Plot, Table, in their order
         self.figures = []
         self.summaries = []  # sentences for the head of the report

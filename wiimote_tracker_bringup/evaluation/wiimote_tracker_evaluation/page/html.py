@@ -31,8 +31,9 @@ table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabu
 caption { caption-side: bottom; text-align: left; padding-top: .4rem; max-width: 46rem; }
 th { text-align: left; font-weight: 600; border-bottom: 1.5px solid var(--ink); vertical-align: bottom; }
 td { border-bottom: 1px solid var(--line); vertical-align: top; }
-th, td { padding: .25rem .9rem .25rem 0; }
-.n { text-align: right; white-space: nowrap; }
+th, td { padding: .25rem .9rem .25rem 0; max-width: 24rem; }
+.n { text-align: right; }
+td.n { white-space: nowrap; }
 code { font-size: .9em; background: #f2f4f7; padding: 0 .2em; }
 @media print { body { max-width: none; padding: 0; font-size: 10.5pt; } nav { display: none; }
   h2, h3 { break-after: avoid; } figure, tr { break-inside: avoid; } a { color: inherit; } }

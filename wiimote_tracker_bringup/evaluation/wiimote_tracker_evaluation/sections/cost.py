@@ -136,15 +136,15 @@ def tell(run, measured, rooms, seconds):
         'virtual device to the point in another process, Bluetooth left out.'
         % (seconds, stack.cores(), SPEED))
     run.table('nodes', [
-        ('cameras', ''), ('leds', ''), ('busy_processes', ''), ('images', '1/s'), ('points', '1/s'),
-        ('driver_per_camera', '% of a core'), ('tracker', '% of a core'),
-        ('calibration', '% of a core'), ('all', '% of a core'), ('latency_median', 'ms'),
-        ('latency_p99', 'ms')], [
+        ('cameras', ''), ('LEDs', ''), ('busy_processes', ''), ('images', '1/s'), ('points', '1/s'),
+        ('driver_per_camera', '%'), ('tracker', '%'), ('calibration', '%'), ('all', '%'),
+        ('latency_median', 'ms'), ('latency_p99', 'ms')], [
             (s.cameras, s.leds, s.busy, round(s.images, 1), round(s.points, 1),
              100 * s.drivers().mean(), 100 * s.shares['/manager'].mean(),
              100 * s.shares['/calibration'].mean(), 100 * s.whole().mean(),
              1e3 * np.median(s.own), 1e3 * np.quantile(s.own, 0.99)) for s in measured],
-        'Full stack. Points: messages on `/points`, each with all LEDs.')
+        'Full stack; % of one processor core. Points: messages on `/points`, each with all '
+        'LEDs.')
     for setting in measured:
         figures_of(run, setting)
     plot(run, measured)

@@ -191,7 +191,7 @@ def fig6(run, results):
         draw_fig6(axes, measured, title)
     run.plot('fig6', figure, 'As Fig. 6: the circle fitted to all measured positions (red), where '
              'the measured position was when the LED crossed the positive x axis (blue crosses), and '
-             'the two angles between which these lie.')
+             'the two angles between which these lie; inside, the crossing larger.')
 
 
 def draw_fig6(axes, measured, title):
@@ -200,11 +200,22 @@ def draw_fig6(axes, measured, title):
     turn = np.linspace(0.0, 2.0 * np.pi, 200)
     axes.plot(centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn),
               color=charts.RED, linewidth=1.2)
-    for angle in (measured.angle.min(), measured.angle.max()):
-        axes.plot([0.0, 1.3 * RADIUS * np.cos(angle)], [0.0, 1.3 * RADIUS * np.sin(angle)],
-                  color=charts.SOFT, linewidth=0.8)
-    axes.plot(measured.at_crossing[:, 0], measured.at_crossing[:, 1], 'x', color=charts.BLUE,
-              markersize=6)
+    near = axes.inset_axes([0.2, 0.22, 0.42, 0.23])  # the crossing, larger
+    near.plot(centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn),
+              color=charts.RED, linewidth=1.2)
+    for part in (axes, near):
+        for angle in (measured.angle.min(), measured.angle.max()):
+            part.plot([0.0, 1.3 * RADIUS * np.cos(angle)], [0.0, 1.3 * RADIUS * np.sin(angle)],
+                      color=charts.SOFT, linewidth=0.8)
+        part.plot(measured.at_crossing[:, 0], measured.at_crossing[:, 1], 'x', color=charts.BLUE,
+                  markersize=5)
+    near.axhline(0.0, color=charts.INK, linewidth=0.8)
+    middle, reach = measured.at_crossing[:, :2].mean(axis=0), 0.12 * RADIUS
+    near.set_xlim(middle[0] - 1.85 * reach, middle[0] + 1.85 * reach)
+    near.set_ylim(middle[1] - reach, middle[1] + reach)
+    near.set_xticks([])
+    near.set_yticks([])
+    near.grid(False)
     axes.annotate('', xy=(1.4 * RADIUS, 0.0), xytext=(0.0, 0.0),
                   arrowprops=dict(arrowstyle='->', color=charts.INK, linewidth=0.8))
     axes.text(1.43 * RADIUS, 0.0, 'x', va='center')

@@ -18,7 +18,7 @@ sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
 
 from wiimote_tracker_evaluation import (charts, evaluation, load, programs, progress,  # noqa: E402
                                         results_table, rigs, scene, section, sections, statistics)
-from wiimote_tracker_evaluation.demo import Interrupted  # noqa: E402
+from wiimote_tracker_evaluation.interruption import Interrupted  # noqa: E402
 
 PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
 

@@ -3,15 +3,15 @@
 import argparse
 import os
 import shutil
-import signal
-import socket
 import sys
 import tempfile
 import time
 
 from wiimote_tracker_evaluation import bound, experiment, scene as scene_module
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.processes import ProcessEnded, Processes
+from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
+from wiimote_tracker_evaluation.processes import ProcessEnded, Processes, free_port
+from wiimote_tracker_evaluation.programs import package_file
 
 LED = 'led'
 CORNER_SEED, ALIGNMENT_SEED = 1, 2
@@ -23,10 +23,6 @@ CAMERA_RATE = 100.0     # images a second of one camera [Hz]
 
 RECORDED = (r'(.*)/ir_blobs|(.*)/camera_info|(.*)/imu/data_raw|(.*)/calibration/(rig|status)|'
             r'/points|/%s/point|/simulation/truth/(.*)|/tf|/tf_static|/diagnostics' % LED)
-
-
-class Interrupted(BaseException):
-    """The user wants to stop."""
 
 
 class Progress(object):
@@ -59,12 +55,6 @@ class Progress(object):
             self._pending = True
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(('localhost', 0))
-        return probe.getsockname()[1]
-
-
 def prepare_output(folder, cameras):
     """Makes the output folder and removes what an earlier run left there."""
     try:
@@ -80,12 +70,6 @@ def prepare_output(folder, cameras):
     except OSError as error:
         raise ExperimentError('cannot write to %s: %s; choose another folder with --output'
                         % (folder, error.strerror))
-
-
-def package_file(path):
-    """A file of this package, in the source, devel or install space."""
-    import rospkg
-    return os.path.join(rospkg.RosPack().get_path('wiimote_tracker_bringup'), path)
 
 
 def has_display(progress):
@@ -248,20 +232,12 @@ class Demo(object):
         return self._sentence
 
 
-def interrupt(number, frame):
-    # A second signal must not disturb the clearing up.
-    for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(each, signal.SIG_IGN)
-    raise Interrupted()
-
-
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--output', metavar='DIR', default='wiimote_tracker_demo',
                         help='folder for the results (default: ./wiimote_tracker_demo)')
     options = parser.parse_args(arguments)
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, interrupt)
+    raise_when_interrupted()
     try:
         demo = Demo(os.path.abspath(options.output))
         demo.run()

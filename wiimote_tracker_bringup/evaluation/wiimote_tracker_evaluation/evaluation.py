@@ -3,15 +3,15 @@
 import argparse
 import os
 import shutil
-import signal
 import sys
 import time
 import traceback
 
 from wiimote_tracker_evaluation import sections, stack
-from wiimote_tracker_evaluation.demo import Interrupted, interrupt, package_file
+from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
 from wiimote_tracker_evaluation.page import write_report
 from wiimote_tracker_evaluation.progress import Progress
+from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.section import Run
 
 REPORT_FILES = ('report.html', 'report.md', 'figures.json')
@@ -124,8 +124,7 @@ def evaluate(options):
 
 def main(arguments=None):
     options = parse(arguments)
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, interrupt)
+    raise_when_interrupted()
     try:
         return evaluate(options)
     except Interrupted:

@@ -3,6 +3,7 @@
 import ctypes
 import os
 import signal
+import socket
 import subprocess
 import time
 
@@ -12,6 +13,12 @@ PR_SET_CHILD_SUBREAPER = 36
 
 class ProcessEnded(Exception):
     """A process that was needed has ended; the text says which and where its output is."""
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(('localhost', 0))
+        return probe.getsockname()[1]
 
 
 def prctl(option, value):

@@ -1,4 +1,4 @@
-"""Programs that are run to their end, two at a time, and their tables."""
+"""Programs and files of packages: where they are, running them to their end, their tables."""
 
 import collections
 import os
@@ -12,6 +12,12 @@ from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.processes import prctl, PR_SET_PDEATHSIG
 
 AT_ONCE = 2
+
+
+def package_file(path):
+    """A file of this package, in the source, devel or install space."""
+    import rospkg
+    return os.path.join(rospkg.RosPack().get_path('wiimote_tracker_bringup'), path)
 
 
 def find_program(name):

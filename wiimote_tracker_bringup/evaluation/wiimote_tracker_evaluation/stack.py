@@ -10,9 +10,9 @@ import shutil
 import tempfile
 import time
 
-from wiimote_tracker_evaluation.demo import free_port
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.processes import Processes
+from wiimote_tracker_evaluation.processes import Processes, free_port
+from wiimote_tracker_evaluation.programs import package_file
 
 MASTER_DEADLINE = 30.0  # [s]
 
@@ -45,15 +45,13 @@ def master(log):
 
 
 def launch(run, file, **arguments):
-    """Starts a launch file of this package (a path within it, or a whole one) for a section; ends
+    """Starts a launch file of this package (its path within it) for a section; ends
     what the section has launched before. Returns a folder that is empty, for its files."""
-    import rospkg
     log = run.file('nodes.log')
     master(log)
     stop()
     folder = tempfile.mkdtemp(dir=_scratch)
-    path = file if os.path.isabs(file) else os.path.join(
-        rospkg.RosPack().get_path('wiimote_tracker_bringup'), file)
+    path = package_file(file)
     words = ['%s:=%s' % (name, str(value).replace('{folder}', folder))
              for name, value in sorted(arguments.items())]
     _launched.append(_processes.start('roslaunch', ['roslaunch', path] + words, log))

@@ -3,8 +3,8 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, experiment, programs, statistics
-from wiimote_tracker_evaluation.demo import package_file
 from wiimote_tracker_evaluation.light import SENSITIVITIES, detection_distance, read_led
+from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.scene import read_scene
 
 NAME = 'distance'
@@ -19,7 +19,7 @@ def run(run):
     sessions = 2 if run.quick else 20
     run.compute([['evaluate_distance', '--rig', run.rig, '--output', run.file('carried.csv'),
                   '--seed', run.seed, '--sessions', sessions]], 'carrying remotes away', 0.0, 0.9)
-    led = read_led(getattr(run, 'led', '') or package_file('evaluation/led.yaml'))
+    led = read_led(run.led or package_file('evaluation/led.yaml'))
     tell(run, led, programs.read_csv(run.file('carried.csv')))
 
 

@@ -5,6 +5,8 @@
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/gesture/error.h"
 #include "wiimote_tracker_triangulation/gesture/path_file.h"
+#include "wiimote_tracker_triangulation/identity/codes_file.h"
+#include "wiimote_tracker_triangulation/identity/schemes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -111,7 +113,39 @@ void readLight(Section* section, Shining* shining) {
   shining->lit = section->value<bool>("lit", shining->lit);
 }
 
-LedDescription readLed(const std::string& name, Section section) {
+/// A label of a file of codes, whose name counts from `folder`; or a word of chips.
+Blink readBlink(Section section, const std::filesystem::path& folder) {
+  Blink blink;
+  const std::string key = section.has("word") ? "word" : "codes";
+  try {
+    identity::BlinkCodes codes;
+    std::string label = "led";
+    if (section.has("word")) {
+      codes = identity::cyclicCodes({{label, section.value<std::string>("word")}},
+                                    section.number("chip", 0.001, 1.0), 0.0);
+    } else {
+      codes = identity::readBlinkCodes((folder / section.value<std::string>("codes")).string());
+      label = section.value<std::string>("label");
+    }
+    const auto code =
+        std::find_if(codes.codes.begin(), codes.codes.end(),
+                     [&](const identity::BlinkCode& other) { return other.label == label; });
+    if (code == codes.codes.end())
+      throw section.error("label", "must be one of those in the file of codes");
+    blink.waveform = code->waveform;
+    blink.period = section.number("period", codes.shortest_period, codes.longest_period,
+                                  0.5 * (codes.shortest_period + codes.longest_period));
+  } catch (const geometry::Error& error) {
+    throw section.error(key, std::string("cannot be used: ") + error.what());
+  }
+  blink.begin = section.number("begin", -1e6, 1e6, blink.begin);
+  section.refuseUnknown();
+  return blink;
+}
+
+LedDescription readLed(const std::string& name,
+                       Section section,
+                       const std::filesystem::path& folder) {
   LedDescription led;
   led.name = name;
   if (section.has("turns")) {
@@ -125,6 +159,8 @@ LedDescription readLed(const std::string& name, Section section) {
     led.carried_by = section.value<std::string>("carried_by", "");
   }
   readLight(&section, &led);
+  if (section.has("blink"))
+    led.blink = readBlink(section.section("blink"), folder);
   section.refuseUnknown();
   return led;
 }
@@ -227,6 +263,7 @@ Description readDescription(const std::string& path) {
   }
 
   Section file(root, path, "");
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   Description description;
   description.world_frame = file.value<std::string>("world_frame", description.world_frame);
   description.seed = static_cast<std::uint32_t>(file.number("seed", 0, 2147483647));
@@ -238,7 +275,7 @@ Description readDescription(const std::string& path) {
   std::set<std::string> names = {"board"};
   Section leds = file.section("leds");
   for (const auto& [name, section] : leds.entries())
-    description.leds.push_back(readLed(name, section));
+    description.leds.push_back(readLed(name, section, folder));
   takeNames(description.leds, leds, &names);
   if (file.has("people")) {
     Section people = file.section("people");
@@ -262,8 +299,7 @@ Description readDescription(const std::string& path) {
   if (file.has("drawings")) {
     Section drawings = file.section("drawings");
     for (const auto& [name, section] : drawings.entries())
-      description.drawings.emplace(name,
-                                   readDrawing(section, std::filesystem::path(path).parent_path()));
+      description.drawings.emplace(name, readDrawing(section, folder));
   }
   file.refuseUnknown();
   return description;

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
 #define WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
 
+#include "blink.h"
 #include "drawing.h"
 #include "led_motion.h"
 
@@ -46,6 +47,7 @@ struct LedDescription {
   std::optional<double> size;  ///< As of a Lamp [0..15].
   double brightness = 1.0;     ///< As of a Lamp [>= 0].
   bool lit = true;
+  std::optional<Blink> blink;  ///< While it is lit; nothing: it shines.
 };
 
 /// Somebody who stands or walks on the floor and hides what is behind them: an upright cylinder.

@@ -113,8 +113,11 @@ void Rig::expose(std::size_t number) {
   const double time = camera.next.exposure;
   lamps_.clear();
   for (const Led& led : leds_) {
-    if ((led.lit || led.motion.isDrawing(time)) && isInRoom(led))
-      lamps_.push_back({positionOf(led, time), led.description.size, led.description.brightness});
+    const std::optional<Blink>& blink = led.description.blink;
+    const double light = blink ? blink->light(time) : 1.0;
+    if ((led.lit || led.motion.isDrawing(time)) && isInRoom(led) && light > 0.0)
+      lamps_.push_back(
+          {positionOf(led, time), led.description.size, light * led.description.brightness});
   }
   if (board_)
     board_->addLamps(time, &lamps_);

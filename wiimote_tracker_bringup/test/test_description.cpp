@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace wiimote_tracker::simulation {
 namespace {
@@ -251,6 +252,48 @@ reflections:
   EXPECT_NE(complaint("leds:", "people: {led: {position: [1, 2, 0]}}\nleds:")
                 .find("people/led is the name of something else"),
             std::string::npos);
+}
+
+TEST_F(DescriptionFile, leds_blink_by_a_code_or_a_word) {
+  const std::string led = "led: {position: [1, 1, 0], size: 5, lit: false}";
+  const auto withBlink = [&](const std::string& blink) {
+    std::string text = kGood;
+    text.replace(text.find(led), led.size(), "led: {position: [1, 1, 0], blink: {" + blink + "}}");
+    return text;
+  };
+  const Blink word = *read(withBlink("word: '0111', chip: 0.02, begin: 0.5")).leds[0].blink;
+  EXPECT_DOUBLE_EQ(word.period, 0.08);
+  EXPECT_NEAR(word.light(0.51), 0.0, 1e-9);
+  EXPECT_NEAR(word.light(0.53), 1.0, 1e-9);
+  EXPECT_NEAR(word.light(0.52), 0.5, 1e-9) << "half of the exposure";
+  EXPECT_NEAR(word.light(0.51 + 7 * 0.08), 0.0, 1e-9);
+  EXPECT_NEAR(word.light(0.59 - 7 * 0.08), 0.0, 1e-9);
+
+  const std::string codes =
+      "codes: '" SIMULATION_FOLDER
+      "/../../wiimote_tracker_triangulation/config/blink_codes_paper.yaml', label: right_hand";
+  const Blink paper = *read(withBlink(codes + ", period: 0.15")).leds[0].blink;
+  EXPECT_DOUBLE_EQ(paper.period, 0.15);
+  EXPECT_NEAR(paper.light(0.028), 0.0, 1e-9) << "60 % in the middle";
+  EXPECT_NEAR(paper.light(0.032), 1.0, 1e-9);
+  EXPECT_NEAR(paper.light(0.118), 1.0, 1e-9);
+  EXPECT_NEAR(paper.light(0.122), 0.0, 1e-9);
+
+  for (const auto& [blink, key] : std::vector<std::pair<std::string, std::string>>{
+           {codes + ", period: 1.0", "period"},
+           {codes + "s", "label"},
+           {"word: '1111', chip: 0.02", "word"},
+           {"word: '0111'", "chip"},
+           {"codes: nowhere.yaml, label: a", "codes"},
+           {"word: '0111', chip: 0.02, at: 1", "at"}}) {
+    try {
+      read(withBlink(blink));
+      ADD_FAILURE() << blink;
+    } catch (const DescriptionError& error) {
+      EXPECT_NE(std::string(error.what()).find("leds/led/blink/" + key), std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 TEST_F(DescriptionFile, errors_name_file_key_and_reason) {

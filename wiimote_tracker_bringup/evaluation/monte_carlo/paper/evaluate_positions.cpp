@@ -27,8 +27,8 @@ const std::vector<std::string> kPointColumns = {
     "nominal_z", "true_x",  "true_y", "true_z",    "measured_x", "measured_y", "measured_z",
     "var_xx",    "var_xy",  "var_xz", "var_yy",    "var_yz",     "var_zz"};
 const std::vector<std::string> kTraceColumns = {
-    "session",  "cameras",  "case",         "ray_model",    "round",         "camera",
-    "center_u", "center_v", "difference_u", "difference_v", "origin_error_m"};
+    "session",  "cameras", "case",   "ray_model",    "round",        "camera",        "center_u",
+    "center_v", "true_u",  "true_v", "difference_u", "difference_v", "origin_error_m"};
 
 /// What is measured of a point, and how far to trust it [m, m^2].
 struct Measured {
@@ -216,12 +216,23 @@ class SessionWriter {
                   const principal_point::Trace& trace) {
     for (std::size_t round = 0; round < trace.rounds.size(); ++round) {
       const principal_point::Round& values = trace.rounds[round];
-      for (std::size_t i = 0; i < trace.cameras.size(); ++i)
+      for (std::size_t i = 0; i < trace.cameras.size(); ++i) {
+        const std::size_t camera = numberOf(trace.cameras[i]);
+        const geometry::Intrinsics& truth = session_.wave.cameras[camera].intrinsics;
         *traces_ << number_ << cameras_ << name << model_name << static_cast<int>(round)
-                 << static_cast<int>(i + 1) << values.principal_points[i].x()
-                 << values.principal_points[i].y() << values.differences[i].x()
-                 << values.differences[i].y() << values.origin_error;
+                 << static_cast<int>(camera + 1) << values.principal_points[i].x()
+                 << values.principal_points[i].y() << truth.cx << truth.cy
+                 << values.differences[i].x() << values.differences[i].y() << values.origin_error;
+      }
     }
+  }
+
+  /// Of a camera among those of the session, from 0.
+  std::size_t numberOf(const std::string& name) const {
+    std::size_t i = 0;
+    while (session_.wave.cameras[i].name != name)
+      ++i;
+    return i;
   }
 
   int number_;

@@ -19,52 +19,59 @@ constexpr double kWandLength = 0.5;    // [m]
 constexpr double kStampWander = 3e-4;  // of the driver's clock estimate [s]
 constexpr double kGravity = 9.81;
 
-/// Everything that the experiment wants to be seen.
-std::vector<Eigen::Vector3d> whatMatters() {
-  std::vector<Eigen::Vector3d> points = tenPoints();
-  for (const Eigen::Vector3d& center : circleCenters()) {
-    for (int i = 0; i < 36; ++i) {
-      const double angle = 2.0 * M_PI * i / 36.0;
-      points.push_back(center +
-                       kCircleRadius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0));
-    }
-  }
-  return points;
-}
-
-/// Whether each camera sees what it sees in the description.
-bool isAimed(const simulation::Description& description,
-             const std::vector<std::size_t>& described,
-             const std::vector<geometry::Camera>& cameras) {
-  for (const Eigen::Vector3d& point : whatMatters()) {
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-      if (description.cameras[described[i]].camera.sees(point) && !cameras[i].sees(point))
-        return false;
-    }
-  }
-  return true;
+/// Put somewhere, and not looked at yet.
+StillLed put(const Eigen::Vector3d& nominal, std::mt19937_64& random) {
+  return {nominal, placed(nominal, random), {}};
 }
 
 /// The mean of whole pixels, as a Wii Remote reports them.
-StillLed look(const Eigen::Vector3d& nominal,
-              const std::vector<geometry::Camera>& cameras,
-              double pixel_noise,
-              std::mt19937_64& random) {
-  StillLed led{nominal, placed(nominal, random), {}};
+void look(const std::vector<geometry::Camera>& cameras,
+          double pixel_noise,
+          std::mt19937_64& random,
+          StillLed* led) {
   std::normal_distribution<double> normal;
   for (const geometry::Camera& camera : cameras) {
-    led.pixels.emplace_back();
-    if (!camera.sees(led.truth))
+    led->pixels.emplace_back();
+    if (!camera.sees(led->truth))
       continue;
-    const Eigen::Vector2d exact = *camera.project(led.truth);
+    const Eigen::Vector2d exact = *camera.project(led->truth);
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     for (int i = 0; i < kImages; ++i) {
       const double u = std::round(exact.x() + pixel_noise * normal(random));
       sum += Eigen::Vector2d(u, std::round(exact.y() + pixel_noise * normal(random)));
     }
-    led.pixels.back() = sum / kImages;
+    led->pixels.back() = sum / kImages;
   }
-  return led;
+}
+
+/// Everything that the experiment wants to be seen.
+std::vector<StillLed> whatMatters(const std::vector<StillLed>& points) {
+  std::vector<StillLed> all = points;
+  for (const StillLed& led : points)
+    all.push_back({led.nominal, led.nominal, {}});
+  for (const Eigen::Vector3d& center : circleCenters()) {
+    for (int i = 0; i < 36; ++i) {
+      const double angle = 2.0 * M_PI * i / 36.0;
+      const Eigen::Vector3d place =
+          center + kCircleRadius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+      all.push_back({place, place, {}});
+    }
+  }
+  return all;
+}
+
+/// Whether each camera sees all that it ought to see by the description.
+bool isAimed(const simulation::Description& description,
+             const std::vector<std::size_t>& described,
+             const std::vector<geometry::Camera>& cameras,
+             const std::vector<StillLed>& wanted) {
+  for (const StillLed& led : wanted) {
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      if (description.cameras[described[i]].camera.sees(led.nominal) && !cameras[i].sees(led.truth))
+        return false;
+    }
+  }
+  return true;
 }
 
 geometry::Intrinsics lensFromBoard(const geometry::Intrinsics& truth,
@@ -99,13 +106,18 @@ PaperSession drawPaperSession(const simulation::Description& description,
   for (const std::size_t i : cameras)
     scene.cameras.push_back(description.cameras[i].camera.world_from_camera);
 
+  std::vector<StillLed> points;
+  for (const Eigen::Vector3d& point : tenPoints())
+    points.push_back(put(point, random));
+  const std::vector<StillLed> wanted = whatMatters(points);
+
   // Whether lenses suit can be seen without a wave.
   wave::WaveScene still = scene;
   still.duration = 0.0;
   std::optional<wave::SimulatedWave> aimed;
   for (int i = 0; i < kDraws && !aimed; ++i) {
     const wave::SimulatedWave drawn = wave::simulateWave(still, random());
-    if (isAimed(description, cameras, drawn.cameras))
+    if (isAimed(description, cameras, drawn.cameras, wanted))
       aimed = drawn;
   }
   if (!aimed)
@@ -124,18 +136,18 @@ PaperSession drawPaperSession(const simulation::Description& description,
 
   wave::WaveScene wand_scene = scene;
   wand_scene.length = kWandLength;
-  PaperSession session{scene,      wave::waveAgain(scene, *aimed, random()),
-                       wand_scene, wave::waveAgain(wand_scene, *aimed, random()),
-                       {},         {},
-                       {}};
+  const wave::SimulatedWave wave = wave::waveAgain(scene, *aimed, random());
+  const wave::SimulatedWave wand = wave::waveAgain(wand_scene, *aimed, random());
+  PaperSession session{scene, wave, wand_scene, wand, {}, points, {}};
   for (const geometry::Camera& camera : aimed->cameras)
     session.board_lenses.push_back(lensFromBoard(camera.intrinsics, description.pixel_noise,
                                                  static_cast<std::uint32_t>(random())));
-  for (const Eigen::Vector3d& point : tenPoints())
-    session.points.push_back(look(point, aimed->cameras, description.pixel_noise, random));
-  for (int i = 0; i < 27; ++i) {
-    const Eigen::Vector3d place = 0.5 * kSide * Eigen::Vector3d(i % 3, i / 3 % 3, i / 9);
-    session.known_places.push_back(look(place, aimed->cameras, description.pixel_noise, random));
+  for (int i = 0; i < 27; ++i)
+    session.known_places.push_back(
+        put(0.5 * kSide * Eigen::Vector3d(i % 3, i / 3 % 3, i / 9), random));
+  for (std::vector<StillLed>* leds : {&session.points, &session.known_places}) {
+    for (StillLed& led : *leds)
+      look(aimed->cameras, description.pixel_noise, random, &led);
   }
   return session;
 }

@@ -1,0 +1,82 @@
+"""What the paper's text says of its ten points, beside what simulated sessions give.
+
+Each claim speaks of a few sessions. So it is compared with what as many simulated sessions give,
+drawn again and again: the paper agrees when its number lies within the middle 95 % of that.
+"""
+
+import numpy as np
+
+from wiimote_tracker_evaluation import statistics
+from wiimote_tracker_evaluation.position_results import FOUR, TWO
+
+DRAWS = 4000
+PER_CASE = 2  # sessions of the paper
+
+
+class Claim(object):
+    """text: what the paper says. cameras, cases: of whose points. extreme: np.max or np.min over all
+    points of all its sessions. said [m]."""
+
+    def __init__(self, text, cameras, cases, extreme, said):
+        self.text, self.cameras, self.cases = text, cameras, cases
+        self.extreme, self.said = extreme, said
+
+    def simulated(self, results, ray_model, seed):
+        """Least, middle and largest of the middle 95 % of what so few sessions give [m]."""
+        random = np.random.RandomState(seed)
+        values = []
+        for case in self.cases:
+            errors = self.extreme(results.group(self.cameras, case, ray_model).from_nominal(),
+                                  axis=1)
+            values.append(errors[random.randint(0, len(errors), (DRAWS, PER_CASE))])
+        drawn = self.extreme(np.concatenate(values, axis=1), axis=1)
+        return np.percentile(drawn, [2.5, 50.0, 97.5])
+
+
+CLAIMS = (
+    Claim('two, C1 and C2: least error', TWO, ('C1', 'C2'), np.min, 0.15),
+    Claim('two, C1 and C2: largest error', TWO, ('C1', 'C2'), np.max, 0.50),
+    Claim('two, C3 to C5: largest error', TWO, ('C3', 'C4', 'C5'), np.max, 0.07),
+    Claim('four, C3: largest error', FOUR, ('C3',), np.max, 0.028),
+    Claim('four, C4: largest error', FOUR, ('C4',), np.max, 0.085),
+    Claim('four, C5: largest error', FOUR, ('C5',), np.max, 0.048),
+)
+
+
+def verdict(said, simulated):
+    """In words."""
+    low, _, high = simulated
+    if said < low:
+        return 'no: ours is larger'
+    if said > high:
+        return 'no: ours is smaller'
+    return 'yes'
+
+
+def worst_is_fourth_corner(results, ray_model):
+    """In how many of how many sessions with two cameras the largest error of C4 is on the edge of
+    the cube before the missing fourth camera (its points 4 and 8)."""
+    worst = np.argmax(results.group(TWO, 'C4', ray_model).from_nominal(), axis=1)
+    return int(np.isin(worst, [3, 7]).sum()), len(worst)
+
+
+def farthest_principal_point(results, ray_model):
+    """95 % of the corrected principal points are within this of (512, 384), each axis [px]; number
+    of cameras and corrections."""
+    rows = results.last_round(['C3', 'C4', 'C5'], ray_model)
+    off = np.maximum(np.abs(rows['center_u'] - 512.0), np.abs(rows['center_v'] - 384.0))
+    units = [off[rows['session'] == session] for session in np.unique(rows['session'])]
+    return (float(np.quantile(off, 0.95)),
+            statistics.bootstrap(units, statistics.quantile(0.95)), len(off))
+
+
+def board_error(results):
+    """Three standard deviations of a principal point from 12 views of the board [px], as the paper's
+    toolbox states its error limits; interval; number."""
+    rows = results.last_round(['C2'], 'calibrated')
+    error = np.stack([rows['center_u'] - rows['true_u'], rows['center_v'] - rows['true_v']], axis=1)
+    units = [error[rows['session'] == session] for session in np.unique(rows['session'])]
+
+    def limit(values):
+        return 3.0 * statistics.rms(values)
+    return limit(error), statistics.bootstrap(units, limit), error.size

@@ -1,0 +1,142 @@
+"""Plots of the ten points: cumulative errors (Fig. 7 and 9), cubes (Fig. 8), the correction's way
+(Fig. 2)."""
+
+import numpy as np
+
+from wiimote_tracker_evaluation import charts
+from wiimote_tracker_evaluation.position_results import CASES, FOUR, OURS, TWO
+
+CASE_COLORS = dict(zip(CASES, (charts.RED, charts.ORANGE, charts.BLUE, charts.GREEN,
+                               charts.PURPLE)))
+OUR_STYLES = {'square': (charts.BLUE, 'square alone'), 'wave': (charts.GREEN, 'square and waved LED'),
+              'wand': (charts.ORANGE, 'square and wand')}
+LIMITS = (0.1, 100.0)  # of the errors [cm]
+DRAWS_PER_POINT = 100
+
+TITLE_SIZE = 9.5
+
+# What the paper's text says of errors [cm]: number, share of the points that are not larger, words
+# and where they stand beside the mark.
+PAPER_MARKS = {
+    TWO: ((15.0, 0.0, 'paper: C1,\nC2 from 15', 'left', 6), (50.0, 1.0, 'to 50', 'left', -7),
+          (7.0, 1.0, 'C3 to C5\nto 7', 'left', -7)),
+    FOUR: ((2.8, 1.0, 'paper: C3 to 2.8', 'right', -4), (4.8, 1.0, 'C5 below 4.8', 'right', -15),
+           (8.5, 1.0, 'C4 to 8.5', 'left', -4))}
+
+
+def cumulative_errors(results, cameras, protocol):
+    """protocol: sessions of a case that are drawn alone, as the paper had two per case."""
+    figure, axes = charts.figure(1, 3, height=4.2, width=11.0, sharex=True, sharey=True)
+    for axis, model, title in ((axes[0], 'image_center', "the paper's, rays from the image centre"),
+                               (axes[1], 'calibrated', "the paper's, rays as calibrated")):
+        for case in CASES:
+            errors = 100.0 * results.group(cameras, case, model).from_nominal()
+            charts.cumulative(axis, errors.ravel(), CASE_COLORS[case], case)
+            if len(errors) >= max(protocol(case)) + 1:
+                charts.cumulative(axis, errors[list(protocol(case))].ravel(), CASE_COLORS[case],
+                                  linewidth=0.7, linestyle=':')
+        axis.set_title(title, fontsize=TITLE_SIZE)
+        mark_paper(axis, cameras)
+    charts.key(axes[0], loc='center left')
+    ours(axes[2], results, cameras)
+    for axis in axes:
+        axis.set_xscale('log')
+        axis.set_xlim(*LIMITS)
+        axis.set_xticks([0.1, 1.0, 10.0, 100.0])
+        axis.set_xticklabels(['0.1', '1', '10', '100'])
+        axis.set_xlabel('error [cm]')
+    axes[0].set_ylabel('share of the points')
+    return figure
+
+
+def mark_paper(axis, cameras):
+    for number, share, words, side, height in PAPER_MARKS[cameras]:
+        axis.plot([number], [share], 'D', color=charts.INK, markersize=5, clip_on=False, zorder=5)
+        axis.annotate(words, (number, share), xytext=(6 if side == 'left' else -6, height),
+                      textcoords='offset points', ha=side, va='top' if height < 0 else 'bottom',
+                      fontsize=7.5, color=charts.INK, zorder=6,
+                      bbox={'facecolor': 'white', 'edgecolor': 'none', 'alpha': 0.75, 'pad': 0.5})
+
+
+def ours(axis, results, cameras):
+    best = 100.0 * results.group(cameras, 'C5', 'calibrated').from_truth()
+    charts.cumulative(axis, best.ravel(), charts.PURPLE, "the paper's C5",
+                      linewidth=1.0)
+    remapped = 100.0 * results.group(cameras, 'C1_remapped', 'image_center').from_truth()
+    charts.cumulative(axis, remapped.ravel(), charts.RED, 'C1, corrected volume',
+                      linewidth=1.0)
+    for method in OURS:
+        color, words = OUR_STYLES[method]
+        charts.cumulative(axis, 100.0 * results.group(cameras, method).from_truth().ravel(), color,
+                          words)
+    for method in OURS:
+        color, words = OUR_STYLES[method]
+        charts.cumulative(axis, 100.0 * bound_sample(results, cameras, method), color,
+                          linewidth=0.9, linestyle='--')
+    axis.set_title('ours, from where the LED was', fontsize=TITLE_SIZE)
+    charts.key(axis, loc='lower right', extra=[('--', 'bound of that colour')])
+
+
+def bound_sample(results, cameras, method):
+    """Errors as they would be distributed at the Cramér-Rao bound [m]."""
+    covariance = results.group(cameras, 'bound_' + method).covariance.reshape(-1, 3, 3)
+    covariance = covariance[np.isfinite(covariance).all(axis=(1, 2))]
+    root = np.linalg.cholesky(covariance)
+    normal = np.random.RandomState(1).randn(len(root), 3, DRAWS_PER_POINT)
+    return np.linalg.norm(root @ normal, axis=1).ravel()
+
+
+def cubes(results, session):
+    """The ideal cube, C2's and C4's, of one session with two cameras, from above and from the side:
+    the corners as they were measured, with rays from the image centre."""
+    figure, axes = charts.figure(1, 2, height=4.4, width=9.0)
+    for axis, (across, up), names in ((axes[0], (0, 1), 'xy'), (axes[1], (0, 2), 'xz')):
+        for case, color, style, words in (
+                (None, charts.RED, '--', 'ideal'),
+                ('C2', charts.GREEN, '-', 'C2, not corrected'),
+                ('C4', charts.BLUE, '-', 'C4, corrected in 14 rounds')):
+            group = results.group(TWO, case or 'C2', 'image_center')
+            corners = (group.nominal if case is None else group.measured)[session, :8]
+            for number, (a, b) in enumerate(EDGES):
+                axis.plot(corners[[a, b], across], corners[[a, b], up], style, color=color,
+                          linewidth=1.2, label=words if number == 0 else None)
+        axis.set_aspect('equal')
+        axis.set_xlabel('%s [m]' % names[0])
+        axis.set_ylabel('%s [m]' % names[1])
+    axes[0].set_title('from above', fontsize=TITLE_SIZE)
+    axes[1].set_title('from the side', fontsize=TITLE_SIZE)
+    charts.key(axes[1], loc='center')
+    return figure
+
+
+EDGES = ([(i, (i + 1) % 4) for i in range(4)] + [(4 + i, 4 + (i + 1) % 4) for i in range(4)]
+         + [(i, i + 4) for i in range(4)])
+
+
+def correction(results, session):
+    """Round by round, C3 of one session with two cameras, both models of the rays."""
+    figure, (way, error) = charts.figure(1, 2, height=3.6, width=9.0)
+    for model, style, words in (('image_center', '-', 'rays from the image centre'),
+                                ('calibrated', '--', 'rays as calibrated')):
+        cameras = results.trace(TWO, 'C3', model, session)
+        for camera, color in zip(cameras, (charts.BLUE, charts.ORANGE)):
+            if model == 'image_center':
+                way.plot(camera['difference_u'], camera['difference_v'], 'o-', color=color,
+                         markersize=3, label='camera %d' % camera['camera'][0])
+                way.annotate('before', (camera['difference_u'][0], camera['difference_v'][0]),
+                             xytext=(8, -9), textcoords='offset points', fontsize=8, color=color)
+        error.plot(cameras[0]['round'], 1e3 * cameras[0]['origin_error_m'], style + 'o',
+                   color=charts.INK, markersize=3, label=words)
+    way.plot([0.0], [0.0], '+', color=charts.INK, markersize=9)
+    way.set_xlabel('difference u [px]')
+    way.set_ylabel('difference v [px]')
+    way.set_title('ideal less measured origin, rays from the image centre', fontsize=TITLE_SIZE)
+    charts.key(way)
+    error.set_yscale('log')
+    error.set_xlabel('round')
+    error.set_ylabel('error of the origin [mm]')
+    error.set_title('its distance', fontsize=TITLE_SIZE)
+    error.set_yticks([1, 10, 100])
+    error.set_yticklabels(['1', '10', '100'])
+    charts.key(error)
+    return figure

@@ -1,0 +1,97 @@
+"""What the program evaluate_positions measured, by cameras, method and model of the rays."""
+
+import os
+
+import numpy as np
+
+from wiimote_tracker_evaluation.programs import read_csv
+
+CASES = ('C1', 'C2', 'C3', 'C4', 'C5')
+OURS = ('square', 'wave', 'wand')
+TWO, FACING, FOUR = '1 2', '1 3', '1 2 3 4'  # cameras, as the tables name them
+POINTS = 10
+
+
+class Group(object):
+    """One method in all sessions: arrays of sessions x points x 3 [m]; covariance, sessions x points
+    x 3 x 3 [m^2], NaN where none is stated. Sessions that could not be solved are NaN."""
+
+    def __init__(self, nominal, true, measured, covariance):
+        self.nominal, self.true, self.measured = nominal, true, measured
+        self.covariance = covariance
+
+    def from_nominal(self):
+        """Distance from where the LED was meant to be, as the paper measured it: sessions that were
+        solved x points [m]."""
+        return solved(np.linalg.norm(self.measured - self.nominal, axis=2))
+
+    def from_truth(self):
+        """Distance from where the LED was [m]."""
+        return solved(np.linalg.norm(self.measured - self.true, axis=2))
+
+    def unsolved(self):
+        return int(np.isnan(self.measured).any(axis=(1, 2)).sum())
+
+    def stated(self):
+        """Mean square error that the covariances foretell, sessions x points [m^2]."""
+        return np.trace(self.covariance, axis1=2, axis2=3)
+
+    def normalised(self):
+        """Squared errors in units of the covariances that are stated; 3 on average when honest."""
+        error = self.measured - self.true
+        whitened = np.linalg.solve(self.covariance, error[..., None])[..., 0]
+        return solved((error * whitened).sum(axis=2))
+
+
+def solved(values):
+    return values[~np.isnan(values).any(axis=1)]
+
+
+class Results(object):
+    """sessions: how many."""
+
+    def __init__(self, folders):
+        points = [read_csv(os.path.join(folder, 'points.csv')) for folder in folders]
+        traces = [read_csv(os.path.join(folder, 'traces.csv')) for folder in folders]
+        self.points = {name: np.concatenate([part[name] for part in points])
+                       for name in points[0]}
+        self.traces = {name: np.concatenate([part[name] for part in traces])
+                       for name in traces[0]}
+        self.sessions = len(np.unique(self.points['session']))
+
+    def has(self, cameras):
+        return bool((self.points['cameras'] == cameras).any())
+
+    def group(self, cameras, method, ray_model='calibrated'):
+        chosen = ((self.points['cameras'] == cameras) & (self.points['method'] == method)
+                  & (self.points['ray_model'] == ray_model))
+
+        def triple(name):
+            return np.stack([self.points['%s_%s' % (name, axis)][chosen] for axis in 'xyz'],
+                            axis=1).reshape(-1, POINTS, 3)
+
+        covariance = np.stack([
+            self.points['var_' + ''.join(sorted(pair))][chosen]
+            for pair in ('xx', 'xy', 'xz', 'yx', 'yy', 'yz', 'zx', 'zy', 'zz')], axis=1)
+        return Group(triple('nominal'), triple('true'), triple('measured'),
+                     covariance.reshape(-1, POINTS, 3, 3))
+
+    def trace(self, cameras, case, ray_model, session):
+        """Rounds of one correction, by camera: arrays by name of the table's column."""
+        chosen = ((self.traces['cameras'] == cameras) & (self.traces['case'] == case)
+                  & (self.traces['ray_model'] == ray_model) & (self.traces['session'] == session))
+        numbers = np.unique(self.traces['camera'][chosen])
+        return [{name: values[chosen & (self.traces['camera'] == number)]
+                 for name, values in self.traces.items()} for number in numbers]
+
+    def last_round(self, cases, ray_model):
+        """Rows of the traces after the last round of each correction, as arrays by name."""
+        traces = self.traces
+        chosen = np.isin(traces['case'], cases) & (traces['ray_model'] == ray_model)
+        last = np.zeros(len(chosen), dtype=bool)
+        keys = list(zip(traces['session'], traces['cameras'], traces['case'], traces['camera']))
+        latest = {}
+        for row in np.flatnonzero(chosen):  # rounds are in their order
+            latest[keys[row]] = row
+        last[list(latest.values())] = True
+        return {name: values[last] for name, values in traces.items()}

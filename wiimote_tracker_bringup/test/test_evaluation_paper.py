@@ -1,0 +1,182 @@
+"""Positions and circles of the evaluation, from tables that are made up: known errors must come out
+as the figures, and larger ones as larger."""
+
+import csv
+import os
+import sys
+
+import numpy as np
+import pytest
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
+
+from wiimote_tracker_evaluation import position_claims as claims  # noqa: E402
+from wiimote_tracker_evaluation.position_results import (  # noqa: E402
+    CASES, FACING, FOUR, OURS, TWO, Results)
+from wiimote_tracker_evaluation.section import Run, Table  # noqa: E402
+from wiimote_tracker_evaluation.sections import circles, positions  # noqa: E402
+
+SESSIONS = 10
+PLACED = 0.01       # of the LED beside its place, along x [m]
+CASE_ERROR = 0.05   # of the paper's cases, along y [m]
+BOUND_STDDEV = 0.004  # per axis [m]
+POINT_COLUMNS = (['session', 'cameras', 'method', 'ray_model', 'point']
+                 + ['%s_%s' % (name, axis) for name in ('nominal', 'true', 'measured')
+                    for axis in 'xyz']
+                 + ['var_' + axes for axes in ('xx', 'xy', 'xz', 'yy', 'yz', 'zz')])
+TRACE_COLUMNS = ['session', 'cameras', 'case', 'ray_model', 'round', 'camera', 'center_u',
+                 'center_v', 'true_u', 'true_v', 'difference_u', 'difference_v', 'origin_error_m']
+
+
+@pytest.fixture(autouse=True)
+def undrawn(monkeypatch):
+    """Drawing would take most of the time; it is looked at where the whole evaluation is run."""
+    for name in ('cumulative_errors', 'cubes', 'correction'):
+        monkeypatch.setattr(positions.plots, name, lambda *data: None)
+    monkeypatch.setattr(circles, 'plot', lambda *data: None)
+    monkeypatch.setattr(Run, 'plot', lambda *data: None)
+
+
+def write_csv(path, columns, rows):
+    with open(path, 'w', newline='') as file:
+        csv.writer(file).writerows([columns] + rows)
+
+
+def point_rows(session, cameras, method, model, error, variance):
+    """Ten points in a row; error: along y, of every point [m]; None: not measured."""
+    rows = []
+    for point in range(1, 11):
+        nominal = np.array([0.1 * point, 1.0, 2.0 * (point % 2)])
+        true = nominal + [PLACED, 0.0, 0.0]
+        measured = [np.nan] * 3 if error is None else list(true + [0.0, error, 0.0])
+        rows.append([session, cameras, method, model, point] + list(nominal) + list(true) + measured
+                    + [variance, 0.0, 0.0, variance, 0.0, variance])
+    return rows
+
+
+def make_results(folder, our_error):
+    """our_error: of every point of square, wave and wand, up or down by session [m]."""
+    points, traces = [], []
+    for session in range(SESSIONS):
+        for cameras in (TWO, FACING, FOUR):
+            for model in ('calibrated', 'image_center'):
+                for case in CASES + ('C1_remapped',):
+                    points += point_rows(session, cameras, case, model, CASE_ERROR, np.nan)
+                for case in CASES:
+                    for number in range(15 if case in ('C3', 'C4', 'C5') else 1):
+                        for camera in range(1, 3):
+                            traces.append([session, cameras, case, model, number, camera, 512 + number,
+                                           384, 520, 388, 10.0 * 0.75 ** number, -1.0,
+                                           0.1 * 0.75 ** number])
+            if cameras == FACING:
+                continue
+            for method in OURS + ('square_remapped',):
+                points += point_rows(session, cameras, method, 'calibrated', our_error,
+                                     BOUND_STDDEV ** 2)
+            for method in OURS:
+                points += point_rows(session, cameras, 'bound_' + method, 'calibrated', None,
+                                     BOUND_STDDEV ** 2)
+    os.makedirs(str(folder))
+    write_csv(os.path.join(str(folder), 'points.csv'), POINT_COLUMNS, points)
+    write_csv(os.path.join(str(folder), 'traces.csv'), TRACE_COLUMNS, traces)
+    return Results([str(folder)])
+
+
+def told(section, tmp_path, *data):
+    """A section's run, and its figures by name."""
+    run = Run(section.NAME, section.TITLE, '', str(tmp_path / 'section'))
+    section.tell(run, *data)
+    return run, {figure.name: figure for figure in run.figures}
+
+
+def test_figures_are_the_errors_that_were_made(tmp_path):
+    run, figures = told(positions, tmp_path, make_results(tmp_path / 'good', 0.006))
+    # The paper measures from where the LED was meant to be, we from where it was.
+    assert figures['two_C3_image_center'].value == pytest.approx(
+        1e3 * np.hypot(CASE_ERROR, PLACED))
+    assert figures['four_wand'].value == pytest.approx(6.0)
+    assert figures['four_wand_over_bound'].value == pytest.approx(
+        0.006 / (np.sqrt(3.0) * BOUND_STDDEV))
+    assert figures['four_wand_stated'].value == pytest.approx(
+        (0.006 / BOUND_STDDEV) ** 2 / 3.0)
+    # The principal points end 14 px from the middle; the board errs by (8, 4) px.
+    assert figures['corrected_principal_point_off'].value == pytest.approx(14.0)
+    assert figures['board_principal_point_error'].value == pytest.approx(
+        3.0 * np.sqrt((64.0 + 16.0) / 2.0))
+    table = next(each for each in run.contents
+                 if isinstance(each, Table) and each.name == 'claims')
+    # 5.1 cm are above the paper's 2.8 and 4.8, and below its 7 and 8.5.
+    verdicts = dict((row[0], row[3]) for row in table.rows)
+    assert verdicts['four, C3: largest error'] == 'no: ours is larger'
+    assert verdicts['two, C3 to C5: largest error'] == 'no: ours is smaller'
+
+
+def test_a_worse_method_shows(tmp_path):
+    _, good = told(positions, tmp_path, make_results(tmp_path / 'good', 0.006))
+    _, bad = told(positions, tmp_path, make_results(tmp_path / 'bad', 0.012))
+    for name in ('four_wand', 'four_wand_over_bound', 'two_square'):
+        assert bad[name].value == pytest.approx(2.0 * good[name].value)
+        assert bad[name].interval[0] > good[name].interval[1]
+    assert bad['four_wand_stated'].value == pytest.approx(4.0 * good['four_wand_stated'].value)
+
+
+def test_a_claim_is_compared_with_what_as_few_sessions_give(tmp_path):
+    results = make_results(tmp_path / 'all', 0.006)
+    # Errors of the sessions 1, 2, ..., 10 cm: the largest of two draws k with probability
+    # (2 k - 1) / 100, so that 2.5 % lie below 2 and 97.5 % at 10.
+    group = results.points['method'] == 'C3'
+    results.points['measured_y'][group] = 1.0 + 0.01 * (1 + results.points['session'][group])
+    results.points['measured_x'][group] = results.points['nominal_x'][group]
+    low, middle, high = claims.Claim('', FOUR, ('C3',), np.max, 0.0).simulated(
+        results, 'calibrated', 1)
+    assert (low, middle, high) == pytest.approx((0.02, 0.08, 0.10))
+    assert claims.verdict(0.05, (low, middle, high)) == 'yes'
+    assert claims.verdict(0.019, (low, middle, high)) == 'no: ours is larger'
+    assert claims.verdict(0.11, (low, middle, high)) == 'no: ours is smaller'
+
+
+def test_a_session_without_a_result_is_counted_and_left_out(tmp_path):
+    results = make_results(tmp_path / 'all', 0.006)
+    lost = (results.points['method'] == 'wand') & (results.points['session'] == 3)
+    results.points['measured_z'][lost] = np.nan
+    group = results.group(FOUR, 'wand')
+    assert group.unsolved() == 1
+    assert group.from_truth().shape == (SESSIONS - 1, 10)
+    _, figures = told(positions, tmp_path, results)
+    assert figures['four_wand'].samples == SESSIONS - 1
+    assert figures['four_wand_over_bound'].value == pytest.approx(
+        0.006 / (np.sqrt(3.0) * BOUND_STDDEV))
+
+
+def made_laps(radial):
+    """A circle that is measured too wide by `radial`, and 1 mm too high [m]; one point is missing in
+    every lap."""
+    columns = {name: [] for name in (
+        'session', 'cameras', 'method', 'circle', 'speed_m_per_s', 'time_s', 'true_x', 'true_y',
+        'true_z', 'measured_x', 'measured_y', 'measured_z', 'radial_error', 'height_error')}
+    for session in range(4):
+        for cameras in (2, 4):
+            for method, _, _ in circles.METHODS:
+                for speed in (0.5, 1.0, 2.0):
+                    for step in range(10):
+                        missing = step == 0
+                        row = [session, cameras, method, 1, speed, 0.05 * step, 1, 1, 1]
+                        row += [np.nan] * 5 if missing else [1, 1, 1, radial, 0.001]
+                        for name, value in zip(columns, row):
+                            columns[name].append(value)
+    return {name: np.array(values) for name, values in columns.items()}
+
+
+def test_circles_are_the_errors_that_were_made(tmp_path):
+    run, figures = told(circles, tmp_path, made_laps(0.003))
+    assert figures['two_wand_tracks_radial_1'].value == pytest.approx(3.0)
+    assert figures['two_wand_tracks_height_0_5'].value == pytest.approx(1.0)
+    table = next(each for each in run.contents
+                 if isinstance(each, Table) and each.name == 'errors')
+    assert all(row[-1] == pytest.approx(10.0) for row in table.rows)
+
+
+def test_worse_circles_show(tmp_path):
+    _, worse = told(circles, tmp_path, made_laps(0.006))
+    assert worse['two_wand_tracks_radial_1'].value == pytest.approx(6.0)

@@ -1,0 +1,88 @@
+"""Two to eight cameras."""
+
+import numpy as np
+
+from wiimote_tracker_evaluation import charts, scene, statistics
+from wiimote_tracker_evaluation.ours.columns import per_session, read_shared, shared, where
+
+PROGRAM = 'evaluate_cameras'
+METHODS = (('most_likely', 'single points, most likely', charts.BLUE),
+           ('mean_closest', 'single points, mean of closest points (paper)', charts.RED),
+           ('tracks_1_m_per_s', 'an LED at 1 m/s, followed', charts.GREEN))
+MIDDLE = np.array([1.25, 1.25, 1.0])  # which the ring of evaluate_cameras looks at [m]
+
+
+def commands(run):
+    return shared(run, PROGRAM, 6 if run.quick else 80)
+
+
+def tell(run):
+    table = read_shared(run, PROGRAM, 'Errors with two to eight cameras.')
+    counts = [int(count) for count in sorted(set(table['cameras']))]
+    run.say(
+        '### Two to eight cameras\n\n'
+        'On a ring around the cube, exactly known; two stand at a right angle. Single points: one '
+        'image of each camera, anywhere in the cube, pixels rounded. The bound is that of Cramér and '
+        'Rao, computed here by a camera model that shares no code with the tracker.')
+    bounds = ring_bounds(run.rig, table, counts)
+    figure, axes = charts.figure()
+    for method, label, color in METHODS:
+        rms = [statistics.rms(np.concatenate(units_of(table, count, method))) for count in counts]
+        axes.plot(counts, rms, 'o-', markersize=4, color=color, label=label)
+    axes.plot(counts, bounds, '--', color=charts.SOFT, label='bound of single points')
+    axes.set_xlabel('cameras')
+    axes.set_ylabel('RMS error [mm]')
+    axes.set_ylim(0.0, None)
+    axes.set_xticks(counts)
+    charts.key(axes, 'upper right')
+    run.plot('cameras', figure, 'RMS error over the number of cameras, the cameras exactly known.')
+    for count in (2, 4, 8):
+        for method, label, _ in METHODS:
+            units = units_of(table, count, method)
+            run.figure('%s_%d_cameras' % (method, count), statistics.rms(np.concatenate(units)), 'mm',
+                       len(units), statistics.bootstrap(units, statistics.rms, run.seed),
+                       'RMS error with %d cameras, %s' % (count, label))
+        run.figure('bound_%d_cameras' % count, bounds[counts.index(count)], 'mm', 1,
+                   note='Cramér-Rao bound of single points with %d cameras' % count)
+
+
+def units_of(table, count, method):
+    return per_session(table, 'error_mm', where(table, cameras=count, method=method))
+
+
+def ring_bounds(rig, table, counts):
+    """Root mean squared bound of the very points that were measured [mm], for each count."""
+    described = scene.read_scene(rig)
+    bounds = []
+    for count in counts:
+        chosen = where(table, cameras=count, method='most_likely')
+        points = np.stack([table[name][chosen] for name in ('x_m', 'y_m', 'z_m')], axis=1)
+        points = points[np.isfinite(table['error_mm'][chosen])]
+        bounds.append(1e3 * point_bound(ring(described, count), described.effective_noise(), points))
+    return bounds
+
+
+def ring(described, count):
+    """The cameras that evaluate_cameras puts around the cube."""
+    first = described.cameras[0].position - MIDDLE
+    step = np.pi / 2.0 if count == 2 else 2.0 * np.pi / count
+    cameras = []
+    for i in range(count):
+        like = described.cameras[i % len(described.cameras)]
+        c, s = np.cos(step * i), np.sin(step * i)
+        position = MIDDLE + np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ first
+        cameras.append(scene.Camera('', like.parameters, scene.look_at(position, MIDDLE), position,
+                                    like.size))
+    return cameras
+
+
+def point_bound(cameras, noise, points):
+    """Root mean square over the points of the least standard deviation of a position [m]."""
+    step = 1e-5
+    information = np.zeros((len(points), 3, 3))
+    for camera in cameras:
+        jacobian = np.stack([(camera.project(points + move) - camera.project(points - move))
+                             / (2.0 * step) for move in step * np.eye(3)], axis=2)
+        seen = camera.sees(points)
+        information[seen] += np.einsum('nij,nik->njk', jacobian[seen], jacobian[seen]) / noise ** 2
+    return float(np.sqrt(np.mean(np.trace(np.linalg.inv(information), axis1=1, axis2=2))))

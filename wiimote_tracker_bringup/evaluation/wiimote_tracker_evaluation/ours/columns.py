@@ -1,0 +1,57 @@
+"""Long tables of measurements, by their columns."""
+
+import glob
+import os
+
+import numpy as np
+
+from wiimote_tracker_evaluation import programs
+
+UNITS = {'_mm': 'mm', '_m': 'm', '_m_per_s': 'm/s', '_rad_per_s': 'rad/s', '_deg': 'deg', '_ms': 'ms',
+         '_s': 's'}
+
+
+def shared(run, program, sessions, *options):
+    """The commands that let two processes share the sessions of a program; see read_shared."""
+    first = (sessions + 1) // 2
+    return [[program, '--rig', run.rig, '--output', part_file(run, program, part), '--seed', run.seed,
+             '--sessions', number, '--first', begin] + list(options)
+            for part, (begin, number) in enumerate(((0, first), (first, sessions - first))) if number]
+
+
+def part_file(run, program, part):
+    return run.file('%s_%d.csv' % (program, part))
+
+
+def read_shared(run, program, caption):
+    """Their tables as one, by column; it is left in the report's folder."""
+    paths = sorted(glob.glob(run.file(program + '_*.csv')))
+    parts = [programs.read_csv(path) for path in paths]
+    columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    rows = [[None if isinstance(value, float) and np.isnan(value) else value for value in row]
+            for row in zip(*(values.tolist() for values in columns.values()))]
+    run.table(program.replace('evaluate_', ''), [(name, unit_of(name)) for name in columns], rows,
+              caption, shown=False)
+    for path in paths:
+        os.remove(path)
+    return columns
+
+
+def unit_of(name):
+    fits = [ending for ending in UNITS if name.endswith(ending)]
+    return UNITS[max(fits, key=len)] if fits else ''
+
+
+def where(columns, **values):
+    """Which rows have these values."""
+    chosen = np.ones(len(next(iter(columns.values()))), dtype=bool)
+    for name, value in values.items():
+        chosen &= columns[name] == value
+    return chosen
+
+
+def per_session(columns, name, chosen):
+    """Finite values of a column, an array for each session: the independent units."""
+    units = [columns[name][chosen & (columns['session'] == session)]
+             for session in np.unique(columns['session'])]
+    return [unit[np.isfinite(unit)] for unit in units if np.isfinite(unit).any()]

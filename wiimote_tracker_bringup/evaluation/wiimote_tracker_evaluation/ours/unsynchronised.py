@@ -1,0 +1,61 @@
+"""Cameras with clocks of their own, and what estimating their exposures is worth."""
+
+from wiimote_tracker_evaluation import charts, statistics
+from wiimote_tracker_evaluation.ours.columns import per_session, read_shared, shared, where
+
+PROGRAM = 'evaluate_unsynchronised'
+METHODS = (('exact', 'tracks', 'exact times (nobody has them)', charts.SOFT),
+           ('estimated', 'tracks', 'estimated exposures (ours)', charts.BLUE),
+           ('arrival', 'tracks', 'arrivals instead', charts.ORANGE),
+           ('exact', 'latest', 'latest spots, no time at all', charts.RED))
+SPEED = 2.0  # of the figures [m/s]
+
+
+def commands(run):
+    return shared(run, PROGRAM, 3 if run.quick else 40)
+
+
+def tell(run):
+    table = read_shared(run, PROGRAM, 'Errors of an LED on a circle.')
+    run.say(
+        '### Cameras that are not synchronised\n\n'
+        'An LED on a circle of 75 cm before cameras that are exactly known, each on its own clock '
+        '(about 10 ms, phases at random), reports late by the delays of the rig\'s description. '
+        'Latest spots: with each report the last spots of all cameras are intersected (the mean of '
+        'closest points), as a program does that knows nothing of time; it is scored at the mean of '
+        'the instants that entered, which is the best for it. What the stamps of all cameras are late '
+        'by together (about 9.5 ms here) cannot be told from arrivals; it shifts the time of a point '
+        'and is left out of these errors. Cameras that expose all at once (dashed) are no better: their '
+        'images come in bunches, and between these there is nothing.')
+    speeds = sorted(set(table['speed_m_per_s']))
+    figure, axes = charts.figure()
+    for stamps, method, label, color in METHODS:
+        for clocks, style in (('own', 'o-'), ('synchronised', 'x--')):
+            rms = [statistics.rms([value for unit in units_of(table, speed, clocks, stamps, method)
+                                   for value in unit]) for speed in speeds]
+            axes.plot(speeds, rms, style, color=color, markersize=4,
+                      label=label if clocks == 'own' else None)
+    axes.set_xlabel('speed of the LED [m/s]')
+    axes.set_ylabel('RMS error [mm]')
+    axes.set_xlim(0.0, None)
+    axes.set_ylim(0.0, None)
+    charts.key(axes, 'upper left', (('-', 'cameras on their own clocks'),
+                                    ('--', 'all expose at once')))
+    run.plot('unsynchronised', figure, 'RMS error over the LED\'s speed.')
+    values = {}
+    for stamps, method, label, _ in METHODS:
+        units = units_of(table, SPEED, 'own', stamps, method)
+        values[stamps, method] = statistics.rms([value for unit in units for value in unit])
+        run.figure('unsynchronised_%s_%s' % (method, stamps), values[stamps, method], 'mm', len(units),
+                   statistics.bootstrap(units, statistics.rms, run.seed),
+                   'RMS error at %g m/s, own clocks, %s' % (SPEED, label))
+    run.summary('Cameras that are not synchronised cost little: at %g m/s %.1f mm RMS with estimated '
+                'exposures (%.1f mm were they exact), %.1f mm with arrivals, %.1f mm when the latest '
+                'spots are intersected.' % (
+                    SPEED, values['estimated', 'tracks'], values['exact', 'tracks'],
+                    values['arrival', 'tracks'], values['exact', 'latest']))
+
+
+def units_of(table, speed, clocks, stamps, method):
+    return per_session(table, 'rms_mm', where(table, speed_m_per_s=speed, clocks=clocks,
+                                              stamps=stamps, method=method))

@@ -1,0 +1,67 @@
+"""Accuracy all over the cube after a calibration, predicted beside measured."""
+
+import numpy as np
+
+from wiimote_tracker_evaluation import charts, statistics
+from wiimote_tracker_evaluation.ours.columns import per_session, read_shared, shared, where
+
+PROGRAM = 'evaluate_map'
+METHODS = (('square', 'the square alone'), ('wave', 'square and waved LED'))
+
+
+def commands(run):
+    return shared(run, PROGRAM, 6 if run.quick else 60)
+
+
+def tell(run):
+    table = read_shared(run, PROGRAM, 'Errors at 27 places after a calibration.')
+    run.say(
+        '### Accuracy over the volume\n\n'
+        'Each session has other lenses and other errors of putting the LED on the corners, is '
+        'calibrated, and measures an LED that lies still at 27 places; measured is the RMS error over '
+        'the sessions, predicted what the calibration says of itself before. '
+        'Normalised squared errors of 1 on average mean that it says the truth.')
+    heights = sorted(set(table['z_m']))
+    places = sorted(set(table['x_m']))
+    figure, axes = charts.figure(2, 2 * len(heights), height=4.4)
+    largest = max(rms_grid(table, method, column, height, places).max()
+                  for method, _ in METHODS for column in ('error_mm', 'predicted_mm')
+                  for height in heights)
+    for row, (method, label) in zip(axes, METHODS):
+        for i, height in enumerate(heights):
+            for j, (column, word) in enumerate((('error_mm', 'measured'),
+                                                ('predicted_mm', 'predicted'))):
+                plot = row[2 * i + j]
+                grid = rms_grid(table, method, column, height, places)
+                plot.imshow(grid, origin='lower', cmap='YlOrRd', vmin=0.0, vmax=largest)
+                for (v, h), value in np.ndenumerate(grid):
+                    plot.text(h, v, '%.0f' % value, ha='center', va='center', fontsize=8)
+                plot.set_xticks(range(len(places)))
+                plot.set_yticks(range(len(places)))
+                plot.set_xticklabels(['%g' % place for place in places], fontsize=7)
+                plot.set_yticklabels(['%g' % place for place in places], fontsize=7)
+                plot.grid(False)
+                plot.set_title('%s\nz = %g m' % (word, height), fontsize=8)
+        row[0].set_ylabel('%s\ny [m]' % label)
+    for plot in axes[1]:
+        plot.set_xlabel('x [m]')
+    run.plot('volume', figure, 'RMS errors over the cube [mm], measured and predicted side by side, at '
+             'three heights.')
+    for method, label in METHODS:
+        chosen = where(table, method=method)
+        for column, word in (('error_mm', 'measured'), ('predicted_mm', 'predicted')):
+            units = per_session(table, column, chosen)
+            run.figure('volume_%s_%s' % (method, word), statistics.rms(np.concatenate(units)), 'mm',
+                       len(units), statistics.bootstrap(units, statistics.rms, run.seed),
+                       'RMS error over the cube, %s, %s' % (label, word))
+        units = per_session(table, 'normalised_squared_error', chosen)
+        run.figure('volume_%s_consistency' % method, np.mean(np.concatenate(units)), '', len(units),
+                   statistics.bootstrap(units, np.mean, run.seed),
+                   'Normalised squared error (1: the prediction is true), %s' % label)
+
+
+def rms_grid(table, method, column, height, places):
+    """Root mean squares by y (rows) and x (columns) [mm]."""
+    return np.array([[statistics.rms(table[column][where(table, method=method, x_m=x, y_m=y,
+                                                         z_m=height)]) for x in places]
+                     for y in places])

@@ -1,0 +1,184 @@
+"""Identification of four LEDs by how they blink: the paper's scheme, and cyclic codes beside it."""
+
+import os
+
+import numpy as np
+
+from wiimote_tracker_evaluation import charts, programs, statistics
+
+NAME = 'identification'
+TITLE = 'Identification by blinking'
+
+LEDS = 4
+DURATION = 4.0                                   # of one try of evaluate_identification [s]
+SCHEMES = (('paper', 'period', 'the paper\'s scheme'), ('cyclic', 'chip', 'cyclic codes'))
+SHOWN_PERIOD, SHOWN_CHIP = 150.0, 23.0           # of the figures [ms]
+
+
+def run(run):
+    each = 3 if run.quick else 50
+    commands, tables = [], []
+    for part in range(2):
+        tables.append(run.file('tries_%d.csv' % (part + 1)))
+        commands.append(['evaluate_identification', '--rig', run.rig, '--output', tables[-1],
+                         '--seed', run.seed, '--sessions', each, '--first', part * each])
+    run.compute(commands, 'letting LEDs blink', 0.0, 0.95)
+    parts = [programs.read_csv(table) for table in tables]
+    tries = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    programs_table(run, tries)
+    for table in tables:
+        os.remove(table)
+    tell(run, tries)
+
+
+def programs_table(run, tries):
+    names = list(tries)
+    units = {'length_ms': 'ms', 'period_ms': 'ms', 'seconds': 's'}
+    rows = [[None if isinstance(value, float) and np.isnan(value) else value for value in row]
+            for row in zip(*(tries[name].tolist() for name in names))]
+    run.table('tries', [(name, units.get(name, '')) for name in names], rows, 'Every try.',
+              shown=False)
+
+
+def succeeded(tries):
+    """Of each try, whether all LEDs had their own labels in the end, and none ever another's."""
+    return (tries['labelled'] == LEDS) & (tries['wrong'] == 0) & (tries['ever_wrong'] == 0)
+
+
+class Line(object):
+    """One scheme with so many cameras, over the length of its period or chip [ms]."""
+
+    def __init__(self, tries, scheme, cameras):
+        chosen = (tries['scheme'] == scheme) & (tries['cameras'] == cameras)
+        self.lengths = np.unique(tries['length_ms'][chosen])
+        good = succeeded(tries)
+        self.right, self.tries, self.seconds = [], [], []
+        for length in self.lengths:
+            here = chosen & (tries['length_ms'] == length)
+            self.right.append(int(good[here].sum()))
+            self.tries.append(int(here.sum()))
+            self.seconds.append(tries['seconds'][here & good])
+        self.wrong = int((tries['ever_wrong'][chosen] != 0).sum())
+
+    def shares(self):
+        return np.array(self.right) / np.array(self.tries)
+
+    def intervals(self):
+        return np.array([statistics.wilson(right, tries)
+                         for right, tries in zip(self.right, self.tries)])
+
+    def shortest(self):
+        """Shortest length from which on every try succeeded; None without any [ms]."""
+        found = None
+        for length, right, tries in reversed(list(zip(self.lengths, self.right, self.tries))):
+            if right < tries:
+                break
+            found = length
+        return found
+
+    def at(self, length):
+        return int(np.flatnonzero(self.lengths == length)[0])
+
+
+def tell(run, tries):
+    cameras = [int(count) for count in np.unique(tries['cameras'])]
+    lines = {(scheme, count): Line(tries, scheme, count)
+             for scheme, _, _ in SCHEMES for count in cameras}
+    run.say(
+        'Four LEDs blink in the middle of the cube before cameras that are not synchronised; a try '
+        'lasts %.0f s and is a success when in the end each has its own label and none was ever '
+        'given another\'s. The whole way is simulated: from the light on the sensor (an LED is seen '
+        'when it is lit for more than half of the exposure of 1 ms) over the tracker to the label.\n\n'
+        '**The paper\'s scheme:** on for 90, 60, 40 and 20 %% of a common period, symmetric about its '
+        'middle; the period is looked for within 20 %%. **Cyclic codes:** each LED repeats a word of '
+        '8 chips when it likes, without a wire between them. The paper says that identification '
+        '"was successful in all test cases" and gives neither period nor time; it left the shortest '
+        'period for future research.' % DURATION)
+    plot(run, cameras, lines)
+    rows = []
+    for scheme, word, title in SCHEMES:
+        for count in cameras:
+            line = lines[scheme, count]
+            for i, length in enumerate(line.lengths):
+                low, high = line.intervals()[i]
+                seconds = line.seconds[i]
+                rows.append([scheme, count, length, line.tries[i], 100.0 * line.shares()[i],
+                             100.0 * low, 100.0 * high,
+                             float(np.median(seconds)) if len(seconds) else None,
+                             float(np.max(seconds)) if len(seconds) else None])
+    run.table('lengths', [('scheme', ''), ('cameras', ''), ('period_or_chip', 'ms'), ('tries', ''),
+                          ('success', '%'), ('low', '%'), ('high', '%'), ('median_time', 's'),
+                          ('longest_time', 's')], rows, 'Success and time until all four LEDs have '
+              'their labels, over period or chip.', shown=False)
+    figures(run, cameras, lines)
+
+
+def figures(run, cameras, lines):
+    for scheme, word, title in SCHEMES:
+        for count in cameras:
+            line = lines[scheme, count]
+            tag = '%s_%d_cameras' % (scheme, count)
+            shortest = line.shortest()
+            if shortest is None:
+                run.say('With %d cameras and %s, some try failed at the longest %s.'
+                        % (count, title, word))
+            else:
+                run.figure('shortest_%s_%s' % (word, tag), shortest, 'ms', min(line.tries),
+                           note='Shortest %s from which on every try succeeded, %s, %d cameras' % (
+                               word, title, count))
+            at = line.at(SHOWN_PERIOD if scheme == 'paper' else SHOWN_CHIP)
+            low, high = line.intervals()[at]
+            run.figure('success_%s' % tag, 100.0 * line.shares()[at], '%', line.tries[at],
+                       (100.0 * low, 100.0 * high), 'Success with a %s of %g ms, %s, %d cameras' % (
+                           word, line.lengths[at], title, count),
+                       headline=scheme == 'paper' and count == max(cameras))
+            seconds = line.seconds[at]
+            if len(seconds) > 1:
+                run.figure('time_%s' % tag, np.median(seconds), 's', len(seconds),
+                           statistics.bootstrap(seconds, np.median, run.seed),
+                           'Time until all four LEDs have their labels, %s of %g ms, %s, %d cameras, '
+                           'median' % (word, line.lengths[at], title, count))
+    wrong = sum(line.wrong for line in lines.values())
+    of = sum(sum(line.tries) for line in lines.values())
+    low, high = statistics.wilson(wrong, of)
+    run.figure('wrong_label_ever', 100.0 * wrong / of, '%', of, (100.0 * low, 100.0 * high),
+               'Tries in which an LED was ever given the label of another, of all lengths')
+    best = lines['paper', max(cameras)]
+    if best.shortest() is not None:
+        run.summary('Four LEDs by the paper\'s blinking: all told apart in every try with periods '
+                    'from %.0f ms on (%d cameras); with %.0f ms it takes %.2f s.' % (
+                        best.shortest(), max(cameras), SHOWN_PERIOD,
+                        np.median(best.seconds[best.at(SHOWN_PERIOD)])))
+
+
+def plot(run, cameras, lines):
+    figure, axes = charts.figure(2, 2, height=4.8, sharex='col')
+    for column, (scheme, word, title) in enumerate(SCHEMES):
+        for count, color in zip(cameras, charts.COLORS):
+            line = lines[scheme, count]
+            shares, intervals = 100.0 * line.shares(), 100.0 * line.intervals()
+            top, bottom = axes[0][column], axes[1][column]
+            top.fill_between(line.lengths, intervals[:, 0], intervals[:, 1], color=color, alpha=0.12,
+                             linewidth=0)
+            top.plot(line.lengths, shares, 'o-', color=color, markersize=3,
+                     label='%d cameras' % count)
+            some = [i for i, seconds in enumerate(line.seconds) if len(seconds)]
+            low, middle, high = np.array([np.quantile(line.seconds[i], [0.05, 0.5, 0.95])
+                                          for i in some]).T
+            bottom.fill_between(line.lengths[some], low, high, color=color, alpha=0.12, linewidth=0)
+            bottom.plot(line.lengths[some], middle, 'o-', color=color, markersize=3)
+        axes[0][column].set_title(title[0].upper() + title[1:])
+        axes[0][column].set_ylim(0.0, 104.0)
+        axes[1][column].set_xscale('log')
+        ticks = (25, 50, 100, 200, 500) if scheme == 'paper' else (3, 5, 10, 20, 40)
+        axes[1][column].set_xticks(ticks)
+        axes[1][column].set_xticks([], minor=True)
+        axes[1][column].set_xticklabels(['%d' % tick for tick in ticks])
+        axes[1][column].set_ylim(0.0, None)
+        axes[1][column].set_xlabel('%s [ms]' % word)
+    axes[0][0].set_ylabel('success [%]')
+    axes[1][0].set_ylabel('time until all have labels [s]')
+    charts.key(axes[0][1], 'lower right')
+    run.plot('identification', figure, 'Success (with 95 % intervals) and time until all four LEDs '
+             'have their labels (median, and 5 to 95 %; successes only), over the period of the '
+             'paper\'s scheme and the chip of cyclic codes.')

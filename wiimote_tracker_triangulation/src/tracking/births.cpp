@@ -1,7 +1,10 @@
 #include "births.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wiimote_tracker::tracking {
 namespace {
@@ -60,21 +63,71 @@ void Births::find(const std::vector<GroupCamera>& cameras,
         !isWelcome(point))
       continue;
     founders_.clear();
+    founding_images_.clear();
     for (const auto* spot = first; spot != last; ++spot) {
+      const Unexplained& image = (*unexplained)[spot->view];
       used_.push_back({spot->view, spots_[spot->view][spot->spot]});
-      founders_.push_back((*unexplained)[spot->view].keys[used_.back().spot]);
+      founders_.push_back(image.keys[used_.back().spot]);
+      founding_images_.push_back({spot->view, image.time});
     }
-    const std::uint32_t id = ids->idFor(founders_, time, [&](std::uint32_t candidate) {
-      return std::any_of(tracks->begin(), tracks->end(),
-                         [&](const Track& track) { return track.id == candidate; });
-    });
-    tracks->emplace_back(
-        motion::MotionFilter(*motion_, time, point.point.position, point.point.covariance), id);
+    Track* track =
+        trackOf(motion::MotionFilter(*motion_, time, point.point.position, point.point.covariance),
+                tracks, ids);
+    for (const auto* spot = first; spot != last; ++spot)
+      track->foundBy(spot->view, point.point.reprojection_error);
   }
   // From the back, so that the places of the others stay.
   std::sort(used_.begin(), used_.end(), [](auto& a, auto& b) { return a.spot > b.spot; });
   for (const association::SpotReference& spot : used_)
     (*unexplained)[spot.view].remove(spot.spot);
+}
+
+/// One that is found again, or a new one.
+Track* Births::trackOf(const motion::MotionFilter& start,
+                       std::vector<Track>* tracks,
+                       Ids* ids) const {
+  if (Track* missed = missedAt(start, tracks)) {
+    missed->restart(start);
+    return missed;
+  }
+  const std::uint32_t id = ids->idFor(founders_, start.time(), [&](std::uint32_t candidate) {
+    return std::any_of(tracks->begin(), tracks->end(),
+                       [&](const Track& track) { return track.id == candidate; });
+  });
+  tracks->emplace_back(start, id);
+  return &tracks->back();
+}
+
+/// The likeliest of the LEDs that may be there and that the founding images do not show elsewhere,
+/// nor more others since. Its motion may have been another than all that were reckoned with, as
+/// when it is caught, or when a spot was not its: initial_speed allows for that.
+Track* Births::missedAt(const motion::MotionFilter& found, std::vector<Track>* tracks) const {
+  double since = found.time();
+  for (const FoundingImage& image : founding_images_)
+    since = std::min(since, image.time);
+  Track* result = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (Track& track : *tracks) {
+    const auto showsIt = [&](const FoundingImage& image) {
+      return track.isShownBy(image.camera, image.time);
+    };
+    if (!track.isConfirmed() || track.showers(since) > founding_images_.size() ||
+        std::any_of(founding_images_.begin(), founding_images_.end(), showsIt))
+      continue;
+    motion::MotionFilter expected = track.filter;
+    expected.predict(found.time());
+    const double slack = motion_->initial_speed * (found.time() - track.lastObserved());
+    const Eigen::Matrix3d covariance = expected.positionCovariance() + found.positionCovariance() +
+                                       slack * slack * Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d offset = found.position() - expected.position();
+    const double distance = offset.dot(covariance.inverse() * offset);
+    const double cost = distance + std::log(covariance.determinant());  // -2 log likelihood
+    if (distance <= options_.gate && cost < least) {
+      least = cost;
+      result = &track;
+    }
+  }
+  return result;
 }
 
 /// False when nothing can meet.

@@ -29,7 +29,8 @@ struct Unexplained {
   void remove(std::size_t spot);
 };
 
-/// Begins tracks where unexplained spots of several cameras meet.
+/// Begins tracks where unexplained spots of several cameras meet, or finds those again that are
+/// missed and may be there.
 class Births {
  public:
   /// @param rig of the group's cameras alone. @param partners see association::sharedViews.
@@ -55,6 +56,13 @@ class Births {
                                                 const Unexplained& unexplained,
                                                 std::size_t spot);
   bool isWelcome(const association::AssociatedPoint& point) const;
+  Track* trackOf(const motion::MotionFilter& start, std::vector<Track>* tracks, Ids* ids) const;
+  Track* missedAt(const motion::MotionFilter& found, std::vector<Track>* tracks) const;
+
+  struct FoundingImage {
+    std::size_t camera;
+    double time;  // [s]
+  };
 
   /// Of the spot at one place of an image.
   struct KnownSight {
@@ -71,6 +79,7 @@ class Births {
   std::vector<std::array<std::size_t, association::kMaximumSpots>> spots_;  // of the sights
   std::vector<association::View> views_;
   std::vector<SpotKey> founders_;
+  std::vector<FoundingImage> founding_images_;
   std::vector<association::SpotReference> used_;
 };
 

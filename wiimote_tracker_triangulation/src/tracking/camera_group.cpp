@@ -89,14 +89,14 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
                tracks.end());
 }
 
-/// Those that are decided, and those of tracks that are no more.
+/// Those that are decided, and those of tracks that are no more or were found elsewhere since.
 void CameraGroup::endEncounters(double time) {
   std::vector<Encounter>& encounters = state_.encounters;
   const auto is_over = [&](const Encounter& encounter) {
     std::array<motion::MotionFilter*, 2> filters{};
     for (std::size_t i = 0; i < 2; ++i) {
       for (Track& track : state_.tracks) {
-        if (track.id == encounter.ids()[i])
+        if (track.id == encounter.ids()[i] && track.startedAt() <= encounter.openedAt())
           filters[i] = &track.filter;
       }
     }

@@ -24,9 +24,10 @@ class Encounter {
   using Pixels = std::array<Eigen::Vector2d, 2>;
 
   Encounter(std::uint32_t a, std::uint32_t b, const Filters& before)
-      : ids_{a, b}, other_way_(before) {}
+      : ids_{a, b}, opened_at_(before[0].time()), other_way_(before) {}
 
   const std::array<std::uint32_t, 2>& ids() const { return ids_; }
+  double openedAt() const { return opened_at_; }  // [s]
   bool hasParted() const { return has_parted_; }
 
   /// How they would go on from before they met, at a time [s]; before they have parted.
@@ -44,6 +45,7 @@ class Encounter {
 
  private:
   std::array<std::uint32_t, 2> ids_;
+  double opened_at_;
   Filters other_way_;  // until they part: before they met
   bool has_parted_ = false;
   double parted_at_ = 0.0;  // [s]

@@ -25,13 +25,13 @@ void ImageUpdate::apply(const GroupCamera& camera,
     Track& track = (*tracks)[candidate.track];
     if (candidate.updated)
       continue;
-    const Candidate* other = mergedWith(candidate, *tracks);
-    if (other)
-      updateMerged(camera, image, candidate, *other,
-                   candidate.spot == kNone ? other->spot : candidate.spot,
-                   isAlone(candidate, *tracks), &track);
+    const Candidate* other = sharing(candidate, *tracks);
+    if (other && track.isConfirmed() && isSeenBeside(image, track))
+      updateMerged(camera, image, candidate, *other, tracks);
+    else if (other && track.isConfirmed())
+      track.miss(image.camera, image.time);  // the spot is the other's
     else if (candidate.spot != kNone)
-      updateTrack(camera, image, candidate, isAlone(candidate, *tracks), &track);
+      updateTrack(camera, image, candidate, other ? &(*tracks)[other->track] : nullptr, &track);
     else if (candidate.expected)
       track.miss(image.camera, image.time);
   }
@@ -49,7 +49,8 @@ void ImageUpdate::collectCandidates(const GroupCamera& camera,
       continue;
     track.filter.predict(image.time, &steps_);
     const auto prediction = track.filter.predictPixel(camera.forRays(), noise_);
-    if (!prediction || !camera.isInImage(prediction->pixel(), options_.merging_distance))
+    if (!prediction || !camera.isInImage(prediction->pixel(), options_.merging_distance) ||
+        isVague(track, *prediction, image.time))
       continue;
     Candidate& candidate = candidates_[candidate_count_++];
     candidate.track = i;
@@ -61,11 +62,26 @@ void ImageUpdate::collectCandidates(const GroupCamera& camera,
   }
 }
 
+/// What was not seen for a while may be anywhere within so wide a region that a single spot there
+/// does not show it: two cameras must (see Births).
+bool ImageUpdate::isVague(const Track& track,
+                          const motion::PixelPrediction& prediction,
+                          double time) const {
+  const double sharp = 2.0 * options_.birth_pixel_stddev;
+  return time - track.lastObserved() > options_.birth_window &&
+         prediction.covariance().trace() > 2.0 * sharp * sharp;
+}
+
+/// Whether it is not this camera alone that shows it.
+bool ImageUpdate::isSeenBeside(const StoredImage& image, const Track& track) const {
+  return track.isSeenBeside(image.camera, image.time - options_.birth_window);
+}
+
 /// Costs are negative log likelihoods; a spot's density is that of its prediction, or uniform over
 /// the image for what is no LED's.
 void ImageUpdate::assign(const StoredImage& image, const std::vector<Track>& tracks) {
   constexpr double kImageArea = 1024.0 * 768.0;  // of a Wii Remote [px^2]; others are near enough
-  constexpr double kTentativeCost = 3.0;         // what may be an LED yields to what is
+  constexpr double kDoubtCost = 3.0;             // what may be an LED there yields to what is
   const double detected = -std::log(options_.detection_probability);
   const double missed = -std::log(1.0 - options_.detection_probability);
   costs_.reset(image.spot_count, candidate_count_, -std::log(options_.ghost_rate / kImageArea),
@@ -74,7 +90,9 @@ void ImageUpdate::assign(const StoredImage& image, const std::vector<Track>& tra
     const Candidate& candidate = candidates_[i];
     if (!candidate.expected)
       costs_.miss[i] = detected;
-    const double extra = detected + (tracks[candidate.track].isConfirmed() ? 0.0 : kTentativeCost);
+    const Track& track = tracks[candidate.track];
+    const bool is_sure = track.isConfirmed() && isSeenBeside(image, track);
+    const double extra = detected + (is_sure ? 0.0 : kDoubtCost);
     for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
       if (const auto likelihood =
               candidate.prediction.logLikelihoodWithin(options_.gate, image.pixels[spot]))
@@ -95,35 +113,24 @@ void ImageUpdate::assign(const StoredImage& image, const std::vector<Track>& tra
 void ImageUpdate::updateTrack(const GroupCamera& camera,
                               const StoredImage& image,
                               const Candidate& candidate,
-                              bool is_alone,
+                              const Track* other,
                               Track* track) const {
   const Eigen::Vector2d& pixel = image.pixels[static_cast<std::size_t>(candidate.spot)];
-  if (track->filter.update(camera.forRays(), candidate.prediction, pixel))
-    track->hit(image.camera, pixel - candidate.prediction.pixel(), is_alone);
+  if (!track->filter.update(camera.forRays(), candidate.prediction, pixel))
+    return;
+  track->hit(image.camera, pixel - candidate.prediction.pixel(), true);
+  if (other)
+    track->noteShared(other->id, true);
+  else
+    track->noteAlone();
 }
 
-/// False when an older LED, expected so near that the camera can not tell the two apart, is without
-/// a spot, or has one that this one would be in: the two may be one and the same.
-bool ImageUpdate::isAlone(const Candidate& candidate, const std::vector<Track>& tracks) const {
-  return std::none_of(
-      candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(candidate_count_),
-      [&](const Candidate& other) {
-        return tracks[other.track].isConfirmed() &&
-               tracks[other.track].id < tracks[candidate.track].id &&
-               (other.spot == kNone) != (candidate.spot == kNone) &&
-               (other.prediction.pixel() - candidate.prediction.pixel()).squaredNorm() <
-                   options_.merging_distance * options_.merging_distance;
-      });
-}
-
-/// The other LED whose light fell into the same spot: one of the two has a spot, the other none,
-/// and they are expected so close together that the camera can not tell them apart.
-const ImageUpdate::Candidate* ImageUpdate::mergedWith(const Candidate& candidate,
-                                                      const std::vector<Track>& tracks) const {
+/// The other LED whose light may have fallen into the same spot: one of the two has a spot, the
+/// other none, and they are expected so close together that the camera can not tell them apart.
+const ImageUpdate::Candidate* ImageUpdate::sharing(const Candidate& candidate,
+                                                   const std::vector<Track>& tracks) const {
   const Candidate* nearest = nullptr;
   double least = options_.merging_distance;
-  if (!tracks[candidate.track].isConfirmed())
-    return nullptr;
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const Candidate& other = candidates_[i];
     if (other.track == candidate.track || (other.spot == kNone) == (candidate.spot == kNone) ||
@@ -169,8 +176,8 @@ void ImageUpdate::openEncounters(const std::vector<Track>& tracks,
                                  std::vector<Encounter>* encounters) const {
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const Candidate& candidate = candidates_[i];
-    const Candidate* other = candidate.spot == kNone ? nullptr : mergedWith(candidate, tracks);
-    if (!other)
+    const Candidate* other = candidate.spot == kNone ? nullptr : sharing(candidate, tracks);
+    if (!other || !tracks[candidate.track].isConfirmed())
       continue;
     const Track& a = tracks[candidate.track];
     const Track& b = tracks[other->track];
@@ -203,7 +210,9 @@ void ImageUpdate::followEncounters(const GroupCamera& camera,
     encounter.take(camera.forRays(), noise_, pixels, filters);
     for (std::size_t i = 0; i < 2; ++i) {
       both[i]->updated = true;
-      (*tracks)[both[i]->track].hit(image.camera, pixels[i] - both[i]->prediction.pixel(), true);
+      Track& track = (*tracks)[both[i]->track];
+      track.hit(image.camera, pixels[i] - both[i]->prediction.pixel(), true);
+      track.noteAlone();
     }
   }
 }
@@ -222,24 +231,25 @@ void ImageUpdate::updateMerged(const GroupCamera& camera,
                                const StoredImage& image,
                                const Candidate& candidate,
                                const Candidate& other,
-                               int spot,
-                               bool is_alone,
-                               Track* track) const {
+                               std::vector<Track>* tracks) const {
+  const bool is_own = candidate.spot != kNone;
+  const auto spot = static_cast<std::size_t>(is_own ? candidate.spot : other.spot);
+  Track& track = (*tracks)[candidate.track];
   const Eigen::Vector2d between = candidate.prediction.pixel() - other.prediction.pixel();
-  const Eigen::Vector2d middle = image.pixels[static_cast<std::size_t>(spot)];
   motion::PixelNoise noise = noise_;
   noise.pixel_stddev =
       std::sqrt(noise_.pixel_stddev * noise_.pixel_stddev + between.squaredNorm() / 12.0 +
                 0.5 * other.prediction.covariance().trace());
-  const auto prediction = track->filter.predictPixel(camera.forRays(), noise);
-  const Eigen::Vector2d pixel = middle + 0.5 * between;
+  const auto prediction = track.filter.predictPixel(camera.forRays(), noise);
+  const Eigen::Vector2d pixel = image.pixels[spot] + 0.5 * between;
   if (!prediction || !(prediction->squaredDistance(pixel) <= options_.gate)) {
-    track->miss(image.camera, image.time);
+    track.miss(image.camera, image.time);
     return;
   }
-  const Eigen::Vector2d residual = pixel - prediction->pixel();
-  if (track->filter.update(camera.forRays(), *prediction, pixel))
-    track->hit(image.camera, residual, is_alone);
+  if (!track.filter.update(camera.forRays(), *prediction, pixel))
+    return;
+  track.hit(image.camera, pixel - prediction->pixel(), is_own);
+  track.noteShared((*tracks)[other.track].id, is_own);
 }
 
 }  // namespace wiimote_tracker::tracking

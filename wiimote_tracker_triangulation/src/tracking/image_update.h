@@ -43,21 +43,20 @@ class ImageUpdate {
   void collectCandidates(const GroupCamera& camera,
                          const StoredImage& image,
                          std::vector<Track>* tracks);
+  bool isVague(const Track& track, const motion::PixelPrediction& prediction, double time) const;
+  bool isSeenBeside(const StoredImage& image, const Track& track) const;
   void assign(const StoredImage& image, const std::vector<Track>& tracks);
   void updateTrack(const GroupCamera& camera,
                    const StoredImage& image,
                    const Candidate& candidate,
-                   bool is_alone,
+                   const Track* other,
                    Track* track) const;
-  bool isAlone(const Candidate& candidate, const std::vector<Track>& tracks) const;
-  const Candidate* mergedWith(const Candidate& candidate, const std::vector<Track>& tracks) const;
+  const Candidate* sharing(const Candidate& candidate, const std::vector<Track>& tracks) const;
   void updateMerged(const GroupCamera& camera,
                     const StoredImage& image,
                     const Candidate& candidate,
                     const Candidate& other,
-                    int spot,
-                    bool is_alone,
-                    Track* track) const;
+                    std::vector<Track>* tracks) const;
 
   void findPartingSpots(const GroupCamera& camera,
                         const StoredImage& image,

@@ -18,6 +18,7 @@ struct Look {
   std::size_t camera = 0;         // in its group
   double time = 0.0;              // of the last image that ought to show the LED [s]
   double hit = 0.0;               // of the last one that did [s]
+  double own = 0.0;               // of the last one whose spot was no other LED's [s]
   double squared_residual = 0.0;  // of that spot [px^2]
   unsigned recent = 0;            // one bit per image, the last one lowest: shown or not
 };
@@ -33,15 +34,37 @@ class Track {
   /// A camera ought to have shown it, and did not.
   void miss(std::size_t camera, double time);
 
-  /// A camera's spot was taken in at the filter's time. @param residual [px] @param alone no older
-  /// LED may be behind that spot.
-  void hit(std::size_t camera, const Eigen::Vector2d& residual, bool alone);
+  /// A camera's spot was taken in at the filter's time. @param residual [px] @param is_own not
+  /// another LED's, with which it was taken to be one spot.
+  void hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own);
+
+  /// Of such a spot: no other LED may be behind it.
+  void noteAlone();
+
+  /// Of such a spot: another LED may be behind it.
+  void noteShared(std::uint32_t other, bool is_own);
+
+  /// A camera's spot was among those that the filter begins with. @param residual [px]
+  void foundBy(std::size_t camera, double residual);
+
+  /// It was found again elsewhere than expected: its motion begins anew.
+  void restart(const motion::MotionFilter& start);
+  double startedAt() const { return started_; }  // birth or last restart [s]
 
   /// Forgets which cameras saw it, for a rig whose cameras are others.
   void forgetCameras() { look_count_ = 0; }
 
   /// Confirms, or notes that it has to go.
   void judge(double time, const TrackerOptions& options);
+  /// Whether the camera's image of that time [s] had a spot of its own.
+  bool isShownBy(std::size_t camera, double time) const;
+
+  /// Whether another camera showed it at a time [s] or later.
+  bool isSeenBeside(std::size_t camera, double since) const;
+
+  /// Cameras that had a spot of its own at a time [s] or later.
+  std::size_t showers(double since) const;
+
   bool isOver() const { return over_; }
   bool isConfirmed() const { return confirmed_; }
 
@@ -63,13 +86,17 @@ class Track {
 
  private:
   Look& lookOf(std::size_t camera, double time);
+  bool isAnother() const;
   std::size_t supporters(double time, const TrackerOptions& options) const;
 
   double born_;           // [s]
+  double started_;        // [s]
   double last_observed_;  // by any camera [s]
   double last_located_;   // by two cameras at about one time [s]
-  double alone_ = 1.0;    // share of its recent spots that no older LED may be behind
-  std::size_t hits_ = 0;
+  double alone_ = 1.0;    // share of its recent spots that no other LED may be behind
+  double owned_ = 0.5;    // share of its recent spots, of those not alone, that were its own
+  std::uint32_t shares_with_ = 0;
+  std::size_t hits_ = 0;  // alone
   std::size_t misses_in_a_row_ = 0;
   bool confirmed_ = false;
   bool over_ = false;

@@ -342,6 +342,78 @@ TEST(Tracker, TwoThatAreOneSpotInAllViewsAreToldApartByTheirMotion) {
   }
 }
 
+TEST(Tracker, WhatLeapsIsNeverTrackedWhereItIsNot) {
+  // In each step of 0.25 s it is somewhere else; seldom so near that it may have gone there.
+  geometry::test::Random random(21);
+  std::vector<Eigen::Vector3d> places;
+  for (int i = 0; i < 40; ++i)
+    places.emplace_back(random.uniform(0.6, 1.9), random.uniform(0.6, 1.9),
+                        random.uniform(0.6, 1.6));
+  const Path led = [&](double t) {
+    return places[static_cast<std::size_t>((t - 1000.0) / 0.25) % places.size()];
+  };
+  SceneOptions options;
+  options.maximum_spots = 1;  // so no image says that the LED is not where it was
+  Tracker tracker(paperRig(), exact());
+  std::size_t in_time = 0;
+  for (const Snapshot& s : track(&tracker, imagesOf(paperRig(), {led}, options, 3900))) {
+    const double since_leap = std::fmod(s.time - 1000.0, 0.25);
+    bool covered = false;
+    for (const TrackedLed& track : s.leds) {
+      // Of the first images after a leap some may show what might as well be where it was.
+      if (track.state != TrackState::kTracked || track.last_observed < s.time || since_leap < 0.06)
+        continue;
+      const double error = (track.position - led(s.time)).norm();
+      EXPECT_LT(error, 6.0 * std::sqrt(track.position_covariance.trace())) << s.time;
+      covered = true;
+    }
+    in_time += covered;
+  }
+  EXPECT_GT(in_time, 3900u * 19 / 25 * 95 / 100);
+}
+
+TEST(Tracker, WhatIsThrownOffIsFoundAgainUnderItsName) {
+  // A jerk that no way to move allows, and spots that are not the LED's.
+  for (const double jump : {0.02, 0.04, 0.06}) {
+    const Path led = [&](double t) {
+      return Eigen::Vector3d(1.2 + (t > 1001.0 ? jump : 0.0), 1.3, 1.0);
+    };
+    Tracker tracker(paperRig(), exact());
+    std::set<std::uint32_t> ids;
+    for (const Snapshot& s : track(&tracker, imagesOf(paperRig(), {led}, {}, 800))) {
+      for (const std::uint32_t id : idsIn(s, TrackState::kTracked))
+        ids.insert(id);
+      if (s.time > 1001.05) {
+        ASSERT_EQ(1u, s.leds.size());
+        EXPECT_LT((s.leds[0].position - led(s.time)).norm(),
+                  6.0 * std::sqrt(s.leds[0].position_covariance.trace()));
+      }
+    }
+    EXPECT_EQ((std::set<std::uint32_t>{0}), ids) << jump;
+  }
+}
+
+TEST(Tracker, OfTwoThatShareAllSpotsForLongOneEnds) {
+  // They meet; and then there is one light only.
+  const std::vector<Path> leds = {test::still({1.25, 1.25, 1.0}), [](double t) {
+                                    return Eigen::Vector3d(
+                                        1.25, 1.25, 1.0 + std::max(0.004, 0.2 * (1001.0 - t)));
+                                  }};
+  SceneOptions options;
+  options.merging_distance = 8.0;
+  Tracker tracker(paperRig(), exact());
+  const std::vector<Snapshot> snapshots =
+      track(&tracker, imagesOf(paperRig(), leds, options, 2000));
+  // No sooner than two that pass each other slowly may need.
+  for (const Snapshot& s : snapshots) {
+    if (s.time > 1000.2 && s.time < 1001.2) {
+      EXPECT_EQ(2u, s.leds.size()) << s.time;
+    }
+  }
+  EXPECT_EQ((std::set<std::uint32_t>{0}), idsIn(snapshots.back(), TrackState::kTracked));
+  EXPECT_EQ(1u, snapshots.back().leds.size());
+}
+
 TEST(Tracker, LightsOfSingleCamerasAreNoLeds) {
   SceneOptions options;
   options.reflections = {{{100.0, 700.0}, {700.0, 60.0}}, {{900.0, 40.0}}, {}, {{60.0, 60.0}}};

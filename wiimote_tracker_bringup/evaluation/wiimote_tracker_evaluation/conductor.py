@@ -1,5 +1,7 @@
 """Leads a simulated rig through an experiment, by the same services that a person would use."""
 
+import logging
+
 import actionlib
 import rospy
 from wiimote_tracker_msgs.msg import (CalibrationStatus, CaptureCornerAction, CaptureCornerGoal,
@@ -37,6 +39,9 @@ class Conductor(object):
         rospy.Subscriber('calibration/status', CalibrationStatus, self._on_status)
         self._capture = actionlib.SimpleActionClient('calibration/capture_corner',
                                                      CaptureCornerAction)
+        # actionlib says so, as an error, when a goal is taken before send_goal() has returned.
+        logging.getLogger('rosout').addFilter(
+            lambda record: 'Got a transition callback' not in record.getMessage())
 
     def _on_status(self, message):
         self._status = message

@@ -8,8 +8,10 @@ import time
 import traceback
 
 from wiimote_tracker_evaluation import sections, stack
+from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
 from wiimote_tracker_evaluation.page import write_report
+from wiimote_tracker_evaluation.processes import ProcessEnded
 from wiimote_tracker_evaluation.progress import Progress
 from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.section import Run
@@ -74,7 +76,9 @@ def carry_out(module, run, live):
     try:
         (module.live if live else module.run)(run)
     except Exception as error:  # the others go on, whatever happened in this one
-        run.failure = (str(error) or type(error).__name__) + stack.complaint(run)
+        told = isinstance(error, (ExperimentError, ProcessEnded))
+        run.failure = (str(error) if told else '%s: %s' % (type(error).__name__, error)) \
+            + stack.complaint(run)
         with open(run.file('failure.txt'), 'w') as file:
             traceback.print_exc(file=file)
     finally:

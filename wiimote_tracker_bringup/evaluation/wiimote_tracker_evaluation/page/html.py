@@ -21,6 +21,7 @@ p, ul { margin: .6rem 0; max-width: 46rem; }
 nav a { margin-right: 1rem; white-space: nowrap; }
 a { color: var(--accent); text-decoration: none; }
 .short { border-left: 4px solid var(--accent); padding: .2rem 0 .2rem 1.1rem; margin: 1.4rem 0; }
+.bad { color: var(--bad); }
 .failure { border-left: 4px solid var(--bad); padding-left: 1rem; color: var(--bad); }
 figure { margin: 1.4rem 0; }
 figure svg { display: block; max-width: 100%; height: auto; }
@@ -46,14 +47,15 @@ def page(report):
              '<title>%s</title><style>%s</style></head><body>' % (TITLE, STYLE),
              '<h1>%s</h1>' % TITLE, '<p class="about">%s</p>' % inline(words.about(report)),
              '<nav>' + ''.join('<a href="#%s">%s</a>' % (run.name, escaping.escape(run.title))
-                               for run in report.runs) + '</nav>', in_short(report)]
-    parts += [section(run) for run in report.runs]
+                               for run in report.runs)
+             + '<a href="#figures">Every figure</a></nav>', in_short(report)]
+    parts += [section(run) for run in report.runs] + [every_figure(report)]
     return '\n'.join(parts + ['</body></html>\n'])
 
 
 def in_short(report):
     items = [inline(sentence) for run in report.runs for sentence in run.summaries]
-    items += ['<span class="failure">%s failed: %s</span>' % (
+    items += ['<span class="bad">%s failed: %s</span>' % (
         escaping.escape(run.title), escaping.escape(run.failure))
         for run in report.runs if run.failure]
     return '<div class="short"><ul>%s</ul></div>' % ''.join(
@@ -73,9 +75,14 @@ def section(run):
             parts.append(content_table(run, each))
     if run.failure:
         parts.append('<p class="failure">This section failed: %s</p>' % escaping.escape(run.failure))
-    if run.figures:
-        parts.append('<h3>Figures</h3>' + figures_table(run))
     return '\n'.join(parts + ['</section>'])
+
+
+def every_figure(report):
+    return '\n'.join(
+        ['<section id="figures"><h2>Every figure</h2>', '<p class="kind">As in figures.json.</p>']
+        + ['<h3>%s</h3>%s' % (escaping.escape(run.title), figures_table(run))
+           for run in report.runs if run.figures] + ['</section>'])
 
 
 def inner_svg(run, plot):

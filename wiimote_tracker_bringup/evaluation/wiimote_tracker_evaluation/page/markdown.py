@@ -14,6 +14,10 @@ def page(report):
             lines.append('- **%s failed:** %s' % (run.title, run.failure))
     for run in report.runs:
         lines += section(run)
+    lines += ['', '## Every figure']
+    for run in report.runs:
+        if run.figures:
+            lines += ['', '### ' + run.title, ''] + figures_table(run)
     return '\n'.join(lines) + '\n'
 
 
@@ -29,8 +33,6 @@ def section(run):
             lines += content_table(run, each)
     if run.failure:
         lines += ['', '**This section failed:** ' + run.failure]
-    if run.figures:
-        lines += ['', '### Figures', ''] + figures_table(run)
     return lines
 
 

@@ -71,6 +71,12 @@ def last_line(path):
     return lines[-1] if lines else 'it said nothing'
 
 
+def session_parts(sessions, parts=4):
+    """Sessions shared out to programs that each take --first and --sessions: (first, number) each."""
+    edges = [sessions * part // parts for part in range(parts + 1)]
+    return [(first, end - first) for first, end in zip(edges[:-1], edges[1:]) if end > first]
+
+
 def read_csv(path):
     """A table with names in its first line, as arrays by name: numbers where all are, else texts."""
     import csv

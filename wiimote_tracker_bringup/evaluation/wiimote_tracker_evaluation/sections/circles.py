@@ -1,6 +1,8 @@
 """The three circles of the paper (section V.B) at constant speed, by cameras that are not
 synchronised."""
 
+import os
+
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, experiment, programs, statistics
@@ -21,15 +23,21 @@ PAPER_LIMIT = 0.03  # the paper's accuracy, static and moving [m]
 
 
 def run(run):
-    sessions = QUICK if run.quick else FULL
-    half = sessions // 2
-    paths = [run.file('laps_%d.csv' % first) for first in (0, half)]
+    tell(run, simulate(run, QUICK if run.quick else FULL))
+
+
+def simulate(run, sessions):
+    """Every point of so many sessions, as arrays by name."""
+    parts = [(run.file('laps_%d.csv' % first), first, number)
+             for first, number in programs.session_parts(sessions)]
     run.compute([['evaluate_circles', '--rig', run.rig, '--output', path, '--seed', run.seed,
-                  '--sessions', half, '--first', first]
-                 for path, first in zip(paths, (0, half))],
+                  '--sessions', number, '--first', first] for path, first, number in parts],
                 '%d sessions with two cameras, and with four' % sessions, 0.0, 0.9)
-    parts = [programs.read_csv(path) for path in paths]
-    tell(run, {name: np.concatenate([part[name] for part in parts]) for name in parts[0]})
+    tables = []
+    for path, _, _ in parts:  # it is all in the section's own table
+        tables.append(programs.read_csv(path))
+        os.remove(path)
+    return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
 
 
 def tell(run, laps):

@@ -82,7 +82,7 @@ def explain(run, results):
 
 def compare(run, results):
     run.say('### What the paper says\nEach number of the paper\'s text beside what as many simulated '
-            'sessions as it had give: the middle of many draws, and the range of 95 % of them. '
+            'sessions as it had give: the middle of many draws, and the range of 95 %% of them. '
             '*Agrees* when the paper\'s number lies in that range.%s' % (
                 ' This quick run has too few sessions for the ends of the ranges.' if run.quick else ''))
     rows, agreeing = [], {model: 0 for model, _ in MODELS}

@@ -6,6 +6,7 @@ from wiimote_tracker_evaluation import charts, experiment, programs, statistics
 from wiimote_tracker_evaluation.light import SENSITIVITIES, detection_distance, read_led
 from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.scene import read_scene
+from wiimote_tracker_evaluation.live.distance import live  # noqa: F401, with a person
 
 NAME = 'distance'
 TITLE = 'Detection distance'

@@ -5,6 +5,7 @@ import os
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, programs, statistics
+from wiimote_tracker_evaluation.live.identification import live  # noqa: F401, with a person
 
 NAME = 'identification'
 TITLE = 'Identification by blinking'

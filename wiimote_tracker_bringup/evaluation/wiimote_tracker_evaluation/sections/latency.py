@@ -4,6 +4,7 @@ import numpy as np
 
 from wiimote_tracker_evaluation import charts, experiment, rigs, stack, statistics
 from wiimote_tracker_evaluation.trace import Recorder
+from wiimote_tracker_evaluation.live.latency import live  # noqa: F401, with a person
 
 NAME = 'latency'
 TITLE = 'Latency'

@@ -9,6 +9,7 @@ from wiimote_tracker_evaluation import position_claims as claims
 from wiimote_tracker_evaluation import position_plots as plots
 from wiimote_tracker_evaluation import programs, statistics
 from wiimote_tracker_evaluation.position_results import CASES, FACING, FOUR, OURS, TWO, Results
+from wiimote_tracker_evaluation.live.positions import live  # noqa: F401, with a person
 
 NAME = 'positions'
 TITLE = 'Positions'

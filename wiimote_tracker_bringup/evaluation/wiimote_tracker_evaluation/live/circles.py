@@ -1,0 +1,91 @@
+"""An LED that goes round, with a person who makes it go."""
+
+import time
+
+import numpy as np
+
+from wiimote_tracker_evaluation import charts, statistics
+from wiimote_tracker_evaluation.live.dialogue import Dialogue
+from wiimote_tracker_evaluation.live.listener import Listener
+
+DURATION, QUICK = 15.0, 3.0  # of the measurement [s]
+BLOCKS = 10                  # independent pieces of it
+
+
+def live(run, dialogue=None):
+    listener, dialogue = Listener(), dialogue or Dialogue()
+    try:
+        run.simulated = listener.is_simulated()
+        measure(run, listener, dialogue)
+    finally:
+        listener.close()
+
+
+def measure(run, listener, dialogue):
+    listener.wait_for_points()
+    dialogue.tell('Let one LED go round on a level circle at constant speed: a turntable, or an arm on '
+                  'a motor.')
+    radius = dialogue.ask_number('Its radius in metres, when it is going round (Enter: leave this '
+                                 'out):', 0.05, 10.0)
+    if radius is None:
+        run.say('The circle was left out.')
+        return
+    duration = QUICK if run.quick else DURATION
+    begin = listener.now()
+    while listener.now() < begin + duration:
+        dialogue.passing('measuring, %.0f s left' % (begin + duration - listener.now()))
+        time.sleep(0.05)
+    tell(run, radius, path_of(listener.since(begin)))
+
+
+def path_of(seen):
+    """Stamps [s] and positions [m] of the instants with exactly one LED."""
+    single = [each for each in seen if len(each.leds) == 1]
+    return (np.array([each.stamp for each in single]),
+            np.array([each.leds[0].position for each in single]).reshape(-1, 3))
+
+
+def errors_of(positions, radius):
+    """Centre, and by point the radial and the height error [m]: the centre and the tilt are fitted,
+    the radius is the person's."""
+    middle = positions.mean(axis=0)
+    _, _, axes = np.linalg.svd(positions - middle, full_matrices=False)
+    plane = (positions - middle) @ axes[:2].T
+    matrix = np.column_stack([2.0 * plane, np.ones(len(plane))])
+    centre = np.linalg.lstsq(matrix, (plane ** 2).sum(axis=1), rcond=None)[0][:2]
+    radial = np.linalg.norm(plane - centre, axis=1) - radius
+    return middle + centre @ axes[:2], radial, (positions - middle) @ axes[2]
+
+
+def tell(run, radius, path):
+    stamps, positions = path
+    if len(positions) < 10 * BLOCKS:
+        run.say('Only %d points with one LED came: there are no figures.' % len(positions))
+        return
+    centre, radial, height = errors_of(positions, radius)
+    way = np.linalg.norm(np.diff(positions[::10], axis=0), axis=1).sum()
+    speed = way / (stamps[::10][-1] - stamps[0])
+    run.say('An LED on a circle of %.3f m about (%.3f, %.3f, %.3f) m, %.2f m/s. Centre and plane of '
+            'the circle are fitted to the points, the radius is the one that was told.'
+            % ((radius,) + tuple(centre) + (speed,)))
+    for name, values, note in (('radial', radial, 'Radial error, RMS'),
+                               ('height', height, 'Error across the circle\'s plane, RMS')):
+        run.figure('live_' + name, 1e3 * statistics.rms(values), 'mm', len(values),
+                   statistics.bootstrap(statistics.blocks(1e3 * values, BLOCKS), statistics.rms,
+                                        run.seed), note, end_to_end=True)
+    run.figure('live_speed', speed, 'm/s', len(positions), note='Speed on the circle',
+               end_to_end=True)
+    run.table('points', [('stamp', 's'), ('x', 'm'), ('y', 'm'), ('z', 'm'), ('radial_error', 'mm'),
+                         ('height_error', 'mm')],
+              np.column_stack([stamps - stamps[0], positions, 1e3 * radial, 1e3 * height]).tolist(),
+              'Every point.', shown=False)
+    figure, axes = charts.figure()
+    charts.cumulative(axes, 1e3 * np.abs(radial), charts.BLUE, 'radial')
+    charts.cumulative(axes, 1e3 * np.abs(height), charts.ORANGE, 'height')
+    axes.set_xlim(0.0, None)
+    axes.set_xlabel('error [mm]')
+    axes.set_ylabel('share of the points')
+    charts.key(axes, 'lower right')
+    run.plot('circle', figure, 'Cumulative distributions of the errors on the circle.')
+    run.summary('On a circle of %.2f m at %.2f m/s: RMS error %.1f mm radially, %.1f mm in height.'
+                % (radius, speed, 1e3 * statistics.rms(radial), 1e3 * statistics.rms(height)))

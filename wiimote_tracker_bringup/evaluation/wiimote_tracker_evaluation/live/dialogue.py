@@ -1,0 +1,53 @@
+"""Prompts on the terminal, and what is typed."""
+
+import select
+import sys
+
+SKIP = 's'
+
+
+class Dialogue(object):
+    def __init__(self, source=None, output=None):
+        self._source = source or sys.stdin
+        self._output = output or sys.stdout
+
+    def tell(self, text, end='\n'):
+        self._output.write('\r\033[K' * self._output.isatty() + text + end)
+        self._output.flush()
+
+    def passing(self, text):
+        """Something that need not be kept; only on a terminal."""
+        if self._output.isatty():
+            self._output.write('\r\033[K      ' + text[:90])
+            self._output.flush()
+
+    def beep(self):
+        """For a person who looks at the LED and not at the screen."""
+        if self._output.isatty():
+            self._output.write('\a')
+            self._output.flush()
+
+    def ask(self, text):
+        """What is typed, without blanks around it; empty at the end of the input."""
+        self.tell('   ?  ' + text + ' ', end='')
+        return self._source.readline().strip()
+
+    def ask_number(self, text, lowest, highest):
+        """A number, or None for an empty answer; asks again until it is one."""
+        while True:
+            answer = self.ask(text)
+            if not answer:
+                return None
+            try:
+                value = float(answer)
+            except ValueError:
+                value = float('nan')
+            if lowest <= value <= highest:
+                return value
+            self.tell('      Please type a number within %g and %g, or nothing.' % (lowest, highest))
+
+    def typed(self):
+        """A line that has been typed meanwhile, or None."""
+        if select.select([self._source], [], [], 0.0)[0]:
+            return self._source.readline().strip()
+        return None

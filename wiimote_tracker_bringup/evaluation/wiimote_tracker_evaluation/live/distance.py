@@ -1,0 +1,110 @@
+"""Detection distance, with a person who carries the remote away."""
+
+import time
+
+import numpy as np
+import yaml
+
+from wiimote_tracker_evaluation import charts
+from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
+from wiimote_tracker_evaluation.live.listener import Listener
+
+TIME_LIMIT = 0.5  # the paper's: no other position for so long [s]
+
+
+class Watch(object):
+    """Since when the brightest spot of a camera has not moved."""
+
+    def __init__(self, camera):
+        import rospy
+        from wiimote_tracker_msgs.msg import IrBlobArray
+        self._pixel = None
+        self.changed = None  # [s, monotonic]; None: nothing was seen yet
+        self._subscriber = rospy.Subscriber(camera + '/ir_blobs', IrBlobArray, self._on_image)
+
+    def _on_image(self, message):
+        pixels = [(blob.x, blob.y) for blob in message.blobs]
+        if pixels and pixels[0] != self._pixel:
+            self._pixel = pixels[0]
+            self.changed = time.monotonic()
+
+    def is_over(self):
+        return self.changed is not None and time.monotonic() - self.changed >= TIME_LIMIT
+
+    def close(self):
+        self._subscriber.unregister()
+
+
+def live(run, dialogue=None):
+    listener, dialogue = Listener(), dialogue or Dialogue()
+    try:
+        run.simulated = listener.is_simulated()
+        measure(run, dialogue)
+    finally:
+        listener.close()
+
+
+def measure(run, dialogue):
+    dialogue.tell('Take one remote; hold it towards the LED, in small circles all the time, and walk '
+                  'slowly backwards until you hear a beep. Then measure the distance.')
+    camera = dialogue.ask('Name of that camera, such as wiimote_1 (Enter: leave this out):')
+    if not camera:
+        run.say('The detection distance was left out.')
+        return
+    pairs = []
+    while True:
+        current = dialogue.ask_number('Current through the LED in mA (Enter: no more):', 0.1, 1e5)
+        if current is None:
+            break
+        distance = one_walk(dialogue, camera)
+        if distance is not None:
+            pairs.append((current, distance))
+    tell(run, camera, pairs)
+
+
+def one_walk(dialogue, camera):
+    """The distance that the person measured [m], or None."""
+    dialogue.tell('      Begin near the LED; walk when you like (s and Enter: leave this one out).')
+    watch = Watch(camera)
+    try:
+        while not watch.is_over():
+            dialogue.passing('nothing seen yet' if watch.changed is None else 'it is seen')
+            if dialogue.typed() == SKIP:
+                return None
+            time.sleep(0.02)
+    finally:
+        watch.close()
+    dialogue.beep()
+    return dialogue.ask_number('Not seen any more. Distance to the LED in metres (Enter: forget it):',
+                               0.01, 1000.0)
+
+
+def tell(run, camera, pairs):
+    run.say('A person has carried %s away from the LED in small circles until its spot had not moved '
+            'for %.1f s.' % (camera, TIME_LIMIT))
+    run.table('distances', [('current', 'mA'), ('distance', 'm')], [list(pair) for pair in pairs])
+    if not pairs:
+        run.say('No distance was measured: there are no figures.')
+        return
+    with open(run.file('distances.yaml'), 'w') as file:
+        yaml.safe_dump({'distances': {1e-3 * current: distance for current, distance in pairs}}, file)
+    run.say('`distance/distances.yaml` holds the pairs for a file such as `led.yaml` (`--led`).')
+    currents, distances = np.array(sorted(pairs)).T
+    factor = np.exp(np.mean(np.log(distances / np.sqrt(1e-3 * currents))))
+    for current in np.unique(currents):
+        values = distances[currents == current]
+        run.figure('live_%s_mA' % ('%g' % current).replace('.', '_'), np.mean(values), 'm',
+                   len(values), note='Distance from which the LED is seen with %g mA' % current,
+                   end_to_end=True)
+    run.figure('live_1_A', factor, 'm', len(pairs), note='The same with 1 A, by the inverse square law '
+               'fitted to all', end_to_end=True)
+    figure, axes = charts.figure()
+    curve = np.geomspace(0.5 * currents.min(), 2.0 * currents.max(), 100)
+    axes.plot(curve, factor * np.sqrt(1e-3 * curve), color=charts.BLUE, label='fitted, inverse square')
+    axes.plot(currents, distances, 'D', color=charts.INK, label='measured')
+    axes.set_xlabel('current [mA]')
+    axes.set_ylabel('detection distance [m]')
+    axes.set_ylim(0.0, None)
+    charts.key(axes, 'upper left')
+    run.plot('distance', figure, 'Distance from which the LED is seen, over its current.')
+    run.summary('The LED is seen from %.1f m with %g mA.' % (distances[-1], currents[-1]))

@@ -1,0 +1,88 @@
+"""How long it takes until blinking LEDs have their names, with a person who switches them on."""
+
+import time
+
+import numpy as np
+
+from wiimote_tracker_evaluation import statistics
+from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
+from wiimote_tracker_evaluation.live.listener import Listener
+
+TRIES, QUICK_TRIES = 10, 3
+PATIENCE = 10.0  # for labels, after the LEDs are seen [s]
+
+
+def live(run, dialogue=None):
+    listener, dialogue = Listener(), dialogue or Dialogue()
+    try:
+        run.simulated = listener.is_simulated()
+        measure(run, listener, dialogue)
+    finally:
+        listener.close()
+
+
+def measure(run, listener, dialogue):
+    dialogue.tell('The tracker must know how your LEDs blink (argument blink_codes of its launch file).')
+    names = dialogue.ask('Labels of the LEDs, separated by commas (Enter: leave this out):')
+    labels = sorted(name.strip() for name in names.split(',') if name.strip())
+    if not labels:
+        run.say('Identification was left out.')
+        return
+    rows = []
+    for number in range(QUICK_TRIES if run.quick else TRIES):
+        dialogue.tell('   %2d  Switch all LEDs off; then on.' % (number + 1))
+        row = one_try(listener, dialogue, labels)
+        if row is None:
+            break
+        dialogue.tell('       ' + ('all have their labels after %.2f s' % row[1] if row[0] else
+                                   'not all labels within %.0f s' % PATIENCE))
+        rows.append([number + 1, int(row[0]), row[1]])
+    tell(run, labels, rows)
+
+
+def one_try(listener, dialogue, labels):
+    """Whether all were labelled, and after what time from their first light [s]; None: skipped."""
+    if not wait(dialogue, lambda: not shown(listener)):
+        return None
+    begin = listener.now()
+    if not wait(dialogue, lambda: len(shown(listener)) > 0):
+        return None
+    first = next(seen.heard for seen in listener.since(begin) if seen.leds)
+    while listener.now() < first + PATIENCE:
+        if sorted(led.label for led in shown(listener) if led.since > 0.0) == labels:
+            return True, listener.now() - first
+        time.sleep(0.005)
+    return False, None
+
+
+def shown(listener):
+    """LEDs of the last moments."""
+    newest = listener.newest()
+    return newest.leds if newest and listener.now() - newest.heard < 0.5 else []
+
+
+def wait(dialogue, condition):
+    while not condition():
+        if dialogue.typed() == SKIP:
+            return False
+        time.sleep(0.005)
+    return True
+
+
+def tell(run, labels, rows):
+    run.say('A person has switched %d LEDs (%s) off and on; the time runs from the first point of any '
+            'to the labels of all.' % (len(labels), ', '.join(labels)))
+    run.table('tries', [('try', ''), ('all_labelled', ''), ('time', 's')], rows)
+    if not rows:
+        return
+    good = [row[2] for row in rows if row[1]]
+    low, high = statistics.wilson(len(good), len(rows))
+    run.figure('live_success', 100.0 * len(good) / len(rows), '%', len(rows),
+               (100.0 * low, 100.0 * high), 'Tries in which all LEDs got their labels',
+               end_to_end=True)
+    if len(good) > 1:
+        run.figure('live_time', np.median(good), 's', len(good),
+                   statistics.bootstrap(good, np.median, run.seed),
+                   'Time until all have their labels, median', end_to_end=True)
+        run.summary('Identification: %d of %d tries, %.2f s (median).'
+                    % (len(good), len(rows), np.median(good)))

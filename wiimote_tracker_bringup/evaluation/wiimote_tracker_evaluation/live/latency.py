@@ -1,0 +1,118 @@
+"""Latency by the laps counter, with a person who sets it up."""
+
+import time
+
+import numpy as np
+
+from wiimote_tracker_evaluation import charts, statistics
+from wiimote_tracker_evaluation.live.circles import errors_of, path_of
+from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
+from wiimote_tracker_evaluation.live.listener import Listener
+
+LAPS, QUICK_LAPS = 40, 6
+PATIENCE = 15.0  # for the next lap [s]
+
+
+class LapsCounter(object):
+    """Triggers, the newest position at the arrival of each, and the tracker's own answers."""
+
+    def __init__(self, listener):
+        import rospy
+        from std_msgs.msg import Header
+        from wiimote_tracker_msgs.msg import TrackedPointArray
+        self._listener = listener
+        self.newest = {}   # by the trigger's stamp [ns]: position known then [m]
+        self.answers = {}  # the same: position by the answer [m]
+        self._subscribers = [
+            rospy.Subscriber('trigger', Header, self._on_trigger, tcp_nodelay=True),
+            rospy.Subscriber('triggered_points', TrackedPointArray, self._on_answer)]
+
+    def _on_trigger(self, message):
+        begin = message.stamp.to_sec()
+        known = [seen for seen in self._listener.since(begin - 1.0)
+                 if seen.heard <= begin and len(seen.leds) == 1]
+        if known:
+            self.newest[message.stamp.to_nsec()] = known[-1].leds[0].position
+
+    def _on_answer(self, message):
+        if len(message.points) == 1:
+            point = message.points[0].position
+            self.answers[message.header.stamp.to_nsec()] = np.array([point.x, point.y, point.z])
+
+    def laps(self):
+        """Stamps [ns] of the triggers that both are known of."""
+        return sorted(set(self.newest) & set(self.answers))
+
+    def close(self):
+        for subscriber in self._subscribers:
+            subscriber.unregister()
+
+
+def live(run, dialogue=None):
+    listener, dialogue = Listener(), dialogue or Dialogue()
+    counter = LapsCounter(listener)
+    try:
+        run.simulated = listener.is_simulated()
+        measure(run, listener, counter, dialogue)
+    finally:
+        counter.close()
+        listener.close()
+
+
+def measure(run, listener, counter, dialogue):
+    wanted = QUICK_LAPS if run.quick else LAPS
+    listener.wait_for_points()
+    dialogue.tell(
+        'Let one LED go round on a level circle at constant speed, and let a laps counter publish a '
+        'std_msgs/Header on /trigger, stamped with the time, whenever the LED passes it. Waiting for '
+        '%d laps (s and Enter: leave this out).' % wanted)
+    begin = listener.now()
+    last, count = time.monotonic(), 0
+    while len(counter.laps()) < wanted + 1:
+        if len(counter.laps()) > count:
+            last, count = time.monotonic(), len(counter.laps())
+        if dialogue.typed() == SKIP or (count and time.monotonic() - last > PATIENCE):
+            break
+        dialogue.passing('%d of %d laps' % (max(count - 1, 0), wanted))
+        time.sleep(0.02)
+    tell(run, counter, path_of(listener.since(begin))[1])
+
+
+def tell(run, counter, positions):
+    laps = counter.laps()
+    if len(laps) < 3:
+        run.say('Fewer than two laps were counted: there are no figures.')
+        return
+    centre = errors_of(positions, 0.0)[0]
+    period = float(np.median(np.diff(laps))) * 1e-9
+    turn = np.cross(positions[:-1] - centre, np.diff(positions, axis=0)).sum(axis=0)
+    late = np.array([behind(counter.newest[lap] - centre, counter.answers[lap] - centre, turn)
+                     for lap in laps]) * 1e3 * period / (2.0 * np.pi)
+    run.say(
+        'The laps counter has counted %d laps of %.4f s. At each of its triggers, the newest point '
+        'that was known then lies behind the place where the tracker itself, with hindsight, puts the '
+        'LED at that moment; the angle between them times the period is the latency, as in Fig. 6.'
+        % (len(laps) - 1, period))
+    run.figure('live_mean', np.mean(late), 'ms', len(late),
+               statistics.bootstrap(late, np.mean, run.seed), 'Latency by the angle, mean',
+               end_to_end=True)
+    run.figure('live_least', np.min(late), 'ms', len(late), note='Least latency', end_to_end=True)
+    run.figure('live_most', np.max(late), 'ms', len(late), note='Greatest latency', end_to_end=True)
+    run.table('laps', [('lap', ''), ('time', 's'), ('latency', 'ms')],
+              [[number, 1e-9 * (lap - laps[0]), value]
+               for number, (lap, value) in enumerate(zip(laps, late))], shown=False)
+    figure, axes = charts.figure()
+    charts.cumulative(axes, late, charts.BLUE)
+    axes.set_xlabel('latency [ms]')
+    axes.set_ylabel('share of the laps')
+    axes.set_xlim(0.0, None)
+    run.plot('latency', figure, 'Cumulative distribution of the latency.')
+    run.summary('Latency by the laps counter: %.1f ms on average (%d laps; the paper measured 280 to '
+                '320 ms).' % (np.mean(late), len(late) - 1))
+
+
+def behind(newest, answer, axis):
+    """Angle about the axis from one direction to the other [rad]."""
+    axis = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
+    newest, answer = (each - axis * (axis @ each) for each in (newest, answer))
+    return float(np.arctan2(axis @ np.cross(newest, answer), newest @ answer))

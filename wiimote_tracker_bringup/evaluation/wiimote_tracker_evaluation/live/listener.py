@@ -1,0 +1,135 @@
+"""What a running tracker says, kept for a while."""
+
+import collections
+import time
+
+import numpy as np
+
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.live.dialogue import SKIP
+
+KEPT = 60.0         # [s]
+STILL_TIME = 1.5    # for which an LED must not move to be measured [s]
+STILL = 0.01        # within which it stays [m]
+ELSEWHERE = 0.15    # at least so far from the place before [m]
+FEWEST = 20         # points of a measured place
+THERE = 10.0        # within which a tracker that runs is heard [s]
+
+Seen = collections.namedtuple('Seen', 'stamp heard leds')  # [s since 1970]; leds: of one instant
+Led = collections.namedtuple('Led', 'id label since tracked position')
+Place = collections.namedtuple('Place', 'position scatter points')  # mean, standard deviation [m]
+
+
+class Listener(object):
+    """Points and the rig of the tracker that the ROS master knows. @raise ExperimentError: there is
+    none."""
+
+    def __init__(self):
+        import rosgraph
+        import rospy
+        if not rosgraph.is_master_online():
+            raise ExperimentError('there is no ROS master; start the tracker first: roslaunch '
+                                  'wiimote_tracker_bringup tracker.launch')
+        if not rospy.core.is_initialized():
+            rospy.init_node('evaluation', anonymous=True, disable_signals=True)
+        from wiimote_tracker_msgs.msg import RigCalibration, TrackedPointArray
+        self._rospy = rospy
+        self._seen = collections.deque()
+        self._rig = None
+        self._subscribers = [
+            rospy.Subscriber('points', TrackedPointArray, self._on_points, queue_size=1000,
+                             tcp_nodelay=True),
+            rospy.Subscriber('calibration/rig', RigCalibration, self._on_rig)]
+
+    def close(self):
+        for subscriber in self._subscribers:
+            subscriber.unregister()
+
+    def is_simulated(self):
+        """Whether virtual remotes play the real ones: then the report must say so."""
+        return any(name.startswith('/simulation/')
+                   for name, _ in self._rospy.get_published_topics())
+
+    def now(self):
+        return self._rospy.get_time()
+
+    def _on_points(self, message):
+        leds = [Led(p.id, p.label, p.label_since.to_sec(), p.state == p.TRACKED,
+                    np.array([p.position.x, p.position.y, p.position.z]))
+                for p in message.points if p.state in (p.TRACKED, p.PREDICTED)]
+        heard = self._rospy.get_time()
+        self._seen.append(Seen(message.header.stamp.to_sec(), heard, leds))
+        while self._seen[0].heard < heard - KEPT:
+            self._seen.popleft()
+
+    def _on_rig(self, message):
+        self._rig = message
+
+    # --- The rig
+
+    def rig(self):
+        self._wait(lambda: self._rig is not None, 'the tracker has no calibration: calibrate first '
+                   '(rosrun wiimote_tracker_calibration calibrate)')
+        return self._rig
+
+    def side(self):
+        """Of the square that the rig was calibrated with [m]."""
+        sides = self.rig().square_sides
+        if not sides or len(set(sides)) > 1:
+            raise ExperimentError('the ten points need a rig that was calibrated with a square; its '
+                                  'sides are %s' % (list(sides) or 'unknown'))
+        return sides[0]
+
+    def up(self):
+        """1 with z up; -1 with z down, as in the paper: cameras hang above the floor."""
+        heights = [camera.world_from_camera.position.z for camera in self.rig().cameras]
+        return 1.0 if np.mean(heights) > 0.0 else -1.0
+
+    # --- The LEDs
+
+    def wait_for_points(self):
+        self._wait(lambda: self._seen, 'no points come; see rosrun wiimote_tracker_calibration '
+                   'calibrate for what the cameras see')
+
+    def since(self, begin):
+        """What was heard after a time [s since 1970]."""
+        return [seen for seen in list(self._seen) if seen.heard > begin]
+
+    def newest(self):
+        return self._seen[-1] if self._seen else None
+
+    def still(self, dialogue, before=None):
+        """The Place where the only LED has been put down, when it has lain still for a while, away
+        from the place before [m]; None when the person skips it."""
+        begin = self.now()
+        while dialogue.typed() != SKIP:
+            rows = [(seen.stamp, seen.leds) for seen in self.since(max(begin, self.now() - STILL_TIME))]
+            place = self._place(rows) if self.now() - begin > STILL_TIME else None
+            if place is None:
+                dialogue.passing('waiting for one LED that lies still (%d seen)'
+                                 % (len(rows[-1][1]) if rows else 0))
+            elif before is not None and np.linalg.norm(place.position - before) < ELSEWHERE:
+                dialogue.passing('waiting for the LED to be taken to the next place')
+            else:
+                dialogue.beep()
+                return place
+            time.sleep(0.05)
+        return None
+
+    @staticmethod
+    def _place(rows):
+        if len(rows) < FEWEST or any(len(leds) != 1 or not leds[0].tracked for _, leds in rows):
+            return None
+        positions = np.array([leds[0].position for _, leds in rows])
+        mean = positions.mean(axis=0)
+        if np.linalg.norm(positions - mean, axis=1).max() > STILL:
+            return None
+        return Place(mean, float(np.sqrt(((positions - mean) ** 2).sum() / (len(rows) - 1))),
+                     len(rows))
+
+    def _wait(self, condition, otherwise):
+        deadline = time.monotonic() + THERE
+        while not condition():
+            if time.monotonic() > deadline:
+                raise ExperimentError(otherwise)
+            time.sleep(0.02)

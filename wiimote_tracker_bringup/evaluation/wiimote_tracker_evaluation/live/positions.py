@@ -1,0 +1,71 @@
+"""The ten points, with a person who puts the LED there."""
+
+import numpy as np
+
+from wiimote_tracker_evaluation import charts, experiment, statistics
+from wiimote_tracker_evaluation.live.dialogue import Dialogue
+from wiimote_tracker_evaluation.live.listener import Listener
+
+FLOOR, AIR = 0.01, 0.03  # the paper's largest errors of putting the LED there [m]
+
+
+def live(run, dialogue=None):
+    listener, dialogue = Listener(), dialogue or Dialogue()
+    try:
+        run.simulated = listener.is_simulated()
+        measure(run, listener, dialogue)
+    finally:
+        listener.close()
+
+
+def targets(side, up):
+    """The paper's ten points in a cube of this side [m]; up: 1 or -1, as z."""
+    return experiment.TEST_POINTS / experiment.SIDE * side * [1.0, 1.0, up]
+
+
+def measure(run, listener, dialogue):
+    points = targets(listener.side(), listener.up())
+    listener.wait_for_points()
+    dialogue.tell('Take one LED to ten places, one after the other, and hold it still until the next '
+                  'one is named (s and Enter: leave it out).')
+    rows, before = [], None
+    for number, target in enumerate(points):
+        dialogue.tell('   %2d  Put the LED at x = %.3f m, y = %.3f m, z = %.3f m.'
+                      % ((number + 1,) + tuple(target)))
+        place = listener.still(dialogue, before)
+        if place is None:
+            continue
+        before = place.position
+        error = float(np.linalg.norm(place.position - target))
+        dialogue.tell('       measured %.3f, %.3f, %.3f: %.1f cm off'
+                      % (tuple(place.position) + (100.0 * error,)))
+        rows.append([number + 1] + list(target) + list(place.position) +
+                    [1e3 * error, 1e3 * place.scatter, place.points])
+    tell(run, rows, len(points))
+
+
+def tell(run, rows, of):
+    run.say('A person has put the LED at %d of the %d points and held it still; measured is the mean '
+            'over %.1f s. The places are as true as they were measured: the paper puts that at %.0f cm '
+            'at most on the floor and %.0f cm above.' % (len(rows), of, 1.5, 100 * FLOOR, 100 * AIR))
+    run.table('places', [('point', ''), ('x', 'm'), ('y', 'm'), ('z', 'm'), ('measured_x', 'm'),
+                         ('measured_y', 'm'), ('measured_z', 'm'), ('error', 'mm'),
+                         ('scatter', 'mm'), ('points', '')], rows)
+    if len(rows) < 2:
+        run.say('Fewer than two places were measured: there are no figures.')
+        return
+    errors = np.array([row[7] for row in rows])
+    for name, statistic, note in (('rms', statistics.rms, 'RMS error over the points'),
+                                  ('largest', np.max, 'Largest error over the points')):
+        run.figure('live_' + name, statistic(errors), 'mm', len(errors),
+                   statistics.bootstrap(errors, statistic, run.seed), note, end_to_end=True)
+    figure, axes = charts.figure()
+    charts.cumulative(axes, errors / 10.0, charts.BLUE, 'measured here')
+    axes.axvline(3.0, color=charts.SOFT, linestyle='--', label="the paper's 3 cm")
+    axes.set_xlim(0.0, None)
+    axes.set_xlabel('error [cm]')
+    axes.set_ylabel('share of the points')
+    charts.key(axes, 'lower right')
+    run.plot('places', figure, 'Cumulative distribution of the errors.')
+    run.summary('The ten points by hand: RMS error %.1f mm, largest %.1f mm (%d points).'
+                % (statistics.rms(errors), errors.max(), len(errors)))

@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+"""Somebody does what `evaluate --live` prompts for, on a terminal, with the LED of a simulated rig;
+the figures of the report are held against what can be expected."""
+
+import json
+import os
+import pty
+import re
+import select
+import shutil
+import subprocess
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+import yaml
+from std_msgs.msg import Header
+from wiimote_tracker_evaluation import experiment, scene, true_rig
+from wiimote_tracker_evaluation.ours.cameras import point_bound
+from wiimote_tracker_msgs.msg import IrBlobArray, RigCalibration, TrackedPointArray
+from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
+
+EVALUATE = ['rosrun', 'wiimote_tracker_bringup', 'evaluate', '--live', '--quick', '--sections',
+            'distance,latency,identification,positions,circles', '--output']
+DEADLINE = 60.0                    # [s]
+SPEED = 4.0                        # of the hand [m/s]
+CHOSEN = (1, 10)                   # of the ten points; the others are left out
+LAP_CENTRE, LAP_RADIUS, LAP_SPEED = (1.25, 1.25, 0.5), 0.4, 4.0  # [m], [m], [m/s]
+RADIUS = 0.75                      # of the circle [m]
+CURRENT, DISTANCE = 560.0, 10.0    # [mA], [m]
+SIGMAS = 4.0
+
+
+class Person(object):
+    """Reads the terminal, moves the LED, types."""
+
+    def __init__(self, terminal):
+        self._terminal = terminal
+        rospy.wait_for_service('simulation/set_led', DEADLINE)
+        self._service = rospy.ServiceProxy('simulation/set_led', SetLed)
+        self._trigger = rospy.Publisher('trigger', Header, queue_size=10)
+        self._images = 0
+        self._walks = 0
+        self.ages = []      # of the newest point at each trigger [s]
+        self._newest = None
+        rospy.Subscriber('points', TrackedPointArray, self._on_points)
+        rospy.Subscriber('wiimote_1/ir_blobs', IrBlobArray, self._on_image)
+        self._does = (
+            (r'(\d+)  Put the LED at x = (\S+) m, y = (\S+) m, z = (\S+) m\.', self.place),
+            (r'Waiting for \d+ laps', self.laps),
+            (r'Its radius in metres.*?: ', self.circle),
+            (r'Name of that camera.*?: ', lambda: self.type('wiimote_1')),
+            (r'Current through the LED.*?: ', self.current),
+            (r'Begin near the LED', self.walk),
+            (r'Distance to the LED in metres.*?: ', self.distance),
+            (r'Labels of the LEDs.*?: ', lambda: self.type('')))
+
+    def _on_points(self, message):
+        if message.points:
+            self._newest = message.header.stamp.to_sec()
+
+    def _on_image(self, message):
+        self._images += bool(message.blobs)
+
+    def obey(self, process):
+        """Until the program has ended; what it said."""
+        text, done = '', 0
+        deadline = rospy.get_time() + DEADLINE
+        while process.poll() is None:
+            if rospy.get_time() > deadline:
+                raise AssertionError('the program waits for something: ' + text[-500:])
+            if not select.select([self._terminal], [], [], 0.05)[0]:
+                continue
+            try:
+                text += os.read(self._terminal, 4096).decode()
+            except OSError:  # its end
+                break
+            while True:
+                found = [(match.end(), match, action) for pattern, action in self._does
+                         for match in [re.compile(pattern).search(text, done)] if match]
+                if not found:
+                    break
+                done, match, action = min(found, key=lambda each: each[0])
+                action(*match.groups())
+        process.wait()
+        return text
+
+    def type(self, text):
+        os.write(self._terminal, (text + '\n').encode())
+
+    def _set_led(self, **request):
+        target = request.pop('target')
+        message = SetLedRequest(led='led', **request)
+        message.target.x, message.target.y, message.target.z = target
+        answer = self._service(message)
+        assert answer.success, answer.message
+        return answer.arrival.to_sec()
+
+    @staticmethod
+    def _until(time):
+        while rospy.get_time() < time:
+            rospy.sleep(0.005)
+
+    # --- What is asked for
+
+    def place(self, number, *position):
+        if int(number) not in CHOSEN:
+            self.type('s')
+            return
+        self._set_led(on=True, motion=SetLedRequest.LINE, speed=SPEED,
+                      target=[float(each) for each in position])
+
+    def laps(self):
+        threading.Thread(target=self._count_laps, daemon=True).start()
+
+    def _count_laps(self):
+        first = self._set_led(on=True, motion=SetLedRequest.CIRCLE, target=LAP_CENTRE,
+                              speed=LAP_SPEED, radius=LAP_RADIUS)
+        for lap in range(1, 10):
+            crossing = first + lap * 2.0 * np.pi * LAP_RADIUS / LAP_SPEED
+            self._until(crossing)
+            self._trigger.publish(Header(stamp=rospy.Time.from_sec(crossing)))
+            self.ages.append(crossing - self._newest)
+
+    def circle(self):
+        self._until(self._set_led(on=True, motion=SetLedRequest.CIRCLE, target=(1.25, 1.25, 0.95),
+                                  speed=1.5, radius=RADIUS))
+        rospy.sleep(0.1)
+        self.type('%g' % RADIUS)
+
+    def current(self):
+        self._walks += 1
+        self.type('%g' % CURRENT if self._walks == 1 else '')
+
+    def walk(self):
+        self._set_led(on=True, motion=SetLedRequest.CIRCLE, target=(1.25, 1.25, 1.0), speed=0.5,
+                      radius=0.1)
+        begin = self._images
+        while self._images < begin + 30:
+            rospy.sleep(0.01)
+        self._set_led(on=False, motion=SetLedRequest.HOLD, target=(0.0, 0.0, 0.0))
+
+    def distance(self):
+        self._set_led(on=True, motion=SetLedRequest.HOLD, target=(0.0, 0.0, 0.0))
+        self.type('%g' % DISTANCE)
+
+
+class EvaluateLive(unittest.TestCase):
+
+    def test_a_person_is_led_to_a_report(self):
+        rospy.init_node('evaluate_live_rostest')
+        path = rospy.get_param('~description')
+        with open(path) as file:
+            description = yaml.safe_load(file)
+        described = scene.read_scene(path)
+        rig = true_rig.true_rig(described, {name: camera['identity'] for name, camera in
+                                            description['cameras'].items()})
+        rig.square_sides = [experiment.SIDE, experiment.SIDE]
+        publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
+        publisher.publish(rig)
+
+        output = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, output)
+        terminal, other_end = pty.openpty()
+        process = subprocess.Popen(EVALUATE + [output], stdin=other_end, stdout=other_end,
+                                   stderr=other_end)
+        os.close(other_end)
+        self.addCleanup(process.kill)
+        person = Person(terminal)
+        said = person.obey(process)
+        self.assertEqual(process.returncode, 0, said[-2000:])
+
+        with open(os.path.join(output, 'figures.json')) as file:
+            figures = {(figure['section'], figure['name']): figure
+                       for figure in json.load(file)['figures']}
+        for figure in figures.values():
+            self.assertTrue(figure['simulated'], 'the remotes are virtual, and the report must say so')
+
+        def value(section, name):
+            return figures[section, name]['value']
+        # The mean over a place is better than a single image's point, which the bound is of.
+        places = experiment.TEST_POINTS[[number - 1 for number in CHOSEN]]
+        bound = 1e3 * point_bound(described.cameras, described.effective_noise(), places)
+        self.assertEqual(figures['positions', 'live_rms']['samples'], len(CHOSEN))
+        self.assertLess(value('positions', 'live_largest'), SIGMAS * bound)
+        self.assertGreater(value('positions', 'live_rms'), 0.0)
+        self.assertLess(value('circles', 'live_radial'), SIGMAS * bound)
+        self.assertLess(value('circles', 'live_height'), SIGMAS * bound)
+        # By the angle, against the age of the newest point that another process knew of.
+        self.assertAlmostEqual(value('latency', 'live_mean'), 1e3 * np.mean(person.ages), delta=5.0)
+        self.assertEqual(value('distance', 'live_560_mA'), DISTANCE)
+
+
+if __name__ == '__main__':
+    rostest.rosrun('wiimote_tracker_bringup', 'evaluate_live', EvaluateLive)

@@ -1,0 +1,193 @@
+"""Distance, identification and ours: models against closed forms, programs against bounds that are
+computed here, and what live measurements are made of."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
+
+from wiimote_tracker_evaluation import light, programs, scene, statistics  # noqa: E402
+from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
+from wiimote_tracker_evaluation.live import circles, latency, listener  # noqa: E402
+from wiimote_tracker_evaluation.ours import cameras  # noqa: E402
+from wiimote_tracker_evaluation.sections import identification  # noqa: E402
+
+RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
+LED = os.path.join(HERE, '..', 'evaluation', 'led.yaml')
+SIGMAS = 4.0
+
+
+def table_of(folder, program, sessions, seed=1):
+    path = str(folder / ('%s_%d_%d.csv' % (program, sessions, seed)))
+    subprocess.run([programs.find_program(program), '--rig', RIG, '--output', path,
+                    '--sessions', str(sessions), '--seed', str(seed)], check=True)
+    return programs.read_csv(path), path
+
+
+# --- The LED's brightness
+
+def test_the_constant_is_found_again_whatever_the_currents():
+    constant, threshold = 3.7, 0.02
+    pairs = [(current, np.sqrt(constant * current / threshold)) for current in (0.1, 0.3, 1.2)]
+    led = light.Led(70.0, 'wii_3', pairs)
+    assert led.brightness_per_ampere(threshold) == pytest.approx(constant)
+    assert led.misfit(threshold) == pytest.approx(0.0, abs=1e-12)
+    # A distance that is a tenth too long: by log(1.1) - log(1.1) / 3 and - log(1.1) / 3 twice.
+    led = light.Led(70.0, 'wii_3', pairs[:2] + [(1.2, 1.1 * pairs[2][1])])
+    assert led.misfit(threshold) == pytest.approx(np.log(1.1) / np.sqrt(3.0))
+
+
+def test_half_the_power_at_half_the_angle():
+    led = light.Led(70.0, 'wii_3', [(1.0, 1.0)])
+    assert led.relative(np.radians(35.0)) == pytest.approx(0.5)
+    assert led.relative(0.0) == 1.0
+    assert light.Led(120.0, 'wii_3', [(1.0, 1.0)]).exponent == pytest.approx(1.0), 'Lambert'
+
+
+def test_the_led_that_is_shipped_has_the_papers_point():
+    assert light.read_led(LED).measured == [(0.56, 10.0)]
+
+
+@pytest.mark.parametrize('content, named', [
+    ('[]', 'no description'), ('half_power_angle: 70\nsensitivity: wii_3\n', 'distances'),
+    ('half_power_angle: 0\nsensitivity: wii_3\ndistances: {1: 1}', 'half_power_angle'),
+    ('half_power_angle: 70\nsensitivity: high\ndistances: {1: 1}', 'sensitivity'),
+    ('half_power_angle: 70\nsensitivity: max\ndistances: {}', 'distances'),
+    ('half_power_angle: 70\nsensitivity: max\ndistances: {0.0: 1}', 'distances')])
+def test_what_is_no_led_is_refused(tmp_path, content, named):
+    path = tmp_path / 'led.yaml'
+    path.write_text(content)
+    with pytest.raises(ExperimentError) as caught:
+        light.read_led(str(path))
+    assert named in str(caught.value)
+
+
+# --- Programs
+
+def test_lights_are_seen_as_far_as_the_sensors_thresholds_say(tmp_path):
+    """Thresholds as the virtual Wii Remote documents them; its steps are one image of the walk."""
+    table, path = table_of(tmp_path, 'evaluate_distance', 1)
+    step = 0.25 * 0.01
+    for level, threshold in (('wii_1', 0.12), ('wii_3', 1.0 / 36.0), ('max', 0.0060)):
+        chosen = table['sensitivity'] == level
+        # The light is 0.02 rad off the axis, and so that much farther than the way.
+        expected = np.sqrt(table['brightness'][chosen] / threshold) / np.sqrt(1.0 + 0.02 ** 2)
+        tolerance = step + 1e-6 + (0.01 * expected if level != 'wii_3' else 0.0)  # two digits are told
+        assert (np.abs(table['last_seen_m'][chosen] - expected) <= tolerance).all()
+    late = table['stopped_at_m'] - table['last_seen_m']
+    # Half a second of walking from the last change, which is a pixel's way before the last sight.
+    assert (late <= 0.25 * 0.5 + step).all() and (late > 0.0).all()
+    with open(path, 'rb') as first:
+        before = first.read()
+    with open(table_of(tmp_path, 'evaluate_distance', 1)[1], 'rb') as again:
+        assert again.read() == before, 'the same seed gives the same bytes'
+
+
+def test_the_bound_of_two_cameras_at_a_right_angle():
+    """Each sees two axes, both see the height: sum of 1, 1 and 1/2 of (pixel * distance / f)^2."""
+    f, distance, noise = 1300.0, 6.0, 0.4
+    rig = []
+    for position in ((-distance, 0.0, 0.0), (0.0, -distance, 0.0)):
+        rig.append(scene.Camera('', [f, f, 512.0, 384.0, 0.0],
+                                scene.look_at(np.array(position), (0.0, 0.0, 0.0)), position,
+                                (1024, 768)))
+    expected = noise * distance / f * np.sqrt(2.5)
+    assert cameras.point_bound(rig, noise, np.zeros((1, 3))) == pytest.approx(expected, rel=1e-6)
+
+
+def test_single_points_reach_the_bound_and_the_papers_mean_does_not(tmp_path):
+    table, _ = table_of(tmp_path, 'evaluate_cameras', 6)
+    for count in (2, 4, 8):
+        bound, = cameras.ring_bounds(RIG, table, [count])
+        errors = table['error_mm'][(table['cameras'] == count) & (table['method'] == 'most_likely')]
+        errors = errors[np.isfinite(errors)]
+        # A mean of squares of some three normal coordinates; rounding is not quite normal noise.
+        spread = np.sqrt(2.0 / len(errors)) * bound ** 2
+        assert abs(np.mean(errors ** 2) - bound ** 2) < SIGMAS * spread
+    four = table['cameras'] == 4
+    assert statistics.rms(table['error_mm'][four & (table['method'] == 'mean_closest')]) > 1.2 * bound
+
+
+def test_instants_end_where_two_cameras_do_not_see_and_tracks_go_on(tmp_path):
+    table, _ = table_of(tmp_path, 'evaluate_occlusion', 3)
+    instants, tracks = table['method'] == 'instants', table['method'] == 'tracks'
+    # Each time that they end they cover 25 ms more; in 10 s, there are at most some 20 ends.
+    assert (table['covered_share'][instants] <= table['two_views_share'][instants] + 0.06).all()
+    hidden = (table['hidden_share'] >= 0.3) & (table['cameras'] == 4)
+    assert (table['covered_share'][tracks & hidden].mean()
+            > table['two_views_share'][tracks & hidden].mean())
+
+
+def test_cameras_on_their_own_clocks_need_estimated_times_as_the_speed_grows(tmp_path):
+    table, _ = table_of(tmp_path, 'evaluate_unsynchronised', 1)
+
+    def rms(speed, stamps, method):
+        value, = table['rms_mm'][(table['speed_m_per_s'] == speed) & (table['stamps'] == stamps)
+                                 & (table['clocks'] == 'own') & (table['method'] == method)]
+        return value
+    # What arrivals vary by, 2.4 ms, is so many millimetres at 3 m/s in each camera; of the mean of
+    # four cameras, and of a few images of each, less remains, but not nothing.
+    assert rms(3.0, 'arrival', 'tracks') > 0.5 * 2.4 * 3.0
+    assert rms(3.0, 'estimated', 'tracks') < 0.6 * rms(3.0, 'arrival', 'tracks')
+    assert rms(3.0, 'exact', 'latest') > 2.0 * rms(3.0, 'estimated', 'tracks')
+
+
+# --- Identification
+
+def tries(length, labelled, seconds):
+    count = len(length)
+    return {'length_ms': np.array(length, dtype=float), 'labelled': np.array(labelled),
+            'wrong': np.zeros(count), 'ever_wrong': np.zeros(count), 'cameras': np.full(count, 4.0),
+            'scheme': np.array(['paper'] * count), 'seconds': np.array(seconds, dtype=float)}
+
+
+def test_the_shortest_period_is_that_from_which_on_all_succeed():
+    line = identification.Line(tries([50, 60, 60, 80, 80], [4, 4, 3, 4, 4], [1, 2, 9, 3, 4]),
+                               'paper', 4)
+    assert line.shortest() == 80.0  # 50 ms by chance, since 60 ms fails
+    assert line.right == [1, 1, 2] and line.tries == [1, 2, 2]
+    assert list(line.seconds[1]) == [2.0], 'times are those of successes'
+    assert identification.Line(tries([80], [3], [1]), 'paper', 4).shortest() is None
+
+
+# --- Live
+
+def test_circle_errors_of_a_tilted_circle():
+    angle = np.linspace(0.0, 6.0, 500)
+    tilt = np.array([[1.0, 0.0, 0.0], [0.0, np.cos(0.2), -np.sin(0.2)],
+                     [0.0, np.sin(0.2), np.cos(0.2)]])
+    path = 0.7 * np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1) @ tilt.T + [1, 2, 3]
+    centre, radial, height = circles.errors_of(path, 0.75)
+    assert centre == pytest.approx([1.0, 2.0, 3.0])
+    assert radial == pytest.approx(np.full(500, -0.05))
+    assert height == pytest.approx(np.zeros(500), abs=1e-12)
+
+
+@pytest.mark.parametrize('way', [1.0, -1.0])
+def test_the_newest_point_lies_behind_in_the_direction_of_the_turn(way):
+    def at(angle):
+        return np.array([np.cos(angle), np.sin(angle), 0.3])
+    assert latency.behind(at(0.1 * way), at(0.3 * way), [0.0, 0.0, 2.0 * way]) == pytest.approx(0.2)
+
+
+def seen(positions, tracked=True):
+    return [(0.01 * i, [listener.Led(1, 'led', 0.0, tracked, np.array(position))])
+            for i, position in enumerate(positions)]
+
+
+def test_a_place_is_one_led_that_lies_still():
+    still = np.tile([1.0, 2.0, 0.5], (100, 1)) + 1e-3 * np.random.RandomState(1).randn(100, 3)
+    place = listener.Listener._place(seen(still))
+    assert place.position == pytest.approx(still.mean(axis=0))
+    assert place.scatter == pytest.approx(1e-3 * np.sqrt(3.0), rel=0.2) and place.points == 100
+    assert listener.Listener._place(seen(still[:5])) is None, 'too few'
+    assert listener.Listener._place(seen(still, tracked=False)) is None, 'hidden'
+    moved = still + np.linspace(0.0, 0.05, 100)[:, np.newaxis]
+    assert listener.Listener._place(seen(moved)) is None, 'it moves'
+    two = [(stamp, leds * 2) for stamp, leds in seen(still)]
+    assert listener.Listener._place(two) is None, 'which one?'

@@ -45,7 +45,7 @@ class Person(object):
         self._images = 0
         self._walks = 0
         self.ages = []      # of the newest point at each trigger [s]
-        self._newest = None
+        self._points = []   # stamp, and when it was heard [s]
         rospy.Subscriber('points', TrackedPointArray, self._on_points)
         rospy.Subscriber('wiimote_1/ir_blobs', IrBlobArray, self._on_image)
         self._does = (
@@ -60,7 +60,7 @@ class Person(object):
 
     def _on_points(self, message):
         if message.points:
-            self._newest = message.header.stamp.to_sec()
+            self._points.append((message.header.stamp.to_sec(), rospy.get_time()))
 
     def _on_image(self, message):
         self._images += bool(message.blobs)
@@ -123,7 +123,8 @@ class Person(object):
             crossing = first + lap * 2.0 * np.pi * LAP_RADIUS / LAP_SPEED
             self._until(crossing)
             self._trigger.publish(Header(stamp=rospy.Time.from_sec(crossing)))
-            self.ages.append(crossing - self._newest)
+            self.ages.append(crossing - max(stamp for stamp, heard in list(self._points)[-200:]
+                                            if heard <= crossing))
 
     def circle(self):
         self._until(self._set_led(on=True, motion=SetLedRequest.CIRCLE, target=(1.25, 1.25, 0.95),
@@ -174,10 +175,10 @@ class EvaluateLive(unittest.TestCase):
         self.assertEqual(process.returncode, 0, said[-2000:])
 
         with open(os.path.join(output, 'figures.json')) as file:
-            figures = {(figure['section'], figure['name']): figure
-                       for figure in json.load(file)['figures']}
-        for figure in figures.values():
-            self.assertTrue(figure['simulated'], 'the remotes are virtual, and the report must say so')
+            content = json.load(file)
+        figures = {(figure['section'], figure['name']): figure for figure in content['figures']}
+        for each in [content] + list(figures.values()):
+            self.assertTrue(each['simulated'], 'the remotes are virtual, and the report must say so')
 
         def value(section, name):
             return figures[section, name]['value']
@@ -189,8 +190,12 @@ class EvaluateLive(unittest.TestCase):
         self.assertGreater(value('positions', 'live_rms'), 0.0)
         self.assertLess(value('circles', 'live_radial'), SIGMAS * bound)
         self.assertLess(value('circles', 'live_height'), SIGMAS * bound)
-        # By the angle, against the age of the newest point that another process knew of.
-        self.assertAlmostEqual(value('latency', 'live_mean'), 1e3 * np.mean(person.ages), delta=5.0)
+        # By the angle, against the age of the newest point that another process knew of; on a busy
+        # machine the two hear of it at different times.
+        spread = 1e3 * np.std(person.ages) / np.sqrt(len(person.ages))
+        self.assertAlmostEqual(value('latency', 'live_mean'), 1e3 * np.mean(person.ages),
+                               delta=SIGMAS * spread + 5.0)
+        self.assertGreater(value('latency', 'live_least'), 0.0)
         self.assertEqual(value('distance', 'live_560_mA'), DISTANCE)
 
 

@@ -107,8 +107,9 @@ def tell(run, counter, positions):
     axes.set_ylabel('share of the laps')
     axes.set_xlim(0.0, None)
     run.plot('latency', figure, 'Cumulative distribution of the latency.')
-    run.summary('Latency by the laps counter: %.1f ms on average (%d laps; the paper measured 280 to '
-                '320 ms).' % (np.mean(late), len(late) - 1))
+    run.summary('Latency by the laps counter: %.1f ms on average (%d laps%s).' % (
+        np.mean(late), len(late) - 1,
+        '' if run.simulated else '; the paper measured 280 to 320 ms'))
 
 
 def behind(newest, answer, axis):

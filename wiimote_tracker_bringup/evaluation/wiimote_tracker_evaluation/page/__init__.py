@@ -10,9 +10,11 @@ class Report(object):
     """What all the pages are made of. command: the options of the run; seconds: it took."""
 
     def __init__(self, options, runs, seconds):
-        self.rig = options.rig
+        self.rig = 'the running one' if options.live else os.path.basename(options.rig)
         self.quick, self.live, self.seed = options.quick, options.live, options.seed
         self.runs = runs
+        # --live can be rehearsed on virtual remotes.
+        self.simulated = not options.live or any(run.simulated for run in runs)
         self.seconds = seconds
 
 

@@ -22,7 +22,7 @@ def figure_entry(run, figure):
 def figures_json(report):
     return json.dumps({
         'format': FORMAT, 'quick': report.quick, 'seed': report.seed,
-        'rig': os.path.basename(report.rig), 'simulated': not report.live,
+        'rig': report.rig, 'simulated': report.simulated,
         'failed': [run.name for run in report.runs if run.failure],
         'figures': [figure_entry(run, figure) for run in report.runs for figure in run.figures],
     }, indent=1, ensure_ascii=False) + '\n'

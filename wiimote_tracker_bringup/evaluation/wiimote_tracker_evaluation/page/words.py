@@ -54,8 +54,11 @@ def duration(seconds):
 
 def about(report):
     """One line about the whole run."""
-    import os
-    return '%s, rig `%s`, seed %d, %s; took %s.' % (
-        'Measured on a real rig' if report.live else 'Simulated',
-        os.path.basename(report.rig), report.seed,
+    if report.live:
+        how = ('Rehearsed on a simulated rig, with prompts' if report.simulated else
+               'Measured on a real rig')
+    else:
+        how = 'Simulated, rig `%s`' % report.rig
+    return '%s, seed %d, %s; took %s.' % (
+        how, report.seed,
         'quick run' if report.quick else 'full run', duration(report.seconds))

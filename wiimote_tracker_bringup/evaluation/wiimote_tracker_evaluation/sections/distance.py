@@ -125,12 +125,14 @@ def plot(run, led, carried, thresholds, constant):
                   color=color)
         axes.annotate(level, (1e3 * SHOWN[1], detection_distance(constant * SHOWN[1],
                                                                  thresholds[level])),
-                      xytext=(4, 0), textcoords='offset points', va='center', color=color)
+                      xytext=(4, 4 if level == 'max' else -1), textcoords='offset points',
+                      va='center', color=color)
     for current, distance in led.measured:
         axes.plot(1e3 * current, distance, 'D', color=charts.INK, markersize=6, markerfacecolor='none')
     axes.plot(1e3 * PAPER_CURRENT, PAPER_DISTANCE, 'D', color=charts.INK, markersize=6)
-    axes.annotate('paper: 560 mA, 10 m', (1e3 * PAPER_CURRENT, PAPER_DISTANCE), xytext=(-6, 14),
-                  textcoords='offset points', ha='right')
+    axes.annotate('paper: 560 mA, 10 m', (1e3 * PAPER_CURRENT, PAPER_DISTANCE), xytext=(62, -76),
+                  textcoords='offset points', ha='center',
+                  arrowprops={'arrowstyle': '-', 'color': charts.SOFT})
     axes.set_xscale('log')
     axes.set_yscale('log')
     for which, ticks in ((axes.set_xticks, (50, 100, 200, 500, 1000, 2000)),

@@ -10,6 +10,14 @@ double durationOf(const Path& path) {
   return path.back().time - path.front().time;
 }
 
+/// Distance of the ends over the length of the way [0..1].
+double straightness(const Path& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    length += (path[i].position - path[i - 1].position).norm();
+  return (path.back().position - path.front().position).norm() / length;
+}
+
 }  // namespace
 
 std::optional<Spotted> Spotter::add(const PathPoint& point,
@@ -57,6 +65,15 @@ std::optional<Spotted> Spotter::report() {
   return spotted;
 }
 
+bool Spotter::isAfterRest(const PathPoint& beginning) const {
+  const double since = beginning.time - options_.rest_time;
+  return motion_.front().time <= since &&
+         std::all_of(motion_.begin(), motion_.end(), [&](const PathPoint& p) {
+           return p.time < since || p.time > beginning.time ||
+                  (p.position - beginning.position).norm() <= options_.rest_radius;
+         });
+}
+
 void Spotter::look(const Recognizer& recognizer, const std::string& zone) {
   const double now = motion_.back().time;
   for (double duration = options_.shortest; duration <= options_.longest * 1.0001;
@@ -68,6 +85,8 @@ void Spotter::look(const Recognizer& recognizer, const std::string& zone) {
     Path path(first, motion_.end());
     const std::optional<Recognition> recognition = recognizer.recognize(path, zone);
     if (!recognition || recognition->score < options_.minimum_score)
+      continue;
+    if (straightness(path) > options_.straight && !isAfterRest(path.front()))
       continue;
     if (!best_ || recognition->score > best_->recognition.score)
       best_ = Spotted{std::move(path), *recognition};

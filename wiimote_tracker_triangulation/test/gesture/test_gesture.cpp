@@ -459,6 +459,31 @@ TEST(Spotter, FindsAGestureInMotionThatGoesOn) {
   EXPECT_NEAR(found[0].path.back().time, 4.6, 0.2);
 }
 
+TEST(Spotter, AStraightStrokeIsAGestureOnlyAfterARest) {
+  const Curve swipe = [](double s) { return Eigen::Vector3d(0.4 * s, 0.0, 0.02 * s * (1.0 - s)); };
+  Recognizer recognizer{RecognizerOptions()};
+  recognizer.add({"swipe", "", draw(swipe, {})});
+  // Up, then to the right.
+  const auto reports = [&](double pause) {
+    Spotter spotter{SpotterOptions()};
+    int found = 0;
+    const auto feed = [&](const Path& path) {
+      for (const PathPoint& point : path)
+        found += spotter.add(point, recognizer) ? 1 : 0;
+    };
+    Drawing drawing;
+    drawing.duration = 1.0;
+    feed(draw([](double s) { return Eigen::Vector3d(0.0, 0.0, 0.4 * s - 0.4); }, drawing));
+    if (pause > 0.0)
+      feed(stay(1.01, 1.0 + pause, Eigen::Vector3d::Zero()));
+    drawing.start = 1.01 + pause;
+    feed(draw(swipe, drawing));
+    return found + (spotter.advance(10.0) ? 1 : 0);
+  };
+  EXPECT_EQ(reports(0.0), 0);
+  EXPECT_EQ(reports(0.6), 1);
+}
+
 TEST(ExamplesFile, ComesBackBitForBit) {
   const std::string file = testing::TempDir() + "gestures.yaml";
   Drawing odd;

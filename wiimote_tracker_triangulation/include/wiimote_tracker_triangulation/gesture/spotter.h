@@ -21,6 +21,13 @@ struct SpotterOptions {
   /// that chance has many tries; hence more than for a path that was marked as one.
   double minimum_score = 0.7;
 
+  /// All motion is full of straight strokes. One whose ends are further apart than this share of
+  /// its length [0..1] is a gesture only after a rest: all positions of the rest_time [s, > 0]
+  /// before it within rest_radius [m, > 0] of its beginning.
+  double straight = 0.8;
+  double rest_time = 0.25;
+  double rest_radius = 0.015;
+
   /// A hole of this length in the motion ends it [s, > 0].
   double longest_hole = 0.15;
 };
@@ -51,6 +58,7 @@ class Spotter {
 
  private:
   std::optional<Spotted> report();
+  bool isAfterRest(const PathPoint& beginning) const;
   void look(const Recognizer& recognizer, const std::string& zone);
 
   SpotterOptions options_;

@@ -57,6 +57,9 @@ GestureParameters GestureParameters::read(const ros::NodeHandle& nh) {
   spotter.interval = reader.bounded("continuous/interval", spotter.interval, 0.01, 1.0);
   spotter.minimum_score =
       reader.bounded("continuous/minimum_score", spotter.minimum_score, 0.5, 1.0);
+  spotter.straight = reader.bounded("continuous/straight", spotter.straight, 0.0, 1.0);
+  spotter.rest_time = segmenter.rest_time;
+  spotter.rest_radius = segmenter.rest_radius;
   spotter.longest_hole = segmenter.dark_time;
   reader.refuseUnknown();
   return p;

@@ -2,6 +2,7 @@
 as the figures, and larger ones as larger."""
 
 import csv
+import functools
 import os
 import sys
 
@@ -11,7 +12,8 @@ import pytest
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
 
-from wiimote_tracker_evaluation import position_claims as claims  # noqa: E402
+from wiimote_tracker_evaluation import position_claims as claims, statistics  # noqa: E402
+from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
 from wiimote_tracker_evaluation.position_results import (  # noqa: E402
     CASES, FACING, FOUR, OURS, TWO, Results)
 from wiimote_tracker_evaluation.section import Run, Table  # noqa: E402
@@ -30,8 +32,10 @@ TRACE_COLUMNS = ['session', 'cameras', 'case', 'ray_model', 'round', 'camera', '
 
 
 @pytest.fixture(autouse=True)
-def undrawn(monkeypatch):
-    """Drawing would take most of the time; it is looked at where the whole evaluation is run."""
+def short(monkeypatch):
+    """Drawing and resampling would take most of the time; both are looked at elsewhere."""
+    monkeypatch.setattr(statistics, 'bootstrap',
+                        functools.partial(statistics.bootstrap, resamples=50))
     for name in ('cumulative_errors', 'cubes', 'correction'):
         monkeypatch.setattr(positions.plots, name, lambda *data: None)
     monkeypatch.setattr(circles, 'plot', lambda *data: None)
@@ -147,6 +151,14 @@ def test_a_session_without_a_result_is_counted_and_left_out(tmp_path):
     assert figures['four_wand'].samples == SESSIONS - 1
     assert figures['four_wand_over_bound'].value == pytest.approx(
         0.006 / (np.sqrt(3.0) * BOUND_STDDEV))
+
+
+def test_a_method_that_never_works_is_named(tmp_path):
+    results = make_results(tmp_path / 'all', 0.006)
+    lost = (results.points['method'] == 'wave') & (results.points['session'] > 0)
+    results.points['measured_z'][lost] = np.nan
+    with pytest.raises(ExperimentError, match='9 of 10 sessions with two .* by wave'):
+        told(positions, tmp_path, results)
 
 
 def made_laps(radial):

@@ -8,6 +8,7 @@ import numpy as np
 from wiimote_tracker_evaluation import position_claims as claims
 from wiimote_tracker_evaluation import position_plots as plots
 from wiimote_tracker_evaluation import programs, statistics
+from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.position_results import CASES, FACING, FOUR, OURS, TWO, Results
 from wiimote_tracker_evaluation.live.positions import live  # noqa: F401, with a person
 
@@ -41,8 +42,7 @@ def simulate(run, sessions):
 
 
 def tell(run, results):
-    if not results.has(FOUR):
-        raise ValueError('this section needs a rig of four cameras or more; see --rig')
+    check(results)
     explain(run, results)
     for cameras, words in SETS:
         run.plot(words, plots.cumulative_errors(results, cameras, protocol_sessions), (
@@ -56,6 +56,21 @@ def tell(run, results):
     ours(run, results)
     shapes(run, results)
     run.progress(1.0, 1.0)
+
+
+def check(results):
+    """@raise ExperimentError: there is nothing to tell."""
+    if not results.has(FOUR):
+        raise ExperimentError('this section needs a rig of four cameras or more; see --rig')
+    for cameras, words in SETS:
+        for method, model in [(case, model) for case in CASES for model, _ in MODELS] + [
+                (method, 'calibrated') for method in OURS]:
+            group = results.group(cameras, method, model)
+            if len(group.from_nominal()) < 2:
+                raise ExperimentError(
+                    '%d of %d sessions with %s Wiimotes could not be solved by %s (%s); let the '
+                    "rig's cameras stand as the paper's, all four seeing the whole cube" % (
+                        group.unsolved(), results.sessions, words, method, model))
 
 
 def protocol_sessions(case):

@@ -32,9 +32,9 @@ def tell(run):
         for plot, column in zip(axes, ('position_rms_mm', 'rotation_rms_deg')):
             for name, style, label in ((column, 'o-', '%d cameras' % count),
                                        ('predicted_' + column.replace('_rms', ''), 'x--', None)):
-                plot.plot(speeds, [statistics.rms(np.concatenate(per_session(table, name, right & where(
-                    table, cameras=count, led_size=SMALL, speed_m_per_s=speed)))) for speed in speeds],
-                    style, markersize=4, color=color, label=label)
+                plot.plot(speeds, [rms_of(per_session(table, name, right & where(
+                    table, cameras=count, led_size=SMALL, speed_m_per_s=speed)))
+                    for speed in speeds], style, markersize=4, color=color, label=label)
     for plot, name in zip(axes, ('position [mm]', 'rotation [°]')):
         plot.set_xlabel('speed [m/s]')
         plot.set_ylabel('RMS error of the ' + name)
@@ -46,8 +46,10 @@ def tell(run):
         for column, name, unit in (('position_rms_mm', 'position', 'mm'),
                                    ('rotation_rms_deg', 'rotation', 'deg')):
             units = per_session(table, column, chosen)
-            run.figure('body_%s_%d_cameras' % (name, count), statistics.rms(np.concatenate(units)), unit,
-                       len(units), statistics.bootstrap(units, statistics.rms, run.seed),
+            if len(units) < 2:
+                continue
+            run.figure('body_%s_%d_cameras' % (name, count), rms_of(units), unit, len(units),
+                       statistics.bootstrap(units, statistics.rms, run.seed),
                        'RMS error of a body\'s %s at 1 m/s and 2 rad/s, %d cameras' % (name, count))
         for size, word in ((SMALL, 'small'), (LARGE, 'large')):
             chosen = where(table, cameras=count, led_size=size)
@@ -56,3 +58,8 @@ def tell(run):
             run.figure('body_wrong_%s_spots_%d_cameras' % (word, count), 100.0 * wrong / chosen.sum(),
                        '%', int(chosen.sum()), (100.0 * low, 100.0 * high),
                        'Sessions with a wrong pose, %s spots, %d cameras' % (word, count))
+
+
+def rms_of(units):
+    """Root mean square over all; not a number without any."""
+    return statistics.rms(np.concatenate(units)) if units else float('nan')

@@ -92,7 +92,8 @@ def tell(run, tries):
         'when it is lit for more than half of the exposure of 1 ms) over the tracker to the label.\n\n'
         '**The paper\'s scheme:** on for 90, 60, 40 and 20 %% of a common period, symmetric about its '
         'middle; the period is looked for within 20 %%. **Cyclic codes:** each LED repeats a word of '
-        '8 chips when it likes, without a wire between them. The paper says that identification '
+        '8 chips when it likes, without a wire between them. The LEDs\' clocks are exact here; very short '
+        'periods live by that, since they are seen by images at ever other phases. The paper says that identification '
         '"was successful in all test cases" and gives neither period nor time; it left the shortest '
         'period for future research.' % DURATION)
     plot(run, cameras, lines)
@@ -145,7 +146,7 @@ def figures(run, cameras, lines):
     run.figure('wrong_label_ever', 100.0 * wrong / of, '%', of, (100.0 * low, 100.0 * high),
                'Tries in which an LED was ever given the label of another, of all lengths')
     best = lines['paper', max(cameras)]
-    if best.shortest() is not None:
+    if best.shortest() is not None and len(best.seconds[best.at(SHOWN_PERIOD)]):
         run.summary('Four LEDs by the paper\'s blinking: all told apart in every try with periods '
                     'from %.0f ms on (%d cameras); with %.0f ms it takes %.2f s.' % (
                         best.shortest(), max(cameras), SHOWN_PERIOD,
@@ -164,10 +165,11 @@ def plot(run, cameras, lines):
             top.plot(line.lengths, shares, 'o-', color=color, markersize=3,
                      label='%d cameras' % count)
             some = [i for i, seconds in enumerate(line.seconds) if len(seconds)]
-            low, middle, high = np.array([np.quantile(line.seconds[i], [0.05, 0.5, 0.95])
-                                          for i in some]).T
-            bottom.fill_between(line.lengths[some], low, high, color=color, alpha=0.12, linewidth=0)
-            bottom.plot(line.lengths[some], middle, 'o-', color=color, markersize=3)
+            times = np.array([np.quantile(line.seconds[i], [0.05, 0.5, 0.95])
+                              for i in some]).reshape(-1, 3)
+            bottom.fill_between(line.lengths[some], times[:, 0], times[:, 2], color=color, alpha=0.12,
+                                linewidth=0)
+            bottom.plot(line.lengths[some], times[:, 1], 'o-', color=color, markersize=3)
         axes[0][column].set_title(title[0].upper() + title[1:])
         axes[0][column].set_ylim(0.0, 104.0)
         axes[1][column].set_xscale('log')

@@ -35,9 +35,13 @@ struct LedSighting {
 
 /// The sightings of blinking LEDs by cameras that are not synchronised, in the order of time. An
 /// LED's begin when it is first seen, as a tracker's do.
+/// @param phase where to tell the phase at options.start that LEDs which blink together have.
 inline std::vector<LedSighting> simulateBlinking(const BlinkingOptions& options,
-                                                 geometry::test::Random* random) {
+                                                 geometry::test::Random* random,
+                                                 double* phase = nullptr) {
   const double common_phase = random->uniform(0.0, 1.0);
+  if (phase)
+    *phase = common_phase;
   std::vector<double> phases;
   // The share of an exposure that must be lit differs with distance and brightness.
   std::vector<double> thresholds;

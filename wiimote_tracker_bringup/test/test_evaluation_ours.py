@@ -1,6 +1,7 @@
 """Distance, identification and ours: models against closed forms, programs against bounds that are
 computed here, and what live measurements are made of."""
 
+import io
 import os
 import subprocess
 import sys
@@ -13,7 +14,7 @@ sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
 
 from wiimote_tracker_evaluation import light, programs, scene, statistics  # noqa: E402
 from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.live import circles, latency, listener  # noqa: E402
+from wiimote_tracker_evaluation.live import circles, dialogue, latency, listener  # noqa: E402
 from wiimote_tracker_evaluation.ours import cameras  # noqa: E402
 from wiimote_tracker_evaluation.sections import identification  # noqa: E402
 
@@ -191,3 +192,11 @@ def test_a_place_is_one_led_that_lies_still():
     assert listener.Listener._place(seen(moved)) is None, 'it moves'
     two = [(stamp, leds * 2) for stamp, leds in seen(still)]
     assert listener.Listener._place(two) is None, 'which one?'
+
+
+def test_a_number_is_asked_for_until_it_makes_sense():
+    said = io.StringIO()
+    person = dialogue.Dialogue(io.StringIO('far\nnan\n300\n2.5\n\n'), said)
+    assert person.ask_number('How far?', 0.01, 100.0) == 2.5
+    assert said.getvalue().count('How far?') == 4
+    assert person.ask_number('How far?', 0.01, 100.0) is None

@@ -28,7 +28,7 @@ POINT_COLUMNS = (['session', 'cameras', 'method', 'ray_model', 'point']
                     for axis in 'xyz']
                  + ['var_' + axes for axes in ('xx', 'xy', 'xz', 'yy', 'yz', 'zz')])
 TRACE_COLUMNS = ['session', 'cameras', 'case', 'ray_model', 'round', 'camera', 'center_u',
-                 'center_v', 'true_u', 'true_v', 'difference_u', 'difference_v', 'origin_error_m']
+                 'center_v', 'true_u', 'true_v', 'difference_u', 'difference_v', 'origin_error']
 
 
 @pytest.fixture(autouse=True)
@@ -165,7 +165,7 @@ def made_laps(radial):
     """A circle that is measured too wide by `radial`, and 1 mm too high [m]; one point is missing in
     every lap."""
     columns = {name: [] for name in (
-        'session', 'cameras', 'method', 'circle', 'speed_m_per_s', 'time_s', 'true_x', 'true_y',
+        'session', 'cameras', 'method', 'circle', 'speed', 'time', 'true_x', 'true_y',
         'true_z', 'measured_x', 'measured_y', 'measured_z', 'radial_error', 'height_error')}
     for session in range(4):
         for cameras in (2, 4):

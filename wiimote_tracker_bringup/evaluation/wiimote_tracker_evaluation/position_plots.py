@@ -125,7 +125,7 @@ def correction(results, session):
                          markersize=3, label='camera %d' % camera['camera'][0])
                 way.annotate('before', (camera['difference_u'][0], camera['difference_v'][0]),
                              xytext=(8, -9), textcoords='offset points', fontsize=8, color=color)
-        error.plot(cameras[0]['round'], 1e3 * cameras[0]['origin_error_m'], style + 'o',
+        error.plot(cameras[0]['round'], 1e3 * cameras[0]['origin_error'], style + 'o',
                    color=charts.INK, markersize=3, label=words)
     way.plot([0.0], [0.0], '+', color=charts.INK, markersize=9)
     way.set_xlabel('difference u [px]')

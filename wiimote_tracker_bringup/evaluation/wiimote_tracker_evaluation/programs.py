@@ -91,3 +91,14 @@ def read_csv(path):
         except ValueError:
             columns[name] = np.array(texts)
     return columns
+
+
+def table_rows(columns):
+    """What read_csv() gives, as rows for Run.table(): None where a number is missing, whole numbers
+    where a column has no other."""
+    cells = []
+    for values in columns.values():
+        if values.dtype.kind == 'f' and np.array_equal(values, np.round(values)):
+            values = values.astype(int)
+        cells.append([None if value != value else value for value in values.tolist()])
+    return list(zip(*cells))

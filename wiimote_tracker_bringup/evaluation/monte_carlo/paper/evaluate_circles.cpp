@@ -143,9 +143,9 @@ class LapWriter {
 
 void measureAll(const Arguments& arguments) {
   const simulation::Description description = simulation::readDescription(arguments.rig);
-  Table table(arguments.output, {"session", "cameras", "method", "circle", "speed_m_per_s",
-                                 "time_s", "true_x", "true_y", "true_z", "measured_x", "measured_y",
-                                 "measured_z", "radial_error", "height_error"});
+  Table table(arguments.output,
+              {"session", "cameras", "method", "circle", "speed", "time", "true_x", "true_y",
+               "true_z", "measured_x", "measured_y", "measured_z", "radial_error", "height_error"});
   for (int number = arguments.first; number < arguments.first + arguments.sessions; ++number) {
     const std::uint32_t seed = sessionSeed(arguments, number);
     for (const std::size_t count : {std::size_t(2), std::size_t(4)}) {

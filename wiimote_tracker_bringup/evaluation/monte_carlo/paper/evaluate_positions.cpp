@@ -27,8 +27,8 @@ const std::vector<std::string> kPointColumns = {
     "nominal_z", "true_x",  "true_y", "true_z",    "measured_x", "measured_y", "measured_z",
     "var_xx",    "var_xy",  "var_xz", "var_yy",    "var_yz",     "var_zz"};
 const std::vector<std::string> kTraceColumns = {
-    "session",  "cameras", "case",   "ray_model",    "round",        "camera",        "center_u",
-    "center_v", "true_u",  "true_v", "difference_u", "difference_v", "origin_error_m"};
+    "session",  "cameras", "case",   "ray_model",    "round",        "camera",      "center_u",
+    "center_v", "true_u",  "true_v", "difference_u", "difference_v", "origin_error"};
 
 /// What is measured of a point, and how far to trust it [m, m^2].
 struct Measured {

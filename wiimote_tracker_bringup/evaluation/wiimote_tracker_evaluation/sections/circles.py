@@ -42,7 +42,7 @@ def simulate(run, sessions):
 
 
 def tell(run, laps):
-    speeds = np.unique(laps['speed_m_per_s'])
+    speeds = np.unique(laps['speed'])
     run.say(
         'Simulated, in process: %d sessions each with two and with four Wiimotes, drawn as those of '
         'the ten points. An LED goes round the paper\'s three circles (radius 0.75 m) at %s m/s; one '
@@ -59,7 +59,7 @@ def tell(run, laps):
         for method, explained, _ in METHODS:
             for speed in speeds:
                 chosen = ((laps['cameras'] == cameras) & (laps['method'] == method)
-                          & (laps['speed_m_per_s'] == speed))
+                          & (laps['speed'] == speed))
                 if chosen.any():
                     rows.append(row_of(run, laps, chosen, words, method, explained, speed))
     run.table('errors', [('wiimotes', ''), ('method', ''), ('speed', 'm/s'), ('sessions', ''),
@@ -67,9 +67,7 @@ def tell(run, laps):
                          ('height_95', 'mm'), ('not_seen', '%')], rows,
               'RMS over all circles and the sessions that could be solved, with its interval; and how '
               'often no point was there within 0.5 m of the LED.')
-    run.table('laps', [(name, unit_of(name)) for name in laps],
-              [[None if isinstance(value, float) and np.isnan(value) else value for value in row]
-               for row in zip(*(values.tolist() for values in laps.values()))],
+    run.table('laps', [(name, unit_of(name)) for name in laps], programs.table_rows(laps),
               'Every point.', shown=False)
     compare(run, laps)
 
@@ -98,7 +96,7 @@ def row_of(run, laps, chosen, words, method, explained, speed):
 def unit_of(name):
     if name.endswith('_error') or name[-2:] in ('_x', '_y', '_z'):
         return 'm'
-    return {'speed_m_per_s': 'm/s', 'time_s': 's'}.get(name, '')
+    return {'speed': 'm/s', 'time': 's'}.get(name, '')
 
 
 def compare(run, laps):
@@ -115,7 +113,7 @@ def compare(run, laps):
             'ours that are within 3 cm of the circle:\n\n'
             + '\n'.join('- %s' % sentence for sentence in sentences))
     chosen = ((laps['cameras'] == 4) & (laps['method'] == 'wand_tracks')
-              & (laps['speed_m_per_s'] == 1.0))
+              & (laps['speed'] == 1.0))
     run.summary('**Circles**, simulated: at 1 m/s four Wiimotes follow a circle of 75 cm radius with '
                 '%.1f mm RMS radial and %.1f mm RMS height error after square and wand.' % tuple(
                     statistics.rms(np.concatenate(errors_of(laps, chosen, which)))
@@ -132,7 +130,7 @@ def plot(run, laps, speeds):
                 for place, speed in enumerate(speeds):
                     units = errors_of(laps, (laps['cameras'] == cameras)
                                       & (laps['method'] == method)
-                                      & (laps['speed_m_per_s'] == speed), which + '_error')
+                                      & (laps['speed'] == speed), which + '_error')
                     if len(units) < 2:
                         continue
                     values.append(statistics.rms(np.concatenate(units)))

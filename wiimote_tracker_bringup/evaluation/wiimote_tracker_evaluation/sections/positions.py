@@ -221,7 +221,8 @@ def ours(run, results):
     run.table('ours', [('wiimotes', ''), ('method', ''), ('rms', 'mm'), ('interval_95', 'mm'),
                        ('bound', 'mm'), ('over_bound', ''), ('over_bound_95', ''), ('stated', ''),
                        ('stated_95', ''), ('unsolved_sessions', '')], rows)
-    run.table('points', *long_table(results), caption='Every measurement.', shown=False)
+    run.table('points', [(name, unit_of(name)) for name in results.points],
+              programs.table_rows(results.points), 'Every measurement.', shown=False)
     remap(run, results)
     best = results.group(FOUR, 'wand').from_truth()
     two = results.group(TWO, 'wand').from_truth()
@@ -273,18 +274,12 @@ def remap(run, results):
             'better in %d of %d sessions, and says so.' % (' and '.join(sentences), kept.sum(), len(kept)))
 
 
-def long_table(results):
-    """Columns and rows of every measurement."""
-    columns = [(name, unit_of(name)) for name in results.points]
-    return columns, [[None if isinstance(value, float) and np.isnan(value) else value
-                      for value in row]
-                     for row in zip(*(values.tolist() for values in results.points.values()))]
-
-
 def unit_of(name):
     if name.startswith('var_'):
         return 'm^2'
-    return 'm' if name[-2:] in ('_x', '_y', '_z') else ''
+    if name[-2:] in ('_u', '_v'):
+        return 'px'
+    return 'm' if name[-2:] in ('_x', '_y', '_z') or name == 'origin_error' else ''
 
 
 # --- Fig. 8 and 2
@@ -298,8 +293,5 @@ def shapes(run, results):
              '2), C3 with two Wiimotes, simulated session %d. Left: the difference in each image, '
              'round by round; each round takes a quarter of it. Right: the distance of the measured '
              'origin from the ideal one.' % (session + 1))
-    run.table('correction_rounds', [(name, 'px' if name[-2:] in ('_u', '_v') else
-                                     'm' if name.endswith('_m') else '')
-                                    for name in results.traces],
-              list(zip(*(values.tolist() for values in results.traces.values()))),
-              'Every round of every correction.', shown=False)
+    run.table('correction_rounds', [(name, unit_of(name)) for name in results.traces],
+              programs.table_rows(results.traces), 'Every round of every correction.', shown=False)

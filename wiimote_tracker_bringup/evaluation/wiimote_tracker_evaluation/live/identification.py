@@ -28,6 +28,7 @@ def measure(run, listener, dialogue):
     if not labels:
         run.say('Identification was left out.')
         return
+    listener.wait_for_points()
     rows = []
     for number in range(QUICK_TRIES if run.quick else TRIES):
         dialogue.tell('   %2d  Switch all LEDs off; then on.' % (number + 1))

@@ -177,6 +177,30 @@ PersonDescription readPerson(const std::string& name, Section section) {
   return person;
 }
 
+RigidBodyDescription readBody(const std::string& name, Section section) {
+  RigidBodyDescription body;
+  body.name = name;
+  body.motion = readMotion(&section);
+  TurningDescription& turning = body.turning;
+  if (section.has("turn")) {
+    Section turn = section.section("turn");
+    turning.axis = turn.point("axis");
+    if (!(turning.axis.norm() > 0.0))
+      throw turn.error("axis", "must have a direction");
+    turning.rate = turn.number("rate", -100.0, 100.0);
+    turn.refuseUnknown();
+  }
+  if (section.has("sway")) {
+    Section sway = section.section("sway");
+    turning.sway = sway.number("angle", 0.0, 3.2);
+    turning.sway_rate = sway.number("rate", 0.0, 100.0);
+    sway.refuseUnknown();
+  }
+  body.present = section.value<bool>("present", body.present);
+  section.refuseUnknown();
+  return body;
+}
+
 ReflectionDescription readReflection(const std::string& name, Section section) {
   ReflectionDescription reflection;
   reflection.name = name;
@@ -225,8 +249,9 @@ void checkHolders(const std::string& name, const Section& section, const Descrip
     if (!around || around->turns)
       throw section.error("turns/around", "must be the name of an LED that does not turn itself");
   }
-  if (!led.carried_by.empty() && !find(description.people, led.carried_by))
-    throw section.error("carried_by", "must be the name of one of the people");
+  if (!led.carried_by.empty() && !find(description.people, led.carried_by) &&
+      !find(description.bodies, led.carried_by))
+    throw section.error("carried_by", "must be the name of one of the people or bodies");
 }
 
 /// simulation/set_led knows all by their names.
@@ -282,6 +307,12 @@ Description readDescription(const std::string& path) {
     for (const auto& [name, section] : people.entries())
       description.people.push_back(readPerson(name, section));
     takeNames(description.people, people, &names);
+  }
+  if (file.has("bodies")) {
+    Section bodies = file.section("bodies");
+    for (const auto& [name, section] : bodies.entries())
+      description.bodies.push_back(readBody(name, section));
+    takeNames(description.bodies, bodies, &names);
   }
   for (const auto& [name, section] : leds.entries())
     checkHolders(name, section, description);

@@ -42,8 +42,10 @@ struct LedDescription {
   std::string name;
   LedMotion motion = LedMotion(Eigen::Vector3d::Zero());  ///< Without effect with `turns`.
   std::optional<TurnDescription> turns;
-  std::string
-      carried_by;  ///< Name of a person, in whose axes (see Person) the motion is; or empty.
+
+  /// Name of a person or a rigid body, in whose axes (see Person, RigidBody) the motion is; or
+  /// empty.
+  std::string carried_by;
   std::optional<double> size;  ///< As of a Lamp [0..15].
   double brightness = 1.0;     ///< As of a Lamp [>= 0].
   bool lit = true;
@@ -57,6 +59,22 @@ struct PersonDescription {
   double turn_rate = 0.0;                                 ///< About the vertical [rad/s].
   double radius = 0.2;                                    ///< [m]
   double height = 1.75;                                   ///< [m]
+  bool present = true;
+};
+
+/// How something turns: steadily, or to and fro as in a hand, or both.
+struct TurningDescription {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< In the world, of any length but 0.
+  double rate = 0.0;                                ///< About it [rad/s].
+  double sway = 0.0;       ///< About its own axes z, and x 0.6 as far [rad].
+  double sway_rate = 1.0;  ///< [rad/s]
+};
+
+/// Something that is carried about and turned, with LEDs fixed to it.
+struct RigidBodyDescription {
+  std::string name;
+  LedMotion motion = LedMotion(Eigen::Vector3d::Zero());  ///< Of its origin.
+  TurningDescription turning;
   bool present = true;
 };
 
@@ -87,12 +105,14 @@ struct Description {
   std::vector<CameraDescription> cameras;
   std::vector<LedDescription> leds;
   std::vector<PersonDescription> people;
+  std::vector<RigidBodyDescription> bodies;
   std::vector<ReflectionDescription> reflections;
   std::optional<BoardDescription> board;
   std::map<std::string, Drawing> drawings;  ///< By name.
 };
 
-/// Reads a description (layout: paper_rig.yaml, people_rig.yaml). Unknown keys are refused.
+/// Reads a description (layout: paper_rig.yaml, people_rig.yaml, body_rig.yaml). Unknown keys are
+/// refused.
 /// @throws DescriptionError.
 Description readDescription(const std::string& path);
 

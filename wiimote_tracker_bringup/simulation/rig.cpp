@@ -6,11 +6,13 @@
 
 namespace wiimote_tracker::simulation {
 
-Rig::Rig(const Description& description, Deliver deliver, Truth truth)
+Rig::Rig(const Description& description, Deliver deliver, Truth truth, BodyTruth body_truth)
     : deliver_(std::move(deliver)),
       truth_(std::move(truth)),
+      body_truth_(std::move(body_truth)),
       truth_period_(1.0 / description.truth_rate),
       people_(description.people.begin(), description.people.end()),
+      rigid_bodies_(description.bodies.begin(), description.bodies.end()),
       reflections_(description.reflections) {
   for (const LedDescription& led : description.leds)
     leds_.push_back({led, led.motion, led.lit});
@@ -69,6 +71,14 @@ Person* Rig::findPerson(const std::string& name) {
   return nullptr;
 }
 
+RigidBody* Rig::findBody(const std::string& name) {
+  for (RigidBody& body : rigid_bodies_) {
+    if (body.name() == name)
+      return &body;
+  }
+  return nullptr;
+}
+
 ReflectionDescription* Rig::findReflection(const std::string& name) {
   for (ReflectionDescription& reflection : reflections_) {
     if (reflection.name == name)
@@ -78,15 +88,21 @@ ReflectionDescription* Rig::findReflection(const std::string& name) {
 }
 
 bool Rig::isInRoom(const Led& led) const {
-  return std::none_of(people_.begin(), people_.end(), [&](const Person& person) {
-    return person.name() == led.description.carried_by && !person.present;
-  });
+  const auto isAwayWith = [&](const auto& carrier) {
+    return carrier.name() == led.description.carried_by && !carrier.present;
+  };
+  return std::none_of(people_.begin(), people_.end(), isAwayWith) &&
+         std::none_of(rigid_bodies_.begin(), rigid_bodies_.end(), isAwayWith);
 }
 
 Eigen::Vector3d Rig::positionOf(const Led& led, double time) const {
   for (const Person& person : people_) {
     if (person.name() == led.description.carried_by)
       return person.worldFromPerson(time) * led.motion.position(time);
+  }
+  for (const RigidBody& body : rigid_bodies_) {
+    if (body.name() == led.description.carried_by)
+      return body.worldFromBody(time) * led.motion.position(time);
   }
   if (!led.description.turns)
     return led.motion.position(time);
@@ -143,6 +159,8 @@ void Rig::expose(std::size_t number) {
 void Rig::tellTruth(double time) {
   for (std::size_t i = 0; i < leds_.size(); ++i)
     truth_(i, time, positionOf(leds_[i], time));
+  for (std::size_t i = 0; body_truth_ && i < rigid_bodies_.size(); ++i)
+    body_truth_(i, time, rigid_bodies_[i].worldFromBody(time));
   push(static_cast<double>(++truths_) * truth_period_, Event::kTruth, 0);
 }
 

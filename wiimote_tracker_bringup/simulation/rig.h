@@ -5,6 +5,7 @@
 #include "led_board.h"
 #include "led_motion.h"
 #include "person.h"
+#include "rigid_body.h"
 #include "virtual_camera.h"
 
 #include <cstddef>
@@ -32,7 +33,11 @@ class Rig {
   /// Receives the true position [m] of LED number `led` at `time` [s].
   using Truth = std::function<void(std::size_t led, double time, const Eigen::Vector3d& position)>;
 
-  Rig(const Description& description, Deliver deliver, Truth truth);
+  /// Receives the true pose [m] of rigid body number `body` at `time` [s].
+  using BodyTruth =
+      std::function<void(std::size_t body, double time, const Eigen::Isometry3d& pose)>;
+
+  Rig(const Description& description, Deliver deliver, Truth truth, BodyTruth body_truth = {});
 
   /// Carries out every event up to and including `time` [s since the start], in order.
   void runUntil(double time);
@@ -52,6 +57,9 @@ class Rig {
 
   /// Somebody of the description, or nothing (nullptr). Run until the moment of a change first.
   Person* findPerson(const std::string& name);
+
+  /// A rigid body of the description, or nothing (nullptr). Run until the moment of a change first.
+  RigidBody* findBody(const std::string& name);
 
   /// A reflection of the description, or nothing (nullptr); its `lit` may be changed. Run until the
   /// moment of a change first.
@@ -89,11 +97,13 @@ class Rig {
 
   Deliver deliver_;
   Truth truth_;
+  BodyTruth body_truth_;  ///< May be empty.
   double truth_period_;
   std::uint64_t truths_ = 0;
   std::vector<Camera> cameras_;
   std::vector<Led> leds_;
   std::vector<Person> people_;
+  std::vector<RigidBody> rigid_bodies_;
   std::vector<ReflectionDescription> reflections_;
   std::optional<LedBoard> board_;
   std::vector<Lamp> lamps_;  // reused, as are the next two

@@ -1,6 +1,7 @@
 #include "simulated_rig.h"
 
 #include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/PoseStamped.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 
 #include <cmath>
@@ -39,6 +40,9 @@ SimulatedRig::SimulatedRig(ros::NodeHandle nh,
           [this](std::size_t camera, const Image& image) { deliver(camera, image); },
           [this](std::size_t led, double time, const Eigen::Vector3d& position) {
             publishTruth(led, time, position);
+          },
+          [this](std::size_t body, double time, const Eigen::Isometry3d& pose) {
+            publishBodyTruth(body, time, pose);
           }) {
   for (const CameraDescription& camera : description.cameras) {
     servers_.push_back(std::make_unique<virtual_wiimote::Server>(
@@ -51,6 +55,9 @@ SimulatedRig::SimulatedRig(ros::NodeHandle nh,
   for (const LedDescription& led : description.leds)
     truth_.push_back(
         nh.advertise<geometry_msgs::PointStamped>("simulation/truth/" + led.name, 1000));
+  for (const RigidBodyDescription& body : description.bodies)
+    body_truth_.push_back(
+        nh.advertise<geometry_msgs::PoseStamped>("simulation/truth/" + body.name, 1000));
   start_ = std::chrono::steady_clock::now();
   start_stamp_ = ros::Time::now();
   set_led_ = nh.advertiseService("simulation/set_led", &SimulatedRig::setLed, this);
@@ -81,9 +88,10 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
     return setReflection(request, reflection, response);
   Rig::Led* led = rig_.findLed(request.led);
   Person* person = rig_.findPerson(request.led);
-  if (!led && !person) {
-    response.message =
-        "there is no LED, person or reflection '" + request.led + "' in the rig's description";
+  RigidBody* body = rig_.findBody(request.led);
+  if (!led && !person && !body) {
+    response.message = "there is no LED, person, body or reflection '" + request.led +
+                       "' in the rig's description";
     return true;
   }
   const std::string holder = led && led->description.turns ? led->description.turns->around
@@ -97,8 +105,8 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
   rig_.runUntil(time);
   double arrival = time;
   if (holder.empty())
-    arrival = move(request, time, led ? &led->motion : &person->motion);
-  (led ? led->lit : person->present) = request.on;
+    arrival = move(request, time, led ? &led->motion : person ? &person->motion : &body->motion);
+  (led ? led->lit : person ? person->present : body->present) = request.on;
 
   response.success = true;
   response.arrival = stamp(arrival);
@@ -215,6 +223,21 @@ void SimulatedRig::publishTruth(std::size_t led, double time, const Eigen::Vecto
   truth.point.y = position.y();
   truth.point.z = position.z();
   truth_[led].publish(truth);
+}
+
+void SimulatedRig::publishBodyTruth(std::size_t body, double time, const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond rotation(pose.linear());
+  geometry_msgs::PoseStamped truth;
+  truth.header.stamp = stamp(time);
+  truth.header.frame_id = world_frame_;
+  truth.pose.position.x = pose.translation().x();
+  truth.pose.position.y = pose.translation().y();
+  truth.pose.position.z = pose.translation().z();
+  truth.pose.orientation.x = rotation.x();
+  truth.pose.orientation.y = rotation.y();
+  truth.pose.orientation.z = rotation.z();
+  truth.pose.orientation.w = rotation.w();
+  body_truth_[body].publish(truth);
 }
 
 }  // namespace wiimote_tracker::simulation

@@ -19,7 +19,7 @@
 namespace wiimote_tracker::simulation {
 
 /// A Rig in real time: every camera as a virtual Wii Remote at <socket_directory>/<camera>.sock,
-/// service simulation/set_led, truth on simulation/truth/<led> and simulation/exposures.
+/// service simulation/set_led, truth on simulation/truth/<led> and <body> and simulation/exposures.
 class SimulatedRig {
  public:
   /// @throws std::system_error when a socket cannot be made.
@@ -46,6 +46,7 @@ class SimulatedRig {
   ros::Time stamp(double time) const;  ///< Of a time since the start.
   void deliver(std::size_t camera, const Image& image);
   void publishTruth(std::size_t led, double time, const Eigen::Vector3d& position);
+  void publishBodyTruth(std::size_t body, double time, const Eigen::Isometry3d& pose);
 
   std::string world_frame_;
   std::map<std::string, Drawing> drawings_;
@@ -55,6 +56,7 @@ class SimulatedRig {
   std::vector<std::string> cameras_;
   ros::Publisher exposures_;
   std::vector<ros::Publisher> truth_;
+  std::vector<ros::Publisher> body_truth_;
   std::mutex mutex_;  ///< Of rig_.
   Rig rig_;
   ros::ServiceServer set_led_;

@@ -1,5 +1,6 @@
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 
+#include "led_groups.h"
 #include "pose_from_labels.h"
 #include "wiimote_tracker_triangulation/association/assign_spots.h"
 #include "wiimote_tracker_triangulation/association/shared_views.h"
@@ -16,6 +17,9 @@ constexpr double kSurpriseMemory = 0.03;  // share of each new spot in the runni
 
 /// Within the window everything moves: rays miss each other by so many times the pixels' noise.
 constexpr double kWindowNoise = 4.0;
+
+/// More than any LED's.
+constexpr double kGhostCost = 1e6;
 
 /// Which LED of which body a column of the assignment stands for.
 struct Column {
@@ -104,33 +108,29 @@ void BodyTracker::follow(std::size_t camera,
                          double time,
                          const std::vector<Eigen::Vector2d>& pixels) {
   const geometry::Camera& view = cameras_[camera];
+  const auto groupsOf = [&](std::size_t body) {
+    return LedGroups(bodies_[body]->filter, constellations_[body], view, options_.pixel_stddev,
+                     options_.merging_distance, options_.gate);
+  };
   association::SpotCosts costs;
   std::array<Column, association::kMaximumTracks> columns;
   const std::size_t spots = std::min(pixels.size(), association::kMaximumSpots);
-  std::size_t tracks = 0;
+  // Nothing is known about which LEDs the body itself hides; so a missing one costs nothing, and as
+  // many spots as possible find an LED.
+  costs.reset(spots, association::kMaximumTracks, kGhostCost, 0.0);
+  costs.tracks = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!bodies_[b])
       continue;
     bodies_[b]->filter.predict(time);
+    const LedGroups groups = groupsOf(b);
     for (std::size_t led = 0; led < constellations_[b].leds.size(); ++led) {
-      if (tracks < association::kMaximumTracks)
-        columns[tracks++] = {b, led};
-    }
-  }
-  // Nothing is known about which LEDs the body itself hides; so a missing one costs nothing, and as
-  // many spots as possible find an LED.
-  costs.reset(spots, tracks, options_.gate, 0.0);
-  for (std::size_t t = 0; t < tracks; ++t) {
-    const auto prediction = bodies_[columns[t].body]->filter.predictLed(
-        view, constellations_[columns[t].body].leds[columns[t].led], options_.pixel_stddev);
-    if (!prediction)
-      continue;
-    const Eigen::Matrix2d information = prediction->covariance.inverse();
-    for (std::size_t s = 0; s < spots; ++s) {
-      const Eigen::Vector2d innovation = pixels[s] - prediction->pixel;
-      const double squared = innovation.dot(information * innovation);
-      if (squared < options_.gate)
-        costs.pair[s][t] = squared;
+      if (costs.tracks == association::kMaximumTracks)
+        break;
+      for (std::size_t s = 0; s < spots; ++s) {
+        costs.pair[s][costs.tracks] = groups.cost(led, pixels[s]);
+      }
+      columns[costs.tracks++] = {b, led};
     }
   }
   const association::SpotAssignment assignment = association::assignSpots(costs);
@@ -140,29 +140,46 @@ void BodyTracker::follow(std::size_t camera,
   image.taken.clear();
   image.free.clear();
   spots_taken_.assign(pixels.size(), false);
+  const auto columnOf = [&](std::size_t spot) -> const Column* {
+    const bool is_free = spot >= spots || assignment.track_of_spot[spot] == association::kGhost;
+    return is_free ? nullptr : &columns[static_cast<std::size_t>(assignment.track_of_spot[spot])];
+  };
   for (std::size_t s = 0; s < pixels.size(); ++s) {
-    const int track = s < spots ? assignment.track_of_spot[s] : association::kGhost;
-    if (track == association::kGhost) {
+    const Column* column = columnOf(s);
+    if (!column) {
       if (geometry::sightFromPixel(view, pixels[s]))
         image.free.push_back(pixels[s]);
       continue;
     }
-    const Column& column = columns[static_cast<std::size_t>(track)];
-    Body& body = *bodies_[column.body];
-    const auto prediction = body.filter.predictLed(
-        view, constellations_[column.body].leds[column.led], options_.pixel_stddev);
-    if (!prediction)
-      continue;
-    const Eigen::Vector2d innovation = pixels[s] - prediction->pixel;
-    const double squared = innovation.dot(prediction->covariance.inverse() * innovation);
-    body.surprise += kSurpriseMemory * (0.5 * squared - body.surprise);
-    body.filter.update(*prediction, pixels[s], options_.pixel_stddev);
-    body.last_observed = time;
-    body.led_times[column.led] = time;
-    const double residual = innovation.norm();
-    image.taken.push_back(
-        {column.body, column.led, residual, residual * prediction->depth / view.intrinsics.fx});
     spots_taken_[s] = true;
+    std::array<bool, kMaximumLeds> has_spot{};
+    for (std::size_t other = 0; other < spots; ++other) {
+      if (const Column* its = columnOf(other))
+        has_spot[its->led] = has_spot[its->led] || its->body == column->body;
+    }
+    // Every spot moves the body, and with it what is expected of the next one.
+    const LedGroups groups = groupsOf(column->body);
+    if (const LedGroup* group = groups.best(column->led, pixels[s], has_spot))
+      update(column->body, *group, pixels[s], view, &image);
+  }
+}
+
+void BodyTracker::update(std::size_t index,
+                         const LedGroup& group,
+                         const Eigen::Vector2d& pixel,
+                         const geometry::Camera& camera,
+                         LastImage* image) {
+  Body& body = *bodies_[index];
+  const Eigen::Vector2d innovation = pixel - group.prediction.pixel;
+  const double squared = innovation.dot(group.prediction.covariance.inverse() * innovation);
+  body.surprise += kSurpriseMemory * (0.5 * squared - body.surprise);
+  body.filter.update(group.prediction, pixel, group.pixel_stddev);
+  body.last_observed = image->time;
+  const double residual = innovation.norm();
+  for (std::size_t i = 0; i < group.count; ++i) {
+    body.led_times[group.leds[i]] = image->time;
+    image->taken.push_back(
+        {index, group.leds[i], residual, residual * group.prediction.depth / camera.intrinsics.fx});
   }
 }
 
@@ -175,8 +192,11 @@ void BodyTracker::dropLost(double time) {
 }
 
 void BodyTracker::find(double time) {
-  if (std::all_of(bodies_.begin(), bodies_.end(),
-                  [](const auto& body) { return body.has_value(); }))
+  // One that is hidden may come back elsewhere than where it is expected.
+  const auto isTracked = [&](const std::optional<Body>& body) {
+    return body && time - body->last_observed <= options_.tracked_time;
+  };
+  if (std::all_of(bodies_.begin(), bodies_.end(), isTracked))
     return;
   for (std::size_t c = 0; c < cameras_.size(); ++c) {
     const LastImage& image = images_[c];
@@ -199,7 +219,7 @@ void BodyTracker::find(double time) {
                                   options_.window_motion),
                        false});
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (bodies_[b] || !has_clear_shape_[b])
+    if (isTracked(bodies_[b]) || !has_clear_shape_[b])
       continue;
     const std::optional<Match> match = matchPoints(constellations_[b], points_, options_.match);
     if (!match || match->margin < options_.minimum_margin || !start(b, *match, found, time))
@@ -253,6 +273,8 @@ void BodyTracker::startAt(std::size_t body, const SolvedPose& pose, double time)
                time,
                1.0,
                {}};
+  if (bodies_[body])
+    started.first_seen = bodies_[body]->first_seen;
   started.led_times.fill(-std::numeric_limits<double>::infinity());
   bodies_[body] = started;
 }

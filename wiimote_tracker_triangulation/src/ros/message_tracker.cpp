@@ -1,5 +1,6 @@
 #include "message_tracker.h"
 
+#include "bodies/body_message.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
@@ -41,11 +42,13 @@ void insertMissing(const std::vector<TrackedPoint>& points, TrackedPointArray* m
 MessageTracker::MessageTracker(const TrackingParameters& parameters, MessageSink* sink)
     : parameters_(parameters),
       sink_(sink),
+      bodies_(parameters.bodies.options),
       sightings_({parameters.identity.exposure, parameters.estimator.tracks.merging_distance}),
       labels_(parameters.labels),
       zones_(parameters.zones),
       trigger_(parameters.trigger) {
   newest_.snapshot.time = kNever;
+  bodies_.setBodies(parameters.bodies.known);
   if (parameters.identity.codes)
     identifier_ = std::make_unique<identity::Identifier>(*parameters.identity.codes,
                                                          parameters.identity.identifier);
@@ -64,6 +67,7 @@ MessageTracker::RigChange MessageTracker::takeRig(
     change.cameras = true;
   }
   if (change.cameras) {
+    bodies_.setRig(rig);
     computed_id_ = id;
     rig_id_ = message.id.empty() ? id : message.id;
     camera_index_.clear();
@@ -91,12 +95,35 @@ void MessageTracker::takeImage(const std::string& camera,
     return;
   statistics_.addImage(index, image_);
 
+  bodies_.take(index, &image_);
+  publishBodies();
   publishTicksUntil(image_.arrival);
   estimator_->add(index, image_);
   if (estimator_->counters().resets != resets_)
     startAnew();
   while (const tracking::Snapshot* snapshot = estimator_->next())
     takeSnapshot(*snapshot);
+}
+
+void MessageTracker::setBodies(const std::vector<body::Constellation>& bodies) {
+  bodies_.setBodies(bodies);
+}
+
+void MessageTracker::publishBodies() {
+  if (const body::BodySnapshot* snapshot = bodies_.next())
+    sink_->onBodies(bodyMessage(*snapshot, bodies_.constellations(), rig_, rig_id_));
+}
+
+/// What blinking has told of the LEDs of this time.
+void MessageTracker::findBodiesByLabels(const tracking::Snapshot& snapshot) {
+  labelled_.clear();
+  for (const tracking::TrackedLed& led : snapshot.leds) {
+    const LedLabel label = labels_.of(led.id);
+    if (!std::isnan(label.confidence) && led.state == tracking::TrackState::kTracked)
+      labelled_.push_back({label.name, led.position, led.position_covariance});
+  }
+  if (labelled_.size() >= 3)
+    bodies_.startFromLabels(labelled_);
 }
 
 void MessageTracker::noticeFault(std::size_t camera,
@@ -127,6 +154,8 @@ void MessageTracker::takeSnapshot(const tracking::Snapshot& snapshot) {
   if (identifier_)
     sightings_.add(rig_, snapshot, identifier_.get());
   labels_.update(snapshot.leds, identifier_.get());
+  if (identifier_)
+    findBodiesByLabels(snapshot);
   correction_.apply(snapshot, &newest_);
   for (std::size_t i = 0; i < snapshot.leds.size(); ++i) {
     if (snapshot.leds[i].state == tracking::TrackState::kLost)

@@ -7,6 +7,7 @@
 #include "point_message.h"
 #include "statistics.h"
 #include "volume_correction.h"
+#include "wiimote_tracker_triangulation/body/body_follower.h"
 #include "wiimote_tracker_triangulation/events/trigger.h"
 #include "wiimote_tracker_triangulation/events/zone_watch.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -16,6 +17,7 @@
 #include <std_msgs/Header.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
+#include <wiimote_tracker_msgs/TrackedBodyArray.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 #include <wiimote_tracker_msgs/ZoneEvent.h>
 
@@ -40,6 +42,10 @@ class MessageSink {
   /// what the cameras saw. The message must never be changed.
   virtual void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
                         const std::vector<tracking::CameraView>& views) = 0;
+
+  /// The rigid bodies at the time of an image, in strictly increasing time as well; before the
+  /// points of that image. Only while there are bodies to be followed.
+  virtual void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& /*bodies*/) {}
 
   virtual void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) = 0;
 
@@ -77,6 +83,10 @@ class MessageTracker {
   /// camera that the rig does not have, is left out.
   void takeImage(const std::string& camera, const wiimote_tracker_msgs::IrBlobArray& message);
 
+  /// The rigid bodies to be followed from now on; first those of the parameters. Their spots do not
+  /// become LEDs. @throws body::BodyError; then those before stay.
+  void setBodies(const std::vector<body::Constellation>& bodies);
+
   /// "It happened at this time": answered as soon as the images reach beyond it. When it is asked
   /// changes nothing in the answer.
   void takeTrigger(const std_msgs::Header& trigger);
@@ -92,6 +102,8 @@ class MessageTracker {
                    ImageFault fault,
                    const wiimote_tracker_msgs::IrBlobArray& message);
   void startAnew();
+  void publishBodies();
+  void findBodiesByLabels(const tracking::Snapshot& snapshot);
   void takeSnapshot(const tracking::Snapshot& snapshot);
   void publishZoneEvents(const tracking::Snapshot& snapshot);
   void answerTriggers();
@@ -108,6 +120,7 @@ class MessageTracker {
   std::string rig_id_;
   std::map<std::string, std::size_t> camera_index_;
   std::unique_ptr<tracking::Estimator> estimator_;  // null before the first rig
+  body::BodyFollower bodies_;
   VolumeCorrection correction_;
   std::unique_ptr<identity::Identifier> identifier_;  // null: no LED blinks
   identity::SnapshotSightings sightings_;
@@ -127,6 +140,7 @@ class MessageTracker {
   std::vector<wiimote_tracker_msgs::TrackedPoint> lost_;             // not yet published as such
 
   // Reused.
+  std::vector<body::LabelledPoint> labelled_;
   tracking::CameraImage image_;
   tracking::Snapshot predicted_;
   CorrectedSnapshot corrected_;

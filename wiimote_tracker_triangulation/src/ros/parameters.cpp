@@ -231,6 +231,7 @@ TrackingParameters TrackingParameters::read(ParameterReader reader) {
   readInstant(&reader, &estimator.instant);
   readIdentity(&reader, &p);
   readOutput(&reader, estimator.mode, &p.output);
+  p.bodies = BodyParameters::read(&reader, estimator.tracks, p.allLabels());
 
   p.zones.hysteresis = reader.bounded("zones/hysteresis", p.zones.hysteresis, 0.0, 10.0);
   p.zones.timeout = reader.bounded("zones/timeout", p.zones.timeout, 0.01, 60.0);

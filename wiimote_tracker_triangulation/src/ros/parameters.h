@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_PARAMETERS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_PARAMETERS_H
 
+#include "bodies/body_parameters.h"
 #include "marker_builder.h"
 #include "wiimote_tracker_triangulation/events/trigger.h"
 #include "wiimote_tracker_triangulation/events/zone_watch.h"
@@ -35,6 +36,7 @@ struct TrackingParameters {
   std::vector<std::string> labels = {"led"};
   IdentityOptions identity;
   tracking::EstimatorOptions estimator;  ///< With codes: what they ask of it (see forBlinking).
+  BodyParameters bodies;
   OutputOptions output;
   events::ZoneWatchOptions zones;
   events::TriggerOptions trigger;

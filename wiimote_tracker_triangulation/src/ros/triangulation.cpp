@@ -17,9 +17,14 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
       tracker_(parameters_, this),
       markers_(parameters_.markers),
       leds_(nh, parameters_.allLabels(), parameters_.output.publish_predicted),
+      bodies_(nh, parameters_.output.publish_predicted),
+      body_markers_(parameters_.markers.rate),
+      body_diagnostics_(nh, private_nh),
+      learning_(nh, parameters_.bodies.file, parameters_.bodies.known, parameters_.allLabels()),
       diagnostics_(nh, private_nh, &tracker_, parameters_.clock_tolerance) {
   if (parameters_.identity.codes)
     ROS_INFO("%s.", describeIdentity(parameters_).c_str());
+  useBodies(parameters_.bodies.known);
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   points_publisher_ = nh_.advertise<TrackedPointArray>("points", 100);
   markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 5);
@@ -45,6 +50,7 @@ void Triangulation::onRig(const wiimote_tracker_msgs::RigCalibrationConstPtr& me
   }
   if (change.cameras) {
     markers_.setRig(tracker_.rig());
+    body_markers_.setRig(tracker_.rig());
     diagnostics_.setRig();
     subscribeToCameras();
     ROS_INFO("Rig %s with %zu cameras is in use.", tracker_.rigId().c_str(),
@@ -74,9 +80,21 @@ void Triangulation::subscribeToCameras() {
 }
 
 void Triangulation::onBlobs(const std::string& camera, const BlobEvent& event) {
+  if (const auto bodies = learning_.change())
+    useBodies(*bodies);
   const IrBlobArray& message = *event.getConstMessage();
   diagnostics_.addArrival(camera, message.arrival, event.getPublisherName());
   tracker_.takeImage(camera, message);
+}
+
+void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
+  tracker_.setBodies(bodies);
+  bodies_.setBodies(bodies);
+  body_diagnostics_.setBodies(bodies);
+  for (const std::string& sentence : ambiguities(bodies))
+    ROS_WARN("%s.", sentence.c_str());
+  if (!bodies.empty())
+    ROS_INFO("%zu rigid bodies are followed.", bodies.size());
 }
 
 void Triangulation::onPoints(const TrackedPointArrayConstPtr& points,
@@ -84,8 +102,17 @@ void Triangulation::onPoints(const TrackedPointArrayConstPtr& points,
   points_publisher_.publish(points);
   leds_.publish(*points);
   tracker_.statistics().addLatency((ros::Time::now() - points->latest_arrival).toSec());
+  learning_.addPoints(*points);
   if (markers_publisher_.getNumSubscribers() > 0 && markers_.isDue(points->header.stamp.toSec()))
     markers_publisher_.publish(markers_.build(*points, views));
+}
+
+void Triangulation::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
+  bodies_.publish(bodies);
+  body_diagnostics_.addBodies(bodies);
+  if (markers_publisher_.getNumSubscribers() > 0 &&
+      body_markers_.isDue(bodies.header.stamp.toSec()))
+    markers_publisher_.publish(body_markers_.build(bodies));
 }
 
 void Triangulation::onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) {
@@ -108,6 +135,7 @@ void Triangulation::onTimer(const ros::WallTimerEvent&) {
                       rig_subscriber_.getTopic().c_str());
   }
   diagnostics_.update();
+  body_diagnostics_.update();
 }
 
 }  // namespace wiimote_tracker

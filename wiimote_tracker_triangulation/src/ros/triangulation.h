@@ -1,6 +1,10 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRIANGULATION_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRIANGULATION_H
 
+#include "bodies/body_diagnostics.h"
+#include "bodies/body_learning.h"
+#include "bodies/body_markers.h"
+#include "bodies/body_publishers.h"
 #include "led_publishers.h"
 #include "marker_builder.h"
 #include "message_tracker.h"
@@ -32,9 +36,11 @@ class Triangulation : private MessageSink {
   void onBlobs(const std::string& camera, const BlobEvent& event);
   void onTimer(const ros::WallTimerEvent& event);
   void subscribeToCameras();
+  void useBodies(const std::vector<body::Constellation>& bodies);
 
   void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
                 const std::vector<tracking::CameraView>& views) override;
+  void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) override;
   void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) override;
   void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& points) override;
   void onProblem(const std::string& sentence) override;
@@ -44,6 +50,10 @@ class Triangulation : private MessageSink {
   MessageTracker tracker_;
   MarkerBuilder markers_;
   LedPublishers leds_;
+  BodyPublishers bodies_;
+  BodyMarkers body_markers_;
+  BodyDiagnostics body_diagnostics_;
+  BodyLearning learning_;
   TrackingDiagnostics diagnostics_;
 
   ros::Publisher points_publisher_;

@@ -1,10 +1,13 @@
+#include "allocation_counter.h"
 #include "geometry/random_rigs.h"
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/body/align.h"
 #include "wiimote_tracker_triangulation/body/bodies_file.h"
+#include "wiimote_tracker_triangulation/body/body_follower.h"
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
 #include "wiimote_tracker_triangulation/body/error.h"
+#include "wiimote_tracker_triangulation/body/learn_constellation.h"
 #include "wiimote_tracker_triangulation/body/match_points.h"
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
 #include "wiimote_tracker_triangulation/body/solve_pose.h"
@@ -153,6 +156,90 @@ TEST(Constellation, TheNearestSymmetryIsTheLeastOfAllPermutations) {
     }
     EXPECT_NEAR(nearestSymmetry(body).residual, least, 1e-9);
   }
+}
+
+TEST(Constellation, SymmetricOnesNeedLabels) {
+  Constellation square{"square", {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}};
+  EXPECT_NE(messageOf(square).find("looks the same within 0.0 mm"), std::string::npos);
+  square.labels = {"a", "b", "c", "d"};
+  EXPECT_EQ(messageOf(square), "good");
+  EXPECT_EQ(square.labelOf(2), "c");
+  square.labels[3] = "a";
+  EXPECT_NE(messageOf(square).find("labels"), std::string::npos);
+  EXPECT_NE(messageOf({"two words", plane().leds}).find("letter"), std::string::npos);
+}
+
+/// A body that is turned while it is looked at, with Gaussian errors of its points.
+std::vector<LedsInstant> lookAt(const Constellation& body, double stddev, Random& random) {
+  std::vector<LedsInstant> instants;
+  for (int i = 0; i < 300; ++i) {
+    const double t = 0.01 * i;
+    Isometry3d pose = Isometry3d::Identity();
+    pose.translation() = Vector3d(1.0 + 0.1 * t, 1.0, 1.0);
+    pose.linear() = Eigen::AngleAxisd(0.5 * t, Vector3d(0.6, 0.0, 0.8)).toRotationMatrix();
+    instants.push_back({t, {}});
+    for (std::size_t led = 0; led < body.leds.size(); ++led)
+      instants.back().leds.push_back({static_cast<std::uint32_t>(10 + led),
+                                      pose * body.leds[led] + noise(random, stddev), 0.002});
+  }
+  return instants;
+}
+
+TEST(LearnConstellation, KnowsHowWellItKnowsTheShape) {
+  Random random(41);
+  double errors = 0.0;
+  double expected = 0.0;
+  constexpr int kTrials = 60;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<LedsInstant> instants = lookAt(plane(), 0.003, random);
+    // An LED is hidden for a while and comes back as another track.
+    for (std::size_t i = 100; i < instants.size(); ++i) {
+      if (i < 130)
+        instants[i].leds.erase(instants[i].leds.begin() + 1);
+      else
+        instants[i].leds[1].id = 99;
+    }
+    const LearnedConstellation learned = learnConstellation("thing", instants);
+    ASSERT_EQ(learned.constellation.leds.size(), 4u);
+    EXPECT_EQ(learned.ids[1], 11u);
+    std::vector<PointPair> pairs;
+    for (std::size_t led = 0; led < 4; ++led)
+      pairs.push_back({plane().leds[led], learned.constellation.leds[led], 1.0});
+    // Six of the twelve coordinates are free: where the body's axes lie.
+    errors += align(pairs.data(), pairs.size()).cost;
+    for (const double stddev : learned.stddev)
+      expected += 6.0 / 4.0 * stddev * stddev;
+  }
+  // Variances of six and of eight parts' degrees of freedom, for each trial.
+  EXPECT_NEAR(errors / expected, 1.0, 4.0 * std::sqrt((2.0 / 6.0 + 2.0 / (7.0 * 6.0)) / kTrials));
+  EXPECT_NEAR(std::sqrt(errors / (6.0 * kTrials)), 0.003 / std::sqrt(297.0), 2e-5);
+}
+
+TEST(LearnConstellation, SaysWhatIsWrong) {
+  Random random(42);
+  const auto messageFor = [](const std::vector<LedsInstant>& instants) {
+    try {
+      learnConstellation("thing", instants);
+    } catch (const BodyError& e) {
+      return std::string(e.what());
+    }
+    return std::string("learned");
+  };
+  std::vector<LedsInstant> good = lookAt(plane(), 0.001, random);
+  EXPECT_EQ(messageFor(good), "learned");
+  EXPECT_NE(messageFor({good.begin(), good.begin() + 20}).find("20 instants"), std::string::npos);
+  EXPECT_NE(messageFor({}).find("0 LEDs"), std::string::npos);
+  std::vector<LedsInstant> two = good;
+  for (LedsInstant& instant : two)
+    instant.leds.resize(2);
+  EXPECT_NE(messageFor(two).find("2 LEDs were seen"), std::string::npos);
+  std::vector<LedsInstant> loose = good;
+  for (LedsInstant& instant : loose)
+    instant.leds[2].position.z() += 0.1 * std::sin(5.0 * instant.time);
+  EXPECT_NE(messageFor(loose).find("against the others"), std::string::npos);
+  EXPECT_NE(messageFor(lookAt({"a", {{-0.05, 0, 0}, {0.05, 0, 0}, {0, 0.2, 0}}}, 1e-4, random))
+                .find("looks the same"),
+            std::string::npos);
 }
 
 TEST(BodiesFile, ComesBackBitForBit) {
@@ -493,6 +580,22 @@ TEST(BodyTracker, IsNotLostWhenItIsShaken) {
   RecordProperty("nees", std::to_string(result.nees));
 }
 
+TEST(BodyTracker, LightsThatBecomeOneSpotPullItNowhere) {
+  tracking::test::SceneOptions options = halfAPixel();
+  options.merging_distance = 12.0;
+  Follow follow(plane(), handheld, options, 29);
+  const Score result = score(&follow, 8.0);
+  EXPECT_EQ(result.known, 1.0);
+  EXPECT_EQ(result.wrong, 0.0);
+  // The bound knows nothing of merging.
+  EXPECT_LT(result.position, 1.3);
+  EXPECT_LT(result.rotation, 1.3);
+  EXPECT_LT(result.nees, 1.5);
+  RecordProperty("position_ratio", std::to_string(result.position));
+  RecordProperty("rotation_ratio", std::to_string(result.rotation));
+  RecordProperty("nees", std::to_string(result.nees));
+}
+
 TEST(BodyTracker, OneLedOfFourMayBeHidden) {
   tracking::test::SceneOptions options = halfAPixel();
   options.hidden = [](std::size_t, std::size_t led, double) { return led == 2; };
@@ -614,6 +717,138 @@ TEST(BodyTracker, TheOrderOfArrivalDoesNotMatter) {
   EXPECT_EQ(as_arrived.bodies()[0]->world_from_body.matrix(),
             in_order.bodies()[0]->world_from_body.matrix());
   EXPECT_FALSE(as_arrived.add(0, as_arrived.time() - 1.0, {}));
+}
+
+tracking::CameraImage exactImage(const geometry::Camera& camera,
+                                 const std::vector<Vector3d>& points,
+                                 double time) {
+  tracking::CameraImage image;
+  image.stamp = time;
+  image.arrival = time + 0.01;
+  for (const Vector3d& point : points) {
+    image.spots.emplace_back();
+    image.spots.back().pixel = *camera.project(point);
+  }
+  return image;
+}
+
+TEST(BodyFollower, TakesTheSpotsOfBodiesOutOfTheImages) {
+  const geometry::Rig rig = Follow::rig();
+  BodyFollower follower((BodyTrackerOptions()));
+  const Constellation three{"three", {{0.1, 0.0, 0.0}, {-0.08, 0.02, 0.0}, {0.0, 0.07, 0.05}}};
+  follower.setBodies({three});
+  follower.setRig(rig);
+  const Vector3d free(1.6, 1.0, 0.8);
+  const Isometry3d pose(Eigen::Translation3d(1.0, 1.4, 1.2));
+  std::vector<Vector3d> points;
+  for (const Vector3d& led : three.leds)
+    points.push_back(pose * led);
+  points.push_back(free);
+  double last = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const std::size_t camera = static_cast<std::size_t>(i) % 4;
+    tracking::CameraImage image =
+        exactImage(rig.cameras[camera].camera, points, 1000.0 + 0.0025 * i);
+    follower.take(camera, &image);
+    const BodySnapshot* snapshot = follower.next();
+    ASSERT_TRUE(snapshot);
+    EXPECT_GT(snapshot->time, last);
+    last = snapshot->time;
+    EXPECT_FALSE(follower.next()) << "once only";
+    if (i < 20)
+      continue;
+    ASSERT_TRUE(snapshot->bodies[0]);
+    EXPECT_LT((snapshot->bodies[0]->world_from_body.translation() - pose.translation()).norm(),
+              0.001);
+    ASSERT_EQ(image.spots.size(), 1u);
+    EXPECT_LT((image.spots[0].pixel - *rig.cameras[camera].camera.project(free)).norm(), 1e-9);
+    EXPECT_EQ(image.maximum_spots, 1u) << "all places are still taken";
+  }
+  // Dark: it is predicted, lost once, and then gone.
+  int lost = 0;
+  for (int i = 0; i < 400; ++i) {
+    tracking::CameraImage image = exactImage(rig.cameras[0].camera, {}, 1000.5 + 0.0025 * i);
+    follower.take(0, &image);
+    const BodySnapshot* snapshot = follower.next();
+    ASSERT_TRUE(snapshot);
+    lost += static_cast<int>(snapshot->lost.size());
+    if (snapshot->time > 1001.2) {
+      EXPECT_FALSE(snapshot->bodies[0]);
+    }
+  }
+  EXPECT_EQ(lost, 1);
+  // Time jumps back, as a bag that starts over.
+  for (int i = 0; i < 40; ++i) {
+    const std::size_t camera = static_cast<std::size_t>(i) % 4;
+    tracking::CameraImage image =
+        exactImage(rig.cameras[camera].camera, points, 900.0 + 0.0025 * i);
+    follower.take(camera, &image);
+  }
+  const BodySnapshot* snapshot = follower.next();
+  ASSERT_TRUE(snapshot);
+  EXPECT_LT(snapshot->time, 901.0);
+  EXPECT_TRUE(snapshot->bodies[0]);
+}
+
+TEST(BodyTracker, LabelsTellHowASymmetricBodyIsTurned) {
+  const Constellation square{
+      "square", {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}, {"a", "b", "c", "d"}};
+  const geometry::Rig rig = Follow::rig();
+  BodyTracker tracker(rig, {square}, BodyTrackerOptions());
+  Random random(43);
+  const Isometry3d pose = randomPose(random, {1.2, 1.3, 1.1});
+  const auto show = [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const geometry::Camera& camera = rig.cameras[static_cast<std::size_t>(i) % 4].camera;
+      std::vector<Eigen::Vector2d> pixels;
+      for (const Vector3d& led : square.leds) {
+        if (camera.sees(pose * led))
+          pixels.push_back(*camera.project(pose * led));
+      }
+      tracker.add(static_cast<std::size_t>(i) % 4, 1000.0 + 0.0025 * i, pixels);
+    }
+  };
+  show(0, 40);
+  EXPECT_FALSE(tracker.bodies()[0]) << "its shape does not tell";
+  std::vector<LabelledPoint> points;
+  for (const std::size_t led : {3, 0, 2})
+    points.push_back(
+        {square.labels[led], pose * square.leds[led], 1e-6 * Eigen::Matrix3d::Identity()});
+  points.push_back({"else", Vector3d(0, 0, 0), 1e-6 * Eigen::Matrix3d::Identity()});
+  std::vector<LabelledPoint> wrong = points;
+  std::swap(wrong[0].position, wrong[1].position);
+  wrong[2].position.z() += 0.1;
+  tracker.startFromLabels(wrong);
+  EXPECT_FALSE(tracker.bodies()[0]) << "they do not lie as on the body";
+  tracker.startFromLabels({points[0], points[1]});
+  EXPECT_FALSE(tracker.bodies()[0]) << "two are not enough";
+  tracker.startFromLabels(points);
+  show(40, 200);
+  ASSERT_TRUE(tracker.bodies()[0]);
+  EXPECT_LT(rotationError(pose, tracker.bodies()[0]->world_from_body).norm(), 0.01);
+}
+
+TEST(BodyTracker, DoesNotAllocateOnceWarm) {
+  tracking::test::SceneOptions options = halfAPixel();
+  options.delay_jitter = 0.004;  // late images too
+  options.hidden = [](std::size_t, std::size_t, double t) { return std::fmod(t, 2.0) > 1.2; };
+  tracking::test::Scene scene(Follow::rig(), Follow::pathsOf(plane(), handheld), options, 44);
+  BodyTracker tracker(Follow::rig(), {plane()}, BodyTrackerOptions());
+  std::vector<Eigen::Vector2d> pixels;
+  int allocations = 0;
+  for (int i = 0; i < 4 * 100 * 8; ++i) {
+    const tracking::test::SceneImage& image = scene.next();
+    pixels.clear();
+    for (const tracking::Spot& spot : image.image.spots)
+      pixels.push_back(spot.pixel);
+    const int before = g_allocations;
+    tracker.add(image.camera, image.image.stamp, pixels);
+    // Found again after each loss: what is known of it is new then.
+    if (i > 4 * 100 * 4 && tracker.bodies()[0] &&
+        tracker.bodies()[0]->first_seen < tracker.time() - 0.1)
+      allocations += g_allocations - before;
+  }
+  EXPECT_EQ(allocations, 0);
 }
 
 }  // namespace

@@ -22,6 +22,8 @@
 
 namespace wiimote_tracker::body {
 
+struct LedGroup;
+
 struct BodyTrackerOptions {
   double pixel_stddev = 0.5;  ///< Of each coordinate of a spot [px, > 0].
   PoseFilterOptions motion;
@@ -29,6 +31,9 @@ struct BodyTrackerOptions {
   /// A spot further than this from an LED's prediction is not its: squared Mahalanobis distance
   /// [1, > 0].
   double gate = 16.0;
+
+  /// Lights closer together than this in an image may be one spot [px, >= 0].
+  double merging_distance = 24.0;
 
   double prediction_time = 0.5;  ///< Seen by no camera for longer, a body is lost [s, > 0].
   double tracked_time = 0.03;    ///< Seen this recently, it is tracked, else predicted [s, > 0].
@@ -147,6 +152,11 @@ class BodyTracker {
 
   void take(std::list<Entry>::iterator entry);
   void follow(std::size_t camera, double time, const std::vector<Eigen::Vector2d>& pixels);
+  void update(std::size_t index,
+              const LedGroup& group,
+              const Eigen::Vector2d& pixel,
+              const geometry::Camera& camera,
+              LastImage* image);
   void dropLost(double time);
   void find(double time);
   bool start(std::size_t body,

@@ -1,0 +1,33 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_RIGID_BODY_H
+#define WIIMOTE_TRACKER_BRINGUP_SIMULATION_RIGID_BODY_H
+
+#include "description.h"
+#include "led_motion.h"
+
+#include <Eigen/Geometry>
+
+#include <string>
+
+namespace wiimote_tracker::simulation {
+
+/// Something that is carried about and turned, with LEDs fixed to it. It hides nothing.
+class RigidBody {
+ public:
+  explicit RigidBody(const RigidBodyDescription& description)
+      : motion(description.motion), present(description.present), description_(description) {}
+
+  const std::string& name() const { return description_.name; }
+
+  /// Its axes lie along the world's at time 0.
+  Eigen::Isometry3d worldFromBody(double time) const;
+
+  LedMotion motion;  ///< Of its origin.
+  bool present;      ///< The LEDs of what is away are not seen.
+
+ private:
+  RigidBodyDescription description_;
+};
+
+}  // namespace wiimote_tracker::simulation
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_SIMULATION_RIGID_BODY_H

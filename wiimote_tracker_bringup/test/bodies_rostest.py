@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""A rigid body through drivers and tracker: its pose is where the simulation says, also with an LED
+hidden, and it is found again soon after all were hidden."""
+
+import collections
+import sys
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+from geometry_msgs.msg import PoseStamped
+from wiimote_tracker_evaluation import scene, true_rig
+from wiimote_tracker_msgs.msg import (IrBlobArray, RigCalibration, TrackedBody, TrackedBodyArray)
+from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
+
+DEADLINE = 60.0  # [s]
+JUDGED = 3.0     # [s]
+HIDDEN = 0.8     # longer than a body is predicted [s]
+RECOVERY = 0.2   # [s]
+LEDS = ['wand_%d' % i for i in range(4)]
+CHI_SQUARED_999 = 22.46  # 99.9 % quantile, six degrees of freedom
+
+
+def vector(v):
+    return np.array([v.x, v.y, v.z])
+
+
+def quaternion(q):
+    return np.array([q.x, q.y, q.z, q.w])
+
+
+def rotation_vector(start, end):
+    """Small rotation about the world's axes from one orientation to another [rad]."""
+    x, y, z, w = start
+    left = np.array([[w, z, -y, -x], [-z, w, x, -y], [y, -x, w, -z], [x, y, z, w]])
+    difference = left @ end  # conjugate(start) * end, in the body's axes
+    if difference[3] < 0:
+        difference = -difference
+    rotation = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+    return 2.0 * rotation @ difference[:3]
+
+
+class Bodies(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('bodies_rostest')
+        cls.scene = scene.read_scene(rospy.get_param('~description'))
+        cls.identities, cls.truth, cls.bodies = {}, [], []
+        for camera in cls.scene.cameras:
+            rospy.Subscriber(camera.name + '/ir_blobs', IrBlobArray,
+                             lambda image: cls.identities.update({image.camera: image.identity}))
+        rospy.Subscriber('simulation/truth/wand', PoseStamped, cls.truth.append)
+        rospy.Subscriber('bodies', TrackedBodyArray, cls.bodies.append, queue_size=1000,
+                         tcp_nodelay=True)
+        cls.rig_publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1,
+                                            latch=True)
+        rospy.wait_for_service('simulation/set_led', DEADLINE)
+        cls.set_led = rospy.ServiceProxy('simulation/set_led', SetLed)
+
+    def wait(self, condition, what):
+        deadline = rospy.get_time() + DEADLINE
+        while not condition():
+            self.assertLess(rospy.get_time(), deadline, 'waited too long for ' + what)
+            rospy.sleep(0.01)
+
+    def switch(self, leds, on):
+        """@returns when the last of them was switched."""
+        for led in leds:
+            answer = self.set_led(SetLedRequest(led=led, on=on, motion=SetLedRequest.HOLD))
+            self.assertTrue(answer.success, answer.message)
+        return answer.arrival.to_sec()
+
+    def reach(self, end):
+        self.wait(lambda: self.bodies and self.bodies[-1].header.stamp.to_sec() > end and
+                  self.truth and self.truth[-1].header.stamp.to_sec() > end, 'the time to pass')
+
+    def seen_between(self, begin, end):
+        """Of each array: its time, and the wand or None."""
+        return [(array.header.stamp.to_sec(), array.bodies[0] if array.bodies else None)
+                for array in list(self.bodies) if begin <= array.header.stamp.to_sec() < end]
+
+    def judge(self, seen, share):
+        """Tracked in that share at least, and where it truly is."""
+        tracked = [(t, b) for t, b in seen if b and b.state == TrackedBody.TRACKED]
+        self.assertGreater(len(tracked), share * len(seen))
+        truth = list(self.truth)
+        stamps = np.array([t.header.stamp.to_sec() for t in truth])
+        squared, positions, rotations = [], [], []
+        for t, body in tracked:
+            i = np.searchsorted(stamps, t)
+            nearest = truth[i if stamps[i] - t < t - stamps[i - 1] else i - 1]
+            # What it moved since the nearest instant of truth.
+            step = t - nearest.header.stamp.to_sec()
+            position = vector(body.pose.pose.position) - vector(nearest.pose.position) - \
+                step * vector(body.twist.twist.linear)
+            rotation = rotation_vector(quaternion(nearest.pose.orientation),
+                                       quaternion(body.pose.pose.orientation)) - \
+                step * vector(body.twist.twist.angular)
+            error = np.concatenate([position, rotation])
+            covariance = np.array(body.pose.covariance).reshape(6, 6)
+            squared.append(error @ np.linalg.solve(covariance, error))
+            positions.append(position @ position)
+            rotations.append(rotation @ rotation)
+        print('%d poses: %.2f mm, %.2f deg, median of the normalised squared error %.2f '
+              '(5.35 when all is known)' % (
+                  len(tracked), 1e3 * np.sqrt(np.mean(positions)),
+                  np.degrees(np.sqrt(np.mean(rotations))), np.median(squared)))
+        # What the covariance does not know of: quantised pixels, spots that are two LEDs', stamps.
+        self.assertLess(np.median(squared), CHI_SQUARED_999)
+        self.assertLess(np.degrees(np.sqrt(max(rotations))), 20.0, 'LEDs were confused')
+
+    def test_pose(self):
+        self.wait(lambda: len(self.identities) == len(self.scene.cameras), 'images of all cameras')
+        self.rig_publisher.publish(true_rig.true_rig(self.scene, self.identities))
+        self.wait(lambda: self.bodies and self.bodies[-1].bodies, 'the body')
+        begin = self.bodies[-1].header.stamp.to_sec() + 2.0  # the drivers' clocks settle
+        self.reach(begin + JUDGED)
+        self.judge(self.seen_between(begin, begin + JUDGED), 0.98)
+
+        hidden = self.switch(LEDS[2:3], False) + 0.1
+        self.reach(hidden + 1.0)
+        seen = self.seen_between(hidden, hidden + 1.0)
+        self.judge(seen, 0.98)
+        self.assertTrue(any(not b.leds[2].cameras for _, b in seen))
+
+        dark = self.switch(LEDS, False)
+        self.reach(dark + HIDDEN)
+        self.assertIsNone(self.seen_between(dark, dark + HIDDEN)[-1][1], 'it was lost')
+        states = collections.Counter(b.state for _, b in self.seen_between(dark, dark + HIDDEN) if b)
+        self.assertEqual(states[TrackedBody.LOST], 1)
+        light = self.switch(LEDS, True) + RECOVERY
+        self.reach(light + 1.0)
+        self.judge(self.seen_between(light, light + 1.0), 0.98)
+
+
+if __name__ == '__main__':
+    sys.exit(rostest.rosrun('wiimote_tracker_bringup', 'bodies', Bodies))

@@ -1,0 +1,121 @@
+#include "led_groups.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::body {
+namespace {
+
+// An LED that is expected no better than this, standard deviation, could be any spot: after the
+// body was hidden for long, it is found by its shape, not by a spot of something else [px].
+constexpr double kWidest = 12.0;
+constexpr double kFurtherLed = 2.0;  // cost of each LED beyond the first
+// Of two lights that have become one, either has 1/4 to 3/4 of the brightness: the spot's place
+// between them is uniform over half of their distance, of standard deviation 1/sqrt(48) of it.
+constexpr double kPlaceBetween = 0.1443;
+
+}  // namespace
+
+double LedGroup::cost(const Eigen::Vector2d& pixel, double gate) const {
+  const Eigen::Vector2d innovation = pixel - prediction.pixel;
+  const double squared = innovation.dot(prediction.covariance.inverse() * innovation);
+  if (!(squared < gate))
+    return std::numeric_limits<double>::infinity();
+  return squared + std::log(prediction.covariance.determinant()) +
+         kFurtherLed * static_cast<double>(count - 1);
+}
+
+LedGroups::LedGroups(const PoseFilter& filter,
+                     const Constellation& constellation,
+                     const geometry::Camera& camera,
+                     double pixel_stddev,
+                     double merging_distance,
+                     double gate)
+    : pixel_stddev_(pixel_stddev), gate_(gate) {
+  const std::size_t leds = constellation.leds.size();
+  for (std::size_t i = 0; i < leds; ++i) {
+    singles_[i] = filter.predictLed(camera, constellation.leds[i], pixel_stddev);
+    if (singles_[i] && !(singles_[i]->covariance.trace() < 2.0 * kWidest * kWidest))
+      singles_[i].reset();
+  }
+  const auto areNear = [&](std::size_t a, std::size_t b) {
+    return (singles_[a]->pixel - singles_[b]->pixel).squaredNorm() <
+           merging_distance * merging_distance;
+  };
+  for (std::size_t i = 0; i < leds; ++i) {
+    if (!singles_[i])
+      continue;
+    std::array<std::size_t, kMaximumLeds> all{i};
+    std::size_t count = 1;
+    add(filter, all, count);
+    for (std::size_t k = 0; k < leds; ++k) {
+      if (k == i || !singles_[k] || !areNear(i, k))
+        continue;
+      all[count++] = k;
+      if (k > i)
+        add(filter, {i, k}, 2);
+    }
+    if (count > 2)
+      add(filter, all, count);
+  }
+}
+
+void LedGroups::add(const PoseFilter& filter,
+                    const std::array<std::size_t, kMaximumLeds>& leds,
+                    std::size_t count) {
+  LedGroup& group = groups_[count_++];
+  group.leds = leds;
+  group.count = count;
+  group.prediction = *singles_[leds[0]];
+  group.pixel_stddev = pixel_stddev_;
+  if (count == 1)
+    return;
+  LedPrediction& mean = group.prediction;
+  for (std::size_t i = 1; i < count; ++i) {
+    mean.pixel += singles_[leds[i]]->pixel;
+    mean.jacobian += singles_[leds[i]]->jacobian;
+    mean.depth += singles_[leds[i]]->depth;
+  }
+  mean.pixel /= static_cast<double>(count);
+  mean.jacobian /= static_cast<double>(count);
+  mean.depth /= static_cast<double>(count);
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    farthest = std::max(farthest, (singles_[leds[i]]->pixel - mean.pixel).norm());
+  group.pixel_stddev = std::hypot(pixel_stddev_, kPlaceBetween * 2.0 * farthest);
+  mean.covariance =
+      mean.jacobian * filter.covariance().topLeftCorner<6, 6>() * mean.jacobian.transpose();
+  mean.covariance.diagonal().array() += group.pixel_stddev * group.pixel_stddev;
+}
+
+double LedGroups::cost(std::size_t led, const Eigen::Vector2d& pixel) const {
+  const LedGroup* group = best(led, pixel, {});
+  return group ? group->cost(pixel, gate_) : std::numeric_limits<double>::infinity();
+}
+
+const LedGroup* LedGroups::best(std::size_t led,
+                                const Eigen::Vector2d& pixel,
+                                const std::array<bool, kMaximumLeds>& has_spot) const {
+  const LedGroup* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t g = 0; g < count_; ++g) {
+    const LedGroup& group = groups_[g];
+    const auto begin = group.leds.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(group.count);
+    const bool is_of_led = std::find(begin, end, led) != end;
+    const bool is_free = std::all_of(
+        begin, end, [&](std::size_t other) { return other == led || !has_spot[other]; });
+    if (!is_of_led || !is_free)
+      continue;
+    const double cost = group.cost(pixel, gate_);
+    if (cost < least) {
+      least = cost;
+      best = &group;
+    }
+  }
+  return best;
+}
+
+}  // namespace wiimote_tracker::body

@@ -1,0 +1,66 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_LED_GROUPS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_LED_GROUPS_H
+
+#include "wiimote_tracker_triangulation/body/constellation.h"
+#include "wiimote_tracker_triangulation/body/pose_filter.h"
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+namespace wiimote_tracker::body {
+
+/// LEDs of one body whose lights may be one spot in an image: one, or several that lie close
+/// together there.
+struct LedGroup {
+  std::array<std::size_t, kMaximumLeds> leds;
+  std::size_t count = 0;
+  LedPrediction prediction;   // of the mean of their pixels
+  double pixel_stddev = 0.0;  // of the spot about it; of several, their brightnesses are not known
+
+  /// -2 log likelihood of a spot, but for a constant, and something for each further LED, for
+  /// lights that are one spot are rarer; infinity beyond the gate (squared Mahalanobis distance).
+  double cost(const Eigen::Vector2d& pixel, double gate) const;
+};
+
+/// All groups of a body in one image that an LED may shine in; none of LEDs of which is hardly
+/// known where they are.
+class LedGroups {
+ public:
+  /// @param merging_distance lights closer than this may be one spot [px].
+  LedGroups(const PoseFilter& filter,
+            const Constellation& constellation,
+            const geometry::Camera& camera,
+            double pixel_stddev,
+            double merging_distance,
+            double gate);
+
+  /// Least cost of a pixel over the groups of an LED; infinity where none fits.
+  double cost(std::size_t led, const Eigen::Vector2d& pixel) const;
+
+  /// The group of that cost, without such groups as need one of the LEDs that have a spot of their
+  /// own. Null where none fits.
+  const LedGroup* best(std::size_t led,
+                       const Eigen::Vector2d& pixel,
+                       const std::array<bool, kMaximumLeds>& has_spot) const;
+
+ private:
+  void add(const PoseFilter& filter,
+           const std::array<std::size_t, kMaximumLeds>& leds,
+           std::size_t count);
+
+  double pixel_stddev_;
+  double gate_;
+  std::array<std::optional<LedPrediction>, kMaximumLeds> singles_;
+  // One of each LED, one of each pair, one of each LED with all of its neighbours.
+  std::array<LedGroup, kMaximumLeds*(kMaximumLeds + 3) / 2> groups_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace wiimote_tracker::body
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_LED_GROUPS_H

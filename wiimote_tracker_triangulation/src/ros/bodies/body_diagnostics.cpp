@@ -1,0 +1,78 @@
+#include "body_diagnostics.h"
+
+#include "body_parameters.h"
+
+#include <cmath>
+#include <limits>
+
+namespace wiimote_tracker {
+
+using diagnostic_msgs::DiagnosticStatus;
+using wiimote_tracker_msgs::TrackedBody;
+
+void BodyDiagnostics::Mean::add(double value) {
+  if (std::isnan(value))
+    return;
+  squares += value * value;
+  ++count;
+}
+
+double BodyDiagnostics::Mean::root() const {
+  return count > 0 ? std::sqrt(squares / static_cast<double>(count))
+                   : std::numeric_limits<double>::quiet_NaN();
+}
+
+BodyDiagnostics::BodyDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
+    : updater_(nh, private_nh) {
+  updater_.setHardwareID("none");
+}
+
+void BodyDiagnostics::setBodies(const std::vector<body::Constellation>& bodies) {
+  for (const std::string& status : statuses_)
+    updater_.removeByName(status);
+  statuses_.clear();
+  seen_.clear();
+  for (const body::Constellation& body : bodies) {
+    const std::vector<std::string> warnings = ambiguities({body});
+    const std::string warning = warnings.empty() ? "" : warnings.front();
+    statuses_.push_back("body " + body.name);
+    seen_[body.name].leds.resize(body.leds.size());
+    updater_.add(statuses_.back(), [=](diagnostic_updater::DiagnosticStatusWrapper& status) {
+      report(body, warning, status);
+    });
+  }
+}
+
+void BodyDiagnostics::addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
+  for (auto& [name, seen] : seen_)
+    ++seen.images;
+  for (const TrackedBody& body : bodies.bodies) {
+    Seen& seen = seen_[body.name];
+    seen.tracked += body.state == TrackedBody::TRACKED;
+    seen.lost += body.state == TrackedBody::LOST;
+    for (std::size_t i = 0; i < body.leds.size() && i < seen.leds.size(); ++i) {
+      seen.leds[i].add(body.leds[i].deviation);
+      seen.residual.add(body.leds[i].residual);
+    }
+  }
+}
+
+void BodyDiagnostics::report(const body::Constellation& body,
+                             const std::string& warning,
+                             diagnostic_updater::DiagnosticStatusWrapper& status) {
+  Seen& seen = seen_[body.name];
+  status.summary(DiagnosticStatus::OK, seen.tracked > 0 ? "tracked" : "not in view");
+  if (!warning.empty())
+    status.mergeSummary(DiagnosticStatus::WARN, warning);
+  status.addf("share of images in which it is tracked [%]", "%.1f",
+              100.0 * static_cast<double>(seen.tracked) / static_cast<double>(seen.images));
+  status.add("times lost", seen.lost);
+  status.addf("residual [px]", "%.3f", seen.residual.root());
+  for (std::size_t i = 0; i < seen.leds.size(); ++i)
+    status.addf("deviation of LED " + body.labelOf(i) + " [mm]", "%.2f", 1e3 * seen.leds[i].root());
+  const std::size_t leds = seen.leds.size();
+  seen = Seen();
+  seen.leds.resize(leds);
+}
+
+}  // namespace wiimote_tracker

@@ -1,0 +1,57 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_DIAGNOSTICS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_DIAGNOSTICS_H
+
+#include "wiimote_tracker_triangulation/body/constellation.h"
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <wiimote_tracker_msgs/TrackedBodyArray.h>
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// Says on /diagnostics how each body is seen: one status for each.
+class BodyDiagnostics {
+ public:
+  BodyDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
+
+  void setBodies(const std::vector<body::Constellation>& bodies);
+  void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies);
+
+  /// Publishes when it is time to.
+  void update() { updater_.update(); }
+
+ private:
+  /// The mean of squares.
+  struct Mean {
+    double squares = 0.0;
+    std::size_t count = 0;
+
+    void add(double value);
+    double root() const;  ///< NaN of nothing.
+  };
+  /// Since the last report.
+  struct Seen {
+    std::size_t images = 0;
+    std::size_t tracked = 0;  // of the images
+    std::size_t lost = 0;     // times
+    Mean residual;            // [px]
+    std::vector<Mean> leds;   // deviations [m]
+  };
+
+  void report(const body::Constellation& body,
+              const std::string& warning,
+              diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  std::vector<std::string> statuses_;
+  std::map<std::string, Seen> seen_;  // by name
+  diagnostic_updater::Updater updater_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_DIAGNOSTICS_H

@@ -1,0 +1,204 @@
+#include "body_learning.h"
+
+#include "body_parameters.h"
+#include "wiimote_tracker_triangulation/body/bodies_file.h"
+#include "wiimote_tracker_triangulation/body/error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+namespace wiimote_tracker {
+namespace {
+
+using body::Constellation;
+using wiimote_tracker_msgs::TrackedPoint;
+
+constexpr double kDefaultDuration = 3.0;  // [s]
+constexpr double kShortest = 0.5;         // [s]
+constexpr double kLongest = 60.0;         // [s]
+// LEDs of a body that was followed until now become tracks of their own first [s].
+constexpr double kUntilFree = 0.5;
+// Nothing came for so long: nothing will [s].
+constexpr int kSilence = 5;
+
+double stddevOf(const TrackedPoint& point) {
+  const auto& c = point.position_covariance;
+  return std::sqrt((c[0] + c[4] + c[8]) / 3.0);
+}
+
+std::vector<Constellation> without(const std::string& name, std::vector<Constellation> bodies) {
+  bodies.erase(std::remove_if(bodies.begin(), bodies.end(),
+                              [&](const Constellation& body) { return body.name == name; }),
+               bodies.end());
+  return bodies;
+}
+
+/// The labels of LEDs that blink, in the order of the body's, when all do.
+std::vector<std::string> labelsOf(const std::vector<std::uint32_t>& ids,
+                                  const std::map<std::uint32_t, std::string>& blinks) {
+  std::vector<std::string> labels;
+  for (const std::uint32_t id : ids) {
+    const auto label = blinks.find(id);
+    if (label == blinks.end())
+      return {};
+    labels.push_back(label->second);
+  }
+  return labels;
+}
+
+}  // namespace
+
+BodyLearning::BodyLearning(const ros::NodeHandle& nh,
+                           const std::string& file,
+                           const std::vector<Constellation>& bodies,
+                           const std::vector<std::string>& names)
+    : file_(file), names_(names), bodies_(bodies), spinner_(1, &queue_) {
+  ros::NodeHandle handle(nh);
+  handle.setCallbackQueue(&queue_);
+  server_ = handle.advertiseService("learn_body", &BodyLearning::onRequest, this);
+  spinner_.start();
+}
+
+BodyLearning::~BodyLearning() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_over_ = true;
+  }
+  changed_.notify_all();
+  server_.shutdown();
+  spinner_.stop();
+}
+
+void BodyLearning::addPoints(const wiimote_tracker_msgs::TrackedPointArray& points) {
+  if (!is_collecting_)
+    return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  body::LedsInstant instant{points.header.stamp.toSec(), {}};
+  if (!instants_.empty() && instant.time < instants_.back().time)
+    instants_.clear();  // time jumped back
+  for (const TrackedPoint& point : points.points) {
+    if (point.state != TrackedPoint::TRACKED ||
+        (!labels_.empty() && labels_.count(point.label) == 0))
+      continue;
+    instant.leds.push_back(
+        {point.id, {point.position.x, point.position.y, point.position.z}, stddevOf(point)});
+    if (!std::isnan(point.label_confidence))
+      blinks_[point.id] = point.label;
+  }
+  instants_.push_back(instant);
+  is_collecting_ = instant.time - instants_.front().time < duration_;
+  changed_.notify_all();
+}
+
+std::optional<std::vector<Constellation>> BodyLearning::change() {
+  if (!has_change_)
+    return std::nullopt;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  has_change_ = false;
+  return followed_;
+}
+
+bool BodyLearning::onRequest(LearnBody::Request& request, LearnBody::Response& response) {
+  response.message = refusal(request);
+  if (!response.message.empty())
+    return true;
+  follow(without(request.name, bodies_));
+  try {
+    collect(request);
+    learn(request, &response);
+  } catch (const geometry::Error& e) {
+    response.message = e.what();
+  }
+  follow(bodies_);
+  return true;
+}
+
+std::string BodyLearning::refusal(const LearnBody::Request& request) const {
+  if (file_.empty())
+    return "there is no file to keep bodies in; name one with the parameter bodies/file";
+  if (request.duration != 0.0 && !(request.duration >= kShortest && request.duration <= kLongest))
+    return "duration must be 0, or from 0.5 to 60 s";
+  if (std::find(names_.begin(), names_.end(), request.name) != names_.end())
+    return "'" + request.name + "' is the name of an LED; take another one";
+  try {
+    // The name alone.
+    Constellation{request.name, {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}}}.check();
+  } catch (const body::BodyError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+void BodyLearning::collect(const LearnBody::Request& request) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const bool was_followed = followed_.size() < bodies_.size();
+  duration_ = request.duration == 0.0 ? kDefaultDuration : request.duration;
+  labels_ = {request.labels.begin(), request.labels.end()};
+  const double until_free = was_followed ? kUntilFree : 0.0;
+  duration_ += until_free;
+  instants_.clear();
+  blinks_.clear();
+  is_collecting_ = true;
+  while (is_collecting_ && !is_over_) {
+    const std::size_t count = instants_.size();
+    const bool has_news = changed_.wait_for(lock, std::chrono::seconds(kSilence), [&] {
+      return is_over_ || !is_collecting_ || instants_.size() != count;
+    });
+    if (!has_news) {
+      is_collecting_ = false;
+      throw body::BodyError(
+          "no points came for 5 s; calibrate the cameras and start their drivers");
+    }
+  }
+  if (is_over_)
+    throw body::BodyError("the tracker was stopped");
+  const double begin = instants_.front().time + until_free;
+  instants_.erase(instants_.begin(),
+                  std::find_if(instants_.begin(), instants_.end(),
+                               [&](const auto& instant) { return instant.time >= begin; }));
+}
+
+void BodyLearning::learn(const LearnBody::Request& request, LearnBody::Response* response) {
+  std::vector<body::LedsInstant> instants;
+  std::map<std::uint32_t, std::string> blinks;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    instants.swap(instants_);
+    blinks.swap(blinks_);
+  }
+  body::LearnedConstellation learned = body::learnConstellation(request.name, instants);
+  learned.constellation.labels = labelsOf(learned.ids, blinks);
+  learned.constellation.check();
+  const body::Symmetry symmetry = body::nearestSymmetry(learned.constellation);
+  response->stddev = learned.stddev;
+  response->symmetry = symmetry.residual;
+  for (const Eigen::Vector3d& led : learned.constellation.leds) {
+    geometry_msgs::Point point;
+    point.x = led.x();
+    point.y = led.y();
+    point.z = led.z();
+    response->leds.push_back(point);
+  }
+  std::vector<Constellation> bodies = without(request.name, bodies_);
+  bodies.push_back(learned.constellation);
+  body::writeBodies(file_, bodies);
+  bodies_ = bodies;
+  response->success = true;
+  response->message = "body '" + request.name + "' with " +
+                      std::to_string(learned.constellation.leds.size()) + " LEDs is in " + file_ +
+                      " and followed from now on";
+  const std::vector<std::string> warnings = ambiguities({learned.constellation});
+  if (!warnings.empty())
+    response->message += "; but " + warnings.front();
+}
+
+/// Hands them over to the tracker's thread.
+void BodyLearning::follow(const std::vector<Constellation>& bodies) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  followed_ = bodies;
+  has_change_ = true;
+}
+
+}  // namespace wiimote_tracker

@@ -1,0 +1,129 @@
+#include "body_message.h"
+
+#include "../point_message.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wiimote_tracker {
+namespace {
+
+using wiimote_tracker_msgs::BodyLed;
+using wiimote_tracker_msgs::TrackedBody;
+using wiimote_tracker_msgs::TrackedBodyArray;
+
+template <typename Message>  // Point, Vector3
+void set(const Eigen::Vector3d& v, Message* message) {
+  message->x = v.x();
+  message->y = v.y();
+  message->z = v.z();
+}
+
+/// Six rows and columns of a covariance, from (first, first) on, row by row.
+template <typename Array>
+void set(const body::MotionCovariance& m, int first, Array* row_major) {
+  for (int r = 0; r < 6; ++r) {
+    for (int c = 0; c < 6; ++c)
+      (*row_major)[static_cast<std::size_t>(6 * r + c)] = m(first + r, first + c);
+  }
+}
+
+BodyLed ledMessage(const body::LedEstimate& led,
+                   const std::string& label,
+                   const geometry::Rig& rig) {
+  BodyLed message;
+  message.label = label;
+  set(led.position, &message.position);
+  for (const std::size_t camera : led.cameras)
+    message.cameras.push_back(rig.cameras[camera].camera.name);
+  message.residual = led.residual;
+  message.deviation = led.deviation;
+  message.last_observed = timeOf(led.last_observed);
+  return message;
+}
+
+TrackedBody bodyMessage(const body::BodyEstimate& estimate,
+                        bool is_lost,
+                        const body::Constellation& constellation,
+                        const geometry::Rig& rig,
+                        double time) {
+  TrackedBody message;
+  message.name = constellation.name;
+  message.state = is_lost            ? TrackedBody::LOST
+                  : estimate.tracked ? TrackedBody::TRACKED
+                                     : TrackedBody::PREDICTED;
+  set(estimate.world_from_body.translation(), &message.pose.pose.position);
+  const Eigen::Quaterniond rotation(estimate.world_from_body.linear());
+  message.pose.pose.orientation.x = rotation.x();
+  message.pose.pose.orientation.y = rotation.y();
+  message.pose.pose.orientation.z = rotation.z();
+  message.pose.pose.orientation.w = rotation.w();
+  set(estimate.covariance, 0, &message.pose.covariance);
+  set(estimate.velocity, &message.twist.twist.linear);
+  set(estimate.angular_velocity, &message.twist.twist.angular);
+  set(estimate.covariance, 6, &message.twist.covariance);
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < estimate.leds.size(); ++i) {
+    const body::LedEstimate& led = estimate.leds[i];
+    message.leds.push_back(ledMessage(led, constellation.labelOf(i), rig));
+    if (led.cameras.empty())
+      continue;
+    squares += led.residual * led.residual;
+    count += 1.0;
+  }
+  message.residual =
+      count > 0.0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
+  message.last_observed = timeOf(estimate.last_observed);
+  message.age = time - estimate.first_seen;
+  return message;
+}
+
+}  // namespace
+
+TrackedBodyArray bodyMessage(const body::BodySnapshot& snapshot,
+                             const std::vector<body::Constellation>& constellations,
+                             const geometry::Rig& rig,
+                             const std::string& rig_id) {
+  TrackedBodyArray message;
+  message.header.stamp = timeOf(snapshot.time);
+  message.header.frame_id = rig.world_frame;
+  message.rig_id = rig_id;
+  message.latest_arrival = timeOf(snapshot.latest_arrival);
+  for (std::size_t b = 0; b < snapshot.bodies.size(); ++b) {
+    if (!snapshot.bodies[b])
+      continue;
+    const bool is_lost =
+        std::find(snapshot.lost.begin(), snapshot.lost.end(), b) != snapshot.lost.end();
+    message.bodies.push_back(
+        bodyMessage(*snapshot.bodies[b], is_lost, constellations[b], rig, snapshot.time));
+  }
+  return message;
+}
+
+bool isPose(const TrackedBody& body, bool publish_predicted) {
+  return body.state == TrackedBody::TRACKED ||
+         (publish_predicted && body.state == TrackedBody::PREDICTED);
+}
+
+geometry_msgs::PoseWithCovarianceStamped poseStamped(const TrackedBodyArray& array,
+                                                     const TrackedBody& body) {
+  geometry_msgs::PoseWithCovarianceStamped message;
+  message.header = array.header;
+  message.pose = body.pose;
+  return message;
+}
+
+geometry_msgs::TransformStamped transform(const TrackedBodyArray& array, const TrackedBody& body) {
+  geometry_msgs::TransformStamped message;
+  message.header = array.header;
+  message.child_frame_id = body.name;
+  message.transform.translation.x = body.pose.pose.position.x;
+  message.transform.translation.y = body.pose.pose.position.y;
+  message.transform.translation.z = body.pose.pose.position.z;
+  message.transform.rotation = body.pose.pose.orientation;
+  return message;
+}
+
+}  // namespace wiimote_tracker

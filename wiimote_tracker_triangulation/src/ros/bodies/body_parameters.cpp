@@ -1,0 +1,70 @@
+#include "body_parameters.h"
+
+#include "wiimote_tracker_triangulation/body/bodies_file.h"
+#include "wiimote_tracker_triangulation/body/error.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace wiimote_tracker {
+namespace {
+
+std::vector<body::Constellation> readKnown(const std::string& file,
+                                           const std::vector<std::string>& labels) {
+  if (file.empty() || !std::filesystem::exists(file))
+    return {};
+  std::vector<body::Constellation> bodies = body::readBodies(file);
+  for (const body::Constellation& body : bodies) {
+    if (std::find(labels.begin(), labels.end(), body.name) != labels.end())
+      throw body::BodyError("body '" + body.name + "' of " + file +
+                            " has the name of an LED; rename one of them");
+  }
+  return bodies;
+}
+
+}  // namespace
+
+BodyParameters BodyParameters::read(ParameterReader* reader,
+                                    const tracking::TrackerOptions& tracks,
+                                    const std::vector<std::string>& labels) {
+  BodyParameters p;
+  p.file = reader->optional<std::string>("bodies/file", p.file);
+  try {
+    p.known = readKnown(p.file, labels);
+  } catch (const geometry::Error& error) {
+    throw ParameterError(reader->nameOf("bodies/file") + ": " + error.what());
+  }
+  body::BodyTrackerOptions& o = p.options;
+  o.pixel_stddev = tracks.pixel_stddev;
+  o.merging_distance = tracks.merging_distance;
+  o.history = tracks.history;
+  o.maximum_range = tracks.maximum_range;
+  o.gate = reader->bounded("bodies/gate", o.gate, 4.0, 100.0);
+  o.tracked_time = reader->bounded("bodies/tracked_time", o.tracked_time, 0.001, 1.0);
+  o.prediction_time = reader->bounded("bodies/prediction_time", o.prediction_time, 0.01, 10.0);
+  o.window = reader->bounded("bodies/window", o.window, 0.001, 0.2);
+  o.window_motion = reader->bounded("bodies/window_motion", o.window_motion, 1e-5, 0.1);
+  o.minimum_margin = reader->bounded("bodies/minimum_margin", o.minimum_margin, 0.0, 1000.0);
+  body::PoseFilterOptions& motion = o.motion;
+  motion.acceleration_density =
+      reader->bounded("bodies/acceleration_density", motion.acceleration_density, 0.0, 1000.0);
+  motion.angular_acceleration_density = reader->bounded(
+      "bodies/angular_acceleration_density", motion.angular_acceleration_density, 0.0, 1000.0);
+  motion.initial_speed =
+      reader->bounded("bodies/initial_speed", motion.initial_speed, 0.001, 1000.0);
+  motion.initial_angular_speed =
+      reader->bounded("bodies/initial_angular_speed", motion.initial_angular_speed, 0.001, 1000.0);
+  return p;
+}
+
+std::vector<std::string> ambiguities(const std::vector<body::Constellation>& bodies) {
+  std::vector<std::string> sentences;
+  for (const body::Constellation& body : bodies) {
+    const body::Symmetry symmetry = body::nearestSymmetry(body);
+    if (symmetry.residual < body::kNearlySymmetric && body.labels.empty())
+      sentences.push_back(body::describe(body, symmetry));
+  }
+  return sentences;
+}
+
+}  // namespace wiimote_tracker

@@ -1,0 +1,35 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PARAMETERS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PARAMETERS_H
+
+#include "wiimote_tracker_triangulation/body/body_tracker.h"
+#include "wiimote_tracker_triangulation/body/constellation.h"
+#include "wiimote_tracker_triangulation/tracking/tracker_options.h"
+
+#include <wiimote_tracker_msgs/parameter_reader.h>
+
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// The group `bodies` of the parameters; meaning and ranges: config/triangulation.yaml.
+struct BodyParameters {
+  std::string file;  ///< Empty: no bodies.
+  body::BodyTrackerOptions options;
+  std::vector<body::Constellation> known;  ///< Those of the file; none while it is not there.
+
+  /// @param tracks what cameras do, and how late images may be, is the same for bodies.
+  /// @param labels of LEDs: their frames are no body's.
+  /// @throws ParameterError naming the key, or the file and what is wrong with it.
+  static BodyParameters read(ParameterReader* reader,
+                             const tracking::TrackerOptions& tracks,
+                             const std::vector<std::string>& labels);
+};
+
+/// What is worth a warning: bodies that nearly look the same when they are turned. One sentence
+/// each.
+std::vector<std::string> ambiguities(const std::vector<body::Constellation>& bodies);
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PARAMETERS_H

@@ -155,6 +155,7 @@ void readIdentity(ParameterReader* reader, TrackingParameters* p) {
   const Group group("identity", reader);
   group.read("exposure", 0.0, 0.02, &identity.exposure);
   group.read("decide_at", 0.6, 0.999999, &identity.identifier.decide_at);
+  group.read("steady", 1e-9, 0.5, &identity.identifier.steady);
   if (file.empty())
     return;
   if (p->estimator.mode != tracking::Mode::kTracks)

@@ -66,6 +66,7 @@ std::map<std::string, double> numbersOf(const TrackingParameters& p) {
       {"instant/maximum_absence", instant.maximum_absence},
       {"identity/exposure", p.identity.exposure},
       {"identity/decide_at", p.identity.identifier.decide_at},
+      {"identity/steady", p.identity.identifier.steady},
       {"bodies/tracked_time", p.bodies.options.tracked_time},
       {"bodies/prediction_time", p.bodies.options.prediction_time},
       {"bodies/gate", p.bodies.options.gate},

@@ -41,8 +41,10 @@ LatencyProbe::LatencyProbe(const ros::NodeHandle& nh, const ros::NodeHandle& pri
   ping_ = handle.advertise<geometry_msgs::PointStamped>("latency/ping", 10);
   pong_ = handle.subscribe("latency/pong", 10, &LatencyProbe::onPong, this, no_delay);
   points_ = handle.subscribe("points", 1000, &LatencyProbe::onPoints, this, no_delay);
-  point_ = handle.subscribe(private_nh.param<std::string>("label", "led") + "/point", 1000,
-                            &LatencyProbe::onPoint, this, no_delay);
+  using PointEvent = ros::MessageEvent<const geometry_msgs::PointStamped>;
+  point_ = handle.subscribe<geometry_msgs::PointStamped, const PointEvent&>(
+      private_nh.param<std::string>("label", "led") + "/point", 1000,
+      [this](const PointEvent& event) { onPoint(event); }, ros::VoidConstPtr(), no_delay);
   thread_ = std::thread([this] { run(); });
 }
 
@@ -57,10 +59,10 @@ void LatencyProbe::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPt
   reported_[points->header.stamp] = points->latest_arrival;
 }
 
-void LatencyProbe::onPoint(const geometry_msgs::PointStampedConstPtr& point) {
-  const ros::Time now = ros::Time::now();
+void LatencyProbe::onPoint(const ros::MessageEvent<const geometry_msgs::PointStamped>& event) {
+  const Arrival arrival{event.getReceiptTime(), ros::Time::now()};
   const std::lock_guard<std::mutex> lock(mutex_);
-  came_[point->header.stamp] = now;
+  came_[event.getConstMessage()->header.stamp] = arrival;
 }
 
 void LatencyProbe::onPong(const geometry_msgs::PointStampedConstPtr&) {
@@ -87,7 +89,7 @@ void LatencyProbe::run() {
     if (!wait(0.1))
       return;
   }
-  const std::string points = summary("points", measurePoints());
+  const std::string points = measurePoints();
   const std::string round_trips = summary("round_trips", measureRoundTrips());
   if (ended_)
     return;
@@ -95,22 +97,24 @@ void LatencyProbe::run() {
   std::rename((file_ + ".part").c_str(), file_.c_str());  // so that it is never half there
 }
 
-std::vector<double> LatencyProbe::measurePoints() {
+std::string LatencyProbe::measurePoints() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     came_.clear();
     reported_.clear();
   }
-  std::vector<double> latencies;
   if (!wait(seconds_))
-    return latencies;
+    return "";
+  std::vector<double> in_process, in_callback;
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const auto& [stamp, came] : came_) {
     const auto reported = reported_.find(stamp);
-    if (reported != reported_.end())
-      latencies.push_back((came - reported->second).toSec());
+    if (reported == reported_.end())
+      continue;
+    in_process.push_back((came.in_process - reported->second).toSec());
+    in_callback.push_back((came.in_callback - reported->second).toSec());
   }
-  return latencies;
+  return summary("in_process", in_process) + summary("points", in_callback);
 }
 
 std::vector<double> LatencyProbe::measureRoundTrips() {

@@ -15,9 +15,10 @@
 
 namespace wiimote_tracker {
 
-/// Takes the time from the arrival of a camera's report to the arrival of the PointStamped that it
-/// led to, and that of a message's way to LatencyEcho and back, one after the other. Both are two
-/// hops. Callbacks may come from one thread only.
+/// Takes the time from the arrival of a camera's report to that of the PointStamped that it led to:
+/// in this process, and in the hands of a callback. In one manager the former is when it was
+/// published, since nothing lies between. Then the time of a message's way to LatencyEcho and back.
+/// Both are two hops. Callbacks may come from one thread only.
 class LatencyProbe {
  public:
   /// Private parameters: file (where the results go, as YAML), label of the LED (default led),
@@ -27,17 +28,20 @@ class LatencyProbe {
 
  private:
   void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points);
-  void onPoint(const geometry_msgs::PointStampedConstPtr& point);
+  void onPoint(const ros::MessageEvent<const geometry_msgs::PointStamped>& event);
   void onPong(const geometry_msgs::PointStampedConstPtr& pong);
   void run();
   bool wait(double seconds);
-  std::vector<double> measurePoints();
+  std::string measurePoints();
   std::vector<double> measureRoundTrips();
 
   std::string file_;
   double seconds_;
-  std::mutex mutex_;                         // of what follows
-  std::map<ros::Time, ros::Time> came_;      // when a point of this stamp came
+  std::mutex mutex_;  // of what follows
+  struct Arrival {
+    ros::Time in_process, in_callback;
+  };
+  std::map<ros::Time, Arrival> came_;        // when a point of this stamp came
   std::map<ros::Time, ros::Time> reported_;  // latest arrival of the images of this stamp
   bool is_back_ = false;
   std::condition_variable change_;

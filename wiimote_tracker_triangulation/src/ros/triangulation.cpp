@@ -99,8 +99,8 @@ void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
 
 void Triangulation::onPoints(const TrackedPointArrayConstPtr& points,
                              const std::vector<tracking::CameraView>& views) {
-  points_publisher_.publish(points);
   leds_.publish(*points);
+  points_publisher_.publish(points);
   tracker_.statistics().addLatency((ros::Time::now() - points->latest_arrival).toSec());
   learning_.addPoints(*points);
   if (markers_publisher_.getNumSubscribers() > 0 && markers_.isDue(points->header.stamp.toSec()))

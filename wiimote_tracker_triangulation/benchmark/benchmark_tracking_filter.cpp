@@ -165,7 +165,7 @@ void jumps(const BenchmarkSettings& settings, const RowCallback& row) {
   const MotionOptions options;
   Random random(settings.seed + 1);
   Figures moving, still;
-  for (int run = 0; run < 4 * settings.runs; ++run)
+  for (int run = 0; run < 32 * settings.runs; ++run)
     runDrawn({2.0, 0.2, true, 12.0}, options, random, &moving, &still);
   row(sum(moving, still).row("(b) still and moving by jumps"));
   row(still.row("    while still"));

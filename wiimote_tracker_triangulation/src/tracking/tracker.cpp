@@ -156,13 +156,7 @@ const Snapshot* Tracker::next() {
             uncertainty_->covarianceNear(led.position, led.cameras.data(), led.cameras.size()))
       led.position_covariance += *covariance;
   }
-  snapshot_.latest_arrival = newest_arrival_;
-  snapshot_.views = views_;
-  snapshot_.skew = 0.0;
-  for (const CameraView& view : views_) {
-    if (view.time && *view.time >= newest_time_ - options_.tracked_time)
-      snapshot_.skew = std::max(snapshot_.skew, newest_time_ - *view.time);
-  }
+  describeImages(&snapshot_);
   return &snapshot_;
 }
 
@@ -176,14 +170,19 @@ bool Tracker::predictTo(double time, Snapshot* snapshot) const {
             uncertainty_->covarianceOf(led.position, led.cameras.data(), led.cameras.size()))
       led.position_covariance += *covariance;
   }
+  describeImages(snapshot);
+  return true;
+}
+
+/// Of which images the snapshot is made, at its time.
+void Tracker::describeImages(Snapshot* snapshot) const {
   snapshot->latest_arrival = newest_arrival_;
   snapshot->views = views_;
   snapshot->skew = 0.0;
   for (const CameraView& view : views_) {
-    if (view.time && *view.time >= time - options_.tracked_time)
-      snapshot->skew = std::max(snapshot->skew, time - *view.time);
+    if (view.time && *view.time >= snapshot->time - options_.tracked_time)
+      snapshot->skew = std::max(snapshot->skew, snapshot->time - *view.time);
   }
-  return true;
 }
 
 const Counters& Tracker::counters() const {

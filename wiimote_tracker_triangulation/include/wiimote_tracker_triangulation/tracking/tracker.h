@@ -39,7 +39,7 @@ class Tracker : public Estimator {
   Tracker& operator=(const Tracker&) = delete;
 
   /// Tracks go on where the new cameras see what the old ones saw. A rig with the id of the one
-  /// before changes nothing.
+  /// before changes nothing but how certain it is.
   void setRig(const geometry::Rig& rig) override;
 
   void add(std::size_t camera, const CameraImage& image) override;
@@ -58,6 +58,7 @@ class Tracker : public Estimator {
   void useRig(const geometry::Rig& rig);
   void takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before);
   void store(std::size_t camera, const CameraImage& image);
+  void describeImages(Snapshot* snapshot) const;
 
   TrackerOptions options_;
   geometry::Rig rig_;

@@ -14,7 +14,7 @@ struct Arguments {
   BenchmarkSettings settings;
 };
 
-bool parse(int argc, char** argv, Arguments* arguments) {
+bool parse(int argc, char** argv, bool takes_motion, Arguments* arguments) {
   for (int i = 1; i < argc; i += 2) {
     if (i + 1 >= argc)
       return false;
@@ -27,6 +27,8 @@ bool parse(int argc, char** argv, Arguments* arguments) {
       arguments->settings.runs = std::atoi(argv[i + 1]);
     else if (option == "--seed")
       arguments->settings.seed = static_cast<unsigned>(std::strtoul(argv[i + 1], nullptr, 10));
+    else if (takes_motion && option == "--motion")
+      arguments->settings.motion = argv[i + 1];
     else
       return false;
   }
@@ -85,12 +87,13 @@ void runSection(const BenchmarkSection& section,
 int runBenchmark(const std::string& program,
                  const std::vector<BenchmarkSection>& sections,
                  int argc,
-                 char** argv) {
+                 char** argv,
+                 bool takes_motion) {
   Arguments arguments;
-  if (!parse(argc, argv, &arguments)) {
+  if (!parse(argc, argv, takes_motion, &arguments)) {
     std::fprintf(stderr,
-                 "usage: %s [--json FILE] [--section NAME] [--runs N, at least 1] [--seed N]\n",
-                 program.c_str());
+                 "usage: %s [--json FILE] [--section NAME] [--runs N, at least 1] [--seed N]%s\n",
+                 program.c_str(), takes_motion ? " [--motion FILE.csv]" : "");
     return 2;
   }
   std::FILE* json = arguments.json.empty() ? nullptr : std::fopen(arguments.json.c_str(), "w");

@@ -9,11 +9,12 @@
 namespace wiimote_tracker {
 
 /// A benchmark's main(): runs all sections, or the one that is asked for, and prints their tables
-/// and writes them as JSON.
+/// and writes them as JSON. @param takes_motion it has the option --motion.
 int runBenchmark(const std::string& program,
                  const std::vector<BenchmarkSection>& sections,
                  int argc,
-                 char** argv);
+                 char** argv,
+                 bool takes_motion = false);
 
 }  // namespace wiimote_tracker
 

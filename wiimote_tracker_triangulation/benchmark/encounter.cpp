@@ -1,5 +1,6 @@
 #include "encounter.h"
 
+#include "wiimote_tracker_triangulation/motion/motion_filter.h"
 #include "wiimote_tracker_triangulation/motion/singer_step.h"
 
 #include <Eigen/Cholesky>
@@ -99,9 +100,85 @@ class Follower {
   Matrix9 covariance_ = Matrix9::Zero();
 };
 
+/// The tracker's filter.
+class FilterFollower {
+ public:
+  FilterFollower(const motion::MotionOptions& options, double time, const Eigen::Vector3d& place)
+      : filter_(options, time, place, 1e-2 * Eigen::Matrix3d::Identity()) {}
+
+  void predict(double time) { filter_.predict(time); }
+
+  double update(const geometry::Camera& camera,
+                const Eigen::Vector3d& /*truth*/,
+                const Eigen::Vector2d& pixel,
+                double pixel_stddev) {
+    const auto prediction = filter_.predictPixel(camera, {pixel_stddev, 0.0});
+    if (!prediction)
+      return -std::numeric_limits<double>::infinity();
+    const double result = prediction->logLikelihood(pixel);
+    filter_.update(camera, *prediction, pixel);
+    return result;
+  }
+
+ private:
+  motion::MotionFilter filter_;
+};
+
 bool isMerged(const SceneImage& image) {
   return std::find(image.leds_of_spot.begin(), image.leds_of_spot.end(), std::uint64_t{3}) !=
          image.leds_of_spot.end();
+}
+
+/// @tparam Model what a Follower follows by.
+template <typename Follower, typename Model>
+std::optional<bool> errs(const Model& model,
+                         const geometry::Rig& rig,
+                         const std::vector<Path>& leds,
+                         const std::vector<SceneImage>& images,
+                         double pixel_stddev) {
+  // The longest run of images that all show one spot.
+  std::size_t first = 0;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < images.size();) {
+    std::size_t end = i;
+    while (end < images.size() && isMerged(images[end]))
+      ++end;
+    if (end - i > last - first) {
+      first = i;
+      last = end;
+    }
+    i = std::max(end, i + 1);
+  }
+  if (last - first < rig.cameras.size())
+    return std::nullopt;
+
+  std::vector<Follower> followers;
+  for (const Path& led : leds)
+    followers.emplace_back(model, images[0].true_time, led(images[0].true_time));
+  const auto take = [&](Follower* follower, const SceneImage& image, std::size_t led) {
+    double sum = 0.0;
+    follower->predict(image.true_time);
+    for (std::size_t spot = 0; spot < image.leds_of_spot.size(); ++spot) {
+      if (image.leds_of_spot[spot] == std::uint64_t{1} << led)
+        sum += follower->update(rig.cameras[image.camera].camera, leds[led](image.true_time),
+                                image.image.spots[spot].pixel, pixel_stddev);
+    }
+    return sum;
+  };
+  for (std::size_t i = 0; i < first; ++i) {
+    for (std::size_t led = 0; led < 2; ++led)
+      take(&followers[led], images[i], led);
+  }
+  double straight = 0.0;
+  double exchanged = 0.0;
+  std::vector<Follower> other = followers;
+  for (std::size_t i = last; i < images.size(); ++i) {
+    for (std::size_t led = 0; led < 2; ++led) {
+      straight += take(&followers[led], images[i], led);
+      exchanged += take(&other[led], images[i], 1 - led);
+    }
+  }
+  return exchanged > straight;
 }
 
 }  // namespace
@@ -136,49 +213,15 @@ std::optional<bool> oracleErrs(const Encounter& encounter,
                                const std::vector<Path>& leds,
                                const std::vector<SceneImage>& images,
                                double pixel_stddev) {
-  // The longest run of images that all show one spot.
-  std::size_t first = 0;
-  std::size_t last = 0;
-  for (std::size_t i = 0; i < images.size();) {
-    std::size_t end = i;
-    while (end < images.size() && isMerged(images[end]))
-      ++end;
-    if (end - i > last - first) {
-      first = i;
-      last = end;
-    }
-    i = std::max(end, i + 1);
-  }
-  if (last - first < rig.cameras.size())
-    return std::nullopt;
+  return errs<Follower>(encounter, rig, leds, images, pixel_stddev);
+}
 
-  std::vector<Follower> followers;
-  for (const Path& led : leds)
-    followers.emplace_back(encounter, images[0].true_time, led(images[0].true_time));
-  const auto take = [&](Follower* follower, const SceneImage& image, std::size_t led) {
-    double sum = 0.0;
-    follower->predict(image.true_time);
-    for (std::size_t spot = 0; spot < image.leds_of_spot.size(); ++spot) {
-      if (image.leds_of_spot[spot] == std::uint64_t{1} << led)
-        sum += follower->update(rig.cameras[image.camera].camera, leds[led](image.true_time),
-                                image.image.spots[spot].pixel, pixel_stddev);
-    }
-    return sum;
-  };
-  for (std::size_t i = 0; i < first; ++i) {
-    for (std::size_t led = 0; led < 2; ++led)
-      take(&followers[led], images[i], led);
-  }
-  double straight = 0.0;
-  double exchanged = 0.0;
-  std::vector<Follower> other = followers;
-  for (std::size_t i = last; i < images.size(); ++i) {
-    for (std::size_t led = 0; led < 2; ++led) {
-      straight += take(&followers[led], images[i], led);
-      exchanged += take(&other[led], images[i], 1 - led);
-    }
-  }
-  return exchanged > straight;
+std::optional<bool> oracleErrsWithFilters(const motion::MotionOptions& options,
+                                          const geometry::Rig& rig,
+                                          const std::vector<Path>& leds,
+                                          const std::vector<SceneImage>& images,
+                                          double pixel_stddev) {
+  return errs<FilterFollower>(options, rig, leds, images, pixel_stddev);
 }
 
 }  // namespace wiimote_tracker

@@ -3,6 +3,7 @@
 
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/motion/motion_options.h"
 
 #include <cstddef>
 #include <optional>
@@ -32,6 +33,14 @@ std::optional<bool> oracleErrs(const Encounter& encounter,
                                const std::vector<tracking::test::Path>& leds,
                                const std::vector<tracking::test::SceneImage>& images,
                                double pixel_stddev);
+
+/// The same, for somebody who knows all that but the model of motion, and follows the LEDs with the
+/// tracker's filters instead.
+std::optional<bool> oracleErrsWithFilters(const motion::MotionOptions& options,
+                                          const geometry::Rig& rig,
+                                          const std::vector<tracking::test::Path>& leds,
+                                          const std::vector<tracking::test::SceneImage>& images,
+                                          double pixel_stddev);
 
 }  // namespace wiimote_tracker
 

@@ -15,19 +15,21 @@ constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 }  // namespace
 
-AssociationOptions typicalCosts(double pixel_stddev) {
-  constexpr double kGhostDensity = 0.1 / (1024.0 * 768.0);  // [1/px^2]
-  constexpr double kLedDensity = 0.25;                      // [1/m^3]
-  constexpr double kSpread = 0.0034;                        // of a point [m/px]
-  constexpr double kMissed = 0.1;
+AssociationOptions typicalCosts(double pixel_stddev,
+                                double ghost_rate,
+                                double detection_probability) {
+  constexpr double kImageArea = 1024.0 * 768.0;  // [px^2]
+  constexpr double kLedDensity = 0.25;           // [1/m^3]
+  constexpr double kSpread = 0.0034;             // of a point [m/px]
   const double spread = kSpread * pixel_stddev;
   AssociationOptions options;
   options.pixel_stddev = pixel_stddev;
-  options.ghost =
-      std::max(1.0, -2.0 * std::log(2.0 * M_PI * pixel_stddev * pixel_stddev * kGhostDensity));
+  options.ghost = std::max(
+      1.0, -2.0 * std::log(2.0 * M_PI * pixel_stddev * pixel_stddev * ghost_rate / kImageArea));
   options.point = std::max(
       0.0, -2.0 * std::log(kLedDensity * std::pow(2.0 * M_PI, 1.5) * spread * spread * spread));
-  options.miss = -2.0 * std::log(kMissed / (1.0 - kMissed));
+  options.miss =
+      std::max(0.0, -2.0 * std::log((1.0 - detection_probability) / detection_probability));
   return options;
 }
 

@@ -11,16 +11,8 @@ namespace {
 
 /// In the terms of AssociationOptions, for pixels as uncertain as motion makes them.
 association::AssociationOptions associationOptions(const TrackerOptions& options) {
-  constexpr double kImageArea = 1024.0 * 768.0;  // [px^2]
-  constexpr double kLedDensity = 0.25;           // [1/m^3]
-  constexpr double kMetersPerPixel = 0.0034;     // of a typical point
-  association::AssociationOptions result;
-  const double s = options.birth_pixel_stddev;
-  result.pixel_stddev = s;
-  result.ghost = -2.0 * std::log(2.0 * M_PI * s * s * options.ghost_rate / kImageArea);
-  result.point =
-      -2.0 * std::log(kLedDensity * std::pow(2.0 * M_PI, 1.5) * std::pow(kMetersPerPixel * s, 3));
-  result.miss = -2.0 * std::log(1.0 - options.detection_probability);
+  association::AssociationOptions result = association::typicalCosts(
+      options.birth_pixel_stddev, options.ghost_rate, options.detection_probability);
   result.minimum_angle = options.minimum_angle;
   return result;
 }
@@ -48,6 +40,7 @@ Births::Births(const geometry::Rig& rig,
 
 void Births::find(const std::vector<GroupCamera>& cameras,
                   std::size_t newest,
+                  const std::vector<Encounter>& encounters,
                   std::vector<Unexplained>* unexplained,
                   std::vector<Track>* tracks,
                   Ids* ids) {
@@ -72,7 +65,7 @@ void Births::find(const std::vector<GroupCamera>& cameras,
     }
     Track* track =
         trackOf(motion::MotionFilter(*motion_, time, point.point.position, point.point.covariance),
-                tracks, ids);
+                encounters, tracks, ids);
     for (const auto* spot = first; spot != last; ++spot)
       track->foundBy(spot->view, point.point.reprojection_error);
   }
@@ -84,9 +77,10 @@ void Births::find(const std::vector<GroupCamera>& cameras,
 
 /// One that is found again, or a new one.
 Track* Births::trackOf(const motion::MotionFilter& start,
+                       const std::vector<Encounter>& encounters,
                        std::vector<Track>* tracks,
                        Ids* ids) const {
-  if (Track* missed = missedAt(start, tracks)) {
+  if (Track* missed = missedAt(start, encounters, tracks)) {
     missed->restart(start);
     return missed;
   }
@@ -100,8 +94,11 @@ Track* Births::trackOf(const motion::MotionFilter& start,
 
 /// The likeliest of the LEDs that may be there and that the founding images do not show elsewhere,
 /// nor more others since. Its motion may have been another than all that were reckoned with, as
-/// when it is caught, or when a spot was not its: initial_speed allows for that.
-Track* Births::missedAt(const motion::MotionFilter& found, std::vector<Track>* tracks) const {
+/// when it is caught, or when a spot was not its: initial_speed allows for that. Which of two that
+/// have been one spot it is, their motion is about to tell.
+Track* Births::missedAt(const motion::MotionFilter& found,
+                        const std::vector<Encounter>& encounters,
+                        std::vector<Track>* tracks) const {
   double since = found.time();
   for (const FoundingImage& image : founding_images_)
     since = std::min(since, image.time);
@@ -111,8 +108,13 @@ Track* Births::missedAt(const motion::MotionFilter& found, std::vector<Track>* t
     const auto showsIt = [&](const FoundingImage& image) {
       return track.isShownBy(image.camera, image.time);
     };
+    const auto holdsIt = [&](const Encounter& encounter) {
+      return encounter.hasParted() &&
+             (encounter.ids()[0] == track.id || encounter.ids()[1] == track.id);
+    };
     if (!track.isConfirmed() || track.showers(since) > founding_images_.size() ||
-        std::any_of(founding_images_.begin(), founding_images_.end(), showsIt))
+        std::any_of(founding_images_.begin(), founding_images_.end(), showsIt) ||
+        std::any_of(encounters.begin(), encounters.end(), holdsIt))
       continue;
     motion::MotionFilter expected = track.filter;
     expected.predict(found.time());

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_BIRTHS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_BIRTHS_H
 
+#include "encounter.h"
 #include "group_camera.h"
 #include "ids.h"
 #include "stored_image.h"
@@ -43,6 +44,7 @@ class Births {
   /// `unexplained`.
   void find(const std::vector<GroupCamera>& cameras,
             std::size_t newest,
+            const std::vector<Encounter>& encounters,
             std::vector<Unexplained>* unexplained,
             std::vector<Track>* tracks,
             Ids* ids);
@@ -56,8 +58,13 @@ class Births {
                                                 const Unexplained& unexplained,
                                                 std::size_t spot);
   bool isWelcome(const association::AssociatedPoint& point) const;
-  Track* trackOf(const motion::MotionFilter& start, std::vector<Track>* tracks, Ids* ids) const;
-  Track* missedAt(const motion::MotionFilter& found, std::vector<Track>* tracks) const;
+  Track* trackOf(const motion::MotionFilter& start,
+                 const std::vector<Encounter>& encounters,
+                 std::vector<Track>* tracks,
+                 Ids* ids) const;
+  Track* missedAt(const motion::MotionFilter& found,
+                  const std::vector<Encounter>& encounters,
+                  std::vector<Track>* tracks) const;
 
   struct FoundingImage {
     std::size_t camera;

@@ -81,7 +81,7 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
   endEncounters(image.time);
   show(image, views);
   collectUnexplained(image);
-  births_.find(cameras_, image.camera, &state_.unexplained, &tracks, ids);
+  births_.find(cameras_, image.camera, state_.encounters, &state_.unexplained, &tracks, ids);
   for (Track& track : tracks)
     track.judge(image.time, options_);
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(),

@@ -199,7 +199,19 @@ void ImageUpdate::followEncounters(const GroupCamera& camera,
   for (Encounter& encounter : *encounters) {
     const std::array<Candidate*, 2> both = {find(*tracks, encounter.ids()[0]),
                                             find(*tracks, encounter.ids()[1])};
-    if (!both[0] || !both[1] || both[0]->spot == kNone || both[1]->spot == kNone)
+    if (!both[0] || !both[1])
+      continue;
+    const bool is_merged = (both[0]->spot == kNone) != (both[1]->spot == kNone);
+    if (is_merged && encounter.hasParted()) {
+      // Both ways to give out the spots of other views are to be judged alike: it is left out.
+      const Candidate& owner = both[0]->spot != kNone ? *both[0] : *both[1];
+      const Eigen::Vector2d& spot = image.pixels[static_cast<std::size_t>(owner.spot)];
+      for (Candidate* candidate : both) {
+        candidate->updated = true;
+        (*tracks)[candidate->track].hit(image.camera, spot - candidate->prediction.pixel(), false);
+      }
+    }
+    if (both[0]->spot == kNone || both[1]->spot == kNone)
       continue;
     Encounter::Pixels pixels;
     std::array<motion::MotionFilter*, 2> filters;

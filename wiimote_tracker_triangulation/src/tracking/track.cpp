@@ -123,6 +123,10 @@ void Track::judge(double time, const TrackerOptions& options) {
   }
   if (seen_by >= 2)
     last_located_ = time;
+  if (!place_.allFinite()) {
+    over_ = true;
+    return;
+  }
   if (confirmed_) {
     over_ = time - last_observed_ > options.prediction_time ||
             time - last_located_ > options.single_view_time || isAnother();

@@ -29,12 +29,16 @@ struct AssociationOptions {
   std::size_t maximum_steps = 5000;
 };
 
-/// Costs for Poisson numbers of LEDs (0.25 per m^3) and of ghosts (0.1 per image of 1024 x 768 px),
-/// and cameras that miss 10 % of what they ought to see. With pixel_stddev = s [px],
-///   ghost = -2 log(2 pi s^2 0.1 / (1024 * 768)),
+/// Costs for Poisson numbers of LEDs (0.25 per m^3) and of ghosts (ghost_rate per image of 1024 x
+/// 768 px), and cameras that show with detection_probability what they ought to see. With
+/// pixel_stddev = s [px],
+///   ghost = -2 log(2 pi s^2 ghost_rate / (1024 * 768)),
+///   miss = -2 log((1 - detection_probability) / detection_probability),
 ///   point = -2 log(0.25 (2 pi)^(3/2) v), v the square root of the determinant of the covariance
-/// of a typical point, (3.4 mm / px * s)^3 in a cube of 2.5 m; at least 1 and 0.
-AssociationOptions typicalCosts(double pixel_stddev);
+/// of a typical point, (3.4 mm / px * s)^3 in a cube of 2.5 m; at least 1, 0 and 0.
+AssociationOptions typicalCosts(double pixel_stddev,
+                                double ghost_rate = 0.1,
+                                double detection_probability = 0.9);
 
 /// The spots of one camera.
 struct View {

@@ -11,6 +11,8 @@
 #include <memory>
 #include <random>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace wiimote_tracker::monte_carlo {
 namespace {

@@ -11,6 +11,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace wiimote_tracker::monte_carlo {
 namespace {
@@ -116,6 +119,7 @@ void measure(const Arguments& arguments) {
         for (const auto& [stamping, name] : {std::make_pair(Stamping::kExact, "exact"),
                                              std::make_pair(Stamping::kEstimated, "estimated"),
                                              std::make_pair(Stamping::kArrival, "arrival")}) {
+          const std::string stamps = name;
           RoomOptions options;
           options.synchronised = synchronised;
           options.stamping = stamping;
@@ -123,7 +127,7 @@ void measure(const Arguments& arguments) {
           const std::vector<RoomImage> images = record(&room, kDuration);
           const double lateness = medianLateness(images);
           const auto write = [&](const std::string& method, const Score& score) {
-            table << session << speed << (synchronised ? "synchronised" : "own") << name << method
+            table << session << speed << (synchronised ? "synchronised" : "own") << stamps << method
                   << 1e3 * std::sqrt(score.squared / score.seen)
                   << static_cast<double>(score.seen) / score.instants << 1e3 * lateness
                   << score.instants;

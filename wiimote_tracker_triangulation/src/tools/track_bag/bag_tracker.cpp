@@ -47,6 +47,10 @@ void BagTracker::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr&
   results_->addPoints(points, now_);
 }
 
+void BagTracker::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
+  results_->addBodies(bodies, now_);
+}
+
 void BagTracker::onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) {
   results_->addZoneEvent(event, now_);
 }

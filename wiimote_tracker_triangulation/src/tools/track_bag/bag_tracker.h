@@ -39,6 +39,7 @@ class BagTracker : private MessageSink {
  private:
   void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
                 const std::vector<tracking::CameraView>& views) override;
+  void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) override;
   void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) override;
   void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& points) override;
   void onProblem(const std::string& sentence) override;

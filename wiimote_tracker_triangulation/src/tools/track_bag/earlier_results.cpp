@@ -28,11 +28,17 @@ boost::shared_ptr<const ShapeShifter> shapeOf(const tf2_msgs::TFMessage& message
 
 }  // namespace
 
-EarlierResults::EarlierResults(const Topics& topics, const std::set<std::string>& labels)
-    : topics_{topics.points(), topics.triggeredPoints(), topics.zoneEvents(), topics.markers()},
-      labels_(labels) {
+EarlierResults::EarlierResults(const Topics& topics,
+                               const std::set<std::string>& labels,
+                               const std::set<std::string>& bodies)
+    : topics_{topics.points(), topics.triggeredPoints(), topics.zoneEvents(), topics.bodies(),
+              topics.markers()},
+      frames_(labels) {
   for (const std::string& label : labels)
     topics_.insert(topics.point(label));
+  for (const std::string& body : bodies)
+    topics_.insert(topics.pose(body));
+  frames_.insert(bodies.begin(), bodies.end());
 }
 
 boost::shared_ptr<const ShapeShifter> EarlierResults::rest(
@@ -49,7 +55,7 @@ boost::shared_ptr<const ShapeShifter> EarlierResults::rest(
   const std::size_t count = transforms.size();
   transforms.erase(std::remove_if(transforms.begin(), transforms.end(),
                                   [&](const geometry_msgs::TransformStamped& t) {
-                                    return labels_.count(t.child_frame_id) > 0;
+                                    return frames_.count(t.child_frame_id) > 0;
                                   }),
                    transforms.end());
   if (transforms.size() == count)

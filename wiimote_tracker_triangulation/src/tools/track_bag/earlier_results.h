@@ -15,8 +15,10 @@ namespace wiimote_tracker {
 /// Knows which messages of a bag a tracker computed before.
 class EarlierResults {
  public:
-  /// @param labels of LEDs, in the earlier results.
-  EarlierResults(const Topics& topics, const std::set<std::string>& labels);
+  /// @param labels of LEDs, in the earlier results. @param bodies there.
+  EarlierResults(const Topics& topics,
+                 const std::set<std::string>& labels,
+                 const std::set<std::string>& bodies);
 
   /// What of a message is not an earlier result; null when all of it is.
   boost::shared_ptr<const topic_tools::ShapeShifter> rest(
@@ -25,7 +27,7 @@ class EarlierResults {
 
  private:
   std::set<std::string> topics_;
-  std::set<std::string> labels_;
+  std::set<std::string> frames_;
 };
 
 }  // namespace wiimote_tracker

@@ -5,6 +5,7 @@
 
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
+#include <wiimote_tracker_msgs/TrackedBodyArray.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 
 #include <algorithm>
@@ -111,6 +112,19 @@ std::set<std::string> InputBag::recordedLabels(const std::string& topic) const {
     }
   }
   return labels;
+}
+
+std::set<std::string> InputBag::recordedBodies(const std::string& topic) const {
+  std::set<std::string> names;
+  for (const rosbag::MessageInstance& message : messages_) {
+    if (message.getTopic() != topic)
+      continue;
+    if (const auto bodies = read<wiimote_tracker_msgs::TrackedBodyArray>(message)) {
+      for (const wiimote_tracker_msgs::TrackedBody& body : bodies->bodies)
+        names.insert(body.name);
+    }
+  }
+  return names;
 }
 
 }  // namespace wiimote_tracker

@@ -42,6 +42,9 @@ class InputBag {
   /// Of the LEDs in the points recorded on the topic.
   std::set<std::string> recordedLabels(const std::string& topic) const;
 
+  /// Names of the bodies recorded on the topic.
+  std::set<std::string> recordedBodies(const std::string& topic) const;
+
  private:
   void sort();
 

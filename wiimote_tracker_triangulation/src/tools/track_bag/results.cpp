@@ -1,5 +1,6 @@
 #include "results.h"
 
+#include "bodies/body_message.h"
 #include "measurement_message.h"
 #include "point_message.h"
 
@@ -64,6 +65,25 @@ void Results::writePoints(const TrackedPointArray& points, const ros::Time& time
   if (!transforms.transforms.empty())
     bag_.write(Topics::transforms(), time, transforms);
   writeTable(points, false);
+}
+
+void Results::addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
+                        const ros::Time& time) {
+  worker_.give([=] { writeBodies(bodies, time); });
+}
+
+void Results::writeBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
+                          const ros::Time& time) {
+  bag_.write(topics_.bodies(), time, bodies);
+  tf2_msgs::TFMessage transforms;
+  for (const wiimote_tracker_msgs::TrackedBody& body : bodies.bodies) {
+    if (!isPose(body, publish_predicted_))
+      continue;
+    bag_.write(topics_.pose(body.name), time, poseStamped(bodies, body));
+    transforms.transforms.push_back(transform(bodies, body));
+  }
+  if (!transforms.transforms.empty())
+    bag_.write(Topics::transforms(), time, transforms);
 }
 
 void Results::addTriggeredPoints(const TrackedPointArray& points, const ros::Time& time) {

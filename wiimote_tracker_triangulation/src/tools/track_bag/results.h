@@ -8,6 +8,7 @@
 
 #include <topic_tools/shape_shifter.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
+#include <wiimote_tracker_msgs/TrackedBodyArray.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 #include <wiimote_tracker_msgs/ZoneEvent.h>
 
@@ -46,6 +47,7 @@ class Results {
 
   void addPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
                  const ros::Time& time);
+  void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies, const ros::Time& time);
   void addTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& points,
                           const ros::Time& time);
   void addZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event, const ros::Time& time);
@@ -60,6 +62,7 @@ class Results {
 
  private:
   void writeTable(const wiimote_tracker_msgs::TrackedPointArray& points, bool triggered);
+  void writeBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies, const ros::Time& time);
   void writePoints(const wiimote_tracker_msgs::TrackedPointArray& points, const ros::Time& time);
 
   Topics topics_;

@@ -16,6 +16,8 @@ class Topics {
   std::string points() const { return resolve("points"); }
   std::string triggeredPoints() const { return resolve("triggered_points"); }
   std::string zoneEvents() const { return resolve("zone_events"); }
+  std::string bodies() const { return resolve("bodies"); }
+  std::string pose(const std::string& body) const { return resolve(body + "/pose"); }
   std::string markers() const { return resolve("markers"); }
   std::string blobs(const std::string& camera) const { return resolve(camera + "/ir_blobs"); }
   std::string point(const std::string& label) const { return resolve(label + "/point"); }

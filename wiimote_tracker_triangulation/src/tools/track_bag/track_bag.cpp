@@ -65,6 +65,15 @@ std::set<std::string> labelsOf(const InputBag& input,
   return labels;
 }
 
+std::set<std::string> bodiesOf(const InputBag& input,
+                               const Topics& topics,
+                               const TrackingParameters& parameters) {
+  std::set<std::string> names = input.recordedBodies(topics.bodies());
+  for (const body::Constellation& body : parameters.bodies.known)
+    names.insert(body.name);
+  return names;
+}
+
 void run(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   checkPaths(arguments);
@@ -95,7 +104,8 @@ void run(const Arguments& arguments) {
     results.addRig(rig, input.justBefore());
     tracker.takeRig(rig, input.justBefore());
   }
-  const EarlierResults earlier(topics, labelsOf(input, topics, parameters));
+  const EarlierResults earlier(topics, labelsOf(input, topics, parameters),
+                               bodiesOf(input, topics, parameters));
   for (std::size_t i = 0; i < input.size(); ++i) {
     const rosbag::MessageInstance& message = input[i];
     Item item;

@@ -160,20 +160,20 @@ def figures_of(run, setting):
     headline = (setting.cameras, setting.leds, setting.busy) == (4, 1, 0)
     run.figure(name + '_driver', 100 * setting.drivers().mean(), '% of a core', setting.cameras,
                statistics.bootstrap(100 * setting.drivers(), np.mean, run.seed),
-               'driver, per camera, %s' % words, end_to_end=True, headline=headline)
-    for key, shares, what in (('tracker', setting.shares['/manager'], 'tracker'),
+               'processor time of one driver, %s' % words, end_to_end=True, headline=headline)
+    for key, shares, what in (('tracker', setting.shares['/manager'], 'the tracker'),
                               ('all', setting.whole(), 'all nodes')):
         low, high = statistics.bootstrap(100 * shares, np.mean, run.seed)
         tick = 100 * load.TICK / len(shares)  # the kernel counts no finer
         run.figure('%s_%s' % (name, key), 100 * shares.mean(), '% of a core', len(shares),
                    (low - tick, high + tick),
-                   '%s, %s' % (what, words), end_to_end=True,
+                   'processor time of %s, %s' % (what, words), end_to_end=True,
                    headline=headline and key == 'all')
     p99 = statistics.quantile(0.99)
     own = 1e3 * setting.own
     run.figure(name + '_latency_p99_ms', p99(own), 'ms', len(own),
                statistics.bootstrap(statistics.blocks(own, 10), p99, run.seed),
-               'own latency, 99 %%, %s' % words, end_to_end=True)
+               'latency without Bluetooth, 99 %%, %s' % words, end_to_end=True)
 
 
 def plot(run, measured):

@@ -286,8 +286,8 @@ def tell_figures(run, name, title, measured, parts):
             ('total_p99', parts['total'], 0.99, 'exposure to published point, 99 %'),
             ('bluetooth_median', parts['bluetooth'], 0.5,
              'Bluetooth delay that the simulation is given, median'),
-            ('own_median', own, 0.5, 'the same without Bluetooth, median'),
-            ('own_p99', own, 0.99, 'the same without Bluetooth, 99 %')):
+            ('own_median', own, 0.5, 'exposure to published point without Bluetooth, median'),
+            ('own_p99', own, 0.99, 'exposure to published point without Bluetooth, 99 %')):
         statistic = statistics.quantile(share)
         units = measured.per_lap(1e3 * values)
         run.figure('%s_%s_ms' % (name, key), statistic(1e3 * values), 'ms', len(values),

@@ -10,10 +10,11 @@
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace wiimote_tracker::monte_carlo {
 namespace {

@@ -16,6 +16,10 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace wiimote_tracker::monte_carlo {
 namespace {
@@ -120,7 +124,7 @@ class SessionWriter {
       } catch (const geometry::Error&) {
         // A rig without cameras measures nothing.
       }
-      write(name, model_name, [&, &rig = rig](const StillLed& led) {
+      write(name, model_name, [&](const StillLed& led) {
         Measured measured;
         if (const auto point = measure(session_, rig, led, paperOptions()))
           measured.position = point->position;

@@ -151,6 +151,62 @@ TEST(Person, who_is_away_hides_nothing_and_takes_what_they_carry_along) {
   EXPECT_EQ(watched.rig.findPerson("ben"), nullptr);
 }
 
+TEST(RigidBody, carries_leds_and_turns_with_them) {
+  Description description = carriedLed();
+  description.people.clear();
+  RigidBodyDescription body;
+  body.name = "anna";
+  body.motion = LedMotion(Vector3d(0.0, 0.0, 1.0));
+  body.motion.line(0.0, Vector3d(0.0, 2.0, 1.0), 1.0);
+  body.turning.axis = Vector3d(0.0, 3.0, 0.0);
+  body.turning.rate = M_PI;
+  description.bodies = {body};
+  description.leds[0].motion = LedMotion(Vector3d(0.3, 0.1, 0.0));
+  Eigen::Isometry3d pose;
+  std::vector<Vector3d> positions;
+  std::size_t lights = 0;
+  Rig rig(
+      description, [&](std::size_t, const Image& image) { lights = image.lights.size(); },
+      [&](std::size_t, double, const Vector3d& position) { positions.push_back(position); },
+      [&](std::size_t, double, const Eigen::Isometry3d& truth) { pose = truth; });
+  rig.runUntil(0.5);  // half a metre, and a quarter turn about y: x goes to -z
+  EXPECT_LT((positions.back() - Vector3d(0.0, 0.6, 0.7)).norm(), 1e-9);
+  EXPECT_LT((pose.translation() - Vector3d(0.0, 0.5, 1.0)).norm(), 1e-9);
+  EXPECT_LT((pose.linear().col(0) - Vector3d(0.0, 0.0, -1.0)).norm(), 1e-9);
+  EXPECT_EQ(lights, 1u);
+  ASSERT_TRUE(rig.findBody("anna"));
+  EXPECT_FALSE(rig.findBody("ben"));
+  rig.findBody("anna")->present = false;
+  rig.runUntil(0.6);
+  EXPECT_EQ(lights, 0u) << "it is away";
+}
+
+TEST(RigidBody, sways_and_is_back_where_it_began) {
+  RigidBodyDescription description;
+  description.turning.sway = 0.5;
+  description.turning.sway_rate = M_PI;
+  const RigidBody body(description);
+  EXPECT_LT((body.worldFromBody(0.0).linear() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  // Half a second on, all of the way about z: x goes where z turns it, however it nods.
+  const Vector3d x = body.worldFromBody(0.5).linear().col(0);
+  EXPECT_NEAR(std::atan2(x.y(), x.x()), 0.5, 1e-9);
+  EXPECT_NEAR(x.z(), 0.0, 1e-9);
+}
+
+TEST(RigidBody, body_rig_has_the_body_that_is_known) {
+  const Description description = readDescription(SIMULATION_FOLDER "/body_rig.yaml");
+  ASSERT_EQ(description.bodies.size(), 1u);
+  EXPECT_EQ(description.bodies[0].name, "wand");
+  EXPECT_EQ(std::count_if(description.leds.begin(), description.leds.end(),
+                          [](const LedDescription& led) { return led.carried_by == "wand"; }),
+            4);
+  const RigidBody body(description.bodies[0]);
+  for (int i = 0; i < 600; ++i) {
+    for (const CameraDescription& camera : description.cameras)
+      EXPECT_TRUE(camera.camera.sees(body.worldFromBody(0.1 * i).translation()));
+  }
+}
+
 TEST(Reflection, stands_still_in_one_camera_until_it_is_switched_off) {
   Description description = carriedLed();
   ReflectionDescription window;

@@ -231,8 +231,8 @@ TrackingParameters TrackingParameters::read(ParameterReader reader) {
   readMotion(&reader, &estimator.tracks.motion);
   readInstant(&reader, &estimator.instant);
   readIdentity(&reader, &p);
-  readOutput(&reader, estimator.mode, &p.output);
   p.bodies = BodyParameters::read(&reader, estimator.tracks, p.allLabels());
+  readOutput(&reader, estimator.mode, &p.output);
 
   p.zones.hysteresis = reader.bounded("zones/hysteresis", p.zones.hysteresis, 0.0, 10.0);
   p.zones.timeout = reader.bounded("zones/timeout", p.zones.timeout, 0.01, 60.0);

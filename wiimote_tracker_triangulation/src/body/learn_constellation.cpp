@@ -68,7 +68,9 @@ class Learning {
     for (const auto& [count, instants] : instants_of_count)
       leds = static_cast<double>(instants) >= enough ? count : leds;
     if (leds < 3 || leds > kMaximumLeds)
-      throw BodyError(std::to_string(leds) + " LEDs were seen at once, but a body has 3 to " +
+      throw BodyError(std::to_string(leds) +
+                      " LEDs were seen at once, those of known bodies left out, but a body has 3 "
+                      "to " +
                       std::to_string(kMaximumLeds) +
                       "; bring all of them in view of two cameras, and no others");
     const auto first =

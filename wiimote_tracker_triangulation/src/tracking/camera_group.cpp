@@ -9,6 +9,8 @@ namespace {
 /// against what every image costs in copies.
 constexpr std::size_t kKeepInterval = 2;
 
+constexpr double kLeastInterval = 0.001;  // from one exposure of a camera to its next [s]
+
 geometry::Rig rigOf(const geometry::Rig& rig, const std::vector<std::size_t>& members) {
   geometry::Rig result;
   for (const std::size_t member : members) {
@@ -63,15 +65,35 @@ CameraGroup::Fate CameraGroup::add(const StoredImage& image,
     if (before.time == image.time && before.camera == image.camera)
       return Fate::kRepeated;
   }
-  const bool is_late = *place < images.end();
-  const std::uint64_t start = is_late ? history_.rollBack(*place, &state_) : *place;
-  history_.insert(*place, image);
+  const auto mistimed = mistimedBefore(*place, image);
+  const bool is_late = mistimed || *place < images.end();
+  const std::uint64_t start =
+      is_late ? history_.rollBack(mistimed.value_or(*place), &state_) : *place;
+  if (mistimed)
+    history_.remove(*mistimed);
+  history_.insert(mistimed ? *place - 1 : *place, image);
   for (std::uint64_t i = start; i < images.end(); ++i) {
     history_.keep(i, state_);
     step(images.at(i), ids, views);
   }
   history_.forgetBefore(images.back().time - options_.history);
   return is_late ? Fate::kLate : Fate::kTaken;
+}
+
+/// The same camera's image of nearly the same time. Images that were held up, as by a busy
+/// computer, come in a burst. Each seems to be of the latest exposure until the next one comes, so
+/// only the last is of that time: the others would have the LED stand still and then leap.
+std::optional<std::uint64_t> CameraGroup::mistimedBefore(std::uint64_t place,
+                                                         const StoredImage& image) const {
+  const auto& images = history_.images();
+  for (std::uint64_t i = place; i > images.begin() && history_.canRepeatFrom(i - 1); --i) {
+    const StoredImage& before = images.at(i - 1);
+    if (before.time < image.time - kLeastInterval)
+      break;
+    if (before.camera == image.camera && before.arrival <= image.arrival)
+      return i - 1;
+  }
+  return std::nullopt;
 }
 
 void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views) {

@@ -13,6 +13,8 @@
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
@@ -52,6 +54,7 @@ class CameraGroup {
     std::vector<Unexplained> unexplained;  // of each camera
   };
 
+  std::optional<std::uint64_t> mistimedBefore(std::uint64_t place, const StoredImage& image) const;
   void step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
   void endEncounters(double time);
   void collectUnexplained(const StoredImage& image);

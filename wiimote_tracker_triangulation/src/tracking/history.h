@@ -76,11 +76,22 @@ class History {
     return place;
   }
 
+  bool canRepeatFrom(std::uint64_t place) const {
+    return !states_.empty() && states_.front().before <= place;
+  }
+
   void insert(std::uint64_t place, const StoredImage& image) {
     images_.push();
     for (std::uint64_t i = images_.end() - 1; i > place; --i)
       images_.at(i) = images_.at(i - 1);
     images_.at(place) = image;
+  }
+
+  /// Call after rollBack() to that place.
+  void remove(std::uint64_t place) {
+    for (std::uint64_t i = place; i + 1 < images_.end(); ++i)
+      images_.at(i) = images_.at(i + 1);
+    images_.popBack();
   }
 
   /// Brings back the last kept state before that place, and says where it stands. Call before

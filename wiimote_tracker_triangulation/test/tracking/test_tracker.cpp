@@ -204,6 +204,35 @@ TEST(Tracker, RepeatedAndOldImagesChangeNothing) {
   expectSameLeds(stateAt(once, 1001.5), stateAt(twice, 1001.5));
 }
 
+TEST(Tracker, OfABurstThatSeemsToBeOfOneTimeTheLastImageCounts) {
+  const std::vector<Path> leds = {test::circle({1.25, 1.25, 1.0}, 0.5, 3.0)};
+  Tracker without(paperRig(), exact());
+  Tracker with(paperRig(), exact());
+  std::size_t compared = 0;
+  std::vector<SceneImage> images = imagesOf(paperRig(), leds, {}, 1600);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    CameraImage& image = images[i].image;
+    // Twice a second all cameras' images are held up until there are three of each.
+    const double since = std::fmod(image.stamp, 0.5);
+    const int rank = since < 0.4 ? -1 : static_cast<int>((since - 0.4) / 0.01);
+    if (rank >= 0 && rank < 3) {
+      image.stamp += 0.01 * (2 - rank) + 1e-6 * rank;
+      image.stamp_stddev = 0.001;
+    }
+    with.add(images[i].camera, image);
+    if (rank != 0 && rank != 1)
+      without.add(images[i].camera, image);
+    if (rank < 3 || i < 200)
+      continue;
+    const double time = image.stamp + 0.1;
+    const Snapshot state = stateAt(with, time);
+    ASSERT_EQ((std::set<std::uint32_t>{0}), idsIn(state, TrackState::kPredicted)) << i;
+    expectSameLeds(stateAt(without, time), state);
+    ++compared;
+  }
+  EXPECT_GT(compared, 150u);
+}
+
 TEST(Tracker, ABagThatStartsOverIsTrackedAnew) {
   const std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(2, 9), {}, 1200);
   Tracker tracker(paperRig(), exact());

@@ -9,7 +9,7 @@ namespace {
 /// against what every image costs in copies.
 constexpr std::size_t kKeepInterval = 2;
 
-constexpr double kLeastInterval = 0.001;  // from one exposure of a camera to its next [s]
+constexpr double kLeastInterval = 1e-4;  // from one exposure of any camera to its next [s]
 
 geometry::Rig rigOf(const geometry::Rig& rig, const std::vector<std::size_t>& members) {
   geometry::Rig result;

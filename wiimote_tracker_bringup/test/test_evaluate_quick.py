@@ -133,7 +133,7 @@ def test_bluetooth_is_the_delay_that_the_description_asks_for(results):
     # report before is rare; a simulation that is woken late only adds.
     least = delay['constant'] + 3.4 * delay['jitter'] + 0.5 * delay['slot']
     for cameras in ('four Wiimotes', 'two Wiimotes'):
-        rows = [row for row in results.table('latency', 'points') if row['cameras'] == cameras]
+        rows = [row for row in results.table('latency', 'images') if row['cameras'] == cameras]
         bluetooth = 1e-3 * column(rows, 'bluetooth_ms')
         assert bluetooth.min() > delay['constant']
         assert bluetooth.mean() > least - 4.0 * delay['jitter'] / np.sqrt(len(bluetooth))

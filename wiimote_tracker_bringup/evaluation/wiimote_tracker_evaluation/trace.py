@@ -5,6 +5,7 @@ Simulation, driver, tracker and recorder run on one computer and take their time
 
 import os
 import time
+import xmlrpc.client
 
 import numpy as np
 
@@ -23,15 +24,16 @@ class Trace(object):
     exposure: true, of the newest image that entered; delivered: its report was handed to the virtual
     device; arrived: by the driver's clock; published: the point reached the recorder; transport: of
     the exposure's own message from node to recorder, the same hop as that of a point [s].
-    stamp, position: of the LED's point. exposures: of all images, of all cameras.
+    stamp, position: of the LED's point. exposures, deliveries: of all images, of all cameras, in the
+    order of their exposures; those of images that were overtaken, and made no point, too.
     """
 
-    def __init__(self, rows, exposures, triggered):
+    def __init__(self, rows, images, triggered):
         rows = np.array(sorted(rows, key=lambda row: row[3]), dtype=float).reshape(-1, 9)
         self.exposure, self.delivered, self.arrived, self.published, self.transport = rows[:, :5].T
         self.stamp = rows[:, 5]
         self.position = rows[:, 6:9]
-        self.exposures = np.sort(np.array(exposures, dtype=float))
+        self.exposures, self.deliveries = np.array(sorted(images), dtype=float).reshape(-1, 2).T
         self.triggered = triggered  # position of the LED by the trigger's time
 
     def between(self, start, end):
@@ -65,7 +67,7 @@ class Recorder(object):
         self._process = stack.start(run, [
             'rosrun', 'rosbag', 'record', '--quiet', '--tcpnodelay', '--buffsize=0',
             '--output-name=' + self._path] + topics)
-        wait_until_subscribed('/record', topics)
+        wait_until_connected('/record', topics)
 
     def read(self):
         stack.end(self._process)
@@ -75,26 +77,33 @@ class Recorder(object):
             os.remove(self._path)
 
 
-def wait_until_subscribed(node, topics):
+def wait_until_connected(node, topics):
+    """Until the node whose name begins so hears a publisher of each topic."""
     import rosgraph
     master = rosgraph.Master('/evaluation')
     deadline = time.monotonic() + DEADLINE
-    while True:
-        subscribed = {topic for topic, nodes in master.getSystemState()[1]
-                      if any(each.startswith(node) for each in nodes)}
-        if subscribed.issuperset(topics):
-            return
+    while not connected_topics(master, node).issuperset(topics):
         stack.check()
         if time.monotonic() > deadline:
             raise ExperimentError('the recorder did not begin within %.0f s' % DEADLINE)
         time.sleep(0.02)
 
 
+def connected_topics(master, node):
+    """The master knows who wants a topic; only the node itself knows from whom it already comes."""
+    names = {name for _, subscribers in master.getSystemState()[1] for name in subscribers
+             if name.startswith(node)}
+    connections = [connection for name in names for connection in xmlrpc.client.ServerProxy(
+        master.lookupNode(name)).getBusInfo('/evaluation')[2]]
+    return {topic for _, _, direction, _, topic, is_connected in
+            (connection[:6] for connection in connections) if direction == 'i' and is_connected}
+
+
 def read_trace(path, cameras):
     """Trace of a bag. Images, exposures and points are brought together by their times."""
     import rosbag
     delivered = {camera: [] for camera in cameras}  # rows: delivered, exposure, transport
-    arrivals, points, triggered, exposures = [], [], {}, []
+    arrivals, points, triggered, images = [], [], {}, []
     with rosbag.Bag(path) as bag:
         for topic, message, received in bag.read_messages():
             received = received.to_sec()
@@ -102,7 +111,7 @@ def read_trace(path, cameras):
                 handed = message.arrival.to_sec()
                 delivered[message.camera].append((handed, message.header.stamp.to_sec(),
                                                   received - handed))
-                exposures.append(message.header.stamp.to_sec())
+                images.append((message.header.stamp.to_sec(), handed))
             elif topic == '/points':
                 points.append((message, received))
             elif topic == '/triggered_points':
@@ -121,16 +130,16 @@ def read_trace(path, cameras):
         image = np.searchsorted(arrival_times, arrived - ROUNDING)
         if position is None or image == len(arrivals) or arrivals[image][0] > arrived + ROUNDING:
             continue
-        images = delivered[arrivals[image][1]]
-        index = np.searchsorted(images[:, 0], arrived, side='right') - 1
-        if index < 0 or arrived - images[index, 0] > LONGEST_DRIVER:
+        reports = delivered[arrivals[image][1]]
+        index = np.searchsorted(reports[:, 0], arrived, side='right') - 1
+        if index < 0 or arrived - reports[index, 0] > LONGEST_DRIVER:
             continue
-        handed, exposure, transport = images[index]
+        handed, exposure, transport = reports[index]
         rows.append((exposure, handed, arrived, published, transport,
                      message.header.stamp.to_sec()) + position)
     if not rows:
         raise ExperimentError('no point was published while the LED was measured; see nodes.log')
-    return Trace(rows, exposures, triggered)
+    return Trace(rows, images, triggered)
 
 
 def first_position(message):

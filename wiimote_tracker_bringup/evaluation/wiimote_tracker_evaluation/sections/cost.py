@@ -104,7 +104,7 @@ class FullStack(object):
             stack.end(hog)
         trace = recorder.read()
         chosen = trace.between(begin, end)
-        images = np.sum((trace.exposures >= begin) & (trace.exposures < end)) / (end - begin)
+        images = np.sum((trace.deliveries >= begin) & (trace.deliveries < end)) / (end - begin)
         return Setting(self._number, leds, busy, shares, images, np.sum(chosen) / (end - begin),
                        (trace.published - trace.delivered)[chosen])
 

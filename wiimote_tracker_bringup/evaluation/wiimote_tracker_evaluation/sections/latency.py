@@ -271,6 +271,11 @@ def direct(run, results):
             measured.trace.published[measured.chosen()],
             1e3 * np.column_stack([measured.trace.parts(measured.chosen())[key] for key in (
                 'total', 'bluetooth', 'driver', 'filter')]))], 'Every point.', shown=False)
+    run.table('images', [('cameras', ''), ('exposed', 's'), ('bluetooth', 'ms')], [
+        (title, exposed - measured.laps[0], 1e3 * (delivered - exposed))
+        for _, title, measured in results
+        for exposed, delivered in zip(measured.trace.exposures, measured.trace.deliveries)],
+        'Every image, also those that were overtaken by a newer one and made no point.', shown=False)
     plot_distribution(run, results)
 
 

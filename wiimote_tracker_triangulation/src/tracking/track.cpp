@@ -176,13 +176,6 @@ std::size_t Track::showers(double since) const {
                     [&](const Look& look) { return look.own >= since; }));
 }
 
-TrackState Track::state(double time, const TrackerOptions& options) const {
-  if (!confirmed_)
-    return TrackState::kTentative;
-  return time - last_observed_ <= options.tracked_time ? TrackState::kTracked
-                                                       : TrackState::kPredicted;
-}
-
 void Track::report(double time,
                    const TrackerOptions& options,
                    const std::vector<std::size_t>& rig_index,
@@ -201,7 +194,6 @@ void Track::report(double time,
     fill(filter);
   }
   led->id = id;
-  led->state = state(time, options);
   led->first_seen = born_;
   led->last_observed = last_observed_;
   led->cameras.clear();
@@ -218,6 +210,10 @@ void Track::report(double time,
     squares += look.squared_residual;
   }
   std::sort(led->cameras.begin(), led->cameras.end());
+  // One camera alone does not see how far away it is.
+  led->state = !confirmed_                ? TrackState::kTentative
+               : led->cameras.size() >= 2 ? TrackState::kTracked
+                                          : TrackState::kPredicted;
   led->residual = std::sqrt(squares / static_cast<double>(led->cameras.size()));  // NaN: none
 }
 

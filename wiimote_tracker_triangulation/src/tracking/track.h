@@ -71,7 +71,6 @@ class Track {
   /// Where it roughly is [m]; for a first, cheap question of who may see it.
   Eigen::Vector3d roughPlace(double time) const;
 
-  TrackState state(double time, const TrackerOptions& options) const;
   double lastObserved() const { return last_observed_; }  // [s]
 
   /// Everything that is published but the calibration's share, at a time not before the filter's.

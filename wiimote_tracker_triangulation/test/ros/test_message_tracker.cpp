@@ -421,9 +421,8 @@ TEST(Identity, LedsThatBlinkHaveTheirLabelsAndAreFollowedThroughTheDark) {
       EXPECT_EQ(first.label_since, point.label_since);
       const double unseen = time - point.last_observed.toSec();
       predicted += point.state == TrackedPoint::PREDICTED;
-      EXPECT_EQ(unseen > parameters.estimator.tracks.tracked_time ? TrackedPoint::PREDICTED
-                                                                  : TrackedPoint::TRACKED,
-                point.state);
+      EXPECT_EQ(unseen > parameters.estimator.tracks.tracked_time, point.rays_used == 0u);
+      EXPECT_EQ(point.rays_used < 2 ? TrackedPoint::PREDICTED : TrackedPoint::TRACKED, point.state);
     }
     if (led < words.size()) {
       EXPECT_GT(first.label_confidence, 0.999);

@@ -108,7 +108,10 @@ void Gestures::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& m
 }
 
 void Gestures::onPoint(const TrackedPoint& point, double time) {
-  if (point.state != TrackedPoint::TRACKED)
+  // One camera is enough to see that the light is on.
+  const bool is_on = point.state == TrackedPoint::TRACKED ||
+                     (point.state == TrackedPoint::PREDICTED && point.rays_used > 0);
+  if (!is_on)
     return;
   if (!parameters_.labels.empty() && std::find(parameters_.labels.begin(), parameters_.labels.end(),
                                                point.label) == parameters_.labels.end())

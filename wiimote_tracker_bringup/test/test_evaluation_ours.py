@@ -122,6 +122,11 @@ def test_instants_end_where_two_cameras_do_not_see_and_tracks_go_on(tmp_path):
     hidden = (table['hidden_share'] >= 0.3) & (table['cameras'] == 4)
     assert (table['covered_share'][tracks & hidden].mean()
             > table['two_views_share'][tracks & hidden].mean())
+    # Where fewer than two see it, distances are extrapolated; these are not said to be tracked.
+    tracked = table['method'] == 'tracked'
+    hidden = (table['hidden_share'] >= 0.3) & (table['cameras'] == 2)
+    assert table['astray_share'][tracked].max() < 0.01
+    assert table['astray_share'][tracks & hidden].mean() > 0.05
 
 
 def test_cameras_on_their_own_clocks_need_estimated_times_as_the_speed_grows(tmp_path):

@@ -5,13 +5,14 @@
 
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <random>
 #include <set>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::monte_carlo {
@@ -22,6 +23,7 @@ constexpr double kSettled = 2.0;      // not counted before [s]
 constexpr double kMeanHidden = 0.25;  // that an LED is out of a camera's sight, mean [s]
 constexpr double kNear = 0.05;        // what is further off is not the LED [m]
 constexpr double kStep = 0.005;       // of the time that is counted [s]
+constexpr double kInside = 7.815;     // 95 % of the squared normal errors of three coordinates
 
 /// When a camera does not see the LED: free and hidden times take turns, both exponential.
 class Curtain {
@@ -47,10 +49,21 @@ class Curtain {
   std::vector<double> turns_;  // shut, open, shut, ... [s]
 };
 
+struct Method {
+  const char* name;
+  tracking::Mode mode;
+  bool takes_predicted;  // points that fewer than two cameras see
+};
+
+constexpr Method kMethods[] = {{"tracks", tracking::Mode::kTracks, true},
+                               {"tracked", tracking::Mode::kTracks, false},
+                               {"instants", tracking::Mode::kInstant, true}};
+
 struct Score {
   double squared = 0.0;  // of the errors [m^2]
   int published = 0;     // points of the LED
   int astray = 0;        // points where it is not
+  int inside = 0;        // points whose 95 % ellipsoid holds it
   double covered = 0.0;  // time for which the newest point is fresh, and of the LED [s]
   double longest_gap = 0.0;
   std::set<std::uint32_t> ids;
@@ -60,10 +73,10 @@ Score follow(const geometry::Rig& rig,
              const std::vector<RoomImage>& images,
              const Path& path,
              double lateness,
-             tracking::Mode mode) {
+             const Method& method) {
   constexpr double kFresh = 0.025;  // a point older than this covers nothing [s]
   tracking::EstimatorOptions options;
-  options.mode = mode;
+  options.mode = method.mode;
   const auto estimator = tracking::makeEstimator(rig, options);
   Score score;
   double last = kSettled;
@@ -74,10 +87,12 @@ Score follow(const geometry::Rig& rig,
       if (time < kSettled || time > kDuration)
         continue;
       for (const tracking::TrackedLed& led : snapshot->leds) {
-        if (led.state == tracking::TrackState::kTentative ||
-            led.state == tracking::TrackState::kLost)
+        if (led.state != tracking::TrackState::kTracked &&
+            !(method.takes_predicted && led.state == tracking::TrackState::kPredicted))
           continue;
-        const double error = (led.position - path(time)).norm();
+        const Eigen::Vector3d offset = led.position - path(time);
+        score.inside += offset.dot(led.position_covariance.inverse() * offset) < kInside;
+        const double error = offset.norm();
         if (error > kNear) {
           ++score.astray;
           continue;
@@ -111,7 +126,7 @@ void measure(const Arguments& arguments) {
   const simulation::Description all = simulation::readDescription(arguments.rig);
   Table table(arguments.output,
               {"session", "cameras", "hidden_share", "method", "covered_share", "two_views_share",
-               "astray_share", "rms_mm", "longest_gap_s", "ids"});
+               "astray_share", "inside_share", "rms_mm", "longest_gap_s", "ids"});
   for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
     const std::uint32_t seed = sessionSeed(arguments, session);
     for (const std::size_t cameras : {std::size_t{2}, all.cameras.size()}) {
@@ -135,12 +150,12 @@ void measure(const Arguments& arguments) {
         Room room(description, {path}, options, seed);
         const std::vector<RoomImage> images = record(&room, kDuration);
         const double lateness = medianLateness(images);
-        for (const auto& [mode, name] : {std::make_pair(tracking::Mode::kTracks, "tracks"),
-                                         std::make_pair(tracking::Mode::kInstant, "instants")}) {
-          const Score score = follow(rig, images, path, lateness, mode);
-          table << session << static_cast<int>(description.cameras.size()) << hidden_share << name
-                << score.covered / (kDuration - kSettled) << shareOfTwoViews(curtains)
-                << static_cast<double>(score.astray) / (score.astray + score.published)
+        for (const Method& method : kMethods) {
+          const Score score = follow(rig, images, path, lateness, method);
+          const double points = score.astray + score.published;
+          table << session << static_cast<int>(description.cameras.size()) << hidden_share
+                << method.name << score.covered / (kDuration - kSettled)
+                << shareOfTwoViews(curtains) << score.astray / points << score.inside / points
                 << 1e3 * std::sqrt(score.squared / score.published) << score.longest_gap
                 << static_cast<int>(score.ids.size());
         }

@@ -6,7 +6,9 @@ from wiimote_tracker_evaluation import charts, statistics
 from wiimote_tracker_evaluation.ours.columns import per_session, read_shared, shared, where
 
 PROGRAM = 'evaluate_occlusion'
-METHODS = (('tracks', 'tracks', charts.BLUE), ('instants', 'instant by instant', charts.ORANGE))
+METHODS = (('tracks', 'tracks, predicted points too', charts.BLUE),
+           ('tracked', 'tracks, tracked points only', charts.GREEN),
+           ('instants', 'instant by instant', charts.ORANGE))
 HIDDEN = 0.3  # of the figures
 
 
@@ -24,7 +26,9 @@ def tell(run):
         'quarter of a second on average. Covered is the time in which its newest published point is '
         'younger than 25 ms and less than 5 cm off. Instant by instant, rays are intersected as in '
         'the paper; that ends where fewer than two cameras see the LED (the dashed line). Tracks go '
-        'on with one camera, and for half a second with none.')
+        'on for a second with one camera, which does not see how far away the LED is, and for half a '
+        'second with none: their points are then said to be predicted, and have no topic of their '
+        'own. With two cameras they are tracked.')
     figure, axes = charts.figure(1, 2)
     for plot, count in zip(axes, (counts[0], counts[-1])):
         for method, label, color in METHODS:
@@ -47,7 +51,8 @@ def tell(run):
             for column, name, unit, factor, note in (
                     ('covered_share', 'covered', '%', 100.0, 'Covered time'),
                     ('rms_mm', 'rms', 'mm', 1.0, 'RMS error of the points less than 5 cm off'),
-                    ('astray_share', 'astray', '%', 100.0, 'Published points more than 5 cm off')):
+                    ('astray_share', 'astray', '%', 100.0, 'Points more than 5 cm off'),
+                    ('inside_share', 'inside', '%', 100.0, 'Points in their 95 % ellipsoid')):
                 units = [factor * values for values in per_session(table, column, chosen)]
                 statistic = statistics.rms if column == 'rms_mm' else np.mean
                 run.figure('occlusion_%s_%s_%d_cameras' % (name, method, count),

@@ -95,7 +95,8 @@ Track* Births::trackOf(const motion::MotionFilter& start,
 /// The likeliest of the LEDs that may be there and that the founding images do not show elsewhere,
 /// nor more others since. Its motion may have been another than all that were reckoned with, as
 /// when it is caught, or when a spot was not its: initial_speed allows for that. Which of two that
-/// have been one spot it is, their motion is about to tell.
+/// have been one spot it is, their motion is about to tell. One that blinks is not missed while it
+/// may be dark: when it lights up, its motion tells where, better than the first two rays do.
 Track* Births::missedAt(const motion::MotionFilter& found,
                         const std::vector<Encounter>& encounters,
                         std::vector<Track>* tracks) const {
@@ -112,7 +113,8 @@ Track* Births::missedAt(const motion::MotionFilter& found,
       return encounter.hasParted() &&
              (encounter.ids()[0] == track.id || encounter.ids()[1] == track.id);
     };
-    if (!track.isConfirmed() || track.showers(since) > founding_images_.size() ||
+    const bool may_be_dark = found.time() - track.lastObserved() < options_.dark_time;
+    if (!track.isConfirmed() || may_be_dark || track.showers(since) > founding_images_.size() ||
         std::any_of(founding_images_.begin(), founding_images_.end(), showsIt) ||
         std::any_of(encounters.begin(), encounters.end(), holdsIt))
       continue;

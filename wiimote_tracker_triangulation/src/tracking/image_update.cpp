@@ -63,12 +63,12 @@ void ImageUpdate::collectCandidates(const GroupCamera& camera,
 }
 
 /// What was not seen for a while may be anywhere within so wide a region that a single spot there
-/// does not show it: two cameras must (see Births).
+/// does not show it: two cameras must (see Births). What blinks is not missed while it may be dark.
 bool ImageUpdate::isVague(const Track& track,
                           const motion::PixelPrediction& prediction,
                           double time) const {
   const double sharp = 2.0 * options_.birth_pixel_stddev;
-  return time - track.lastObserved() > options_.birth_window &&
+  return time - track.lastObserved() > options_.birth_window + options_.dark_time &&
          prediction.covariance().trace() > 2.0 * sharp * sharp;
 }
 

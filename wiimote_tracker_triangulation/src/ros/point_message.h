@@ -33,8 +33,8 @@ wiimote_tracker_msgs::TrackedPoint trackedPoint(const CorrectedSnapshot& correct
                                                 const geometry::Rig& rig,
                                                 const LedLabels& labels);
 
-/// Whether a point goes out by itself and as a transform: when it was seen at this instant, and if
-/// so wished also while it is hidden and extrapolated.
+/// Whether a point goes out by itself and as a transform: when it is tracked, and if so wished also
+/// while it is predicted.
 bool isPosition(const wiimote_tracker_msgs::TrackedPoint& point, bool publish_predicted);
 
 geometry_msgs::PointStamped pointStamped(const wiimote_tracker_msgs::TrackedPointArray& array,

@@ -32,6 +32,9 @@ def parse(arguments):
                         help="description of the rig (default: that of the paper's Fig. 1)")
     parser.add_argument('--led', metavar='FILE',
                         help='description of your own LED, for the section distance')
+    parser.add_argument('--gestures', metavar='DIR',
+                        help='recordings of your own gestures, for the section ours: a folder per '
+                        'person, in it a CSV per gesture')
     parser.add_argument('--sections', metavar='A,B', default=','.join(names),
                         help='only these, of: %s' % ', '.join(names))
     parser.add_argument('--quick', action='store_true', help='fewer repetitions, minutes in all')
@@ -51,10 +54,17 @@ def parse(arguments):
         parser.error('there is no rig description %s' % options.rig)
     if options.led and not os.path.isfile(options.led):
         parser.error('there is no description of an LED %s' % options.led)
+    if options.gestures and len(folders_in(options.gestures)) < 2:
+        parser.error('%s needs a folder for each of two people or more: each is recognised by what '
+                     'the others have drawn' % options.gestures)
     if not 0 <= options.seed < 2 ** 31:
         parser.error('--seed must be within 0 and 2^31 - 1')
     options.rig, options.output = os.path.abspath(options.rig), os.path.abspath(options.output)
     return options
+
+
+def folders_in(folder):
+    return [entry for entry in os.scandir(folder) if entry.is_dir()] if os.path.isdir(folder) else []
 
 
 def prepare(folder, names):
@@ -98,7 +108,7 @@ def evaluate(options):
         for module in modules:
             run = Run(module.NAME, module.TITLE, options.rig,
                       os.path.join(options.output, module.NAME), options.quick, options.seed,
-                      not options.live, progress.within, options.led)
+                      not options.live, progress.within, options.led, options.gestures)
             runs.append(run)
             run.failure = 'It was interrupted.'
             progress.begin(module.NAME, module.TITLE)

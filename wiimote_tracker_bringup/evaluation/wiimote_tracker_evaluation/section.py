@@ -16,10 +16,10 @@ from wiimote_tracker_evaluation import programs
 class Figure(object):
     """A number of the report; see Run.figure()."""
 
-    def __init__(self, name, value, unit, samples, interval, note, end_to_end, headline):
+    def __init__(self, name, value, unit, samples, interval, note, end_to_end, headline, simulated):
         self.name, self.value, self.unit, self.samples = name, value, unit, samples
         self.interval, self.note = interval, note
-        self.end_to_end, self.headline = end_to_end, headline
+        self.end_to_end, self.headline, self.simulated = end_to_end, headline, simulated
 
 
 class Table(object):
@@ -43,16 +43,17 @@ class Run(object):
 
     quick: keep it short. seed: of everything random. rig: path of the rig's description. folder: for
     files of one's own; what table() and plot() write goes there, too. simulated: False when a person
-    leads a real rig. led: path of the description of the user's own LED, or None.
+    leads a real rig. led: path of the description of the user's own LED, or None. gestures: folder
+    of the user's own recordings, or None.
     """
 
     SHOWN_ROWS = 40  # a longer table is in the report only as a link
 
     def __init__(self, name, title, rig, folder, quick=False, seed=1, simulated=True,
-                 on_progress=lambda done, of, what: None, led=None):
+                 on_progress=lambda done, of, what: None, led=None, gestures=None):
         self.name, self.title = name, title
         self.quick, self.seed, self.rig, self.folder = quick, seed, rig, folder
-        self.simulated, self.led = simulated, led
+        self.simulated, self.led, self.gestures = simulated, led, gestures
         self.contents = []   # Text, Plot, Table, in their order
         self.figures = []
         self.summaries = []  # sentences for the head of the report
@@ -89,10 +90,11 @@ class Run(object):
         self.contents.append(Text(markdown))
 
     def figure(self, name, value, unit, samples, interval=None, note='', end_to_end=False,
-               headline=False):
+               headline=False, simulated=None):
         """A number. name: under_scored, never changed. samples: how many independent measurements it
         comes from. interval: (low, high), 95 %. note: what it is, in words. end_to_end: through the
-        full stack, rather than the cores in process. headline: stands in the README's table too."""
+        full stack, rather than the cores in process. headline: stands in the README's table too.
+        simulated: by default as the whole section."""
         check_name(name, [figure.name for figure in self.figures])
         numbers = [value] + (list(interval) if interval is not None else [])
         if not all(math.isfinite(number) for number in numbers):
@@ -100,7 +102,8 @@ class Run(object):
         self.figures.append(Figure(
             name, float(value), unit, int(samples),
             None if interval is None else (float(interval[0]), float(interval[1])),
-            note, bool(end_to_end), bool(headline)))
+            note, bool(end_to_end), bool(headline),
+            self.simulated if simulated is None else bool(simulated)))
 
     def table(self, name, columns, rows, caption='', shown=None):
         """A table in this place, as a CSV file, and as a struct in the section's .mat. columns:

@@ -1,4 +1,4 @@
-"""Gestures: which is taken for which."""
+"""Gestures: which is taken for which, of people who are made up or of the user's own recordings."""
 
 import json
 
@@ -10,26 +10,56 @@ PROGRAM, EXAMPLES = 'evaluate_gestures', 2
 
 
 def commands(run):
+    if run.gestures:
+        return []
     return [[PROGRAM, '--rig', run.rig, '--output', run.file('drawings'), '--seed', run.seed,
              '--sessions', 10 if run.quick else 40]]
 
 
 def tell(run):
-    programs.run_programs([['wiimote_tracker_triangulation/gesture_tool', 'evaluate', '--train',
-                            run.file('drawings'), '--test', run.file('drawings'), '--examples',
-                            str(EXAMPLES), '--json', run.file('gestures.json')]],
-                          run.file('programs.log'))
-    with open(run.file('gestures.json')) as file:
-        result = json.load(file)
+    result = recognised(run)
     names, confusion = result['gestures'], np.array(result['confusion'])
     tested, right = int(confusion.sum()), int(np.trace(confusion))
-    run.say(
-        '### Gestures\n\n'
-        'Twelve gestures, drawn with an LED by made-up people of different size, slant, roundness and '
-        'pace, tracked, and recognised from %d examples by other people. **The people are made up**; '
-        'with recordings of real ones `gesture_tool evaluate` does the same '
-        '(`wiimote_tracker_triangulation/doc/gestures.md`).' % EXAMPLES)
-    figure, axes = charts.figure(height=4.6, width=6.2)
+    if run.gestures:
+        run.say(
+            '### Gestures\n\n'
+            'Your own recordings (`--gestures`), measured, not simulated: %d drawings of %d gestures, '
+            'each recognised by what the other people have drawn (at most %d examples of all gestures '
+            'together).' % (tested, len(names), result['examples']))
+        note = 'Gestures of your own recordings recognised, by examples of other people'
+    else:
+        run.say(
+            '### Gestures\n\n'
+            'Twelve gestures, drawn with an LED by made-up people of different size, slant, roundness '
+            'and pace, tracked, and recognised from %d examples by other people. **The people are made '
+            'up**; `--gestures DIR` takes recordings of real ones instead.' % EXAMPLES)
+        note = 'Gestures of made-up people recognised, %d examples each by others' % EXAMPLES
+    draw(run, names, confusion)
+    run.table('confusion', [('drawn', '')] + [('as_%d' % (i + 1), '') for i in range(len(names))],
+              [[name] + row.tolist() for name, row in zip(names, confusion)],
+              'Rows: drawn. Columns: recognised, in the same order.', shown=False)
+    for name, count, words in (
+            ('right', right, note),
+            ('rejected', result['rejected'], 'Of the same drawings, rejected as no gesture at all')):
+        low, high = statistics.wilson(count, tested)
+        run.figure('gestures_' + name, 100.0 * count / tested, '%', tested,
+                   (100.0 * low, 100.0 * high), words, simulated=not run.gestures)
+
+
+def recognised(run):
+    """What gesture_tool finds: each person is recognised by the others' examples."""
+    folder = run.gestures or run.file('drawings')
+    programs.run_programs([['wiimote_tracker_triangulation/gesture_tool', 'evaluate', '--train',
+                            folder, '--test', folder, '--json', run.file('gestures.json')]
+                           + ([] if run.gestures else ['--examples', EXAMPLES])],
+                          run.file('programs.log'))
+    with open(run.file('gestures.json')) as file:
+        return json.load(file)
+
+
+def draw(run, names, confusion):
+    size = 1.4 + 0.27 * len(names)
+    figure, axes = charts.figure(height=size, width=size + 1.6)
     share = confusion / np.maximum(confusion.sum(axis=1, keepdims=True), 1)
     axes.imshow(share, cmap='Blues', vmin=0.0, vmax=1.0)
     for row, column in zip(*np.nonzero(confusion)):
@@ -42,9 +72,4 @@ def tell(run):
     axes.set_xlabel('recognised')
     axes.set_ylabel('drawn')
     axes.grid(False)
-    run.plot('gestures', figure, 'Which gesture was taken for which.')
-    run.table('confusion', [('drawn', '')] + [(name, '') for name in names],
-              [[name] + row.tolist() for name, row in zip(names, confusion)], 'Rows: drawn.', shown=False)
-    low, high = statistics.wilson(right, tested)
-    run.figure('gestures_right', 100.0 * right / tested, '%', tested, (100.0 * low, 100.0 * high),
-               'Gestures of made-up people recognised, %d examples each by others' % EXAMPLES)
+    run.plot('gestures', figure, 'Which gesture was taken for which (numbers of drawings).')

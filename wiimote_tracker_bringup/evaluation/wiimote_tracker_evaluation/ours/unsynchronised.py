@@ -49,7 +49,7 @@ def tell(run):
         run.figure('unsynchronised_%s_%s' % (method, stamps), values[stamps, method], 'mm', len(units),
                    statistics.bootstrap(units, statistics.rms, run.seed),
                    'RMS error at %g m/s, own clocks, %s' % (SPEED, label))
-    run.summary('Cameras that are not synchronised cost little: at %g m/s %.1f mm RMS with estimated '
+    run.summary('**Cameras that are not synchronised**, simulated: at %g m/s %.1f mm RMS with estimated '
                 'exposures (%.1f mm were they exact), %.1f mm with arrivals, %.1f mm when the latest '
                 'spots are intersected.' % (
                     SPEED, values['estimated', 'tracks'], values['exact', 'tracks'],

@@ -14,7 +14,7 @@ def figure_entry(run, figure):
     return {'name': figure.name, 'section': run.name, 'value': figure.value, 'unit': figure.unit,
             'note': figure.note, 'seed': run.seed, 'samples': figure.samples,
             'interval': list(figure.interval) if figure.interval else None,
-            'simulated': run.simulated, 'end_to_end': figure.end_to_end,
+            'simulated': figure.simulated, 'end_to_end': figure.end_to_end,
             'headline': figure.headline}
 
 
@@ -68,7 +68,7 @@ def write_matlab(path, run):
     content['figures'] = {figure.name: {
         'value': figure.value, 'unit': figure.unit, 'samples': float(figure.samples),
         'interval': np.array(figure.interval if figure.interval else (np.nan, np.nan)),
-        'end_to_end': figure.end_to_end, 'note': figure.note} for figure in run.figures}
+        'simulated': figure.simulated, 'end_to_end': figure.end_to_end, 'note': figure.note} for figure in run.figures}
     for table in run.contents:
         if isinstance(table, Table):
             columns = zip(*table.rows) if table.rows else [()] * len(table.columns)

@@ -125,7 +125,7 @@ def figures_table(run):
         [(inline(figure.note or words.plain(figure.name)), False),
          (escaping.escape((words.number(figure.value) + ' ' + figure.unit).strip()), True),
          (words.interval(figure), True), ('%d' % figure.samples, True),
-         (words.kind(run.simulated, figure.end_to_end), False)] for figure in run.figures])
+         (words.kind(figure.simulated, figure.end_to_end), False)] for figure in run.figures])
 
 
 # --- The little of Markdown that sections use

@@ -44,7 +44,7 @@ def kind(simulated, end_to_end):
 
 def kinds(run):
     """How the numbers of a section came about."""
-    found = sorted({kind(run.simulated, figure.end_to_end) for figure in run.figures})
+    found = sorted({kind(figure.simulated, figure.end_to_end) for figure in run.figures})
     return '; '.join(found) if found else ('simulated' if run.simulated else 'measured')
 
 

@@ -159,14 +159,12 @@ def figures_of(run, setting):
     name, words = setting.name(), setting.words()
     headline = (setting.cameras, setting.leds, setting.busy) == (4, 1, 0)
     run.figure(name + '_driver', 100 * setting.drivers().mean(), '% of a core', setting.cameras,
-               statistics.bootstrap(100 * setting.drivers(), np.mean, run.seed),
+               widened(run, 100 * setting.drivers(), setting.drivers().shape[1]),
                'processor time of one driver, %s' % words, end_to_end=True, headline=headline)
     for key, shares, what in (('tracker', setting.shares['/manager'], 'the tracker'),
                               ('all', setting.whole(), 'all nodes')):
-        low, high = statistics.bootstrap(100 * shares, np.mean, run.seed)
-        tick = 100 * load.TICK / len(shares)  # the kernel counts no finer
         run.figure('%s_%s' % (name, key), 100 * shares.mean(), '% of a core', len(shares),
-                   (low - tick, high + tick),
+                   widened(run, 100 * shares, len(shares)),
                    'processor time of %s, %s' % (what, words), end_to_end=True,
                    headline=headline and key == 'all')
     p99 = statistics.quantile(0.99)
@@ -174,6 +172,13 @@ def figures_of(run, setting):
     run.figure(name + '_latency_p99_ms', p99(own), 'ms', len(own),
                statistics.bootstrap(statistics.blocks(own, 10), p99, run.seed),
                'latency without Bluetooth, 99 %%, %s' % words, end_to_end=True)
+
+
+def widened(run, percent, seconds):
+    """Interval of the mean; the kernel counts no finer than a tick in all these seconds."""
+    low, high = statistics.bootstrap(percent, np.mean, run.seed)
+    tick = 100 * load.TICK / seconds
+    return low - tick, high + tick
 
 
 def plot(run, measured):

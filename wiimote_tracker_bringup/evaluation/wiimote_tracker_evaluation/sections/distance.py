@@ -107,7 +107,7 @@ def tell_corners(run, led):
         % (tuple(point) + (camera, distance, abs(angle), 1e3 * needed, led.sensitivity,
            'The paper\'s 560 mA are enough, as it says.' if needed <= PAPER_CURRENT else
            'By this model the paper\'s 560 mA are not enough, though it says that they are.')))
-    run.summary('An LED with %.0f mA is seen from %.0f m (fitted to a measured point); every camera '
+    run.summary('**Detection distance**, simulated: an LED with %.0f mA is seen from %.0f m (fitted to a measured point); every camera '
                 'of this rig sees all ten test points from %.0f mA on.' % (
                     1e3 * led.measured[-1][0], led.measured[-1][1], 1e3 * needed))
 

@@ -132,12 +132,25 @@ def test_a_claim_is_compared_with_what_as_few_sessions_give(tmp_path):
     group = results.points['method'] == 'C3'
     results.points['measured_y'][group] = 1.0 + 0.01 * (1 + results.points['session'][group])
     results.points['measured_x'][group] = results.points['nominal_x'][group]
-    low, middle, high = claims.Claim('', FOUR, ('C3',), np.max, 0.0).simulated(
+    low, middle, high = claims.Claim('', FOUR, ('C3',), np.max, 0.0, 0.0).simulated(
         results, 'calibrated', 1)
     assert (low, middle, high) == pytest.approx((0.02, 0.08, 0.10))
-    assert claims.verdict(0.05, (low, middle, high)) == 'yes'
-    assert claims.verdict(0.019, (low, middle, high)) == 'no: ours is larger'
-    assert claims.verdict(0.11, (low, middle, high)) == 'no: ours is smaller'
+    for said, digit, expected in ((0.05, 0.0, 'yes'), (0.019, 0.001, 'no: ours is larger'),
+                                  (0.019, 0.01, 'yes'), (0.11, 0.01, 'no: ours is smaller'),
+                                  (0.104, 0.01, 'yes')):
+        assert claims.verdict(claims.Claim('', FOUR, ('C3',), np.max, said, digit),
+                              (low, middle, high)) == expected
+
+
+def test_the_form_of_the_cube_is_what_a_shift_leaves(tmp_path):
+    results = make_results(tmp_path / 'all', 0.006)
+    off, left = claims.form_of_cube(results, 'image_center')
+    assert off == pytest.approx(np.full((SESSIONS, 8), np.hypot(CASE_ERROR, PLACED)))
+    assert left == pytest.approx(np.zeros((SESSIONS, 8)), abs=1e-9)
+    results.points['measured_z'][(results.points['method'] == 'C2') & (results.points['point'] == 3)
+                                 ] += 0.01
+    _, left = claims.form_of_cube(results, 'image_center')
+    assert (0.001 < left.max(axis=1)).all() and (left.max(axis=1) < 0.01).all()
 
 
 def test_a_session_without_a_result_is_counted_and_left_out(tmp_path):

@@ -135,7 +135,7 @@ def correction(results, session):
     error.set_yscale('log')
     error.set_xlabel('round')
     error.set_ylabel('error of the origin [mm]')
-    error.set_title('its distance', fontsize=TITLE_SIZE)
+    error.set_title('measured origin from the ideal one', fontsize=TITLE_SIZE)
     error.set_yticks([1, 10, 100])
     error.set_yticklabels(['1', '10', '100'])
     charts.key(error)

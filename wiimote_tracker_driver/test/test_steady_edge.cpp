@@ -182,13 +182,13 @@ TEST(FrameHistory, agrees_with_the_enumeration_of_all_paths) {
       for (int b = a; b < kNumbers; ++b)
         for (int c = b; c < kNumbers; ++c) {
           const double path = likelihood[1][a] * likelihood[2][b] * likelihood[3][c] *
-                              FrameCounter::transition(a) * FrameCounter::transition(b - a) *
-                              FrameCounter::transition(c - b);
+                              counter.transition(a) * counter.transition(b - a) *
+                              counter.transition(c - b);
           marginal[1][a] += path;
           marginal[2][b] += path;
           marginal[3][c] += path;
         }
-    ASSERT_EQ(history.settle(), kReports);
+    ASSERT_EQ(history.settle(counter), kReports);
     for (int r = 1; r < kReports; ++r) {
       double sum = 0.0;
       int best = 0;
@@ -218,7 +218,7 @@ TEST(FrameHistory, is_settled_when_the_latest_number_is_sure_or_memory_is_full) 
     counter.normalise();
     history.add(counter, reports, 1.0);
   }
-  EXPECT_EQ(history.settle(), reports);
+  EXPECT_EQ(history.settle(counter), reports);
   EXPECT_FALSE(history.settled());
 }
 

@@ -47,9 +47,13 @@ constexpr double kContradiction = 0.5e-3;
 // Time over which even a steady clock's wander counts [s].
 constexpr double kEdgeMemory = 3.0;
 
-// A report may be held up: probability, and mean length [s].
-constexpr double kStall = 0.003;
+// A report may be held up, for this long on average [s]; probability before anything is known, how
+// many reports that counts as, from how many of the last it is learnt, and its least value.
 constexpr double kStallLength = 0.060;
+constexpr double kFirstStalls = 0.003;
+constexpr double kStallPrior = 300.0;
+constexpr double kStallMemory = 6000.0;
+constexpr double kFewestStalls = 0.0005;
 // Mean time between reports that leave a queue [s].
 constexpr double kServiceTime = 0.0025;
 // Density of an arrival that nothing explains [1/s].
@@ -72,6 +76,13 @@ double square(double x) {
 }
 }  // namespace
 
+/// Densities of an arrival [1/s] by how the report came: when it was ready, or it was ready earlier
+/// and waited for the one before, or it was held up.
+struct ExposureClock::Ways {
+  double on_time, queued, held_up;
+  double sum() const { return on_time + queued + held_up; }
+};
+
 ExposureClock::Bank ExposureClock::makeBank(const ExposureClockOptions& options) {
   if (!(options.period > 0.0 && options.period_stddev > 0.0 && options.stale_age > 0.0))
     throw std::invalid_argument(
@@ -86,7 +97,8 @@ ExposureClock::Bank ExposureClock::makeBank(const ExposureClockOptions& options)
 ExposureClock::ExposureClock(const ExposureClockOptions& options)
     : options_(options),
       filters_(makeBank(options)),
-      edge_(options.period, 3.0 * options.period * options.period_stddev) {
+      edge_(options.period, 3.0 * options.period * options.period_stddev),
+      stalls_(kFirstStalls) {
   static_assert(sizeof(kCandidates) / sizeof(kCandidates[0]) == kModels,
                 "one filter per candidate");
   std::transform(std::begin(kCandidates), std::end(kCandidates), weights_.begin(),
@@ -138,6 +150,8 @@ Estimate ExposureClock::restart(double arrival, std::int64_t frame) {
   history_.clear();
   edge_.clear();
   edge_joined_ = false;
+  settled_arrival_ = arrival;
+  settled_frame_ = frame;
   counter_.start(frame);
   Estimate e;
   e.frame = frame;
@@ -158,14 +172,25 @@ Estimate ExposureClock::restart(double arrival, std::int64_t frame) {
   return e;
 }
 
+ExposureClock::Ways ExposureClock::waysOf(const ClockFilter& filter,
+                                          double arrival,
+                                          double arrival_before,
+                                          double offset) const {
+  const double late = arrival - filter.time() - offset * filter.period();
+  const double served = std::exp(-(arrival - arrival_before) / kServiceTime) / kServiceTime;
+  Ways ways;
+  ways.on_time = (1.0 - stalls_) * filter.likelihood(arrival, offset);
+  ways.queued = filter.readyBefore(arrival_before, offset) * served;
+  ways.held_up = late > 0.0 ? stalls_ / kStallLength * std::exp(-late / kStallLength) : 0.0;
+  return ways;
+}
+
 // Bayes' rule, for the frame's number, for the models, and for each model's clock.
 void ExposureClock::weigh(double arrival) {
   const ClockFilter& leader = best();
   counter_.predict(
       frame_ + 1 +
       static_cast<std::int64_t>(std::floor((arrival - leader.time()) / leader.period())));
-  const double gap = arrival - last_arrival_;
-  const double served = std::exp(-gap / kServiceTime) / kServiceTime;
   std::array<double, FrameCounter::kCapacity> on_time;
   std::array<double, FrameCounter::kCapacity> number{};
   double sum = 0.0, on_steady_edge = 0.0;
@@ -175,14 +200,10 @@ void ExposureClock::weigh(double arrival) {
     for (int i = 0; i < counter_.size(); ++i) {
       const auto at = static_cast<std::size_t>(i);
       const double offset = static_cast<double>(counter_.frame(i) - frame_);
-      const double late = arrival - filter.time() - offset * filter.period();
-      // The frame came when it was ready, or it was ready earlier and waited for the one before,
-      // or it was held up. Only the first says something of the clock.
-      on_time[at] = counter_[i] * (1.0 - kStall) * filter.likelihood(arrival, offset);
-      const double queued = filter.readyBefore(last_arrival_, offset) * served;
-      const double held_up =
-          late > 0.0 ? kStall / kStallLength * std::exp(-late / kStallLength) : 0.0;
-      const double all = on_time[at] + counter_[i] * (queued + held_up + kUnexplained);
+      const Ways ways = waysOf(filter, arrival, last_arrival_, offset);
+      // Only what came when it was ready says something of the clock.
+      on_time[at] = counter_[i] * ways.on_time;
+      const double all = counter_[i] * (ways.sum() + kUnexplained);
       evidence += all;
       number[at] += weights_[m] * all;
     }
@@ -203,22 +224,41 @@ void ExposureClock::weigh(double arrival) {
   for (int i = 0; i < counter_.size(); ++i)
     counter_[i] = number[static_cast<std::size_t>(i)];
   counter_.normalise();
-  sharpenEdge(arrival, on_steady_edge);
+  lookBack(arrival, on_steady_edge);
+  sharpenEdge();
 }
 
-void ExposureClock::sharpenEdge(double arrival, double on_time) {
-  ClockFilter& filter = filters_[kSteadyEdge];
+/// What the reports since the last time say in hindsight.
+void ExposureClock::lookBack(double arrival, double on_time) {
   history_.add(counter_, arrival, on_time);
-  if (history_.settled()) {
-    const int reports = history_.settle();
-    for (int i = 0; i < reports; ++i) {
-      const FrameHistory::Report& report = history_.report(i);
-      const double late = report.arrival - filter.time() -
-                          static_cast<double>(report.frame - frame_) * filter.period();
-      if (report.probability > kSure && late > -kTooEarly)
-        edge_.add(report.frame, report.arrival, report.on_time, filter.period());
+  if (!history_.settled())
+    return;
+  const ClockFilter& edge = filters_[kSteadyEdge];
+  const int reports = history_.settle(counter_);
+  for (int i = 0; i < reports; ++i) {
+    const FrameHistory::Report& report = history_.report(i);
+    if (report.probability > kSure) {
+      const auto offset = static_cast<double>(report.frame - frame_);
+      if (report.arrival - edge.time() - offset * edge.period() > -kTooEarly)
+        edge_.add(report.frame, report.arrival, report.on_time, edge.period());
+      learnStalls(waysOf(best(), report.arrival, settled_arrival_, offset));
+      counter_.learn(report.frame - settled_frame_);
     }
+    settled_arrival_ = report.arrival;
+    settled_frame_ = report.frame;
   }
+}
+
+/// A step of expectation maximisation.
+void ExposureClock::learnStalls(const Ways& ways) {
+  experience_ = std::min(experience_ + 1.0, kStallMemory);
+  const double held_up = ways.held_up / (ways.sum() + kUnexplained);
+  stalls_ += (held_up - stalls_) / (experience_ + kStallPrior);
+  stalls_ = std::max(stalls_, kFewestStalls);
+}
+
+void ExposureClock::sharpenEdge() {
+  ClockFilter& filter = filters_[kSteadyEdge];
   if (!edge_.ready())
     return;
   if (!edge_joined_) {  // what weighed its normal approximation until now says nothing of it

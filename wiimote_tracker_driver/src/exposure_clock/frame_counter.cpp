@@ -6,21 +6,33 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-constexpr double kDrop = 0.04;      // probability that a frame is lost after one that was not,
-constexpr double kNextDrop = 0.3;   // and after one that was
+constexpr double kNextDrop = 0.3;   // probability that a frame is lost after one that was
 constexpr double kExtra = 1e-4;     // a frame has one more report: an echo, a retransmission
 constexpr double kAnything = 1e-8;  // probability of each number, whatever the runs say
 constexpr double kNegligible = 1e-7;
+// How many reports the first drops_ counts as, from how many of the last it is learnt, and its
+// least value.
+constexpr double kPrior = 300.0;
+constexpr double kMemory = 6000.0;
+constexpr double kFewestDrops = 0.002;
 }  // namespace
 
-double FrameCounter::transition(std::int64_t frames) {
+double FrameCounter::transition(std::int64_t frames) const {
   if (frames < 0)
     return 0.0;
   if (frames == 0)
     return kExtra;
   if (frames == 1)
-    return 1.0 - kDrop;
-  return kAnything + kDrop * (1.0 - kNextDrop) * std::pow(kNextDrop, frames - 2);
+    return 1.0 - drops_;
+  return kAnything + drops_ * (1.0 - kNextDrop) * std::pow(kNextDrop, frames - 2);
+}
+
+void FrameCounter::learn(std::int64_t frames) {
+  if (frames <= 0)
+    return;
+  experience_ = std::min(experience_ + 1.0, kMemory);
+  drops_ += ((frames > 1 ? 1.0 : 0.0) - drops_) / (experience_ + kPrior);
+  drops_ = std::max(drops_, kFewestDrops);
 }
 
 void FrameCounter::start(std::int64_t frame) {
@@ -42,8 +54,8 @@ void FrameCounter::predict(std::int64_t newest) {
     const double same = before(frame - earliest), direct = before(frame - earliest - 1);
     if (frame >= first)
       next[static_cast<std::size_t>(frame - first)] =
-          kExtra * same + (1.0 - kDrop) * direct + (1.0 - kNextDrop) * run + kAnything;
-    run = kDrop * direct + kNextDrop * run;
+          kExtra * same + (1.0 - drops_) * direct + (1.0 - kNextDrop) * run + kAnything;
+    run = drops_ * direct + kNextDrop * run;
   }
   probability_ = next;
   first_ = first;

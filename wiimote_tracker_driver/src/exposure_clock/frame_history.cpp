@@ -26,33 +26,33 @@ bool FrameHistory::settled() const {
   return size_ == kCapacity || (size_ > 0 && report(size_ - 1).probability > kSure);
 }
 
-int FrameHistory::settle() {
+int FrameHistory::settle(const FrameCounter& counter) {
   const int size = size_;
   for (int i = size - 2; i >= 0; --i) {
     const auto at = static_cast<std::size_t>(i);
-    smooth(entries_[at], entries_[at + 1]);
+    smooth(counter, entries_[at + 1], &entries_[at]);
     decide(entries_[at]);
   }
   size_ = 0;
   return size;
 }
 
-void FrameHistory::smooth(Entry& entry, const Entry& next) {
+void FrameHistory::smooth(const FrameCounter& counter, const Entry& next, Entry* entry) {
   const auto transition = [&](int from, int to) {
-    return FrameCounter::transition(next.first + to - entry.first - from);
+    return counter.transition(next.first + to - entry->first - from);
   };
   std::array<double, kNumbers> factor{};
   for (int to = 0; to < next.size; ++to) {
     double predicted = 0.0;
-    for (int from = 0; from < entry.size; ++from)
-      predicted += entry.probability[static_cast<std::size_t>(from)] * transition(from, to);
+    for (int from = 0; from < entry->size; ++from)
+      predicted += entry->probability[static_cast<std::size_t>(from)] * transition(from, to);
     if (predicted > 0.0)
-      for (int from = 0; from < entry.size; ++from)
+      for (int from = 0; from < entry->size; ++from)
         factor[static_cast<std::size_t>(from)] +=
             transition(from, to) * next.probability[static_cast<std::size_t>(to)] / predicted;
   }
   for (std::size_t i = 0; i < kNumbers; ++i)
-    entry.probability[i] *= factor[i];
+    entry->probability[i] *= factor[i];
 }
 
 void FrameHistory::decide(Entry& entry) {

@@ -72,8 +72,15 @@ class ExposureClock {
   static Bank makeBank(const ExposureClockOptions& options);
 
   Estimate restart(double arrival, std::int64_t frame);
+  struct Ways;
+  Ways waysOf(const ClockFilter& filter,
+              double arrival,
+              double arrival_before,
+              double offset) const;
   void weigh(double arrival);
-  void sharpenEdge(double arrival, double on_time);
+  void lookBack(double arrival, double on_time);
+  void learnStalls(const Ways& ways);
+  void sharpenEdge();
   void reviveLosers();
   Estimate estimate(double arrival);
   const ClockFilter& best() const;
@@ -83,6 +90,11 @@ class ExposureClock {
   FrameHistory history_;
   SteadyEdge edge_;  // what the filter for a sharp edge and a steady clock believes
   bool edge_joined_ = false;
+  // Of the latest report of which lookBack() has taken notice:
+  double settled_arrival_ = 0.0;
+  std::int64_t settled_frame_ = 0;
+  double stalls_;            // probability that a report is held up,
+  double experience_ = 0.0;  // and number of reports that taught it
   std::array<double, kModels> weights_;
   FrameCounter counter_;
   // Times inside are relative to the first arrival, which keeps their digits.

@@ -8,14 +8,16 @@ namespace wiimote_tracker::exposure_clock {
 
 /// Probabilities of the frame number of the latest report: the forward recursion of a hidden Markov
 /// model (Rabiner, Proc. IEEE 77, 1989, eq. 20) whose transitions are runs of lost frames and,
-/// rarely, a second report of the same frame.
+/// rarely, a second report of the same frame. How often frames are lost is learnt.
 class FrameCounter {
  public:
   /// How many numbers are told apart: reports that waited longer than this many frames are not.
   static constexpr int kCapacity = 96;
 
   /// Probability that the next report is of the frame `frames` after this report's; 0: of the same.
-  static double transition(std::int64_t frames);
+  double transition(std::int64_t frames) const;
+  /// A report turned out to be of the frame `frames` after that of the report before.
+  void learn(std::int64_t frames);
 
   /// The latest report is surely this frame.
   void start(std::int64_t frame);
@@ -34,6 +36,8 @@ class FrameCounter {
   std::array<double, kCapacity> probability_{};
   std::int64_t first_ = 0;
   int size_ = 0;
+  double drops_ = 0.04;      // probability that a frame is lost after one that was not,
+  double experience_ = 0.0;  // and number of reports that taught it
 };
 
 }  // namespace wiimote_tracker::exposure_clock

@@ -26,8 +26,9 @@ class FrameHistory {
   /// True when the numbers will not become clearer: the latest is sure, or memory is full.
   bool settled() const;
   /// Works out the numbers of all reports since clear(), and forgets them. The result is valid
-  /// until the next add(). @return how many; report(0) is the oldest.
-  int settle();
+  /// until the next add(). @param counter says how often frames are lost.
+  /// @return how many; report(0) is the oldest.
+  int settle(const FrameCounter& counter);
   const Report& report(int i) const { return entries_[static_cast<std::size_t>(i)].report; }
 
  private:
@@ -39,7 +40,7 @@ class FrameHistory {
     int size = 0;
     std::array<double, kNumbers> probability{};
   };
-  static void smooth(Entry& entry, const Entry& next);
+  static void smooth(const FrameCounter& counter, const Entry& next, Entry* entry);
   static void decide(Entry& entry);
 
   std::array<Entry, kCapacity> entries_;

@@ -44,7 +44,8 @@ def wilson(successes, trials):
     middle = (share + z2 / (2.0 * trials)) / (1.0 + z2 / trials)
     half = NORMAL_QUANTILE / (1.0 + z2 / trials) * np.sqrt(
         share * (1.0 - share) / trials + z2 / (4.0 * trials ** 2))
-    return float(max(0.0, middle - half)), float(min(1.0, middle + half))
+    return (0.0 if successes == 0 else float(middle - half),
+            1.0 if successes == trials else float(middle + half))
 
 
 def agreement(statements):

@@ -101,15 +101,36 @@ def tell(run, counter, positions):
     run.table('laps', [('lap', ''), ('time', 's'), ('latency', 'ms')],
               [[number, 1e-9 * (lap - laps[0]), value]
                for number, (lap, value) in enumerate(zip(laps, late))], shown=False)
-    figure, axes = charts.figure()
+    figure, (circle, axes) = charts.figure(1, 2)
+    draw_circle(circle, positions - centre, turn,
+                np.array([counter.answers[lap] - centre for lap in laps]),
+                np.array([counter.newest[lap] - centre for lap in laps]))
     charts.cumulative(axes, late, charts.BLUE)
     axes.set_xlabel('latency [ms]')
     axes.set_ylabel('share of the laps')
     axes.set_xlim(0.0, None)
-    run.plot('latency', figure, 'Cumulative distribution of the latency.')
+    run.plot('latency', figure, 'Left, as Fig. 6: all points (red), the newest ones at the triggers '
+             '(blue crosses), and the axis of the laps counter, where the tracker sees the LED at the '
+             'triggers with hindsight. Right: cumulative distribution of the latency.')
     run.summary('Latency by the laps counter: %.1f ms on average (%d laps%s).' % (
         np.mean(late), len(late) - 1,
         '' if run.simulated else '; the paper measured 280 to 320 ms'))
+
+
+def draw_circle(axes, points, turn, answers, newest):
+    """Seen along the axis of the turn, from its tip; the laps counter is to the right."""
+    normal = turn / np.linalg.norm(turn)
+    across = answers.mean(axis=0)
+    across = across - normal * (normal @ across)
+    across /= np.linalg.norm(across)
+    plane = np.column_stack([across, np.cross(normal, across)])
+    radius = np.linalg.norm(points @ plane, axis=1).mean()
+    axes.plot(*(points @ plane).T, '.', color=charts.RED, markersize=1.5)
+    axes.plot([0.0, 1.3 * radius], [0.0, 0.0], color=charts.INK, linewidth=0.8)
+    axes.plot(*(newest @ plane).T, 'x', color=charts.BLUE, markersize=5)
+    axes.set_aspect('equal')
+    axes.set_xlabel('towards the laps counter [m]')
+    axes.set_ylabel('along the turn [m]')
 
 
 def behind(newest, answer, axis):

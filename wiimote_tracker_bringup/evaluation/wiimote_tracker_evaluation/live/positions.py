@@ -7,6 +7,7 @@ from wiimote_tracker_evaluation.live.dialogue import Dialogue
 from wiimote_tracker_evaluation.live.listener import Listener
 
 FLOOR, AIR = 0.01, 0.03  # the paper's largest errors of putting the LED there [m]
+PAPER_LIMIT = 3.0         # its accuracy [cm]
 
 
 def live(run, dialogue=None):
@@ -39,7 +40,7 @@ def measure(run, listener, dialogue):
         error = float(np.linalg.norm(place.position - target))
         dialogue.tell('       measured %.3f, %.3f, %.3f: %.1f cm off'
                       % (tuple(place.position) + (100.0 * error,)))
-        rows.append([number + 1] + list(target) + list(place.position) +
+        rows.append([number + 1] + list(target) + list(1e3 * (place.position - target)) +
                     [1e3 * error, 1e3 * place.scatter, place.points])
     tell(run, rows, len(points))
 
@@ -48,24 +49,30 @@ def tell(run, rows, of):
     run.say('A person has put the LED at %d of the %d points and held it still; measured is the mean '
             'over %.1f s. The places are as true as they were measured: the paper puts that at %.0f cm '
             'at most on the floor and %.0f cm above.' % (len(rows), of, 1.5, 100 * FLOOR, 100 * AIR))
-    run.table('places', [('point', ''), ('x', 'm'), ('y', 'm'), ('z', 'm'), ('measured_x', 'm'),
-                         ('measured_y', 'm'), ('measured_z', 'm'), ('error', 'mm'),
+    run.table('places', [('point', ''), ('x', 'm'), ('y', 'm'), ('z', 'm'), ('error_x', 'mm'),
+                         ('error_y', 'mm'), ('error_z', 'mm'), ('error', 'mm'),
                          ('scatter', 'mm'), ('points', '')], rows)
     if len(rows) < 2:
         run.say('Fewer than two places were measured: there are no figures.')
         return
     errors = np.array([row[7] for row in rows])
-    for name, statistic, note in (('rms', statistics.rms, 'RMS error over the points'),
-                                  ('largest', np.max, 'Largest error over the points')):
-        run.figure('live_' + name, statistic(errors), 'mm', len(errors),
-                   statistics.bootstrap(errors, statistic, run.seed), note, end_to_end=True)
+    run.figure('live_rms', statistics.rms(errors), 'mm', len(errors),
+               statistics.bootstrap(errors, statistics.rms, run.seed), 'RMS error over the points',
+               end_to_end=True)
+    run.figure('live_largest', np.max(errors), 'mm', len(errors),
+               note='Largest error over the points', end_to_end=True)
     figure, axes = charts.figure()
-    charts.cumulative(axes, errors / 10.0, charts.BLUE, 'measured here')
-    axes.axvline(3.0, color=charts.SOFT, linestyle='--', label="the paper's 3 cm")
-    axes.set_xlim(0.0, None)
+    charts.cumulative(axes, errors / 10.0, charts.BLUE)
+    axes.axvline(PAPER_LIMIT, color=charts.SOFT, linestyle='--')
+    axes.text(1.05 * PAPER_LIMIT, 0.5, "the paper's\n%g cm" % PAPER_LIMIT)
+    axes.set_xscale('log')
+    axes.set_xlim(min(0.1, 0.1 * errors.min()), max(10.0, 0.2 * errors.max()))
+    ticks = [tick for tick in (0.01, 0.1, 1.0, 10.0, 100.0)
+             if axes.get_xlim()[0] <= tick <= axes.get_xlim()[1]]
+    axes.set_xticks(ticks)
+    axes.set_xticklabels(['%g' % tick for tick in ticks])
     axes.set_xlabel('error [cm]')
     axes.set_ylabel('share of the points')
-    charts.key(axes, 'lower right')
     run.plot('places', figure, 'Cumulative distribution of the errors.')
     run.summary('The ten points by hand: RMS error %.1f mm, largest %.1f mm (%d points).'
                 % (statistics.rms(errors), errors.max(), len(errors)))

@@ -4,17 +4,15 @@ hidden, and it is found again soon after all were hidden."""
 
 import collections
 import sys
-import unittest
 
 import numpy as np
 import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped
-from wiimote_tracker_evaluation import scene, true_rig
-from wiimote_tracker_msgs.msg import (IrBlobArray, RigCalibration, TrackedBody, TrackedBodyArray)
+from live_rig import DEADLINE, LiveRigTest
+from wiimote_tracker_msgs.msg import TrackedBody, TrackedBodyArray
 from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
 
-DEADLINE = 60.0  # [s]
 JUDGED = 3.0     # [s]
 HIDDEN = 0.8     # longer than a body is predicted [s]
 RECOVERY = 0.2   # [s]
@@ -43,28 +41,16 @@ def rotation_vector(start, end):
     return 2.0 * rotation @ difference[:3]
 
 
-class Bodies(unittest.TestCase):
+class Bodies(LiveRigTest):
     @classmethod
     def setUpClass(cls):
-        rospy.init_node('bodies_rostest')
-        cls.scene = scene.read_scene(rospy.get_param('~description'))
-        cls.identities, cls.truth, cls.bodies = {}, [], []
-        for camera in cls.scene.cameras:
-            rospy.Subscriber(camera.name + '/ir_blobs', IrBlobArray,
-                             lambda image: cls.identities.update({image.camera: image.identity}))
-        rospy.Subscriber('simulation/truth/wand', PoseStamped, cls.truth.append)
+        super().setUpClass()
+        cls.poses, cls.bodies = [], []
+        rospy.Subscriber('simulation/truth/wand', PoseStamped, cls.poses.append)
         rospy.Subscriber('bodies', TrackedBodyArray, cls.bodies.append, queue_size=1000,
                          tcp_nodelay=True)
-        cls.rig_publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1,
-                                            latch=True)
         rospy.wait_for_service('simulation/set_led', DEADLINE)
         cls.set_led = rospy.ServiceProxy('simulation/set_led', SetLed)
-
-    def wait(self, condition, what):
-        deadline = rospy.get_time() + DEADLINE
-        while not condition():
-            self.assertLess(rospy.get_time(), deadline, 'waited too long for ' + what)
-            rospy.sleep(0.01)
 
     def switch(self, leds, on):
         """@returns when the last of them was switched."""
@@ -75,7 +61,7 @@ class Bodies(unittest.TestCase):
 
     def reach(self, end):
         self.wait(lambda: self.bodies and self.bodies[-1].header.stamp.to_sec() > end and
-                  self.truth and self.truth[-1].header.stamp.to_sec() > end, 'the time to pass')
+                  self.poses and self.poses[-1].header.stamp.to_sec() > end, 'the time to pass')
 
     def seen_between(self, begin, end):
         """Of each array: its time, and the wand or None."""
@@ -86,7 +72,7 @@ class Bodies(unittest.TestCase):
         """Tracked in that share at least, and where it truly is."""
         tracked = [(t, b) for t, b in seen if b and b.state == TrackedBody.TRACKED]
         self.assertGreater(len(tracked), share * len(seen))
-        truth = list(self.truth)
+        truth = list(self.poses)
         stamps = np.array([t.header.stamp.to_sec() for t in truth])
         squared, positions, rotations = [], [], []
         for t, body in tracked:
@@ -113,8 +99,7 @@ class Bodies(unittest.TestCase):
         self.assertLess(np.degrees(np.sqrt(max(rotations))), 20.0, 'LEDs were confused')
 
     def test_pose(self):
-        self.wait(lambda: len(self.identities) == len(self.scene.cameras), 'images of all cameras')
-        self.rig_publisher.publish(true_rig.true_rig(self.scene, self.identities))
+        self.calibrate()
         self.wait(lambda: self.bodies and self.bodies[-1].bodies, 'the body')
         begin = self.bodies[-1].header.stamp.to_sec() + 2.0  # the drivers' clocks settle
         self.reach(begin + JUDGED)

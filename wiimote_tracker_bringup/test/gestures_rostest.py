@@ -8,18 +8,15 @@ by its being held still. Anna teaches; Ben draws elsewhere, larger and in his ow
 import collections
 import os
 import sys
-import unittest
 
 import numpy as np
 import rospy
 import rostest
-import yaml
-from geometry_msgs.msg import Point, PointStamped
-from wiimote_tracker_evaluation import scene, true_rig
-from wiimote_tracker_msgs.msg import GestureEvent, RigCalibration, TrackedPointArray
+from geometry_msgs.msg import Point
+from live_rig import DEADLINE, LiveRigTest
+from wiimote_tracker_msgs.msg import GestureEvent
 from wiimote_tracker_msgs.srv import ListGestures, RecordGesture, SetLed, SetLedRequest
 
-DEADLINE = 60.0       # [s]
 NODES = ('by_light', 'by_rest')
 TEACHING = (1.0, 1.2, 1.1)  # where Anna draws [m]
 ELSEWHERE = (1.6, 1.4, 1.3)  # and Ben
@@ -29,39 +26,19 @@ FRAMES = 0.03         # three of them; the grain of what is said about time [s]
 SIGMAS = 5.0          # no coordinate of a hundred points is further off
 
 
-class Gestures(unittest.TestCase):
+class Gestures(LiveRigTest):
     @classmethod
     def setUpClass(cls):
-        rospy.init_node('gestures_rostest')
-        cls.path = rospy.get_param('~description')
-        with open(cls.path) as file:
-            cls.description = yaml.safe_load(file)
-        cls.truth, cls.points = [], []
+        super().setUpClass()
         cls.events = collections.defaultdict(list)
         cls.taken = collections.Counter()
-        rospy.Subscriber('simulation/truth/led', PointStamped, cls.truth.append)
-        rospy.Subscriber('points', TrackedPointArray, cls.points.append, queue_size=1000)
         for node in NODES:
             rospy.Subscriber(node + '/gestures', GestureEvent, cls.events[node].append)
-        cls.rig_publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1,
-                                            latch=True)
         rospy.wait_for_service('simulation/set_led', DEADLINE)
         cls.set_led = staticmethod(rospy.ServiceProxy('simulation/set_led', SetLed))
 
-    def wait(self, condition, what):
-        deadline = rospy.get_time() + DEADLINE
-        while not condition():
-            self.assertLess(rospy.get_time(), deadline, 'waited too long for ' + what)
-            rospy.sleep(0.01)
-
-    def wait_until(self, time):
-        self.wait(lambda: self.truth[-1].header.stamp.to_sec() > time and
-                  self.points[-1].header.stamp.to_sec() > time, 'the instant %.3f' % time)
-
     def test_gestures_are_taught_recognised_and_rejected(self):
-        true_scene = scene.read_scene(self.path)
-        self.rig_publisher.publish(true_rig.true_rig(true_scene, {
-            name: camera['identity'] for name, camera in self.description['cameras'].items()}))
+        self.calibrate()
         self.wait(lambda: self.points and any(p.state == p.TRACKED for p in self.points[-1].points),
                   'a tracked LED')
         self.switch_off()
@@ -141,7 +118,7 @@ class Gestures(unittest.TestCase):
 
     def truth_between(self, begin, end):
         """Times [s] and N x 3 places [m]."""
-        messages = [m for m in list(self.truth) if begin <= m.header.stamp.to_sec() <= end]
+        messages = [m for m in list(self.truth['led']) if begin <= m.header.stamp.to_sec() <= end]
         return (np.array([m.header.stamp.to_sec() for m in messages]),
                 np.array([(m.point.x, m.point.y, m.point.z) for m in messages]))
 

@@ -7,18 +7,12 @@ test_people.cpp.
 
 import collections
 import sys
-import unittest
 
 import numpy as np
-import rospy
 import rostest
-import yaml
-from geometry_msgs.msg import PointStamped
-from wiimote_tracker_evaluation import scene, true_rig
-from wiimote_tracker_msgs.msg import (IrBlobArray, IrMask, RigCalibration, TrackedPoint,
-                                      TrackedPointArray)
+from live_rig import LiveRigTest
+from wiimote_tracker_msgs.msg import IrMask, TrackedPoint
 
-DEADLINE = 90.0   # [s]
 DURATION = 20.0   # that is judged [s]
 WARM_UP = 3.0     # after all are tracked; the drivers' clocks settle [s]
 MASK_RADIUS = 6.0  # about a reflection [px]
@@ -39,43 +33,13 @@ class Track(object):
         self.states.append(point.state)
 
 
-class People(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        rospy.init_node('people_rostest')
-        path = rospy.get_param('~description')
-        cls.scene = scene.read_scene(path)
-        with open(path) as file:
-            cls.description = yaml.safe_load(file)
-        cls.leds = sorted(cls.description['leds'])
-        cls.truth = collections.defaultdict(list)
-        cls.images = collections.Counter()
-        cls.points = []
-        for led in cls.leds:
-            rospy.Subscriber('simulation/truth/' + led, PointStamped, cls.truth[led].append)
-        for camera in cls.scene.cameras:
-            rospy.Subscriber(camera.name + '/ir_blobs', IrBlobArray,
-                             lambda _, name=camera.name: cls.images.update([name]))
-        rospy.Subscriber('points', TrackedPointArray, cls.points.append, queue_size=1000,
-                         tcp_nodelay=True)
-        cls.rig_publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1,
-                                            latch=True)
-
-    def wait(self, condition, what):
-        deadline = rospy.get_time() + DEADLINE
-        while not condition():
-            self.assertLess(rospy.get_time(), deadline, 'waited too long for ' + what)
-            rospy.sleep(0.05)
-
+class People(LiveRigTest):
     def test_four_leds_keep_their_identities(self):
-        self.wait(lambda: len(self.images) == len(self.scene.cameras), 'images of all cameras')
-        self.rig_publisher.publish(self.rig_with_masks())
+        self.calibrate(self.masks())
         self.wait(self.all_are_tracked, 'four tracked LEDs')
         begin = self.points[-1].header.stamp.to_sec() + WARM_UP
         end = begin + DURATION
-        self.wait(lambda: self.points[-1].header.stamp.to_sec() > end, 'tracked points')
-        self.wait(lambda: all(self.truth[led][-1].header.stamp.to_sec() > end
-                              for led in self.leds), 'the truth')
+        self.wait_until(end)
 
         tracks, labels = collections.defaultdict(Track), collections.defaultdict(set)
         lost = 0
@@ -95,7 +59,7 @@ class People(unittest.TestCase):
         covered = dict.fromkeys(self.leds, 0)
         for number, track in sorted(tracks.items()):
             at = np.array(track.stamps)
-            truth = self.truth_at(at)
+            truth = {led: self.truth_at(led, at) for led in self.leds}
             distances = np.array([np.linalg.norm(np.array(track.positions) - truth[led], axis=1)
                                   for led in self.leds])
             nearest = np.argmin(distances, axis=0)
@@ -124,27 +88,12 @@ class People(unittest.TestCase):
         return self.points and [point.state for point in self.points[-1].points].count(
             TrackedPoint.TRACKED) >= len(self.leds)
 
-    def rig_with_masks(self):
-        """The true rig; the reflections were learned, as calibrating does. They still take places
-        of the sensor's."""
-        rig = true_rig.true_rig(self.scene, {
-            name: camera['identity'] for name, camera in self.description['cameras'].items()})
-        for reflection in self.description['reflections'].values():
-            camera, = [camera for camera in rig.cameras if camera.name == reflection['camera']]
-            camera.masks.append(IrMask(x=reflection['pixel'][0], y=reflection['pixel'][1],
-                                       radius=MASK_RADIUS))
-        return rig
-
-    def truth_at(self, stamps):
-        """For each LED N x 3 true places."""
-        truth = {}
-        for led in self.leds:
-            messages = list(self.truth[led])
-            times = [m.header.stamp.to_sec() for m in messages]
-            places = np.array([(m.point.x, m.point.y, m.point.z) for m in messages])
-            truth[led] = np.stack([np.interp(stamps, times, places[:, axis]) for axis in range(3)],
-                                  axis=1)
-        return truth
+    def masks(self):
+        """The reflections were learned, as calibrating does. They still take places of the
+        sensor's."""
+        return [(reflection['camera'], IrMask(x=reflection['pixel'][0], y=reflection['pixel'][1],
+                                              radius=MASK_RADIUS))
+                for reflection in self.description['reflections'].values()]
 
     def check_covariance(self, track, truth):
         """The claimed scatter is that of the errors, as far as samples that hang together tell."""

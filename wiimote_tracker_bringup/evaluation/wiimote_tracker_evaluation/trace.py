@@ -22,17 +22,18 @@ class Trace(object):
     """Times [s since 1970], one row per published output.
 
     exposure: true, of the newest image that entered; delivered: its report was handed to the virtual
-    device; arrived: by the driver's clock; published: the point reached the recorder; transport: of
-    the exposure's own message from node to recorder, the same hop as that of a point [s].
+    device; arrived: by the driver's clock; heard: the driver's message of it reached the recorder,
+    as it does the tracker; published: the point reached the recorder; hop: of the exposure's own
+    message from the simulation to the recorder [s].
     stamp, position: of the LED's point. exposures, deliveries: of all images, of all cameras, in the
     order of their exposures; those of images that were overtaken, and made no point, too.
     """
 
     def __init__(self, rows, images, triggered):
-        rows = np.array(sorted(rows, key=lambda row: row[3]), dtype=float).reshape(-1, 9)
-        self.exposure, self.delivered, self.arrived, self.published, self.transport = rows[:, :5].T
-        self.stamp = rows[:, 5]
-        self.position = rows[:, 6:9]
+        rows = np.array(sorted(rows, key=lambda row: row[3]), dtype=float).reshape(-1, 10)
+        (self.exposure, self.delivered, self.arrived, self.published, self.heard, self.hop,
+         self.stamp) = rows[:, :7].T
+        self.position = rows[:, 7:10]
         self.exposures, self.deliveries = np.array(sorted(images), dtype=float).reshape(-1, 2).T
         self.triggered = triggered  # position of the LED by the trigger's time
 
@@ -41,14 +42,13 @@ class Trace(object):
         return (self.published >= start) & (self.published < end)
 
     def parts(self, chosen):
-        """From exposure to published point and its parts, one row per chosen output [s]. What is
-        neither link nor transport is work: of the driver, then of the tracker."""
-        hop = float(np.median(self.transport))
+        """From exposure to published point and its parts, one row per chosen output [s]; every part
+        is the difference of two times that were recorded."""
         return {'total': (self.published - self.exposure)[chosen],
                 'bluetooth': (self.delivered - self.exposure)[chosen],
                 'driver': (self.arrived - self.delivered)[chosen],
-                'filter': (self.published - self.arrived)[chosen] - 2.0 * hop,
-                'transport': np.full(int(np.sum(chosen)), 2.0 * hop)}
+                'image': (self.heard - self.arrived)[chosen],
+                'point': (self.published - self.heard)[chosen]}
 
     def waiting(self):
         """Mean time from any instant to the next exposure of any camera [s]."""
@@ -102,7 +102,7 @@ def connected_topics(master, node):
 def read_trace(path, cameras):
     """Trace of a bag. Images, exposures and points are brought together by their times."""
     import rosbag
-    delivered = {camera: [] for camera in cameras}  # rows: delivered, exposure, transport
+    delivered = {camera: [] for camera in cameras}  # rows: delivered, exposure, hop
     arrivals, points, triggered, images = [], [], {}, []
     with rosbag.Bag(path) as bag:
         for topic, message, received in bag.read_messages():
@@ -119,9 +119,9 @@ def read_trace(path, cameras):
                 if position is not None:
                     triggered[message.header.stamp.to_nsec()] = position
             else:
-                arrivals.append((message.arrival.to_sec(), message.camera))
+                arrivals.append((message.arrival.to_sec(), message.camera, received))
     arrivals.sort()
-    arrival_times = np.array([when for when, _ in arrivals])
+    arrival_times = np.array([when for when, _, _ in arrivals])
     delivered = {camera: np.array(sorted(rows)).reshape(-1, 3) for camera, rows in delivered.items()}
     rows = []
     for message, published in points:
@@ -134,8 +134,8 @@ def read_trace(path, cameras):
         index = np.searchsorted(reports[:, 0], arrived, side='right') - 1
         if index < 0 or arrived - reports[index, 0] > LONGEST_DRIVER:
             continue
-        handed, exposure, transport = reports[index]
-        rows.append((exposure, handed, arrived, published, transport,
+        handed, exposure, hop = reports[index]
+        rows.append((exposure, handed, arrived, published, arrivals[image][2], hop,
                      message.header.stamp.to_sec()) + position)
     if not rows:
         raise ExperimentError('no point was published while the LED was measured; see nodes.log')

@@ -11,7 +11,7 @@ from wiimote_tracker_evaluation.live.circles import live  # noqa: F401, with a p
 NAME = 'circles'
 TITLE = 'Circles'
 
-QUICK, FULL = 4, 24  # sessions with two cameras, and as many with four
+QUICK, FULL = 6, 24  # sessions with two cameras, and as many with four
 SETS = ((2, 'two'), (4, 'four'))
 METHODS = (
     ('C3_image_center', "the paper's C3, rays from the image centre", charts.RED),
@@ -89,7 +89,7 @@ def row_of(run, laps, chosen, words, method, explained, speed):
                    'mm', len(units), interval, 'RMS %s error on the circles at %g m/s, %s, %s '
                    'Wiimotes' % (which, speed, explained, words),
                    headline=method == 'wand_tracks' and speed == 1.0)
-        row += [value, '%.1f to %.1f' % interval]
+        row += [value, '%.3g to %.3g' % interval]
     return row + [100.0 * np.isnan(laps['measured_x'][chosen]).mean()]
 
 

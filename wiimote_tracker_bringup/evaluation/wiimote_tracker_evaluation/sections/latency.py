@@ -17,8 +17,8 @@ SPEED = 2.0 * np.pi * RADIUS / PERIOD
 CARRY_SPEED = 3.0         # [m/s]
 ANSWER_DEADLINE = 5.0     # for the last trigger's answer [s]
 CASES = (('four', 4, 'four Wiimotes'), ('two', 2, 'two Wiimotes'))
-PARTS = (('bluetooth', 'Bluetooth (an input of the simulation)'), ('driver', 'driver'),
-         ('filter', 'filter'), ('transport', 'transport between processes'))
+PARTS = (('bluetooth', 'Bluetooth (an input of the simulation)'), ('driver', 'driver, to its stamp'),
+         ('image', 'transport of the image'), ('point', 'filter, and transport of the point'))
 
 
 class Measured(object):
@@ -148,7 +148,7 @@ def tell(run, results):
     direct(run, results)
     main = results[0][2]
     total = 1e3 * main.trace.parts(main.chosen())['total']
-    bluetooth = 1e3 * np.mean(main.trace.parts(main.chosen())['bluetooth'])
+    bluetooth = 1e3 * np.median(main.trace.parts(main.chosen())['bluetooth'])
     run.summary(
         '**Latency**, simulated: a point is published %.1f ms after the exposure (median, 99 %% '
         'within %.1f ms) with four Wiimotes; %.1f ms of it are the Bluetooth delay that the '
@@ -240,13 +240,15 @@ def fitted_circle(points):
 def direct(run, results):
     run.say('### Directly, from exposure to published point\n'
             'The simulation says when each image was exposed and when its report was handed over; a '
-            'recorder in another process takes the time at which the point reaches it. *Driver*: from '
-            'the report on the device to its arrival stamp. *Transport*: two messages between '
-            'processes, by the median of one that goes straight from the simulation to the recorder '
-            '(%s). *Filter*: what is left, the driver\'s and the tracker\'s work on the '
-            'image and their waiting for a processor. Exposure itself is an instant here; what '
-            'happens in the room waits, on average, %s for the next one.' % (
-                ' and '.join('%.2f ms each with %s' % (1e3 * np.median(m.trace.transport), title)
+            'recorder in another process takes the times at which the image and the point reach it. '
+            '*Driver*: from the report on the device to its arrival stamp. *Transport of the image*: '
+            'until the driver\'s message is in another process, with the driver\'s work on it. '
+            '*Filter, and transport of the point*: from there until the point is in that process, '
+            'the tracker\'s work and one more message. Waiting for a processor is in all of them. A '
+            'bare message straight from the simulation to the recorder takes %s meanwhile (median). '
+            'Exposure itself is an instant here; what happens in the room waits, on average, %s for '
+            'the next one.' % (
+                ' and '.join('%.2f ms with %s' % (1e3 * np.median(m.trace.hop), title)
                              for _, title, m in results),
                 ' and '.join('%.1f ms with %s' % (1e3 * m.trace.waiting(), title)
                              for _, title, m in results)))
@@ -263,14 +265,14 @@ def direct(run, results):
     run.table('parts', [('cameras', ''), ('part', ''), ('points', ''), ('mean', 'ms'),
                         ('median', 'ms'), ('p95', 'ms'), ('p99', 'ms')], rows,
               'The means of the parts add up to the mean of the whole.')
-    columns = [('cameras', ''), ('published', 's')] + [(key, 'ms') for key in (
-        'total', 'bluetooth', 'driver', 'filter')]
+    keys = ('total',) + tuple(key for key, _ in PARTS)
+    columns = [('cameras', ''), ('published', 's')] + [(key, 'ms') for key in keys]
     run.table('points', columns, [
         (title, published - measured.laps[0]) + tuple(values) for _, title, measured in results
         for published, values in zip(
             measured.trace.published[measured.chosen()],
-            1e3 * np.column_stack([measured.trace.parts(measured.chosen())[key] for key in (
-                'total', 'bluetooth', 'driver', 'filter')]))], 'Every point.', shown=False)
+            1e3 * np.column_stack([measured.trace.parts(measured.chosen())[key]
+                                   for key in keys]))], 'Every point.', shown=False)
     run.table('images', [('cameras', ''), ('exposed', 's'), ('bluetooth', 'ms')], [
         (title, exposed - measured.laps[0], 1e3 * (delivered - exposed))
         for _, title, measured in results
@@ -314,20 +316,21 @@ def plot_distribution(run, results):
     whole.set_ylabel('share of the points')
     charts.key(whole, loc='lower right', extra=[('--', 'without Bluetooth')])
     for row, (_, title, measured) in enumerate(results):
-        parts = measured.trace.parts(measured.chosen())
+        mean = {key: 1e3 * float(np.mean(values))
+                for key, values in measured.trace.parts(measured.chosen()).items()}
         begin = 0.0
-        for (key, words), color in zip(PARTS, (charts.SOFT, charts.GREEN, charts.BLUE,
-                                               charts.ORANGE)):
-            width = 1e3 * float(np.mean(parts[key]))
-            split.barh(row, width, left=begin, color=color, height=0.5,
+        for (key, words), color in zip(PARTS[1:], (charts.GREEN, charts.BLUE, charts.ORANGE)):
+            split.barh(row, mean[key], left=begin, color=color, height=0.5,
                        label=words if row == 0 else None)
-            begin += width
-        split.text(begin, row, '  %.1f ms' % begin, va='center')
+            begin += mean[key]
+        split.text(begin, row, '  %.2f ms, after %.1f ms\n  of Bluetooth' % (
+            begin, mean['bluetooth']), va='center', fontsize=8.5)
     split.set_yticks(range(len(results)))
     split.set_yticklabels([title for _, title, _ in results])
-    split.set_xlim(0.0, 1.3 * split.get_xlim()[1])
+    split.set_xlim(0.0, 1.5 * split.get_xlim()[1])
     split.set_ylim(-0.5, len(results) + 0.6)
-    split.set_xlabel('mean time [ms]')
+    split.set_xlabel('mean time after Bluetooth [ms]')
     charts.key(split, loc='upper left')
     run.plot('distribution', figure, 'Left: time from exposure to published point, dashed without '
-             'the Bluetooth delay that the simulation is given. Right: its mean, by parts.')
+             'the Bluetooth delay that the simulation is given. Right: what comes after that delay, its '
+             'mean by parts.')

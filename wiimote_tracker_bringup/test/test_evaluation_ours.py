@@ -12,7 +12,8 @@ import pytest
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
 
-from wiimote_tracker_evaluation import light, programs, scene, section, statistics  # noqa: E402
+from wiimote_tracker_evaluation import (evaluation, light, programs, scene, section,  # noqa: E402
+                                        statistics)
 from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
 from wiimote_tracker_evaluation.live import circles, dialogue, latency, listener  # noqa: E402
 from wiimote_tracker_evaluation.ours import cameras, gestures  # noqa: E402
@@ -72,7 +73,7 @@ def test_what_is_no_led_is_refused(tmp_path, content, named):
 
 def test_lights_are_seen_as_far_as_the_sensors_thresholds_say(tmp_path):
     """Thresholds as the virtual Wii Remote documents them; its steps are one image of the walk."""
-    table, path = table_of(tmp_path, 'evaluate_distance', 1)
+    table, _ = table_of(tmp_path, 'evaluate_distance', 1)
     step = 0.25 * 0.01
     for level, threshold in (('wii_1', 0.12), ('wii_3', 1.0 / 36.0), ('max', 0.0060)):
         chosen = table['sensitivity'] == level
@@ -83,10 +84,26 @@ def test_lights_are_seen_as_far_as_the_sensors_thresholds_say(tmp_path):
     late = table['stopped_at_m'] - table['last_seen_m']
     # Half a second of walking from the last change, which is a pixel's way before the last sight.
     assert (late <= 0.25 * 0.5 + step).all() and (late > 0.0).all()
-    with open(path, 'rb') as first:
-        before = first.read()
-    with open(table_of(tmp_path, 'evaluate_distance', 1)[1], 'rb') as again:
-        assert again.read() == before, 'the same seed gives the same bytes'
+
+
+@pytest.mark.parametrize('program', ['cameras', 'map', 'occlusion'])
+def test_a_programs_table_is_a_function_of_its_seed(tmp_path, program):
+    def written(seed):
+        with open(table_of(tmp_path, 'evaluate_' + program, 1, seed)[1], 'rb') as file:
+            return file.read()
+    first = written(1)
+    assert written(1) == first and written(2) != first
+
+
+def test_a_sections_files_are_a_function_of_its_seed(tmp_path):
+    def written(seed):
+        assert evaluation.main(['--quick', '--sections', 'distance', '--rig', RIG, '--seed',
+                                str(seed), '--output', str(tmp_path)]) == 0
+        return [(tmp_path / name).read_bytes() for name in (
+            'figures.json', 'distance/carried.csv', 'distance/distance.svg')]
+    first = written(1)
+    assert written(1) == first
+    assert all(again != before for again, before in zip(written(2), first))
 
 
 def test_the_bound_of_two_cameras_at_a_right_angle():

@@ -16,13 +16,26 @@ import rospkg
 import rospy
 import rostest
 from wiimote_tracker_evaluation import alignment, bound, experiment, scene, scoring
-from wiimote_tracker_evaluation.conductor import Conductor
+from wiimote_tracker_evaluation.conductor import SETTLE, Conductor
 from wiimote_tracker_evaluation.recording import LiveRecorder
 
 DWELL = 0.5  # [s]
 RATE = 100.0  # images a second of one camera [Hz]
 TEST_POINTS = experiment.TEST_POINTS[[0, 2, 5, 7, 9]]
 ALIGNMENT_POINTS = experiment.alignment_points(2, 8)
+
+
+def least_scatter(places):
+    """How little the means of all images so far scatter, while an LED lies still at so many places;
+    one image scatters by 1. They do so by less in 0.1 % of all cases, if all noise of a place is
+    along one axis, and more rarely otherwise."""
+    images = RATE * np.arange(SETTLE, SETTLE + DWELL, 1.0 / RATE)
+    covariance = 1.0 / np.maximum(images[:, None], images)
+    centered = (covariance - covariance.mean(axis=0) - covariance.mean(axis=1)[:, None]
+                + covariance.mean())
+    variances = np.linalg.eigvalsh(centered)
+    squares = np.random.RandomState(1).randn(10000, places, len(images)) ** 2 @ variances
+    return np.percentile(np.sqrt(squares.mean(axis=1) / len(images)), 0.1)
 
 
 class EndToEnd(unittest.TestCase):
@@ -77,15 +90,19 @@ class EndToEnd(unittest.TestCase):
             self.assertLess(measured, 1.2 * best, kind)
             self.assertGreater(measured, 0.8 * best, kind)
 
-        # A single frame scatters as its four pixels do.
-        expected = []
+        # Followed in time, it is calmer than what one image of each camera can tell, but no calmer
+        # than the mean of all images since the LED came to rest.
+        variances = []
         for point in TEST_POINTS:
             calibration = np.zeros((4 * bound.PER_CAMERA,) * 2)
             _, covariance = bound.point_sensitivity(self.scene, calibration, point, 1)
-            expected.append(np.trace(covariance))
-        ratio = score.scatter / np.sqrt(np.mean(expected))
-        self.assertGreater(ratio, 0.7)
-        self.assertLess(ratio, 1.3)
+            variances.append(np.trace(covariance))
+        ratio = score.scatter / np.sqrt(np.mean(variances))
+        least = least_scatter(len(TEST_POINTS))
+        print('scatter: %.2f mm, %.2f of what one image of each camera can tell, at least %.3f' % (
+            1e3 * score.scatter, ratio, least))
+        self.assertGreater(ratio, least)
+        self.assertLess(ratio, 1.0)
 
         # All cameras took part in the points.
         inside = recording.between(segments[0].start, segments[0].end)

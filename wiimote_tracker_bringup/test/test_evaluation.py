@@ -311,7 +311,7 @@ def test_a_place_without_points_is_refused_by_name(hand_made):
 def test_files_hold_the_figures(hand_made, tmp_path):
     score = scoring.score(hand_made.recording, hand_made.segments)
     bounds = the_bounds()
-    report.write_summary(str(tmp_path / 'summary.json'), score, bounds)
+    report.write_summary(str(tmp_path / 'summary.json'), 'tracks', score, bounds)
     summary = json.loads((tmp_path / 'summary.json').read_text())
     assert set(summary['position_rms_mm']) == {'absolute', 'rigid', 'similarity'}
     assert summary['position_rms_mm']['absolute'] == pytest.approx(
@@ -329,7 +329,7 @@ def test_files_hold_the_figures(hand_made, tmp_path):
                        score)
     assert (tmp_path / 'tracks.png').read_bytes()[:4] == b'\x89PNG'
 
-    text = report.sentence(score)
+    text = report.sentence('tracks', score)
     assert '\n' not in text and '%.1f mm absolute' % (1e3 * score.position_rms['absolute']) in text
 
 

@@ -83,8 +83,9 @@ def has_display(progress):
 class Demo(object):
     """One run. Everything it starts has ended when run() returns or raises."""
 
-    def __init__(self, output):
+    def __init__(self, output, mode):
         self._output = output
+        self._mode = mode
         self._progress = Progress(8)
         self._processes = Processes()
         self._scene = scene_module.read_scene(package_file('simulation/paper_rig.yaml'))
@@ -118,7 +119,7 @@ class Demo(object):
             'socket_directory:=' + os.path.join(scratch, 'remotes'),
             'camera_info_directory:=' + os.path.join(scratch, 'cameras'),
             'rig_file:=' + self._file('rig.yaml'), 'side_length:=%g' % experiment.SIDE,
-            'labels:=' + LED, 'mode:=instant', 'rviz:=%s' % ('true' if rviz else 'false')], log)
+            'labels:=' + LED, 'mode:=' + self._mode, 'rviz:=%s' % ('true' if rviz else 'false')], log)
         deadline = time.monotonic() + 30.0
         while not rosgraph.is_master_online():
             self._processes.check()
@@ -217,7 +218,7 @@ class Demo(object):
             TEST_DWELL * CAMERA_RATE, ALIGNMENT_DWELL * CAMERA_RATE,
             deviation=bound.deviation_of(self._scene, experiment.NOMINAL_LENS, experiment.CORNERS,
                                          experiment.placed_corners(CORNER_SEED)))
-        report.write_summary(self._file('summary.json'), score, bounds)
+        report.write_summary(self._file('summary.json'), self._mode, score, bounds)
         report.write_csv(self._file('points.csv'), recorded, segments)
         report.draw_tracks(self._file('tracks.png'), recorded, segments, score)
 
@@ -226,7 +227,7 @@ class Demo(object):
             self._progress.line(line)
         self._progress.line('In %s: summary.json, rig.yaml, demo.bag, points.csv, tracks.png'
                             % self._output)
-        self._sentence = report.sentence(score)
+        self._sentence = report.sentence(self._mode, score)
 
     def last_line(self):
         return self._sentence
@@ -236,10 +237,13 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--output', metavar='DIR', default='wiimote_tracker_demo',
                         help='folder for the results (default: ./wiimote_tracker_demo)')
+    parser.add_argument('--mode', choices=['tracks', 'instant'], default='tracks',
+                        help='tracks: the LED is followed in time (default); instant: rays are '
+                             'intersected, as in the paper')
     options = parser.parse_args(arguments)
     raise_when_interrupted()
     try:
-        demo = Demo(os.path.abspath(options.output))
+        demo = Demo(os.path.abspath(options.output), options.mode)
         demo.run()
         print(demo.last_line())
         return 0

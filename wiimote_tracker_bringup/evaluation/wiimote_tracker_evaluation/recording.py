@@ -41,10 +41,10 @@ class Recording(object):
 
 
 def point_rows(message):
-    """Rows of the points that were seen at the message's instant."""
+    """Rows of the points that are told to whoever steers by them: those that two cameras see."""
     stamp = message.header.stamp.to_sec()
     for point in message.points:
-        if point.state in (TrackedPoint.TRACKED, TrackedPoint.TENTATIVE):
+        if point.state == TrackedPoint.TRACKED:
             variance = np.array(point.position_covariance)[[0, 4, 8]]
             yield (stamp, point.position.x, point.position.y, point.position.z,
                    *np.sqrt(variance), point.rays_used, point.residual)

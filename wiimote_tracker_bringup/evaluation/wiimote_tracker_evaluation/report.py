@@ -30,7 +30,7 @@ def table(score, bounds):
         lines.append('  %-28s  %8.1f  %8.1f' % (circle.name, 1e3 * circle.radial,
                                                1e3 * circle.height))
     lines += ['',
-              'scatter of a single frame    %.2f mm' % (1e3 * score.scatter),
+              'scatter of a single point    %.2f mm' % (1e3 * score.scatter),
               'points published             %.0f Hz' % score.rate,
               'latency report -> point      %.2f ms median, %.2f ms p99' % (
                   1e3 * score.latency_p50, 1e3 * score.latency_p99),
@@ -45,22 +45,23 @@ def table(score, bounds):
     return lines
 
 
-def sentence(score):
-    """The same figures in one sentence."""
-    return ('Simulated rig, %d points: RMS error %.1f mm absolute, %.1f mm rigid-aligned, '
+def sentence(mode, score):
+    """The same figures in one sentence. mode: the tracker's, 'tracks' or 'instant'."""
+    return ('Simulated rig, mode %s, %d points: RMS error %.1f mm absolute, %.1f mm rigid-aligned, '
             '%.1f mm similarity-aligned; %.0f points/s; latency from report to published point '
             '%.2f ms median, %.2f ms p99.' % (
-                (len(score.places),)
+                (mode, len(score.places))
                 + tuple(1e3 * score.position_rms[kind] for kind in KINDS)
                 + (score.rate, 1e3 * score.latency_p50, 1e3 * score.latency_p99)))
 
 
-def summary(score, bounds):
+def summary(mode, score, bounds):
     """The results as a dictionary for summary.json."""
     def milli(value):
         return round(1e3 * value, 4)
     return {
         'simulated': True,
+        'mode': mode,
         'position_rms_mm': {kind: milli(score.position_rms[kind]) for kind in KINDS},
         'best_for_this_rig_mm': {kind: milli(bounds[kind].best) for kind in KINDS},
         'bound_rms_mm': {kind: milli(bounds[kind].rms) for kind in KINDS},
@@ -69,7 +70,7 @@ def summary(score, bounds):
         'rate_hz': round(score.rate, 2),
         'latency_ms': {'p50': milli(score.latency_p50), 'p99': milli(score.latency_p99)},
         'point_age_ms': {'p50': milli(score.age_p50)},
-        'single_frame_scatter_mm': milli(score.scatter),
+        'point_scatter_mm': milli(score.scatter),
         'points': [{'name': place.name, 'true_m': [round(v, 6) for v in place.true],
                     'measured_m': [round(v, 6) for v in place.measured],
                     'error_mm': milli(place.error()), 'frames': place.frames}
@@ -80,9 +81,9 @@ def summary(score, bounds):
     }
 
 
-def write_summary(path, score, bounds):
+def write_summary(path, mode, score, bounds):
     with open(path, 'w') as file:
-        json.dump(summary(score, bounds), file, indent=2)
+        json.dump(summary(mode, score, bounds), file, indent=2)
         file.write('\n')
 
 

@@ -7,7 +7,7 @@ from wiimote_tracker_evaluation import alignment, experiment
 
 class MeasuredPlace(object):
     """Where the LED lay, and the mean of what was measured meanwhile [m]; scatter: standard
-    deviation of single frames about that mean, over all three axes together [m]."""
+    deviation of single points about that mean, over all three axes together [m]."""
 
     def __init__(self, name, true, measured, scatter, frames):
         self.name = name
@@ -21,7 +21,7 @@ class MeasuredPlace(object):
 
 
 class MeasuredCircle(object):
-    """RMS of the distance from the axis less the radius, and of the height, single frames [m]."""
+    """RMS of the distance from the axis less the radius, and of the height, single points [m]."""
 
     def __init__(self, name, radial, height, frames):
         self.name = name
@@ -31,7 +31,7 @@ class MeasuredCircle(object):
 
 
 class Score(object):
-    """places: of the test points. position_rms: by kind of alignment [m]. scatter: of single frames,
+    """places: of the test points. position_rms: by kind of alignment [m]. scatter: of single points,
     RMS over the places [m]. rate: points a second while measuring [Hz]. latency_p50, latency_p99:
     from a report's arrival to its point [s]. age_p50: from the instant of a point to its arrival at
     the recorder [s]."""

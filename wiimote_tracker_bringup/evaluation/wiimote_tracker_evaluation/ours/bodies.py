@@ -3,7 +3,7 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.ours.columns import per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.ours.columns import keep, per_session, read_shared, shared, where
 
 PROGRAM = 'evaluate_bodies'
 SMALL, LARGE = 1.5, 3.0
@@ -15,7 +15,7 @@ def commands(run):
 
 
 def tell(run):
-    table = read_shared(run, PROGRAM, 'A body with four LEDs, swung and turned.')
+    table = read_shared(run, PROGRAM)
     counts = [int(count) for count in sorted(set(table['cameras']))]
     speeds = sorted(set(table['speed_m_per_s']))
     run.say(
@@ -32,15 +32,19 @@ def tell(run):
         for plot, column in zip(axes, ('position_rms_mm', 'rotation_rms_deg')):
             for name, style, label in ((column, 'o-', '%d cameras' % count),
                                        ('predicted_' + column.replace('_rms', ''), 'x--', None)):
-                plot.plot(speeds, [rms_of(per_session(table, name, right & where(
+                low, middle, high = np.array([quantiles(per_session(table, name, right & where(
                     table, cameras=count, led_size=SMALL, speed_m_per_s=speed)))
-                    for speed in speeds], style, markersize=4, color=color, label=label)
+                    for speed in speeds]).T
+                plot.plot(speeds, middle, style, markersize=4, color=color, label=label)
+                if label:
+                    plot.fill_between(speeds, low, high, color=color, alpha=0.12, linewidth=0)
     for plot, name in zip(axes, ('position [mm]', 'rotation [°]')):
         plot.set_xlabel('speed [m/s]')
         plot.set_ylabel('RMS error of the ' + name)
         plot.set_ylim(0.0, None)
     charts.key(axes[0], 'upper left', (('-', 'measured'), ('--', 'stated')))
-    run.plot('bodies', figure, 'RMS errors of a body\'s pose over its speed, small spots.')
+    run.plot('bodies', figure, 'RMS error of a body\'s pose in a session over its speed, small spots: '
+             'median of the sessions, and 5 to 95 % of them.')
     for count in counts:
         chosen = right & where(table, cameras=count, led_size=SMALL, speed_m_per_s=1.0)
         for column, name, unit in (('position_rms_mm', 'position', 'mm'),
@@ -48,7 +52,8 @@ def tell(run):
             units = per_session(table, column, chosen)
             if len(units) < 2:
                 continue
-            run.figure('body_%s_%d_cameras' % (name, count), rms_of(units), unit, len(units),
+            run.figure('body_%s_%d_cameras' % (name, count), statistics.rms(np.concatenate(units)),
+                       unit, len(units),
                        statistics.bootstrap(units, statistics.rms, run.seed),
                        'RMS error of a body\'s %s at 1 m/s and 2 rad/s, %d cameras' % (name, count))
         for size, word in ((SMALL, 'small'), (LARGE, 'large')):
@@ -58,8 +63,9 @@ def tell(run):
             run.figure('body_wrong_%s_spots_%d_cameras' % (word, count), 100.0 * wrong / chosen.sum(),
                        '%', int(chosen.sum()), (100.0 * low, 100.0 * high),
                        'Sessions with a wrong pose, %s spots, %d cameras' % (word, count))
+    keep(run, PROGRAM, table, 'A body with four LEDs, swung and turned.')
 
 
-def rms_of(units):
-    """Root mean square over all; not a number without any."""
-    return statistics.rms(np.concatenate(units)) if units else float('nan')
+def quantiles(units):
+    """5, 50 and 95 % of all; not numbers without any."""
+    return np.quantile(np.concatenate(units), [0.05, 0.5, 0.95]) if units else [float('nan')] * 3

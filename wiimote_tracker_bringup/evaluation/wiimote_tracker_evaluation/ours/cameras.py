@@ -3,7 +3,7 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, scene, statistics
-from wiimote_tracker_evaluation.ours.columns import per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.ours.columns import keep, per_session, read_shared, shared, where
 
 PROGRAM = 'evaluate_cameras'
 METHODS = (('most_likely', 'single points, most likely', charts.BLUE),
@@ -17,13 +17,15 @@ def commands(run):
 
 
 def tell(run):
-    table = read_shared(run, PROGRAM, 'Errors with two to eight cameras.')
+    table = read_shared(run, PROGRAM)
     counts = [int(count) for count in sorted(set(table['cameras']))]
     run.say(
         '### Two to eight cameras\n\n'
         'On a ring around the cube, exactly known; two stand at a right angle. Single points: one '
         'image of each camera, anywhere in the cube, pixels rounded. The bound is that of Cramér and '
-        'Rao, computed here by a camera model that shares no code with the tracker.')
+        'Rao, computed here by a camera model that shares no code with the tracker. The paper\'s mean '
+        'counts every pair of rays alike; those of cameras that face each other lie nearly in one line '
+        'and leave its place along them open, which spoils four and six.')
     bounds = ring_bounds(run.rig, table, counts)
     figure, axes = charts.figure()
     for method, label, color in METHODS:
@@ -44,6 +46,7 @@ def tell(run):
                        'RMS error with %d cameras, %s' % (count, label))
         run.figure('bound_%d_cameras' % count, bounds[counts.index(count)], 'mm', 1,
                    note='Cramér-Rao bound of single points with %d cameras' % count)
+    keep(run, PROGRAM, table, 'Errors with two to eight cameras.')
 
 
 def units_of(table, count, method):

@@ -23,23 +23,29 @@ def part_file(run, program, part):
     return run.file('%s_%d.csv' % (program, part))
 
 
-def read_shared(run, program, caption):
-    """Their tables as one, by column; it is left in the report's folder."""
+def read_shared(run, program):
+    """Their tables as one, by column."""
     paths = sorted(glob.glob(run.file(program + '_*.csv')))
     parts = [programs.read_csv(path) for path in paths]
     columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    rows = [[None if isinstance(value, float) and np.isnan(value) else value for value in row]
-            for row in zip(*(values.tolist() for values in columns.values()))]
-    run.table(program.replace('evaluate_', ''), [(name, unit_of(name)) for name in columns], rows,
-              caption, shown=False)
     for path in paths:
         os.remove(path)
     return columns
 
 
-def unit_of(name):
+def keep(run, program, columns, caption):
+    """Leaves what read_shared() gave in the report's folder."""
+    run.table(program.replace('evaluate_', ''), [name_and_unit(name) for name in columns],
+              programs.table_rows(columns), caption, shown=False)
+
+
+def name_and_unit(name):
+    """('speed', 'm/s') of speed_m_per_s."""
     fits = [ending for ending in UNITS if name.endswith(ending)]
-    return UNITS[max(fits, key=len)] if fits else ''
+    if not fits:
+        return name, ''
+    ending = max(fits, key=len)
+    return name[:-len(ending)], UNITS[ending]
 
 
 def where(columns, **values):

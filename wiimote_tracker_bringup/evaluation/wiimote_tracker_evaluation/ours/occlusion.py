@@ -3,7 +3,7 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.ours.columns import per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.ours.columns import keep, per_session, read_shared, shared, where
 
 PROGRAM = 'evaluate_occlusion'
 METHODS = (('tracks', 'tracks, predicted points too', charts.BLUE),
@@ -17,7 +17,7 @@ def commands(run):
 
 
 def tell(run):
-    table = read_shared(run, PROGRAM, 'An LED that is hidden now and then.')
+    table = read_shared(run, PROGRAM)
     counts = [int(count) for count in sorted(set(table['cameras']))]
     shares = sorted(set(table['hidden_share']))
     run.say(
@@ -60,3 +60,4 @@ def tell(run):
                            statistics.bootstrap(units, statistic, run.seed),
                            '%s, each of %d cameras blind %d %% of the time, %s' % (
                                note, count, 100 * HIDDEN, label))
+    keep(run, PROGRAM, table, 'An LED that is hidden now and then.')

@@ -1,7 +1,7 @@
 """Cameras with clocks of their own, and what estimating their exposures is worth."""
 
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.ours.columns import per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.ours.columns import keep, per_session, read_shared, shared, where
 
 PROGRAM = 'evaluate_unsynchronised'
 METHODS = (('exact', 'tracks', 'exact times (nobody has them)', charts.SOFT),
@@ -16,7 +16,7 @@ def commands(run):
 
 
 def tell(run):
-    table = read_shared(run, PROGRAM, 'Errors of an LED on a circle.')
+    table = read_shared(run, PROGRAM)
     run.say(
         '### Cameras that are not synchronised\n\n'
         'An LED on a circle of 75 cm before cameras that are exactly known, each on its own clock '
@@ -54,6 +54,7 @@ def tell(run):
                 'spots are intersected.' % (
                     SPEED, values['estimated', 'tracks'], values['exact', 'tracks'],
                     values['arrival', 'tracks'], values['exact', 'latest']))
+    keep(run, PROGRAM, table, 'Errors of an LED on a circle.')
 
 
 def units_of(table, speed, clocks, stamps, method):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.ours.columns import per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.ours.columns import keep, per_session, read_shared, shared, where
 
 PROGRAM = 'evaluate_map'
 METHODS = (('square', 'the square alone'), ('wave', 'square and waved LED'))
@@ -14,7 +14,7 @@ def commands(run):
 
 
 def tell(run):
-    table = read_shared(run, PROGRAM, 'Errors at 27 places after a calibration.')
+    table = read_shared(run, PROGRAM)
     run.say(
         '### Accuracy over the volume\n\n'
         'Each session has other lenses and other errors of putting the LED on the corners, is '
@@ -35,7 +35,8 @@ def tell(run):
                 grid = rms_grid(table, method, column, height, places)
                 plot.imshow(grid, origin='lower', cmap='YlOrRd', vmin=0.0, vmax=largest)
                 for (v, h), value in np.ndenumerate(grid):
-                    plot.text(h, v, '%.0f' % value, ha='center', va='center', fontsize=8)
+                    plot.text(h, v, '%.0f' % value, ha='center', va='center', fontsize=8,
+                              color='white' if value > 0.6 * largest else charts.INK)
                 plot.set_xticks(range(len(places)))
                 plot.set_yticks(range(len(places)))
                 plot.set_xticklabels(['%g' % place for place in places], fontsize=7)
@@ -58,6 +59,7 @@ def tell(run):
         run.figure('volume_%s_consistency' % method, np.mean(np.concatenate(units)), '', len(units),
                    statistics.bootstrap(units, np.mean, run.seed),
                    'Normalised squared error (1: the prediction is true), %s' % label)
+    keep(run, PROGRAM, table, 'Errors at 27 places after a calibration.')
 
 
 def rms_grid(table, method, column, height, places):

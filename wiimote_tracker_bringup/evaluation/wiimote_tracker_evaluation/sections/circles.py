@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, experiment, programs, statistics
+from wiimote_tracker_evaluation import charts, programs, statistics
 from wiimote_tracker_evaluation.live.circles import live  # noqa: F401, with a person
 
 NAME = 'circles'

@@ -224,6 +224,24 @@ TEST_F(CalibratedNode, WarnsOfCamerasThatAreNotWhereTheyWere) {
   EXPECT_EQ(published.get()->id, rig.id());
 }
 
+TEST_F(CalibratedNode, NamesCamerasThatAreNotInTheRig) {
+  Latest<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  const auto says = [&](const std::string& part) {
+    return waitUntil([&] {
+      const auto message = diagnostics.get();
+      return message && message->status.front().message.find(part) != std::string::npos;
+    });
+  };
+  geometry::Rig rig = trueRig();
+  rig.cameras.pop_back();
+  rig.covariance.resize(0, 0);
+  load(rig);
+  EXPECT_TRUE(says("camera_4 is not in the rig"));
+  EXPECT_EQ(diagnostics.get()->status.front().level, diagnostic_msgs::DiagnosticStatus::WARN);
+  load(trueRig());
+  EXPECT_TRUE(says("nothing is known against any camera"));
+}
+
 TEST_F(CalibratedNode, RecalibratesOneCamera) {
   geometry::Rig rig = trueRig();
   Eigen::Isometry3d& pose = rig.cameras[1].camera.world_from_camera;

@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kPeriod = 0.5;  // [s]
 
+const char kStranger[] = "is not in the rig and makes no points: calibrate again with it";
+
 std::string number(const char* format, double a, double b) {
   char text[96];
   std::snprintf(text, sizeof text, format, a, b);
@@ -45,6 +47,7 @@ void HealthMonitor::update() {
           context_.setHealth(camera.first, "", lock);
       }
       watch_.reset();
+      strangers_.clear();
       if (rig)
         watch_.emplace(*rig, context_.parameters(lock).health);
     }
@@ -53,9 +56,18 @@ void HealthMonitor::update() {
         context_.setHealth(camera.first, camera.second.text, lock);
       for (const std::string& news : watch_->takeNews())
         ROS_WARN_STREAM(news);
+      noticeStrangers(*rig, lock);
     }
   }
   diagnostics_.update();
+}
+
+void HealthMonitor::noticeStrangers(const geometry::Rig& rig, const Lock&) {
+  for (const auto& camera : context_.inputs().cameras()) {
+    const bool sends_images = camera.second.width > 0;
+    if (sends_images && rig.find(camera.first) == nullptr && strangers_.insert(camera.first).second)
+      ROS_WARN("%s %s.", camera.first.c_str(), kStranger);
+  }
 }
 
 void HealthMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -78,6 +90,8 @@ void HealthMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) 
                    ? number("%.2f +- %.2f", health.drift->bias.norm(), health.drift->stddev)
                    : std::string("not judged"));
   }
+  for (const std::string& camera : strangers_)
+    troubles += (troubles.empty() ? "" : "; ") + camera + " " + kStranger;
   if (troubles.empty())
     status.summary(diagnostic_msgs::DiagnosticStatus::OK,
                    "nothing is known against any camera's place");

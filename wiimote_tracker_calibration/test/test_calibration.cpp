@@ -263,6 +263,29 @@ TEST_F(Workflow, a_loaded_rig_does_not_disturb_a_run) {
   EXPECT_EQ(fresh.step(), Step::kSaved);
 }
 
+TEST_F(Workflow, a_rig_that_is_solved_again_keeps_the_zones) {
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  geometry::Rig named = *calibration_.rig();
+  EXPECT_TRUE(named.zones.empty());
+  named.zones = {{"hall", {0.0, 0.0, 0.0}, {2.5, 2.5, 2.5}}};
+  ASSERT_TRUE(calibration_.load(named).success);
+  captureAll();
+  const Reply reply = solve(2.0);
+  ASSERT_TRUE(reply.success) << reply.message;
+  EXPECT_NE(reply.message.find("zones"), std::string::npos) << reply.message;
+  EXPECT_EQ(calibration_.rig()->solved_at, 2.0);
+  ASSERT_EQ(calibration_.rig()->zones.size(), 1U);
+  EXPECT_EQ(calibration_.rig()->zones[0].name, "hall");
+
+  // Of another world they say nothing.
+  named.world_frame = "garden";
+  ASSERT_TRUE(calibration_.load(named).success);
+  captureAll();
+  ASSERT_TRUE(solve(3.0).success);
+  EXPECT_TRUE(calibration_.rig()->zones.empty());
+}
+
 TEST_F(Workflow, a_wave_is_recorded_covered_and_kept_beside_the_square) {
   EXPECT_SAYS(calibration_.beginWave(cameras_, true, std::nullopt, now_).message,
               "start one first");

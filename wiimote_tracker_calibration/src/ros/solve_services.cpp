@@ -59,10 +59,12 @@ bool SolveServices::solve(wiimote_tracker_msgs::SolveCalibration::Request&,
     solution.reset();
     reply = {false, "it was cancelled; what was captured stays"};
   }
-  if (solution)
+  if (solution) {
     reply = calibration.finishSolve(solution->rig);
-  else
+    solution->rig = *calibration.rig();
+  } else {
     context_.end(reply, lock);
+  }
   fill(reply, &response);
   if (reply.success) {
     context_.publishRig(lock);

@@ -228,9 +228,15 @@ Reply Calibration::beginSolve() {
 }
 
 Reply Calibration::finishSolve(const geometry::Rig& rig) {
-  const Reply reply = {true, rig.verdict};
+  Reply reply = {true, rig.verdict};
+  geometry::Rig taken = rig;
+  if (rig_ && rig_->world_frame == rig.world_frame && !rig_->zones.empty()) {
+    taken.zones = rig_->zones;
+    reply.message +=
+        "; the zones are those of the rig before, and right only if the square lies where it lay";
+  }
   end(reply);
-  rig_ = rig;
+  rig_ = taken;
   step_ = Step::kSolved;
   return reply;
 }

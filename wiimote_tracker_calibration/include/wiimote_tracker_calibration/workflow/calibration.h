@@ -116,7 +116,8 @@ class Calibration {
   /// when it fails. Refused when there is not enough to be solved.
   Reply beginSolve();
 
-  /// Takes over the result. @returns its verdict.
+  /// Takes over the result, with the zones of the rig before in a world of the same name.
+  /// @returns its verdict.
   Reply finishSolve(const geometry::Rig& rig);
 
   /// All that was captured so far. @param facts, masks for every camera of the run that is known;

@@ -34,7 +34,7 @@ void BodyFollower::take(std::size_t camera, tracking::CameraImage* image) {
   if (!tracker_ || !std::isfinite(time) || !std::isfinite(image->arrival))
     return;
   switch (time_watch_->look(camera, time, image->arrival)) {
-    case tracking::TimeWatch::Verdict::kAhead:
+    case tracking::TimeWatch::Verdict::kOff:
       return;
     case tracking::TimeWatch::Verdict::kJumpedBack:
       tracker_->reset();

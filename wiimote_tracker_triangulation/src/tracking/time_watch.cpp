@@ -8,23 +8,37 @@ namespace wiimote_tracker::tracking {
 TimeWatch::Verdict TimeWatch::look(std::size_t camera, double time, double arrival) {
   in_a_row_ = camera == last_camera_ ? in_a_row_ + 1 : 1;
   last_camera_ = camera;
+  Newest& newest = cameras_[camera];
   // By each camera's own clock: those of two computers may differ by more than a jump.
-  const bool jumped = arrival < cameras_[camera].arrival - kJump;
-  if (jumped) {
-    std::fill(cameras_.begin(), cameras_.end(), Newest());
-    newest_arrival_ = -std::numeric_limits<double>::infinity();
+  if (arrival < newest.arrival - kJump) {
+    newest = Newest();
+    newest.jumped = true;
+  }
+  newest.time = std::max(newest.time, time);
+  newest.arrival = std::max(newest.arrival, arrival);
+  const bool is_behind = time < used_until_ - kJump;
+  newest.jumped = newest.jumped && is_behind;
+  ++stood_still_;
+  // Nobody goes on from where it was.
+  const bool all_jumped = newest.jumped && stood_still_ > 2 * cameras_.size();
+  if (all_jumped) {
+    for (Newest& other : cameras_) {
+      if (!other.jumped)
+        other = Newest();
+      other.jumped = false;
+    }
+    newest_arrival_ = arrival;
   }
   disordered_ = arrival < newest_arrival_;
   newest_arrival_ = std::max(newest_arrival_, arrival);
-  Newest& newest = cameras_[camera];
-  newest.time = std::max(newest.time, time);
-  newest.arrival = std::max(newest.arrival, arrival);
-  const bool came_first =
-      time < used_until_ - kJump && countNear(time) >= 2 && countNear(used_until_) <= 1;
-  if (jumped || came_first) {
+  const bool came_first = is_behind && countNear(time) >= 2 && countNear(used_until_) <= 1;
+  if (all_jumped || came_first) {
     used_until_ = time;
+    stood_still_ = 0;
     return Verdict::kJumpedBack;
   }
+  if (newest.jumped)
+    return Verdict::kOff;
   double others = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (i != camera)
@@ -32,8 +46,11 @@ TimeWatch::Verdict TimeWatch::look(std::size_t camera, double time, double arriv
   }
   const bool others_known = others > -std::numeric_limits<double>::infinity();
   if (others_known && time > others + kJump && in_a_row_ <= kSilence)
-    return Verdict::kAhead;
-  used_until_ = std::max(used_until_, time);
+    return Verdict::kOff;
+  if (time > used_until_) {
+    used_until_ = time;
+    stood_still_ = 0;
+  }
   return Verdict::kUsable;
 }
 

@@ -89,7 +89,7 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
   }
   const TimeWatch::Verdict verdict = time_watch_->look(camera, time, image.arrival);
   counters_.disordered += time_watch_->isDisordered();
-  if (verdict == TimeWatch::Verdict::kAhead) {
+  if (verdict == TimeWatch::Verdict::kOff) {
     ++counters_.dropped;
     return;
   }

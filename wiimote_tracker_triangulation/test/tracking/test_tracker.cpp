@@ -270,6 +270,32 @@ TEST(Tracker, ACameraThatLagsOrRunsAheadDoesNotHarmTheOthers) {
   }
 }
 
+TEST(Tracker, ACameraWhoseClockIsPutBackDoesNotHarmTheOthers) {
+  const std::vector<Path> leds = wanderers(4, 10);
+  // From ahead to right, and from right to far behind and right again.
+  for (const auto& [first, then] :
+       std::vector<std::pair<double, double>>{{5.0, 0.0}, {0.0, -100.0}}) {
+    std::vector<SceneImage> images = imagesOf(paperRig(), leds, {}, 3000);
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      const double offset = i < 1000 ? first : i < 2000 ? then : 0.0;
+      if (images[i].camera == 2) {
+        images[i].image.stamp += offset;
+        images[i].image.arrival += offset;
+      }
+    }
+    Tracker tracker(paperRig(), exact());
+    IdentityCheck check(leds);
+    const std::vector<Snapshot> snapshots = track(&tracker, images);
+    for (std::size_t i = 200; i < snapshots.size(); ++i)
+      check.look(snapshots[i]);
+    EXPECT_LE(tracker.counters().resets, first > 0.0 ? 1u : 0u) << "at the start nobody knows";
+    EXPECT_EQ(0u, check.uncovered);
+    EXPECT_EQ(0u, check.switches);
+    for (const TrackedLed& led : snapshots.back().leds)
+      EXPECT_EQ(4u, led.cameras.size()) << "it is used again";
+  }
+}
+
 TEST(Tracker, WhatIsHiddenIsPredictedAndFoundAgainUnderItsName) {
   const std::vector<Path> leds = {test::circle({1.25, 1.25, 1.0}, 0.4, 0.5)};
   SceneOptions options;

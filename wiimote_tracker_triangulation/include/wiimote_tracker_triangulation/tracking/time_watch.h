@@ -8,8 +8,8 @@
 namespace wiimote_tracker::tracking {
 
 /// Tells from the times of images when all time jumped back, as at the end of a bag that is played
-/// in a loop, and when one camera's clock is ahead of all others'. When that camera came first,
-/// time jumps back to where the others agree.
+/// in a loop, and when one camera's clock is off: ahead of all others', or put back while the
+/// others go on. When a camera that is ahead came first, time jumps back to where the others agree.
 class TimeWatch {
  public:
   static constexpr double kJump = 1.0;  ///< [s]
@@ -18,7 +18,7 @@ class TimeWatch {
 
   enum class Verdict {
     kUsable,
-    kAhead,      ///< Not to be used: it would make all others' images too old.
+    kOff,        ///< Not to be used: the camera's clock is far from all others'.
     kJumpedBack  ///< Usable, when all before it is forgotten.
   };
 
@@ -34,6 +34,7 @@ class TimeWatch {
   struct Newest {
     double time = -std::numeric_limits<double>::infinity();
     double arrival = -std::numeric_limits<double>::infinity();
+    bool jumped = false;  // back, and is still behind the others
   };
 
   /// As many images in a row of one camera, and the others count as silent.
@@ -41,6 +42,7 @@ class TimeWatch {
 
   std::vector<Newest> cameras_;
   double used_until_ = -std::numeric_limits<double>::infinity();
+  std::size_t stood_still_ = 0;  // images since used_until_ grew
   double newest_arrival_ = -std::numeric_limits<double>::infinity();
   bool disordered_ = false;
   std::size_t last_camera_ = 0;

@@ -3,6 +3,7 @@
 import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.ticker  # noqa: E402
 import numpy as np  # noqa: E402
 
 INK, SOFT = '#1c2430', '#8a94a3'
@@ -34,6 +35,11 @@ def cumulative(axes, values, color, label=None, **style):
     axes.step(np.concatenate([values[:1], values]), np.concatenate([[0.0], share]), where='post',
               color=color, label=label, **style)
     axes.set_ylim(0.0, 1.0)
+
+
+def plain_numbers():
+    """For the ticks of a logarithmic axis: 0.1, 1, 10."""
+    return matplotlib.ticker.StrMethodFormatter('{x:g}')
 
 
 def key(axes, loc='best', extra=()):

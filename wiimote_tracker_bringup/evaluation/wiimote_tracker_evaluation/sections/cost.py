@@ -182,30 +182,34 @@ def widened(run, percent, seconds):
 
 
 def plot(run, measured):
-    figure, (cost, latency) = charts.figure(1, 2, height=3.4)
+    figure, (by_cameras, by_leds, latency) = charts.figure(
+        1, 3, height=3.4, width=11.0, gridspec_kw={'width_ratios': (1.0, 1.0, 1.6)})
     idle = [s for s in measured if not s.busy]
-    for values, marker, label in (
-            ([(s.cameras, s) for s in idle if s.leds == 1], 'o', 'one LED'),
-            ([(s.cameras, s) for s in idle if s.leds == 4], 's', 'four LEDs')):
+    for axes, values, word, title in (
+            (by_cameras, [(s.cameras, s) for s in idle if s.leds == 1], 'cameras', 'one LED'),
+            (by_leds, [(s.leds, s) for s in idle if s.cameras == 4], 'LEDs', 'four cameras')):
         for part, color, text in ((lambda s: s.whole(), charts.INK, 'all nodes'),
                                   (lambda s: s.shares['/manager'], charts.BLUE, 'tracker')):
-            cost.plot([n for n, _ in values], [100 * part(s).mean() for _, s in values],
-                      marker=marker, markersize=5, color=color,
-                      linestyle='-' if marker == 'o' else '--', label='%s, %s' % (text, label))
-    cost.set_xlabel('cameras')
-    cost.set_ylabel('processor [% of one core]')
-    cost.set_ylim(bottom=0.0)
-    cost.xaxis.get_major_locator().set_params(integer=True)
-    charts.key(cost, loc='upper left')
+            axes.plot([n for n, _ in values], [100 * part(s).mean() for _, s in values], 'o-',
+                      markersize=5, color=color, label=text)
+        axes.set_xlabel(word)
+        axes.set_xticks([n for n, _ in values])
+        axes.set_title(title, fontsize=9.5)
+    by_cameras.set_ylabel('processor [% of one core]')
+    top = 1.1 * max(100 * s.whole().mean() for s in idle)
+    for axes in (by_cameras, by_leds):
+        axes.set_ylim(0.0, top)
+    charts.key(by_cameras, loc='upper left')
     shown = [s for s in measured if (s.cameras, s.leds) == (4, 1)] + [
         s for s in idle if s.cameras * s.leds == max(each.cameras * each.leds for each in idle)]
     for setting, color in zip(shown, charts.COLORS):
         charts.cumulative(latency, 1e3 * setting.own, color, setting.words())
     latency.set_xscale('log')
+    latency.xaxis.set_major_formatter(charts.plain_numbers())
     latency.set_xlabel('own latency [ms]')
     latency.set_ylabel('share of the points')
     charts.key(latency, loc='lower right')
-    run.plot('cost', figure, 'Left: processor time against the number of cameras. Right: latency '
+    run.plot('cost', figure, 'Processor time against the number of cameras and of LEDs; latency '
              'without Bluetooth, idle and beside processes that do nothing but compute.')
 
 

@@ -83,7 +83,7 @@ def test_discovered_remotes_keep_the_names_that_they_get(tmp_path, monkeypatch):
                       'printf \'  wiimote_1: "00:1f:32:00:00:01"\\n\' >> "$2"\n')
     finder.chmod(0o755)
     monkeypatch.setattr(drivers.roslib.packages, 'find_node', lambda *_: [str(finder)])
-    drivers.discover(str(path))
+    drivers.discover(str(path), '')
     assert drivers.read_devices(str(path), '') == [('wiimote_1', '00:1f:32:00:00:01')]
     assert drivers.is_discovering(str(path))
 
@@ -91,11 +91,17 @@ def test_discovered_remotes_keep_the_names_that_they_get(tmp_path, monkeypatch):
 def test_the_program_that_discovers_takes_a_file_that_asks_for_it(tmp_path):
     path = tmp_path / 'cameras.yaml'
     path.write_text('discover: true\ncameras:\n  a: "00:1f:32:00:00:01"\n')
-    drivers.discover(str(path))
+    drivers.discover(str(path), '')
     assert drivers.read_devices(str(path), '')[0] == ('a', '00:1f:32:00:00:01')
     path.write_text('cameras: {a: "00:1f:32:00:00:01"}\n')  # not a line for each
     with pytest.raises(drivers.CamerasError, match='remotes cannot be looked for'):
-        drivers.discover(str(path))
+        drivers.discover(str(path), '')
+
+
+def test_a_virtual_remote_that_was_discovered_is_found_where_it_was(tmp_path):
+    text = 'discover: true\ncameras:\n  a: "virtual:/tmp/x.sock"\n  b: "00:1f:32:00:00:01"\n'
+    assert read(tmp_path, text, '/tmp/s') == [('a', 'virtual:/tmp/x.sock'),
+                                              ('b', 'virtual:/tmp/s/b.sock')]
 
 
 def test_discovery_is_asked_for_in_so_many_words(tmp_path):

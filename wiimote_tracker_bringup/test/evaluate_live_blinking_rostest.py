@@ -13,10 +13,10 @@ import unittest
 import rospy
 import rostest
 import yaml
-from evaluate_live_rostest import Person
+from evaluate_live_rostest import DEADLINE, Person
 from wiimote_tracker_evaluation import scene, true_rig
 from wiimote_tracker_evaluation.live.identification import PATIENCE, QUICK_TRIES
-from wiimote_tracker_msgs.msg import RigCalibration
+from wiimote_tracker_msgs.msg import RigCalibration, TrackedPointArray
 from wiimote_tracker_msgs.srv import SetLedRequest
 
 EVALUATE = ['rosrun', 'wiimote_tracker_bringup', 'evaluate', '--live', '--quick', '--sections',
@@ -61,6 +61,7 @@ class EvaluateLiveBlinking(unittest.TestCase):
             name: camera['identity'] for name, camera in description['cameras'].items()})
         publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
         publisher.publish(rig)
+        rospy.wait_for_message('points', TrackedPointArray, DEADLINE)
 
         output = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, output)

@@ -162,6 +162,7 @@ class EvaluateLive(unittest.TestCase):
         rig.square_sides = [experiment.SIDE, experiment.SIDE]
         publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
         publisher.publish(rig)
+        rospy.wait_for_message('points', TrackedPointArray, DEADLINE)
 
         output = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, output)

@@ -46,14 +46,19 @@ def one_try(listener, dialogue, labels):
     if not wait(dialogue, lambda: not shown(listener)):
         return None
     begin = listener.now()
-    if not wait(dialogue, lambda: len(shown(listener)) > 0):
+    if not wait(dialogue, lambda: first_light(listener, begin) is not None):
         return None
-    first = next(seen.heard for seen in listener.since(begin) if seen.leds)
+    first = first_light(listener, begin)
     while listener.now() < first + PATIENCE:
         if sorted(led.label for led in shown(listener) if led.since > 0.0) == labels:
             return True, listener.now() - first
         time.sleep(0.005)
     return False, None
+
+
+def first_light(listener, begin):
+    """When the first point after `begin` was heard; None: not yet."""
+    return next((seen.heard for seen in listener.since(begin) if seen.leds), None)
 
 
 def shown(listener):

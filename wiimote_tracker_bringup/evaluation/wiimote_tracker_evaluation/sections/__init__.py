@@ -4,8 +4,8 @@ import importlib
 import importlib.util
 
 # Name, and about how long it takes on two cores [s]: quick, full.
-SECTIONS = (('distance', 5, 60), ('latency', 40, 300), ('identification', 15, 240),
-            ('positions', 60, 720), ('circles', 15, 120), ('ours', 45, 480), ('cost', 30, 300))
+SECTIONS = (('distance', 2, 5), ('latency', 40, 150), ('identification', 10, 100),
+            ('positions', 20, 210), ('circles', 10, 40), ('ours', 20, 190), ('cost', 35, 280))
 
 
 def names():

@@ -87,7 +87,9 @@ def tell(run, tries):
         '**The paper\'s scheme:** on for 90, 60, 40 and 20 %% of a common period, symmetric about its '
         'middle; the period is looked for within 20 %%. **Cyclic codes:** each LED repeats a word of '
         '8 chips when it likes, without a wire between them. The LEDs\' clocks are exact here; very short '
-        'periods live by that, since they are seen by images at ever other phases. The paper says that identification '
+        'periods live by that, since they are seen by images at ever other phases. A label is given when it '
+        'is 99.9 %% certain, so that of four LEDs one may have a wrong one, mostly for a moment, in up to '
+        '4 of 1000 tries; such a try is no success. The paper says that identification '
         '"was successful in all test cases" and gives neither period nor time; it left the shortest '
         'period for future research.' % DURATION)
     plot(run, cameras, lines)

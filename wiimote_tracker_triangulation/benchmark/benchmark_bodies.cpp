@@ -1,31 +1,28 @@
 // How well rigid bodies are found and followed: one table per section. With --body FILE that file's
 // first body is measured as well (a file of bodies, or one of rpg_monocular_pose_estimator).
 #include "benchmark_program.h"
-#include "tracking/scene.h"
+#include "body/body_scene.h"
 #include "wiimote_tracker_triangulation/body/bodies_file.h"
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker {
 namespace {
 
-using body::BodyTracker;
 using body::Constellation;
-using body::PoseCovariance;
-using Eigen::Isometry3d;
-using Eigen::Vector3d;
+using body::test::BodyScore;
+using body::test::FollowedBody;
+using body::test::fourLeds;
+using body::test::handheld;
+using body::test::Motion;
+using body::test::rotationError;
+using body::test::tumbling;
 using tracking::test::SceneOptions;
-using Motion = std::function<Isometry3d(double)>;
 
 constexpr double kPixelNoise = 0.5;  // [px]
 constexpr double kBegin = 1001.0;    // of what counts; the scene begins at 1000 [s]
@@ -33,32 +30,8 @@ constexpr double kWrong = 0.35;      // a rotation farther off is of another ass
 
 std::vector<Constellation> g_bodies;
 
-Constellation fourLeds() {
-  return {"four_leds",
-          {{0.09, 0.0, 0.03}, {-0.05, 0.085, 0.0}, {-0.06, -0.07, 0.04}, {0.02, 0.03, -0.09}}};
-}
-
 Constellation threeLeds() {
   return {"three_leds", {{0.1, 0.0, 0.03}, {-0.06, 0.09, 0.0}, {0.02, -0.03, 0.02}}};
-}
-
-Isometry3d handheld(double t) {
-  Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = Vector3d(1.25 + 0.4 * std::sin(1.3 * t), 1.25 + 0.4 * std::cos(1.1 * t),
-                                1.1 + 0.2 * std::sin(0.7 * t));
-  pose.linear() = (Eigen::AngleAxisd(1.2 * std::sin(0.9 * t), Vector3d::UnitZ()) *
-                   Eigen::AngleAxisd(0.7 * std::sin(1.7 * t), Vector3d::UnitX()))
-                      .toRotationMatrix();
-  return pose;
-}
-
-/// 360 degrees per second.
-Isometry3d tumbling(double t) {
-  Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = Vector3d(1.25, 1.25, 1.1);
-  pose.linear() =
-      Eigen::AngleAxisd(2.0 * M_PI * (t - 1000.0), Vector3d(0.48, 0.6, 0.64)).toRotationMatrix();
-  return pose;
 }
 
 geometry::Rig rigOf(std::size_t cameras) {
@@ -67,40 +40,7 @@ geometry::Rig rigOf(std::size_t cameras) {
   return rig;
 }
 
-std::vector<tracking::test::Path> pathsOf(const Constellation& body, const Motion& pose) {
-  std::vector<tracking::test::Path> paths;
-  for (const Vector3d& led : body.leds)
-    paths.push_back([led, pose](double t) { return Vector3d(pose(t) * led); });
-  return paths;
-}
-
-Vector3d rotationError(const Isometry3d& from, const Isometry3d& to) {
-  const Eigen::AngleAxisd difference(Eigen::Matrix3d(to.linear() * from.linear().transpose()));
-  return difference.angle() * difference.axis();
-}
-
-/// Cramer-Rao bound of a pose seen once by each of the cameras that have LEDs in view.
-PoseCovariance boundOf(const geometry::Rig& rig,
-                       const Constellation& body,
-                       const Isometry3d& pose) {
-  PoseCovariance information = PoseCovariance::Zero();
-  for (const geometry::RigCamera& camera : rig.cameras) {
-    for (const Vector3d& led : body.leds) {
-      Eigen::Matrix<double, 2, 3> by_point;
-      const Vector3d arm = pose.linear() * led;
-      if (!camera.camera.sees(pose * led) || !camera.camera.project(pose * led, &by_point))
-        continue;
-      Eigen::Matrix3d cross;
-      cross << 0.0, -arm.z(), arm.y(), arm.z(), 0.0, -arm.x(), -arm.y(), arm.x(), 0.0;
-      Eigen::Matrix<double, 2, 6> jacobian;
-      jacobian << by_point, -by_point * cross;
-      information += jacobian.transpose() * jacobian / (kPixelNoise * kPixelNoise);
-    }
-  }
-  return information.inverse();
-}
-
-/// A body before cameras, image by image.
+/// A body before cameras, and how long its tracker takes.
 class Session {
  public:
   Session(const geometry::Rig& rig,
@@ -108,22 +48,17 @@ class Session {
           const Motion& motion,
           const SceneOptions& options,
           unsigned seed)
-      : scene_(rig, pathsOf(body, motion), options, seed),
-        tracker_(rig, {body}, body::BodyTrackerOptions()) {}
+      : followed_(rig, body, motion, options, seed) {}
 
   void step() {
-    const tracking::test::SceneImage& image = scene_.next();
-    pixels_.clear();
-    for (const tracking::Spot& spot : image.image.spots)
-      pixels_.push_back(spot.pixel);
+    followed_.show();
     const auto start = std::chrono::steady_clock::now();
-    tracker_.add(image.camera, image.image.stamp, pixels_);
+    followed_.track();
     seconds_.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
 
-  double time() const { return tracker_.time(); }
-  const std::optional<body::BodyEstimate>& estimate() const { return tracker_.bodies()[0]; }
+  const FollowedBody& followed() const { return followed_; }
 
   /// Quantile of the time that an image took [s].
   double took(double q) {
@@ -132,9 +67,7 @@ class Session {
   }
 
  private:
-  tracking::test::Scene scene_;
-  BodyTracker tracker_;
-  std::vector<Eigen::Vector2d> pixels_;
+  FollowedBody followed_;
   std::vector<double> seconds_;
 };
 
@@ -152,47 +85,25 @@ BenchmarkRow measure(const std::string& name,
                      const BenchmarkSettings& settings,
                      double judged_from = kBegin) {
   const geometry::Rig rig = rigOf(cameras);
-  double position = 0.0, position_bound = 0.0, rotation = 0.0, rotation_bound = 0.0, nees = 0.0;
-  double images = 0.0, known = 0.0, right = 0.0, judged = 0.0, median = 0.0;
+  BodyScore score;
+  double median = 0.0;
   for (int run = 0; run < settings.runs; ++run) {
     Session session(rig, body, motion, options, settings.seed + static_cast<unsigned>(run));
-    int count = 0;
-    while (session.time() < judged_from + 10.0 || std::isinf(session.time())) {
+    while (session.followed().time() < judged_from + 10.0) {
       session.step();
-      if (session.time() < judged_from)
-        continue;
-      ++count;
-      images += 1.0;
-      if (!session.estimate())
-        continue;
-      known += 1.0;
-      const Isometry3d truth = motion(session.time());
-      const Isometry3d& found = session.estimate()->world_from_body;
-      const Vector3d turn = rotationError(truth, found);
-      right += turn.norm() < kWrong;
-      if (count % 8 != 0)
-        continue;
-      const PoseCovariance bound = boundOf(rig, body, truth);
-      Eigen::Matrix<double, 6, 1> error;
-      error << found.translation() - truth.translation(), turn;
-      position += error.head<3>().squaredNorm();
-      rotation += error.tail<3>().squaredNorm();
-      position_bound += bound.topLeftCorner<3, 3>().trace();
-      rotation_bound += bound.bottomRightCorner<3, 3>().trace();
-      const PoseCovariance covariance = session.estimate()->covariance.topLeftCorner<6, 6>();
-      nees += error.dot(covariance.ldlt().solve(error)) / 6.0;
-      judged += 1.0;
+      if (session.followed().time() >= judged_from)
+        score.add(session.followed());
     }
     median += session.took(0.5) / settings.runs;
   }
   return {name,
-          {{"position mm", 1e3 * std::sqrt(position / judged)},
-           {"/ bound", std::sqrt(position / position_bound)},
-           {"rotation deg", 180.0 / M_PI * std::sqrt(rotation / judged)},
-           {"/ bound ", std::sqrt(rotation / rotation_bound)},
-           {"NEES / 6", nees / judged},
-           {"known %", 100.0 * known / images},
-           {"right %", 100.0 * right / known},
+          {{"position mm", 1e3 * score.position()},
+           {"/ bound", score.positionRatio()},
+           {"rotation deg", 180.0 / M_PI * score.rotation()},
+           {"/ bound ", score.rotationRatio()},
+           {"NEES / 6", score.nees()},
+           {"known %", 100.0 * score.known()},
+           {"right %", 100.0 * (1.0 - score.wrong())},
            {"us per image", 1e6 * median}}};
 }
 
@@ -240,18 +151,19 @@ void runRecovery(const BenchmarkSettings& settings, const RowCallback& row) {
       Session session(rigOf(4), fourLeds(), motion, options,
                       settings.seed + static_cast<unsigned>(run));
       bool was_lost = false;
-      while (session.time() < 1021.0 || std::isinf(session.time())) {
+      const FollowedBody& followed = session.followed();
+      while (followed.time() < 1021.0) {
         session.step();
-        if (!session.estimate()) {
+        if (!followed.estimate()) {
           was_lost = true;
           continue;
         }
         if (!was_lost)
           continue;
         was_lost = false;
-        delays.push_back(std::fmod(session.time(), kPeriod));
-        wrong += rotationError(motion(session.time()), session.estimate()->world_from_body).norm() >
-                 kWrong;
+        delays.push_back(std::fmod(followed.time(), kPeriod));
+        wrong +=
+            rotationError(followed.truth(), followed.estimate()->world_from_body).norm() > kWrong;
       }
     }
     std::sort(delays.begin(), delays.end());

@@ -128,6 +128,15 @@ TEST(Interpolate, CovarianceHoldsForEveryCorrelation) {
   }
 }
 
+TEST(Interpolate, VelocitiesAddWhatTheyAreDoubtedTimesTheirPull) {
+  TrackedLed end = ledAt(Vector3d::Zero(), Vector3d::Zero());
+  end.position_covariance.setZero();
+  // In the middle a velocity pulls by an eighth of the duration.
+  const TrackedLed led = interpolate(end, 10.0, end, 10.4, 10.2);
+  const Matrix3d expected = 2.0 * 0.05 * 0.05 * end.velocity_covariance;
+  EXPECT_LT((led.position_covariance - expected).norm(), 1e-12 * expected.norm());
+}
+
 TEST(Interpolate, TakesTheLessCertainStateAndTheNearerRays) {
   TrackedLed before = ledAt(Vector3d::Zero());
   TrackedLed after = ledAt(Vector3d::Zero());
@@ -160,6 +169,19 @@ TEST(Trigger, WaitsForALaterSnapshot) {
   EXPECT_LT((answer.snapshot.leds[0].position - Vector3d(0.094, 0.0, 0.0)).norm(), 1e-6);
   EXPECT_EQ(3u, answer.snapshot.leds[0].id);
   EXPECT_EQ(kStart + 0.11, answer.snapshot.latest_arrival);
+}
+
+TEST(Trigger, AnAnswerIsAsSkewedAsTheWorseOfItsSnapshots) {
+  for (const bool first_is_worse : {false, true}) {
+    Trigger trigger{TriggerOptions()};
+    for (const int i : {0, 1}) {
+      Snapshot shown = walking(i);
+      shown.skew = (i == 0) == first_is_worse ? 0.009 : 0.002;
+      trigger.add(shown);
+    }
+    trigger.ask(kStart + 0.005, 1);
+    EXPECT_EQ(0.009, only(&trigger).snapshot.skew);
+  }
 }
 
 TEST(Trigger, TheTimeOfASnapshotGivesThatSnapshot) {
@@ -255,6 +277,34 @@ TEST(Trigger, RefusesWhatItNoLongerRemembers) {
   EXPECT_EQ(TriggerResult::kTooOld, only(&trigger).result);
 }
 
+TEST(Trigger, RemembersTheSnapshotJustBeforeItsHistoryToo) {
+  TriggerOptions options;
+  options.history = 0.5;
+  Trigger trigger(options);
+  for (int i = 0; i < 17; ++i)
+    trigger.add(snapshot(0.04 * i, {ledAt({0.04 * i, 0.0, 0.0})}));
+  // The newest is of 0.64 s; 0.15 s lies between the snapshots of 0.12 and 0.16 s.
+  trigger.ask(kStart + 0.15, 1);
+  EXPECT_EQ(TriggerResult::kAnswered, only(&trigger).result);
+}
+
+TEST(Trigger, RemembersAllWhenSnapshotsComeFasterAndFaster) {
+  TriggerOptions options;
+  options.maximum_gap = 1.0;
+  Trigger trigger(options);
+  double time = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    time += 0.5 * std::pow(0.9, i);
+    trigger.add(snapshot(time, {ledAt({time, 0.0, 0.0})}));
+  }
+  for (double asked = time - 2.0; asked < time; asked += 0.1) {
+    trigger.ask(kStart + asked, 1);
+    const TriggerAnswer answer = only(&trigger);
+    ASSERT_EQ(TriggerResult::kAnswered, answer.result);
+    EXPECT_NEAR(asked, answer.snapshot.leds.at(0).position.x(), 1e-6);
+  }
+}
+
 TEST(Trigger, RefusesTheFarFuture) {
   Trigger trigger{TriggerOptions()};
   trigger.ask(kStart + 1e6, 1);
@@ -263,6 +313,8 @@ TEST(Trigger, RefusesTheFarFuture) {
   EXPECT_EQ(TriggerResult::kTooEarly, only(&trigger).result);
   trigger.ask(kStart + 1.9, 2);
   EXPECT_EQ(nullptr, trigger.next());
+  trigger.ask(kStart + 2.1, 3);
+  EXPECT_EQ(TriggerResult::kTooEarly, only(&trigger).result);
 }
 
 TEST(Trigger, RefusesMoreThanItCanKeep) {

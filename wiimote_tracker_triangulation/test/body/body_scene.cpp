@@ -1,0 +1,159 @@
+#include "body/body_scene.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <cmath>
+
+namespace wiimote_tracker::body::test {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+Constellation fourLeds() {
+  return {"four_leds",
+          {{0.09, 0.0, 0.03}, {-0.05, 0.085, 0.0}, {-0.06, -0.07, 0.04}, {0.02, 0.03, -0.09}}};
+}
+
+Isometry3d handheld(double time) {
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation() =
+      Vector3d(1.25 + 0.4 * std::sin(1.3 * time), 1.25 + 0.4 * std::cos(1.1 * time),
+               1.1 + 0.2 * std::sin(0.7 * time));
+  pose.linear() = (Eigen::AngleAxisd(1.2 * std::sin(0.9 * time), Vector3d::UnitZ()) *
+                   Eigen::AngleAxisd(0.7 * std::sin(1.7 * time), Vector3d::UnitX()))
+                      .toRotationMatrix();
+  return pose;
+}
+
+Isometry3d tumbling(double time) {
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation() = Vector3d(1.25, 1.25, 1.1);
+  pose.linear() =
+      Eigen::AngleAxisd(2.0 * M_PI * (time - 1000.0), Vector3d(0.48, 0.6, 0.64)).toRotationMatrix();
+  return pose;
+}
+
+std::vector<tracking::test::Path> pathsOf(const Constellation& body, const Motion& motion) {
+  std::vector<tracking::test::Path> paths;
+  for (const Vector3d& led : body.leds)
+    paths.push_back([led, motion](double time) { return Vector3d(motion(time) * led); });
+  return paths;
+}
+
+Vector3d rotationError(const Isometry3d& from, const Isometry3d& to) {
+  const Eigen::AngleAxisd difference(Eigen::Matrix3d(to.linear() * from.linear().transpose()));
+  return difference.angle() * difference.axis();
+}
+
+double normalisedError(const Isometry3d& truth,
+                       const Isometry3d& found,
+                       const PoseCovariance& covariance) {
+  Eigen::Matrix<double, 6, 1> error;
+  error.head<3>() = found.translation() - truth.translation();
+  error.tail<3>() = rotationError(truth, found);
+  return error.dot(covariance.ldlt().solve(error));
+}
+
+PoseCovariance boundOf(const geometry::Rig& rig,
+                       const Constellation& body,
+                       const Isometry3d& pose,
+                       double pixel_stddev) {
+  PoseCovariance information = PoseCovariance::Zero();
+  for (const geometry::RigCamera& camera : rig.cameras) {
+    for (const Vector3d& led : body.leds) {
+      if (!camera.camera.sees(pose * led))
+        continue;
+      Eigen::Matrix<double, 2, 6> jacobian;
+      for (int k = 0; k < 6; ++k) {
+        const double h = 1e-5;
+        const auto at = [&](double step) {
+          Isometry3d moved = pose;
+          if (k < 3)
+            moved.translation()(k) += step;
+          else
+            moved.linear() =
+                Eigen::AngleAxisd(step, Vector3d::Unit(k - 3)).toRotationMatrix() * pose.linear();
+          return *camera.camera.project(moved * led);
+        };
+        jacobian.col(k) = (at(h) - at(-h)) / (2.0 * h);
+      }
+      information += jacobian.transpose() * jacobian / (pixel_stddev * pixel_stddev);
+    }
+  }
+  return information.inverse();
+}
+
+FollowedBody::FollowedBody(const geometry::Rig& rig,
+                           const Constellation& body,
+                           const Motion& motion,
+                           const tracking::test::SceneOptions& options,
+                           unsigned seed)
+    : rig_(rig),
+      motion_(motion),
+      pixel_noise_(options.pixel_noise),
+      scene_(rig, pathsOf(body, motion), options, seed),
+      tracker_(rig, {body}, BodyTrackerOptions()) {}
+
+void FollowedBody::show() {
+  image_ = &scene_.next();
+  pixels_.clear();
+  for (const tracking::Spot& spot : image_->image.spots)
+    pixels_.push_back(spot.pixel);
+}
+
+void FollowedBody::track() {
+  tracker_.add(image_->camera, image_->image.stamp, pixels_);
+}
+
+void BodyScore::add(const FollowedBody& followed) {
+  constexpr double kWrong = 0.35;  // [rad]
+  images_ += 1.0;
+  if (!followed.estimate())
+    return;
+  known_ += 1.0;
+  const Isometry3d truth = followed.truth();
+  const Isometry3d& found = followed.estimate()->world_from_body;
+  const double turn = rotationError(truth, found).norm();
+  wrong_ += turn > kWrong ? 1.0 : 0.0;
+  if (std::fmod(images_, 8.0) != 0.0)
+    return;
+  judged_ += 1.0;
+  const PoseCovariance bound =
+      boundOf(followed.rig(), followed.body(), truth, followed.pixelNoise());
+  position_ += (found.translation() - truth.translation()).squaredNorm();
+  rotation_ += turn * turn;
+  position_bound_ += bound.topLeftCorner<3, 3>().trace();
+  rotation_bound_ += bound.bottomRightCorner<3, 3>().trace();
+  nees_ += normalisedError(truth, found, followed.estimate()->covariance.topLeftCorner<6, 6>());
+}
+
+double BodyScore::position() const {
+  return std::sqrt(position_ / judged_);
+}
+
+double BodyScore::positionRatio() const {
+  return std::sqrt(position_ / position_bound_);
+}
+
+double BodyScore::rotation() const {
+  return std::sqrt(rotation_ / judged_);
+}
+
+double BodyScore::rotationRatio() const {
+  return std::sqrt(rotation_ / rotation_bound_);
+}
+
+double BodyScore::nees() const {
+  return nees_ / (6.0 * judged_);
+}
+
+double BodyScore::known() const {
+  return known_ / images_;
+}
+
+double BodyScore::wrong() const {
+  return wrong_ / known_;
+}
+
+}  // namespace wiimote_tracker::body::test

@@ -1,0 +1,103 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_BODY_BODY_SCENE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TEST_BODY_BODY_SCENE_H
+
+#include "tracking/scene.h"
+#include "wiimote_tracker_triangulation/body/body_tracker.h"
+
+#include <Eigen/Geometry>
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::body::test {
+
+/// A body's pose in the world at a time [s].
+using Motion = std::function<Eigen::Isometry3d(double)>;
+
+/// Four LEDs about 100 mm from their middle. Turned, they look the same within 11.5 mm; without the
+/// last one, within 0.5 mm.
+Constellation fourLeds();
+
+/// As in a hand: up to 0.6 m/s.
+Eigen::Isometry3d handheld(double time);
+
+/// 360 degrees per second.
+Eigen::Isometry3d tumbling(double time);
+
+/// Of a body's LEDs.
+std::vector<tracking::test::Path> pathsOf(const Constellation& body, const Motion& motion);
+
+/// Small rotation from one orientation to another, about the world's axes [rad].
+Eigen::Vector3d rotationError(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to);
+
+/// Squared error over its claimed covariance, both of position and rotation [1]: six on average.
+double normalisedError(const Eigen::Isometry3d& truth,
+                       const Eigen::Isometry3d& found,
+                       const PoseCovariance& covariance);
+
+/// Cramer-Rao bound of a pose seen once by each camera that has an LED in view, by differences of
+/// Camera::project.
+PoseCovariance boundOf(const geometry::Rig& rig,
+                       const Constellation& body,
+                       const Eigen::Isometry3d& pose,
+                       double pixel_stddev);
+
+/// A body that moves before cameras, and a tracker that follows it, image by image.
+class FollowedBody {
+ public:
+  FollowedBody(const geometry::Rig& rig,
+               const Constellation& body,
+               const Motion& motion,
+               const tracking::test::SceneOptions& options,
+               unsigned seed);
+
+  void step() {
+    show();
+    track();
+  }
+
+  void show();   ///< The next image to the tracker, ...
+  void track();  ///< ... which takes it.
+
+  double time() const { return tracker_.time(); }
+  const std::optional<BodyEstimate>& estimate() const { return tracker_.bodies()[0]; }
+  Eigen::Isometry3d truth() const { return motion_(time()); }
+
+  const geometry::Rig& rig() const { return rig_; }
+  const Constellation& body() const { return tracker_.constellations()[0]; }
+  double pixelNoise() const { return pixel_noise_; }  ///< [px]
+
+ private:
+  geometry::Rig rig_;
+  Motion motion_;
+  double pixel_noise_;
+  tracking::test::Scene scene_;
+  BodyTracker tracker_;
+  const tracking::test::SceneImage* image_ = nullptr;
+  std::vector<Eigen::Vector2d> pixels_;
+};
+
+/// How well a body is followed, beside the bound of one image by each camera. The shares are of all
+/// images that were added; the errors of every eighth, for neighbours are alike.
+class BodyScore {
+ public:
+  void add(const FollowedBody& followed);
+
+  double position() const;       ///< RMS error [m].
+  double positionRatio() const;  ///< Over the bound [1].
+  double rotation() const;       ///< RMS error [rad].
+  double rotationRatio() const;
+  double nees() const;   ///< Normalised error per coordinate: 1 when the covariance is honest.
+  double known() const;  ///< Share of images after which there was a pose.
+  double wrong() const;  ///< Share of those in which it was 20 degrees off: another assignment.
+
+ private:
+  double images_ = 0.0, known_ = 0.0, wrong_ = 0.0, judged_ = 0.0;
+  double position_ = 0.0, rotation_ = 0.0, nees_ = 0.0;  // sums of squares
+  double position_bound_ = 0.0, rotation_bound_ = 0.0;
+};
+
+}  // namespace wiimote_tracker::body::test
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_BODY_BODY_SCENE_H

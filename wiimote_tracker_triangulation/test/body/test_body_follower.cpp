@@ -1,0 +1,158 @@
+// Between cameras and free LEDs: whose spots are bodies'.
+#include "body/body_scene.h"
+#include "wiimote_tracker_triangulation/body/body_follower.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+namespace wiimote_tracker::body {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+tracking::CameraImage exactImage(const geometry::Camera& camera,
+                                 const std::vector<Vector3d>& points,
+                                 double time) {
+  tracking::CameraImage image;
+  image.stamp = time;
+  image.arrival = time + 0.01;
+  for (const Vector3d& point : points) {
+    image.spots.emplace_back();
+    image.spots.back().pixel = *camera.project(point);
+  }
+  return image;
+}
+
+TEST(BodyFollower, TakesTheSpotsOfBodiesOutOfTheImages) {
+  const geometry::Rig rig = tracking::test::paperRig();
+  BodyFollower follower((BodyTrackerOptions()));
+  const Constellation three{"three", {{0.1, 0.0, 0.0}, {-0.08, 0.02, 0.0}, {0.0, 0.07, 0.05}}};
+  follower.setBodies({three});
+  follower.setRig(rig);
+  const Vector3d free(1.6, 1.0, 0.8);
+  const Isometry3d pose(Eigen::Translation3d(1.0, 1.4, 1.2));
+  std::vector<Vector3d> points;
+  for (const Vector3d& led : three.leds)
+    points.push_back(pose * led);
+  points.push_back(free);
+  double last = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const std::size_t camera = static_cast<std::size_t>(i) % 4;
+    tracking::CameraImage image =
+        exactImage(rig.cameras[camera].camera, points, 1000.0 + 0.0025 * i);
+    follower.take(camera, &image);
+    const BodySnapshot* snapshot = follower.next();
+    ASSERT_TRUE(snapshot);
+    EXPECT_GT(snapshot->time, last);
+    last = snapshot->time;
+    EXPECT_FALSE(follower.next()) << "once only";
+    if (i < 20)
+      continue;
+    ASSERT_TRUE(snapshot->bodies[0]);
+    EXPECT_LT((snapshot->bodies[0]->world_from_body.translation() - pose.translation()).norm(),
+              0.001);
+    ASSERT_EQ(image.spots.size(), 1u);
+    EXPECT_LT((image.spots[0].pixel - *rig.cameras[camera].camera.project(free)).norm(), 1e-9);
+    EXPECT_EQ(image.maximum_spots, 1u) << "all places are still taken";
+  }
+  // Dark: it is predicted, lost once, and then gone.
+  int lost = 0;
+  for (int i = 0; i < 400; ++i) {
+    tracking::CameraImage image = exactImage(rig.cameras[0].camera, {}, 1000.5 + 0.0025 * i);
+    follower.take(0, &image);
+    const BodySnapshot* snapshot = follower.next();
+    ASSERT_TRUE(snapshot);
+    lost += static_cast<int>(snapshot->lost.size());
+    if (snapshot->time > 1001.2) {
+      EXPECT_FALSE(snapshot->bodies[0]);
+    }
+  }
+  EXPECT_EQ(lost, 1);
+  // Time jumps back, as a bag that starts over.
+  for (int i = 0; i < 40; ++i) {
+    const std::size_t camera = static_cast<std::size_t>(i) % 4;
+    tracking::CameraImage image =
+        exactImage(rig.cameras[camera].camera, points, 900.0 + 0.0025 * i);
+    follower.take(camera, &image);
+  }
+  const BodySnapshot* snapshot = follower.next();
+  ASSERT_TRUE(snapshot);
+  EXPECT_LT(snapshot->time, 901.0);
+  EXPECT_TRUE(snapshot->bodies[0]);
+}
+
+/// Three LEDs at rest before the paper's cameras, one image each 2.5 ms.
+class AtRest : public testing::Test {
+ protected:
+  AtRest() {
+    const Constellation three{"three", {{0.1, 0.0, 0.0}, {-0.08, 0.02, 0.0}, {0.0, 0.07, 0.05}}};
+    for (const Vector3d& led : three.leds)
+      points_.push_back(Eigen::Translation3d(1.0, 1.4, 1.2) * led);
+    follower_.setBodies({three});
+  }
+
+  /// @returns what is left of the last image.
+  tracking::CameraImage show(int images) {
+    tracking::CameraImage image;
+    for (int i = 0; i < images; ++i, ++shown_) {
+      const std::size_t camera = static_cast<std::size_t>(shown_) % 4;
+      image = exactImage(rig_.cameras[camera].camera, points_, 1000.0 + 0.0025 * shown_);
+      follower_.take(camera, &image);
+    }
+    return image;
+  }
+
+  geometry::Rig rig_ = tracking::test::paperRig();
+  BodyFollower follower_{BodyTrackerOptions()};
+  std::vector<Vector3d> points_;
+  int shown_ = 0;
+};
+
+TEST_F(AtRest, MaskedSpotsAreNoBodys) {
+  geometry::RigCamera& camera = rig_.cameras[3];
+  const Eigen::Vector2d lamp = *camera.camera.project(points_[1]);
+  camera.masks.push_back({lamp, 1.0});
+  follower_.setRig(rig_);
+  const tracking::CameraImage left = show(40);
+  ASSERT_TRUE(follower_.next()->bodies[0]);
+  ASSERT_EQ(left.spots.size(), 1u);
+  EXPECT_EQ(left.spots[0].pixel, lamp);
+}
+
+TEST_F(AtRest, StampsAreCorrectedByTheRigsOffsets) {
+  for (geometry::RigCamera& camera : rig_.cameras) {
+    camera.time_offset = 0.25;
+    camera.time_offset_rule = geometry::TimeOffsetRule::kAlways;
+  }
+  follower_.setRig(rig_);
+  show(9);
+  EXPECT_EQ(follower_.next()->time, 1000.0 + 0.0025 * 8 + 0.25);
+}
+
+TEST_F(AtRest, TheLatestArrivalIsThatOfAllImages) {
+  follower_.setRig(rig_);
+  show(8);
+  tracking::CameraImage early = exactImage(rig_.cameras[0].camera, points_, 1000.02);
+  early.arrival = 1000.021;  // the one before took 10 ms
+  follower_.take(0, &early);
+  EXPECT_EQ(follower_.next()->latest_arrival, 1000.0 + 0.0025 * 7 + 0.01);
+}
+
+TEST_F(AtRest, AnImageWithoutATimeIsLeftAlone) {
+  follower_.setRig(rig_);
+  show(40);
+  ASSERT_TRUE(follower_.next());
+  for (const bool of_exposure : {false, true}) {
+    tracking::CameraImage image = exactImage(rig_.cameras[0].camera, points_, 1000.1);
+    (of_exposure ? image.stamp : image.arrival) = std::numeric_limits<double>::quiet_NaN();
+    follower_.take(0, &image);
+    EXPECT_EQ(image.spots.size(), 3u);
+    EXPECT_FALSE(follower_.next());
+  }
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::body

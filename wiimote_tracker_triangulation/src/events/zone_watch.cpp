@@ -123,7 +123,7 @@ void ZoneWatch::step(const Eigen::Vector3d& to, Led* led) {
       crossings_.push_back({zones_[i].name, led->id, true, began + stay->begin * duration,
                             from + stay->begin * (to - from)});
     }
-    if (stay && stay->end < 1.0) {
+    if (stay) {
       presence.crossed = began + stay->end * duration;
       presence.crossed_at = from + stay->end * (to - from);
     }

@@ -3,13 +3,28 @@
 
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
+#include "wiimote_tracker_triangulation/identity/schemes.h"
 #include "wiimote_tracker_triangulation/identity/sighting.h"
 
 #include <algorithm>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace wiimote_tracker::identity::test {
+
+/// The paper's four LEDs, on for 90, 60, 40 and 20 % of a period that they have in common [s].
+inline BlinkCodes paperCodes(double shortest, double longest) {
+  return dutyCodes({{"a", 0.9}, {"b", 0.6}, {"c", 0.4}, {"d", 0.2}}, shortest, longest);
+}
+
+/// Cyclic codes with chips of 23 ms and exact clocks.
+inline BlinkCodes fourWords() {
+  std::vector<CyclicLed> leds;
+  for (const std::string& word : chooseWords(4))
+    leds.push_back({"led_" + std::to_string(leds.size()), word});
+  return cyclicCodes(leds, 0.023, 0.0);
+}
 
 /// How LEDs blink and cameras see. LED i has label i.
 struct BlinkingOptions {

@@ -56,6 +56,7 @@ TEST(Waveform, LightDarknessAndDifference) {
   EXPECT_NEAR(0.3, longestDark(waveform), 1e-12);
   EXPECT_NEAR(0.1, shortestRun(waveform), 1e-12);
   EXPECT_NEAR(0.4, shortestRun({{0.0, 0.2}, {0.6, 0.8}, {0.8, 1.0}}) + 0.2, 1e-12);
+  EXPECT_NEAR(0.2, shortestRun({{0.0, 0.1}, {0.4, 0.6}, {0.9, 1.0}}), 1e-12) << "across the end";
   EXPECT_NEAR(0.2, difference({{0.0, 0.5}}, {{0.1, 0.6}}, 0.0), 1e-12);
   EXPECT_NEAR(0.0, difference({{0.0, 0.5}}, {{0.1, 0.6}}, 0.1), 1e-12);
   EXPECT_NEAR(0.0, differenceInAnyRotation({{0.0, 0.5}}, {{0.25, 0.75}}), 1e-12);

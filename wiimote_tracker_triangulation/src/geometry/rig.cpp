@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 
 namespace wiimote_tracker::geometry {
 namespace {
@@ -108,7 +109,10 @@ void Rig::check() const {
   }
   if (remap)
     remap->check();
+  std::set<std::string> zone_names;
   for (const Zone& zone : zones) {
+    require(zone_names.insert(zone.name).second,
+            "zone '" + zone.name + "' is there twice: give each a name of its own");
     require(zone.minimum.allFinite() && zone.maximum.allFinite() &&
                 (zone.minimum.array() <= zone.maximum.array()).all(),
             "zone '" + zone.name + "': minimum must not be above maximum");

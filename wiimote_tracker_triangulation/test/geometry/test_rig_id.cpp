@@ -178,6 +178,11 @@ TEST(Rig, CheckNamesTheCameraAndTheFault) {
         r.zones.push_back({"hall", {1.0, 0.0, 0.0}, {0.0, 1.0, 1.0}});
       },
       "hall"));
+  EXPECT_TRUE(names(
+      [](Rig& r) {
+        r.zones.assign(2, {"hall", {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
+      },
+      "twice"));
 }
 
 TEST(Rig, VirtualModelLooksThroughTheImageCentre) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <locale>
 #include <sstream>
 
@@ -12,7 +13,8 @@ namespace wiimote_tracker::measurements {
 namespace {
 
 const char* const kHeader =
-    "time [s],triggered,id,label,state,x [m],y [m],z [m],vx [m/s],vy [m/s],vz [m/s],"
+    "time [s],triggered,id,label,label_confidence,label_since [s],state,x [m],y [m],z [m],vx "
+    "[m/s],vy [m/s],vz [m/s],"
     "cov_xx [m^2],cov_xy [m^2],cov_xz [m^2],cov_yy [m^2],cov_yz [m^2],cov_zz [m^2],"
     "vcov_xx [m^2/s^2],vcov_xy [m^2/s^2],vcov_xz [m^2/s^2],vcov_yy [m^2/s^2],vcov_yz [m^2/s^2],"
     "vcov_zz [m^2/s^2],rays_used,rays_possible,residual [px],last_observed [s],age [s],remapped,"
@@ -64,6 +66,14 @@ class Row {
     text_ << digits;
   }
 
+  /// 0: unknown.
+  void addTimeIfKnown(std::int64_t nanoseconds) {
+    if (nanoseconds == 0)
+      add(std::numeric_limits<double>::quiet_NaN());
+    else
+      addTime(nanoseconds);
+  }
+
   /// Quoted where necessary (RFC 4180).
   void add(const std::string& word) {
     separate();
@@ -109,6 +119,8 @@ class CsvWriter : public Writer {
     row_.addCount(m.triggered);
     row_.addCount(m.id);
     row_.add(m.label);
+    row_.add(m.label_confidence);
+    row_.addTimeIfKnown(m.label_since);
     row_.add(m.state);
     row_.add(m.position);
     row_.add(m.velocity);

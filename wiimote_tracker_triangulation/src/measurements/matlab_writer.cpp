@@ -15,7 +15,9 @@ namespace {
 
 const char* const kReadme =
     "One row per LED and time. time [s since 1970]; stamp, the same exactly [ns since 1970]; "
-    "triggered: interpolated for an external trigger; id of the track; position [m], velocity "
+    "triggered: interpolated for an external trigger; id of the track; label_confidence: "
+    "probability that the label is right (NaN: not estimated), label_since: since when it stands "
+    "[ns since 1970] (0: not estimated); position [m], velocity "
     "[m/s] (NaN: unknown) in the world frame; their covariances 3 x 3 x rows [m^2], [m^2/s^2]; "
     "rays_used of rays_possible cameras; residual: reprojection error [px]; last_observed [ns "
     "since "
@@ -96,6 +98,8 @@ class MatlabWriter : public Writer {
     triggered_.push_back(m.triggered);
     id_.push_back(m.id);
     label_.add(m.label);
+    label_confidence_.push_back(m.label_confidence);
+    label_since_.push_back(m.label_since);
     state_.add(m.state);
     append(m.position, &position_);
     append(m.velocity, &velocity_);
@@ -122,6 +126,8 @@ class MatlabWriter : public Writer {
     writeColumn("triggered", triggered_, MAT_F_LOGICAL);
     writeColumn("id", id_);
     writeWords("label", label_);
+    writeColumn("label_confidence", label_confidence_);
+    writeColumn("label_since", label_since_);
     writeWords("state", state_);
     writeVectors("position", position_);
     writeVectors("velocity", velocity_);
@@ -198,6 +204,8 @@ class MatlabWriter : public Writer {
   std::vector<std::uint8_t> triggered_;
   std::vector<std::uint32_t> id_;
   Words label_;
+  std::vector<double> label_confidence_;
+  std::vector<std::int64_t> label_since_;
   Words state_;
   std::vector<double> position_;  // three numbers each
   std::vector<double> velocity_;

@@ -49,6 +49,8 @@ void writeMeasurements(const wiimote_tracker_msgs::TrackedPointArray& points,
   for (const TrackedPoint& point : points.points) {
     m.id = point.id;
     m.label = point.label;
+    m.label_confidence = point.label_confidence;
+    m.label_since = nanoseconds(point.label_since);
     m.state = wordOf(point.state);
     m.position = vector(point.position);
     m.position_covariance = matrix(point.position_covariance);

@@ -63,6 +63,8 @@ class WriterTest : public testing::Test {
     m.stamp = 1700000000123456789;
     m.id = 4294967295u;
     m.label = "led";
+    m.label_confidence = 0.75;
+    m.label_since = 1700000000000000002;
     m.state = "tracked";
     m.position = {0.1, -2.0 / 3.0, 1e-300};
     m.velocity.setConstant(kNaN);
@@ -117,6 +119,8 @@ TEST_F(WriterTest, CsvHoldsEveryFieldUnderItsNameAndUnit) {
   EXPECT_EQ("0", cell("triggered"));
   EXPECT_EQ("4294967295", cell("id"));
   EXPECT_EQ("led", cell("label"));
+  EXPECT_EQ("0.75", cell("label_confidence"));
+  EXPECT_EQ("1700000000.000000002", cell("label_since [s]"));
   EXPECT_EQ("tracked", cell("state"));
   EXPECT_EQ(0.1, std::stod(cell("x [m]")));
   EXPECT_EQ(-2.0 / 3.0, std::stod(cell("y [m]")));
@@ -156,8 +160,8 @@ TEST_F(WriterTest, CsvGivesNumbersBackBitForBit) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis)
       EXPECT_TRUE(isSame(measurements[i].position[axis],
-                         std::strtod(rows[i][static_cast<std::size_t>(5 + axis)].c_str(), nullptr)))
-          << rows[i][static_cast<std::size_t>(5 + axis)];
+                         std::strtod(rows[i][static_cast<std::size_t>(7 + axis)].c_str(), nullptr)))
+          << rows[i][static_cast<std::size_t>(7 + axis)];
   }
 }
 
@@ -169,7 +173,7 @@ TEST_F(WriterTest, CsvDoesNotKnowAboutLocales) {
   const auto rows = written({measurement()});
   std::setlocale(LC_ALL, "C");
   ASSERT_EQ(header_.size(), rows.at(0).size());
-  EXPECT_EQ("0.10000000000000001", rows[0][5]);
+  EXPECT_EQ("0.10000000000000001", rows[0][7]);
 }
 
 TEST_F(WriterTest, CsvQuotesWordsWithCommas) {
@@ -178,10 +182,19 @@ TEST_F(WriterTest, CsvQuotesWordsWithCommas) {
   EXPECT_EQ(m.label, written({m}).at(0).at(3));
 }
 
+TEST_F(WriterTest, CsvSaysNanOfALabelThatWasNotIdentified) {
+  Measurement m = measurement();
+  m.label_confidence = kNaN;
+  m.label_since = 0;
+  const auto row = written({m}).at(0);
+  EXPECT_EQ("nan", row.at(4));
+  EXPECT_EQ("nan", row.at(5));
+}
+
 TEST_F(WriterTest, NeverSaysMinusNan) {
   Measurement m = measurement();
   m.residual = -kNaN;
-  EXPECT_EQ("nan", written({m}).at(0).at(25));
+  EXPECT_EQ("nan", written({m}).at(0).at(27));
 }
 
 TEST_F(WriterTest, TheFileHasItsNameWhenItIsWhole) {

@@ -33,7 +33,8 @@ def array(number, *ids):
     message.header.stamp = genpy.Time(1600000000, number)
     message.header.frame_id = 'world'
     for i in ids:
-        point = TrackedPoint(id=i, label='led', state=TrackedPoint.TRACKED, residual=0.1 * i)
+        point = TrackedPoint(id=i, label='led', state=TrackedPoint.TRACKED, residual=0.1 * i,
+                             label_confidence=0.25, label_since=genpy.Time(1500000000, i))
         point.position.x = number / 3.0
         message.points.append(point)
     return message
@@ -53,8 +54,8 @@ class RecordPoints(unittest.TestCase):
 
     def rows(self, path):
         with open(path, newline='') as stream:
-            return [(r['time [s]'], r['triggered'], r['id'], float(r['x [m]']))
-                    for r in csv.DictReader(stream)]
+            return [(r['time [s]'], r['triggered'], r['id'], r['label_confidence'],
+                     r['label_since [s]'], float(r['x [m]'])) for r in csv.DictReader(stream)]
 
     def lines(self, path):
         """Whole ones, without the header."""
@@ -76,9 +77,10 @@ class RecordPoints(unittest.TestCase):
         self.assertFalse(os.path.exists(self.path))
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(60), 0)
-        expected = [('1600000000.%09d' % n, '0', str(i), n / 3.0) for n in range(50) for i in (3, 7)]
-        self.assertEqual(self.rows(self.path),
-                         expected + [('1600000000.000000077', '1', '3', 77 / 3.0)])
+        expected = [('1600000000.%09d' % n, '0', str(i), '0.25', '1500000000.%09d' % i, n / 3.0)
+                    for n in range(50) for i in (3, 7)]
+        self.assertEqual(self.rows(self.path), expected + [
+            ('1600000000.000000077', '1', '3', '0.25', '1500000000.000000003', 77 / 3.0)])
 
     def test_says_what_is_missing_or_wrong(self):
         for arguments, words in [((), 'csv or'), (('_csv:=' + self.path, '_cvs:=x'), 'unknown'),

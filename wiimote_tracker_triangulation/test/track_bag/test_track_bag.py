@@ -252,6 +252,36 @@ def test_the_recording_is_kept_but_for_what_was_computed_before(bag, tmp_path):
     assert {t for t, _, _ in read(tmp_path / 'results.bag')} == {'/points', '/led/point', '/tf'}
 
 
+def test_the_new_bag_is_one_as_rosbag_makes_them(tmp_path):
+    write(tmp_path / 'in.bag', recorded((recording.walk, recording.other), duration=2.5))
+    track(tmp_path / 'in.bag', tmp_path / 'out.bag')
+
+    def raw(messages):
+        return [(topic, message[0], message[1], message[2], time.to_nsec())
+                for topic, message, time in messages]
+    with rosbag.Bag(str(tmp_path / 'out.bag')) as out:
+        expected = raw(out.read_messages(raw=True))
+        assert len(out._chunks) > 1
+        # From anywhere, by the index.
+        middle = expected[len(expected) // 2][4]
+        assert raw(out.read_messages(raw=True, start_time=genpy.Time(0, middle))) == \
+            [m for m in expected if m[4] >= middle]
+        counts = {topic: info.message_count
+                  for topic, info in out.get_type_and_topic_info().topics.items()}
+    assert counts == {topic: [m[0] for m in expected].count(topic) for topic in counts}
+    # Without its index it is repaired as any other.
+    content = bytearray((tmp_path / 'out.bag').read_bytes())
+    start = content.index(b'index_pos=') + len(b'index_pos=')
+    end = struct.unpack('<Q', content[start:start + 8])[0]
+    content[start:start + 8] = bytes(8)
+    (tmp_path / 'cut.bag').write_bytes(content[:end])
+    with rosbag.Bag(str(tmp_path / 'cut.bag'), 'a', allow_unindexed=True) as cut:
+        for _ in cut.reindex():
+            pass
+    with rosbag.Bag(str(tmp_path / 'cut.bag')) as cut:
+        assert raw(cut.read_messages(raw=True)) == expected
+
+
 def test_a_latched_rig_stays_latched(bag, tmp_path):
     with rosbag.Bag(str(tmp_path / 'in.bag'), 'w') as copy:
         for topic, message, time in read(bag):
@@ -351,6 +381,8 @@ def test_csv_holds_exactly_what_the_bag_holds(tmp_path):
         assert (row['triggered'] == '1') == triggered
         assert (int(row['id']), row['label'], row['state']) == \
             (point.id, point.label, states[point.state])
+        assert same(float(row['label_confidence']), point.label_confidence)
+        assert row['label_since [s]'] == 'nan'
         for axis in 'xyz':
             assert same(float(row['%s [m]' % axis]), getattr(point.position, axis))
             assert same(float(row['v%s [m/s]' % axis]), getattr(point.velocity, axis))
@@ -384,6 +416,8 @@ def test_matlab_file_holds_exactly_what_the_bag_holds(tmp_path):
         assert found['id'][i, 0] == point.id
         assert labels[found['label'][i, 0] - 1] == point.label
         assert states[found['state'][i, 0] - 1] == words[point.state]
+        assert same(found['label_confidence'][i, 0], point.label_confidence)
+        assert found['label_since'][i, 0] == point.label_since.to_nsec()
         for axis, name in enumerate('xyz'):
             assert same(found['position'][i, axis], getattr(point.position, name))
             assert same(found['velocity'][i, axis], getattr(point.velocity, name))

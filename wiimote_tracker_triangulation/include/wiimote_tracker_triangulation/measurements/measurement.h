@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 namespace wiimote_tracker::measurements {
@@ -14,8 +15,10 @@ struct Measurement {
   bool triggered = false;  ///< Interpolated for a trigger, see events::Trigger.
   std::uint32_t id = 0;
   std::string label;
-  std::string state;                                              ///< "tracked", ...
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();             ///< [m]
+  double label_confidence = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not estimated.
+  std::int64_t label_since = 0;                        ///< [ns since 1970]; 0: not estimated.
+  std::string state;                                   ///< "tracked", ...
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  ///< [m^2]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();             ///< [m/s]; NaN: unknown.
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  ///< [m^2/s^2]; NaN: unknown.

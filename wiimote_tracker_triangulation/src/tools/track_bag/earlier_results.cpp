@@ -1,29 +1,18 @@
 #include "earlier_results.h"
 
-#include <ros/serialization.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <boost/make_shared.hpp>
-
 #include <algorithm>
-#include <cstdint>
 #include <vector>
 
 namespace wiimote_tracker {
 namespace {
 
-using topic_tools::ShapeShifter;
-
-boost::shared_ptr<const ShapeShifter> shapeOf(const tf2_msgs::TFMessage& message) {
-  namespace traits = ros::message_traits;
-  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
-  ros::serialization::OStream output(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(output, message);
-  const auto shape = boost::make_shared<ShapeShifter>();
-  shape->morph(traits::md5sum(message), traits::datatype(message), traits::definition(message), "");
-  ros::serialization::IStream input(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  shape->read(input);
-  return shape;
+MessageBytes serialized(const tf2_msgs::TFMessage& message) {
+  MessageBytes bytes(ros::serialization::serializationLength(message));
+  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(stream, message);
+  return bytes;
 }
 
 }  // namespace
@@ -41,17 +30,17 @@ EarlierResults::EarlierResults(const Topics& topics,
   frames_.insert(bodies.begin(), bodies.end());
 }
 
-boost::shared_ptr<const ShapeShifter> EarlierResults::rest(
-    const std::string& topic,
-    const boost::shared_ptr<const ShapeShifter>& message) const {
+std::optional<MessageBytes> EarlierResults::rest(const rosbag::MessageInstance& message) const {
+  const std::string& topic = message.getTopic();
   if (topics_.count(topic) > 0)
-    return nullptr;
+    return std::nullopt;
+  MessageBytes bytes = bytesOf(message);
   if (topic != Topics::transforms() ||
-      message->getMD5Sum() != ros::message_traits::md5sum<tf2_msgs::TFMessage>())
-    return message;
+      message.getMD5Sum() != ros::message_traits::md5sum<tf2_msgs::TFMessage>())
+    return bytes;
   // Others send transforms on that topic too, perhaps in the same message.
-  const auto recorded = message->instantiate<tf2_msgs::TFMessage>();
-  std::vector<geometry_msgs::TransformStamped>& transforms = recorded->transforms;
+  tf2_msgs::TFMessage recorded = *messageOf<tf2_msgs::TFMessage>(bytes);
+  std::vector<geometry_msgs::TransformStamped>& transforms = recorded.transforms;
   const std::size_t count = transforms.size();
   transforms.erase(std::remove_if(transforms.begin(), transforms.end(),
                                   [&](const geometry_msgs::TransformStamped& t) {
@@ -59,8 +48,10 @@ boost::shared_ptr<const ShapeShifter> EarlierResults::rest(
                                   }),
                    transforms.end());
   if (transforms.size() == count)
-    return message;
-  return transforms.empty() ? nullptr : shapeOf(*recorded);
+    return bytes;
+  if (transforms.empty())
+    return std::nullopt;
+  return serialized(recorded);
 }
 
 }  // namespace wiimote_tracker

@@ -1,12 +1,10 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_EARLIER_RESULTS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_EARLIER_RESULTS_H
 
+#include "recorded_message.h"
 #include "topics.h"
 
-#include <topic_tools/shape_shifter.h>
-
-#include <boost/shared_ptr.hpp>
-
+#include <optional>
 #include <set>
 #include <string>
 
@@ -20,10 +18,8 @@ class EarlierResults {
                  const std::set<std::string>& labels,
                  const std::set<std::string>& bodies);
 
-  /// What of a message is not an earlier result; null when all of it is.
-  boost::shared_ptr<const topic_tools::ShapeShifter> rest(
-      const std::string& topic,
-      const boost::shared_ptr<const topic_tools::ShapeShifter>& message) const;
+  /// What of a message is not an earlier result; nothing when all of it is.
+  std::optional<MessageBytes> rest(const rosbag::MessageInstance& message) const;
 
  private:
   std::set<std::string> topics_;

@@ -1,39 +1,55 @@
 #include "output_bag.h"
 
+#include "error.h"
 #include "wiimote_tracker_triangulation/measurements/part_file.h"
 
 #include <unistd.h>
 
+#include <algorithm>
+
 namespace wiimote_tracker {
 
-OutputBag::OutputBag(const std::string& path) : path_(path), bag_(new rosbag::Bag) {
+OutputBag::OutputBag(const std::string& path) : path_(path) {
   measurements::createPart(path_);
   try {
-    bag_->open(measurements::partOf(path_), rosbag::bagmode::Write);
-  } catch (const rosbag::BagException& e) {
+    file_ = std::make_unique<BagFile>(measurements::partOf(path_));
+  } catch (const BagError& e) {
     fail(e.what());
   }
 }
 
 OutputBag::~OutputBag() {
-  if (!bag_)
-    return;
-  try {
-    bag_->close();
-  } catch (const rosbag::BagException&) {
-    bag_.release();  // its destructor would try again, and end the program
-  }
-  ::unlink(measurements::partOf(path_).c_str());
+  if (file_)
+    ::unlink(measurements::partOf(path_).c_str());
+}
+
+void OutputBag::copy(const std::string& topic,
+                     const ros::Time& time,
+                     const MessageBytes& message,
+                     const boost::shared_ptr<ros::M_string>& header) {
+  auto connection = copied_.find(header);
+  if (connection == copied_.end())
+    connection = copied_.emplace(header, file_->addConnection(topic, *header)).first;
+  std::copy(message.begin(), message.end(),
+            add(connection->second, time, static_cast<std::uint32_t>(message.size())));
 }
 
 void OutputBag::finish() {
   try {
-    bag_->close();
-  } catch (const rosbag::BagException& e) {
+    file_->finish();
+  } catch (const BagError& e) {
     fail(e.what());
   }
-  bag_.reset();
+  file_.reset();
   measurements::finishPart(path_);
+}
+
+std::uint8_t* OutputBag::add(std::uint32_t connection, const ros::Time& time, std::uint32_t size) {
+  try {
+    return file_->add(connection, time, size);
+  } catch (const BagError& e) {
+    fail(e.what());
+  }
 }
 
 void OutputBag::fail(const std::string& why) {

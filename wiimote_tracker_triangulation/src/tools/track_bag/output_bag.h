@@ -1,15 +1,17 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_OUTPUT_BAG_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_OUTPUT_BAG_H
 
-#include "error.h"
+#include "bag_file.h"
+#include "message_bytes.h"
 
-#include <rosbag/bag.h>
+#include <ros/message_traits.h>
+#include <ros/serialization.h>
 
 #include <boost/shared_ptr.hpp>
 
+#include <map>
 #include <memory>
 #include <string>
-#include <utility>
 
 namespace wiimote_tracker {
 
@@ -23,27 +25,47 @@ class OutputBag {
   OutputBag(const OutputBag&) = delete;
   OutputBag& operator=(const OutputBag&) = delete;
 
-  /// `header`: of the connection, null for one made from topic and type. @throws BagError.
+  /// A topic has messages of one type. @throws BagError.
   template <typename Message>
   void write(const std::string& topic,
              const ros::Time& time,
              const Message& message,
-             const boost::shared_ptr<ros::M_string>& header = nullptr) {
-    try {
-      bag_->write(topic, time, message, header);
-    } catch (const rosbag::BagException& e) {
-      fail(e.what());
+             bool is_latched = false) {
+    auto connection = topics_.find(topic);
+    if (connection == topics_.end()) {
+      ros::M_string header;
+      header["topic"] = topic;
+      header["type"] = ros::message_traits::datatype(message);
+      header["md5sum"] = ros::message_traits::md5sum(message);
+      header["message_definition"] = ros::message_traits::definition(message);
+      if (is_latched) {
+        header["latching"] = "1";
+        header["callerid"] = "/track_bag";
+      }
+      connection = topics_.emplace(topic, file_->addConnection(topic, header)).first;
     }
+    const std::uint32_t size = ros::serialization::serializationLength(message);
+    ros::serialization::OStream stream(add(connection->second, time, size), size);
+    ros::serialization::serialize(stream, message);
   }
+
+  /// A message of another bag as it is, of a connection with this header. @throws BagError.
+  void copy(const std::string& topic,
+            const ros::Time& time,
+            const MessageBytes& message,
+            const boost::shared_ptr<ros::M_string>& header);
 
   /// Nothing may be written afterwards. @throws measurements::WriteError, BagError.
   void finish();
 
  private:
+  std::uint8_t* add(std::uint32_t connection, const ros::Time& time, std::uint32_t size);
   [[noreturn]] void fail(const std::string& why);
 
   std::string path_;
-  std::unique_ptr<rosbag::Bag> bag_;
+  std::unique_ptr<BagFile> file_;
+  std::map<std::string, std::uint32_t> topics_;  // connections of what is not copied
+  std::map<boost::shared_ptr<ros::M_string>, std::uint32_t> copied_;  // connections, by header
 };
 
 }  // namespace wiimote_tracker

@@ -6,8 +6,6 @@
 
 #include <tf2_msgs/TFMessage.h>
 
-#include <boost/make_shared.hpp>
-
 namespace wiimote_tracker {
 namespace {
 
@@ -29,20 +27,13 @@ Results::Results(const ResultFiles& files, const Topics& topics, bool has_thread
 
 void Results::copy(const std::string& topic,
                    const ros::Time& time,
-                   const boost::shared_ptr<const topic_tools::ShapeShifter>& message,
+                   const std::shared_ptr<const MessageBytes>& message,
                    const boost::shared_ptr<ros::M_string>& header) {
-  worker_.give([=] { bag_.write(topic, time, *message, header); });
+  worker_.give([=] { bag_.copy(topic, time, *message, header); });
 }
 
 void Results::addRig(const wiimote_tracker_msgs::RigCalibration& rig, const ros::Time& time) {
-  const auto header = boost::make_shared<ros::M_string>();
-  (*header)["topic"] = topics_.rig();
-  (*header)["latching"] = "1";
-  (*header)["type"] = ros::message_traits::datatype(rig);
-  (*header)["md5sum"] = ros::message_traits::md5sum(rig);
-  (*header)["message_definition"] = ros::message_traits::definition(rig);
-  (*header)["callerid"] = "/track_bag";
-  worker_.give([=] { bag_.write(topics_.rig(), time, rig, header); });
+  worker_.give([=] { bag_.write(topics_.rig(), time, rig, true); });
 }
 
 void Results::addPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,

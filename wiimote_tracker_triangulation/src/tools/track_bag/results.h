@@ -6,7 +6,6 @@
 #include "wiimote_tracker_triangulation/measurements/writer.h"
 #include "worker.h"
 
-#include <topic_tools/shape_shifter.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 #include <wiimote_tracker_msgs/TrackedBodyArray.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
@@ -36,10 +35,10 @@ class Results {
   /// @param has_thread the files are written in a thread of its own.
   Results(const ResultFiles& files, const Topics& topics, bool has_thread);
 
-  /// A message of the input as it is.
+  /// A message of the input as it is, of a connection with this header.
   void copy(const std::string& topic,
             const ros::Time& time,
-            const boost::shared_ptr<const topic_tools::ShapeShifter>& message,
+            const std::shared_ptr<const MessageBytes>& message,
             const boost::shared_ptr<ros::M_string>& header);
 
   /// Latched.

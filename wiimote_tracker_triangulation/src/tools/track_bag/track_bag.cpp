@@ -22,7 +22,6 @@
 namespace {
 
 using namespace wiimote_tracker;
-using topic_tools::ShapeShifter;
 using wiimote_tracker_msgs::IrBlobArray;
 using wiimote_tracker_msgs::RigCalibration;
 
@@ -30,11 +29,11 @@ using wiimote_tracker_msgs::RigCalibration;
 struct Item {
   std::string topic;
   ros::Time recorded;
-  boost::shared_ptr<const ShapeShifter> copy;  // what goes into the new bag as it is; null: nothing
-  boost::shared_ptr<ros::M_string> header;     // of its connection
-  boost::shared_ptr<const IrBlobArray> image;  // at most one of these
-  boost::shared_ptr<const RigCalibration> rig;
-  boost::shared_ptr<const std_msgs::Header> trigger;
+  std::shared_ptr<const MessageBytes> copy;  // what goes into the new bag as it is; null: nothing
+  boost::shared_ptr<ros::M_string> header;   // of its connection
+  std::shared_ptr<const IrBlobArray> image;  // at most one of these
+  std::shared_ptr<const RigCalibration> rig;
+  std::shared_ptr<const std_msgs::Header> trigger;
 };
 
 void handle(const Item& item, BagTracker* tracker, Results* results) {
@@ -121,8 +120,10 @@ void run(const Arguments& arguments) {
       item.trigger = read<std_msgs::Header>(message);
     else
       item.image = read<IrBlobArray>(message);
-    if (!arguments.results_only)
-      item.copy = earlier.rest(item.topic, message.instantiate<ShapeShifter>());
+    if (!arguments.results_only) {
+      if (auto rest = earlier.rest(message))
+        item.copy = std::make_shared<const MessageBytes>(std::move(*rest));
+    }
     worker.give([item = std::move(item), &tracker, &results] { handle(item, &tracker, &results); });
   }
   worker.finish();

@@ -161,7 +161,8 @@ WIIMOTE_TRACKER_PART_OF_ITS_CALLER void predictAs(const KinematicSteps& s,
 }
 
 template <typename V>
-WIIMOTE_TRACKER_PART_OF_ITS_CALLER void updateAs(const Innovations& n, KinematicStates* states) {
+WIIMOTE_TRACKER_PART_OF_ITS_CALLER void updateAs(const Innovations<Lanes>& n,
+                                                 KinematicStates* states) {
   KinematicStates& t = *states;
   // With S = L L^T and W = P H^T L^-T: the gain times the innovation is W times the whitened one,
   // and the covariance becomes P - W W^T.
@@ -218,7 +219,7 @@ WIIMOTE_TRACKER_WITH_WIDE_VECTORS void predictWide(const KinematicSteps& s, Kine
   predictAs<WideLanes>(s, t);
 }
 
-WIIMOTE_TRACKER_WITH_WIDE_VECTORS void updateWide(const Innovations& n, KinematicStates* t) {
+WIIMOTE_TRACKER_WITH_WIDE_VECTORS void updateWide(const Innovations<Lanes>& n, KinematicStates* t) {
   updateAs<WideLanes>(n, t);
 }
 
@@ -245,7 +246,7 @@ void KinematicStates::predict(const KinematicSteps& steps) {
     predictAs<Lanes>(steps, this);
 }
 
-void KinematicStates::update(const Innovations& innovations) {
+void KinematicStates::update(const Innovations<Lanes>& innovations) {
   if (WIIMOTE_TRACKER_HAS_WIDE_VECTORS)
     updateWide(innovations, this);
   else

@@ -10,10 +10,8 @@ namespace {
 
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
-using Matrix2 = Eigen::Matrix2d;
 using Matrix3 = Eigen::Matrix3d;
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
-using Matrix32 = Eigen::Matrix<double, 3, 2>;
 
 /// What moves may stop at every image, but no more finely than this [s]. Any less would cost
 /// accuracy where an LED stops: what is still is then where it last was followed.
@@ -42,21 +40,111 @@ Lanes accelerationVariances(const MotionOptions& options) {
           square(options.brisk.stddev), 0.0};
 }
 
-/// Of a mixture of four normal distributions, about its mean.
-Matrix3 covarianceAbout(const Vector3& mean,
-                        const Lanes& weights,
-                        const std::array<Lanes, 3>& means,
-                        const std::array<Lanes, 6>& covariances) {
-  std::array<Lanes, 3> d;
+template <typename Numbers>
+Vector3 meanOf(const Numbers& weights, const std::array<Numbers, 3>& means) {
+  Vector3 mean;
   for (int i = 0; i < 3; ++i)
-    d[i] = means[i] - mean[i];
+    mean[i] = (weights * means[i]).sum();
+  return mean;
+}
+
+/// Second moments of a mixture of normal distributions about a place. It is that of the weights
+/// given, whose sum need not be 1.
+template <typename Numbers>
+Matrix3 spreadAbout(const Vector3& place,
+                    const Numbers& weights,
+                    const std::array<Numbers, 3>& means,
+                    const std::array<Numbers, 6>& covariances) {
+  std::array<Numbers, 3> d;
+  for (int i = 0; i < 3; ++i)
+    d[i] = means[i] - place[i];
   Matrix3 result;
   for (int i = 0, k = 0; i < 3; ++i) {
-    const Lanes weighted = weights * d[i];
+    const Numbers weighted = weights * d[i];
     for (int j = i; j < 3; ++j, ++k)
       result(i, j) = result(j, i) = (weights * covariances[k] + weighted * d[j]).sum();
   }
   return result;
+}
+
+/// Covariance of a pixel's noise [px^2].
+struct ImageNoise {
+  double uu, uv, vv;
+  double least;  // variance in any direction
+};
+
+/// The images of states whose positions and covariances are given. Returns the largest of their
+/// squared distances from the mean's image, each with its variances [px^2].
+template <typename Numbers>
+double project(const Matrix23& H,
+               const Vector3& mean,
+               const std::array<Numbers, 3>& p,
+               const std::array<Numbers, 6>& pp,
+               const ImageNoise& noise,
+               StateImages<Numbers>* images) {
+  constexpr int kRows[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  Numbers offset_u = Numbers::Zero(), offset_v = Numbers::Zero();
+  std::array<Numbers, 3> gain_u, gain_v;
+  for (int i = 0; i < 3; ++i) {
+    const Numbers d = p[i] - mean[i];
+    offset_u += H(0, i) * d;
+    offset_v += H(1, i) * d;
+    gain_u[i] = H(0, 0) * pp[kRows[i][0]] + H(0, 1) * pp[kRows[i][1]] + H(0, 2) * pp[kRows[i][2]];
+    gain_v[i] = H(1, 0) * pp[kRows[i][0]] + H(1, 1) * pp[kRows[i][1]] + H(1, 2) * pp[kRows[i][2]];
+  }
+  const Numbers uu = H(0, 0) * gain_u[0] + H(0, 1) * gain_u[1] + H(0, 2) * gain_u[2] + noise.uu;
+  const Numbers uv = H(0, 0) * gain_v[0] + H(0, 1) * gain_v[1] + H(0, 2) * gain_v[2] + noise.uv;
+  const Numbers vv = H(1, 0) * gain_v[0] + H(1, 1) * gain_v[1] + H(1, 2) * gain_v[2] + noise.vv;
+  images->u = offset_u;
+  images->v = offset_v;
+  // Neither pivot is less than the noise; but that of a vast covariance is a difference of large
+  // numbers, of which rounding may leave less than nothing.
+  images->whiten_uu = 1.0 / uu.max(noise.least).sqrt();
+  const Numbers l_vu = uv * images->whiten_uu;
+  images->whiten_vv = 1.0 / (vv - l_vu * l_vu).max(noise.least).sqrt();
+  images->whiten_vu = -l_vu * images->whiten_uu * images->whiten_vv;
+  return (offset_u.square() + offset_v.square() + uu + vv).maxCoeff();
+}
+
+/// Of a pixel. @param from_mean from the mean's image [px]
+template <typename Numbers>
+Innovations<Numbers> innovationsOf(const Vector2& from_mean,
+                                   const Matrix23& jacobian,
+                                   const StateImages<Numbers>& images) {
+  Innovations<Numbers> result;
+  result.jacobian = jacobian;
+  result.whiten_uu = images.whiten_uu;
+  result.whiten_vu = images.whiten_vu;
+  result.whiten_vv = images.whiten_vv;
+  const Numbers u = from_mean.x() - images.u;
+  result.u = images.whiten_uu * u;
+  result.v = images.whiten_vu * u + images.whiten_vv * (from_mean.y() - images.v);
+  return result;
+}
+
+/// The least distance of a way that has a probability.
+template <typename Numbers>
+double leastOf(const Numbers& squared_distances, const Numbers& weights) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  return (weights > 0.0).select(squared_distances, kNone).minCoeff();
+}
+
+/// Densities over exp(-least / 2), times 2 pi. No more than 1 for what has no probability.
+template <typename Numbers>
+Numbers relativeLikelihoods(double least,
+                            const Numbers& squared_distances,
+                            const Innovations<Numbers>& innovations) {
+  return innovations.whiten_uu * innovations.whiten_vv *
+         (0.5 * (least - squared_distances)).min(0.0).exp();
+}
+
+/// What all but vanishes is none: a product of probability and likelihood then is a number above 0
+/// for at least one way, whatever was seen.
+template <typename Numbers>
+void scaleProbabilities(double scale, Numbers* weights) {
+  constexpr double kVanishing = 1e-100;
+  *weights *= scale;
+  *weights = (*weights > kVanishing).select(*weights, 0.0);
 }
 
 }  // namespace
@@ -65,16 +153,13 @@ MotionFilter::MotionFilter(const MotionOptions& options,
                            double time,
                            const Vector3& position,
                            const Matrix3& covariance)
-    : options_(&options),
-      time_(time),
-      stopped_until_(time),
-      changed_until_(time),
-      still_p_(position),
-      still_pp_(covariance) {
+    : options_(&options), time_(time), stopped_until_(time), changed_until_(time) {
   const int ways = waysToMove(options);
-  still_weight_ = options.stop_rate > 0.0 ? 1.0 / (ways + 1) : 0.0;
+  const double still = options.stop_rate > 0.0 ? 1.0 / (ways + 1) : 0.0;
+  resting_weights_.setConstant(0.5 * still);
   moving_weights_.setZero();
-  moving_weights_.head(ways).setConstant((1.0 - still_weight_) / ways);
+  moving_weights_.head(ways).setConstant((1.0 - still) / ways);
+  resting_.set(position, covariance);
   moving_.setZero();
   const Lanes variances = accelerationVariances(options);
   for (int i = 0, k = 0; i < 3; ++i) {
@@ -99,7 +184,7 @@ void MotionFilter::predict(double time, MotionSteps* steps) {
     return;
   const double duration = time - time_;
   moving_.predict(steps->over(duration));
-  still_pp_.diagonal().array() += square(options_->still_drift) * duration;
+  resting_.predict(duration * Pair(square(options_->fixed.drift), square(options_->swaying.drift)));
   time_ = time;
   if (time - stopped_until_ >= kStopInterval) {
     stop(time - stopped_until_);
@@ -114,33 +199,25 @@ void MotionFilter::predict(double time, MotionSteps* steps) {
 /// The part of the interaction (see change) that leads to rest.
 void MotionFilter::stop(double duration) {
   const Lanes stops = moving_weights_ * probabilityOf(options_->stop_rate, duration);
-  const double weight = still_weight_ + stops.sum();
-  if (!(weight > 0.0))
+  const double all = stops.sum();
+  if (!(all > 0.0))
     return;
-  // By moments about the place of rest, where they stay small.
-  const Lanes shares = stops / weight;
-  Vector3 step;
-  std::array<Lanes, 3> d, share_d;
-  for (int i = 0; i < 3; ++i) {
-    d[i] = moving_.p[i] - still_p_[i];
-    share_d[i] = shares * d[i];
-    step[i] = share_d[i].sum();
-  }
-  const double stays = still_weight_ / weight;
-  for (int i = 0, k = 0; i < 3; ++i) {
-    for (int j = i; j < 3; ++j, ++k) {
-      const double second = (shares * moving_.pp[k] + share_d[i] * d[j]).sum();
-      still_pp_(i, j) = still_pp_(j, i) = stays * still_pp_(i, j) + second - step[i] * step[j];
-    }
-  }
-  still_p_ += step;
-  still_weight_ = weight;
+  const Lanes shares = stops / all;
+  const Vector3 place = meanOf(shares, moving_.p);
+  resting_weights_ += 0.5 * all;
+  resting_.join(0.5 * all / resting_weights_, place,
+                spreadAbout(place, shares, moving_.p, moving_.pp));
   moving_weights_ -= stops;
 }
 
 /// The interaction: each way to move goes on from the mixture of those that may have led to it.
 void MotionFilter::change(double duration) {
-  const double start = still_weight_ * probabilityOf(options_->start_rate, duration);
+  const Pair starts =
+      resting_weights_ * Pair(probabilityOf(options_->fixed.start_rate, duration),
+                              probabilityOf(options_->swaying.start_rate, duration));
+  const double start = starts.sum();
+  const Pair start_shares = start > 0.0 ? Pair(starts / start) : Pair(1.0, 0.0);
+  const Vector3 start_place = meanOf(start_shares, resting_.p);
   const int ways = waysToMove(*options_);
   // Joint probabilities of the way before (first index) and the way after.
   std::array<Lanes, kMoving> joint;
@@ -170,13 +247,14 @@ void MotionFilter::change(double duration) {
     inverse[i] = weights[i] > 0.0 ? 1.0 / weights[i] : 0.0;
   for (Lanes& shares : joint)
     shares *= inverse;
-  moving_.mix(joint, started * inverse, still_p_, still_pp_);
+  moving_.mix(joint, started * inverse, start_place,
+              spreadAbout(start_place, start_shares, resting_.p, resting_.pp));
 
   // What takes up another way does so with an acceleration of that way.
   const Lanes added = taken_up * inverse * accelerationVariances(*options_);
   for (const int diagonal : {0, 3, 5})
     moving_.aa[diagonal] += added;
-  still_weight_ -= start;
+  resting_weights_ -= starts;
   moving_weights_ = weights;
 }
 
@@ -202,51 +280,14 @@ bool MotionFilter::linearize(const geometry::Camera& camera,
   const Vector3 mean = position();
   to.pixel_ = *pixel + H * (mean - point);
   const Vector2 smear = H * to.smear_;
-  const double noise_uu = square(smear.x()) + to.pixel_variance_;
-  const double noise_uv = smear.x() * smear.y();
-  const double noise_vv = square(smear.y()) + to.pixel_variance_;
-
-  double reach = 0.0;
-  to.still_weight_ = still_weight_;
-  if (still_weight_ > 0.0) {
-    const Vector2 offset = H * (still_p_ - mean);
-    const Matrix32 gain = still_pp_.lazyProduct(H.transpose());
-    const double uu = H.row(0).dot(gain.col(0)) + noise_uu;
-    const double uv = H.row(0).dot(gain.col(1)) + noise_uv;
-    const double vv = H.row(1).dot(gain.col(1)) + noise_vv;
-    to.still_u_ = offset.x();
-    to.still_v_ = offset.y();
-    to.still_whiten_uu_ = 1.0 / std::sqrt(uu);
-    const double l_vu = uv * to.still_whiten_uu_;
-    to.still_whiten_vv_ = 1.0 / std::sqrt(vv - l_vu * l_vu);
-    to.still_whiten_vu_ = -l_vu * to.still_whiten_uu_ * to.still_whiten_vv_;
-    reach = offset.squaredNorm() + uu + vv;
-  }
-
-  const auto& pp = moving_.pp;
-  Lanes offset_u = Lanes::Zero(), offset_v = Lanes::Zero();
-  std::array<Lanes, 3> gain_u, gain_v;
-  constexpr int kRows[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-  for (int i = 0; i < 3; ++i) {
-    const Lanes d = moving_.p[i] - mean[i];
-    offset_u += H(0, i) * d;
-    offset_v += H(1, i) * d;
-    gain_u[i] = H(0, 0) * pp[kRows[i][0]] + H(0, 1) * pp[kRows[i][1]] + H(0, 2) * pp[kRows[i][2]];
-    gain_v[i] = H(1, 0) * pp[kRows[i][0]] + H(1, 1) * pp[kRows[i][1]] + H(1, 2) * pp[kRows[i][2]];
-  }
-  const Lanes uu = H(0, 0) * gain_u[0] + H(0, 1) * gain_u[1] + H(0, 2) * gain_u[2] + noise_uu;
-  const Lanes uv = H(0, 0) * gain_v[0] + H(0, 1) * gain_v[1] + H(0, 2) * gain_v[2] + noise_uv;
-  const Lanes vv = H(1, 0) * gain_v[0] + H(1, 1) * gain_v[1] + H(1, 2) * gain_v[2] + noise_vv;
-  to.moving_weights_ = moving_weights_;
-  to.moving_u_ = offset_u;
-  to.moving_v_ = offset_v;
-  to.moving_whiten_uu_ = 1.0 / uu.sqrt();
-  const Lanes l_vu = uv * to.moving_whiten_uu_;
-  to.moving_whiten_vv_ = 1.0 / (vv - l_vu * l_vu).sqrt();
-  to.moving_whiten_vu_ = -l_vu * to.moving_whiten_uu_ * to.moving_whiten_vv_;
-  const Lanes moving_reach = offset_u.square() + offset_v.square() + uu + vv;
+  const ImageNoise noise{square(smear.x()) + to.pixel_variance_, smear.x() * smear.y(),
+                         square(smear.y()) + to.pixel_variance_, to.pixel_variance_};
+  to.resting_.weights = resting_weights_;
+  to.moving_.weights = moving_weights_;
+  const double resting_reach = project(H, mean, resting_.p, resting_.pp, noise, &to.resting_);
+  const double moving_reach = project(H, mean, moving_.p, moving_.pp, noise, &to.moving_);
   // (|offset| + sqrt(gate * largest variance))^2 is less, for gates of 1 and more.
-  to.squared_reach_ = 2.0 * std::max(reach, moving_reach.maxCoeff());
+  to.squared_reach_ = 2.0 * std::max(resting_reach, moving_reach);
   return true;
 }
 
@@ -259,7 +300,8 @@ bool MotionFilter::isLinear(const geometry::Camera& camera,
   const double depth =
       camera.world_from_camera.linear().col(2).dot(moving_.position(0) - camera.center());
   const Lanes variances = moving_.pp[0] + moving_.pp[3] + moving_.pp[5];
-  const double variance = std::max(still_pp_.trace(), variances.maxCoeff());
+  const Pair resting_variances = resting_.pp[0] + resting_.pp[3] + resting_.pp[5];
+  const double variance = std::max(resting_variances.maxCoeff(), variances.maxCoeff());
   return variance * (pixel - prediction.pixel_).squaredNorm() <
          square(kNegligible * depth) * prediction.pixel_variance_;
 }
@@ -290,141 +332,41 @@ bool MotionFilter::update(const geometry::Camera& camera,
 
 void MotionFilter::apply(const PixelPrediction& prediction, const Vector2& pixel) {
   const Vector2 from_mean = pixel - prediction.pixel_;
-  double still_squared = std::numeric_limits<double>::infinity();
-  if (still_weight_ > 0.0) {
-    const double u = from_mean.x() - prediction.still_u_;
-    const double v = from_mean.y() - prediction.still_v_;
-    const double whitened_u = prediction.still_whiten_uu_ * u;
-    const double whitened_v = prediction.still_whiten_vu_ * u + prediction.still_whiten_vv_ * v;
-    const Vector3 image_u = prediction.jacobian_.row(0).transpose() * prediction.still_whiten_uu_;
-    const Vector3 image_v = prediction.jacobian_.row(0).transpose() * prediction.still_whiten_vu_ +
-                            prediction.jacobian_.row(1).transpose() * prediction.still_whiten_vv_;
-    const Vector3 w_u = still_pp_ * image_u;
-    const Vector3 w_v = still_pp_ * image_v;
-    still_p_ += w_u * whitened_u + w_v * whitened_v;
-    still_pp_ -= w_u * w_u.transpose() + w_v * w_v.transpose();
-    still_squared = square(whitened_u) + square(whitened_v);
-  }
-
-  Innovations innovations;
-  innovations.jacobian = prediction.jacobian_;
-  innovations.whiten_uu = prediction.moving_whiten_uu_;
-  innovations.whiten_vu = prediction.moving_whiten_vu_;
-  innovations.whiten_vv = prediction.moving_whiten_vv_;
-  const Lanes u = from_mean.x() - prediction.moving_u_;
-  innovations.u = prediction.moving_whiten_uu_ * u;
-  innovations.v = prediction.moving_whiten_vu_ * u +
-                  prediction.moving_whiten_vv_ * (from_mean.y() - prediction.moving_v_);
-  moving_.update(innovations);
+  const auto resting = innovationsOf(from_mean, prediction.jacobian_, prediction.resting_);
+  const auto moving = innovationsOf(from_mean, prediction.jacobian_, prediction.moving_);
+  resting_.update(resting);
+  moving_.update(moving);
 
   // Probabilities by Bayes; all likelihoods over the greatest exponential, lest all become 0.
-  const Lanes squared = innovations.u.square() + innovations.v.square();
-  const double least = std::min(still_squared, squared.minCoeff());
-  if (still_weight_ > 0.0)
-    still_weight_ *= prediction.still_whiten_uu_ * prediction.still_whiten_vv_ *
-                     std::exp(0.5 * (least - still_squared));
-  moving_weights_ *=
-      innovations.whiten_uu * innovations.whiten_vv * (0.5 * (least - squared)).exp();
-  const double scale = 1.0 / (still_weight_ + moving_weights_.sum());
-  still_weight_ *= scale;
-  moving_weights_ *= scale;
+  const Pair resting_squared = resting.u.square() + resting.v.square();
+  const Lanes moving_squared = moving.u.square() + moving.v.square();
+  const double least = std::min(leastOf(resting_squared, resting_weights_),
+                                leastOf(moving_squared, moving_weights_));
+  resting_weights_ *= relativeLikelihoods(least, resting_squared, resting);
+  moving_weights_ *= relativeLikelihoods(least, moving_squared, moving);
+  const double scale = 1.0 / (resting_weights_.sum() + moving_weights_.sum());
+  scaleProbabilities(scale, &resting_weights_);
+  scaleProbabilities(scale, &moving_weights_);
 }
 
 Vector3 MotionFilter::position() const {
-  Vector3 mean = still_weight_ * still_p_;
-  for (int i = 0; i < 3; ++i)
-    mean[i] += (moving_weights_ * moving_.p[i]).sum();
-  return mean;
+  return meanOf(resting_weights_, resting_.p) + meanOf(moving_weights_, moving_.p);
 }
 
 Matrix3 MotionFilter::positionCovariance() const {
   const Vector3 mean = position();
-  const Vector3 offset = still_p_ - mean;
-  return still_weight_ * (still_pp_ + offset * offset.transpose()) +
-         covarianceAbout(mean, moving_weights_, moving_.p, moving_.pp);
+  return spreadAbout(mean, resting_weights_, resting_.p, resting_.pp) +
+         spreadAbout(mean, moving_weights_, moving_.p, moving_.pp);
 }
 
 Vector3 MotionFilter::velocity() const {
-  Vector3 mean;
-  for (int i = 0; i < 3; ++i)
-    mean[i] = (moving_weights_ * moving_.v[i]).sum();
-  return mean;
+  return meanOf(moving_weights_, moving_.v);
 }
 
 Matrix3 MotionFilter::velocityCovariance() const {
   const Vector3 mean = velocity();
-  return still_weight_ * mean * mean.transpose() +
-         covarianceAbout(mean, moving_weights_, moving_.v, moving_.vv);
-}
-
-Matrix2 PixelPrediction::covariance() const {
-  Matrix2 covariance = Matrix2::Zero();
-  Vector2 mean = Vector2::Zero();
-  const auto add = [&](double weight, const Vector2& offset, double uu, double vu, double vv) {
-    if (!(weight > 0.0))
-      return;
-    const double l_uu = 1.0 / uu;
-    const double l_vv = 1.0 / vv;
-    Matrix2 lower;
-    lower << l_uu, 0.0, -vu * l_uu * l_vv, l_vv;
-    covariance += weight * (lower * lower.transpose() + offset * offset.transpose());
-    mean += weight * offset;
-  };
-  add(still_weight_, {still_u_, still_v_}, still_whiten_uu_, still_whiten_vu_, still_whiten_vv_);
-  for (int i = 0; i < 4; ++i)
-    add(moving_weights_[i], {moving_u_[i], moving_v_[i]}, moving_whiten_uu_[i],
-        moving_whiten_vu_[i], moving_whiten_vv_[i]);
-  return covariance - mean * mean.transpose();
-}
-
-PixelPrediction::SquaredDistances PixelPrediction::squaredDistances(const Vector2& pixel) const {
-  const Vector2 from_mean = pixel - pixel_;
-  SquaredDistances result;
-  result.still = std::numeric_limits<double>::infinity();
-  if (still_weight_ > 0.0) {
-    const double u = from_mean.x() - still_u_;
-    const double v = from_mean.y() - still_v_;
-    result.still =
-        square(still_whiten_uu_ * u) + square(still_whiten_vu_ * u + still_whiten_vv_ * v);
-  }
-  const Lanes u = from_mean.x() - moving_u_;
-  const Lanes v = from_mean.y() - moving_v_;
-  result.moving =
-      (moving_whiten_uu_ * u).square() + (moving_whiten_vu_ * u + moving_whiten_vv_ * v).square();
-  result.least = result.still;
-  for (int i = 0; i < 4; ++i) {
-    if (moving_weights_[i] > 0.0 && !(result.moving[i] >= result.least))
-      result.least = result.moving[i];
-  }
-  return result;
-}
-
-double PixelPrediction::logDensity(const SquaredDistances& distances) const {
-  double sum = (moving_weights_ * moving_whiten_uu_ * moving_whiten_vv_ *
-                (0.5 * (distances.least - distances.moving)).exp())
-                   .sum();
-  if (still_weight_ > 0.0)
-    sum += still_weight_ * still_whiten_uu_ * still_whiten_vv_ *
-           std::exp(0.5 * (distances.least - distances.still));
-  return std::log(sum / (2.0 * M_PI)) - 0.5 * distances.least;
-}
-
-double PixelPrediction::squaredDistance(const Vector2& pixel) const {
-  return squaredDistances(pixel).least;
-}
-
-double PixelPrediction::logLikelihood(const Vector2& pixel) const {
-  return logDensity(squaredDistances(pixel));
-}
-
-std::optional<double> PixelPrediction::logLikelihoodWithin(double gate,
-                                                           const Vector2& pixel) const {
-  if ((pixel - pixel_).squaredNorm() > gate * squared_reach_)
-    return std::nullopt;
-  const SquaredDistances distances = squaredDistances(pixel);
-  if (!(distances.least <= gate))
-    return std::nullopt;
-  return logDensity(distances);
+  return stillProbability() * mean * mean.transpose() +
+         spreadAbout(mean, moving_weights_, moving_.v, moving_.vv);
 }
 
 }  // namespace wiimote_tracker::motion

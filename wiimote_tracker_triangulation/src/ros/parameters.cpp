@@ -101,7 +101,10 @@ void readInstant(ParameterReader* reader, fusion::InstantFuserOptions* instant) 
 
 void readMotion(ParameterReader* reader, motion::MotionOptions* motion) {
   const Group group("motion", reader);
-  group.read("still_drift", 0.0, 1.0, &motion->still_drift);
+  group.read("fixed/drift", 0.0, 1.0, &motion->fixed.drift);
+  group.read("fixed/start_rate", 0.0, 1000.0, &motion->fixed.start_rate);
+  group.read("swaying/drift", 0.0, 1.0, &motion->swaying.drift);
+  group.read("swaying/start_rate", 0.0, 1000.0, &motion->swaying.start_rate);
   group.read("smooth/stddev", 1e-4, 1000.0, &motion->smooth.stddev);
   group.read("smooth/time", 0.001, 1000.0, &motion->smooth.time);
   group.read("gentle/stddev", 1e-4, 1000.0, &motion->gentle.stddev);
@@ -109,7 +112,6 @@ void readMotion(ParameterReader* reader, motion::MotionOptions* motion) {
   group.read("brisk/stddev", 1e-4, 1000.0, &motion->brisk.stddev);
   group.read("brisk/time", 0.001, 1000.0, &motion->brisk.time);
   group.read("sudden_random_walk", 0.0, 1000.0, &motion->sudden_random_walk);
-  group.read("start_rate", 0.0, 1000.0, &motion->start_rate);
   group.read("stop_rate", 0.0, 1000.0, &motion->stop_rate);
   group.read("rise_rate", 0.0, 1000.0, &motion->rise_rate);
   group.read("settle_rate", 0.0, 1000.0, &motion->settle_rate);

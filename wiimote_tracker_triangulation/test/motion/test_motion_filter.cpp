@@ -135,7 +135,9 @@ TEST(MotionFilter, IsTheTextbooksFilter) {
 
     ASSERT_LT((textbook.mean().head<3>() - filter.position()).norm(), 1e-8) << time;
     ASSERT_LT((textbook.mean().segment<3>(3) - filter.velocity()).norm(), 1e-5) << time;
-    ASSERT_NEAR(textbook.models()[0].probability, filter.stillProbability(), 1e-4) << time;
+    ASSERT_NEAR(textbook.models()[0].probability + textbook.models()[1].probability,
+                filter.stillProbability(), 1e-4)
+        << time;
     ASSERT_LT(relative(filter.positionCovariance(), textbook.covariance().topLeftCorner<3, 3>()),
               1e-3);
     ASSERT_LT(relative(filter.velocityCovariance(), textbook.covariance().block<3, 3>(3, 3)), 1e-3);

@@ -11,8 +11,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kStill = 0;
-constexpr int kSudden = 4;
+constexpr int kResting = 2;  // fixed, swaying; then the ways to move
+constexpr int kMoving = 4;
+constexpr int kWays = kResting + kMoving;
 
 MatrixXd blocks(double pp, double vv, double aa) {
   VectorXd diagonal(9);
@@ -23,11 +24,11 @@ MatrixXd blocks(double pp, double vv, double aa) {
 /// Standard deviation of the acceleration of a way to move.
 double acceleration(const MotionOptions& options, int model) {
   switch (model) {
-    case 1:
-      return options.smooth.stddev;
     case 2:
-      return options.gentle.stddev;
+      return options.smooth.stddev;
     case 3:
+      return options.gentle.stddev;
+    case 4:
       return options.brisk.stddev;
     default:
       return 0.0;
@@ -38,16 +39,18 @@ double acceleration(const MotionOptions& options, int model) {
 Transition transition(const MotionOptions& options, int model, double duration) {
   const MatrixXd zero = MatrixXd::Zero(3, 3);
   switch (model) {
-    case kStill: {
+    case 0:
+    case 1: {
+      const double drift = model == 0 ? options.fixed.drift : options.swaying.drift;
       MatrixXd density = zero;
-      density(0, 0) = options.still_drift * options.still_drift;
+      density(0, 0) = drift * drift;
       return {zero, density, duration};
     }
-    case 1:
-      return singerTransition(options.smooth.stddev, options.smooth.time, duration);
     case 2:
-      return singerTransition(options.gentle.stddev, options.gentle.time, duration);
+      return singerTransition(options.smooth.stddev, options.smooth.time, duration);
     case 3:
+      return singerTransition(options.gentle.stddev, options.gentle.time, duration);
+    case 4:
       return singerTransition(options.brisk.stddev, options.brisk.time, duration);
     default: {
       MatrixXd A = zero, density = zero;
@@ -129,20 +132,20 @@ TextbookImm::TextbookImm(const MotionOptions& options,
                          double time,
                          const Eigen::Vector3d& position,
                          const Eigen::Matrix3d& covariance)
-    : options_(options), time_(time), models_(5) {
-  for (int i = 0; i < 5; ++i) {
-    models_[i].probability = 0.2;
+    : options_(options), time_(time), models_(kWays) {
+  for (int i = 0; i < kWays; ++i) {
+    models_[i].probability = i < kResting ? 0.1 : 0.2;
     models_[i].mean = VectorXd::Zero(9);
     models_[i].mean.head<3>() = position;
     const double a = acceleration(options, i);
     models_[i].covariance =
-        blocks(0.0, i == kStill ? 0.0 : options.initial_speed * options.initial_speed, a * a);
+        blocks(0.0, i < kResting ? 0.0 : options.initial_speed * options.initial_speed, a * a);
     models_[i].covariance.topLeftCorner<3, 3>() = covariance;
   }
 }
 
 void TextbookImm::predict(double time) {
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < kWays; ++i) {
     const Transition t = transition(options_, i, time - time_).inThreeAxes();
     models_[i].mean = (t.F * models_[i].mean).eval();
     models_[i].covariance = (t.F * models_[i].covariance * t.F.transpose() + t.Q).eval();
@@ -152,19 +155,21 @@ void TextbookImm::predict(double time) {
 
 void TextbookImm::stop(double duration) {
   Rates rates = Rates::Zero();
-  rates.col(kStill).tail<4>().setConstant(options_.stop_rate);
+  rates.bottomLeftCorner<kMoving, kResting>().setConstant(options_.stop_rate / kResting);
   interact(rates, duration);
 }
 
 void TextbookImm::change(double duration) {
   Rates rates = Rates::Zero();
-  rates.row(kStill).tail<4>().setConstant(options_.start_rate / 4.0);
-  for (int i = 1; i < 5; ++i) {
-    for (int j = 1; j < 5; ++j) {
+  rates.row(0).tail<kMoving>().setConstant(options_.fixed.start_rate / kMoving);
+  rates.row(1).tail<kMoving>().setConstant(options_.swaying.start_rate / kMoving);
+  for (int i = 0; i < kMoving; ++i) {
+    for (int j = 0; j < kMoving; ++j) {
+      double& rate = rates(kResting + i, kResting + j);
       if (j > i)
-        rates(i, j) = options_.rise_rate / (kSudden - i);
+        rate = options_.rise_rate / (kMoving - 1 - i);
       else if (j < i)
-        rates(i, j) = options_.settle_rate / (i - 1);
+        rate = options_.settle_rate / i;
     }
   }
   interact(rates, duration);
@@ -172,24 +177,24 @@ void TextbookImm::change(double duration) {
 
 void TextbookImm::interact(const Rates& rates, double duration) {
   Rates p;  // probabilities
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < kWays; ++i) {
     p.row(i) = rates.row(i) * duration / (1.0 + rates.row(i).sum() * duration);
     p(i, i) = 1.0 - p.row(i).sum();
   }
 
   const std::vector<Model> before = models_;
-  for (int j = 0; j < 5; ++j) {
+  for (int j = 0; j < kWays; ++j) {
     // The acceleration is drawn anew by who takes up a rasher way, and ends with the movement.
     const double a = acceleration(options_, j);
     double& probability = models_[j].probability;
     probability = 0.0;
-    for (int i = 0; i < 5; ++i)
+    for (int i = 0; i < kWays; ++i)
       probability += p(i, j) * before[i].probability;
     models_[j].mean.setZero();
     models_[j].covariance.setZero();
     std::vector<Model> entering = before;
-    for (int i = 0; i < 5; ++i) {
-      if (j == kStill) {
+    for (int i = 0; i < kWays; ++i) {
+      if (j < kResting) {
         entering[i].mean.tail<6>().setZero();
         entering[i].covariance.rightCols<6>().setZero();
         entering[i].covariance.bottomRows<6>().setZero();
@@ -198,7 +203,7 @@ void TextbookImm::interact(const Rates& rates, double duration) {
       }
       models_[j].mean += p(i, j) * before[i].probability / probability * entering[i].mean;
     }
-    for (int i = 0; i < 5; ++i) {
+    for (int i = 0; i < kWays; ++i) {
       const VectorXd d = entering[i].mean - models_[j].mean;
       models_[j].covariance += p(i, j) * before[i].probability / probability *
                                (entering[i].covariance + d * d.transpose());

@@ -57,15 +57,16 @@ class TextbookImm {
 
   Eigen::VectorXd mean() const;
   Eigen::MatrixXd covariance() const;
+  /// Fixed, swaying, smooth, gentle, brisk, sudden.
   const std::vector<Model>& models() const { return models_; }
 
  private:
-  using Rates = Eigen::Matrix<double, 5, 5>;  // from row to column [1/s]
+  using Rates = Eigen::Matrix<double, 6, 6>;  // from row to column [1/s]
   void interact(const Rates& rates, double duration);
 
   MotionOptions options_;
   double time_;
-  std::vector<Model> models_;  // still, then the ways to move
+  std::vector<Model> models_;
 };
 
 }  // namespace wiimote_tracker::motion::test

@@ -1,14 +1,13 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_KINEMATIC_STATES_H
 #define WIIMOTE_TRACKER_TRIANGULATION_MOTION_KINEMATIC_STATES_H
 
+#include "wiimote_tracker_triangulation/motion/innovations.h"
+
 #include <Eigen/Core>
 
 #include <array>
 
 namespace wiimote_tracker::motion {
-
-/// Four numbers of the same meaning, one for each of four states.
-using Lanes = Eigen::Array4d;
 
 /// The transition of four states over a duration, alike in each axis: a linear one of position,
 /// velocity and acceleration, plus noise.
@@ -18,13 +17,6 @@ struct KinematicSteps {
   Lanes p_a, v_a, a_a;                 ///< [s^2], [s], [1]
   Lanes noise_pp, noise_pv, noise_pa;  ///< [m^2], [m^2/s], [m^2/s^2]
   Lanes noise_vv, noise_va, noise_aa;  ///< [m^2/s^2], [m^2/s^3], [m^2/s^4]
-};
-
-/// The image of four positions beside a pixel.
-struct Innovations {
-  Eigen::Matrix<double, 2, 3> jacobian;   ///< d pixel / d position [px/m].
-  Lanes whiten_uu, whiten_vu, whiten_vv;  ///< Lower triangle that whitens: of unit covariance then.
-  Lanes u, v;                             ///< The innovation, whitened [1].
 };
 
 /// Four normal distributions of one LED's position, velocity and acceleration in the world [m, s],
@@ -41,7 +33,7 @@ struct KinematicStates {
   void predict(const KinematicSteps& steps);
 
   /// Kalman update of each state with its own innovation.
-  void update(const Innovations& innovations);
+  void update(const Innovations<Lanes>& innovations);
 
   /// Each state becomes what the mixture of the old ones has for mean and covariance.
   /// @param shares shares[i] holds old state i's share of each new state. @param rest_shares of a

@@ -5,6 +5,8 @@
 #include "wiimote_tracker_triangulation/motion/kinematic_states.h"
 #include "wiimote_tracker_triangulation/motion/motion_options.h"
 #include "wiimote_tracker_triangulation/motion/motion_steps.h"
+#include "wiimote_tracker_triangulation/motion/pixel_prediction.h"
+#include "wiimote_tracker_triangulation/motion/resting_states.h"
 
 #include <Eigen/Core>
 
@@ -12,62 +14,8 @@
 
 namespace wiimote_tracker::motion {
 
-/// How exact a pixel is.
-struct PixelNoise {
-  double pixel_stddev = 0.5;  ///< Of each coordinate [px, > 0].
-  double stamp_stddev = 0.0;  ///< Of the image's time [s, >= 0]: a moving LED smears along its way.
-};
-
-/// Where in a camera's image an LED is expected: a mixture of normal distributions, one for each
-/// way it may move (see MotionOptions).
-class PixelPrediction {
- public:
-  const Eigen::Vector2d& pixel() const { return pixel_; }  ///< Mean [px].
-
-  /// Innovation covariance: of a measured pixel about the mean, noise and all [px^2].
-  Eigen::Matrix2d covariance() const;
-
-  /// Squared Mahalanobis distance to the nearest of the ways to move, however unlikely that way is
-  /// [1]: for gates, so that a sudden start is not shut out. For the LED's own spot no more than
-  /// chi square with two degrees of freedom. NaN for a pixel that is.
-  double squaredDistance(const Eigen::Vector2d& pixel) const;
-
-  /// Logarithm of the density of the LED's spot [1/px^2].
-  double logLikelihood(const Eigen::Vector2d& pixel) const;
-
-  /// The same, but nothing where squaredDistance is not within the gate [1, >= 1]. What is far from
-  /// all that is expected costs little.
-  std::optional<double> logLikelihoodWithin(double gate, const Eigen::Vector2d& pixel) const;
-
- private:
-  friend class MotionFilter;
-
-  /// Distances of one pixel to each way to move [1].
-  struct SquaredDistances {
-    double still;
-    Lanes moving;
-    double least;
-  };
-  SquaredDistances squaredDistances(const Eigen::Vector2d& pixel) const;
-  double logDensity(const SquaredDistances& distances) const;
-
-  Eigen::Vector2d pixel_;
-  Eigen::Matrix<double, 2, 3> jacobian_;  // d pixel / d position [px/m]
-  Eigen::Vector3d smear_;                 // standard deviation that the stamp's makes [m]
-  double pixel_variance_;                 // [px^2]
-  double squared_reach_;  // a pixel within gate g is not further than sqrt(g) times this [px^2]
-
-  // Of what is still, and of the four that move; a weight of 0: to be left out.
-  double still_weight_;
-  double still_u_, still_v_;                                    // its mean from pixel_ [px]
-  double still_whiten_uu_, still_whiten_vu_, still_whiten_vv_;  // lower triangle [1/px]
-  Lanes moving_weights_;
-  Lanes moving_u_, moving_v_;
-  Lanes moving_whiten_uu_, moving_whiten_vu_, moving_whiten_vv_;
-};
-
 /// One LED's state in continuous time, updated by each camera's spot at that image's own time: an
-/// interacting multiple model filter (Blom and Bar-Shalom 1988) over the five ways of
+/// interacting multiple model filter (Blom and Bar-Shalom 1988) over the six ways of
 /// MotionOptions, linearised at the prediction, and again at the result where that is not close
 /// enough. A value: copies are independent. Nothing here allocates.
 ///
@@ -110,7 +58,8 @@ class MotionFilter {
   Eigen::Vector3d velocity() const;            ///< Mean, world [m/s].
   Eigen::Matrix3d velocityCovariance() const;  ///< [m^2/s^2]
 
-  double stillProbability() const { return still_weight_; }  ///< [0..1]
+  /// That it rests, one way or the other [0..1].
+  double stillProbability() const { return resting_weights_.sum(); }
 
  private:
   static constexpr int kMoving = 4;  // smooth, gentle, brisk, sudden
@@ -129,10 +78,9 @@ class MotionFilter {
   double time_;
   double stopped_until_;  // stops are taken into account up to here [s]
   double changed_until_;  // all other changes between ways to move up to here [s]
-  double still_weight_;   // probability
-  Lanes moving_weights_;  // probabilities
-  Eigen::Vector3d still_p_;
-  Eigen::Matrix3d still_pp_;
+  Pair resting_weights_;  // probabilities
+  Lanes moving_weights_;
+  RestingStates resting_;
   KinematicStates moving_;
 };
 

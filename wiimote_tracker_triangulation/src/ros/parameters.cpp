@@ -144,6 +144,7 @@ void readTracks(ParameterReader* reader, tracking::TrackerOptions* tracks) {
   group.read("tracked_time", 0.001, 1.0, &tracks->tracked_time);
   group.read("prediction_time", 0.01, 10.0, &tracks->prediction_time);
   group.read("single_view_time", 0.01, 60.0, &tracks->single_view_time);
+  group.read("doubt_time", 0.0, 5.0, &tracks->doubt_time);
   tracks->minimum_corner = readCorner(reader, "tracks/minimum_corner", tracks->minimum_corner);
   tracks->maximum_corner = readCorner(reader, "tracks/maximum_corner", tracks->maximum_corner);
   group.read("history", 0.01, 2.0, &tracks->history);

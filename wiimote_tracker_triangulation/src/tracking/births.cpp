@@ -110,7 +110,7 @@ Track* Births::missedAt(const motion::MotionFilter& found,
       return track.isShownBy(image.camera, image.time);
     };
     const auto holdsIt = [&](const Encounter& encounter) {
-      return encounter.hasParted() &&
+      return encounter.areApart(found.time()) &&
              (encounter.ids()[0] == track.id || encounter.ids()[1] == track.id);
     };
     const bool may_be_dark = found.time() - track.lastObserved() < options_.dark_time;

@@ -114,15 +114,15 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
 /// Those that are decided, and those of tracks that are no more or were found elsewhere since.
 void CameraGroup::endEncounters(double time) {
   std::vector<Encounter>& encounters = state_.encounters;
+  const auto goesOn = [&](std::uint32_t id, double since) {
+    return std::any_of(state_.tracks.begin(), state_.tracks.end(), [&](const Track& track) {
+      return track.id == id && track.startedAt() <= since;
+    });
+  };
   const auto is_over = [&](const Encounter& encounter) {
-    std::array<motion::MotionFilter*, 2> filters{};
-    for (std::size_t i = 0; i < 2; ++i) {
-      for (Track& track : state_.tracks) {
-        if (track.id == encounter.ids()[i] && track.startedAt() <= encounter.openedAt())
-          filters[i] = &track.filter;
-      }
-    }
-    return !filters[0] || !filters[1] || encounter.decide(time, filters);
+    return !goesOn(encounter.ids()[0], encounter.openedAt()) ||
+           !goesOn(encounter.ids()[1], encounter.openedAt()) ||
+           encounter.isDecided(time, options_.doubt_time);
   };
   encounters.erase(std::remove_if(encounters.begin(), encounters.end(), is_over), encounters.end());
 }

@@ -17,9 +17,9 @@ void ImageUpdate::apply(const GroupCamera& camera,
   noise_.stamp_stddev = image.stamp_stddev;
   collectCandidates(camera, image, tracks);
   assign(image, *tracks);
-  findPartingSpots(camera, image, *tracks, *encounters);
-  openEncounters(*tracks, encounters);
   followEncounters(camera, image, tracks, encounters);
+  findMergedSpots(image, *tracks);
+  openEncounters(*tracks, encounters);
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const Candidate& candidate = candidates_[i];
     Track& track = (*tracks)[candidate.track];
@@ -104,9 +104,7 @@ void ImageUpdate::assign(const StoredImage& image, const std::vector<Track>& tra
   for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
     if (best.track_of_spot[spot] == association::kGhost)
       continue;
-    Candidate& candidate = candidates_[static_cast<std::size_t>(best.track_of_spot[spot])];
-    candidate.spot = static_cast<int>(spot);
-    track_of_spot_[spot] = static_cast<int>(candidate.track);
+    give(spot, &candidates_[static_cast<std::size_t>(best.track_of_spot[spot])]);
   }
 }
 
@@ -145,30 +143,32 @@ const ImageUpdate::Candidate* ImageUpdate::sharing(const Candidate& candidate,
   return nearest;
 }
 
-/// Where one of two that met has no spot, but there is one where it may be by now.
-void ImageUpdate::findPartingSpots(const GroupCamera& camera,
-                                   const StoredImage& image,
-                                   const std::vector<Track>& tracks,
-                                   const std::vector<Encounter>& encounters) {
-  for (const Encounter& encounter : encounters) {
-    for (std::size_t i = 0; i < 2 && !encounter.hasParted(); ++i) {
-      Candidate* candidate = find(tracks, encounter.ids()[i]);
-      if (!candidate || candidate->spot != kNone)
-        continue;
-      const auto prediction =
-          encounter.motionOf(i, image.time).predictPixel(camera.forRays(), noise_);
-      double least = options_.gate;
-      for (std::size_t spot = 0; prediction && spot < image.spot_count; ++spot) {
-        const double distance = prediction->squaredDistance(image.pixels[spot]);
-        if (track_of_spot_[spot] != association::kGhost || !(distance < least))
+/// A spot between two LEDs that are expected so close together that the camera can not tell them
+/// apart, and that both have none, is of both: from each alone it may be too far.
+void ImageUpdate::findMergedSpots(const StoredImage& image, const std::vector<Track>& tracks) {
+  const auto isAlone = [&](const Candidate& candidate) {
+    return candidate.spot == kNone && tracks[candidate.track].isConfirmed();
+  };
+  for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
+    if (track_of_spot_[spot] != association::kGhost)
+      continue;
+    Candidate* owner = nullptr;
+    double least = 0.5 * options_.merging_distance;
+    for (std::size_t i = 0; i < candidate_count_; ++i) {
+      for (std::size_t j = i + 1; j < candidate_count_; ++j) {
+        const Eigen::Vector2d& a = candidates_[i].prediction.pixel();
+        const Eigen::Vector2d& b = candidates_[j].prediction.pixel();
+        const double distance = (image.pixels[spot] - 0.5 * (a + b)).norm();
+        if (distance >= least || (a - b).norm() >= options_.merging_distance ||
+            !isAlone(candidates_[i]) || !isAlone(candidates_[j]))
           continue;
         least = distance;
-        candidate->spot = static_cast<int>(spot);
+        const bool is_first = (image.pixels[spot] - a).norm() < (image.pixels[spot] - b).norm();
+        owner = &candidates_[is_first ? i : j];
       }
-      if (candidate->spot != kNone)
-        track_of_spot_[static_cast<std::size_t>(candidate->spot)] =
-            static_cast<int>(candidate->track);
     }
+    if (owner)
+      give(spot, owner);
   }
 }
 
@@ -192,6 +192,8 @@ void ImageUpdate::openEncounters(const std::vector<Track>& tracks,
   }
 }
 
+/// In an image that shows both, an encounter says which spots are theirs; else the image is taken
+/// in as any other.
 void ImageUpdate::followEncounters(const GroupCamera& camera,
                                    const StoredImage& image,
                                    std::vector<Track>* tracks,
@@ -201,32 +203,39 @@ void ImageUpdate::followEncounters(const GroupCamera& camera,
                                             find(*tracks, encounter.ids()[1])};
     if (!both[0] || !both[1])
       continue;
-    const bool is_merged = (both[0]->spot == kNone) != (both[1]->spot == kNone);
-    if (is_merged && encounter.hasParted()) {
-      // Both ways to give out the spots of other views are to be judged alike: it is left out.
-      const Candidate& owner = both[0]->spot != kNone ? *both[0] : *both[1];
-      const Eigen::Vector2d& spot = image.pixels[static_cast<std::size_t>(owner.spot)];
-      for (Candidate* candidate : both) {
-        candidate->updated = true;
-        (*tracks)[candidate->track].hit(image.camera, spot - candidate->prediction.pixel(), false);
-      }
+    Encounter::View view;
+    view.camera = &camera.forRays();
+    view.noise = noise_;
+    view.time = image.time;
+    std::array<std::size_t, association::kMaximumSpots> spot_of;  // of the view
+    for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
+      const int owner = track_of_spot_[spot];
+      if (owner != association::kGhost && owner != static_cast<int>(both[0]->track) &&
+          owner != static_cast<int>(both[1]->track))
+        continue;
+      spot_of[view.spot_count] = spot;
+      view.pixels[view.spot_count++] = image.pixels[spot];
     }
-    if (both[0]->spot == kNone || both[1]->spot == kNone)
+    const auto places = encounter.take(view, options_.gate, &steps_);
+    if (!places)
       continue;
-    Encounter::Pixels pixels;
-    std::array<motion::MotionFilter*, 2> filters;
+    for (std::size_t i = 0; i < view.spot_count; ++i)
+      track_of_spot_[spot_of[i]] = association::kGhost;
     for (std::size_t i = 0; i < 2; ++i) {
-      pixels[i] = image.pixels[static_cast<std::size_t>(both[i]->spot)];
-      filters[i] = &(*tracks)[both[i]->track].filter;
-    }
-    encounter.take(camera.forRays(), noise_, pixels, filters);
-    for (std::size_t i = 0; i < 2; ++i) {
+      const std::size_t spot = spot_of[(*places)[i]];
+      give(spot, both[i]);
       both[i]->updated = true;
       Track& track = (*tracks)[both[i]->track];
-      track.hit(image.camera, pixels[i] - both[i]->prediction.pixel(), true);
+      track.filter = encounter.likeliest()[i];
+      track.hit(image.camera, image.pixels[spot] - both[i]->prediction.pixel(), true);
       track.noteAlone();
     }
   }
+}
+
+void ImageUpdate::give(std::size_t spot, Candidate* candidate) {
+  candidate->spot = static_cast<int>(spot);
+  track_of_spot_[spot] = static_cast<int>(candidate->track);
 }
 
 ImageUpdate::Candidate* ImageUpdate::find(const std::vector<Track>& tracks, std::uint32_t id) {

@@ -58,16 +58,14 @@ class ImageUpdate {
                     const Candidate& other,
                     std::vector<Track>* tracks) const;
 
-  void findPartingSpots(const GroupCamera& camera,
-                        const StoredImage& image,
-                        const std::vector<Track>& tracks,
-                        const std::vector<Encounter>& encounters);
+  void findMergedSpots(const StoredImage& image, const std::vector<Track>& tracks);
   void openEncounters(const std::vector<Track>& tracks, std::vector<Encounter>* encounters) const;
   void followEncounters(const GroupCamera& camera,
                         const StoredImage& image,
                         std::vector<Track>* tracks,
                         std::vector<Encounter>* encounters);
   Candidate* find(const std::vector<Track>& tracks, std::uint32_t id);
+  void give(std::size_t spot, Candidate* candidate);
 
   TrackerOptions options_;
   motion::MotionSteps steps_;

@@ -38,6 +38,7 @@ std::map<std::string, double> numbersOf(const TrackingParameters& p) {
       {"tracks/tracked_time", tracks.tracked_time},
       {"tracks/prediction_time", tracks.prediction_time},
       {"tracks/single_view_time", tracks.single_view_time},
+      {"tracks/doubt_time", tracks.doubt_time},
       {"tracks/history", tracks.history},
       {"tracks/output_interval", tracks.output_interval},
       {"motion/fixed/drift", motion.fixed.drift},

@@ -51,6 +51,12 @@ TEST(TrackerNoAllocation, ImagesInOrder) {
   EXPECT_EQ(0, allocations(test::SceneOptions(), 1000));
 }
 
+TEST(TrackerNoAllocation, MergedSpots) {
+  test::SceneOptions options;
+  options.merging_distance = 24.0;
+  EXPECT_EQ(0, allocations(options, 4000));
+}
+
 TEST(TrackerNoAllocation, LateImages) {
   test::SceneOptions options;
   options.delay_jitter = 0.003;

@@ -11,10 +11,6 @@
 namespace wiimote_tracker::body {
 namespace {
 
-/// The poses that fit spots worse than this were matched by chance [1]; see Body::surprise.
-constexpr double kAbsurd = 6.0;
-constexpr double kSurpriseMemory = 0.03;  // share of each new spot in the running mean
-
 /// Within the window everything moves: rays miss each other by so many times the pixels' noise.
 constexpr double kWindowNoise = 4.0;
 
@@ -170,12 +166,9 @@ void BodyTracker::update(std::size_t index,
                          const geometry::Camera& camera,
                          LastImage* image) {
   Body& body = *bodies_[index];
-  const Eigen::Vector2d innovation = pixel - group.prediction.pixel;
-  const double squared = innovation.dot(group.prediction.covariance.inverse() * innovation);
-  body.surprise += kSurpriseMemory * (0.5 * squared - body.surprise);
+  const double residual = (pixel - group.prediction.pixel).norm();
   body.filter.update(group.prediction, pixel, group.pixel_stddev);
   body.last_observed = image->time;
-  const double residual = innovation.norm();
   for (std::size_t i = 0; i < group.count; ++i) {
     body.led_times[group.leds[i]] = image->time;
     image->taken.push_back(
@@ -186,7 +179,7 @@ void BodyTracker::update(std::size_t index,
 void BodyTracker::dropLost(double time) {
   for (std::optional<Body>& body : bodies_) {
     if (body && (time - body->last_observed > options_.prediction_time ||
-                 body->surprise > kAbsurd || !body->filter.poseCovariance().allFinite()))
+                 !body->filter.poseCovariance().allFinite()))
       body.reset();
   }
 }
@@ -268,11 +261,8 @@ void BodyTracker::startFromLabels(const std::vector<LabelledPoint>& points) {
 }
 
 void BodyTracker::startAt(std::size_t body, const SolvedPose& pose, double time) {
-  Body started{PoseFilter(options_.motion, time, pose.world_from_body, pose.covariance),
-               time,
-               time,
-               1.0,
-               {}};
+  Body started{
+      PoseFilter(options_.motion, time, pose.world_from_body, pose.covariance), time, time, {}};
   if (bodies_[body])
     started.first_seen = bodies_[body]->first_seen;
   started.led_times.fill(-std::numeric_limits<double>::infinity());

@@ -46,7 +46,6 @@ class Learning {
     learned.ids = ids_;
     learned.constellation = body_;
     learned.stddev = stddevs();
-    body_.check();
     return learned;
   }
 

@@ -168,9 +168,13 @@ TEST(LearnConstellation, SaysWhatIsWrong) {
   for (LedsInstant& instant : loose)
     instant.leds[2].position.z() += 0.1 * std::sin(5.0 * instant.time);
   EXPECT_NE(messageFor(loose).find("against the others"), std::string::npos);
-  EXPECT_NE(messageFor(lookAt({"a", {{-0.05, 0, 0}, {0.05, 0, 0}, {0, 0.2, 0}}}, 1e-4, random))
-                .find("looks the same"),
-            std::string::npos);
+  Constellation symmetric =
+      learnConstellation("thing",
+                         lookAt({"a", {{-0.05, 0, 0}, {0.05, 0, 0}, {0, 0.2, 0}}}, 1e-4, random))
+          .constellation;
+  EXPECT_NE(messageOf(symmetric).find("looks the same"), std::string::npos);
+  symmetric.labels = {"left", "right", "top"};
+  EXPECT_EQ(messageOf(symmetric), "good");
 }
 
 TEST(BodiesFile, ComesBackBitForBit) {

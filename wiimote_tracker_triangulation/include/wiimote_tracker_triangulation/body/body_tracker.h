@@ -128,7 +128,6 @@ class BodyTracker {
     PoseFilter filter;
     double first_seen;                           // [s]
     double last_observed;                        // [s]
-    double surprise;                             // running mean of chi^2 per coordinate
     std::array<double, kMaximumLeds> led_times;  // when last seen [s]
   };
   struct BodySpot {

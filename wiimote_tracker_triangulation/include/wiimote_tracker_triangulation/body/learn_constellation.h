@@ -36,8 +36,10 @@ struct LearnedConstellation {
 /// The shape of a rigid body from how its LEDs were seen while it was held or turned: the mean of
 /// all instants after each was aligned with it (generalised Procrustes analysis, Gower 1975).
 /// @param instants in the order of time.
+/// Constellation::check has the last word: LEDs that blink may be given their labels first, with
+/// which a symmetric shape is welcome.
 /// @throws BodyError saying what to do: too few or too many LEDs, LEDs that move against each other
-/// (by more than 10 mm, root mean square), too short, or a shape that Constellation::check refuses.
+/// (by more than 10 mm, root mean square), or too short.
 LearnedConstellation learnConstellation(const std::string& name,
                                         const std::vector<LedsInstant>& instants);
 

@@ -254,6 +254,16 @@ def test_only_the_chosen_sections_run_and_others_are_refused(evaluate, tmp_path,
     assert 'there is no section' in capsys.readouterr().err
 
 
+def test_what_the_user_brings_reaches_the_sections(evaluate, tmp_path):
+    for person in ('anna', 'ben'):
+        (tmp_path / 'people' / person).mkdir(parents=True)
+    led, people, seen = str(tmp_path / 'led.yaml'), str(tmp_path / 'people'), []
+    (tmp_path / 'led.yaml').write_text('')
+    assert evaluate([a_section('a', lambda run: seen.append((run.led, run.gestures)))],
+                    '--led', led, '--gestures', people) == 0
+    assert seen == [(led, people)]
+
+
 def test_a_second_run_leaves_nothing_of_the_first(evaluate, tmp_path):
     assert evaluate([a_section('first', a_good_run)]) == 0
     stale = tmp_path / 'out/first/stale.csv'

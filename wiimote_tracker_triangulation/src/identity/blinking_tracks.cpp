@@ -5,13 +5,11 @@
 namespace wiimote_tracker::identity {
 
 tracking::TrackerOptions forBlinking(const BlinkCodes& codes, tracking::TrackerOptions options) {
-  constexpr double kOneImage = 0.015;  // from a camera's last image to when its next is overdue [s]
   double light = 0.0;
   for (const BlinkCode& code : codes.codes)
     light += litShare(code.waveform, 0.0, 1.0) / static_cast<double>(codes.codes.size());
   options.dark_time = codes.longestDark();
   options.prediction_time = std::max(options.prediction_time, 2.0 * options.dark_time);
-  options.tracked_time = std::min(options.tracked_time, kOneImage);
   options.detection_probability *= light;
   return options;
 }

@@ -213,8 +213,8 @@ std::string describeIdentity(const TrackingParameters& parameters) {
   std::ostringstream text;
   text << codes.codes.size() << " LEDs are told by how they blink; since they may be dark for "
        << codes.longestDark() << " s, the tracker uses tracks/prediction_time "
-       << tracks.prediction_time << " s, tracks/tracked_time " << tracks.tracked_time
-       << " s and tracks/detection_probability " << tracks.detection_probability;
+       << tracks.prediction_time << " s and tracks/detection_probability "
+       << tracks.detection_probability;
   return text.str();
 }
 

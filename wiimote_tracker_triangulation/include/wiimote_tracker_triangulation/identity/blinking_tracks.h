@@ -7,8 +7,7 @@
 namespace wiimote_tracker::identity {
 
 /// A tracker's options for LEDs that blink so, from those for LEDs that are always on: it waits for
-/// LEDs that are dark, expects them in no more images than they shine in, and calls them predicted
-/// when about the next image of a camera does not show them.
+/// LEDs that are dark, and expects them in no more images than they shine in.
 tracking::TrackerOptions forBlinking(const BlinkCodes& codes, tracking::TrackerOptions options);
 
 }  // namespace wiimote_tracker::identity

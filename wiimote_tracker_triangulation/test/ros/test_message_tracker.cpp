@@ -389,6 +389,13 @@ TEST_P(InBothModes, TheSameMessagesGiveTheSameBytes) {
   EXPECT_EQ(bytesOf(first.heard.arrays), bytesOf(second.heard.arrays));
 }
 
+/// Whether the 95 % ellipsoid holds the truth.
+template <typename Covariance>
+bool isInEllipsoid(const Vector3d& error, const Covariance& row_major) {
+  const Eigen::Map<const Eigen::Matrix3d> covariance(row_major.data());
+  return error.dot(covariance.ldlt().solve(error)) < 7.815;
+}
+
 TEST(Identity, LedsThatBlinkHaveTheirLabelsAndAreFollowedThroughTheDark) {
   constexpr double kChip = 0.023;
   const std::vector<std::string> words = {"01011111", "01010101"};
@@ -402,13 +409,6 @@ TEST(Identity, LedsThatBlinkHaveTheirLabelsAndAreFollowedThroughTheDark) {
   const auto chip = [&](double time) {
     return static_cast<std::size_t>((time - 999.0) / kChip) % words[0].size();
   };
-/// Whether the 95 % ellipsoid holds the truth.
-template <typename Covariance>
-bool isInEllipsoid(const Vector3d& error, const Covariance& row_major) {
-  const Eigen::Map<const Eigen::Matrix3d> covariance(row_major.data());
-  return error.dot(covariance.ldlt().solve(error)) < 7.815;
-}
-
   studio.is_dark = [&](std::size_t led, double time) {
     return led < words.size() && words[led][chip(time)] == '0';
   };
@@ -436,6 +436,7 @@ bool isInEllipsoid(const Vector3d& error, const Covariance& row_major) {
       EXPECT_EQ(TrackedPoint::TRACKED, point.state) << names[led] << " at " << time;
       EXPECT_GE(point.rays_used, 2u);
     }
+    EXPECT_GT(static_cast<double>(inside), 0.9 * static_cast<double>(points.size())) << names[led];
     if (led < words.size()) {
       EXPECT_GT(first.label_confidence, 0.999);
       EXPECT_LT(first.label_since.toSec(), 1001.0);

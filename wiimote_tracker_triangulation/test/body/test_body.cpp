@@ -337,6 +337,30 @@ TEST(BodyTracker, LabelsTellHowASymmetricBodyIsTurned) {
   showExactly(pose, square.leds, 40, 200, &tracker);
   ASSERT_TRUE(tracker.bodies()[0]);
   EXPECT_LT(rotationError(pose, tracker.bodies()[0]->world_from_body).norm(), 0.01);
+  // It is followed, not started again and again.
+  const MotionCovariance covariance = tracker.bodies()[0]->covariance;
+  tracker.startFromLabels(points);
+  EXPECT_EQ(tracker.bodies()[0]->covariance, covariance);
+}
+
+TEST(BodyTracker, ACameraThatFellSilentShowsNothing) {
+  const Isometry3d pose(Eigen::Translation3d(1.2, 1.3, 1.1));
+  BodyTracker tracker(paperRig(), {fourLeds()}, BodyTrackerOptions());
+  showExactly(pose, fourLeds().leds, 0, 40, &tracker);
+  ASSERT_TRUE(tracker.bodies()[0]);
+  const auto sees = [&](std::size_t camera) {
+    const std::vector<LedEstimate>& leds = tracker.bodies()[0]->leds;
+    return std::any_of(leds.begin(), leds.end(), [&](const LedEstimate& led) {
+      return std::count(led.cameras.begin(), led.cameras.end(), camera) > 0;
+    });
+  };
+  EXPECT_TRUE(sees(3));
+  for (int i = 40; i < 80; ++i) {
+    if (i % 4 != 3)
+      showExactly(pose, fourLeds().leds, i, i + 1, &tracker);
+  }
+  EXPECT_TRUE(sees(2));
+  EXPECT_FALSE(sees(3));
 }
 
 TEST(BodyTracker, DoesNotAllocateOnceWarm) {

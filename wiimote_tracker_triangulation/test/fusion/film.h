@@ -1,0 +1,82 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_FUSION_FILM_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TEST_FUSION_FILM_H
+
+#include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace wiimote_tracker::fusion::test {
+
+constexpr double kPeriod = 0.01;   // [s]
+constexpr double kLatency = 0.02;  // [s]
+
+/// An image of one camera on its way to the fuser.
+struct Delivery {
+  std::size_t camera;
+  tracking::CameraImage image;
+};
+
+inline tracking::Spot spotAt(const Eigen::Vector2d& pixel) {
+  tracking::Spot spot;
+  spot.pixel = pixel;
+  return spot;
+}
+
+inline tracking::CameraImage imageOf(const geometry::RigCamera& camera,
+                                     const Eigen::Vector3d& led,
+                                     double stamp) {
+  tracking::CameraImage image;
+  image.stamp = stamp;
+  image.arrival = stamp + kLatency;
+  if (const auto pixel = camera.camera.project(led))
+    image.spots.push_back(spotAt(*pixel));
+  return image;
+}
+
+/// Images of all cameras from `begin` to `end`, each camera at its own phase, in order of arrival.
+inline std::vector<Delivery> film(const geometry::Rig& rig,
+                                  double begin,
+                                  double end,
+                                  const std::function<Eigen::Vector3d(double)>& path) {
+  std::vector<Delivery> deliveries;
+  for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
+    const double phase = kPeriod * (0.1 + 0.3 * c);
+    for (int i = 0; begin + phase + i * kPeriod < end; ++i) {
+      const double stamp = begin + phase + i * kPeriod;
+      deliveries.push_back({c, imageOf(rig.cameras[c], path(stamp), stamp)});
+    }
+  }
+  std::stable_sort(deliveries.begin(), deliveries.end(),
+                   [](const auto& a, const auto& b) { return a.image.arrival < b.image.arrival; });
+  return deliveries;
+}
+
+/// The first LED that is there; null when none is.
+inline const tracking::TrackedLed* ledOf(const tracking::Snapshot& snapshot) {
+  const auto led = std::find_if(snapshot.leds.begin(), snapshot.leds.end(), [](const auto& l) {
+    return l.state != tracking::TrackState::kLost;
+  });
+  return led == snapshot.leds.end() ? nullptr : &*led;
+}
+
+inline std::vector<tracking::Snapshot> fuse(InstantFuser& fuser,
+                                            const std::vector<Delivery>& deliveries) {
+  std::vector<tracking::Snapshot> instants;
+  for (const Delivery& delivery : deliveries) {
+    fuser.add(delivery.camera, delivery.image);
+    while (const tracking::Snapshot* instant = fuser.next())
+      instants.push_back(*instant);
+  }
+  return instants;
+}
+
+inline Eigen::Vector3d still(double) {
+  return {0.1, 0.2, 0.3};
+}
+
+}  // namespace wiimote_tracker::fusion::test
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_FUSION_FILM_H

@@ -1,6 +1,7 @@
 #include "message_tracker.h"
 
 #include "bodies/body_message.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
@@ -24,6 +25,18 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 bool isSame(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && a == b;
+}
+
+/// @throws geometry::InvalidRigError when an LED would be called as a frame of the rig.
+void checkFrames(const geometry::Rig& rig, const std::vector<std::string>& labels) {
+  const auto refuseIfItIs = [&](const std::string& frame) {
+    if (std::find(labels.begin(), labels.end(), frame) != labels.end())
+      throw geometry::InvalidRigError("its frame '" + frame +
+                                      "' is called as an LED: rename that LED in labels");
+  };
+  refuseIfItIs(rig.world_frame);
+  for (const geometry::RigCamera& camera : rig.cameras)
+    refuseIfItIs(geometry::opticalFrame(camera.camera.name));
 }
 
 /// Adds what is missing in the message, in the order of the ids.
@@ -57,6 +70,7 @@ MessageTracker::MessageTracker(const TrackingParameters& parameters, MessageSink
 MessageTracker::RigChange MessageTracker::takeRig(
     const wiimote_tracker_msgs::RigCalibration& message) {
   const geometry::Rig rig = fromMessage(message);
+  checkFrames(rig, parameters_.allLabels());
   const std::string id = rig.id();
   RigChange change;
   if (!estimator_) {

@@ -244,6 +244,19 @@ TEST_P(InBothModes, ABadRigIsRefusedAndTheOneBeforeStays) {
   RigCalibration bad = toMessage(studio.rig);
   bad.cameras[1].fx = -1.0;
   EXPECT_THROW(studio.tracker.takeRig(bad), geometry::Error);
+  // A transform from a frame to itself breaks everybody's TF.
+  for (const std::string& frame : {std::string("led"), std::string("camera_9_optical_frame")}) {
+    TrackingParameters parameters = parametersOf(GetParam());
+    parameters.labels = {"led", "camera_9_optical_frame"};
+    Heard heard;
+    MessageTracker tracker(parameters, &heard);
+    RigCalibration conflict = toMessage(studio.rig);
+    if (frame == "led")
+      conflict.header.frame_id = frame;
+    else
+      conflict.cameras[1].name = "camera_9";
+    EXPECT_THROW(tracker.takeRig(conflict), geometry::Error) << frame;
+  }
   studio.film(0.5, {onCircle});
   studio.expectNear("led", 1000.3, onCircle);
 }

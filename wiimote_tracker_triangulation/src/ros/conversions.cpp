@@ -1,5 +1,6 @@
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
+#include "message_fields.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/rotation.h"
 
@@ -26,18 +27,11 @@ static_assert(static_cast<int>(geometry::RayModel::kCalibrated) ==
                       CameraCalibration::TIME_OFFSET_ONE_EPOCH,
               "enumerations of core and messages must agree");
 
-template <typename Message>  // Point, Vector3
-void set(const Eigen::Vector3d& v, Message* message) {
-  message->x = v.x();
-  message->y = v.y();
-  message->z = v.z();
-}
-
 Eigen::Vector3d vectorOf(const geometry_msgs::Point& p) {
   return {p.x, p.y, p.z};
 }
 
-void set(const Eigen::Matrix3d& rotation, geometry_msgs::Quaternion* message) {
+void setRotation(const Eigen::Matrix3d& rotation, geometry_msgs::Quaternion* message) {
   const Eigen::Quaterniond q = geometry::canonicalQuaternion(rotation);
   message->w = q.w();
   message->x = q.x();
@@ -75,8 +69,8 @@ CameraCalibration cameraToMessage(const geometry::RigCamera& rig_camera) {
   message.distortion.assign(
       intrinsics.distortion.begin(),
       intrinsics.distortion.begin() + coefficientCount(intrinsics.distortion_model));
-  set(camera.center(), &message.world_from_camera.position);
-  set(camera.world_from_camera.linear(), &message.world_from_camera.orientation);
+  setVector(camera.center(), &message.world_from_camera.position);
+  setRotation(camera.world_from_camera.linear(), &message.world_from_camera.orientation);
   message.time_offset = rig_camera.time_offset;
   message.time_offset_rule = static_cast<std::uint8_t>(rig_camera.time_offset_rule);
   message.time_offset_epoch = rig_camera.time_offset_epoch;
@@ -194,7 +188,7 @@ wiimote_tracker_msgs::RigRemap remapToMessage(const remap::Remap& remap) {
   message.parameters = remap.parameters;
   for (const Eigen::Vector3d& point : remap.support) {
     message.support.emplace_back();
-    set(point, &message.support.back());
+    setVector(point, &message.support.back());
   }
   return message;
 }
@@ -232,8 +226,8 @@ RigCalibration toMessage(const geometry::Rig& rig) {
   for (const geometry::Zone& zone : rig.zones) {
     wiimote_tracker_msgs::Zone z;
     z.name = zone.name;
-    set(zone.minimum, &z.minimum);
-    set(zone.maximum, &z.maximum);
+    setVector(zone.minimum, &z.minimum);
+    setVector(zone.maximum, &z.maximum);
     message.zones.push_back(z);
   }
   message.verdict = rig.verdict;
@@ -279,8 +273,8 @@ std::vector<geometry_msgs::TransformStamped> staticTransforms(const geometry::Ri
     transform.header.frame_id = rig.world_frame;
     transform.header.stamp.fromSec(rig.solved_at);
     transform.child_frame_id = opticalFrame(camera.name);
-    set(camera.center(), &transform.transform.translation);
-    set(camera.world_from_camera.linear(), &transform.transform.rotation);
+    setVector(camera.center(), &transform.transform.translation);
+    setRotation(camera.world_from_camera.linear(), &transform.transform.rotation);
     transforms.push_back(transform);
   }
   return transforms;

@@ -1,5 +1,7 @@
 #include "marker_builder.h"
 
+#include "marker_parts.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -14,37 +16,22 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using markers::color;
+using markers::kLineWidth;
+using markers::kTextHeight;
+using markers::pointOf;
 using visualization_msgs::Marker;
 using wiimote_tracker_msgs::TrackedPoint;
 
 constexpr double kPointDiameter = 0.03;  // [m]
 constexpr double kBlobDiameter = 0.02;   // [m]
-constexpr double kLineWidth = 0.005;     // [m]
-constexpr double kTextHeight = 0.1;      // [m]
 constexpr double kRayLength = 10.0;      // where there is no point to end in [m]
 constexpr double kOldView = 0.2;         // what a camera saw longer ago is not drawn [s]
 // Square root of the 95 % quantile of the chi-squared distribution with three degrees of freedom.
 constexpr double kSigmas95 = 2.7955;
 
-geometry_msgs::Point pointOf(const Vector3d& v) {
-  geometry_msgs::Point p;
-  p.x = v.x();
-  p.y = v.y();
-  p.z = v.z();
-  return p;
-}
-
 Vector3d vectorOf(const geometry_msgs::Point& p) {
   return {p.x, p.y, p.z};
-}
-
-std_msgs::ColorRGBA color(float r, float g, float b, float a) {
-  std_msgs::ColorRGBA color;
-  color.r = r;
-  color.g = g;
-  color.b = b;
-  color.a = a;
-  return color;
 }
 
 std_msgs::ColorRGBA colorOf(tracking::SpotUse use) {
@@ -142,16 +129,9 @@ visualization_msgs::MarkerArray MarkerBuilder::build(
 }
 
 Marker MarkerBuilder::marker(const std::string& ns, std::size_t id, int type) const {
-  Marker marker;
-  marker.header.frame_id = rig_.world_frame;
-  marker.header.stamp = ros::Time(std::max(0.0, time_));
-  marker.ns = ns;
-  marker.id = static_cast<int>(id);
-  marker.type = type;
-  marker.pose.orientation.w = 1.0;
   // So that a point does not stay in the picture when the tracker falls silent.
-  marker.lifetime = ros::Duration(std::max(1.0, 3.0 / options_.rate));
-  return marker;
+  const double lifetime = std::max(1.0, 3.0 / options_.rate);
+  return markers::marker(rig_.world_frame, time_, lifetime, ns, id, type);
 }
 
 void MarkerBuilder::addCamera(std::size_t index) {

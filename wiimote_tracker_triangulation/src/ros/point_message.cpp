@@ -1,6 +1,5 @@
 #include "point_message.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace wiimote_tracker {
@@ -17,21 +16,6 @@ static_assert(static_cast<int>(tracking::TrackState::kTentative) == TrackedPoint
                   static_cast<int>(tracking::TrackState::kLost) == TrackedPoint::LOST,
               "enumerations of core and messages must agree");
 
-template <typename Message>  // Point, Vector3
-void set(const Eigen::Vector3d& v, Message* message) {
-  message->x = v.x();
-  message->y = v.y();
-  message->z = v.z();
-}
-
-template <typename Array>
-void set(const Eigen::Matrix3d& m, Array* row_major) {
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c)
-      (*row_major)[static_cast<std::size_t>(3 * r + c)] = m(r, c);
-  }
-}
-
 }  // namespace
 
 TrackedPoint trackedPoint(const CorrectedSnapshot& corrected,
@@ -46,10 +30,11 @@ TrackedPoint trackedPoint(const CorrectedSnapshot& corrected,
   point.label_confidence = static_cast<float>(label.confidence);
   point.label_since = timeOf(label.since);
   point.state = static_cast<std::uint8_t>(led.state);
-  set(led.position, &point.position);
-  set(led.position_covariance, &point.position_covariance);
-  set(led.velocity.value_or(Eigen::Vector3d::Constant(kNaN)), &point.velocity);
-  set(led.velocity ? led.velocity_covariance : Eigen::Matrix3d(Eigen::Matrix3d::Constant(kNaN)),
+  setVector(led.position, &point.position);
+  setMatrix(led.position_covariance, &point.position_covariance);
+  setVector(led.velocity.value_or(Eigen::Vector3d::Constant(kNaN)), &point.velocity);
+  setMatrix(
+      led.velocity ? led.velocity_covariance : Eigen::Matrix3d(Eigen::Matrix3d::Constant(kNaN)),
       &point.velocity_covariance);
   point.rays_used = static_cast<std::uint32_t>(led.cameras.size());
   point.rays_possible = static_cast<std::uint32_t>(led.rays_possible);
@@ -104,10 +89,6 @@ geometry_msgs::TransformStamped transform(const TrackedPointArray& array,
   message.transform.translation.z = point.position.z;
   message.transform.rotation.w = 1.0;
   return message;
-}
-
-ros::Time timeOf(double seconds) {
-  return ros::Time(std::max(0.0, seconds));
 }
 
 }  // namespace wiimote_tracker

@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_POINT_MESSAGE_H
 
 #include "led_labels.h"
+#include "message_fields.h"
 #include "volume_correction.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
@@ -43,9 +44,6 @@ geometry_msgs::PointStamped pointStamped(const wiimote_tracker_msgs::TrackedPoin
 /// World frame -> label, without rotation.
 geometry_msgs::TransformStamped transform(const wiimote_tracker_msgs::TrackedPointArray& array,
                                           const wiimote_tracker_msgs::TrackedPoint& point);
-
-/// Not below 0, where ros::Time ends.
-ros::Time timeOf(double seconds);
 
 }  // namespace wiimote_tracker
 

@@ -1,5 +1,6 @@
 #include "body_markers.h"
 
+#include "../marker_parts.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
 
 #include <Eigen/Geometry>
@@ -9,37 +10,22 @@
 namespace wiimote_tracker {
 namespace {
 
+using markers::color;
+using markers::kLineWidth;
+using markers::kTextHeight;
+using markers::pointOf;
 using visualization_msgs::Marker;
 using wiimote_tracker_msgs::BodyLed;
 using wiimote_tracker_msgs::TrackedBody;
 
 constexpr double kAxisLength = 0.15;     // [m]
 constexpr double kAxisWidth = 0.01;      // [m]
-constexpr double kLineWidth = 0.005;     // [m]
 constexpr double kLedDiameter = 0.02;    // [m]
-constexpr double kTextHeight = 0.1;      // [m]
 constexpr double kLedTextHeight = 0.04;  // [m]
-
-geometry_msgs::Point pointOf(const Eigen::Vector3d& v) {
-  geometry_msgs::Point p;
-  p.x = v.x();
-  p.y = v.y();
-  p.z = v.z();
-  return p;
-}
 
 geometry_msgs::Point above(geometry_msgs::Point point, double height) {
   point.z += height;
   return point;
-}
-
-std_msgs::ColorRGBA color(float r, float g, float b, float a) {
-  std_msgs::ColorRGBA color;
-  color.r = r;
-  color.g = g;
-  color.b = b;
-  color.a = a;
-  return color;
 }
 
 }  // namespace
@@ -56,16 +42,9 @@ visualization_msgs::MarkerArray BodyMarkers::build(
 }
 
 Marker BodyMarkers::marker(const std::string& ns, std::size_t id, int type) const {
-  Marker marker;
-  marker.header.frame_id = rig_.world_frame;
-  marker.header.stamp = ros::Time(std::max(0.0, time_));
-  marker.ns = ns;
-  marker.id = static_cast<int>(id);
-  marker.type = type;
-  marker.pose.orientation.w = 1.0;
   // A body that is lost goes from the picture by itself.
-  marker.lifetime = ros::Duration(std::max(0.5, 3.0 * period_));
-  return marker;
+  const double lifetime = std::max(0.5, 3.0 * period_);
+  return markers::marker(rig_.world_frame, time_, lifetime, ns, id, type);
 }
 
 void BodyMarkers::addBody(const TrackedBody& body, std::size_t id) {

@@ -1,6 +1,6 @@
 #include "body_message.h"
 
-#include "../point_message.h"
+#include "../message_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,28 +13,12 @@ using wiimote_tracker_msgs::BodyLed;
 using wiimote_tracker_msgs::TrackedBody;
 using wiimote_tracker_msgs::TrackedBodyArray;
 
-template <typename Message>  // Point, Vector3
-void set(const Eigen::Vector3d& v, Message* message) {
-  message->x = v.x();
-  message->y = v.y();
-  message->z = v.z();
-}
-
-/// Six rows and columns of a covariance, from (first, first) on, row by row.
-template <typename Array>
-void set(const body::MotionCovariance& m, int first, Array* row_major) {
-  for (int r = 0; r < 6; ++r) {
-    for (int c = 0; c < 6; ++c)
-      (*row_major)[static_cast<std::size_t>(6 * r + c)] = m(first + r, first + c);
-  }
-}
-
 BodyLed ledMessage(const body::LedEstimate& led,
                    const std::string& label,
                    const geometry::Rig& rig) {
   BodyLed message;
   message.label = label;
-  set(led.position, &message.position);
+  setVector(led.position, &message.position);
   for (const std::size_t camera : led.cameras)
     message.cameras.push_back(rig.cameras[camera].camera.name);
   message.residual = led.residual;
@@ -53,16 +37,16 @@ TrackedBody bodyMessage(const body::BodyEstimate& estimate,
   message.state = is_lost            ? TrackedBody::LOST
                   : estimate.tracked ? TrackedBody::TRACKED
                                      : TrackedBody::PREDICTED;
-  set(estimate.world_from_body.translation(), &message.pose.pose.position);
+  setVector(estimate.world_from_body.translation(), &message.pose.pose.position);
   const Eigen::Quaterniond rotation(estimate.world_from_body.linear());
   message.pose.pose.orientation.x = rotation.x();
   message.pose.pose.orientation.y = rotation.y();
   message.pose.pose.orientation.z = rotation.z();
   message.pose.pose.orientation.w = rotation.w();
-  set(estimate.covariance, 0, &message.pose.covariance);
-  set(estimate.velocity, &message.twist.twist.linear);
-  set(estimate.angular_velocity, &message.twist.twist.angular);
-  set(estimate.covariance, 6, &message.twist.covariance);
+  setMatrix(estimate.covariance.topLeftCorner<6, 6>(), &message.pose.covariance);
+  setVector(estimate.velocity, &message.twist.twist.linear);
+  setVector(estimate.angular_velocity, &message.twist.twist.angular);
+  setMatrix(estimate.covariance.bottomRightCorner<6, 6>(), &message.twist.covariance);
   double squares = 0.0;
   double count = 0.0;
   for (std::size_t i = 0; i < estimate.leds.size(); ++i) {

@@ -1,0 +1,56 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_PARTS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_PARTS_H
+
+#include <std_msgs/ColorRGBA.h>
+#include <visualization_msgs/Marker.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+/// What the markers of LEDs and of bodies are made of.
+namespace wiimote_tracker::markers {
+
+constexpr double kLineWidth = 0.005;  // [m]
+constexpr double kTextHeight = 0.1;   // [m]
+
+inline geometry_msgs::Point pointOf(const Eigen::Vector3d& v) {
+  geometry_msgs::Point p;
+  p.x = v.x();
+  p.y = v.y();
+  p.z = v.z();
+  return p;
+}
+
+inline std_msgs::ColorRGBA color(float r, float g, float b, float a) {
+  std_msgs::ColorRGBA color;
+  color.r = r;
+  color.g = g;
+  color.b = b;
+  color.a = a;
+  return color;
+}
+
+/// @param time now [s] @param lifetime after which it goes from the picture by itself [s]
+inline visualization_msgs::Marker marker(const std::string& frame,
+                                         double time,
+                                         double lifetime,
+                                         const std::string& ns,
+                                         std::size_t id,
+                                         int type) {
+  visualization_msgs::Marker marker;
+  marker.header.frame_id = frame;
+  marker.header.stamp = ros::Time(std::max(0.0, time));
+  marker.ns = ns;
+  marker.id = static_cast<int>(id);
+  marker.type = type;
+  marker.pose.orientation.w = 1.0;
+  marker.lifetime = ros::Duration(lifetime);
+  return marker;
+}
+
+}  // namespace wiimote_tracker::markers
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_PARTS_H

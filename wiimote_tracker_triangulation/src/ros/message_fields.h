@@ -1,0 +1,38 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MESSAGE_FIELDS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MESSAGE_FIELDS_H
+
+#include <ros/time.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace wiimote_tracker {
+
+/// Not below 0, where ros::Time ends.
+inline ros::Time timeOf(double seconds) {
+  return ros::Time(std::max(0.0, seconds));
+}
+
+/// @param message with x, y and z: Point, Vector3.
+template <typename Message>
+void setVector(const Eigen::Vector3d& v, Message* message) {
+  message->x = v.x();
+  message->y = v.y();
+  message->z = v.z();
+}
+
+/// @param row_major of as many elements as the matrix has.
+template <typename Matrix, typename Array>
+void setMatrix(const Matrix& m, Array* row_major) {
+  std::size_t i = 0;
+  for (Eigen::Index r = 0; r < m.rows(); ++r) {
+    for (Eigen::Index c = 0; c < m.cols(); ++c)
+      (*row_major)[i++] = m(r, c);
+  }
+}
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MESSAGE_FIELDS_H

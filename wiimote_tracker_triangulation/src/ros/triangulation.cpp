@@ -91,8 +91,11 @@ void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
   tracker_.setBodies(bodies);
   bodies_.setBodies(bodies);
   body_diagnostics_.setBodies(bodies);
-  for (const std::string& sentence : ambiguities(bodies))
-    ROS_WARN("%s.", sentence.c_str());
+  for (const std::string& sentence : ambiguities(bodies)) {
+    // While one body is learned, the others are given again.
+    if (warned_of_.insert(sentence).second)
+      ROS_WARN("%s.", sentence.c_str());
+  }
   if (!bodies.empty())
     ROS_INFO("%zu rigid bodies are followed.", bodies.size());
 }

@@ -17,6 +17,7 @@
 #include <wiimote_tracker_msgs/RigCalibration.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,7 @@ class Triangulation : private MessageSink {
   BodyDiagnostics body_diagnostics_;
   BodyLearning learning_;
   TrackingDiagnostics diagnostics_;
+  std::set<std::string> warned_of_;  // bodies that may be confused: sentences
 
   ros::Publisher points_publisher_;
   ros::Publisher markers_publisher_;

@@ -1,5 +1,6 @@
 #include "image_message.h"
 
+#include <cmath>
 #include <limits>
 
 namespace wiimote_tracker {
@@ -8,6 +9,8 @@ namespace {
 using wiimote_tracker_msgs::IrBlob;
 using wiimote_tracker_msgs::IrBlobArray;
 
+// No device holds an image back for so long [s].
+constexpr double kLongestDelay = 10.0;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::string sizeOf(std::int64_t width, std::int64_t height) {
@@ -17,6 +20,9 @@ std::string sizeOf(std::int64_t width, std::int64_t height) {
 ImageFault faultOf(const IrBlobArray& message, const geometry::Camera& calibrated) {
   if (message.header.stamp.isZero())
     return ImageFault::kNoTime;
+  if (!message.arrival.isZero() &&
+      std::fabs((message.arrival - message.header.stamp).toSec()) > kLongestDelay)
+    return ImageFault::kImpossibleTime;
   if (!message.camera.empty() && message.camera != calibrated.name)
     return ImageFault::kOtherCamera;
   if (!message.identity.empty() && !calibrated.identity.empty() &&
@@ -44,7 +50,8 @@ ImageFault readImage(const IrBlobArray& message,
     return fault;
   image->stamp = message.header.stamp.toSec();
   image->arrival = (message.arrival.isZero() ? message.header.stamp : message.arrival).toSec();
-  image->stamp_stddev = message.stamp_stddev >= 0.0 ? message.stamp_stddev : kNaN;
+  const bool has_stddev = std::isfinite(message.stamp_stddev) && message.stamp_stddev >= 0.0;
+  image->stamp_stddev = has_stddev ? message.stamp_stddev : kNaN;
   image->clock_epoch = message.clock_epoch;
   image->maximum_spots =
       message.max_blobs > 0 ? message.max_blobs : std::numeric_limits<std::size_t>::max();
@@ -75,6 +82,10 @@ std::string describe(ImageFault fault,
              sizeOf(lens.width, lens.height) + ", which are ignored: repair its driver";
     case ImageFault::kNoTime:
       return "images of " + calibrated.name + " carry no time and are ignored: repair their driver";
+    case ImageFault::kImpossibleTime:
+      return "images of " + calibrated.name + " are stamped more than " +
+             std::to_string(static_cast<int>(kLongestDelay)) +
+             " s from their arrival and are ignored: let their driver take both from one clock";
     case ImageFault::kOtherCamera:
       return "images on the topic of " + calibrated.name + " are from " + message.camera +
              " and are ignored: let each driver publish under its own camera's name";

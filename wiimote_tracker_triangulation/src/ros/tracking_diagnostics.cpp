@@ -5,6 +5,7 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <algorithm>
+#include <iomanip>
 #include <sstream>
 
 namespace wiimote_tracker {
@@ -137,9 +138,9 @@ std::string TrackingDiagnostics::clockProblem(std::size_t camera) const {
     return "";
   const std::string host = hostOf(nodes_[camera]);
   std::ostringstream text;
-  text.precision(3);
-  text << "the clock " << (host.empty() ? "" : "of " + host + " ") << "behind " << cameras_[camera]
-       << " (" << nodes_[camera] << ") is " << (*ahead > 0.0 ? *ahead : -*ahead) << " s "
+  text << std::fixed << std::setprecision(3) << "the clock "
+       << (host.empty() ? "" : "of " + host + " ") << "behind " << cameras_[camera] << " ("
+       << nodes_[camera] << ") is " << (*ahead > 0.0 ? *ahead : -*ahead) << " s "
        << (*ahead > 0.0 ? "ahead" : "behind, or its network is slow")
        << ": run chrony on all computers";
   return text.str();

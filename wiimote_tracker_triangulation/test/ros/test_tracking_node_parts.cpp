@@ -193,12 +193,14 @@ TEST(ImageMessage, UnknownIsUnknown) {
   IrBlobArray message = goodImage(camera);
   message.camera = message.identity = "";
   message.arrival = ros::Time();
-  message.stamp_stddev = -1.0;
   message.max_blobs = 0;
   tracking::CameraImage image;
-  EXPECT_EQ(ImageFault::kNone, readImage(message, camera, &image));
+  for (const double stddev : {-1.0, kInfinity, kNaN}) {
+    message.stamp_stddev = stddev;
+    EXPECT_EQ(ImageFault::kNone, readImage(message, camera, &image));
+    EXPECT_TRUE(std::isnan(image.stamp_stddev)) << stddev;
+  }
   EXPECT_EQ(image.stamp, image.arrival);
-  EXPECT_TRUE(std::isnan(image.stamp_stddev));
   EXPECT_GT(image.maximum_spots, 1000000u) << "no number of spots means that the image is full";
 }
 
@@ -245,6 +247,11 @@ TEST(ImageMessage, OfNoUseIsNamed) {
   IrBlobArray message = goodImage(camera);
   message.header.stamp = ros::Time();
   says(message, ImageFault::kNoTime, "carry no time");
+  for (const double delay : {-11.0, 11.0}) {
+    message = goodImage(camera);
+    message.header.stamp = message.arrival - ros::Duration(delay);
+    says(message, ImageFault::kImpossibleTime, "from their arrival");
+  }
   message = goodImage(camera);
   message.camera = "stranger";
   says(message, ImageFault::kOtherCamera, "are from stranger");

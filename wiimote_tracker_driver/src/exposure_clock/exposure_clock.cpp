@@ -54,6 +54,9 @@ constexpr double kFirstStalls = 0.003;
 constexpr double kStallPrior = 300.0;
 constexpr double kStallMemory = 6000.0;
 constexpr double kFewestStalls = 0.0005;
+// Behind delays that spread wider than this, in periods, a late report and a lost one look alike:
+// nothing is learnt of losses.
+constexpr double kTellable = 0.6;
 // Mean time between reports that leave a queue [s].
 constexpr double kServiceTime = 0.0025;
 // Density of an arrival that nothing explains [1/s].
@@ -242,7 +245,8 @@ void ExposureClock::lookBack(double arrival, double on_time) {
       if (report.arrival - edge.time() - offset * edge.period() > -kTooEarly)
         edge_.add(report.frame, report.arrival, report.on_time, edge.period());
       learnStalls(waysOf(best(), report.arrival, settled_arrival_, offset));
-      counter_.learn(report.frame - settled_frame_);
+      if (best().spread() < kTellable * best().period())
+        counter_.learn(report.frame - settled_frame_);
     }
     settled_arrival_ = report.arrival;
     settled_frame_ = report.frame;

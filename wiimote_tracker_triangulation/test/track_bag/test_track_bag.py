@@ -252,6 +252,15 @@ def test_the_recording_is_kept_but_for_what_was_computed_before(bag, tmp_path):
     assert {t for t, _, _ in read(tmp_path / 'results.bag')} == {'/points', '/led/point', '/tf'}
 
 
+def times_of_chunks(bag):
+    """The recorded times in each chunk, by the index."""
+    times = {chunk.pos: [] for chunk in bag._chunks}
+    for entries in bag._connection_indexes.values():
+        for entry in entries:
+            times[entry.chunk_pos].append(entry.time.to_nsec())
+    return [times[chunk.pos] for chunk in bag._chunks]
+
+
 def test_the_new_bag_is_one_as_rosbag_makes_them(tmp_path):
     write(tmp_path / 'in.bag', recorded((recording.walk, recording.other), duration=2.5))
     track(tmp_path / 'in.bag', tmp_path / 'out.bag')
@@ -262,6 +271,8 @@ def test_the_new_bag_is_one_as_rosbag_makes_them(tmp_path):
     with rosbag.Bag(str(tmp_path / 'out.bag')) as out:
         expected = raw(out.read_messages(raw=True))
         assert len(out._chunks) > 1
+        assert [(c.start_time.to_nsec(), c.end_time.to_nsec()) for c in out._chunks] == [
+            (min(times), max(times)) for times in times_of_chunks(out)]
         # From anywhere, by the index.
         middle = expected[len(expected) // 2][4]
         assert raw(out.read_messages(raw=True, start_time=genpy.Time(0, middle))) == \

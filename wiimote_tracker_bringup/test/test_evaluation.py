@@ -11,8 +11,8 @@ import pytest
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
 
-from wiimote_tracker_evaluation import (alignment, bound, experiment, processes, report,  # noqa: E402
-                                        scene, scoring)
+from wiimote_tracker_evaluation import (alignment, bound, experiment, report, scene,  # noqa: E402
+                                        scoring)
 
 PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
 

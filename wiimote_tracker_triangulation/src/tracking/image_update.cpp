@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace wiimote_tracker::tracking {
 
@@ -149,26 +150,28 @@ void ImageUpdate::findMergedSpots(const StoredImage& image, const std::vector<Tr
   const auto isAlone = [&](const Candidate& candidate) {
     return candidate.spot == kNone && tracks[candidate.track].isConfirmed();
   };
-  for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
-    if (track_of_spot_[spot] != association::kGhost)
-      continue;
-    Candidate* owner = nullptr;
-    double least = 0.5 * options_.merging_distance;
-    for (std::size_t i = 0; i < candidate_count_; ++i) {
-      for (std::size_t j = i + 1; j < candidate_count_; ++j) {
-        const Eigen::Vector2d& a = candidates_[i].prediction.pixel();
-        const Eigen::Vector2d& b = candidates_[j].prediction.pixel();
-        const double distance = (image.pixels[spot] - 0.5 * (a + b)).norm();
-        if (distance >= least || (a - b).norm() >= options_.merging_distance ||
-            !isAlone(candidates_[i]) || !isAlone(candidates_[j]))
-          continue;
-        least = distance;
-        const bool is_first = (image.pixels[spot] - a).norm() < (image.pixels[spot] - b).norm();
-        owner = &candidates_[is_first ? i : j];
+  for (std::size_t i = 0; i < candidate_count_; ++i) {
+    for (std::size_t j = i + 1; j < candidate_count_; ++j) {
+      Candidate& a = candidates_[i];
+      Candidate& b = candidates_[j];
+      if (!isAlone(a) || !isAlone(b))
+        continue;
+      const Eigen::Vector2d between = b.prediction.pixel() - a.prediction.pixel();
+      if (between.norm() >= options_.merging_distance)
+        continue;
+      const Eigen::Vector2d middle = a.prediction.pixel() + 0.5 * between;
+      std::optional<std::size_t> nearest;
+      double least = 0.5 * options_.merging_distance;
+      for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
+        const double distance = (image.pixels[spot] - middle).norm();
+        if (track_of_spot_[spot] == association::kGhost && distance < least) {
+          least = distance;
+          nearest = spot;
+        }
       }
+      if (nearest)
+        give(*nearest, (image.pixels[*nearest] - middle).dot(between) > 0.0 ? &b : &a);
     }
-    if (owner)
-      give(spot, owner);
   }
 }
 

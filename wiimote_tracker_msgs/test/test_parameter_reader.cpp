@@ -97,6 +97,17 @@ TEST(ParameterReaderOfAFile, ReadsWhatTheServerWouldGive) {
   EXPECT_NO_THROW(reader.refuseUnknown());
 }
 
+// roscpp would round it.
+TEST(ParameterReader, AFractionIsNoWholeNumber) {
+  ros::NodeHandle nh("~fraction");
+  nh.setParam("count", 2.5);
+  ParameterReader reader(nh);
+  EXPECT_TRUE(contains(errorOf([&] { reader.bounded("count", 1, 0, 5); }),
+                       nh.resolveName("count") + " has the wrong type: expected a whole number"));
+  nh.setParam("count", 2);
+  EXPECT_EQ(2, reader.bounded("count", 1, 0, 5));
+}
+
 TEST(ParameterReaderOfAFile, ErrorsNameFileAndKey) {
   ParameterReader reader(tree());
   EXPECT_TRUE(contains(errorOf([&] { reader.optional<int>("side", 1); }),

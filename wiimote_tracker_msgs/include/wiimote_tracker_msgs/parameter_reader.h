@@ -5,10 +5,12 @@
 
 #include <ros/node_handle.h>
 
+#include <cmath>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -106,9 +108,19 @@ class ParameterReader {
   template <typename T>
   T get(const std::string& key) const {
     T value;
-    if (!std::visit([&](const auto& source) { return source.getParam(key, value); }, source_))
+    if (isFraction<T>(key) ||
+        !std::visit([&](const auto& source) { return source.getParam(key, value); }, source_))
       throw ParameterError(nameOf(key) + " has the wrong type: expected " + typeName(T()));
     return value;
+  }
+
+  /// Whether a whole number is wanted and another one is set, which roscpp would round.
+  template <typename T>
+  bool isFraction(const std::string& key) const {
+    double number = 0.0;
+    return std::is_same_v<T, int> &&
+           std::visit([&](const auto& source) { return source.getParam(key, number); }, source_) &&
+           number != std::floor(number);
   }
 
   template <typename T>

@@ -147,6 +147,10 @@ void readTracks(ParameterReader* reader, tracking::TrackerOptions* tracks) {
   group.read("doubt_time", 0.0, 5.0, &tracks->doubt_time);
   tracks->minimum_corner = readCorner(reader, "tracks/minimum_corner", tracks->minimum_corner);
   tracks->maximum_corner = readCorner(reader, "tracks/maximum_corner", tracks->maximum_corner);
+  if ((tracks->minimum_corner.array() >= tracks->maximum_corner.array()).any())
+    throw ParameterError(reader->nameOf("tracks/minimum_corner") + " must be below " +
+                         reader->nameOf("tracks/maximum_corner") +
+                         " in x, y and z: otherwise no LED would be found");
   group.read("history", 0.01, 2.0, &tracks->history);
   group.read("output_interval", 0.0, 1.0, &tracks->output_interval);
 }
@@ -249,7 +253,7 @@ TrackingParameters TrackingParameters::read(ParameterReader reader) {
       reader.bounded("markers/trail_duration", p.markers.trail_duration, 0.0, 600.0);
   p.clock_tolerance = reader.bounded("clock_tolerance", p.clock_tolerance, 0.001, 10.0);
 
-  reader.allow("diagnostic_period");  // read by diagnostic_updater
+  reader.bounded("diagnostic_period", 1.0, 0.1, 3600.0);  // of diagnostic_updater, which reads it
   reader.refuseUnknown();
   return p;
 }

@@ -223,6 +223,8 @@ TEST(Parameters, WhatIsWrongIsNamedInFull) {
   EXPECT_TRUE(refuses("instant/method", "guess"));
   EXPECT_TRUE(refuses("instant/maximum_gap", 0.2)) << "beyond the camera time-out";
   EXPECT_TRUE(refuses("tracks/minimum_corner", list({"1"})));
+  EXPECT_TRUE(refuses("tracks/confirmation_hits", 2.5)) << "not rounded";
+  EXPECT_TRUE(refuses("diagnostic_period", 0));
   EXPECT_TRUE(refuses("output/on_update", false)) << "nothing would go out";
   EXPECT_TRUE(refuses("identity/codes", "/nowhere/codes.yaml"));
   EXPECT_TRUE(refuses("misspelt", 1));
@@ -236,6 +238,11 @@ TEST(Parameters, WhatIsWrongIsNamedInFull) {
   EXPECT_NO_THROW(read(blinking));
   blinking.setParam("mode", "instant");
   EXPECT_THROW(read(blinking), ParameterError) << "nothing is followed through darkness";
+
+  ros::NodeHandle corners("~corners");
+  corners.setParam("tracks/minimum_corner", std::vector<double>{0.0, 0.0, 0.0});
+  corners.setParam("tracks/maximum_corner", std::vector<double>{2.0, 0.0, 2.0});
+  EXPECT_THROW(read(corners), ParameterError) << "no LED would be in that box";
 
   ros::NodeHandle nh("~instant_prediction");
   nh.setParam("mode", "instant");

@@ -113,6 +113,28 @@ TEST_F(Beyond, lamps_are_learned_masked_and_go_into_the_rig) {
     const auto& camera = status_->get()->cameras[3];
     return camera.masks == 0 && camera.blobs == 2;
   }));
+
+  // The rig that is in use says so too.
+  Latest<RigCalibration> rig("calibration/rig");
+  const auto rigHasMasks = [&](std::size_t count) {
+    return waitUntil([&] {
+      const auto message = rig.get();
+      return message && message->cameras[3].masks.size() == count;
+    });
+  };
+  EXPECT_TRUE(rigHasMasks(0));
+  cameras_->switchLed(false);
+  EXPECT_TRUE(waitUntil([&] {
+    learned = call<wiimote_tracker_msgs::LearnMasks>("calibration/learn_masks", request);
+    return learned.success && learned.masks == std::vector<std::uint32_t>({1, 1, 1, 1});
+  })) << learned.message;
+  EXPECT_SAYS(learned.message, "save it to keep that");
+  EXPECT_TRUE(rigHasMasks(1));
+  EXPECT_EQ(rig.get()->cameras[3].world_from_camera.position.x,
+            solved.rig.cameras[3].world_from_camera.position.x);
+  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/clear_masks").success);
+  EXPECT_TRUE(rigHasMasks(0));
+  cameras_->switchLed(true);
 }
 
 TEST_F(Beyond, the_button_of_a_spare_remote_captures) {

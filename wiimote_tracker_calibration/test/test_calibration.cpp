@@ -286,6 +286,25 @@ TEST_F(Workflow, a_rig_that_is_solved_again_keeps_the_zones) {
   EXPECT_TRUE(calibration_.rig()->zones.empty());
 }
 
+TEST_F(Workflow, masks_go_into_the_rig_and_void_no_correction) {
+  EXPECT_FALSE(calibration_.setMasks({{names_[0], {{{1.0, 2.0}, 3.0}}}})) << "no rig yet";
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  geometry::Rig corrected = *calibration_.rig();
+  corrected.remap.emplace();
+  corrected.remap->rig_id = corrected.id();
+  calibration_.setRig(corrected, "");
+  const capture::Masks masks = {{names_[1], {{{1.0, 2.0}, 3.0}}}};
+  EXPECT_TRUE(calibration_.setMasks(masks));
+  EXPECT_FALSE(calibration_.setMasks(masks)) << "nothing new";
+  const geometry::Rig& rig = *calibration_.rig();
+  EXPECT_EQ(rig.find(names_[1])->masks.size(), 1U);
+  EXPECT_NE(rig.id(), corrected.id());
+  EXPECT_EQ(rig.remap->rig_id, rig.id());
+  EXPECT_TRUE(calibration_.setMasks({}));
+  EXPECT_EQ(calibration_.rig()->id(), corrected.id());
+}
+
 TEST_F(Workflow, a_wave_is_recorded_covered_and_kept_beside_the_square) {
   EXPECT_SAYS(calibration_.beginWave(cameras_, true, std::nullopt, now_).message,
               "start one first");

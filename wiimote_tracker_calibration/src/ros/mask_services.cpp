@@ -4,6 +4,12 @@
 
 namespace wiimote_tracker {
 
+namespace {
+
+const char kToBeSaved[] = "; the rig is used so at once: save it to keep that";
+
+}  // namespace
+
 using workflow::Step;
 
 MaskServices::MaskServices(NodeContext* context) : context_(*context) {
@@ -52,7 +58,7 @@ bool MaskServices::learn(wiimote_tracker_msgs::LearnMasks::Request& request,
 }
 
 workflow::Reply MaskServices::learned(const std::map<std::string, capture::LearnedMasks>& learned,
-                                      const Lock&) {
+                                      const Lock& lock) {
   capture::Masks masks = context_.inputs().masks();
   std::string problems;
   std::string found;
@@ -80,15 +86,17 @@ workflow::Reply MaskServices::learned(const std::map<std::string, capture::Learn
     warnings +=
         "; every camera sees exactly one light: if that is the LED, switch it off and learn "
         "again";
-  context_.inputs().setMasks(masks);
+  if (context_.setMasks(masks, lock))
+    warnings += kToBeSaved;
   return {true, "masked lights: " + found + warnings};
 }
 
 bool MaskServices::clear(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   const Lock lock(context_.mutex());
-  context_.inputs().setMasks({});
   response.success = true;
   response.message = "no light is masked any more";
+  if (context_.setMasks({}, lock))
+    response.message += kToBeSaved;
   context_.show(response.message, lock);
   return true;
 }

@@ -93,6 +93,14 @@ void NodeContext::setRig(const geometry::Rig& rig, const std::string& message, c
   publishStatus(lock);
 }
 
+bool NodeContext::setMasks(const capture::Masks& masks, const Lock& lock) {
+  inputs_.setMasks(masks);
+  if (!calibration_.setMasks(masks))
+    return false;
+  publishRig(lock);
+  return true;
+}
+
 void NodeContext::setHealth(const std::string& camera, const std::string& text, const Lock&) {
   health_[camera] = text;
 }

@@ -91,6 +91,10 @@ class NodeContext {
   /// Tells the others about the current rig.
   void publishRig(const Lock&) { rig_output_.publish(*calibration_.rig()); }
 
+  /// Ignores other lights from now on, in the images and in the rig, which is then published.
+  /// @returns whether there is a rig and it changed.
+  bool setMasks(const capture::Masks& masks, const Lock& lock);
+
   /// CalibrationCameraStatus.health of a camera from now on; empty: all is well.
   void setHealth(const std::string& camera, const std::string& text, const Lock&);
 

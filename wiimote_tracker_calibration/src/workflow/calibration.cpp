@@ -343,6 +343,19 @@ void Calibration::setRig(const geometry::Rig& rig, const std::string& message) {
   message_ = message;
 }
 
+bool Calibration::setMasks(const capture::Masks& masks) {
+  if (!rig_)
+    return false;
+  const std::string id = rig_->id();
+  for (geometry::RigCamera& camera : rig_->cameras) {
+    const auto found = masks.find(camera.camera.name);
+    camera.masks = found != masks.end() ? found->second : std::vector<geometry::ImageMask>();
+  }
+  if (rig_->remap && rig_->remap->rig_id == id)
+    rig_->remap->rig_id = rig_->id();
+  return rig_->id() != id;
+}
+
 void Calibration::saved(const std::string& message) {
   if (step_ == Step::kSolved)
     step_ = Step::kSaved;

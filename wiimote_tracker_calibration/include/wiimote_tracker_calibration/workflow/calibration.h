@@ -137,6 +137,10 @@ class Calibration {
   /// Takes over a rig that was made of the one before, and is not saved yet.
   void setRig(const geometry::Rig& rig, const std::string& message);
 
+  /// Gives the rig these masks, which move no point: a correction of its volume stays good.
+  /// @returns whether there is a rig and they are new to it; then it differs from its file.
+  bool setMasks(const capture::Masks& masks);
+
   /// Notes that the rig was written to a file.
   void saved(const std::string& message);
 

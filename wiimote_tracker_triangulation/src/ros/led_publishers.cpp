@@ -3,52 +3,71 @@
 #include "point_message.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace wiimote_tracker {
 
 using wiimote_tracker_msgs::TrackedPoint;
+
+namespace {
+
+ros::Publisher advertise(ros::NodeHandle nh, const std::string& label) {
+  return nh.advertise<geometry_msgs::PointStamped>(label + "/point", 100);
+}
+
+}  // namespace
 
 LedPublishers::LedPublishers(const ros::NodeHandle& nh,
                              const std::vector<std::string>& labels,
                              bool publish_predicted)
     : nh_(nh), listed_(labels.begin(), labels.end()), publish_predicted_(publish_predicted) {
   for (const std::string& label : listed_)
-    publisherOf(label);
+    publishers_[label] = advertise(nh, label);
 }
 
-void LedPublishers::publish(const wiimote_tracker_msgs::TrackedPointArray& points) {
+bool LedPublishers::publish(const wiimote_tracker_msgs::TrackedPointArray& points) {
   transforms_.clear();
   for (const TrackedPoint& point : points.points) {
     if (!isPosition(point, publish_predicted_))
       continue;
-    publisherOf(point.label).publish(pointStamped(points, point));
+    const auto publisher = publishers_.find(point.label);
+    if (publisher != publishers_.end())
+      publisher->second.publish(pointStamped(points, point));
+    else
+      waiting_.emplace_back(point.label, pointStamped(points, point));
     transforms_.push_back(transform(points, point));
   }
   if (!transforms_.empty())
     broadcaster_.sendTransform(transforms_);
-  if (publishers_.size() > listed_.size())
-    dropUnused(points);
+  findUnused(points);
+  return !waiting_.empty() || !unused_.empty();
 }
 
-/// Topics of LEDs that are lost, or have got a listed label.
-void LedPublishers::dropUnused(const wiimote_tracker_msgs::TrackedPointArray& points) {
-  for (auto publisher = publishers_.begin(); publisher != publishers_.end();) {
-    const std::string& label = publisher->first;
+void LedPublishers::findUnused(const wiimote_tracker_msgs::TrackedPointArray& points) {
+  unused_.clear();
+  if (publishers_.size() == listed_.size())
+    return;
+  for (const auto& [label, publisher] : publishers_) {
     const bool is_used =
         listed_.count(label) > 0 ||
-        std::any_of(points.points.begin(), points.points.end(), [&](const TrackedPoint& point) {
-          return point.label == label && point.state != TrackedPoint::LOST;
-        });
-    publisher = is_used ? std::next(publisher) : publishers_.erase(publisher);
+        std::any_of(points.points.begin(), points.points.end(),
+                    [&, &used = label](const TrackedPoint& point) {
+                      return point.label == used && point.state != TrackedPoint::LOST;
+                    });
+    if (!is_used)
+      unused_.push_back(label);
   }
 }
 
-ros::Publisher& LedPublishers::publisherOf(const std::string& label) {
-  const auto found = publishers_.find(label);
-  if (found != publishers_.end())
-    return found->second;
-  return publishers_[label] = nh_.advertise<geometry_msgs::PointStamped>(label + "/point", 100);
+void LedPublishers::changeTopics() {
+  for (const std::string& label : unused_)
+    publishers_.erase(label);
+  unused_.clear();
+  for (const auto& [label, point] : waiting_) {
+    if (publishers_.count(label) == 0)
+      publishers_[label] = advertise(nh_, label);
+    publishers_[label].publish(point);
+  }
+  waiting_.clear();
 }
 
 }  // namespace wiimote_tracker

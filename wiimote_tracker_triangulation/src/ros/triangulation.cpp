@@ -7,7 +7,8 @@
 
 namespace wiimote_tracker {
 
-using wiimote_tracker_msgs::IrBlobArray;
+using wiimote_tracker_msgs::RigCalibration;
+using wiimote_tracker_msgs::RigCalibrationConstPtr;
 using wiimote_tracker_msgs::TrackedPointArray;
 using wiimote_tracker_msgs::TrackedPointArrayConstPtr;
 
@@ -21,7 +22,11 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
       body_markers_(parameters_.markers.rate),
       body_diagnostics_(nh, private_nh),
       learning_(nh, parameters_.bodies.file, parameters_.bodies.known, parameters_.allLabels()),
-      diagnostics_(nh, private_nh, &tracker_, parameters_.clock_tolerance) {
+      diagnostics_(nh, private_nh, &tracker_, parameters_.clock_tolerance),
+      images_(
+          nh,
+          [this](const ArrivedImage& image) { onImage(image); },
+          [this] { changeWhatImagesMayNot(); }) {
   if (parameters_.identity.codes)
     ROS_INFO("%s.", describeIdentity(parameters_).c_str());
   useBodies(parameters_.bodies.known);
@@ -30,19 +35,29 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
   markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 5);
   zone_publisher_ = nh_.advertise<wiimote_tracker_msgs::ZoneEvent>("zone_events", 100);
   triggered_publisher_ = nh_.advertise<TrackedPointArray>("triggered_points", 100);
-  rig_subscriber_ = nh_.subscribe("calibration/rig", 5, &Triangulation::onRig, this, no_delay);
+  rig_subscriber_ = nh_.subscribe<RigCalibration>(
+      "calibration/rig", 5,
+      [this](const RigCalibrationConstPtr& rig) { images_.alone([&] { onRig(*rig); }); },
+      ros::VoidConstPtr(), no_delay);
   trigger_subscriber_ = nh_.subscribe<std_msgs::Header>(
       "trigger", 100,
-      [this](const std_msgs::HeaderConstPtr& trigger) { tracker_.takeTrigger(*trigger); },
+      [this](const std_msgs::HeaderConstPtr& trigger) {
+        images_.alone([&] { tracker_.takeTrigger(*trigger); });
+      },
       ros::VoidConstPtr(), no_delay);
-  timer_ = nh_.createWallTimer(ros::WallDuration(1.0), &Triangulation::onTimer, this);
+  timer_ = nh_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
+    images_.alone([this] {
+      changeWhatImagesMayNot();  // when no image comes that would ask for it
+      onTimer();
+    });
+  });
 }
 
-void Triangulation::onRig(const wiimote_tracker_msgs::RigCalibrationConstPtr& message) {
+void Triangulation::onRig(const RigCalibration& message) {
   const bool had_rig = tracker_.hasRig();
   MessageTracker::RigChange change;
   try {
-    change = tracker_.takeRig(*message);
+    change = tracker_.takeRig(message);
   } catch (const geometry::Error& e) {
     ROS_ERROR("The rig calibration on %s is refused%s: %s", rig_subscriber_.getTopic().c_str(),
               had_rig ? ", the one before stays in use" : "", e.what());
@@ -63,28 +78,24 @@ void Triangulation::onRig(const wiimote_tracker_msgs::RigCalibrationConstPtr& me
     ROS_WARN("Points are not corrected: %s.", correction.problem().c_str());
 }
 
-/// Cameras that stay keep their connection, so that no image is lost.
 void Triangulation::subscribeToCameras() {
-  std::map<std::string, ros::Subscriber> subscribers;
-  for (const geometry::RigCamera& camera : tracker_.rig().cameras) {
-    const std::string& name = camera.camera.name;
-    const auto old = blob_subscribers_.find(name);
-    subscribers[name] = old != blob_subscribers_.end()
-                            ? old->second
-                            : nh_.subscribe<IrBlobArray, const BlobEvent&>(
-                                  name + "/ir_blobs", 100,
-                                  [this, name](const BlobEvent& event) { onBlobs(name, event); },
-                                  ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
-  }
-  blob_subscribers_ = std::move(subscribers);
+  std::vector<std::string> cameras;
+  for (const geometry::RigCamera& camera : tracker_.rig().cameras)
+    cameras.push_back(camera.camera.name);
+  images_.subscribe(cameras);
 }
 
-void Triangulation::onBlobs(const std::string& camera, const BlobEvent& event) {
+void Triangulation::onImage(const ArrivedImage& image) {
+  if (learning_.hasChange())
+    images_.askForTask();
+  diagnostics_.addArrival(image.camera, image.message->arrival, image.node);
+  tracker_.takeImage(image.camera, *image.message);
+}
+
+void Triangulation::changeWhatImagesMayNot() {
   if (const auto bodies = learning_.change())
     useBodies(*bodies);
-  const IrBlobArray& message = *event.getConstMessage();
-  diagnostics_.addArrival(camera, message.arrival, event.getPublisherName());
-  tracker_.takeImage(camera, message);
+  leds_.changeTopics();
 }
 
 void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
@@ -102,7 +113,8 @@ void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
 
 void Triangulation::onPoints(const TrackedPointArrayConstPtr& points,
                              const std::vector<tracking::CameraView>& views) {
-  leds_.publish(*points);
+  if (leds_.publish(*points))
+    images_.askForTask();
   points_publisher_.publish(points);
   tracker_.statistics().addLatency((ros::Time::now() - points->latest_arrival).toSec());
   learning_.addPoints(*points);
@@ -130,7 +142,7 @@ void Triangulation::onProblem(const std::string& sentence) {
   ROS_WARN("%s.", sentence.c_str());
 }
 
-void Triangulation::onTimer(const ros::WallTimerEvent&) {
+void Triangulation::onTimer() {
   if (!tracker_.hasRig()) {
     ROS_WARN_THROTTLE(10.0,
                       "Waiting for a rig on %s: start the calibration node and calibrate, or "

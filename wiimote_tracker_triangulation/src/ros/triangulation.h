@@ -5,6 +5,7 @@
 #include "bodies/body_learning.h"
 #include "bodies/body_markers.h"
 #include "bodies/body_publishers.h"
+#include "image_arrivals.h"
 #include "led_publishers.h"
 #include "marker_builder.h"
 #include "message_tracker.h"
@@ -13,10 +14,8 @@
 
 #include <ros/ros.h>
 #include <std_msgs/Header.h>
-#include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,18 +23,18 @@
 namespace wiimote_tracker {
 
 /// The tracker's topics: rig, blobs and triggers in; points, TF, markers, events and diagnostics
-/// out. Node and nodelet are two mains over this class. All callbacks must come from one thread.
+/// out. Node and nodelet are two mains over this class. All callbacks of the handles' queue must
+/// come from one thread, the owner's; images may be handled in others: see ImageArrivals.
 class Triangulation : private MessageSink {
  public:
   /// @throws ParameterError.
   Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
 
  private:
-  using BlobEvent = ros::MessageEvent<const wiimote_tracker_msgs::IrBlobArray>;
-
-  void onRig(const wiimote_tracker_msgs::RigCalibrationConstPtr& message);
-  void onBlobs(const std::string& camera, const BlobEvent& event);
-  void onTimer(const ros::WallTimerEvent& event);
+  void onRig(const wiimote_tracker_msgs::RigCalibration& message);
+  void onImage(const ArrivedImage& image);
+  void onTimer();
+  void changeWhatImagesMayNot();
   void subscribeToCameras();
   void useBodies(const std::vector<body::Constellation>& bodies);
 
@@ -64,8 +63,8 @@ class Triangulation : private MessageSink {
   ros::Publisher triggered_publisher_;
   ros::Subscriber rig_subscriber_;
   ros::Subscriber trigger_subscriber_;
-  std::map<std::string, ros::Subscriber> blob_subscribers_;  // by camera
   ros::WallTimer timer_;
+  ImageArrivals images_;  // ends first
 };
 
 }  // namespace wiimote_tracker

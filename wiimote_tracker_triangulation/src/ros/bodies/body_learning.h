@@ -39,6 +39,9 @@ class BodyLearning {
 
   void addPoints(const wiimote_tracker_msgs::TrackedPointArray& points);
 
+  /// Whether change() has something to tell. From any thread.
+  bool hasChange() const { return has_change_; }
+
   /// The bodies to be followed from now on, when they are others than at the last call. While one
   /// is learned it is not followed, for its LEDs to be free.
   std::optional<std::vector<body::Constellation>> change();

@@ -253,6 +253,49 @@ void KinematicStates::update(const Innovations<Lanes>& innovations) {
     updateAs<Lanes>(innovations, this);
 }
 
+void KinematicStates::forget(const Eigen::Vector3d& direction,
+                             double kept,
+                             double speed_variance,
+                             const Lanes& acceleration_variances) {
+  // x' = M x with M = I - lost r r^T.
+  const Eigen::Vector3d& r = direction;
+  const double lost = 1.0 - kept;
+  for (Vector* x : {&v, &a}) {
+    const Lanes along = r[0] * (*x)[0] + r[1] * (*x)[1] + r[2] * (*x)[2];
+    for (int i = 0; i < 3; ++i)
+      (*x)[i] -= lost * r[i] * along;
+  }
+  for (Square* block : {&pv, &pa, &va}) {  // from the right
+    for (int i = 0; i < 3; ++i) {
+      Lanes* row = block->data() + 3 * i;
+      const Lanes along = r[0] * row[0] + r[1] * row[1] + r[2] * row[2];
+      for (int j = 0; j < 3; ++j)
+        row[j] -= lost * r[j] * along;
+    }
+  }
+  for (int j = 0; j < 3; ++j) {  // from the left
+    const Lanes along = r[0] * va[j] + r[1] * va[3 + j] + r[2] * va[6 + j];
+    for (int i = 0; i < 3; ++i)
+      va[3 * i + j] -= lost * r[i] * along;
+  }
+  const auto fromBothSides = [&](Symmetric* block, const Lanes& variance) {
+    Vector along;
+    for (int i = 0; i < 3; ++i) {
+      const int* s = kSymmetric[i];
+      along[i] = r[0] * (*block)[s[0]] + r[1] * (*block)[s[1]] + r[2] * (*block)[s[2]];
+    }
+    const Lanes twice = r[0] * along[0] + r[1] * along[1] + r[2] * along[2];
+    const Lanes both = lost * lost * twice + (1.0 - kept * kept) * variance;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = i; j < 3; ++j)
+        (*block)[kSymmetric[i][j]] +=
+            both * (r[i] * r[j]) - lost * (along[i] * r[j] + along[j] * r[i]);
+    }
+  };
+  fromBothSides(&vv, Lanes::Constant(speed_variance));
+  fromBothSides(&aa, acceleration_variances);
+}
+
 void KinematicStates::mix(const std::array<Lanes, 4>& shares,
                           const Lanes& rest_shares,
                           const Eigen::Vector3d& rest_position,

@@ -306,6 +306,32 @@ bool MotionFilter::isLinear(const geometry::Camera& camera,
          square(kNegligible * depth) * prediction.pixel_variance_;
 }
 
+/// Of an LED that is seen from one side only, velocity and acceleration along the ray are
+/// forgotten: what goes on evenly across the image need not do so in depth. How fast it goes there
+/// is guessed from how fast it goes across.
+void MotionFilter::forgetUnseen(const geometry::Camera& camera) {
+  constexpr double kSquaredSine = 0.01;  // of the angle between two sides
+  constexpr double kRemembered = 0.05;   // [s]
+  constexpr double kForgetting = 1.0;    // to 1/e [s]
+  constexpr double kSpeedShare = 0.1;    // of the mean square of a velocity across the ray
+  const Vector3 view = position() - camera.center();
+  const double duration = time_ - updated_;
+  updated_ = time_;
+  if (square(view.dot(view_)) <= (1.0 - kSquaredSine) * view.squaredNorm() * view_.squaredNorm()) {
+    view_ = view;
+    sides_seen_ = time_;
+    return;
+  }
+  if (!(time_ - sides_seen_ > kRemembered))
+    return;
+  const Vector3 ray = view.normalized();
+  const Vector3 v = velocity();
+  const Matrix3 squares = velocityCovariance() + v * v.transpose();
+  const double across = 0.5 * (squares.trace() - ray.dot(squares * ray));
+  moving_.forget(ray, std::exp(-duration / kForgetting), kSpeedShare * across,
+                 accelerationVariances(*options_));
+}
+
 bool MotionFilter::update(const geometry::Camera& camera,
                           const PixelPrediction& prediction,
                           const Vector2& pixel) {
@@ -315,6 +341,7 @@ bool MotionFilter::update(const geometry::Camera& camera,
     return false;
   if (isLinear(camera, prediction, pixel)) {
     apply(prediction, pixel);
+    forgetUnseen(camera);
     return true;
   }
   // Iterated: linearised anew where the spot itself says that the LED is.
@@ -327,6 +354,7 @@ bool MotionFilter::update(const geometry::Camera& camera,
     *this = before;
     apply(closer, pixel);
   }
+  forgetUnseen(camera);
   return true;
 }
 

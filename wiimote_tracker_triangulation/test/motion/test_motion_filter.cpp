@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include <array>
 #include <limits>
 #include <memory>
 
@@ -391,6 +392,39 @@ TEST(MotionFilter, GrowsUncertainInAGapAndFindsBack) {
   }
 }
 
+TEST(MotionFilter, OneCameraAloneDoesNotPretendToKnowTheDistance) {
+  constexpr int kRuns = 150;
+  constexpr double kRadius = 0.75, kSpeed = 1.0;
+  const std::vector<Camera> cameras = ring();
+  Random random(14);
+  std::array<int, 3> inside{};
+  const std::array<double, 3> alone{0.2, 0.4, 0.6};  // [s]
+  for (int run = 0; run < kRuns; ++run) {
+    const double phase = random.uniform(-M_PI, M_PI);
+    const auto path = [&](double time) {
+      const double angle = phase + kSpeed / kRadius * time;
+      return Vector3d(kRadius * std::cos(angle), kRadius * std::sin(angle), 0.0);
+    };
+    MotionFilter filter(kDefault, 0.0, path(0.0), 4e-6 * Matrix3d::Identity());
+    std::size_t next = 0;
+    for (int i = 1; next < alone.size(); ++i) {
+      const double time = kStep * i;
+      if (time > 1.0 && i % 4 != run % 4)
+        continue;
+      const Camera& camera = cameras[i % 4];
+      ASSERT_TRUE(takeIn(&filter, time, camera, noisyPixel(camera, path(time), random)));
+      if (time > 1.0 + alone[next]) {
+        const Vector3d error = filter.position() - path(time);
+        inside[next++] += error.dot(filter.positionCovariance().llt().solve(error)) < 7.815;
+      }
+    }
+  }
+  // Nine of ten and more, less four standard deviations of so many runs.
+  const double least = 0.9 * kRuns - 4.0 * std::sqrt(0.9 * 0.1 * kRuns);
+  for (std::size_t i = 0; i < alone.size(); ++i)
+    EXPECT_GT(inside[i], least) << alone[i];
+}
+
 TEST(MotionFilter, IteratesFromAPoorStart) {
   // Depth all but unknown: a single linearisation would miss by several standard deviations.
   const std::vector<Camera> cameras = ring();
@@ -477,6 +511,43 @@ TEST(MotionFilter, AbsurdInputIsRefusedOrSurvived) {
 
   const MotionFilter behind(kDefault, 0.0, 2.0 * camera.center(), 1e-6 * Matrix3d::Identity());
   EXPECT_FALSE(behind.predictPixel(camera, {kPixelStddev, 0.0}));
+}
+
+TEST(MotionFilter, StaysANumberWhateverIsTakenIn) {
+  // Spots that no gate would let through, one after the other, at any distance in time and image;
+  // with ways that are left out, too.
+  const std::vector<Camera> cameras = ring();
+  Random random(15);
+  for (int run = 0; run < 300; ++run) {
+    MotionOptions options;
+    if (run % 3 == 1)
+      options.sudden_random_walk = 0.0;
+    if (run % 5 == 1)
+      options.stop_rate = 0.0;
+    if (run % 7 == 1)
+      options.rise_rate = options.settle_rate = options.fixed.start_rate = 0.0;
+    const double stddev = std::pow(10.0, random.uniform(-4.0, 0.0));
+    MotionFilter filter(options, 0.0, random.inBox(0.5), stddev * stddev * Matrix3d::Identity());
+    double time = 0.0;
+    for (int i = 0; i < 60; ++i) {
+      time += i % 3 == 0 ? 0.0 : std::pow(10.0, random.uniform(-6.0, run % 2 == 0 ? -1.0 : 3.0));
+      filter.predict(time);
+      const Camera& camera = cameras[static_cast<std::size_t>(random.uniform(0.0, 3.999))];
+      const auto prediction = filter.predictPixel(
+          camera, {std::pow(10.0, random.uniform(-3, 2)), run % 4 == 0 ? 0.01 : 0.0});
+      if (!prediction)
+        continue;
+      const double range = std::pow(10.0, random.uniform(-1.0, 6.0));  // [px]
+      const Vector2d pixel =
+          prediction->pixel() + range * Vector2d(random.gaussian(), random.gaussian());
+      ASSERT_FALSE(std::isnan(prediction->logLikelihood(pixel))) << run << " " << i;
+      filter.update(camera, *prediction, pixel);
+      ASSERT_TRUE(filter.position().allFinite()) << run << " " << i;
+      ASSERT_TRUE(filter.positionCovariance().allFinite()) << run << " " << i;
+      ASSERT_TRUE(filter.velocityCovariance().allFinite()) << run << " " << i;
+      ASSERT_TRUE(filter.stillProbability() >= 0.0 && filter.stillProbability() <= 1.0 + 1e-9);
+    }
+  }
 }
 
 TEST(MotionFilter, DoesNotAllocate) {

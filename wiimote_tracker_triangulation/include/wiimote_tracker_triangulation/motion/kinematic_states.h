@@ -35,6 +35,15 @@ struct KinematicStates {
   /// Kalman update of each state with its own innovation.
   void update(const Innovations<Lanes>& innovations);
 
+  /// Velocity and acceleration along a direction are forgotten in part: they become what they were
+  /// times `kept`, plus noise, so that with nothing kept they have these variances.
+  /// @param direction of length 1  @param kept [0..1]  @param speed_variance [m^2/s^2]
+  /// @param acceleration_variances [m^2/s^4]
+  void forget(const Eigen::Vector3d& direction,
+              double kept,
+              double speed_variance,
+              const Lanes& acceleration_variances);
+
   /// Each state becomes what the mixture of the old ones has for mean and covariance.
   /// @param shares shares[i] holds old state i's share of each new state. @param rest_shares of a
   /// state at rest at `rest_position` with the covariance `rest_covariance`; with it, all shares of

@@ -72,13 +72,17 @@ class MotionFilter {
   bool isLinear(const geometry::Camera& camera,
                 const PixelPrediction& prediction,
                 const Eigen::Vector2d& pixel) const;
+  void forgetUnseen(const geometry::Camera& camera);
   void apply(const PixelPrediction& prediction, const Eigen::Vector2d& pixel);
 
   const MotionOptions* options_;
   double time_;
   double stopped_until_;  // stops are taken into account up to here [s]
   double changed_until_;  // all other changes between ways to move up to here [s]
-  Pair resting_weights_;  // probabilities
+  double updated_;        // last update [s]
+  double sides_seen_;     // when it last was seen from another side [s]
+  Eigen::Vector3d view_ = Eigen::Vector3d::Zero();  // from which camera, then [m]
+  Pair resting_weights_;                            // probabilities
   Lanes moving_weights_;
   RestingStates resting_;
   KinematicStates moving_;

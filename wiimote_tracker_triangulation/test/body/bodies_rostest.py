@@ -4,7 +4,6 @@ with an LED hidden, and after all were hidden; track_bag finds the same poses in
 
 The truth is that of the recording, which shares no code with the tracker."""
 
-import io
 import math
 import os
 import shutil
@@ -29,6 +28,7 @@ from wiimote_tracker_msgs.srv import LearnBody
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', 'track_bag'))
 import recording  # noqa: E402
+from live import bytes_of, wait_for  # noqa: E402
 
 PACKAGE = 'wiimote_tracker_triangulation'
 LEDS = np.array([[0.10, 0.0, 0.03], [-0.06, 0.09, 0.0], [0.02, -0.03, 0.02]])
@@ -74,22 +74,6 @@ def matrix(q):
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
                      [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-
-
-def bytes_of(message):
-    """Without the sequence number that a live publisher counts."""
-    message.header.seq = 0
-    buffer = io.BytesIO()
-    message.serialize(buffer)
-    return buffer.getvalue()
-
-
-def wait_for(condition, what):
-    end = time.monotonic() + 20.0
-    while not condition():
-        if time.monotonic() > end or rospy.is_shutdown():
-            raise AssertionError('waited in vain for ' + what)
-        time.sleep(0.0005)
 
 
 class Bodies(unittest.TestCase):

@@ -2,13 +2,11 @@
 """The running node or nodelet gets images one by one and publishes; track_bag gets the same images
 from a bag: the results are equal bit for bit."""
 
-import io
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 import rosbag
@@ -21,27 +19,11 @@ from wiimote_tracker_msgs.msg import IrBlobArray, RigCalibration, TrackedPointAr
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import recording  # noqa: E402
+from live import bytes_of, wait_for  # noqa: E402
 
 PACKAGE = 'wiimote_tracker_triangulation'
 TOPICS = {'/points': TrackedPointArray, '/triggered_points': TrackedPointArray,
           '/zone_events': ZoneEvent, '/led/point': PointStamped, '/tf': TFMessage}
-
-
-def bytes_of(message):
-    """Without the sequence numbers that a live publisher counts."""
-    if hasattr(message, 'header'):
-        message.header.seq = 0
-    buffer = io.BytesIO()
-    message.serialize(buffer)
-    return buffer.getvalue()
-
-
-def wait_for(condition, what):
-    end = time.monotonic() + 60.0
-    while not condition():
-        if time.monotonic() > end or rospy.is_shutdown():
-            raise AssertionError('waited in vain for ' + what)
-        time.sleep(0.0005)
 
 
 class LiveEqualsOffline(unittest.TestCase):

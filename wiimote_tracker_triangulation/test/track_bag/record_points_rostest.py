@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 import genpy
@@ -16,16 +15,11 @@ import roslib.packages
 import rospy
 from wiimote_tracker_msgs.msg import TrackedPoint, TrackedPointArray
 
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+from live import wait_for  # noqa: E402
+
 PACKAGE = 'wiimote_tracker_triangulation'
 PROGRAM = roslib.packages.find_node(PACKAGE, 'record_points')[0]
-
-
-def wait_for(condition, what):
-    end = time.monotonic() + 60.0
-    while not condition():
-        if time.monotonic() > end or rospy.is_shutdown():
-            raise AssertionError('waited in vain for ' + what)
-        time.sleep(0.005)
 
 
 def array(number, *ids):

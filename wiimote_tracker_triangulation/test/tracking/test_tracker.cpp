@@ -426,6 +426,36 @@ TEST(Tracker, TwoThatAreOneSpotInAllViewsAreToldApartByTheirMotion) {
   }
 }
 
+// It blinks at the height of the cameras, where the first two that see it light up may face each
+// other: their rays hardly tell how far along their line it is, its motion does.
+TEST(Tracker, WhatBlinksKeepsItsMotionWhileItIsDark) {
+  const Path led = test::circle({1.25, 1.25, 1.9}, 0.4, 0.5);
+  SceneOptions options;
+  options.hidden = [](std::size_t, std::size_t, double t) { return std::fmod(t, 0.3) < 0.2; };
+  const auto rmsWith = [&](double dark_time) {
+    TrackerOptions tracker_options = exact();
+    tracker_options.dark_time = dark_time;
+    double squares = 0.0;
+    int count = 0;
+    for (unsigned seed = 1; seed <= 10; ++seed) {  // another order of the cameras each
+      Tracker tracker(paperRig(), tracker_options);
+      for (const Snapshot& s : track(&tracker, imagesOf(paperRig(), {led}, options, 1200, seed))) {
+        if (s.time < options.start + 1.0)
+          continue;
+        EXPECT_EQ(1u, s.leds.size());
+        EXPECT_EQ(0u, s.leds.at(0).id);
+        if (s.leds[0].state == TrackState::kTracked) {
+          squares += (s.leds[0].position - led(s.time)).squaredNorm();
+          ++count;
+        }
+      }
+    }
+    EXPECT_GT(count, 3000);
+    return std::sqrt(squares / count);
+  };
+  EXPECT_LT(rmsWith(0.3), 0.6 * rmsWith(0.0));
+}
+
 TEST(Tracker, WhatLeapsIsNeverTrackedWhereItIsNot) {
   // In each step of 0.25 s it is somewhere else; seldom so near that it may have gone there.
   geometry::test::Random random(21);

@@ -34,7 +34,7 @@ struct TrackerOptions {
   double tracked_time = 0.05;         ///< Seen by two within this: tracked [s, 0.001..1].
   double prediction_time = 0.5;       ///< Unseen for longer, it is lost [s, 0.01..10].
   double doubt_time = 0.25;           ///< Of two that part, which is which, at most [s, 0..5].
-  double single_view_time = 1.0;      ///< Seen by one camera only for longer: lost [s, 0.01..60].
+  double single_view_time = 0.7;      ///< Seen by one camera only for longer: lost [s, 0.01..60].
   double dark_time = 0.0;  ///< LEDs that blink are dark for so long at most [s, 0..5]; 0: none does.
 
   /// No new LED outside this box: light mirrored by floors and windows seems to come from behind

@@ -1,6 +1,7 @@
 #include "led_publishers.h"
 
 #include "point_message.h"
+#include "publish_at_once.h"
 
 #include <algorithm>
 
@@ -31,7 +32,7 @@ bool LedPublishers::publish(const wiimote_tracker_msgs::TrackedPointArray& point
       continue;
     const auto publisher = publishers_.find(point.label);
     if (publisher != publishers_.end())
-      publisher->second.publish(pointStamped(points, point));
+      publishAtOnce(publisher->second, pointStamped(points, point));
     else
       waiting_.emplace_back(point.label, pointStamped(points, point));
     transforms_.push_back(transform(points, point));

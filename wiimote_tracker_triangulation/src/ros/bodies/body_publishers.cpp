@@ -1,5 +1,6 @@
 #include "body_publishers.h"
 
+#include "../publish_at_once.h"
 #include "body_message.h"
 
 namespace wiimote_tracker {
@@ -28,7 +29,7 @@ void BodyPublishers::publish(const wiimote_tracker_msgs::TrackedBodyArray& bodie
     const auto publisher = publishers_.find(body.name);
     if (publisher == publishers_.end() || !isPose(body, publish_predicted_))
       continue;
-    publisher->second.publish(poseStamped(bodies, body));
+    publishAtOnce(publisher->second, poseStamped(bodies, body));
     transforms_.push_back(transform(bodies, body));
   }
   if (!transforms_.empty())

@@ -1,9 +1,9 @@
 // Turns a folder in the layout of MultiCamSelfCal or flydra into a bag of this tracker.
 
 #include "bag.h"
+#include "solution.h"
 #include "wiimote_tracker_calibration/import/number_table.h"
 #include "wiimote_tracker_calibration/import/recording.h"
-#include "solution.h"
 
 #include <cstdio>
 #include <exception>

@@ -8,8 +8,9 @@
 #include "wiimote_tracker_calibration/bundle/solve.h"
 #include "wiimote_tracker_calibration/bundle/statistics.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
-#include <cstdio>
 
 namespace wiimote_tracker::import {
 
@@ -74,11 +75,10 @@ geometry::Rig rigOf(const Reconstruction& reconstruction, const std::string& met
     rig.cameras.push_back(camera);
   }
   const bundle::Statistics all = bundle::statistics(reconstruction);
-  char verdict[200];
-  std::snprintf(verdict, sizeof(verdict),
-                "%zu of %zu observations fit; their reprojection error: median %.2f px, mean %.2f "
-                "px, RMS %.2f px",
-                all.inliers, all.observations, all.median, all.mean, all.rms);
+  const std::string verdict = format(
+      "%zu of %zu observations fit; their reprojection error: median %.2f px, mean %.2f "
+      "px, RMS %.2f px",
+      all.inliers, all.observations, all.median, all.mean, all.rms);
   rig.verdict = verdict;
   return rig;
 }

@@ -9,11 +9,13 @@ status is 0 only when something passed and nothing failed.
 """
 
 import argparse
+import dataclasses
 import glob
 import os
 import re
 import sys
 import xml.etree.ElementTree as ElementTree
+from typing import List, Optional, Set, Tuple
 
 # A rostest also writes one "rosunit-" file for each test program in it; its own "rostest-" file
 # repeats those as one case each, and matters only when the rostest itself went wrong.
@@ -23,16 +25,16 @@ WRAPPER_KINDS = ('rostest-', 'MISSING-')
 PASSED, FAILED, SKIPPED = 'passed', 'failed', 'skipped'
 
 
-class Case(object):
-    """One test case: where it is from, its name, its verdict, and the text of its failure."""
+@dataclasses.dataclass
+class Case:
+    """One test case: where it is from and its name, its verdict, the text of its failure."""
 
-    def __init__(self, name, verdict, text=''):
-        self.name = name
-        self.verdict = verdict
-        self.text = text
+    name: str
+    verdict: str
+    text: str = ''
 
 
-def verdict_of(testcase):
+def verdict_of(testcase: ElementTree.Element) -> Tuple[str, str]:
     """Verdict and failure text of a <testcase> element."""
     for tag in ('failure', 'error'):
         problems = testcase.findall(tag)
@@ -43,26 +45,26 @@ def verdict_of(testcase):
     return PASSED, ''
 
 
-def read_cases(path, package):
+def read_cases(path: str, package: str) -> List[Case]:
     """All cases of one result file. A file that is damaged or holds no test is a failed case."""
-    source = '%s/%s' % (package, os.path.splitext(os.path.basename(path))[0])
+    source = f'{package}/{os.path.splitext(os.path.basename(path))[0]}'
     try:
         root = ElementTree.parse(path).getroot()
     except (ElementTree.ParseError, OSError) as error:
-        return [Case(source, FAILED, 'unreadable result: %s' % error)]
+        return [Case(source, FAILED, f'unreadable result: {error}')]
     cases = []
     for testcase in root.iter('testcase'):
         verdict, text = verdict_of(testcase)
         name = '.'.join(part for part in (testcase.get('classname'), testcase.get('name')) if part)
-        cases.append(Case('%s: %s' % (source, name), verdict, text))
+        cases.append(Case(f'{source}: {name}', verdict, text))
     return cases or [Case(source, FAILED, 'no test ran')]
 
 
-def expected_results(build, kinds):
+def expected_results(build: str, kinds: Tuple[str, ...]) -> Set[str]:
     """Result files that the makefiles of a build folder would write, as "package/file.xml"."""
     expected = set()
-    for makefile in glob.glob(os.path.join(build, '*', 'CMakeFiles', 'run_tests_*.dir',
-                                           'build.make')):
+    for makefile in glob.glob(os.path.join(build, '**', 'CMakeFiles', 'run_tests_*.dir',
+                                           'build.make'), recursive=True):
         with open(makefile) as file:
             found = re.findall(r'run_tests\.py"?\s+"?\S*?/test_results/([^/\s"]+/[^/\s"]+\.xml)',
                                file.read())
@@ -70,7 +72,7 @@ def expected_results(build, kinds):
     return expected
 
 
-def count(build, kinds=LEAF_KINDS + WRAPPER_KINDS):
+def count(build: str, kinds: Tuple[str, ...] = LEAF_KINDS + WRAPPER_KINDS) -> List[Case]:
     """All cases of one build folder, those of missing results included."""
     results = os.path.join(build, 'test_results')
     cases = []
@@ -78,7 +80,7 @@ def count(build, kinds=LEAF_KINDS + WRAPPER_KINDS):
     for path in sorted(glob.glob(os.path.join(results, '**', '*.xml'), recursive=True)):
         name = os.path.basename(path)
         package = os.path.relpath(os.path.dirname(path), results)
-        found.add('%s/%s' % (package, name))
+        found.add(f'{package}/{name}')
         if name.startswith(LEAF_KINDS):
             cases += read_cases(path, package)
         elif name.startswith(WRAPPER_KINDS):
@@ -90,7 +92,7 @@ def count(build, kinds=LEAF_KINDS + WRAPPER_KINDS):
     return cases
 
 
-def main(arguments=None):
+def main(arguments: Optional[List[str]] = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('build', help='build folder whose tests all ran')
@@ -107,7 +109,7 @@ def main(arguments=None):
     for case in cases:
         totals[case.verdict] += 1
         if case.verdict != PASSED:
-            print('%s  %s' % (case.verdict.upper(), case.name))
+            print(f'{case.verdict.upper()}  {case.name}')
             for line in case.text.splitlines()[:30]:
                 print('    ' + line)
     print('{passed} passed, {failed} failed, {skipped} skipped'.format(**totals))

@@ -1,9 +1,6 @@
 #include "description.h"
 
-#include "section.h"
-
-#include "wiimote_tracker_triangulation/geometry/error.h"
-#include "wiimote_tracker_triangulation/gesture/error.h"
+#include "wiimote_tracker_triangulation/geometry/yaml_map.h"
 #include "wiimote_tracker_triangulation/gesture/path_file.h"
 #include "wiimote_tracker_triangulation/identity/codes_file.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"
@@ -17,17 +14,20 @@
 namespace wiimote_tracker::simulation {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using geometry::YamlMap;
 
-geometry::Intrinsics readIntrinsics(Section section) {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t kLargestSeed = std::numeric_limits<std::int32_t>::max();
+
+geometry::Intrinsics readIntrinsics(YamlMap section) {
   geometry::Intrinsics intrinsics;
-  intrinsics.width = section.value<int>("width", intrinsics.width);
-  intrinsics.height = section.value<int>("height", intrinsics.height);
-  intrinsics.fx = section.value<double>("fx");
-  intrinsics.fy = section.value<double>("fy");
-  intrinsics.cx = section.value<double>("cx");
-  intrinsics.cy = section.value<double>("cy");
-  const auto distortion = section.value<std::vector<double>>("distortion");
+  intrinsics.width = section.get<int>("width", intrinsics.width);
+  intrinsics.height = section.get<int>("height", intrinsics.height);
+  intrinsics.fx = section.get<double>("fx");
+  intrinsics.fy = section.get<double>("fy");
+  intrinsics.cx = section.get<double>("cx");
+  intrinsics.cy = section.get<double>("cy");
+  const auto distortion = section.get<std::vector<double>>("distortion");
   if (distortion.size() != intrinsics.distortion.size())
     throw section.error("distortion", "must have five numbers: k1, k2, p1, p2, k3");
   std::copy(distortion.begin(), distortion.end(), intrinsics.distortion.begin());
@@ -35,70 +35,70 @@ geometry::Intrinsics readIntrinsics(Section section) {
   return intrinsics;
 }
 
-virtual_wiimote::FrameTimesModel readTiming(Section clock, Section delay) {
+virtual_wiimote::FrameTimesModel readTiming(YamlMap clock, YamlMap delay) {
   using Core = virtual_wiimote::FrameTimesModel::Core;
   virtual_wiimote::FrameTimesModel timing;
-  timing.period = clock.number("period", 0.001, 1.0);
-  timing.period_tolerance = clock.number("tolerance", 0.0, 0.01, timing.period_tolerance);
-  timing.phase = clock.number("phase", 0.0, 1.0);
-  timing.wander = clock.number("wander", 0.0, 0.1, timing.wander);
+  timing.period = clock.bounded("period", 0.001, 1.0);
+  timing.period_tolerance = clock.bounded("tolerance", 0.0, 0.01, timing.period_tolerance);
+  timing.phase = clock.bounded("phase", 0.0, 1.0);
+  timing.wander = clock.bounded("wander", 0.0, 0.1, timing.wander);
   clock.refuseUnknown();
-  timing.delay = delay.number("constant", 0.0, 1.0);
-  timing.jitter = delay.number("jitter", 0.0, 1.0);
-  const auto shape = delay.value<std::string>("shape", "hard_edge");
+  timing.delay = delay.bounded("constant", 0.0, 1.0);
+  timing.jitter = delay.bounded("jitter", 0.0, 1.0);
+  const auto shape = delay.get<std::string>("shape", "hard_edge");
   if (shape != "hard_edge" && shape != "bell")
     throw delay.error("shape", "is " + shape + ", but must be hard_edge or bell");
   timing.core = shape == "bell" ? Core::kBell : Core::kHardEdge;
-  timing.slot = delay.number("slot", 0.0, 0.1, timing.slot);
-  timing.drops = delay.number("drops", 0.0, 0.9, timing.drops);
-  timing.burst = delay.number("burst", 0.0, 0.99, timing.burst);
-  timing.stalls = delay.number("stalls", 0.0, 10.0, timing.stalls);
-  timing.longest_stall = delay.number("longest_stall", 0.0, 10.0, timing.longest_stall);
+  timing.slot = delay.bounded("slot", 0.0, 0.1, timing.slot);
+  timing.drops = delay.bounded("drops", 0.0, 0.9, timing.drops);
+  timing.burst = delay.bounded("burst", 0.0, 0.99, timing.burst);
+  timing.stalls = delay.bounded("stalls", 0.0, 10.0, timing.stalls);
+  timing.longest_stall = delay.bounded("longest_stall", 0.0, 10.0, timing.longest_stall);
   delay.refuseUnknown();
   return timing;
 }
 
-CameraDescription readCamera(const std::string& name, Section section) {
+CameraDescription readCamera(const std::string& name, YamlMap section) {
   CameraDescription description;
   geometry::Camera& camera = description.camera;
   camera.name = name;
-  camera.identity = section.value<std::string>("identity");
-  camera.intrinsics = readIntrinsics(section.section("intrinsics"));
+  camera.identity = section.get<std::string>("identity");
+  camera.intrinsics = readIntrinsics(section.map("intrinsics"));
   try {
     camera.intrinsics.check();
-  } catch (const geometry::Error& error) {
+  } catch (const Error& error) {
     throw section.error("intrinsics", std::string("cannot be used: ") + error.what());
   }
-  const Eigen::Vector3d position = section.point("position");
-  const Eigen::Vector3d target = section.point("look_at");
+  const Eigen::Vector3d position = section.vector("position");
+  const Eigen::Vector3d target = section.vector("look_at");
   try {
     camera.world_from_camera = geometry::lookAt(position, target, Eigen::Vector3d::UnitZ());
-  } catch (const geometry::Error& error) {
+  } catch (const Error& error) {
     throw section.error("look_at", std::string("cannot be used: ") + error.what());
   }
-  description.timing = readTiming(section.section("clock"), section.section("delay"));
+  description.timing = readTiming(section.map("clock"), section.map("delay"));
   section.refuseUnknown();
   return description;
 }
 
 /// Where something lies, or that it is waved or circles from the beginning on.
-LedMotion readMotion(Section* section) {
-  LedMotion motion(section->point("position"));
+LedMotion readMotion(YamlMap* section) {
+  LedMotion motion(section->vector("position"));
   if (section->has("wave") && section->has("circle"))
     throw section->error("circle", "and wave exclude each other; remove one of them");
   if (section->has("wave")) {
-    Section wave = section->section("wave");
-    const Eigen::Vector3d box = wave.point("box");
+    YamlMap wave = section->map("wave");
+    const Eigen::Vector3d box = wave.vector("box");
     if (!(box.minCoeff() >= 0.0 && box.maxCoeff() > 0.0))
       throw wave.error("box", "must have sides of 0 or more, and one of more than 0");
-    motion.wave(0.0, wave.point("middle"), box, wave.number("speed", 0.001, 100.0),
-                static_cast<std::uint32_t>(wave.number("path", 0, 2147483647)));
+    motion.wave(0.0, wave.vector("middle"), box, wave.bounded("speed", 0.001, 100.0),
+                wave.bounded<std::uint32_t>("path", 0, kLargestSeed));
     wave.refuseUnknown();
   }
   if (section->has("circle")) {
-    Section circle = section->section("circle");
-    const double radius = circle.number("radius", 0.001, 100.0);
-    motion.circle(0.0, circle.point("middle"), radius, circle.number("speed", 0.001, 100.0));
+    YamlMap circle = section->map("circle");
+    const double radius = circle.bounded("radius", 0.001, 100.0);
+    motion.circle(0.0, circle.vector("middle"), radius, circle.bounded("speed", 0.001, 100.0));
     circle.refuseUnknown();
   }
   return motion;
@@ -106,106 +106,105 @@ LedMotion readMotion(Section* section) {
 
 /// Size, brightness and switch of anything that shines.
 template <typename Shining>
-void readLight(Section* section, Shining* shining) {
+void readLight(YamlMap* section, Shining* shining) {
   if (section->has("size"))
-    shining->size = section->number("size", 0.0, 15.0);
-  shining->brightness = section->number("brightness", 0.0, kInfinity, shining->brightness);
-  shining->lit = section->value<bool>("lit", shining->lit);
+    shining->size = section->bounded("size", 0.0, 15.0);
+  shining->brightness = section->bounded("brightness", 0.0, kInfinity, shining->brightness);
+  shining->lit = section->get<bool>("lit", shining->lit);
 }
 
 /// A label of a file of codes, whose name counts from `folder`; or a word of chips.
-Blink readBlink(Section section, const std::filesystem::path& folder) {
-  Blink blink;
+Blink readBlink(YamlMap section, const std::filesystem::path& folder) {
+  identity::BlinkCodes codes;
+  std::string label = "led";
   const std::string key = section.has("word") ? "word" : "codes";
+  const auto text = section.get<std::string>(key);
+  const double chip = key == "word" ? section.bounded("chip", 0.001, 1.0) : 0.0;
   try {
-    identity::BlinkCodes codes;
-    std::string label = "led";
-    if (section.has("word")) {
-      codes = identity::cyclicCodes({{label, section.value<std::string>("word")}},
-                                    section.number("chip", 0.001, 1.0), 0.0);
-    } else {
-      codes = identity::readBlinkCodes((folder / section.value<std::string>("codes")).string());
-      label = section.value<std::string>("label");
-    }
-    const auto code =
-        std::find_if(codes.codes.begin(), codes.codes.end(),
-                     [&](const identity::BlinkCode& other) { return other.label == label; });
-    if (code == codes.codes.end())
-      throw section.error("label", "must be one of those in the file of codes");
-    blink.waveform = code->waveform;
-    blink.period = section.number("period", codes.shortest_period, codes.longest_period,
-                                  0.5 * (codes.shortest_period + codes.longest_period));
-  } catch (const geometry::Error& error) {
+    codes = key == "word" ? identity::cyclicCodes({{label, text}}, chip, 0.0)
+                          : identity::readBlinkCodes((folder / text).string());
+  } catch (const Error& error) {
     throw section.error(key, std::string("cannot be used: ") + error.what());
   }
-  blink.begin = section.number("begin", -1e6, 1e6, blink.begin);
+  if (key == "codes")
+    label = section.get<std::string>("label");
+  const auto code =
+      std::find_if(codes.codes.begin(), codes.codes.end(),
+                   [&](const identity::BlinkCode& other) { return other.label == label; });
+  if (code == codes.codes.end())
+    throw section.error("label", "must be one of those in the file of codes");
+  Blink blink;
+  blink.waveform = code->waveform;
+  blink.period = section.bounded("period", codes.shortest_period, codes.longest_period,
+                                 0.5 * (codes.shortest_period + codes.longest_period));
+  blink.begin = section.bounded("begin", -1e6, 1e6, blink.begin);
   section.refuseUnknown();
   return blink;
 }
 
 LedDescription readLed(const std::string& name,
-                       Section section,
+                       YamlMap section,
                        const std::filesystem::path& folder) {
   LedDescription led;
   led.name = name;
   if (section.has("turns")) {
-    Section turns = section.section("turns");
+    YamlMap turns = section.map("turns");
     led.turns =
-        TurnDescription{turns.value<std::string>("around"), turns.number("distance", 0.001, 10.0),
-                        turns.number("rate", 0.0, 100.0)};
+        TurnDescription{turns.get<std::string>("around"), turns.bounded("distance", 0.001, 10.0),
+                        turns.bounded("rate", 0.0, 100.0)};
     turns.refuseUnknown();
   } else {
     led.motion = readMotion(&section);
-    led.carried_by = section.value<std::string>("carried_by", "");
+    led.carried_by = section.get<std::string>("carried_by", "");
   }
   readLight(&section, &led);
   if (section.has("blink"))
-    led.blink = readBlink(section.section("blink"), folder);
+    led.blink = readBlink(section.map("blink"), folder);
   section.refuseUnknown();
   return led;
 }
 
-PersonDescription readPerson(const std::string& name, Section section) {
+PersonDescription readPerson(const std::string& name, YamlMap section) {
   PersonDescription person;
   person.name = name;
   person.motion = readMotion(&section);
-  person.turn_rate = section.number("turn_rate", -100.0, 100.0, person.turn_rate);
-  person.radius = section.number("radius", 0.001, 10.0, person.radius);
-  person.height = section.number("height", 0.001, 10.0, person.height);
-  person.present = section.value<bool>("present", person.present);
+  person.turn_rate = section.bounded("turn_rate", -100.0, 100.0, person.turn_rate);
+  person.radius = section.bounded("radius", 0.001, 10.0, person.radius);
+  person.height = section.bounded("height", 0.001, 10.0, person.height);
+  person.present = section.get<bool>("present", person.present);
   section.refuseUnknown();
   return person;
 }
 
-RigidBodyDescription readBody(const std::string& name, Section section) {
+RigidBodyDescription readBody(const std::string& name, YamlMap section) {
   RigidBodyDescription body;
   body.name = name;
   body.motion = readMotion(&section);
   TurningDescription& turning = body.turning;
   if (section.has("turn")) {
-    Section turn = section.section("turn");
-    turning.axis = turn.point("axis");
+    YamlMap turn = section.map("turn");
+    turning.axis = turn.vector("axis");
     if (!(turning.axis.norm() > 0.0))
       throw turn.error("axis", "must have a direction");
-    turning.rate = turn.number("rate", -100.0, 100.0);
+    turning.rate = turn.bounded("rate", -100.0, 100.0);
     turn.refuseUnknown();
   }
   if (section.has("sway")) {
-    Section sway = section.section("sway");
-    turning.sway = sway.number("angle", 0.0, 3.2);
-    turning.sway_rate = sway.number("rate", 0.0, 100.0);
+    YamlMap sway = section.map("sway");
+    turning.sway = sway.bounded("angle", 0.0, 3.2);
+    turning.sway_rate = sway.bounded("rate", 0.0, 100.0);
     sway.refuseUnknown();
   }
-  body.present = section.value<bool>("present", body.present);
+  body.present = section.get<bool>("present", body.present);
   section.refuseUnknown();
   return body;
 }
 
-ReflectionDescription readReflection(const std::string& name, Section section) {
+ReflectionDescription readReflection(const std::string& name, YamlMap section) {
   ReflectionDescription reflection;
   reflection.name = name;
-  reflection.camera = section.value<std::string>("camera");
-  const auto pixel = section.value<std::vector<double>>("pixel");
+  reflection.camera = section.get<std::string>("camera");
+  const auto pixel = section.get<std::vector<double>>("pixel");
   if (pixel.size() != 2 || !std::isfinite(pixel[0]) || !std::isfinite(pixel[1]))
     throw section.error("pixel", "must have two numbers: u, v");
   reflection.pixel = {pixel[0], pixel[1]};
@@ -215,14 +214,14 @@ ReflectionDescription readReflection(const std::string& name, Section section) {
 }
 
 /// @param folder that the file's name counts from.
-Drawing readDrawing(Section section, const std::filesystem::path& folder) {
-  const auto file = section.value<std::string>("file");
-  const double size = section.number("size", 0.001, 100.0);
-  const double rest = section.number("rest", 0.0, 60.0, 0.0);
+Drawing readDrawing(YamlMap section, const std::filesystem::path& folder) {
+  const auto file = section.get<std::string>("file");
+  const double size = section.bounded("size", 0.001, 100.0);
+  const double rest = section.bounded("rest", 0.0, 60.0, 0.0);
   section.refuseUnknown();
   try {
     return Drawing(gesture::readPath((folder / file).string()), size, rest);
-  } catch (const gesture::GestureError& error) {
+  } catch (const Error& error) {
     throw section.error("file", std::string("cannot be used: ") + error.what());
   } catch (const std::invalid_argument& error) {
     throw section.error("file", error.what());
@@ -234,6 +233,14 @@ bool hasCamera(const Description& description, const std::string& name) {
                      [&](const CameraDescription& camera) { return camera.camera.name == name; });
 }
 
+/// The named things of a group, of which there must be at least one.
+std::vector<std::pair<std::string, YamlMap>> entriesOf(YamlMap* file, const std::string& group) {
+  auto entries = file->map(group).entries();
+  if (entries.empty())
+    throw file->error(group, "is empty; describe at least one");
+  return entries;
+}
+
 template <typename Things>
 const typename Things::value_type* find(const Things& things, const std::string& name) {
   const auto found = std::find_if(things.begin(), things.end(),
@@ -242,7 +249,7 @@ const typename Things::value_type* find(const Things& things, const std::string&
 }
 
 /// An LED turns about one that is there, and that does not turn itself; who carries one is there.
-void checkHolders(const std::string& name, const Section& section, const Description& description) {
+void checkHolders(const std::string& name, const YamlMap& section, const Description& description) {
   const LedDescription& led = *find(description.leds, name);
   if (led.turns) {
     const LedDescription* around = find(description.leds, led.turns->around);
@@ -256,21 +263,25 @@ void checkHolders(const std::string& name, const Section& section, const Descrip
 
 /// simulation/set_led knows all by their names.
 template <typename Things>
-void takeNames(const Things& things, const Section& section, std::set<std::string>* names) {
+void takeNames(const Things& things,
+               const std::string& group,
+               const YamlMap& file,
+               std::set<std::string>* names) {
   for (const auto& thing : things) {
     if (!names->insert(thing.name).second)
-      throw section.error(thing.name, "is the name of something else, too; give it another one");
+      throw file.error(group + "/" + thing.name,
+                       "is the name of something else, too; give it another one");
   }
 }
 
-BoardDescription readBoard(Section section, const Description& description) {
+BoardDescription readBoard(YamlMap section, const Description& description) {
   BoardDescription board;
-  board.before = section.value<std::string>("before");
+  board.before = section.get<std::string>("before");
   if (!hasCamera(description, board.before))
     throw section.error("before", "must be the name of a camera");
-  board.column_spacing = section.number("column_spacing", 0.001, 1.0, board.column_spacing);
-  board.row_spacing = section.number("row_spacing", 0.001, 1.0, board.row_spacing);
-  board.size = section.number("size", 0.0, 15.0, board.size);
+  board.column_spacing = section.bounded("column_spacing", 0.001, 1.0, board.column_spacing);
+  board.row_spacing = section.bounded("row_spacing", 0.001, 1.0, board.row_spacing);
+  board.size = section.bounded("size", 0.0, 15.0, board.size);
   section.refuseUnknown();
   return board;
 }
@@ -278,58 +289,44 @@ BoardDescription readBoard(Section section, const Description& description) {
 }  // namespace
 
 Description readDescription(const std::string& path) {
-  YAML::Node root;
-  try {
-    root = YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    throw DescriptionError(path + ": cannot be read; give the path of a rig description");
-  } catch (const YAML::Exception& error) {
-    throw DescriptionError(path + ": is not valid YAML: " + error.what());
-  }
-
-  Section file(root, path, "");
+  YamlMap file = YamlMap::load(path, "correct the description of the rig");
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   Description description;
-  description.world_frame = file.value<std::string>("world_frame", description.world_frame);
-  description.seed = static_cast<std::uint32_t>(file.number("seed", 0, 2147483647));
-  description.pixel_noise = file.number("pixel_noise", 0.0, 100.0);
-  description.truth_rate = file.number("truth_rate", 1.0, 10000.0, description.truth_rate);
-  Section cameras = file.section("cameras");
-  for (const auto& [name, section] : cameras.entries())
+  description.world_frame = file.get<std::string>("world_frame", description.world_frame);
+  description.seed = file.bounded<std::uint32_t>("seed", 0, kLargestSeed);
+  description.pixel_noise = file.bounded("pixel_noise", 0.0, 100.0);
+  description.truth_rate = file.bounded("truth_rate", 1.0, 10000.0, description.truth_rate);
+  for (const auto& [name, section] : entriesOf(&file, "cameras"))
     description.cameras.push_back(readCamera(name, section));
   std::set<std::string> names = {"board"};
-  Section leds = file.section("leds");
-  for (const auto& [name, section] : leds.entries())
+  const auto leds = entriesOf(&file, "leds");
+  for (const auto& [name, section] : leds)
     description.leds.push_back(readLed(name, section, folder));
-  takeNames(description.leds, leds, &names);
+  takeNames(description.leds, "leds", file, &names);
   if (file.has("people")) {
-    Section people = file.section("people");
-    for (const auto& [name, section] : people.entries())
+    for (const auto& [name, section] : entriesOf(&file, "people"))
       description.people.push_back(readPerson(name, section));
-    takeNames(description.people, people, &names);
+    takeNames(description.people, "people", file, &names);
   }
   if (file.has("bodies")) {
-    Section bodies = file.section("bodies");
-    for (const auto& [name, section] : bodies.entries())
+    for (const auto& [name, section] : entriesOf(&file, "bodies"))
       description.bodies.push_back(readBody(name, section));
-    takeNames(description.bodies, bodies, &names);
+    takeNames(description.bodies, "bodies", file, &names);
   }
-  for (const auto& [name, section] : leds.entries())
+  for (const auto& [name, section] : leds)
     checkHolders(name, section, description);
   if (file.has("reflections")) {
-    Section reflections = file.section("reflections");
-    for (const auto& [name, section] : reflections.entries()) {
+    for (const auto& [name, section] : entriesOf(&file, "reflections")) {
       description.reflections.push_back(readReflection(name, section));
       if (!hasCamera(description, description.reflections.back().camera))
         throw section.error("camera", "must be the name of a camera");
     }
-    takeNames(description.reflections, reflections, &names);
+    takeNames(description.reflections, "reflections", file, &names);
   }
   if (file.has("board"))
-    description.board = readBoard(file.section("board"), description);
+    description.board = readBoard(file.map("board"), description);
   if (file.has("drawings")) {
-    Section drawings = file.section("drawings");
-    for (const auto& [name, section] : drawings.entries())
+    for (const auto& [name, section] : entriesOf(&file, "drawings"))
       description.drawings.emplace(name, readDrawing(section, folder));
   }
   file.refuseUnknown();

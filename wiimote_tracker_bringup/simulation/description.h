@@ -13,16 +13,10 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker::simulation {
-
-/// A description cannot be used; what() names the file and the key, and says what is wrong.
-struct DescriptionError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// A camera as it truly is; its optical frame by position and look_at, image x axis horizontal.
 struct CameraDescription {
@@ -113,7 +107,7 @@ struct Description {
 
 /// Reads a description (layout: paper_rig.yaml, people_rig.yaml, body_rig.yaml). Unknown keys are
 /// refused.
-/// @throws DescriptionError.
+/// @throws Error naming the file and the key: what is wrong.
 Description readDescription(const std::string& path);
 
 }  // namespace wiimote_tracker::simulation

@@ -16,7 +16,7 @@ from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
 JUDGED = 3.0     # [s]
 HIDDEN = 0.8     # longer than a body is predicted [s]
 RECOVERY = 0.2   # [s]
-LEDS = ['wand_%d' % i for i in range(4)]
+LEDS = [f'wand_{i}' for i in range(4)]
 CHI_SQUARED_999 = 22.46  # 99.9 % quantile, six degrees of freedom
 
 

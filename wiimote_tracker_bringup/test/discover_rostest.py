@@ -49,15 +49,15 @@ class Discover(unittest.TestCase):
     def connect(self, number):
         """A remote, as one is switched on."""
         return self.start(program('wiimote_tracker_driver', 'virtual_wiimote'),
-                          '--socket', os.path.join(self.folder, '%d.sock' % number),
-                          '--address', '00:1f:32:00:00:0%d' % number)
+                          '--socket', os.path.join(self.folder, f'{number}.sock'),
+                          '--address', f'00:1f:32:00:00:0{number}')
 
     def wait_for_more_of(self, *names):
         before = dict(self.images)
         end = time.monotonic() + DEADLINE
         while any(self.images.get(name, 0) < before.get(name, 0) + 20 for name in names):
-            self.assertLess(time.monotonic(), end, 'no images from %s, but %s; the file: %s' % (
-                ', '.join(names), self.images, self.devices()))
+            self.assertLess(time.monotonic(), end, f"no images from {', '.join(names)}, but "
+                                                   f"{self.images}; the file: {self.devices()}")
             time.sleep(0.01)
 
     def devices(self):
@@ -80,8 +80,8 @@ class Discover(unittest.TestCase):
         self.connect(2)
         self.wait_for_more_of('wiimote_1', 'wiimote_2')
         self.assertEqual(self.devices(), {
-            'wiimote_1': 'virtual:%s/2.sock' % self.folder,
-            'wiimote_2': 'virtual:%s/1.sock' % self.folder})
+            'wiimote_1': f'virtual:{self.folder}/2.sock',
+            'wiimote_2': f'virtual:{self.folder}/1.sock'})
         self.assertNotIn('wiimote_3', self.images)
 
 

@@ -68,9 +68,9 @@ class EndToEnd(unittest.TestCase):
         conductor.save()
         self.assertTrue(os.path.exists(self.rig_file))
 
-        segments = [conductor.dwell('test', 'P%d' % i, place, 5.0, DWELL)
+        segments = [conductor.dwell('test', f'P{i}', place, 5.0, DWELL)
                     for i, place in enumerate(TEST_POINTS)]
-        segments += [conductor.dwell('alignment', 'A%d' % i, place, 5.0, DWELL)
+        segments += [conductor.dwell('alignment', f'A{i}', place, 5.0, DWELL)
                      for i, place in enumerate(ALIGNMENT_POINTS)]
         recording = recorder.recording()
         score = scoring.score(recording, segments)

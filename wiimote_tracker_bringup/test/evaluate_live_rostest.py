@@ -35,7 +35,7 @@ CURRENT, DISTANCE = 560.0, 10.0    # [mA], [m]
 SIGMAS = 4.0
 
 
-class Person(object):
+class Person:
     """Reads the terminal, moves the LED, types."""
 
     def __init__(self, terminal):
@@ -134,11 +134,11 @@ class Person(object):
         self._until(self._set_led(on=True, motion=SetLedRequest.CIRCLE, target=(1.25, 1.25, 0.95),
                                   speed=1.5, radius=RADIUS))
         rospy.sleep(0.1)
-        self.type('%g' % RADIUS)
+        self.type(f'{RADIUS:g}')
 
     def current(self):
         self._walks += 1
-        self.type('%g' % CURRENT if self._walks == 1 else '')
+        self.type(f'{CURRENT:g}' if self._walks == 1 else '')
 
     def walk(self):
         self._set_led(on=True, motion=SetLedRequest.CIRCLE, target=(1.25, 1.25, 1.0), speed=0.5,
@@ -150,7 +150,7 @@ class Person(object):
 
     def distance(self):
         self._set_led(on=True, motion=SetLedRequest.HOLD, target=(0.0, 0.0, 0.0))
-        self.type('%g' % DISTANCE)
+        self.type(f'{DISTANCE:g}')
 
 
 class EvaluateLive(unittest.TestCase):

@@ -94,7 +94,7 @@ class Gestures(LiveRigTest):
         entry = self.description['drawings'][drawing]
         begin = response.arrival.to_sec()
         end = begin + duration_of(os.path.join(os.path.dirname(self.path), entry['file']))
-        print('%s: %.2f s' % (drawing, end - begin))
+        print(f'{drawing}: {end - begin:.2f} s')
         if not on:
             self.wait_until(end)
             return begin, end

@@ -44,7 +44,7 @@ WAVE_MIDDLE, WAVE_BOX = (1.25, 1.25, 1.2), (2.3, 2.3, 2.1)  # [m]
 LARGEST, SMALLEST = 2.33, 0.09
 
 
-class Program(object):
+class Program:
     """calibrate --plain, talked to as a person would."""
 
     def __init__(self, *arguments):
@@ -86,7 +86,7 @@ class Program(object):
         return self._process.wait(DEADLINE)
 
 
-class Screen(object):
+class Screen:
     """calibrate on a terminal of 80 x 24."""
 
     def __init__(self, *arguments):
@@ -104,12 +104,12 @@ class Screen(object):
         end = time.monotonic() + DEADLINE
         while not re.search(pattern, self.seen):
             if time.monotonic() > end:
-                raise AssertionError('no "%s" on the screen: %r' % (pattern, self.seen[-4000:]))
+                raise AssertionError(f'no "{pattern}" on the screen: {self.seen[-4000:]!r}')
             if select.select([self._terminal], [], [], 0.1)[0]:
                 try:
                     text = os.read(self._terminal, 65536).decode(errors='replace')
                 except OSError:
-                    raise AssertionError('it ended without "%s": %r' % (pattern, self.seen[-4000:]))
+                    raise AssertionError(f'it ended without "{pattern}": {self.seen[-4000:]!r}')
                 # Moves of the cursor part words that were drawn at different times.
                 self.seen += re.sub(r'\x1b\[[0-9;?]*[A-Za-z]|\x1b\([A-Z]', ' ', text)
 
@@ -183,7 +183,7 @@ class GuidedCalibration(unittest.TestCase):
         as the refusal says. @return how often it was."""
         for refused in range(ATTEMPTS):
             program.type('next')
-            if 'refused' not in program.expect('^corner %d captured by 4|refused' % number):
+            if 'refused' not in program.expect(f'^corner {number} captured by 4|refused'):
                 return refused
         self.fail('\n'.join(program.heard))
 
@@ -196,7 +196,7 @@ class GuidedCalibration(unittest.TestCase):
 
         self.led('lamp', on=True)  # that somebody left on
         self.led(on=False)
-        program = Program('--side', '%g' % experiment.SIDE)
+        program = Program('--side', f'{experiment.SIDE:g}')
         program.expect('Switch the LED off')
         program.type('next')
         program.expect('Switch the LED on')
@@ -207,7 +207,7 @@ class GuidedCalibration(unittest.TestCase):
         program.type('next')
         refused = 0
         for number, place in enumerate(experiment.placed_corners(1), 1):
-            program.expect('Put the LED on corner %d' % number)
+            program.expect(f'Put the LED on corner {number}')
             self.carry(place)
             refused += self.capture(program, number)
         program.expect('SPACE begins the wave')
@@ -215,7 +215,7 @@ class GuidedCalibration(unittest.TestCase):
                  box=Vector3(*WAVE_BOX), path=1)
         program.type('next')
         program.expect('Wave through the whole volume')
-        program.type('wait %g' % DEADLINE)
+        program.type(f'wait {DEADLINE:g}')
         program.type('next')
         program.expect('next: SPACE solves')
         program.type('next')
@@ -272,7 +272,7 @@ class GuidedCalibration(unittest.TestCase):
         """Asks until it is not refused: an LED that a slow computer shows on its way still."""
         for _ in range(ATTEMPTS):
             program.type(line)
-            if 'refused' not in program.expect('^(%s|refused)' % answer):
+            if 'refused' not in program.expect(f'^({answer}|refused)'):
                 return
         self.fail('\n'.join(program.heard))
 
@@ -284,14 +284,14 @@ class GuidedCalibration(unittest.TestCase):
         program.expect('^refused: ')
         for number, place in enumerate(KNOWN_PLACES, 1):
             self.carry(place)
-            self.ask(program, 'place %g %g %g' % place, 'place %d measured at' % number)
+            self.ask(program, 'place %g %g %g' % place, f'place {number} measured at')
         self.ask(program, 'fit affine', r'the volume is corrected \(affine\)')
         self.carry((1.25, 1.25, 1.0))
         self.ask(program, 'check 1.25 1.25 1.0', 'measured')
         self.led(target=WAVE_MIDDLE, motion=SetLedRequest.WAVE, speed=WAVE_SPEED,
                  box=Vector3(*WAVE_BOX), path=2)
         self.ask(program, 'recalibrate wiimote_2 8', 'wiimote_2')
-        program.type('join %s' % self.rig_file)
+        program.type(f'join {self.rig_file}')
         program.expect('^refused: all cameras of the second rig are in the first')
         program.type('quit')
         program.expect('Nothing was calibrated and saved')
@@ -330,7 +330,7 @@ class GuidedCalibration(unittest.TestCase):
         truth = self.scene.cameras[0].parameters
         for measured, true, sigma in zip((lens.camera_info.K[0], lens.camera_info.K[4]), truth,
                                          lens.stddev):
-            print('focal length %.1f +- %.1f px, truly %.1f px' % (measured, sigma, true))
+            print(f'focal length {measured:.1f} +- {sigma:.1f} px, truly {true:.1f} px')
             self.assertLess(abs(measured - true), SIGMAS * sigma)
 
     def show_board_until_enough(self, views):

@@ -24,7 +24,7 @@ def run(program, *arguments):
     """(exit status, standard output, standard error) of a program of the package."""
     found = roslib.packages.find_node(PACKAGE, program)
     if not found:
-        raise AssertionError('%s is not built' % program)
+        raise AssertionError(f'{program} is not built')
     process = subprocess.run([found[0]] + list(arguments), stdout=subprocess.PIPE,
                              stderr=subprocess.PIPE, universal_newlines=True)
     return process.returncode, process.stdout, process.stderr
@@ -36,7 +36,7 @@ def read_lens(path):
         values = dict(line.split('=') for line in stream if '=' in line)
     values = {key.strip(): float(value) for key, value in values.items()}
     k = np.array([[values['K%d%d' % (row, column)] for column in (1, 2, 3)] for row in (1, 2, 3)])
-    return k, [values['kc%d' % i] for i in (1, 2, 3, 4)]
+    return k, [values[f'kc{i}'] for i in (1, 2, 3, 4)]
 
 
 def distort(normalized, kc):
@@ -161,8 +161,8 @@ class ImportEndToEnd(unittest.TestCase):
             self.assertEqual((message.width, message.height), (660, 500))
             expected = room.pixels[1, frame]
             if np.isfinite(expected).all():
-                self.assertEqual([b.x for b in message.blobs], [float('%.6f' % expected[0])])
-                self.assertEqual([b.y for b in message.blobs], [float('%.6f' % expected[1])])
+                self.assertEqual([b.x for b in message.blobs], [float(f'{expected[0]:.6f}')])
+                self.assertEqual([b.y for b in message.blobs], [float(f'{expected[1]:.6f}')])
             else:
                 self.assertEqual(len(message.blobs), 0)
 
@@ -200,7 +200,7 @@ class ImportEndToEnd(unittest.TestCase):
         self.assertIn('make it with import_multicamselfcal', errors)
 
 
-class Room(object):
+class Room:
     """Four distorting cameras, a light that wanders, and the folder that MultiCamSelfCal would want."""
 
     CAMERAS, FRAMES, NOISE = 4, 240, 0.2
@@ -268,7 +268,7 @@ class Room(object):
                                      % (row + 1, column + 1, self.k[c][row, column]))
                 stream.write('\n')
                 for i, value in enumerate(self.kc[c]):
-                    stream.write('kc%d = %.17g\n' % (i + 1, value))
+                    stream.write(f'kc{i + 1} = {value:.17g}\n')
 
 
 if __name__ == '__main__':

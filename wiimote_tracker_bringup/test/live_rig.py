@@ -58,7 +58,7 @@ class LiveRigTest(unittest.TestCase):
         """Until points and truth of that time are there [s]."""
         for messages in [self.points] + list(self.truth.values()):
             self.wait(lambda: messages and messages[-1].header.stamp.to_sec() > time,
-                      'the instant %.3f' % time)
+                      f'the instant {time:.3f}')
 
     def truth_at(self, led, stamps):
         """N x 3 true places at N times."""

@@ -20,7 +20,7 @@ ASTRAY = 0.1      # farther from every LED no point is of any of them: they are 
 CHI_SQUARED_95 = 7.81  # 95 % quantile, three degrees of freedom
 
 
-class Track(object):
+class Track:
     """What was published of one LED, id by id."""
 
     def __init__(self):
@@ -71,7 +71,7 @@ class People(LiveRigTest):
                 1e3 * error.max()))
             covered[led] += len(at)
             # A reflection or a wrong pair is nobody's, and never believed for long.
-            self.assertLess(distances.min(axis=0).max(), ASTRAY, 'track %d' % number)
+            self.assertLess(distances.min(axis=0).max(), ASTRAY, f'track {number}')
             for switch in np.flatnonzero(np.diff(nearest)):
                 self.fail('track %d went from %s to %s at %.3f s' % (
                     number, self.leds[nearest[switch]], self.leds[nearest[switch + 1]],
@@ -100,8 +100,8 @@ class People(LiveRigTest):
         error = np.array(track.positions) - truth
         covariance = np.array(track.covariances).reshape(-1, 3, 3)
         squared = np.einsum('ni,nij,nj->n', error, np.linalg.inv(covariance), error)
-        print('    median of the normalised squared error: %.2f (2.37 when all is known)'
-              % np.median(squared))
+        print(f'    median of the normalised squared error: {np.median(squared):.2f} (2.37 when '
+              'all is known)')
         self.assertLess(np.median(squared), CHI_SQUARED_95)
 
 

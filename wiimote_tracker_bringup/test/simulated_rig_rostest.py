@@ -83,7 +83,7 @@ class SimulatedRig(unittest.TestCase):
     def test_identities_are_those_of_the_description(self):
         images = self.images_after(rospy.get_time(), 1)
         for number, camera in enumerate(self.scene.cameras, 1):
-            self.assertEqual(images[camera.name][0].identity, '00:1f:32:00:00:%02d' % number)
+            self.assertEqual(images[camera.name][0].identity, f'00:1f:32:00:00:{number:02}')
 
     def test_accelerometer_feels_gravity_as_mounted(self):
         names = [camera.name for camera in self.scene.cameras]

@@ -23,11 +23,11 @@ def write(build, name, text, package='pkg'):
 
 
 def expect(build, name, package='pkg'):
-    folder = os.path.join(str(build), package, 'CMakeFiles', 'run_tests_x_%s.dir' % name)
+    folder = os.path.join(str(build), package, 'CMakeFiles', f'run_tests_x_{name}.dir')
     os.makedirs(folder)
     with open(os.path.join(folder, 'build.make'), 'w') as file:
         file.write('\tenv.sh /usr/bin/python3 /usr/share/catkin/cmake/test/run_tests.py '
-                   '%s/test_results/%s/%s /usr/bin/something\n' % (build, package, name))
+                   f'{build}/test_results/{package}/{name} /usr/bin/something\n')
 
 
 def run(capsys, *arguments):
@@ -112,3 +112,14 @@ def test_sanitized_tests_are_counted_apart_and_only_gtests_are_expected(tmp_path
     status, lines = run(capsys, plain, '--sanitized', sanitized)
     assert (status, lines[-1]) == (1, '2 passed, 1 failed, 0 skipped')
     assert any('with sanitizers: pkg/gtest-a: A.one' in line for line in lines)
+
+
+def test_a_test_in_a_subfolder_that_left_no_result_counts_as_failed(tmp_path, capsys):
+    write(tmp_path, 'gtest-a.xml', GOOD)
+    folder = tmp_path / 'pkg' / 'test' / 'CMakeFiles' / 'run_tests_pkg_gtest_b.dir'
+    folder.mkdir(parents=True)
+    (folder / 'build.make').write_text(
+        '\tpython3 /usr/share/catkin/cmake/test/run_tests.py '
+        f'{tmp_path}/test_results/pkg/gtest-b.xml x\n')
+    status, lines = run(capsys, tmp_path)
+    assert status == 1 and lines[-1] == '2 passed, 1 failed, 0 skipped'

@@ -1,5 +1,7 @@
 #include "description.h"
 
+#include <wiimote_tracker_msgs/error.h>
+
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -61,7 +63,7 @@ class DescriptionFile : public testing::Test {
     text.replace(place, from.size(), to);
     try {
       read(text);
-    } catch (const DescriptionError& error) {
+    } catch (const FileError& error) {
       EXPECT_NE(std::string(error.what()).find(path_), std::string::npos) << error.what();
       return error.what();
     }
@@ -289,7 +291,7 @@ TEST_F(DescriptionFile, leds_blink_by_a_code_or_a_word) {
     try {
       read(withBlink(blink));
       ADD_FAILURE() << blink;
-    } catch (const DescriptionError& error) {
+    } catch (const FileError& error) {
       EXPECT_NE(std::string(error.what()).find("leds/led/blink/" + key), std::string::npos)
           << error.what();
     }
@@ -312,15 +314,15 @@ TEST_F(DescriptionFile, errors_name_file_key_and_reason) {
   said = complaint("drops: 0.04", "drops: 4");
   EXPECT_TRUE(has(said, "cameras/second/delay/drops is 4, but must be within")) << said;
   said = complaint("stalls:", "stall:");
-  EXPECT_TRUE(has(said, "cameras/second/delay/stall is not known")) << said;
+  EXPECT_TRUE(has(said, "cameras/second/delay/stall is an unknown key")) << said;
   said = complaint("wander: 0.001", "wonder: 0.001");
-  EXPECT_TRUE(has(said, "cameras/second/clock/wonder is not known")) << said;
+  EXPECT_TRUE(has(said, "cameras/second/clock/wonder is an unknown key")) << said;
   said = complaint("pixel_noise: 0.25", "");
   EXPECT_TRUE(has(said, "pixel_noise is missing")) << said;
   said = complaint("pixel_noise", "pixel_nosie: 1\npixel_noise");
-  EXPECT_TRUE(has(said, "pixel_nosie is not known")) << said;
+  EXPECT_TRUE(has(said, "pixel_nosie is an unknown key")) << said;
   said = complaint("lit: false", "lti: false");
-  EXPECT_TRUE(has(said, "leds/led/lti is not known")) << said;
+  EXPECT_TRUE(has(said, "leds/led/lti is an unknown key")) << said;
   said = complaint("position: [1, 1, 0]", "position: [1, 1]");
   EXPECT_TRUE(has(said, "leds/led/position must have three numbers")) << said;
   said = complaint("fx: 600", "fx: -600");
@@ -336,10 +338,10 @@ TEST_F(DescriptionFile, errors_name_file_key_and_reason) {
 }
 
 TEST_F(DescriptionFile, a_missing_foreign_or_damaged_file_is_refused) {
-  EXPECT_THROW(readDescription("/nonexistent/rig.yaml"), DescriptionError);
-  EXPECT_THROW(read("just text"), DescriptionError);
-  EXPECT_THROW(read(""), DescriptionError);
-  EXPECT_THROW(read("cameras: {a: [1, 2"), DescriptionError);
+  EXPECT_THROW(readDescription("/nonexistent/rig.yaml"), FileError);
+  EXPECT_THROW(read("just text"), FileError);
+  EXPECT_THROW(read(""), FileError);
+  EXPECT_THROW(read("cameras: {a: [1, 2"), FileError);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ def test_addresses_and_paths_in_the_order_of_the_file(tmp_path):
 
 def test_the_example_can_be_read():
     devices = drivers.read_devices(os.path.join(HERE, '../config/cameras.yaml'), '')
-    assert [name for name, _ in devices] == ['wiimote_%d' % i for i in (1, 2, 3, 4)]
+    assert [name for name, _ in devices] == [f'wiimote_{i}' for i in (1, 2, 3, 4)]
 
 
 def test_a_rig_description_names_its_cameras_and_sockets():
@@ -115,10 +115,10 @@ def test_discovery_is_asked_for_in_so_many_words(tmp_path):
 
 def test_more_remotes_than_the_adapters_connect_are_named():
     def remotes(number):
-        return [('wiimote_%d' % i, '00:1f:32:00:00:%02x' % i) for i in range(number)]
+        return [(f'wiimote_{i}', f'00:1f:32:00:00:{i:02x}') for i in range(number)]
     assert drivers.too_many(remotes(7), 1) is None
     assert '8 remotes' in drivers.too_many(remotes(8), 1)
     assert drivers.too_many(remotes(14), 2) is None
     assert drivers.too_many(remotes(15), 2)
     assert drivers.too_many(remotes(7), 0) is None, 'adapters that cannot be counted'
-    assert drivers.too_many([('a%d' % i, 'virtual:/tmp/%d' % i) for i in range(30)], 1) is None
+    assert drivers.too_many([(f'a{i}', f'virtual:/tmp/{i}') for i in range(30)], 1) is None

@@ -23,7 +23,7 @@ LIMIT = 900.0  # of the whole run, on a machine that does other things too [s]
 LAP = 1.4883   # of the latency section [s]
 
 
-class Results(object):
+class Results:
     def __init__(self, folder, output):
         self.folder, self.output = folder, output
         with open(os.path.join(folder, 'figures.json'), encoding='utf-8') as file:
@@ -32,7 +32,7 @@ class Results(object):
     def figure(self, section, name):
         found = [each for each in self.content['figures']
                  if (each['section'], each['name']) == (section, name)]
-        assert len(found) == 1, '%s of %s is there %d times' % (name, section, len(found))
+        assert len(found) == 1, f'{name} of {section} is there {len(found)} times'
         return found[0]
 
     def value(self, section, name):
@@ -72,7 +72,7 @@ def test_every_section_is_there_with_figures_and_plots(results):
             root = xml.etree.ElementTree.parse(os.path.join(results.folder, name, drawing)).getroot()
             texts = [text for each in root.iter('{http://www.w3.org/2000/svg}text')
                      for text in each.itertext()]
-            assert texts, '%s has no text' % drawing
+            assert texts, f'{drawing} has no text'
 
 
 def test_all_is_called_simulated(results):
@@ -179,10 +179,10 @@ def sums_by_session(results, cameras, method, model='calibrated'):
             if (row['cameras'], row['method'], row['ray_model']) == (cameras, method, model)]
 
     def triple(name):
-        return np.array([[float(row['%s_%s_m' % (name, axis)] or 'nan') for axis in 'xyz']
+        return np.array([[float(row[f'{name}_{axis}_m'] or 'nan') for axis in 'xyz']
                          for row in rows])
     squared = ((triple('measured') - triple('true')) ** 2).sum(axis=1)
-    traces = sum(np.array([float(row['var_%s_m_2' % axes] or 'nan') for row in rows])
+    traces = sum(np.array([float(row[f'var_{axes}_m_2'] or 'nan') for row in rows])
                  for axes in ('xx', 'yy', 'zz'))
     return squared.reshape(-1, 10).sum(axis=1), traces.reshape(-1, 10).sum(axis=1)
 
@@ -233,6 +233,6 @@ def test_tracks_are_better_than_single_images_allow(results):
                                        for camera in rig.cameras])
             covariance = rig.effective_noise() ** 2 * np.linalg.inv(by_point.T @ by_point)
             least.append(outwards @ covariance @ outwards + covariance[2, 2])
-    measured = sum(results.value('circles', 'four_exact_tracks_%s_0_5' % which) ** 2
+    measured = sum(results.value('circles', f'four_exact_tracks_{which}_0_5') ** 2
                    for which in ('radial', 'height'))
     assert 0.0 < measured < 1e6 * np.mean(least)

@@ -93,7 +93,7 @@ def test_camera_model_agrees_with_opencv_convention_by_hand():
 
 def test_paper_rig_sees_all_that_is_measured():
     rig = scene.read_scene(PAPER_RIG)
-    assert [camera.name for camera in rig.cameras] == ['wiimote_%d' % i for i in (1, 2, 3, 4)]
+    assert [camera.name for camera in rig.cameras] == [f'wiimote_{i}' for i in (1, 2, 3, 4)]
     for points in (experiment.TEST_POINTS, experiment.circle_points(), experiment.CORNERS,
                    experiment.alignment_points(2)):
         assert not any(rig.missed(points))
@@ -245,14 +245,14 @@ def test_with_only_the_size_of_the_square_wrong_a_similarity_leaves_nothing():
 
 # --- Scoring and report, on a recording made by hand
 
-class HandMade(object):
+class HandMade:
     """A recording in which every point is measured with a known error."""
 
     def __init__(self):
         from wiimote_tracker_evaluation import recording
         points, truths, self.segments = [], [], []
 
-        class Segment(object):
+        class Segment:
             def __init__(self, kind, name, target, start, end):
                 self.kind, self.name, self.target = kind, name, target
                 self.start, self.end = start, end
@@ -260,7 +260,7 @@ class HandMade(object):
         places = ([('test', p) for p in experiment.TEST_POINTS]
                   + [('alignment', p) for p in experiment.alignment_points(2)])
         for number, (kind, place) in enumerate(places):
-            self.segments.append(Segment(kind, '%s%d' % (kind, number), place, now, now + 1.0))
+            self.segments.append(Segment(kind, f'{kind}{number}', place, now, now + 1.0))
             for i in range(101):
                 stamp = now + 0.01 * i
                 wiggle = 0.001 * (-1) ** i  # 1 mm to either side in x

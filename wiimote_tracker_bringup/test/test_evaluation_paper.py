@@ -24,7 +24,7 @@ PLACED = 0.01       # of the LED beside its place, along x [m]
 CASE_ERROR = 0.05   # of the paper's cases, along y [m]
 BOUND_STDDEV = 0.004  # per axis [m]
 POINT_COLUMNS = (['session', 'cameras', 'method', 'ray_model', 'point']
-                 + ['%s_%s' % (name, axis) for name in ('nominal', 'true', 'measured')
+                 + [f'{name}_{axis}' for name in ('nominal', 'true', 'measured')
                     for axis in 'xyz']
                  + ['var_' + axes for axes in ('xx', 'xy', 'xz', 'yy', 'yz', 'zz')])
 TRACE_COLUMNS = ['session', 'cameras', 'case', 'ray_model', 'round', 'camera', 'center_u',

@@ -293,7 +293,7 @@ def test_names_are_plain_and_used_once(tmp_path):
 
 # --- Progress
 
-class Clock(object):
+class Clock:
     def __init__(self):
         self.time = 0.0
 
@@ -326,7 +326,7 @@ def test_without_a_terminal_lines_are_few_and_plain():
     assert len(output.getvalue().splitlines()) == 1 + 4 + 1
 
 
-# --- The README's table
+# --- The table of results
 
 def content_of(value, interval, name='rms'):
     return {'quick': False, 'seed': 1, 'rig': 'paper_rig.yaml', 'figures': [
@@ -335,7 +335,7 @@ def content_of(value, interval, name='rms'):
          'headline': True}]}
 
 
-README = 'Before.\n%s\nold\n%s\nAfter.\n' % (results_table.BEGIN, results_table.END)
+README = f'Before.\n{results_table.BEGIN}\nold\n{results_table.END}\nAfter.\n'
 
 
 def test_table_is_written_between_its_marks_and_agrees_with_itself():
@@ -367,7 +367,7 @@ def test_numbers_that_depend_on_the_machine_are_told_apart(tmp_path, capsys):
     figures_file.write_text(json.dumps(other), encoding='utf-8')
     assert results_table.main([str(figures_file), str(readme), '--check']) == 0
     said = capsys.readouterr().out
-    assert 'depends on the machine' in said and 'the README says 9 (8 … 10)' in said
+    assert 'depends on the machine' in said and 'the table says 9 (8 … 10)' in said
     other['figures'][0]['end_to_end'] = False
     figures_file.write_text(json.dumps(other), encoding='utf-8')
     assert results_table.main([str(figures_file), str(readme), '--check']) == 1
@@ -377,7 +377,7 @@ def table_of(random, truths, spread):
     """A run whose figures scatter about the truth as their 95 % intervals say."""
     content = content_of(0.0, None)
     half = statistics.NORMAL_QUANTILE * spread
-    content['figures'] = [dict(content['figures'][0], name='f%d' % i, value=value, interval=[
+    content['figures'] = [dict(content['figures'][0], name=f'f{i}', value=value, interval=[
         value - half, value + half]) for i, value in enumerate(truths + spread * random.randn(
             len(truths)))]
     return content
@@ -399,7 +399,7 @@ def test_a_fresh_run_of_another_length_agrees_as_often_as_it_should():
 
 @pytest.mark.parametrize('text', ['no marks', README + README, README.replace('begin', 'x')])
 def test_table_needs_its_marks(text):
-    with pytest.raises(results_table.TableError, match='README'):
+    with pytest.raises(results_table.TableError, match='document'):
         results_table.written(text, content_of(1.0, None))
 
 

@@ -1,7 +1,7 @@
+#include "solution.h"
 #include "wiimote_tracker_calibration/import/number_table.h"
 #include "wiimote_tracker_calibration/import/pinhole.h"
 #include "wiimote_tracker_calibration/import/recording.h"
-#include "solution.h"
 
 #include <gtest/gtest.h>
 

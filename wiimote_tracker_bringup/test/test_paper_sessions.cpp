@@ -1,8 +1,8 @@
 // The evaluation's sessions of the paper: what they are drawn from, and that a good calibration can
 // be told from a bad one in them.
-#include "calibrations.h"
-#include "experiment.h"
-#include "session.h"
+#include "paper/calibrations.h"
+#include "paper/experiment.h"
+#include "paper/session.h"
 
 #include "wiimote_tracker_calibration/simulation/wave_bound.h"
 #include "wiimote_tracker_calibration/wave/recording.h"

@@ -73,8 +73,7 @@ def violations(paths, rules):
                 code = line.split('//')[0] if path.endswith(('.h', '.cpp')) else line
                 for rule, since in rules.items():
                     if re.search(rule, code):
-                        yield '%s:%d needs %s: %s' % (os.path.relpath(path, TOP), number, since,
-                                                      line.strip())
+                        yield f'{os.path.relpath(path, TOP)}:{number} needs {since}: {line.strip()}'
 
 
 def test_the_rules_find_what_they_are_meant_to_find(tmp_path):
@@ -108,7 +107,7 @@ def test_python_uses_nothing_that_noetic_lacks():
 # --- package.xml against CMakeLists.txt
 
 # What find_package() and pkg_check_modules() are called with, as rosdep keys.
-ROSDEP_KEY = {'Eigen3': 'eigen', 'yaml-cpp': 'yaml-cpp', 'Ceres': 'libceres-dev',
+ROSDEP_KEY = {'CLI11': 'cli11', 'Eigen3': 'eigen', 'yaml-cpp': 'yaml-cpp', 'Ceres': 'libceres-dev',
               'OpenCV': 'libopencv-dev', 'hidapi-hidraw': 'libhidapi-dev', 'Boost': 'boost'}
 # Parts of every toolchain.
 NOT_PACKAGES = {'catkin', 'Threads', 'PkgConfig', 'GTest', 'PythonInterp'}

@@ -1,6 +1,8 @@
 #include "benchmark_calibration_sections.h"
 #include "wave_trial.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -95,9 +97,7 @@ void runWave(int runs, const RowCallback& row) {
       WaveScene scene;
       scene.camera_count = cameras;
       scene.pixel = pixel;
-      char text[40];
-      std::snprintf(text, sizeof text, "square + wave, %.1f px", pixel);
-      row(rowOf(name + text, scene, runs));
+      row(rowOf(name + format("square + wave, %.1f px", pixel), scene, runs));
     }
     WaveScene scene;
     scene.camera_count = cameras;
@@ -107,9 +107,7 @@ void runWave(int runs, const RowCallback& row) {
     scene.length = 0.5;
     for (const double pixel : {0.3, 0.5}) {
       scene.pixel = pixel;
-      char text[40];
-      std::snprintf(text, sizeof text, "square + wand, %.1f px", pixel);
-      row(rowOf(name + text, scene, runs));
+      row(rowOf(name + format("square + wand, %.1f px", pixel), scene, runs));
     }
     scene.pixel = 0.3;
     scene.side = 1.5;

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_POSE_TRIAL_H
 #define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_POSE_TRIAL_H
 
-#include "wiimote_tracker_calibration/square/planar_pose.h"
+#include "square/planar_pose.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 

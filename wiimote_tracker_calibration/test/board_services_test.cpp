@@ -3,7 +3,7 @@
 // theirs.
 #include "wiimote_tracker_calibration/simulation/simulated_board.h"
 
-#include "wiimote_tracker_calibration/intrinsics/board_sequence.h"
+#include "intrinsics/board_sequence.h"
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>

@@ -1,7 +1,7 @@
 // How near the solution is to the truth, and whether its covariance says so. All simulated.
 
+#include "square/expected_error.h"
 #include "wiimote_tracker_calibration/square/branches.h"
-#include "wiimote_tracker_calibration/square/expected_error.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
 #include "simulated_square.h"

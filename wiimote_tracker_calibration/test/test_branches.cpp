@@ -1,10 +1,10 @@
 // The planar ambiguity: a square that is small in the image looks the same from two places.
 
+#include "square/error.h"
+#include "square/planar_pose.h"
+#include "square/three_corner_pose.h"
 #include "wiimote_tracker_calibration/square/branches.h"
-#include "wiimote_tracker_calibration/square/error.h"
-#include "wiimote_tracker_calibration/square/planar_pose.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
-#include "wiimote_tracker_calibration/square/three_corner_pose.h"
 
 #include "simulated_square.h"
 

@@ -39,6 +39,7 @@ def status(step, **fields):
 
 def guide_at(*statuses, **options):
     guide = Guide(0.0, **options)
+    guide.image_sizes = {each.name: (1024, 768) for message in statuses for each in message.cameras}
     for number, each in enumerate(statuses):
         guide.on_status(each, float(number))
     return guide
@@ -100,6 +101,20 @@ def test_a_wave_fills_cells_and_says_what_is_missing():
     assert lines[16:18] == ['- wave 9 s more',
                             '- wiimote_1 has seen nothing at the top: hold the LED higher']
     assert lines[21] == 'recording'
+
+
+def test_the_picture_is_as_large_as_the_images_are():
+    guide = guide_at(status(CalibrationStatus.READY, cameras=[camera(x=639.0, y=479.0)]))
+    guide.image_sizes = {'wiimote_1': (640, 480)}
+    assert screen.render(guide, 1.0)[10] == '|               O|'
+    guide.image_sizes = {}  # no image has come yet
+    assert not any('O' in line for line in screen.render(guide, 1.0)[5:11])
+
+
+def test_the_answer_is_shown_beside_the_verdict_and_the_trace():
+    guide = guide_at(status(CalibrationStatus.SAVED, message='saved to rig.yaml'))
+    for view in ('verdict', 'trace'):
+        assert screen.render(guide, 1.0, view)[21] == 'saved to rig.yaml'
 
 
 def test_a_verdict_is_a_table():
@@ -315,7 +330,7 @@ def test_it_says_how_long_it_took():
 
 def test_words_become_requests():
     waving = status(CalibrationStatus.WAVING, hands_free=True)
-    Request = commands.Request
+    Request = commands.request
     for line, expected in (
             ('masks', Request('learn_masks', 'LearnMasks', duration=0.0)),
             ('start', Request('start', 'StartCalibration', side_x=0.0, side_y=0.0)),
@@ -373,7 +388,7 @@ def test_every_request_has_the_fields_of_its_service():
 
 # --- The dialogue
 
-class FakeNode(object):
+class FakeNode:
     """Answers with what it is told to, or not at all."""
 
     def __init__(self, answers=None):

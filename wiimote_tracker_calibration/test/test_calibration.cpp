@@ -1,8 +1,8 @@
 // The workflow as a person goes through it, without ROS.
 
-#include "wiimote_tracker_calibration/workflow/calibration.h"
+#include "workflow/calibration.h"
 
-#include "wiimote_tracker_calibration/session/solve_session.h"
+#include "session/solve_session.h"
 
 #include "simulated_square.h"
 
@@ -53,14 +53,16 @@ class Workflow : public ::testing::Test {
   }
 
   Reply solve(double time) {
-    const Reply begun = calibration_.beginSolve();
+    const Reply begun = calibration_.begin(Step::kSolving, "solving");
     if (!begun.success)
       return begun;
     try {
       session::Solution solution =
           session::solveSession(calibration_.session(facts_, {}), session::SolveOptions());
       solution.rig.solved_at = time;
-      return calibration_.finishSolve(solution.rig);
+      const Reply reply = calibration_.takeSolution(solution.rig);
+      calibration_.end(reply);
+      return reply;
     } catch (const geometry::Error& error) {
       const Reply failed = {false, error.what()};
       calibration_.end(failed);
@@ -116,7 +118,7 @@ TEST_F(Workflow, four_corners_make_a_rig) {
 TEST_F(Workflow, requests_out_of_turn_are_refused_with_a_reason) {
   EXPECT_SAYS(calibration_.beginCapture(std::nullopt, 0.0).message, "start one first");
   EXPECT_SAYS(calibration_.undo().message, "no captured corner");
-  EXPECT_SAYS(calibration_.beginSolve().message, "only 0 of 4 corners");
+  EXPECT_SAYS(calibration_.begin(Step::kSolving, "solving").message, "only 0 of 4 corners");
   EXPECT_EQ(calibration_.step(), Step::kIdle);
 
   ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
@@ -124,7 +126,8 @@ TEST_F(Workflow, requests_out_of_turn_are_refused_with_a_reason) {
   EXPECT_EQ(calibration_.step(), Step::kCapturing);
   for (const Reply& reply :
        {calibration_.beginCapture(std::nullopt, now_), calibration_.start(1.0, 1.0, names_),
-        calibration_.undo(), calibration_.beginSolve(), calibration_.load(geometry::Rig())}) {
+        calibration_.undo(), calibration_.begin(Step::kSolving, "solving"),
+        calibration_.load(geometry::Rig())}) {
     EXPECT_FALSE(reply.success);
     EXPECT_SAYS(reply.message, "being captured");
   }
@@ -233,7 +236,7 @@ TEST_F(Workflow, a_cancel_that_comes_too_late_for_the_solver_drops_nothing) {
   EXPECT_EQ(calibration_.step(), Step::kSolved);
   EXPECT_EQ(calibration_.square().corners().size(), 4U);
   // The same when it failed.
-  ASSERT_TRUE(calibration_.beginSolve().success);
+  ASSERT_TRUE(calibration_.begin(Step::kSolving, "solving").success);
   calibration_.end({false, "no solution"});
   EXPECT_SAYS(calibration_.cancel().message, "nothing was dropped");
   EXPECT_EQ(calibration_.square().corners().size(), 4U);
@@ -313,7 +316,7 @@ TEST_F(Workflow, a_wave_is_recorded_covered_and_kept_beside_the_square) {
   EXPECT_TRUE(calibration_.missing().empty());
   ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
   EXPECT_EQ(calibration_.step(), Step::kWaving);
-  EXPECT_SAYS(calibration_.beginSolve().message, "a wave is being recorded");
+  EXPECT_SAYS(calibration_.begin(Step::kSolving, "solving").message, "a wave is being recorded");
   wave(5.0);
   EXPECT_FALSE(calibration_.missing().empty());
   EXPECT_GT(calibration_.progress(), 0.2);
@@ -342,14 +345,14 @@ TEST_F(Workflow, frames_of_an_older_clock_epoch_are_dropped_and_that_is_told) {
   EXPECT_EQ(session.recording.cameras[0].clock_epoch, 7U);
   EXPECT_NEAR(static_cast<double>(session.recording.cameras[0].frames.size()), 200.0, 2.0);
   EXPECT_NEAR(static_cast<double>(session.recording.cameras[1].frames.size()), 500.0, 2.0);
-  EXPECT_SAYS(calibration_.missing().back(), names_[0] + " connected anew");
+  EXPECT_SAYS(calibration_.missing().back(), names_[0] + " reconnected");
 }
 
 TEST_F(Workflow, without_a_square_it_takes_a_wand) {
   ASSERT_TRUE(calibration_.startWithoutSquare(names_).success);
   EXPECT_TRUE(calibration_.sides().empty());
   EXPECT_SAYS(calibration_.beginCapture(std::nullopt, now_).message, "without a square");
-  EXPECT_SAYS(calibration_.beginSolve().message, "no wand was waved");
+  EXPECT_SAYS(calibration_.begin(Step::kSolving, "solving").message, "no wand was waved");
   EXPECT_SAYS(calibration_.beginWave(cameras_, false, std::nullopt, now_).message, "no scale");
   wave::Wand wand;
   wand.length = -0.5;
@@ -381,7 +384,7 @@ TEST_F(Workflow, corners_are_captured_hands_free) {
 
 TEST_F(Workflow, cancel_stops_a_long_task_first) {
   captureAll();
-  ASSERT_TRUE(calibration_.beginSolve().success);
+  ASSERT_TRUE(calibration_.begin(Step::kSolving, "solving").success);
   EXPECT_EQ(calibration_.step(), Step::kSolving);
   EXPECT_SAYS(calibration_.undo().message, "the solver runs");
   EXPECT_SAYS(calibration_.begin(Step::kMasking, "").message, "the solver runs");
@@ -389,7 +392,7 @@ TEST_F(Workflow, cancel_stops_a_long_task_first) {
   EXPECT_FALSE(calibration_.isBusyWith(Step::kSolving));
   // It takes its time to stop; nothing else begins meanwhile, and nothing is dropped.
   EXPECT_SAYS(calibration_.begin(Step::kMeasuring, "").message, "not stopped yet");
-  EXPECT_SAYS(calibration_.beginSolve().message, "not stopped yet");
+  EXPECT_SAYS(calibration_.begin(Step::kSolving, "solving").message, "not stopped yet");
   EXPECT_TRUE(calibration_.cancel().success);
   EXPECT_EQ(calibration_.square().corners().size(), 4U);
   calibration_.end({false, "it was cancelled"});

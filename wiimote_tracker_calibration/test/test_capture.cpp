@@ -1,6 +1,6 @@
-#include "wiimote_tracker_calibration/capture/camera_monitor.h"
-#include "wiimote_tracker_calibration/capture/corner_capture.h"
-#include "wiimote_tracker_calibration/capture/rest_gravity.h"
+#include "capture/camera_monitor.h"
+#include "capture/corner_capture.h"
+#include "capture/rest_gravity.h"
 
 #include <gtest/gtest.h>
 

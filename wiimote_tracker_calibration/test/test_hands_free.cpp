@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/capture/hands_free.h"
+#include "capture/hands_free.h"
 
 #include <gtest/gtest.h>
 

@@ -2,10 +2,10 @@
 
 #include "waved_led.h"
 
-#include "wiimote_tracker_calibration/health/alarm.h"
-#include "wiimote_tracker_calibration/health/drift_watch.h"
-#include "wiimote_tracker_calibration/health/health_watch.h"
-#include "wiimote_tracker_calibration/health/tilt_watch.h"
+#include "health/alarm.h"
+#include "health/drift_watch.h"
+#include "health/health_watch.h"
+#include "health/tilt_watch.h"
 
 #include <gtest/gtest.h>
 

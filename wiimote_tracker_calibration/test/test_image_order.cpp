@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/capture/image_order.h"
+#include "capture/image_order.h"
 
 #include <gtest/gtest.h>
 

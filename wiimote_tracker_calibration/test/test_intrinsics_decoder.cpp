@@ -1,6 +1,6 @@
-#include "wiimote_tracker_calibration/intrinsics/board_decoder.h"
-#include "wiimote_tracker_calibration/intrinsics/board_sequence.h"
-#include "wiimote_tracker_calibration/intrinsics/error.h"
+#include "intrinsics/board_decoder.h"
+#include "intrinsics/board_sequence.h"
+#include "intrinsics/error.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

@@ -1,6 +1,6 @@
 #include "wiimote_tracker_calibration/simulation/simulated_board.h"
 
-#include "wiimote_tracker_calibration/intrinsics/error.h"
+#include "intrinsics/error.h"
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Two rigs in one world, drawn round a known truth from known covariances.
 
-#include "wiimote_tracker_calibration/session/error.h"
-#include "wiimote_tracker_calibration/session/join_rigs.h"
+#include "session/error.h"
+#include "session/join_rigs.h"
 
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 

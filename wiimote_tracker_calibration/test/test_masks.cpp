@@ -1,5 +1,5 @@
-#include "wiimote_tracker_calibration/capture/mask_learner.h"
-#include "wiimote_tracker_calibration/capture/masks.h"
+#include "capture/mask_learner.h"
+#include "capture/masks.h"
 
 #include <gtest/gtest.h>
 

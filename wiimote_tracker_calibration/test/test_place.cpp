@@ -2,11 +2,11 @@
 
 #include "simulated_rig.h"
 
-#include "wiimote_tracker_calibration/place/check_place.h"
-#include "wiimote_tracker_calibration/place/chi_squared.h"
-#include "wiimote_tracker_calibration/place/error.h"
-#include "wiimote_tracker_calibration/place/known_places.h"
-#include "wiimote_tracker_calibration/place/measure_place.h"
+#include "place/check_place.h"
+#include "place/chi_squared.h"
+#include "place/error.h"
+#include "place/known_places.h"
+#include "place/measure_place.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The pose of a square in one image. All simulated.
 
-#include "wiimote_tracker_calibration/square/planar_pose.h"
+#include "square/planar_pose.h"
 
 #include "pose_trial.h"
 

@@ -2,7 +2,7 @@
 
 #include "wiimote_tracker_calibration/principal_point/correction.h"
 
-#include "wiimote_tracker_calibration/square/error.h"
+#include "square/error.h"
 
 #include "paper_procedure.h"
 

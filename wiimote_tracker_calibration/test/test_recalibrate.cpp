@@ -2,8 +2,8 @@
 
 #include "waved_led.h"
 
-#include "wiimote_tracker_calibration/recalibrate/error.h"
-#include "wiimote_tracker_calibration/recalibrate/recalibrate_camera.h"
+#include "recalibrate/error.h"
+#include "recalibrate/recalibrate_camera.h"
 
 #include <gtest/gtest.h>
 

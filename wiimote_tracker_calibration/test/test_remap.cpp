@@ -281,31 +281,31 @@ TEST(Remap, another_calibration_and_damaged_values_are_refused) {
   try {
     Correction(good, "fedcba9876543210");
     FAIL();
-  } catch (const RemapError& error) {
+  } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("void"), std::string::npos);
   }
   Remap bad = good;
   bad.rig_id.clear();
-  EXPECT_THROW(Correction(bad, ""), RemapError);
+  EXPECT_THROW(Correction(bad, ""), Error);
   bad = good;
   bad.parameters.pop_back();
-  EXPECT_THROW(Correction(bad, kRig), RemapError);
+  EXPECT_THROW(Correction(bad, kRig), Error);
   bad = good;
   bad.parameters[3] = NAN;
-  EXPECT_THROW(Correction(bad, kRig), RemapError);
+  EXPECT_THROW(Correction(bad, kRig), Error);
   bad = good;
   for (Eigen::Vector3d& point : bad.support)
     point.z() = 0.0;
-  EXPECT_THROW(Correction(bad, kRig), RemapError);
+  EXPECT_THROW(Correction(bad, kRig), Error);
   EXPECT_EQ(modelFromName("thin_plate"), Model::kThinPlate);
-  EXPECT_THROW(modelFromName("quadratic"), RemapError);
+  EXPECT_THROW(modelFromName("quadratic"), Error);
 }
 
 void expectRefused(const std::vector<KnownPoint>& points, const std::string& part) {
   try {
     fitRemap(points, kRig);
     FAIL() << "not refused: " << part;
-  } catch (const RemapError& error) {
+  } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   }
 }
@@ -341,10 +341,10 @@ TEST(Remap, each_kind_of_useless_points_has_its_own_refusal) {
   for (const Eigen::Vector3d& point : measured)
     bad.push_back({point, point + noise(random, 0.002)});
   expectRefused(bad, "better than none");
-  EXPECT_THROW(fitRemap(good, ""), RemapError);
+  EXPECT_THROW(fitRemap(good, ""), Error);
   FitOptions nothing;
   nothing.models.clear();
-  EXPECT_THROW(fitRemap(good, kRig, nothing), RemapError);
+  EXPECT_THROW(fitRemap(good, kRig, nothing), Error);
 }
 
 TEST(Remap, a_model_that_needs_more_points_says_so_and_the_others_are_used) {

@@ -1,13 +1,13 @@
 // Solving all that was captured, and the verdict on it. All simulated.
 #include "simulated_square.h"
-#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 #include "wave_trial.h"
+#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
-#include "wiimote_tracker_calibration/session/error.h"
-#include "wiimote_tracker_calibration/session/session_file.h"
-#include "wiimote_tracker_calibration/session/solve_session.h"
-#include "wiimote_tracker_calibration/square/error.h"
-#include "wiimote_tracker_calibration/wave/error.h"
+#include "session/error.h"
+#include "session/session_file.h"
+#include "session/solve_session.h"
+#include "square/error.h"
+#include "wave/error.h"
 
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
@@ -237,7 +237,7 @@ TEST(SolveSession, WhatTheSolversRefuseComesThrough) {
   EXPECT_THROW(solveSession(session, SolveOptions()), wave::WaveError);
   EXPECT_SAYS(refusal(), "nothing tells how large the room is");
   session.masks.pop_back();
-  EXPECT_SAYS(refusal(), "the masks are not of as many cameras");
+  EXPECT_SAYS(refusal(), "masks for another number of cameras");
 }
 
 TEST(SolveSession, CanBeCancelled) {

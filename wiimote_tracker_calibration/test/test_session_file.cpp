@@ -1,7 +1,7 @@
 // The file of what was captured: every number comes back, and damage is refused.
 
-#include "wiimote_tracker_calibration/session/error.h"
-#include "wiimote_tracker_calibration/session/session_file.h"
+#include "session/error.h"
+#include "session/session_file.h"
 
 #include <wiimote_tracker_triangulation/geometry/atomic_file.h>
 
@@ -333,7 +333,7 @@ TEST_F(SessionFile, says_what_is_wrong_with_it) {
   write(with("name: \"wiimote_2\"", "name: \"wiimote_1\""));
   EXPECT_SAYS(refusal(), "two cameras are called wiimote_1");
   write(with("clock_epoch: 3", "clock_epoch: 3\n    colour: 4"));
-  EXPECT_SAYS(refusal(), "cameras[0]: colour is an unknown key");
+  EXPECT_SAYS(refusal(), "cameras[0]/colour is an unknown key");
   write(std::string(kText) + "more\n");
   EXPECT_SAYS(refusal(), "is not the last");
 }

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/square/error.h"
+#include "square/error.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
 #include "simulated_square.h"

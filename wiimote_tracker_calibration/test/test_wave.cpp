@@ -1,10 +1,10 @@
 // The wave and the wand against simulations whose truth is known, and against the Fisher bound of
 // the same model, computed another way.
+#include "wave_trial.h"
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 #include "wiimote_tracker_calibration/simulation/wave_bound.h"
-#include "wave_trial.h"
 
-#include "wiimote_tracker_calibration/wave/error.h"
+#include "wave/error.h"
 #include "wiimote_tracker_calibration/wave/solve_wave.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // What a person is told while waving.
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
-#include "wiimote_tracker_calibration/wave/coverage.h"
-#include "wiimote_tracker_calibration/wave/error.h"
+#include "wave/coverage.h"
+#include "wave/error.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "simulated_rig.h"
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
-#include "wiimote_tracker_calibration/capture/image.h"
+#include "capture/image.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 

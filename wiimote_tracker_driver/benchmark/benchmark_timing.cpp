@@ -1,6 +1,8 @@
 // Exposure times from arrival times: our clock beside others, for every model of the link.
 #include "timing_trial.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -25,10 +27,9 @@ std::vector<Row> rows() {
     link.wander = wander;
     link.slot = slot;
     link.stalls = stalls;
-    char name[80];
-    std::snprintf(name, sizeof name, "%s %4.1f, wander %.1f%s%s",
-                  core == Core::kHardEdge ? "edge" : "bell", spread * 1e3, wander * 1e3,
-                  slot > 0.0 ? ", slots" : "", stalls > 0.0 ? ", stalls" : "");
+    const std::string name = wiimote_tracker::format(
+        "%s %4.1f, wander %.1f%s%s", core == Core::kHardEdge ? "edge" : "bell", spread * 1e3,
+        wander * 1e3, slot > 0.0 ? ", slots" : "", stalls > 0.0 ? ", stalls" : "");
     rows.push_back({name, link});
   };
   for (double spread : {2e-3, 5e-3, 10e-3})

@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_RESULTS_H
 #define WIIMOTE_TRACKER_DRIVER_BENCHMARK_RESULTS_H
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -28,8 +30,7 @@ inline void print(const std::string& title, const Results& results) {
 inline std::string json(const Results& results) {
   std::string text = "{";
   for (const Result& result : results) {
-    char number[32];
-    std::snprintf(number, sizeof(number), "%.9g", result.value);
+    const std::string number = format("%.9g", result.value);
     text += (text.size() > 1 ? ", " : "") + ("\"" + result.name) + "\": {\"value\": " + number +
             ", \"unit\": \"" + result.unit + "\"}";
   }

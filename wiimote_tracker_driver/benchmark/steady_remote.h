@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_STEADY_REMOTE_H
 #define WIIMOTE_TRACKER_DRIVER_BENCHMARK_STEADY_REMOTE_H
 
+#include "transport/transport.h"
 #include "wiimote_tracker_driver/protocol/report.h"
-#include "wiimote_tracker_driver/transport/transport.h"
 
 #include <array>
 #include <cstdint>

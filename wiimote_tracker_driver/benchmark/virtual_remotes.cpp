@@ -2,6 +2,8 @@
 
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -74,9 +76,7 @@ void VirtualRemotes::serve() {
   try {
     std::vector<std::unique_ptr<virtual_wiimote::Server>> servers;
     for (int i = 0; i < count_; ++i) {
-      char address[18];
-      std::snprintf(address, sizeof(address), "00:1f:32:00:00:%02x",
-                    static_cast<unsigned>(i) & 0xffu);
+      const std::string address = format("00:1f:32:00:00:%02x", static_cast<unsigned>(i) & 0xffu);
       servers.push_back(std::make_unique<virtual_wiimote::Server>(
           socket(i), address, virtual_wiimote::Device::Options()));
     }

@@ -1,5 +1,5 @@
-"""Gets Debian's kernel, QEMU and busybox: downloads the packages with apt-get and unpacks them into
-a cache folder. Nothing is installed; no root is needed. Can also be run by itself:
+"""Downloads Debian's kernel, QEMU and busybox with apt-get and unpacks them into a cache folder.
+Installs nothing and needs no root. Can also be run by itself:
 
     fetch.py [KERNEL_PACKAGE]
 """
@@ -12,6 +12,7 @@ import re
 import shutil
 import subprocess
 import sys
+from typing import Dict, Iterable, Iterator, List, Optional
 
 # The smallest kernel of Debian that has uhid, hidraw and hid-wiimote.
 DEFAULT_KERNEL = 'linux-image-cloud-amd64'
@@ -21,36 +22,36 @@ LIBRARY_FOLDER = 'usr/lib/x86_64-linux-gnu'
 
 
 class Unavailable(Exception):
-    """What is needed cannot be had on this machine; the text says why."""
+    """The packages are not available on this machine; the text says why."""
 
 
-class Parts(object):
-    """Paths of what a guest is made of."""
+class Parts:
+    """Paths of the parts of a guest."""
 
-    def __init__(self, folder, kernel_package):
+    def __init__(self, folder: str, kernel_package: str):
         self.tools = os.path.join(folder, 'tools')
         self.kernel_folder = os.path.join(folder, kernel_package)
         self.busybox = os.path.join(self.tools, 'bin', 'busybox')
         self.qemu = os.path.join(self.tools, 'usr', 'bin', 'qemu-system-x86_64')
 
     @property
-    def kernel(self):
+    def kernel(self) -> str:
         return glob.glob(os.path.join(self.kernel_folder, 'boot', 'vmlinuz-*'))[0]
 
-    def qemu_command(self):
+    def qemu_command(self) -> List[str]:
         """The start of QEMU's command line."""
         share = os.path.join(self.tools, 'usr', 'share')
         return [self.qemu, '-L', os.path.join(share, 'qemu'), '-L', os.path.join(share, 'seabios')]
 
-    def qemu_environment(self):
+    def qemu_environment(self) -> Dict[str, str]:
         libraries = [os.path.join(self.tools, LIBRARY_FOLDER),
                      os.path.join(self.tools, 'lib/x86_64-linux-gnu')]
         return dict(os.environ, LD_LIBRARY_PATH=':'.join(libraries),
                     QEMU_MODULE_DIR=os.path.join(self.tools, LIBRARY_FOLDER, 'qemu'))
 
 
-def cache_folder():
-    """$WIIMOTE_TRACKER_REAL_KERNEL, or a folder of its own in the user's cache."""
+def cache_folder() -> str:
+    """$WIIMOTE_TRACKER_REAL_KERNEL, or a folder in the user's cache."""
     folder = os.environ.get('WIIMOTE_TRACKER_REAL_KERNEL')
     if not folder:
         cache = os.environ.get('XDG_CACHE_HOME') or os.path.expanduser('~/.cache')
@@ -58,57 +59,56 @@ def cache_folder():
     return os.path.abspath(folder)
 
 
-class Apt(object):
-    """The packages of this machine's sources, by its own lists or by lists of ours."""
+class Apt:
+    """The packages of this machine's sources. `options` may select other package lists."""
 
-    def __init__(self, options=()):
+    def __init__(self, options: Iterable[str] = ()):
         self._options = list(options)
 
-    def _run(self, program, arguments, folder=None):
+    def _run(self, program: str, arguments: List[str], folder: Optional[str] = None) -> str:
         command = [program] + self._options + arguments
         done = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               stdin=subprocess.DEVNULL, universal_newlines=True,
                               env=dict(os.environ, LC_ALL='C'))
         if done.returncode != 0:
             lines = [line for line in done.stderr.splitlines() if line.startswith('E:')]
-            raise Unavailable('%s: %s' % (' '.join(command[:1] + arguments[:1]),
-                                          lines[0] if lines else done.stderr.strip()[-200:]))
+            reason = lines[0] if lines else done.stderr.strip()[-200:]
+            raise Unavailable(f'{program} {arguments[0]}: {reason}')
         return done.stdout
 
-    def update(self):
+    def update(self) -> None:
         self._run('apt-get', ['update'])
 
-    def kernel_behind(self, package):
-        """The package of the kernel itself that a "latest kernel" package stands for."""
+    def kernel_behind(self, package: str) -> str:
+        """The kernel package that a "latest kernel" package depends on."""
         depends = self._run('apt-cache', ['depends', package])
         images = re.findall(r'Depends: (linux-image-\d\S*)', depends)
         return images[0] if images else package
 
-    def missing_for(self, package):
-        """What would have to be installed for `package`, itself included."""
+    def missing_for(self, package: str) -> List[str]:
+        """The packages that installing `package` would install, itself included."""
         plan = self._run('apt-get', ['install', '-s', '--no-install-recommends', package])
         return re.findall(r'^Inst (\S+)', plan, re.MULTILINE)
 
-    def download(self, packages, folder):
+    def download(self, packages: List[str], folder: str) -> List[str]:
         shutil.rmtree(folder, ignore_errors=True)
         os.makedirs(folder)
-        # _apt, the user apt would rather download as, cannot write here; that is only a warning.
+        # apt warns that its own user, _apt, cannot write here; that does no harm.
         self._run('apt-get', ['-o', 'Acquire::Retries=3', '-o', 'Acquire::http::Timeout=30',
                               'download'] + packages, folder)
         return glob.glob(os.path.join(folder, '*.deb'))
 
 
-def own_lists(folder):
-    """Options that make apt keep package lists of its own, for when the machine's are missing or
-    out of date and may not be updated."""
+def own_lists(folder: str) -> List[str]:
+    """Options for package lists in `folder`, for machines whose lists are missing or out of date."""
     lists = os.path.join(folder, 'lists')
     os.makedirs(os.path.join(lists, 'partial'), exist_ok=True)
     os.makedirs(os.path.join(folder, 'archives', 'partial'), exist_ok=True)
     return ['-o', 'Dir::State::lists=' + lists, '-o', 'Dir::Cache=' + folder]
 
 
-def unpack(archives, folder):
-    """Unpacks so that an interruption leaves no half of it behind."""
+def unpack(archives: Iterable[str], folder: str) -> None:
+    """Unpacks Debian packages; an interruption leaves no partial folder."""
     partial = folder + '.partial'
     shutil.rmtree(partial, ignore_errors=True)
     for archive in archives:
@@ -117,7 +117,7 @@ def unpack(archives, folder):
     os.rename(partial, folder)
 
 
-def fetch_missing(parts, folder, kernel_package, apt):
+def fetch_missing(parts: Parts, folder: str, kernel_package: str, apt: Apt) -> None:
     downloads = os.path.join(folder, 'downloads')
     if not os.path.isdir(parts.tools):
         packages = set(QEMU_PACKAGES + ['busybox-static'] + apt.missing_for('qemu-system-x86'))
@@ -128,8 +128,8 @@ def fetch_missing(parts, folder, kernel_package, apt):
     shutil.rmtree(downloads, ignore_errors=True)
 
 
-def works(parts):
-    """Whether QEMU starts: a library that it shares with the machine may have gone since."""
+def works(parts: Parts) -> bool:
+    """Whether QEMU starts: it also uses libraries of the machine, which may have changed."""
     try:
         return subprocess.call([parts.qemu, '--version'], env=parts.qemu_environment(),
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) == 0
@@ -138,27 +138,27 @@ def works(parts):
 
 
 @contextlib.contextmanager
-def alone(folder):
-    """Keeps others from using the cache folder."""
+def locked(folder: str) -> Iterator[None]:
+    """Locks the cache folder against other processes."""
     with open(os.path.join(folder, 'lock'), 'w') as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         yield
 
 
-def fetch(kernel_package=DEFAULT_KERNEL):
-    """Downloads what is not there yet. Returns Parts; raises Unavailable."""
+def fetch(kernel_package: str = DEFAULT_KERNEL) -> Parts:
+    """Downloads what the cache does not have. Raises Unavailable."""
     for program in ('apt-get', 'dpkg', 'dpkg-deb'):
         if not shutil.which(program):
-            raise Unavailable('%s is missing: this takes its kernel from Debian' % program)
+            raise Unavailable(f'{program} is missing: the kernel comes from Debian')
     architecture = subprocess.check_output(['dpkg', '--print-architecture'],
                                            universal_newlines=True).strip()
     if architecture != 'amd64':
-        raise Unavailable('this is a %s machine, the guest is amd64' % architecture)
+        raise Unavailable(f'this is a {architecture} machine, the guest is amd64')
     folder = cache_folder()
     parts = Parts(folder, kernel_package)
     try:
         os.makedirs(folder, exist_ok=True)
-        with alone(folder):
+        with locked(folder):
             if os.path.isdir(parts.tools) and not works(parts):
                 shutil.rmtree(parts.tools)
             try:
@@ -169,12 +169,11 @@ def fetch(kernel_package=DEFAULT_KERNEL):
                     apt.update()
                     fetch_missing(parts, folder, kernel_package, apt)
                 except Unavailable as second:
-                    raise Unavailable('%s; and with package lists updated just now: %s' %
-                                      (first, second))
+                    raise Unavailable(f'{first}; and with updated package lists: {second}')
     except (OSError, subprocess.CalledProcessError) as error:
-        raise Unavailable('%s (cache folder %s)' % (error, folder))
+        raise Unavailable(f'{error} (cache folder {folder})')
     if not works(parts):
-        raise Unavailable('QEMU does not start: %s' % parts.qemu)
+        raise Unavailable(f'QEMU does not start: {parts.qemu}')
     return parts
 
 

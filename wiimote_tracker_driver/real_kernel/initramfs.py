@@ -1,18 +1,18 @@
-"""Packs the guest's root file system: a newc cpio archive with busybox, kernel modules in the order
-in which they have to be loaded, and programs with their shared libraries. Needs no root, no cpio
-and no depmod."""
+"""Packs the guest's root file system: a newc cpio archive with busybox, the kernel modules in the
+order of loading, and programs with their shared libraries. Needs no root, cpio or depmod."""
 
 import lzma
 import os
 import re
 import stat
 import subprocess
+from typing import BinaryIO, Iterable, List, Tuple
 
 
-class Archive(object):
-    """A newc cpio archive that makes the folders above what is put into it."""
+class Archive:
+    """A newc cpio archive. It adds the folders above each file."""
 
-    def __init__(self, file):
+    def __init__(self, file: BinaryIO):
         self._file = file
         self._names = set()
         self._inode = 0
@@ -25,14 +25,14 @@ class Archive(object):
         for part in (header, content):
             self._file.write(part + b'\0' * (-len(part) % 4))
 
-    def folder(self, path):
+    def folder(self, path: str) -> None:
         if path and path not in self._names:
             self.folder(os.path.dirname(path))
             self._names.add(path)
             self._entry(path, stat.S_IFDIR | 0o755)
 
-    def add(self, path, content, mode=stat.S_IFREG | 0o755):
-        """Adds a file; one that is there already is left as it is."""
+    def add(self, path: str, content: bytes, mode: int = stat.S_IFREG | 0o755) -> None:
+        """Adds a file unless the archive has it already."""
         path = path.lstrip('/')
         if path in self._names:
             return
@@ -40,23 +40,23 @@ class Archive(object):
         self._names.add(path)
         self._entry(path, mode, content)
 
-    def link(self, path, target):
+    def link(self, path: str, target: str) -> None:
         self.add(path, target.encode(), stat.S_IFLNK | 0o777)
 
-    def close(self):
+    def close(self) -> None:
         self._entry('TRAILER!!!', 0)
 
 
-def read(path):
+def read(path: str) -> bytes:
+    """The content of a file, decompressed: busybox cannot load compressed modules."""
     with open(path, 'rb') as file:
         content = file.read()
-    # busybox cannot load compressed modules.
     return lzma.decompress(content) if path.endswith('.xz') else content
 
 
-def modules_in_order(kernel_folder, wanted):
-    """Names and contents of the wanted modules and those they need, needed ones first. What is no
-    module of this kernel is taken to be built in."""
+def modules_in_order(kernel_folder: str, wanted: Iterable[str]) -> List[Tuple[str, bytes]]:
+    """Names and contents of the wanted modules and their dependencies, dependencies first. A name
+    without a module file counts as built in."""
     paths = {}
     for folder, _, names in os.walk(os.path.join(kernel_folder, 'lib', 'modules')):
         for name in names:
@@ -82,23 +82,24 @@ def modules_in_order(kernel_folder, wanted):
     return ordered
 
 
-def libraries_of(program):
-    """Where in the guest, and where here, is each shared library that a program needs, and the
-    loader: the latter at its own path, the others in /lib, since a program may find its libraries
-    here by variables that the guest does not have. Raises OSError when one is missing."""
+def libraries_of(program: str) -> List[Tuple[str, str]]:
+    """Path in the guest and path here of each shared library of a program, and of the loader. The
+    loader keeps its path; libraries go to /lib, because the guest has no LD_LIBRARY_PATH. Raises
+    OSError when one is missing."""
     output = subprocess.run(['ldd', program], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                             universal_newlines=True).stdout
     missing = re.findall(r'(\S+) => not found', output)
     if missing:
-        raise OSError('%s needs %s, which was not found' % (program, ', '.join(missing)))
+        raise OSError(f'{program} needs {", ".join(missing)}, which was not found')
     libraries = re.findall(r'=> (/\S+) \(0x', output)
     loaders = re.findall(r'^\s*(/\S+) \(0x', output, re.MULTILINE)
     return ([('lib/' + os.path.basename(path), path) for path in libraries] +
             [(path, path) for path in loaders])
 
 
-def build(path, init, busybox, kernel_folder, modules, programs):
-    """Writes the archive. `programs` are put into /bin of the guest."""
+def build(path: str, init: str, busybox: str, kernel_folder: str, modules: Iterable[str],
+          programs: Iterable[str]) -> None:
+    """Writes the archive, with `programs` in /bin."""
     with open(path, 'wb') as file:
         archive = Archive(file)
         for folder in ('dev', 'proc', 'run', 'sys', 'tmp'):
@@ -108,8 +109,8 @@ def build(path, init, busybox, kernel_folder, modules, programs):
         archive.link('bin/sh', 'busybox')
         ordered = modules_in_order(kernel_folder, modules)
         for name, content in ordered:
-            archive.add('modules/%s.ko' % name, content)
-        archive.add('modules/order', ''.join('%s\n' % name for name, _ in ordered).encode())
+            archive.add(f'modules/{name}.ko', content)
+        archive.add('modules/order', ''.join(f'{name}\n' for name, _ in ordered).encode())
         for program in programs:
             archive.add('bin/' + os.path.basename(program), read(program))
             for target, path in libraries_of(program):

@@ -1,13 +1,17 @@
-"""Boots the guest and hands back what it says."""
+"""Boots the guest and returns its output."""
 
 import os
 import signal
 import subprocess
 import time
+from dataclasses import dataclass
+from typing import List
 
-# Instruction counting: each instruction of the guest takes 2 ns of its time, and waiting takes no
-# time of ours. So the guest's clock, by which everything is measured, does not depend on how busy
-# this machine is, and each run of a scenario is the same. The price is one processor.
+from fetch import Parts
+
+# Instruction counting: each instruction of the guest takes 2 ns of its time, and its waits are
+# skipped. So the guest's clock does not depend on this machine's load, and runs are repeatable. It
+# works with one processor only.
 COUNTED = ['-accel', 'tcg', '-icount', 'shift=1,sleep=off', '-cpu', 'qemu64', '-smp', '1']
 # In real time, on two processors.
 EMULATED = ['-accel', 'tcg,thread=multi', '-cpu', 'qemu64', '-smp', '2']
@@ -16,21 +20,20 @@ KVM = ['-accel', 'kvm', '-cpu', 'host', '-smp', '2']
 KVM_PROOF_LIMIT = 10.0  # [s]
 
 
-class Run(object):
+@dataclass
+class Run:
     """One boot of the guest."""
 
-    def __init__(self, text, seconds, finished):
-        self.text = text  # all that the guest said
-        self.seconds = seconds  # of this machine's time
-        self.finished = finished  # False: it was stopped by the limit, or QEMU failed
+    text: str        # output of the guest
+    seconds: float   # of this machine's time
+    finished: bool   # False: stopped by the limit, or QEMU failed
 
-    def lines(self):
+    def lines(self) -> List[str]:
         return [line.rstrip('\r') for line in self.text.split('\n')]
 
 
-def boot(parts, initramfs, scenario, accelerator, limit):
-    """Boots the guest for one scenario and waits until it switches itself off, at most `limit` [s].
-    """
+def boot(parts: Parts, initramfs: str, scenario: str, accelerator: List[str], limit: float) -> Run:
+    """Boots the guest for one scenario and waits until it powers off, at most `limit` [s]."""
     command = parts.qemu_command() + accelerator + [
         '-M', 'pc', '-m', '256', '-nodefaults', '-no-user-config', '-display', 'none', '-no-reboot',
         '-serial', 'stdio', '-kernel', parts.kernel, '-initrd', initramfs, '-append',
@@ -54,8 +57,8 @@ def boot(parts, initramfs, scenario, accelerator, limit):
                finished and process.returncode == 0)
 
 
-def kvm_works(parts, initramfs):
-    """Whether a guest boots under KVM. That /dev/kvm is there proves nothing."""
+def kvm_works(parts: Parts, initramfs: str) -> bool:
+    """Whether a guest boots under KVM: /dev/kvm may exist and not work."""
     if not os.access('/dev/kvm', os.R_OK | os.W_OK):
         return False
     run = boot(parts, initramfs, 'boot', KVM, KVM_PROOF_LIMIT)

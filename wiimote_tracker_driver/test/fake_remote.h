@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_TEST_FAKE_REMOTE_H
 #define WIIMOTE_TRACKER_DRIVER_TEST_FAKE_REMOTE_H
 
-#include "wiimote_tracker_driver/transport/transport.h"
+#include "transport/transport.h"
 
 #include <algorithm>
 #include <array>

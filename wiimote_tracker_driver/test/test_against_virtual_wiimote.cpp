@@ -1,7 +1,7 @@
 // Driver and virtual remote share no code, so what one writes the other must read.
+#include "virtual_wiimote/faulty_device.h"
+#include "wiimote/wiimote.h"
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
-#include "wiimote_tracker_driver/virtual_wiimote/faulty_device.h"
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
 
 #include <gtest/gtest.h>
 

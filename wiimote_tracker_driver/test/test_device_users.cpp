@@ -1,6 +1,6 @@
 // Who has a device: found for real processes, on a plain file in place of a hidraw node.
-#include "wiimote_tracker_driver/transport/transport.h"
-#include "wiimote_tracker_driver/transport/users.h"
+#include "transport/transport.h"
+#include "transport/users.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // What goes wrong on demand between the virtual remote and its host, and that the driver gets over
 // each of it.
 #include "virtual_remote_bytes.h"
-#include "wiimote_tracker_driver/virtual_wiimote/faulty_device.h"
+#include "virtual_wiimote/faulty_device.h"
+#include "wiimote/wiimote.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // Which reports make an image together.
-#include "wiimote_tracker_driver/wiimote/image_assembler.h"
+#include "wiimote/image_assembler.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Stamps of images, with clocks that the test sets.
-#include "image_stamper.h"
+#include "ros/image_stamper.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ class ImageStamperTest : public testing::Test {
     const double time = n * period_ + kDelay + more_delay;
     ClockReading now;
     now.steady = kSteadyStart + time;
-    now.doubt = doubt_;
+    now.uncertainty = uncertainty_;
     now.ros = kRosStart + step_ + ros::Duration(time + misreading_);
     now.simulated = simulated_;
     return stamper_.stamp(now, device_epoch_);
@@ -39,9 +39,9 @@ class ImageStamperTest : public testing::Test {
   void make(const ImageStamper::Options& options) { stamper_ = ImageStamper(options); }
 
   double period_ = kPeriod;
-  ros::Duration step_{0.0};  ///< By which the system clock was set.
-  double misreading_ = 0.0;  ///< [s] The thread was interrupted between the two clocks.
-  double doubt_ = 1e-6;      ///< [s]
+  ros::Duration step_{0.0};    ///< By which the system clock was set.
+  double misreading_ = 0.0;    ///< [s] The thread was interrupted between the two clocks.
+  double uncertainty_ = 1e-6;  ///< [s]
   bool simulated_ = false;
   std::uint32_t device_epoch_ = 0;
   std::mt19937 random_{5};
@@ -164,7 +164,7 @@ TEST_F(ImageStamperTest, InterruptedReadingsOfTheClocksDoNotShowInTheStamps) {
   for (int n = 0; n < 2000; ++n) {
     const bool interrupted = n % 10 == 5;
     misreading_ = interrupted ? 0.003 : 0.0;
-    doubt_ = interrupted ? 0.0035 : 1e-6;
+    uncertainty_ = interrupted ? 0.0035 : 1e-6;
     const ImageTime time = take(n);
     ASSERT_NEAR(kDelay, (time.arrival - exposure(n)).toSec(), 1e-6) << n;
   }

@@ -1,9 +1,9 @@
 // What list_wiimotes knows of a computer, from a made-up /sys and /etc; the list of cameras; and
 // talking to a virtual remote.
-#include "camera_list.h"
-#include "host.h"
-#include "remote_check.h"
-#include "replacement.h"
+#include "tools/list_wiimotes/camera_list.h"
+#include "tools/list_wiimotes/host.h"
+#include "tools/list_wiimotes/remote_check.h"
+#include "tools/list_wiimotes/replacement.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ DEADLINE = 30.0  # [s]
 EXAMPLE = 'cameras:\n  door: "virtual:%s"  # mine\n'
 
 
-class Remote(object):
+class Remote:
     """A remote at a local socket that answers a request for its status, and notes its LEDs."""
 
     def __init__(self, path, address, battery=0x69, answers=True):

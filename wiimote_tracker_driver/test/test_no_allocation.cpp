@@ -2,7 +2,7 @@
 #include "allocation_counter.h"
 #include "steady_remote.h"
 
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
+#include "wiimote/wiimote.h"
 
 #include <gtest/gtest.h>
 

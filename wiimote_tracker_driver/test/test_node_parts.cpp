@@ -1,10 +1,10 @@
 // What the node's messages and parameters mean, without a master.
-#include "battery_publisher.h"
-#include "blob_publisher.h"
-#include "driver_parameters.h"
-#include "joy_publisher.h"
-#include "link_diagnostics.h"
-#include "player_leds.h"
+#include "ros/battery_publisher.h"
+#include "ros/blob_publisher.h"
+#include "ros/driver_parameters.h"
+#include "ros/joy_publisher.h"
+#include "ros/link_diagnostics.h"
+#include "ros/log_exceptions.h"
 
 #include <gtest/gtest.h>
 #include <wiimote_tracker_driver/DriverConfig.h>
@@ -12,10 +12,14 @@
 
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace wiimote_tracker::driver {
 namespace {
@@ -106,35 +110,69 @@ TEST(Sensitivity, ByNameOrCustom) {
   EXPECT_THROW(sensitivity("07 00 00 71 01 00 72 00 20 1f 03", "", ""), std::invalid_argument);
 }
 
-TEST(Parameters, TheFileTheCodeAndTheLiveSettingsAgree) {
-  const DriverParameters p;
-  std::map<std::string, std::string> expected{{"device", p.device},
-                                              {"camera_name", p.camera_name},
-                                              {"camera_info_url", p.camera_info_url},
-                                              {"ir_mode", p.ir_mode},
-                                              {"ir_sensitivity", p.ir_sensitivity},
-                                              {"ir_sensitivity_block1", p.ir_sensitivity_block1},
-                                              {"ir_sensitivity_block2", p.ir_sensitivity_block2},
-                                              {"record", p.record}};
-  std::map<std::string, double> numbers{
-      {"latency", p.latency},
-      {"leds", p.leds},
-      {"battery_low", p.battery_low},
-      {"rumble_max", p.rumble_max},
-      {"linear_acceleration_stddev", p.linear_acceleration_stddev},
-      {"replay_rate", p.replay_rate},
-      {"realtime_priority", p.realtime_priority},
-      {"reply_timeout", p.reply_timeout},
-      {"silence_timeout", p.silence_timeout},
-      {"status_interval", p.status_interval}};
-  const YAML::Node file = YAML::LoadFile(DRIVER_YAML);
-  EXPECT_EQ(expected.size() + numbers.size() + 1, file.size()) << "each key is compared here";
-  for (const auto& text : expected)
-    EXPECT_EQ(text.second, file[text.first].as<std::string>()) << text.first;
-  for (const auto& number : numbers)
-    EXPECT_EQ(number.second, file[number.first].as<double>()) << number.first;
-  EXPECT_EQ(p.estimate_exposure, file["estimate_exposure"].as<bool>());
+/// In the place of a ParameterReader: checks that config/driver.yaml has each parameter with its
+/// default, below a comment with a sentence and the range.
+class DriverYaml {
+ public:
+  DriverYaml() : values_(YAML::LoadFile(DRIVER_YAML)) {
+    std::ifstream file(DRIVER_YAML);
+    std::string comment;
+    for (std::string line; std::getline(file, line);) {
+      if (line.empty())
+        comment.clear();
+      else if (line[0] == '#')
+        comment += line.substr(1);
+      else
+        comments_[line.substr(0, line.find(':'))] = std::exchange(comment, "");
+    }
+  }
 
+  template <typename T>
+  T optional(const std::string& name, const T& value) {
+    ++read_;
+    EXPECT_NE(std::string::npos, comments_[name].find('.')) << name << " has a sentence";
+    if (values_[name])
+      EXPECT_EQ(value, values_[name].as<T>()) << name;
+    else
+      ADD_FAILURE() << name << " is missing";
+    return value;
+  }
+
+  template <typename T>
+  T bounded(const std::string& name, T value, T minimum, T maximum) {
+    std::ostringstream range;
+    range << minimum << ".." << maximum << ']';
+    EXPECT_NE(std::string::npos, comments_[name].find(range.str())) << name << " " << range.str();
+    return optional(name, value);
+  }
+
+  std::string choice(const std::string& name,
+                     const std::string& value,
+                     const std::vector<std::string>& words) {
+    for (const std::string& word : words)
+      EXPECT_TRUE(comments_[name].find(word) != std::string::npos || word.find("wii_") == 0)
+          << word;
+    return optional(name, value);
+  }
+
+  std::size_t read() const { return read_; }
+  std::size_t size() const { return values_.size(); }
+
+ private:
+  YAML::Node values_;
+  std::map<std::string, std::string> comments_;
+  std::size_t read_ = 0;
+};
+
+TEST(Parameters, TheFileHasEachWithItsDefaultAndRange) {
+  DriverYaml file;
+  DriverParameters p;
+  declareParameters(file, p);
+  EXPECT_EQ(file.read(), file.size()) << "each key is a parameter";
+}
+
+TEST(Parameters, TheLiveSettingsHaveTheSameDefaults) {
+  const DriverParameters p;
   const auto live = wiimote_tracker_driver::DriverConfig::__getDefault__();
   EXPECT_EQ(p.ir_sensitivity, live.ir_sensitivity);
   EXPECT_EQ(p.ir_sensitivity_block1, live.ir_sensitivity_block1);
@@ -152,6 +190,11 @@ TEST(Parameters, TheLiveSettingsOfferEverySensitivity) {
   }
   for (const std::string& name : sensitivityNames())
     EXPECT_NE(std::string::npos, menu.find("'" + name + "'")) << name << " in " << menu;
+}
+
+TEST(LogExceptions, NothingThrownLeaves) {
+  EXPECT_NO_THROW(logExceptions("wiimote_1", [] { throw std::runtime_error("reason"); }));
+  EXPECT_NO_THROW(logExceptions("wiimote_1", [] { throw 1; }));
 }
 
 class DiagnosticsTest : public testing::Test {

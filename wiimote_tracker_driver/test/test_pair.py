@@ -68,7 +68,7 @@ TO_THE_END = PAIR + PAIRED + TRUST + CONNECT + CONNECTED
 SILENCE = '~\n'
 
 
-class Computer(object):
+class Computer:
     """A computer on which the programs that pair calls are fakes."""
 
     def __init__(self, folder, monkeypatch, capsys):

@@ -1,7 +1,7 @@
 // Bytes and their meaning, from hand-written vectors and from lines sent by real remotes.
-#include "wiimote_tracker_driver/protocol/accelerometer.h"
+#include "protocol/accelerometer.h"
+#include "protocol/ir_calibration.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
-#include "wiimote_tracker_driver/protocol/ir_calibration.h"
 #include "wiimote_tracker_driver/protocol/ir_camera.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"
 

@@ -1,6 +1,6 @@
 // The file of a recording, byte by byte, and the recorder that writes it.
-#include "wiimote_tracker_driver/recording/reader.h"
-#include "wiimote_tracker_driver/recording/recorder.h"
+#include "recording/reader.h"
+#include "recording/recorder.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,5 +1,5 @@
 // What recording_info finds in a recording.
-#include "summary.h"
+#include "tools/recording_info/summary.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // A recording of the driver's core, played back to it.
+#include "recording/reader.h"
+#include "recording/recorder.h"
+#include "recording/replay.h"
+#include "virtual_wiimote/faulty_device.h"
+#include "wiimote/wiimote.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"
-#include "wiimote_tracker_driver/recording/reader.h"
-#include "wiimote_tracker_driver/recording/recorder.h"
-#include "wiimote_tracker_driver/recording/replay.h"
-#include "wiimote_tracker_driver/virtual_wiimote/faulty_device.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

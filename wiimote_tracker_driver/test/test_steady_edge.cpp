@@ -188,7 +188,7 @@ TEST(FrameHistory, agrees_with_the_enumeration_of_all_paths) {
           marginal[2][b] += path;
           marginal[3][c] += path;
         }
-    ASSERT_EQ(history.settle(counter), kReports);
+    ASSERT_EQ(history.smooth(counter), kReports);
     for (int r = 1; r < kReports; ++r) {
       double sum = 0.0;
       int best = 0;
@@ -203,23 +203,23 @@ TEST(FrameHistory, agrees_with_the_enumeration_of_all_paths) {
   }
 }
 
-TEST(FrameHistory, is_settled_when_the_latest_number_is_sure_or_memory_is_full) {
+TEST(FrameHistory, is_complete_when_the_latest_number_is_certain_or_memory_is_full) {
   FrameHistory history;
-  EXPECT_FALSE(history.settled());
+  EXPECT_FALSE(history.complete());
   FrameCounter counter;
   counter.start(5);
   history.add(counter, 0.0, 1.0);
-  EXPECT_TRUE(history.settled());
+  EXPECT_TRUE(history.complete());
   history.clear();
   int reports = 0;
-  for (; !history.settled(); ++reports) {
+  for (; !history.complete(); ++reports) {
     ASSERT_LT(reports, 1000);
     counter.predict(counter.frame(0) + 3);  // as likely early as late, for ever
     counter.normalise();
     history.add(counter, reports, 1.0);
   }
-  EXPECT_EQ(history.settle(counter), reports);
-  EXPECT_FALSE(history.settled());
+  EXPECT_EQ(history.smooth(counter), reports);
+  EXPECT_FALSE(history.complete());
 }
 
 }  // namespace

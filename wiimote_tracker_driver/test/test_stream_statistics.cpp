@@ -1,5 +1,5 @@
 // Rate and gaps as diagnostics show them.
-#include "wiimote_tracker_driver/wiimote/stream_statistics.h"
+#include "wiimote/stream_statistics.h"
 
 #include <gtest/gtest.h>
 

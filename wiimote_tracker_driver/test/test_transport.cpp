@@ -1,6 +1,6 @@
 // Device names, error sentences, and the socket transport against the virtual remote.
-#include "wiimote_tracker_driver/transport/hidraw_transport.h"
-#include "wiimote_tracker_driver/transport/transport.h"
+#include "transport/hidraw_transport.h"
+#include "transport/transport.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
 #include <gtest/gtest.h>

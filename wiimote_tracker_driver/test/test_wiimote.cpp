@@ -1,10 +1,12 @@
 // How the driver brings a remote to sending images and keeps it there: in fake time, against a
 // remote that loses, refuses, forgets and goes away.
 #include "fake_remote.h"
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
+#include "wiimote/wiimote.h"
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <new>
 #include <random>
 #include <stdexcept>
 
@@ -133,6 +135,26 @@ TEST_F(WiimoteTest, SilentRemoteIsGivenUpAndTriedAgain) {
   EXPECT_EQ("", wiimote_.link().error);
   EXPECT_EQ(2, remote_.opened);
   EXPECT_EQ(0u, wiimote_.link().clock_epoch) << "the first stream is epoch 0";
+}
+
+TEST_F(WiimoteTest, AnyExceptionEndsTheConnectionAndNothingElse) {
+  int failures = 1;
+  Wiimote wiimote(
+      Options(),
+      [&]() -> std::unique_ptr<transport::Transport> {
+        if (failures-- > 0)
+          throw std::bad_alloc();
+        return remote_.open();
+      },
+      [&] { return remote_.now; });
+  EXPECT_NO_THROW(wiimote.step(0.1));
+  EXPECT_EQ(Link::State::kSearching, wiimote.link().state);
+  EXPECT_NE("", wiimote.link().error);
+  remote_.now += 1.0;
+  remote_.lose = [](const Report&) -> bool { throw std::logic_error("of the transport"); };
+  EXPECT_NO_THROW(wiimote.step(0.1));
+  EXPECT_EQ("of the transport", wiimote.link().error);
+  EXPECT_NO_THROW(wiimote.close());
 }
 
 TEST_F(WiimoteTest, RefusedReportsAreGivenUpWithTheReason) {

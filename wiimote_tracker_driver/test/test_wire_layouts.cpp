@@ -2,9 +2,9 @@
 // field, with everything around it at random.
 #include "wire_layouts.h"
 
-#include "wiimote_tracker_driver/protocol/accelerometer.h"
+#include "protocol/accelerometer.h"
+#include "protocol/ir_calibration.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
-#include "wiimote_tracker_driver/protocol/ir_calibration.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"
 
 #include <gtest/gtest.h>

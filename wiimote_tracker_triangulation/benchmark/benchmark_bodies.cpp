@@ -1,8 +1,8 @@
 // How well rigid bodies are found and followed: one table per section. With --body FILE that file's
 // first body is measured as well (a file of bodies, or one of rpg_monocular_pose_estimator).
 #include "benchmark_program.h"
+#include "body/bodies_file.h"
 #include "body/body_scene.h"
-#include "wiimote_tracker_triangulation/body/bodies_file.h"
 
 #include <algorithm>
 #include <chrono>

@@ -7,6 +7,8 @@
 #include "wiimote_tracker_triangulation/identity/snapshot_sightings.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -146,8 +148,7 @@ void runMoving(const BenchmarkSettings& settings, const RowCallback& row) {
                            Kind{"paper, 150 ms", paper, 0.15}}) {
     for (const double speed : {0.0, 0.3, 1.0}) {
       const Result result = simulate(kind, speed, settings);
-      char name[64];
-      std::snprintf(name, sizeof(name), "%s, %.1f m/s", kind.name.c_str(), speed);
+      const std::string name = format("%s, %.1f m/s", kind.name.c_str(), speed);
       BenchmarkRow figures{name,
                            {{"followed %", 100.0 * result.followed / result.led_time},
                             {"tracks", static_cast<double>(result.tracks)},

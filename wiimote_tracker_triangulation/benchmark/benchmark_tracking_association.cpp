@@ -1,9 +1,9 @@
+#include "association/assign_spots.h"
 #include "association/exhaustive.h"
+#include "association/shared_views.h"
 #include "association/simulated_views.h"
 #include "benchmark_tracking_sections.h"
-#include "wiimote_tracker_triangulation/association/assign_spots.h"
 #include "wiimote_tracker_triangulation/association/associate_views.h"
-#include "wiimote_tracker_triangulation/association/shared_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +61,7 @@ struct Case {
 BenchmarkRow runCase(const Case& c, const BenchmarkSettings& settings) {
   Random random(settings.seed);
   const geometry::Rig rig = association::test::ringRig(c.cameras);
-  const auto options = association::typicalCosts(c.disturbance.pixel_stddev);
+  const auto options = association::typicalCosts(rig, c.disturbance.pixel_stddev);
   association::ViewAssociator associator(rig, association::sharedViews(rig, 10.0), options);
   const std::size_t cameras = rig.cameras.size();
   int frames = 0;

@@ -1,10 +1,12 @@
-// How well the motion filter follows one LED, beside what is possible at best.
+// The accuracy of the motion filter of one LED, compared with bounds.
 #include "benchmark_tracking_sections.h"
 #include "constant_noise_filter.h"
 #include "motion/known_mode.h"
+#include "motion/motion_filter.h"
 #include "tracking/paths.h"
 #include "tracking/scene.h"
-#include "wiimote_tracker_triangulation/motion/motion_filter.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/Cholesky>
 
@@ -33,7 +35,7 @@ constexpr double kStartStddev = 2e-3;      // of the first position, per axis [m
 constexpr double kSettled = 0.5;           // the start is not counted [s]
 constexpr double kWithin95 = 7.814727903;  // quantile of chi square with three degrees of freedom
 
-/// Errors, what could be had, and what the covariance says of them.
+/// Errors, their bound, and how they fit the covariance.
 struct Figures {
   double squared = 0.0;        // [m^2]
   double bound_squared = 0.0;  // [m^2]
@@ -86,7 +88,7 @@ void takeIn(ConstantNoiseFilter* filter, double time, const Camera& camera, cons
   filter->update(camera, pixel);
 }
 
-/// A truth that the bound knows all about, but for its noise.
+/// A true motion, whose model the bound knows.
 struct Drawn {
   double stddev, time;  // of the acceleration
   bool jumps;           // still for 1 to 3 s, moving for 1 to 2 s; else it always moves
@@ -147,7 +149,7 @@ Figures sum(const Figures& a, const Figures& b) {
           a.within + b.within, a.count + b.count};
 }
 
-/// One way to move, and no other: what is left is a Kalman filter.
+/// With a single mode, the filter is a Kalman filter.
 void ownModel(const BenchmarkSettings& settings, const RowCallback& row) {
   const Drawn drawn{2.0, 0.2, false, 1.0};
   MotionOptions options;
@@ -172,7 +174,7 @@ void jumps(const BenchmarkSettings& settings, const RowCallback& row) {
   row(moving.row("    while moving"));
 }
 
-/// Images of one LED, in order, and where it was.
+/// One image of one LED, and its true position.
 struct Sample {
   double time;
   std::size_t camera;
@@ -215,7 +217,7 @@ void follow(const std::vector<Sample>& samples,
   }
 }
 
-/// Figures per speed class, each beside the constant noise that suits that class best.
+/// Figures per speed class, each compared with the constant-noise filter that suits it best.
 void besideHindsight(const std::vector<std::vector<Sample>>& recordings,
                      const std::vector<std::string>& classes,
                      const RowCallback& row) {
@@ -230,7 +232,7 @@ void besideHindsight(const std::vector<std::vector<Sample>>& recordings,
                                       filter.positionCovariance());
     });
   }
-  // Velocity, or acceleration, a random walk of a density from 1e-6 to 1e4, two to the decade.
+  // Random walks of the velocity or acceleration, densities from 1e-6 to 1e4, two per decade.
   for (const int order : {2, 3}) {
     for (int exponent = -12; exponent <= 8; ++exponent) {
       std::vector<double> squared(classes.size(), 0.0);
@@ -262,8 +264,7 @@ void circles(const BenchmarkSettings& settings, const RowCallback& row) {
       recordings.push_back(watch(
           path, 3.0, [](double) { return 0; }, settings.seed + run));
     }
-    char name[64];
-    std::snprintf(name, sizeof name, "(c) circle of 0.75 m at %.1f m/s", speed);
+    const std::string name = format("(c) circle of 0.75 m at %.1f m/s", speed);
     besideHindsight(recordings, {name}, row);
   }
 }
@@ -281,14 +282,14 @@ Path smoothed(const std::vector<Vector3d>& samples, double interval) {
   };
 }
 
-/// All markers of a recording of 60 Hz; what stands on the floor is lifted into view.
+/// Markers of a recording at 60 Hz, moved into view.
 void recorded(const BenchmarkSettings& settings, const RowCallback& row) {
   constexpr double kInterval = 1.0 / 60.0;
   const std::array<double, 3> limits{0.1, 0.5, 1.5};  // of the classes [m/s]
   std::vector<std::vector<Sample>> recordings;
   constexpr int kMarkers = 28;
   for (int marker = 0; marker < std::min(kMarkers, settings.runs); ++marker) {
-    // With few runs, markers of all the body.
+    // With few runs, markers from all over the body.
     const int column = 1 + 3 * (marker * kMarkers / std::min(kMarkers, settings.runs));
     std::vector<Vector3d> samples = tracking::test::readMotion(settings.motion, column);
     for (Vector3d& sample : samples)
@@ -344,13 +345,12 @@ void run(const BenchmarkSettings& settings, const RowCallback& row) {
 
 BenchmarkSection filterSection() {
   return {"filter",
-          "one LED before four cameras that take turns every 2.5 ms, 0.5 px of noise. (a) truth of "
-          "the filter's own single model and (b) truth that jumps between still (1 to 3 s) and "
-          "moving (1 to 2 s, "
-          "accelerations of 2 m/s^2, forgotten in 0.2 s), beside "
-          "the posterior Cramer-Rao bound, which knows the mode; (c) beside the constant-velocity "
-          "or constant-acceleration filter whose noise suits that row best in hindsight. NEES: 3 "
-          "when the covariance is honest.",
+          "one LED seen by four cameras in turn every 2.5 ms, 0.5 px of noise. (a) truth of the "
+          "filter's own single mode and (b) truth that changes between rest (1 to 3 s) and motion "
+          "(1 to 2 s, acceleration of 2 m/s^2 with an autocorrelation time of 0.2 s), compared "
+          "with the posterior Cramer-Rao bound, which knows the mode; (c) compared with the "
+          "constant-velocity or constant-acceleration filter whose noise suits the row best. NEES: "
+          "3 when the covariance is right.",
           run};
 }
 

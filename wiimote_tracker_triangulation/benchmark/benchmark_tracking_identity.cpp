@@ -1,5 +1,5 @@
 #include "benchmark_tracking_sections.h"
-#include "encounter.h"
+#include "led_meeting.h"
 #include "tracking/identity_check.h"
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
@@ -94,30 +94,30 @@ std::array<std::int64_t, 2> idsAt(const Snapshot& snapshot, const std::vector<Pa
   return ids;
 }
 
-BenchmarkRow encounterRow(const std::string& name,
-                          const Encounter& encounter,
-                          int wanted,
-                          unsigned seed) {
+BenchmarkRow meetingRow(const std::string& name,
+                        const LedMeeting& meeting,
+                        int wanted,
+                        unsigned seed) {
   const geometry::Rig rig = paperRig();
   SceneOptions options;
-  options.start = encounter.meeting_time - encounter.half_duration + 0.01;
+  options.start = meeting.meeting_time - meeting.half_duration + 0.01;
   options.pixel_noise = kPixelNoise;
   options.merging_distance = kMerging;
   geometry::test::Random random(seed);
-  int encounters = 0;
+  int meetings = 0;
   int left_out = 0;
   int oracle_errors = 0;
   int filter_errors = 0;
   int errors = 0;
   int renamed = 0;
-  for (unsigned trial = 0; encounters < wanted; ++trial) {
-    const std::vector<Path> leds = encounter.draw(random);
+  for (unsigned trial = 0; meetings < wanted; ++trial) {
+    const std::vector<Path> leds = meeting.draw(random);
     Scene scene(rig, leds, options, seed + trial);
     Tracker tracker(rig, trackerOptions());
     std::vector<SceneImage> images;
     std::array<std::int64_t, 2> before = {-1, -1};
     std::array<std::int64_t, 2> after = {-1, -1};
-    const double end = encounter.meeting_time + encounter.half_duration - 0.01;
+    const double end = meeting.meeting_time + meeting.half_duration - 0.01;
     while (images.empty() || images.back().true_time < end) {
       images.push_back(scene.next());
       tracker.add(images.back().camera, images.back().image);
@@ -126,16 +126,16 @@ BenchmarkRow encounterRow(const std::string& name,
         const double apart = (leds[0](snapshot->time) - leds[1](snapshot->time)).norm();
         if (apart < 0.08)
           continue;
-        (snapshot->time < encounter.meeting_time ? before : after) = ids;
+        (snapshot->time < meeting.meeting_time ? before : after) = ids;
       }
     }
-    const std::optional<bool> oracle = oracleErrs(encounter, rig, leds, images, kPixelNoise);
+    const std::optional<bool> oracle = oracleErrs(meeting, rig, leds, images, kPixelNoise);
     // Never one spot in all views, or not known apart before: nothing to compare.
     if (!oracle || before[0] < 0 || before[1] < 0 || after[0] < 0 || after[1] < 0) {
       ++left_out;
       continue;
     }
-    ++encounters;
+    ++meetings;
     oracle_errors += *oracle;
     filter_errors +=
         *oracleErrsWithFilters(motion::MotionOptions(), rig, leds, images, kPixelNoise);
@@ -144,7 +144,7 @@ BenchmarkRow encounterRow(const std::string& name,
     renamed += !exchanged && (after[0] != before[0] || after[1] != before[1]);
   }
   return {name,
-          {{"encounters", static_cast<double>(encounters)},
+          {{"encounters", static_cast<double>(meetings)},
            {"left_out", static_cast<double>(left_out)},
            {"oracle", static_cast<double>(oracle_errors)},
            {"with_filters", static_cast<double>(filter_errors)},
@@ -159,15 +159,15 @@ void run(const BenchmarkSettings& settings, const RowCallback& row) {
   row(timeRow("1 m/s", 1.0, 0.1, 1.0, 0.0, frames, settings.seed + 1));
   row(timeRow("2 m/s", 2.0, 0.1, 1.0, 0.0, frames, settings.seed + 2));
   row(timeRow("1 m/s, late images", 1.0, 0.1, 1.0, 0.0024, frames, settings.seed + 3));
-  const int encounters = 20 * settings.runs;
-  Encounter encounter;
+  const int meetings = 20 * settings.runs;
+  LedMeeting meeting;
   for (const double speed : {0.2, 0.5, 1.0}) {
     for (const double acceleration : {2.0, 5.0}) {
-      encounter.relative_speed = speed;
-      encounter.acceleration = acceleration;
+      meeting.relative_speed = speed;
+      meeting.acceleration = acceleration;
       char name[80];
       std::snprintf(name, sizeof(name), "meeting at %.1f m/s, %.0f m/s^2", speed, acceleration);
-      row(encounterRow(name, encounter, encounters, settings.seed));
+      row(meetingRow(name, meeting, meetings, settings.seed));
     }
   }
 }
@@ -176,15 +176,14 @@ void run(const BenchmarkSettings& settings, const RowCallback& row) {
 
 BenchmarkSection identitySection() {
   return {"identity",
-          "four LEDs in the paper's rig, 10 % dropouts, a ghost in every image, spots merge below "
-          "8 px, 10000 images per run.\n"
-          "Exchanges of identity; LEDs whose track was given up and replaced; LEDs of snapshots "
-          "without a confirmed track within 0.1 m, and in the last snapshot; tracks of snapshots "
-          "without an LED within 0.1 m; RMS error [mm]; late images.\n"
-          "Then two LEDs that meet so that all views show one spot, 20 encounters per run: "
-          "exchanges that a smoothing maximum-likelihood oracle makes, that it would make with the "
-          "tracker's filters, that the tracker makes, LEDs that it renames; errors of the tracker "
-          "over those of the oracle.",
+          "four LEDs in the paper's rig, 10 % missed detections, a false detection in every image, "
+          "spots merge below 8 px, 10000 images per run.\n"
+          "Identity swaps; LEDs that got a new track; LEDs in snapshots without a confirmed track "
+          "within 0.1 m, and in the last snapshot; tracks in snapshots without an LED within 0.1 "
+          "m; RMS error [mm]; late images.\n"
+          "Then two LEDs whose spots merge in all views, 20 meetings per run: identity swaps of a "
+          "smoothing maximum-likelihood oracle, of this oracle with the tracker's filters, and of "
+          "the tracker; LEDs that got a new track; errors of the tracker over those of the oracle.",
           run};
 }
 

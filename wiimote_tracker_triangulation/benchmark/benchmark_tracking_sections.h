@@ -8,39 +8,37 @@
 
 namespace wiimote_tracker {
 
-/// One line of a section's table: what was simulated, and the figures, by their column's name.
+/// One row of a section's table: what was simulated, and each column's name and figure.
 struct BenchmarkRow {
   std::string name;
   std::vector<std::pair<std::string, double>> figures;
 };
 
-/// Takes a row as soon as it is known. Rows with other columns than the one before begin a new
-/// table.
+/// Called with each row when it is ready. A row with other columns starts a new table.
 using RowCallback = std::function<void(const BenchmarkRow&)>;
 
-/// How much to simulate, and of what.
 struct BenchmarkSettings {
-  int runs = 20;       ///< How much: at least 1; each section says of what.
-  unsigned seed = 1;   ///< Of everything random.
+  int runs = 20;       ///< At least 1; each section says how much one run is.
+  unsigned seed = 1;   ///< Of the random numbers.
   std::string motion;  ///< CSV file of recorded motion [mm]; empty: none.
 };
 
-/// A part of the benchmark, in a file of its own.
+/// A section of the benchmark; each has its own file.
 struct BenchmarkSection {
   std::string name;
-  std::string explanation;  ///< Of the columns, for people.
+  std::string explanation;  ///< Of the columns.
   std::function<void(const BenchmarkSettings& settings, const RowCallback& row)> run;
 };
 
 BenchmarkSection associationSection();
 
-/// One LED's motion filter, beside the bounds.
+/// The motion filter of one LED, compared with the bounds.
 BenchmarkSection filterSection();
 
-/// Cameras on clocks of their own, uncertain stamps.
+/// Unsynchronised cameras and uncertain stamps.
 BenchmarkSection unsynchronisedSection();
 
-/// The tracker over time: identities, encounters, lost tracks.
+/// The tracker over time: identity swaps, merged spots, lost tracks.
 BenchmarkSection identitySection();
 
 /// Frame sets per second on one core.

@@ -2,8 +2,9 @@
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <ctime>
 
 namespace wiimote_tracker {
@@ -121,9 +122,9 @@ void runScale(const BenchmarkSettings& settings, const RowCallback& row) {
       const Timing timing =
           timed(roomsRig(rooms, 4), leds, options, tracker_options, settings.runs, settings.seed);
       const double seconds = timing.images / (400.0 * rooms);  // that the images stand for
-      char name[80];
-      std::snprintf(name, sizeof(name), "%d cameras, %d LEDs, %d rooms, output %s", 4 * rooms,
-                    4 * rooms, rooms, interval > 0.0 ? "every 2.5 ms" : "at once");
+      const std::string name =
+          format("%d cameras, %d LEDs, %d rooms, output %s", 4 * rooms, 4 * rooms, rooms,
+                 interval > 0.0 ? "every 2.5 ms" : "at once");
       row({name,
            {{"images", timing.images},
             {"us/image", 1e6 * timing.seconds / timing.images},

@@ -1,8 +1,10 @@
-// What cameras that run on clocks of their own, and uncertain time stamps, cost.
+// The error that unsynchronised cameras and uncertain stamps cause.
 #include "benchmark_tracking_sections.h"
 #include "tracking/paths.h"
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,10 +24,10 @@ constexpr double kSettled = 0.5;    // after the first image; the start is not c
 constexpr double kDelay = 0.0112;   // from exposure to arrival, mean [s]
 constexpr double kJitter = 0.0024;  // of that, standard deviation [s]
 
-/// How the stamps come about.
+/// The errors of the stamps.
 struct Stamping {
   const char* name;
-  double offset;  // of each camera for ever, standard deviation [s]
+  double offset;  // constant of each camera, standard deviation [s]
   double noise;   // of each image, standard deviation [s]
   bool arrival;   // instead: arrival less the mean delay
 };
@@ -39,7 +41,7 @@ struct Errors {
   double rms() const { return std::sqrt(squared / count); }
 };
 
-/// Images with stamps as they would be, in the order of arrival.
+/// Images in the order of arrival.
 std::vector<SceneImage> recording(const Path& path, const Stamping& stamping, unsigned seed) {
   tracking::test::SceneOptions options;
   options.clock_skew = 0.0005;
@@ -80,7 +82,7 @@ void track(const std::vector<SceneImage>& images, const Path& path, Mode mode, E
       if (snapshot->time < images.front().true_time + kSettled)
         continue;
       ++errors->snapshots;
-      // There is one LED; what else is there would be an error of its own kind, not counted here.
+      // The nearest track; false tracks are not counted here.
       double least = std::numeric_limits<double>::infinity();
       const Vector3d truth = path(snapshot->time);
       for (const tracking::TrackedLed& led : snapshot->leds)
@@ -111,8 +113,7 @@ void run(const BenchmarkSettings& settings, const RowCallback& row) {
       }
       if (std::isnan(exact))
         exact = tracks.rms();
-      char name[80];
-      std::snprintf(name, sizeof name, "%.0f m/s, %s", speed, stamping.name);
+      const std::string name = format("%.0f m/s, %s", speed, stamping.name);
       row({name,
            {{"RMS mm", 1e3 * tracks.rms()},
             {"ratio", tracks.rms() / exact},
@@ -128,11 +129,11 @@ void run(const BenchmarkSettings& settings, const RowCallback& row) {
 
 BenchmarkSection unsynchronisedSection() {
   return {"unsynchronised",
-          "an LED on a circle of 0.75 m before four cameras, each on its own clock (period 10 ms, "
+          "an LED on a circle of 0.75 m seen by four cameras, each on its own clock (period 10 ms, "
           "0.5 per mille apart), 0.5 px of noise, 4 % of the images lost, 11 ms of delay: tracks, "
-          "then the paper's way (interpolated to an instant, intersected). Ratio: RMS over that "
-          "of the tracks with exact stamps. Half of the variance of a stamp's error is constant in "
-          "each camera.",
+          "then the paper's method (interpolated to an instant, intersected). Ratio: RMS over that "
+          "of the tracks with exact stamps. Half of the variance of a stamp's error is constant "
+          "for each camera.",
           run};
 }
 

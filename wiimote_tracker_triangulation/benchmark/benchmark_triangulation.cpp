@@ -2,6 +2,8 @@
 // Cramer-Rao bound, normalised error squared (3 when the covariance is honest), time per point.
 #include "triangulation_methods.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -104,8 +106,7 @@ std::vector<Row> measure(const TriangulationScene& scene) {
 
 /// As many digits as there are; JSON has no NaN.
 std::string jsonNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.9g", value);
+  const std::string text = format("%.9g", value);
   return std::isfinite(value) ? text : "null";
 }
 

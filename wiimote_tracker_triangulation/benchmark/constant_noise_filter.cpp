@@ -1,55 +1,47 @@
 #include "constant_noise_filter.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <cmath>
 
 namespace wiimote_tracker {
+namespace {
 
-using Eigen::Matrix3d;
-using Eigen::MatrixXd;
+/// The acceleration is a random walk. @param density [m^2/s^5]  @param h duration [s]
+motion::Transition randomWalkOfAcceleration(double density, double h) {
+  motion::Transition result;
+  result.F << 1.0, h, 0.5 * h * h, 0.0, 1.0, h, 0.0, 0.0, 1.0;
+  result.Q << h * h * h * h / 20.0, h * h * h / 8.0, h * h / 6.0,  //
+      h * h * h / 8.0, h * h / 3.0, h / 2.0,                       //
+      h * h / 6.0, h / 2.0, 1.0;
+  result.Q *= density * h;
+  return result;
+}
+
+}  // namespace
 
 ConstantNoiseFilter::ConstantNoiseFilter(int order,
                                          double density,
                                          double time,
                                          const Eigen::Vector3d& position,
-                                         const Matrix3d& covariance,
+                                         const Eigen::Matrix3d& covariance,
                                          double pixel_stddev)
-    : order_(order),
-      density_(density),
-      time_(time),
-      pixel_variance_(pixel_stddev * pixel_stddev),
-      x_(Eigen::VectorXd::Zero(3 * order)),
-      P_(MatrixXd::Zero(3 * order, 3 * order)) {
-  x_.head<3>() = position;
-  P_.topLeftCorner<3, 3>() = covariance;
-  P_.diagonal().segment<3>(3).setConstant(1.0);  // 1 m/s
+    : order_(order), density_(density), time_(time), pixel_variance_(pixel_stddev * pixel_stddev) {
+  state_.mean << position, Eigen::Matrix<double, 6, 1>::Zero();
+  state_.covariance.setZero();
+  state_.covariance.topLeftCorner<3, 3>() = covariance;
+  state_.covariance.diagonal().segment<3>(3).setConstant(1.0);  // 1 m/s
   if (order == 3)
-    P_.diagonal().tail<3>().setConstant(100.0);  // 10 m/s^2
+    state_.covariance.diagonal().tail<3>().setConstant(100.0);  // 10 m/s^2
 }
 
 void ConstantNoiseFilter::predict(double time) {
-  const double h = time - time_;
-  if (!(h > 0.0))
+  if (!(time > time_))
     return;
+  state_.predict(order_ == 2 ? motion::randomWalkOfVelocity(std::sqrt(density_), time - time_)
+                             : randomWalkOfAcceleration(density_, time - time_));
   time_ = time;
-  constexpr double kFactorial[] = {1.0, 1.0, 2.0};
-  const Eigen::Index n = x_.size();
-  MatrixXd F = MatrixXd::Identity(n, n);
-  MatrixXd Q = MatrixXd::Zero(n, n);
-  for (int i = 0; i < order_; ++i) {
-    for (int j = 0; j < order_; ++j) {
-      if (j > i)
-        F.block<3, 3>(3 * i, 3 * j) = std::pow(h, j - i) / kFactorial[j - i] * Matrix3d::Identity();
-      const int a = order_ - 1 - i;
-      const int b = order_ - 1 - j;
-      Q.block<3, 3>(3 * i, 3 * j) = density_ * std::pow(h, a + b + 1) /
-                                    ((a + b + 1) * kFactorial[a] * kFactorial[b]) *
-                                    Matrix3d::Identity();
-    }
-  }
-  x_ = (F * x_).eval();
-  P_ = (F * P_ * F.transpose() + Q).eval();
 }
 
 void ConstantNoiseFilter::update(const geometry::Camera& camera, const Eigen::Vector2d& pixel) {
@@ -57,13 +49,10 @@ void ConstantNoiseFilter::update(const geometry::Camera& camera, const Eigen::Ve
   const auto predicted = camera.project(position(), &H);
   if (!predicted)
     return;
-  const MatrixXd gain = P_.leftCols(3) * H.transpose();
-  Eigen::Matrix2d S = H * gain.topRows(3);
-  S.diagonal().array() += pixel_variance_;
-  const MatrixXd K = gain * S.inverse();
-  x_ += K * (pixel - *predicted);
-  P_ -= (K * gain.transpose()).eval();
-  P_ = (0.5 * (P_ + P_.transpose())).eval();
+  const Eigen::Matrix2d S = H * state_.positionCovariance() * H.transpose() +
+                            pixel_variance_ * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d L = S.llt().matrixL();
+  state_.update(H, L.inverse(), pixel - *predicted);
 }
 
 }  // namespace wiimote_tracker

@@ -6,12 +6,13 @@
 
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -52,7 +53,7 @@ Line sCurve() {
   Line line = arc(0.3 * M_PI, 1.5 * M_PI, [](double) { return 0.25; });
   for (Vector3d& point : line)
     point.z() += 0.25;
-  for (Vector3d point : arc(0.5 * M_PI, -0.7 * M_PI, [](double) { return 0.25; }))
+  for (const Vector3d& point : arc(0.5 * M_PI, -0.7 * M_PI, [](double) { return 0.25; }))
     line.push_back(point - Vector3d(0.0, 0.0, 0.25));
   return line;
 }
@@ -216,8 +217,7 @@ void measure(const Arguments& arguments) {
   for (int person = arguments.first; person < arguments.first + arguments.sessions; ++person) {
     const std::uint32_t seed = sessionSeed(arguments, person);
     Hand hand(seed);
-    char name[32];
-    std::snprintf(name, sizeof name, "person_%03d", person + 1);
+    const std::string name = format("person_%03d", person + 1);
     const std::filesystem::path folder = std::filesystem::path(arguments.output) / name;
     std::filesystem::create_directories(folder);
     for (const auto& [gesture, line] : gestures()) {

@@ -116,6 +116,7 @@ std::vector<RoomImage> record(Room* room, double duration) {
 
 double medianLateness(const std::vector<RoomImage>& images) {
   std::vector<double> lateness;
+  lateness.reserve(images.size());
   for (const RoomImage& image : images)
     lateness.push_back(image.image.stamp - image.exposure);
   const auto middle = lateness.begin() + static_cast<std::ptrdiff_t>(lateness.size() / 2);

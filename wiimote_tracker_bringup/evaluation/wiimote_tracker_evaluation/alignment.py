@@ -3,7 +3,7 @@
 import numpy as np
 
 
-class Alignment(object):
+class Alignment:
     """p -> scale * rotation @ p + translation."""
 
     def __init__(self, rotation=None, translation=None, scale=1.0):
@@ -11,12 +11,12 @@ class Alignment(object):
         self.translation = np.zeros(3) if translation is None else translation
         self.scale = scale
 
-    def apply(self, points):
+    def apply(self, points: np.ndarray) -> np.ndarray:
         """Aligned copies of N x 3 points."""
         return self.scale * np.asarray(points) @ self.rotation.T + self.translation
 
 
-def fit(source, target, with_scale):
+def fit(source: np.ndarray, target: np.ndarray, with_scale: bool) -> Alignment:
     """Alignment with the least sum of squared distances |aligned source - target|^2.
 
     source, target: N x 3, three or more points that are not on one line, else ValueError.
@@ -39,7 +39,7 @@ def fit(source, target, with_scale):
     return Alignment(rotation, target_mean - scale * rotation @ source_mean, scale)
 
 
-def rms(difference):
+def rms(difference: np.ndarray) -> float:
     """Root of the mean squared length of N x 3 vectors."""
     return float(np.sqrt((np.asarray(difference) ** 2).sum(axis=1).mean()))
 
@@ -48,7 +48,7 @@ def rms(difference):
 KINDS = ('absolute', 'rigid', 'similarity')
 
 
-def fit_kind(kind, source, target):
+def fit_kind(kind: str, source: np.ndarray, target: np.ndarray) -> Alignment:
     """Alignment of one of KINDS."""
     if kind == 'absolute':
         return Alignment()

@@ -8,6 +8,9 @@ the noise of its own pixels, carried to first order through the best triangulati
 Independent of the tracker: own camera model, numerical derivatives.
 """
 
+import dataclasses
+from typing import Optional
+
 import numpy as np
 
 from wiimote_tracker_evaluation import scene as scene_module
@@ -16,7 +19,8 @@ from wiimote_tracker_evaluation.alignment import KINDS
 PER_CAMERA = 11  # rotation vector about the world axes [rad], position [m], fx, fy, cx, cy, k1
 
 
-class Knowledge(object):
+@dataclasses.dataclass(eq=False)
+class Knowledge:
     """Standard deviations of what is known before a pixel is seen.
 
     focal: of the focal length, relative, common to both axes; focal_ratio: of fy / fx, relative;
@@ -24,15 +28,14 @@ class Knowledge(object):
     horizontal axis [m]. 0 means exactly known.
     """
 
-    def __init__(self, focal=0.03, focal_ratio=0.001, center=15.0, k1=0.02, corner=0.005):
-        self.focal = focal
-        self.focal_ratio = focal_ratio
-        self.center = center
-        self.k1 = k1
-        self.corner = corner
+    focal: float = 0.03
+    focal_ratio: float = 0.001
+    center: float = 15.0
+    k1: float = 0.02
+    corner: float = 0.005
 
 
-def rotation_of(vector):
+def rotation_of(vector: np.ndarray) -> np.ndarray:
     """Rotation matrix of a rotation vector (Rodrigues)."""
     angle = np.linalg.norm(vector)
     if angle < 1e-12:
@@ -41,7 +44,7 @@ def rotation_of(vector):
     return np.eye(3) + np.sin(angle) * axis + (1.0 - np.cos(angle)) * axis @ axis
 
 
-def skew(v):
+def skew(v: np.ndarray) -> np.ndarray:
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
 
 
@@ -55,7 +58,7 @@ def moved(camera, change, points):
 STEPS = np.array([1e-6] * 3 + [1e-6] * 3 + [1e-3] * 4 + [1e-6])
 
 
-def camera_derivative(camera, point):
+def camera_derivative(camera: scene_module.Camera, point: np.ndarray) -> np.ndarray:
     """2 x 11: of the pixel with respect to the camera's parameters."""
     columns = []
     for i, step in enumerate(STEPS):
@@ -66,7 +69,7 @@ def camera_derivative(camera, point):
     return np.array(columns).T
 
 
-def point_derivative(camera, point):
+def point_derivative(camera: scene_module.Camera, point: np.ndarray) -> np.ndarray:
     """2 x 3: of the pixel with respect to the point."""
     step = 1e-6
     return np.array([(camera.project(point + step * axis) - camera.project(point - step * axis))[0]
@@ -89,7 +92,7 @@ def lens_prior(camera, knowledge):
     return information, free
 
 
-class Calibration(object):
+class Calibration:
     """What the square tells about a scene's cameras. covariance: best possible, of all cameras'
     parameters, 11 per camera; a parameter that is exactly known has zero rows and columns."""
 
@@ -151,7 +154,7 @@ def point_sensitivity(scene, calibration, point, samples):
     """
     seeing = [c for c, camera in enumerate(scene.cameras) if camera.sees(point[None])[0]]
     if len(seeing) < 2:
-        raise ValueError('fewer than two cameras see the point %s' % (point,))
+        raise ValueError(f'fewer than two cameras see the point {point}')
     by_point = np.concatenate([point_derivative(scene.cameras[c], point) for c in seeing])
     by_camera = np.zeros((2 * len(seeing), len(calibration)))
     for row, c in enumerate(seeing):
@@ -163,7 +166,7 @@ def point_sensitivity(scene, calibration, point, samples):
     return -solve @ by_camera, solve @ pixels @ solve.T
 
 
-def alignment_basis(points, kind):
+def alignment_basis(points: np.ndarray, kind: str) -> np.ndarray:
     """3N x d: how small alignments of a kind move the points."""
     if kind == 'absolute':
         return np.zeros((3 * len(points), 0))
@@ -176,16 +179,16 @@ def alignment_basis(points, kind):
     return np.concatenate(blocks)
 
 
-class Bound(object):
+@dataclasses.dataclass(eq=False)
+class Bound:
     """Of the RMS error over the test points [m], for one kind of alignment. rms: least possible,
     over all rigs; low, high: range that holds the RMS of one rig with probability 0.95; best: what
     the best estimate makes of this rig, None when the rig's deviation was not given."""
 
-    def __init__(self, rms, low, high, best):
-        self.rms = rms
-        self.low = low
-        self.high = high
-        self.best = best
+    rms: float
+    low: float
+    high: float
+    best: Optional[float]
 
 
 def position_bounds(scene, corners, test_points, alignment_points, corner_samples, test_samples,

@@ -1,6 +1,8 @@
 """Leads a simulated rig through an experiment, by the same services that a person would use."""
 
+import dataclasses
 import logging
+from typing import Sequence
 
 import actionlib
 import rospy
@@ -15,22 +17,22 @@ SETTLE = 0.1  # after an LED has arrived, until it is measured [s]
 CAPTURE_ATTEMPTS = 3
 
 
-class Segment(object):
+@dataclasses.dataclass(eq=False)
+class Segment:
     """A span of time in which the LED did one thing. kind: 'test', 'alignment' or 'circle'; target:
     the place or the circle's centre [m]; start, end [s since 1970]."""
 
-    def __init__(self, kind, name, target, start, end):
-        self.kind = kind
-        self.name = name
-        self.target = target
-        self.start = start
-        self.end = end
+    kind: str
+    name: str
+    target: Sequence[float]
+    start: float
+    end: float
 
 
-class Conductor(object):
+class Conductor:
     def __init__(self, led, recorder, check=lambda: None, progress=lambda text: None):
         """led: name of the LED. recorder: a LiveRecorder. check: called while waiting; raises when
-        waiting has become useless. progress: told in words what is going on."""
+        waiting has become useless. progress: gets words about what is going on."""
         self._led = led
         self._recorder = recorder
         self._check = check
@@ -54,7 +56,7 @@ class Conductor(object):
         while not condition():
             self._check()
             if rospy.is_shutdown() or rospy.get_time() > deadline:
-                raise ExperimentError('gave up after %.0f s of waiting for %s' % (timeout, what))
+                raise ExperimentError(f'gave up after {timeout:.0f} s of waiting for {what}')
             rospy.sleep(0.01)
 
     def _call(self, service, type_, *arguments, **named):
@@ -65,15 +67,15 @@ class Conductor(object):
                 return True
             except rospy.ROSException:
                 return False
-        self.wait(there, 30.0, 'the service %s; is its node running?' % rospy.resolve_name(service))
+        self.wait(there, 30.0, f'the service {rospy.resolve_name(service)}; is its node running?')
         try:
             return rospy.ServiceProxy(service, type_)(*arguments, **named)
         except rospy.ServiceException as error:
-            raise ExperimentError('the service %s failed: %s' % (service, error))
+            raise ExperimentError(f'the service {service} failed: {error}')
 
     def _succeed(self, what, response):
         if not response.success:
-            raise ExperimentError('%s was refused: %s' % (what, response.message))
+            raise ExperimentError(f'{what} was refused: {response.message}')
         return response
 
     # --- The LED
@@ -127,7 +129,7 @@ class Conductor(object):
         tracked = []
         subscriber = rospy.Subscriber('points', TrackedPointArray, lambda message: tracked.append(
             sum(point.state == TrackedPoint.TRACKED for point in message.points)))
-        self.wait(lambda: number in tracked, 20.0, 'the tracker to find %d LEDs' % number)
+        self.wait(lambda: number in tracked, 20.0, f'the tracker to find {number} LEDs')
         subscriber.unregister()
 
     def check_connection(self, duration=1.0):

@@ -25,7 +25,7 @@ RECORDED = (r'(.*)/ir_blobs|(.*)/camera_info|(.*)/imu/data_raw|(.*)/calibration/
             r'/points|/%s/point|/simulation/truth/(.*)|/tf|/tf_static|/diagnostics' % LED)
 
 
-class Progress(object):
+class Progress:
     """Steps on the terminal; with a terminal, a line that is overwritten below them."""
 
     def __init__(self, steps):
@@ -68,8 +68,8 @@ def prepare_output(folder, cameras):
         with open(os.path.join(folder, 'nodes.log'), 'w'):
             pass
     except OSError as error:
-        raise ExperimentError('cannot write to %s: %s; choose another folder with --output'
-                        % (folder, error.strerror))
+        raise ExperimentError(f'cannot write to {folder}: {error.strerror}; choose another folder '
+                              'with --output')
 
 
 def has_display(progress):
@@ -80,7 +80,7 @@ def has_display(progress):
     return True
 
 
-class Demo(object):
+class Demo:
     """One run. Everything it starts has ended when run() returns or raises."""
 
     def __init__(self, output, mode):
@@ -111,14 +111,14 @@ class Demo(object):
         self._progress.step('Starting four virtual Wii Remotes, drivers, calibration, tracker')
         rviz = has_display(self._progress)
         port = free_port()
-        os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % port
+        os.environ['ROS_MASTER_URI'] = f'http://localhost:{port}'
         os.environ['ROS_HOME'] = scratch
         log = self._file('nodes.log')
         self._processes.start('roslaunch', [
-            'roslaunch', '--port=%d' % port, 'wiimote_tracker_bringup', 'simulated_rig.launch',
+            'roslaunch', f'--port={port}', 'wiimote_tracker_bringup', 'simulated_rig.launch',
             'socket_directory:=' + os.path.join(scratch, 'remotes'),
             'camera_info_directory:=' + os.path.join(scratch, 'cameras'),
-            'rig_file:=' + self._file('rig.yaml'), 'side_length:=%g' % experiment.SIDE,
+            'rig_file:=' + self._file('rig.yaml'), f'side_length:={experiment.SIDE:g}',
             'labels:=' + LED, 'mode:=' + self._mode, 'rviz:=%s' % ('true' if rviz else 'false')], log)
         deadline = time.monotonic() + 30.0
         while not rosgraph.is_master_online():
@@ -146,7 +146,7 @@ class Demo(object):
         for camera in checked.cameras:
             progress.line('    %-10s %5.1f Hz  %s  %s' % (
                 camera.name.strip('/'), camera.rate,
-                'sees the LED at (%.0f, %.0f)' % (camera.x, camera.y) if camera.sees_led
+                f'sees the LED at ({camera.x:.0f}, {camera.y:.0f})' if camera.sees_led
                 else 'does not see the LED', camera.problem))
         if not checked.success:
             raise ExperimentError('the connection check failed: ' + checked.message)
@@ -163,25 +163,25 @@ class Demo(object):
         solved = conductor.solve()
         progress.line('    ' + solved.message)
         for camera in solved.rig.cameras:
-            progress.line('    %-10s residual %.2f px, %.1f mm' % (
-                camera.name.strip('/'), camera.residual_px, 1e3 * camera.residual_m))
+            progress.line(f"    {camera.name.strip('/'):<10} residual {camera.residual_px:.2f} "
+                          f"px, {1e3 * camera.residual_m:.1f} mm")
         progress.line('    ' + conductor.save().message)
 
         segments = []
         progress.step('Tracking: the ten test points')
         for number, place in enumerate(experiment.TEST_POINTS, 1):
-            progress.passing('point %d of %d' % (number, len(experiment.TEST_POINTS)))
-            segments.append(conductor.dwell('test', 'P%d' % number, place, CARRY_SPEED, TEST_DWELL))
+            progress.passing(f'point {number} of {len(experiment.TEST_POINTS)}')
+            segments.append(conductor.dwell('test', f'P{number}', place, CARRY_SPEED, TEST_DWELL))
         places = experiment.alignment_points(ALIGNMENT_SEED)
-        progress.step('Tracking: %d other points, for alignment' % len(places))
+        progress.step(f'Tracking: {len(places)} other points, for alignment')
         for number, place in enumerate(places, 1):
-            progress.passing('point %d of %d' % (number, len(places)))
-            segments.append(conductor.dwell('alignment', 'A%d' % number, place, CARRY_SPEED,
+            progress.passing(f'point {number} of {len(places)}')
+            segments.append(conductor.dwell('alignment', f'A{number}', place, CARRY_SPEED,
                                             ALIGNMENT_DWELL))
-        progress.step('Tracking: three circles of 0.75 m radius at %.1f m/s' % CIRCLE_SPEED)
+        progress.step(f'Tracking: three circles of 0.75 m radius at {CIRCLE_SPEED:.1f} m/s')
         lap = 2.0 * 3.14159265 * experiment.CIRCLE_RADIUS / CIRCLE_SPEED
         for number, center in enumerate(experiment.CIRCLE_CENTERS, 1):
-            progress.passing('circle %d of %d' % (number, len(experiment.CIRCLE_CENTERS)))
+            progress.passing(f'circle {number} of {len(experiment.CIRCLE_CENTERS)}')
             segments.append(conductor.circle(
                 'circle at (%g, %g, %g)' % tuple(center), center, experiment.CIRCLE_RADIUS,
                 CIRCLE_SPEED, lap))
@@ -198,8 +198,8 @@ class Demo(object):
                     self._progress.line('    %s (%.2f, %.2f, %.2f) is out of view of %s'
                                         % ((name,) + tuple(point) + (', '.join(missed),)))
         if complete:
-            self._progress.line('    every test point and circle is in view of all %d cameras'
-                                % len(self._scene.cameras))
+            self._progress.line('    every test point and circle is in view of all '
+                                f'{len(self._scene.cameras)} cameras')
 
     def _finish(self, segments, corner_samples):
         from wiimote_tracker_evaluation import recording, report, scoring
@@ -211,7 +211,7 @@ class Demo(object):
         try:
             score = scoring.score(recorded, segments)
         except ValueError as error:
-            raise ExperimentError('%s; see %s' % (error, self._file('nodes.log')))
+            raise ExperimentError(f"{error}; see {self._file('nodes.log')}")
         bounds = bound.position_bounds(
             self._scene, experiment.CORNERS, experiment.TEST_POINTS,
             experiment.alignment_points(ALIGNMENT_SEED), corner_samples,
@@ -225,8 +225,8 @@ class Demo(object):
         self._progress.step('Results')
         for line in [''] + report.table(score, bounds) + ['']:
             self._progress.line(line)
-        self._progress.line('In %s: summary.json, rig.yaml, demo.bag, points.csv, tracks.png'
-                            % self._output)
+        self._progress.line(f'In {self._output}: summary.json, rig.yaml, demo.bag, points.csv, '
+                            'tracks.png')
         self._sentence = report.sentence(self._mode, score)
 
     def last_line(self):
@@ -251,5 +251,5 @@ def main(arguments=None):
         print('\nInterrupted; everything that was started has ended.', file=sys.stderr)
         return 130
     except (ExperimentError, ProcessEnded) as error:
-        print('\nThe demo failed: %s' % error, file=sys.stderr)
+        print(f'\nThe demo failed: {error}', file=sys.stderr)
         return 1

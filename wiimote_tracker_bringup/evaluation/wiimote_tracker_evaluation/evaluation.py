@@ -6,6 +6,7 @@ import shutil
 import sys
 import time
 import traceback
+from typing import List, Optional
 
 from wiimote_tracker_evaluation import sections, stack
 from wiimote_tracker_evaluation.errors import ExperimentError
@@ -23,7 +24,7 @@ class OutputError(Exception):
     """The folder for the results cannot be used; the text says why and what to do."""
 
 
-def parse(arguments):
+def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     names = sections.names()
     parser = argparse.ArgumentParser(
         prog='evaluate', description="The paper's evaluation, on the simulated rig or, with --live, "
@@ -36,7 +37,7 @@ def parse(arguments):
                         help='recordings of your own gestures, for the section ours: a folder per '
                         'person, in it a CSV per gesture')
     parser.add_argument('--sections', metavar='A,B', default=','.join(names),
-                        help='only these, of: %s' % ', '.join(names))
+                        help=f"only these, of: {', '.join(names)}")
     parser.add_argument('--quick', action='store_true', help='fewer repetitions, minutes in all')
     parser.add_argument('--live', action='store_true',
                         help='lead a person through it on a tracker that is running')
@@ -48,26 +49,27 @@ def parse(arguments):
     chosen = options.sections.split(',')
     for name in chosen:
         if name not in names:
-            parser.error('there is no section %r; choose from %s' % (name, ', '.join(names)))
+            parser.error(f"there is no section {name!r}; choose from {', '.join(names)}")
     options.sections = [name for name in names if name in chosen]
     if not os.path.isfile(options.rig):
-        parser.error('there is no rig description %s' % options.rig)
+        parser.error(f'there is no rig description {options.rig}')
     if options.led and not os.path.isfile(options.led):
-        parser.error('there is no description of an LED %s' % options.led)
+        parser.error(f'there is no description of an LED {options.led}')
     if options.gestures and len(folders_in(options.gestures)) < 2:
-        parser.error('%s needs a folder for each of two people or more: each is recognised by what '
-                     'the others have drawn' % options.gestures)
+        parser.error(f'{options.gestures} needs a folder for each of two people or more: each is '
+                     'recognised by what '
+                     'the others have drawn')
     if not 0 <= options.seed < 2 ** 31:
         parser.error('--seed must be within 0 and 2^31 - 1')
     options.rig, options.output = os.path.abspath(options.rig), os.path.abspath(options.output)
     return options
 
 
-def folders_in(folder):
+def folders_in(folder: str) -> List[str]:
     return [entry for entry in os.scandir(folder) if entry.is_dir()] if os.path.isdir(folder) else []
 
 
-def prepare(folder, names):
+def prepare(folder: str, names: List[str]) -> None:
     """Makes the output folder and removes what an earlier run left of what this one writes."""
     try:
         os.makedirs(folder, exist_ok=True)
@@ -77,8 +79,8 @@ def prepare(folder, names):
         for name in names:
             shutil.rmtree(os.path.join(folder, name), ignore_errors=True)
     except OSError as error:
-        raise OutputError('cannot write to %s: %s; choose another folder with --output'
-                          % (folder, error.strerror))
+        raise OutputError(f'cannot write to {folder}: {error.strerror}; choose another folder '
+                          'with --output')
 
 
 def carry_out(module, run, live):
@@ -87,7 +89,7 @@ def carry_out(module, run, live):
         (module.live if live else module.run)(run)
     except Exception as error:  # the others go on, whatever happened in this one
         told = isinstance(error, (ExperimentError, ProcessEnded))
-        run.failure = (str(error) if told else '%s: %s' % (type(error).__name__, error)) \
+        run.failure = (str(error) if told else f'{type(error).__name__}: {error}') \
             + stack.complaint(run)
         with open(run.file('failure.txt'), 'w') as file:
             traceback.print_exc(file=file)
@@ -95,7 +97,7 @@ def carry_out(module, run, live):
         stack.stop()
 
 
-def evaluate(options):
+def evaluate(options: argparse.Namespace) -> int:
     """Carries the sections out; 0 when all went well."""
     modules = [sections.load(name) for name in options.sections]
     if options.live:
@@ -132,11 +134,11 @@ def evaluate(options):
     failed = [run.name for run in runs if run.failure]
     progress.line(os.path.join(options.output, 'report.html'))
     if failed:
-        progress.line('Failed: %s; the report says why.' % ', '.join(failed))
+        progress.line(f"Failed: {', '.join(failed)}; the report says why.")
     return 1 if failed else 0
 
 
-def main(arguments=None):
+def main(arguments: Optional[List[str]] = None) -> int:
     options = parse(arguments)
     raise_when_interrupted()
     try:

@@ -24,19 +24,19 @@ TEST_POINTS = np.array(
 CIRCLE_CENTERS = np.array([(1.0, 1.0, 0.23), (1.5, 1.5, 0.23), (1.25, 1.25, 0.95)])
 
 
-def placed_corners(seed, stddev=CORNER_STDDEV):
+def placed_corners(seed: int, stddev: float = CORNER_STDDEV) -> np.ndarray:
     """Where the LED is really put when the corners are captured: some millimetres off."""
     placed = CORNERS.copy()
     placed[:, :2] += stddev * np.random.RandomState(seed).randn(4, 2)
     return placed
 
 
-def alignment_points(seed, number=25):
+def alignment_points(seed: int, number: int = 25) -> np.ndarray:
     """Points all over the cube that serve to fit alignments, and nothing else."""
     return np.random.RandomState(seed).uniform(0.1, SIDE - 0.1, (number, 3))
 
 
-def circle_points(number=90):
+def circle_points(number: int = 90) -> np.ndarray:
     """Points on the three circles, number each."""
     angle = np.linspace(0.0, 2.0 * np.pi, number, endpoint=False)
     ring = CIRCLE_RADIUS * np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1)

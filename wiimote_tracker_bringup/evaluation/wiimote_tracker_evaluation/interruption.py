@@ -9,7 +9,7 @@ class Interrupted(BaseException):
     """The user wants to stop."""
 
 
-def raise_when_interrupted():
+def raise_when_interrupted() -> None:
     """From now on."""
     for number in SIGNALS:
         signal.signal(number, interrupt)

@@ -4,6 +4,8 @@ Brightness is the irradiance at the camera, 1 being the Wii's sensor bar from 1 
 Wii Remote, whose sensor decides what is seen.
 """
 
+from typing import Optional
+
 import numpy as np
 import yaml
 
@@ -12,7 +14,7 @@ from wiimote_tracker_evaluation.errors import ExperimentError
 SENSITIVITIES = ('wii_1', 'wii_2', 'wii_3', 'wii_4', 'wii_5', 'max')
 
 
-class Led(object):
+class Led:
     """An LED as its file describes it. measured: (current [A], distance [m]) pairs."""
 
     def __init__(self, half_power_angle, sensitivity, measured):
@@ -23,18 +25,18 @@ class Led(object):
         # Lambert's law generalised: cos^n of the angle, halved at half the full angle.
         self.exponent = np.log(0.5) / np.log(np.cos(np.radians(half_power_angle / 2.0)))
 
-    def relative(self, angle):
+    def relative(self, angle: float) -> float:
         """Brightness at an angle [rad] off the brightest direction, of that in it [0..1]."""
         return np.maximum(np.cos(angle), 0.0) ** self.exponent
 
-    def brightness_per_ampere(self, threshold):
+    def brightness_per_ampere(self, threshold: float) -> float:
         """The one constant: brightness from 1 m with 1 A [sensor bars/A], from the measured pairs,
         for a remote of that threshold. At the distance d the brightness k i / d^2 is the threshold:
         every pair gives one k, and their geometric mean is the least-squares fit of log d."""
         return float(np.exp(np.mean([np.log(threshold * distance ** 2 / current)
                                      for current, distance in self.measured])))
 
-    def misfit(self, threshold):
+    def misfit(self, threshold: float) -> Optional[float]:
         """By which factor single measured distances differ from the fitted ones (standard deviation
         of the logarithm); None with fewer than two."""
         if len(self.measured) < 2:
@@ -45,12 +47,12 @@ class Led(object):
         return float(np.sqrt(np.sum(np.square(logs)) / (len(logs) - 1)))
 
 
-def detection_distance(brightness, threshold):
+def detection_distance(brightness: float, threshold: float) -> float:
     """From where a light of this brightness (at 1 m) is just seen [m]: inverse square law."""
     return np.sqrt(np.asarray(brightness, dtype=float) / threshold)
 
 
-def read_led(path):
+def read_led(path: str) -> Led:
     """Led of a file such as led.yaml. @raise ExperimentError: says what is wrong with it."""
     try:
         with open(path) as file:
@@ -60,16 +62,16 @@ def read_led(path):
         measured = [(float(current), float(distance))
                     for current, distance in content['distances'].items()]
     except (OSError, yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError) as error:
-        raise ExperimentError('%s is no description of an LED (%s: %s); see led.yaml of this package'
-                              % (path, type(error).__name__, error))
+        raise ExperimentError(f'{path} is no description of an LED ({type(error).__name__}: '
+                              f'{error}); see led.yaml of this package')
     if not 1.0 <= angle <= 179.0:
-        raise ExperimentError('%s: half_power_angle is %g, but must be within 1 and 179 degrees'
-                              % (path, angle))
+        raise ExperimentError(f'{path}: half_power_angle is {angle:g}, but must be within 1 and '
+                              '179 degrees')
     if sensitivity not in SENSITIVITIES:
-        raise ExperimentError('%s: sensitivity is %r, but must be one of %s'
-                              % (path, sensitivity, ', '.join(SENSITIVITIES)))
+        raise ExperimentError(f"{path}: sensitivity is {sensitivity!r}, but must be one of "
+                              f"{', '.join(SENSITIVITIES)}")
     if not measured or any(not (current > 0.0 and distance > 0.0)
                            for current, distance in measured):
-        raise ExperimentError('%s: distances needs a pair at least, currents and distances above 0'
-                              % path)
+        raise ExperimentError(f'{path}: distances needs a pair at least, currents and distances '
+                              'above 0')
     return Led(angle, sensitivity, measured)

@@ -16,7 +16,7 @@ def process_of(node):
     return xmlrpc.client.ServerProxy(uri).getPid('/evaluation')[2]
 
 
-def processor_time(process):
+def processor_time(process: int) -> float:
     """Of a process and its threads until now, in user and kernel [s]."""
     with open('/proc/%d/stat' % process) as file:
         # The name in parentheses may itself hold spaces and parentheses.

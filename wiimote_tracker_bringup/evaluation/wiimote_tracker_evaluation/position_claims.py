@@ -4,6 +4,9 @@ Each claim speaks of a few sessions. So it is compared with what as many simulat
 drawn again and again: the paper agrees when its number lies within the middle 95 % of that.
 """
 
+import dataclasses
+from typing import Callable, Sequence
+
 import numpy as np
 
 from wiimote_tracker_evaluation import alignment, statistics
@@ -13,13 +16,17 @@ DRAWS = 4000
 PER_CASE = 2  # sessions of the paper
 
 
-class Claim(object):
+@dataclasses.dataclass(eq=False)
+class Claim:
     """text: what the paper says. cameras, cases: of whose points. extreme: np.max or np.min over all
     points of all its sessions. said [m], and the unit of its last digit [m]."""
 
-    def __init__(self, text, cameras, cases, extreme, said, digit):
-        self.text, self.cameras, self.cases = text, cameras, cases
-        self.extreme, self.said, self.digit = extreme, said, digit
+    text: str
+    cameras: str
+    cases: Sequence[str]
+    extreme: Callable
+    said: float
+    digit: float
 
     def simulated(self, results, ray_model, seed):
         """Least, middle and largest of the middle 95 % of what so few sessions give [m]."""

@@ -101,8 +101,8 @@ def cubes(results, session):
                 axis.plot(corners[[a, b], across], corners[[a, b], up], style, color=color,
                           linewidth=1.2, label=words if number == 0 else None)
         axis.set_aspect('equal')
-        axis.set_xlabel('%s [m]' % names[0])
-        axis.set_ylabel('%s [m]' % names[1])
+        axis.set_xlabel(f'{names[0]} [m]')
+        axis.set_ylabel(f'{names[1]} [m]')
     axes[0].set_title('from above', fontsize=TITLE_SIZE)
     axes[1].set_title('from the side', fontsize=TITLE_SIZE)
     charts.key(axes[1], loc='center')

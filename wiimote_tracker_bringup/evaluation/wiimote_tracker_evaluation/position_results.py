@@ -1,5 +1,6 @@
 """What the program evaluate_positions measured, by cameras, method and model of the rays."""
 
+import dataclasses
 import os
 
 import numpy as np
@@ -12,13 +13,15 @@ TWO, FACING, FOUR = '1 2', '1 3', '1 2 3 4'  # cameras, as the tables name them
 POINTS = 10
 
 
-class Group(object):
+@dataclasses.dataclass(eq=False)
+class Group:
     """One method in all sessions: arrays of sessions x points x 3 [m]; covariance, sessions x points
     x 3 x 3 [m^2], NaN where none is stated. Sessions that could not be solved are NaN."""
 
-    def __init__(self, nominal, true, measured, covariance):
-        self.nominal, self.true, self.measured = nominal, true, measured
-        self.covariance = covariance
+    nominal: np.ndarray
+    true: np.ndarray
+    measured: np.ndarray
+    covariance: np.ndarray
 
     def from_nominal(self):
         """Distance from where the LED was meant to be, as the paper measured it: sessions that were
@@ -47,7 +50,7 @@ def solved(values):
     return values[~np.isnan(values).any(axis=1)]
 
 
-class Results(object):
+class Results:
     """sessions: how many."""
 
     def __init__(self, folders):
@@ -67,7 +70,7 @@ class Results(object):
                   & (self.points['ray_model'] == ray_model))
 
         def triple(name):
-            return np.stack([self.points['%s_%s' % (name, axis)][chosen] for axis in 'xyz'],
+            return np.stack([self.points[f'{name}_{axis}'][chosen] for axis in 'xyz'],
                             axis=1).reshape(-1, POINTS, 3)
 
         covariance = np.stack([

@@ -6,6 +6,7 @@ import signal
 import socket
 import subprocess
 import time
+from typing import List, Sequence
 
 PR_SET_PDEATHSIG = 1
 PR_SET_CHILD_SUBREAPER = 36
@@ -15,7 +16,7 @@ class ProcessEnded(Exception):
     """A process that was needed has ended; the text says which and where its output is."""
 
 
-def free_port():
+def free_port() -> int:
     with socket.socket() as probe:
         probe.bind(('localhost', 0))
         return probe.getsockname()[1]
@@ -25,14 +26,14 @@ def prctl(option, value):
     ctypes.CDLL(None, use_errno=True).prctl(option, value, 0, 0, 0)
 
 
-def descendants():
+def descendants() -> List[int]:
     """Ids of all processes below this one, zombies excepted."""
     parent_of = {}
     for entry in os.listdir('/proc'):
         if not entry.isdigit():
             continue
         try:
-            with open('/proc/%s/stat' % entry) as file:
+            with open(f'/proc/{entry}/stat') as file:
                 # The name in parentheses may itself hold spaces and parentheses.
                 state, parent = file.read().rpartition(')')[2].split()[:2]
         except OSError:
@@ -47,7 +48,7 @@ def descendants():
         found |= more
 
 
-class Processes(object):
+class Processes:
     """Starts processes, each in a session of its own so that a terminal's Ctrl-C reaches only us.
 
     Grandchildren that lose their parent become our children, and so are found when all is stopped.
@@ -57,7 +58,7 @@ class Processes(object):
         prctl(PR_SET_CHILD_SUBREAPER, 1)
         self._started = []  # (name, Popen, path of its output)
 
-    def start(self, name, command, output):
+    def start(self, name: str, command: List[str], output: str) -> subprocess.Popen:
         """Starts a command whose output goes to the file `output`."""
         with open(output, 'ab') as file:
             process = subprocess.Popen(
@@ -67,14 +68,14 @@ class Processes(object):
         self._started.append((name, process, output))
         return process
 
-    def check(self):
+    def check(self) -> None:
         """@raise ProcessEnded: one of them is not running any more."""
         for name, process, output in self._started:
             if process.poll() is not None:
-                raise ProcessEnded('%s ended unexpectedly (status %d); see %s'
-                                   % (name, process.returncode, output))
+                raise ProcessEnded(f'{name} ended unexpectedly (status {process.returncode}); see '
+                                   f'{output}')
 
-    def stop(self, process, patience=15.0):
+    def stop(self, process: subprocess.Popen, patience: float = 15.0) -> None:
         """Asks one process to end in good order and waits for it."""
         self._started = [entry for entry in self._started if entry[1] is not process]
         self._signal_group(process, signal.SIGINT)
@@ -84,7 +85,7 @@ class Processes(object):
             self._signal_group(process, signal.SIGKILL)
             process.wait()
 
-    def stop_all(self, patience=(6.0, 2.0, 2.0)):
+    def stop_all(self, patience: Sequence[float] = (6.0, 2.0, 2.0)) -> None:
         """Ends every process below this one: first politely, then not."""
         for _, process, _ in self._started:
             self._signal_group(process, signal.SIGINT)

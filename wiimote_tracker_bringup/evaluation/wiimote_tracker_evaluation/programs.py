@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import time
+from typing import Dict
 
 import numpy as np
 
@@ -14,28 +15,28 @@ from wiimote_tracker_evaluation.processes import prctl, PR_SET_PDEATHSIG
 AT_ONCE = 2
 
 
-def package_file(path):
+def package_file(path: str) -> str:
     """A file of this package, in the source, devel or install space."""
     import rospkg
     return os.path.join(rospkg.RosPack().get_path('wiimote_tracker_bringup'), path)
 
 
-def find_program(name):
+def find_program(name: str) -> str:
     """Path of 'program', of this package, or of 'package/program'."""
     import roslib.packages
     package, _, program = name.rpartition('/')
     package = package or 'wiimote_tracker_bringup'
     found = roslib.packages.find_node(package, program)
     if not found:
-        raise ExperimentError('the program %s of %s is not there; build and source the workspace'
-                              % (program, package))
+        raise ExperimentError(f'the program {program} of {package} is not there; build and source '
+                              'the workspace')
     return found[0]
 
 
 def run_programs(commands, log, progress=lambda done, of: None):
     """Runs every command (a list of words, the first as for find_program) and waits for all.
 
-    log: file for what they print. progress: told how many have ended.
+    log: file for what they print. progress: gets how many have ended.
     @raise ExperimentError: one has failed; the others are ended.
     """
     waiting = collections.deque([find_program(command[0])] + [str(word) for word in command[1:]]
@@ -49,8 +50,8 @@ def run_programs(commands, log, progress=lambda done, of: None):
             for process in [each for each in running if each.poll() is not None]:
                 running.remove(process)
                 if process.returncode != 0:
-                    raise ExperimentError('%s failed (status %d): %s' % (
-                        os.path.basename(process.args[0]), process.returncode, last_line(log)))
+                    raise ExperimentError(f'{os.path.basename(process.args[0])} failed (status '
+                                          f'{process.returncode}): {last_line(log)}')
                 progress(of - len(waiting) - len(running), of)
     finally:
         for process in running:
@@ -65,7 +66,7 @@ def start(command, log):
                                 preexec_fn=lambda: prctl(PR_SET_PDEATHSIG, signal.SIGTERM))
 
 
-def last_line(path):
+def last_line(path: str) -> str:
     with open(path, errors='replace') as file:
         lines = [line.strip() for line in file if line.strip()]
     return lines[-1] if lines else 'it said nothing'
@@ -77,13 +78,13 @@ def session_parts(sessions, parts=4):
     return [(first, end - first) for first, end in zip(edges[:-1], edges[1:]) if end > first]
 
 
-def read_csv(path):
+def read_csv(path: str) -> Dict[str, np.ndarray]:
     """A table with names in its first line, as arrays by name: numbers where all are, else texts."""
     import csv
     with open(path, newline='') as file:
         rows = list(csv.reader(file))
     if not rows:
-        raise ExperimentError('%s is empty' % path)
+        raise ExperimentError(f'{path} is empty')
     columns = {}
     for name, texts in zip(rows[0], zip(*rows[1:]) if len(rows) > 1 else [()] * len(rows[0])):
         try:

@@ -6,7 +6,7 @@ import time
 QUIET_PERIOD = 15.0  # without a terminal, between lines of one section [s]
 
 
-class Progress(object):
+class Progress:
     """One line per section; with a terminal, a line below that is overwritten."""
 
     def __init__(self, expected, output=None, now=time.monotonic):
@@ -20,17 +20,17 @@ class Progress(object):
         self._begin = self._said = now()
         self._share = 0.0
 
-    def begin(self, name, title):
+    def begin(self, name: str, title: str) -> None:
         self._number += 1
         self._share = 0.0
         self._begin = self._said = self._now()
         self.line('[%d/%d] %s' % (self._number + 1, len(self._expected), title))
         self.within(0, 1)
 
-    def within(self, done, of, what=''):
+    def within(self, done: float, of: float, what: str = '') -> None:
         """The section that is going on is at done of so many."""
         self._share = min(max(float(done) / of, 0.0), 1.0) if of else 0.0
-        text = '%3.0f %%  %-12s %s' % (100.0 * self._share, remaining_text(self.remaining()), what)
+        text = f'{100.0 * self._share:3.0f} %  {remaining_text(self.remaining()):<12} {what}'
         if self._live:
             self._output.write('\r\033[K      ' + text[:100])
             self._output.flush()
@@ -39,17 +39,17 @@ class Progress(object):
             self._said = self._now()
             self.line('      ' + text)
 
-    def end(self, text):
-        self.line('      %s after %.0f s' % (text, self._now() - self._begin))
+    def end(self, text: str) -> None:
+        self.line(f'      {text} after {self._now() - self._begin:.0f} s')
 
-    def line(self, text):
+    def line(self, text: str) -> None:
         if self._pending:
             self._output.write('\r\033[K')
             self._pending = False
         self._output.write(text + '\n')
         self._output.flush()
 
-    def remaining(self):
+    def remaining(self) -> float:
         """Of all sections together [s]: what is expected at first, what is seen more and more."""
         expected = self._expected[max(self._number, 0)][1]
         elapsed = self._now() - self._begin
@@ -60,7 +60,7 @@ class Progress(object):
         return here + sum(seconds for _, seconds in self._expected[self._number + 1:])
 
 
-def remaining_text(seconds):
+def remaining_text(seconds: float) -> str:
     if seconds < 55:
         return '%d s left' % (5 * round(seconds / 5.0 + 0.5))
     return '%d min left' % round(seconds / 60.0 + 0.4)

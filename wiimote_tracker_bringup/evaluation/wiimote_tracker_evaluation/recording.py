@@ -7,7 +7,7 @@ from geometry_msgs.msg import PointStamped
 from wiimote_tracker_msgs.msg import TrackedPoint, TrackedPointArray
 
 
-class Recording(object):
+class Recording:
     """Times in seconds since 1970, positions in metres, one row per published point.
 
     stamp N, position N x 3, stddev N x 3, rays N, residual N [px];
@@ -30,18 +30,18 @@ class Recording(object):
         self.latency = np.array(latencies, dtype=float)
         self.age = np.array(ages, dtype=float)
 
-    def between(self, start, end):
+    def between(self, start: float, end: float) -> np.ndarray:
         """Which points lie in this span of time."""
         return (self.stamp >= start) & (self.stamp <= end)
 
-    def truth_at(self, stamps):
+    def truth_at(self, stamps: np.ndarray) -> np.ndarray:
         """True positions at these times, interpolated."""
         return np.stack([np.interp(stamps, self.truth_stamp, self.truth_position[:, axis])
                          for axis in range(3)], axis=1)
 
 
 def point_rows(message):
-    """Rows of the points that are told to whoever steers by them: those that two cameras see."""
+    """Rows of the points that two cameras or more see."""
     stamp = message.header.stamp.to_sec()
     for point in message.points:
         if point.state == TrackedPoint.TRACKED:
@@ -54,7 +54,7 @@ def truth_row(message):
     return (message.header.stamp.to_sec(), message.point.x, message.point.y, message.point.z)
 
 
-def read_bag(path, led):
+def read_bag(path: str, led: str) -> Recording:
     """Recording of a bag that holds /points and /simulation/truth/<led>."""
     points, truths, latencies, ages = [], [], [], []
     truth_topic = '/simulation/truth/' + led
@@ -70,7 +70,7 @@ def read_bag(path, led):
     return Recording(points, truths, latencies, ages)
 
 
-class LiveRecorder(object):
+class LiveRecorder:
     """Records from now on."""
 
     def __init__(self, led):
@@ -89,6 +89,6 @@ class LiveRecorder(object):
         if message.points:
             self.newest_stamp = message.header.stamp.to_sec()
 
-    def recording(self):
+    def recording(self) -> Recording:
         return Recording(list(self._points), list(self._truths), list(self._latencies),
                          list(self._ages))

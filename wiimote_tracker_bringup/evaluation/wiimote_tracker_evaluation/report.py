@@ -11,11 +11,11 @@ from wiimote_tracker_evaluation.alignment import KINDS
 
 def table(score, bounds):
     """The results for people: lines of text."""
-    lines = ['%-3s  %-22s  %-22s  %s' % ('', 'true [m]', 'measured [m]', 'error [mm]')]
+    lines = [f"{'':<3}  {'true [m]':<22}  {'measured [m]':<22}  {'error [mm]'}"]
     for place in score.places:
         lines.append('%-3s  %s  %s  %10.1f' % (
-            place.name, '  '.join('%6.3f' % v for v in place.true),
-            '  '.join('%6.3f' % v for v in place.measured), 1e3 * place.error()))
+            place.name, '  '.join(f'{v:6.3f}' for v in place.true),
+            '  '.join(f'{v:6.3f}' for v in place.measured), 1e3 * place.error()))
     lines += ['', '%-24s  %8s  %13s  %9s  %s' % (
         'RMS over the points [mm]', 'measured', 'best here (1)', 'bound (2)', '95 % of rigs (2)')]
     for kind in KINDS:
@@ -25,15 +25,14 @@ def table(score, bounds):
                     'similarity': 'similarity-aligned (3)'}[kind],
             1e3 * score.position_rms[kind], 1e3 * bound.best, 1e3 * bound.rms, 1e3 * bound.low,
             1e3 * bound.high))
-    lines += ['', '%-30s  %8s  %8s' % ('RMS on the circles [mm]', 'radial', 'height')]
+    lines += ['', f"{'RMS on the circles [mm]':<30}  {'radial':>8}  {'height':>8}"]
     for circle in score.circles:
-        lines.append('  %-28s  %8.1f  %8.1f' % (circle.name, 1e3 * circle.radial,
-                                               1e3 * circle.height))
+        lines.append(f'  {circle.name:<28}  {1e3 * circle.radial:8.1f}  {1e3 * circle.height:8.1f}')
     lines += ['',
               'scatter of a single point    %.2f mm' % (1e3 * score.scatter),
-              'points published             %.0f Hz' % score.rate,
-              'latency report -> point      %.2f ms median, %.2f ms p99' % (
-                  1e3 * score.latency_p50, 1e3 * score.latency_p99),
+              f'points published             {score.rate:.0f} Hz',
+              f'latency report -> point      {1e3 * score.latency_p50:.2f} ms median, '
+              f'{1e3 * score.latency_p99:.2f} ms p99',
               'age of a point               %.1f ms median, from exposure to publication' % (
                   1e3 * score.age_p50),
               '',
@@ -99,10 +98,10 @@ def write_csv(path, recording, segments):
             truth = recording.truth_at(recording.stamp[inside])
             for i, true in zip(inside, truth):
                 writer.writerow(
-                    [segment.kind, segment.name, '%.6f' % recording.stamp[i]]
-                    + ['%.6f' % v for v in recording.position[i]] + ['%.6f' % v for v in true]
-                    + ['%.6f' % v for v in recording.stddev[i]]
-                    + ['%d' % recording.rays[i], '%.3f' % recording.residual[i]])
+                    [segment.kind, segment.name, f'{recording.stamp[i]:.6f}']
+                    + [f'{v:.6f}' for v in recording.position[i]] + [f'{v:.6f}' for v in true]
+                    + [f'{v:.6f}' for v in recording.stddev[i]]
+                    + ['%d' % recording.rays[i], f'{recording.residual[i]:.3f}'])
 
 
 def draw_tracks(path, recording, segments, score):
@@ -135,8 +134,8 @@ def draw_tracks(path, recording, segments, score):
         axes.set_aspect('equal')
         axes.set_xlim(-0.45, side + 0.45)
         axes.set_ylim(-0.45, side + 0.45)
-        axes.set_xlabel('%s [m]' % 'xyz'[h])
-        axes.set_ylabel('%s [m]' % 'xyz'[v])
+        axes.set_xlabel(f"{'xyz'[h]} [m]")
+        axes.set_ylabel(f"{'xyz'[v]} [m]")
         axes.set_title(title)
     views[1].legend(loc='upper center', bbox_to_anchor=(0.5, 0.8))
     figure.suptitle('Simulated rig: ten points and three circles; RMS %.1f mm absolute, %.1f mm '

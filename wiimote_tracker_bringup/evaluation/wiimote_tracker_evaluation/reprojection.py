@@ -18,8 +18,8 @@ def rotation_matrix(quaternion):
 def project(camera, point):
     """Pixel (u, v) of a world point [m] in a CameraCalibration; None when it is not in front."""
     if camera.distortion_model != 'plumb_bob':
-        raise ValueError('%s: the distortion model %s is not supported'
-                         % (camera.name, camera.distortion_model))
+        raise ValueError(f'{camera.name}: the distortion model {camera.distortion_model} is not '
+                         'supported')
     pose = camera.world_from_camera
     center = np.array([pose.position.x, pose.position.y, pose.position.z])
     x, y, z = rotation_matrix(pose.orientation).T @ (np.asarray(point) - center)

@@ -1,14 +1,16 @@
-"""The results table of a README, made from figures.json; and whether a fresh run agrees with it."""
+"""The results table of a document, made from figures.json; and whether a fresh run agrees with it."""
 
 import argparse
 import json
 import sys
+from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
 from wiimote_tracker_evaluation import statistics
 from wiimote_tracker_evaluation.page import words
 
+Measurement = Tuple[float, Tuple[float, float]]  # value, its 95 % interval
 ROUNDING = 0.005  # of the table's three digits, as a share of the number
 BEGIN, END = '<!-- results: begin -->', '<!-- results: end -->'
 
@@ -17,26 +19,26 @@ class TableError(Exception):
     """The table cannot be made; the text says why and what to do."""
 
 
-def interval_of(entry):
+def interval_of(entry: Dict) -> str:
     return '–' if entry['interval'] is None else '%s … %s' % tuple(
         words.number(limit) for limit in entry['interval'])
 
 
-def cells(entry):
+def cells(entry: Dict) -> List[str]:
     """A figure's row: what it is, value with unit, interval, how it came about."""
     return [(entry['note'] or words.plain(entry['name'])).replace('|', '/'),
-            ('%s %s' % (words.number(entry['value']), entry['unit'])).strip(), interval_of(entry),
+            f"{words.number(entry['value'])} {entry['unit']}".strip(), interval_of(entry),
             words.kind(entry['simulated'], entry['end_to_end'])]
 
 
-def headlines(content):
+def headlines(content: Dict) -> List[Dict]:
     entries = [entry for entry in content['figures'] if entry['headline']]
     if not entries:
         raise TableError('figures.json has no headline; run evaluate with all sections')
     return entries
 
 
-def lines(content):
+def lines(content: Dict) -> List[str]:
     """The table as Markdown."""
     return (['| | value | 95 % interval | how |', '|---|---|---|---|'] + [
         '| ' + ' | '.join(cells(entry)) + ' |' for entry in headlines(content)] + [
@@ -46,23 +48,23 @@ def lines(content):
         'does, and their intervals are of that run alone.'])
 
 
-def split(text):
+def split(text: str) -> Tuple[str, str, str]:
     """Text before, between and after the marks."""
     if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
-        raise TableError('the README needs the lines "%s" and "%s", once each' % (BEGIN, END))
+        raise TableError(f'the document needs the lines "{BEGIN}" and "{END}", once each')
     before, rest = text.split(BEGIN)
     between, after = rest.split(END)
     return before, between, after
 
 
-def written(text, content):
-    """The README's text with the table between its marks."""
+def written(text: str, content: Dict) -> str:
+    """The document's text with the table between its marks."""
     before, _, after = split(text)
     return before + BEGIN + '\n' + '\n'.join(lines(content)) + '\n' + END + after
 
 
-def numbers_of(row):
-    """Value and interval that a row of the README states; without an interval the value twice."""
+def numbers_of(row: List[str]) -> Measurement:
+    """Value and interval that a row of the table states; without an interval the value twice."""
     value = float(row[1].split()[0])
     if row[2] == '–':
         return value, (value, value)
@@ -70,7 +72,7 @@ def numbers_of(row):
     return value, (float(low), float(high))
 
 
-def rows_of(text):
+def rows_of(text: str) -> Dict[str, Measurement]:
     """Value and interval by the first cell of the table's rows."""
     stated = {}
     for line in split(text)[1].splitlines():
@@ -80,7 +82,7 @@ def rows_of(text):
     return stated
 
 
-def too_far_apart(stated, fresh, allowed):
+def too_far_apart(stated: Measurement, fresh: Measurement, allowed: float) -> bool:
     """Whether two measurements, each (value, (low, high)), differ by more than so many times what
     both are uncertain by together, on the sides that face each other."""
     (low, (_, above)), (high, (below, _)) = sorted([stated, fresh])
@@ -88,8 +90,8 @@ def too_far_apart(stated, fresh, allowed):
     return high - low > allowed * np.hypot(above - low, high - below) + slack
 
 
-def disagreements(text, content):
-    """Sentences about figures of a run that differ from the README's by more than chance: of the
+def disagreements(text: str, content: Dict) -> Tuple[List[str], List[str]]:
+    """Sentences about figures of a run that differ from the table's by more than chance: of the
     cores in process, and of the full stack, which depend on the machine."""
     stated, entries = rows_of(text), headlines(content)
     allowed = statistics.agreement(len(entries))
@@ -97,22 +99,22 @@ def disagreements(text, content):
     for entry in entries:
         name = cells(entry)[0]
         if name not in stated:
-            in_process.append('%s: not in the README' % name)
+            in_process.append(f'{name}: not in the table')
             continue
         value, (low, high) = stated[name]
         fresh = entry['value'], tuple(entry['interval'] or (entry['value'], entry['value']))
         if too_far_apart((value, (low, high)), fresh, allowed):
             (full_stack if entry['end_to_end'] else in_process).append(
-                '%s: the README says %s (%s … %s), this run %s (%s … %s) %s' % (
+                '%s: the table says %s (%s … %s), this run %s (%s … %s) %s' % (
                     (name,) + tuple(words.number(v) for v in (
                         value, low, high, fresh[0]) + fresh[1]) + (entry['unit'],)))
     return in_process, full_stack
 
 
-def main(arguments=None):
+def main(arguments: Optional[List[str]] = None) -> int:
     parser = argparse.ArgumentParser(prog='results_table', description=__doc__)
     parser.add_argument('figures', help='figures.json of an evaluation')
-    parser.add_argument('readme', help='README.md with the two marks')
+    parser.add_argument('document', help='Markdown file with the two marks')
     parser.add_argument('--check', action='store_true',
                         help='write nothing; say where the table and the figures of a fresh run '
                         'differ by more than both are uncertain by together')
@@ -120,7 +122,7 @@ def main(arguments=None):
     try:
         with open(options.figures, encoding='utf-8') as file:
             content = json.load(file)
-        with open(options.readme, encoding='utf-8') as file:
+        with open(options.document, encoding='utf-8') as file:
             text = file.read()
         if options.check:
             in_process, full_stack = disagreements(text, content)
@@ -130,7 +132,7 @@ def main(arguments=None):
             print('\n'.join(in_process) or (
                 'All others agree.' if full_stack else 'The table agrees with these figures.'))
             return 1 if in_process else 0
-        with open(options.readme, 'w', encoding='utf-8') as file:
+        with open(options.document, 'w', encoding='utf-8') as file:
             file.write(written(text, content))
     except (OSError, ValueError, TableError) as error:
         print(error, file=sys.stderr)

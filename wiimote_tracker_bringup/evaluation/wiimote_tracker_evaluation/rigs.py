@@ -1,6 +1,7 @@
 """Descriptions of simulated rigs that are made from another one."""
 
 import math
+from typing import Dict
 
 import numpy as np
 import yaml
@@ -10,22 +11,22 @@ from wiimote_tracker_evaluation import experiment
 MIDDLE = np.array([experiment.SIDE / 2.0, experiment.SIDE / 2.0, 0.0])  # of the rig's floor [m]
 
 
-def read(path):
+def read(path: str) -> Dict:
     with open(path) as file:
         return yaml.safe_load(file)
 
 
-def write(path, description):
+def write(path: str, description: Dict) -> None:
     with open(path, 'w') as file:
         yaml.safe_dump(description, file, sort_keys=False)
 
 
-def identities(description):
+def identities(description: Dict) -> Dict[str, str]:
     """Bluetooth address of every camera."""
     return {name: camera['identity'] for name, camera in description['cameras'].items()}
 
 
-def centred(description, scale):
+def centred(description: Dict, scale: float) -> Dict:
     """The rig about the origin instead of the floor's middle, every distance times `scale`."""
     moved = dict(description)
     moved['cameras'] = {name: dict(camera, **{
@@ -47,9 +48,9 @@ def with_leds(description, positions, lit=True):
     return changed
 
 
-def with_cameras(description, number):
+def with_cameras(description: Dict, number: int) -> Dict:
     """The first `number` cameras; when there are not so many, more stand between them, on the same
-    circle about the floor's middle, alike but for their clocks and addresses."""
+    circle about the floor's middle, equal but for their clocks and addresses."""
     cameras = dict(list(description['cameras'].items())[:number])
     originals = list(description['cameras'].values())
     for extra in range(number - len(cameras)):
@@ -61,7 +62,7 @@ def with_cameras(description, number):
         clock = dict(like['clock'], phase=(like['clock'].get('phase', 0.0) + 0.0011) % 0.01)
         cameras['wiimote_%d' % (len(cameras) + 1)] = dict(
             like, position=position.tolist(), clock=clock,
-            identity='00:1f:32:00:01:%02x' % extra)
+            identity=f'00:1f:32:00:01:{extra:02x}')
     changed = dict(description, cameras=cameras)
-    changed.pop('board', None)  # it is held before a camera that may be gone
+    changed.pop('board', None)  # its camera may be gone
     return changed

@@ -3,11 +3,14 @@
 It shares no code with the tracker, so that an error there is not repeated here.
 """
 
+import dataclasses
+from typing import List
+
 import numpy as np
 import yaml
 
 
-class Camera(object):
+class Camera:
     """Pinhole with radial k1. parameters: fx, fy, cx, cy, k1. rotation: columns are the image's
     right, down and forward in the world. position [m]. size: width, height [px]."""
 
@@ -18,18 +21,19 @@ class Camera(object):
         self.position = np.asarray(position, dtype=float)
         self.size = size
 
-    def project(self, points):
+    def project(self, points: np.ndarray) -> np.ndarray:
         """N x 2 pixels of N x 3 points; NaN behind the camera."""
         return project(self.parameters, self.rotation, self.position, points)
 
-    def sees(self, points):
+    def sees(self, points: np.ndarray) -> np.ndarray:
         """For each of N x 3 points, whether its pixel lies in the image."""
         pixel = self.project(points)
         with np.errstate(invalid='ignore'):
             return ((pixel >= 0) & (pixel <= np.asarray(self.size) - 1)).all(axis=1)
 
 
-def project(parameters, rotation, position, points):
+def project(parameters: np.ndarray, rotation: np.ndarray, position: np.ndarray,
+            points: np.ndarray) -> np.ndarray:
     """N x 2 pixels of N x 3 world points; parameters fx, fy, cx, cy, k1."""
     fx, fy, cx, cy, k1 = parameters
     seen = (np.atleast_2d(points) - position) @ rotation
@@ -39,7 +43,7 @@ def project(parameters, rotation, position, points):
     return plane * [fx, fy] + [cx, cy]
 
 
-def look_at(position, target):
+def look_at(position: np.ndarray, target: np.ndarray) -> np.ndarray:
     """Rotation of a camera whose axis passes through target and whose image x axis is level."""
     forward = np.asarray(target, dtype=float) - position
     forward /= np.linalg.norm(forward)
@@ -48,25 +52,25 @@ def look_at(position, target):
     return np.stack([right, np.cross(forward, right), forward], axis=1)
 
 
-class Scene(object):
+@dataclasses.dataclass(eq=False)
+class Scene:
     """Cameras as they truly are, and the noise of their pixels [px] before rounding."""
 
-    def __init__(self, cameras, pixel_noise):
-        self.cameras = cameras
-        self.pixel_noise = pixel_noise
+    cameras: List[Camera]
+    pixel_noise: float
 
-    def effective_noise(self):
+    def effective_noise(self) -> float:
         """Standard deviation of one pixel coordinate, the rounding to whole pixels included."""
         return float(np.sqrt(self.pixel_noise ** 2 + 1.0 / 12.0))
 
-    def missed(self, points):
+    def missed(self, points: np.ndarray) -> List[List[str]]:
         """For each of N x 3 points, the names of the cameras that do not see it."""
         seen = [camera.sees(points) for camera in self.cameras]
         return [[camera.name for camera, sees in zip(self.cameras, seen) if not sees[i]]
                 for i in range(len(points))]
 
 
-def read_scene(path):
+def read_scene(path: str) -> Scene:
     """Scene of a rig description. ValueError when a lens has more distortion than k1."""
     with open(path) as file:
         description = yaml.safe_load(file)
@@ -74,8 +78,8 @@ def read_scene(path):
     for name, entry in description['cameras'].items():
         lens = entry['intrinsics']
         if any(lens['distortion'][1:]):
-            raise ValueError('%s: %s has distortion beyond k1, which scoring does not know'
-                             % (path, name))
+            raise ValueError(f'{path}: {name} has distortion beyond k1, which scoring does not '
+                             'know')
         position = np.asarray(entry['position'], dtype=float)
         cameras.append(Camera(
             name, [lens['fx'], lens['fy'], lens['cx'], lens['cy'], lens['distortion'][0]],

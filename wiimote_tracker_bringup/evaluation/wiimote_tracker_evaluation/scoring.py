@@ -1,54 +1,56 @@
 """From a recording and the spans of time in it to figures."""
 
+import dataclasses
+from typing import Dict, List
+
 import numpy as np
 
 from wiimote_tracker_evaluation import alignment, experiment
 
 
-class MeasuredPlace(object):
+@dataclasses.dataclass(eq=False)
+class MeasuredPlace:
     """Where the LED lay, and the mean of what was measured meanwhile [m]; scatter: standard
     deviation of single points about that mean, over all three axes together [m]."""
 
-    def __init__(self, name, true, measured, scatter, frames):
-        self.name = name
-        self.true = true
-        self.measured = measured
-        self.scatter = scatter
-        self.frames = frames
+    name: str
+    true: np.ndarray
+    measured: np.ndarray
+    scatter: float
+    frames: int
 
-    def error(self):
+    def error(self) -> float:
         return float(np.linalg.norm(self.measured - self.true))
 
 
-class MeasuredCircle(object):
+@dataclasses.dataclass(eq=False)
+class MeasuredCircle:
     """RMS of the distance from the axis less the radius, and of the height, single points [m]."""
 
-    def __init__(self, name, radial, height, frames):
-        self.name = name
-        self.radial = radial
-        self.height = height
-        self.frames = frames
+    name: str
+    radial: float
+    height: float
+    frames: int
 
 
-class Score(object):
+@dataclasses.dataclass(eq=False)
+class Score:
     """places: of the test points. position_rms: by kind of alignment [m]. scatter: of single points,
     RMS over the places [m]. rate: points a second while measuring [Hz]. latency_p50, latency_p99:
     from a report's arrival to its point [s]. age_p50: from the instant of a point to its arrival at
     the recorder [s]."""
 
-    def __init__(self, places, position_rms, scatter, circles, rate, latency_p50, latency_p99,
-                 age_p50):
-        self.places = places
-        self.position_rms = position_rms
-        self.scatter = scatter
-        self.circles = circles
-        self.rate = rate
-        self.latency_p50 = latency_p50
-        self.latency_p99 = latency_p99
-        self.age_p50 = age_p50
+    places: List[MeasuredPlace]
+    position_rms: Dict[str, float]
+    scatter: float
+    circles: List[MeasuredCircle]
+    rate: float
+    latency_p50: float
+    latency_p99: float
+    age_p50: float
 
 
-def measured_place(recording, segment):
+def measured_place(recording, segment) -> MeasuredPlace:
     inside = recording.between(segment.start, segment.end)
     frames = int(inside.sum())
     if frames < 2:
@@ -61,17 +63,17 @@ def measured_place(recording, segment):
     return MeasuredPlace(segment.name, true, measured, float(scatter), frames)
 
 
-def measured_circle(recording, segment):
+def measured_circle(recording, segment) -> MeasuredCircle:
     inside = recording.between(segment.start, segment.end)
     if not inside.any():
-        raise ValueError('no point was published during the %s' % segment.name)
+        raise ValueError(f'no point was published during the {segment.name}')
     offset = recording.position[inside] - np.asarray(segment.target)
     radial = np.hypot(offset[:, 0], offset[:, 1]) - experiment.CIRCLE_RADIUS
     return MeasuredCircle(segment.name, float(np.sqrt((radial ** 2).mean())),
                           float(np.sqrt((offset[:, 2] ** 2).mean())), int(inside.sum()))
 
 
-def score(recording, segments):
+def score(recording, segments) -> Score:
     """Score of a recording. @raise ValueError: something was not measured."""
     def of_kind(kind):
         return [segment for segment in segments if segment.kind == kind]

@@ -5,40 +5,59 @@ Run and tells it what was found. One that a person can be led through on a real 
 live(run).
 """
 
+import dataclasses
 import io
 import math
 import os
 import re
+from typing import Iterable, List, Optional, Sequence, Tuple
 
 from wiimote_tracker_evaluation import programs
 
 
-class Figure(object):
+@dataclasses.dataclass(eq=False)
+class Figure:
     """A number of the report; see Run.figure()."""
 
-    def __init__(self, name, value, unit, samples, interval, note, end_to_end, headline, simulated):
-        self.name, self.value, self.unit, self.samples = name, value, unit, samples
-        self.interval, self.note = interval, note
-        self.end_to_end, self.headline, self.simulated = end_to_end, headline, simulated
+    name: str
+    value: float
+    unit: str
+    samples: int
+    interval: Optional[Tuple[float, float]]
+    note: str
+    end_to_end: bool
+    headline: bool
+    simulated: bool
 
 
-class Table(object):
-    def __init__(self, name, columns, rows, caption, shown):
-        self.name, self.columns, self.rows = name, columns, rows
-        self.caption, self.shown = caption, shown
+@dataclasses.dataclass(eq=False)
+class Table:
+    """A table of the report; see Run.table()."""
+
+    name: str
+    columns: List[Tuple[str, str]]
+    rows: List[list]
+    caption: str
+    shown: bool
 
 
-class Plot(object):
-    def __init__(self, name, svg, caption):
-        self.name, self.svg, self.caption = name, svg, caption
+@dataclasses.dataclass(eq=False)
+class Plot:
+    """A plot of the report; see Run.plot()."""
+
+    name: str
+    svg: str
+    caption: str
 
 
-class Text(object):
-    def __init__(self, markdown):
-        self.markdown = markdown
+@dataclasses.dataclass(eq=False)
+class Text:
+    """Markdown of the report; see Run.say()."""
+
+    markdown: str
 
 
-class Run(object):
+class Run:
     """One section being carried out.
 
     quick: keep it short. seed: of everything random. rig: path of the rig's description. folder: for
@@ -63,49 +82,53 @@ class Run(object):
 
     # --- While it goes on
 
-    def progress(self, done, of, what=''):
+    def progress(self, done: float, of: float, what: str = '') -> None:
         """How far this section is, done of so many, and what is going on."""
         self._on_progress(done, of, what)
 
-    def compute(self, commands, what, begin=0.0, end=1.0):
+    def compute(self, commands: List[list], what: str, begin: float = 0.0,
+                end: float = 1.0) -> None:
         """Runs programs to their end, two at a time; each a list of words, the first `program` of
         this package or `package/program`. They take the section from the share `begin` to `end`."""
         self.progress(begin, 1.0, what)
         programs.run_programs(commands, self.file('programs.log'), lambda done, of: self.progress(
             begin + (end - begin) * done / of, 1.0, what))
 
-    def file(self, name):
+    def file(self, name: str) -> str:
         """Path of a file in this section's folder."""
         return os.path.join(self.folder, name)
 
     # --- What was found
 
-    def summary(self, sentence):
+    def summary(self, sentence: str) -> None:
         """A sentence for the head of the report: what the rig can be trusted for."""
         self.summaries.append(sentence)
 
-    def say(self, markdown):
+    def say(self, markdown: str) -> None:
         """A paragraph, a heading (###), or a list, in this place. Knows **bold**, *italic*, `code`
         and [links](...)."""
         self.contents.append(Text(markdown))
 
-    def figure(self, name, value, unit, samples, interval=None, note='', end_to_end=False,
-               headline=False, simulated=None):
+    def figure(self, name: str, value: float, unit: str, samples: int,
+               interval: Optional[Sequence[float]] = None, note: str = '',
+               end_to_end: bool = False, headline: bool = False,
+               simulated: Optional[bool] = None) -> None:
         """A number. name: under_scored, never changed. samples: how many independent measurements it
         comes from. interval: (low, high), 95 %. note: what it is, in words. end_to_end: through the
-        full stack, rather than the cores in process. headline: stands in the README's table too.
+        full stack, rather than the cores in process. headline: stands in the table of doc/results.md, too.
         simulated: by default as the whole section."""
         check_name(name, [figure.name for figure in self.figures])
         numbers = [value] + (list(interval) if interval is not None else [])
         if not all(math.isfinite(number) for number in numbers):
-            raise ValueError('figure %s is not a finite number: %s' % (name, numbers))
+            raise ValueError(f'figure {name} is not a finite number: {numbers}')
         self.figures.append(Figure(
             name, float(value), unit, int(samples),
             None if interval is None else (float(interval[0]), float(interval[1])),
             note, bool(end_to_end), bool(headline),
             self.simulated if simulated is None else bool(simulated)))
 
-    def table(self, name, columns, rows, caption='', shown=None):
+    def table(self, name: str, columns: Sequence[Tuple[str, str]], rows: Iterable,
+              caption: str = '', shown: Optional[bool] = None) -> None:
         """A table in this place, as a CSV file, and as a struct in the section's .mat. columns:
         (name, unit) each, under_scored; rows: numbers or texts, None where there is none. shown:
         whether the report holds it or a link; by default when it is short."""
@@ -116,11 +139,11 @@ class Run(object):
             taken.append(column)
         rows = [list(row) for row in rows]
         if any(len(row) != len(columns) for row in rows):
-            raise ValueError('table %s: every row needs %d cells' % (name, len(columns)))
+            raise ValueError(f'table {name}: every row needs {len(columns)} cells')
         self.contents.append(Table(name, list(columns), rows, caption,
                                    len(rows) <= self.SHOWN_ROWS if shown is None else shown))
 
-    def plot(self, name, figure, caption):
+    def plot(self, name: str, figure, caption: str) -> None:
         """A matplotlib figure in this place and as an SVG file. It is closed."""
         check_name(name, [each.name for each in self.contents if isinstance(each, Plot)])
         import matplotlib
@@ -133,8 +156,8 @@ class Run(object):
         self.contents.append(Plot(name, text.getvalue(), caption))
 
 
-def check_name(name, taken):
+def check_name(name: str, taken: List[str]) -> None:
     if not re.match(r'[A-Za-z][A-Za-z0-9_]*$', name):
-        raise ValueError('%r must be letters, digits and _, a letter first' % name)
+        raise ValueError(f'{name!r} must be letters, digits and _, a letter first')
     if name in taken:
-        raise ValueError('%s is there twice' % name)
+        raise ValueError(f'{name} is there twice')

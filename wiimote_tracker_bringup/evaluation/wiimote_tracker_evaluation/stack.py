@@ -30,7 +30,7 @@ def master(log):
     _processes = Processes()
     _scratch = tempfile.mkdtemp(prefix='wiimote_tracker_evaluation_')
     port = free_port()
-    os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % port
+    os.environ['ROS_MASTER_URI'] = f'http://localhost:{port}'
     os.environ['ROS_HOSTNAME'] = 'localhost'
     os.environ['ROS_HOME'] = _scratch
     _processes.start('rosmaster', ['rosmaster', '--core', '-p', str(port)], log)
@@ -38,7 +38,7 @@ def master(log):
     while not rosgraph.is_master_online():
         check()
         if time.monotonic() > deadline:
-            raise ExperimentError('no ROS master within %.0f s; see %s' % (MASTER_DEADLINE, log))
+            raise ExperimentError(f'no ROS master within {MASTER_DEADLINE:.0f} s; see {log}')
         time.sleep(0.02)
     import rospy  # not earlier: it reads the master's address when it is imported
     rospy.init_node('evaluation', disable_signals=True)

@@ -1,5 +1,7 @@
 """Confidence intervals. Every one is (low, high) and repeatable."""
 
+from typing import Callable, Sequence, Tuple
+
 import numpy as np
 from scipy.special import ndtr, ndtri, stdtrit
 
@@ -27,14 +29,14 @@ def bootstrap(units, statistic=np.mean, seed=1, resamples=1000, confidence=CONFI
     return float(low), float(high)
 
 
-def expanded_tail(units, tail):
+def expanded_tail(units: int, tail: float) -> float:
     """Share of a bootstrap's draws to leave out on either side, so that as much as `tail` of the
     truth is missed there: draws scatter less than the truth by the root of (units - 1) / units, and
     by how much they scatter is itself uncertain."""
     return float(ndtr(np.sqrt(units / (units - 1.0)) * stdtrit(units - 1.0, tail)))
 
 
-def wilson(successes, trials):
+def wilson(successes: int, trials: int) -> Tuple[float, float]:
     """Interval of a probability after so many independent trials (E. B. Wilson, JASA 22, 1927).
     @raise ValueError: no trials."""
     if not 0 <= successes <= trials or trials < 1:
@@ -48,18 +50,18 @@ def wilson(successes, trials):
             1.0 if successes == trials else float(middle + half))
 
 
-def agreement(statements):
+def agreement(statements: int) -> float:
     """How many combined half widths two measurements of the same thing may differ by, when so many
     pairs are compared and all shall agree with CONFIDENCE (Bonferroni)."""
     return float(ndtri(1.0 - 0.5 * (1.0 - CONFIDENCE) / statements) / NORMAL_QUANTILE)
 
 
-def rms(values):
+def rms(values: Sequence[float]) -> float:
     """Root mean square."""
     return float(np.sqrt(np.mean(np.square(values))))
 
 
-def quantile(share):
+def quantile(share: float) -> Callable[[Sequence[float]], float]:
     """The statistic "this quantile", for bootstrap()."""
     return lambda values: float(np.quantile(values, share))
 

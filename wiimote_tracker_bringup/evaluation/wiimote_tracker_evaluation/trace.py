@@ -18,7 +18,7 @@ ROUNDING = 2e-6       # of a time that was a floating-point number on its way [s
 LONGEST_DRIVER = 0.5  # from a report's delivery to its arrival at the driver [s]
 
 
-class Trace(object):
+class Trace:
     """Times [s since 1970], one row per published output.
 
     exposure: true, of the newest image that entered; delivered: its report was handed to the virtual
@@ -56,14 +56,14 @@ class Trace(object):
         return float((gaps ** 2).sum() / (2.0 * gaps.sum()))
 
 
-class Recorder(object):
+class Recorder:
     """Records what a Trace is made of, from its making until read()."""
 
     def __init__(self, run, cameras, name):
         self._path = run.file(name + '.bag')
         topics = ['/points', '/triggered_points', EXPOSURES]
         self._cameras = cameras
-        topics += ['/%s/ir_blobs' % camera for camera in cameras]
+        topics += [f'/{camera}/ir_blobs' for camera in cameras]
         self._process = stack.start(run, [
             'rosrun', 'rosbag', 'record', '--quiet', '--tcpnodelay', '--buffsize=0',
             '--output-name=' + self._path] + topics)
@@ -85,7 +85,7 @@ def wait_until_connected(node, topics):
     while not connected_topics(master, node).issuperset(topics):
         stack.check()
         if time.monotonic() > deadline:
-            raise ExperimentError('the recorder did not begin within %.0f s' % DEADLINE)
+            raise ExperimentError(f'the recorder did not begin within {DEADLINE:.0f} s')
         time.sleep(0.02)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 from wiimote_tracker_msgs.msg import CameraCalibration, RigCalibration
 
 
-def quaternion(rotation):
+def quaternion(rotation: np.ndarray) -> np.ndarray:
     """x, y, z, w of a rotation matrix."""
     # The eigenvector of the largest eigenvalue of a symmetric matrix made of it (Bar-Itzhack 2000).
     (xx, yx, zx), (xy, yy, zy), (xz, yz, zz) = rotation.T

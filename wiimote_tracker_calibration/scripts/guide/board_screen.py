@@ -1,18 +1,20 @@
 """The screen of a lens's calibration with the 16-LED board: from a Guide to lines of text."""
 
-from .guide import Advice
-from .layout import bar, duration, figure, fitted, wrapped
-from .screen import COLUMNS, ROWS, padded, panel, prompt_lines
+from typing import List, Optional, Tuple
+
+from .guide import Advice, Guide
+from .layout import bar, duration, figure, fitted, padded, wrapped
+from .screen import COLUMNS, ROWS, panel, prompt_lines
 
 KEYS = ['SPACE next  n start again  u undo  s solve  v save  x cancel  q quit',
         'The board lights its LEDs in turns: see doc/board.md.']
 
 
-def advice(guide, camera):
+def advice(guide: Guide, camera: str) -> Advice:
     """What to do next."""
     board = guide.board
     if board is None or board.camera != camera:
-        return Advice('Hold the 16-LED board in front of %s. SPACE starts.' % camera, 'start')
+        return Advice(f'Hold the 16-LED board in front of {camera}. SPACE starts.', 'start')
     if guide.has_done('commit'):
         return Advice('The lens is in use. Calibrate the rig now. q ends.')
     if guide.has_done('solve'):
@@ -23,32 +25,31 @@ def advice(guide, camera):
     return Advice('Enough. SPACE solves the lens; more views make it better.', 'solve')
 
 
-def render(guide, now, camera, rows=ROWS, columns=COLUMNS, prompt=None):
+def render(guide: Guide, now: float, camera: str, rows: int = ROWS, columns: int = COLUMNS,
+           prompt: Optional[Tuple[str, str]] = None) -> List[str]:
     """Exactly `rows` lines of at most `columns` characters."""
     board = guide.board if guide.board is not None and guide.board.camera == camera else None
-    left = 'LENS OF %s' % camera.upper()
+    left = f'LENS OF {camera.upper()}'
+    bars = []
     if board is not None:
-        left += '   %d of %d views' % (board.views, board.views_needed)
-    right = duration(now - guide.began)
-    lines = [left + right.rjust(columns - len(left))]
+        left += f'   {board.views} of {board.views_needed} views'
+        bars = [f'{name:<5} {bar(share, 40)} {figure(100 * share, 0, 3)} %' for name, share in (
+            ('X', board.x), ('Y', board.y), ('Size', board.size), ('Skew', board.skew))]
+    lines = [left + duration(now - guide.began).rjust(columns - len(left))]
     lines += padded(wrapped(guide.silent(now) or advice(guide, camera).sentence, columns, 2), 2)
-    lines += [''] + [
-        '%-5s %s %s' % (name, bar(share, 40), figure(100 * share, '%3.0f %%'))
-        for name, share in ((('X', board.x), ('Y', board.y), ('Size', board.size),
-                             ('Skew', board.skew)) if board is not None else ())]
-    lines += ['']
-    seen = [c for c in guide.status.cameras if c.name == camera] if guide.status else []
+    lines += ['', *bars, '']
+    cameras = guide.status.cameras if guide.status else []
+    seen = [each for each in cameras if each.name == camera]
     if seen:
-        lines += panel(seen[0], [])[1:-2]
+        lines += panel(guide, seen[0], [])[1:-2]
     elif guide.status:
-        lines.append('There is no camera %s; there are: %s'
-                     % (camera, ', '.join(c.name for c in guide.status.cameras) or 'none'))
+        names = ', '.join(each.name for each in cameras) or 'none'
+        lines.append(f'There is no camera {camera}; there are: {names}')
     said = wrapped(guide.answer or (board.message if board is not None else ''), columns, 3)
     if guide.running:
         said = [guide.running[-1] + ' ...']
-    room = rows - len(lines) - len(KEYS) - len(said)
     missing = ['- ' + line for text in (board.missing if board is not None else ())
                for line in wrapped(text, columns - 2, 1)]
-    lines += padded(missing, room) + said
+    lines += padded(missing, rows - len(lines) - len(KEYS) - len(said)) + said
     lines += prompt_lines(prompt, columns) if prompt is not None else KEYS
     return [fitted(line, columns) for line in lines[:rows]]

@@ -1,106 +1,96 @@
 """What a person can ask for: keys and words, and the requests to the node that they stand for.
 
-Knows the names of services and their fields, but nothing of ROS.
+Knows the names of services and their fields, but does not use ROS.
 """
+
+from dataclasses import dataclass
+from typing import Any, Callable, Dict, List, Optional
+
+LENS_MODELS = ['automatic', 'no_distortion', 'k1', 'k1_k2', 'plumb_bob', 'equidistant']
 
 
 class UsageError(Exception):
-    """What was typed makes no sense; the text says what would."""
+    """What was typed cannot be understood; the text says what can be."""
 
 
-class Request(object):
-    """One call below calibration/: name of the service (or action), its type, its fields."""
-
-    def __init__(self, name, type_, **fields):
-        self.name = name
-        self.type = type_
-        self.fields = fields
-
-    def __eq__(self, other):
-        return vars(self) == vars(other)
-
-    def __repr__(self):
-        return 'Request(%r, %r, %r)' % (self.name, self.type, self.fields)
+@dataclass
+class Request:
+    """One call below calibration/."""
+    name: str   # of the service or action
+    type: str   # of the service or action
+    fields: Dict[str, Any]
 
 
-class Command(object):
-    """word: as typed in plain text. key: on the screen. label: for people. arguments: what may be
-    typed behind it. ask: the question for them on the screen; None: none is asked. build: from the
-    status and the list of arguments to a Request."""
+def request(name: str, type_: str, **fields: Any) -> Request:
+    return Request(name, type_, fields)
 
-    def __init__(self, word, key, label, build, arguments='', ask=None):
-        self.word = word
-        self.key = key
-        self.label = label
-        self.build = build
-        self.arguments = arguments
-        self.ask = ask
+
+@dataclass
+class Command:
+    word: str                        # as typed in plain text
+    key: str                         # on the screen
+    label: str                       # what it does
+    build: Callable[..., Request]    # from the status of the node and the list of arguments
+    arguments: str = ''              # that may be typed after the word
+    ask: Optional[str] = None        # the question for them on the screen
 
 
 # --- Reading arguments
 
-def number(text, what):
+def number(text: str, what: str) -> float:
     try:
         value = float(text)
     except ValueError:
         value = float('nan')
     if not -1e9 < value < 1e9:
-        raise UsageError('%s must be a number, not "%s"' % (what, text))
+        raise UsageError(f'{what} must be a number, not "{text}"')
     return value
 
 
-def optional_number(arguments, place, what):
-    """The number at a place, or 0, which the node takes as its own default."""
+def optional_number(arguments: List[str], place: int, what: str) -> float:
+    """The number at a place, or 0, for which the node takes its default."""
     return number(arguments[place], what) if len(arguments) > place else 0.0
 
 
-def at_most(arguments, count, usage):
+def at_most(arguments: List[str], count: int, usage: str) -> None:
     if len(arguments) > count:
-        raise UsageError('too much: give %s' % usage)
+        raise UsageError(f'too many words: give {usage}')
 
 
-def point(arguments):
+def point(arguments: List[str]) -> List[float]:
     if len(arguments) < 3:
         raise UsageError('give the place as three numbers: x y z, in metres')
     return [number(text, 'a coordinate') for text in arguments[:3]]
 
 
-def path(arguments):
-    return ' '.join(arguments)
-
-
-def one_name(arguments, what):
-    if len(arguments) != 1:
-        raise UsageError('give the name of %s' % what)
-    return arguments[0]
-
-
 # --- From arguments to requests
 
-def trigger(name):
+def trigger(name: str, type_: str = 'Trigger'):
+    """A request without fields."""
     def build(status, arguments):
-        at_most(arguments, 0, 'nothing behind it')
-        return Request(name, 'Trigger')
+        at_most(arguments, 0, 'nothing after it')
+        return request(name, type_)
     return build
 
 
-def learn_masks(status, arguments):
-    at_most(arguments, 1, 'a duration in seconds, or nothing')
-    return Request('learn_masks', 'LearnMasks',
-                   duration=optional_number(arguments, 0, 'the duration'))
+def for_seconds(name: str, type_: str):
+    def build(status, arguments):
+        at_most(arguments, 1, 'a duration in seconds, or nothing')
+        return request(name, type_, duration=optional_number(arguments, 0, 'the duration'))
+    return build
 
 
-def check_connection(status, arguments):
-    at_most(arguments, 1, 'a duration in seconds, or nothing')
-    return Request('check_connection', 'CheckConnection',
-                   duration=optional_number(arguments, 0, 'the duration'))
+def with_path(name: str, type_: str):
+    def build(status, arguments):
+        return request(name, type_, path=' '.join(arguments))
+    return build
 
 
 def start(status, arguments):
     at_most(arguments, 2, 'one side or two in metres, or the word wand')
     if arguments[:1] == ['wand']:
-        return Request('start', 'StartCalibration', without_square=True)
-    return Request('start', 'StartCalibration',
+        return request('start', 'StartCalibration', without_square=True)
+    return request('start', 'StartCalibration',
                    side_x=optional_number(arguments, 0, 'the side of the square'),
                    side_y=optional_number(arguments, 1, 'the second side'))
 
@@ -108,68 +98,54 @@ def start(status, arguments):
 def capture(status, arguments):
     at_most(arguments, 1, 'the corner to take again, 1 to 4, or nothing')
     if not arguments:
-        return Request('capture_corner', 'CaptureCorner')
+        return request('capture_corner', 'CaptureCorner')
     if arguments[0] not in ('1', '2', '3', '4'):
         raise UsageError('the corner to take again must be 1, 2, 3 or 4')
-    return Request('capture_corner', 'CaptureCorner', retake=True, corner=int(arguments[0]) - 1)
+    return request('capture_corner', 'CaptureCorner', retake=True, corner=int(arguments[0]) - 1)
 
 
 def hands_free(status, arguments):
     if arguments not in ([], ['on'], ['off']):
         raise UsageError('say on or off, or nothing to change over')
     on = arguments == ['on'] if arguments else not (status and status.hands_free)
-    return Request('hands_free', 'SetBool', data=on)
+    return request('hands_free', 'SetBool', data=on)
 
 
 def wave(status, arguments):
     at_most(arguments, 2, 'the length of the wand and its standard deviation, or nothing')
     if status and status.step == status.WAVING and not arguments:
-        return Request('stop_wave', 'Trigger')
-    return Request('start_wave', 'StartWave',
+        return request('stop_wave', 'Trigger')
+    return request('start_wave', 'StartWave',
                    wand_length=optional_number(arguments, 0, 'the length of the wand'),
                    wand_stddev=optional_number(arguments, 1, 'its standard deviation'))
 
 
 def check(status, arguments):
-    at_most(arguments, 4, 'x y z and, if need be, the standard deviation of the place')
-    return Request('check', 'CheckPlace', known=point(arguments),
+    at_most(arguments, 4, 'x y z and, if you like, the standard deviation of the place')
+    return request('check', 'CheckPlace', known=point(arguments),
                    known_stddev=optional_number(arguments, 3, 'the standard deviation'))
 
 
 def add_place(status, arguments):
     at_most(arguments, 3, 'x y z')
-    return Request('known_places/add', 'AddKnownPlace', known=point(arguments))
+    return request('known_places/add', 'AddKnownPlace', known=point(arguments))
 
 
 def fit_places(status, arguments):
-    return Request('known_places/fit', 'FitRemap', models=list(arguments))
+    return request('known_places/fit', 'FitRemap', models=list(arguments))
 
 
 def recalibrate(status, arguments):
-    at_most(arguments, 2, 'the camera to solve anew and, if need be, for how many seconds')
-    return Request('recalibrate_camera', 'RecalibrateCamera',
-                   camera=one_name(arguments[:1], 'the camera to solve anew'),
+    if not 1 <= len(arguments) <= 2:
+        raise UsageError('give the camera to solve again and, if you like, a number of seconds')
+    return request('recalibrate_camera', 'RecalibrateCamera', camera=arguments[0],
                    duration=optional_number(arguments, 1, 'the duration'))
 
 
-def with_path(name, type_):
-    def build(status, arguments):
-        return Request(name, type_, path=path(arguments))
-    return build
-
-
-def solve(status, arguments):
-    at_most(arguments, 0, 'nothing behind it')
-    return Request('solve', 'SolveCalibration')
-
-
-LENS_MODELS = ['automatic', 'no_distortion', 'k1', 'k1_k2', 'plumb_bob', 'equidistant']
-
-
-def board_start(camera):
+def board_start(camera: str):
     def build(status, arguments):
         at_most(arguments, 2, 'the spacing of the columns and of the rows, or nothing')
-        return Request('board/start', 'StartBoard', camera=camera,
+        return request('board/start', 'StartBoard', camera=camera,
                        column_spacing=optional_number(arguments, 0, 'the spacing of the columns'),
                        row_spacing=optional_number(arguments, 1, 'the spacing of the rows'))
     return build
@@ -178,68 +154,67 @@ def board_start(camera):
 def board_solve(status, arguments):
     model = arguments[0] if arguments else LENS_MODELS[0]
     if len(arguments) > 1 or model not in LENS_MODELS:
-        raise UsageError('the lens model must be one of %s' % ', '.join(LENS_MODELS))
-    return Request('board/solve', 'SolveBoard', model=LENS_MODELS.index(model))
+        raise UsageError(f'the lens model must be one of {", ".join(LENS_MODELS)}')
+    return request('board/solve', 'SolveBoard', model=LENS_MODELS.index(model))
 
+
+# --- All commands
 
 RIG = [
-    Command('masks', 'm', 'learn which lights the room has (LED off)', learn_masks, '[SECONDS]'),
+    Command('masks', 'm', 'learn the lights of the room, to ignore them (LED off)',
+            for_seconds('learn_masks', 'LearnMasks'), '[SECONDS]'),
     Command('unmask', 'M', 'ignore no lights any more', trigger('clear_masks')),
-    Command('connection', 'k', 'see whether all cameras see the LED',
-            check_connection, '[SECONDS]'),
-    Command('start', 'n', 'begin a calibration', start, '[SIDE [SIDE_Y] | wand]',
-            'Side of the square in metres (two for a rectangle), wand: none; '
-            'Enter: as the node says'),
-    Command('capture', 't', 'capture the next corner, or take one again', capture, '[CORNER]',
+    Command('connection', 'k', 'check that all cameras see the LED',
+            for_seconds('check_connection', 'CheckConnection'), '[SECONDS]'),
+    Command('start', 'n', 'start a calibration', start, '[SIDE [SIDE_Y] | wand]',
+            'Side of the square [m], both of a rectangle, or wand; Enter: parameter'),
+    Command('capture', 't', 'capture the next corner, or one again', capture, '[CORNER]',
             'Corner to take again, 1 to 4; Enter: the next one'),
     Command('undo', 'u', 'drop the last corner', trigger('undo')),
-    Command('hands_free', 'h', 'corners are captured when the LED is held still',
+    Command('hands_free', 'h', 'capture a corner when the LED is held still',
             hands_free, '[on|off]'),
     Command('wave', 'w', 'begin to record a wave, or end it', wave, '[WAND_LENGTH [STDDEV]]',
             'Length of the wand in metres; Enter: one LED'),
-    Command('solve', 's', 'solve all cameras', solve),
+    Command('solve', 's', 'solve all cameras', trigger('solve', 'SolveCalibration')),
     Command('save', 'v', 'save the rig', with_path('save', 'SaveRig'), '[FILE]'),
-    Command('check', 'c', 'compare a known place with where it is measured',
-            check, 'X Y Z [STDDEV]',
+    Command('check', 'c', 'measure the LED at a known place', check, 'X Y Z [STDDEV]',
             'Where is the LED? x y z in metres'),
     Command('load', 'l', 'use a rig from a file', with_path('load', 'LoadRig'), '[FILE]',
-            'Rig file; Enter: as the node says'),
-    Command('recalibrate', 'r', 'solve one camera anew while the LED is waved',
-            recalibrate, 'CAMERA [SECONDS]',
-            'Camera to solve anew while the LED is waved'),
-    Command('join', 'j', 'put this rig into the world of another',
+            'Rig file; Enter: parameter rig_file'),
+    Command('recalibrate', 'r', 'solve one camera again while the LED is waved',
+            recalibrate, 'CAMERA [SECONDS]', 'Camera to solve again while the LED is waved'),
+    Command('join', 'j', 'move this rig into the world of another',
             with_path('join', 'JoinRig'), '[FILE]',
-            "The first room's rig file; Enter: as the node says"),
+            "The first room's rig file; Enter: parameter rig_file"),
     Command('place', 'p', 'measure a known place, for a correction', add_place, 'X Y Z',
             'Known place of the LED for the correction of the volume: x y z in metres'),
     Command('drop_place', 'P', 'drop the last known place', trigger('known_places/undo')),
     Command('clear_places', 'C', 'drop all known places', trigger('known_places/clear')),
     Command('fit', 'f', 'correct the volume by the known places', fit_places, '[MODEL ...]'),
-    Command('save_samples', 'o', 'keep all that was captured',
-            with_path('save_samples', 'SaveSamples'),
-            '[FILE]'),
-    Command('load_samples', 'O', 'read what was captured before, to solve it',
-            with_path('load_samples', 'LoadSamples'),
-            '[FILE]', 'Samples file; Enter: the one beside the rig file'),
+    Command('save_samples', 'o', 'save what was captured',
+            with_path('save_samples', 'SaveSamples'), '[FILE]'),
+    Command('load_samples', 'O', 'load what was captured, to solve it',
+            with_path('load_samples', 'LoadSamples'), '[FILE]',
+            'Samples file; Enter: the one beside the rig file'),
     Command('cancel', 'x', 'stop what goes on, or drop all', trigger('cancel'), '',
             'Drop all that was captured? Enter: yes, Escape: no'),
 ]
 
 
-def board_commands(camera):
+def board_commands(camera: str) -> List[Command]:
     return [
-        Command('start', 'n', 'begin to collect views',
+        Command('start', 'n', 'start to collect views',
                 board_start(camera), '[COLUMN_SPACING [ROW_SPACING]]',
-                'Spacing of the LEDs in metres: columns, rows; Enter: as the node says'),
+                'Spacing of the LEDs in metres: columns, rows; Enter: parameters'),
         Command('undo', 'u', 'drop the last view', trigger('board/undo')),
         Command('solve', 's', 'solve the lens', board_solve, '[MODEL]'),
-        Command('commit', 'v', 'use the lens: give it to the driver', trigger('board/commit')),
+        Command('commit', 'v', 'use the lens and give it to the driver', trigger('board/commit')),
         Command('cancel', 'x', 'drop all views', trigger('board/cancel'), '',
                 'Drop all views? Enter: yes, Escape: no'),
     ]
 
 
-def find(commands, word_or_key):
+def find(commands: List[Command], word_or_key: str) -> Optional[Command]:
     """The command of this word or key, or None."""
     for command in commands:
         if word_or_key in (command.word, command.key):

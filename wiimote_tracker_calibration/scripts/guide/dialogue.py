@@ -1,33 +1,34 @@
-"""From keys and words to requests; what comes back goes into the Guide.
+"""Turns keys and words into requests, and passes what comes back to the Guide.
 
-One at a time: while the node works on a request, others are refused, except to call it off.
+One at a time: until the node has answered a request, only a cancel is accepted.
 """
 
 import queue
+from typing import Callable, List, Sequence
 
-from .commands import UsageError, find
+from .commands import Command, UsageError, find
+from .guide import Advice, Guide
 
 
-class Dialogue(object):
-    def __init__(self, guide, node, command_list, advice):
-        """node: with send(word, request), call_off_capture() and the queue events. advice: what to
-        do next, a function without arguments."""
+class Dialogue:
+    def __init__(self, guide: Guide, node, command_list: List[Command],
+                 advice: Callable[[], Advice]):
+        """node: with send(word, request), call_off_capture() and the queue events."""
         self.guide = guide
         self.node = node
         self.command_list = command_list
         self.advice = advice
         self._next_is_wanted = False
 
-    def command(self, word_or_key, arguments=()):
-        """Asks the node for something."""
+    def command(self, word_or_key: str, arguments: Sequence[str] = ()) -> None:
+        """Sends a command to the node."""
         command = find(self.command_list, word_or_key)
         if command is None:
-            self.guide.say('there is no "%s"; ? lists what there is' % word_or_key)
+            self.guide.say(f'there is no "{word_or_key}"; ? lists all commands')
             return
         if self.guide.running:
             if command.word != 'cancel':
-                self.guide.say('%s has not been answered yet; x calls it off'
-                               % self.guide.running[-1])
+                self.guide.say(f'{self.guide.running[-1]} has not been answered yet; x cancels it')
                 return
             if self.guide.running == ['capture']:
                 self.node.call_off_capture()
@@ -40,19 +41,47 @@ class Dialogue(object):
         self.guide.on_request(command.word)
         self.node.send(command.word, request)
 
-    def next(self):
-        """What SPACE stands for; as soon as a status tells what the latest answer has led to."""
+    def next(self) -> None:
+        """Does what SPACE stands for, as soon as a status is newer than the last answer."""
         self._next_is_wanted = True
         self._do_next()
 
-    def is_busy(self):
-        """Whether something is still to be answered or to be done."""
+    def is_busy(self) -> bool:
+        """Whether an answer or the next command is outstanding."""
         return bool(self.guide.running) or self._next_is_wanted
 
-    def _do_next(self):
+    def take_events(self, now: float) -> bool:
+        """Reads what has come in. Returns whether a bell should ring."""
+        ring = False
+        while True:
+            try:
+                event, *values = self.node.events.get_nowait()
+            except queue.Empty:
+                break
+            ring = bool(self._take(event, values, now)) or ring
+        self._do_next()
+        return ring
+
+    def _take(self, event: str, values: list, now: float):
         guide = self.guide
-        known = guide.running or guide.status is None or guide.statuses_since_answer > 0
-        if not self._next_is_wanted or not known:
+        if event == 'status':
+            return guide.on_status(values[0], now)
+        if event == 'board':
+            return guide.on_board(values[0])
+        if event == 'feedback':
+            return guide.on_feedback(*values)
+        if event == 'answer':
+            return guide.on_answer(*values, now)
+        if event == 'image_size':
+            guide.image_sizes[values[0]] = values[1]
+        else:
+            setattr(guide, event, values[0])  # verdict, trace
+        return False
+
+    def _do_next(self) -> None:
+        guide = self.guide
+        is_known = guide.running or guide.status is None or guide.statuses_since_answer > 0
+        if not self._next_is_wanted or not is_known:
             return
         self._next_is_wanted = False
         advice = self.advice()
@@ -60,26 +89,3 @@ class Dialogue(object):
             self.command(advice.word, advice.arguments)
         else:
             guide.say(advice.sentence)
-
-    def take_events(self, now):
-        """Reads what has come in. @return whether a bell should ring."""
-        ring = False
-        while True:
-            try:
-                event = self.node.events.get_nowait()
-            except queue.Empty:
-                break
-            if event[0] == 'status':
-                ring = self.guide.on_status(event[1], now) or ring
-            elif event[0] == 'verdict':
-                self.guide.verdict = event[1]
-            elif event[0] == 'trace':
-                self.guide.trace = event[1]
-            elif event[0] == 'board':
-                ring = self.guide.on_board(event[1]) or ring
-            elif event[0] == 'feedback':
-                self.guide.on_feedback(event[1], event[2])
-            else:
-                self.guide.on_answer(event[1], event[2], event[3], now)
-        self._do_next()
-        return ring

@@ -2,13 +2,13 @@
 
 import math
 import textwrap
+from typing import List
 
 
-def wrapped(text, width, lines):
+def wrapped(text: str, width: int, lines: int) -> List[str]:
     """The text in at most so many lines; what does not fit ends in '...'."""
-    # A message may come with line breaks of its own.
     rows = []
-    for part in text.splitlines():
+    for part in text.splitlines():  # a message may have line breaks
         rows += textwrap.wrap(part, width) or ['']
     if len(rows) > lines:
         rows = rows[:lines]
@@ -16,24 +16,29 @@ def wrapped(text, width, lines):
     return rows
 
 
-def bar(share, width):
+def bar(share: float, width: int) -> str:
     """[####------] of a share 0..1."""
     if not share >= 0.0:  # NaN as well
         share = 0.0
     filled = int(min(share, 1.0) * width + 1e-9)
-    return '[' + '#' * filled + '-' * (width - filled) + ']'
+    return f'[{"#" * filled:-<{width}}]'
 
 
-def figure(value, text, unknown='-'):
-    """A number in a format, or a dash when it is not known."""
-    return text % value if math.isfinite(value) else unknown
+def figure(value: float, decimals: int, width: int = 0) -> str:
+    """A number, or a dash when it is not known."""
+    text = f'{value:.{decimals}f}' if math.isfinite(value) else '-'
+    return text.rjust(width)
 
 
-def duration(seconds):
-    seconds = int(seconds)
-    return '%d:%02d' % (seconds // 60, seconds % 60)
+def duration(seconds: float) -> str:
+    return f'{int(seconds) // 60}:{int(seconds) % 60:02d}'
 
 
-def fitted(line, width):
+def fitted(line: str, width: int) -> str:
     """Printable ASCII of at most this width: a device's name may hold anything."""
     return ''.join(c if ' ' <= c <= '~' else '?' for c in line)[:width].rstrip()
+
+
+def padded(lines: List[str], count: int) -> List[str]:
+    """Exactly so many lines."""
+    return (list(lines) + [''] * count)[:max(count, 0)]

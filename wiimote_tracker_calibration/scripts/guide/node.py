@@ -1,60 +1,79 @@
-"""The calibration node, as seen from a terminal: what it tells, and requests to it.
+"""The calibration node, as seen from a terminal: its messages, and requests to it.
 
-Nothing here waits: what comes in is put into a queue, each request runs in a thread of its own.
+Nothing here waits: messages go into a queue, and each request runs in its own thread.
 """
 
 import importlib
 import queue
 import threading
+from typing import Any, Dict, Tuple
 
 import actionlib
 import rospy
 from wiimote_tracker_msgs.msg import (BoardStatus, CalibrationStatus, CalibrationVerdict,
-                                      CaptureCornerAction, CaptureCornerGoal, PrincipalPointTrace)
+                                      CaptureCornerAction, CaptureCornerGoal, IrBlobArray,
+                                      PrincipalPointTrace)
 
-SERVICE_TIMEOUT = 1.0   # [s] In which a service that exists is found.
-ACTION_TIMEOUT = 5.0    # [s] In which the action's server is found.
-ACTION_PATIENCE = 1.0   # [s] Between looks at a capture that goes on.
+from .commands import Request
+
+SERVICE_TIMEOUT = 1.0   # [s] Longest search for a service.
+ACTION_TIMEOUT = 5.0    # [s] Longest search for the action's server.
+SHUTDOWN_PERIOD = 1.0   # [s] Between checks for a shutdown during a capture.
+
+TOPICS = (('status', 'status', CalibrationStatus), ('verdict', 'verdict', CalibrationVerdict),
+          ('board', 'board', BoardStatus), ('trace', 'principal_point_trace', PrincipalPointTrace))
 
 
-class Node(object):
+class Node:
     """events: a queue.Queue of ('status', message), ('verdict', message), ('board', message),
-    ('trace', message), ('feedback', text, share) and ('answer', word, good, text)."""
+    ('trace', message), ('image_size', camera, (width, height)), ('feedback', text, share) and
+    ('answer', word, good, text)."""
 
     def __init__(self):
-        self.events = queue.Queue()
+        self.events: queue.Queue = queue.Queue()
         self._capture = actionlib.SimpleActionClient('calibration/capture_corner',
                                                      CaptureCornerAction)
-        for event, topic, type_ in (('status', 'status', CalibrationStatus),
-                                    ('verdict', 'verdict', CalibrationVerdict),
-                                    ('board', 'board', BoardStatus),
-                                    ('trace', 'principal_point_trace', PrincipalPointTrace)):
-            rospy.Subscriber('calibration/' + topic, type_,
-                             lambda message, event=event: self.events.put((event, message)))
+        self._images: Dict[str, rospy.Subscriber] = {}
+        for event, topic, type_ in TOPICS:
+            rospy.Subscriber(f'calibration/{topic}', type_, self._on_message, event)
 
-    def send(self, word, request):
-        """Carries out a request; its answer becomes an event."""
+    def send(self, word: str, request: Request) -> None:
+        """Sends a request; its answer becomes an event."""
         def run():
+            name = f'calibration/{request.name}'
             try:
-                good, text = self._carry_out(request)
+                good, text = self._call(name, request)
             except rospy.ROSException:
-                good, text = False, ('%s does not answer: see whether the calibration node runs, '
-                                     'and whether it is of this version'
-                                     % rospy.resolve_name('calibration/' + request.name))
+                good, text = False, (f'{rospy.resolve_name(name)} does not answer: check that the '
+                                     'calibration node runs, in the same version')
             except (rospy.ServiceException, ValueError) as error:
-                good, text = False, 'calibration/%s failed: %s' % (request.name, error)
+                good, text = False, f'{name} failed: {error}'
             self.events.put(('answer', word, good, text))
         threading.Thread(target=run, daemon=True).start()
 
-    def call_off_capture(self):
-        """The corner that is being captured is not captured."""
+    def call_off_capture(self) -> None:
+        """Gives up the corner that is being captured."""
         self._capture.cancel_all_goals()
 
-    def _carry_out(self, request):
+    def _on_message(self, message, event: str) -> None:
+        self.events.put((event, message))
+        if event == 'status':
+            for camera in message.cameras:
+                if camera.name not in self._images:
+                    self._images[camera.name] = rospy.Subscriber(
+                        f'{camera.name}/ir_blobs', IrBlobArray, self._on_image, camera.name)
+
+    def _on_image(self, message, camera: str) -> None:
+        """One image tells the size of all."""
+        self.events.put(('image_size', camera, (message.width, message.height)))
+        subscriber = self._images.get(camera)
+        if subscriber is not None:
+            subscriber.unregister()
+
+    def _call(self, name: str, request: Request) -> Tuple[bool, str]:
         """(success, text) of the node's answer."""
         if request.type == 'CaptureCorner':
             return self._capture_corner(request)
-        name = 'calibration/' + request.name
         rospy.wait_for_service(name, SERVICE_TIMEOUT)
         package = 'std_srvs' if request.type in ('Trigger', 'SetBool') else 'wiimote_tracker_msgs'
         type_ = getattr(importlib.import_module(package + '.srv'), request.type)
@@ -63,7 +82,7 @@ class Node(object):
         response = rospy.ServiceProxy(name, type_)(message)
         return response.success, sentence(response)
 
-    def _capture_corner(self, request):
+    def _capture_corner(self, request: Request) -> Tuple[bool, str]:
         if not self._capture.wait_for_server(rospy.Duration(ACTION_TIMEOUT)):
             raise rospy.ROSException()
         goal = CaptureCornerGoal()
@@ -73,15 +92,15 @@ class Node(object):
             goal, done_cb=lambda state, result: done.set(),
             feedback_cb=lambda feedback: self.events.put(
                 ('feedback', feedback.message, feedback.progress)))
-        while not done.wait(ACTION_PATIENCE):
+        while not done.wait(SHUTDOWN_PERIOD):
             if rospy.is_shutdown():
                 raise rospy.ROSException()
         result = self._capture.get_result()
         return result.success, result.message
 
 
-def fill(message, fields):
-    """Sets the fields of a message; three numbers are a point."""
+def fill(message: Any, fields: Dict[str, Any]) -> None:
+    """Sets the fields of a message; `known` is a point of three numbers."""
     for name, value in fields.items():
         if name == 'known':
             message.known.x, message.known.y, message.known.z = value
@@ -89,8 +108,8 @@ def fill(message, fields):
             setattr(message, name, value)
 
 
-def sentence(response):
-    """What the node answered, as it is; a table below."""
-    table = getattr(response, 'table', '')
-    return '\n'.join(part for part in (response.message, table) if part) or (
+def sentence(response: Any) -> str:
+    """The node's answer, and its table if it has one."""
+    parts = [response.message, getattr(response, 'table', '')]
+    return '\n'.join(part for part in parts if part) or (
         'done' if response.success else 'refused, without a reason')

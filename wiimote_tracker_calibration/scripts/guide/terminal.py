@@ -1,16 +1,21 @@
-"""The screen, drawn with curses. Reads keys, draws lines; decides nothing."""
+"""The screen, drawn with curses: reads keys and draws lines."""
 
 import curses
 import time
+from typing import Callable, Dict, List
+
+from .commands import Command
+from .dialogue import Dialogue
 
 PERIOD = 0.1  # [s] Between two drawings.
 ESCAPE, BACKSPACE, ENTER = (27,), (curses.KEY_BACKSPACE, 8, 127), (10, 13, curses.KEY_ENTER)
 
 
-class Terminal(object):
-    def __init__(self, dialogue, draw, views):
+class Terminal:
+    def __init__(self, dialogue: Dialogue, draw: Callable[..., List[str]],
+                 views: Dict[str, str]):
         """draw: lines of text from (now, view, page, rows, columns, prompt). views: key -> name of
-        the view that it shows; the same key again shows the first."""
+        the view that it shows; the same key again, or Escape, shows the first view."""
         self._dialogue = dialogue
         self._draw = draw
         self._views = views
@@ -19,18 +24,18 @@ class Terminal(object):
         self._asking = None  # the command whose arguments are being typed
         self._typed = ''
 
-    def run(self):
+    def run(self) -> None:
         """Until q or Ctrl-C."""
         try:
             curses.wrapper(self._loop)
         except KeyboardInterrupt:
             pass
 
-    def _loop(self, window):
+    def _loop(self, window) -> None:
         try:
             curses.curs_set(0)
         except curses.error:
-            pass  # a terminal that cannot
+            pass  # some terminals cannot hide the cursor
         window.timeout(int(1000 * PERIOD))
         while True:
             if self._dialogue.take_events(time.monotonic()):
@@ -40,7 +45,7 @@ class Terminal(object):
             if key != -1 and not self._press(key):
                 return
 
-    def _show(self, window):
+    def _show(self, window) -> None:
         rows, columns = window.getmaxyx()
         prompt = (self._asking.ask, self._typed) if self._asking else None
         lines = self._draw(time.monotonic(), self._view, self._page, rows, columns, prompt)
@@ -52,8 +57,8 @@ class Terminal(object):
                            columns - (1 if row == rows - 1 else 0), style)
         window.refresh()
 
-    def _press(self, key):
-        """@return False: it is over."""
+    def _press(self, key: int) -> bool:
+        """Returns False to end."""
         if self._asking:
             self._type(key)
             return True
@@ -65,6 +70,8 @@ class Terminal(object):
             self._dialogue.next()
         elif sign == '\t':
             self._page += 1
+        elif key in ESCAPE:
+            self._view = None
         elif sign in self._views:
             self._view = None if self._view == self._views[sign] else self._views[sign]
         elif command is not None and command.ask and not self._is_direct(command):
@@ -73,14 +80,14 @@ class Terminal(object):
             self._dialogue.command(sign)
         return True
 
-    def _is_direct(self, command):
-        """Nothing is to be asked to end a wave, or to call off what goes on."""
+    def _is_direct(self, command: Command) -> bool:
+        """Whether it is sent without a question: it ends a wave, or stops what goes on."""
         guide = self._dialogue.guide
         if command.word == 'wave':
             return guide.is_waving()
-        return command.word == 'cancel' and (guide.running or guide.is_busy())
+        return command.word == 'cancel' and bool(guide.running or guide.is_busy())
 
-    def _type(self, key):
+    def _type(self, key: int) -> None:
         if key in ESCAPE:
             self._asking = None
         elif key in ENTER:

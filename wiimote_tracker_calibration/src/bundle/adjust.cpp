@@ -1,98 +1,158 @@
 #include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/solve.h"
 
-#include "camera_blocks.h"
-#include "reprojection_cost.h"
+#include "adjust/camera_blocks.h"
+#include "adjust/lens_prior.h"
+#include "adjust/pixel.h"
+#include "adjust/prior.h"
 
 #include <ceres/ceres.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker::bundle {
 
 namespace {
 
-/// One minimisation over the inliers as they are marked.
-void minimize(Reconstruction* reconstruction, const Options& options, const Held& held) {
-  std::vector<CameraBlocks> cameras;
-  for (const geometry::Camera& camera : reconstruction->cameras)
-    cameras.push_back(blocksOf(camera));
-
-  // Cameras with one lens vary the first one's.
-  const auto lensOf = [&](std::size_t camera) {
-    return cameras[options.one_lens ? 0 : camera].intrinsics.data();
-  };
-  ceres::Problem problem;
-  std::vector<bool> seen(cameras.size(), false);
-  for (std::size_t i = 0; i < reconstruction->observations.size(); ++i) {
-    if (!reconstruction->inliers[i])
-      continue;
-    const Observation& observation = reconstruction->observations[i];
-    CameraBlocks& camera = cameras[observation.camera];
-    const geometry::Intrinsics& lens = reconstruction->cameras[observation.camera].intrinsics;
-    problem.AddResidualBlock(ReprojectionCost::create(observation.pixel, lens.distortion_model),
-                             new ceres::HuberLoss(options.loss_scale), lensOf(observation.camera),
-                             camera.rotation.data(), camera.position.data(),
-                             reconstruction->points[observation.point]->data());
-    seen[observation.camera] = true;
-  }
-  if (problem.NumResidualBlocks() == 0)
-    throw BundleError(
-        "no point is seen by two cameras that agree on it from different directions: check the "
-        "cameras' intrinsics and that they do not stand in one place");
-
-  const auto first = static_cast<std::size_t>(
-      std::distance(seen.begin(), std::find(seen.begin(), seen.end(), true)));
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    if (!seen[i])
-      continue;
-    // World and camera would otherwise be free to move together.
-    const bool anchor = i == first && !held.rotations && !held.positions && !held.points;
-    if (held.rotations || anchor)
-      problem.SetParameterBlockConstant(cameras[i].rotation.data());
-    if (held.positions || anchor)
-      problem.SetParameterBlockConstant(cameras[i].position.data());
+/// The inliers of a reconstruction as a problem of Ceres. Residuals in px.
+class BundleProblem {
+ public:
+  BundleProblem(Reconstruction* reconstruction, const Options& options, const Held& held)
+      : reconstruction_(*reconstruction), options_(options), held_(held) {
+    for (const geometry::Camera& camera : reconstruction->cameras)
+      cameras_.emplace_back(camera);
+    addObservations();
+    holdPoses();
+    for (std::size_t i = 0; i < (options.one_lens ? 1 : cameras_.size()); ++i)
+      holdOrKnowLens(i);
   }
 
-  for (std::size_t i = 0; i < (options.one_lens ? 1 : cameras.size()); ++i) {
-    if (!problem.HasParameterBlock(lensOf(i)))
-      continue;
-    if (held.intrinsics)
-      problem.SetParameterBlockConstant(lensOf(i));
-    else
-      problem.AddResidualBlock(LensPriorCost::create(reconstruction->cameras[i].intrinsics,
-                                                     options.lens, options.pixel_stddev),
-                               nullptr, lensOf(i));
-  }
-  if (held.points) {
-    for (auto& point : reconstruction->points) {
-      if (point && problem.HasParameterBlock(point->data()))
-        problem.SetParameterBlockConstant(point->data());
+  void solve() {
+    ceres::Solver::Summary summary;
+    ceres::Solve(solverOptions(), &problem_, &summary);
+    if (!summary.IsSolutionUsable())
+      throw BundleError("the adjustment failed (" + summary.message +
+                        "): record the light in more places");
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+      cameras_[i].lens = lensOf(i).lens;
+      cameras_[i].distortion = lensOf(i).distortion;
+      geometry::Camera& camera = reconstruction_.cameras[i];
+      camera = cameras_[i].cameraLike(camera);
     }
   }
 
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_SCHUR;
-  solver.max_num_iterations = options.rough ? 20 : 200;
-  solver.function_tolerance = options.rough ? 1e-4 : 1e-14;
-  solver.parameter_tolerance = 1e-12;
-  solver.gradient_tolerance = 1e-14;
-  // The scale is free, so the normal equations are singular but for the damping: keep some of it.
-  solver.max_trust_region_radius = 1e8;
-  solver.num_threads = 1;  // the same bits on every run
-  solver.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  if (!summary.IsSolutionUsable())
-    throw BundleError("the adjustment failed (" + summary.message +
-                      "): record the light in more places");
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    if (options.one_lens)
-      cameras[i].intrinsics = cameras[0].intrinsics;
-    setCamera(cameras[i], &reconstruction->cameras[i]);
+ private:
+  /// Cameras with one lens vary the first one's.
+  adjust::CameraBlocks& lensOf(std::size_t camera) {
+    return cameras_[options_.one_lens ? 0 : camera];
   }
-}
+
+  void addObservations() {
+    for (std::size_t i = 0; i < reconstruction_.observations.size(); ++i) {
+      if (!reconstruction_.inliers[i])
+        continue;
+      const Observation& observation = reconstruction_.observations[i];
+      adjust::CameraBlocks& camera = cameras_[observation.camera];
+      adjust::CameraBlocks& lens = lensOf(observation.camera);
+      double* const point = reconstruction_.points[observation.point]->data();
+      const auto error = adjust::PixelError::of(reconstruction_.cameras[observation.camera],
+                                                observation.pixel, 1.0);
+      problem_.AddResidualBlock(error.cost(), new ceres::HuberLoss(options_.loss_scale),
+                                camera.rotation.data(), camera.position.data(), lens.lens.data(),
+                                lens.distortion.data(), point);
+      if (held_.points)
+        problem_.SetParameterBlockConstant(point);
+      else
+        points_.push_back(point);
+    }
+    if (problem_.NumResidualBlocks() == 0)
+      throw BundleError(
+          "no point is seen by two cameras that agree on it from different directions: check the "
+          "cameras' intrinsics and that they do not stand in one place");
+  }
+
+  /// One camera keeps its pose, unless something else fixes the world.
+  void holdPoses() {
+    bool world_fixed = held_.rotations || held_.positions || held_.points;
+    for (adjust::CameraBlocks& camera : cameras_) {
+      if (!problem_.HasParameterBlock(camera.rotation.data()))
+        continue;
+      if (held_.rotations || !world_fixed)
+        problem_.SetParameterBlockConstant(camera.rotation.data());
+      if (held_.positions || !world_fixed)
+        problem_.SetParameterBlockConstant(camera.position.data());
+      world_fixed = true;
+    }
+  }
+
+  void holdOrKnowLens(std::size_t index) {
+    adjust::CameraBlocks& camera = cameras_[index];
+    if (!problem_.HasParameterBlock(camera.lens.data()))
+      return;
+    if (held_.intrinsics) {
+      problem_.SetParameterBlockConstant(camera.lens.data());
+      problem_.SetParameterBlockConstant(camera.distortion.data());
+      return;
+    }
+    const LensPrior& prior = options_.lens;
+    const double weight = 1.0 / options_.pixel_stddev;  // residuals are in px
+    geometry::Intrinsics mean = reconstruction_.cameras[index].intrinsics;
+    mean.fx = mean.fy =
+        prior.focal_about > 0.0 ? prior.focal_about * mean.width : std::sqrt(mean.fx * mean.fy);
+    mean.cx = 0.5 * (mean.width - 1);
+    mean.cy = 0.5 * (mean.height - 1);
+    mean.distortion = {};
+    const adjust::LensPrior lens{mean, prior.focal_length * weight, prior.aspect * weight,
+                                 prior.principal_point * mean.width * weight,
+                                 prior.distortion[0] * weight};
+    problem_.AddResidualBlock(lens.cost(), nullptr, camera.lens.data());
+    adjust::Prior<adjust::kDistortionSize> distortion{{}, {}};
+    for (std::size_t i = 0; i < distortion.stddev.size(); ++i)
+      distortion.stddev[i] = prior.distortion[i + 1] * weight;
+    problem_.AddResidualBlock(distortion.cost(), nullptr, camera.distortion.data());
+  }
+
+  ceres::Solver::Options solverOptions() {
+    ceres::Solver::Options solver;
+    if (held_.points) {
+      solver.linear_solver_type = ceres::DENSE_QR;
+    } else {
+      // The points are eliminated first (Schur complement).
+      solver.linear_solver_type = ceres::DENSE_SCHUR;
+      auto* const ordering = new ceres::ParameterBlockOrdering;
+      std::vector<double*> blocks;
+      problem_.GetParameterBlocks(&blocks);
+      for (double* const block : blocks)
+        ordering->AddElementToGroup(block, 1);
+      for (double* const point : points_)
+        ordering->AddElementToGroup(point, 0);
+      solver.linear_solver_ordering.reset(ordering);
+    }
+    solver.max_num_iterations = options_.rough ? 20 : 200;
+    // In simulations, iterations beyond 1e-7 change focal lengths by less than 1 % of their
+    // standard deviations.
+    solver.function_tolerance = options_.rough ? 1e-4 : 1e-7;
+    solver.parameter_tolerance = 1e-12;
+    solver.gradient_tolerance = 1e-14;
+    // The scale is free, so the normal equations are singular but for the damping: keep some of it.
+    solver.max_trust_region_radius = 1e8;
+    solver.num_threads = 1;  // the same bits on every run
+    solver.logging_type = ceres::SILENT;
+    return solver;
+  }
+
+  Reconstruction& reconstruction_;
+  const Options& options_;
+  const Held& held_;
+  std::vector<adjust::CameraBlocks> cameras_;
+  std::vector<double*> points_;
+  ceres::Problem problem_;
+};
 
 }  // namespace
 
@@ -100,11 +160,12 @@ void adjust(Reconstruction* reconstruction, const Options& options, const Held& 
   // A camera without any inlier stays where it is and is not asked about points.
   const int kMaximumRounds = 20;
   std::vector<bool> usable(reconstruction->cameras.size(), false);
-  for (std::size_t i = 0; i < reconstruction->observations.size(); ++i)
-    usable[reconstruction->observations[i].camera] =
-        usable[reconstruction->observations[i].camera] || reconstruction->inliers[i];
+  for (std::size_t i = 0; i < reconstruction->observations.size(); ++i) {
+    if (reconstruction->inliers[i])
+      usable[reconstruction->observations[i].camera] = true;
+  }
   for (int round = 0; round < kMaximumRounds; ++round) {
-    minimize(reconstruction, options, held);
+    BundleProblem(reconstruction, options, held).solve();
     if (options.rough)
       return;
     const std::vector<bool> before = reconstruction->inliers;

@@ -13,10 +13,10 @@ namespace wiimote_tracker::bundle {
 
 namespace {
 
-// While lenses and poses are rough, an observation is wrong only when it is this much farther off.
+// Factor on the error of an outlier while lenses and poses are inaccurate.
 constexpr double kRough = 4.0;
 
-// A start is not to wander to a far other focal length: another start is there for that.
+// Prior of the focal length of a start, relative: other focal lengths have starts of their own.
 constexpr double kFocalOfStart = 0.2;
 
 Options roughly(const Options& options) {
@@ -27,7 +27,7 @@ Options roughly(const Options& options) {
   return rough;
 }
 
-/// Mean over what placed cameras saw of points that two of them saw.
+/// Mean over the observations of points that two placed cameras saw.
 double costOf(const Reconstruction& reconstruction,
               const std::vector<bool>& placed,
               double maximum_error) {
@@ -47,7 +47,7 @@ double costOf(const Reconstruction& reconstruction,
   return count == 0 ? std::numeric_limits<double>::infinity() : sum / static_cast<double>(count);
 }
 
-/// Pose and lens of one camera alone, from the points as they are. Its mean cost afterwards.
+/// Adjusts pose and lens of one camera, the points being fixed. @returns its mean cost [px^2].
 double refineAlone(const Options& options, std::size_t camera, Reconstruction* reconstruction) {
   Reconstruction alone;
   alone.cameras = {reconstruction->cameras[camera]};
@@ -76,7 +76,8 @@ double refineAlone(const Options& options, std::size_t camera, Reconstruction* r
   return mark();
 }
 
-/// For a camera that joins: the others' lens when all have the same, else every focal length.
+/// Lenses to try for a camera that is added: the others' if all have the same, else each focal
+/// length.
 std::vector<geometry::Intrinsics> lensesToTry(const SelfCalibrationOptions& options,
                                               const geometry::Intrinsics& present) {
   if (options.bundle.one_lens)
@@ -103,7 +104,7 @@ geometry::Intrinsics guessedLens(int width, int height, double focal_length, dou
 std::vector<std::pair<std::size_t, std::size_t>> likelyPairs(const Reconstruction& observed,
                                                              const Options& options,
                                                              std::size_t count) {
-  // What suffices to pose a camera; more is no better.
+  // Number of points that suffices for the pose of a camera.
   const double kEnough = 60.0;
   std::vector<std::map<std::size_t, Eigen::Vector2d>> views(observed.cameras.size());
   for (const Observation& observation : observed.observations)

@@ -1,151 +1,161 @@
 #include "certainty.h"
 
-#include "camera_blocks.h"
-#include "reprojection_cost.h"
-
-#include "wiimote_tracker_calibration/bundle/error.h"
-#include "wiimote_tracker_calibration/bundle/similarity.h"
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
-#include <random>
 
 namespace wiimote_tracker::bundle {
 
 namespace {
 
 constexpr Eigen::Index kPoseSize = 6;
+constexpr Eigen::Index kLensSize = 9;
 constexpr double kGiven = 1e12;  // information of a parameter that is given
 constexpr double kOpen = 1e-13;  // eigenvalues below this share of the largest are rounding errors
 
-template <int Columns>
-using RowMajor = Eigen::Matrix<double, 2, Columns, Eigen::RowMajor>;
+/// Weight of a squared residual by the Huber loss.
+double huberWeight(double error, double loss_scale) {
+  return error > loss_scale ? loss_scale / error : 1.0;
+}
+
+/// Motions of points that a similarity makes: one orthonormal column for each of the seven.
+Eigen::MatrixXd similarityMotions(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points)
+    mean += point / static_cast<double>(points.size());
+  Eigen::MatrixXd motions(3 * static_cast<Eigen::Index>(points.size()), 7);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d from_mean = points[i] - mean;
+    auto rows = motions.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+    rows.leftCols<3>().setIdentity();
+    for (int axis = 0; axis < 3; ++axis)
+      rows.col(3 + axis) = Eigen::Vector3d::Unit(axis).cross(from_mean);
+    rows.col(6) = from_mean;
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(motions);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(motions.rows(), motions.cols());
+}
 
 }  // namespace
+
+double pixelStddev(const Reconstruction& reconstruction, const Options& options) {
+  std::vector<std::size_t> views(reconstruction.points.size(), 0);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
+    const Observation& observation = reconstruction.observations[i];
+    const auto error = reprojectionError(reconstruction, observation);
+    if (!reconstruction.inliers[i] || !error)
+      continue;
+    ++views[observation.point];
+    squares += huberWeight(*error, options.loss_scale) * *error * *error;
+  }
+  const auto cameras = static_cast<double>(reconstruction.cameras.size());
+  const double parameters = cameras * kPoseSize + (options.one_lens ? 1.0 : cameras) * kLensSize;
+  double freedom = 7.0 - parameters;  // a similarity is not observed
+  for (const std::size_t count : views) {
+    if (count >= 2)
+      freedom += 2.0 * static_cast<double>(count) - 3.0;
+  }
+  return std::sqrt(squares / std::max(1.0, freedom));
+}
 
 Certainty::Certainty(const Reconstruction& reconstruction,
                      const Options& options,
                      bool fixed_lenses)
     : one_lens_(options.one_lens),
       camera_count_(static_cast<Eigen::Index>(reconstruction.cameras.size())) {
-  linearize(reconstruction, options);
-  reduce();
+  const Eigen::Index size = column(camera_count_ - 1, kPoseSize - 1) + 1;
+  information_ = Eigen::MatrixXd::Zero(size, size);
+  addObservations(reconstruction, options);
+  const Eigen::Index lenses = column(0, 0);
   if (fixed_lenses)
-    information_.topLeftCorner(column(0, kIntrinsicsSize), column(0, kIntrinsicsSize))
-        .diagonal()
-        .array() += kGiven;
+    information_.diagonal().head(lenses).array() += kGiven;
   else
-    addWhatIsKnown(reconstruction, options);
+    addLensPrior(reconstruction, options);
   fixWorld(reconstruction);
   invert();
 }
 
-/// Place of a camera's parameter: kIntrinsicsSize of the lens, kPoseSize of the pose.
+/// Where a parameter of a camera stands: kPoseSize of the pose, then kLensSize of the lens, in the
+/// order of geometry/camera_parameters.h.
 Eigen::Index Certainty::column(Eigen::Index camera, Eigen::Index parameter) const {
-  if (parameter < kIntrinsicsSize)
-    return (one_lens_ ? 0 : camera) * kIntrinsicsSize + parameter;
-  const Eigen::Index lenses = one_lens_ ? 1 : camera_count_;
-  return lenses * kIntrinsicsSize + camera * kPoseSize + parameter - kIntrinsicsSize;
+  if (parameter >= kPoseSize)
+    return (one_lens_ ? 0 : camera) * kLensSize + parameter - kPoseSize;
+  return (one_lens_ ? 1 : camera_count_) * kLensSize + camera * kPoseSize + parameter;
 }
 
-void Certainty::linearize(const Reconstruction& reconstruction, const Options& options) {
-  std::vector<CameraBlocks> blocks;
-  for (const geometry::Camera& camera : reconstruction.cameras)
-    blocks.push_back(blocksOf(camera));
-  std::vector<std::vector<PointView>> views(reconstruction.points.size());
-  double squares = 0.0;
-  for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
-    const Observation& observation = reconstruction.observations[i];
-    const auto& point = reconstruction.points[observation.point];
-    if (!reconstruction.inliers[i] || !point)
-      continue;
-    const CameraBlocks& camera = blocks[observation.camera];
-    const std::unique_ptr<ceres::CostFunction> cost(ReprojectionCost::create(
-        observation.pixel, reconstruction.cameras[observation.camera].intrinsics.distortion_model));
-    const double* parameters[] = {camera.intrinsics.data(), camera.rotation.data(),
-                                  camera.position.data(), point->data()};
-    Eigen::Vector2d residual;
-    RowMajor<kIntrinsicsSize> by_lens;
-    RowMajor<3> by_rotation;
-    RowMajor<3> by_position;
-    RowMajor<3> by_point;
-    double* jacobians[] = {by_lens.data(), by_rotation.data(), by_position.data(), by_point.data()};
-    if (!cost->Evaluate(parameters, residual.data(), jacobians))
-      continue;
-    const double weight = std::sqrt(std::min(1.0, options.loss_scale / residual.norm()));
-    PointView view;
-    view.camera = static_cast<Eigen::Index>(observation.camera);
-    view.by_camera.leftCols<kIntrinsicsSize>() = weight * by_lens;
-    view.by_camera.middleCols<3>(kIntrinsicsSize) = weight * by_rotation;
-    view.by_camera.rightCols<3>() = weight * by_position;
-    view.by_point = weight * by_point;
-    views[observation.point].push_back(view);
-    squares += weight * weight * residual.squaredNorm();
+void Certainty::add(const PointView& a,
+                    const PointView& b,
+                    const Matrix15& block,
+                    Eigen::MatrixXd* to) const {
+  for (Eigen::Index row = 0; row < block.rows(); ++row) {
+    for (Eigen::Index col = 0; col < block.cols(); ++col)
+      (*to)(column(a.camera, row), column(b.camera, col)) += block(row, col);
   }
-  double numbers = 0.0;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    if (views[i].size() < 2)
-      continue;
-    numbers += 2.0 * static_cast<double>(views[i].size()) - 3.0;
-    points_.push_back(views[i]);
-    positions_.push_back(*reconstruction.points[i]);
-  }
-  const Eigen::Index size = column(camera_count_ - 1, kIntrinsicsSize + kPoseSize - 1) + 1;
-  pixel_stddev_ = std::sqrt(squares / std::max(1.0, numbers - static_cast<double>(size) + 7.0));
-  information_ = Eigen::MatrixXd::Zero(size, size);
 }
 
 /// Information of the observations about lenses and poses, the points being free.
-void Certainty::reduce() {
-  for (const std::vector<PointView>& views : points_) {
-    const auto rows = 2 * static_cast<Eigen::Index>(views.size());
-    Eigen::MatrixXd by_point(rows, 3);
-    for (std::size_t i = 0; i < views.size(); ++i)
-      by_point.middleRows<2>(2 * static_cast<Eigen::Index>(i)) = views[i].by_point;
-    const Eigen::MatrixXd free =
-        Eigen::MatrixXd::Identity(rows, rows) -
-        by_point * (by_point.transpose() * by_point).ldlt().solve(by_point.transpose());
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      for (std::size_t j = 0; j < views.size(); ++j) {
-        const Eigen::Matrix<double, 15, 15> block =
-            views[i].by_camera.transpose() *
-            free.block<2, 2>(2 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(j)) *
-            views[j].by_camera;
-        for (Eigen::Index row = 0; row < block.rows(); ++row) {
-          for (Eigen::Index col = 0; col < block.cols(); ++col)
-            information_(column(views[i].camera, row), column(views[j].camera, col)) +=
-                block(row, col);
-        }
-      }
-    }
+void Certainty::addObservations(const Reconstruction& reconstruction, const Options& options) {
+  const double stddev = pixelStddev(reconstruction, options);
+  std::vector<std::vector<std::size_t>> seen_by(reconstruction.points.size());
+  for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
+    const std::size_t point = reconstruction.observations[i].point;
+    if (reconstruction.inliers[i] && reconstruction.points[point])
+      seen_by[point].push_back(i);
   }
-  information_ /= pixel_stddev_ * pixel_stddev_;
+  for (std::size_t i = 0; i < seen_by.size(); ++i) {
+    if (seen_by[i].size() < 2)
+      continue;
+    PointViews point;
+    point.position = *reconstruction.points[i];
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    for (const std::size_t index : seen_by[i]) {
+      const Observation& observation = reconstruction.observations[index];
+      const auto projection =
+          geometry::projectionOf(reconstruction.cameras[observation.camera], point.position);
+      if (!projection)
+        continue;
+      const double error = (projection->pixel - observation.pixel).norm();
+      const double weight = huberWeight(error, options.loss_scale) / (stddev * stddev);
+      const Eigen::Matrix<double, 2, 15> by_camera = projection->by_parameters.leftCols<15>();
+      PointView view;
+      view.camera = static_cast<Eigen::Index>(observation.camera);
+      view.cross = weight * by_camera.transpose() * projection->by_point;
+      information += weight * projection->by_point.transpose() * projection->by_point;
+      add(view, view, weight * by_camera.transpose() * by_camera, &information_);
+      point.views.push_back(view);
+    }
+    point.covariance = information.inverse();
+    for (const PointView& a : point.views) {
+      for (const PointView& b : point.views)
+        add(a, b, -a.cross * point.covariance * b.cross.transpose(), &information_);
+    }
+    points_.push_back(point);
+  }
 }
 
-/// What is known of the lenses.
-void Certainty::addWhatIsKnown(const Reconstruction& reconstruction, const Options& options) {
-  LensPrior prior = options.lens;
-  prior.focal_length = std::numeric_limits<double>::infinity();
+/// Adds the prior Options::lens without its focal length.
+void Certainty::addLensPrior(const Reconstruction& reconstruction, const Options& options) {
+  const LensPrior& prior = options.lens;
   for (Eigen::Index camera = 0; camera < (one_lens_ ? 1 : camera_count_); ++camera) {
     const geometry::Intrinsics& lens =
         reconstruction.cameras[static_cast<std::size_t>(camera)].intrinsics;
-    const std::unique_ptr<ceres::CostFunction> cost(LensPriorCost::create(lens, prior, 1.0));
-    const auto values = blocksOf(reconstruction.cameras[static_cast<std::size_t>(camera)]);
-    const double* parameters[] = {values.intrinsics.data()};
-    Eigen::Matrix<double, kIntrinsicsSize, 1> residual;
-    Eigen::Matrix<double, kIntrinsicsSize, kIntrinsicsSize, Eigen::RowMajor> jacobian;
-    double* jacobians[] = {jacobian.data()};
-    if (cost->Evaluate(parameters, residual.data(), jacobians))
-      information_.block<kIntrinsicsSize, kIntrinsicsSize>(column(camera, 0), column(camera, 0)) +=
-          jacobian.transpose() * jacobian;
+    auto information = information_.block<kLensSize, kLensSize>(column(camera, kPoseSize),
+                                                                column(camera, kPoseSize));
+    const Eigen::Vector2d by_aspect(1.0 / (lens.fx * prior.aspect),
+                                    -1.0 / (lens.fy * prior.aspect));
+    information.topLeftCorner<2, 2>() += by_aspect * by_aspect.transpose();
+    const double center = prior.principal_point * lens.width;
+    information.diagonal().segment<2>(2).array() += 1.0 / (center * center);
+    for (Eigen::Index k = 0; k < 5; ++k)
+      information(4 + k, 4 + k) += std::pow(prior.distortion[static_cast<std::size_t>(k)], -2);
   }
 }
 
-/// The world is where one camera's pose and its distance to another put it.
+/// The pose of the first camera and its distance to the farthest one define the world.
 void Certainty::fixWorld(const Reconstruction& reconstruction) {
   const Eigen::Vector3d origin = reconstruction.cameras.front().center();
   Eigen::Index farthest = 0;
@@ -158,72 +168,66 @@ void Certainty::fixWorld(const Reconstruction& reconstruction) {
       farthest = camera;
     }
   }
-  // As exact as these are, they dominate what they are added to by some digits only.
+  // Large against what the observations say, but not so large that these drown in rounding errors.
   const double kExact = 1e4;
-  const Eigen::Index first = column(0, kIntrinsicsSize);
-  for (Eigen::Index i = first; i < first + kPoseSize; ++i)
-    information_(i, i) *= 1.0 + kExact;
-  const Eigen::Index position = column(farthest, kIntrinsicsSize + 3);
-  const double strength = kExact * information_.block<3, 3>(position, position).norm();
+  information_.diagonal().segment<kPoseSize>(column(0, 0)) *= 1.0 + kExact;
+  const Eigen::Index position = column(farthest, geometry::kPosition);
+  auto block = information_.block<3, 3>(position, position);
   const Eigen::Vector3d along = baseline.normalized();
-  information_.block<3, 3>(position, position) += strength * along * along.transpose();
+  block += kExact * block.norm() * along * along.transpose();
 }
 
 void Certainty::invert() {
   const Eigen::VectorXd scale = information_.diagonal().cwiseSqrt();
   if (!(scale.minCoeff() > 0.0))
     return;
-  const Eigen::MatrixXd scaled =
-      scale.cwiseInverse().asDiagonal() * information_ * scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+  const Eigen::VectorXd inverse_scale = scale.cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      inverse_scale.asDiagonal() * information_ * inverse_scale.asDiagonal());
   if (eigen.info() != Eigen::Success ||
       !(eigen.eigenvalues().minCoeff() > kOpen * eigen.eigenvalues().maxCoeff()))
     return;
-  root_ = scale.cwiseInverse().asDiagonal() * eigen.eigenvectors() *
-          eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd root = inverse_scale.asDiagonal() * eigen.eigenvectors() *
+                               eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+  covariance_ = root * root.transpose();
 }
 
 std::optional<Eigen::MatrixXd> Certainty::lensCovariance(std::size_t camera) const {
-  if (!root_)
+  if (!covariance_)
     return std::nullopt;
-  const Eigen::MatrixXd lens =
-      root_->middleRows(column(static_cast<Eigen::Index>(camera), 0), kIntrinsicsSize);
-  return Eigen::MatrixXd(lens * lens.transpose());
+  const Eigen::Index first = column(static_cast<Eigen::Index>(camera), kPoseSize);
+  return Eigen::MatrixXd(covariance_->block(first, first, kLensSize, kLensSize));
 }
 
+/// The points' covariance is P + D C D^T: P of each point for exact cameras, C of the cameras, and
+/// D how the points move with them. Its trace, less what lies along the motions Q of a similarity.
 std::optional<double> Certainty::expectedShapeError() const {
-  const int kDraws = 20;
-  if (!root_)
+  if (!covariance_)
     return std::nullopt;
-  std::mt19937 random(1);
-  std::normal_distribution<double> normal(0.0, 1.0);
-  double squares = 0.0;
-  for (int draw = 0; draw < kDraws; ++draw) {
-    Eigen::VectorXd white(root_->cols());
-    for (double& value : white)
-      value = normal(random);
-    const Eigen::VectorXd cameras = *root_ * white;
-    std::vector<Eigen::Vector3d> moved;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-      Eigen::Vector3d pull = Eigen::Vector3d::Zero();
-      for (const PointView& view : points_[i]) {
-        Eigen::Matrix<double, 15, 1> camera;
-        for (Eigen::Index k = 0; k < camera.size(); ++k)
-          camera(k) = cameras(column(view.camera, k));
-        const Eigen::Vector2d noise(normal(random), normal(random));
-        information += view.by_point.transpose() * view.by_point;
-        pull += view.by_point.transpose() * (pixel_stddev_ * noise - view.by_camera * camera);
-      }
-      moved.push_back(positions_[i] + information.ldlt().solve(pull));
+  std::vector<Eigen::Vector3d> positions;
+  for (const PointViews& point : points_)
+    positions.push_back(point.position);
+  const Eigen::MatrixXd motions = similarityMotions(positions);
+  const Eigen::Index size = covariance_->rows();
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(size, size);  // D^T D
+  Eigen::MatrixXd along = Eigen::MatrixXd::Zero(7, size);       // Q^T D
+  double sum = 0.0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const PointViews& point = points_[i];
+    const auto motion = motions.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+    sum += point.covariance.trace() - (motion.transpose() * point.covariance * motion).trace();
+    for (const PointView& a : point.views) {
+      const Eigen::Matrix<double, 3, 15> by_a = -point.covariance * a.cross.transpose();
+      const Eigen::Matrix<double, 7, 15> along_a = motion.transpose() * by_a;
+      for (Eigen::Index k = 0; k < 15; ++k)
+        along.col(column(a.camera, k)) += along_a.col(k);
+      for (const PointView& b : point.views)
+        add(a, b, -by_a.transpose() * point.covariance * b.cross.transpose(), &squares);
     }
-    const Similarity similarity = fitSimilarity(moved, positions_);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < moved.size(); ++i)
-      sum += (similarity * moved[i] - positions_[i]).squaredNorm();
-    squares += sum / static_cast<double>(moved.size());
   }
-  return std::sqrt(squares / kDraws);
+  sum +=
+      covariance_->cwiseProduct(squares).sum() - (along * *covariance_ * along.transpose()).trace();
+  return std::sqrt(sum / static_cast<double>(points_.size()));
 }
 
 }  // namespace wiimote_tracker::bundle

@@ -6,51 +6,62 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace wiimote_tracker::bundle {
 
-/// How certain an adjusted reconstruction is of its lenses and cameras. First order, from the
-/// inliers with their Huber weights and the noise that their residuals show, and from what
-/// Options::lens says of all but the focal lengths.
+/// Standard deviation of one pixel coordinate, estimated from the residuals of the inliers with
+/// their Huber weights [px].
+double pixelStddev(const Reconstruction& reconstruction, const Options& options);
+
+/// Covariance of the lenses and poses of an adjusted reconstruction, to first order: the inverse of
+/// the information of the inliers, the points eliminated (Schur complement), with Huber weights and
+/// pixelStddev(). Options::lens counts too, except what it says of the focal lengths.
 class Certainty {
  public:
   /// @param fixed_lenses the lenses are given, and exact.
   Certainty(const Reconstruction& reconstruction, const Options& options, bool fixed_lenses);
 
-  double pixelStddev() const { return pixel_stddev_; }  ///< Of one coordinate, as estimated [px].
-
   /// Covariance of a lens in the order fx, fy, cx, cy, k1, k2, p1, p2, k3. Nothing when the
-  /// observations leave some of it open.
+  /// observations leave some parameter open.
   std::optional<Eigen::MatrixXd> lensCovariance(std::size_t camera) const;
 
-  /// RMS over the points that a repetition of the recording would differ by after the best
-  /// similarity [m]: errors of cameras, lenses and pixels together, from a few drawn at random.
-  /// Nothing when some of it is open.
+  /// Expected RMS distance of the points from the truth after the best similarity [m], from the
+  /// errors of cameras, lenses and pixels together. Nothing when some parameter is open.
   std::optional<double> expectedShapeError() const;
 
  private:
+  using Matrix15 = Eigen::Matrix<double, 15, 15>;  // of a camera's pose, then lens
+  using Matrix15x3 = Eigen::Matrix<double, 15, 3>;
+
   struct PointView {
     Eigen::Index camera;
-    Eigen::Matrix<double, 2, 15> by_camera;  // lens, then pose
-    Eigen::Matrix<double, 2, 3> by_point;
+    Matrix15x3 cross;  ///< Information shared by the camera and the point.
+  };
+  struct PointViews {
+    Eigen::Vector3d position;
+    Eigen::Matrix3d covariance;  ///< Of the point, the cameras being exact.
+    std::vector<PointView> views;
   };
 
+  /// Adds a block of the parameters of two cameras to a matrix of all parameters.
+  void add(const PointView& a,
+           const PointView& b,
+           const Matrix15& block,
+           Eigen::MatrixXd* to) const;
   Eigen::Index column(Eigen::Index camera, Eigen::Index parameter) const;
-  void linearize(const Reconstruction& reconstruction, const Options& options);
-  void reduce();
-  void addWhatIsKnown(const Reconstruction& reconstruction, const Options& options);
+  void addObservations(const Reconstruction& reconstruction, const Options& options);
+  void addLensPrior(const Reconstruction& reconstruction, const Options& options);
   void fixWorld(const Reconstruction& reconstruction);
   void invert();
 
   const bool one_lens_;
   const Eigen::Index camera_count_;
-  std::vector<std::vector<PointView>> points_;  // of points with two views or more
-  std::vector<Eigen::Vector3d> positions_;      // of the same
-  double pixel_stddev_ = 0.0;
-  Eigen::MatrixXd information_;          // of lenses, then poses
-  std::optional<Eigen::MatrixXd> root_;  // covariance = root_ * root_^T
+  std::vector<PointViews> points_;             // with two views or more
+  Eigen::MatrixXd information_;                // of lenses, then poses
+  std::optional<Eigen::MatrixXd> covariance_;  // of the same
 };
 
 }  // namespace wiimote_tracker::bundle

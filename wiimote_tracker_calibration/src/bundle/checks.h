@@ -5,18 +5,18 @@
 
 namespace wiimote_tracker::bundle {
 
-/// @throws BundleError: options or observations that cannot be, fewer than two cameras.
+/// @throws BundleError: invalid options or observations, fewer than two cameras.
 void checkObservations(const Reconstruction& reconstruction, const Options& options);
 
-/// A solution that leaves most of what a camera saw unexplained is none. @throws BundleError.
+/// @throws BundleError if most observations of some camera are outliers.
 void refuseUnexplained(const Reconstruction& reconstruction, const Options& options);
 
-/// Whether what every camera saw lies on one line in its image.
+/// Whether the observations of each camera lie on a line in its image.
 bool isOnALine(const Reconstruction& reconstruction);
 
-/// Whether one plane, or one place of all cameras, explains what any two of them saw nearly as well
-/// as the solution does: to 3 times its error, or to `slack` [image widths]. Then its depth means
-/// nothing.
+/// Whether the solution's depth is not determined, since the light moved in a plane or all cameras
+/// stand in one place: a homography explains the views of any two cameras to 3 times the solution's
+/// error, or to `slack` [image widths].
 bool isFlat(const Reconstruction& solution, const Options& options, double slack);
 
 }  // namespace wiimote_tracker::bundle

@@ -32,7 +32,8 @@ class PointSolver {
     options_.minimum_angle = minimum_angle;
   }
 
-  /// All views when they agree; else the largest group of views that agree with a pair of them.
+  /// The point of all views if they agree, else of the largest group that agrees with a pair of
+  /// views.
   std::optional<Consensus> solve(const Views& views) const {
     std::optional<Consensus> best = from(views, views);
     if (best && best->inliers.size() == views.size())
@@ -60,7 +61,7 @@ class PointSolver {
     return a.squared_error < b.squared_error;
   }
 
-  /// The point that `chosen` make, and which of all `views` agree with it.
+  /// The point of the `chosen` views, and its inliers among all `views`.
   std::optional<Consensus> from(const Views& chosen, const Views& views) const {
     std::vector<geometry::Observation> rays;
     for (const std::size_t view : chosen) {

@@ -29,7 +29,8 @@ Reconstruction observedBy(const std::vector<geometry::Camera>& cameras,
   return reconstruction;
 }
 
-/// Few points that tie all cameras together: those that many cameras saw first.
+/// Some of the points, at random but those that many cameras saw first: about per_camera
+/// observations of each camera.
 Reconstruction thinned(const Reconstruction& all, std::size_t per_camera) {
   std::vector<std::vector<const Observation*>> views(all.points.size());
   for (const Observation& observation : all.observations)
@@ -73,13 +74,16 @@ bool agree(const Attempt& a, const Attempt& b, double tolerance) {
   return true;
 }
 
+// Observations of each camera that suffice to tell a good start from a bad one.
+constexpr std::size_t kFewPerCamera = 100;
+
 /// Follows the starts until the best of them is found.
 class Search {
  public:
   Search(const Reconstruction& all,
          const SelfCalibrationOptions& options,
          const ProgressCallback& progress)
-      : all_(all), options_(options), progress_(progress), few_(thinned(all, kPerCamera)) {}
+      : all_(all), options_(options), progress_(progress), few_(thinned(all, kFewPerCamera)) {}
 
   /// Sets starts, followed and agreeing of the result. @throws BundleError.
   Attempt run(SelfCalibration* result) {
@@ -114,7 +118,6 @@ class Search {
   }
 
  private:
-  static constexpr std::size_t kPerCamera = 100;
   static constexpr std::size_t kPairs = 4;
   static constexpr std::size_t kFewCameras = 4;
   static constexpr std::size_t kFollowed = 3;
@@ -155,8 +158,7 @@ class Search {
                 guessedLens(camera.intrinsics.width, camera.intrinsics.height, focal_length, k1);
           const Attempt attempt = attemptPair(guess, pair, options_.bundle);
           ++*starts;
-          // Two cameras alone tell little of their focal lengths, so the cost is not to decide
-          // between these yet.
+          // Two cameras alone hardly determine their focal lengths: keep the best of each.
           if (attempt.cost < attempts_[i].cost)
             attempts_[i] = attempt;
         }
@@ -199,7 +201,7 @@ class Search {
       throw BundleError(reason_);
   }
 
-  /// What a wrong start ends in, to please a contradiction: a lens that nobody makes.
+  /// Whether all fields of view are possible ones: a wrong start often ends in others.
   static bool isPlausible(const Attempt& attempt) {
     const double kShortest = 0.25;  // image widths; a field of view of 127 degrees
     const double kLongest = 20.0;   // 3 degrees
@@ -212,7 +214,7 @@ class Search {
     return true;
   }
 
-  /// The best first; those that failed leave.
+  /// Puts the best first and drops those that failed.
   void sort() {
     for (Attempt& attempt : attempts_) {
       if (std::isfinite(attempt.cost) && !isPlausible(attempt)) {
@@ -232,13 +234,17 @@ class Search {
 
   void keepBest() { attempts_.resize(std::min(attempts_.size(), kFollowed)); }
 
+  /// Adjusts a solution of few points with all of them, roughly: refine() follows.
   Attempt withAllPoints(const Attempt& solved) const {
     tell("adjusting with all points", 0.8);
     Attempt attempt;
     attempt.reconstruction = all_;
     attempt.reconstruction.cameras = solved.reconstruction.cameras;
     attempt.placed.assign(all_.cameras.size(), true);
-    settle(options_.bundle, maximumError(), &attempt);
+    Options rough = options_.bundle;
+    rough.rough = true;
+    settle(rough, maximumError(), &attempt);
+    triangulatePoints(&attempt.reconstruction, attempt.placed, maximumError(), rough.minimum_angle);
     return attempt;
   }
 
@@ -252,7 +258,7 @@ class Search {
 
 void judgeLenses(const SelfCalibrationOptions& options, bool ambiguous, SelfCalibration* result) {
   const Certainty certainty(result->reconstruction, options.bundle, options.fixed_lenses);
-  result->pixel_stddev = certainty.pixelStddev();
+  result->pixel_stddev = pixelStddev(result->reconstruction, options.bundle);
   result->expected_shape_error = certainty.expectedShapeError();
   for (std::size_t i = 0; i < result->reconstruction.cameras.size(); ++i) {
     LensCertainty lens;
@@ -272,8 +278,9 @@ void judgeLenses(const SelfCalibrationOptions& options, bool ambiguous, SelfCali
   }
 }
 
-/// Adjusts with what fits as well as most does: a wrong observation that is off by less than
-/// Options::maximum_error pulls all the same. Then says again what is within that of its point.
+/// Adjusts with the observations within six medians of their points: a false detection that is off
+/// by less than Options::maximum_error would pull the solution. Then marks as inliers what lies
+/// within maximum_error.
 void refine(const SelfCalibrationOptions& options, Reconstruction* reconstruction) {
   const int kRounds = 5;
   const double kMedians = 6.0;  // 5.2 sigma of the larger of two coordinates, roughly
@@ -288,10 +295,9 @@ void refine(const SelfCalibrationOptions& options, Reconstruction* reconstructio
     const double median = statistics(*reconstruction).median;
     tight.maximum_error = std::min(kMedians * median, options.bundle.maximum_error);
     tight.loss_scale = std::max(std::min(2.0 * median, options.bundle.loss_scale), 1e-3);
-    // Exact pixels have no median to speak of.
+    // Exact pixels have a median near 0.
     tight.maximum_error = std::max(tight.maximum_error, 0.01 * options.bundle.maximum_error);
-    tight.pixel_stddev = Certainty(*reconstruction, tight, options.fixed_lenses).pixelStddev();
-    tight.pixel_stddev = std::max(tight.pixel_stddev, 1e-3);
+    tight.pixel_stddev = std::max(pixelStddev(*reconstruction, tight), 1e-3);
     tight.rough = round + 1 < kRounds;
     triangulateWithin(tight.maximum_error);
     adjust(reconstruction, tight, held);
@@ -312,7 +318,7 @@ SelfCalibration solveOnce(const Reconstruction& all,
     refuseUnexplained(result.reconstruction, options.bundle);
     ambiguous = search.isAmbiguous();
   }
-  if (progress && !progress("telling wrong spots apart", 0.9))
+  if (progress && !progress("leaving out false detections", 0.9))
     throw Cancelled("stopped before the cameras were solved");
   refine(options, &result.reconstruction);
   judgeLenses(options, ambiguous, &result);
@@ -340,7 +346,7 @@ SelfCalibration selfCalibrate(const std::vector<geometry::Camera>& cameras,
   } catch (const Cancelled&) {
     throw;
   } catch (const BundleError& error) {
-    // Whether it works is all that matters here: fewer starts are enough.
+    // It only matters whether it works: fewer points and starts are enough.
     SelfCalibrationOptions quick = options;
     quick.focal_lengths = {0.7, 1.4, 2.8};
     quick.distortions = {0.0};
@@ -354,9 +360,10 @@ SelfCalibration selfCalibrate(const std::vector<geometry::Camera>& cameras,
         return false;
       }
     };
-    throw BundleError(suspicion(all, options.fixed_lenses, works).value_or(error.what()));
+    throw BundleError(
+        suspicion(thinned(all, kFewPerCamera), options.fixed_lenses, works).value_or(error.what()));
   }
-  // What hardly leaves a plane still tells depth where the lenses are known.
+  // Points close to a plane still determine the depth when a lens is known.
   const double kFlat = 0.005;
   const bool lenses_known =
       std::any_of(result.lenses.begin(), result.lenses.end(),

@@ -20,17 +20,18 @@ Reconstruction solve(const std::vector<geometry::Camera>& cameras,
   const NormalizedViews views = normalize(reconstruction);
   std::vector<bool> placed(cameras.size(), false);
   startFromPair(views, options, &reconstruction, &placed);
-  const auto settle = [&] {
-    // A camera that was just placed is off by more than its noise; the points then bring it in.
-    const double kRough = 4.0;
-    triangulatePoints(&reconstruction, placed, kRough * options.maximum_error,
+  while (true) {
+    // A camera that was just placed is off by more than its noise.
+    const double kTolerance = 4.0;
+    triangulatePoints(&reconstruction, placed, kTolerance * options.maximum_error,
                       options.minimum_angle);
-    adjust(&reconstruction, options, Held());
-  };
-  settle();
-  while (std::find(placed.begin(), placed.end(), false) != placed.end()) {
+    const bool all_placed = std::find(placed.begin(), placed.end(), false) == placed.end();
+    Options now = options;
+    now.rough = options.rough || !all_placed;
+    adjust(&reconstruction, now, Held());
+    if (all_placed)
+      break;
     placeNext(views, options, &reconstruction, &placed);
-    settle();
   }
   refuseUnexplained(reconstruction, options);
   return reconstruction;

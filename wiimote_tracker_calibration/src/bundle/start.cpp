@@ -15,7 +15,7 @@ namespace wiimote_tracker::bundle {
 
 namespace {
 
-// Before any adjustment lenses and poses are rough: outliers are told apart this many times wider.
+// Factor on the error of an outlier before any adjustment.
 constexpr double kStartTolerance = 4.0;
 
 Eigen::Matrix3d eigenFromCv(const cv::Mat& matrix) {
@@ -31,7 +31,7 @@ Eigen::Vector3d vectorFromCv(const cv::Mat& column) {
   return {column.at<double>(0), column.at<double>(1), column.at<double>(2)};
 }
 
-/// Whether the points of an image fill more than a line; the image of a line in space is one.
+/// Whether the points of an image cover more than a line.
 bool fillsAnArea(const std::vector<cv::Point2d>& points) {
   Eigen::Matrix2Xd columns(2, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -173,7 +173,7 @@ void startFromPair(const NormalizedViews& views,
 
 namespace {
 
-/// What a camera saw of the known points.
+/// The known points that a camera saw, and where.
 struct KnownViews {
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> views;

@@ -14,16 +14,16 @@
 
 namespace wiimote_tracker::bundle {
 
-/// Rays of what each camera saw, on its normalised image plane (x/z, y/z), by point. Pixels
-/// without a ray are left out.
+/// What each camera saw, on its normalised image plane (x/z, y/z), by point. Pixels without a ray
+/// are left out.
 using NormalizedViews = std::vector<std::map<std::size_t, Eigen::Vector2d>>;
 
 NormalizedViews normalize(const Reconstruction& reconstruction);
 
-/// Whether a view fills more than a line; the image of a line in space is one.
+/// Whether a view covers more than a line, which would be the image of a line in space.
 bool fillsAnArea(const std::map<std::size_t, Eigen::Vector2d>& view);
 
-/// Places of the points that two cameras saw, in the order of the points.
+/// Views of the points that two cameras saw, in the order of the points.
 struct CommonViews {
   std::vector<cv::Point2d> first;
   std::vector<cv::Point2d> second;
@@ -32,11 +32,12 @@ struct CommonViews {
 CommonViews commonViews(const std::map<std::size_t, Eigen::Vector2d>& first,
                         const std::map<std::size_t, Eigen::Vector2d>& second);
 
-/// How far the second view is from being a plane's image of the first: mean distance to the best
-/// homography, each cut off at 10 times the tolerance for its inliers; in the unit of the views.
+/// Mean distance of the second view from the best homography of the first, in the unit of the
+/// views: 0 if the points lie in a plane. Each distance is limited to 10 times the inliers'
+/// tolerance.
 double distanceFromPlane(const CommonViews& common, double tolerance);
 
-/// Two cameras and how they stand to each other.
+/// Two cameras and their relative pose.
 struct Pair {
   std::size_t first = 0;
   std::size_t second = 0;
@@ -44,15 +45,15 @@ struct Pair {
   double parallax = 0.0;  ///< Sum over the points [rad].
 };
 
-/// Poses two cameras from the points they have in common (essential matrix). Nothing when these are
-/// too few, lie on a line in an image, or do not agree.
+/// Relative pose of two cameras from their common points (essential matrix). Nothing if these are
+/// too few, lie on a line in an image, or contradict each other.
 std::optional<Pair> solvePair(const NormalizedViews& views,
                               const Reconstruction& reconstruction,
                               const Options& options,
                               std::size_t first,
                               std::size_t second);
 
-/// Makes the first of the pair the world's frame, and marks both in placed.
+/// Makes the first camera of the pair the world, and marks both as placed.
 void startFrom(const Pair& pair, Reconstruction* reconstruction, std::vector<bool>* placed);
 
 /// Starts from the pair of cameras with the most parallax.
@@ -62,22 +63,22 @@ void startFromPair(const NormalizedViews& views,
                    Reconstruction* reconstruction,
                    std::vector<bool>* placed);
 
-/// The camera that is not placed and sees most of the known points.
+/// The camera that sees most known points of those not placed.
 /// @throws BundleError when it sees too few of them.
 std::size_t nextToPlace(const NormalizedViews& views,
                         const Options& options,
                         const Reconstruction& reconstruction,
                         const std::vector<bool>& placed);
 
-/// Poses one camera from the known points (resection), and marks it in placed.
-/// @returns how many points agree. @throws BundleError: they are on a line, or too few agree.
+/// Estimates the pose of one camera from known points (resection), and marks it as placed.
+/// @returns the number of inliers. @throws BundleError: points on a line, or too few inliers.
 std::size_t place(const NormalizedViews& views,
                   const Options& options,
                   std::size_t camera,
                   Reconstruction* reconstruction,
                   std::vector<bool>* placed);
 
-/// Poses nextToPlace(). @throws BundleError as both do.
+/// Calls place() for nextToPlace(). @throws BundleError as both do.
 void placeNext(const NormalizedViews& views,
                const Options& options,
                Reconstruction* reconstruction,

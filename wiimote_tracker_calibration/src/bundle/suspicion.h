@@ -9,9 +9,9 @@
 
 namespace wiimote_tracker::bundle {
 
-/// Observations that nothing explains: what makes them explicable, as a sentence. Tried are one
-/// camera's image mirrored, and, with given intrinsics, those of two cameras exchanged.
-/// @param works whether observations changed in this way can be explained.
+/// Looks for the cause if no solution fits: one camera's image is mirrored, or the given intrinsics
+/// of two cameras are exchanged. @param works whether a solution fits the changed observations.
+/// @returns a sentence, or nothing if neither helps.
 std::optional<std::string> suspicion(const Reconstruction& observed,
                                      bool intrinsics_given,
                                      const std::function<bool(const Reconstruction&)>& works);

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/capture/camera_monitor.h"
+#include "capture/camera_monitor.h"
 
 #include <algorithm>
 
@@ -6,7 +6,8 @@ namespace wiimote_tracker::capture {
 
 namespace {
 
-// An LED at the edge of a camera's sight drops out now and then; that is not "sees the LED".
+// Least share of images with exactly one spot: at the edge of the field of view the LED is missed
+// now and then.
 constexpr double kShareWithOneSpot = 0.9;
 
 }  // namespace

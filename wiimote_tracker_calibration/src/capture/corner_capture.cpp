@@ -1,23 +1,22 @@
-#include "wiimote_tracker_calibration/capture/corner_capture.h"
+#include "capture/corner_capture.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace wiimote_tracker::capture {
 
 namespace {
 
-// A camera holds up the capture only while it keeps giving samples; and for so long after the
-// beginning nothing is made of its silence.
+// The capture waits for a camera whose last sample is at most this old. So long after the start a
+// silent camera is no problem yet.
 constexpr double kHold = 0.5;  // [s]
-// Fewer samples say nothing about stillness.
+// The LED's motion is judged from so many samples on.
 constexpr std::size_t kSamplesToJudge = 10;
 
 std::string pixels(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f px", value);
-  return text;
+  return format("%.1f px", value);
 }
 
 }  // namespace
@@ -140,7 +139,7 @@ std::string CornerCapture::movement(const StillSpot& spot) const {
   if (spot.spread() > options_.spread_limit)
     return "the LED moved, its spot is spread over " + pixels(spot.spread()) + ", at most " +
            pixels(options_.spread_limit) + " are allowed" + advice;
-  // Of a noisy spot the thirds differ by chance; four standard deviations of that are no motion.
+  // The means of a noisy spot differ by chance: up to four standard deviations are no motion.
   const double chance = spot.spread() * std::sqrt(6.0 / static_cast<double>(spot.samples()));
   if (spot.samples() >= static_cast<std::size_t>(options_.minimum_samples) &&
       spot.drift() > std::max(options_.drift_limit, 4.0 * chance))

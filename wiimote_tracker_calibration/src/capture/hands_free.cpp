@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/capture/hands_free.h"
+#include "capture/hands_free.h"
 
 #include <algorithm>
 
@@ -6,9 +6,9 @@ namespace wiimote_tracker::capture {
 
 namespace {
 
-// Noise of a still spot stays within this of where it came to rest; a hand does not [px].
+// A still spot stays within this distance of where it came to rest [px].
 constexpr double kStill = 3.0;
-// An LED at the edge of a camera's sight drops out now and then [s].
+// Longest gap between detections of a still LED [s].
 constexpr double kDropOut = 0.3;
 
 }  // namespace
@@ -55,7 +55,7 @@ bool HandsFree::add(const Image& image, const std::vector<CapturedCorner>& captu
                      [this](const CapturedCorner& corner) { return isNew(corner); });
 }
 
-/// Some camera that saw the corner sees the LED elsewhere, or all that saw it see it no more.
+/// Whether a camera that saw the corner sees the LED elsewhere, or none that saw it sees the LED.
 bool HandsFree::isNew(const CapturedCorner& corner) const {
   bool seen_by_both = false;
   for (const auto& view : corner) {

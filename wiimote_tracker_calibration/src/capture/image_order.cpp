@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/capture/image_order.h"
+#include "capture/image_order.h"
 
 #include <algorithm>
 #include <limits>
@@ -36,7 +36,7 @@ void ImageOrder::add(Image image, const Take& take) {
 }
 
 void ImageOrder::release(double until, const Take& take) {
-  // Of several cameras with this very stamp one may still be missing.
+  // Another image with exactly the stamp `until` may still arrive.
   while (!waiting_.empty() && waiting_.begin()->first.first < until) {
     const Image image = std::move(waiting_.begin()->second);
     waiting_.erase(waiting_.begin());

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/capture/mask_learner.h"
+#include "capture/mask_learner.h"
 
 #include <algorithm>
 
@@ -6,8 +6,8 @@ namespace wiimote_tracker::capture {
 
 namespace {
 
-constexpr std::size_t kFewestImages = 20;  // that say anything
-constexpr std::size_t kAccident = 3;       // images in which anything can flash up
+constexpr std::size_t kFewestImages = 20;     // to learn masks from
+constexpr std::size_t kFewestDetections = 3;  // fewer are false detections
 
 }  // namespace
 
@@ -62,9 +62,9 @@ LearnedMasks MaskLearner::learned(const Camera& camera) const {
             : "sent " + std::to_string(camera.images) + " images only: look for a longer time";
     return result;
   }
-  const double needed =
-      std::max(options_.share * static_cast<double>(camera.images), static_cast<double>(kAccident));
-  std::size_t moving = 0;  // images with a light that leaves a trail, or that wanders
+  const double needed = std::max(options_.share * static_cast<double>(camera.images),
+                                 static_cast<double>(kFewestDetections));
+  std::size_t moving = 0;  // detections of lights that move
   for (const Light& light : camera.lights) {
     const double radius = 0.5 * (light.upper - light.lower).norm();
     if (radius > options_.reach) {
@@ -73,7 +73,6 @@ LearnedMasks MaskLearner::learned(const Camera& camera) const {
       result.masks.push_back({0.5 * (light.lower + light.upper), radius + options_.margin});
     }
   }
-  // A light that is carried about leaves a chain of places behind, each of them wide.
   if (static_cast<double>(moving) >= needed) {
     result.masks.clear();
     result.problem =

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/capture/masks.h"
+#include "capture/masks.h"
 
 #include <algorithm>
 

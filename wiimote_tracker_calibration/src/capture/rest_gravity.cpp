@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/capture/rest_gravity.h"
+#include "capture/rest_gravity.h"
 
 #include <cmath>
 

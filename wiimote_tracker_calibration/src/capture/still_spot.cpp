@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/capture/still_spot.h"
+#include "capture/still_spot.h"
 
 #include <cmath>
 #include <limits>

@@ -1,13 +1,6 @@
-#include "wiimote_tracker_calibration/health/drift_watch.h"
+#include "health/drift_watch.h"
 
-#include "residual_mean.h"
-
-#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
-
-#include <wiimote_tracker_triangulation/geometry/triangulate.h>
-
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include "drift_residuals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,30 +10,20 @@ namespace wiimote_tracker::health {
 namespace {
 
 constexpr double kSamplePeriod = 0.05;  // [s]
-// Images that come later than this have no part in the sample.
+// A sample waits for images for so long.
 constexpr double kPatience = 0.1;  // [s]
-// Between two images further apart the LED's way is not known.
+// The LED's position is not interpolated between images further apart.
 constexpr double kLongestGap = 0.05;  // [s]
-// The clock has jumped.
+// A larger step of the time is a jump of the clock.
 constexpr double kJump = 1.0;  // [s]
-// A still LED gives the same rounding again and again: the next sample is somewhere else.
-constexpr double kNextPlace = 2.0;  // [px]
-// How far off a time may be, and how far that may shift a spot.
+// A still LED repeats the same rounding: the next sample is at least this far away.
+constexpr double kLeastMotion = 2.0;  // [px]
+// Error of a camera's clock with and without a valid offset, and how far it may shift a spot.
 constexpr double kClockKnown = 0.0005;   // [s]
 constexpr double kClockUnknown = 0.005;  // [s]
 constexpr double kLargestShift = 0.5;    // [px]
-// Judgements within the window.
+// Judgements per window.
 constexpr double kJudgements = 12.0;
-constexpr double kNoDrift = 0.0;
-
-/// What geometry::triangulate() makes of it all is a point without regard to how far the rays miss
-/// each other: that is judged here.
-std::optional<Eigen::Vector3d> pointOf(const std::vector<geometry::Sight>& sights) {
-  const auto point = geometry::triangulate(sights.data(), sights.size(), {});
-  if (!point)
-    return std::nullopt;
-  return point->position;
-}
 
 }  // namespace
 
@@ -106,8 +89,8 @@ void DriftWatch::sampleUntil(double time) {
 }
 
 void DriftWatch::sampleAt(double time) {
-  Sample sample{time, {}};
-  bool somewhere_else = false;
+  DriftSample sample{time, {}};
+  bool has_moved = false;
   std::vector<std::optional<Eigen::Vector2d>> pixels(cameras_.size());
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     Camera& camera = cameras_[i];
@@ -116,10 +99,10 @@ void DriftWatch::sampleAt(double time) {
     if (!bracket || bracket->gap() > kLongestGap || !bracket->before->pixel ||
         !bracket->after->pixel)
       continue;
-    const Eigen::Vector2d way = *bracket->after->pixel - *bracket->before->pixel;
-    const Eigen::Vector2d pixel = *bracket->before->pixel + bracket->shareAt(time) * way;
+    const Eigen::Vector2d step = *bracket->after->pixel - *bracket->before->pixel;
+    const Eigen::Vector2d pixel = *bracket->before->pixel + bracket->shareAt(time) * step;
     if (bracket->gap() > 0.0) {
-      const double speed = way.norm() / bracket->gap();
+      const double speed = step.norm() / bracket->gap();
       if (speed * (camera.clock_known ? kClockKnown : kClockUnknown) > kLargestShift)
         continue;
     }
@@ -127,11 +110,11 @@ void DriftWatch::sampleAt(double time) {
     if (!sight)
       continue;
     pixels[i] = pixel;
-    somewhere_else =
-        somewhere_else || !camera.last_sample || (pixel - *camera.last_sample).norm() > kNextPlace;
+    has_moved =
+        has_moved || !camera.last_sample || (pixel - *camera.last_sample).norm() > kLeastMotion;
     sample.sights.emplace_back(i, *sight);
   }
-  if (sample.sights.size() < 2 || !somewhere_else)
+  if (sample.sights.size() < 2 || !has_moved)
     return;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (pixels[i])
@@ -140,115 +123,22 @@ void DriftWatch::sampleAt(double time) {
   samples_.push_back(std::move(sample));
 }
 
-std::optional<Drift> DriftWatch::driftAgainst(const Cameras& active, std::size_t camera) const {
-  std::vector<Residual> residuals;
-  const std::size_t stride = samples_.size() / kDerivatives + 1;
-  std::size_t number = 0;
-  std::vector<std::size_t> others;
-  std::vector<geometry::Sight> sights;
-  for (const Sample& sample : samples_) {
-    const geometry::Sight* own = nullptr;
-    others.clear();
-    sights.clear();
-    for (const auto& sight : sample.sights) {
-      if (sight.first == camera) {
-        own = &sight.second;
-      } else if (active[sight.first]) {
-        others.push_back(sight.first);
-        sights.push_back(sight.second);
-      }
-    }
-    if (own == nullptr || others.size() < 2)
-      continue;
-    const auto point = pointOf(sights);
-    if (!point || !(own->depth(*point) > 0.0))
-      continue;
-    Residual residual{own->residual(*point), {}};
-    if (number++ % stride == 0 && geometry::hasCovariance(rig_)) {
-      // The others' errors move the point, and with it the prediction.
-      const auto of_own = geometry::rayProjection(rig_, camera, *point);
-      Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-      Eigen::MatrixXd right = Eigen::MatrixXd::Zero(3, rig_.covariance.rows());
-      bool complete = of_own.has_value();
-      for (const std::size_t other : others) {
-        const auto projection = geometry::rayProjection(rig_, other, *point);
-        complete = complete && projection;
-        if (!complete)
-          break;
-        information += projection->by_point.transpose() * projection->by_point;
-        right.middleCols<geometry::kParameters>(geometry::firstParameter(other)) =
-            projection->by_point.transpose() * projection->by_parameters;
-      }
-      if (complete) {
-        residual.by_parameters = -of_own->by_point * (information.inverse() * right);
-        residual.by_parameters.middleCols<geometry::kParameters>(
-            geometry::firstParameter(camera)) += of_own->by_parameters;
-      }
-    }
-    residuals.push_back(std::move(residual));
-  }
-  return meanOf(residuals, rig_.covariance, 2, options_.limit);
+std::optional<Drift> DriftWatch::driftOf(std::size_t camera,
+                                         const std::vector<bool>& active) const {
+  return meanOf(residualsAgainst(rig_, samples_, active, camera), rig_.covariance, 2,
+                options_.limit);
 }
 
 std::optional<Drift> DriftWatch::driftOfPair(std::size_t a, std::size_t b) const {
-  std::vector<Residual> residuals;
-  const std::size_t stride = samples_.size() / kDerivatives + 1;
-  std::size_t number = 0;
-  for (const Sample& sample : samples_) {
-    std::vector<geometry::Sight> sights;
-    for (const auto& sight : sample.sights) {
-      if (sight.first == a || sight.first == b)
-        sights.push_back(sight.second);
-    }
-    if (sights.size() < 2)
-      continue;
-    const auto point = pointOf(sights);
-    if (!point)
-      continue;
-    // The one direction of the four pixels that no point explains: across the epipolar lines. Its
-    // sign is that of the epipolar plane, which turns slowly as the LED moves.
-    Eigen::Matrix<double, 4, 3> by_point;
-    Eigen::Vector4d residual;
-    for (Eigen::Index i = 0; i < 2; ++i) {
-      const geometry::Sight& sight = sights[static_cast<std::size_t>(i)];
-      residual.segment<2>(2 * i) = sight.residual(*point);
-      by_point.middleRows<2>(2 * i) = sight.pixel_by_offset / sight.depth(*point);
-    }
-    const Eigen::HouseholderQR<Eigen::Matrix<double, 4, 3>> qr(by_point);
-    const Eigen::Matrix4d q = qr.householderQ() * Eigen::Matrix4d::Identity();
-    Eigen::Vector4d across = q.col(3);
-    const Eigen::Vector3d normal = (sights[1].origin - sights[0].origin).cross(sights[0].direction);
-    if (across.head<2>().dot(sights[0].pixel_by_offset * normal) < 0.0)
-      across = -across;
-    // In one camera's pixels: both share what one of them is off.
-    across *= std::sqrt(2.0);
-    Residual result{Eigen::Vector2d(across.dot(residual), 0.0), {}};
-    if (number++ % stride == 0 && geometry::hasCovariance(rig_)) {
-      const auto first = geometry::rayProjection(rig_, std::min(a, b), *point);
-      const auto second = geometry::rayProjection(rig_, std::max(a, b), *point);
-      if (first && second) {
-        result.by_parameters = Eigen::MatrixXd::Zero(2, rig_.covariance.rows());
-        result.by_parameters.block<1, geometry::kParameters>(
-            0, geometry::firstParameter(std::min(a, b))) =
-            across.head<2>().transpose() * first->by_parameters;
-        result.by_parameters.block<1, geometry::kParameters>(
-            0, geometry::firstParameter(std::max(a, b))) =
-            across.tail<2>().transpose() * second->by_parameters;
-      }
-    }
-    residuals.push_back(std::move(result));
-  }
-  return meanOf(residuals, rig_.covariance, 1, options_.limit);
+  return meanOf(residualsOfPair(rig_, samples_, a, b), rig_.covariance, 1, options_.limit);
 }
 
-/// How badly some cameras fit together: the largest of their ratios.
-double DriftWatch::worstOf(const Cameras& active) const {
-  double worst = kNoDrift;
+double DriftWatch::worstRatio(const std::vector<bool>& active) const {
+  double worst = 0.0;
   for (std::size_t a = 0; a < active.size(); ++a) {
     if (!active[a])
       continue;
-    const auto drift = driftAgainst(active, a);
-    if (drift) {
+    if (const auto drift = driftOf(a, active)) {
       worst = std::max(worst, drift->ratio);
       continue;
     }
@@ -262,50 +152,51 @@ double DriftWatch::worstOf(const Cameras& active) const {
 
 void DriftWatch::judge() {
   drifts_.assign(cameras_.size(), std::nullopt);
-  Cameras active(cameras_.size(), true);
-  // A camera that drifted pulls the others' points along, so that these look drifted too: the one
-  // is taken out without which the rest fit best, and the rest judged without it.
-  bool settled = false;
-  while (!settled) {
-    settled = true;
+  judgePairs(judgeAgainstOthers());
+}
+
+std::vector<bool> DriftWatch::judgeAgainstOthers() {
+  std::vector<bool> active(cameras_.size(), true);
+  // A camera that drifted pulls the others' points along, so that they seem to drift too. The one
+  // is taken out without which the rest fit best; the rest is judged without it.
+  while (true) {
     double least = 0.0;
     std::optional<std::size_t> culprit;
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       if (!active[i])
         continue;
-      drifts_[i] = driftAgainst(active, i);
+      drifts_[i] = driftOf(i, active);
       if (!drifts_[i] || drifts_[i]->ratio < 1.0)
         continue;
-      Cameras rest = active;
+      std::vector<bool> rest = active;
       rest[i] = false;
-      const double worst = worstOf(rest);
+      const double worst = worstRatio(rest);
       if (!culprit || worst < least) {
         least = worst;
         culprit = i;
       }
     }
-    if (culprit) {
-      active[*culprit] = false;
-      settled = false;
-    }
+    if (!culprit)
+      return active;
+    active[*culprit] = false;
   }
-  // Cameras that share their view with one other only.
+}
+
+/// Judges cameras that share their view with one other camera only.
+void DriftWatch::judgePairs(const std::vector<bool>& active) {
   for (std::size_t a = 0; a < cameras_.size(); ++a) {
     for (std::size_t b = a + 1; b < cameras_.size(); ++b) {
       if (!active[a] || !active[b] || (drifts_[a] && drifts_[b]))
         continue;
-      auto pair = driftOfPair(a, b);
+      const auto pair = driftOfPair(a, b);
       if (!pair)
         continue;
       for (const std::size_t i : {a, b}) {
-        const std::size_t other = i == a ? b : a;
-        // One that the others vouch for is not to blame.
-        if (drifts_[i] && drifts_[i]->together.empty())
+        const bool fits_the_others = drifts_[i] && drifts_[i]->together.empty();
+        if (fits_the_others || (drifts_[i] && drifts_[i]->ratio >= pair->ratio))
           continue;
-        if (!drifts_[i] || drifts_[i]->ratio < pair->ratio) {
-          drifts_[i] = pair;
-          drifts_[i]->together = cameras_[other].rays.name;
-        }
+        drifts_[i] = pair;
+        drifts_[i]->together = cameras_[i == a ? b : a].rays.name;
       }
     }
   }

@@ -1,7 +1,8 @@
-#include "wiimote_tracker_calibration/health/health_watch.h"
+#include "health/health_watch.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <cmath>
-#include <cstdio>
 
 namespace wiimote_tracker::health {
 
@@ -10,9 +11,7 @@ namespace {
 const char kAdvice[] = "put it back, or recalibrate this camera";
 
 std::string degrees(double radians) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f degrees", radians * 180.0 / M_PI);
-  return text;
+  return format("%.1f degrees", radians * 180.0 / M_PI);
 }
 
 std::string tiltText(const Tilt& tilt) {
@@ -21,8 +20,7 @@ std::string tiltText(const Tilt& tilt) {
 }
 
 std::string driftText(const Drift& drift) {
-  char size[64];
-  std::snprintf(size, sizeof size, "%.1f px (+- %.1f px)", drift.bias.norm(), drift.stddev);
+  const std::string size = format("%.1f px (+- %.1f px)", drift.bias.norm(), drift.stddev);
   if (!drift.together.empty())
     return "drifted, or " + drift.together + " did: their rays miss each other by " + size +
            " on average; see which of both was moved, put it back or recalibrate it";
@@ -61,7 +59,7 @@ void HealthWatch::addImage(const capture::Image& image, const std::string& ident
     return;
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const std::optional<Drift>& drift = drift_.drifts()[i];
-    // What cannot be judged now stays as it was judged last.
+    // Without a new judgement the last one stays.
     if (!drift)
       continue;
     healths_[order_[i]].drift = drift;
@@ -76,7 +74,7 @@ void HealthWatch::addAcceleration(const std::string& name,
   const auto found = cameras_.find(name);
   if (found == cameras_.end() || !found->second.tilt)
     return;
-  // Another device's accelerometer has other errors.
+  // The accelerometer of another device cannot be compared.
   if (!found->second.other_device.empty())
     return;
   const auto tilt = found->second.tilt->add(time, specific_force);

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/health/tilt_watch.h"
+#include "health/tilt_watch.h"
 
 #include <Eigen/Geometry>
 
@@ -27,7 +27,7 @@ std::optional<Tilt> TiltWatch::judge() const {
     return std::nullopt;
   Tilt tilt;
   tilt.angle = std::atan2(gravity_.cross(*mean).norm(), gravity_.dot(*mean));
-  // Rounding, of then and of now; what noise leaves after averaging is far less.
+  // Rounding, at calibration and now. Averaged noise is far smaller.
   tilt.stddev = options_.resolution / std::sqrt(12.0) * std::sqrt(2.0) / gravity_.norm();
   tilt.ratio = tilt.angle / std::max(options_.limit, 3.0 * tilt.stddev);
   return tilt;

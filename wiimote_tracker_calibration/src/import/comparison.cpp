@@ -19,7 +19,7 @@ constexpr double kNoInlier = std::numeric_limits<double>::infinity();
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// Value below which a share of the sorted values lies, interpolated.
+/// Quantile of sorted values, interpolated.
 double quantile(const std::vector<double>& sorted, double share) {
   if (sorted.empty())
     return std::numeric_limits<double>::quiet_NaN();
@@ -135,7 +135,7 @@ void comparePoints(const bundle::Reconstruction& own,
     comparison->expected = *expected * bundle::fitSimilarity(from, to).scale;
 }
 
-/// Own errors in the pixels of the shipped matrices.
+/// Errors of the own solution in the undistorted pixels of the shipped matrices.
 std::vector<Errors> rectifiedErrors(const bundle::Reconstruction& own,
                                     const ShippedCameras& shipped,
                                     double maximum_error) {
@@ -155,8 +155,8 @@ std::vector<Errors> rectifiedErrors(const bundle::Reconstruction& own,
   return result;
 }
 
-/// Shipped cameras with lenses that can be had here: matrices of the shipped intrinsics, without
-/// skew. Nothing for others.
+/// The shipped cameras with the shipped intrinsics. Nothing if the matrices have other intrinsics,
+/// or skew.
 std::optional<bundle::Reconstruction> withLenses(const Recording& recording,
                                                  const ShippedCameras& shipped,
                                                  const bundle::Reconstruction& own,

@@ -1,6 +1,6 @@
 #include "wiimote_tracker_calibration/intrinsics/board.h"
 
-#include "wiimote_tracker_calibration/intrinsics/error.h"
+#include "intrinsics/error.h"
 
 #include <cmath>
 

@@ -1,22 +1,23 @@
-#include "wiimote_tracker_calibration/intrinsics/board_decoder.h"
+#include "intrinsics/board_decoder.h"
 
-#include "wiimote_tracker_calibration/intrinsics/board_sequence.h"
-#include "wiimote_tracker_calibration/intrinsics/error.h"
+#include "intrinsics/board_sequence.h"
+#include "intrinsics/error.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace wiimote_tracker::intrinsics {
 
 namespace {
 
-constexpr double kPhaseStep = 0.005;  // in which phases are tried [s]
-constexpr int kSpotsPerFlash = 2;     // that make a flash: of about four, some are lost
-constexpr double kLampShare = 0.25;   // a light in more of the images does not blink; an LED: 0.04
+constexpr double kPhaseStep = 0.005;  // between the phases tried [s]
+constexpr int kSpotsPerFlash = 2;     // minimum: a flash gives about four, some are lost
+constexpr double kLampShare = 0.25;   // above this share of the images: no LED (an LED: 0.04)
 
-/// A light that stayed in its place.
+/// Spots of one light that stayed in one place.
 struct Light {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   std::vector<double> times;
@@ -32,7 +33,7 @@ struct Flash {
   Eigen::Vector2d mean() const { return sum / count; }
 };
 
-/// A light as an LED.
+/// A light interpreted as an LED of the board.
 struct Led {
   Flash row;
   Flash column;
@@ -62,8 +63,8 @@ void addSpot(double time, const Eigen::Vector2d& pixel, double radius, std::vect
   nearest->pixels.push_back(pixel);
 }
 
-/// Steps since the start of the cycle, with the part of a step. The phase is the time at which step
-/// 0 starts, less half of what is dark in a step: then a flash has equal margins in its step.
+/// Steps since the start of the cycle, with fraction. The phase is the time at which step 0 starts
+/// minus half the dark part of a step, so that a flash is in the middle of its step.
 double stepsAt(double time, double phase) {
   const double in_cycle = std::fmod(time - phase, sequence::kCycle);
   const double steps = in_cycle / sequence::kStep + (in_cycle < 0.0 ? sequence::kSteps : 0.0);
@@ -79,7 +80,7 @@ bool isLitStep(int step) {
   return false;
 }
 
-/// The LED that a light is at this phase. Unseen when it is none.
+/// The LED that a light is if the board has this phase; Led::seen() is false if it is none.
 Led ledFromLight(const Light& light, double phase, int* number) {
   std::array<Flash, sequence::kSteps> flashes{};
   for (std::size_t i = 0; i < light.times.size(); ++i) {
@@ -133,7 +134,7 @@ double bestPhase(const std::vector<Light>& lights, double start) {
   return best;
 }
 
-/// Share of the spots that are of LEDs; the others moved, or are other lights.
+/// Share of the spots that belong to LEDs.
 double shareOfLeds(const std::vector<Light>& lights, const Leds& leds) {
   std::size_t spots = 0;
   for (const Light& light : lights)
@@ -144,8 +145,8 @@ double shareOfLeds(const std::vector<Light>& lights, const Leds& leds) {
   return of_leds / static_cast<double>(spots);
 }
 
-/// Share of the spots that come when the board lights LEDs. For when a lamp takes the place of one
-/// LED in each flash, so that others are seen in one flash only.
+/// Share of the spots that appear while the board lights LEDs. Used if there are lamps: each hides
+/// one LED of a flash, so that an LED may be seen in one flash only.
 double shareInLitSteps(const std::vector<Light>& lights, double phase) {
   std::size_t spots = 0;
   std::size_t explained = 0;
@@ -178,13 +179,6 @@ double smallestSeparation(const BoardView& view) {
     }
   }
   return smallest;
-}
-
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char buffer[256];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  return buffer;
 }
 
 }  // namespace
@@ -220,12 +214,12 @@ std::string BoardDecoder::whyNotReady() const {
     return "no images: check the camera's connection and its driver";
   for (std::size_t i = 1; i < frames_.size(); ++i) {
     if (frames_[i].time - frames_[i - 1].time > options_.longest_gap)
-      return text("no image came for %.0f ms: wait, and check the connection if this stays",
-                  1e3 * (frames_[i].time - frames_[i - 1].time));
+      return format("no image came for %.0f ms: wait, and check the connection if this stays",
+                    1e3 * (frames_[i].time - frames_[i - 1].time));
   }
   const double span = frames_.back().time - frames_.front().time;
   if (span < sequence::kCycle - options_.longest_gap)
-    return text("%.1f of %.1f s: hold the board still", span, sequence::kCycle);
+    return format("%.1f of %.1f s: hold the board still", span, sequence::kCycle);
   return "";
 }
 
@@ -264,26 +258,27 @@ BoardReading BoardDecoder::read() const {
   reading.motion = motionBetweenFlashes(leds);
   const double explained = has_lamps ? shareInLitSteps(lights, phase) : shareOfLeds(lights, leds);
   if (explained < options_.minimum_explained)
-    reading.message = text(
+    reading.message = format(
         "%.0f %% of the spots follow the board's sequence, at least %.0f %% are "
         "needed: hold the board still and cover other lights",
         100.0 * explained, 100.0 * options_.minimum_explained);
   else if (reading.motion > options_.motion_limit)
-    reading.message = text("the board moved by %.1f px, at most %.1f px are allowed: hold it still",
-                           reading.motion, options_.motion_limit);
+    reading.message =
+        format("the board moved by %.1f px, at most %.1f px are allowed: hold it still",
+               reading.motion, options_.motion_limit);
   else if (static_cast<int>(view.count()) < options_.minimum_leds)
-    reading.message = text(
+    reading.message = format(
         "%d of %d LEDs stayed in place, at least %d are needed: hold the board "
         "still, and more of it in the image%s",
         static_cast<int>(view.count()), kBoardLeds, options_.minimum_leds,
         has_lamps ? "; cover other lights" : "");
   else if (smallestSeparation(view) < options_.minimum_separation)
-    reading.message = text(
+    reading.message = format(
         "LEDs are %.0f px from one another, at least %.0f px are needed: bring "
         "the board nearer or tilt it less",
         smallestSeparation(view), options_.minimum_separation);
   else {
-    reading.message = text("%d of %d LEDs", static_cast<int>(view.count()), kBoardLeds);
+    reading.message = format("%d of %d LEDs", static_cast<int>(view.count()), kBoardLeds);
     reading.view = view;
   }
   return reading;

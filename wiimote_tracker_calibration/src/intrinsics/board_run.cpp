@@ -1,12 +1,12 @@
-#include "wiimote_tracker_calibration/intrinsics/board_run.h"
+#include "intrinsics/board_run.h"
 
-#include "wiimote_tracker_calibration/intrinsics/board_sequence.h"
+#include "intrinsics/board_sequence.h"
 
 namespace wiimote_tracker::intrinsics {
 
 namespace {
 
-constexpr double kPeriod = 0.25;  // of readings [s]
+constexpr double kPeriod = 0.25;  // between two readings [s]
 
 }  // namespace
 
@@ -30,7 +30,7 @@ bool BoardRun::add(double time, const std::vector<Eigen::Vector2d>& spots) {
   }
   message_ = "view " + std::to_string(samples().views.size()) + " is kept (" + reading.message +
              "): hold the board still somewhere else";
-  // The next view takes a whole cycle: until then this is what there is to say.
+  // Keep this message: the next view takes a whole cycle.
   decoder_.clear();
   next_reading_ = time + sequence::kCycle;
   return true;

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/intrinsics/board_sequence.h"
+#include "intrinsics/board_sequence.h"
 
 #include "wiimote_tracker_calibration/intrinsics/board.h"
 

@@ -1,7 +1,7 @@
-// The fits themselves: cv::calibrateCamera and cv::fisheye::calibrate.
+// Fits a lens with cv::calibrateCamera or cv::fisheye::calibrate.
 #include "lens_fit.h"
 
-#include "wiimote_tracker_calibration/intrinsics/error.h"
+#include "intrinsics/error.h"
 
 #include <opencv2/calib3d.hpp>
 
@@ -11,7 +11,7 @@ namespace wiimote_tracker::intrinsics {
 
 namespace {
 
-// When a minimisation ends: iterations, relative change of the parameters.
+// Termination: number of iterations, relative change of the parameters.
 const cv::TermCriteria kPrecise(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-8);
 const cv::TermCriteria kRough(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 1e-3);
 
@@ -55,7 +55,7 @@ void calibrate(const Points& points, const cv::TermCriteria& end, Fit* fit) {
   fit->translations.assign(translations.begin(), translations.end());
 }
 
-/// Where the lens puts a view's LEDs, with the derivative as OpenCV lays it out.
+/// Pixels of a view's LEDs, with the derivatives in OpenCV's order.
 std::vector<cv::Point2f> project(const Fit& fit,
                                  const Points& points,
                                  std::size_t view,
@@ -94,7 +94,7 @@ Fit fitFrom(const Fit& start, LensModel model, const Points& points, const cv::T
     if (cv::checkRange(fit.camera_matrix) && cv::checkRange(fit.distortion))
       fit.error = reprojectionError(fit, points);
   } catch (const cv::Exception&) {
-    // From this start it cannot be solved; the caller has others.
+    // No solution from this start; the caller tries others.
   }
   if (!std::isfinite(fit.error))
     fit.error = HUGE_VAL;
@@ -177,7 +177,7 @@ ViewDerivative differentiate(const Fit& fit, const Points& points, std::size_t v
   cv::Mat derivative;
   const std::vector<cv::Point2f> projected = project(fit, points, view, &derivative);
   const int parameters = parameterCount(fit.model);
-  // OpenCV puts the pose before the lens, but behind it for a fisheye.
+  // OpenCV's columns: pose, then lens; for a fisheye lens, then pose.
   const int pose = isEquidistant(fit) ? 8 : 0;
   const int lens = isEquidistant(fit) ? 0 : kPoseParameters;
   ViewDerivative result;

@@ -14,7 +14,7 @@ namespace wiimote_tracker::intrinsics {
 
 constexpr int kPoseParameters = 6;
 
-/// The views as OpenCV takes them.
+/// The views in OpenCV's types.
 struct Points {
   explicit Points(const Samples& samples);
 
@@ -24,7 +24,7 @@ struct Points {
   std::size_t count = 0;
 };
 
-/// A lens and the board's poses, as OpenCV gives them.
+/// A lens and the board's poses in OpenCV's types.
 struct Fit {
   LensModel model = LensModel::kNoDistortion;
   cv::Mat camera_matrix;  // 3 x 3
@@ -36,8 +36,8 @@ struct Fit {
   bool ok() const { return std::isfinite(error); }
 };
 
-/// A lens without distortion, or an equidistant one without coefficients, from several focal
-/// lengths: a lens in front of the camera shortens them. @throws IntrinsicsError: nothing fits.
+/// Fits a lens without distortion, or an equidistant one without coefficients, from several focal
+/// lengths: a wide-angle lens in front shortens them. @throws IntrinsicsError: nothing fits.
 Fit firstFit(const Points& points, bool equidistant, double focal_length);
 
 /// The model with the least reprojection error, from a fit of the same kind.
@@ -48,7 +48,7 @@ geometry::Intrinsics intrinsicsOf(const Fit& fit, const Points& points);
 /// Parameters that a model estimates, in the order fx, fy, cx, cy, then the coefficients.
 int parameterCount(LensModel model);
 
-/// One view's pixels [px].
+/// Residuals of one view [px] and their derivatives.
 struct ViewDerivative {
   Eigen::VectorXd residuals;                                    // u, v, u, v, ...
   Eigen::Matrix<double, Eigen::Dynamic, kPoseParameters> pose;  // of the board

@@ -1,15 +1,16 @@
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
 
+#include "intrinsics/error.h"
 #include "lens_fit.h"
 #include "view_geometry.h"
-#include "wiimote_tracker_calibration/intrinsics/error.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/Cholesky>
 #include <opencv2/calib3d.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace wiimote_tracker::intrinsics {
 
@@ -36,7 +37,7 @@ Candidate candidateOf(const Fit& fit, const Points& points) {
   Candidate candidate;
   candidate.model = fit.model;
   candidate.reprojection_error = fit.error;
-  // Below a millionth of a pixel residuals are rounding, and no reason for another parameter.
+  // Residuals below a millionth of a pixel are rounding errors: they justify no parameter.
   const double variance = std::max(fit.error * fit.error / 2.0, 1e-12);
   candidate.bic = n * std::log(variance) + parameters * std::log(n);
   candidate.holds = holdsOverImage(intrinsicsOf(fit, points));
@@ -113,7 +114,7 @@ void checkPlaces(const Samples& samples) {
         "corners of the image too");
 }
 
-/// Tilts against one another: while all are alike, neither tilt nor focal length is determined.
+/// Checks that the views have different tilts: otherwise the focal length is not determined.
 void checkTilts(const Fit& fit) {
   double most = 0.0;
   std::vector<Eigen::Vector3d> normals;
@@ -130,14 +131,13 @@ void checkTilts(const Fit& fit) {
 }
 
 std::string summaryOf(const IntrinsicsSolution& s) {
-  char text[256];
-  std::snprintf(text, sizeof text,
-                "%d views, %s: fx %.1f +- %.1f, fy %.1f +- %.1f, cx %.1f +- %.1f, cy %.1f +- %.1f "
-                "px; reprojection error %.2f px",
-                static_cast<int>(s.view_errors.size()), nameOf(s.model).c_str(), s.intrinsics.fx,
-                std::sqrt(s.covariance(0, 0)), s.intrinsics.fy, std::sqrt(s.covariance(1, 1)),
-                s.intrinsics.cx, std::sqrt(s.covariance(2, 2)), s.intrinsics.cy,
-                std::sqrt(s.covariance(3, 3)), s.reprojection_error);
+  const std::string text = format(
+      "%d views, %s: fx %.1f +- %.1f, fy %.1f +- %.1f, cx %.1f +- %.1f, cy %.1f +- %.1f "
+      "px; reprojection error %.2f px",
+      static_cast<int>(s.view_errors.size()), nameOf(s.model).c_str(), s.intrinsics.fx,
+      std::sqrt(s.covariance(0, 0)), s.intrinsics.fy, std::sqrt(s.covariance(1, 1)),
+      s.intrinsics.cx, std::sqrt(s.covariance(2, 2)), s.intrinsics.cy,
+      std::sqrt(s.covariance(3, 3)), s.reprojection_error);
   return text;
 }
 
@@ -161,7 +161,7 @@ std::string nameOf(LensModel model) {
 
 namespace {
 
-/// From simple to rich, each from the one before; up to the given model.
+/// Fits the models from simple to rich, each starting from the one before, up to options.model.
 Fit chooseModel(const Points& points, const SolverOptions& options, IntrinsicsSolution* solution) {
   Fit fit = firstFit(points, false, options.start_focal_length);
   checkTilts(fit);
@@ -185,7 +185,7 @@ Fit chooseModel(const Points& points, const SolverOptions& options, IntrinsicsSo
     if (model == options.model)
       break;
   }
-  // A model that folds within the image but fits far better: the one that holds is a makeshift.
+  // If a model that is not one-to-one over the image fits far better, the chosen one is poor.
   const bool is_makeshift =
       chosen.ok() && !options.model &&
       std::any_of(solution->candidates.begin(), solution->candidates.end(),

@@ -1,7 +1,7 @@
-#include "wiimote_tracker_calibration/intrinsics/view_collector.h"
+#include "intrinsics/view_collector.h"
 
+#include "intrinsics/error.h"
 #include "view_geometry.h"
-#include "wiimote_tracker_calibration/intrinsics/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ double unit(double value) {
   return std::clamp(value, 0.0, 1.0);
 }
 
-/// 0 when the board touches one edge of the image, 1 when it touches the other.
+/// 0 if the board touches one edge of the image, 1 if it touches the opposite one.
 double placeBetweenEdges(double center, double board, double image) {
   return image > board ? unit((center - board / 2.0) / (image - board)) : 0.5;
 }
@@ -93,7 +93,7 @@ Coverage ViewCollector::coverage() const {
         high[i] = std::max(high[i], kept[i]);
       }
     }
-    // The smallest board and the board seen from its front need not be shown.
+    // A small board or one without tilt is not required.
     low[kSize] = low[kSkew] = 0.0;
   }
   Parameters bars;

@@ -1,6 +1,6 @@
 #include "view_geometry.h"
 
-#include "wiimote_tracker_calibration/intrinsics/error.h"
+#include "intrinsics/error.h"
 
 #include <Eigen/LU>
 #include <opencv2/calib3d.hpp>
@@ -13,7 +13,7 @@ namespace wiimote_tracker::intrinsics {
 
 namespace {
 
-// The lens bends the mapping, by some percent of the board's size at most.
+// Largest misfit, as a share of the board's size: distortion bends the mapping by some percent.
 constexpr double kLargestMisfit = 0.06;
 
 Eigen::Vector2d mapped(const cv::Mat& homography, const Eigen::Vector3d& point) {

@@ -10,11 +10,11 @@
 
 namespace wiimote_tracker::intrinsics {
 
-/// One view as a mapping of the plane onto the image: what can be said without knowing the lens.
+/// Homography from the board to the image: what is known of a view without knowing the lens.
 struct ViewGeometry {
   std::array<Eigen::Vector2d, 4> corners;  ///< Of the board: LEDs 0, 3, 15, 12, seen or not [px].
   double misfit = 0.0;                     ///< RMS of the LEDs to the mapping [px].
-  bool mirrored = false;                   ///< The corners run the wrong way round.
+  bool mirrored = false;                   ///< The corners run counterclockwise.
 
   Eigen::Vector2d center() const;
   double size() const;  ///< Square root of the area [px].

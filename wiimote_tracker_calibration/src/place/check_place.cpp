@@ -1,27 +1,24 @@
-#include "wiimote_tracker_calibration/place/check_place.h"
+#include "place/check_place.h"
 
-#include "wiimote_tracker_calibration/place/chi_squared.h"
-#include "wiimote_tracker_calibration/place/error.h"
+#include "place/chi_squared.h"
+#include "place/error.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/Cholesky>
 
 #include <cmath>
-#include <cstdio>
 
 namespace wiimote_tracker::place {
 
 namespace {
 
 std::string millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", 1000.0 * metres);
-  return text;
+  return format("%.1f mm", 1000.0 * metres);
 }
 
 std::string pixels(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f px", value);
-  return text;
+  return format("%.1f px", value);
 }
 
 /// Which cameras do not fit together, and what to do about it.

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/place/known_places.h"
+#include "place/known_places.h"
 
 namespace wiimote_tracker::place {
 

@@ -1,8 +1,8 @@
-#include "wiimote_tracker_calibration/place/measure_place.h"
+#include "place/measure_place.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
-#include "wiimote_tracker_calibration/place/chi_squared.h"
-#include "wiimote_tracker_calibration/place/error.h"
+#include "place/chi_squared.h"
+#include "place/error.h"
 
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 #include <wiimote_tracker_triangulation/remap/correction.h>
@@ -26,7 +26,7 @@ struct View {
   Eigen::Vector2d pixel;
 };
 
-/// A point from some views, and all that its errors come from.
+/// A point from some views, with the derivatives of its pixels.
 struct Measurement {
   Eigen::Vector3d position;
   Eigen::VectorXd residuals;      // Two per view [px].
@@ -68,7 +68,7 @@ std::optional<Measurement> measure(const geometry::Rig& rig,
   return result;
 }
 
-/// Covariance of the pixels' errors, those that the calibration makes included [px^2].
+/// Covariance of the pixels' errors, including those of the calibration [px^2].
 Eigen::MatrixXd pixelCovariance(const geometry::Rig& rig,
                                 const Measurement& measurement,
                                 double pixel_stddev) {
@@ -80,8 +80,8 @@ Eigen::MatrixXd pixelCovariance(const geometry::Rig& rig,
   return covariance;
 }
 
-/// How badly the rays miss each other: the part of the residuals that no point can explain, in
-/// units of what is to be expected of it; above 1 beyond chance (0.1 %).
+/// How far the rays miss each other: chi-squared of the part of the residuals that no point can
+/// explain, over its 99.9 % quantile.
 double disagreement(const geometry::Rig& rig, const Measurement& measurement, double pixel_stddev) {
   const Eigen::Index rows = measurement.residuals.size();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(measurement.by_point);

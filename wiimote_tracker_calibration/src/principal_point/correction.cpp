@@ -1,6 +1,6 @@
 #include "wiimote_tracker_calibration/principal_point/correction.h"
 
-#include "wiimote_tracker_calibration/square/error.h"
+#include "square/error.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace wiimote_tracker::principal_point {
 
 namespace {
 
-/// What the cameras that were solved saw, in the order of the rig; their intrinsics are what the
-/// correction changes.
+/// The sightings of the solved cameras, in the order of the rig. The correction changes their
+/// intrinsics.
 std::vector<square::CameraSightings> solvedOnes(const std::vector<square::CameraSightings>& cameras,
                                                 const geometry::Rig& rig) {
   std::vector<square::CameraSightings> solved;

@@ -1,10 +1,10 @@
-#include "wiimote_tracker_calibration/recalibrate/recalibrate_camera.h"
+#include "recalibrate/recalibrate_camera.h"
 
 #include "resection.h"
 #include "seen_path.h"
 
-#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
-#include "wiimote_tracker_calibration/recalibrate/error.h"
+#include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
+#include "recalibrate/error.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -27,19 +27,21 @@ using geometry::kPosition;
 using geometry::kRotation;
 using geometry::kTimeOffset;
 
-// Time offset of a camera before anything is known [s].
+// Prior standard deviation of the camera's time offset [s].
 constexpr double kOffsetStddev = 0.05;
-// What a time offset may be off that is not known, of the others [s].
+// Standard deviation of the time offset of another camera whose offset is unknown [s].
 constexpr double kUnknownOffset = 0.005;
-// How much is asked of the result and of the wave; see wave::solveWave().
-constexpr double kLeastShare = 0.5;
+// Limits of the result and of the wave, as in wave::solveWave().
+constexpr double kMinimumInlierRatio = 0.5;
 constexpr double kLargestNoise = 3.0;  // [px]
-constexpr double kThinnest = 0.05;
-constexpr double kLeastReach = 0.1;  // Standard deviation of the path [m].
-// What the uncertainty of the camera may make of the place of a spot, the others taken as exact:
-// RMS [px]. Its position alone says little: a longer lens further away sees the same.
+constexpr double kMinimumFlatness = 0.05;
+constexpr double kMinimumExtent =
+    0.1;  // Standard deviation of the path along its longest axis [m].
+// Largest standard deviation of a predicted pixel due to the camera's uncertainty, the others being
+// exact: RMS [px]. The camera's position alone says little: a longer lens further away sees the
+// same.
 constexpr double kLargestImageError = 2.0;
-// Derivatives by the others are worked out for as many matches.
+// Number of matches for which the derivatives by the others' parameters are computed.
 constexpr std::size_t kDerivatives = 200;
 
 std::string number(const char* format, double value) {
@@ -80,11 +82,11 @@ bool sameDevice(const geometry::RigCamera& calibrated, const Request& request) {
   return before.empty() || request.identity.empty() || before == request.identity;
 }
 
-/// Of another device's lens.
+/// Prior covariance of another device's lens.
 ParameterMatrix lensCovariance(const geometry::Intrinsics& lens,
                                const square::Uncertainty& uncertainty) {
   ParameterMatrix covariance = ParameterMatrix::Zero();
-  // fx and fy are the focal length times and divided by the root of the aspect.
+  // fx = f sqrt(aspect), fy = f / sqrt(aspect).
   const double common = uncertainty.focal * uncertainty.focal;
   const double apart = 0.25 * uncertainty.aspect * uncertainty.aspect;
   covariance(kLens, kLens) = lens.fx * lens.fx * (common + apart);
@@ -97,37 +99,37 @@ ParameterMatrix lensCovariance(const geometry::Intrinsics& lens,
   return covariance;
 }
 
-/// What is known of the camera beforehand, and whether its lens is known from the rig.
-struct Knowledge {
+/// The prior of the camera, and whether its lens is the rig's.
+struct CameraPrior {
   Prior prior;
   bool lens_of_rig = false;
 };
 
-Knowledge knowledgeOf(const geometry::Rig& rig,
-                      std::size_t index,
-                      const Request& request,
-                      const Options& options) {
+CameraPrior priorOf(const geometry::Rig& rig,
+                    std::size_t index,
+                    const Request& request,
+                    const Options& options) {
   const geometry::RigCamera& calibrated = rig.cameras[index];
-  Knowledge knowledge;
+  CameraPrior known;
   const bool same = sameDevice(calibrated, request);
-  knowledge.prior.lens = same ? calibrated.camera.intrinsics : request.intrinsics;
-  knowledge.lens_of_rig = same && geometry::hasCovariance(rig);
-  if (knowledge.lens_of_rig) {
+  known.prior.lens = same ? calibrated.camera.intrinsics : request.intrinsics;
+  known.lens_of_rig = same && geometry::hasCovariance(rig);
+  if (known.lens_of_rig) {
     const auto n = kTimeOffset - kLens;
     const Eigen::Index first = firstParameter(index) + kLens;
-    knowledge.prior.covariance.block(kLens, kLens, n, n) = rig.covariance.block(first, first, n, n);
+    known.prior.covariance.block(kLens, kLens, n, n) = rig.covariance.block(first, first, n, n);
   } else {
-    knowledge.prior.covariance = lensCovariance(knowledge.prior.lens, options.uncertainty);
+    known.prior.covariance = lensCovariance(known.prior.lens, options.uncertainty);
   }
-  knowledge.prior.covariance(kTimeOffset, kTimeOffset) = kOffsetStddev * kOffsetStddev;
+  known.prior.covariance(kTimeOffset, kTimeOffset) = kOffsetStddev * kOffsetStddev;
   for (const capture::Image& image : request.images) {
     if (same && image.camera == request.camera) {
-      // A start; it is estimated anew all the same.
-      knowledge.prior.time_offset = timeOffset(calibrated, image.clock_epoch).value_or(0.0);
+      // A start value; the offset is estimated again.
+      known.prior.time_offset = timeOffset(calibrated, image.clock_epoch).value_or(0.0);
       break;
     }
   }
-  return knowledge;
+  return known;
 }
 
 void checkOthers(const geometry::Rig& rig, const SeenPath& path) {
@@ -147,7 +149,7 @@ void checkFit(const Fit& fit) {
     throw RecalibrateError(
         "the other cameras contradict each other most of the time: they see different lights, or "
         "another one was moved; see that only the LED shines, or calibrate all of them again");
-  if (static_cast<double>(found) < kLeastShare * static_cast<double>(fit.expected))
+  if (static_cast<double>(found) < kMinimumInlierRatio * static_cast<double>(fit.expected))
     throw RecalibrateError(
         "only " + std::to_string(found) + " of " + std::to_string(fit.expected) + " images of " +
         name +
@@ -168,21 +170,22 @@ void checkFit(const Fit& fit) {
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
   const Eigen::Vector3d extent = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  if (extent[2] < kLeastReach)
+  if (extent[2] < kMinimumExtent)
     throw RecalibrateError("the LED moved by " + number("%.2f m", extent[2]) +
                            " only: wave it through the whole volume");
-  if (extent[0] < kThinnest * extent[2])
+  if (extent[0] < kMinimumFlatness * extent[2])
     throw RecalibrateError(
         "the LED stayed on a line or in a plane: wave it through the whole volume, up and down "
         "and near and far");
 }
 
-/// How the camera's parameters answer to errors of all parameters of the rig.
-Eigen::MatrixXd answerToOthers(const geometry::Rig& rig,
-                               std::size_t index,
-                               const Knowledge& knowledge,
-                               const Options& options,
-                               const Fit& fit) {
+/// Right-hand side of the camera's normal equations per error of each parameter of the rig: inverse
+/// of the information times this is how the camera's estimate changes with them.
+Eigen::MatrixXd sensitivityToRig(const geometry::Rig& rig,
+                                 std::size_t index,
+                                 const CameraPrior& known,
+                                 const Options& options,
+                                 const Fit& fit) {
   const Eigen::Index size = firstParameter(rig.cameras.size());
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(kParameters, size);
   const std::size_t stride = std::max<std::size_t>(1, fit.matches.size() / kDerivatives);
@@ -192,25 +195,18 @@ Eigen::MatrixXd answerToOthers(const geometry::Rig& rig,
     const auto own = linearize(fit.camera, match, fit.pixel_stddev, options.stamp);
     if (!own)
       continue;
-    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-    Eigen::MatrixXd by_parameters = Eigen::MatrixXd::Zero(3, size);
-    for (const std::size_t other : match.point.cameras) {
-      auto projection = geometry::rayProjection(rig, other, match.point.position);
-      if (!projection)
-        continue;
-      projection->by_parameters.col(kTimeOffset) = projection->by_point * match.point.velocity;
-      information += projection->by_point.transpose() * projection->by_point;
-      by_parameters.middleCols<kParameters>(firstParameter(other)) =
-          projection->by_point.transpose() * projection->by_parameters;
-    }
-    // The point moves by -information^-1 by_parameters, and the prediction with it.
-    right += own->jacobian.transpose() * own->covariance.inverse() * own->by_point *
-             (information.inverse() * by_parameters);
+    const auto point_by_parameters = geometry::pointByParameters(
+        rig, match.point.position, match.point.cameras, match.point.velocity);
+    if (!point_by_parameters)
+      continue;
+    // The prediction moves with the point.
+    right -= own->jacobian.transpose() * own->covariance.inverse() * own->by_point *
+             *point_by_parameters;
     used += 1.0;
   }
   right *= static_cast<double>(fit.matches.size()) / used;
-  if (knowledge.lens_of_rig) {
-    // Where the lens starts from is one of the rig's parameters, too.
+  if (known.lens_of_rig) {
+    // The prior mean of the lens is a parameter of the rig, too.
     ParameterMatrix lens = fit.prior_information;
     lens.col(kTimeOffset).setZero();
     right.middleCols<kParameters>(firstParameter(index)) += lens;
@@ -238,35 +234,35 @@ ParameterMatrix inverseOf(const ParameterMatrix& information,
   return result;
 }
 
-/// Slow errors of a clock hardly average out over a wave, and the offset is a mean over it: the
-/// variance of the mean of an error that settles within seconds [s^2].
-double wander(const Fit& fit, const Options& options) {
-  const double kSettling = 2.0;  // [s]
-  return options.stamp * options.stamp * std::min(1.0, 2.0 * kSettling / fit.duration);
+/// Variance of the mean of the stamps' errors over the wave, which are correlated over seconds
+/// [s^2].
+double meanStampVariance(const Fit& fit, const Options& options) {
+  const double kCorrelationTime = 2.0;  // [s]
+  return options.stamp * options.stamp * std::min(1.0, 2.0 * kCorrelationTime / fit.duration);
 }
 
-/// The camera's part of the joint covariance, and what it has in common with the others.
-/// @returns the covariance of the camera alone.
+/// Writes the camera's block and its cross covariances into the rig's covariance.
+/// @returns the camera's block.
 ParameterMatrix updateCovariance(const SeenPath& path,
                                  std::size_t index,
-                                 const Knowledge& knowledge,
+                                 const CameraPrior& known,
                                  const Options& options,
                                  const Fit& fit,
                                  geometry::Rig* rig) {
   const ParameterMatrix inverse = inverseOf(fit.information, fit.free);
   ParameterMatrix noise = fit.information;
-  if (knowledge.lens_of_rig) {
-    // The prior's share comes with the rig's covariance.
+  if (known.lens_of_rig) {
+    // The rig's covariance contributes the prior below.
     ParameterMatrix lens = fit.prior_information;
     lens.row(kTimeOffset).setZero();
     lens.col(kTimeOffset).setZero();
     noise -= lens;
   }
   ParameterMatrix own = inverse * noise * inverse;
-  own(kTimeOffset, kTimeOffset) += wander(fit, options);
+  own(kTimeOffset, kTimeOffset) += meanStampVariance(fit, options);
   if (!geometry::hasCovariance(*rig))
     return own;
-  const Eigen::MatrixXd answer = inverse * answerToOthers(*rig, index, knowledge, options, fit);
+  const Eigen::MatrixXd by_rig = inverse * sensitivityToRig(*rig, index, known, options, fit);
   Eigen::MatrixXd others = rig->covariance;
   for (const std::size_t i : path.cameras()) {
     if (!path.clockKnown(i)) {
@@ -274,9 +270,9 @@ ParameterMatrix updateCovariance(const SeenPath& path,
       others(k, k) += kUnknownOffset * kUnknownOffset;
     }
   }
-  own += answer * others * answer.transpose();
+  own += by_rig * others * by_rig.transpose();
   own = 0.5 * (own + own.transpose()).eval();
-  const Eigen::MatrixXd common = answer * rig->covariance;
+  const Eigen::MatrixXd common = by_rig * rig->covariance;
   const Eigen::Index first = firstParameter(index);
   rig->covariance.middleRows<kParameters>(first) = common;
   rig->covariance.middleCols<kParameters>(first) = common.transpose();
@@ -284,8 +280,8 @@ ParameterMatrix updateCovariance(const SeenPath& path,
   return own;
 }
 
-/// What the uncertainty of the camera makes of the places of the spots, the others taken as exact:
-/// RMS [px].
+/// RMS standard deviation of the predicted pixels due to the camera's uncertainty, the others being
+/// exact [px].
 double imageError(const Fit& fit) {
   const ParameterMatrix covariance = inverseOf(fit.information, fit.free);
   double squared = 0.0;
@@ -353,17 +349,17 @@ Recalibration recalibrateCamera(const geometry::Rig& rig,
   checkInput(rig, request, options);
   const SeenPath path(rig, request.images, request.camera);
   checkOthers(rig, path);
-  const Knowledge knowledge = knowledgeOf(rig, index, request, options);
+  const CameraPrior known = priorOf(rig, index, request, options);
   geometry::Camera start = rig.cameras[index].camera;
-  start.intrinsics = knowledge.prior.lens;
-  const Fit fit = resect(path, movingLights(request.images, request.camera), start, knowledge.prior,
+  start.intrinsics = known.prior.lens;
+  const Fit fit = resect(path, movingLights(request.images, request.camera), start, known.prior,
                          {options.pixel, options.stamp});
   checkFit(fit);
 
   Recalibration result;
   result.rig = rig;
   const ParameterMatrix covariance =
-      updateCovariance(path, index, knowledge, options, fit, &result.rig);
+      updateCovariance(path, index, known, options, fit, &result.rig);
   result.rotation_stddev = std::sqrt(covariance.diagonal().segment<3>(kRotation).sum());
   result.position_stddev = std::sqrt(covariance.diagonal().segment<3>(kPosition).sum());
   result.offset_stddev = std::sqrt(covariance(kTimeOffset, kTimeOffset));

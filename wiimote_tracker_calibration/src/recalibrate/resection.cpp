@@ -1,6 +1,8 @@
 #include "resection.h"
 
-#include "wiimote_tracker_calibration/recalibrate/error.h"
+#include "recalibrate/error.h"
+
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -18,20 +20,20 @@ namespace wiimote_tracker::recalibrate {
 
 namespace {
 
-// Time offsets that are tried to begin with, around what is known [s].
+// Time offsets tried first, around the prior mean [s].
 constexpr double kFarthestOffset = 0.05;
 constexpr double kOffsetStep = 0.01;
-// Points that stand for all of them in the search for a first pose.
+// Number of points used in the search for a first pose.
 constexpr std::size_t kSearchPoints = 150;
-constexpr std::size_t kLeastMatches = 100;
-// How far a spot may be off at first [px], and in the end [standard deviations].
+constexpr std::size_t kMinimumMatches = 100;
+// Gates: first in px, then in standard deviations.
 constexpr double kWideGates[] = {30.0, 15.0};
 constexpr double kGate = 4.0;
 constexpr int kFinalRounds = 12;
 constexpr int kSteps = 4;  // Gauss-Newton steps from one matching to the next.
-// Changes of noise and clock that are none.
-constexpr double kNoiseSettled = 0.01;
-constexpr double kOffsetSettled = 1e-6;  // [s]
+// Convergence: relative change of the noise, change of the time offset.
+constexpr double kNoiseTolerance = 0.01;
+constexpr double kOffsetTolerance = 1e-6;  // [s]
 
 struct Pose {
   geometry::Camera camera;
@@ -69,7 +71,7 @@ std::optional<Pose> searchPose(const SeenPath& path,
                             0.999, inliers, cv::SOLVEPNP_EPNP))
       return std::nullopt;
   } catch (const cv::Exception&) {
-    return std::nullopt;  // Points in which it finds no pose.
+    return std::nullopt;  // degenerate points
   }
   cv::Mat rotation;
   cv::Rodrigues(rotation_vector, rotation);
@@ -106,7 +108,7 @@ Pose firstPose(const SeenPath& path,
   return *best;
 }
 
-/// The spot of each image that fits best, where one does.
+/// Associates with each image its best spot within the gate.
 void matchSpots(const SeenPath& path,
                 const std::vector<capture::Image>& images,
                 double gate,
@@ -143,18 +145,16 @@ void matchSpots(const SeenPath& path,
       least = squared;
     }
   }
-  if (fit->matches.size() < kLeastMatches)
+  if (fit->matches.size() < kMinimumMatches)
     throw RecalibrateError(fit->camera.name + " and two other cameras saw the LED together in " +
                            std::to_string(fit->matches.size()) + " images only, but " +
-                           std::to_string(kLeastMatches) +
+                           std::to_string(kMinimumMatches) +
                            " are needed: wave longer, where all of them see it");
 }
 
 void apply(const ParameterVector& step, geometry::Camera* camera, double* time_offset) {
-  const Eigen::Vector3d turn = step.segment<3>(geometry::kRotation);
-  Eigen::Quaterniond rotation(camera->world_from_camera.linear());
-  if (turn.norm() > 0.0)
-    rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * rotation;
+  const Eigen::Quaterniond rotation = geometry::so3::exp(step.segment<3>(geometry::kRotation)) *
+                                      Eigen::Quaterniond(camera->world_from_camera.linear());
   camera->world_from_camera.linear() = rotation.normalized().toRotationMatrix();
   camera->world_from_camera.translation() += step.segment<3>(geometry::kPosition);
   geometry::Intrinsics& lens = camera->intrinsics;
@@ -167,7 +167,7 @@ void apply(const ParameterVector& step, geometry::Camera* camera, double* time_o
   *time_offset += step[geometry::kTimeOffset];
 }
 
-/// Lens and time offset less what they were taken to be beforehand; pose: 0.
+/// Lens and time offset minus their prior mean; pose: 0.
 ParameterVector deviation(const Fit& fit, const Prior& prior) {
   ParameterVector result = ParameterVector::Zero();
   const geometry::Intrinsics& lens = fit.camera.intrinsics;
@@ -183,7 +183,7 @@ ParameterVector deviation(const Fit& fit, const Prior& prior) {
   return result;
 }
 
-/// Inverse of the covariance of what is not held.
+/// Inverse of the covariance over the parameters that are not held.
 ParameterMatrix informationOf(const ParameterMatrix& covariance) {
   std::vector<Eigen::Index> known;
   for (Eigen::Index k = geometry::kLens; k < geometry::kParameters; ++k) {
@@ -239,7 +239,7 @@ double normalEquations(const Fit& fit,
   *gradient = fit.prior_information * from_prior;
   double cost = 0.5 * from_prior.dot(*gradient);
   for (Match match : fit.matches) {
-    // Within a round the LED moves straight on from where it was matched.
+    // Until the next association the LED moves with constant velocity.
     match.point.position += match.point.velocity * (fit.time_offset - base_offset);
     const auto linear = linearize(fit.camera, match, fit.pixel_stddev, stamp_stddev);
     if (!linear)
@@ -254,7 +254,7 @@ double normalEquations(const Fit& fit,
   return cost;
 }
 
-/// Levenberg-Marquardt from one matching.
+/// A few steps of Levenberg-Marquardt with fixed associations.
 void adjust(const Prior& prior, double stamp_stddev, Fit* fit) {
   const double base = fit->time_offset;
   ParameterMatrix information;
@@ -286,7 +286,7 @@ void adjust(const Prior& prior, double stamp_stddev, Fit* fit) {
   fit->information = information;
 }
 
-/// Root of the mean squared whitened residual, for those that the gate lets through.
+/// Root mean square of the whitened residuals of the matches.
 double misfit(const Fit& fit, double stamp_stddev) {
   double squared = 0.0;
   for (const Match& match : fit.matches) {
@@ -344,8 +344,8 @@ Fit resect(const SeenPath& path,
     adjust(prior, options.stamp, &fit);
     const double ratio = misfit(fit, options.stamp);
     fit.pixel_stddev *= ratio;
-    if (std::abs(ratio - 1.0) < kNoiseSettled &&
-        std::abs(fit.time_offset - offset) < kOffsetSettled)
+    if (std::abs(ratio - 1.0) < kNoiseTolerance &&
+        std::abs(fit.time_offset - offset) < kOffsetTolerance)
       break;
   }
   return fit;

@@ -18,7 +18,7 @@ namespace wiimote_tracker::recalibrate {
 using ParameterVector = Eigen::Matrix<double, geometry::kParameters, 1>;
 using ParameterMatrix = Eigen::Matrix<double, geometry::kParameters, geometry::kParameters>;
 
-/// What is known of the camera beforehand.
+/// Prior of the camera.
 struct Prior {
   geometry::Intrinsics lens;
   /// Of the lens and of the time offset; 0 on the diagonal: held. Pose: not read.
@@ -26,13 +26,13 @@ struct Prior {
   double time_offset = 0.0;  ///< [s]
 };
 
-/// A spot of the camera and where the LED was then.
+/// A spot of the camera and the LED's position at its time.
 struct Match {
-  PathPoint point;  ///< At the time offset of the match.
+  PathPoint point;  ///< At the time offset at which it was associated.
   Eigen::Vector2d pixel;
 };
 
-/// Camera, clock and what they were found from.
+/// Estimate of camera and time offset, with its data.
 struct Fit {
   geometry::Camera camera;
   double time_offset = 0.0;   ///< [s]
@@ -40,7 +40,7 @@ struct Fit {
   std::vector<Match> matches;
   double duration = 0.0;          ///< Of the camera's images [s].
   std::size_t expected = 0;       ///< Images with spots while the others saw the LED.
-  std::size_t contradictory = 0;  ///< Images at whose times the others did not agree.
+  std::size_t contradictory = 0;  ///< Images for which the others' rays did not meet.
   ParameterMatrix information = ParameterMatrix::Zero();  ///< With the prior's; held: zero.
   ParameterMatrix prior_information = ParameterMatrix::Zero();
   std::vector<Eigen::Index> free;  ///< Parameters that were not held.
@@ -66,7 +66,7 @@ std::optional<Linearized> linearize(const geometry::Camera& camera,
                                     double pixel_stddev,
                                     double stamp_stddev);
 
-/// Most probable pose, lens and time offset. @param images of this camera, in their order.
+/// Maximum a posteriori pose, lens and time offset. @param images of this camera, ascending.
 /// @throws RecalibrateError: too few images in common with the others, or no pose explains them.
 Fit resect(const SeenPath& path,
            const std::vector<capture::Image>& images,

@@ -11,16 +11,15 @@ namespace wiimote_tracker::recalibrate {
 
 namespace {
 
-// Between two images further apart the LED's way is not known.
+// Longest interval between images that is interpolated.
 constexpr double kLongestGap = 0.05;  // [s]
-// The velocity is taken over twice this [s].
+// The velocity is a central difference over twice this [s].
 constexpr double kStep = 0.02;
-// Rays that miss each other by more are of different lights: RMS [px], and that of a fast spot
-// whose time is not known.
+// Largest RMS reprojection error of one light [px]; larger where a time offset is unknown.
 constexpr double kLargestMiss = 6.0;
 constexpr double kLargestMissUnclocked = 20.0;
-// Cameras that face each other hardly tell where on the line between them the LED is: a point less
-// certain than this for 1 px is left out [m].
+// Largest standard deviation of a point for 1 px [m]: cameras that face each other hardly determine
+// the position on the line between them.
 constexpr double kLargestSpread = 0.02;
 
 }  // namespace
@@ -98,7 +97,7 @@ SeenPath::Sight SeenPath::positionAt(double time, PathPoint* point) const {
   geometry::TriangulationOptions options;
   options.pixel_stddev = 1.0;
   auto result = geometry::triangulate(observations, options);
-  // One of three or more that sees another light is left out.
+  // Of three or more, leave one out if it sees another light.
   if (observations.size() > 2 && (!result || result->reprojection_error > largest_miss)) {
     std::size_t left_out = 0;
     for (std::size_t i = 0; i < observations.size(); ++i) {

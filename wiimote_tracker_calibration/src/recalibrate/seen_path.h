@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_SEEN_PATH_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_SEEN_PATH_H
 
-#include "wiimote_tracker_calibration/capture/image.h"
+#include "capture/image.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -15,7 +15,7 @@
 
 namespace wiimote_tracker::recalibrate {
 
-/// Where the LED is at some time.
+/// State of the LED at some time.
 struct PathPoint {
   Eigen::Vector3d position;          ///< [m]
   Eigen::Vector3d velocity;          ///< [m/s]
@@ -23,21 +23,21 @@ struct PathPoint {
   std::vector<std::size_t> cameras;  ///< That saw it, as the rig counts them.
 };
 
-/// The LED's path as all cameras but one see it. Each is taken at its own times; between two of its
-/// images the spot is taken to move straight. That averages the errors of neighbouring images, but
-/// as each of these enters several points the average over many points is no better for it: the
-/// covariance is that of single images.
+/// The LED's trajectory as all cameras but one see it, triangulated from their spots, which are
+/// interpolated linearly between two images. Interpolation averages the errors of two images, but
+/// neighbouring points share images; the covariance is therefore that of single images.
 class SeenPath {
  public:
-  /// Images with another number of spots than one, lamps left out, take no part.
+  /// Uses images with exactly one spot, not counting lamps.
   SeenPath(const geometry::Rig& rig,
            const std::vector<capture::Image>& images,
            const std::string& without);
 
-  /// What one asks for is there, or why not.
+  /// Whether the position is known, or why not.
   enum class Sight { kSeen, kNotSeen, kContradictory };
 
-  /// Not seen: fewer than two cameras see the LED then. Contradictory: their rays miss each other.
+  /// kNotSeen: fewer than two cameras see the LED at this time, or nearly from opposite sides.
+  /// kContradictory: their rays do not meet.
   Sight at(double time, PathPoint* point) const;
 
   /// Cameras that saw the LED at all.
@@ -66,7 +66,7 @@ class SeenPath {
 /// Time offset of a camera for images of one epoch [s]; nothing when it is not known.
 std::optional<double> timeOffset(const geometry::RigCamera& camera, std::uint32_t clock_epoch);
 
-/// The images of one camera without lamps: spots that stay in one place.
+/// The images of one camera, without spots that stay in one place (lamps).
 std::vector<capture::Image> movingLights(const std::vector<capture::Image>& images,
                                          const std::string& camera);
 

@@ -8,7 +8,7 @@
 
 namespace wiimote_tracker::remap {
 
-/// @throws RemapError when no model at all can be fitted to the points; see fitRemap().
+/// @throws Error when no model at all can be fitted to the points; see fitRemap().
 void checkPoints(const std::vector<KnownPoint>& points, const std::string& rig_id);
 
 }  // namespace wiimote_tracker::remap

@@ -4,6 +4,7 @@
 #include "fit_model.h"
 #include "wiimote_tracker_calibration/remap/error.h"
 
+#include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/remap/convex_hull.h>
 #include <wiimote_tracker_triangulation/remap/model_math.h>
 
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <optional>
 
@@ -19,11 +19,11 @@ namespace wiimote_tracker::remap {
 
 namespace {
 
-// Groups of points that are held out for the expected error.
+// Most groups of points that are held out for the expected error.
 constexpr std::size_t kMostFolds = 20;
-// A point that is missed by more than this many times the median is named.
+// A warning names a point whose error is more than this many times the median.
 constexpr double kOutlier = 5.0;
-// Deeper in the hull than this counts as inside; the unit is half the longest edge of the volume.
+// A point is inside if it is deeper in the hull than this, in half the longest edge of the volume.
 constexpr double kInside = 0.1;
 
 double rms(const std::vector<double>& errors) {
@@ -41,12 +41,10 @@ std::vector<double> uncorrectedErrors(const std::vector<KnownPoint>& points) {
 }
 
 std::string millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", 1e3 * metres);
-  return text;
+  return format("%.1f mm", 1e3 * metres);
 }
 
-/// Whether the model keeps left and right everywhere in its support.
+/// Whether the model's Jacobian determinant is positive everywhere in its support.
 bool keepsOrientation(const Remap& remap) {
   const Frame frame = frameOf(remap.support);
   return std::all_of(remap.support.begin(), remap.support.end(), [&](const Eigen::Vector3d& point) {
@@ -55,13 +53,13 @@ bool keepsOrientation(const Remap& remap) {
   });
 }
 
-/// A model that can be chosen.
+/// A fitted model.
 struct Candidate {
   Remap remap;
   std::vector<double> left_out_errors;
 };
 
-/// Nothing, and the reason, when it cannot.
+/// @returns nothing, and the reason, if the model cannot be used.
 std::optional<Candidate> tryModel(Model model,
                                   const std::vector<KnownPoint>& points,
                                   std::string* reason) {
@@ -82,7 +80,7 @@ std::optional<Candidate> tryModel(Model model,
   return Candidate{*remap, *errors};
 }
 
-/// Whether squared errors are smaller by more than the standard error of their difference.
+/// Whether the squared errors are smaller by more than the standard error of the difference.
 bool isBetter(const std::vector<double>& errors, const std::vector<double>& than) {
   const auto n = static_cast<double>(errors.size());
   double mean = 0.0;
@@ -96,7 +94,7 @@ bool isBetter(const std::vector<double>& errors, const std::vector<double>& than
   return mean > std::sqrt(variance / n);
 }
 
-/// Index of the best candidate; nothing when no correction is as good.
+/// Index of the best candidate; nothing if no correction is as good.
 std::optional<std::size_t> choose(const std::vector<std::optional<Candidate>>& candidates,
                                   const std::vector<KnownPoint>& points) {
   std::optional<std::size_t> best;
@@ -110,7 +108,8 @@ std::optional<std::size_t> choose(const std::vector<std::optional<Candidate>>& c
   return best;
 }
 
-/// RMS error of points that took part neither in the fit nor in the choice.
+/// RMS error of points that took part neither in the fit nor in the choice (nested
+/// cross-validation).
 double nestedError(const std::vector<KnownPoint>& points,
                    const std::vector<Model>& models,
                    const ProgressCallback& progress) {
@@ -149,7 +148,7 @@ std::vector<std::string> suspectPoints(const std::vector<double>& errors) {
   return warnings;
 }
 
-/// Whether a point lies well inside the others, so that left out points speak of the inside too.
+/// Whether a point lies well inside the others, so that left out points test the inside too.
 bool reachInside(const std::vector<Eigen::Vector3d>& support) {
   const ConvexHull hull(support);
   const double depth = kInside * frameOf(support).scale;
@@ -165,7 +164,7 @@ FitResult fitRemap(const std::vector<KnownPoint>& points,
                    const ProgressCallback& progress) {
   checkPoints(points, rig_id);
   if (options.models.empty())
-    throw RemapError("no model of a correction of the volume is allowed: allow at least one");
+    throw Error("no model of a correction of the volume is allowed: allow at least one");
   std::vector<Model> models = options.models;
   std::sort(models.begin(), models.end());
 
@@ -191,15 +190,14 @@ FitResult fitRemap(const std::vector<KnownPoint>& points,
     result.models.push_back(report);
   }
   if (usable.empty())
-    throw RemapError("no correction of the volume can be fitted (" +
-                     std::string(nameOf(result.models.front().model)) + ": " +
-                     result.models.front().reason + ")");
+    throw Error("no correction of the volume can be fitted (" +
+                std::string(nameOf(result.models.front().model)) + ": " +
+                result.models.front().reason + ")");
   const std::optional<std::size_t> chosen = choose(candidates, points);
   if (!chosen)
-    throw RemapError(
-        "no correction of the volume predicts the known points better than none does (" +
-        millimetres(result.uncorrected_error) +
-        " off): do without it, or measure more points, and each more exactly");
+    throw Error("no correction of the volume predicts the known points better than none does (" +
+                millimetres(result.uncorrected_error) +
+                " off): do without it, or measure more points, and each more exactly");
   result.remap = candidates[*chosen]->remap;
   result.remap.rig_id = rig_id;
   result.left_out_errors = candidates[*chosen]->left_out_errors;
@@ -213,20 +211,14 @@ FitResult fitRemap(const std::vector<KnownPoint>& points,
 }
 
 std::string table(const FitResult& result) {
-  char line[160];
-  std::snprintf(line, sizeof line, "%-12s %10s %14s\n%-12s %10.1f %14.1f\n", "model", "fit [mm]",
-                "left out [mm]", "none", 1e3 * result.uncorrected_error,
-                1e3 * result.uncorrected_error);
-  std::string text = line;
-  for (const ModelReport& model : result.models) {
-    if (model.usable)
-      std::snprintf(line, sizeof line, "%-12s %10.1f %14.1f%s\n", nameOf(model.model),
-                    1e3 * model.fit_error, 1e3 * model.left_out_error,
-                    model.model == result.remap.model ? "  chosen" : "");
-    else
-      std::snprintf(line, sizeof line, "%-12s %s\n", nameOf(model.model), model.reason.c_str());
-    text += line;
-  }
+  const double uncorrected = 1e3 * result.uncorrected_error;
+  std::string text = format("%-12s %10s %14s\n", "model", "fit [mm]", "left out [mm]") +
+                     format("%-12s %10.1f %14.1f\n", "none", uncorrected, uncorrected);
+  for (const ModelReport& model : result.models)
+    text += model.usable ? format("%-12s %10.1f %14.1f%s\n", nameOf(model.model),
+                                  1e3 * model.fit_error, 1e3 * model.left_out_error,
+                                  model.model == result.remap.model ? "  chosen" : "")
+                         : format("%-12s %s\n", nameOf(model.model), model.reason.c_str());
   text += "expected error of a corrected point: " + millimetres(result.expected_error) + "\n";
   return text;
 }

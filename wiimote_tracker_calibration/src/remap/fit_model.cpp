@@ -12,8 +12,7 @@ namespace wiimote_tracker::remap {
 
 namespace {
 
-// Directions of the parameters that the points determine worse than this, relative to the best,
-// count as not determined.
+// A pivot below this share of the largest means that the points do not determine a parameter.
 constexpr double kLeastPivot = 1e-3;
 
 Remap emptyRemap(Model model, const std::vector<KnownPoint>& points) {
@@ -67,7 +66,7 @@ class ProjectiveProblem {
     }
   }
 
-  /// With the equations multiplied by the denominator.
+  /// Linear least squares of the equations multiplied by the denominator.
   std::optional<Eigen::VectorXd> solveLinear() const {
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows(), 15);
     Eigen::VectorXd right(rows());
@@ -83,8 +82,7 @@ class ProjectiveProblem {
     return Eigen::VectorXd(solution->col(0));
   }
 
-  /// Gauss-Newton on the distances. Deviations of a rig from the truth are small: it needs few
-  /// steps.
+  /// Gauss-Newton on the distances. It converges fast, because a rig's deformation is small.
   std::optional<Eigen::VectorXd> refine(Eigen::VectorXd parameters) const {
     Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows(), 15);
     Eigen::VectorXd residuals(rows());

@@ -11,7 +11,7 @@ namespace wiimote_tracker::remap {
 
 namespace {
 
-// From through every point to nearly affine; the unit is the half edge of the support's box.
+// From interpolating to nearly affine; the unit is half the edge of the support's box.
 constexpr double kSmoothings[] = {0.0, 0.001, 0.01, 0.1, 1.0, 10.0};
 
 }  // namespace
@@ -44,8 +44,7 @@ std::optional<ThinPlate> fitThinPlate(const std::vector<KnownPoint>& points) {
     smoothed.topLeftCorner(n, n).diagonal().array() += smoothing;
     const Eigen::MatrixXd inverse = smoothed.partialPivLu().inverse();
     const Eigen::MatrixXd weights = inverse * displacements;
-    // What a point misses when it is left out is its weight over the inverse's diagonal (Rippa
-    // 1999).
+    // The leave-one-out error of a point is its weight over the inverse's diagonal (Rippa 1999).
     const Eigen::VectorXd left_out =
         weights.topRows(n).rowwise().norm().array() / inverse.diagonal().head(n).array();
     const double squared = left_out.squaredNorm();

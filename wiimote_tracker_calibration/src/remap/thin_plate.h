@@ -15,8 +15,8 @@ struct ThinPlate {
   std::vector<double> left_out_errors;  ///< As leftOutErrors().
 };
 
-/// With the smoothing that leaves the least squared left out errors. Nothing when the points do not
-/// determine it.
+/// With the smoothing whose leave-one-out errors are least. Nothing if the points do not determine
+/// it.
 std::optional<ThinPlate> fitThinPlate(const std::vector<KnownPoint>& points);
 
 }  // namespace wiimote_tracker::remap

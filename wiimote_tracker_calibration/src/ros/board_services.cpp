@@ -1,22 +1,23 @@
 #include "board_services.h"
 
-#include "wiimote_tracker_calibration/intrinsics/error.h"
+#include "intrinsics/error.h"
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
 
-#include "replies.h"
 #include "rig_storage.h"
 
 #include <wiimote_tracker_msgs/BoardStatus.h>
 
 #include <cmath>
+#include <utility>
 
 namespace wiimote_tracker {
 
+using wiimote_tracker_msgs::SolveBoard;
+using workflow::Reply;
+
 namespace {
 
-using wiimote_tracker_msgs::SolveBoard;
-
-const workflow::Reply kNothingStarted = {false, "no board is looked at: start with a camera first"};
+const char kNothingStarted[] = "no board is looked at: start with a camera first";
 
 /// @throws intrinsics::IntrinsicsError: unknown number.
 std::optional<intrinsics::LensModel> lensModel(std::uint8_t model) {
@@ -50,34 +51,33 @@ geometry::Camera cameraOf(const std::string& name, const geometry::Intrinsics& l
 }  // namespace
 
 BoardServices::BoardServices(NodeContext* context) : context_(*context) {
+  using Unit = BoardServices;
   ros::NodeHandle& nh = context_.nh();
   publisher_ = nh.advertise<wiimote_tracker_msgs::BoardStatus>("calibration/board", 1, true);
-  services_ = {nh.advertiseService("calibration/board/start", &BoardServices::start, this),
-               nh.advertiseService("calibration/board/undo", &BoardServices::undo, this),
-               nh.advertiseService("calibration/board/cancel", &BoardServices::cancel, this),
-               nh.advertiseService("calibration/board/solve", &BoardServices::solve, this),
-               nh.advertiseService("calibration/board/commit", &BoardServices::commit, this)};
+  services_ = {advertise(nh, "calibration/board/start", &Unit::start, this),
+               advertise(nh, "calibration/board/undo", &Unit::undo, this),
+               advertise(nh, "calibration/board/cancel", &Unit::cancel, this),
+               advertise(nh, "calibration/board/solve", &Unit::solve, this),
+               advertise(nh, "calibration/board/commit", &Unit::commit, this)};
   context_.inputs().subscribeImages(
       [this](const capture::Image& image, const Lock& lock) { onImage(image, lock); });
   const Lock lock(context_.mutex());
-  publish(kNothingStarted.message, lock);
+  publish(kNothingStarted, lock);
 }
 
-bool BoardServices::start(wiimote_tracker_msgs::StartBoard::Request& request,
-                          wiimote_tracker_msgs::StartBoard::Response& response) {
+intrinsics::BoardRun& BoardServices::run() {
+  if (!run_)
+    throw Refusal(kNothingStarted);
+  return *run_;
+}
+
+Reply BoardServices::start(const wiimote_tracker_msgs::StartBoard::Request& request,
+                           wiimote_tracker_msgs::StartBoard::Response*) {
   context_.inputs().discover();
   const Lock lock(context_.mutex());
-  fill(start(request, lock), &response);
-  if (response.success)
-    publish(response.message, lock);
-  return true;
-}
-
-workflow::Reply BoardServices::start(const wiimote_tracker_msgs::StartBoard::Request& request,
-                                     const Lock& lock) {
   const auto input = context_.inputs().cameras().find(request.camera);
   if (input == context_.inputs().cameras().end() || input->second.width == 0)
-    return {false, "no image of " + request.camera + " has come: check its name, start its driver"};
+    throw Refusal("no image of " + request.camera + " has come: check its name, start its driver");
   const Parameters& parameters = context_.parameters(lock);
   intrinsics::Board board = parameters.board;
   if (request.column_spacing != 0.0)
@@ -86,99 +86,73 @@ workflow::Reply BoardServices::start(const wiimote_tracker_msgs::StartBoard::Req
     board.row_spacing = request.row_spacing;
   intrinsics::CollectorOptions options;
   options.minimum_views = parameters.board_views;
-  try {
-    intrinsics::BoardRun run(board, input->second.width, input->second.height, options);
-    run_ = std::move(run);
-  } catch (const intrinsics::IntrinsicsError& error) {
-    return {false, error.what()};
-  }
+  intrinsics::BoardRun run(board, input->second.width, input->second.height, options);
+  run_ = std::move(run);
   camera_ = request.camera;
   lens_.reset();
-  return {true, "hold the board still in front of " + camera_ +
-                    " for two seconds, then elsewhere: each view is taken by itself"};
+  const std::string message = "hold the board still in front of " + camera_ +
+                              " for two seconds, then elsewhere: each view is taken by itself";
+  publish(message, lock);
+  return {true, message};
 }
 
-bool BoardServices::undo(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+Reply BoardServices::undo() {
   const Lock lock(context_.mutex());
-  workflow::Reply reply = kNothingStarted;
-  if (run_ && run_->samples().views.empty()) {
-    reply.message = "there is no view to take back";
-  } else if (run_) {
-    run_->undo();
-    lens_.reset();
-    reply = {true, run_->message()};
-    publish(reply.message, lock);
-  }
-  fill(reply, &response);
-  return true;
+  if (run().samples().views.empty())
+    throw Refusal("there is no view to take back");
+  run_->undo();
+  lens_.reset();
+  publish(run_->message(), lock);
+  return {true, run_->message()};
 }
 
-bool BoardServices::cancel(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+Reply BoardServices::cancel() {
   const Lock lock(context_.mutex());
-  workflow::Reply reply = kNothingStarted;
-  if (run_) {
-    run_.reset();
-    lens_.reset();
-    camera_.clear();
-    reply = {true, "the views of the board are dropped"};
-    publish(reply.message, lock);
-  }
-  fill(reply, &response);
-  return true;
+  run();
+  run_.reset();
+  lens_.reset();
+  camera_.clear();
+  publish("the views of the board are dropped", lock);
+  return {true, "the views of the board are dropped"};
 }
 
-bool BoardServices::solve(SolveBoard::Request& request, SolveBoard::Response& response) {
+Reply BoardServices::solve(const SolveBoard::Request& request, SolveBoard::Response* response) {
   Lock lock(context_.mutex());
-  if (!run_) {
-    fill(kNothingStarted, &response);
-    return true;
-  }
   const std::string camera = camera_;
-  const intrinsics::Samples samples = run_->samples();
+  const intrinsics::Samples samples = run().samples();
   intrinsics::SolverOptions options;
   options.minimum_views = context_.parameters(lock).board_views;
   options.start_focal_length = context_.parameters(lock).intrinsics.fx;
-  lock.unlock();
-  intrinsics::IntrinsicsSolution solution;
-  try {
-    options.model = lensModel(request.model);
-    solution = intrinsics::solveIntrinsics(samples, options);
-  } catch (const intrinsics::IntrinsicsError& error) {
-    response.message = error.what();
-    return true;
-  }
-  response.success = true;
-  response.message = solution.summary;
-  response.camera_info = cameraInfo(cameraOf(camera, solution.intrinsics));
-  response.reprojection_error = solution.reprojection_error;
-  const auto parameters = static_cast<Eigen::Index>(4 + response.camera_info.D.size());
+  options.model = lensModel(request.model);
+  const intrinsics::IntrinsicsSolution solution =
+      context_.compute(&lock, [&] { return intrinsics::solveIntrinsics(samples, options); });
+  response->camera_info = cameraInfo(cameraOf(camera, solution.intrinsics));
+  response->reprojection_error = solution.reprojection_error;
+  const auto parameters = static_cast<Eigen::Index>(4 + response->camera_info.D.size());
   for (Eigen::Index i = 0; i < parameters; ++i)
-    response.stddev.push_back(std::sqrt(solution.covariance(i, i)));
-  lock.lock();
+    response->stddev.push_back(std::sqrt(solution.covariance(i, i)));
   if (camera == camera_) {
     lens_ = solution.intrinsics;
     publish("solved: " + solution.summary, lock);
   }
-  return true;
+  return {true, solution.summary};
 }
 
-bool BoardServices::commit(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+Reply BoardServices::commit() {
   Lock lock(context_.mutex());
-  if (!lens_) {
-    response.message = run_ ? "the lens is not solved: solve it first" : kNothingStarted.message;
-    return true;
-  }
+  run();
+  if (!lens_)
+    throw Refusal("the lens is not solved: solve it first");
   const geometry::Camera camera = cameraOf(camera_, *lens_);
   context_.parameters(lock).own_intrinsics[camera.name] = camera.intrinsics;
   const double timeout = context_.parameters(lock).set_camera_info_timeout;
-  lock.unlock();
-  const std::string problem = sendCameraInfo(camera, context_.nh(), timeout);
-  response.success = true;
-  response.message = "the next calibration starts with this lens of " + camera.name +
-                     (problem.empty() ? ", and its driver has it" : "; but " + problem);
-  lock.lock();
-  publish(response.message, lock);
-  return true;
+  const std::vector<std::string> problems =
+      context_.compute(&lock, [&] { return sendCameraInfo({camera}, context_.nh(), timeout); });
+  const std::string message =
+      "the next calibration starts with this lens of " + camera.name +
+      (problems.empty() ? ", and its driver has it" : "; but " + problems.front());
+  publish(message, lock);
+  return {true, message};
 }
 
 void BoardServices::onImage(const capture::Image& image, const Lock& lock) {

@@ -1,11 +1,10 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_BOARD_SERVICES_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_BOARD_SERVICES_H
 
-#include "wiimote_tracker_calibration/intrinsics/board_run.h"
+#include "intrinsics/board_run.h"
 
 #include "node_context.h"
 
-#include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/SolveBoard.h>
 #include <wiimote_tracker_msgs/StartBoard.h>
 
@@ -16,21 +15,22 @@
 namespace wiimote_tracker {
 
 /// A camera's lens from the 16-LED board: board/start, board/undo, board/cancel, board/solve,
-/// board/commit, and the topic board. Goes on beside all else.
+/// board/commit, and the topic board. Independent of the calibration's steps.
 class BoardServices {
  public:
   explicit BoardServices(NodeContext* context);
 
  private:
-  bool start(wiimote_tracker_msgs::StartBoard::Request& request,
-             wiimote_tracker_msgs::StartBoard::Response& response);
-  bool undo(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool cancel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool solve(wiimote_tracker_msgs::SolveBoard::Request& request,
-             wiimote_tracker_msgs::SolveBoard::Response& response);
-  bool commit(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  workflow::Reply start(const wiimote_tracker_msgs::StartBoard::Request& request,
+                        wiimote_tracker_msgs::StartBoard::Response* response);
+  workflow::Reply undo();
+  workflow::Reply cancel();
+  workflow::Reply solve(const wiimote_tracker_msgs::SolveBoard::Request& request,
+                        wiimote_tracker_msgs::SolveBoard::Response* response);
+  workflow::Reply commit();
 
-  workflow::Reply start(const wiimote_tracker_msgs::StartBoard::Request& request, const Lock& lock);
+  /// @throws Refusal: nothing was started.
+  intrinsics::BoardRun& run();
   void onImage(const capture::Image& image, const Lock& lock);
   void publish(const std::string& message, const Lock& lock);
 
@@ -38,7 +38,7 @@ class BoardServices {
   ros::Publisher publisher_;
   std::vector<ros::ServiceServer> services_;
   // All of the following with the mutex locked.
-  std::string camera_;  // that looks at the board; empty: nothing started
+  std::string camera_;  // that sees the board; empty: nothing started
   std::optional<intrinsics::BoardRun> run_;
   std::optional<geometry::Intrinsics> lens_;  // solved from these views
 };

@@ -7,16 +7,18 @@ CalibrationNode::CalibrationNode(const ros::NodeHandle& nh, const Parameters& pa
   context_.inputs().start();
   status_timer_ =
       context_.nh().createWallTimer(ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) {
-        const Lock lock(context_.mutex());
-        context_.calibration(lock).update(NodeContext::now() - NodeContext::kUnderWay);
-        context_.publishStatus(lock);
+        runCallback("the status", [this] {
+          const Lock lock(context_.mutex());
+          context_.calibration(lock).update(NodeContext::now() - NodeContext::kUnderWay);
+          context_.publishStatus(lock);
+        });
       });
   const Lock lock(context_.mutex());
   context_.publishStatus(lock);
 }
 
 CalibrationNode::~CalibrationNode() {
-  // The units go before the context does, and no image must reach them any more.
+  // The units are destroyed before the context: no image may reach them any more.
   context_.inputs().stop();
 }
 

@@ -3,14 +3,12 @@
 
 #include "board_services.h"
 #include "capture_services.h"
+#include "file_services.h"
 #include "health_monitor.h"
-#include "join_services.h"
 #include "mask_services.h"
 #include "node_context.h"
 #include "place_services.h"
 #include "recalibrate_services.h"
-#include "rig_services.h"
-#include "sample_services.h"
 #include "solve_services.h"
 #include "wave_services.h"
 
@@ -25,15 +23,15 @@ class CalibrationNode {
   CalibrationNode(const ros::NodeHandle& nh, const Parameters& parameters);
   ~CalibrationNode();
 
+  NodeContext& context() { return context_; }
+
  private:
   NodeContext context_;
-  RigServices rig_{&context_};
+  FileServices files_{&context_};
   CaptureServices capture_{&context_};
   WaveServices wave_{&context_};
   MaskServices masks_{&context_};
   SolveServices solve_{&context_};
-  SampleServices samples_{&context_};
-  JoinServices join_{&context_};
   BoardServices board_{&context_};
   PlaceServices place_{&context_};
   RecalibrateServices recalibrate_{&context_};

@@ -32,10 +32,12 @@ CameraInputs::CameraInputs(const ros::NodeHandle& nh,
 
 void CameraInputs::start() {
   discover();
-  // The global queue: a master that does not answer holds up no image.
+  // On the global queue, so that a master that does not answer delays no image.
   if (discovers_)
-    timer_ = ros::NodeHandle().createWallTimer(ros::WallDuration(0.5),
-                                               [this](const ros::WallTimerEvent&) { discover(); });
+    timer_ = ros::NodeHandle().createWallTimer(
+        ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) {
+          runCallback("looking for cameras", [this] { discover(); });
+        });
   spinner_.start();
 }
 
@@ -70,16 +72,17 @@ void CameraInputs::watch(const std::string& name) {
       return;
   }
   const std::lock_guard<std::mutex> lock(subscribers_mutex_);
-  // Capturing needs every image; a queue of a second rides out a busy computer.
+  // Capturing needs every image: the queue holds one second of them.
   subscribers_.push_back(nh_.subscribe<wiimote_tracker_msgs::IrBlobArray>(
       name + kSuffix, 100,
       [this, name](const wiimote_tracker_msgs::IrBlobArrayConstPtr& message) {
-        onBlobs(name, *message);
+        runCallback("an image of " + name, [&] { onBlobs(name, *message); });
       },
       ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
   subscribers_.push_back(nh_.subscribe<sensor_msgs::Imu>(
-      name + "/imu/data_raw", 100,
-      [this, name](const sensor_msgs::ImuConstPtr& message) { onImu(name, *message); }));
+      name + "/imu/data_raw", 100, [this, name](const sensor_msgs::ImuConstPtr& message) {
+        runCallback("the accelerometer of " + name, [&] { onImu(name, *message); });
+      }));
 }
 
 void CameraInputs::restartGravity() {

@@ -1,11 +1,13 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_CAMERA_INPUTS_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_CAMERA_INPUTS_H
 
-#include "wiimote_tracker_calibration/capture/camera_monitor.h"
-#include "wiimote_tracker_calibration/capture/image.h"
-#include "wiimote_tracker_calibration/capture/image_order.h"
-#include "wiimote_tracker_calibration/capture/masks.h"
-#include "wiimote_tracker_calibration/capture/rest_gravity.h"
+#include "capture/camera_monitor.h"
+#include "capture/image.h"
+#include "capture/image_order.h"
+#include "capture/masks.h"
+#include "capture/rest_gravity.h"
+
+#include "requests.h"
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
@@ -25,10 +27,7 @@
 
 namespace wiimote_tracker {
 
-/// Proof that the node's mutex is locked.
-using Lock = std::unique_lock<std::mutex>;
-
-/// Last known facts of one camera, and its latest images.
+/// The last known properties of one camera, and its latest images.
 struct CameraInput {
   std::string identity;
   int width = 0;      ///< Image size [px]; 0 until an image came.
@@ -50,7 +49,7 @@ class CameraInputs {
                                        const Lock& lock)>;
 
   /// @param names cameras to watch; empty: every topic that ends in /ir_blobs.
-  /// @param ignored a device that is no camera though it sends images; empty: none.
+  /// @param ignored a device whose images are not used; empty: none.
   /// @param mutex guards everything this class hands out; @param changed notified at each image.
   CameraInputs(const ros::NodeHandle& nh,
                const std::vector<std::string>& names,
@@ -65,14 +64,14 @@ class CameraInputs {
   /// Same for every reading of an accelerometer, in the order in which they come.
   void subscribeGravity(OnGravity on_gravity) { on_gravity_.push_back(std::move(on_gravity)); }
 
-  /// From now on images are taken; stop() ends that, and returns when no callback runs any more.
+  /// Starts the callbacks. stop() returns when none runs any more.
   void start();
   void stop();
 
   /// Looks for cameras that have appeared. Locks the mutex.
   void discover();
 
-  /// Lock the mutex while you look.
+  /// Lock the mutex while you use it.
   const std::map<std::string, CameraInput>& cameras() const { return cameras_; }
 
   /// Light in these regions is ignored from the next image on. Lock the mutex.
@@ -99,7 +98,7 @@ class CameraInputs {
   std::map<std::string, CameraInput> cameras_;
   capture::Masks masks_;
   capture::ImageOrder order_;
-  // A queue and a thread of their own: images come in however many services wait for them.
+  // Their own queue and thread: services that wait for images must not block them.
   ros::CallbackQueue queue_;
   ros::AsyncSpinner spinner_;
   std::mutex subscribers_mutex_;

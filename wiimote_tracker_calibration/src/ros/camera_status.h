@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_CAMERA_STATUS_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_CAMERA_STATUS_H
 
-#include "wiimote_tracker_calibration/workflow/calibration.h"
+#include "workflow/calibration.h"
 
 #include "camera_inputs.h"
 

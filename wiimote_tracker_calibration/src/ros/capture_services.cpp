@@ -1,21 +1,22 @@
 #include "capture_services.h"
 
-#include "camera_status.h"
-#include "replies.h"
-
 #include <limits>
 
 namespace wiimote_tracker {
+
+using workflow::Reply;
 
 namespace {
 
 constexpr double kFeedbackPeriod = 0.1;  // [s]
 constexpr double kForEver = std::numeric_limits<double>::infinity();
+constexpr std::size_t kButtonA = 2;  // in the driver's joy messages
 
-std::string buttonRemote(NodeContext* context) {
-  const Lock lock(context->mutex());
-  return context->parameters(lock).button_remote;
-}
+/// Gives up a capture that still goes on at the end of a scope.
+struct EndOfCapture {
+  workflow::Calibration& calibration;
+  ~EndOfCapture() { calibration.abandonCapture("an error occurred"); }
+};
 
 }  // namespace
 
@@ -27,15 +28,14 @@ CaptureServices::CaptureServices(NodeContext* context)
           [this](const wiimote_tracker_msgs::CaptureCornerGoalConstPtr& goal) {
             captureCorner(goal);
           },
-          false),
-      button_(&context->nh(), buttonRemote(context), [this] { onButton(); }) {
-  ros::NodeHandle& nh = context_.nh();
+          false) {
   using Unit = CaptureServices;
-  services_ = {nh.advertiseService("calibration/check_connection", &Unit::checkConnection, this),
-               nh.advertiseService("calibration/start", &Unit::start, this),
-               nh.advertiseService("calibration/hands_free", &Unit::handsFree, this),
-               nh.advertiseService("calibration/undo", &Unit::undo, this),
-               nh.advertiseService("calibration/cancel", &Unit::cancel, this)};
+  ros::NodeHandle& nh = context_.nh();
+  services_ = {advertise(nh, "calibration/check_connection", &Unit::checkConnection, this),
+               advertise(nh, "calibration/start", &Unit::start, this),
+               advertise(nh, "calibration/hands_free", &Unit::handsFree, this),
+               advertise(nh, "calibration/undo", &Unit::undo, this),
+               advertise(nh, "calibration/cancel", &Unit::cancel, this)};
   context_.inputs().subscribeImages([this](const capture::Image& image, const Lock& lock) {
     workflow::Calibration& calibration = context_.calibration(lock);
     const workflow::Step before = calibration.step();
@@ -44,145 +44,140 @@ CaptureServices::CaptureServices(NodeContext* context)
       context_.publishStatus(lock);
   });
   const Lock lock(context_.mutex());
-  context_.calibration(lock).setHandsFree(context_.parameters(lock).hands_free);
+  const Parameters& parameters = context_.parameters(lock);
+  context_.calibration(lock).setHandsFree(parameters.hands_free);
+  if (!parameters.button_remote.empty())
+    button_ = nh.subscribe<sensor_msgs::Joy>(
+        parameters.button_remote + "/joy", 10, [this](const sensor_msgs::JoyConstPtr& message) {
+          runCallback("capturing by the button", [&] { onJoy(*message); });
+        });
   capture_server_.start();
 }
 
-bool CaptureServices::checkConnection(wiimote_tracker_msgs::CheckConnection::Request& request,
-                                      wiimote_tracker_msgs::CheckConnection::Response& response) {
+Reply CaptureServices::checkConnection(
+    const wiimote_tracker_msgs::CheckConnection::Request& request,
+    wiimote_tracker_msgs::CheckConnection::Response* response) {
   constexpr double kLongest = capture::CameraMonitor::kMemory;
   const double duration = request.duration == 0.0 ? 1.0 : request.duration;
-  if (!(duration > 0.0 && duration <= kLongest)) {
-    response.message = "the duration must be within 0 and 10 s";
-    return true;
-  }
+  if (!(duration > 0.0 && duration <= kLongest))
+    throw Refusal("the duration must be within 0 and 10 s");
   context_.inputs().discover();
   Lock lock(context_.mutex());
   context_.waitUntil(&lock, NodeContext::now() + duration, [] { return false; });
   const double now = NodeContext::now();
-  response.cameras = context_.cameraStatus(now, duration, lock);
+  response->cameras = context_.cameraStatus(now, duration, lock);
+  if (response->cameras.empty())
+    throw Refusal("no camera is there: start the drivers");
   std::string problems;
-  for (const auto& camera : context_.inputs().cameras()) {
-    const std::string problem = camera.second.monitor.view(now, duration).problem;
+  for (const auto& [name, input] : context_.inputs().cameras()) {
+    const std::string problem = input.monitor.view(now, duration).problem;
     if (!problem.empty())
-      problems += (problems.empty() ? "" : "; ") + camera.first + " " + problem;
+      addSentence(name + " " + problem, &problems);
   }
-  if (response.cameras.empty())
-    problems = "no camera is there: start the drivers";
-  response.success = problems.empty();
-  response.message = response.success ? "all " + std::to_string(response.cameras.size()) +
-                                            " cameras see exactly one spot"
-                                      : problems;
-  return true;
+  if (!problems.empty())
+    return {false, problems};
+  return {true,
+          "all " + std::to_string(response->cameras.size()) + " cameras see exactly one spot"};
 }
 
-bool CaptureServices::start(wiimote_tracker_msgs::StartCalibration::Request& request,
-                            wiimote_tracker_msgs::StartCalibration::Response& response) {
+Reply CaptureServices::start(const wiimote_tracker_msgs::StartCalibration::Request& request,
+                             wiimote_tracker_msgs::StartCalibration::Response*) {
   context_.inputs().discover();
-  const Lock lock(context_.mutex());
-  const workflow::Reply reply = start(request, lock);
-  fill(reply, &response);
-  context_.show(reply.message, lock);
-  return true;
+  Lock lock(context_.mutex());
+  return context_.answer(&lock, [&] {
+    const std::vector<std::string> cameras = chooseCameras(request.cameras, lock);
+    const Parameters& parameters = context_.parameters(lock);
+    const bool given = request.side_x != 0.0 || request.side_y != 0.0;
+    const double side_x = given ? request.side_x : parameters.side_length;
+    const double second = given ? request.side_y : parameters.second_side_length;
+    const double side_y = second != 0.0 ? second : side_x;
+    if (!request.without_square && side_x == 0.0)
+      throw Refusal(
+          "the side of the square is 0: measure it, and give side_x in the request or set " +
+          ros::this_node::getName() + "/side_length, in metres");
+    workflow::Calibration& calibration = context_.calibration(lock);
+    const Reply reply = request.without_square ? calibration.startWithoutSquare(cameras)
+                                               : calibration.start(side_x, side_y, cameras);
+    if (reply.success)
+      context_.inputs().restartGravity();
+    context_.publishStatus(lock);
+    return reply;
+  });
 }
 
-workflow::Reply CaptureServices::start(
-    const wiimote_tracker_msgs::StartCalibration::Request& request,
-    const Lock& lock) {
-  std::vector<std::string> cameras = request.cameras;
-  workflow::Reply reply = chooseCameras(&cameras, lock);
-  if (!reply.success)
-    return reply;
-  const Parameters& parameters = context_.parameters(lock);
-  const bool given = request.side_x != 0.0 || request.side_y != 0.0;
-  const double side_x = given ? request.side_x : parameters.side_length;
-  const double second = given ? request.side_y : parameters.second_side_length;
-  const double side_y = second != 0.0 ? second : side_x;
-  if (!request.without_square && side_x == 0.0)
-    return {false,
-            "the side of the square is 0: measure it, and give side_x in the request or set " +
-                ros::this_node::getName() + "/side_length, in metres"};
-  workflow::Calibration& calibration = context_.calibration(lock);
-  reply = request.without_square ? calibration.startWithoutSquare(cameras)
-                                 : calibration.start(side_x, side_y, cameras);
-  if (reply.success)
-    context_.inputs().restartGravity();
+std::vector<std::string> CaptureServices::chooseCameras(std::vector<std::string> names,
+                                                        const Lock& lock) {
+  std::vector<std::string> known;
+  std::string list;
+  for (const auto& camera : context_.inputs().cameras()) {
+    known.push_back(camera.first);
+    list += (list.empty() ? "" : ", ") + camera.first;
+  }
+  for (const std::string& name : names) {
+    if (name == context_.parameters(lock).button_remote)
+      throw Refusal(name +
+                    " is the remote whose button captures, and pressing moves it: calibrate the "
+                    "others, or take another remote into the hand");
+    if (context_.inputs().cameras().count(name) == 0)
+      throw Refusal("there is no camera " + name + ": name some of " +
+                    (list.empty() ? "none, start the drivers first" : list));
+  }
+  return names.empty() ? known : names;
+}
+
+Reply CaptureServices::handsFree(const std_srvs::SetBool::Request& request,
+                                 std_srvs::SetBool::Response*) {
+  const Lock lock(context_.mutex());
+  context_.calibration(lock).setHandsFree(request.data);
+  const char* message =
+      request.data ? "a corner is captured by itself when the LED is held still at a new place"
+                   : "corners are captured on request only";
+  context_.show(message, lock);
+  return {true, message};
+}
+
+void CaptureServices::onJoy(const sensor_msgs::Joy& message) {
+  const bool pressed = message.buttons.size() > kButtonA && message.buttons[kButtonA] != 0;
+  if (pressed && !button_was_pressed_) {
+    const Lock lock(context_.mutex());
+    context_.calibration(lock).beginCapture(std::nullopt, NodeContext::now());
+    context_.publishStatus(lock);
+  }
+  button_was_pressed_ = pressed;
+}
+
+Reply CaptureServices::undo() {
+  const Lock lock(context_.mutex());
+  const Reply reply = context_.calibration(lock).undo();
+  context_.publishStatus(lock);
   return reply;
 }
 
-workflow::Reply CaptureServices::chooseCameras(std::vector<std::string>* cameras,
-                                               const Lock& lock) {
-  const std::map<std::string, CameraInput>& known = context_.inputs().cameras();
-  for (const std::string& name : *cameras) {
-    if (name == context_.parameters(lock).button_remote)
-      return {false, name +
-                         " is the remote whose button captures, and pressing moves it: calibrate "
-                         "the others, or take another remote into the hand"};
-    if (known.count(name) == 0) {
-      std::string names;
-      for (const auto& camera : known)
-        names += (names.empty() ? "" : ", ") + camera.first;
-      return {false, "there is no camera " + name + ": name some of " +
-                         (names.empty() ? "none, start the drivers first" : names)};
-    }
-  }
-  if (cameras->empty()) {
-    for (const auto& camera : known)
-      cameras->push_back(camera.first);
-  }
-  return {true, ""};
-}
-
-bool CaptureServices::handsFree(std_srvs::SetBool::Request& request,
-                                std_srvs::SetBool::Response& response) {
+Reply CaptureServices::cancel() {
   const Lock lock(context_.mutex());
-  context_.calibration(lock).setHandsFree(request.data);
-  response.success = true;
-  response.message = request.data
-                         ? "a corner is captured by itself when the LED is held still at a "
-                           "new place"
-                         : "corners are captured on request only";
-  context_.show(response.message, lock);
-  return true;
-}
-
-void CaptureServices::onButton() {
-  const Lock lock(context_.mutex());
-  context_.calibration(lock).beginCapture(std::nullopt, NodeContext::now());
+  const Reply reply = context_.calibration(lock).cancel();
   context_.publishStatus(lock);
-}
-
-bool CaptureServices::undo(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  const Lock lock(context_.mutex());
-  fill(context_.calibration(lock).undo(), &response);
-  context_.publishStatus(lock);
-  return true;
-}
-
-bool CaptureServices::cancel(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  {
-    const Lock lock(context_.mutex());
-    fill(context_.calibration(lock).cancel(), &response);
-    context_.publishStatus(lock);
-  }
   context_.notify();
-  return true;
+  return reply;
 }
 
 void CaptureServices::captureCorner(const wiimote_tracker_msgs::CaptureCornerGoalConstPtr& goal) {
-  Lock lock(context_.mutex());
-  workflow::Calibration& calibration = context_.calibration(lock);
   wiimote_tracker_msgs::CaptureCornerResult result;
-  const auto retake = goal->retake ? std::optional<std::size_t>(goal->corner) : std::nullopt;
-  workflow::Reply reply = calibration.beginCapture(retake, NodeContext::now());
-  result.corner = static_cast<std::uint32_t>(calibration.square().currentCorner());
-  context_.publishStatus(lock);
-  if (reply.success)
-    reply = waitForCapture(&lock);
-  fill(reply, &result);
-  result.cameras = context_.cameraStatus(NodeContext::now(), 1.0, lock);
-  context_.publishStatus(lock);
-  lock.unlock();
+  const Reply reply = replyOf([&] {
+    Lock lock(context_.mutex());
+    workflow::Calibration& calibration = context_.calibration(lock);
+    const auto retake = goal->retake ? std::optional<std::size_t>(goal->corner) : std::nullopt;
+    Reply outcome = calibration.beginCapture(retake, NodeContext::now());
+    result.corner = static_cast<std::uint32_t>(calibration.square().currentCorner());
+    context_.publishStatus(lock);
+    if (outcome.success)
+      outcome = waitForCapture(&lock);
+    result.cameras = context_.cameraStatus(NodeContext::now(), 1.0, lock);
+    context_.publishStatus(lock);
+    return outcome;
+  });
+  result.success = reply.success;
+  result.message = reply.message;
   if (result.success)
     capture_server_.setSucceeded(result, result.message);
   else if (capture_server_.isPreemptRequested())
@@ -191,8 +186,9 @@ void CaptureServices::captureCorner(const wiimote_tracker_msgs::CaptureCornerGoa
     capture_server_.setAborted(result, result.message);
 }
 
-workflow::Reply CaptureServices::waitForCapture(Lock* lock) {
+Reply CaptureServices::waitForCapture(Lock* lock) {
   workflow::Calibration& calibration = context_.calibration(*lock);
+  const EndOfCapture end{calibration};
   double next_feedback = 0.0;
   const bool over = context_.waitUntil(lock, kForEver, [&] {
     const double now = NodeContext::now();

@@ -1,7 +1,8 @@
 #include "health_monitor.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <cmath>
-#include <cstdio>
 
 namespace wiimote_tracker {
 
@@ -9,13 +10,7 @@ namespace {
 
 constexpr double kPeriod = 0.5;  // [s]
 
-const char kStranger[] = "is not in the rig and makes no points: calibrate again with it";
-
-std::string number(const char* format, double a, double b) {
-  char text[96];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
-}
+const char kUnknownCamera[] = "is not in the rig and makes no points: calibrate again with it";
 
 }  // namespace
 
@@ -31,8 +26,10 @@ HealthMonitor::HealthMonitor(NodeContext* context) : context_(*context) {
   });
   diagnostics_.setHardwareID("none");
   diagnostics_.add("cameras", this, &HealthMonitor::report);
-  timer_ = context_.nh().createWallTimer(ros::WallDuration(kPeriod),
-                                         [this](const ros::WallTimerEvent&) { update(); });
+  timer_ =
+      context_.nh().createWallTimer(ros::WallDuration(kPeriod), [this](const ros::WallTimerEvent&) {
+        runCallback("the health of the cameras", [this] { update(); });
+      });
 }
 
 void HealthMonitor::update() {
@@ -47,7 +44,7 @@ void HealthMonitor::update() {
           context_.setHealth(camera.first, "", lock);
       }
       watch_.reset();
-      strangers_.clear();
+      unknown_cameras_.clear();
       if (rig)
         watch_.emplace(*rig, context_.parameters(lock).health);
     }
@@ -56,17 +53,18 @@ void HealthMonitor::update() {
         context_.setHealth(camera.first, camera.second.text, lock);
       for (const std::string& news : watch_->takeNews())
         ROS_WARN_STREAM(news);
-      noticeStrangers(*rig, lock);
+      warnOfUnknownCameras(*rig, lock);
     }
   }
   diagnostics_.update();
 }
 
-void HealthMonitor::noticeStrangers(const geometry::Rig& rig, const Lock&) {
+void HealthMonitor::warnOfUnknownCameras(const geometry::Rig& rig, const Lock&) {
   for (const auto& camera : context_.inputs().cameras()) {
     const bool sends_images = camera.second.width > 0;
-    if (sends_images && rig.find(camera.first) == nullptr && strangers_.insert(camera.first).second)
-      ROS_WARN("%s %s.", camera.first.c_str(), kStranger);
+    if (sends_images && rig.find(camera.first) == nullptr &&
+        unknown_cameras_.insert(camera.first).second)
+      ROS_WARN("%s %s.", camera.first.c_str(), kUnknownCamera);
   }
 }
 
@@ -80,21 +78,20 @@ void HealthMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) 
   for (const auto& camera : watch_->cameras()) {
     const health::CameraHealth& health = camera.second;
     if (!health.text.empty())
-      troubles += (troubles.empty() ? "" : "; ") + camera.first + " " + health.text;
+      addSentence(camera.first + " " + health.text, &troubles);
     status.add(camera.first + " tilt [degrees]",
-               health.tilt ? number("%.2f +- %.2f", health.tilt->angle * 180.0 / M_PI,
+               health.tilt ? format("%.2f +- %.2f", health.tilt->angle * 180.0 / M_PI,
                                     health.tilt->stddev * 180.0 / M_PI)
                            : std::string("not judged"));
     status.add(camera.first + " drift [px]",
                health.drift
-                   ? number("%.2f +- %.2f", health.drift->bias.norm(), health.drift->stddev)
+                   ? format("%.2f +- %.2f", health.drift->bias.norm(), health.drift->stddev)
                    : std::string("not judged"));
   }
-  for (const std::string& camera : strangers_)
-    troubles += (troubles.empty() ? "" : "; ") + camera + " " + kStranger;
+  for (const std::string& camera : unknown_cameras_)
+    addSentence(camera + " " + kUnknownCamera, &troubles);
   if (troubles.empty())
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK,
-                   "nothing is known against any camera's place");
+    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "no camera seems to have moved");
   else
     status.summary(diagnostic_msgs::DiagnosticStatus::WARN, troubles);
 }

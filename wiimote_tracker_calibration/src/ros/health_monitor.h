@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_HEALTH_MONITOR_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_HEALTH_MONITOR_H
 
-#include "wiimote_tracker_calibration/health/health_watch.h"
+#include "health/health_watch.h"
 
 #include "node_context.h"
 
@@ -13,22 +13,21 @@
 
 namespace wiimote_tracker {
 
-/// Watches the cameras of the current rig: health in the status, /diagnostics, and one warning in
-/// the log when something begins; so of cameras that send images and are not in the rig. It never
-/// changes the rig.
+/// Reports cameras of the current rig that were moved, and cameras that are not in it: in the
+/// status, in /diagnostics, and once in the log. It never changes the rig.
 class HealthMonitor {
  public:
   explicit HealthMonitor(NodeContext* context);
 
  private:
   void update();
-  void noticeStrangers(const geometry::Rig& rig, const Lock& lock);
+  void warnOfUnknownCameras(const geometry::Rig& rig, const Lock& lock);
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   NodeContext& context_;
   std::string rig_id_;
   std::optional<health::HealthWatch> watch_;  // Nothing without a rig.
-  std::set<std::string> strangers_;           // Cameras that the rig does not have.
+  std::set<std::string> unknown_cameras_;     // Cameras that the rig does not have.
   diagnostic_updater::Updater diagnostics_;
   ros::WallTimer timer_;
 };

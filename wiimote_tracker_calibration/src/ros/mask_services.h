@@ -1,11 +1,10 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_MASK_SERVICES_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_MASK_SERVICES_H
 
-#include "wiimote_tracker_calibration/capture/mask_learner.h"
+#include "capture/mask_learner.h"
 
 #include "node_context.h"
 
-#include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/LearnMasks.h>
 
 #include <map>
@@ -21,11 +20,11 @@ class MaskServices {
   explicit MaskServices(NodeContext* context);
 
  private:
-  bool learn(wiimote_tracker_msgs::LearnMasks::Request& request,
-             wiimote_tracker_msgs::LearnMasks::Response& response);
-  bool clear(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  workflow::Reply learned(const std::map<std::string, capture::LearnedMasks>& learned,
-                          const Lock& lock);
+  workflow::Reply learn(const wiimote_tracker_msgs::LearnMasks::Request& request,
+                        wiimote_tracker_msgs::LearnMasks::Response* response);
+  workflow::Reply clear();
+  workflow::Reply useMasks(const std::map<std::string, capture::LearnedMasks>& learned,
+                           const Lock& lock);
 
   NodeContext& context_;
   std::optional<capture::MaskLearner> learner_;  // while lights are being learned

@@ -1,11 +1,12 @@
 #include "node_context.h"
 
-#include "camera_facts.h"
 #include "camera_status.h"
 
 #include <wiimote_tracker_msgs/CalibrationStatus.h>
+#include <wiimote_tracker_triangulation/ros/conversions.h>
 
 #include <chrono>
+#include <exception>
 
 namespace wiimote_tracker {
 
@@ -13,6 +14,36 @@ namespace {
 
 constexpr std::chrono::milliseconds kLongestNap(100);
 constexpr std::chrono::seconds kPatience(10);
+
+/// Ends the step of a job when it leaves scope.
+struct EndOfJob {
+  NodeContext& context;
+  const Lock& lock;
+  workflow::Reply reply = {false, "the job failed: try again"};
+
+  ~EndOfJob() {
+    try {
+      context.calibration(lock).end(reply);
+      context.publishStatus(lock);
+    } catch (const std::exception&) {
+      // Out of memory. The step has ended all the same; the timer publishes the status.
+    }
+  }
+};
+
+/// The camera's identity, starting intrinsics and gravity.
+/// @throws Refusal: the intrinsics are for another size of image.
+workflow::CameraFacts factsOf(const std::string& name,
+                              const CameraInput& input,
+                              const Parameters& parameters) {
+  const geometry::Intrinsics& lens = parameters.intrinsicsOf(name);
+  if (input.width > 0 && (input.width != lens.width || input.height != lens.height))
+    throw Refusal("the images of " + name + " are " + std::to_string(input.width) + " x " +
+                  std::to_string(input.height) + ", but its starting intrinsics are for " +
+                  std::to_string(lens.width) + " x " + std::to_string(lens.height) + ": set " +
+                  ros::this_node::getName() + "/cameras_intrinsics/" + name + " for this camera");
+  return {input.identity, lens, input.gravity.mean()};
+}
 
 }  // namespace
 
@@ -22,15 +53,39 @@ NodeContext::NodeContext(const ros::NodeHandle& nh, const Parameters& parameters
       calibration_(parameters.calibration),
       status_publisher_(
           nh_.advertise<wiimote_tracker_msgs::CalibrationStatus>("calibration/status", 1, true)),
-      rig_output_(nh_),
+      rig_publisher_(
+          nh_.advertise<wiimote_tracker_msgs::RigCalibration>("calibration/rig", 1, true)),
       inputs_(nh_, parameters.cameras, parameters.button_remote, &mutex_, &changed_) {}
 
 double NodeContext::now() {
   return ros::Time::now().toSec();
 }
 
+workflow::Reply NodeContext::run(const Job& job,
+                                 Lock* lock,
+                                 const std::function<workflow::Reply()>& work) {
+  const workflow::Reply begun = calibration_.begin(job.step, job.message);
+  publishStatus(*lock);
+  if (!begun.success)
+    return begun;
+  EndOfJob end{*this, *lock};
+  workflow::Reply reply = replyOf(work);
+  if (!reply.success && isCancelled(job.step, *lock))
+    reply.message = "it was cancelled; " + job.kept;
+  end.reply = reply;
+  return reply;
+}
+
+workflow::Reply NodeContext::answer(Lock* lock, const std::function<workflow::Reply()>& work) {
+  const workflow::Reply reply = replyOf(work);
+  if (!reply.success)
+    show(reply.message, *lock);
+  return reply;
+}
+
 bool NodeContext::waitUntil(Lock* lock, double end, const std::function<bool()>& done) {
   using Steady = std::chrono::steady_clock;
+  fault();
   double time = now();
   Steady::time_point moved = Steady::now();
   while (!done()) {
@@ -45,17 +100,12 @@ bool NodeContext::waitUntil(Lock* lock, double end, const std::function<bool()>&
   return true;
 }
 
-workflow::Reply NodeContext::begin(workflow::Step step,
-                                   const std::string& message,
-                                   const Lock& lock) {
-  const workflow::Reply reply = calibration_.begin(step, message);
-  publishStatus(lock);
-  return reply;
-}
-
-void NodeContext::end(const workflow::Reply& outcome, const Lock& lock) {
-  calibration_.end(outcome);
-  publishStatus(lock);
+bool NodeContext::waitFor(double duration, workflow::Step step, Lock* lock) {
+  const double start = now();
+  return !waitUntil(lock, start + duration, [&] {
+    setProgress((now() - start) / duration, *lock);
+    return isCancelled(step, *lock);
+  });
 }
 
 void NodeContext::show(const std::string& message, const Lock& lock) {
@@ -63,16 +113,16 @@ void NodeContext::show(const std::string& message, const Lock& lock) {
   publishStatus(lock);
 }
 
-workflow::Reply NodeContext::session(session::Session* session, const Lock&) {
+session::Session NodeContext::session(const Lock&) {
   std::map<std::string, workflow::CameraFacts> facts;
   if (!calibration_.isRestored()) {
-    const workflow::Reply reply =
-        collectFacts(calibration_.cameras(), inputs_.cameras(), parameters_, &facts);
-    if (!reply.success)
-      return reply;
+    for (const std::string& name : calibration_.cameras()) {
+      const auto input = inputs_.cameras().find(name);
+      if (input != inputs_.cameras().end())
+        facts[name] = factsOf(name, input->second, parameters_);
+    }
   }
-  *session = calibration_.session(facts, inputs_.masks());
-  return {true, ""};
+  return calibration_.session(facts, inputs_.masks());
 }
 
 workflow::Reply NodeContext::setSession(const session::Session& session, const Lock& lock) {
@@ -87,10 +137,27 @@ workflow::Reply NodeContext::setSession(const session::Session& session, const L
   return reply;
 }
 
+const geometry::Rig& NodeContext::existingRig(const std::string& purpose, const Lock&) const {
+  if (!calibration_.rig())
+    throw Refusal("there is no rig " + purpose + ": solve or load one first");
+  return *calibration_.rig();
+}
+
+void NodeContext::requireSameRig(const std::string& id, const Lock&) const {
+  if (!calibration_.rig() || calibration_.rig()->id() != id)
+    throw Refusal("the rig was replaced in the meantime: ask once more");
+}
+
 void NodeContext::setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock) {
   calibration_.setRig(rig, message);
   publishRig(lock);
   publishStatus(lock);
+}
+
+void NodeContext::publishRig(const Lock&) {
+  // The transforms first: whoever receives the rig finds them.
+  transforms_.sendTransform(staticTransforms(*calibration_.rig()));
+  rig_publisher_.publish(toMessage(*calibration_.rig()));
 }
 
 bool NodeContext::setMasks(const capture::Masks& masks, const Lock& lock) {

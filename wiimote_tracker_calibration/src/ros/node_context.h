@@ -1,14 +1,15 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H
 
-#include "wiimote_tracker_calibration/place/known_places.h"
-#include "wiimote_tracker_calibration/workflow/calibration.h"
+#include "place/known_places.h"
+#include "workflow/calibration.h"
 
 #include "camera_inputs.h"
 #include "parameters.h"
-#include "rig_output.h"
+#include "requests.h"
 
 #include <ros/node_handle.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 #include <wiimote_tracker_msgs/CalibrationCameraStatus.h>
 
 #include <condition_variable>
@@ -21,19 +22,16 @@
 
 namespace wiimote_tracker {
 
+/// A step that takes time, and that `cancel` stops.
+struct Job {
+  workflow::Step step;
+  std::string message;  ///< Shown meanwhile.
+  std::string kept;     ///< What a cancel leaves as it was, for the reply.
+};
+
 /// What the node's units share. A unit is constructed from it, advertises its services, subscribes
 /// to inputs() and lives as long as the node. Nobody holds the mutex while solving, writing files,
 /// or calling a service.
-///
-/// Something that takes time looks like this:
-///     Lock lock(context.mutex());
-///     reply = context.begin(Step::kMeasuring, "keep the LED still", lock);
-///     if (reply.success) {
-///       context.waitUntil(&lock, context.now() + duration,
-///                         [&] { return enough || context.stopped(Step::kMeasuring, lock); });
-///       ...
-///       context.end(reply, lock);
-///     }
 class NodeContext {
  public:
   NodeContext(const ros::NodeHandle& nh, const Parameters& parameters);
@@ -47,9 +45,25 @@ class NodeContext {
   /// The clock of the images' stamps: ROS time, simulated or not [s].
   static double now();
 
-  /// Images of the last second may still be under way [s]: what is decided by their stamps must not
-  /// be decided by the clock before.
+  /// An image may arrive this long after its stamp [s]. A decision by stamps waits for so long.
   static constexpr double kUnderWay = 1.0;
+
+  CameraInputs& inputs() { return inputs_; }
+
+  // --- All of the following with the mutex locked.
+
+  /// Does a job: begins its step, does the work and ends the step, whatever the work throws. The
+  /// calibration refuses everything but `cancel` meanwhile.
+  workflow::Reply run(const Job& job, Lock* lock, const std::function<workflow::Reply()>& work);
+
+  /// Whether the job of this step was cancelled and should return, refusing.
+  bool isCancelled(workflow::Step step, const Lock&) const {
+    return !calibration_.isBusyWith(step);
+  }
+  void setProgress(double progress, const Lock&) { calibration_.setProgress(progress); }
+
+  /// Does what takes no time, or is no step of the calibration. A refusal is shown in the status.
+  workflow::Reply answer(Lock* lock, const std::function<workflow::Reply()>& work);
 
   /// Waits until done() is true (checked with the mutex locked at each image, and ten times a
   /// second at least), until now() is beyond `end`, or until the node is to end. Simulated time
@@ -57,9 +71,24 @@ class NodeContext {
   /// @returns done().
   bool waitUntil(Lock* lock, double end, const std::function<bool()>& done);
 
-  CameraInputs& inputs() { return inputs_; }
+  /// Waits for some time, and sets the progress meanwhile. @returns false if the job was cancelled.
+  bool waitFor(double duration, workflow::Step step, Lock* lock);
 
-  // --- All of the following with the mutex locked.
+  /// Computes something without the lock. It is locked again afterwards, whatever is thrown.
+  template <typename Compute>
+  auto compute(Lock* lock, const Compute& compute) {
+    struct Relock {
+      Lock* lock;
+      ~Relock() { lock->lock(); }
+    };
+    lock->unlock();
+    const Relock relock{lock};
+    fault();
+    return compute();
+  }
+
+  /// For tests: called while a request waits or computes. It may throw.
+  std::function<void()> fault = [] {};
 
   /// A copy may be taken; a unit may change what is its own, such as a camera's intrinsics.
   Parameters& parameters(const Lock&) { return parameters_; }
@@ -67,29 +96,26 @@ class NodeContext {
   /// Measured with the current rig after useRig(); before that perhaps with another.
   place::KnownPlaces& knownPlaces(const Lock&) { return known_places_; }
 
-  /// See workflow::Calibration::begin(), end(). The status shows it at once.
-  workflow::Reply begin(workflow::Step step, const std::string& message, const Lock& lock);
-  void setProgress(double progress, const Lock&) { calibration_.setProgress(progress); }
-  /// Whether what was begun is to stop. Whoever began it calls end() all the same.
-  bool stopped(workflow::Step step, const Lock&) const { return !calibration_.isBusyWith(step); }
-  void end(const workflow::Reply& outcome, const Lock& lock);
-
   /// Shows a message in the status at once.
   void show(const std::string& message, const Lock& lock);
 
-  /// All that was captured so far, to be solved or saved. Fails, with a sentence, when starting
-  /// intrinsics do not fit a camera's images.
-  workflow::Reply session(session::Session* session, const Lock& lock);
+  /// All that was captured so far, to be solved or saved.
+  /// @throws Refusal: starting intrinsics do not fit the size of a camera's images.
+  session::Session session(const Lock& lock);
   /// Goes on from what was captured before; its masks are in force from now on.
   workflow::Reply setSession(const session::Session& session, const Lock& lock);
 
-  /// Publishes a rig that was made of the one before (not saved yet): a camera calibrated anew, a
-  /// correction of the volume, rooms that were joined.
-  void setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock);
   /// Nothing while there is none.
   const std::optional<geometry::Rig>& rig(const Lock&) const { return calibration_.rig(); }
-  /// Tells the others about the current rig.
-  void publishRig(const Lock&) { rig_output_.publish(*calibration_.rig()); }
+  /// @param purpose for the refusal, such as "to save". @throws Refusal: there is no rig.
+  const geometry::Rig& existingRig(const std::string& purpose, const Lock&) const;
+  /// @throws Refusal: the rig in use has another id.
+  void requireSameRig(const std::string& id, const Lock&) const;
+  /// Publishes a rig that was made of the one before and is not saved yet, such as with a camera
+  /// calibrated anew or with a correction of the volume.
+  void setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock);
+  /// Publishes the current rig, and the transforms of its cameras.
+  void publishRig(const Lock&);
 
   /// Ignores other lights from now on, in the images and in the rig, which is then published.
   /// @returns whether there is a rig and it changed.
@@ -114,7 +140,8 @@ class NodeContext {
   place::KnownPlaces known_places_;
   std::map<std::string, std::string> health_;
   ros::Publisher status_publisher_;
-  RigOutput rig_output_;
+  ros::Publisher rig_publisher_;
+  tf2_ros::StaticTransformBroadcaster transforms_;
   CameraInputs inputs_;
 };
 

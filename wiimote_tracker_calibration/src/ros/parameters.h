@@ -1,11 +1,11 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_PARAMETERS_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_PARAMETERS_H
 
-#include "wiimote_tracker_calibration/capture/mask_learner.h"
-#include "wiimote_tracker_calibration/health/health_watch.h"
+#include "capture/mask_learner.h"
+#include "health/health_watch.h"
+#include "session/solve_session.h"
 #include "wiimote_tracker_calibration/intrinsics/board.h"
-#include "wiimote_tracker_calibration/session/solve_session.h"
-#include "wiimote_tracker_calibration/workflow/calibration.h"
+#include "workflow/calibration.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
@@ -18,7 +18,7 @@
 
 namespace wiimote_tracker {
 
-/// Parameters of the calibration node; config/calibration.yaml says what each means.
+/// Parameters of the calibration node; config/calibration.yaml describes each.
 struct Parameters {
   std::vector<std::string> cameras;  ///< Empty: discover them.
   double side_length = 0.0;          ///< First to second corner [m]; 0: not given.
@@ -31,9 +31,9 @@ struct Parameters {
   workflow::CalibrationOptions calibration;
   session::SolveOptions solve;
   health::HealthOptions health;
-  intrinsics::Board board;                                     ///< The 16-LED board.
-  int board_views = 12;                                        ///< That a lens is solved from.
-  geometry::Intrinsics intrinsics;                             ///< Of all cameras but these:
+  intrinsics::Board board;          ///< The 16-LED board.
+  int board_views = 12;             ///< Least number to solve a lens.
+  geometry::Intrinsics intrinsics;  ///< Of all cameras but those in own_intrinsics.
   std::map<std::string, geometry::Intrinsics> own_intrinsics;  ///< by name.
 
   /// Starting intrinsics of a camera.

@@ -1,17 +1,17 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_PLACE_SERVICES_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_PLACE_SERVICES_H
 
-#include "wiimote_tracker_calibration/capture/corner_capture.h"
-#include "wiimote_tracker_calibration/place/known_places.h"
-#include "wiimote_tracker_calibration/place/measure_place.h"
+#include "capture/corner_capture.h"
+#include "place/known_places.h"
+#include "place/measure_place.h"
 
 #include "node_context.h"
 
-#include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/AddKnownPlace.h>
 #include <wiimote_tracker_msgs/CheckPlace.h>
 #include <wiimote_tracker_msgs/FitRemap.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,28 +24,26 @@ class PlaceServices {
   explicit PlaceServices(NodeContext* context);
 
  private:
-  bool check(wiimote_tracker_msgs::CheckPlace::Request& request,
-             wiimote_tracker_msgs::CheckPlace::Response& response);
-  bool add(wiimote_tracker_msgs::AddKnownPlace::Request& request,
-           wiimote_tracker_msgs::AddKnownPlace::Response& response);
-  bool undo(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool clear(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  bool fit(wiimote_tracker_msgs::FitRemap::Request& request,
-           wiimote_tracker_msgs::FitRemap::Response& response);
+  workflow::Reply check(const wiimote_tracker_msgs::CheckPlace::Request& request,
+                        wiimote_tracker_msgs::CheckPlace::Response* response);
+  workflow::Reply add(const wiimote_tracker_msgs::AddKnownPlace::Request& request,
+                      wiimote_tracker_msgs::AddKnownPlace::Response* response);
+  workflow::Reply undo();
+  workflow::Reply clear();
+  workflow::Reply fit(const wiimote_tracker_msgs::FitRemap::Request& request,
+                      wiimote_tracker_msgs::FitRemap::Response* response);
 
-  /// What the LED's place was found to be, with the rig of that time.
-  struct Outcome {
-    bool begun = false;
-    workflow::Reply reply;
-    std::optional<place::MeasuredPlace> place;
-    geometry::Rig rig;
-  };
-  /// Begins to measure and waits until the LED has lain still; finish() is to follow.
-  /// @param duration [s]; 0: as the parameter says.
-  Outcome measure(double duration, Lock* lock);
-  /// Ends the step, if it was begun, and shows the reply.
-  void finish(const Outcome& outcome, const Lock& lock);
-  /// Places of another calibration are dropped. @returns what to say of that.
+  /// What is done with a measured place and the rig that measured it.
+  using Use = std::function<workflow::Reply(const place::MeasuredPlace&, const geometry::Rig&)>;
+  /// Waits until the LED has lain still, measures where it is, and passes that on.
+  /// @param duration longest wait [s]; 0: the parameter.
+  workflow::Reply measure(double duration, Lock* lock, const Use& use);
+  /// Captures the LED with all cameras of the rig.
+  /// @throws Refusal: it was not still or not seen for long enough, or the job was cancelled.
+  capture::CapturedCorner captureStillLed(const geometry::Rig& rig,
+                                          const capture::CornerCaptureOptions& options,
+                                          Lock* lock);
+  /// Drops places that another calibration measured. @returns what to say about that.
   std::string dropPlacesOfOtherRigs(const Lock& lock);
 
   NodeContext& context_;

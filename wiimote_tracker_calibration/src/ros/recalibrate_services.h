@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_RECALIBRATE_SERVICES_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_RECALIBRATE_SERVICES_H
 
-#include "wiimote_tracker_calibration/capture/rest_gravity.h"
-#include "wiimote_tracker_calibration/recalibrate/recalibrate_camera.h"
+#include "capture/rest_gravity.h"
+#include "recalibrate/recalibrate_camera.h"
 
 #include "node_context.h"
 
@@ -19,12 +19,8 @@ class RecalibrateServices {
   explicit RecalibrateServices(NodeContext* context);
 
  private:
-  bool recalibrate(wiimote_tracker_msgs::RecalibrateCamera::Request& request,
-                   wiimote_tracker_msgs::RecalibrateCamera::Response& response);
-  /// Records the wave. Nothing when it was cancelled.
-  std::optional<recalibrate::Request> record(const std::string& camera,
-                                             double duration,
-                                             Lock* lock);
+  workflow::Reply recalibrate(const wiimote_tracker_msgs::RecalibrateCamera::Request& request,
+                              wiimote_tracker_msgs::RecalibrateCamera::Response* response);
 
   NodeContext& context_;
   // While an LED is waved:

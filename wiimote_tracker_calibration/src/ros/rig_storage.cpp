@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <exception>
 #include <future>
 #include <thread>
 #include <utility>
@@ -18,52 +19,25 @@ namespace wiimote_tracker {
 
 namespace {
 
-std::string cameraFile(const std::string& rig_file, const std::string& camera) {
-  std::string name = camera;
-  name.erase(0, name.find_first_not_of('/'));
-  std::replace(name.begin(), name.end(), '/', '_');
-  const std::size_t slash = rig_file.rfind('/');
-  return (slash == std::string::npos ? "" : rig_file.substr(0, slash + 1)) + name + ".yaml";
+/// <camera>.yaml in the folder of the rig file.
+std::string cameraFile(const std::string& rig_file, std::string camera) {
+  camera.erase(0, camera.find_first_not_of('/'));
+  std::replace(camera.begin(), camera.end(), '/', '_');
+  return rig_file.substr(0, rig_file.rfind('/') + 1) + camera + ".yaml";
 }
 
-using Answer = std::future<std::string>;
-
-/// Asks in a thread of its own: a service call has no time-out, and may be answered never.
-Answer askDriver(const geometry::Camera& camera, const ros::NodeHandle& nh) {
-  std::promise<std::string> promise;
-  Answer answer = promise.get_future();
-  std::thread(
-      [name = camera.name, info = cameraInfo(camera),
-       service =
-           nh.resolveName(camera.name + "/set_camera_info")](std::promise<std::string> result) {
-        sensor_msgs::SetCameraInfo call;
-        call.request.camera_info = info;
-        if (!ros::service::exists(service, false))
-          result.set_value(name + " offers no set_camera_info, so its driver does not know");
-        else if (!ros::service::call(service, call))
-          result.set_value("calling " + service + " failed, so the driver does not know");
-        else if (!call.response.success)
-          result.set_value(name + " refused its camera info: " + call.response.status_message);
-        else
-          result.set_value("");
-      },
-      std::move(promise))
-      .detach();
-  return answer;
-}
-
-std::string answerUntil(Answer* answer,
-                        const std::string& camera,
-                        std::chrono::steady_clock::time_point end) {
-  if (answer->wait_until(end) == std::future_status::ready)
-    return answer->get();
-  return camera + " does not answer set_camera_info in time: restart its driver, then save again";
-}
-
-std::chrono::steady_clock::time_point endOf(double timeout) {
-  return std::chrono::steady_clock::now() +
-         std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-             std::chrono::duration<double>(timeout));
+/// @returns why the driver does not know its lens now; empty when it does.
+std::string callDriver(const std::string& name,
+                       const std::string& service,
+                       const sensor_msgs::CameraInfo& info) {
+  sensor_msgs::SetCameraInfo call;
+  call.request.camera_info = info;
+  if (!ros::service::exists(service, false))
+    return name + " offers no set_camera_info, so its driver does not know its lens";
+  if (!ros::service::call(service, call))
+    return "calling " + service + " failed, so the driver does not know its lens";
+  return call.response.success ? ""
+                               : name + " refused its camera info: " + call.response.status_message;
 }
 
 }  // namespace
@@ -97,23 +71,30 @@ sensor_msgs::CameraInfo cameraInfo(const geometry::Camera& camera) {
   return info;
 }
 
-std::string sendCameraInfo(const geometry::Camera& camera,
-                           const ros::NodeHandle& nh,
-                           double timeout) {
-  Answer answer = askDriver(camera, nh);
-  return answerUntil(&answer, camera.name, endOf(timeout));
-}
-
-std::vector<std::string> sendCameraInfo(const geometry::Rig& rig,
+std::vector<std::string> sendCameraInfo(const std::vector<geometry::Camera>& cameras,
                                         const ros::NodeHandle& nh,
                                         double timeout) {
-  const std::chrono::steady_clock::time_point end = endOf(timeout);
-  std::vector<Answer> answers;
-  for (const geometry::RigCamera& camera : rig.cameras)
-    answers.push_back(askDriver(camera.camera, nh));
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout);
+  // A thread for each camera: a service call has no time-out, and the answer may never come.
+  std::vector<std::future<std::string>> answers;
+  for (const geometry::Camera& camera : cameras) {
+    std::packaged_task<std::string()> call(
+        [name = camera.name, service = nh.resolveName(camera.name + "/set_camera_info"),
+         info = cameraInfo(camera)] { return callDriver(name, service, info); });
+    answers.push_back(call.get_future());
+    std::thread(std::move(call)).detach();
+  }
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    const std::string warning = answerUntil(&answers[i], rig.cameras[i].camera.name, end);
+    std::string warning = cameras[i].name +
+                          " does not answer set_camera_info in time: restart its driver, then "
+                          "save again";
+    try {
+      if (answers[i].wait_until(end) == std::future_status::ready)
+        warning = answers[i].get();
+    } catch (const std::exception& error) {
+      warning = "set_camera_info of " + cameras[i].name + " failed: " + error.what();
+    }
     if (!warning.empty())
       warnings.push_back(warning);
   }

@@ -12,24 +12,18 @@
 namespace wiimote_tracker {
 
 /// Writes rig.yaml (the file before becomes rig.yaml.bak), and beside it one camera-info YAML per
-/// camera, named after the camera. rig.yaml is the one that counts.
+/// camera, named after the camera. Only rig.yaml is read back by this package.
 /// @returns warnings, one for each camera file that could not be written.
 /// @throws geometry::Error: rig.yaml could not be written; nothing has changed then.
 std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& path);
 
-/// What stock ROS tools know of a camera: its name and lens.
+/// The camera's name and lens, for the standard ROS tools.
 sensor_msgs::CameraInfo cameraInfo(const geometry::Camera& camera);
 
-/// Calls set_camera_info of a camera, and waits for its answer for at most `timeout` [s], whatever
-/// the driver does. Hold no mutex.
-/// @returns why the driver does not know its lens now; empty when it does.
-std::string sendCameraInfo(const geometry::Camera& camera,
-                           const ros::NodeHandle& nh,
-                           double timeout);
-
-/// Same for every camera of the rig, all at once.
-/// @returns warnings, one for each camera that did not take it.
-std::vector<std::string> sendCameraInfo(const geometry::Rig& rig,
+/// Calls set_camera_info of all these cameras at once, and waits for the answers for at most
+/// `timeout` [s], whatever the drivers do. Hold no mutex.
+/// @returns warnings, one for each camera that did not accept it.
+std::vector<std::string> sendCameraInfo(const std::vector<geometry::Camera>& cameras,
                                         const ros::NodeHandle& nh,
                                         double timeout);
 

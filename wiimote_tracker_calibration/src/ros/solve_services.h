@@ -13,10 +13,8 @@ class SolveServices {
   explicit SolveServices(NodeContext* context);
 
  private:
-  bool solve(wiimote_tracker_msgs::SolveCalibration::Request& request,
-             wiimote_tracker_msgs::SolveCalibration::Response& response);
-  void publish(const session::Solution& solution,
-               wiimote_tracker_msgs::SolveCalibration::Response* response);
+  workflow::Reply solve(const wiimote_tracker_msgs::SolveCalibration::Request& request,
+                        wiimote_tracker_msgs::SolveCalibration::Response* response);
 
   NodeContext& context_;
   ros::Publisher verdict_;

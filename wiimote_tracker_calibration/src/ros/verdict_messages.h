@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_VERDICT_MESSAGES_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_VERDICT_MESSAGES_H
 
+#include "session/verdict.h"
 #include "wiimote_tracker_calibration/principal_point/trace.h"
-#include "wiimote_tracker_calibration/session/verdict.h"
 
 #include <wiimote_tracker_msgs/CalibrationVerdict.h>
 #include <wiimote_tracker_msgs/PrincipalPointTrace.h>

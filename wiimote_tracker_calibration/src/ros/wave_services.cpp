@@ -1,14 +1,10 @@
 #include "wave_services.h"
 
-#include "replies.h"
-
-#include <wiimote_tracker_triangulation/geometry/error.h>
-
 namespace wiimote_tracker {
 
 namespace {
 
-/// The cameras of a session as they start; where its square says where they stand, with poses.
+/// The cameras of a session as they start; with poses if its square tells where they stand.
 /// @returns whether they have them.
 bool knownCameras(session::Session session,
                   const session::SolveOptions& options,
@@ -33,49 +29,50 @@ bool knownCameras(session::Session session,
     }
     return true;
   } catch (const geometry::Error&) {
-    return false;  // the wave may tell what the corners do not
+    return false;  // The wave can still determine the poses.
   }
+}
+
+/// The message's 0 means: no wand, or the usual standard deviation.
+std::optional<wave::Wand> wandOf(const wiimote_tracker_msgs::StartWave::Request& request) {
+  if (request.wand_length == 0.0)
+    return std::nullopt;
+  wave::Wand wand;
+  wand.length = request.wand_length;
+  if (request.wand_stddev != 0.0)
+    wand.stddev = request.wand_stddev;
+  return wand;
 }
 
 }  // namespace
 
-WaveServices::WaveServices(NodeContext* context) : context_(*context) {
-  ros::NodeHandle& nh = context_.nh();
-  services_ = {nh.advertiseService("calibration/start_wave", &WaveServices::start, this),
-               nh.advertiseService("calibration/stop_wave", &WaveServices::stop, this)};
-}
+WaveServices::WaveServices(NodeContext* context)
+    : context_(*context),
+      services_({advertise(context_.nh(), "calibration/start_wave", &WaveServices::start, this),
+                 advertise(context_.nh(), "calibration/stop_wave", &WaveServices::stop, this)}) {}
 
-bool WaveServices::start(wiimote_tracker_msgs::StartWave::Request& request,
-                         wiimote_tracker_msgs::StartWave::Response& response) {
-  std::optional<wave::Wand> wand;
-  if (request.wand_length != 0.0) {
-    wand.emplace();
-    wand->length = request.wand_length;
-    if (request.wand_stddev != 0.0)
-      wand->stddev = request.wand_stddev;
-  }
+workflow::Reply WaveServices::start(const wiimote_tracker_msgs::StartWave::Request& request,
+                                    wiimote_tracker_msgs::StartWave::Response*) {
   Lock lock(context_.mutex());
-  session::Session captured;
-  workflow::Reply reply = context_.session(&captured, lock);
-  if (reply.success) {
+  return context_.answer(&lock, [&] {
+    const session::Session captured = context_.session(lock);
     session::SolveOptions options = context_.parameters(lock).solve;
     options.correct_principal_points = false;
-    lock.unlock();
     std::vector<geometry::Camera> cameras;
-    const bool posed = knownCameras(captured, options, &cameras);
-    lock.lock();
-    reply = context_.calibration(lock).beginWave(cameras, posed, wand, NodeContext::now());
+    const bool posed =
+        context_.compute(&lock, [&] { return knownCameras(captured, options, &cameras); });
+    const workflow::Reply reply =
+        context_.calibration(lock).beginWave(cameras, posed, wandOf(request), NodeContext::now());
     context_.publishStatus(lock);
-  }
-  fill(reply, &response);
-  return true;
+    return reply;
+  });
 }
 
-bool WaveServices::stop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+workflow::Reply WaveServices::stop() {
   const Lock lock(context_.mutex());
-  fill(context_.calibration(lock).endWave(), &response);
+  const workflow::Reply reply = context_.calibration(lock).endWave();
   context_.publishStatus(lock);
-  return true;
+  return reply;
 }
 
 }  // namespace wiimote_tracker

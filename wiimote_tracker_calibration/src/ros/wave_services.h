@@ -3,7 +3,6 @@
 
 #include "node_context.h"
 
-#include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/StartWave.h>
 
 #include <vector>
@@ -16,9 +15,9 @@ class WaveServices {
   explicit WaveServices(NodeContext* context);
 
  private:
-  bool start(wiimote_tracker_msgs::StartWave::Request& request,
-             wiimote_tracker_msgs::StartWave::Response& response);
-  bool stop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  workflow::Reply start(const wiimote_tracker_msgs::StartWave::Request& request,
+                        wiimote_tracker_msgs::StartWave::Response* response);
+  workflow::Reply stop();
 
   NodeContext& context_;
   std::vector<ros::ServiceServer> services_;

@@ -10,7 +10,7 @@
 
 namespace wiimote_tracker::import {
 
-/// What self_calibrate has to say.
+/// Results of self_calibrate.
 struct Report {
   std::string source;  ///< Where the pixels are from.
   std::size_t frames = 0;

@@ -1,4 +1,4 @@
-// Calibrates synchronised cameras from what they saw of one moving light, and from nothing else.
+// Calibrates synchronised cameras from what they saw of one moving light alone.
 
 #include "report.h"
 #include "source.h"
@@ -7,10 +7,11 @@
 #include "wiimote_tracker_calibration/import/comparison.h"
 #include "wiimote_tracker_calibration/import/number_table.h"
 
+#include <CLI/CLI.hpp>
+
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -21,20 +22,11 @@ namespace bundle = wiimote_tracker::bundle;
 namespace geometry = wiimote_tracker::geometry;
 namespace import = wiimote_tracker::import;
 
-const char* const kUsage =
-    "usage: self_calibrate FOLDER_OR_BAG [options]\n"
-    "  --camera-subset A,B,...  only these cameras\n"
-    "  --estimate-intrinsics    lenses from the recording too (the default)\n"
-    "  --fix-intrinsics FILE    lenses from a rig file, or from a folder with basenameN.rad\n"
-    "  --one-lens               all views are of one camera, or of cameras with equal lenses\n"
-    "  --points                 print the points too\n"
-    "  --json FILE              write all figures, cameras and points\n";
-
 struct Arguments {
   std::string source;
-  std::vector<std::string> subset;
-  std::optional<std::string> intrinsics;
-  std::optional<std::string> json;
+  std::string subset;      // names with commas; empty: all cameras
+  std::string intrinsics;  // empty: to be estimated
+  std::string json;        // empty: none
   bool one_lens = false;
   bool points = false;
 };
@@ -47,36 +39,20 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
-/// Nothing when they are not understood.
-std::optional<Arguments> parse(int argc, char** argv) {
-  Arguments arguments;
-  bool estimate = false;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const bool has_value = i + 1 < argc;
-    if (word == "--one-lens")
-      arguments.one_lens = true;
-    else if (word == "--points")
-      arguments.points = true;
-    else if (word == "--estimate-intrinsics")
-      estimate = true;
-    else if (word == "--camera-subset" && has_value)
-      arguments.subset = split(argv[++i]);
-    else if (word == "--fix-intrinsics" && has_value)
-      arguments.intrinsics = argv[++i];
-    else if (word == "--json" && has_value)
-      arguments.json = argv[++i];
-    else if (arguments.source.empty() && word[0] != '-')
-      arguments.source = word;
-    else
-      return std::nullopt;
-  }
-  if (arguments.source.empty() || (arguments.intrinsics && (estimate || arguments.one_lens)))
-    return std::nullopt;
-  return arguments;
+void addTo(CLI::App* app, Arguments* arguments) {
+  app->add_option("FOLDER_OR_BAG", arguments->source, "Recording")->required();
+  app->add_option("--camera-subset", arguments->subset, "Use only these cameras: A,B,...");
+  auto* const estimate = app->add_flag("--estimate-intrinsics", "Estimate the lenses (default)");
+  auto* const fix = app->add_option("--fix-intrinsics", arguments->intrinsics,
+                                    "Lenses from a rig file, or a folder with basenameN.rad");
+  auto* const one_lens =
+      app->add_flag("--one-lens", arguments->one_lens, "All cameras have the same lens");
+  fix->excludes(estimate)->excludes(one_lens);
+  app->add_flag("--points", arguments->points, "Print the points too");
+  app->add_option("--json", arguments->json, "Write all figures, cameras and points to a file");
 }
 
-/// On the error output, about once a second, once it has taken a second.
+/// Prints the progress to the standard error output, at most once a second.
 class ProgressLine {
  public:
   bool operator()(const std::string& step, double fraction) {
@@ -97,10 +73,10 @@ import::Report solve(const Arguments& arguments){
                                       ? import::readRecording(arguments.source, false)
                                       : import::readBag(arguments.source);
 if (!arguments.subset.empty())
-  recording = import::subsetOf(recording, arguments.subset);
+  recording = import::subsetOf(recording, split(arguments.subset));
 import::Recording used = recording;
-if (arguments.intrinsics)
-  import::takeIntrinsics(*arguments.intrinsics, &used);
+if (!arguments.intrinsics.empty())
+  import::takeIntrinsics(arguments.intrinsics, &used);
 
 std::vector<geometry::Camera> cameras;
 for (const import::RecordedCamera& recorded : used.cameras) {
@@ -117,7 +93,7 @@ for (std::size_t frame = 0; frame < used.frames.size(); ++frame) {
   }
 }
 bundle::SelfCalibrationOptions options;
-options.fixed_lenses = arguments.intrinsics.has_value();
+options.fixed_lenses = !arguments.intrinsics.empty();
 options.bundle.one_lens = arguments.one_lens;
 import::Report report;
 report.source = arguments.source;
@@ -142,16 +118,19 @@ void writeJson(const import::Report& report, const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::optional<Arguments> arguments = parse(argc, argv);
-  if (!arguments) {
-    std::fputs(kUsage, stderr);
-    return 2;
+  CLI::App app("Calibrates synchronised cameras from what they saw of one moving light alone.");
+  Arguments arguments;
+  addTo(&app, &arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
   }
   try {
-    const import::Report report = solve(*arguments);
-    import::print(report, arguments->points, stdout);
-    if (arguments->json)
-      writeJson(report, *arguments->json);
+    const import::Report report = solve(arguments);
+    import::print(report, arguments.points, stdout);
+    if (!arguments.json.empty())
+      writeJson(report, arguments.json);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "self_calibrate: %s\n", error.what());
     return 1;

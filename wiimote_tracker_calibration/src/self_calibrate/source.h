@@ -8,19 +8,18 @@
 
 namespace wiimote_tracker::import {
 
-/// Reads `<camera>/ir_blobs` of a bag. Cameras that are not synchronised are brought to common
-/// instants, the times of the images of the camera that has most of them: between two images no
-/// more than 50 ms apart, each with exactly one spot, its place is interpolated linearly. Stamps
-/// are taken as they are.
+/// Reads `<camera>/ir_blobs` of a bag. Pixels are interpolated linearly to the times of the camera
+/// with the most images, between images at most 50 ms apart with exactly one spot each. Stamps are
+/// not corrected.
 /// @throws ImportError: no bag, fewer than two cameras, images whose size changes.
 Recording readBag(const std::string& path);
 
-/// The cameras named, in the order of the recording. @throws ImportError for a name that is none.
+/// The named cameras, in the order of the recording. @throws ImportError for an unknown name.
 Recording subsetOf(const Recording& recording, const std::vector<std::string>& names);
 
-/// Gives every camera its intrinsics of a rig file (by name) or of the basenameN.rad of a folder in
-/// the layout of a recording (by number). @throws ImportError: a camera is missing there, or has
-/// another image size; geometry::Error as readRigFile.
+/// Takes the intrinsics of all cameras, by name, from a rig file or from the folder of a recording.
+/// @throws ImportError: a camera is missing there, or has another image size; Error as
+/// readRigFile().
 void takeIntrinsics(const std::string& path, Recording* recording);
 
 }  // namespace wiimote_tracker::import

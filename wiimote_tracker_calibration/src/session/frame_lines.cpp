@@ -1,7 +1,7 @@
 #include "frame_lines.h"
 
 #include "number_text.h"
-#include "wiimote_tracker_calibration/session/error.h"
+#include "session/error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,21 +9,21 @@
 
 namespace wiimote_tracker::session {
 
-/// Appends the frames as a line each: stamp [s], then x and y [px] of every spot, indented by two
-/// spaces. Needs a ClassicLocale.
+/// Appends one line per frame, indented by two spaces: stamp [s], then x and y [px] of every spot.
+/// Needs a ClassicLocale.
 void appendFrames(const std::vector<wave::Frame>& frames, std::string* text);
 
-/// Reads the lines of a text one after the other.
+/// Reads a text line by line.
 class Lines {
  public:
   /// @param text outlives this; @param begin where to start in it; @param where names the file.
   Lines(const std::string& text, std::size_t begin, const std::string& where);
 
-  /// @throws SessionError naming the line: the next one is another.
+  /// @throws SessionError naming the line: the next line is different.
   void expect(const std::string& line);
 
-  /// What appendFrames() wrote. Needs a ClassicLocale.
-  /// @throws SessionError naming the line: the next `count` lines are no frames.
+  /// Reads what appendFrames() wrote. Needs a ClassicLocale.
+  /// @throws SessionError naming the line: the next `count` lines are not frames.
   std::vector<wave::Frame> frames(std::size_t count);
 
   /// @throws SessionError: there are more lines.

@@ -1,34 +1,31 @@
-#include "wiimote_tracker_calibration/session/join_rigs.h"
+#include "session/join_rigs.h"
 
-#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
-#include "predicted_accuracy.h"
-#include "wiimote_tracker_calibration/place/chi_squared.h"
-#include "wiimote_tracker_calibration/session/error.h"
+#include "place/chi_squared.h"
+#include "session/error.h"
+
+#include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace wiimote_tracker::session {
 
 namespace {
 
-// A camera whose accelerometer reads up this far from where it was has been moved [rad].
-constexpr double kTurned = 0.05;
-// Places within this share of their extent beside a line do not tell how to turn about it.
-constexpr double kThinnest = 0.05;
-// What is never better known [rad, m]: keeps covariances invertible where something was held.
-constexpr double kLeastStddev = 1e-5;
+namespace so3 = geometry::so3;
 
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
+// A larger angle between the gravity readings of a shared camera means that it was moved [rad].
+constexpr double kTurned = 0.05;
+// Minimum width of the places relative to their length: on a line the rotation is not determined.
+constexpr double kThinnest = 0.05;
+// Smallest standard deviation [rad, m]: keeps covariances invertible if a parameter was held.
+constexpr double kLeastStddev = 1e-5;
 
 std::string listOf(const std::vector<std::string>& words) {
   std::string list;
@@ -37,27 +34,9 @@ std::string listOf(const std::vector<std::string>& words) {
   return list;
 }
 
-Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d result;
-  result << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return result;
-}
-
-Eigen::Matrix3d rotationFromVector(const Eigen::Vector3d& vector) {
-  const double angle = vector.norm();
-  if (angle == 0.0)
-    return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
-}
-
-Eigen::Vector3d vectorFromRotation(const Eigen::Matrix3d& rotation) {
-  const Eigen::AngleAxisd turn(rotation);
-  return turn.angle() * turn.axis();
-}
-
-/// Conditions that hold in truth: residual + by_motion * m + by_first * a + by_second * b + noise
-/// is 0, where m, a and b are the errors (true less estimated) of the motion between the worlds
-/// (rotation about the first world's axes, translation) and of the parameters of both rigs.
+/// Linearised conditions: residual + by_motion * m + by_first * a + by_second * b + noise = 0, with
+/// the errors (true minus estimated) m of the motion between the worlds (rotation about the first
+/// world's axes, translation), a and b of the parameters of both rigs.
 struct Conditions {
   Eigen::VectorXd residual;
   Eigen::MatrixXd by_motion;
@@ -73,7 +52,7 @@ struct Conditions {
         variance(Eigen::VectorXd::Constant(rows, kLeastStddev * kLeastStddev)) {}
 };
 
-/// Builds the conditions anew for each motion.
+/// What both rigs share, as conditions on the motion between them.
 class Joint {
  public:
   Joint(const geometry::Rig& first, const geometry::Rig& second) : first_(first), second_(second) {}
@@ -81,7 +60,7 @@ class Joint {
 
   virtual std::size_t count() const = 0;
   virtual Eigen::Isometry3d start() const = 0;
-  /// Without the one that is left out, if it is below count().
+  /// Linearised at a motion, without the shared thing of index left_out (none if >= count()).
   virtual Conditions conditions(const Eigen::Isometry3d& first_from_second,
                                 std::size_t left_out) const = 0;
 
@@ -90,7 +69,7 @@ class Joint {
   const geometry::Rig& second_;
 };
 
-/// Cameras that both rigs have: six conditions each.
+/// Cameras of both rigs: six conditions each.
 class SharedCameras : public Joint {
  public:
   using Joint::Joint;
@@ -117,12 +96,10 @@ class SharedCameras : public Joint {
       const Eigen::Isometry3d moved = motion * second;
       const Eigen::Index first_column = geometry::firstParameter(pairs_[i].first);
       const Eigen::Index second_column = geometry::firstParameter(pairs_[i].second);
-      result.residual.segment<3>(row) =
-          vectorFromRotation(moved.linear() * expected.linear().transpose());
+      result.residual.segment<3>(row) = so3::log(moved.linear() * expected.linear().transpose());
       result.residual.segment<3>(row + 3) = moved.translation() - expected.translation();
       result.by_motion.block<6, 6>(row, 0).setIdentity();
-      result.by_motion.block<3, 3>(row + 3, 0) =
-          -crossMatrix(motion.linear() * second.translation());
+      result.by_motion.block<3, 3>(row + 3, 0) = -so3::skew(motion.linear() * second.translation());
       result.by_first.block<6, 6>(row, first_column) = -Eigen::Matrix<double, 6, 6>::Identity();
       result.by_second.block<3, 3>(row, second_column + geometry::kRotation) = motion.linear();
       result.by_second.block<3, 3>(row + 3, second_column + geometry::kPosition) = motion.linear();
@@ -147,7 +124,8 @@ class SharedPlaces : public Joint {
                const std::vector<CommonPlace>& places)
       : Joint(first, second), places_(places) {
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const auto derivative = pointByParameters(second, places[i].in_second);
+      const auto derivative = geometry::pointByParameters(
+          second, places[i].in_second, geometry::camerasSeeing(second, places[i].in_second));
       if (!derivative)
         throw SessionError("no two cameras of the second rig look at place " +
                            std::to_string(i + 1) + ": measure places that they see");
@@ -176,7 +154,7 @@ class SharedPlaces : public Joint {
         continue;
       const CommonPlace& place = places_[i];
       result.residual.segment<3>(row) = motion * place.in_second - place.in_first;
-      result.by_motion.block<3, 3>(row, 0) = -crossMatrix(motion.linear() * place.in_second);
+      result.by_motion.block<3, 3>(row, 0) = -so3::skew(motion.linear() * place.in_second);
       result.by_motion.block<3, 3>(row, 3).setIdentity();
       result.by_second.middleRows<3>(row) = motion.linear() * derivatives_[i];
       result.variance.segment<3>(row).array() += place.stddev * place.stddev;
@@ -190,7 +168,7 @@ class SharedPlaces : public Joint {
   std::vector<Eigen::MatrixXd> derivatives_;
 };
 
-/// The motion that fits best, and how its error follows from those of the rigs.
+/// The best motion, and how its error depends on those of the rigs.
 struct Motion {
   Eigen::Isometry3d first_from_second;
   Eigen::MatrixXd gain;  ///< error = -gain * (by_first * a + by_second * b + noise).
@@ -198,7 +176,7 @@ struct Motion {
   int degrees_of_freedom = 0;
 };
 
-/// Gauss-Newton; each residual weighs as both rigs are uncertain of it.
+/// Generalised least squares by Gauss-Newton, weighted by the covariances of both rigs.
 Motion fitMotion(const geometry::Rig& first,
                  const geometry::Rig& second,
                  const Joint& joint,
@@ -222,7 +200,7 @@ Motion fitMotion(const geometry::Rig& first,
     if (step.norm() < 1e-10 || iteration == 20)
       return motion;
     motion.first_from_second.linear() =
-        Eigen::Quaterniond(rotationFromVector(step.head<3>()) * motion.first_from_second.linear())
+        Eigen::Quaterniond(so3::exp(step.head<3>()) * motion.first_from_second.linear())
             .normalized()
             .toRotationMatrix();
     motion.first_from_second.translation() += step.tail<3>();
@@ -235,7 +213,7 @@ bool contradicts(const Motion& motion) {
              place::chiSquaredQuantile(motion.degrees_of_freedom, place::kThreeNines);
 }
 
-/// What is left out when the rest fits best.
+/// Index of the shared thing without which the rest fits best.
 std::size_t oddOneOut(const geometry::Rig& first, const geometry::Rig& second, const Joint& joint) {
   std::size_t odd = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -249,7 +227,7 @@ std::size_t oddOneOut(const geometry::Rig& first, const geometry::Rig& second, c
   return odd;
 }
 
-/// Shift of the second rig's clock to the first's, from the cameras of which both know it.
+/// Offset of the second rig's clock from the first's, from shared cameras with known time offsets.
 struct ClockShift {
   double shift = 0.0;
   std::vector<std::pair<std::size_t, std::size_t>> cameras;  ///< Empty: not known.
@@ -281,7 +259,7 @@ Eigen::Index offsetParameter(std::size_t camera) {
   return geometry::firstParameter(camera) + geometry::kTimeOffset;
 }
 
-/// The first rig, and the cameras that only the second has moved into its world.
+/// The first rig with the second's other cameras, moved into its world.
 geometry::Rig joined(const geometry::Rig& first,
                      const geometry::Rig& second,
                      const Motion& motion,
@@ -289,7 +267,7 @@ geometry::Rig joined(const geometry::Rig& first,
   const Eigen::Isometry3d& moved = motion.first_from_second;
   const ClockShift clock = clockShift(first, second);
   geometry::Rig rig = first;
-  // Errors of the parameters of the result by those of both rigs, and by the noise.
+  // Derivatives of the result's errors by those of both rigs and by the noise.
   const Eigen::Index most = first.covariance.rows() + second.covariance.rows();
   Eigen::MatrixXd by_first = Eigen::MatrixXd::Zero(most, first.covariance.rows());
   Eigen::MatrixXd by_second = Eigen::MatrixXd::Zero(most, second.covariance.rows());
@@ -306,7 +284,7 @@ geometry::Rig joined(const geometry::Rig& first,
     by_second.block<3, 3>(row, column) = moved.linear();
     by_second.block<3, 3>(row + 3, column + 3) = moved.linear();
     Eigen::Matrix<double, 6, 6> by_motion = Eigen::Matrix<double, 6, 6>::Identity();
-    by_motion.block<3, 3>(3, 0) = -crossMatrix(turned);
+    by_motion.block<3, 3>(3, 0) = -so3::skew(turned);
     const Eigen::MatrixXd by_conditions = -by_motion * motion.gain;
     by_first.middleRows<6>(row) += by_conditions * conditions.by_first;
     by_second.middleRows<6>(row) += by_conditions * conditions.by_second;
@@ -385,7 +363,7 @@ void checkGravity(const geometry::RigCamera& first, const geometry::RigCamera& s
       std::atan2(first.gravity->cross(*second.gravity).norm(), first.gravity->dot(*second.gravity));
   if (angle > kTurned)
     throw SessionError(first.camera.name + " was turned by " +
-                       number("%.1f degrees", angle * 180.0 / M_PI) +
+                       format("%.1f degrees", angle * 180.0 / M_PI) +
                        " between both calibrations, as its accelerometer tells: calibrate one of "
                        "the rooms anew");
 }
@@ -407,7 +385,7 @@ JoinedRigs finish(const geometry::Rig& first,
                    " of the first rig over " + over;
   if (motion.degrees_of_freedom > 0)
     result.message += "; the rigs disagree " +
-                      number("%.1f", std::sqrt(motion.chi_squared / motion.degrees_of_freedom)) +
+                      format("%.1f", std::sqrt(motion.chi_squared / motion.degrees_of_freedom)) +
                       " times as much as their uncertainties let expect";
   else
     result.message += "; nothing checks that it did not move in between, a second one would";

@@ -1,13 +1,12 @@
 #include "judge.h"
 
+#include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
-#include "predicted_accuracy.h"
-
+#include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -16,25 +15,19 @@ namespace wiimote_tracker::session {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-// The paper's cube is as high as this over the corners [m].
+// Height of the paper's cube above the corners [m].
 constexpr double kAbove = 2.5;
-// Predicted error of a point, as a share of its distance from the cameras. doc/session.md says why.
+// Limits of a point's predicted error, as a share of its distance from the cameras
+// (doc/session.md).
 constexpr double kGoodShare = 0.004;
 constexpr double kUsableShare = 0.02;
-// Between the corner that is to be taken again and the next: likelihoods are 100 to 1
-// (chi-squared).
+// Chi-squared difference between the worst corner and the next: a likelihood ratio of 100.
 constexpr double kClearLead = 9.2;
-// Of a camera's observations that must fit for its calibration to be good.
+// Least share of inliers of a camera that is good.
 constexpr double kGoodInliers = 0.8;
 
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 std::string millimetres(double value) {
-  return number("%.0f mm", 1e3 * value);
+  return format("%.0f mm", 1e3 * value);
 }
 
 CameraVerdict judgeCamera(const geometry::Rig& rig, std::size_t index) {
@@ -65,8 +58,8 @@ CameraVerdict judgeCamera(const geometry::Rig& rig, std::size_t index) {
   return verdict;
 }
 
-/// How far the corners are from where they were laid out, measured with the rig from what it was
-/// solved from: RMS over those that two cameras saw [m]; NaN when there is none.
+/// RMS distance of the corners, triangulated with the rig from their captured spots, from their
+/// nominal places, over those that two cameras saw [m]; NaN when there is none.
 double cornerError(const Session& session, const geometry::Rig& rig, bool z_up) {
   const square::Corners nominal = session.recording.square->corners(z_up);
   std::vector<geometry::Camera> cameras;
@@ -92,7 +85,18 @@ double cornerError(const Session& session, const geometry::Rig& rig, bool z_up) 
   return count > 0 ? std::sqrt(sum / count) : kNan;
 }
 
-/// Of a place from the cameras of the rig, on average [m].
+/// The calibration's part of the standard deviation of a point triangulated by all cameras that see
+/// it: root of the trace of D C D^T with the joint covariance C of the rig [m].
+double predictedStddev(const geometry::Rig& rig, const Eigen::Vector3d& point) {
+  const auto derivative =
+      geometry::hasCovariance(rig)
+          ? geometry::pointByParameters(rig, point, geometry::camerasSeeing(rig, point))
+          : std::nullopt;
+  return derivative ? std::sqrt((*derivative * rig.covariance * derivative->transpose()).trace())
+                    : kNan;
+}
+
+/// Mean distance of the cameras from a place [m].
 double meanDistance(const geometry::Rig& rig, const Eigen::Vector3d& place) {
   double sum = 0.0;
   for (const geometry::RigCamera& camera : rig.cameras)
@@ -108,7 +112,7 @@ double largest(std::vector<double>::const_iterator begin, std::vector<double>::c
   return result;
 }
 
-/// What decides between good, usable and redo, worst first.
+/// How accurate points are.
 struct Accuracy {
   double share = kNan;  ///< Largest error as a share of the distance.
   std::string text;
@@ -164,7 +168,7 @@ std::vector<std::string> shortcomings(const Accuracy& accuracy,
               "use a larger square");
   for (const CameraVerdict& camera : verdict.cameras) {
     if (camera.inlier_share < kGoodInliers)
-      reasons.push_back(number("%.0f %%", 100.0 * (1.0 - camera.inlier_share)) + " of what " +
+      reasons.push_back(format("%.0f %%", 100.0 * (1.0 - camera.inlier_share)) + " of what " +
                         camera.name + " saw was not the LED: cover lamps and reflections");
   }
   if (findings.doubts)

@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_JUDGE_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_JUDGE_H
 
-#include "wiimote_tracker_calibration/session/session.h"
-#include "wiimote_tracker_calibration/session/verdict.h"
+#include "session/session.h"
+#include "session/verdict.h"
 #include "wiimote_tracker_calibration/square/suspect_corner.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
@@ -11,16 +11,16 @@
 
 namespace wiimote_tracker::session {
 
-/// What a solver found out beside the rig.
+/// What a solver found besides the rig.
 struct Findings {
   bool z_up = true;
   std::optional<square::SuspectCorner> suspect;
-  bool doubts = false;  ///< The rig's verdict holds warnings that tell of a worse result.
-  /// Expected RMS error of points to one another, where no square says where the world is [m].
+  bool doubts = false;  ///< The rig's verdict has warnings about the quality.
+  /// Expected RMS error of distances between points, without a square [m].
   std::optional<double> shape_error;
 };
 
-/// @param rig its verdict holds the solver's words.
+/// Grades a rig. @param rig its verdict is the solver's, and is appended.
 Verdict judge(const Session& session, const geometry::Rig& rig, const Findings& findings);
 
 }  // namespace wiimote_tracker::session

@@ -7,7 +7,7 @@
 
 namespace wiimote_tracker::session {
 
-/// While it lives, numbers of this thread have a decimal point in every country.
+/// While it lives, this thread writes and reads numbers with a decimal point in every locale.
 class ClassicLocale {
  public:
   ClassicLocale();

@@ -1,9 +1,9 @@
-#include "wiimote_tracker_calibration/session/session_file.h"
+#include "session/session_file.h"
 
 #include "frame_lines.h"
 #include "number_text.h"
+#include "session/error.h"
 #include "session_yaml.h"
-#include "wiimote_tracker_calibration/session/error.h"
 
 #include <wiimote_tracker_triangulation/geometry/atomic_file.h>
 

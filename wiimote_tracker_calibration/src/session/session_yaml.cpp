@@ -15,7 +15,6 @@ namespace wiimote_tracker::session {
 
 namespace {
 
-using geometry::RigFileError;
 using geometry::YamlMap;
 
 constexpr const char* kFormat = "wiimote_tracker_samples";
@@ -123,12 +122,9 @@ void emitCamera(const wave::CameraRecording& camera,
   out << YAML::EndMap;
 }
 
-Eigen::VectorXd readVector(YamlMap& map, const std::string& key, Eigen::Index size) {
-  const std::vector<double> numbers = map.numbers(key);
-  if (static_cast<Eigen::Index>(numbers.size()) != size)
-    throw RigFileError(map.at(key) + " is not a list of " + std::to_string(size) +
-                       " numbers; restore the file from its backup or capture again");
-  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), size);
+Eigen::VectorXd readVector(YamlMap& map, const std::string& key, std::size_t size) {
+  const std::vector<double> numbers = map.numbers(key, size);
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(size));
 }
 
 square::SquareLayout readSquare(YamlMap map) {
@@ -153,20 +149,18 @@ wave::Wand readWand(YamlMap map) {
 geometry::Intrinsics readLens(YamlMap map) {
   constexpr int kLargest = std::numeric_limits<int>::max();
   geometry::Intrinsics lens;
-  lens.width = map.whole<int>("width", 1, kLargest);
-  lens.height = map.whole<int>("height", 1, kLargest);
+  lens.width = map.bounded("width", 1, kLargest);
+  lens.height = map.bounded("height", 1, kLargest);
   lens.fx = map.get<double>("fx");
   lens.fy = map.get<double>("fy");
   lens.cx = map.get<double>("cx");
   lens.cy = map.get<double>("cy");
   const auto model = geometry::distortionModelFromName(map.get<std::string>("distortion_model"));
   if (!model)
-    throw RigFileError(map.at("distortion_model") +
-                       " is not known; read the file with the version of this package that wrote "
-                       "it");
+    throw map.error("distortion_model", "is not known");
   lens.distortion_model = *model;
   const Eigen::VectorXd distortion =
-      readVector(map, "distortion", static_cast<Eigen::Index>(geometry::coefficientCount(*model)));
+      readVector(map, "distortion", geometry::coefficientCount(*model));
   std::copy(distortion.begin(), distortion.end(), lens.distortion.begin());
   map.refuseUnknown();
   return lens;
@@ -187,9 +181,7 @@ std::array<std::optional<Eigen::Vector2d>, 4> readCorners(YamlMap& map) {
     corners[c] = Eigen::Vector2d(x, y);
   }
   if (!good)
-    throw RigFileError(map.at("corners") +
-                       " is not a list of four places, each two numbers or null; restore the file "
-                       "from its backup or capture again");
+    throw map.error("corners", "is not a list of four places, each two numbers or null");
   return corners;
 }
 
@@ -202,7 +194,7 @@ void readCamera(YamlMap map, SessionHead* head) {
   if (!map.get<YAML::Node>("gravity").IsNull())
     sightings.gravity = Eigen::Vector3d(readVector(map, "gravity", 3));
   camera.clock_epoch =
-      map.whole<std::uint32_t>("clock_epoch", 0, std::numeric_limits<std::uint32_t>::max());
+      map.bounded<std::uint32_t>("clock_epoch", 0, std::numeric_limits<std::uint32_t>::max());
   sightings.corners = readCorners(map);
   head->session.masks.emplace_back();
   for (YamlMap& mask : map.maps("masks")) {
@@ -211,7 +203,7 @@ void readCamera(YamlMap map, SessionHead* head) {
     mask.refuseUnknown();
   }
   head->frames.push_back(
-      map.whole<std::size_t>("frames", 0, std::numeric_limits<std::int32_t>::max()));
+      map.bounded<std::size_t>("frames", 0, std::numeric_limits<std::int32_t>::max()));
   map.refuseUnknown();
   head->session.recording.cameras.push_back(camera);
 }
@@ -235,23 +227,8 @@ std::string yamlFromSession(const Session& session) {
 }
 
 SessionHead headFromYaml(const std::string& text, const std::string& where) {
-  YAML::Node root;
-  try {
-    root = YAML::Load(text);
-  } catch (const YAML::Exception& error) {
-    throw RigFileError(where + " is not YAML (" + error.what() +
-                       "); restore the file from its backup or capture again");
-  }
-  YamlMap map(root, where);
-  if (map.get<std::string>("format") != kFormat)
-    throw RigFileError(map.at("format") + " is not " + kFormat +
-                       "; choose a file that save_samples wrote");
-  const auto version = map.get<int>("version");
-  if (version != kVersion)
-    throw RigFileError(map.at("version") + " is " + std::to_string(version) + ", but only " +
-                       std::to_string(kVersion) +
-                       " is understood; read the file with the version of this package that wrote "
-                       "it");
+  YamlMap map = YamlMap::parse(text, where, "choose a file that save_samples wrote");
+  map.checkFormat(kFormat, kVersion);
   SessionHead head;
   head.session.world_frame = map.get<std::string>("world_frame");
   if (!map.get<YAML::Node>("square").IsNull())

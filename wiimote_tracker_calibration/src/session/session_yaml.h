@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_SESSION_YAML_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_SESSION_YAML_H
 
-#include "wiimote_tracker_calibration/session/session.h"
+#include "session/session.h"
 
 #include <cstddef>
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace wiimote_tracker::session {
 
-/// A session but for its frames, of which only the number stands there.
+/// A session without its frames, and their numbers.
 struct SessionHead {
   Session session;                  ///< Without frames.
   std::vector<std::size_t> frames;  ///< How many, per camera.
 };
 
-/// YAML text of all but the frames. Needs a ClassicLocale.
+/// YAML text of a session without its frames. Needs a ClassicLocale.
 std::string yamlFromSession(const Session& session);
 
-/// `where`: the file, for the messages. @throws geometry::RigFileError naming the key.
+/// `where`: the file, for the messages. @throws geometry::FileError naming the key.
 SessionHead headFromYaml(const std::string& text, const std::string& where);
 
 }  // namespace wiimote_tracker::session

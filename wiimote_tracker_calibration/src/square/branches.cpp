@@ -1,8 +1,8 @@
 #include "wiimote_tracker_calibration/square/branches.h"
 
-#include "wiimote_tracker_calibration/square/error.h"
-#include "wiimote_tracker_calibration/square/planar_pose.h"
-#include "wiimote_tracker_calibration/square/three_corner_pose.h"
+#include "square/error.h"
+#include "square/planar_pose.h"
+#include "square/three_corner_pose.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/square/corner_order.h"
+#include "square/corner_order.h"
 
 #include <algorithm>
 

@@ -1,14 +1,15 @@
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
+#include "square/error.h"
+#include "square/expected_error.h"
 #include "wiimote_tracker_calibration/square/branches.h"
-#include "wiimote_tracker_calibration/square/error.h"
-#include "wiimote_tracker_calibration/square/expected_error.h"
 
 #include "usable_cameras.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -26,12 +27,6 @@ constexpr double kLensLimit = 5.0;
 constexpr double kGravityLimit = 5.0;
 // A calibration that puts points off by more than this share of the square's side is reported.
 constexpr double kErrorLimit = 0.03;
-
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 /// Cameras with their branches.
 struct Candidates {
@@ -86,9 +81,9 @@ void refuseUndecided(const RigModel& model,
   const double apart =
       (both[0].world_from_camera.translation() - both[1].world_from_camera.translation()).norm();
   throw SquareError(
-      model.sightings()[i].name + " can stand in two places, " + number("%.2f m", apart) +
-      " apart, that explain what it saw (to " + number("%.2f", both[0].reprojection_error) +
-      " and " + number("%.2f px", both[1].reprojection_error) +
+      model.sightings()[i].name + " can stand in two places, " + format("%.2f m", apart) +
+      " apart, that explain what it saw (to " + format("%.2f", both[0].reprojection_error) +
+      " and " + format("%.2f px", both[1].reprojection_error) +
       "), and nothing tells which: let it look at the square more from the side or from nearer, "
       "use a larger square, or connect its accelerometer");
 }
@@ -153,7 +148,7 @@ Explanation displacedCorner(const RigModel& model,
   const double freedom = std::max(1, model.degreesOfFreedom() - 2);
   result.misfit = std::sqrt(std::max(0.0, choice.cost - suspect->chi_squared) / freedom);
   result.text = ", most at corner " + std::to_string(suspect->corner + 1) + " (" +
-                number("%.0f mm", 1e3 * suspect->distance) +
+                format("%.0f mm", 1e3 * suspect->distance) +
                 " off): check the sides of the square and capture that corner again, or state a "
                 "larger placement error";
   return result;
@@ -164,7 +159,7 @@ void checkGravity(const RigModel& model, const RigState& state, const Uncertaint
     const std::optional<double> tilt = model.tiltAgainstGravity(state, i);
     if (tilt && *tilt > kGravityLimit * uncertainty.gravity)
       throw SquareError("the floor as " + model.sightings()[i].name + " sees it is tilted by " +
-                        number("%.0f degrees", *tilt * 180.0 / M_PI) +
+                        format("%.0f degrees", *tilt * 180.0 / M_PI) +
                         " against its accelerometer: it was moved between the corners, its image "
                         "or its axes are turned, or the floor is not level; correct that, or do "
                         "not use gravity");
@@ -182,7 +177,7 @@ void checkMisfit(const RigModel& model,
   const bool absurd = isAbsurd(model, choice.state);
   if (ratio < kWarnRatio && !absurd)
     return;
-  std::string reason = "the cameras disagree " + number("%.1f", ratio) +
+  std::string reason = "the cameras disagree " + format("%.1f", ratio) +
                        " times as much as the stated errors explain";
   const Explanation odd = oddOneOut(model, layout, choice, uncertainty);
   const Explanation displaced = displacedCorner(model, choice, solution->suspect);
@@ -222,13 +217,13 @@ std::string verdict(const SquareSolution& solution) {
     worst_m = std::max(worst_m, solution.rig.cameras[i].residual_m);
   }
   std::string text = std::to_string(solution.rig.cameras.size()) + " cameras solved from a " +
-                     number("%.3f m", solution.rig.square_sides[0]) + " x " +
-                     number("%.3f m", solution.rig.square_sides[1]) + " square, z points " +
+                     format("%.3f m", solution.rig.square_sides[0]) + " x " +
+                     format("%.3f m", solution.rig.square_sides[1]) + " square, z points " +
                      (solution.z_up ? "up" : "down") + "; residuals at most " +
-                     number("%.2f px", worst_px) + " (" + number("%.1f mm", 1000.0 * worst_m) + ")";
+                     format("%.2f px", worst_px) + " (" + format("%.1f mm", 1000.0 * worst_m) + ")";
   if (std::isfinite(solution.expected_error))
     text += ", points over the square expected within " +
-            number("%.0f mm", 1000.0 * solution.expected_error) + " (RMS)";
+            format("%.0f mm", 1000.0 * solution.expected_error) + " (RMS)";
   for (const std::string& warning : solution.warnings)
     text += "; warning: " + warning;
   return text;
@@ -283,7 +278,7 @@ SquareSolution solveSquare(const SquareLayout& layout,
   solution.expected_error = expectedError(rig, boxOver(model.nominalCorners(), solution.z_up));
   if (solution.expected_error > kErrorLimit * std::min(layout.side_x, layout.side_y))
     solution.warnings.push_back("points over the square are known to " +
-                                number("%.2f m", solution.expected_error) +
+                                format("%.2f m", solution.expected_error) +
                                 " only: use a larger square, or place the cameras so that they "
                                 "look at it from different sides");
   rig.verdict = verdict(solution);

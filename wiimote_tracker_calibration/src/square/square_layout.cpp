@@ -1,6 +1,6 @@
 #include "wiimote_tracker_calibration/square/square_layout.h"
 
-#include "wiimote_tracker_calibration/square/error.h"
+#include "square/error.h"
 
 #include <Eigen/Geometry>
 

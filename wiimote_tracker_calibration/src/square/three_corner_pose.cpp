@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/square/three_corner_pose.h"
+#include "square/three_corner_pose.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -1,7 +1,7 @@
 #include "usable_cameras.h"
 
-#include "wiimote_tracker_calibration/square/corner_order.h"
-#include "wiimote_tracker_calibration/square/error.h"
+#include "square/corner_order.h"
+#include "square/error.h"
 
 #include <algorithm>
 #include <map>

@@ -1,81 +1,62 @@
-// Solves what calibration/save_samples wrote, without the node.
+// solve_samples: solves what calibration/save_samples wrote, without the node.
 
 #include "../ros/parameters.h"
-#include "wiimote_tracker_calibration/session/session_file.h"
-#include "wiimote_tracker_calibration/session/solve_session.h"
+#include "session/session_file.h"
+#include "session/solve_session.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 #include <wiimote_tracker_triangulation/ros/parameter_file.h>
 
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <ctime>
-#include <stdexcept>
+#include <exception>
 #include <string>
 
 namespace {
 
 using namespace wiimote_tracker;
 
-const char* const kUsage =
-    "usage: solve_samples FILE [--params YAML] [--rig OUT] [--method joint|per_camera]\n"
-    "                     [--without-gravity] [--correct-principal-points]\n"
-    "                     [--ray-model calibrated|image_center]\n"
-    "Solves what calibration/save_samples wrote, and prints the verdict. --params: the node's "
-    "parameters,\n"
-    "a file like config/calibration.yaml; without it their defaults. What is said behind it goes "
-    "before it.\n"
-    "--rig writes the rig file.\n";
-
 struct Arguments {
   std::string samples;
+  std::string params;
   std::string rig;
-  session::SolveOptions options;
+  std::string method;
+  std::string ray_model;
+  bool without_gravity = false;
+  bool correct_principal_points = false;
 };
 
-/// One of two words. @throws std::invalid_argument.
-bool isSecond(const std::string& option,
-              const std::string& word,
-              const std::string& first,
-              const std::string& second) {
-  if (word != first && word != second)
-    throw std::invalid_argument(option + " is '" + word + "', but must be " + first + " or " +
-                                second);
-  return word == second;
+void addTo(CLI::App* app, Arguments* arguments) {
+  app->add_option("FILE", arguments->samples, "File that save_samples wrote")->required();
+  app->add_option("--params", arguments->params,
+                  "Parameters of the node, a file like config/calibration.yaml (default: their "
+                  "defaults); the options below override it");
+  app->add_option("--rig", arguments->rig, "Write the rig to this file");
+  app->add_option("--method", arguments->method, "How to solve a square without a wave")
+      ->check(CLI::IsMember({"joint", "per_camera"}));
+  app->add_option("--ray-model", arguments->ray_model, "Camera model of the rays")
+      ->check(CLI::IsMember({"calibrated", "image_center"}));
+  app->add_flag("--without-gravity", arguments->without_gravity, "Do not use the accelerometers");
+  app->add_flag("--correct-principal-points", arguments->correct_principal_points,
+                "Correct the principal points as the paper does");
 }
 
-Arguments argumentsOf(int argc, char** argv) {
-  Arguments arguments;
-  for (int i = 1; i < argc; ++i) {
-    const std::string option = argv[i];
-    const auto value = [&] {
-      if (i + 1 == argc)
-        throw std::invalid_argument(option + " needs a value");
-      return std::string(argv[++i]);
-    };
-    if (option == "--rig")
-      arguments.rig = value();
-    else if (option == "--params")
-      arguments.options = readParameters(readParameterTree(value())).solve;
-    else if (option == "--method")
-      arguments.options.square.method = isSecond(option, value(), "joint", "per_camera")
-                                            ? square::Method::kPerCamera
-                                            : square::Method::kJoint;
-    else if (option == "--without-gravity")
-      arguments.options.use_gravity = false;
-    else if (option == "--correct-principal-points")
-      arguments.options.correct_principal_points = true;
-    else if (option == "--ray-model")
-      arguments.options.ray_model = isSecond(option, value(), "calibrated", "image_center")
-                                        ? geometry::RayModel::kImageCenter
-                                        : geometry::RayModel::kCalibrated;
-    else if (arguments.samples.empty() && option.compare(0, 1, "-") != 0)
-      arguments.samples = option;
-    else
-      throw std::invalid_argument("'" + option + "' is not understood");
-  }
-  if (arguments.samples.empty())
-    throw std::invalid_argument("name the file of samples");
-  return arguments;
+session::SolveOptions optionsOf(const Arguments& arguments) {
+  session::SolveOptions options;
+  if (!arguments.params.empty())
+    options = readParameters(readParameterTree(arguments.params)).solve;
+  if (!arguments.method.empty())
+    options.square.method =
+        arguments.method == "joint" ? square::Method::kJoint : square::Method::kPerCamera;
+  if (!arguments.ray_model.empty())
+    options.ray_model = arguments.ray_model == "calibrated" ? geometry::RayModel::kCalibrated
+                                                            : geometry::RayModel::kImageCenter;
+  options.use_gravity = options.use_gravity && !arguments.without_gravity;
+  options.correct_principal_points =
+      options.correct_principal_points || arguments.correct_principal_points;
+  return options;
 }
 
 void print(const session::Solution& solution) {
@@ -105,19 +86,23 @@ void print(const session::Solution& solution) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  CLI::App app("Solves what calibration/save_samples wrote, and prints the verdict.");
+  Arguments arguments;
+  addTo(&app, &arguments);
   try {
-    const Arguments arguments = argumentsOf(argc, argv);
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
     session::Solution solution =
-        session::solveSession(session::readSessionFile(arguments.samples), arguments.options);
+        session::solveSession(session::readSessionFile(arguments.samples), optionsOf(arguments));
     print(solution);
     if (!arguments.rig.empty()) {
       solution.rig.solved_at = static_cast<double>(std::time(nullptr));
       geometry::writeRigFile(solution.rig, arguments.rig);
     }
     return 0;
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "%s\n%s", error.what(), kUsage);
-    return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

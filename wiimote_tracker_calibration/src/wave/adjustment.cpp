@@ -1,8 +1,13 @@
+// A solver of its own: the same problem with the functors of src/adjust and Ceres' sparse Cholesky
+// solver gave the same cameras, but took 5.5 times the processor time (2.0 s instead of 0.36 s for
+// four cameras and 25 s). Here the path's normal equations are a band, bordered by the cameras.
 #include "adjustment.h"
 
 #include "lens_prior.h"
 
-#include "wiimote_tracker_calibration/wave/error.h"
+#include "wave/error.h"
+
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -371,7 +376,7 @@ State Adjustment::moved(const State& state,
     const auto change = border.segment<kCameraSize>(kCameraSize * static_cast<Eigen::Index>(i));
     geometry::Camera& camera = result.cameras[i];
     const Eigen::Matrix3d turned =
-        rotationFromVector(change.head<3>()) * state.cameras[i].world_from_camera.linear();
+        geometry::so3::exp(change.head<3>()) * state.cameras[i].world_from_camera.linear();
     camera.world_from_camera.linear() = Eigen::Quaterniond(turned).normalized().toRotationMatrix();
     camera.world_from_camera.translation() += change.segment<3>(3);
     geometry::Intrinsics& lens = camera.intrinsics;

@@ -2,13 +2,14 @@
 
 #include "lens_prior.h"
 
-#include "wiimote_tracker_calibration/wave/error.h"
+#include "wave/error.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 namespace wiimote_tracker::wave {
@@ -33,15 +34,9 @@ constexpr double kRefuseDeviation = 10.0;
 constexpr double kLensLimit = 5.0;
 constexpr double kGravityLimit = 5.0;
 
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 void require(bool good, const char* name, double value, const char* range) {
   if (!good)
-    throw WaveError(std::string(name) + " is " + number("%g", value) + ", but must be " + range +
+    throw WaveError(std::string(name) + " is " + format("%g", value) + ", but must be " + range +
                     ": correct it");
 }
 
@@ -118,11 +113,11 @@ void checkInput(const Recording& recording, const WaveOptions& options) {
     end = std::max(end, camera.frames.back().stamp);
   }
   if (end - start > kLongest)
-    throw WaveError("the images are of times " + number("%.0f s", end - start) +
+    throw WaveError("the images are of times " + format("%.0f s", end - start) +
                     " apart: check that all cameras use the same clock, and wave for less than " +
-                    number("%.0f s", kLongest));
+                    format("%.0f s", kLongest));
   if (end - start < kShortest)
-    throw WaveError("the recording is " + number("%.1f s", end - start) +
+    throw WaveError("the recording is " + format("%.1f s", end - start) +
                     " long: wave for 15 s or more");
 }
 
@@ -154,7 +149,7 @@ void checkCorners(double placement, WaveSolution* solution) {
   if (!suspect)
     return;
   const std::string corner = "corner " + std::to_string(suspect->corner + 1);
-  const std::string off = number("%.0f mm", 1e3 * suspect->distance) + " beside its place";
+  const std::string off = format("%.0f mm", 1e3 * suspect->distance) + " beside its place";
   if (farthest > kRefuseDeviation * placement)
     throw WaveError("the wave contradicts the square, most of all " + corner +
                     ", which would have been " + off +
@@ -172,11 +167,11 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
   if (extent.y() < kThinnest * extent.x())
     throw WaveError("the LED was moved along a line only: wave it through the whole volume");
   if (extent.z() < kThinnest * extent.x())
-    throw WaveError("the LED was moved in a plane only, " + number("%.0f mm", 1e3 * extent.z()) +
+    throw WaveError("the LED was moved in a plane only, " + format("%.0f mm", 1e3 * extent.z()) +
                     " deep: wave it through the whole volume, also to the cameras and away");
   if (solution->pixel_stddev > kRefuseRatio * options.pixel)
-    throw WaveError("the cameras disagree by " + number("%.1f px", solution->pixel_stddev) +
-                    ", far more than the stated " + number("%.1f px", options.pixel) +
+    throw WaveError("the cameras disagree by " + format("%.1f px", solution->pixel_stddev) +
+                    ", far more than the stated " + format("%.1f px", options.pixel) +
                     ": check that no camera was moved and that their times are of one clock");
   for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
     const square::CameraSightings& start = recording.cameras[i].sightings;
@@ -199,15 +194,15 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
       const double tilt = std::atan2(up.cross(measured).norm(), up.dot(measured));
       if (tilt > kGravityLimit * options.uncertainty.gravity)
         throw WaveError("the world as " + name + " sees it is tilted by " +
-                        number("%.0f degrees", tilt * 180.0 / M_PI) +
+                        format("%.0f degrees", tilt * 180.0 / M_PI) +
                         " against its accelerometer: its image is mirrored or turned, it was "
                         "moved, or the floor is not level");
     }
     const double stddev = solution->cameras[i].offset_stddev;
     if (stddev > options.maximum_offset_stddev)
-      throw WaveError("the clock of " + name + " is known to " + number("%.2f ms", 1e3 * stddev) +
-                      " only, not to " + number("%.2f ms", 1e3 * options.maximum_offset_stddev) +
-                      ": wave faster than the " + number("%.1f m/s", solution->median_speed) +
+      throw WaveError("the clock of " + name + " is known to " + format("%.2f ms", 1e3 * stddev) +
+                      " only, not to " + format("%.2f ms", 1e3 * options.maximum_offset_stddev) +
+                      ": wave faster than the " + format("%.1f m/s", solution->median_speed) +
                       " it was, and longer where it sees the LED");
   }
   if (recording.square)
@@ -215,7 +210,7 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
   if (recording.wand) {
     const double off = solution->wand_length - recording.wand->length;
     if (recording.square && std::abs(off) > kWarnDeviation * recording.wand->stddev)
-      solution->warnings.push_back("by the square the wand is " + number("%+.1f mm", 1e3 * off) +
+      solution->warnings.push_back("by the square the wand is " + format("%+.1f mm", 1e3 * off) +
                                    " longer than stated: measure the wand and the square again");
   }
 }
@@ -228,15 +223,15 @@ std::string verdictOf(const Recording& recording, const WaveSolution& solution) 
     worst_offset = std::max(worst_offset, solution.cameras[i].offset_stddev);
   }
   std::string text = std::to_string(solution.cameras.size()) + " cameras solved from " +
-                     number("%.0f s", solution.seconds_seen) + " of " +
+                     format("%.0f s", solution.seconds_seen) + " of " +
                      (recording.wand ? "a wand" : "a wave") +
                      (recording.square ? " and the square" : "") + "; residuals at most " +
-                     number("%.2f px", worst_px) + ", time offsets known to " +
-                     number("%.2f ms", 1e3 * worst_offset);
+                     format("%.2f px", worst_px) + ", time offsets known to " +
+                     format("%.2f ms", 1e3 * worst_offset);
   if (std::isfinite(solution.expected_error))
-    text += ", points expected within " + number("%.1f mm", 1e3 * solution.expected_error) +
+    text += ", points expected within " + format("%.1f mm", 1e3 * solution.expected_error) +
             " (RMS) in " + (recording.square ? "the square's world" : "the first camera's world") +
-            ", " + number("%.1f mm", 1e3 * solution.expected_shape_error) + " to one another";
+            ", " + format("%.1f mm", 1e3 * solution.expected_shape_error) + " to one another";
   for (const std::string& warning : solution.warnings)
     text += "; warning: " + warning;
   return text;

@@ -1,12 +1,12 @@
-#include "wiimote_tracker_calibration/wave/coverage.h"
+#include "wave/coverage.h"
 
-#include "wiimote_tracker_calibration/wave/error.h"
+#include "wave/error.h"
 
+#include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace wiimote_tracker::wave {
@@ -31,16 +31,10 @@ constexpr double kSameTime = 0.012;
 // Time a camera must share with others to be placed among them [s].
 constexpr double kLeastTogether = 3.0;
 
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 void checkRange(const char* name, double value, double low, double high) {
   if (!(value >= low) || !(value <= high))
-    throw WaveError(std::string(name) + " is " + number("%g", value) + ", but must be " +
-                    number("%g", low) + " to " + number("%g", high) + ": correct it");
+    throw WaveError(std::string(name) + " is " + format("%g", value) + ", but must be " +
+                    format("%g", low) + " to " + format("%g", high) + ": correct it");
 }
 
 int bounded(double value, int count) {
@@ -242,30 +236,30 @@ CoverageReport Coverage::report() const {
                         "sees instead");
     else if (camera.together < kLeastTogether)
       missing.push_back(camera.name + " and another camera have seen the LED together for " +
-                        number("%.0f s", camera.together) + " only: wave it where both look");
+                        format("%.0f s", camera.together) + " only: wave it where both look");
     if (camera.distraction > options_.distraction)
       missing.push_back(camera.name + " sees other lights in " +
-                        number("%.0f %%", 100.0 * camera.distraction) +
+                        format("%.0f %%", 100.0 * camera.distraction) +
                         " of its images: cover lamps and what reflects");
   }
   for (const CameraCoverage& camera : report.cameras) {
     if (camera.seconds > 0.0 && camera.image_share < options_.image_share)
       missing.push_back(camera.name + " has seen the LED in " +
-                        number("%.0f %%", 100.0 * camera.image_share) +
+                        format("%.0f %%", 100.0 * camera.image_share) +
                         " of its image: wave it at the " + emptiestPart(camera));
     if (camera.seconds > 0.0 && camera.image_speed < options_.image_speed)
       missing.push_back("the LED is slow in the image of " + camera.name + ": wave it faster");
   }
   if (report.volume && *report.volume < options_.volume)
-    missing.push_back("the LED has been in " + number("%.1f", *report.volume) + " of " +
-                      number("%.1f cubic metres", options_.volume) +
+    missing.push_back("the LED has been in " + format("%.1f", *report.volume) + " of " +
+                      format("%.1f cubic metres", options_.volume) +
                       ": wave it high and low, near and far");
   if (report.speed && *report.speed < options_.speed)
-    missing.push_back("the LED moves at " + number("%.1f m/s", *report.speed) +
-                      ": wave it faster than " + number("%.1f m/s", options_.speed));
+    missing.push_back("the LED moves at " + format("%.1f m/s", *report.speed) +
+                      ": wave it faster than " + format("%.1f m/s", options_.speed));
   if (report.seconds < options_.seconds - 0.5 * kTimeStep)
     missing.push_back("wave on for " +
-                      number("%.0f s", std::ceil(options_.seconds - report.seconds)) +
+                      format("%.0f s", std::ceil(options_.seconds - report.seconds)) +
                       " where two cameras see the LED");
   return report;
 }

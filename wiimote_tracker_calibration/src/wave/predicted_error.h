@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_PREDICTED_ERROR_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_PREDICTED_ERROR_H
 
-#include <wiimote_tracker_triangulation/geometry/camera.h>
+#include <wiimote_tracker_triangulation/geometry/rig.h>
 
 #include <Eigen/Core>
 
@@ -15,11 +15,9 @@ struct PredictedError {
   double shape = 0.0;     ///< After the best rigid motion: independent of where the world is.
 };
 
-/// To first order, for maximum-likelihood points from all cameras that see them. NaN when no point
-/// is seen by two. @param covariance Adjustment::kCameraSize per camera.
-PredictedError predictedError(const std::vector<geometry::Camera>& cameras,
-                              const Eigen::MatrixXd& covariance,
-                              const std::vector<Eigen::Vector3d>& points);
+/// To first order, for maximum-likelihood points from all cameras that see them. The rig
+/// must have a covariance. NaN when fewer than three points are seen by two.
+PredictedError predictedError(const geometry::Rig& rig, const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace wiimote_tracker::wave
 

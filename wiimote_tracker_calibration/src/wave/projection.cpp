@@ -1,6 +1,6 @@
 #include "projection.h"
 
-#include <Eigen/Geometry>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <cmath>
 
@@ -25,7 +25,7 @@ bool project(const geometry::Camera& camera, const Eigen::Vector3d& point, Proje
   CameraJacobian& by_camera = result->by_camera;
   by_camera.setZero();
   // exp([w]x) turns the camera, which is turning the point the other way.
-  by_camera.leftCols<3>() = result->by_point * crossMatrix(from_center);
+  by_camera.leftCols<3>() = result->by_point * geometry::so3::skew(from_center);
   by_camera.middleCols<3>(3) = -result->by_point;
   by_camera(0, 6) = (result->pixel.x() - lens.cx) / lens.fx;
   by_camera(1, 7) = (result->pixel.y() - lens.cy) / lens.fy;
@@ -40,20 +40,6 @@ bool project(const geometry::Camera& camera, const Eigen::Vector3d& point, Proje
   by_camera(0, 10) = lens.fx * normalized.x() * by_k1;
   by_camera(1, 10) = lens.fy * normalized.y() * by_k1;
   return true;
-}
-
-Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& vector) {
-  Eigen::Matrix3d result;
-  result << 0.0, -vector.z(), vector.y(), vector.z(), 0.0, -vector.x(), -vector.y(), vector.x(),
-      0.0;
-  return result;
-}
-
-Eigen::Matrix3d rotationFromVector(const Eigen::Vector3d& vector) {
-  const double angle = vector.norm();
-  if (angle == 0.0)
-    return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
 }
 
 }  // namespace wiimote_tracker::wave

@@ -28,12 +28,6 @@ struct Projection {
 /// @returns false when the point is not in front of the camera.
 bool project(const geometry::Camera& camera, const Eigen::Vector3d& point, Projection* result);
 
-/// [v]x: crossMatrix(v) * w = v x w.
-Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& vector);
-
-/// Rotation matrix of a rotation vector [rad].
-Eigen::Matrix3d rotationFromVector(const Eigen::Vector3d& vector);
-
 }  // namespace wiimote_tracker::wave
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_PROJECTION_H

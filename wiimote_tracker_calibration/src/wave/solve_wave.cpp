@@ -9,7 +9,7 @@
 #include "start_poses.h"
 #include "state.h"
 
-#include "wiimote_tracker_calibration/wave/error.h"
+#include "wave/error.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -311,8 +311,7 @@ WaveSolution solveFrom(StartPoses poses,
     solution.corner_offsets.fill(Eigen::Vector3d::Zero());
   }
   solution.wand_length = state.wand_length;
-  const PredictedError predicted =
-      predictedError(state.cameras, covariance, thinned(solution.path));
+  const PredictedError predicted = predictedError(rig, thinned(solution.path));
   solution.expected_error = predicted.absolute;
   solution.expected_shape_error = predicted.shape;
   checkSolution(recording, options, &solution);

@@ -2,7 +2,7 @@
 
 #include "band_matrix.h"
 
-#include "wiimote_tracker_calibration/wave/error.h"
+#include "wave/error.h"
 
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 

@@ -2,11 +2,11 @@
 
 #include "../bundle/start.h"
 
+#include "wave/error.h"
 #include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/similarity.h"
 #include "wiimote_tracker_calibration/bundle/solve.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
-#include "wiimote_tracker_calibration/wave/error.h"
 
 #include <Eigen/LU>
 

@@ -1,24 +1,37 @@
-#include "wiimote_tracker_calibration/workflow/calibration.h"
+#include "workflow/calibration.h"
 
-#include "wiimote_tracker_calibration/square/error.h"
-#include "wiimote_tracker_calibration/wave/error.h"
+#include "square/error.h"
+#include "wave/error.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <limits>
 #include <set>
+#include <utility>
 
 namespace wiimote_tracker::workflow {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 std::string seconds(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f s", value);
-  return text;
+  return format("%.1f s", value);
+}
+
+std::set<std::string> uniqueNames(const std::vector<std::string>& names) {
+  return {names.begin(), names.end()};
+}
+
+Captured newRun(const std::vector<std::string>& cameras,
+                const std::optional<square::SquareLayout>& layout,
+                const CalibrationOptions& options) {
+  const std::set<std::string> names = uniqueNames(cameras);
+  Captured captured;
+  captured.cameras.assign(names.begin(), names.end());
+  captured.layout = layout;
+  captured.square = SquareRun(captured.cameras, options.capture);
+  captured.world_frame = options.world_frame;
+  return captured;
 }
 
 }  // namespace
@@ -35,40 +48,37 @@ Reply Calibration::start(double side_x, double side_y, const std::vector<std::st
   } catch (const square::SquareError& error) {
     return refuse(error.what());
   }
-  return startWith(cameras, layout);
+  return startWith(newRun(cameras, layout, options_));
 }
 
 Reply Calibration::startWithoutSquare(const std::vector<std::string>& cameras) {
-  return startWith(cameras, std::nullopt);
+  return startWith(newRun(cameras, std::nullopt, options_));
 }
 
-Reply Calibration::startWith(const std::vector<std::string>& cameras,
-                             const std::optional<square::SquareLayout>& layout) {
+Reply Calibration::startWith(Captured captured) {
   if (busy_)
     return refuse(occupied());
-  const std::set<std::string> different(cameras.begin(), cameras.end());
-  if (different.size() < 2)
+  const std::size_t count = uniqueNames(captured.cameras).size();
+  if (count < 2)
     return refuse("a calibration needs at least two cameras, but there are " +
-                  std::to_string(different.size()) + ": connect the cameras and start again");
-  clear();
-  cameras_.assign(different.begin(), different.end());
-  layout_ = layout;
-  world_frame_ = options_.world_frame;
-  square_ = SquareRun(cameras_, options_.capture);
+                  std::to_string(count) + ": connect the cameras and start again");
+  captured_ = std::move(captured);
+  just_solved_ = false;
   setHandsFree(hands_free_on_);
   step_ = Step::kReady;
-  return accept("started with " + std::to_string(cameras_.size()) + " cameras: " +
-                (layout_ ? square_.next() : std::string("wave a wand of known length")));
+  return accept(
+      "started with " + std::to_string(count) + " cameras: " +
+      (captured_.layout ? captured_.square.next() : std::string("wave a wand of known length")));
 }
 
 Reply Calibration::beginCapture(std::optional<std::size_t> retake, double now) {
   if (busy_)
     return refuse(occupied());
-  if (cameras_.empty())
+  if (captured_.cameras.empty())
     return refuse("no calibration is started: start one first");
-  if (!layout_)
+  if (!captured_.layout)
     return refuse("this calibration was started without a square: wave a wand, or start anew");
-  const Reply reply = square_.begin(retake, now);
+  const Reply reply = captured_.square.begin(retake, now);
   if (reply.success) {
     busy_ = Step::kCapturing;
     just_solved_ = false;
@@ -77,7 +87,7 @@ Reply Calibration::beginCapture(std::optional<std::size_t> retake, double now) {
 }
 
 void Calibration::abandonCapture(const std::string& why) {
-  square_.abandon(why);
+  captured_.square.abandon(why);
   if (isBusyWith(Step::kCapturing))
     update(0.0);
 }
@@ -85,8 +95,8 @@ void Calibration::abandonCapture(const std::string& why) {
 void Calibration::setHandsFree(bool on) {
   hands_free_on_ = on;
   hands_free_.reset();
-  if (on && layout_)
-    hands_free_.emplace(cameras_, options_.hands_free);
+  if (on && captured_.layout)
+    hands_free_.emplace(captured_.cameras, options_.hands_free);
 }
 
 Reply Calibration::beginWave(const std::vector<geometry::Camera>& cameras,
@@ -95,17 +105,17 @@ Reply Calibration::beginWave(const std::vector<geometry::Camera>& cameras,
                              double now) {
   if (busy_)
     return refuse(occupied());
-  if (cameras_.empty())
+  if (captured_.cameras.empty())
     return refuse("no calibration is started: start one first");
   if (wand && !(std::isfinite(wand->length) && wand->length > 0.0 && std::isfinite(wand->stddev) &&
                 wand->stddev > 0.0))
     return refuse(
         "the wand's length and its standard deviation must be greater than 0: measure "
         "between the middles of its LEDs, in metres");
-  if (!layout_ && !wand)
+  if (!captured_.layout && !wand)
     return refuse("without a square one LED gives no scale: wave a wand, and give its length");
   try {
-    wave_.emplace(cameras, posed, wand, options_.coverage, now);
+    captured_.wave.emplace(cameras, posed, wand, options_.coverage, now);
   } catch (const wave::WaveError& error) {
     return refuse(error.what());
   }
@@ -119,24 +129,25 @@ Reply Calibration::endWave() {
   if (!isBusyWith(Step::kWaving))
     return refuse("no wave is being recorded: start one first");
   busy_.reset();
-  settle();
-  const wave::CoverageReport report = wave_->report();
+  updateStep();
+  const wave::CoverageReport report = captured_.wave->report();
   std::string message =
       "recorded " + seconds(report.seconds) + " in which two cameras or more saw it move";
   if (!report.enough())
     return accept(message + "; still missing: " + report.missing.front());
-  return accept(message + (step_ == Step::kComplete ? ", that is enough: solve"
-                                                    : ", that is enough; " + square_.next()));
+  return accept(message + (step_ == Step::kComplete
+                               ? ", that is enough: solve"
+                               : ", that is enough; " + captured_.square.next()));
 }
 
 void Calibration::addImage(const capture::Image& image) {
   if (isBusyWith(Step::kWaving))
-    wave_->add(image);
-  square_.add(image);
+    captured_.wave->add(image);
+  captured_.square.add(image);
   update(image.stamp);
-  if (!hands_free_ || busy_ || square_.isComplete())
+  if (!hands_free_ || busy_ || captured_.square.isComplete())
     return;
-  if (hands_free_->add(image, square_.corners())) {
+  if (hands_free_->add(image, captured_.square.corners())) {
     hands_free_->restart();
     beginCapture(std::nullopt, image.stamp);
   }
@@ -145,26 +156,26 @@ void Calibration::addImage(const capture::Image& image) {
 void Calibration::update(double now) {
   if (!isBusyWith(Step::kCapturing))
     return;
-  square_.update(now);
-  if (square_.capture())
+  captured_.square.update(now);
+  if (captured_.square.capture())
     return;
   busy_.reset();
-  settle();
-  shown(*square_.outcome());
+  updateStep();
+  shown(*captured_.square.outcome());
 }
 
 Reply Calibration::undo() {
   if (busy_)
     return refuse(occupied());
   just_solved_ = false;
-  if (wave_) {
-    wave_.reset();
-    settle();
+  if (captured_.wave) {
+    captured_.wave.reset();
+    updateStep();
     return accept("the wave was dropped: record it anew");
   }
-  const Reply reply = square_.undo();
+  const Reply reply = captured_.square.undo();
   if (reply.success)
-    settle();
+    updateStep();
   return shown(reply);
 }
 
@@ -175,8 +186,8 @@ Reply Calibration::cancel() {
   }
   if (busy_ == Step::kWaving) {
     busy_.reset();
-    wave_.reset();
-    settle();
+    captured_.wave.reset();
+    updateStep();
     return accept("the wave was stopped and dropped; the corners stay");
   }
   if (busy_) {
@@ -189,11 +200,12 @@ Reply Calibration::cancel() {
         "the solver was done already, and nothing was dropped: cancel once more to drop all that "
         "was captured");
   }
-  // The outcome of the last capture stays: whoever waits for it finds it.
-  const SquareRun square = square_;
-  clear();
-  square_ = square;
-  square_.restore({});
+  // The outcome of the last capture stays: the action may still wait for it.
+  SquareRun square = captured_.square;
+  square.restore({});
+  captured_ = Captured();
+  captured_.square = square;
+  hands_free_.reset();
   step_ = Step::kIdle;
   return accept(rig_ ? "all that was captured was dropped; the rig from before stays in use"
                      : "all that was captured was dropped");
@@ -202,6 +214,13 @@ Reply Calibration::cancel() {
 Reply Calibration::begin(Step step, const std::string& message) {
   if (busy_)
     return refuse(occupied());
+  if (step == Step::kSolving && !captured_.isComplete()) {
+    if (captured_.layout || captured_.cameras.empty())
+      return refuse("only " + std::to_string(captured_.square.corners().size()) +
+                    " of 4 corners are captured: " +
+                    (captured_.layout ? "capture the others first" : "start a calibration first"));
+    return refuse("no wand was waved: record one first");
+  }
   busy_ = step;
   just_solved_ = false;
   progress_ = 0.0;
@@ -215,122 +234,37 @@ void Calibration::end(const Reply& outcome) {
   message_ = outcome.message;
 }
 
-Reply Calibration::beginSolve() {
-  if (busy_)
-    return refuse(occupied());
-  if (layout_ && !square_.isComplete())
-    return refuse("only " + std::to_string(square_.corners().size()) +
-                  " of 4 corners are captured: capture the others first");
-  if (!layout_ && !hasWand())
-    return refuse(cameras_.empty() ? "only 0 of 4 corners are captured: start a calibration first"
-                                   : "no wand was waved: record one first");
-  return begin(Step::kSolving, "solving");
-}
-
-Reply Calibration::finishSolve(const geometry::Rig& rig) {
+Reply Calibration::takeSolution(const geometry::Rig& rig) {
   Reply reply = {true, rig.verdict};
-  geometry::Rig taken = rig;
+  std::vector<geometry::Zone> zones = rig.zones;
   if (rig_ && rig_->world_frame == rig.world_frame && !rig_->zones.empty()) {
-    taken.zones = rig_->zones;
+    zones = rig_->zones;
     reply.message +=
-        "; the zones are those of the rig before, and right only if the square lies where it lay";
+        "; the zones of the rig before are kept, and are right only if the square lies where it "
+        "lay";
   }
-  end(reply);
-  rig_ = taken;
+  rig_ = rig;
+  rig_->zones = zones;
   step_ = Step::kSolved;
   return reply;
 }
 
-session::Session Calibration::session(const std::map<std::string, CameraFacts>& live,
-                                      const capture::Masks& masks) const {
-  const std::map<std::string, CameraFacts>& facts = isRestored() ? restored_facts_ : live;
-  session::Session session;
-  session.world_frame = world_frame_;
-  session.recording.square = layout_;
-  if (wave_)
-    session.recording.wand = wave_->wand();
-  for (const std::string& name : cameras_) {
-    wave::CameraRecording camera;
-    camera.sightings.name = name;
-    const auto fact = facts.find(name);
-    if (fact != facts.end()) {
-      camera.sightings.identity = fact->second.identity;
-      camera.sightings.intrinsics = fact->second.intrinsics;
-      camera.sightings.gravity = fact->second.gravity;
-    }
-    for (std::size_t c = 0; c < square_.corners().size(); ++c) {
-      const auto view = square_.corners()[c].find(name);
-      if (view != square_.corners()[c].end())
-        camera.sightings.corners[c] = view->second.pixel;
-    }
-    const WaveRecorder::Track* track = wave_ ? wave_->track(name) : nullptr;
-    if (track != nullptr) {
-      camera.clock_epoch = track->clock_epoch;
-      camera.frames = track->frames;
-    }
-    session.recording.cameras.push_back(camera);
-    const auto mask = masks.find(name);
-    session.masks.push_back(mask != masks.end() ? mask->second
-                                                : std::vector<geometry::ImageMask>());
-  }
-  return session;
-}
-
 Reply Calibration::restore(const session::Session& session) {
-  const wave::Recording& recording = session.recording;
-  std::vector<std::string> names;
-  std::vector<geometry::Camera> cameras;
-  std::map<std::string, CameraFacts> facts;
-  std::vector<capture::CapturedCorner> corners;
-  bool waved = false;
-  double first = std::numeric_limits<double>::infinity();
-  for (const wave::CameraRecording& camera : recording.cameras) {
-    const square::CameraSightings& seen = camera.sightings;
-    names.push_back(seen.name);
-    facts[seen.name] = {seen.identity, seen.intrinsics, seen.gravity};
-    geometry::Camera known;
-    known.name = seen.name;
-    known.intrinsics = seen.intrinsics;
-    cameras.push_back(known);
-    for (std::size_t c = 0; c < seen.corners.size(); ++c) {
-      if (!seen.corners[c])
-        continue;
-      corners.resize(std::max(corners.size(), c + 1));
-      // How many images it was seen in, and how still it was, is not known any more.
-      corners[c][seen.name] = {*seen.corners[c], kNan, 1};
-    }
-    if (!camera.frames.empty()) {
-      waved = true;
-      first = std::min(first, camera.frames.front().stamp);
-    }
-  }
-  std::optional<WaveRecorder> wave;
-  if (waved) {
-    wave.emplace(cameras, false, recording.wand, options_.coverage, first);
-    for (const wave::CameraRecording& camera : recording.cameras) {
-      for (const wave::Frame& frame : camera.frames)
-        wave->add({camera.sightings.name, frame.stamp, camera.clock_epoch, frame.spots, {}});
-    }
-  }
-  const Reply reply = startWith(names, recording.square);
+  const Reply reply = startWith(fromSession(session, options_.capture, options_.coverage));
   if (!reply.success)
     return reply;
-  cameras_ = names;  // the first is the reference of the others' clocks
-  restored_facts_ = facts;
-  world_frame_ = session.world_frame;
-  square_.restore(corners);
-  wave_ = wave;
-  settle();
-  return accept("samples of " + std::to_string(names.size()) + " cameras with " +
-                std::to_string(corners.size()) + " corners" + (waved ? " and a wave" : "") +
-                " are loaded: " + (step_ == Step::kComplete ? "solve" : square_.next()));
+  updateStep();
+  return accept("samples of " + std::to_string(captured_.cameras.size()) + " cameras with " +
+                std::to_string(captured_.square.corners().size()) + " corners" +
+                (captured_.wave ? " and a wave" : "") +
+                " are loaded: " + (step_ == Step::kComplete ? "solve" : captured_.square.next()));
 }
 
 Reply Calibration::load(const geometry::Rig& rig) {
   if (busy_)
     return refuse(occupied());
   rig_ = rig;
-  if (cameras_.empty() || step_ == Step::kSolved)
+  if (captured_.cameras.empty() || step_ == Step::kSolved)
     step_ = Step::kSaved;
   return accept("rig " + rig.id() + " with " + std::to_string(rig.cameras.size()) +
                 " cameras is in use");
@@ -338,7 +272,7 @@ Reply Calibration::load(const geometry::Rig& rig) {
 
 void Calibration::setRig(const geometry::Rig& rig, const std::string& message) {
   rig_ = rig;
-  if (cameras_.empty() || step_ == Step::kSaved)
+  if (captured_.cameras.empty() || step_ == Step::kSaved)
     step_ = Step::kSolved;
   message_ = message;
 }
@@ -368,12 +302,12 @@ double Calibration::progress() const {
     case Step::kIdle:
       return 0.0;
     case Step::kReady:
-      return static_cast<double>(square_.corners().size()) /
+      return static_cast<double>(captured_.square.corners().size()) /
              static_cast<double>(SquareRun::kCorners);
     case Step::kCapturing:
-      return square_.capture() ? square_.capture()->progress() : 0.0;
+      return captured_.square.capture() ? captured_.square.capture()->progress() : 0.0;
     case Step::kWaving:
-      return std::min(1.0, wave_->report().seconds / wave_->secondsNeeded());
+      return std::min(1.0, captured_.wave->report().seconds / captured_.wave->secondsNeeded());
     case Step::kComplete:
     case Step::kSolved:
     case Step::kSaved:
@@ -385,19 +319,20 @@ double Calibration::progress() const {
 
 std::vector<std::string> Calibration::missing() const {
   std::vector<std::string> missing;
-  if (layout_ && !square_.isComplete() && !isBusyWith(Step::kWaving))
-    missing.push_back(square_.next());
-  if (!cameras_.empty() && !layout_ && !wave_)
+  if (captured_.layout && !captured_.square.isComplete() && !isBusyWith(Step::kWaving))
+    missing.push_back(captured_.square.next());
+  if (!captured_.cameras.empty() && !captured_.layout && !captured_.wave)
     missing.push_back("a wand that is waved, with its length: start the wave");
-  if (wave_) {
-    const wave::CoverageReport report = wave_->report();
+  if (captured_.wave) {
+    const wave::CoverageReport report = captured_.wave->report();
     missing.insert(missing.end(), report.missing.begin(), report.missing.end());
   }
   return missing;
 }
 
 std::vector<double> Calibration::sides() const {
-  return layout_ ? std::vector<double>{layout_->side_x, layout_->side_y} : std::vector<double>();
+  return captured_.layout ? std::vector<double>{captured_.layout->side_x, captured_.layout->side_y}
+                          : std::vector<double>();
 }
 
 std::string Calibration::occupied() const {
@@ -428,23 +363,6 @@ Reply Calibration::accept(const std::string& message) {
 Reply Calibration::shown(const Reply& reply) {
   message_ = reply.message;
   return reply;
-}
-
-/// Nothing is captured.
-void Calibration::clear() {
-  cameras_.clear();
-  layout_.reset();
-  square_ = SquareRun();
-  wave_.reset();
-  restored_facts_.clear();
-  hands_free_.reset();
-  just_solved_ = false;
-}
-
-/// The step between two requests, by what is captured.
-void Calibration::settle() {
-  const bool complete = layout_ ? square_.isComplete() : hasWand();
-  step_ = complete ? Step::kComplete : Step::kReady;
 }
 
 }  // namespace wiimote_tracker::workflow

@@ -1,10 +1,10 @@
-#include "wiimote_tracker_calibration/workflow/square_run.h"
+#include "workflow/square_run.h"
 
 namespace wiimote_tracker::workflow {
 
 namespace {
 
-// An LED that was not carried on appears within this distance of where it was [px].
+// An LED on the same corner as before appears within this distance of where it was [px].
 constexpr double kSamePlace = 3.0;
 
 std::string cornerName(std::size_t corner) {

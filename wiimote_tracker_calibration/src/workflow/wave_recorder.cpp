@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/workflow/wave_recorder.h"
+#include "workflow/wave_recorder.h"
 
 namespace wiimote_tracker::workflow {
 
@@ -52,7 +52,7 @@ wave::CoverageReport WaveRecorder::report() const {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (tracks_[i].reconnected)
       report.missing.push_back(cameras_[i].name +
-                               " connected anew during the wave, so what it saw before does not "
+                               " reconnected during the wave, so its earlier images do not "
                                "count: go on waving where it looks");
   }
   return report;

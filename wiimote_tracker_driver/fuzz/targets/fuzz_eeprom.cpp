@@ -2,9 +2,9 @@
 #include "invariants.h"
 #include "targets.h"
 
-#include "wiimote_tracker_driver/protocol/accelerometer.h"
+#include "protocol/accelerometer.h"
 
-#include "wiimote_tracker_driver/protocol/ir_calibration.h"
+#include "protocol/ir_calibration.h"
 
 #include <cmath>
 #include <numeric>

@@ -1,9 +1,9 @@
 #include "invariants.h"
 #include "targets.h"
 
-#include "wiimote_tracker_driver/recording/reader.h"
-#include "wiimote_tracker_driver/recording/replay.h"
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
+#include "recording/reader.h"
+#include "recording/replay.h"
+#include "wiimote/wiimote.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

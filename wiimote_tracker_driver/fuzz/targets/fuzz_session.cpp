@@ -3,7 +3,7 @@
 #include "invariants.h"
 #include "targets.h"
 
-#include "wiimote_tracker_driver/wiimote/session.h"
+#include "wiimote/session.h"
 
 #include <algorithm>
 #include <array>

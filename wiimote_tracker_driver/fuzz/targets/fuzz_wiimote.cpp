@@ -3,7 +3,7 @@
 #include "invariants.h"
 #include "targets.h"
 
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
+#include "wiimote/wiimote.h"
 
 #include <algorithm>
 #include <memory>

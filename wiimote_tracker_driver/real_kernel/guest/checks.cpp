@@ -3,6 +3,8 @@
 #include "clock.h"
 #include "recovery.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -46,9 +48,7 @@ std::string describe(const Recovery& recovery, const RunningDriver& driver) {
 }  // namespace
 
 std::string seconds(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3f s", value);
-  return text;
+  return format("%.3f s", value);
 }
 
 void Checks::check(const std::string& name, bool passed, const std::string& seen) {

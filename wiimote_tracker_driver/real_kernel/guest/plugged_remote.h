@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_PLUGGED_REMOTE_H
 #define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_PLUGGED_REMOTE_H
 
-#include "wiimote_tracker_driver/virtual_wiimote/uhid.h"
+#include "virtual_wiimote/uhid.h"
 
 #include <atomic>
 #include <mutex>

@@ -2,7 +2,7 @@
 
 #include "clock.h"
 #include "recovery.h"
-#include "wiimote_tracker_driver/transport/transport.h"
+#include "transport/transport.h"
 
 #include <algorithm>
 #include <cmath>

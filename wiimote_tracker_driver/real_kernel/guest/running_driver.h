@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RUNNING_DRIVER_H
 #define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RUNNING_DRIVER_H
 
+#include "wiimote/wiimote.h"
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
 
 #include <atomic>
 #include <cstddef>

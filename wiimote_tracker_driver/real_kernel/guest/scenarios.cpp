@@ -5,7 +5,7 @@
 #include "kernel.h"
 #include "recovery.h"
 #include "streaming.h"
-#include "wiimote_tracker_driver/transport/transport.h"
+#include "transport/transport.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,7 +1,6 @@
-"""A running bluetoothctl, as a person at a terminal would use it.
+"""A running bluetoothctl, used as from a terminal.
 
-A terminal of its own (a pseudo-terminal) keeps one session: its agent and its search live as long
-as it does, which they would not with one call per command.
+It runs in one pseudo-terminal for the whole session, because its agent and its scan end with it.
 """
 
 import errno
@@ -14,6 +13,7 @@ import struct
 import subprocess
 import termios
 import time
+from typing import Callable, Optional
 
 # Colours, and the marks that readline puts around them.
 DECORATION = re.compile(r'\x1b\[[0-9;?]*[A-Za-z]|[\x01\x02]')
@@ -21,14 +21,14 @@ DECORATION = re.compile(r'\x1b\[[0-9;?]*[A-Za-z]|[\x01\x02]')
 PROMPT = re.compile(r'\[[^\]]*\][#>] ?')
 # "[agent] Enter PIN code: " waits at the end of its line.
 QUESTION = re.compile(r'.*\[agent\] .*: ')
-WIDTH = 250  # [characters] Wide, so that no line is wrapped.
+WIDTH = 250  # [characters] Wide enough that no line is wrapped.
 
 
-class Bluetoothctl(object):
-    """Sends commands and hands out what comes back, line by line, without decoration."""
+class Bluetoothctl:
+    """Sends commands and returns the output line by line, without decoration."""
 
-    def __init__(self, hear=None):
-        """Starts bluetoothctl; OSError when there is none. hear: called with every line."""
+    def __init__(self, hear: Optional[Callable[[str], None]] = None):
+        """Starts bluetoothctl; raises OSError when it is missing. hear: called with each line."""
         self._hear = hear or (lambda line: None)
         self._rest = b''
         self._lines = []
@@ -45,14 +45,14 @@ class Bluetoothctl(object):
         finally:
             os.close(slave)
 
-    def send(self, command):
+    def send(self, command: str) -> None:
         """Types a command."""
         try:
             os.write(self._terminal, command.encode() + b'\n')
         except OSError:
             self._ended = True
 
-    def line(self, timeout):
+    def line(self, timeout: float) -> Optional[str]:
         """The next line within timeout [s], or None. A prompt, or a question that waits for an
         answer, is a line too."""
         end = time.monotonic() + timeout
@@ -63,11 +63,11 @@ class Bluetoothctl(object):
         return self._lines.pop(0) if self._lines else None
 
     @property
-    def ended(self):
-        """Whether bluetoothctl has ended and all it said has been handed out."""
+    def ended(self) -> bool:
+        """Whether bluetoothctl has ended and all its lines have been returned."""
         return self._ended and not self._lines
 
-    def close(self):
+    def close(self) -> None:
         """Ends bluetoothctl."""
         self.send('quit')
         try:
@@ -77,20 +77,20 @@ class Bluetoothctl(object):
             self._process.wait()
         os.close(self._terminal)
 
-    def _read(self, timeout):
+    def _read(self, timeout: float) -> None:
         ready, _, _ = select.select([self._terminal], [], [], timeout)
         if not ready:
             return
         try:
             data = os.read(self._terminal, 4096)
         except OSError as error:
-            if error.errno != errno.EIO:  # the way Linux says that the other side is closed
+            if error.errno != errno.EIO:  # Linux: the other side is closed
                 raise
             data = b''
         if not data:
             self._ended = True
         pieces = re.split(rb'[\r\n]+', self._rest + data)
-        self._rest = pieces.pop()  # cut anywhere, also within a colour
+        self._rest = pieces.pop()  # may end anywhere, also within a colour
         for piece in pieces:
             self._add(_plain(piece))
         rest = _plain(self._rest)
@@ -98,7 +98,7 @@ class Bluetoothctl(object):
             self._add(rest)
             self._rest = b''
 
-    def _add(self, text):
+    def _add(self, text: str) -> None:
         prompt = PROMPT.match(text)
         if prompt and prompt.end() < len(text):
             text = text[prompt.end():]
@@ -108,5 +108,5 @@ class Bluetoothctl(object):
             self._lines.append(text)
 
 
-def _plain(data):
+def _plain(data: bytes) -> str:
     return DECORATION.sub('', data.decode(errors='replace'))

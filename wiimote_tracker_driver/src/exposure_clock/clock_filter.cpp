@@ -6,21 +6,21 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-// Spread before anything is known [s], and how many reports this counts as. A hard edge starts
-// wider and learns slower: too small a spread pulls the edge up past the arrivals.
+// Initial spread [s], and the number of reports it counts as. A hard edge starts wider and adapts
+// more slowly, because a spread too small moves the edge past the arrivals.
 constexpr double kFirstEdgeSpread = 0.005;
 constexpr double kFirstBellSpread = 0.003;
 constexpr double kEdgePrior = 30.0;
 constexpr double kBellPrior = 5.0;
-constexpr double kLeastSpread = 20e-6;
+constexpr double kMinSpread = 20e-6;
 constexpr double kSpreadMemory = 1000.0;  // reports
-// Puts the reference of a bell where the edge of an exponential of the same mean and spread is.
+// Aligns a normal with the edge of an exponential of the same mean and spread.
 constexpr double kTypicalBellSpread = 0.0024;
-// An arrival before the edge leaves at least this share of the variance: the belief is not a
-// perfect normal, and one surprise must not make it certain.
-constexpr double kLeastVarianceLeft = 0.5;
-// Smaller exponentials vanish beside the uncertainty (relative).
-constexpr double kLeastTilt = 0.05;
+// An arrival before the edge keeps at least this share of the variance: the posterior is not
+// exactly normal, and one outlier must not make it certain.
+constexpr double kMinVarianceRatio = 0.5;
+// Exponentials of smaller mean, relative to the uncertainty, are negligible.
+constexpr double kMinRelativeSpread = 0.05;
 
 constexpr double kInvSqrt2 = 0.70710678118654752;
 constexpr double kInvSqrt2Pi = 0.39894228040143268;
@@ -34,7 +34,7 @@ double normalDensity(double x) {
 double normalCdf(double x) {
   return 0.5 * std::erfc(-x * kInvSqrt2);
 }
-// normalDensity / normalCdf, also far out where both vanish (Abramowitz, Stegun, eq. 26.2.14).
+// normalDensity / normalCdf, also where both underflow (Abramowitz, Stegun, eq. 26.2.14).
 double inverseMills(double x) {
   if (x > -6.0)
     return normalDensity(x) / normalCdf(x);
@@ -78,16 +78,16 @@ ClockFilter::Prediction ClockFilter::predict(double offset) const {
   return z;
 }
 
-bool ClockFilter::tilted(const Prediction& z) const {
-  return model_.hard_edge && spread_ > kLeastTilt * z.stddev;
+bool ClockFilter::hasExponential(const Prediction& z) const {
+  return model_.hard_edge && spread_ > kMinRelativeSpread * z.stddev;
 }
 
 double ClockFilter::likelihood(double arrival, double offset) const {
   const Prediction z = predict(offset);
   const double late = arrival - z.mean;
-  if (!tilted(z))
+  if (!hasExponential(z))
     return normalDensity(late / z.stddev) / z.stddev;
-  // Normal plus exponential. The second form is the same where the first over- and underflows.
+  // Normal plus exponential; the second form is equal and does not over- or underflow.
   const double b = late / z.stddev - z.stddev / spread_;
   if (b > -6.0)
     return std::exp(0.5 * z.variance / square(spread_) - late / spread_) * normalCdf(b) / spread_;
@@ -97,18 +97,18 @@ double ClockFilter::likelihood(double arrival, double offset) const {
 double ClockFilter::readyBefore(double time, double offset) const {
   const Prediction z = predict(offset);
   const double normal = normalCdf((time - z.mean) / z.stddev);
-  return tilted(z) ? std::max(0.0, normal - spread_ * likelihood(time, offset)) : normal;
+  return hasExponential(z) ? std::max(0.0, normal - spread_ * likelihood(time, offset)) : normal;
 }
 
-void ClockFilter::consider(double arrival, double offset, double weight) {
+void ClockFilter::addHypothesis(double arrival, double offset, double weight) {
   const Prediction z = predict(offset);
   double innovation = arrival - z.mean;
   double left = 0.0;  // variance of z, given the arrival
-  if (tilted(z)) {
+  if (hasExponential(z)) {
     const double b = innovation / z.stddev - z.stddev / spread_;
     const double mills = inverseMills(b);
     innovation = z.variance / spread_ - z.stddev * mills;
-    left = z.variance * std::max(kLeastVarianceLeft, 1.0 - mills * (b + mills));
+    left = z.variance * std::max(kMinVarianceRatio, 1.0 - mills * (b + mills));
   }
   const double time_shift = z.time_gain * innovation;
   const double period_shift = z.period_gain * innovation;
@@ -120,7 +120,7 @@ void ClockFilter::consider(double arrival, double offset, double weight) {
   sums_.p01 += weight * (time_shift * period_shift - z.time_gain * z.period_gain * gone);
   sums_.p11 += weight * (square(period_shift) - square(z.period_gain) * gone);
 
-  // What this delay says of the spread, given the new belief (a step of expectation maximisation).
+  // Expectation maximisation of the spread, given the new state.
   if (model_.hard_edge) {
     sums_.spread += weight * (arrival - z.mean - innovation);
   } else {
@@ -129,13 +129,13 @@ void ClockFilter::consider(double arrival, double offset, double weight) {
   }
 }
 
-void ClockFilter::settle() {
+void ClockFilter::applyHypotheses() {
   state_.time += sums_.time;
   state_.period += sums_.period;
   state_.p00 += sums_.p00 - square(sums_.time);
   state_.p01 += sums_.p01 - sums_.time * sums_.period;
   state_.p11 += sums_.p11 - square(sums_.period);
-  // A period beyond the tolerance would explain frames that are counted wrongly.
+  // A period beyond the tolerance would hide wrong frame numbers.
   const double excess =
       state_.period - std::min(std::max(state_.period, nominal_period_ - period_tolerance_),
                                nominal_period_ + period_tolerance_);
@@ -148,16 +148,16 @@ void ClockFilter::settle() {
 }
 
 void ClockFilter::learnSpread() {
-  experience_ = std::min(experience_ + sums_.weight, kSpreadMemory);
-  const double rate = 1.0 / (experience_ + (model_.hard_edge ? kEdgePrior : kBellPrior));
+  sample_count_ = std::min(sample_count_ + sums_.weight, kSpreadMemory);
+  const double rate = 1.0 / (sample_count_ + (model_.hard_edge ? kEdgePrior : kBellPrior));
   if (model_.hard_edge)
     spread_ += rate * (sums_.spread - sums_.weight * spread_);
   else
     spread_ = std::sqrt(square(spread_) + rate * (sums_.spread - sums_.weight * square(spread_)));
-  spread_ = std::max(spread_, kLeastSpread);
+  spread_ = std::max(spread_, kMinSpread);
 }
 
-void ClockFilter::follow(const ClockFilter& better) {
+void ClockFilter::copyStateFrom(const ClockFilter& better) {
   const DelayModel mine = model_;
   *this = better;
   model_ = mine;

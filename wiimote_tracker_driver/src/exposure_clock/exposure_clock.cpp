@@ -7,21 +7,20 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-// Blur of an edge: none to speak of, or a slot of 1.25 ms (its standard deviation, 1.25 ms /
-// sqrt(12)).
+// Blur of an edge [s]: negligible, or a slot of 1.25 ms (standard deviation 1.25 ms / sqrt(12)).
 constexpr double kSharp = 10e-6;
 constexpr double kSlotted = 0.36e-3;
-// Wander after 1 s: of a good clock (0.01 ms in 10 s), 0.3 ms and 1 ms in 10 s.
+// Wander after 1 s [s]: of a good clock (0.01 ms in 10 s), 0.3 ms and 1 ms in 10 s.
 constexpr double kSteady = 0.003e-3;
 constexpr double kWanders = 0.095e-3;
 constexpr double kWandersMuch = 0.32e-3;
 
-struct Candidate {
+struct ModelPrior {
   DelayModel model;
   double prior;
 };
 constexpr double kPriorSteady = 0.14, kPriorWanders = 0.09, kPriorWandersMuch = 0.10;
-const Candidate kCandidates[] = {
+const ModelPrior kModelPriors[] = {
     {{true, kSharp, kSteady}, kPriorSteady},
     {{true, kSharp, kWanders}, kPriorWanders},
     {{true, kSharp, kWandersMuch}, kPriorWandersMuch},
@@ -33,57 +32,55 @@ const Candidate kCandidates[] = {
     {{false, 0.0, kWandersMuch}, kPriorWandersMuch},
 };
 
-// The first candidate: its belief is not normal, and computed exactly by SteadyEdge; and its weight
-// when that takes over.
+// Index of the model whose posterior SteadyEdge computes, and its weight when SteadyEdge begins.
 constexpr std::size_t kSteadyEdge = 0;
-constexpr double kPriorSteadyEdge = 0.5;
-// SteadyEdge takes a report whose number is this probable in hindsight, and that is not this much
-// too early [s], which would mean a wrong number all the same.
-constexpr double kSure = 0.9;
+constexpr double kSteadyEdgeWeight = 0.5;
+// SteadyEdge uses a report whose smoothed number is this probable, and that is not this much too
+// early [s], which would mean a wrong number.
+constexpr double kCertain = 0.9;
 constexpr double kTooEarly = 1e-3;
-// A steady edge that explains nothing and is this far from the best model began with wrong
-// numbers [s].
-constexpr double kContradiction = 0.5e-3;
-// Time over which even a steady clock's wander counts [s].
+// A steady edge of negligible weight that is this far from the best model [s] has wrong numbers.
+constexpr double kMaxEdgeError = 0.5e-3;
+// Time over which the wander of a steady clock is added to its variance [s].
 constexpr double kEdgeMemory = 3.0;
 
-// A report may be held up, for this long on average [s]; probability before anything is known, how
-// many reports that counts as, from how many of the last it is learnt, and its least value.
+// Mean duration of a stall [s]; initial stall probability, the number of reports it counts as, the
+// number of latest reports it is estimated from, and its least value.
 constexpr double kStallLength = 0.060;
-constexpr double kFirstStalls = 0.003;
-constexpr double kStallPrior = 300.0;
+constexpr double kInitialStallProbability = 0.003;
+constexpr double kStallPriorCount = 300.0;
 constexpr double kStallMemory = 6000.0;
-constexpr double kFewestStalls = 0.0005;
-// Behind delays that spread wider than this, in periods, a late report and a lost one look alike:
-// nothing is learnt of losses.
-constexpr double kTellable = 0.6;
+constexpr double kMinStallProbability = 0.0005;
+// With delays that spread more than this, in periods, a late report looks like a lost one, and the
+// loss probability is not updated.
+constexpr double kMaxSpreadForLosses = 0.6;
 // Mean time between reports that leave a queue [s].
 constexpr double kServiceTime = 0.0025;
-// Density of an arrival that nothing explains [1/s].
+// Density of an arrival that no model explains [1/s].
 constexpr double kUnexplained = 1e-7;
-// After so many of them in a row the clock is lost.
-constexpr int kLost = 8;
-// And after so many in a row, a second, that may be of many frames: it explains them, but badly.
-constexpr int kDoubtful = 100;
-// A gap after which the phase is learnt anew [s]; how far a clock may step back unnoticed [s].
+// Number of such arrivals in a row after which the clock restarts.
+constexpr int kMaxUnexplained = 8;
+// Number of reports in a row, one second, with an uncertain frame after which it restarts.
+constexpr int kMaxUncertain = 100;
+// Gap after which the phase is estimated anew [s]; largest ignored step back of the clock [s].
 constexpr double kLongGap = 5.0;
 constexpr double kStepBack = 1e-3;
-// A model with less weight than this starts again from the best one.
-constexpr double kLeastWeight = 1.5e-4;
+// Weight below which a model is reinitialised from the best one.
+constexpr double kMinWeight = 1.5e-4;
 constexpr double kNegligible = 1e-6;
-// Least time between two exposures: where a frame number was corrected backwards [s].
-constexpr double kLeastStep = 1e-6;
+// Shortest time between two exposures, where a frame number was corrected downwards [s].
+constexpr double kMinStep = 1e-6;
 
 double square(double x) {
   return x * x;
 }
 }  // namespace
 
-/// Densities of an arrival [1/s] by how the report came: when it was ready, or it was ready earlier
-/// and waited for the one before, or it was held up.
-struct ExposureClock::Ways {
-  double on_time, queued, held_up;
-  double sum() const { return on_time + queued + held_up; }
+/// Densities of an arrival [1/s]: the report was on time, or waited for the one before, or was held
+/// up by a stall.
+struct ExposureClock::ArrivalDensity {
+  double on_time, queued, stalled;
+  double sum() const { return on_time + queued + stalled; }
 };
 
 ExposureClock::Bank ExposureClock::makeBank(const ExposureClockOptions& options) {
@@ -91,7 +88,7 @@ ExposureClock::Bank ExposureClock::makeBank(const ExposureClockOptions& options)
     throw std::invalid_argument(
         "ExposureClockOptions: period, period_stddev and stale_age must be above 0.");
   const auto make = [&](int i) {
-    return ClockFilter(kCandidates[i].model, options.period,
+    return ClockFilter(kModelPriors[i].model, options.period,
                        options.period * options.period_stddev);
   };
   return {make(0), make(1), make(2), make(3), make(4), make(5), make(6), make(7), make(8)};
@@ -101,11 +98,11 @@ ExposureClock::ExposureClock(const ExposureClockOptions& options)
     : options_(options),
       filters_(makeBank(options)),
       edge_(options.period, 3.0 * options.period * options.period_stddev),
-      stalls_(kFirstStalls) {
-  static_assert(sizeof(kCandidates) / sizeof(kCandidates[0]) == kModels,
+      stall_probability_(kInitialStallProbability) {
+  static_assert(sizeof(kModelPriors) / sizeof(kModelPriors[0]) == kModels,
                 "one filter per candidate");
-  std::transform(std::begin(kCandidates), std::end(kCandidates), weights_.begin(),
-                 [](const Candidate& candidate) { return candidate.prior; });
+  std::transform(std::begin(kModelPriors), std::end(kModelPriors), weights_.begin(),
+                 [](const ModelPrior& candidate) { return candidate.prior; });
 }
 
 void ExposureClock::reset() {
@@ -136,14 +133,14 @@ Estimate ExposureClock::update(double arrival) {
     return e;
   }
   arrival = last_arrival_ + std::max(0.0, gap);
-  weigh(arrival);
-  if (unexplained_ >= kLost || doubtful_ >= kDoubtful) {
+  updateModels(arrival);
+  if (unexplained_ >= kMaxUnexplained || uncertain_ >= kMaxUncertain) {
     filters_ = makeBank(options_);
     Estimate e = restart(arrival, frame_ + 1);
     e.restarted = true;
     return e;
   }
-  reviveLosers();
+  reinitialiseUnlikelyModels();
   return estimate(arrival);
 }
 
@@ -152,9 +149,9 @@ Estimate ExposureClock::restart(double arrival, std::int64_t frame) {
     filter.start(arrival);
   history_.clear();
   edge_.clear();
-  edge_joined_ = false;
-  settled_arrival_ = arrival;
-  settled_frame_ = frame;
+  edge_used_ = false;
+  history_arrival_ = arrival;
+  history_frame_ = frame;
   counter_.start(frame);
   Estimate e;
   e.frame = frame;
@@ -164,10 +161,10 @@ Estimate ExposureClock::restart(double arrival, std::int64_t frame) {
     statistics_.dropped += e.dropped;
   }
   frame_ = frame;
-  unexplained_ = doubtful_ = 0;
-  // A clock that stepped back takes the exposures with it; otherwise they go on.
+  unexplained_ = uncertain_ = 0;
+  // Exposures follow a clock that stepped back; otherwise they increase.
   const double exposure =
-      arrival < last_arrival_ ? arrival : std::max(arrival, last_exposure_ + kLeastStep);
+      arrival < last_arrival_ ? arrival : std::max(arrival, last_exposure_ + kMinStep);
   last_arrival_ = arrival;
   last_exposure_ = exposure;
   e.exposure = origin_ + exposure;
@@ -175,21 +172,22 @@ Estimate ExposureClock::restart(double arrival, std::int64_t frame) {
   return e;
 }
 
-ExposureClock::Ways ExposureClock::waysOf(const ClockFilter& filter,
-                                          double arrival,
-                                          double arrival_before,
-                                          double offset) const {
+ExposureClock::ArrivalDensity ExposureClock::arrivalDensity(const ClockFilter& filter,
+                                                            double arrival,
+                                                            double arrival_before,
+                                                            double offset) const {
   const double late = arrival - filter.time() - offset * filter.period();
   const double served = std::exp(-(arrival - arrival_before) / kServiceTime) / kServiceTime;
-  Ways ways;
-  ways.on_time = (1.0 - stalls_) * filter.likelihood(arrival, offset);
+  ArrivalDensity ways;
+  ways.on_time = (1.0 - stall_probability_) * filter.likelihood(arrival, offset);
   ways.queued = filter.readyBefore(arrival_before, offset) * served;
-  ways.held_up = late > 0.0 ? stalls_ / kStallLength * std::exp(-late / kStallLength) : 0.0;
+  ways.stalled =
+      late > 0.0 ? stall_probability_ / kStallLength * std::exp(-late / kStallLength) : 0.0;
   return ways;
 }
 
-// Bayes' rule, for the frame's number, for the models, and for each model's clock.
-void ExposureClock::weigh(double arrival) {
+// Bayes' rule for the frame number, the models, and each model's clock.
+void ExposureClock::updateModels(double arrival) {
   const ClockFilter& leader = best();
   counter_.predict(
       frame_ + 1 +
@@ -203,8 +201,8 @@ void ExposureClock::weigh(double arrival) {
     for (int i = 0; i < counter_.size(); ++i) {
       const auto at = static_cast<std::size_t>(i);
       const double offset = static_cast<double>(counter_.frame(i) - frame_);
-      const Ways ways = waysOf(filter, arrival, last_arrival_, offset);
-      // Only what came when it was ready says something of the clock.
+      const ArrivalDensity ways = arrivalDensity(filter, arrival, last_arrival_, offset);
+      // Only reports that were on time are measurements of the clock.
       on_time[at] = counter_[i] * ways.on_time;
       const double all = counter_[i] * (ways.sum() + kUnexplained);
       evidence += all;
@@ -213,11 +211,11 @@ void ExposureClock::weigh(double arrival) {
     for (int i = 0; i < counter_.size(); ++i) {
       const double probability = on_time[static_cast<std::size_t>(i)] / evidence;
       if (probability > kNegligible)
-        filter.consider(arrival, static_cast<double>(counter_.frame(i) - frame_), probability);
+        filter.addHypothesis(arrival, static_cast<double>(counter_.frame(i) - frame_), probability);
       if (m == kSteadyEdge)
         on_steady_edge += probability;
     }
-    filter.settle();
+    filter.applyHypotheses();
     weights_[m] *= evidence;
     sum += weights_[m];
   }
@@ -227,62 +225,62 @@ void ExposureClock::weigh(double arrival) {
   for (int i = 0; i < counter_.size(); ++i)
     counter_[i] = number[static_cast<std::size_t>(i)];
   counter_.normalise();
-  lookBack(arrival, on_steady_edge);
-  sharpenEdge();
+  learnFromHistory(arrival, on_steady_edge);
+  applySteadyEdge();
 }
 
-/// What the reports since the last time say in hindsight.
-void ExposureClock::lookBack(double arrival, double on_time) {
+/// Uses the smoothed frame numbers, as soon as they are certain.
+void ExposureClock::learnFromHistory(double arrival, double on_time) {
   history_.add(counter_, arrival, on_time);
-  if (!history_.settled())
+  if (!history_.complete())
     return;
   const ClockFilter& edge = filters_[kSteadyEdge];
-  const int reports = history_.settle(counter_);
+  const int reports = history_.smooth(counter_);
   for (int i = 0; i < reports; ++i) {
     const FrameHistory::Report& report = history_.report(i);
-    if (report.probability > kSure) {
+    if (report.probability > kCertain) {
       const auto offset = static_cast<double>(report.frame - frame_);
       if (report.arrival - edge.time() - offset * edge.period() > -kTooEarly)
         edge_.add(report.frame, report.arrival, report.on_time, edge.period());
-      learnStalls(waysOf(best(), report.arrival, settled_arrival_, offset));
-      if (best().spread() < kTellable * best().period())
-        counter_.learn(report.frame - settled_frame_);
+      learnStallProbability(arrivalDensity(best(), report.arrival, history_arrival_, offset));
+      if (best().spread() < kMaxSpreadForLosses * best().period())
+        counter_.learn(report.frame - history_frame_);
     }
-    settled_arrival_ = report.arrival;
-    settled_frame_ = report.frame;
+    history_arrival_ = report.arrival;
+    history_frame_ = report.frame;
   }
 }
 
 /// A step of expectation maximisation.
-void ExposureClock::learnStalls(const Ways& ways) {
-  experience_ = std::min(experience_ + 1.0, kStallMemory);
-  const double held_up = ways.held_up / (ways.sum() + kUnexplained);
-  stalls_ += (held_up - stalls_) / (experience_ + kStallPrior);
-  stalls_ = std::max(stalls_, kFewestStalls);
+void ExposureClock::learnStallProbability(const ArrivalDensity& ways) {
+  sample_count_ = std::min(sample_count_ + 1.0, kStallMemory);
+  const double stalled = ways.stalled / (ways.sum() + kUnexplained);
+  stall_probability_ += (stalled - stall_probability_) / (sample_count_ + kStallPriorCount);
+  stall_probability_ = std::max(stall_probability_, kMinStallProbability);
 }
 
-void ExposureClock::sharpenEdge() {
+void ExposureClock::applySteadyEdge() {
   ClockFilter& filter = filters_[kSteadyEdge];
   if (!edge_.ready())
     return;
-  if (!edge_joined_) {  // what weighed its normal approximation until now says nothing of it
-    edge_joined_ = true;
-    weights_[kSteadyEdge] = std::max(weights_[kSteadyEdge], kPriorSteadyEdge);
+  if (!edge_used_) {  // its weight was that of a normal approximation
+    edge_used_ = true;
+    weights_[kSteadyEdge] = std::max(weights_[kSteadyEdge], kSteadyEdgeWeight);
   }
   ClockState state = edge_.state(frame_, filter.spread());
   state.p00 += square(kSteady) * kEdgeMemory;
-  filter.believe(state);
+  filter.setState(state);
 }
 
-void ExposureClock::reviveLosers() {
+void ExposureClock::reinitialiseUnlikelyModels() {
   const ClockFilter& leader = best();
   double sum = 0.0;
   for (std::size_t m = 0; m < kModels; ++m) {
-    if (weights_[m] < kLeastWeight) {
-      weights_[m] = kLeastWeight;
+    if (weights_[m] < kMinWeight) {
+      weights_[m] = kMinWeight;
       if (m != kSteadyEdge || !edge_.ready())
-        filters_[m].follow(leader);
-      else if (std::abs(filters_[m].time() - leader.time()) > kContradiction)
+        filters_[m].copyStateFrom(leader);
+      else if (std::abs(filters_[m].time() - leader.time()) > kMaxEdgeError)
         edge_.clear();
     }
     sum += weights_[m];
@@ -304,19 +302,20 @@ Estimate ExposureClock::estimate(double arrival) {
   for (std::size_t m = 0; m < kModels; ++m)
     variance += weights_[m] * (filters_[m].timeVariance() + square(filters_[m].time() - time));
 
-  // No frame is seen after it has arrived, nor before the one that was reported before it.
-  const double exposure = std::max(std::min(time, arrival + std::min(3.0 * spread, period)),
-                                   last_exposure_ + kLeastStep);
-  double doubt = 0.0;
+  // An exposure is not after its arrival, nor before that of the previous report.
+  const double exposure =
+      std::max(std::min(time, arrival + std::min(3.0 * spread, period)), last_exposure_ + kMinStep);
+  double number_variance = 0.0;
   for (int i = 0; i < counter_.size(); ++i)
-    doubt += counter_[i] *
-             square(time + static_cast<double>(counter_.frame(i) - frame_) * period - exposure);
+    number_variance +=
+        counter_[i] *
+        square(time + static_cast<double>(counter_.frame(i) - frame_) * period - exposure);
 
   Estimate e;
   e.exposure = origin_ + exposure;
   e.clock_stddev = std::sqrt(variance);
-  e.stddev = std::sqrt(variance + doubt);
-  doubtful_ = e.stddev > options_.period ? doubtful_ + 1 : 0;
+  e.stddev = std::sqrt(variance + number_variance);
+  uncertain_ = e.stddev > options_.period ? uncertain_ + 1 : 0;
   e.frame = frame_;
   e.dropped = static_cast<int>(std::max<std::int64_t>(0, frame_ - previous - 1));
   e.stale = arrival - time > options_.stale_age;

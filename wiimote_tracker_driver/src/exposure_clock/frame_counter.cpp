@@ -6,33 +6,33 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-constexpr double kNextDrop = 0.3;   // probability that a frame is lost after one that was
-constexpr double kExtra = 1e-4;     // a frame has one more report: an echo, a retransmission
-constexpr double kAnything = 1e-8;  // probability of each number, whatever the runs say
+constexpr double kNextLoss = 0.3;    // probability of a loss after a loss
+constexpr double kDuplicate = 1e-4;  // probability of a duplicate report
+constexpr double kFloor = 1e-8;      // least probability of each number
 constexpr double kNegligible = 1e-7;
-// How many reports the first drops_ counts as, from how many of the last it is learnt, and its
-// least value.
+// Number of reports that the initial loss probability counts as, number of latest reports it is
+// estimated from, and its least value.
 constexpr double kPrior = 300.0;
 constexpr double kMemory = 6000.0;
-constexpr double kFewestDrops = 0.002;
+constexpr double kMinLossProbability = 0.002;
 }  // namespace
 
 double FrameCounter::transition(std::int64_t frames) const {
   if (frames < 0)
     return 0.0;
   if (frames == 0)
-    return kExtra;
+    return kDuplicate;
   if (frames == 1)
-    return 1.0 - drops_;
-  return kAnything + drops_ * (1.0 - kNextDrop) * std::pow(kNextDrop, frames - 2);
+    return 1.0 - loss_probability_;
+  return kFloor + loss_probability_ * (1.0 - kNextLoss) * std::pow(kNextLoss, frames - 2);
 }
 
 void FrameCounter::learn(std::int64_t frames) {
   if (frames <= 0)
     return;
-  experience_ = std::min(experience_ + 1.0, kMemory);
-  drops_ += ((frames > 1 ? 1.0 : 0.0) - drops_) / (experience_ + kPrior);
-  drops_ = std::max(drops_, kFewestDrops);
+  sample_count_ = std::min(sample_count_ + 1.0, kMemory);
+  loss_probability_ += ((frames > 1 ? 1.0 : 0.0) - loss_probability_) / (sample_count_ + kPrior);
+  loss_probability_ = std::max(loss_probability_, kMinLossProbability);
 }
 
 void FrameCounter::start(std::int64_t frame) {
@@ -54,8 +54,8 @@ void FrameCounter::predict(std::int64_t newest) {
     const double same = before(frame - earliest), direct = before(frame - earliest - 1);
     if (frame >= first)
       next[static_cast<std::size_t>(frame - first)] =
-          kExtra * same + (1.0 - drops_) * direct + (1.0 - kNextDrop) * run + kAnything;
-    run = drops_ * direct + kNextDrop * run;
+          kDuplicate * same + (1.0 - loss_probability_) * direct + (1.0 - kNextLoss) * run + kFloor;
+    run = loss_probability_ * direct + kNextLoss * run;
   }
   probability_ = next;
   first_ = first;

@@ -5,7 +5,7 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-constexpr double kSure = 0.9999;
+constexpr double kCertain = 0.9999;
 constexpr int kNumbersBelow = 4;  // of those kept, below the most probable one
 }  // namespace
 
@@ -22,22 +22,22 @@ void FrameHistory::add(const FrameCounter& numbers, double arrival, double on_ti
   decide(entry);
 }
 
-bool FrameHistory::settled() const {
-  return size_ == kCapacity || (size_ > 0 && report(size_ - 1).probability > kSure);
+bool FrameHistory::complete() const {
+  return size_ == kCapacity || (size_ > 0 && report(size_ - 1).probability > kCertain);
 }
 
-int FrameHistory::settle(const FrameCounter& counter) {
+int FrameHistory::smooth(const FrameCounter& counter) {
   const int size = size_;
   for (int i = size - 2; i >= 0; --i) {
     const auto at = static_cast<std::size_t>(i);
-    smooth(counter, entries_[at + 1], &entries_[at]);
+    smoothEntry(counter, entries_[at + 1], &entries_[at]);
     decide(entries_[at]);
   }
   size_ = 0;
   return size;
 }
 
-void FrameHistory::smooth(const FrameCounter& counter, const Entry& next, Entry* entry) {
+void FrameHistory::smoothEntry(const FrameCounter& counter, const Entry& next, Entry* entry) {
   const auto transition = [&](int from, int to) {
     return counter.transition(next.first + to - entry->first - from);
   };

@@ -7,9 +7,9 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-constexpr int kLeastBlocks = 8;
-// The first reports of a clock are numbered less surely than is thought.
-constexpr int kSettling = 25;
+constexpr int kMinBlocks = 8;
+// Number of first reports that are skipped, because their frame numbers are overconfident.
+constexpr int kSkippedReports = 25;
 
 /// Of the density exp(slope * x) on an interval: logarithm of its integral less the value at the
 /// higher end, mean and variance of x.
@@ -44,12 +44,12 @@ void SteadyEdge::clear() {
 }
 
 bool SteadyEdge::ready() const {
-  return blocks_begun_ > kLeastBlocks;
+  return blocks_begun_ > kMinBlocks;
 }
 
 void SteadyEdge::add(std::int64_t frame, double arrival, double weight, double period) {
-  if (settling_ < kSettling) {
-    ++settling_;
+  if (skipped_ < kSkippedReports) {
+    ++skipped_;
     return;
   }
   if (blocks_begun_ == 0) {
@@ -105,7 +105,7 @@ ClockState SteadyEdge::state(std::int64_t frame, double spread) const {
 
   std::array<Point, kBlocks> hull;
   const int size = lowerHull(hull);
-  // Relative to the latest corner, which keeps the digits of a clock that has run for days.
+  // Relative to the latest corner, for precision after days.
   const Point origin = hull[static_cast<std::size_t>(size) - 1];
   center -= origin.frame;
   const auto n = static_cast<double>(frame - first_frame_);

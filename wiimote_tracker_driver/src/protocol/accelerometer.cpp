@@ -1,4 +1,4 @@
-#include "wiimote_tracker_driver/protocol/accelerometer.h"
+#include "protocol/accelerometer.h"
 
 #include "checksum.h"
 

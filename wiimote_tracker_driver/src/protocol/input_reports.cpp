@@ -29,8 +29,8 @@ bool is(const Report& report, std::uint8_t id, std::size_t size) {
   return report.size >= size && report.bytes[0] == id;
 }
 
-// A slot without a light reads ff, or zeros before its first light. Only y tells: its largest
-// value is 767, while x may well have ff as its low byte.
+// A slot without a light has ff, or zeros before its first light. Only y is decisive: its largest
+// value is 767, while a valid x may have the low byte ff.
 IrSpot spot(const std::array<int, 2>& position, int size) {
   IrSpot result;
   result.seen = position[1] < kSensorHeight && (position[0] != 0 || position[1] != 0 || size != 0);
@@ -42,8 +42,8 @@ IrSpot spot(const std::array<int, 2>& position, int size) {
   return result;
 }
 
-// Whether these can be a slot without a light.
-bool allAlike(const std::uint8_t* in, std::size_t size) {
+// Whether these bytes can be a slot without a light.
+bool isEmptySlot(const std::uint8_t* in, std::size_t size) {
   return (in[0] == 0x00 || in[0] == 0xff) &&
          std::all_of(in, in + size, [&](std::uint8_t byte) { return byte == in[0]; });
 }
@@ -64,7 +64,7 @@ void decodeBasic(const std::uint8_t* in, DataReport& data) {
 void decodeExtended(const std::uint8_t* in, DataReport& data) {
   for (IrSpot& out : data.spots) {
     out = spot(firstOfPair(in), in[2] & 0x0f);
-    if (!out.seen && !allAlike(in, 3))
+    if (!out.seen && !isEmptySlot(in, 3))
       data.plausible = false;
     in += 3;
   }
@@ -82,7 +82,7 @@ void decodeFull(const std::uint8_t* in, std::size_t first, DataReport& data) {
           data.plausible = false;
       }
       out.intensity = in[8];
-    } else if (!allAlike(in, 9)) {
+    } else if (!isEmptySlot(in, 9)) {
       data.plausible = false;
     }
   }

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_driver/protocol/ir_calibration.h"
+#include "protocol/ir_calibration.h"
 
 #include "checksum.h"
 #include "ir_position.h"

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_driver/recording/format.h"
+#include "recording/format.h"
 
 #include "little_endian.h"
 

@@ -1,11 +1,12 @@
-#include "wiimote_tracker_driver/recording/reader.h"
+#include "recording/reader.h"
 
 #include "little_endian.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <sstream>
@@ -77,9 +78,9 @@ Reader::Reader(std::istream& in) : in_(in) {
 }
 
 bool Reader::end(const char* why) {
-  char text[160];
-  std::snprintf(text, sizeof(text), "the recording %s at byte %llu, %.3f s from its beginning", why,
-                static_cast<unsigned long long>(position_), 1e-9 * static_cast<double>(time_));
+  const std::string text =
+      format("the recording %s at byte %llu, %.3f s from its beginning", why,
+             static_cast<unsigned long long>(position_), 1e-9 * static_cast<double>(time_));
   damage_ = text;
   ended_ = true;
   return false;

@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_RECORDING_RECORDED_REMOTE_H
 #define WIIMOTE_TRACKER_DRIVER_RECORDING_RECORDED_REMOTE_H
 
+#include "recording/format.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
-#include "wiimote_tracker_driver/recording/format.h"
 
 #include <array>
 #include <cstdint>
@@ -12,35 +12,34 @@
 
 namespace wiimote_tracker::recording {
 
-/// Whether two output reports ask for the same thing, though perhaps with other values: other LEDs,
-/// other bytes to the same registers.
+/// Whether two output reports are the same request, perhaps with other values (other LEDs, other
+/// bytes to the same registers).
 bool sameRequest(const protocol::Report& a, const protocol::Report& b);
 
-/// What a recording tells about its remote, enough to answer requests that were not made then.
+/// What a recording tells about its remote: enough to answer requests that were not recorded.
 class RecordedRemote {
  public:
-  /// To be told all records in advance.
+  /// Takes a record. Call it for all records before the replay.
   void learn(const Record& record);
 
-  /// The recorded host sent this, at the time that is now.
+  /// The replay has come to this report of the recorded host.
   void recordedHostSent(const protocol::Report& report);
-  /// The present host sends this.
+  /// The present host sends this report.
   void hostSends(const protocol::Report& report);
 
-  /// What the remote says to it, appended to `answers`: acknowledgements, its last status, and
-  /// memory as far as it is known, else an error.
+  /// Appends the remote's answers: an acknowledgement, its last status, or memory as far as it is
+  /// known, else an error.
   void answer(const protocol::Report& request, std::deque<protocol::Report>& answers) const;
 
-  /// A recorded piece of memory holds what the recorded host had written there. Puts in its place
-  /// what the present host wrote, so that it finds its own settings, unless the remote had lost
+  /// Where a recorded memory packet holds what the recorded host had written, puts in what the
+  /// present host has written. So the host reads its own settings back, unless the remote had lost
   /// them.
   void putOwnValuesInto(protocol::Report& report) const;
 
-  /// Nothing when there are no images.
+  /// Format of the recorded images; nothing when there are none.
   std::optional<protocol::IrFormat> irFormat() const;
 
-  /// Whether the present host has set the camera's sensitivity to another value than the recorded
-  /// one; its format.
+  /// Whether the present host has set another sensitivity, or format, than the recorded host.
   bool sensitivityDiffers() const;
   bool formatDiffers() const;
 
@@ -53,14 +52,14 @@ class RecordedRemote {
   bool differs(std::uint32_t first, std::uint32_t last) const;
 
   protocol::Report status_{0x20, 0, 0, 0, 0, 0, 0};
-  Memory memory_;                              ///< As read by the recorded host, at any time.
-  Memory settings_;                            ///< As written by the recorded host at last.
+  Memory memory_;                              ///< Read by the recorded host, at any time.
+  Memory settings_;                            ///< Last values written by the recorded host.
   std::array<std::uint64_t, 256> received_{};  ///< Per report id.
 
-  protocol::Report recorded_read_;  ///< The last request of the recorded host for memory.
-  protocol::Report own_read_;       ///< The same of the present one.
-  Memory recorded_values_;          ///< As written by the recorded host up to now.
-  Memory own_values_;               ///< As written by the present one.
+  protocol::Report recorded_read_;  ///< Last memory request of the recorded host.
+  protocol::Report own_read_;       ///< Last memory request of the present host.
+  Memory recorded_values_;          ///< Written by the recorded host up to now.
+  Memory own_values_;               ///< Written by the present host.
 };
 
 }  // namespace wiimote_tracker::recording

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_driver/recording/recorder.h"
+#include "recording/recorder.h"
 
 #include <utility>
 

@@ -1,11 +1,14 @@
-#include "wiimote_tracker_driver/recording/replay.h"
+#include "recording/replay.h"
 
 #include "recorded_remote.h"
-#include "wiimote_tracker_driver/recording/reader.h"
+#include "recording/reader.h"
 
 #include <algorithm>
+#include <chrono>
 #include <deque>
 #include <fstream>
+#include <stdexcept>
+#include <thread>
 #include <utility>
 
 namespace wiimote_tracker::recording {
@@ -13,19 +16,36 @@ namespace {
 
 using protocol::Report;
 
-// A recorded request counts as the host's own when it comes within this time [s], which bridges
-// the difference between a set-up with recorded answers and one with immediate ones.
+// A recorded request matches the host's own when it was recorded within this time after it [s]. The
+// recorded remote answered later than this class may.
 constexpr double kLookAhead = 0.25;
-// How long open() waits for a recorded connection [s]; longer than the pause between two attempts,
-// so that none is missed.
-constexpr double kPatience = 1.0;
+// How long open() waits for a recorded connection [s]: longer than the pause between two attempts.
+constexpr double kConnectTimeout = 1.0;
 
-// A request at the end of a wait was made because the wait was over; times are rounded [s].
+// A request recorded at `time` comes after it: it was sent because that wait was over. Recorded
+// times are rounded.
 bool isAfter(const Record& record, double time) {
   return record.time > (record.kind == Record::Kind::kSent ? time - 1e-8 : time);
 }
 
 }  // namespace
+
+Pace realTime(double speed) {
+  using Clock = std::chrono::steady_clock;
+  if (!(speed > 0.0))
+    throw std::invalid_argument("a recording is played at a speed above 0");
+  struct Start {
+    Clock::time_point present;
+    double recorded;  // [s]
+  };
+  return [speed, start = std::optional<Start>()](double time) mutable {
+    if (!start)
+      start = Start{Clock::now(), time};
+    const std::chrono::duration<double> duration((time - start->recorded) / speed);
+    std::this_thread::sleep_until(start->present +
+                                  std::chrono::duration_cast<Clock::duration>(duration));
+  };
+}
 
 struct Replay::State {
   State(const std::string& file_path, Pace replay_pace)
@@ -48,7 +68,7 @@ struct Replay::State {
 
   struct Event {
     Record record;
-    bool answers_host = false;  ///< A request that the host has made as well.
+    bool matched = false;  ///< A request that the host has sent as well.
   };
   std::deque<Event> ahead;  ///< Read from the file and not played yet.
   std::deque<Report> answers;
@@ -100,10 +120,10 @@ struct Replay::State {
 
   void connect() {
     answers.clear();
-    // What came while nobody listened is lost.
+    // Reports that came while the host was not connected are lost.
     while (readAhead(now) && (!connected || ahead.front().record.time < now)) {
       const Record& next = ahead.front().record;
-      if (!connected && next.time > now + kPatience)
+      if (!connected && next.time > now + kConnectTimeout)
         throw transport::NoSuchDevice("the Wii Remote was away at this time of the recording " +
                                       path + ": wait");
       const Record record = take();
@@ -170,9 +190,9 @@ struct Replay::State {
       const Record& record = event.record;
       if (record.time > now + kLookAhead || record.kind == Record::Kind::kDisconnected)
         break;
-      if (record.kind == Record::Kind::kSent && !event.answers_host &&
+      if (record.kind == Record::Kind::kSent && !event.matched &&
           sameRequest(record.report, report)) {
-        event.answers_host = true;
+        event.matched = true;
         return;
       }
     }

@@ -8,7 +8,7 @@
 namespace wiimote_tracker::driver {
 namespace {
 
-// New batteries have at least this more charge than those that were warned of.
+// Charge above the threshold from which the batteries count as new.
 constexpr double kNewBatteries = 0.1;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
@@ -36,7 +36,7 @@ void BatteryPublisher::publish(const protocol::Status& status,
   message.capacity = kUnknown;
   message.design_capacity = kUnknown;
   message.percentage = static_cast<float>(charge);
-  // The remote cannot tell batteries from a supply in their place.
+  // The remote does not know whether batteries or a power supply feed it.
   message.power_supply_status = sensor_msgs::BatteryState::POWER_SUPPLY_STATUS_UNKNOWN;
   message.power_supply_health = sensor_msgs::BatteryState::POWER_SUPPLY_HEALTH_UNKNOWN;
   message.power_supply_technology = sensor_msgs::BatteryState::POWER_SUPPLY_TECHNOLOGY_UNKNOWN;

@@ -10,8 +10,7 @@
 
 namespace wiimote_tracker::driver {
 
-/// Whether the batteries want changing: the remote says so, or their charge is below `threshold`
-/// [0..1].
+/// Whether the remote reports low batteries, or their charge is below `threshold` [0..1].
 bool batteryLow(const protocol::Status& status, double threshold);
 
 /// Publishes the charge, latched, as `battery`, and warns once when it is low.
@@ -20,7 +19,7 @@ class BatteryPublisher {
   /// `threshold`: charge below which it is low [0..1].
   BatteryPublisher(ros::NodeHandle& nh, const std::string& camera, double threshold);
 
-  /// The remote has told its status just now, `stamp`.
+  /// Publishes a status that came at `stamp`.
   void publish(const protocol::Status& status, const std::string& identity, const ros::Time& stamp);
 
  private:

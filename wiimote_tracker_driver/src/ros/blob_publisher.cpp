@@ -57,7 +57,7 @@ BlobPublisher::BlobPublisher(ros::NodeHandle& nh,
 void BlobPublisher::publish(const protocol::DataReport& image,
                             const ImageTime& time,
                             const std::string& identity) {
-  // A message of its own each time, so that nodelets may share it.
+  // Nodelets share the message, so each image needs its own.
   const auto message = boost::make_shared<IrBlobArray>();
   message->header.stamp = time.stamp;
   message->header.frame_id = frame_id_;

@@ -13,14 +13,13 @@
 
 namespace wiimote_tracker::driver {
 
-/// A spot that is seen, as a message: the sensor's y points up, the message's down. The bounding
-/// box, which comes in cells of 8 px, covers its cells to their edges. NaN and empty for what the
-/// format does not say.
+/// A message of a spot. The sensor's y points up, that of the message down. The bounding box covers
+/// whole cells of 8 px. NaN and empty for what the format does not carry.
 wiimote_tracker_msgs::IrBlob irBlob(const protocol::IrSpot& spot,
                                     protocol::IrFormat format,
                                     std::size_t slot);
 
-/// Publishes images as `ir_blobs`, one message each, also when they are dark.
+/// Publishes each image as one `ir_blobs` message, empty when nothing is seen.
 class BlobPublisher {
  public:
   BlobPublisher(ros::NodeHandle& nh, const std::string& camera, const std::string& frame_id);

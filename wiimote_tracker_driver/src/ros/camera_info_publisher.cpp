@@ -16,7 +16,7 @@ CameraInfoPublisher::CameraInfoPublisher(const ros::NodeHandle& nh,
     throw ParameterError(url_parameter + " is '" + url +
                          "', but must be empty or a URL such as file:///path/to/camera.yaml or "
                          "package://name/camera.yaml");
-  // Now rather than at the first image.
+  // Reports errors of the file now rather than at the first image.
   manager_.loadCameraInfo(url);
   publisher_ = nh_.advertise<sensor_msgs::CameraInfo>("camera_info", 20);
   factory_ = nh_.advertise<sensor_msgs::CameraInfo>("factory/camera_info", 1, true);

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_ROS_CAMERA_INFO_PUBLISHER_H
 #define WIIMOTE_TRACKER_DRIVER_ROS_CAMERA_INFO_PUBLISHER_H
 
-#include "wiimote_tracker_driver/protocol/ir_calibration.h"
+#include "protocol/ir_calibration.h"
 
 #include <camera_info_manager/camera_info_manager.h>
 #include <ros/node_handle.h>
@@ -12,11 +12,11 @@
 
 namespace wiimote_tracker::driver {
 
-/// Keeps the camera's calibration (service `set_camera_info`) and publishes it: as `camera_info`
-/// beside each image, and what the factory measured, latched, as `factory/camera_info`.
+/// Keeps the camera's calibration (service `set_camera_info`). Publishes it as `camera_info` with
+/// each image, and the factory calibration, latched, as `factory/camera_info`.
 class CameraInfoPublisher {
  public:
-  /// `url`: where the calibration is kept; empty: where camera_info_manager keeps it.
+  /// `url`: of the calibration file; empty: the default of camera_info_manager.
   /// @throws ParameterError, naming `url_parameter`, when the URL can never work.
   CameraInfoPublisher(const ros::NodeHandle& nh,
                       const std::string& camera,
@@ -26,8 +26,8 @@ class CameraInfoPublisher {
 
   void publish(const ros::Time& stamp);
 
-  /// All that the factory's calibration says of the lens: its centre as cx and cy, with a focal
-  /// length of 0, which means unknown. Without a calibration all of K is 0.
+  /// Publishes the factory's principal point as cx and cy, with a focal length of 0 (unknown).
+  /// Without a factory calibration K is 0.
   void publishFactory(const std::optional<protocol::IrCalibration>& calibration,
                       const ros::Time& stamp);
 

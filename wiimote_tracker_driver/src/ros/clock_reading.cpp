@@ -6,8 +6,8 @@
 namespace wiimote_tracker::driver {
 namespace {
 
-// A reading in which the thread was not interrupted between the two clocks takes far less [s].
-constexpr double kGoodEnough = 1e-5;
+// Longest reading during which the thread was certainly not interrupted [s].
+constexpr double kUninterrupted = 1e-5;
 constexpr int kAttempts = 3;
 
 }  // namespace
@@ -24,13 +24,13 @@ ClockReading readClocks() {
     reading.ros = ros::Time::now();
     return reading;
   }
-  reading.doubt = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kAttempts && reading.doubt > kGoodEnough; ++i) {
+  reading.uncertainty = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kAttempts && reading.uncertainty > kUninterrupted; ++i) {
     const double before = steadyNow();
     const ros::Time ros = ros::Time::now();
     const double after = steadyNow();
-    if (after - before < reading.doubt) {
-      reading.doubt = after - before;
+    if (after - before < reading.uncertainty) {
+      reading.uncertainty = after - before;
       reading.ros = ros - ros::Duration(0.5 * (before + after) - reading.steady);
     }
   }

@@ -5,15 +5,15 @@
 
 namespace wiimote_tracker::driver {
 
-/// A clock that never steps [s].
+/// The steady clock [s].
 double steadyNow();
 
 /// The same instant on the steady clock and on the clock of ROS.
 struct ClockReading {
   double steady = 0.0;  ///< [s]
   ros::Time ros;
-  double doubt = 0.0;      ///< By how much they may be apart [s].
-  bool simulated = false;  ///< ROS time does not run with real time (use_sim_time).
+  double uncertainty = 0.0;  ///< Largest time between the two readings [s].
+  bool simulated = false;    ///< ROS time is simulated (use_sim_time).
 };
 
 ClockReading readClocks();

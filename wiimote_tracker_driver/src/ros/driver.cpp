@@ -1,7 +1,8 @@
 #include "driver.h"
 
+#include "log_exceptions.h"
 #include "realtime_priority.h"
-#include "wiimote_tracker_driver/transport/users.h"
+#include "transport/users.h"
 
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
@@ -16,10 +17,10 @@
 namespace wiimote_tracker::driver {
 namespace {
 
-// How soon a wish of a callback, or to stop, is noticed when nothing comes [s].
+// Longest wait for a report, so that requests of callbacks and the end are not delayed [s].
 constexpr double kReadWait = 0.1;
 constexpr double kDiagnosticsCheck = 0.2;  // [s]
-constexpr double kUsersCheck = 10.0;       // [s] Looking for them costs milliseconds.
+constexpr double kUsersCheck = 10.0;       // [s] It takes milliseconds.
 
 wiimote::Options wiimoteOptions(const DriverParameters& p, protocol::IrFormat ir_format) {
   wiimote::Options options;
@@ -106,13 +107,14 @@ Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
       users_due_(steadyNow()) {
   if (nh.getNamespace() == "/")
     ROS_WARN(
-        "the driver runs in the namespace /, so that its topics are /ir_blobs and so on: start "
-        "it in the camera's namespace, for example ROS_NAMESPACE=wiimote_1");
+        "the driver runs in the namespace /, so its topics are /ir_blobs and so on: start it in "
+        "the camera's namespace, for example ROS_NAMESPACE=wiimote_1");
   updater_.setHardwareID("none");
   updater_.add("Wii Remote " + parameters_.camera_name, this, &Driver::diagnose);
-  diagnostics_timer_ =
-      nh.createSteadyTimer(ros::WallDuration(kDiagnosticsCheck),
-                           [this](const ros::SteadyTimerEvent&) { updater_.update(); });
+  diagnostics_timer_ = nh.createSteadyTimer(
+      ros::WallDuration(kDiagnosticsCheck), [this](const ros::SteadyTimerEvent&) {
+        logExceptions(parameters_.camera_name, [this] { updater_.update(); });
+      });
   reader_ = threadWithoutSignals([this] { run(); });
 }
 
@@ -127,24 +129,28 @@ Driver::~Driver() {
 }
 
 void Driver::run() {
-  hurry();
-  log_.notice(source_->notice());
-  std::uint64_t seen_changes = 0;
-  while (waitForTurn()) {
-    control_.apply(wiimote_, source_->now());
-    const auto image = wiimote_.step(kReadWait);
-    if (wiimote_.linkChanges() != seen_changes) {
-      seen_changes = wiimote_.linkChanges();
-      linkChanged();
-    }
-    if (image)
-      publishImage(*image);
-  }
+  logExceptions(parameters_.camera_name, [this] {
+    raisePriority();
+    log_.notice(source_->notice());
+  });
+  while (waitForTurn())
+    logExceptions(parameters_.camera_name, [this] { readAndPublish(); });
   wiimote_.close();
 }
 
-// A recording comes as it is asked for, so that haste would only take the computer from others.
-void Driver::hurry() {
+void Driver::readAndPublish() {
+  control_.apply(wiimote_, source_->now());
+  const auto image = wiimote_.step(kReadWait);
+  if (wiimote_.linkChanges() != seen_changes_) {
+    seen_changes_ = wiimote_.linkChanges();
+    linkChanged();
+  }
+  if (image)
+    publishImage(*image);
+}
+
+// A recording waits until it is read, so it needs no priority.
+void Driver::raisePriority() {
   if (parameters_.realtime_priority == 0 || source_->recorded())
     return;
   const std::string refused = takeRealtimePriority(parameters_.realtime_priority);
@@ -155,7 +161,7 @@ void Driver::hurry() {
                                      : "normal: " + refused;
 }
 
-// Returns when the remote may have something to do; false when it is time to stop.
+// Waits until the remote may have something to do. @returns false when it is time to stop.
 bool Driver::waitForTurn() {
   const double idle = wiimote_.idleTime();
   const bool passed = idle > 0.0 && source_->pass(std::min(idle, kReadWait));

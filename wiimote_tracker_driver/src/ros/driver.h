@@ -12,16 +12,17 @@
 #include "link_diagnostics.h"
 #include "link_log.h"
 #include "live_settings.h"
+#include "recording/recorder.h"
 #include "remote_control.h"
 #include "remote_source.h"
-#include "wiimote_tracker_driver/recording/recorder.h"
-#include "wiimote_tracker_driver/wiimote/stream_statistics.h"
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
+#include "wiimote/stream_statistics.h"
+#include "wiimote/wiimote.h"
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
 #include <condition_variable>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -29,8 +30,8 @@
 
 namespace wiimote_tracker::driver {
 
-/// Publishes one Wii Remote as an infrared blob camera with an accelerometer, as long as it lives;
-/// a remote that is not there is waited for. Reads and publishes in a thread of its own.
+/// Publishes one Wii Remote as an infrared blob camera with an accelerometer. Waits for a remote
+/// that is not connected. Reads and publishes in its own thread.
 class Driver {
  public:
   /// Starts at once. `nh`: the camera's namespace.
@@ -44,7 +45,8 @@ class Driver {
 
  private:
   void run();
-  void hurry();
+  void readAndPublish();
+  void raisePriority();
   bool waitForTurn();
   std::unique_ptr<transport::Transport> open();
   void publishImage(const protocol::DataReport& image);
@@ -56,10 +58,10 @@ class Driver {
 
   const std::unique_ptr<RemoteSource> source_;
   const protocol::IrFormat ir_format_;
-  const std::shared_ptr<recording::Recorder> recorder_;  // nothing when nothing is recorded
+  const std::shared_ptr<recording::Recorder> recorder_;  // null: not recorded
   RemoteControl control_;
 
-  // Of the reader thread alone.
+  // Used by the reader thread alone.
   wiimote::Wiimote wiimote_;
   CameraInfoPublisher camera_info_;
   BlobPublisher blobs_;
@@ -67,6 +69,7 @@ class Driver {
   BatteryPublisher battery_;
   JoyPublisher joy_;
   LinkLog log_;
+  std::uint64_t seen_changes_ = 0;  // of wiimote_.linkChanges()
 
   std::mutex mutex_;  // guards what follows
   wiimote::Link link_;
@@ -76,14 +79,14 @@ class Driver {
   std::string reader_priority_;
   bool stop_ = false;
 
-  // Of callbacks.
+  // Used by callbacks.
   LiveSettings settings_;
   JoyFeedback feedback_;
   LinkDiagnostics diagnostics_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer diagnostics_timer_;
   std::string shared_with_;
-  std::string recording_error_;  // that was told already
+  std::string recording_error_;  // logged already
   double users_due_;             // [s]
 
   std::condition_variable stopping_;

@@ -3,7 +3,7 @@
 #include <ros/ros.h>
 
 int main(int argc, char** argv) {
-  // Parameters on the command line go to the master already in init(), which else waits for ever.
+  // Without a timeout init() waits forever for a master to set the parameters of the command line.
   ros::master::setRetryTimeout(ros::WallDuration(1.0));
   ros::init(argc, argv, "driver");
   ros::master::setRetryTimeout(ros::WallDuration(0.0));
@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
               ros::master::getURI().c_str());
     return 1;
   }
-  // Outlive the driver: with the last handle ROS would stop, and with it the log.
+  // These outlive the driver, because ROS and its log stop with the last handle.
   const ros::NodeHandle nh;
   const ros::NodeHandle private_nh("~");
   try {

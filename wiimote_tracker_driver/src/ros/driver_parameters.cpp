@@ -1,17 +1,18 @@
 #include "driver_parameters.h"
 
-#include "player_leds.h"
-#include "wiimote_tracker_driver/transport/transport.h"
+#include "transport/transport.h"
 
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
+#include <array>
 #include <cctype>
+#include <cstddef>
 #include <stdexcept>
 
 namespace wiimote_tracker::driver {
 namespace {
 
-// Slower, and the driver would take long to notice that it is to stop.
+// A slower replay would delay the end of the driver.
 constexpr double kSlowestReplay = 0.1;
 constexpr const char* kCustom = "custom";
 
@@ -28,7 +29,7 @@ std::string lastPart(const std::string& name_space) {
   return name.empty() ? "wiimote" : name;
 }
 
-// What no range can tell.
+// Checks what a range cannot express.
 void check(const DriverParameters& p, const ros::NodeHandle& private_nh) {
   transport::DeviceName device;
   try {
@@ -38,8 +39,8 @@ void check(const DriverParameters& p, const ros::NodeHandle& private_nh) {
   }
   if (device.kind == transport::DeviceName::Kind::kReplay && !p.record.empty())
     throw ParameterError(private_nh.resolveName("record") +
-                         " is set, but a recording that is played is not recorded again: leave it "
-                         "empty, or name a remote as the device");
+                         " is set, but a replay is not recorded again: leave it empty, or name a "
+                         "remote as the device");
   if (p.replay_rate > 0.0 && p.replay_rate < kSlowestReplay)
     throw ParameterError(private_nh.resolveName("replay_rate") +
                          " must be 0 (as fast as possible) or at least 0.1");
@@ -60,26 +61,7 @@ DriverParameters readDriverParameters(const ros::NodeHandle& nh,
                                       const ros::NodeHandle& private_nh) {
   ParameterReader reader(private_nh);
   DriverParameters p;
-  p.device = reader.optional("device", p.device);
-  p.camera_name = reader.optional("camera_name", p.camera_name);
-  p.camera_info_url = reader.optional("camera_info_url", p.camera_info_url);
-  p.latency = reader.bounded("latency", p.latency, 0.0, 1.0);
-  p.estimate_exposure = reader.optional("estimate_exposure", p.estimate_exposure);
-  p.ir_mode = reader.choice("ir_mode", p.ir_mode, {"basic", "extended", "full"});
-  p.ir_sensitivity = reader.choice("ir_sensitivity", p.ir_sensitivity, sensitivityNames());
-  p.ir_sensitivity_block1 = reader.optional("ir_sensitivity_block1", p.ir_sensitivity_block1);
-  p.ir_sensitivity_block2 = reader.optional("ir_sensitivity_block2", p.ir_sensitivity_block2);
-  p.leds = reader.bounded("leds", p.leds, -1, 15);
-  p.battery_low = reader.bounded("battery_low", p.battery_low, 0.0, 1.0);
-  p.rumble_max = reader.bounded("rumble_max", p.rumble_max, 0.0, 10.0);
-  p.linear_acceleration_stddev =
-      reader.bounded("linear_acceleration_stddev", p.linear_acceleration_stddev, 1e-6, 100.0);
-  p.record = reader.optional("record", p.record);
-  p.replay_rate = reader.bounded("replay_rate", p.replay_rate, 0.0, 1000.0);
-  p.realtime_priority = reader.bounded("realtime_priority", p.realtime_priority, 0, 99);
-  p.reply_timeout = reader.bounded("reply_timeout", p.reply_timeout, 0.05, 10.0);
-  p.silence_timeout = reader.bounded("silence_timeout", p.silence_timeout, 0.1, 60.0);
-  p.status_interval = reader.bounded("status_interval", p.status_interval, 1.0, 86400.0);
+  declareParameters(reader, p);
   reader.allow("diagnostic_period");  // diagnostic_updater's own
   reader.refuseUnknown();
   if (p.camera_name.empty())
@@ -107,13 +89,22 @@ protocol::IrSensitivity sensitivity(const std::string& name,
     return *known;
   if (name != kCustom)
     throw std::invalid_argument("'" + name +
-                                "' is no sensitivity: choose wii_1 to wii_5, marcan, "
+                                "' is not a sensitivity: choose wii_1 to wii_5, marcan, "
                                 "max or custom");
   if (block1.empty() || block2.empty())
     throw std::invalid_argument(
         "the sensitivity custom needs both of its blocks, such as '07 00 00 71 01 00 72 00 20' and "
         "'1f 03'");
   return protocol::parseIrSensitivity(block1 + " / " + block2);
+}
+
+std::uint8_t playerLeds(const std::string& camera_name) {
+  // By the last digit. Each pattern has the fewest LEDs that add up to the number, with LED 4.
+  constexpr std::array<std::uint8_t, 10> kPatterns{0xf, 0x1, 0x2, 0x4, 0x8,
+                                                   0x9, 0xa, 0xc, 0xd, 0xe};
+  if (camera_name.empty() || std::isdigit(static_cast<unsigned char>(camera_name.back())) == 0)
+    return kPatterns[1];
+  return kPatterns[static_cast<std::size_t>(camera_name.back() - '0')];
 }
 
 std::uint8_t leds(int leds, const std::string& camera_name) {

@@ -12,7 +12,7 @@
 
 namespace wiimote_tracker::driver {
 
-/// What can be set; config/driver.yaml says what each means.
+/// The parameters with their defaults; config/driver.yaml describes them.
 struct DriverParameters {
   std::string device;
   std::string camera_name;  ///< Empty: the last part of the node's namespace.
@@ -21,11 +21,11 @@ struct DriverParameters {
   bool estimate_exposure = true;
   std::string ir_mode = "extended";
   std::string ir_sensitivity = "wii_5";
-  std::string ir_sensitivity_block1;  ///< Of "custom" only, hexadecimal.
-  std::string ir_sensitivity_block2;  ///< Of "custom" only, hexadecimal.
-  int leds = -1;                      ///< Player LEDs 1..4 in bits 0..3; -1: as the name says.
-  double battery_low = 0.2;           ///< [0..1]
-  double rumble_max = 2.0;            ///< [s]
+  std::string ir_sensitivity_block1;        ///< Of "custom" only, hexadecimal.
+  std::string ir_sensitivity_block2;        ///< Of "custom" only, hexadecimal.
+  int leds = -1;                            ///< Player LEDs 1..4 in bits 0..3; -1: playerLeds().
+  double battery_low = 0.2;                 ///< [0..1]
+  double rumble_max = 2.0;                  ///< [s]
   double linear_acceleration_stddev = 0.1;  ///< [m/s^2]
   std::string record;
   double replay_rate = 1.0;
@@ -35,15 +35,40 @@ struct DriverParameters {
   double status_interval = 60.0;  ///< [s]
 };
 
+/// What ir_sensitivity may be: the settings known by name, and custom.
+std::vector<std::string> sensitivityNames();
+
+/// Name, default and range of every parameter. `reader`: a ParameterReader.
+template <typename Reader>
+void declareParameters(Reader& reader, DriverParameters& p) {
+  p.device = reader.optional("device", p.device);
+  p.camera_name = reader.optional("camera_name", p.camera_name);
+  p.camera_info_url = reader.optional("camera_info_url", p.camera_info_url);
+  p.latency = reader.bounded("latency", p.latency, 0.0, 1.0);
+  p.estimate_exposure = reader.optional("estimate_exposure", p.estimate_exposure);
+  p.ir_mode = reader.choice("ir_mode", p.ir_mode, {"basic", "extended", "full"});
+  p.ir_sensitivity = reader.choice("ir_sensitivity", p.ir_sensitivity, sensitivityNames());
+  p.ir_sensitivity_block1 = reader.optional("ir_sensitivity_block1", p.ir_sensitivity_block1);
+  p.ir_sensitivity_block2 = reader.optional("ir_sensitivity_block2", p.ir_sensitivity_block2);
+  p.leds = reader.bounded("leds", p.leds, -1, 15);
+  p.battery_low = reader.bounded("battery_low", p.battery_low, 0.0, 1.0);
+  p.rumble_max = reader.bounded("rumble_max", p.rumble_max, 0.0, 10.0);
+  p.linear_acceleration_stddev =
+      reader.bounded("linear_acceleration_stddev", p.linear_acceleration_stddev, 1e-6, 100.0);
+  p.record = reader.optional("record", p.record);
+  p.replay_rate = reader.bounded("replay_rate", p.replay_rate, 0.0, 1000.0);
+  p.realtime_priority = reader.bounded("realtime_priority", p.realtime_priority, 0, 99);
+  p.reply_timeout = reader.bounded("reply_timeout", p.reply_timeout, 0.05, 10.0);
+  p.silence_timeout = reader.bounded("silence_timeout", p.silence_timeout, 0.1, 60.0);
+  p.status_interval = reader.bounded("status_interval", p.status_interval, 1.0, 86400.0);
+}
+
 /// Reads the parameters of the private namespace; `nh` is the camera's namespace.
 /// @throws ParameterError for what can never work.
 DriverParameters readDriverParameters(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
 
-/// What ir_mode may be: basic, extended, full.
+/// `ir_mode`: basic, extended or full.
 protocol::IrFormat irFormat(const std::string& ir_mode);
-
-/// What ir_sensitivity may be: the settings known by name, and custom.
-std::vector<std::string> sensitivityNames();
 
 /// The setting of that name, or of the blocks when it is custom.
 /// @throws std::invalid_argument with one sentence when there is no such setting.
@@ -51,7 +76,12 @@ protocol::IrSensitivity sensitivity(const std::string& name,
                                     const std::string& block1,
                                     const std::string& block2);
 
-/// Player LEDs 1..4 in bits 0..3. `leds`: as the parameter.
+/// Player LEDs 1..4 (bits 0..3) for the number at the end of a camera's name: the numbers of the
+/// lit LEDs add up to it. 1..4 light one LED, 5 is 1 + 4, 10 is all four, 11 is as 1, and 0 is
+/// as 10. A name without a number lights LED 1.
+std::uint8_t playerLeds(const std::string& camera_name);
+
+/// Player LEDs for the parameter `leds`.
 std::uint8_t leds(int leds, const std::string& camera_name);
 
 }  // namespace wiimote_tracker::driver

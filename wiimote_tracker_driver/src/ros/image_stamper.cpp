@@ -7,13 +7,13 @@
 namespace wiimote_tracker::driver {
 namespace {
 
-// More than this is a step of the system clock [s]; less is jitter of the reading, or drift.
+// Smallest deviation that counts as a step of the system clock [s]; less is jitter or drift.
 constexpr double kStep = 0.005;
-// Readings in more doubt say nothing of the drift [s].
-constexpr double kMostDoubt = 1e-4;
-// Share of a deviation that is followed at each image: within a second or so.
-constexpr double kFollow = 0.01;
-// Least time between two stamps.
+// Less certain readings are not used to follow the drift [s].
+constexpr double kMaxClockUncertainty = 1e-4;
+// Share of a deviation that is corrected at each image: a time constant of one second.
+constexpr double kDriftGain = 0.01;
+// Shortest time between two stamps.
 const ros::Duration kLeastStep(1e-6);
 
 exposure_clock::ExposureClockOptions clockOptions(double period) {
@@ -22,7 +22,7 @@ exposure_clock::ExposureClockOptions clockOptions(double period) {
   return options;
 }
 
-// As long as there is so much time: simulated time begins at 0.
+// ros::Time cannot be negative, and simulated time begins at 0.
 ros::Time subtract(const ros::Time& time, double seconds) {
   return time.toSec() > seconds ? time - ros::Duration(seconds) : time;
 }
@@ -46,7 +46,7 @@ ImageTime ImageStamper::stamp(const ClockReading& now, std::uint32_t device_epoc
   time.arrival = ros_arrival_;
   time.stddev = std::numeric_limits<double>::quiet_NaN();
   double age = options_.latency;
-  // How long the steady clock says it is ago, says nothing in simulated time.
+  // In simulated time the steady clock says nothing about the age.
   if (options_.estimate && !now.simulated) {
     age += now.steady - estimate.exposure;
     time.stddev = estimate.stddev;
@@ -67,7 +67,7 @@ bool ImageStamper::rosClockStepped(const ClockReading& now) const {
   if (now.simulated)
     return now.ros < ros_arrival_;
   const double deviation = (now.ros - ros_arrival_).toSec() - (now.steady - steady_arrival_);
-  return std::abs(deviation) > kStep + now.doubt;
+  return std::abs(deviation) > kStep + now.uncertainty;
 }
 
 void ImageStamper::beginEpoch(const ClockReading& now) {
@@ -85,7 +85,8 @@ void ImageStamper::followRosClock(const ClockReading& now) {
   if (now.simulated)
     ros_arrival_ = now.ros;
   else
-    ros_arrival_ += ros::Duration(interval + (now.doubt < kMostDoubt ? kFollow * deviation : 0.0));
+    ros_arrival_ += ros::Duration(
+        interval + (now.uncertainty < kMaxClockUncertainty ? kDriftGain * deviation : 0.0));
   steady_arrival_ = now.steady;
 }
 

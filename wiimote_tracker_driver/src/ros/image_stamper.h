@@ -10,26 +10,25 @@
 
 namespace wiimote_tracker::driver {
 
-/// What an image's message says of time.
+/// The times in an image's message.
 struct ImageTime {
   ros::Time stamp;      ///< Best estimate of the exposure; increases within an epoch.
   ros::Time arrival;    ///< On the same clock.
   double stddev = 0.0;  ///< Of the stamp [s]; NaN when it is just the arrival less the latency.
   std::uint32_t clock_epoch = 0;
-  /// Counts images, lost ones too as far as known. A number too high, after a loss that was none,
-  /// is not taken back: the next losses are counted the less for it.
+  /// Counts images, including those known to be lost. If a loss turns out to be none, the number is
+  /// not taken back; instead the next losses are not counted.
   std::uint64_t frame = 0;
 };
 
-/// Times of the images of one remote. Exposures are estimated on the steady clock, which never
-/// steps, and then carried over to the clock of ROS by the difference of the two. That difference
-/// is held, since single readings are off whenever the thread is interrupted between the two
-/// clocks; what little they drift apart is followed. When the system clock is set, its step is
-/// taken over at once as a new epoch, in which times may be earlier than before.
+/// Times of the images of one remote. Exposures are estimated on the steady clock and converted to
+/// ROS time by the offset of the two clocks. The offset follows the clocks' drift slowly, because a
+/// single reading is wrong when the thread is interrupted between the two clocks. A step of the
+/// system clock begins a new epoch, in which times may be earlier than before.
 class ImageStamper {
  public:
   struct Options {
-    double latency = 0.0;  ///< From exposure to the earliest arrival, subtracted [s].
+    double latency = 0.0;  ///< Constant part of the delay, subtracted [s].
     bool estimate = true;  ///< Else stamps are arrivals less the latency.
     double period = exposure_clock::ExposureClockOptions().period;  ///< Between images [s].
   };
@@ -43,7 +42,7 @@ class ImageStamper {
 
   explicit ImageStamper(const Options& options);
 
-  /// An image came just when `now` was read. `device_epoch`: the remote's, grows at each reconnect.
+  /// An image arrived when `now` was read. `device_epoch`: increases at each reconnect.
   ImageTime stamp(const ClockReading& now, std::uint32_t device_epoch);
 
   /// Of the present epoch.

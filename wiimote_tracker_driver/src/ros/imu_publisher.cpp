@@ -45,7 +45,7 @@ void ImuPublisher::publishTransform(const std::string& optical_frame) {
   transform.header.stamp = ros::Time::now();
   transform.header.frame_id = optical_frame;
   transform.child_frame_id = frame_id_;
-  // Half a turn that takes the remote's x (left), y (rear), z (up) to -x, -z, -y of the image.
+  // The remote's x (left), y (rear), z (up) are -x, -z, -y of the optical frame.
   transform.transform.rotation.x = 0.0;
   transform.transform.rotation.y = std::sqrt(0.5);
   transform.transform.rotation.z = -std::sqrt(0.5);

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_ROS_IMU_PUBLISHER_H
 #define WIIMOTE_TRACKER_DRIVER_ROS_IMU_PUBLISHER_H
 
-#include "wiimote_tracker_driver/protocol/accelerometer.h"
+#include "protocol/accelerometer.h"
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
@@ -12,16 +12,16 @@
 
 namespace wiimote_tracker::driver {
 
-/// Publishes the accelerometer as `imu/data_raw`, and how it sits behind the camera as /tf_static.
+/// Publishes the accelerometer as `imu/data_raw`, and its orientation to the camera as /tf_static.
 class ImuPublisher {
  public:
-  /// `stddev`: of one axis [m/s^2].
+  /// `stddev`: standard deviation of one axis [m/s^2].
   ImuPublisher(ros::NodeHandle& nh,
                const std::string& optical_frame,
                const std::string& imu_frame,
                double stddev);
 
-  /// `raw`: x, y, z as the remote converts them.
+  /// `raw`: x, y, z of the remote's converter.
   void publish(const std::array<int, 3>& raw,
                const protocol::AccelerometerCalibration& calibration,
                const ros::Time& stamp);

@@ -18,7 +18,7 @@ JoyFeedback::JoyFeedback(ros::NodeHandle& nh, const std::string& camera, RemoteC
 
 void JoyFeedback::handle(const sensor_msgs::JoyFeedbackArray& message) {
   for (const sensor_msgs::JoyFeedback& feedback : message.array) {
-    const bool on = feedback.intensity >= kOn;  // not for NaN
+    const bool on = feedback.intensity >= kOn;  // false for NaN
     if (feedback.type == sensor_msgs::JoyFeedback::TYPE_LED && feedback.id < kLeds) {
       const auto bit = static_cast<std::uint8_t>(1 << feedback.id);
       control_.setLeds(on ? bit : 0, bit);

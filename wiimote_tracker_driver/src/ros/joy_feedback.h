@@ -11,8 +11,8 @@
 
 namespace wiimote_tracker::driver {
 
-/// Listens on `joy/set_feedback`: TYPE_LED, id 0..3 (player LEDs 1..4), and TYPE_RUMBLE, id 0; on
-/// from an intensity of 0.5. What a message does not name stays as it is.
+/// Subscribes to `joy/set_feedback`: TYPE_LED, id 0..3 (player LEDs 1..4), and TYPE_RUMBLE, id 0.
+/// An intensity of at least 0.5 means on. Outputs that a message does not name stay as they are.
 class JoyFeedback {
  public:
   /// `control` must outlive this.

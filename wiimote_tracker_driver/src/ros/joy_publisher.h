@@ -11,8 +11,7 @@
 
 namespace wiimote_tracker::driver {
 
-/// Where each button is in Joy::buttons; the same order as that of the node `wiimote` in
-/// joystick_drivers.
+/// Index of each button in Joy::buttons, the same as in the node `wiimote` of joystick_drivers.
 enum JoyButton {
   kButtonOne,
   kButtonTwo,
@@ -28,7 +27,7 @@ enum JoyButton {
   kButtonCount,
 };
 
-/// 1 for each button that is pressed. `buttons`: as protocol::decodeButtons().
+/// 1 for each pressed button. `buttons`: as protocol::decodeButtons().
 std::array<int, kButtonCount> joyButtons(std::uint16_t buttons);
 
 /// Publishes the buttons, latched, as `joy` whenever one changes.
@@ -39,7 +38,7 @@ class JoyPublisher {
   /// `buttons`: as protocol::decodeButtons().
   void publish(std::uint16_t buttons, const ros::Time& stamp);
 
-  /// The remote has gone: nobody presses anything any more.
+  /// Publishes all buttons as released, when the remote has disconnected.
   void release(const ros::Time& stamp);
 
  private:

@@ -13,9 +13,9 @@ using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 using wiimote::Link;
 
-// With less of its images than this something is wrong: some 95 of 100 come even in a bad hour.
+// Share of the nominal image rate below which there is a warning. Even bad links deliver 0.95.
 constexpr double kLowRate = 0.8;
-// The exposure clock is in step when it knows the time better than this part of a period.
+// Largest standard deviation of an exposure clock that counts as in step, in periods.
 constexpr double kInStep = 0.3;
 
 const char* linkText(Link::State state) {
@@ -55,7 +55,7 @@ void addTiming(const DriverState& state, DiagnosticStatusWrapper& status) {
   status.addf("Period [ms]", "%.4f", 1e3 * state.clock.period);
   status.addf("Period standard deviation [ms]", "%.4f", 1e3 * state.clock.period_stddev);
   status.addf("Jitter [ms]", "%.2f", 1e3 * state.clock.jitter);
-  // Reports that came twice can make it negative.
+  // Duplicate reports can make it negative.
   status.add("Dropped images", std::max<std::int64_t>(0, state.totals.dropped));
   status.add("Stale images", state.totals.stale);
   status.add("Steps of the system clock", state.totals.clock_steps);

@@ -2,8 +2,8 @@
 #define WIIMOTE_TRACKER_DRIVER_ROS_LINK_DIAGNOSTICS_H
 
 #include "image_stamper.h"
-#include "wiimote_tracker_driver/wiimote/stream_statistics.h"
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
+#include "wiimote/stream_statistics.h"
+#include "wiimote/wiimote.h"
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
@@ -12,21 +12,21 @@
 
 namespace wiimote_tracker::driver {
 
-/// How the driver is, at one time.
+/// State of the driver at one time.
 struct DriverState {
   wiimote::Link link;
   wiimote::StreamStatistics::Summary stream;
   exposure_clock::Statistics clock;
   ImageStamper::Totals totals;
   double stamp_stddev = 0.0;  ///< Of the last image [s]; NaN when exposures are not estimated.
-  std::string shared_with;    ///< One sentence on other users; empty when there are none.
+  std::string shared_with;    ///< A sentence about other programs; empty without any.
   std::string ir_sensitivity;
   std::string reader_priority;
-  std::string recording;        ///< File; empty when none is written.
-  std::string recording_error;  ///< One sentence; empty when all is well.
+  std::string recording;        ///< Its file; empty without one.
+  std::string recording_error;  ///< A sentence; empty without an error.
 };
 
-/// Says it in /diagnostics.
+/// Fills the status in /diagnostics.
 class LinkDiagnostics {
  public:
   /// `image_rate`: nominal [Hz]; `battery_low`: charge [0..1] below which it is low.
@@ -42,7 +42,7 @@ class LinkDiagnostics {
   const protocol::IrFormat ir_format_;
   const double image_rate_;
   const double battery_low_;
-  std::uint64_t restorations_ = 0;  // that were told already
+  std::uint64_t restorations_ = 0;  // reported already
 };
 
 }  // namespace wiimote_tracker::driver

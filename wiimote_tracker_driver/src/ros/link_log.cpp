@@ -41,13 +41,13 @@ void LinkLog::reportStream(const wiimote::Link& link) const {
   ROS_INFO("%s: images come from %s (%s)", camera, link.description.c_str(), link.identity.c_str());
   if (!link.accelerometer_calibrated)
     ROS_WARN(
-        "%s: the accelerometer calibration of the remote is damaged, a typical one serves: "
-        "expect errors of some 0.5 m/s^2",
+        "%s: the accelerometer calibration of the remote is damaged, a typical one is used: "
+        "expect errors of about 0.5 m/s^2",
         camera);
   if (link.kernel_driver == "wiimote")
     ROS_WARN(
-        "%s: the kernel's driver hid-wiimote is attached to the same remote and now and then "
-        "interrupts its images: see \"Kernel driver\" in doc/quirks.md",
+        "%s: the kernel's driver hid-wiimote uses the same remote and sometimes interrupts its "
+        "images: see \"Kernel driver\" in doc/quirks.md",
         camera);
 }
 

@@ -1,13 +1,13 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_ROS_LINK_LOG_H
 #define WIIMOTE_TRACKER_DRIVER_ROS_LINK_LOG_H
 
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
+#include "wiimote/wiimote.h"
 
 #include <string>
 
 namespace wiimote_tracker::driver {
 
-/// Tells people once what has changed, and again from time to time what does not get better.
+/// Logs changes of the link once, and repeats errors that last.
 class LinkLog {
  public:
   /// `retries`: whether a source that has failed is tried again.
@@ -16,7 +16,7 @@ class LinkLog {
   /// The link has changed. `now` [s]: any clock that never goes back.
   void report(const wiimote::Link& link, double now);
 
-  /// A sentence from the source; told once.
+  /// Logs a sentence of the source, once.
   void notice(const std::string& text);
 
  private:

@@ -1,5 +1,7 @@
 #include "live_settings.h"
 
+#include "log_exceptions.h"
+
 #include <ros/console.h>
 
 #include <stdexcept>
@@ -14,7 +16,9 @@ LiveSettings::LiveSettings(const ros::NodeHandle& private_nh,
   used_.ir_sensitivity_block1 = parameters.ir_sensitivity_block1;
   used_.ir_sensitivity_block2 = parameters.ir_sensitivity_block2;
   used_.leds = parameters.leds;
-  server_.setCallback([this](Config& config, std::uint32_t) { reconfigure(config); });
+  server_.setCallback([this](Config& config, std::uint32_t) {
+    logExceptions(camera_name_, [&] { reconfigure(config); });
+  });
 }
 
 std::string LiveSettings::sensitivity() const {
@@ -33,7 +37,7 @@ void LiveSettings::reconfigure(Config& config) {
     if (!(setting(config) == setting(used_)))
       control_.setSensitivity(setting(config));
   } catch (const std::invalid_argument& e) {
-    ROS_WARN("%s: the sensitivity stays as it was: %s", camera_name_.c_str(), e.what());
+    ROS_WARN("%s: the sensitivity is unchanged: %s", camera_name_.c_str(), e.what());
     config.ir_sensitivity = used_.ir_sensitivity;
     config.ir_sensitivity_block1 = used_.ir_sensitivity_block1;
     config.ir_sensitivity_block2 = used_.ir_sensitivity_block2;

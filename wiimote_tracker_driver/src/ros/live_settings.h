@@ -12,17 +12,17 @@
 
 namespace wiimote_tracker::driver {
 
-/// Parameters that can be changed while images come (dynamic_reconfigure): sensitivity and LEDs. A
-/// sensitivity that does not exist is refused with a warning, and the one before stays.
+/// Parameters that can be changed while images come (dynamic_reconfigure): sensitivity and LEDs. An
+/// invalid sensitivity is refused with a warning, and the old one stays.
 class LiveSettings {
  public:
-  /// `parameters`: those in the private namespace, already checked; the remote is set up with them.
+  /// `parameters`: those of the private namespace, already checked and in use.
   /// `control` must outlive this.
   LiveSettings(const ros::NodeHandle& private_nh,
                const DriverParameters& parameters,
                RemoteControl& control);
 
-  /// In use, for people. Thread-safe.
+  /// The sensitivity in use, as text. Thread-safe.
   std::string sensitivity() const;
 
  private:

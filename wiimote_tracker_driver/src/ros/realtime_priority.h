@@ -5,8 +5,8 @@
 
 namespace wiimote_tracker::driver {
 
-/// Gives the calling thread real-time priority (SCHED_FIFO, 1..99). @returns nothing when it has
-/// it, else one sentence why not and what to do.
+/// Gives the calling thread real-time priority (SCHED_FIFO, 1..99). @returns an empty string, or
+/// one sentence why that failed and what to do.
 std::string takeRealtimePriority(int priority);
 
 }  // namespace wiimote_tracker::driver

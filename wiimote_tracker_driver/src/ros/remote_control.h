@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_ROS_REMOTE_CONTROL_H
 #define WIIMOTE_TRACKER_DRIVER_ROS_REMOTE_CONTROL_H
 
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
+#include "wiimote/wiimote.h"
 
 #include <cstdint>
 #include <mutex>
@@ -9,11 +9,11 @@
 
 namespace wiimote_tracker::driver {
 
-/// What callbacks want of the remote, kept until the thread that talks to it comes by. Thread-safe.
+/// Requests of callbacks, kept until the thread that talks to the remote applies them. Thread-safe.
 class RemoteControl {
  public:
-  /// `leds`: as they are lit now. `rumble_max`: a motor that is switched on stops after this, for
-  /// it moves the camera [s].
+  /// `leds`: lit now. `rumble_max`: time after which the motor stops [s], because it shakes the
+  /// camera.
   RemoteControl(std::uint8_t leds, double rumble_max);
 
   void setSensitivity(const protocol::IrSensitivity& sensitivity);
@@ -23,7 +23,7 @@ class RemoteControl {
 
   void setRumble(bool on);
 
-  /// Has the remote do it. `now` [s]: any clock that never goes back.
+  /// Applies the requests to the remote. `now` [s]: any clock that never goes back.
   void apply(wiimote::Wiimote& wiimote, double now);
 
  private:

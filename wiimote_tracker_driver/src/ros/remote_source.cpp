@@ -1,8 +1,8 @@
 #include "remote_source.h"
 
-#include "wiimote_tracker_driver/recording/recorder.h"
-#include "wiimote_tracker_driver/recording/replay.h"
-#include "wiimote_tracker_driver/transport/transport.h"
+#include "recording/recorder.h"
+#include "recording/replay.h"
+#include "transport/transport.h"
 
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
@@ -23,7 +23,7 @@ class LiveRemote : public RemoteSource {
   const transport::DeviceName name_;
 };
 
-// In the recording's own time, on both clocks: the same stamps at each play, at any speed.
+// Both clocks show the recording's time, so that the stamps are the same at each replay and speed.
 class RecordedRemote : public RemoteSource {
  public:
   RecordedRemote(const std::string& file, double rate)

@@ -3,8 +3,8 @@
 
 #include "clock_reading.h"
 #include "driver_parameters.h"
+#include "wiimote/wiimote.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
 
 #include <memory>
 #include <optional>
@@ -12,8 +12,8 @@
 
 namespace wiimote_tracker::driver {
 
-/// Where reports come from, and the time in which they come: a remote in the present, or a
-/// recording in the time when it was made. Not thread-safe but for what is said so.
+/// The source of reports and of time: a remote with the present time, or a recording with the time
+/// when it was made. Not thread-safe.
 class RemoteSource {
  public:
   virtual ~RemoteSource() = default;
@@ -26,21 +26,21 @@ class RemoteSource {
 
   virtual ClockReading readClocks() const = 0;
 
-  /// Lets up to `duration` [s] pass. @returns false when the caller has to wait that long himself.
+  /// Lets up to `duration` [s] of a recording pass. @returns false when the caller has to wait.
   virtual bool pass(double duration) = 0;
 
-  /// When images can come in one format only, which nobody can choose.
+  /// The format of recorded images; nothing when the format can be chosen.
   virtual std::optional<protocol::IrFormat> irFormat() const { return std::nullopt; }
 
-  /// What people should know, in sentences; empty when there is nothing.
+  /// Sentences for the user; empty when there are none.
   virtual std::string notice() const { return ""; }
 
   /// Whether the source is a recording.
   virtual bool recorded() const = 0;
 };
 
-/// What the parameters name. @throws ParameterError, naming `device_parameter`, when the recording
-/// cannot be played.
+/// The source that the parameters name. @throws ParameterError, naming `device_parameter`, when the
+/// recording cannot be played.
 std::unique_ptr<RemoteSource> makeSource(const DriverParameters& parameters,
                                          const std::string& device_parameter);
 

@@ -1,37 +1,21 @@
-// A Wii Remote that does not exist, before which an LED goes round in a circle: for trying a driver
-// without hardware.
+// A virtual Wii Remote that sees an LED move in a circle, to try a driver without hardware.
+#include "tools/command_line.h"
+#include "virtual_wiimote/uhid.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
-#include "wiimote_tracker_driver/virtual_wiimote/uhid.h"
-
-#include <getopt.h>
 
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace wiimote_tracker::virtual_wiimote {
 namespace {
-
-constexpr char kUsage[] = R"(Usage: virtual_wiimote (--socket PATH | --uhid) [options]
-
-A virtual Wii Remote: 100 images a second of an LED 2 m away that goes round in a circle.
-
-  --socket PATH       listen at this socket; drivers open it as device virtual:PATH
-  --uhid              be a Bluetooth remote of this machine's kernel (root; module uhid)
-  --plus              be an RVL-CNT-01-TR, with MotionPlus, not an RVL-CNT-01
-  --address ADDRESS   Bluetooth address (default 00:1f:32:00:00:01)
-  --battery N         raw level of the batteries, 0..255 (default 160)
-  --lights N          so many LEDs on the circle, 0..16 (default 1)
-  --fault NAME=VALUE  something goes wrong; may be given several times
-  --help
-)";
 
 volatile std::sig_atomic_t stop = 0;
 
@@ -40,6 +24,7 @@ void handleSignal(int) {
 }
 
 struct Arguments {
+  std::string help;  ///< Text to print instead of anything else; or empty.
   std::string socket;
   bool uhid = false;
   bool plus = false;
@@ -47,79 +32,39 @@ struct Arguments {
   int battery = 0xa0;
   int lights = 1;
   Faults faults;
-  bool help = false;
 };
 
-int number(const std::string& option, const std::string& text, int most) {
-  std::size_t used = 0;
-  int value = -1;
-  try {
-    value = std::stoi(text, &used);
-  } catch (const std::exception&) {
-    // Said below.
-  }
-  if (used != text.size() || value < 0 || value > most)
-    throw std::invalid_argument(option + " must be a whole number from 0 to " +
-                                std::to_string(most) + ", not '" + text + "'");
-  return value;
-}
-
 Arguments parse(int argc, char** argv) {
-  const option options[] = {{"socket", required_argument, nullptr, 's'},
-                            {"uhid", no_argument, nullptr, 'u'},
-                            {"plus", no_argument, nullptr, 'p'},
-                            {"address", required_argument, nullptr, 'a'},
-                            {"battery", required_argument, nullptr, 'b'},
-                            {"lights", required_argument, nullptr, 'l'},
-                            {"fault", required_argument, nullptr, 'f'},
-                            {"help", no_argument, nullptr, 'h'},
-                            {nullptr, 0, nullptr, 0}};
-  Arguments arguments;
-  for (;;) {
-    const int found = ::getopt_long(argc, argv, "h", options, nullptr);
-    if (found < 0)
-      break;
-    switch (found) {
-      case 's':
-        arguments.socket = optarg;
-        break;
-      case 'u':
-        arguments.uhid = true;
-        break;
-      case 'p':
-        arguments.plus = true;
-        break;
-      case 'a':
-        arguments.address = optarg;
-        break;
-      case 'b':
-        arguments.battery = number("--battery", optarg, 255);
-        break;
-      case 'l':
-        arguments.lights = number("--lights", optarg, 16);
-        break;
-      case 'f':
-        setFault(arguments.faults, optarg);
-        break;
-      case 'h':
-        arguments.help = true;
-        break;
-      default:
-        throw std::invalid_argument("see --help");
-    }
-  }
-  if (optind < argc)
-    throw std::invalid_argument(std::string("'") + argv[optind] + "' is no option; see --help");
-  if (!arguments.help && arguments.uhid == !arguments.socket.empty())
-    throw std::invalid_argument("give either --socket PATH or --uhid");
-  return arguments;
+  Arguments a;
+  std::vector<std::string> faults;
+  CLI::App app(
+      "A virtual Wii Remote: 100 images a second of an LED 2 m away that moves in a circle.",
+      "virtual_wiimote");
+  app.add_option("--socket", a.socket, "listen at this socket; drivers open device virtual:PATH")
+      ->type_name("PATH");
+  app.add_flag("--uhid", a.uhid,
+               "be a Bluetooth remote of this machine's kernel (needs root and the module uhid)");
+  app.add_flag("--plus", a.plus, "be an RVL-CNT-01-TR with MotionPlus, not an RVL-CNT-01");
+  app.add_option("--address", a.address, "Bluetooth address (default 00:1f:32:00:00:01)");
+  app.add_option("--battery", a.battery, "raw level of the batteries (default 160)")
+      ->check(CLI::Range(0, 255));
+  app.add_option("--lights", a.lights, "number of LEDs on the circle (default 1)")
+      ->check(CLI::Range(0, 16));
+  app.add_option("--fault", faults, "a fault to simulate; may be repeated")
+      ->type_name("NAME=VALUE");
+  a.help = tools::parse(app, argc, argv);
+  if (a.help.empty() && a.uhid == !a.socket.empty())
+    throw tools::BadArguments("give either --socket PATH or --uhid");
+  for (const std::string& fault : faults)
+    setFault(a.faults, fault);
+  return a;
 }
 
 Device::Options deviceOptions(const Arguments& arguments) {
   Device::Options options;
   options.battery = static_cast<std::uint8_t>(arguments.battery);
   options.motion_plus = arguments.plus;
-  // Remotes of different addresses are different remotes.
+  // Each address has its own factory calibration.
   std::seed_seq sequence(arguments.address.begin(), arguments.address.end());
   std::uint32_t seed = 0;
   sequence.generate(&seed, &seed + 1);
@@ -145,11 +90,10 @@ Senses sense(int lights, double time) {
   return senses;
 }
 
-/// Says what a person would see and feel of the remote.
+/// Prints changes of the LEDs and the motor.
 class Display {
  public:
-  template <typename Remote>
-  void show(const Remote& remote) {
+  void show(const HostedDevice& remote) {
     const int leds = remote.leds();
     const bool rumble = remote.rumble();
     if (leds != leds_)
@@ -166,8 +110,7 @@ class Display {
   bool rumble_ = false;
 };
 
-template <typename Remote>
-void run(Remote& remote, const Arguments& arguments) {
+void run(HostedDevice& remote, const Arguments& arguments) {
   using Clock = std::chrono::steady_clock;
   remote.setFaults(arguments.faults);
   Display display;
@@ -201,8 +144,8 @@ int main(int argc, char** argv) {
   using namespace wiimote_tracker::virtual_wiimote;
   try {
     const Arguments arguments = parse(argc, argv);
-    if (arguments.help) {
-      std::fputs(kUsage, stdout);
+    if (!arguments.help.empty()) {
+      std::fputs(arguments.help.c_str(), stdout);
       return 0;
     }
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
@@ -210,7 +153,10 @@ int main(int argc, char** argv) {
     std::signal(SIGTERM, handleSignal);
     runFor(arguments);
     return 0;
-  } catch (const std::invalid_argument& error) {
+  } catch (const wiimote_tracker::tools::BadArguments& error) {
+    std::fprintf(stderr, "virtual_wiimote: %s\n", error.what());
+    return 2;
+  } catch (const std::invalid_argument& error) {  // of setFault()
     std::fprintf(stderr, "virtual_wiimote: %s\n", error.what());
     return 2;
   } catch (const std::exception& error) {

@@ -1,7 +1,7 @@
-#include "wiimote_tracker_driver/transport/hidraw_transport.h"
+#include "transport/hidraw_transport.h"
 
 #include "file_descriptor.h"
-#include "wiimote_tracker_driver/transport/users.h"
+#include "transport/users.h"
 
 #include <fcntl.h>
 #include <hidapi/hidapi.h>

@@ -1,7 +1,7 @@
-#include "wiimote_tracker_driver/transport/socket_transport.h"
+#include "transport/socket_transport.h"
 
 #include "file_descriptor.h"
-#include "wiimote_tracker_driver/transport/users.h"
+#include "transport/users.h"
 
 #include <poll.h>
 #include <sys/socket.h>

@@ -1,7 +1,7 @@
-#include "wiimote_tracker_driver/transport/transport.h"
+#include "transport/transport.h"
 
-#include "wiimote_tracker_driver/transport/hidraw_transport.h"
-#include "wiimote_tracker_driver/transport/socket_transport.h"
+#include "transport/hidraw_transport.h"
+#include "transport/socket_transport.h"
 
 #include <sys/un.h>
 

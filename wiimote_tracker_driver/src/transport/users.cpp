@@ -1,6 +1,8 @@
-#include "wiimote_tracker_driver/transport/users.h"
+#include "transport/users.h"
 
-#include "wiimote_tracker_driver/transport/transport.h"
+#include "transport/transport.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <dirent.h>
 #include <sys/file.h>
@@ -8,7 +10,6 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -118,9 +119,8 @@ std::optional<pid_t> lockHolder(int fd) {
   struct stat file {};
   if (::fstat(fd, &file) != 0)
     return std::nullopt;
-  char wanted[64];
-  std::snprintf(wanted, sizeof(wanted), "%02x:%02x:%llu", major(file.st_dev), minor(file.st_dev),
-                static_cast<unsigned long long>(file.st_ino));
+  const std::string wanted = format("%02x:%02x:%llu", major(file.st_dev), minor(file.st_dev),
+                                    static_cast<unsigned long long>(file.st_ino));
   // 1: FLOCK  ADVISORY  WRITE 1234 00:05:678 0 EOF
   std::ifstream locks("/proc/locks");
   for (std::string line; std::getline(locks, line);) {

@@ -1,15 +1,58 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_EXTENSION_PORT_H
 #define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_EXTENSION_PORT_H
 
-#include "motion_plus.h"
-#include "nunchuk.h"
+#include "data_report.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace wiimote_tracker::virtual_wiimote {
 
-/// What the host takes for the extension: a Nunchuk that may be plugged in, or a built-in
-/// MotionPlus, which hides it while it is active.
+/// A Nunchuk at rest, with registers from a400 00 on. Reads give ff until the host has switched its
+/// encryption off. Its factory calibration is blank.
+class Nunchuk {
+ public:
+  static bool hasRegister(std::uint32_t address) { return address >> 16 == 0xa4; }
+
+  Nunchuk();
+
+  void write(std::uint32_t address, std::uint8_t value) { registers_[address % 0x100] = value; }
+  std::uint8_t read(std::uint32_t address) const;
+
+  /// As data reports carry it.
+  ExtensionData data() const;
+
+ private:
+  bool plain() const;
+
+  std::array<std::uint8_t, 0x100> registers_{};
+};
+
+/// The built-in MotionPlus of a remote at rest, as far as hosts identify it. It is at a600 00 until
+/// the host activates it; then it takes the extension's place, a400 00, until that is set up again.
+class MotionPlus {
+ public:
+  MotionPlus();
+
+  bool active() const { return active_; }
+  bool hasRegister(std::uint32_t address) const { return address >> 16 == (active_ ? 0xa4 : 0xa6); }
+
+  void write(std::uint32_t address, std::uint8_t value);
+  std::uint8_t read(std::uint32_t address) const { return registers_[address % 0x100]; }
+
+  /// As data reports carry it while it is active.
+  ExtensionData data() const;
+
+ private:
+  void become(bool active);
+
+  bool active_ = false;
+  std::array<std::uint8_t, 0x100> registers_{};
+};
+
+/// The extension as the host sees it: a plugged-in Nunchuk, or the built-in MotionPlus, which hides
+/// the Nunchuk while it is active.
 class ExtensionPort {
  public:
   explicit ExtensionPort(bool has_motion_plus) : has_motion_plus_(has_motion_plus) {}
@@ -19,11 +62,11 @@ class ExtensionPort {
   bool motionPlusActive() const { return motion_plus_.active(); }
   bool empty() const { return !nunchuk_plugged_ && !motion_plus_.active(); }
 
-  /// Whether somebody answers at this address of the bus.
+  /// Whether a device has this address on the bus.
   bool hasRegister(std::uint32_t address) const;
   /// @pre hasRegister(address)
   std::uint8_t read(std::uint32_t address) const;
-  /// Goes nowhere where nobody answers.
+  /// Ignored where no device has the address.
   void write(std::uint32_t address, std::uint8_t value);
 
   /// As data reports carry it; ff when empty.

@@ -9,47 +9,37 @@
 namespace wiimote_tracker::virtual_wiimote {
 namespace {
 
-constexpr double kMost = 1e9;
+constexpr double kMaximum = 1e9;
 
-struct Chance {
+struct Fault {
   const char* name;
-  double Faults::*member;
-};
-constexpr Chance kChances[] = {
-    {"lost_answers", &Faults::lost_answers},
-    {"lost_data", &Faults::lost_data},
-    {"late_answers", &Faults::late_answers},
-    {"duplicated", &Faults::duplicated},
-    {"truncated", &Faults::truncated},
-    {"garbage", &Faults::garbage},
-    {"stalls", &Faults::stalls},
+  bool whole;  ///< Takes whole numbers only.
+  double minimum;
+  double maximum;
+  void (*set)(Faults&, double);
 };
 
-struct Count {
-  const char* name;
-  int Faults::*member;
-  int least;
+const Fault kFaults[] = {
+    {"lost_answers", false, 0, 1, [](Faults& f, double v) { f.lost_answers = v; }},
+    {"lost_data", false, 0, 1, [](Faults& f, double v) { f.lost_data = v; }},
+    {"late_answers", false, 0, 1, [](Faults& f, double v) { f.late_answers = v; }},
+    {"duplicated", false, 0, 1, [](Faults& f, double v) { f.duplicated = v; }},
+    {"truncated", false, 0, 1, [](Faults& f, double v) { f.truncated = v; }},
+    {"garbage", false, 0, 1, [](Faults& f, double v) { f.garbage = v; }},
+    {"stalls", false, 0, 1, [](Faults& f, double v) { f.stalls = v; }},
+    {"late_by", true, 1, kMaximum, [](Faults& f, double v) { f.late_by = static_cast<int>(v); }},
+    {"stall_length", true, 1, kMaximum,
+     [](Faults& f, double v) { f.stall_length = static_cast<int>(v); }},
+    {"unplug_every", true, 0, kMaximum,
+     [](Faults& f, double v) { f.unplug_every = static_cast<int>(v); }},
+    {"unplug_for", true, 1, kMaximum,
+     [](Faults& f, double v) { f.unplug_for = static_cast<int>(v); }},
+    {"second_master", true, 0, 1, [](Faults& f, double v) { f.second_master = v == 1; }},
+    {"seed", true, 0, kMaximum,
+     [](Faults& f, double v) { f.seed = static_cast<std::uint32_t>(v); }},
 };
-constexpr Count kCounts[] = {
-    {"late_by", &Faults::late_by, 1},
-    {"stall_length", &Faults::stall_length, 1},
-    {"unplug_every", &Faults::unplug_every, 0},
-    {"unplug_for", &Faults::unplug_for, 1},
-};
 
-constexpr char kSeed[] = "seed";
-constexpr char kSecondMaster[] = "second_master";
-
-std::string allNames() {
-  std::string names;
-  for (const Chance& chance : kChances)
-    names += std::string(chance.name) + ", ";
-  for (const Count& count : kCounts)
-    names += std::string(count.name) + ", ";
-  return names + kSecondMaster + ", " + kSeed;
-}
-
-/// The number that `text` is as a whole; NaN when it is none.
+/// The number that the whole of `text` is; NaN when it is none.
 double number(const std::string& text) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
@@ -59,25 +49,6 @@ double number(const std::string& text) {
   return value;
 }
 
-double inRange(const std::string& name, const std::string& text, double least, double most) {
-  const double value = number(text);
-  if (!(value >= least && value <= most)) {
-    std::ostringstream message;
-    message << "the fault " << name << " must be a number from " << least << " to " << most
-            << ", not '" << text << "'";
-    throw std::invalid_argument(message.str());
-  }
-  return value;
-}
-
-int wholeInRange(const std::string& name, const std::string& text, int least, double most) {
-  const double value = inRange(name, text, least, most);
-  if (value != std::floor(value))
-    throw std::invalid_argument("the fault " + name + " must be a whole number, not '" + text +
-                                "'");
-  return static_cast<int>(value);
-}
-
 }  // namespace
 
 void setFault(Faults& faults, const std::string& text) {
@@ -85,25 +56,24 @@ void setFault(Faults& faults, const std::string& text) {
   if (equals == std::string::npos)
     throw std::invalid_argument("write a fault as NAME=VALUE, not as '" + text + "'");
   const std::string name = text.substr(0, equals);
-  const std::string value = text.substr(equals + 1);
-  for (const Chance& chance : kChances) {
-    if (name == chance.name) {
-      faults.*chance.member = inRange(name, value, 0.0, 1.0);
-      return;
+  const double value = number(text.substr(equals + 1));
+  std::string names;
+  for (const Fault& fault : kFaults) {
+    names += (names.empty() ? "" : ", ") + std::string(fault.name);
+    if (name != fault.name)
+      continue;
+    if (!(value >= fault.minimum && value <= fault.maximum) ||
+        (fault.whole && value != std::floor(value))) {
+      std::ostringstream message;
+      message << "the fault " << name << " must be a " << (fault.whole ? "whole " : "")
+              << "number from " << fault.minimum << " to " << fault.maximum << ", not '"
+              << text.substr(equals + 1) << "'";
+      throw std::invalid_argument(message.str());
     }
+    fault.set(faults, value);
+    return;
   }
-  for (const Count& count : kCounts) {
-    if (name == count.name) {
-      faults.*count.member = wholeInRange(name, value, count.least, kMost);
-      return;
-    }
-  }
-  if (name == kSecondMaster)
-    faults.second_master = wholeInRange(name, value, 0, 1.0) == 1;
-  else if (name == kSeed)
-    faults.seed = static_cast<std::uint32_t>(wholeInRange(name, value, 0, kMost));
-  else
-    throw std::invalid_argument("there is no fault '" + name + "'; choose from " + allNames());
+  throw std::invalid_argument("there is no fault '" + name + "'; choose from " + names);
 }
 
 }  // namespace wiimote_tracker::virtual_wiimote

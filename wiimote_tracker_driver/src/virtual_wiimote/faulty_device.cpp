@@ -1,4 +1,4 @@
-#include "wiimote_tracker_driver/virtual_wiimote/faulty_device.h"
+#include "virtual_wiimote/faulty_device.h"
 
 #include "second_master.h"
 

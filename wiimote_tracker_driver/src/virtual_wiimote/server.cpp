@@ -1,6 +1,7 @@
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
-#include "wiimote_tracker_driver/virtual_wiimote/faulty_device.h"
+#include "file_descriptor.h"
+#include "virtual_wiimote/faulty_device.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -10,7 +11,6 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -22,27 +22,6 @@
 
 namespace wiimote_tracker::virtual_wiimote {
 namespace {
-
-constexpr std::uint8_t kFirstDataReport = 0x30;
-
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int fd = -1) : fd_(fd) {}
-  ~FileDescriptor() { reset(); }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-
-  int get() const { return fd_; }
-  bool open() const { return fd_ >= 0; }
-  void reset(int fd = -1) {
-    if (fd_ >= 0)
-      ::close(fd_);
-    fd_ = fd;
-  }
-
- private:
-  int fd_;
-};
 
 [[noreturn]] void fail(const std::string& what) {
   throw std::system_error(errno, std::generic_category(), what);
@@ -75,36 +54,35 @@ void removeStale(const std::string& path, const sockaddr_un& address) {
 int listenAt(const std::string& path) {
   const sockaddr_un address = addressOf(path);
   removeStale(path, address);
-  const int fd = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (fd < 0)
+  FileDescriptor fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!fd.open())
     fail("socket");
-  if (::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
-      ::listen(fd, 4) != 0) {
-    const int error = errno;
-    ::close(fd);
-    errno = error;
+  if (::bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
+      ::listen(fd.get(), 4) != 0)
     fail("a virtual Wii Remote cannot listen at '" + path +
          "': choose a path in a directory that exists, where no other one listens");
-  }
-  return fd;
+  return fd.release();
 }
 
 }  // namespace
 
 struct Server::State {
-  State(std::string socket_path, std::string device_identity, const Device::Options& options)
-      : path(std::move(socket_path)), identity(std::move(device_identity)), device(options) {}
+  State(Server& server_to_run, std::string socket_path, std::string device_identity)
+      : server(server_to_run),
+        path(std::move(socket_path)),
+        identity(std::move(device_identity)),
+        wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (!wake.open())
+      fail("eventfd");
+    listener.reset(listenAt(path));
+  }
 
+  Server& server;
   const std::string path;
   const std::string identity;
-  FileDescriptor wake;
-
-  mutable std::mutex mutex;  // guards all below
-  FaultyDevice device;
-  bool present = true;  ///< As told; a fault may take it away all the same.
-  FileDescriptor listener;
+  const FileDescriptor wake;
+  FileDescriptor listener;  ///< Guarded by the server's mutex, as is the next.
   FileDescriptor host;
-
   std::atomic<bool> stop{false};
   std::thread thread;
 
@@ -120,27 +98,6 @@ struct Server::State {
     ::send(host.get(), report.data(), report.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   }
 
-  void send(const std::vector<Bytes>& reports) const {
-    if (!host.open())
-      return;
-    for (const Bytes& report : reports)
-      send(report);
-  }
-
-  /// Lets hosts reach the device, or not.
-  void setReachable(bool reachable) {
-    if (reachable == listener.open())
-      return;
-    if (reachable) {
-      listener.reset(listenAt(path));
-    } else {
-      ::unlink(path.c_str());
-      listener.reset();
-      host.reset();
-    }
-    wakeUp();
-  }
-
   /// Tells a second host who the first one is.
   void refuse(int second) const {
     ucred first{};
@@ -152,15 +109,14 @@ struct Server::State {
   }
 
   void accept() {
-    const int fd = ::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-    if (fd < 0)
+    FileDescriptor fd(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+    if (!fd.open())
       return;
     if (host.open()) {
-      refuse(fd);
-      ::close(fd);
+      refuse(fd.get());
       return;
     }
-    host.reset(fd);
+    host.reset(fd.release());
     send(Bytes(identity.begin(), identity.end()));
   }
 
@@ -170,14 +126,14 @@ struct Server::State {
       const ssize_t size = ::recv(host.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
       if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR))
         return;
-      // Told once when the host left with reports unread; what it had written still follows.
+      // Reported once when the host left with reports unread; its last reports still follow.
       if (size < 0 && errno == ECONNRESET)
         continue;
       if (size <= 0) {
         host.reset();
         return;
       }
-      send(device.handleOutput(Bytes(buffer.begin(), buffer.begin() + size)));
+      server.send(server.device_->handleOutput(Bytes(buffer.begin(), buffer.begin() + size)));
     }
   }
 
@@ -185,9 +141,9 @@ struct Server::State {
     while (!stop) {
       std::array<pollfd, 3> fds{};
       {
-        const std::lock_guard<std::mutex> lock(mutex);
+        const std::lock_guard<std::mutex> lock(server.mutex_);
         fds[0].fd = wake.get();
-        fds[1].fd = listener.get();  // a negative fd is ignored by poll
+        fds[1].fd = listener.get();  // poll ignores a negative fd
         fds[2].fd = host.get();
       }
       for (pollfd& fd : fds)
@@ -197,11 +153,11 @@ struct Server::State {
       if (fds[0].revents != 0) {
         std::uint64_t count = 0;
         if (::read(wake.get(), &count, sizeof(count)) < 0) {
-          // Somebody else's wake-up was consumed together with this one.
+          // Another wake-up was consumed together with this one.
         }
       }
-      // Whatever changed while polling, these read what there is and never block.
-      const std::lock_guard<std::mutex> lock(mutex);
+      // Whatever changed during poll(), these read what there is and never block.
+      const std::lock_guard<std::mutex> lock(server.mutex_);
       if (host.open())
         receive();
       if (listener.open())
@@ -211,11 +167,7 @@ struct Server::State {
 };
 
 Server::Server(const std::string& path, const std::string& identity, const Device::Options& options)
-    : state_(std::make_unique<State>(path, identity, options)) {
-  state_->wake.reset(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-  if (!state_->wake.open())
-    fail("eventfd");
-  state_->listener.reset(listenAt(path));
+    : HostedDevice(options, true), state_(std::make_unique<State>(*this, path, identity)) {
   state_->thread = std::thread([this] { state_->run(); });
 }
 
@@ -227,55 +179,29 @@ Server::~Server() {
     ::unlink(state_->path.c_str());
 }
 
-bool Server::sample(const Senses& senses) {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  if (!state_->present)
-    return false;
-  const std::vector<Bytes> reports = state_->device.sample(senses);
-  state_->setReachable(!state_->device.away());
-  state_->send(reports);
-  return std::any_of(reports.begin(), reports.end(),
-                     [](const Bytes& report) { return report.at(0) >= kFirstDataReport; });
-}
-
-void Server::setFaults(const Faults& faults) {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  state_->device.setFaults(faults);
-}
-
-void Server::setNunchuk(bool plugged) {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  state_->send(state_->device.setNunchuk(plugged));
-}
-
-void Server::setBattery(std::uint8_t level) {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  state_->device.device().setBattery(level);
-}
-
 bool Server::connected() const {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
+  const std::lock_guard<std::mutex> lock(mutex_);
   return state_->host.open();
 }
 
-std::uint8_t Server::leds() const {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  return state_->device.device().leds();
-}
-
-bool Server::rumble() const {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  return state_->device.device().rumble();
-}
-
-void Server::setPresent(bool present) {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  if (present == state_->present)
+void Server::send(const std::vector<Bytes>& reports) {
+  if (!state_->host.open())
     return;
-  if (present)
-    state_->device.powerCycle();
-  state_->setReachable(present);
-  state_->present = present;
+  for (const Bytes& report : reports)
+    state_->send(report);
+}
+
+void Server::setReachable(bool reachable) {
+  if (reachable == state_->listener.open())
+    return;
+  if (reachable) {
+    state_->listener.reset(listenAt(state_->path));
+  } else {
+    ::unlink(state_->path.c_str());
+    state_->listener.reset();
+    state_->host.reset();
+  }
+  state_->wakeUp();
 }
 
 }  // namespace wiimote_tracker::virtual_wiimote

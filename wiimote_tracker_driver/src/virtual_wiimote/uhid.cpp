@@ -1,6 +1,7 @@
-#include "wiimote_tracker_driver/virtual_wiimote/uhid.h"
+#include "virtual_wiimote/uhid.h"
 
-#include "wiimote_tracker_driver/virtual_wiimote/faulty_device.h"
+#include "file_descriptor.h"
+#include "virtual_wiimote/faulty_device.h"
 
 #include <fcntl.h>
 #include <linux/input.h>
@@ -68,22 +69,6 @@ constexpr std::array<std::uint8_t, 218> kReportDescriptor{
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int fd) : fd_(fd) {}
-  ~FileDescriptor() {
-    if (fd_ >= 0)
-      ::close(fd_);
-  }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
 template <std::size_t N>
 void copyText(const std::string& text, __u8 (&field)[N]) {
   std::memcpy(field, text.data(), std::min(text.size(), N - 1));
@@ -98,38 +83,35 @@ Device::Options deviceOptions(const UhidDevice::Options& options) {
 }  // namespace
 
 struct UhidDevice::State {
-  State(std::string device_address, const Options& device_options)
-      : address(std::move(device_address)),
+  State(UhidDevice& uhid_device, std::string device_address, const Options& device_options)
+      : owner(uhid_device),
+        address(std::move(device_address)),
         options(device_options),
         uhid(::open(kPath, O_RDWR | O_CLOEXEC | O_NONBLOCK)),
-        wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-        device(deviceOptions(options)) {
-    if (uhid.get() < 0)
+        wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (!uhid.open())
       fail(std::string("cannot open ") + kPath + " (load the module uhid and be root)");
-    if (wake.get() < 0)
+    if (!wake.open())
       fail("eventfd");
   }
 
+  UhidDevice& owner;
   const std::string address;
   const Options options;
   const FileDescriptor uhid;
   const FileDescriptor wake;
 
-  struct UnderWay {
+  struct InTransit {
     Clock::time_point due;
     Bytes report;
   };
-
-  mutable std::mutex mutex;  // guards all below
-  FaultyDevice device;
-  bool present = false;  ///< As told; a fault may take it away all the same.
-  bool plugged = false;
-  std::deque<UnderWay> under_way;
+  bool plugged = false;  ///< Guarded by the owner's mutex, as is the next.
+  std::deque<InTransit> in_transit;
 
   std::atomic<bool> stop{false};
   std::thread thread;
 
-  /// Short events are filled up with zeros by the kernel.
+  /// The kernel pads short events with zeros.
   bool write(const uhid_event& event, std::size_t payload) const {
     const std::size_t size = offsetof(uhid_event, u) + payload;
     return ::write(uhid.get(), &event, size) == static_cast<ssize_t>(size);
@@ -158,7 +140,7 @@ struct UhidDevice::State {
       fail("unplugging the virtual Wii Remote " + address);
   }
 
-  // The kernel refuses input of a device that it is letting go of: lost, as over the air.
+  // The kernel refuses input of a device that it is removing: lost, as over the air.
   void send(const Bytes& report) const {
     uhid_event event{};
     event.type = UHID_INPUT2;
@@ -168,39 +150,22 @@ struct UhidDevice::State {
     write(event, offsetof(uhid_input2_req, data) + report.size());
   }
 
-  void send(const std::vector<Bytes>& reports) const {
-    for (const Bytes& report : reports)
-      send(report);
-  }
-
-  void setPlugged(bool now_plugged) {
-    if (now_plugged == plugged)
-      return;
-    if (now_plugged) {
-      create();
-    } else {
-      destroy();
-      under_way.clear();
-    }
-    plugged = now_plugged;
-  }
-
   void receive(const __u8* data, std::size_t size) {
     const auto latency =
         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.latency));
-    const std::lock_guard<std::mutex> lock(mutex);
+    const std::lock_guard<std::mutex> lock(owner.mutex_);
     if (plugged)
-      under_way.push_back(
+      in_transit.push_back(
           {Clock::now() + latency, Bytes(data, data + std::min(size, kLargestReport))});
   }
 
   void deliver() {
-    const std::lock_guard<std::mutex> lock(mutex);
-    for (; !under_way.empty() && under_way.front().due <= Clock::now(); under_way.pop_front()) {
-      const Bytes& report = under_way.front().report;
+    const std::lock_guard<std::mutex> lock(owner.mutex_);
+    for (; !in_transit.empty() && in_transit.front().due <= Clock::now(); in_transit.pop_front()) {
+      const Bytes& report = in_transit.front().report;
       if (options.listener)
         options.listener(report);
-      send(device.handleOutput(report));
+      owner.send(owner.device_->handleOutput(report));
     }
   }
 
@@ -220,7 +185,7 @@ struct UhidDevice::State {
       receive(request.data, request.size);
   }
 
-  /// There is no report that a remote would give on the control channel.
+  /// A remote has no report on the control channel.
   void refuseGetReport(const uhid_get_report_req& request) const {
     uhid_event reply{};
     reply.type = UHID_GET_REPORT_REPLY;
@@ -232,24 +197,22 @@ struct UhidDevice::State {
   void handleEvents() {
     uhid_event event{};
     while (::read(uhid.get(), &event, sizeof(event)) > 0) {
-      if (event.type == UHID_OUTPUT) {
-        const uhid_output_req& output = event.u.output;
-        receive(output.data, output.size);
-      } else if (event.type == UHID_SET_REPORT) {
+      if (event.type == UHID_OUTPUT)
+        receive(event.u.output.data, event.u.output.size);
+      else if (event.type == UHID_SET_REPORT)
         setReport(event.u.set_report);
-      } else if (event.type == UHID_GET_REPORT) {
+      else if (event.type == UHID_GET_REPORT)
         refuseGetReport(event.u.get_report);
-      }
     }
   }
 
-  /// Until the next report is due [ms, rounded up]; negative, for ever, when none is under way.
+  /// Time until the next report is due [ms, rounded up]; negative when none is in transit.
   int timeout() const {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (under_way.empty())
+    const std::lock_guard<std::mutex> lock(owner.mutex_);
+    if (in_transit.empty())
       return -1;
-    const auto wait =
-        std::chrono::duration_cast<std::chrono::milliseconds>(under_way.front().due - Clock::now());
+    const auto wait = std::chrono::duration_cast<std::chrono::milliseconds>(in_transit.front().due -
+                                                                            Clock::now());
     return wait.count() < 0 ? 0 : 1 + static_cast<int>(wait.count());
   }
 
@@ -267,7 +230,8 @@ struct UhidDevice::State {
 };
 
 UhidDevice::UhidDevice(const std::string& address, const Options& options)
-    : state_(std::make_unique<State>(address, options)) {
+    : HostedDevice(deviceOptions(options), false),
+      state_(std::make_unique<State>(*this, address, options)) {
   setPresent(true);
   state_->thread = std::thread([this] { state_->run(); });
 }
@@ -282,48 +246,21 @@ UhidDevice::~UhidDevice() {
   // Closing the descriptor unplugs the device.
 }
 
-void UhidDevice::sample(const Senses& senses) {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  if (!state_->present)
+void UhidDevice::send(const std::vector<Bytes>& reports) {
+  for (const Bytes& report : reports)
+    state_->send(report);
+}
+
+void UhidDevice::setReachable(bool reachable) {
+  if (reachable == state_->plugged)
     return;
-  const std::vector<Bytes> reports = state_->device.sample(senses);
-  state_->setPlugged(!state_->device.away());
-  state_->send(reports);
-}
-
-void UhidDevice::setFaults(const Faults& faults) {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  state_->device.setFaults(faults);
-}
-
-void UhidDevice::setNunchuk(bool plugged) {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  state_->send(state_->device.setNunchuk(plugged));
-}
-
-void UhidDevice::setBattery(std::uint8_t level) {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  state_->device.device().setBattery(level);
-}
-
-std::uint8_t UhidDevice::leds() const {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  return state_->device.device().leds();
-}
-
-bool UhidDevice::rumble() const {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  return state_->device.device().rumble();
-}
-
-void UhidDevice::setPresent(bool present) {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  if (present == state_->present)
-    return;
-  if (present)
-    state_->device.powerCycle();
-  state_->setPlugged(present);
-  state_->present = present;
+  if (reachable) {
+    state_->create();
+  } else {
+    state_->destroy();
+    state_->in_transit.clear();
+  }
+  state_->plugged = reachable;
 }
 
 }  // namespace wiimote_tracker::virtual_wiimote

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_driver/wiimote/camera_configuration.h"
+#include "wiimote/camera_configuration.h"
 
 #include "wiimote_tracker_driver/protocol/output_reports.h"
 

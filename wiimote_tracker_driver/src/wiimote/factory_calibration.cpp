@@ -1,4 +1,4 @@
-#include "wiimote_tracker_driver/wiimote/factory_calibration.h"
+#include "wiimote/factory_calibration.h"
 
 #include "wiimote_tracker_driver/protocol/output_reports.h"
 

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_driver/wiimote/image_assembler.h"
+#include "wiimote/image_assembler.h"
 
 #include <stdexcept>
 #include <utility>
@@ -36,7 +36,6 @@ std::optional<protocol::DataReport> ImageAssembler::add(const protocol::Report& 
     first_arrival_ = now;
     return std::nullopt;
   }
-  // Whatever comes of it, a half is used once.
   protocol::Report first;
   std::swap(first, first_);
   if (now - first_arrival_ > kLongestGap)

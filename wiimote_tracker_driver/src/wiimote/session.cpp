@@ -1,4 +1,4 @@
-#include "wiimote_tracker_driver/wiimote/session.h"
+#include "wiimote/session.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -10,20 +10,14 @@ namespace {
 using protocol::Report;
 
 constexpr std::uint8_t kErrorBusy = 4;
-// A read that found another one in progress is repeated after this, doubled each time [s].
+// Pause before a read is repeated that the remote refused as busy [s]; doubles each time.
 constexpr double kBusyPause = 0.02;
-// Set-ups of the camera, and watchdog restarts, that may fail in a row.
+// Camera set-ups, and silences of the stream, that may fail in a row.
 constexpr int kMaximumFailures = 5;
-constexpr int kVerifyAttempts = 3;
-// While the motor is to run it is told so this often [s].
+// Camera set-ups after which registers that were never read count as unreadable.
+constexpr int kReadAttempts = 3;
+// How often a running motor is told to run [s].
 constexpr double kRumbleInterval = 0.1;
-
-// A remote may say its present data once more right after it has acknowledged a mode (the virtual
-// one does): no later than kEcho, two turns of the radio [s]. That is no image of its own, and
-// would mislead whoever learns the camera's rhythm. It is told by the same bytes, or by coming
-// sooner after the report before than the rhythm of 10 ms has it [s].
-constexpr double kEcho = 0.0025;
-constexpr double kTooSoon = 0.007;
 
 constexpr std::uint8_t kButtonsReport = 0x30;
 
@@ -39,73 +33,90 @@ Session::Session(const SessionOptions& options, Write write, double now)
       camera_(options.sensitivity, options.ir_format),
       assembler_(options.ir_format),
       watch_(options) {
-  enter(Step::kStatus, now);
+  enter(AskStatus{}, now);
 }
 
-// ---- Requests
+// ---- States: the request of each, and the state after its answer
 
 Report Session::request() const {
-  switch (step_) {
-    case Step::kStatus:
-      return protocol::requestStatus();
-    case Step::kLeds:
-      return protocol::setLeds(options_.leds);
-    case Step::kFactory:
-      return factory_.request();
-    case Step::kIrClock:
-      return protocol::setIrClock(true);
-    case Step::kIrLogic:
-      return protocol::setIrLogic(true);
-    case Step::kCameraWrite:
-      return camera_.write(index_);
-    case Step::kCameraRead:
-      return camera_.read(index_);
-    case Step::kReportMode:
-    case Step::kStreaming:
-      break;
-  }
+  if (in<AskStatus>())
+    return protocol::requestStatus();
+  if (in<SetLeds>())
+    return protocol::setLeds(options_.leds);
+  if (in<ReadFactory>())
+    return factory_.request();
+  if (in<StartClock>())
+    return protocol::setIrClock(true);
+  if (in<StartLogic>())
+    return protocol::setIrLogic(true);
+  if (const auto* state = std::get_if<WriteCamera>(&state_))
+    return camera_.write(state->block);
+  if (const auto* state = std::get_if<ReadCamera>(&state_))
+    return camera_.read(state->block);
   return protocol::setReportMode(assembler_.reportMode(), true);
 }
 
-void Session::transmit(Report report) {
-  if (rumble_)
-    report.bytes[1] |= protocol::kRumbleBit;
-  write_(report);
+void Session::answered(double now) {
+  if (in<AskStatus>()) {
+    enter(SetLeds{}, now);
+  } else if (in<SetLeds>()) {
+    factory_ = FactoryCalibration();
+    enter(ReadFactory{}, now);
+  } else if (in<ReadFactory>()) {
+    enter(factory_.complete() ? State(StartClock{}) : ReadFactory{}, now);
+  } else if (in<StartClock>()) {
+    enter(StartLogic{}, now);
+  } else if (in<StartLogic>()) {
+    enter(WriteCamera{}, now);
+  } else if (const auto* write = std::get_if<WriteCamera>(&state_)) {
+    cameraWritten(*write, now);
+  } else if (const auto* check = std::get_if<ReadCamera>(&state_)) {
+    cameraRead(*check, now);
+  } else if (const auto* mode = std::get_if<SetMode>(&state_)) {
+    const bool camera_changed = mode->camera_changed;
+    enter(Streaming{}, now);
+    if (camera_changed)
+      enter(WriteCamera{}, now);
+  }
 }
 
-void Session::enter(Step step, double now) {
-  step_ = step;
+void Session::cameraWritten(WriteCamera state, double now) {
+  if (++state.block < CameraConfiguration::kWrites)
+    enter(state, now);
+  else if (registers_ == Registers::kUnreadable)
+    enter(SetMode{}, now);
+  else
+    enter(ReadCamera{0, CameraConfiguration::kReads, true, state.after_silence}, now);
+}
+
+void Session::cameraRead(ReadCamera state, double now) {
+  if (--state.left > 0) {
+    state.block = (state.block + 1) % CameraConfiguration::kReads;
+    enter(state, now);
+    return;
+  }
+  registers_ = Registers::kReadable;
+  set_ups_ = 0;
+  if (state.after_silence)
+    watch_.expectImage(now);
+  enter(state.sets_mode ? State(SetMode{}) : Streaming{}, now);
+}
+
+void Session::enter(const State& state, double now) {
+  state_ = state;
   attempts_ = 0;
-  if (step != Step::kStreaming) {
+  if (!in<Streaming>()) {
     send(now);
     return;
   }
-  if (!images_valid_) {
-    images_valid_ = true;
+  if (!streaming_)
     watch_.start(now);
-  }
-  if (!verifiable_)
+  streaming_ = true;
+  if (registers_ == Registers::kUnreadable)
     set_ups_ = 0;
-  if (write_pending_)
-    writeCamera(now);
 }
 
-void Session::next(double now) {
-  if (step_ == Step::kLeds) {
-    factory_ = FactoryCalibration();
-    enter(Step::kFactory, now);
-  } else if (step_ == Step::kIrLogic) {
-    writeCamera(now);
-  } else if (step_ != Step::kCameraWrite) {
-    enter(static_cast<Step>(static_cast<int>(step_) + 1), now);
-  } else if (++index_ < CameraConfiguration::kWrites) {
-    enter(Step::kCameraWrite, now);
-  } else if (verifiable_) {
-    checkCamera(0, CameraConfiguration::kReads, now);
-  } else {
-    enter(Step::kReportMode, now);
-  }
-}
+// ---- Requests
 
 void Session::send(double now) {
   ++attempts_;
@@ -113,15 +124,20 @@ void Session::send(double now) {
   transmit(request());
 }
 
+void Session::transmit(Report report) {
+  if (rumble_due_)
+    report.bytes[1] |= protocol::kRumbleBit;
+  write_(report);
+}
+
 void Session::retry(const std::string& why, double now) {
   if (attempts_ < options_.attempts) {
     send(now);
-  } else if (step_ == Step::kCameraRead) {
+  } else if (in<ReadCamera>()) {
     checkFailed(nullptr, now);
-  } else if (step_ == Step::kFactory) {
-    // Good to know, but images come without it.
-    factory_.skip();
-    enter(factory_.complete() ? Step::kIrClock : Step::kFactory, now);
+  } else if (in<ReadFactory>()) {
+    factory_.skip();  // images come without it
+    answered(now);
   } else {
     char id[3];
     std::snprintf(id, sizeof(id), "%02x", static_cast<unsigned>(request().id()));
@@ -130,7 +146,7 @@ void Session::retry(const std::string& why, double now) {
   }
 }
 
-// ---- Answers
+// ---- Reports of the remote
 
 std::optional<protocol::DataReport> Session::handle(const Report& report, double now) {
   if (isDataReport(report.id()))
@@ -146,97 +162,88 @@ std::optional<protocol::DataReport> Session::handle(const Report& report, double
 
 void Session::handleAcknowledgement(const protocol::Acknowledgement& acknowledgement, double now) {
   if (acknowledgement.report_id == protocol::kReportModeId)
-    mode_acknowledged_ = now;
+    duplicates_.modeAcknowledged(now);
   const std::uint8_t id = request().id();
-  if (step_ == Step::kStreaming || acknowledgement.report_id != id)
+  if (in<Streaming>() || acknowledgement.report_id != id)
     return;
   const std::uint8_t error = acknowledgement.error;
   if (error == kErrorBusy && id == protocol::kReadMemoryId)
     answer_due_ = std::min(answer_due_, now + kBusyPause * (1 << std::min(attempts_, 5)));
   else if (error == 0 && id != protocol::kReadMemoryId)
-    next(now);
+    answered(now);
   else if (error != 0 && id == protocol::kWriteMemoryId)
-    setUpCamera(now);  // the camera is off, or the answer was for somebody else's write
+    setUpCamera(now);  // the camera is off, or another program's write was refused
   else if (error != 0)
     retry("answers 'error " + std::to_string(error) + ", " + protocol::errorName(error) + "' to",
           now);
 }
 
 void Session::handleMemory(const protocol::MemoryPacket& packet, double now) {
-  if (step_ == Step::kFactory) {
+  if (in<ReadFactory>()) {
     if (factory_.take(packet))
-      enter(factory_.complete() ? Step::kIrClock : Step::kFactory, now);
-  } else if (step_ == Step::kCameraRead && camera_.answers(index_, packet)) {
-    if (const char* fault = camera_.fault(index_, packet))
+      answered(now);
+  } else if (const auto* check = std::get_if<ReadCamera>(&state_)) {
+    if (!camera_.answers(check->block, packet))
+      return;
+    if (const char* fault = camera_.fault(check->block, packet))
       checkFailed(fault, now);
     else
-      checkPassed(now);
+      answered(now);
   }
 }
 
 void Session::handleStatus(const protocol::Status& status, double now) {
   status_ = status;
-  if (step_ == Step::kStatus) {
-    next(now);
-  } else if (images_valid_) {
-    // Reporting stops at a status that nobody asked for, and the kernel's driver resets the mode
-    // after every one.
+  if (in<AskStatus>()) {
+    answered(now);
+  } else if (streaming_) {
+    // Reporting stops at an unsolicited status, and the kernel's driver resets the mode after every
+    // status.
     watch_.status(status.camera, now);
-    if (step_ == Step::kStreaming)
-      enter(Step::kReportMode, now);
+    if (in<Streaming>())
+      enter(SetMode{}, now);
     else
-      setReportMode();
+      sendReportMode();
     if (status.leds != (options_.leds & 0x0f))
       transmit(protocol::setLeds(options_.leds));
   }
 }
 
 std::optional<protocol::DataReport> Session::handleData(const Report& report, double now) {
-  if (!images_valid_)
+  if (!streaming_)
     return std::nullopt;
   if (!assembler_.expects(report.id())) {
-    otherReport(report.id(), now);
+    handleOtherMode(report.id(), now);
     return std::nullopt;
   }
-  if (isEcho(report, now))
+  if (duplicates_.isDuplicate(report, now))
     return std::nullopt;
   const auto image = assembler_.add(report, now);
   if (!image)
     return std::nullopt;
   silences_ = 0;
-  if (step_ == Step::kCameraWrite) {  // the camera is stopped
+  if (in<WriteCamera>()) {  // the camera is stopped
     watch_.alive(now);
     return std::nullopt;
   }
-  if (watch_.image(*image, now) && found_ == nullptr)
-    found("the camera's logic was switched off");
-  if (found_ != nullptr && step_ == Step::kStreaming) {
+  if (watch_.image(*image, now) && fault_ == nullptr)
+    noteFault("the camera's logic was switched off");
+  if (fault_ != nullptr && in<Streaming>()) {
     ++restorations_;
-    last_restoration_ = found_;
-    found_ = nullptr;
+    last_restoration_ = std::exchange(fault_, nullptr);
   }
   return image;
 }
 
-bool Session::isEcho(const Report& report, double now) {
-  const auto acknowledged = std::exchange(mode_acknowledged_, std::nullopt);
-  if (acknowledged && now - *acknowledged < kEcho &&
-      (report == last_data_ || now - last_data_at_ < kTooSoon))
-    return true;
-  last_data_ = report;
-  last_data_at_ = now;
-  return false;
-}
-
-// Somebody has changed the mode, and perhaps the camera as well.
-void Session::otherReport(std::uint8_t id, double now) {
-  if (step_ != Step::kStreaming)
-    return;  // what is under way ends with a look at all that
-  setReportMode();
+// Another program has changed the mode, and perhaps the camera as well.
+void Session::handleOtherMode(std::uint8_t id, double now) {
+  if (!in<Streaming>())
+    return;  // the request under way ends with SetMode or another check
+  sendReportMode();
   if (id == kButtonsReport && watch_.justAfterStatus(now))
     return;
-  found("the report mode was changed");
-  checkCamera(0, CameraConfiguration::kReads, now);
+  noteFault("the report mode was changed");
+  checkCamera({}, now);
 }
 
 // ---- The camera
@@ -245,79 +252,57 @@ void Session::setUpCamera(double now) {
   if (++set_ups_ > kMaximumFailures)
     throw SessionError(
         "the camera of the Wii Remote cannot be set up: stop other programs that use the remote");
-  images_valid_ = false;
-  enter(Step::kIrClock, now);
+  streaming_ = false;
+  enter(StartClock{}, now);
 }
 
-void Session::writeCamera(double now) {
-  write_pending_ = false;
-  index_ = 0;
-  enter(Step::kCameraWrite, now);
-}
-
-void Session::checkCamera(int first, int reads, double now) {
-  if (!verifiable_) {
+void Session::checkCamera(const ReadCamera& check, double now) {
+  if (registers_ == Registers::kUnreadable)
     setUpCamera(now);
-    return;
-  }
-  index_ = first;
-  reads_left_ = reads;
-  after_check_ = reads == 1 ? Step::kStreaming : Step::kReportMode;
-  enter(Step::kCameraRead, now);
+  else
+    enter(check, now);
 }
 
-void Session::checkPassed(double now) {
-  index_ = (index_ + 1) % CameraConfiguration::kReads;
-  if (--reads_left_ > 0) {
-    enter(Step::kCameraRead, now);
-    return;
-  }
-  verified_ = true;
-  set_ups_ = 0;
-  if (after_silence_) {
-    after_silence_ = false;
-    watch_.expectImage(now);
-  }
-  enter(after_check_, now);
-}
-
-// Either somebody has switched the camera off or changed it (`fault` says what), or nobody answers
-// (null): perhaps this remote does not let its registers be read. That is believed only where
-// reading has never worked.
+// `fault`: what a register shows; null when the read had no answer.
 void Session::checkFailed(const char* fault, double now) {
-  if (!verified_ && set_ups_ + 1 >= kVerifyAttempts) {
-    verifiable_ = false;
+  const bool after_silence = std::get<ReadCamera>(state_).after_silence;
+  if (registers_ == Registers::kUnknown && set_ups_ + 1 >= kReadAttempts) {
+    registers_ = Registers::kUnreadable;
     watch_.disableChecks();
-    enter(Step::kReportMode, now);
-  } else if (images_valid_ && (after_silence_ || watch_.silent(now))) {
+    enter(SetMode{}, now);
+  } else if (streaming_ && (after_silence || watch_.silent(now))) {
     startOver(now);
-  } else if (images_valid_ && fault == nullptr) {
-    enter(Step::kReportMode, now);  // images come all the same
+  } else if (streaming_ && fault == nullptr) {
+    enter(SetMode{}, now);  // images come all the same
   } else {
-    found(fault);
+    noteFault(fault);
     setUpCamera(now);
   }
 }
 
 void Session::setSensitivity(const protocol::IrSensitivity& sensitivity, double now) {
   camera_ = CameraConfiguration(sensitivity, options_.ir_format);
-  if (step_ == Step::kCameraWrite || step_ == Step::kCameraRead || step_ == Step::kStreaming)
-    writeCamera(now);
-  else
-    write_pending_ = step_ == Step::kReportMode;
+  if (auto* mode = std::get_if<SetMode>(&state_))
+    mode->camera_changed = true;
+  else if (const auto* check = std::get_if<ReadCamera>(&state_))
+    enter(WriteCamera{0, check->after_silence}, now);
+  else if (const auto* write = std::get_if<WriteCamera>(&state_))
+    enter(WriteCamera{0, write->after_silence}, now);
+  else if (in<Streaming>())
+    enter(WriteCamera{}, now);
 }
 
 // ---- The stream
 
 double Session::deadline() const {
-  const double due = step_ == Step::kStreaming ? watch_.deadline() : answer_due_;
-  return rumble_ ? std::min(due, rumble_due_) : due;
+  const double due = in<Streaming>() ? watch_.deadline() : answer_due_;
+  return std::min(due, rumble_due_.value_or(due));
 }
 
 void Session::tick(double now) {
-  if (rumble_ && now >= rumble_due_)
+  if (rumble_due_ && now >= *rumble_due_)
     setRumble(true, now);
-  if (step_ == Step::kStreaming)
+  if (in<Streaming>())
     keepStreaming(now);
   else if (now >= answer_due_)
     retry("does not answer", now);
@@ -325,33 +310,33 @@ void Session::tick(double now) {
 
 void Session::keepStreaming(double now) {
   using Task = StreamWatch::Task;
+  const auto readOne = [](int block, bool after_silence) {
+    return ReadCamera{block, 1, false, after_silence};
+  };
   switch (watch_.take(now)) {
     case Task::kNothing:
       break;
     case Task::kRestart:
       imagesStopped(now);
       break;
-    case Task::kRemind:
-      // If it was not the mode but a power cycle, the camera is off as well.
-      setReportMode();
-      after_silence_ = true;
-      checkCamera(0, 1, now);
+    case Task::kSetModeAndCheck:
+      sendReportMode();
+      checkCamera(readOne(0, true), now);
       break;
-    case Task::kRepeatMode:
-      setReportMode();
+    case Task::kSetMode:
+      sendReportMode();
       break;
     case Task::kCheckInDark:
-      // 0x1a cannot be read back; to say it again does no harm.
-      transmit(protocol::setIrLogic(true));
-      checkCamera(0, CameraConfiguration::kReads, now);
+      transmit(protocol::setIrLogic(true));  // cannot be read back, and may be repeated
+      checkCamera({}, now);
       break;
     case Task::kCheckControl:
-      checkCamera(0, 1, now);
+      checkCamera(readOne(0, false), now);
       break;
     case Task::kCheckNext:
       if (watch_.dark() && next_check_ == 0)
         transmit(protocol::setIrLogic(true));
-      checkCamera(next_check_, 1, now);
+      checkCamera(readOne(next_check_, false), now);
       next_check_ = (next_check_ + 1) % CameraConfiguration::kReads;
       break;
     case Task::kAskStatus:
@@ -364,31 +349,29 @@ void Session::imagesStopped(double now) {
   if (++silences_ > kMaximumFailures)
     throw SessionError(
         "the Wii Remote answers but sends no images: take its batteries out and put them back");
-  found("the images stopped");
-  if (silences_ == 1 && verifiable_) {
-    setReportMode();
-    after_silence_ = true;
-    checkCamera(0, CameraConfiguration::kReads, now);
-  } else {
+  noteFault("the images stopped");
+  if (silences_ > 1 || registers_ == Registers::kUnreadable) {
     startOver(now);
+    return;
   }
+  sendReportMode();
+  checkCamera({0, CameraConfiguration::kReads, true, true}, now);
 }
 
 void Session::startOver(double now) {
-  found("the remote was switched off and on");
+  noteFault("the remote was switched off and on");
   ++restarts_;
-  after_silence_ = false;
-  images_valid_ = false;
+  streaming_ = false;
   set_ups_ = 0;
-  enter(Step::kStatus, now);
+  enter(AskStatus{}, now);
 }
 
-void Session::found(const char* what) {
-  if (images_valid_)
-    found_ = what;
+void Session::noteFault(const char* fault) {
+  if (streaming_)
+    fault_ = fault;
 }
 
-// ---- LEDs, motor, farewell
+// ---- LEDs, motor, end
 
 void Session::setLeds(std::uint8_t leds) {
   options_.leds = leds;
@@ -396,13 +379,12 @@ void Session::setLeds(std::uint8_t leds) {
 }
 
 void Session::setRumble(bool rumble, double now) {
-  rumble_ = rumble;
-  rumble_due_ = now + kRumbleInterval;
+  rumble_due_ = rumble ? std::make_optional(now + kRumbleInterval) : std::nullopt;
   write_(protocol::setRumble(rumble));
 }
 
 void Session::switchOff() {
-  rumble_ = false;
+  rumble_due_.reset();
   transmit(protocol::setReportMode(kButtonsReport, false));
   transmit(protocol::setIrClock(false));
   transmit(protocol::setIrLogic(false));

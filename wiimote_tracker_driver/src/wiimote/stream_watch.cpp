@@ -1,28 +1,28 @@
-#include "wiimote_tracker_driver/wiimote/stream_watch.h"
+#include "wiimote/stream_watch.h"
 
 #include <algorithm>
 
 namespace wiimote_tracker::wiimote {
 namespace {
 
-// A mode that may be lost is set again after so long without an image, well before the watchdog
-// acts. Of the intervals of real remotes one in a thousand is longer than half of this [s].
-constexpr double kReminder = 0.1;
-// The kernel's driver resets the mode some milliseconds after each status. Ours, set once more
-// after this, is the last word [s].
-constexpr double kAfterStatus = 0.03;
-// So long after a status a lost mode is the kernel's doing and nothing worse [s].
+// Time without an image after which the report mode is set again [s]. Of the intervals of real
+// remotes one in a thousand is longer than half of this.
+constexpr double kSilenceBeforeMode = 0.1;
+// The kernel's driver resets the mode some milliseconds after each status. The session sets its own
+// this long after the status [s].
+constexpr double kModeAfterStatus = 0.03;
+// A lost mode within this time after a status is due to the kernel's driver [s].
 constexpr double kStatusEffect = 0.2;
-// Between two checks of images that look wrong [s].
+// Shortest time between two checks of implausible images [s].
 constexpr double kControlPause = 1.0;
-// A light that shows so soon after a check in the dark owes it to that [s].
+// A light that appears within this time after a check in the dark is due to that check [s].
 constexpr double kDarkCheckEffect = 0.1;
 
 }  // namespace
 
 void StreamWatch::start(double now) {
   last_image_ = now;
-  reminded_ = false;
+  mode_checked_ = false;
   mode_due_ = kNever;
   dark_since_ = now;
   dark_checked_ = false;
@@ -34,7 +34,7 @@ void StreamWatch::start(double now) {
 
 void StreamWatch::alive(double now) {
   last_image_ = now;
-  reminded_ = false;
+  mode_checked_ = false;
 }
 
 bool StreamWatch::image(const protocol::DataReport& image, double now) {
@@ -47,16 +47,16 @@ bool StreamWatch::image(const protocol::DataReport& image, double now) {
       dark_check_due_ = now;
     return false;
   }
-  const bool owed = dark_checked_ && now < last_dark_check_ + kDarkCheckEffect;
+  const bool due_to_check = dark_checked_ && now < last_dark_check_ + kDarkCheckEffect;
   dark_since_ = now;
   dark_checked_ = false;
   dark_check_due_ = kNever;
-  return owed;
+  return due_to_check;
 }
 
 void StreamWatch::status(bool camera, double now) {
   last_status_ = now;
-  mode_due_ = now + kAfterStatus;
+  mode_due_ = now + kModeAfterStatus;
   if (!camera)
     control_due_ = now;
 }
@@ -65,9 +65,10 @@ bool StreamWatch::justAfterStatus(double now) const {
   return now < last_status_ + kStatusEffect;
 }
 
-// Where checks are impossible a reminder would hide that the remote was switched off and on.
-double StreamWatch::reminderDue() const {
-  return reminded_ || !checks_ ? kNever : last_image_ + kReminder;
+// Without checks the mode is not set again: that would hide that the remote was switched off and
+// on.
+double StreamWatch::modeCheckDue() const {
+  return mode_checked_ || !checks_ ? kNever : last_image_ + kSilenceBeforeMode;
 }
 
 StreamWatch::Task StreamWatch::take(double now) {
@@ -75,11 +76,11 @@ StreamWatch::Task StreamWatch::take(double now) {
     return Task::kRestart;
   if (now >= mode_due_) {
     mode_due_ = kNever;
-    return Task::kRepeatMode;
+    return Task::kSetMode;
   }
-  if (now >= reminderDue()) {
-    reminded_ = true;
-    return Task::kRemind;
+  if (now >= modeCheckDue()) {
+    mode_checked_ = true;
+    return Task::kSetModeAndCheck;
   }
   if (now >= dark_check_due_) {
     dark_check_due_ = kNever;
@@ -105,7 +106,7 @@ StreamWatch::Task StreamWatch::take(double now) {
 
 double StreamWatch::deadline() const {
   const double check = checks_ ? std::min(check_due_, control_due_) : kNever;
-  return std::min({last_image_ + options_.silence_timeout, mode_due_, reminderDue(),
+  return std::min({last_image_ + options_.silence_timeout, mode_due_, modeCheckDue(),
                    dark_check_due_, check, status_due_});
 }
 

@@ -1,6 +1,7 @@
-#include "wiimote_tracker_driver/wiimote/wiimote.h"
+#include "wiimote/wiimote.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 namespace wiimote_tracker::wiimote {
@@ -37,9 +38,7 @@ template <typename Action>
 void Wiimote::orDrop(Action action) {
   try {
     action();
-  } catch (const transport::TransportError& e) {
-    drop(e.what());
-  } catch (const SessionError& e) {
+  } catch (const std::exception& e) {  // TransportError, SessionError; also std::bad_alloc
     drop(e.what());
   }
 }
@@ -147,8 +146,8 @@ void Wiimote::close() {
     return;
   try {
     session_->switchOff();
-  } catch (const transport::TransportError&) {
-    // Gone already.
+  } catch (const std::exception&) {
+    // The remote has disconnected already.
   }
   session_.reset();
   transport_.reset();

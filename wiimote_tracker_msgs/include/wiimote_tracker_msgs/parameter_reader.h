@@ -1,24 +1,26 @@
 #ifndef WIIMOTE_TRACKER_MSGS_PARAMETER_READER_H
 #define WIIMOTE_TRACKER_MSGS_PARAMETER_READER_H
 
+#include "wiimote_tracker_msgs/error.h"
 #include "wiimote_tracker_msgs/parameter_tree.h"
 
 #include <ros/node_handle.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
 namespace wiimote_tracker {
 
 /// A parameter is missing, of the wrong type, out of range, or unknown; what() names it in full.
-struct ParameterError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct ParameterError : Error {
+  using Error::Error;
 };
 
 /// Reads a node's parameters, or those in a file, and refuses what it does not understand, so that
@@ -49,12 +51,14 @@ class ParameterReader {
   template <typename T>
   T optional(const std::string& key, const T& default_value) {
     used_.insert(nameOf(key));
+    defaults_[key] = textOf(default_value);
     return isSet(key) ? get<T>(key) : default_value;
   }
 
   /// A number within [minimum, maximum]. @throws ParameterError when it is not.
   template <typename T>
   T bounded(const std::string& key, T default_value, T minimum, T maximum) {
+    ranges_[key] = {static_cast<double>(minimum), static_cast<double>(maximum)};
     return checkRange(key, optional<T>(key, default_value), minimum, maximum);
   }
 
@@ -77,6 +81,10 @@ class ParameterReader {
     }
     throw ParameterError(nameOf(key) + " is '" + value + "', but must be one of: " + list);
   }
+
+  /// Defaults as YAML and ranges of the keys that were read with one, for checks of documents.
+  const std::map<std::string, std::string>& defaults() const { return defaults_; }
+  const std::map<std::string, std::pair<double, double>>& ranges() const { return ranges_; }
 
   /// Declares a key, and everything below it, as known without reading it.
   void allow(const std::string& key) { used_.insert(nameOf(key)); }
@@ -154,8 +162,27 @@ class ParameterReader {
     return "another type";
   }
 
+  static std::string textOf(bool value) { return value ? "true" : "false"; }
+  static std::string textOf(const std::string& value) { return value; }
+  template <typename T>
+  static std::string textOf(const T& value) {
+    std::ostringstream text;
+    text.precision(17);
+    text << value;
+    return text.str();
+  }
+  template <typename T>
+  static std::string textOf(const std::vector<T>& values) {
+    std::string list;
+    for (const T& value : values)
+      list += (list.empty() ? "" : ", ") + textOf(value);
+    return "[" + list + "]";
+  }
+
   std::variant<ros::NodeHandle, ParameterTree> source_;
   std::set<std::string> used_;
+  std::map<std::string, std::string> defaults_;
+  std::map<std::string, std::pair<double, double>> ranges_;
 };
 
 }  // namespace wiimote_tracker

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/association/assign_spots.h"
+#include "association/assign_spots.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,24 +9,24 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kNobody = -1;
 
-/// Spots are rows, tracks are columns. Being a ghost is one more column, which any number of rows
-/// may share. A pair costs what it adds to the track's miss, so that idle columns cost nothing.
+/// Spots are rows, tracks are columns. The false detection is one more column, which any number of
+/// rows may share. A pair costs what it adds to the track's missed detection, so that free columns
+/// cost nothing.
 class Assignment {
  public:
   explicit Assignment(const SpotCosts& costs) : costs_(costs) {
-    track_of_spot_.fill(kGhost);
+    track_of_spot_.fill(kFalseDetection);
     spot_of_track_.fill(kNobody);
     track_price_.fill(0.0);
   }
 
-  /// Gives each spot the track it likes best where nobody else has it. What is left over, as two
-  /// spots like one track, is sorted out along shortest paths.
+  /// Assigns each spot its cheapest track if that is free, then the other spots by shortest paths.
   const std::array<int, kMaximumSpots>& solve() {
     std::array<std::size_t, kMaximumSpots> left_over;
     std::size_t left_over_count = 0;
     for (std::size_t spot = 0; spot < costs_.spots; ++spot) {
       const int best = cheapest(spot);
-      if (best != kGhost && spot_of_track_[best] != kNobody)
+      if (best != kFalseDetection && spot_of_track_[best] != kNobody)
         left_over[left_over_count++] = spot;
       else
         give(spot, best);
@@ -41,9 +41,9 @@ class Assignment {
     return costs_.pair[spot][track] - costs_.miss[track];
   }
 
-  /// Also sets the spot's price, so that no reduced cost is below zero.
+  /// Also sets the spot's price, so that no reduced cost is negative.
   int cheapest(std::size_t spot) {
-    int best = kGhost;
+    int best = kFalseDetection;
     double least = costs_.ghost[spot];
     for (std::size_t track = 0; track < costs_.tracks; ++track) {
       const double cost = extra(spot, track);
@@ -58,12 +58,12 @@ class Assignment {
 
   void give(std::size_t spot, int track) {
     track_of_spot_[spot] = track;
-    if (track != kGhost)
+    if (track != kFalseDetection)
       spot_of_track_[track] = static_cast<int>(spot);
   }
 
-  /// The shortest path, by reduced costs, from a spot without a column over tracks that change
-  /// hands to a track that is free or to the column of ghosts.
+  /// Assigns a spot along the shortest path, by reduced costs, over tracks that are reassigned to a
+  /// free track or a false detection.
   void insert(std::size_t spot) {
     constexpr int kStart = -2;  // before the spot itself
     std::array<bool, kMaximumTracks> reached{};
@@ -84,7 +84,7 @@ class Assignment {
         ghost_previous = last;
       }
       double step = ghost_distance;
-      int nearest = kGhost;
+      int nearest = kFalseDetection;
       for (std::size_t track = 0; track < costs_.tracks; ++track) {
         if (reached[track])
           continue;
@@ -108,16 +108,16 @@ class Assignment {
         }
       }
       ghost_distance -= step;
-      if (nearest == kGhost || spot_of_track_[nearest] == kNobody) {
+      if (nearest == kFalseDetection || spot_of_track_[nearest] == kNobody) {
         end = nearest;
-        end_previous = nearest == kGhost ? ghost_previous : previous[nearest];
+        end_previous = nearest == kFalseDetection ? ghost_previous : previous[nearest];
         break;
       }
       reached[nearest] = true;
       last = nearest;
       owner = static_cast<std::size_t>(spot_of_track_[nearest]);
     }
-    // Along the path, every owner hands its track on to the one before it.
+    // Along the path, each track is reassigned to the owner of the track before it.
     for (int track = end, before = end_previous;; track = before, before = previous[before]) {
       if (before == kStart) {
         give(spot, track);
@@ -156,7 +156,7 @@ SpotAssignment assignSpots(const SpotCosts& costs) {
   for (std::size_t spot = 0; spot < costs.spots; ++spot) {
     const int track = result.track_of_spot[spot];
     result.cost +=
-        track == kGhost ? costs.ghost[spot] : costs.pair[spot][track] - costs.miss[track];
+        track == kFalseDetection ? costs.ghost[spot] : costs.pair[spot][track] - costs.miss[track];
   }
   return result;
 }

@@ -13,19 +13,27 @@ namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
+/// [px^2]
+double meanImageArea(const geometry::Rig& rig) {
+  double sum = 0.0;
+  for (const geometry::RigCamera& camera : rig.cameras)
+    sum += static_cast<double>(camera.camera.intrinsics.width) * camera.camera.intrinsics.height;
+  return sum / static_cast<double>(rig.cameras.size());
+}
+
 }  // namespace
 
-AssociationOptions typicalCosts(double pixel_stddev,
+AssociationOptions typicalCosts(const geometry::Rig& rig,
+                                double pixel_stddev,
                                 double ghost_rate,
                                 double detection_probability) {
-  constexpr double kImageArea = 1024.0 * 768.0;  // [px^2]
-  constexpr double kLedDensity = 0.25;           // [1/m^3]
-  constexpr double kSpread = 0.0034;             // of a point [m/px]
+  constexpr double kLedDensity = 0.25;  // [1/m^3]
+  constexpr double kSpread = 0.0034;    // of a point [m/px]
   const double spread = kSpread * pixel_stddev;
   AssociationOptions options;
   options.pixel_stddev = pixel_stddev;
-  options.ghost = std::max(
-      1.0, -2.0 * std::log(2.0 * M_PI * pixel_stddev * pixel_stddev * ghost_rate / kImageArea));
+  options.ghost = std::max(1.0, -2.0 * std::log(2.0 * M_PI * pixel_stddev * pixel_stddev *
+                                                ghost_rate / meanImageArea(rig)));
   options.point = std::max(
       0.0, -2.0 * std::log(kLedDensity * std::pow(2.0 * M_PI, 1.5) * spread * spread * spread));
   options.miss =
@@ -34,8 +42,8 @@ AssociationOptions typicalCosts(double pixel_stddev,
 }
 
 struct ViewAssociator::Workspace {
-  /// One spot, as a link of two chains.
-  struct Link {
+  /// One spot: a node of the graph of possible pairs, and of the union-find of its components.
+  struct Node {
     std::size_t view;
     std::size_t index;              // in its view
     std::size_t root;               // towards the first spot of its component
@@ -56,7 +64,7 @@ struct ViewAssociator::Workspace {
             std::vector<std::vector<std::size_t>> partners,
             const AssociationOptions& association_options)
       : options(association_options), search(rig, std::move(partners), association_options) {
-    constexpr std::size_t kUsual = 64;  // most spots that are ever connected
+    constexpr std::size_t kUsual = 64;  // spots of a component; more allocate
     component.spots.reserve(kUsual);
     component.pair_chi_squared.reserve(kUsual * kUsual);
   }
@@ -64,7 +72,7 @@ struct ViewAssociator::Workspace {
   void collectSpots(const std::vector<View>& views);
   void findEdges(const std::vector<View>& views, std::size_t a, std::size_t b);
   std::size_t rootOf(std::size_t spot);
-  void chainComponents();
+  void listComponents();
   void solve(const std::vector<View>& views, std::size_t root);
   void collectComponent(const std::vector<View>& views, std::size_t root);
   void collectPairs(std::size_t root);
@@ -72,7 +80,7 @@ struct ViewAssociator::Workspace {
   AssociationOptions options;
   PointSearch search;
   std::vector<std::size_t> first_spot;  // of each view, and one past the last of all
-  std::vector<Link> links;              // of all spots
+  std::vector<Node> nodes;              // of all spots
   std::vector<EpipolarSpot> epipolar;   // of all spots
   std::vector<Edge> edges;
   std::vector<Eigen::Vector3d> normals;
@@ -100,14 +108,14 @@ const Association& ViewAssociator::associate(const std::vector<View>& views) {
         w.findEdges(views, a, b);
     }
   }
-  w.chainComponents();
+  w.listComponents();
   w.result.points.clear();
   w.result.spots.clear();
   w.result.cost = 0.0;
   w.result.steps = 0;
   w.result.proven = true;
-  for (std::size_t spot = 0; spot < w.links.size(); ++spot) {
-    if (w.links[spot].root == spot)
+  for (std::size_t spot = 0; spot < w.nodes.size(); ++spot) {
+    if (w.nodes[spot].root == spot)
       w.solve(views, spot);
   }
   return w.result;
@@ -115,26 +123,26 @@ const Association& ViewAssociator::associate(const std::vector<View>& views) {
 
 void ViewAssociator::Workspace::collectSpots(const std::vector<View>& views) {
   first_spot.clear();
-  links.clear();
+  nodes.clear();
   epipolar.clear();
   edges.clear();
   for (std::size_t view = 0; view < views.size(); ++view) {
-    first_spot.push_back(links.size());
+    first_spot.push_back(nodes.size());
     for (std::size_t i = 0; i < views[view].count; ++i) {
-      const std::size_t spot = links.size();
-      links.push_back({view, i, spot, kNone, spot, kNone, 0, 0});
+      const std::size_t spot = nodes.size();
+      nodes.push_back({view, i, spot, kNone, spot, kNone, 0, 0});
       epipolar.emplace_back(views[view].sights[i], options.pixel_stddev);
     }
   }
-  first_spot.push_back(links.size());
+  first_spot.push_back(nodes.size());
 }
 
-/// All pairs of spots of two views that can be one point.
+/// Finds the pairs of spots of two views that can be one point.
 void ViewAssociator::Workspace::findEdges(const std::vector<View>& views,
                                           std::size_t a,
                                           std::size_t b) {
   const Eigen::Vector3d baseline = views[b].sights[0].origin - views[a].sights[0].origin;
-  // Most pairs miss each other so widely that their own derivatives need not be known.
+  // A bound without derivatives rejects most pairs.
   const double widest = options.maximum_pair_chi_squared * baseline.squaredNorm();
   normals.clear();
   for (std::size_t spot = first_spot[b]; spot < first_spot[b + 1]; ++spot)
@@ -151,35 +159,35 @@ void ViewAssociator::Workspace::findEdges(const std::vector<View>& views,
           epipolarChiSquared(one, normal, other, normals[spot_b - first_spot[b]], f);
       if (!(chi_squared <= options.maximum_pair_chi_squared))
         continue;
-      edges.push_back({spot_b, links[spot_a].first_edge, chi_squared});
-      links[spot_a].first_edge = edges.size() - 1;
-      ++links[spot_a].edge_count;
+      edges.push_back({spot_b, nodes[spot_a].first_edge, chi_squared});
+      nodes[spot_a].first_edge = edges.size() - 1;
+      ++nodes[spot_a].edge_count;
       const std::size_t root_a = rootOf(spot_a);
       const std::size_t root_b = rootOf(spot_b);
-      links[std::max(root_a, root_b)].root = std::min(root_a, root_b);
+      nodes[std::max(root_a, root_b)].root = std::min(root_a, root_b);
     }
   }
 }
 
 std::size_t ViewAssociator::Workspace::rootOf(std::size_t spot) {
-  while (links[spot].root != spot) {
-    links[spot].root = links[links[spot].root].root;
-    spot = links[spot].root;
+  while (nodes[spot].root != spot) {
+    nodes[spot].root = nodes[nodes[spot].root].root;
+    spot = nodes[spot].root;
   }
   return spot;
 }
 
-void ViewAssociator::Workspace::chainComponents() {
-  for (std::size_t spot = 0; spot < links.size(); ++spot) {
-    Link& root = links[rootOf(spot)];
+void ViewAssociator::Workspace::listComponents() {
+  for (std::size_t spot = 0; spot < nodes.size(); ++spot) {
+    Node& root = nodes[rootOf(spot)];
     if (root.last_in_component != spot)
-      links[root.last_in_component].next_in_component = spot;
+      nodes[root.last_in_component].next_in_component = spot;
     root.last_in_component = spot;
   }
 }
 
 void ViewAssociator::Workspace::solve(const std::vector<View>& views, std::size_t root) {
-  if (links[root].next_in_component == kNone) {  // a spot that fits to no other
+  if (nodes[root].next_in_component == kNone) {  // a spot without a possible pair
     result.cost += options.ghost;
     return;
   }
@@ -203,8 +211,8 @@ void ViewAssociator::Workspace::solve(const std::vector<View>& views, std::size_
 void ViewAssociator::Workspace::collectComponent(const std::vector<View>& views, std::size_t root) {
   component.spots.clear();
   component.pair_count = 0;
-  for (std::size_t spot = root; spot != kNone; spot = links[spot].next_in_component) {
-    Link& link = links[spot];
+  for (std::size_t spot = root; spot != kNone; spot = nodes[spot].next_in_component) {
+    Node& link = nodes[spot];
     link.place = component.spots.size();
     component.spots.push_back({link.view, link.index, &views[link.view].sights[link.index]});
     component.pair_count += link.edge_count;
@@ -214,10 +222,10 @@ void ViewAssociator::Workspace::collectComponent(const std::vector<View>& views,
 void ViewAssociator::Workspace::collectPairs(std::size_t root) {
   const std::size_t size = component.spots.size();
   component.pair_chi_squared.assign(size * size, std::numeric_limits<double>::infinity());
-  for (std::size_t spot = root; spot != kNone; spot = links[spot].next_in_component) {
-    for (std::size_t edge = links[spot].first_edge; edge != kNone; edge = edges[edge].next) {
-      const std::size_t place = links[spot].place;
-      const std::size_t later_place = links[edges[edge].later_spot].place;
+  for (std::size_t spot = root; spot != kNone; spot = nodes[spot].next_in_component) {
+    for (std::size_t edge = nodes[spot].first_edge; edge != kNone; edge = edges[edge].next) {
+      const std::size_t place = nodes[spot].place;
+      const std::size_t later_place = nodes[edges[edge].later_spot].place;
       component.pair_chi_squared[place * size + later_place] = edges[edge].chi_squared;
       component.pair_chi_squared[later_place * size + place] = edges[edge].chi_squared;
     }

@@ -8,7 +8,7 @@
 
 namespace wiimote_tracker::association {
 
-/// What the epipolar constraint of two spots needs of one of them.
+/// One of the two spots of an epipolar constraint.
 struct EpipolarSpot {
   EpipolarSpot(const geometry::Sight& sight, double pixel_stddev)
       : direction(sight.direction),
@@ -17,7 +17,7 @@ struct EpipolarSpot {
 
   Eigen::Vector3d direction;
   Eigen::Matrix<double, 3, 2> direction_by_pixel;  ///< For one standard deviation.
-  double spread;                                   ///< No change of the direction is larger.
+  double spread;                                   ///< Upper bound of its squared length.
 };
 
 /// Squared distance of two spots from the constraint that their rays meet, over the variance of a

@@ -25,7 +25,7 @@ PointSearch::PointSearch(const geometry::Rig& rig,
   reserve(kMaskSize);
 }
 
-/// Memory for components of that many spots.
+/// Reserves memory for components of that many spots.
 void PointSearch::reserve(std::size_t spots) {
   drafts_.resize(spots);
   best_.resize(spots);
@@ -51,7 +51,7 @@ bool PointSearch::solveAsOnePoint(const Component& component, const std::vector<
   findFit(&draft);
   if (!draft.fit.is_possible)
     return false;
-  // Any other division has one more point or ghost, or has ghosts only.
+  // Any other association has one more point or ghost, or has ghosts only.
   const double misfit = draft.fit.chi_squared + missesOf(draft);
   const double least_other =
       std::min(options_.point + std::min(options_.point, options_.ghost), best_cost_);
@@ -110,7 +110,7 @@ void PointSearch::prepare() {
   }
 }
 
-/// What becomes of this spot and of all after it.
+/// Decides on this spot and all after it.
 void PointSearch::decide(std::size_t spot, std::size_t ghosts) {
   if (spot == component_->spots.size()) {
     finish(ghosts);
@@ -125,7 +125,7 @@ void PointSearch::decide(std::size_t spot, std::size_t ghosts) {
     decide(spot + 1, ghosts + 1);
 }
 
-/// The points that fit best come first, so that the first division is a good one.
+/// Tries the points that fit best first, so that the first association is a good bound.
 void PointSearch::tryJoining(std::size_t spot, std::size_t ghosts) {
   std::pair<double, std::size_t> last(-kInfinity, 0);
   for (;;) {
@@ -171,7 +171,7 @@ void PointSearch::tryBeginning(std::size_t spot, std::size_t ghosts) {
   --draft_count_;
 }
 
-/// Whether what has been decided can still become better than the best.
+/// Whether the lower bound of the present branch is below the best cost.
 bool PointSearch::isWorthwhile(std::size_t next_spot, std::size_t ghosts) const {
   double cost = options_.ghost * static_cast<double>(ghosts);
   for (std::size_t i = 0; i < draft_count_; ++i)
@@ -180,8 +180,9 @@ bool PointSearch::isWorthwhile(std::size_t next_spot, std::size_t ghosts) const 
          cost + leastCostOfStrangers(next_spot) < best_cost_;
 }
 
-/// Where a view has more spots left than there are points, each of the others is a ghost or begins
-/// a point, and a new point serves all views: the least over the number of new points.
+/// A lower bound: where a view has more spots left than there are points, each surplus spot is a
+/// ghost or begins a point, which then takes a spot of every view. The least over the number of new
+/// points.
 double PointSearch::leastCostOfSurplus(std::size_t next_spot) const {
   double least = kInfinity;
   for (std::size_t begun = 0;; ++begun) {
@@ -198,8 +199,8 @@ double PointSearch::leastCostOfSurplus(std::size_t next_spot) const {
   }
 }
 
-/// A spot that can not join any point that was begun is a ghost or in a new one, of which it is at
-/// most one of as many spots as there are views with partners of it.
+/// A lower bound: a spot that can not join any point that was begun is a ghost or in a new point,
+/// and shares its cost with at most one spot of each view that has partners of it.
 double PointSearch::leastCostOfStrangers(std::size_t next_spot) const {
   Mask joinable = 0;
   for (std::size_t i = 0; i < draft_count_; ++i)
@@ -212,7 +213,8 @@ double PointSearch::leastCostOfStrangers(std::size_t next_spot) const {
   return cost;
 }
 
-/// All spots are decided: is it the best? The spots of a draft that is no point are ghosts.
+/// All spots are decided: keeps the association if it is the best. The spots of a draft that is no
+/// point are ghosts.
 void PointSearch::finish(std::size_t ghosts) {
   has_division_ = true;
   double cost = options_.ghost * static_cast<double>(ghosts);
@@ -246,7 +248,7 @@ bool PointSearch::isPoint(const Draft& draft) const {
   return draft.spots.size() >= options_.minimum_rays && draft.fit.is_possible;
 }
 
-/// Infinite when the spot can not be one point with all spots of the draft.
+/// Infinite when the spot has no possible pair with a spot of the draft.
 double PointSearch::meanPairCost(const Draft& draft, std::size_t spot) const {
   double sum = 0.0;
   for (const std::size_t other : draft.spots)

@@ -9,7 +9,7 @@
 
 namespace wiimote_tracker::association {
 
-/// Spots that chains of possible pairs connect, in the order of their views.
+/// A connected component of the graph of possible pairs: its spots in the order of their views.
 struct Component {
   struct Spot {
     std::size_t view;
@@ -25,9 +25,9 @@ struct Component {
   double pair(std::size_t a, std::size_t b) const { return pair_chi_squared[a * spots.size() + b]; }
 };
 
-/// Divides the spots of one component into points and ghosts at the least cost. One spot after the
-/// other joins a point that was begun, begins one, or is a ghost; depth first. A branch ends when
-/// what has been decided costs no less than the best division found.
+/// Associates the spots of one component at the least cost, by depth-first branch and bound. Spot
+/// by spot, it joins a point that was begun, begins one, or is a false detection ("ghost"). A
+/// branch ends when a lower bound of its cost is not below the best association found.
 class PointSearch {
  public:
   struct Point {
@@ -42,18 +42,16 @@ class PointSearch {
 
   const std::vector<std::size_t>& partners(std::size_t camera) const { return partners_[camera]; }
 
-  /// The usual case without a search, and without pair_chi_squared: no two spots of one view, all
-  /// pairs possible, and together they fit so well that every other division costs more. False when
-  /// that is not so.
+  /// Solves the usual case without a search or pair_chi_squared: all spots are one point, and no
+  /// other association costs less. False when that is not so.
   bool solveAsOnePoint(const Component& component, const std::vector<View>& views);
 
-  /// Takes no more than `maximum_steps` steps, and as many when what it found is not proven.
-  /// @returns the number of steps taken.
+  /// @returns the number of steps taken: `maximum_steps` when the result is not proven.
   std::size_t solve(const Component& component,
                     const std::vector<View>& views,
                     std::size_t maximum_steps);
 
-  // What was found.
+  // The result.
   std::size_t pointCount() const { return best_count_; }
   const Point& point(std::size_t i) const { return best_[i]; }
   double cost() const { return best_cost_; }  ///< Of the points and the ghosts.
@@ -64,7 +62,7 @@ class PointSearch {
   /// How well the spots of a draft fit together.
   struct Fit {
     bool is_known = false;     // else chi_squared is a lower bound and the rest means nothing
-    bool is_possible = false;  // they meet in a point; with more spots they might even if not
+    bool is_possible = false;  // they triangulate; if not, they still may with more spots
     double chi_squared = 0.0;
     geometry::TriangulatedPoint location;
   };
@@ -107,7 +105,7 @@ class PointSearch {
   std::vector<Point> best_;  // likewise
   std::size_t best_count_ = 0;
   double best_cost_ = 0.0;
-  bool has_division_ = false;            // one has been finished
+  bool has_division_ = false;            // an association has been completed
   std::vector<geometry::Sight> sights_;  // of one draft
   std::vector<double> costs_;            // of the drafts
 };

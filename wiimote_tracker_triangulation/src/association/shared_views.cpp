@@ -1,11 +1,11 @@
-#include "wiimote_tracker_triangulation/association/shared_views.h"
+#include "association/shared_views.h"
 
 #include <algorithm>
 
 namespace wiimote_tracker::association {
 namespace {
 
-/// Points all over what a camera sees: a grid of pixels, at depths that grow by a constant factor.
+/// A grid of points in a camera's view: pixels, at distances that grow by a constant factor.
 std::vector<Eigen::Vector3d> pointsInView(const geometry::Camera& camera, double range) {
   constexpr int kColumns = 12;
   constexpr int kRows = 9;

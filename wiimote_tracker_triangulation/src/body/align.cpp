@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/body/align.h"
+#include "body/align.h"
 
 #include <Eigen/SVD>
 

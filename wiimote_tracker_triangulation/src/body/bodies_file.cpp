@@ -1,12 +1,12 @@
-#include "wiimote_tracker_triangulation/body/bodies_file.h"
+#include "body/bodies_file.h"
 
-#include "wiimote_tracker_triangulation/body/error.h"
 #include "wiimote_tracker_triangulation/geometry/atomic_file.h"
 #include "wiimote_tracker_triangulation/geometry/yaml_map.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <yaml-cpp/yaml.h>
 
-#include <cstdio>
 #include <filesystem>
 
 namespace wiimote_tracker::body {
@@ -17,21 +17,15 @@ constexpr int kFormatVersion = 1;
 constexpr const char* kAdvice = "correct the file";
 
 std::string exact(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
+  return format("%.17g", value);
 }
 
 Constellation readBody(geometry::YamlMap map) {
   Constellation body;
   body.name = map.get<std::string>("name");
-  for (const std::vector<double>& led : map.get<std::vector<std::vector<double>>>("leds")) {
-    if (led.size() != 3)
-      throw BodyError(map.at("leds") + " has an LED that is not [x, y, z]; " + kAdvice);
+  for (const std::vector<double>& led : map.rows("leds", 3, "x, y, z"))
     body.leds.emplace_back(led[0], led[1], led[2]);
-  }
-  if (map.has("labels"))
-    body.labels = map.get<std::vector<std::string>>("labels");
+  body.labels = map.get("labels", body.labels);
   map.refuseUnknown();
   return body;
 }
@@ -47,37 +41,24 @@ Constellation readMarkerPositions(geometry::YamlMap map, const std::string& file
   return body;
 }
 
-std::vector<Constellation> readNode(const YAML::Node& node, const std::string& file) {
-  geometry::YamlMap map(node, file, kAdvice);
-  if (map.has("marker_positions"))
-    return {readMarkerPositions(map, file)};
-  if (map.get<std::string>("format") != kFormat)
-    throw BodyError(map.at("format") + " is not " + kFormat + "; give a file of bodies");
-  const int version = map.get<int>("version");
-  if (version != kFormatVersion)
-    throw BodyError(map.at("version") + " is " + std::to_string(version) +
-                    ", which this program does not know; update it");
-  std::vector<Constellation> bodies;
-  for (const geometry::YamlMap& body : map.maps("bodies"))
-    bodies.push_back(readBody(body));
-  map.refuseUnknown();
-  return bodies;
-}
-
 }  // namespace
 
 std::vector<Constellation> readBodies(const std::string& file) {
   std::vector<Constellation> bodies;
-  try {
-    bodies = readNode(YAML::Load(geometry::readFile(file)), file);
-  } catch (const YAML::Exception& e) {
-    throw BodyError(file + " is not YAML (" + e.what() + "); " + kAdvice);
+  geometry::YamlMap map = geometry::YamlMap::load(file, kAdvice);
+  if (map.has("marker_positions")) {
+    bodies = {readMarkerPositions(map, file)};
+  } else {
+    map.checkFormat(kFormat, kFormatVersion);
+    for (const geometry::YamlMap& body : map.maps("bodies"))
+      bodies.push_back(readBody(body));
+    map.refuseUnknown();
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     bodies[i].check();
     for (std::size_t k = 0; k < i; ++k) {
       if (bodies[k].name == bodies[i].name)
-        throw BodyError(file + " has two bodies named '" + bodies[i].name + "'; rename one");
+        throw FileError(file + " has two bodies named '" + bodies[i].name + "'; rename one");
     }
   }
   return bodies;

@@ -1,6 +1,6 @@
-#include "wiimote_tracker_triangulation/body/body_follower.h"
+#include "body/body_follower.h"
 
-#include "wiimote_tracker_triangulation/geometry/image_rules.h"
+#include "geometry/image_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,15 +33,15 @@ void BodyFollower::take(std::size_t camera, tracking::CameraImage* image) {
   const double time = image->stamp + geometry::timeOffset(calibration, image->clock_epoch);
   if (!tracker_ || !std::isfinite(time) || !std::isfinite(image->arrival))
     return;
-  switch (time_watch_->look(camera, time, image->arrival)) {
-    case tracking::TimeWatch::Verdict::kOff:
+  switch (time_watch_->check(camera, time, image->arrival)) {
+    case tracking::TimeWatch::Result::kWrongClock:
       return;
-    case tracking::TimeWatch::Verdict::kJumpedBack:
+    case tracking::TimeWatch::Result::kJumpedBack:
       tracker_->reset();
       latest_arrival_ = image->arrival;
       last_output_ = -std::numeric_limits<double>::infinity();
       break;
-    case tracking::TimeWatch::Verdict::kUsable:
+    case tracking::TimeWatch::Result::kUsable:
       break;
   }
   pixels_.clear();

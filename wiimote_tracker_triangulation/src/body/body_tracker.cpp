@@ -1,9 +1,9 @@
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 
+#include "association/assign_spots.h"
+#include "association/shared_views.h"
 #include "led_groups.h"
 #include "pose_from_labels.h"
-#include "wiimote_tracker_triangulation/association/assign_spots.h"
-#include "wiimote_tracker_triangulation/association/shared_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,7 +137,8 @@ void BodyTracker::follow(std::size_t camera,
   image.free.clear();
   spots_taken_.assign(pixels.size(), false);
   const auto columnOf = [&](std::size_t spot) -> const Column* {
-    const bool is_free = spot >= spots || assignment.track_of_spot[spot] == association::kGhost;
+    const bool is_free =
+        spot >= spots || assignment.track_of_spot[spot] == association::kFalseDetection;
     return is_free ? nullptr : &columns[static_cast<std::size_t>(assignment.track_of_spot[spot])];
   };
   for (std::size_t s = 0; s < pixels.size(); ++s) {

@@ -1,13 +1,14 @@
 #include "wiimote_tracker_triangulation/body/constellation.h"
 
-#include "wiimote_tracker_triangulation/body/align.h"
-#include "wiimote_tracker_triangulation/body/error.h"
+#include "body/align.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
 namespace wiimote_tracker::body {
@@ -84,32 +85,32 @@ void checkLabels(const Constellation& body) {
   const std::set<std::string> different(body.labels.begin(), body.labels.end());
   if (!body.labels.empty() &&
       (body.labels.size() != body.leds.size() || different.size() != body.labels.size()))
-    throw BodyError("body '" + body.name + "' must have no labels, or one of its own for each of " +
-                    std::to_string(body.leds.size()) + " LEDs");
+    throw Error("body '" + body.name + "' must have no labels, or one of its own for each of " +
+                std::to_string(body.leds.size()) + " LEDs");
 }
 
 }  // namespace
 
 void Constellation::check() const {
   if (name.empty())
-    throw BodyError("a body has no name; give it one");
+    throw Error("a body has no name; give it one");
   if (!isWord(name))
-    throw BodyError("'" + name +
-                    "' can not be a body's name, which must be a letter, then letters, "
-                    "digits and underscores");
+    throw Error("'" + name +
+                "' can not be a body's name, which must be a letter, then letters, "
+                "digits and underscores");
   const std::string who = "body '" + name + "'";
   if (leds.size() < 3 || leds.size() > kMaximumLeds)
-    throw BodyError(who + " has " + std::to_string(leds.size()) + " LEDs, but must have 3 to " +
-                    std::to_string(kMaximumLeds));
+    throw Error(who + " has " + std::to_string(leds.size()) + " LEDs, but must have 3 to " +
+                std::to_string(kMaximumLeds));
   double breadth = 0.0;  // largest triangle's height over its longest side
   for (std::size_t i = 0; i < leds.size(); ++i) {
     if (!leds[i].allFinite())
-      throw BodyError(who + " has an LED whose position is not finite; correct it");
+      throw Error(who + " has an LED whose position is not finite; correct it");
     for (std::size_t k = 0; k < i; ++k) {
       const Eigen::Vector3d side = leds[i] - leds[k];
       if (side.norm() < 0.001)
-        throw BodyError(who + " has LEDs " + std::to_string(k) + " and " + std::to_string(i) +
-                        " at one place; positions are in metres");
+        throw Error(who + " has LEDs " + std::to_string(k) + " and " + std::to_string(i) +
+                    " at one place; positions are in metres");
       for (std::size_t m = 0; m < k; ++m) {
         const Eigen::Vector3d other = leds[m] - leds[k];
         const double longest = std::max({side.norm(), other.norm(), (side - other).norm()});
@@ -118,13 +119,13 @@ void Constellation::check() const {
     }
   }
   if (breadth < 0.005)
-    throw BodyError(who +
-                    " has all LEDs on one line, so that turning about it cannot be seen; "
-                    "move one of them off it");
+    throw Error(who +
+                " has all LEDs on one line, so that turning about it cannot be seen; "
+                "move one of them off it");
   checkLabels(*this);
   const Symmetry symmetry = labels.empty() ? nearestSymmetry(*this) : Symmetry();
   if (symmetry.residual < kSymmetric)
-    throw BodyError(describe(*this, symmetry));
+    throw Error(describe(*this, symmetry));
 }
 
 std::string Constellation::labelOf(std::size_t led) const {
@@ -142,8 +143,7 @@ std::string describe(const Constellation& constellation, const Symmetry& symmetr
       exchanged += (exchanged.empty() ? "" : ", ") + std::to_string(i) + " for " +
                    std::to_string(symmetry.permutation[i]);
   }
-  char distance[32];
-  std::snprintf(distance, sizeof(distance), "%.1f mm", 1e3 * symmetry.residual);
+  const std::string distance = format("%.1f mm", 1e3 * symmetry.residual);
   const std::string same = "body '" + constellation.name + "' looks the same within " + distance +
                            " when it is turned such that LED " + exchanged + " is taken";
   return same +

@@ -1,13 +1,14 @@
-#include "wiimote_tracker_triangulation/body/learn_constellation.h"
+#include "body/learn_constellation.h"
 
-#include "wiimote_tracker_triangulation/body/align.h"
-#include "wiimote_tracker_triangulation/body/error.h"
+#include "body/align.h"
 #include "wiimote_tracker_triangulation/body/match_points.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <optional>
 
@@ -23,9 +24,7 @@ constexpr double kShareOfInstants = 0.05;  // that must show all LEDs
 constexpr int kRounds = 5;                 // of aligning and taking the mean; converges fast
 
 std::string millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.1f mm", 1e3 * metres);
-  return text;
+  return format("%.1f mm", 1e3 * metres);
 }
 
 class Learning {
@@ -38,8 +37,8 @@ class Learning {
     for (const LedsInstant& instant : instants_)
       identify(instant);
     if (seen_.size() < kParts * kFewest)
-      throw BodyError("body '" + name_ + "' was seen in " + std::to_string(seen_.size()) +
-                      " instants only; hold it for longer where cameras see all of its LEDs");
+      throw Error("body '" + name_ + "' was seen in " + std::to_string(seen_.size()) +
+                  " instants only; hold it for longer where cameras see all of its LEDs");
     for (int round = 0; round < kRounds; ++round)
       takeMean();
     LearnedConstellation learned;
@@ -67,11 +66,11 @@ class Learning {
     for (const auto& [count, instants] : instants_of_count)
       leds = static_cast<double>(instants) >= enough ? count : leds;
     if (leds < 3 || leds > kMaximumLeds)
-      throw BodyError(std::to_string(leds) +
-                      " LEDs were seen at once, those of known bodies left out, but a body has 3 "
-                      "to " +
-                      std::to_string(kMaximumLeds) +
-                      "; bring all of them in view of two cameras, and no others");
+      throw Error(std::to_string(leds) +
+                  " LEDs were seen at once, those of known bodies left out, but a body has 3 "
+                  "to " +
+                  std::to_string(kMaximumLeds) +
+                  "; bring all of them in view of two cameras, and no others");
     const auto first =
         std::find_if(instants_.begin(), instants_.end(),
                      [&](const LedsInstant& instant) { return instant.leds.size() == leds; });
@@ -189,10 +188,10 @@ class Learning {
     for (std::size_t led = 0; led < body_.leds.size(); ++led) {
       const double scatter = std::sqrt(squares[led] / counts[led]);
       if (scatter > kNotRigid)
-        throw BodyError("LED " + std::to_string(led) + " of body '" + name_ + "' moved by " +
-                        millimetres(scatter) +
-                        " against the others; name its LEDs' labels when others are in view, and "
-                        "turn it slowly");
+        throw Error("LED " + std::to_string(led) + " of body '" + name_ + "' moved by " +
+                    millimetres(scatter) +
+                    " against the others; name its LEDs' labels when others are in view, and "
+                    "turn it slowly");
       double sum = 0.0;
       double count = 0.0;
       for (const Part& part : parts[led]) {
@@ -202,8 +201,8 @@ class Learning {
         count += 1.0;
       }
       if (count < 3.0)
-        throw BodyError("LED " + std::to_string(led) + " of body '" + name_ +
-                        "' was hidden most of the time; turn it such that cameras see it");
+        throw Error("LED " + std::to_string(led) + " of body '" + name_ +
+                    "' was hidden most of the time; turn it such that cameras see it");
       result.push_back(
           std::sqrt(sum / (count * (count - 1.0)) * coordinates / (coordinates - 6.0)));
     }

@@ -1,6 +1,6 @@
 #include "wiimote_tracker_triangulation/body/match_points.h"
 
-#include "wiimote_tracker_triangulation/body/align.h"
+#include "body/align.h"
 
 #include <algorithm>
 #include <cmath>

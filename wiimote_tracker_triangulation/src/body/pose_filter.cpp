@@ -1,22 +1,13 @@
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
 
+#include "wiimote_tracker_triangulation/geometry/so3.h"
+
 #include <cmath>
 
 namespace wiimote_tracker::body {
 namespace {
 
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
-Eigen::Quaterniond rotationOf(const Eigen::Vector3d& w) {
-  const double angle = w.norm();
-  if (angle < 1e-12)
-    return Eigen::Quaterniond(1.0, 0.5 * w.x(), 0.5 * w.y(), 0.5 * w.z());
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, w / angle));
-}
+namespace so3 = geometry::so3;
 
 /// What white acceleration does to (value, rate) in a time, one axis.
 void addWalk(double density, double dt, double* value, double* both, double* rate) {
@@ -49,12 +40,12 @@ void PoseFilter::predict(double time) {
     return;
   time_ = time;
   position_ += dt * velocity_;
-  const Eigen::Quaterniond turned = rotationOf(dt * turning_);
+  const Eigen::Quaterniond turned(so3::exp(dt * turning_));
   rotation_ = (turned * rotation_).normalized();
 
   // F = [1 0 dt 0; 0 T 0 dt (half the turn); 0 0 1 0; 0 0 0 1] by blocks, and P <- F P F'.
   const Eigen::Matrix3d turn = turned.toRotationMatrix();
-  const Eigen::Matrix3d by_turning = dt * rotationOf(0.5 * dt * turning_).toRotationMatrix();
+  const Eigen::Matrix3d by_turning = dt * so3::exp(0.5 * dt * turning_).toRotationMatrix();
   covariance_.topRows<3>() += dt * covariance_.middleRows<3>(6);
   Eigen::Matrix<double, 3, 12> rows =
       turn * covariance_.middleRows<3>(3) + by_turning * covariance_.bottomRows<3>();
@@ -95,7 +86,7 @@ std::optional<LedPrediction> PoseFilter::predictLed(const geometry::Camera& came
     return std::nullopt;
   prediction.pixel = *pixel;
   prediction.jacobian.leftCols<3>() = by_point;
-  prediction.jacobian.rightCols<3>() = -by_point * skew(arm);
+  prediction.jacobian.rightCols<3>() = -by_point * so3::skew(arm);
   prediction.covariance =
       prediction.jacobian * covariance_.topLeftCorner<6, 6>() * prediction.jacobian.transpose();
   prediction.covariance.diagonal().array() += pixel_stddev * pixel_stddev;
@@ -111,7 +102,7 @@ void PoseFilter::update(const LedPrediction& prediction,
   const Eigen::Matrix<double, 12, 2> gain = to_pixel * prediction.covariance.inverse();
   const State step = gain * (pixel - prediction.pixel);
   position_ += step.head<3>();
-  rotation_ = (rotationOf(step.segment<3>(3)) * rotation_).normalized();
+  rotation_ = (so3::exp(step.segment<3>(3)) * rotation_).normalized();
   velocity_ += step.segment<3>(6);
   turning_ += step.tail<3>();
 

@@ -1,6 +1,7 @@
 #include "pose_from_labels.h"
 
-#include "wiimote_tracker_triangulation/body/align.h"
+#include "body/align.h"
+#include "wiimote_tracker_triangulation/geometry/so3.h"
 
 #include <Eigen/Cholesky>
 
@@ -14,12 +15,6 @@ namespace {
 // coordinate. And what the LEDs move between the points' images [m].
 constexpr double kWorst = 9.0;
 constexpr double kMotion = 0.002;
-
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
 
 }  // namespace
 
@@ -50,7 +45,8 @@ std::optional<SolvedPose> poseFromLabels(const Constellation& constellation,
   for (std::size_t i = 0; i < count; ++i) {
     Eigen::Matrix<double, 3, 6> jacobian;
     jacobian.leftCols<3>().setIdentity();
-    jacobian.rightCols<3>() = -skew(alignment.world_from_body.linear() * pairs[i].in_body);
+    jacobian.rightCols<3>() =
+        -geometry::so3::skew(alignment.world_from_body.linear() * pairs[i].in_body);
     normal += jacobian.transpose() * information[i] * jacobian;
   }
   const Eigen::LLT<PoseCovariance> factor(normal);

@@ -1,4 +1,8 @@
+// Levenberg-Marquardt for six parameters, written out: it runs while images are tracked and must
+// not allocate, which the solvers of Eigen and Ceres do.
 #include "wiimote_tracker_triangulation/body/solve_pose.h"
+
+#include "wiimote_tracker_triangulation/geometry/so3.h"
 
 #include <Eigen/Cholesky>
 
@@ -15,12 +19,6 @@ struct Normal {
   double cost = 0.0;  // sum of squared residuals [px^2]
 };
 
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
 std::optional<Normal> normalAt(const LedObservation* observations,
                                std::size_t count,
                                const Eigen::Isometry3d& pose) {
@@ -34,7 +32,7 @@ std::optional<Normal> normalAt(const LedObservation* observations,
       return std::nullopt;
     Eigen::Matrix<double, 2, 6> jacobian;
     jacobian.leftCols<3>() = by_point;
-    jacobian.rightCols<3>() = -by_point * skew(arm);
+    jacobian.rightCols<3>() = -by_point * geometry::so3::skew(arm);
     const Eigen::Vector2d residual = observation.pixel - *pixel;
     normal.information.noalias() += jacobian.transpose() * jacobian;
     normal.gradient.noalias() += jacobian.transpose() * residual;
@@ -45,10 +43,7 @@ std::optional<Normal> normalAt(const LedObservation* observations,
 
 Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vector6& step) {
   Eigen::Isometry3d result = pose;
-  const double angle = step.tail<3>().norm();
-  if (angle > 0.0)
-    result.linear() =
-        Eigen::AngleAxisd(angle, step.tail<3>() / angle).toRotationMatrix() * pose.linear();
+  result.linear() = geometry::so3::exp(step.tail<3>()) * pose.linear();
   result.translation() += step.head<3>();
   return result;
 }
@@ -89,7 +84,7 @@ std::optional<SolvedPose> solvePose(const LedObservation* observations,
   if (!normal || !converged)
     return std::nullopt;
   const Eigen::LLT<PoseCovariance> factor(normal->information);
-  // Positions in metres and angles in radians are both of the order of 1 px per mm and mrad here.
+  // A millimetre and a milliradian both move a spot by about a pixel: no scaling is needed.
   if (factor.info() != Eigen::Success || factor.rcond() < 1e-12)
     return std::nullopt;
   SolvedPose solved;

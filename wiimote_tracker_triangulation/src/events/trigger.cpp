@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/events/trigger.h"
+#include "events/trigger.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/events/zone_watch.h"
+#include "events/zone_watch.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,27 +1,27 @@
-#include "wiimote_tracker_triangulation/fusion/frame.h"
+#include "fusion/frame.h"
 
-#include "wiimote_tracker_triangulation/association/assign_spots.h"
+#include "association/assign_spots.h"
 
 #include <algorithm>
 
 namespace wiimote_tracker::fusion {
 
 void followSpots(const Frame& before, double maximum_speed, Frame* frame) {
-  constexpr double kOtherSlot = 3.0 * 3.0;  // as bad as so far off [px^2]
+  constexpr double kOtherSlot = 3.0 * 3.0;  // cost of a changed slot [px^2]
   const double elapsed = frame->time - before.time;
-  const double reach_squared = maximum_speed * maximum_speed * elapsed * elapsed;
+  const double gate_squared = maximum_speed * maximum_speed * elapsed * elapsed;
   association::SpotCosts costs;
   // A pair may cost as much as two spots without partners.
   costs.reset(std::min(frame->spots.size(), association::kMaximumSpots),
               std::min(before.spots.size(), association::kMaximumSpots),
-              0.5 * (reach_squared + kOtherSlot), 0.5 * (reach_squared + kOtherSlot));
+              0.5 * (gate_squared + kOtherSlot), 0.5 * (gate_squared + kOtherSlot));
   for (std::size_t i = 0; i < costs.spots; ++i) {
     const FrameSpot& spot = frame->spots[i];
     for (std::size_t j = 0; j < costs.tracks; ++j) {
       const FrameSpot& old = before.spots[j];
       const Eigen::Vector2d predicted = old.pixel + elapsed * old.velocity;
       const double distance_squared = (spot.pixel - predicted).squaredNorm();
-      if (distance_squared <= reach_squared)
+      if (distance_squared <= gate_squared)
         costs.pair[i][j] = distance_squared + (spot.slot == old.slot ? 0.0 : kOtherSlot);
     }
   }
@@ -30,7 +30,7 @@ void followSpots(const Frame& before, double maximum_speed, Frame* frame) {
     FrameSpot& spot = frame->spots[i];
     spot.before = kNoSpot;
     spot.velocity.setZero();
-    if (i >= costs.spots || assignment.track_of_spot[i] == association::kGhost)
+    if (i >= costs.spots || assignment.track_of_spot[i] == association::kFalseDetection)
       continue;
     spot.before = assignment.track_of_spot[i];
     const FrameSpot& old = before.spots[static_cast<std::size_t>(spot.before)];

@@ -71,7 +71,7 @@ const Snapshot* InstantFuser::next() {
 }
 
 void InstantFuser::Parts::findLeds() {
-  const std::vector<ViewThen>& views = synchronizer.views();
+  const std::vector<InstantView>& views = synchronizer.views();
   locator->locate(views);
   points.clear();
   for (const Locator::Point& point : locator->points()) {
@@ -90,12 +90,12 @@ void InstantFuser::Parts::report() {
   snapshot.latest_arrival = synchronizer.latestArrival();
   snapshot.skew = synchronizer.skew();
   for (std::size_t v = 0; v < cameras.size(); ++v) {
-    const ViewThen& view = synchronizer.views()[v];
+    const InstantView& view = synchronizer.views()[v];
     CameraView& reported = snapshot.views[v];
     reported.time = view.exposure;
     reported.full = view.is_full;
     reported.spots.clear();
-    for (const SpotThen& spot : view.spots)
+    for (const InstantSpot& spot : view.spots)
       reported.spots.push_back({spot.pixel, SpotUse::kUnassigned, 0});
     for (const Eigen::Vector2d& pixel : view.masked)
       reported.spots.push_back({pixel, SpotUse::kMasked, 0});

@@ -9,7 +9,7 @@ namespace {
 
 using tracking::TrackState;
 
-constexpr double kSlack = 0.1;              // beyond what the speed explains [m]
+constexpr double kSlack = 0.1;              // of the gate beyond the greatest speed [m]
 constexpr double kTentativeAbsence = 0.05;  // [s]
 
 }  // namespace
@@ -25,9 +25,9 @@ void LedMemory::match(double time, const std::vector<Point>& points) {
     if (led.point != kNone || taken_[pair.point])
       continue;
     taken_[pair.point] = true;
-    take(time, pair.point, points[pair.point], &led);
+    update(time, pair.point, points[pair.point], &led);
   }
-  giveUpAbsent(time);
+  endAbsent(time);
   auto count = static_cast<std::size_t>(std::count_if(
       leds_.begin(), leds_.end(), [](const Led& led) { return led.state != TrackState::kLost; }));
   for (std::size_t i = 0; i < points.size() && count < options_.maximum_leds; ++i) {
@@ -36,7 +36,7 @@ void LedMemory::match(double time, const std::vector<Point>& points) {
     Led led;
     led.id = next_id_++;
     led.first_seen = time;
-    take(time, i, points[i], &led);
+    update(time, i, points[i], &led);
     leds_.push_back(led);
     ++count;
   }
@@ -48,18 +48,18 @@ void LedMemory::dropLost() {
               leds_.end());
 }
 
-/// All pairs that the greatest speed allows, the likeliest first: -2 log of a normal density whose
-/// width grows with the time the LED was absent.
+/// Lists the pairs within the gate that the greatest speed allows, the most likely first: -2 log of
+/// a normal density whose width grows with the time the LED was absent.
 void LedMemory::findPairs(double time, const std::vector<Point>& points) {
-  constexpr double kWidths = 3.0;  // within reach
+  constexpr double kStddevsOfGate = 3.0;
   pairs_.clear();
   for (std::size_t l = 0; l < leds_.size(); ++l) {
-    const double reach = kSlack + options_.maximum_speed * (time - leds_[l].last_seen);
-    const double width = reach / kWidths;
+    const double gate = kSlack + options_.maximum_speed * (time - leds_[l].last_seen);
+    const double stddev = gate / kStddevsOfGate;
     for (std::size_t p = 0; p < points.size(); ++p) {
       const double distance = (points[p].position - leds_[l].position).norm();
-      if (distance <= reach)
-        pairs_.push_back({std::pow(distance / width, 2) + 6.0 * std::log(width), l, p});
+      if (distance <= gate)
+        pairs_.push_back({std::pow(distance / stddev, 2) + 6.0 * std::log(stddev), l, p});
     }
   }
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
@@ -67,8 +67,8 @@ void LedMemory::findPairs(double time, const std::vector<Point>& points) {
   });
 }
 
-/// Nobody need hear of the loss of a tentative one.
-void LedMemory::giveUpAbsent(double time) {
+/// Removes absent tentative LEDs, which are never reported as lost, and ends the other absent ones.
+void LedMemory::endAbsent(double time) {
   const auto isNone = [time](const Led& led) {
     return led.state == TrackState::kTentative && time - led.last_seen > kTentativeAbsence;
   };
@@ -79,7 +79,7 @@ void LedMemory::giveUpAbsent(double time) {
   }
 }
 
-void LedMemory::take(double time, std::size_t index, const Point& point, Led* led) const {
+void LedMemory::update(double time, std::size_t index, const Point& point, Led* led) const {
   led->point = index;
   led->position = point.position;
   led->covariance = point.covariance;

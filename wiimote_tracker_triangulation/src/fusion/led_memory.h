@@ -12,17 +12,16 @@
 
 namespace wiimote_tracker::fusion {
 
-/// Which points of one instant are which LEDs of the instants before: the nearest.
+/// Assigns the points of each instant to the LEDs of the instants before: nearest neighbours.
 class LedMemory {
  public:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  /// An LED that was there lately.
   struct Led {
     std::uint32_t id = 0;
     tracking::TrackState state = tracking::TrackState::kTentative;
-    Eigen::Vector3d position;    ///< Where it was seen last [m].
-    Eigen::Matrix3d covariance;  ///< Of that [m^2].
+    Eigen::Vector3d position;    ///< When last seen [m].
+    Eigen::Matrix3d covariance;  ///< Of the position [m^2].
     double first_seen = 0.0;     ///< [s]
     double last_seen = 0.0;      ///< Instant [s].
     double last_observed = 0.0;  ///< Image [s].
@@ -39,14 +38,13 @@ class LedMemory {
 
   explicit LedMemory(const InstantFuserOptions& options) : options_(options) {}
 
-  /// @param points of this instant, the most trustworthy first: where there are more new ones than
-  /// maximum_leds allows, the last are left out.
+  /// @param points of this instant, the best first: new ones beyond maximum_leds are left out.
   void match(double time, const std::vector<Point>& points);
 
-  /// In the order of their ids: those of this instant, absent ones, and those lost just now.
+  /// In the order of their ids: LEDs of this instant, absent ones, and those lost at this instant.
   const std::vector<Led>& leds() const { return leds_; }
 
-  /// Forgets all LEDs, but not which ids were used.
+  /// Forgets all LEDs; their ids are not used again.
   void forget() { leds_.clear(); }
 
  private:
@@ -58,8 +56,8 @@ class LedMemory {
 
   void dropLost();
   void findPairs(double time, const std::vector<Point>& points);
-  void giveUpAbsent(double time);
-  void take(double time, std::size_t index, const Point& point, Led* led) const;
+  void endAbsent(double time);
+  void update(double time, std::size_t index, const Point& point, Led* led) const;
 
   InstantFuserOptions options_;
   std::uint32_t next_id_ = 0;

@@ -1,15 +1,16 @@
 #include "locator.h"
 
-#include "wiimote_tracker_triangulation/association/shared_views.h"
+#include "association/shared_views.h"
 
 #include <algorithm>
 
 namespace wiimote_tracker::fusion {
 namespace {
 
-association::AssociationOptions associationOptions(const InstantFuserOptions& options) {
+association::AssociationOptions associationOptions(const geometry::Rig& rig,
+                                                   const InstantFuserOptions& options) {
   association::AssociationOptions association =
-      association::typicalCosts(options.maximum_reprojection_error / 5.0);
+      association::typicalCosts(rig, options.maximum_reprojection_error / 5.0);
   association.minimum_rays = options.minimum_rays;
   association.minimum_angle = options.triangulation.minimum_angle;
   return association;
@@ -21,7 +22,7 @@ Locator::Locator(const geometry::Rig& rig, const InstantFuserOptions& options)
     : options_(options),
       associator_(rig,
                   association::sharedViews(rig, options.maximum_range),
-                  associationOptions(options)),
+                  associationOptions(rig, options)),
       sights_(rig.cameras.size()),
       spot_of_sight_(rig.cameras.size()),
       views_(rig.cameras.size()) {
@@ -29,7 +30,7 @@ Locator::Locator(const geometry::Rig& rig, const InstantFuserOptions& options)
     ray_cameras_.push_back(rig.rayCamera(camera));
 }
 
-void Locator::locate(const std::vector<ViewThen>& views) {
+void Locator::locate(const std::vector<InstantView>& views) {
   associate(views);
   points_.clear();
   spots_.clear();
@@ -57,7 +58,7 @@ void Locator::locate(const std::vector<ViewThen>& views) {
   });
 }
 
-void Locator::associate(const std::vector<ViewThen>& views) {
+void Locator::associate(const std::vector<InstantView>& views) {
   for (std::size_t v = 0; v < views.size(); ++v) {
     sights_[v].clear();
     spot_of_sight_[v].clear();
@@ -77,7 +78,8 @@ bool Locator::fits(const std::optional<geometry::TriangulatedPoint>& point) cons
   return point && point->reprojection_error <= options_.maximum_reprojection_error;
 }
 
-/// Takes out the one ray without which the others agree best; nothing when they still do not.
+/// Removes the ray without which the reprojection error is least. Nothing when the others do not
+/// fit either.
 std::optional<geometry::TriangulatedPoint> Locator::triangulateWithoutWorst() {
   if (rays_.size() < 3 || rays_.size() <= options_.minimum_rays)
     return std::nullopt;

@@ -13,7 +13,7 @@
 
 namespace wiimote_tracker::fusion {
 
-/// From the spots of one instant to points.
+/// Associates the spots of one instant and triangulates the points.
 class Locator {
  public:
   struct Point {
@@ -22,19 +22,19 @@ class Locator {
     std::size_t spot_count;
   };
 
-  /// The rig must be good (Rig::check).
+  /// @param rig has passed Rig::check.
   Locator(const geometry::Rig& rig, const InstantFuserOptions& options);
 
-  /// Fills in points(), those of the most rays and the least error first.
-  void locate(const std::vector<ViewThen>& views);
+  /// Fills in points(): most rays first, then least reprojection error.
+  void locate(const std::vector<InstantView>& views);
 
   const std::vector<Point>& points() const { return points_; }
 
-  /// Whose rays entered the points: each point's in the order of the views.
+  /// The spots of the points, each point's in the order of the views.
   const std::vector<association::SpotReference>& spots() const { return spots_; }
 
  private:
-  void associate(const std::vector<ViewThen>& views);
+  void associate(const std::vector<InstantView>& views);
   bool fits(const std::optional<geometry::TriangulatedPoint>& point) const;
   std::optional<geometry::TriangulatedPoint> triangulateWithoutWorst();
 

@@ -1,6 +1,6 @@
 #include "synchronizer.h"
 
-#include "wiimote_tracker_triangulation/geometry/image_rules.h"
+#include "geometry/image_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ void Synchronizer::setRig(const geometry::Rig& rig) {
   cameras_.clear();
   for (const geometry::RigCamera& camera : rig.cameras)
     cameras_.push_back({camera, {}});
-  views_.assign(cameras_.size(), ViewThen());
+  views_.assign(cameras_.size(), InstantView());
   has_begun_ = false;
 }
 
@@ -70,7 +70,7 @@ bool Synchronizer::advance() {
   latest_arrival_ = -kInfinity;
   skew_ = 0.0;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    look(cameras_[i], &views_[i]);
+    interpolate(cameras_[i], &views_[i]);
     cameras_[i].frames.forgetBefore(time_);
   }
   return true;
@@ -102,8 +102,7 @@ void Synchronizer::readFrame(const geometry::RigCamera& camera,
   }
 }
 
-/// The latest time up to which no active camera can still have something to say. Infinite when none
-/// is active.
+/// The latest time that all active cameras have reached. Infinite when none is active.
 double Synchronizer::reachedByAll() const {
   double reached = kInfinity;
   for (const CameraState& camera : cameras_) {
@@ -116,7 +115,7 @@ double Synchronizer::reachedByAll() const {
   return reached;
 }
 
-void Synchronizer::look(const CameraState& camera, ViewThen* view) {
+void Synchronizer::interpolate(const CameraState& camera, InstantView* view) {
   view->spots.clear();
   view->masked.clear();
   view->exposure.reset();

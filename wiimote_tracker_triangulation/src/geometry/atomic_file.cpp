@@ -15,8 +15,8 @@ namespace wiimote_tracker::geometry {
 namespace {
 
 [[noreturn]] void fail(const std::string& what, const std::string& path, int error) {
-  throw RigFileError("cannot " + what + " " + path + " (" + std::strerror(error) +
-                     "); choose another place or repair this one");
+  throw FileError("cannot " + what + " " + path + " (" + std::strerror(error) +
+                  "); choose another place or repair this one");
 }
 
 class FileDescriptor {
@@ -57,7 +57,7 @@ void replace(const std::filesystem::path& path, const std::string& content) {
     writeAndSync(fresh, content);
     if (::rename(fresh.c_str(), path.c_str()) != 0)
       fail("replace", path.string(), errno);
-  } catch (const RigFileError&) {
+  } catch (const FileError&) {
     ::unlink(fresh.c_str());
     throw;
   }
@@ -87,7 +87,7 @@ void writeFileAtomically(const std::string& path, const std::string& content) {
 
 std::string readFile(const std::string& path) {
   if (std::filesystem::is_directory(path))
-    throw RigFileError("cannot read " + path + ", it is a folder; name a file");
+    throw FileError("cannot read " + path + ", it is a folder; name a file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream)
     fail("read", path, errno);

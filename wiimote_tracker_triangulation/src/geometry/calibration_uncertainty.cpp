@@ -1,8 +1,6 @@
 #include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 
-#include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
-
-#include <Eigen/LU>
+#include "wiimote_tracker_triangulation/geometry/point_sensitivity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +13,7 @@ using Vector3 = Eigen::Vector3d;
 
 constexpr double kCellSize = 0.2;     // [m]
 constexpr std::size_t kCells = 1024;  // remembered at once
-constexpr double kSingular = 1e-10;
-constexpr double kFarthest = 1e6;  // [m]
+constexpr double kFarthest = 1e6;     // [m]
 
 }  // namespace
 
@@ -28,30 +25,18 @@ std::optional<Matrix3> CalibrationUncertainty::covarianceOf(const Vector3& point
   count = std::min(count, kMaximumCameras);
   if (!isKnown() || count < 2)
     return std::nullopt;
-  Matrix3 information = Matrix3::Zero();
-  std::array<Eigen::Matrix<double, 3, kParameters>, kMaximumCameras> by_parameters;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto projection = rayProjection(rig_, cameras[i], point);
-    if (!projection)
-      return std::nullopt;
-    information.noalias() += projection->by_point.transpose() * projection->by_point;
-    by_parameters[i].noalias() = projection->by_point.transpose() * projection->by_parameters;
-  }
-  // All from one place or in one line: below any angle that a point is triangulated from.
-  const double trace = information.trace();
-  if (!(information.determinant() > kSingular * trace * trace * trace))
+  std::array<PointJacobian, kMaximumCameras> by_camera;
+  if (!pointSensitivity(rig_, point, cameras, count, by_camera.data()))
     return std::nullopt;
-  Matrix3 sum = Matrix3::Zero();
+  Matrix3 covariance = Matrix3::Zero();
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = 0; j < count; ++j) {
       const auto block = rig_.covariance.block<kParameters, kParameters>(
           firstParameter(cameras[i]), firstParameter(cameras[j]));
-      const Eigen::Matrix<double, 3, kParameters> left = by_parameters[i].lazyProduct(block);
-      sum.noalias() += left * by_parameters[j].transpose();
+      const PointJacobian left = by_camera[i].lazyProduct(block);
+      covariance.noalias() += left * by_camera[j].transpose();
     }
   }
-  const Matrix3 inverse = information.inverse();
-  const Matrix3 covariance = inverse * sum * inverse;
   if (!covariance.allFinite())
     return std::nullopt;
   return Matrix3(0.5 * (covariance + covariance.transpose()));

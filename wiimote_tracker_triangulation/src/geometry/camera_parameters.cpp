@@ -1,5 +1,9 @@
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 
+#include "wiimote_tracker_triangulation/geometry/lens_model.h"
+#include "wiimote_tracker_triangulation/geometry/so3.h"
+
+#include <array>
 #include <cmath>
 
 namespace wiimote_tracker::geometry {
@@ -9,41 +13,23 @@ namespace {
 constexpr Eigen::Index kLensParameters = kTimeOffset - kLens;
 using LensJacobian = Eigen::Matrix<double, 2, kLensParameters>;
 
-/// Pixels are linear in each parameter of each lens model, so that a difference is exact; and no
-/// model is written out here.
+/// Pixels are linear in each parameter of the lens, so that differences are exact.
 LensJacobian lensJacobian(const Intrinsics& lens, const Eigen::Vector2d& normalized) {
-  LensJacobian jacobian = LensJacobian::Zero();
-  const auto column = [&](double Intrinsics::*value, double step) {
-    Intrinsics more = lens;
-    Intrinsics less = lens;
-    more.*value += step;
-    less.*value -= step;
-    return Eigen::Vector2d(
-        (more.pixelFromNormalized(normalized) - less.pixelFromNormalized(normalized)) /
-        (2.0 * step));
+  const auto distorted = [&](const std::array<double, 5>& coefficients) {
+    return distort(lens.distortion_model, coefficients.data(), normalized);
   };
-  const double kPixel = 1.0;
-  jacobian.col(0) = column(&Intrinsics::fx, kPixel);
-  jacobian.col(1) = column(&Intrinsics::fy, kPixel);
-  jacobian.col(2) = column(&Intrinsics::cx, kPixel);
-  jacobian.col(3) = column(&Intrinsics::cy, kPixel);
+  const Eigen::Vector2d focal(lens.fx, lens.fy);
+  const Eigen::Vector2d undistorted = distorted({});
+  LensJacobian jacobian = LensJacobian::Zero();
+  jacobian.leftCols<2>() = distorted(lens.distortion).asDiagonal();
+  jacobian.middleCols<2>(2).setIdentity();
   for (std::size_t k = 0; k < coefficientCount(lens.distortion_model); ++k) {
-    const double kStep = 1e-3;
-    Intrinsics more = lens;
-    Intrinsics less = lens;
-    more.distortion[k] += kStep;
-    less.distortion[k] -= kStep;
+    std::array<double, 5> one{};
+    one[k] = 1.0;
     jacobian.col(kDistortion - kLens + static_cast<Eigen::Index>(k)) =
-        (more.pixelFromNormalized(normalized) - less.pixelFromNormalized(normalized)) /
-        (2.0 * kStep);
+        focal.cwiseProduct(distorted(one) - undistorted);
   }
   return jacobian;
-}
-
-Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d result;
-  result << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return result;
 }
 
 }  // namespace
@@ -60,8 +46,7 @@ std::optional<Projection> projectionOf(const Camera& camera, const Eigen::Vector
 
   projection.by_parameters.setZero();
   // exp([w]x) turns the camera, which is turning the point the other way.
-  projection.by_parameters.middleCols<3>(kRotation) =
-      projection.by_point * crossMatrix(from_center);
+  projection.by_parameters.middleCols<3>(kRotation) = projection.by_point * so3::skew(from_center);
   projection.by_parameters.middleCols<3>(kPosition) = -projection.by_point;
   projection.by_parameters.middleCols<kLensParameters>(kLens) =
       lensJacobian(camera.intrinsics, normalized);

@@ -45,14 +45,14 @@ void emitIntrinsics(const std::string& camera_name,
 
 void readIntrinsics(YamlMap& map, std::string* camera_name, Intrinsics* intrinsics) {
   constexpr int kMaximumSize = std::numeric_limits<int>::max();
-  intrinsics->width = map.whole<int>("image_width", 0, kMaximumSize);
-  intrinsics->height = map.whole<int>("image_height", 0, kMaximumSize);
+  intrinsics->width = map.bounded("image_width", 0, kMaximumSize);
+  intrinsics->height = map.bounded("image_height", 0, kMaximumSize);
   *camera_name = map.get<std::string>("camera_name");
 
   const Eigen::MatrixXd K = readMatrix(map.map("camera_matrix"));
   if (K.rows() != 3 || K.cols() != 3 || K(0, 1) != 0.0 || K(1, 0) != 0.0 || K(2, 0) != 0.0 ||
       K(2, 1) != 0.0 || K(2, 2) != 1.0)
-    throw RigFileError(map.at("camera_matrix") + " is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]");
+    throw map.error("camera_matrix", "is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]");
   intrinsics->fx = K(0, 0);
   intrinsics->fy = K(1, 1);
   intrinsics->cx = K(0, 2);
@@ -60,14 +60,13 @@ void readIntrinsics(YamlMap& map, std::string* camera_name, Intrinsics* intrinsi
 
   const auto model = distortionModelFromName(map.get<std::string>("distortion_model"));
   if (!model)
-    throw RigFileError(map.at("distortion_model") +
-                       " is neither plumb_bob nor equidistant, which are understood");
+    throw map.error("distortion_model", "is neither plumb_bob nor equidistant");
   intrinsics->distortion_model = *model;
   const Eigen::MatrixXd D = readMatrix(map.map("distortion_coefficients"));
   const auto count = static_cast<Eigen::Index>(coefficientCount(*model));
   if (D.rows() != 1 || D.cols() != count)
-    throw RigFileError(map.at("distortion_coefficients") + " is not one row of " +
-                       std::to_string(count) + " numbers, as " + nameOf(*model) + " needs");
+    throw map.error("distortion_coefficients", "is not one row of " + std::to_string(count) +
+                                                   " numbers, as " + nameOf(*model) + " needs");
   intrinsics->distortion = {};
   for (Eigen::Index i = 0; i < count; ++i)
     intrinsics->distortion[static_cast<std::size_t>(i)] = D(0, i);
@@ -75,12 +74,12 @@ void readIntrinsics(YamlMap& map, std::string* camera_name, Intrinsics* intrinsi
 
 Eigen::MatrixXd readMatrix(YamlMap map) {
   constexpr int kMaximumSize = 10000;
-  const int rows = map.whole<int>("rows", 0, kMaximumSize);
-  const int cols = map.whole<int>("cols", 0, kMaximumSize);
+  const int rows = map.bounded("rows", 0, kMaximumSize);
+  const int cols = map.bounded("cols", 0, kMaximumSize);
   const std::vector<double> data = map.numbers("data");
   map.refuseUnknown();
   if (data.size() != static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols))
-    throw RigFileError(map.at("data") + " does not have rows * cols numbers");
+    throw map.error("data", "does not have rows * cols numbers");
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   return Eigen::Map<const RowMajor>(data.data(), rows, cols);
 }

@@ -20,7 +20,7 @@ void emitIntrinsics(const std::string& camera_name,
                     const Intrinsics& intrinsics,
                     YAML::Emitter& out);
 
-/// Reads what emitIntrinsics wrote. @throws RigFileError naming the key.
+/// Reads what emitIntrinsics wrote. @throws FileError naming the key.
 void readIntrinsics(YamlMap& map, std::string* camera_name, Intrinsics* intrinsics);
 
 /// {rows, cols, data} of a matrix, row-major.
@@ -37,7 +37,7 @@ void emitMatrix(const std::string& key, const Matrix& matrix, YAML::Emitter& out
   out << YAML::EndSeq << YAML::EndMap;
 }
 
-/// @throws RigFileError naming the key when the sizes disagree.
+/// @throws FileError naming the key when the sizes disagree.
 Eigen::MatrixXd readMatrix(YamlMap map);
 
 }  // namespace wiimote_tracker::geometry

@@ -1,4 +1,5 @@
 #include "distortion.h"
+#include "wiimote_tracker_triangulation/geometry/lens_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +13,8 @@ using Matrix2 = Eigen::Matrix2d;
 /// Where the model ends: towards a right angle the image plane goes to infinity [rad].
 constexpr double kLargestAngle = 1.55;
 
-/// Distance from the axis in the image of a point so far off the axis [rad].
 double radiusOf(const Coefficients& k, double angle) {
-  const double s = angle * angle;
-  return angle * (1.0 + s * (k[0] + s * (k[1] + s * (k[2] + s * k[3]))));
+  return equidistantRadius(k.data(), angle);
 }
 
 double slopeOf(const Coefficients& k, double angle) {
@@ -59,28 +58,26 @@ bool growsUpTo(const Coefficients& k, double angle) {
 }  // namespace
 
 Vector2 distort(const Coefficients& k, const Vector2& n, Matrix2* jacobian) {
-  const double squared = n.squaredNorm();
-  const double r = std::sqrt(squared);
-  if (squared < 1e-100) {  // on the axis, where the division below has no value
-    if (jacobian)
-      jacobian->setIdentity();
-    return n;
-  }
-  const double angle = std::atan(r);
-  const double scale = radiusOf(k, angle) / r;
   if (jacobian) {
-    const double along = slopeOf(k, angle) / (1.0 + squared);  // d radius / d r
-    *jacobian = (along - scale) / squared * n * n.transpose();
-    jacobian->diagonal().array() += scale;
+    const double squared = n.squaredNorm();
+    jacobian->setIdentity();
+    if (squared > 1e-100) {  // on the axis the division below has no value
+      const double r = std::sqrt(squared);
+      const double angle = std::atan(r);
+      const double scale = radiusOf(k, angle) / r;
+      const double along = slopeOf(k, angle) / (1.0 + squared);  // d radius / d r
+      *jacobian = (along - scale) / squared * n * n.transpose();
+      jacobian->diagonal().array() += scale;
+    }
   }
-  return scale * n;
+  return distortEquidistant(k.data(), n);
 }
 
 std::optional<Vector2> undistort(const Coefficients& k, const Vector2& target) {
   const double radius = target.norm();
   if (!(radius > 0.0))
     return target;
-  // Newton's method from inside the fold, with steps halved until they stay there and gain.
+  // Newton's method from inside the fold; steps are halved until they stay inside and improve.
   constexpr int kMaximumSteps = 50;
   constexpr int kMaximumHalvings = 30;
   const double tolerance = 1e-15 * (1.0 + radius);

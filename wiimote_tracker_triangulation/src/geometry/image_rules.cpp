@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/geometry/image_rules.h"
+#include "geometry/image_rules.h"
 
 #include <algorithm>
 

@@ -1,4 +1,5 @@
 #include "distortion.h"
+#include "wiimote_tracker_triangulation/geometry/lens_model.h"
 
 #include <Eigen/LU>
 
@@ -36,23 +37,22 @@ bool radiusGrowsUpTo(const Coefficients& k, double s) {
 }  // namespace
 
 Vector2 distort(const Coefficients& k, const Vector2& n, Matrix2* jacobian) {
-  const auto [k1, k2, p1, p2, k3] = k;
-  const double x = n.x();
-  const double y = n.y();
-  const double r2 = x * x + y * y;
-  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
   if (jacobian) {
+    const auto [k1, k2, p1, p2, k3] = k;
+    const double x = n.x();
+    const double y = n.y();
+    const double r2 = x * x + y * y;
+    const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
     const double slope = 2.0 * (k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3));  // d radial / d x, over x
     const double cross = slope * x * y + 2.0 * (p1 * x + p2 * y);
     *jacobian << radial + slope * x * x + 2.0 * p1 * y + 6.0 * p2 * x, cross,  //
         cross, radial + slope * y * y + 6.0 * p1 * y + 2.0 * p2 * x;
   }
-  return {x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
-          y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
+  return distortPlumbBob(k.data(), n);
 }
 
 std::optional<Vector2> undistort(const Coefficients& k, const Vector2& target) {
-  // Newton's method from inside the fold, with steps halved until they stay there and gain.
+  // Newton's method from inside the fold; steps are halved until they stay inside and improve.
   constexpr int kMaximumSteps = 50;
   constexpr int kMaximumHalvings = 30;
   const double tolerance = 1e-14 * (1.0 + target.norm());

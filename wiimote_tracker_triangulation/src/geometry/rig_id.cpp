@@ -1,10 +1,11 @@
 // The id of a rig: FNV-1a (64 bit, http://www.isthe.com/chongo/tech/comp/fnv) over the IEEE 754
 // bits of its numbers, most significant byte first.
+#include "geometry/rotation.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
-#include "wiimote_tracker_triangulation/geometry/rotation.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 
@@ -37,8 +38,7 @@ class Hash {
   }
 
   std::string text() const {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(state_));
+    const std::string digits = format("%016llx", static_cast<unsigned long long>(state_));
     return digits;
   }
 

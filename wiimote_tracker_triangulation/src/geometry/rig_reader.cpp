@@ -1,7 +1,7 @@
 #include "camera_yaml.h"
+#include "geometry/rotation.h"
 #include "rig_yaml.h"
-#include "wiimote_tracker_triangulation/geometry/rotation.h"
-#include "wiimote_tracker_triangulation/remap/error.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <cmath>
 #include <limits>
@@ -18,14 +18,7 @@ Enum readWord(YamlMap& map, const std::string& key, const std::array<const char*
       return static_cast<Enum>(i);
     list += std::string(i == 0 ? "" : ", ") + words[i];
   }
-  throw RigFileError(map.at(key) + " is '" + word + "', but must be one of: " + list);
-}
-
-Eigen::Vector3d readVector(YamlMap& map, const std::string& key) {
-  const std::vector<double> numbers = map.numbers(key);
-  if (numbers.size() != 3)
-    throw RigFileError(map.at(key) + " is not a list of three numbers");
-  return {numbers[0], numbers[1], numbers[2]};
+  throw map.error(key, "is '" + word + "', but must be one of: " + list);
 }
 
 Eigen::Isometry3d readTransform(YamlMap map) {
@@ -35,7 +28,7 @@ Eigen::Isometry3d readTransform(YamlMap map) {
                              rotation.get<double>("y"), rotation.get<double>("z"));
   // Room for hand-written digits, none for a lost one.
   if (!(std::abs(q.norm() - 1.0) < 1e-3))
-    throw RigFileError(map.at("rotation") + " is not a quaternion of unit length");
+    throw map.error("rotation", "is not a quaternion of unit length");
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
   transform.linear() = matrixFromQuaternion(q);
   // Not with <<: its assertion ends the program when a key that cannot be read throws in between.
@@ -50,9 +43,9 @@ Eigen::Isometry3d readTransform(YamlMap map) {
 Eigen::Isometry3d readExtrinsics(YamlMap map, const std::string& camera, const std::string& world) {
   YamlMap header = map.map("header");
   if (header.get<std::string>("frame_id") != world)
-    throw RigFileError(header.at("frame_id") + " is not the world_frame '" + world + "'");
+    throw header.error("frame_id", "is not the world_frame '" + world + "'");
   if (map.get<std::string>("child_frame_id") != opticalFrame(camera))
-    throw RigFileError(map.at("child_frame_id") + " is not '" + opticalFrame(camera) + "'");
+    throw map.error("child_frame_id", "is not '" + opticalFrame(camera) + "'");
   const Eigen::Isometry3d transform = readTransform(map.map("transform"));
   header.refuseUnknown();
   map.refuseUnknown();
@@ -69,24 +62,25 @@ std::vector<ImageMask> readMasks(YamlMap& map) {
 }
 
 RigCamera readCamera(YamlMap map, const std::string& name, const std::string& world_frame) {
-  constexpr auto kMaximumCount = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint32_t kNone = 0;
+  constexpr std::uint32_t kMany = std::numeric_limits<std::uint32_t>::max();
   RigCamera camera;
   camera.camera.identity = map.get<std::string>("identity");
   readIntrinsics(map, &camera.camera.name, &camera.camera.intrinsics);
   if (camera.camera.name != name)
-    throw RigFileError(map.at("camera_name") + " is '" + camera.camera.name +
-                       "', but must be as its key, '" + name + "'");
+    throw map.error("camera_name",
+                    "is '" + camera.camera.name + "', but its key is '" + name + "'");
   camera.camera.world_from_camera = readExtrinsics(map.map("extrinsics"), name, world_frame);
   camera.time_offset = map.get<double>("time_offset");
   camera.time_offset_rule = readWord<TimeOffsetRule>(map, "time_offset_rule", kTimeOffsetRuleWords);
-  camera.time_offset_epoch = map.whole<std::uint32_t>("time_offset_epoch", 0, kMaximumCount);
+  camera.time_offset_epoch = map.bounded("time_offset_epoch", kNone, kMany);
   if (!map.numbers("gravity").empty())
-    camera.gravity = readVector(map, "gravity");
+    camera.gravity = map.vector("gravity");
   camera.masks = readMasks(map);
   camera.residual_px = map.get<double>("residual_px");
   camera.residual_m = map.get<double>("residual_m");
-  camera.observations = map.whole<std::uint32_t>("observations", 0, kMaximumCount);
-  camera.inliers = map.whole<std::uint32_t>("inliers", 0, kMaximumCount);
+  camera.observations = map.bounded("observations", kNone, kMany);
+  camera.inliers = map.bounded("inliers", kNone, kMany);
   map.refuseUnknown();
   return camera;
 }
@@ -94,53 +88,27 @@ RigCamera readCamera(YamlMap map, const std::string& name, const std::string& wo
 remap::Remap readRemap(YamlMap map) {
   remap::Remap remap;
   remap.rig_id = map.get<std::string>("rig_id");
-  const std::string model = map.get<std::string>("model");
   try {
-    remap.model = remap::modelFromName(model);
-  } catch (const remap::RemapError& e) {
-    throw RigFileError(map.at("model") + ": " + e.what());
+    remap.model = remap::modelFromName(map.get<std::string>("model"));
+  } catch (const FileError&) {
+    throw;
+  } catch (const Error& e) {
+    throw map.error("model", std::string("cannot be used: ") + e.what());
   }
   remap.parameters = map.numbers("parameters");
-  for (const std::vector<double>& point : map.get<std::vector<std::vector<double>>>("support")) {
-    if (point.size() != 3)
-      throw RigFileError(map.at("support") + " is not a list of points of three numbers");
+  for (const std::vector<double>& point : map.rows("support", 3, "x, y, z"))
     remap.support.emplace_back(point[0], point[1], point[2]);
-  }
   map.refuseUnknown();
   return remap;
-}
-
-YAML::Node parse(const std::string& text, const std::string& where) {
-  try {
-    return YAML::Load(text);
-  } catch (const YAML::Exception& e) {
-    throw RigFileError(where + " is not readable as YAML (" + e.what() +
-                       "); restore it from its backup or calibrate again");
-  }
-}
-
-void checkFormat(const YAML::Node& root, const std::string& where) {
-  const YAML::Node format = root.IsMap() ? root["format"] : YAML::Node();
-  if (!format.IsDefined() || !format.IsScalar() || format.Scalar() != kRigFormat)
-    throw RigFileError(where + " is not a rig file: its key 'format' is not '" + kRigFormat +
-                       "'; name another file");
 }
 
 }  // namespace
 
 Rig rigFromYaml(const std::string& text, const std::string& where) {
-  const YAML::Node root = parse(text, where);
-  checkFormat(root, where);
-  YamlMap map(root, where);
-  map.get<std::string>("format");
-  const std::string version = map.get<std::string>("version");
-  if (version != std::to_string(kRigFormatVersion))
-    throw RigFileError(map.at("version") + " is " + version + ", but this program reads only " +
-                       std::to_string(kRigFormatVersion) + "; use the program that wrote it");
+  YamlMap map = YamlMap::parse(text, where, "restore the file from its backup or calibrate again");
+  map.checkFormat(kRigFormat, kRigFormatVersion);
   if (map.get<std::string>("complete") != "true")
-    throw RigFileError(map.at("complete") + " is not true: the file was cut off; restore it from " +
-                       "its backup or calibrate again");
-
+    throw map.error("complete", "is not true: the file was cut off");
   Rig rig;
   rig.world_frame = map.get<std::string>("world_frame");
   rig.solved_at = map.get<double>("solved_at");
@@ -156,7 +124,7 @@ Rig rigFromYaml(const std::string& text, const std::string& where) {
   cameras.refuseUnknown();
   for (YamlMap& zone : map.maps("zones")) {
     rig.zones.push_back(
-        {zone.get<std::string>("name"), readVector(zone, "minimum"), readVector(zone, "maximum")});
+        {zone.get<std::string>("name"), zone.vector("minimum"), zone.vector("maximum")});
     zone.refuseUnknown();
   }
   rig.covariance = readMatrix(map.map("covariance"));

@@ -1,6 +1,6 @@
 #include "camera_yaml.h"
+#include "geometry/rotation.h"
 #include "rig_yaml.h"
-#include "wiimote_tracker_triangulation/geometry/rotation.h"
 
 #include <ctime>
 

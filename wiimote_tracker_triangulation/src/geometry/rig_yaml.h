@@ -19,7 +19,7 @@ constexpr std::array<const char*, 3> kTimeOffsetRuleWords = {"none", "always", "
 /// YAML text of a rig. The rig must be valid (Rig::check).
 std::string yamlFromRig(const Rig& rig);
 
-/// `where`: the file, for the messages. @throws RigFileError, InvalidRigError.
+/// `where`: the file, for the messages. @throws FileError, InvalidRigError.
 Rig rigFromYaml(const std::string& text, const std::string& where);
 
 }  // namespace wiimote_tracker::geometry

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/geometry/rotation.h"
+#include "geometry/rotation.h"
 
 #include <algorithm>
 #include <array>
@@ -66,9 +66,9 @@ Eigen::Matrix3d matrixFromQuaternion(const Eigen::Quaterniond& quaternion) {
 }
 
 Eigen::Quaterniond canonicalQuaternion(const Eigen::Matrix3d& rotation) {
-  // Quaternion to matrix and back moves the last bits. Repeated, it wanders until it is caught in a
-  // cycle, mostly of length one; the smallest member of the cycle stands for all of it. The cycle
-  // is found by Brent's algorithm; there is one, since there are only so many doubles.
+  // Quaternion to matrix and back changes the last bits. Repeated, it ends in a cycle, mostly of
+  // length one, since there are finitely many doubles. Brent's algorithm finds the cycle; its
+  // smallest member is the canonical one.
   const auto step = [](const Wxyz& q) { return wxyzFromMatrix(matrixFromWxyz(q)); };
   Wxyz anchor = wxyzFromMatrix(rotation);
   Wxyz canonical = anchor;

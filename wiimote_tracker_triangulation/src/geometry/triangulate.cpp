@@ -94,67 +94,21 @@ void meanClosest(const Sights& sights, double minimum_sine_squared, Triangulated
   point->covariance = variance / (pairs * pairs);
 }
 
-/// Normal equations of a least squares problem in three unknowns: A x = b.
-class NormalEquations {
- public:
-  /// Two rows J x = r.
-  void add(const Matrix23& J, const Vector2& r) {
-    const auto u = J.row(0);
-    const auto v = J.row(1);
-    xx_ += u.x() * u.x() + v.x() * v.x();
-    xy_ += u.x() * u.y() + v.x() * v.y();
-    xz_ += u.x() * u.z() + v.x() * v.z();
-    yy_ += u.y() * u.y() + v.y() * v.y();
-    yz_ += u.y() * u.z() + v.y() * v.z();
-    zz_ += u.z() * u.z() + v.z() * v.z();
-    b_ += J.transpose() * r;
-  }
-
-  /// Three rows (I - d d^T) x = (I - d d^T) p, d of unit length, with a weight.
-  void addAcross(const Vector3& d, const Vector3& p, double weight) {
-    const Vector3 weighted = weight * d;
-    xx_ += weight - weighted.x() * d.x();
-    xy_ -= weighted.x() * d.y();
-    xz_ -= weighted.x() * d.z();
-    yy_ += weight - weighted.y() * d.y();
-    yz_ -= weighted.y() * d.z();
-    zz_ += weight - weighted.z() * d.z();
-    b_ += weight * p - d.dot(p) * weighted;
-  }
-
-  const Vector3& b() const { return b_; }
-  double trace() const { return xx_ + yy_ + zz_; }
-
-  /// A^-1 by cofactors; not finite when A is singular.
-  Matrix3 inverse() const {
-    const double c00 = yy_ * zz_ - yz_ * yz_;
-    const double c01 = yz_ * xz_ - xy_ * zz_;
-    const double c02 = xy_ * yz_ - yy_ * xz_;
-    const double c11 = xx_ * zz_ - xz_ * xz_;
-    const double c12 = xy_ * xz_ - xx_ * yz_;
-    const double c22 = xx_ * yy_ - xy_ * xy_;
-    const double scale = 1.0 / (xx_ * c00 + xy_ * c01 + xz_ * c02);
-    Matrix3 inverse;
-    inverse << c00, c01, c02, c01, c11, c12, c02, c12, c22;
-    return scale * inverse;
-  }
-
- private:
-  double xx_ = 0.0, xy_ = 0.0, xz_ = 0.0, yy_ = 0.0, yz_ = 0.0, zz_ = 0.0;
-  Vector3 b_ = Vector3::Zero();
-};
-
 /// The point with the least weighted sum of squared distances to all rays, and the inverse of its
 /// normal equations.
 struct Nearest {
   template <typename Weight>
   Nearest(const Sights& sights, const Weight& weight) {
     const Vector3 base = sights.first->origin;  // keeps the numbers small
-    NormalEquations equations;
-    for (const Sight& s : sights)
-      equations.addAcross(s.direction, s.origin - base, weight(s));
-    inverse = equations.inverse();
-    position = base + inverse * equations.b();
+    Matrix3 normal = Matrix3::Zero();
+    Vector3 right = Vector3::Zero();
+    for (const Sight& s : sights) {
+      const Matrix3 across = weight(s) * acrossRay(s);
+      normal += across;
+      right += across * (s.origin - base);
+    }
+    inverse = normal.inverse();
+    position = base + inverse * right;
   }
   Matrix3 inverse;
   Vector3 position;
@@ -196,7 +150,8 @@ bool maximumLikelihood(const Sights& sights, TriangulatedPoint* point) {
   Vector3 step = Vector3::Zero();
   double best_cost = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaximumSteps; ++i) {
-    NormalEquations equations;
+    Matrix3 normal = Matrix3::Zero();
+    Vector3 gradient = Vector3::Zero();
     double cost = 0.0;
     double least_depth = std::numeric_limits<double>::infinity();
     for (const Sight& s : sights) {
@@ -204,7 +159,9 @@ bool maximumLikelihood(const Sights& sights, TriangulatedPoint* point) {
       const double depth = s.axis.dot(offset);
       const double scale = 1.0 / depth;
       const Vector2 residual = scale * (s.pixel_by_offset * offset);
-      equations.add(scale * (s.pixel_by_offset - residual * s.axis.transpose()), residual);
+      const Matrix23 jacobian = scale * (s.pixel_by_offset - residual * s.axis.transpose());
+      normal.noalias() += jacobian.transpose() * jacobian;
+      gradient.noalias() += jacobian.transpose() * residual;
       cost += residual.squaredNorm();
       least_depth = std::min(least_depth, depth);
     }
@@ -214,18 +171,18 @@ bool maximumLikelihood(const Sights& sights, TriangulatedPoint* point) {
       continue;
     }
     best_cost = cost;
-    point->covariance = equations.inverse();
-    step = point->covariance * equations.b();
+    point->covariance = normal.inverse();
+    step = point->covariance * gradient;
     position -= step;
-    // The next step will be shorter by two factors: the change of the derivatives along this step,
-    // and their curvature (one over the depth) times the residuals, which counts most where the
-    // point is badly determined.
+    // Estimate of the next step as a share of this one: the derivatives change along the step, and
+    // their curvature (one over the depth) counts with the residuals, most where the point is badly
+    // determined.
     const double n = static_cast<double>(sights.count);
-    const double badly_determined = point->covariance.trace() * equations.trace() / (n * n);
+    const double badly_determined = point->covariance.trace() * normal.trace() / (n * n);
     const double next_share =
         (step.squaredNorm() + cost * point->covariance.trace() * badly_determined) /
         (least_depth * least_depth);
-    if (next_share * step.dot(equations.b()) <= kRounding + kNegligible * cost) {
+    if (next_share * step.dot(gradient) <= kRounding + kNegligible * cost) {
       point->position = position;
       return true;
     }

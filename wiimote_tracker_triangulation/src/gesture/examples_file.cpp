@@ -1,12 +1,11 @@
-#include "wiimote_tracker_triangulation/gesture/examples_file.h"
+#include "gesture/examples_file.h"
 
 #include "wiimote_tracker_triangulation/geometry/atomic_file.h"
 #include "wiimote_tracker_triangulation/geometry/yaml_map.h"
-#include "wiimote_tracker_triangulation/gesture/error.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <yaml-cpp/yaml.h>
-
-#include <cstdio>
 
 namespace wiimote_tracker::gesture {
 namespace {
@@ -16,20 +15,15 @@ constexpr int kFormatVersion = 1;
 constexpr const char* kAdvice = "restore the file from its backup or record the gestures again";
 
 std::string exact(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
+  return format("%.17g", value);
 }
 
 Example readExample(geometry::YamlMap map) {
   Example example;
   example.gesture = map.get<std::string>("gesture");
   example.zone = map.get<std::string>("zone");
-  for (const std::vector<double>& row : map.get<std::vector<std::vector<double>>>("path")) {
-    if (row.size() != 4)
-      throw GestureError(map.at("path") + " has a point that is not [t, x, y, z]; " + kAdvice);
+  for (const std::vector<double>& row : map.rows("path", 4, "t, x, y, z"))
     example.path.push_back({row[0], {row[1], row[2], row[3]}});
-  }
   map.refuseUnknown();
   return example;
 }
@@ -37,20 +31,8 @@ Example readExample(geometry::YamlMap map) {
 }  // namespace
 
 std::vector<Example> readExamples(const std::string& file) {
-  YAML::Node node;
-  try {
-    node = YAML::Load(geometry::readFile(file));
-  } catch (const YAML::Exception& e) {
-    throw GestureError(file + " is not YAML (" + e.what() + "); " + kAdvice);
-  }
-  geometry::YamlMap map(node, file, kAdvice);
-  if (map.get<std::string>("format") != kFormat)
-    throw GestureError(map.at("format") + " is not " + kFormat +
-                       "; give a file that the gesture recogniser wrote");
-  const int version = map.get<int>("version");
-  if (version != kFormatVersion)
-    throw GestureError(map.at("version") + " is " + std::to_string(version) +
-                       ", which this program does not know; update it");
+  geometry::YamlMap map = geometry::YamlMap::load(file, kAdvice);
+  map.checkFormat(kFormat, kFormatVersion);
   std::vector<Example> examples;
   for (const geometry::YamlMap& example : map.maps("examples"))
     examples.push_back(readExample(example));

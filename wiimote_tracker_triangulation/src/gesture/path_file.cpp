@@ -1,6 +1,6 @@
 #include "wiimote_tracker_triangulation/gesture/path_file.h"
 
-#include "wiimote_tracker_triangulation/gesture/error.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -44,7 +44,7 @@ Path readPath(const std::string& file) {
 std::vector<std::vector<double>> readRows(const std::string& file, std::size_t columns) {
   std::ifstream stream(file);
   if (!stream)
-    throw GestureError(file + " cannot be read; check its name and rights");
+    throw Error(file + " cannot be read; check its name and rights");
   std::vector<std::vector<double>> rows;
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
@@ -52,12 +52,12 @@ std::vector<std::vector<double>> readRows(const std::string& file, std::size_t c
     if (numbers.size() >= columns)
       rows.push_back(std::move(numbers));
     else if (!rows.empty() && line.find_first_not_of(" \t\r") != std::string::npos)
-      throw GestureError(file + ", line " + std::to_string(number) + " is not " +
-                                  std::to_string(columns) + " numbers; mend or remove it");
+      throw Error(file + ", line " + std::to_string(number) + " is not " + std::to_string(columns) +
+                  " numbers; mend or remove it");
   }
   if (rows.empty())
-    throw GestureError(file + " has no row of " + std::to_string(columns) +
-                                " numbers; give a CSV with one position per row");
+    throw Error(file + " has no row of " + std::to_string(columns) +
+                " numbers; give a CSV with one position per row");
   return rows;
 }
 

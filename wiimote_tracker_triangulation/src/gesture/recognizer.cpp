@@ -1,6 +1,6 @@
-#include "wiimote_tracker_triangulation/gesture/recognizer.h"
+#include "gesture/recognizer.h"
 
-#include "wiimote_tracker_triangulation/gesture/error.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,12 +27,12 @@ struct TwoNearest {
 
 void Recognizer::add(const Example& example) {
   if (example.gesture.empty())
-    throw GestureError("an example of a gesture has no name; give it one");
+    throw Error("an example of a gesture has no name; give it one");
   const std::optional<Shape> shape = shapeOf(example.path, options_.shape);
   if (!shape)
-    throw GestureError("the example of '" + example.gesture + "' with " +
-                       std::to_string(example.path.size()) +
-                       " points is too short to be a gesture; draw it again, larger");
+    throw Error("the example of '" + example.gesture + "' with " +
+                std::to_string(example.path.size()) +
+                " points is too short to be a gesture; draw it again, larger");
   const auto after_its_kind =
       std::find_if(examples_.rbegin(), examples_.rend(),
                    [&](const Example& e) { return e.gesture == example.gesture; });

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/gesture/segmenter.h"
+#include "gesture/segmenter.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/gesture/spotter.h"
+#include "gesture/spotter.h"
 
 #include <algorithm>
 #include <utility>

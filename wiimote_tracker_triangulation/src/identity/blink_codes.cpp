@@ -1,6 +1,6 @@
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
 
-#include "wiimote_tracker_triangulation/identity/error.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <algorithm>
 #include <cctype>
@@ -23,47 +23,46 @@ void checkWaveform(const BlinkCode& code) {
   for (const Lit& lit : code.waveform) {
     // Written so that NaN is refused.
     if (!(lit.from >= 0.0 && lit.from > last && lit.from < lit.to && lit.to <= 1.0))
-      throw IdentityError("the times of light of " + code.label +
-                          " are not in ascending order within one period; correct them");
+      throw Error("the times of light of " + code.label +
+                  " are not in ascending order within one period; correct them");
     last = lit.to;
   }
   if (code.waveform.empty())
-    throw IdentityError(code.label + " is never on; give it some light");
+    throw Error(code.label + " is never on; give it some light");
   if (longestDark(code.waveform) <= 0.0)
-    throw IdentityError(code.label + " is always on, as every lamp; give it some darkness");
+    throw Error(code.label + " is always on, as every lamp; give it some darkness");
 }
 
 }  // namespace
 
 void BlinkCodes::check() const {
   if (codes.empty())
-    throw IdentityError("there are no LEDs; name at least one");
+    throw Error("there are no LEDs; name at least one");
   if (!(shortest_period >= 0.02 && shortest_period <= longest_period && longest_period <= 5.0))
-    throw IdentityError(
+    throw Error(
         "the period must be within 0.02 and 5 s, and the shortest not longer than the longest; "
         "correct it");
   if (longest_period > 10.0 * shortest_period)
-    throw IdentityError(
+    throw Error(
         "the longest period is more than ten times the shortest; say more exactly how long it is");
   if (synchronous && codes.size() > kMaximumSynchronous)
-    throw IdentityError("at most " + std::to_string(kMaximumSynchronous) +
-                        " LEDs can blink together; use cyclic codes for more");
+    throw Error("at most " + std::to_string(kMaximumSynchronous) +
+                " LEDs can blink together; use cyclic codes for more");
   for (std::size_t i = 0; i < codes.size(); ++i) {
     if (!isLabel(codes[i].label))
-      throw IdentityError("'" + codes[i].label +
-                          "' is no label; use a letter, then letters, digits and _");
+      throw Error("'" + codes[i].label + "' is no label; use a letter, then letters, digits and _");
     checkWaveform(codes[i]);
     for (std::size_t j = 0; j < i; ++j) {
       if (codes[i].label == codes[j].label)
-        throw IdentityError(codes[i].label + " is there twice; give every LED a name of its own");
+        throw Error(codes[i].label + " is there twice; give every LED a name of its own");
       const double apart = synchronous
                                ? difference(codes[i].waveform, codes[j].waveform, 0.0)
                                : differenceInAnyRotation(codes[i].waveform, codes[j].waveform);
       if (apart < kLeastDifference - 1e-9)
-        throw IdentityError(codes[j].label + " and " + codes[i].label +
-                            (synchronous ? " blink alike; give them different shares"
-                                         : " blink alike but for where they begin; give them words "
-                                           "that differ in every rotation"));
+        throw Error(codes[j].label + " and " + codes[i].label +
+                    (synchronous ? " blink alike; give them different shares"
+                                 : " blink alike but for where they begin; give them words "
+                                   "that differ in every rotation"));
     }
   }
 }

@@ -1,6 +1,6 @@
 #include "wiimote_tracker_triangulation/identity/identifier.h"
 
-#include "wiimote_tracker_triangulation/identity/error.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <algorithm>
 #include <string>
@@ -18,7 +18,7 @@ const IdentifierOptions& checked(const IdentifierOptions& options) {
 void IdentifierOptions::check() const {
   const auto within = [](const char* name, double value, double least, double most) {
     if (!(value >= least && value <= most))
-      throw IdentityError(std::string(name) + " is out of range; see its range in identifier.h");
+      throw Error(std::string(name) + " is out of range; see its range in identifier.h");
   };
   within("seen_when_on", seeing.seen_when_on, 0.5, 0.999);
   within("seen_when_off", seeing.seen_when_off, 0.0001, 0.2);

@@ -1,6 +1,6 @@
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 
-#include "wiimote_tracker_triangulation/identity/error.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -15,8 +15,7 @@ Waveform waveformOf(const CyclicLed& led) {
   const double length = static_cast<double>(led.word.size());
   for (std::size_t i = 0; i < led.word.size(); ++i) {
     if (led.word[i] != '0' && led.word[i] != '1')
-      throw IdentityError("the word of " + led.label + " is '" + led.word +
-                          "'; write it with 0 and 1");
+      throw Error("the word of " + led.label + " is '" + led.word + "'; write it with 0 and 1");
     if (led.word[i] == '0')
       continue;
     const double to = static_cast<double>(i + 1) / length;
@@ -110,7 +109,7 @@ BlinkCodes dutyCodes(const std::vector<DutyLed>& leds, double shortest, double l
   codes.longest_period = longest;
   for (const DutyLed& led : leds) {
     if (!(led.share > 0.0 && led.share < 1.0))
-      throw IdentityError("the share of " + led.label + " must be between 0 and 1; correct it");
+      throw Error("the share of " + led.label + " must be between 0 and 1; correct it");
     codes.codes.push_back({led.label, {{0.5 - 0.5 * led.share, 0.5 + 0.5 * led.share}}});
   }
   codes.check();
@@ -119,16 +118,16 @@ BlinkCodes dutyCodes(const std::vector<DutyLed>& leds, double shortest, double l
 
 BlinkCodes cyclicCodes(const std::vector<CyclicLed>& leds, double chip, double tolerance) {
   if (!(tolerance >= 0.0 && tolerance <= 0.05))
-    throw IdentityError("the clocks' tolerance must be within 0 and 0.05; correct it");
+    throw Error("the clocks' tolerance must be within 0 and 0.05; correct it");
   if (!(chip >= 0.001 && chip <= 1.0))
-    throw IdentityError("a chip must last 0.001 to 1 s; correct it");
+    throw Error("a chip must last 0.001 to 1 s; correct it");
   BlinkCodes codes;
   for (const CyclicLed& led : leds) {
     if (led.word.size() != leds.front().word.size() || led.word.size() < 2 ||
         led.word.size() > kLongestWord)
-      throw IdentityError("the word of " + led.label +
-                          " has another length than that of the first LED, or not 2 to 20 chips; "
-                          "take words of one length");
+      throw Error("the word of " + led.label +
+                  " has another length than that of the first LED, or not 2 to 20 chips; "
+                  "take words of one length");
     codes.codes.push_back({led.label, waveformOf(led)});
   }
   const double period = leds.empty() ? chip : chip * static_cast<double>(leds[0].word.size());
@@ -176,8 +175,8 @@ std::vector<std::string> chooseWords(std::size_t count) {
     words = chooseWords(count, rules);
   }
   if (words.empty())
-    throw IdentityError("there are no words for " + std::to_string(count) +
-                        " LEDs; ask for at least 1 and at most a few hundred");
+    throw Error("there are no words for " + std::to_string(count) +
+                " LEDs; ask for at least 1 and at most a few hundred");
   return words;
 }
 

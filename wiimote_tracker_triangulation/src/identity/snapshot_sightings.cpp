@@ -1,6 +1,6 @@
 #include "wiimote_tracker_triangulation/identity/snapshot_sightings.h"
 
-#include "wiimote_tracker_triangulation/geometry/image_rules.h"
+#include "geometry/image_rules.h"
 
 namespace wiimote_tracker::identity {
 

@@ -1,5 +1,7 @@
-#include "wiimote_tracker_triangulation/measurements/part_file.h"
-#include "wiimote_tracker_triangulation/measurements/writer.h"
+#include "measurements/part_file.h"
+#include "measurements/writer.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <cerrno>
 #include <cmath>
@@ -61,8 +63,7 @@ class Row {
   void addTime(std::int64_t nanoseconds) {
     separate();
     const std::lldiv_t t = std::lldiv(nanoseconds, 1000000000);
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%lld.%09lld", t.quot, t.rem);
+    const std::string digits = format("%lld.%09lld", t.quot, t.rem);
     text_ << digits;
   }
 

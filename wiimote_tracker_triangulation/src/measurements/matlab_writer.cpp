@@ -1,5 +1,5 @@
-#include "wiimote_tracker_triangulation/measurements/part_file.h"
-#include "wiimote_tracker_triangulation/measurements/writer.h"
+#include "measurements/part_file.h"
+#include "measurements/writer.h"
 
 #include <matio.h>
 

@@ -1,6 +1,6 @@
 // Stands in where matio is not installed.
-#include "wiimote_tracker_triangulation/measurements/error.h"
-#include "wiimote_tracker_triangulation/measurements/writer.h"
+#include "measurements/writer.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 namespace wiimote_tracker::measurements {
 
@@ -9,9 +9,9 @@ bool hasMatlab() {
 }
 
 std::unique_ptr<Writer> makeMatlabWriter(const std::string& path) {
-  throw WriteError("cannot write " + path +
-                   ": this was built without matio; install it (libmatio-dev) and build again, or "
-                   "write CSV");
+  throw Error("cannot write " + path +
+              ": this was built without matio; install it (libmatio-dev) and build again, or "
+              "write CSV");
 }
 
 }  // namespace wiimote_tracker::measurements

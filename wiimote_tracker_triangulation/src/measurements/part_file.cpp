@@ -1,6 +1,6 @@
-#include "wiimote_tracker_triangulation/measurements/part_file.h"
+#include "measurements/part_file.h"
 
-#include "wiimote_tracker_triangulation/measurements/error.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -17,8 +17,8 @@ std::string partOf(const std::string& path) {
 }
 
 void failToWrite(const std::string& path, int error) {
-  throw WriteError("cannot write " + path + " (" + std::strerror(error) +
-                   "): choose another place or make room there");
+  throw Error("cannot write " + path + " (" + std::strerror(error) +
+              "): choose another place or make room there");
 }
 
 void createPart(const std::string& path) {

@@ -1,6 +1,6 @@
 #include "wiimote_tracker_triangulation/remap/correction.h"
 
-#include "wiimote_tracker_triangulation/remap/error.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/remap/model_math.h"
 
 #include <cmath>
@@ -19,21 +19,21 @@ Eigen::Vector3d meanOf(const std::vector<Eigen::Vector3d>& points) {
 
 Correction::Correction(const Remap& remap, const std::string& rig_id) : remap_(remap) {
   if (remap.rig_id.empty() || remap.rig_id != rig_id)
-    throw RemapError("the correction of the volume was measured with calibration \"" +
-                     remap.rig_id + "\", but the rig is \"" + rig_id +
-                     "\": it is void, so measure the known points again");
+    throw Error("the correction of the volume was measured with calibration \"" + remap.rig_id +
+                "\", but the rig is \"" + rig_id +
+                "\": it is void, so measure the known points again");
   remap.check();
   frame_ = frameOf(remap.support);
   hull_ = ConvexHull(remap.support);
   if (std::isinf(hull_.excess(frame_.middle)))
-    throw RemapError(
+    throw Error(
         "the points of the correction of the volume enclose no volume: it is damaged, so measure "
         "the known points again");
   middle_ = meanOf(remap.support);
   // A projective model's denominator is linear: it holds in the hull when it holds at its corners.
   for (const Eigen::Vector3d& point : remap.support) {
     if (!evaluate(remap, frame_, point))
-      throw RemapError(
+      throw Error(
           "the correction of the volume sends points that it was measured with to infinity: it is "
           "damaged, so measure the known points again");
   }

@@ -1,6 +1,6 @@
 #include "wiimote_tracker_triangulation/remap/remap.h"
 
-#include "wiimote_tracker_triangulation/remap/error.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/remap/model_math.h"
 
 #include <algorithm>
@@ -27,9 +27,9 @@ Model modelFromName(const std::string& name) {
     if (name == nameOf(model))
       return model;
   }
-  throw RemapError("\"" + name +
-                   "\" is no model of a correction of the volume: choose affine, projective, "
-                   "trilinear or thin_plate");
+  throw Error("\"" + name +
+              "\" is no model of a correction of the volume: choose affine, projective, "
+              "trilinear or thin_plate");
 }
 
 std::size_t parameterCount(Model model, std::size_t support) {
@@ -52,20 +52,20 @@ bool operator==(const Remap& a, const Remap& b) {
 
 void Remap::check() const {
   if (rig_id.empty())
-    throw RemapError(
+    throw Error(
         "the correction of the volume belongs to no calibration: it is damaged, so measure the "
         "known points again");
   const std::size_t expected = parameterCount(model, support.size());
   if (parameters.size() != expected)
-    throw RemapError("the correction of the volume has " + std::to_string(parameters.size()) +
-                     " parameters, but " + nameOf(model) + " needs " + std::to_string(expected) +
-                     ": it is damaged, so measure the known points again");
+    throw Error("the correction of the volume has " + std::to_string(parameters.size()) +
+                " parameters, but " + nameOf(model) + " needs " + std::to_string(expected) +
+                ": it is damaged, so measure the known points again");
   const bool finite = std::all_of(parameters.begin(), parameters.end(),
                                   [](double value) { return std::isfinite(value); }) &&
                       std::all_of(support.begin(), support.end(),
                                   [](const Eigen::Vector3d& point) { return point.allFinite(); });
   if (!finite)
-    throw RemapError(
+    throw Error(
         "the correction of the volume holds values that are not finite: it is damaged, so measure "
         "the known points again");
 }

@@ -18,7 +18,7 @@ std::optional<double> ClockWatch::ahead(std::size_t camera) const {
   if (!shortest_.at(camera))
     return std::nullopt;
   const double delay = *shortest_[camera];
-  // Nothing is handled before it arrives.
+  // No image is handled before it arrives.
   if (delay < -tolerance_)
     return -delay;
   std::vector<double> delays;
@@ -26,7 +26,7 @@ std::optional<double> ClockWatch::ahead(std::size_t camera) const {
     if (other)
       delays.push_back(*other);
   }
-  // The lower one of two: longer than the way takes can be a matter of clocks, shorter cannot.
+  // The lower of two middle values: a delay can be too long because of the network, not too short.
   const auto middle = delays.begin() + static_cast<std::ptrdiff_t>((delays.size() - 1) / 2);
   std::nth_element(delays.begin(), middle, delays.end());
   const double offset = *middle - delay;

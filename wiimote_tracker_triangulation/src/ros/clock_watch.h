@@ -7,23 +7,22 @@
 
 namespace wiimote_tracker {
 
-/// Finds cameras whose computer's clock does not agree with this computer's. An image is stamped
-/// with its arrival by the clock over there and is handled by the clock here; the difference is the
-/// way between, which takes time, plus the offset of the clocks. The shortest way of many is short
-/// and much the same for all cameras.
+/// Finds cameras whose computer has another clock than this one. An image carries its arrival time
+/// by the camera's computer and is handled at a time of this computer: the difference is the
+/// transport delay plus the clock offset. The shortest of many delays is short and nearly the same
+/// for all cameras.
 class ClockWatch {
  public:
-  /// `tolerance`: offsets up to this are taken for delays [s].
+  /// `tolerance`: smaller offsets may be transport delays [s].
   explicit ClockWatch(double tolerance) : tolerance_(tolerance) {}
 
-  /// Forgets all.
   void clear(std::size_t cameras);
 
-  /// `delay`: from the arrival that an image carries to its handling here [s].
+  /// `delay`: from the arrival time of an image to its handling here [s].
   void add(std::size_t camera, double delay);
 
-  /// How far the camera's clock is ahead of this computer's, or of most cameras' [s]; nothing when
-  /// it agrees, or nothing is known.
+  /// How far the camera's clock is ahead of this computer's clock, or of most cameras' clocks [s];
+  /// nothing when it agrees or no image came.
   std::optional<double> ahead(std::size_t camera) const;
 
  private:

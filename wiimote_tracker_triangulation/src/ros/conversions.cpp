@@ -1,8 +1,8 @@
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
+#include "geometry/rotation.h"
 #include "message_fields.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
-#include "wiimote_tracker_triangulation/geometry/rotation.h"
 
 #include <algorithm>
 #include <cmath>

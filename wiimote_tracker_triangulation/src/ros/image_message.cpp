@@ -9,7 +9,7 @@ namespace {
 using wiimote_tracker_msgs::IrBlob;
 using wiimote_tracker_msgs::IrBlobArray;
 
-// No device holds an image back for so long [s].
+// Longest possible time between exposure and arrival [s].
 constexpr double kLongestDelay = 10.0;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -81,7 +81,9 @@ std::string describe(ImageFault fault,
       return calibrated.name + " reports spots outside its image of " +
              sizeOf(lens.width, lens.height) + ", which are ignored: repair its driver";
     case ImageFault::kNoTime:
-      return "images of " + calibrated.name + " carry no time and are ignored: repair their driver";
+      return "images of " + calibrated.name +
+             " carry no time and are ignored: repair their driver, or, when no bag is played, run "
+             "rosparam set use_sim_time false";
     case ImageFault::kImpossibleTime:
       return "images of " + calibrated.name + " are stamped more than " +
              std::to_string(static_cast<int>(kLongestDelay)) +

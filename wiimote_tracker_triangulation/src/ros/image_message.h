@@ -25,13 +25,13 @@ constexpr bool isUsable(ImageFault fault) {
   return fault <= ImageFault::kImpossibleSpots;
 }
 
-/// Reads a camera's image as the core wants it, without impossible spots.
+/// Converts a camera's image for the core, without impossible spots.
 /// @param calibrated the camera as the rig knows it.
 ImageFault readImage(const wiimote_tracker_msgs::IrBlobArray& message,
                      const geometry::Camera& calibrated,
                      tracking::CameraImage* image);
 
-/// The fault of that image in one sentence that says what to do.
+/// Describes the fault in one sentence that says what to do.
 std::string describe(ImageFault fault,
                      const wiimote_tracker_msgs::IrBlobArray& message,
                      const geometry::Camera& calibrated);

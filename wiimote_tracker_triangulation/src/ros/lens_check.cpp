@@ -1,5 +1,7 @@
 #include "lens_check.h"
 
+#include "callbacks.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,7 +10,7 @@
 namespace wiimote_tracker {
 namespace {
 
-// Lenses that map every direction to within this are the same [px].
+// Largest difference in pixels of the same direction of two equal lenses [px].
 constexpr double kSameLens = 2.0;
 
 std::optional<geometry::Intrinsics> lensOf(const sensor_msgs::CameraInfo& info) {
@@ -27,7 +29,8 @@ std::optional<geometry::Intrinsics> lensOf(const sensor_msgs::CameraInfo& info) 
   return lens;
 }
 
-/// Largest distance of the pixels of one direction, over the image [px]; not finite when b is not.
+/// Largest distance between the pixels of the same direction over the image [px]; not finite when
+/// b does not map a direction.
 double distanceOf(const geometry::Intrinsics& a, const geometry::Intrinsics& b) {
   constexpr int kSteps = 8;
   double largest = 0.0;
@@ -47,20 +50,19 @@ double distanceOf(const geometry::Intrinsics& a, const geometry::Intrinsics& b) 
 
 }  // namespace
 
-std::string contradictionOf(const sensor_msgs::CameraInfo& info,
-                            const geometry::Camera& calibrated) {
+std::string lensMismatch(const sensor_msgs::CameraInfo& info, const geometry::Camera& calibrated) {
   if (info.K[0] == 0.0)
     return "";
   const std::string what_to_do =
-      "; the rig counts: save it again, so that the driver takes it over, or calibrate again";
+      "; the tracker uses the rig. Save the rig again to update the driver, or calibrate again";
   const geometry::Intrinsics& rig = calibrated.intrinsics;
   if (static_cast<int>(info.width) != rig.width || static_cast<int>(info.height) != rig.height)
-    return "camera_info of " + calibrated.name + " is for another image size than the rig" +
+    return "camera_info of " + calibrated.name + " has another image size than the rig" +
            what_to_do;
   const auto lens = lensOf(info);
   if (!lens)
     return "camera_info of " + calibrated.name + " has a lens model '" + info.distortion_model +
-           "' that is not known here" + what_to_do;
+           "' that is unknown" + what_to_do;
   const double distance = distanceOf(rig, *lens);
   if (distance <= kSameLens)
     return "";
@@ -75,14 +77,14 @@ void LensCheck::setRig(const geometry::Rig& rig) {
   problems_.clear();
   for (const geometry::RigCamera& rig_camera : rig.cameras) {
     const geometry::Camera& camera = rig_camera.camera;
-    subscribers_[camera.name] = nh_.subscribe<sensor_msgs::CameraInfo>(
-        camera.name + "/camera_info", 1,
-        [this, camera](const sensor_msgs::CameraInfoConstPtr& info) { compare(*info, camera); });
+    subscribers_[camera.name] = subscribe<sensor_msgs::CameraInfo>(
+        nh_, camera.name + "/camera_info", 1,
+        [this, camera](const auto& event) { compare(*event.getConstMessage(), camera); });
   }
 }
 
 void LensCheck::compare(const sensor_msgs::CameraInfo& info, const geometry::Camera& calibrated) {
-  const std::string problem = contradictionOf(info, calibrated);
+  const std::string problem = lensMismatch(info, calibrated);
   std::string& known = problems_[calibrated.name];
   if (known.empty() && !problem.empty())
     ROS_WARN("%s.", problem.c_str());

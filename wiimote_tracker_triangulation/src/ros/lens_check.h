@@ -11,13 +11,12 @@
 
 namespace wiimote_tracker {
 
-/// In what a camera_info contradicts the lens that a camera was calibrated with, in one sentence;
-/// empty when in nothing, or when the camera_info is that of an uncalibrated camera.
-std::string contradictionOf(const sensor_msgs::CameraInfo& info,
-                            const geometry::Camera& calibrated);
+/// How a camera_info differs from the lens that a camera was calibrated with, in one sentence;
+/// empty when they agree, or when the camera_info is that of an uncalibrated camera.
+std::string lensMismatch(const sensor_msgs::CameraInfo& info, const geometry::Camera& calibrated);
 
-/// Compares what the cameras' drivers publish as camera_info with the rig, and listens to each
-/// until they agree. Points are always made from the rig.
+/// Compares the camera_info of each camera's driver with the rig until they agree. Points are
+/// always computed from the rig.
 class LensCheck {
  public:
   explicit LensCheck(const ros::NodeHandle& nh) : nh_(nh) {}
@@ -25,7 +24,7 @@ class LensCheck {
   /// Compares with this rig from now on.
   void setRig(const geometry::Rig& rig);
 
-  /// Empty when none is known.
+  /// Empty without a mismatch.
   std::string problemOf(const std::string& camera) const;
 
  private:

@@ -25,8 +25,8 @@ using wiimote_tracker_msgs::TrackedPoint;
 
 constexpr double kPointDiameter = 0.03;  // [m]
 constexpr double kBlobDiameter = 0.02;   // [m]
-constexpr double kRayLength = 10.0;      // where there is no point to end in [m]
-constexpr double kOldView = 0.2;         // what a camera saw longer ago is not drawn [s]
+constexpr double kRayLength = 10.0;      // of rays without a point [m]
+constexpr double kOldView = 0.2;         // older views are not drawn [s]
 // Square root of the 95 % quantile of the chi-squared distribution with three degrees of freedom.
 constexpr double kSigmas95 = 2.7955;
 
@@ -46,7 +46,7 @@ std_msgs::ColorRGBA colorOf(tracking::SpotUse use) {
   return color(1.0f, 0.5f, 0.0f, 0.6f);
 }
 
-/// Neighbours in time look different.
+/// Successive ids have different colours.
 std_msgs::ColorRGBA colorOfLed(std::uint32_t id, float alpha) {
   static const std::array<std_msgs::ColorRGBA, 6> colors = {
       color(1.0f, 0.2f, 0.2f, 1.0f), color(0.3f, 0.6f, 1.0f, 1.0f), color(1.0f, 0.9f, 0.2f, 1.0f),
@@ -65,7 +65,7 @@ void setScale(const Vector3d& scale, Marker* marker) {
 /// Where a pixel lies on the camera's image plane at a distance, in the world [m].
 Vector3d onImagePlane(const geometry::Camera& camera, const Vector2d& pixel, double distance) {
   const geometry::Intrinsics& i = camera.intrinsics;
-  // Corners may lie beyond the fold of a strong lens: there, draw them without distortion.
+  // A strong lens model may not be invertible at the corners: draw them without distortion.
   const Vector2d n = i.normalizedFromPixel(pixel).value_or(
       Vector2d((pixel.x() - i.cx) / i.fx, (pixel.y() - i.cy) / i.fy));
   return camera.world_from_camera * Vector3d(distance * n.x(), distance * n.y(), distance);
@@ -129,7 +129,7 @@ visualization_msgs::MarkerArray MarkerBuilder::build(
 }
 
 Marker MarkerBuilder::marker(const std::string& ns, std::size_t id, int type) const {
-  // So that a point does not stay in the picture when the tracker falls silent.
+  // So that markers disappear when the tracker stops.
   const double lifetime = std::max(1.0, 3.0 / options_.rate);
   return markers::marker(rig_.world_frame, time_, lifetime, ns, id, type);
 }
@@ -222,7 +222,7 @@ void MarkerBuilder::addView(std::size_t index,
   add(rays);
 }
 
-/// Adds a marker that consists of points, or takes it away when there are none.
+/// Adds a marker that consists of points, or deletes it when it has none.
 void MarkerBuilder::add(Marker marker) {
   if (marker.points.empty())
     marker.action = Marker::DELETE;
@@ -230,7 +230,7 @@ void MarkerBuilder::add(Marker marker) {
 }
 
 void MarkerBuilder::addLed(const TrackedPoint& led) {
-  // What is not certain is pale.
+  // Tentative and predicted LEDs are pale.
   const float alpha = led.state == TrackedPoint::TRACKED ? 1.0f : 0.4f;
   Marker point = marker("point", led.id, Marker::SPHERE);
   point.pose.position = led.position;

@@ -23,7 +23,7 @@ struct MarkerOptions {
   double trail_duration = 10.0;       ///< [s, >= 0].
 };
 
-/// Draws a rig, what its cameras see and the LEDs, for rviz, in the world frame. Namespaces:
+/// Markers for rviz of a rig, its cameras' spots, and the LEDs, in the world frame. Namespaces:
 /// camera, frustum, image_plane, mask, blob, ray (one id per camera, in the order of the rig);
 /// point, covariance (95 % ellipsoid), label, trail (one per LED, with its id). Spots and rays are
 /// green when they belong to an LED, orange when they do not, and grey when masked.
@@ -31,14 +31,14 @@ class MarkerBuilder {
  public:
   explicit MarkerBuilder(const MarkerOptions& options) : options_(options) {}
 
-  /// From now on draws this rig; what was drawn of the last one is taken away.
+  /// Draws this rig from now on and deletes the markers of the previous one.
   void setRig(const geometry::Rig& rig);
 
   /// Whether 1 / rate has passed since the last array, or time jumped back.
   bool isDue(double time) const;
 
-  /// `views`: one per camera of the rig. LEDs that were drawn and are there no more, or lost, are
-  /// taken away; their trails fade.
+  /// `views`: one per camera of the rig. Deletes the markers of LEDs that are lost or gone; their
+  /// trails fade.
   visualization_msgs::MarkerArray build(const wiimote_tracker_msgs::TrackedPointArray& points,
                                         const std::vector<tracking::CameraView>& views);
 

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <string>
 
-/// What the markers of LEDs and of bodies are made of.
+/// Shared by the markers of LEDs and of bodies.
 namespace wiimote_tracker::markers {
 
 constexpr double kLineWidth = 0.005;  // [m]
@@ -33,7 +33,7 @@ inline std_msgs::ColorRGBA color(float r, float g, float b, float a) {
   return color;
 }
 
-/// @param time now [s] @param lifetime after which it goes from the picture by itself [s]
+/// @param time stamp [s] @param lifetime after which rviz removes it [s]
 inline visualization_msgs::Marker marker(const std::string& frame,
                                          double time,
                                          double lifetime,

@@ -1,14 +1,14 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENT_MESSAGE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENT_MESSAGE_H
 
-#include "wiimote_tracker_triangulation/measurements/writer.h"
+#include "measurements/writer.h"
 
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 
 namespace wiimote_tracker {
 
 /// Writes each LED of a message. @param triggered the message answers a trigger.
-/// @throws measurements::WriteError.
+/// @throws Error.
 void writeMeasurements(const wiimote_tracker_msgs::TrackedPointArray& points,
                        bool triggered,
                        measurements::Writer* writer);

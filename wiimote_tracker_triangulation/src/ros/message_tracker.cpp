@@ -18,7 +18,7 @@ namespace {
 using wiimote_tracker_msgs::TrackedPoint;
 using wiimote_tracker_msgs::TrackedPointArray;
 
-// After a longer silence of all cameras, the outputs that nobody could be given are left out [s].
+// After a longer silence of all cameras, outputs at a fixed rate are skipped [s].
 constexpr double kLongestSilence = 0.5;
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
@@ -27,19 +27,19 @@ bool isSame(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && a == b;
 }
 
-/// @throws geometry::InvalidRigError when an LED would be called as a frame of the rig.
+/// @throws geometry::InvalidRigError: a frame of the rig has the name of an LED.
 void checkFrames(const geometry::Rig& rig, const std::vector<std::string>& labels) {
-  const auto refuseIfItIs = [&](const std::string& frame) {
+  const auto refuseLabel = [&](const std::string& frame) {
     if (std::find(labels.begin(), labels.end(), frame) != labels.end())
       throw geometry::InvalidRigError("its frame '" + frame +
-                                      "' is called as an LED: rename that LED in labels");
+                                      "' has the name of an LED: rename that LED in labels");
   };
-  refuseIfItIs(rig.world_frame);
+  refuseLabel(rig.world_frame);
   for (const geometry::RigCamera& camera : rig.cameras)
-    refuseIfItIs(geometry::opticalFrame(camera.camera.name));
+    refuseLabel(geometry::opticalFrame(camera.camera.name));
 }
 
-/// Adds what is missing in the message, in the order of the ids.
+/// Inserts points that the message does not have, in the order of their ids.
 void insertMissing(const std::vector<TrackedPoint>& points, TrackedPointArray* message) {
   for (const TrackedPoint& point : points) {
     const auto place =
@@ -87,7 +87,7 @@ MessageTracker::RigChange MessageTracker::takeRig(
     camera_index_.clear();
     for (std::size_t i = 0; i < rig.cameras.size(); ++i)
       camera_index_[rig.cameras[i].camera.name] = i;
-    noticed_.clear();
+    reported_faults_.clear();
     statistics_.setRig(rig);
   }
   rig_ = rig;
@@ -104,17 +104,17 @@ void MessageTracker::takeImage(const std::string& camera,
   const std::size_t index = found->second;
   const ImageFault fault = readImage(message, rig_.cameras[index].camera, &image_);
   if (fault != ImageFault::kNone)
-    noticeFault(index, fault, message);
+    reportFault(index, fault, message);
   if (!isUsable(fault))
     return;
-  statistics_.addImage(index, image_);
+  statistics_.addImage(index, image_, message.frame);
 
   bodies_.take(index, &image_);
   publishBodies();
   publishTicksUntil(image_.arrival);
   estimator_->add(index, image_);
   if (estimator_->counters().resets != resets_)
-    startAnew();
+    restart();
   while (const tracking::Snapshot* snapshot = estimator_->next())
     takeSnapshot(*snapshot);
 }
@@ -128,7 +128,7 @@ void MessageTracker::publishBodies() {
     sink_->onBodies(bodyMessage(*snapshot, bodies_.constellations(), rig_, rig_id_));
 }
 
-/// What blinking has told of the LEDs of this time.
+/// Starts bodies whose LEDs are identified by blinking.
 void MessageTracker::findBodiesByLabels(const tracking::Snapshot& snapshot) {
   labelled_.clear();
   for (const tracking::TrackedLed& led : snapshot.leds) {
@@ -140,16 +140,16 @@ void MessageTracker::findBodiesByLabels(const tracking::Snapshot& snapshot) {
     bodies_.startFromLabels(labelled_);
 }
 
-void MessageTracker::noticeFault(std::size_t camera,
+void MessageTracker::reportFault(std::size_t camera,
                                  ImageFault fault,
                                  const wiimote_tracker_msgs::IrBlobArray& message) {
   const std::string sentence = describe(fault, message, rig_.cameras[camera].camera);
   statistics_.addProblem(camera, sentence);
-  if (noticed_.emplace(camera, fault).second)
+  if (reported_faults_.emplace(camera, fault).second)
     sink_->onProblem(sentence);
 }
 
-void MessageTracker::startAnew() {
+void MessageTracker::restart() {
   resets_ = estimator_->counters().resets;
   if (identifier_)
     identifier_->reset();
@@ -159,8 +159,8 @@ void MessageTracker::startAnew() {
   newest_output_ = kNever;
   newest_tick_.reset();
   sink_->onProblem(
-      "time jumped back, tracking starts anew; when no bag started over, set the computers to the "
-      "same clock");
+      "time jumped back, tracking starts anew; unless a bag was restarted, synchronise the clocks "
+      "of the computers");
 }
 
 void MessageTracker::takeSnapshot(const tracking::Snapshot& snapshot) {
@@ -233,8 +233,8 @@ void MessageTracker::answerTriggers() {
   }
 }
 
-/// Output at a fixed rate, by the arrivals of the images: what is due at a time goes out with the
-/// first image that arrived then or later, and knows nothing of it.
+/// Output at a fixed rate, counted by the arrival times of images: what is due at a time is
+/// published when the first image arrives at that time or later, without using that image.
 void MessageTracker::publishTicksUntil(double now) {
   const double rate = parameters_.output.rate;
   if (!(rate > 0.0))

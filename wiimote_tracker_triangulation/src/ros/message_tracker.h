@@ -1,15 +1,15 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MESSAGE_TRACKER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MESSAGE_TRACKER_H
 
+#include "body/body_follower.h"
+#include "events/trigger.h"
+#include "events/zone_watch.h"
 #include "image_message.h"
 #include "led_labels.h"
 #include "parameters.h"
 #include "point_message.h"
 #include "statistics.h"
 #include "volume_correction.h"
-#include "wiimote_tracker_triangulation/body/body_follower.h"
-#include "wiimote_tracker_triangulation/events/trigger.h"
-#include "wiimote_tracker_triangulation/events/zone_watch.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/identity/snapshot_sightings.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
@@ -33,18 +33,18 @@
 
 namespace wiimote_tracker {
 
-/// Takes what MessageTracker has to say.
+/// Receives the results of MessageTracker.
 class MessageSink {
  public:
   virtual ~MessageSink() = default;
 
-  /// The LEDs of one time, in strictly increasing time, but for a jump back of all time. `views`:
-  /// what the cameras saw. The message must never be changed.
+  /// The LEDs at one time; times increase strictly until time jumps back. `views`: what the cameras
+  /// saw. The message must not be changed.
   virtual void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
                         const std::vector<tracking::CameraView>& views) = 0;
 
-  /// The rigid bodies at the time of an image, in strictly increasing time as well; before the
-  /// points of that image. Only while there are bodies to be followed.
+  /// The rigid bodies at the time of an image, before the points of that image. Times increase
+  /// strictly too. Only while bodies are tracked.
   virtual void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& /*bodies*/) {}
 
   virtual void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) = 0;
@@ -52,13 +52,12 @@ class MessageSink {
   /// The LEDs at the time of a trigger.
   virtual void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& points) = 0;
 
-  /// Something is wrong: one sentence that says what to do. Each fault of a camera comes once per
-  /// rig.
+  /// A problem: one sentence that says what to do. Each fault of a camera is reported once per rig.
   virtual void onProblem(const std::string& sentence) = 0;
 };
 
-/// The tracker in messages, without a node: rigs, images and triggers in; points, zone events
-/// and triggered points out. What comes out is a function of the messages that went in and of their
+/// The tracker without a node: takes messages (rigs, images, triggers) and gives messages (points,
+/// bodies, zone events, triggered points). The results are a function of the messages and their
 /// order; no clock is read.
 class MessageTracker {
  public:
@@ -66,12 +65,12 @@ class MessageTracker {
 
   /// What a new RigCalibration changed.
   struct RigChange {
-    bool cameras = false;     ///< What determines points.
-    bool correction = false;  ///< Of the volume. It may come later than the rig it belongs to.
+    bool cameras = false;     ///< Anything that determines points.
+    bool correction = false;  ///< The correction of the volume, which may come after its rig.
   };
 
   /// Takes effect at once, for all cameras. The same rig again changes nothing.
-  /// @throws geometry::Error, remap::RemapError; then the rig before stays.
+  /// @throws geometry::Error, Error; then the previous rig stays.
   RigChange takeRig(const wiimote_tracker_msgs::RigCalibration& message);
 
   bool hasRig() const { return estimator_ != nullptr; }
@@ -79,29 +78,29 @@ class MessageTracker {
   const std::string& rigId() const { return rig_id_; }  ///< As published.
   const VolumeCorrection& correction() const { return correction_; }
 
-  /// Calls the sink for all that follows from the image. An image that cannot be used, and one of a
-  /// camera that the rig does not have, is left out.
+  /// Calls the sink with all results of the image. An image that cannot be used, or of a camera
+  /// that the rig does not have, is ignored.
   void takeImage(const std::string& camera, const wiimote_tracker_msgs::IrBlobArray& message);
 
-  /// The rigid bodies to be followed from now on; first those of the parameters. Their spots do not
-  /// become LEDs. @throws body::BodyError; then those before stay.
+  /// The rigid bodies to track from now on, instead of those of the parameters. Their spots do not
+  /// become LEDs. @throws Error; then the previous bodies stay.
   void setBodies(const std::vector<body::Constellation>& bodies);
 
-  /// "It happened at this time": answered as soon as the images reach beyond it. When it is asked
-  /// changes nothing in the answer.
+  /// Asks for the points at a trigger's time. They come as soon as the images reach it; when the
+  /// trigger itself comes does not change them.
   void takeTrigger(const std_msgs::Header& trigger);
 
-  /// No image will follow: triggers that still wait are refused.
+  /// No image will follow: refuses triggers that still wait.
   void finish();
 
   const tracking::Counters& counters() const { return estimator_->counters(); }  ///< With a rig.
   Statistics& statistics() { return statistics_; }
 
  private:
-  void noticeFault(std::size_t camera,
+  void reportFault(std::size_t camera,
                    ImageFault fault,
                    const wiimote_tracker_msgs::IrBlobArray& message);
-  void startAnew();
+  void restart();
   void publishBodies();
   void findBodiesByLabels(const tracking::Snapshot& snapshot);
   void takeSnapshot(const tracking::Snapshot& snapshot);
@@ -127,17 +126,17 @@ class MessageTracker {
   LedLabels labels_;
   events::ZoneWatch zones_;
   events::Trigger trigger_;
-  std::map<std::uint64_t, std_msgs::Header> triggers_;  // that wait, by number
+  std::map<std::uint64_t, std_msgs::Header> triggers_;  // waiting, by number
   std::uint64_t next_trigger_ = 0;
   Statistics statistics_;
-  std::set<std::pair<std::size_t, ImageFault>> noticed_;  // of this rig's cameras
+  std::set<std::pair<std::size_t, ImageFault>> reported_faults_;  // of this rig's cameras
   std::uint64_t resets_ = 0;
 
   // Of the output.
-  CorrectedSnapshot newest_;                                         // at no time before the first
+  CorrectedSnapshot newest_;  // time -infinity before the first
   double newest_output_ = -std::numeric_limits<double>::infinity();  // [s]
   std::optional<std::int64_t> newest_tick_;                          // [1 / rate]
-  std::vector<wiimote_tracker_msgs::TrackedPoint> lost_;             // not yet published as such
+  std::vector<wiimote_tracker_msgs::TrackedPoint> lost_;             // LOST, not yet published
 
   // Reused.
   std::vector<body::LabelledPoint> labelled_;

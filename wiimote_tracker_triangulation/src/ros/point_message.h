@@ -15,14 +15,14 @@
 
 namespace wiimote_tracker {
 
-/// What the message says besides the snapshot itself.
+/// Fields of the message that are not in the snapshot.
 struct PointContext {
   std::string method;             ///< How the points were computed.
   std::string rig_id;             ///< Id of the rig, as published.
   std::uint64_t late_frames = 0;  ///< As in TrackedPointArray.msg.
 };
 
-/// The message of a snapshot with all of its LEDs. The core's seconds become ros::Time.
+/// The message of a snapshot with all of its LEDs.
 wiimote_tracker_msgs::TrackedPointArray pointMessage(const CorrectedSnapshot& corrected,
                                                      const geometry::Rig& rig,
                                                      const LedLabels& labels,
@@ -34,8 +34,8 @@ wiimote_tracker_msgs::TrackedPoint trackedPoint(const CorrectedSnapshot& correct
                                                 const geometry::Rig& rig,
                                                 const LedLabels& labels);
 
-/// Whether a point goes out by itself and as a transform: when it is tracked, and if so wished also
-/// while it is predicted.
+/// Whether to publish a point by itself and as a transform: when it is tracked, or predicted and
+/// `publish_predicted`.
 bool isPosition(const wiimote_tracker_msgs::TrackedPoint& point, bool publish_predicted);
 
 geometry_msgs::PointStamped pointStamped(const wiimote_tracker_msgs::TrackedPointArray& array,

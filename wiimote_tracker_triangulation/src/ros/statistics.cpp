@@ -7,7 +7,7 @@
 namespace wiimote_tracker {
 namespace {
 
-// A view counts at the time it was taken at, not again in the snapshots after it.
+// A view is counted in the snapshot of its own time only.
 constexpr double kSameTime = 1e-6;  // [s]
 
 double quotient(double sum, std::size_t count) {
@@ -16,7 +16,7 @@ double quotient(double sum, std::size_t count) {
 
 }  // namespace
 
-double CameraStatistics::shareOfInliers() const {
+double CameraStatistics::inlierRatio() const {
   return quotient(static_cast<double>(assigned), spots);
 }
 
@@ -32,6 +32,7 @@ void Statistics::setRig(const geometry::Rig& rig) {
   for_rays_.clear();
   for (const geometry::RigCamera& camera : rig.cameras)
     for_rays_.push_back(rig.rayCamera(camera));
+  frames_.assign(for_rays_.size(), std::nullopt);
   clear();
 }
 
@@ -41,7 +42,13 @@ void Statistics::clear() {
   latencies_.clear();
 }
 
-void Statistics::addImage(std::size_t camera, const tracking::CameraImage& image) {
+void Statistics::addImage(std::size_t camera,
+                          const tracking::CameraImage& image,
+                          std::uint64_t frame) {
+  std::optional<std::uint64_t>& last = frames_[camera];
+  if (last && frame > *last)
+    cameras_[camera].lost += frame - *last - 1;
+  last = frame;
   ++cameras_[camera].images;
   cameras_[camera].delay_sum += image.arrival - image.stamp;
 }
@@ -86,7 +93,7 @@ void Statistics::addSpot(std::size_t camera,
 }
 
 void Statistics::addLatency(double latency) {
-  constexpr std::size_t kMaximumLatencies = 100000;  // nobody may ever clear
+  constexpr std::size_t kMaximumLatencies = 100000;  // in case nobody clears
   if (latencies_.size() < kMaximumLatencies)
     latencies_.push_back(latency);
 }

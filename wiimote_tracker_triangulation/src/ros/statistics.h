@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,7 @@ namespace wiimote_tracker {
 /// What one camera contributed since the last clear(). Quotients are NaN where nothing was counted.
 struct CameraStatistics {
   std::size_t images = 0;
+  std::uint64_t lost = 0;    ///< Images that the camera counted but that never came.
   std::size_t spots = 0;     ///< In used images, without masked ones.
   std::size_t masked = 0;    ///< Spots.
   std::size_t assigned = 0;  ///< Spots that belong to an LED.
@@ -22,9 +25,9 @@ struct CameraStatistics {
   double squares_sum = 0.0;  ///< Of the distances of assigned spots from their LEDs [px^2].
   std::string problem;       ///< The last fault of an image in words; empty without one.
 
-  double shareOfInliers() const;  ///< [0..1]
-  double meanDelay() const;       ///< [s]
-  double residual() const;        ///< sqrt(mean(du^2 + dv^2)) [px]
+  double inlierRatio() const;  ///< [0..1]
+  double meanDelay() const;    ///< [s]
+  double residual() const;     ///< sqrt(mean(du^2 + dv^2)) [px]
 };
 
 /// Counts for diagnostics.
@@ -33,10 +36,11 @@ class Statistics {
   /// Counts for the cameras of this rig from now on.
   void setRig(const geometry::Rig& rig);
 
-  void addImage(std::size_t camera, const tracking::CameraImage& image);
+  /// `frame`: the camera's count of its images, from IrBlobArray.
+  void addImage(std::size_t camera, const tracking::CameraImage& image, std::uint64_t frame);
   void addProblem(std::size_t camera, const std::string& problem);
   void addSnapshot(const tracking::Snapshot& snapshot);
-  void addLatency(double latency);  ///< From the newest image's arrival to the publication [s].
+  void addLatency(double latency);  ///< From the newest image's arrival to publication [s].
   void clear();
 
   std::size_t snapshots() const { return snapshots_; }
@@ -55,6 +59,7 @@ class Statistics {
 
   std::vector<geometry::Camera> for_rays_;  // see Rig::rayCamera
   std::vector<CameraStatistics> cameras_;
+  std::vector<std::optional<std::uint64_t>> frames_;  // of each camera's last image
   std::size_t snapshots_ = 0;
   std::array<std::size_t, 4> leds_{};  // by state
   std::vector<double> latencies_;

@@ -65,7 +65,7 @@ void TrackingDiagnostics::setRig() {
 void TrackingDiagnostics::addArrival(const std::string& camera,
                                      const ros::Time& arrival,
                                      const std::string& node) {
-  // A bag's clock is too coarse to be compared with.
+  // The clock of a bag is too coarse for a comparison.
   if (arrival.isZero() || ros::Time::isSimTime())
     return;
   const auto place = std::find(cameras_.begin(), cameras_.end(), camera);
@@ -76,7 +76,7 @@ void TrackingDiagnostics::addArrival(const std::string& camera,
   clocks_.add(index, (ros::Time::now() - arrival).toSec());
 }
 
-/// Comes before those of the cameras.
+/// Runs before the reports of the cameras and begins a new period for all.
 void TrackingDiagnostics::report(Status& status) {
   if (!tracker_->hasRig()) {
     status.summary(DiagnosticStatus::WARN, "no rig: calibrate, or load a saved one");
@@ -93,7 +93,7 @@ void TrackingDiagnostics::report(Status& status) {
   if (reported_.snapshots() == 0)
     status.summary(DiagnosticStatus::WARN, "no images: start the cameras' drivers");
   else if (reported_.leds(TrackState::kTracked) == 0)
-    status.summary(DiagnosticStatus::OK, "no LED in view of two cameras");
+    status.summary(DiagnosticStatus::OK, "no LED is seen by two cameras");
   else
     status.summary(DiagnosticStatus::OK, "tracking");
   const VolumeCorrection& correction = tracker_->correction();
@@ -112,7 +112,7 @@ void TrackingDiagnostics::report(Status& status) {
   status.addf("images dropped as too late", "%llu", count(counters.dropped));
   status.addf("images repeated", "%llu", count(counters.repeated));
   status.addf("images out of the order of arrival", "%llu", count(counters.disordered));
-  status.addf("times that time jumped back", "%llu", count(counters.resets));
+  status.addf("restarts because time jumped back", "%llu", count(counters.resets));
 }
 
 void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
@@ -126,8 +126,9 @@ void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
       status.mergeSummary(DiagnosticStatus::WARN, problem);
   }
   status.addf("images [Hz]", "%.1f", static_cast<double>(statistics.images) / period_);
+  status.addf("images lost", "%llu", count(statistics.lost));
   status.addf("delay from exposure to arrival [ms]", "%.3f", 1e3 * statistics.meanDelay());
-  status.addf("spots that belong to an LED [%]", "%.1f", 100.0 * statistics.shareOfInliers());
+  status.addf("spots that belong to an LED [%]", "%.1f", 100.0 * statistics.inlierRatio());
   status.addf("residual [px]", "%.3f", statistics.residual());
   status.add("spots masked", statistics.masked);
 }
@@ -139,8 +140,8 @@ std::string TrackingDiagnostics::clockProblem(std::size_t camera) const {
   const std::string host = hostOf(nodes_[camera]);
   std::ostringstream text;
   text << std::fixed << std::setprecision(3) << "the clock "
-       << (host.empty() ? "" : "of " + host + " ") << "behind " << cameras_[camera] << " ("
-       << nodes_[camera] << ") is " << (*ahead > 0.0 ? *ahead : -*ahead) << " s "
+       << (host.empty() ? "" : "of " + host + " ") << "of the driver of " << cameras_[camera]
+       << " (" << nodes_[camera] << ") is " << (*ahead > 0.0 ? *ahead : -*ahead) << " s "
        << (*ahead > 0.0 ? "ahead" : "behind, or its network is slow")
        << ": run chrony on all computers";
   return text.str();

@@ -14,7 +14,7 @@
 
 namespace wiimote_tracker {
 
-/// Says on /diagnostics how the tracking goes: one status for all, and one for each camera.
+/// Publishes on /diagnostics: one status for the tracker and one for each camera.
 class TrackingDiagnostics {
  public:
   /// `tracker` must live longer. `clock_tolerance`: see ClockWatch [s].
@@ -26,7 +26,7 @@ class TrackingDiagnostics {
   /// The tracker has taken a new rig.
   void setRig();
 
-  /// An image of a camera of the rig was handled now. `node`: that published it.
+  /// Call it when an image is handled. `node`: its publisher.
   void addArrival(const std::string& camera, const ros::Time& arrival, const std::string& node);
 
   /// Publishes when it is time to.
@@ -46,7 +46,7 @@ class TrackingDiagnostics {
   std::vector<std::string> nodes_;  // per camera
   diagnostic_updater::Updater updater_;
 
-  // Since the last report began; what the cameras' reports are about.
+  // Of the period that is reported.
   Statistics reported_;
   ClockWatch reported_clocks_;
   ros::WallTime since_ = ros::WallTime::now();

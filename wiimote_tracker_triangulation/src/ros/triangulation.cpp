@@ -1,16 +1,25 @@
 #include "triangulation.h"
 
+#include "callbacks.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <visualization_msgs/MarkerArray.h>
-#include <boost/make_shared.hpp>
+
+#include <utility>
 
 namespace wiimote_tracker {
 
+using wiimote_tracker_msgs::IrBlobArray;
 using wiimote_tracker_msgs::RigCalibration;
-using wiimote_tracker_msgs::RigCalibrationConstPtr;
 using wiimote_tracker_msgs::TrackedPointArray;
 using wiimote_tracker_msgs::TrackedPointArrayConstPtr;
+
+namespace {
+
+// Images of one camera that may wait: ten seconds of a Wii Remote.
+constexpr std::uint32_t kImageQueue = 1000;
+
+}  // namespace
 
 Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
     : nh_(nh),
@@ -22,34 +31,21 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
       body_markers_(parameters_.markers.rate),
       body_diagnostics_(nh, private_nh),
       learning_(nh, parameters_.bodies.file, parameters_.bodies.known, parameters_.allLabels()),
-      diagnostics_(nh, private_nh, &tracker_, parameters_.clock_tolerance),
-      images_(
-          nh,
-          [this](const ArrivedImage& image) { onImage(image); },
-          [this] { changeWhatImagesMayNot(); }) {
+      diagnostics_(nh, private_nh, &tracker_, parameters_.clock_tolerance) {
   if (parameters_.identity.codes)
     ROS_INFO("%s.", describeIdentity(parameters_).c_str());
   useBodies(parameters_.bodies.known);
-  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   points_publisher_ = nh_.advertise<TrackedPointArray>("points", 100);
   markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 5);
   zone_publisher_ = nh_.advertise<wiimote_tracker_msgs::ZoneEvent>("zone_events", 100);
   triggered_publisher_ = nh_.advertise<TrackedPointArray>("triggered_points", 100);
-  rig_subscriber_ = nh_.subscribe<RigCalibration>(
-      "calibration/rig", 5,
-      [this](const RigCalibrationConstPtr& rig) { images_.alone([&] { onRig(*rig); }); },
-      ros::VoidConstPtr(), no_delay);
-  trigger_subscriber_ = nh_.subscribe<std_msgs::Header>(
-      "trigger", 100,
-      [this](const std_msgs::HeaderConstPtr& trigger) {
-        images_.alone([&] { tracker_.takeTrigger(*trigger); });
-      },
-      ros::VoidConstPtr(), no_delay);
+  rig_subscriber_ = subscribe<RigCalibration>(
+      nh_, "calibration/rig", 5, [this](const auto& event) { onRig(*event.getConstMessage()); });
+  trigger_subscriber_ = subscribe<std_msgs::Header>(nh_, "trigger", 100, [this](const auto& event) {
+    tracker_.takeTrigger(*event.getConstMessage());
+  });
   timer_ = nh_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
-    images_.alone([this] {
-      changeWhatImagesMayNot();  // when no image comes that would ask for it
-      onTimer();
-    });
+    logExceptions("timer", [this] { onTimer(); });
   });
 }
 
@@ -78,24 +74,28 @@ void Triangulation::onRig(const RigCalibration& message) {
     ROS_WARN("Points are not corrected: %s.", correction.problem().c_str());
 }
 
+/// A camera that stays keeps its subscription, so that none of its images is lost.
 void Triangulation::subscribeToCameras() {
-  std::vector<std::string> cameras;
-  for (const geometry::RigCamera& camera : tracker_.rig().cameras)
-    cameras.push_back(camera.camera.name);
-  images_.subscribe(cameras);
+  std::map<std::string, ros::Subscriber> subscribers;
+  for (const geometry::RigCamera& rig_camera : tracker_.rig().cameras) {
+    const std::string& camera = rig_camera.camera.name;
+    const auto old = image_subscribers_.find(camera);
+    subscribers[camera] =
+        old != image_subscribers_.end()
+            ? old->second
+            : subscribe<IrBlobArray>(nh_, camera + "/ir_blobs", kImageQueue,
+                                     [this, camera](const auto& event) { onImage(camera, event); });
+  }
+  image_subscribers_ = std::move(subscribers);
 }
 
-void Triangulation::onImage(const ArrivedImage& image) {
-  if (learning_.hasChange())
-    images_.askForTask();
-  diagnostics_.addArrival(image.camera, image.message->arrival, image.node);
-  tracker_.takeImage(image.camera, *image.message);
-}
-
-void Triangulation::changeWhatImagesMayNot() {
+void Triangulation::onImage(const std::string& camera,
+                            const ros::MessageEvent<const IrBlobArray>& event) {
   if (const auto bodies = learning_.change())
     useBodies(*bodies);
-  leds_.changeTopics();
+  const IrBlobArray& image = *event.getConstMessage();
+  diagnostics_.addArrival(camera, image.arrival, event.getPublisherName());
+  tracker_.takeImage(camera, image);
 }
 
 void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
@@ -108,13 +108,12 @@ void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
       ROS_WARN("%s.", sentence.c_str());
   }
   if (!bodies.empty())
-    ROS_INFO("%zu rigid bodies are followed.", bodies.size());
+    ROS_INFO("%zu rigid bodies are tracked.", bodies.size());
 }
 
 void Triangulation::onPoints(const TrackedPointArrayConstPtr& points,
                              const std::vector<tracking::CameraView>& views) {
-  if (leds_.publish(*points))
-    images_.askForTask();
+  leds_.publish(*points);
   points_publisher_.publish(points);
   tracker_.statistics().addLatency((ros::Time::now() - points->latest_arrival).toSec());
   learning_.addPoints(*points);
@@ -149,6 +148,8 @@ void Triangulation::onTimer() {
                       "load a saved rig.",
                       rig_subscriber_.getTopic().c_str());
   }
+  if (const auto bodies = learning_.change())  // while no image comes
+    useBodies(*bodies);
   diagnostics_.update();
   body_diagnostics_.update();
 }

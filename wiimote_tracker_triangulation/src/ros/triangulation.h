@@ -5,7 +5,6 @@
 #include "bodies/body_learning.h"
 #include "bodies/body_markers.h"
 #include "bodies/body_publishers.h"
-#include "image_arrivals.h"
 #include "led_publishers.h"
 #include "marker_builder.h"
 #include "message_tracker.h"
@@ -16,6 +15,7 @@
 #include <std_msgs/Header.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,8 +23,8 @@
 namespace wiimote_tracker {
 
 /// The tracker's topics: rig, blobs and triggers in; points, TF, markers, events and diagnostics
-/// out. Node and nodelet are two mains over this class. All callbacks of the handles' queue must
-/// come from one thread, the owner's; images may be handled in others: see ImageArrivals.
+/// out. Node and nodelet are two mains over this class. One thread must call all callbacks of the
+/// handles' queue: it handles images, rigs and triggers in the order in which they came.
 class Triangulation : private MessageSink {
  public:
   /// @throws ParameterError.
@@ -32,9 +32,9 @@ class Triangulation : private MessageSink {
 
  private:
   void onRig(const wiimote_tracker_msgs::RigCalibration& message);
-  void onImage(const ArrivedImage& image);
+  void onImage(const std::string& camera,
+               const ros::MessageEvent<const wiimote_tracker_msgs::IrBlobArray>& event);
   void onTimer();
-  void changeWhatImagesMayNot();
   void subscribeToCameras();
   void useBodies(const std::vector<body::Constellation>& bodies);
 
@@ -63,8 +63,8 @@ class Triangulation : private MessageSink {
   ros::Publisher triggered_publisher_;
   ros::Subscriber rig_subscriber_;
   ros::Subscriber trigger_subscriber_;
+  std::map<std::string, ros::Subscriber> image_subscribers_;  // by camera
   ros::WallTimer timer_;
-  ImageArrivals images_;  // ends first
 };
 
 }  // namespace wiimote_tracker

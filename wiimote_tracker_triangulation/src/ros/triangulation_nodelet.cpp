@@ -2,26 +2,17 @@
 
 #include <nodelet/nodelet.h>
 #include <ros/callback_queue.h>
+#include <ros/spinner.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include <atomic>
 #include <memory>
-#include <thread>
 
 namespace wiimote_tracker {
 
-/// With a thread of its own that handles images: the manager would wake one of its threads to take
-/// each out of a queue, and another one to handle it.
+/// Has a callback queue with a thread of its own: the manager's queues hand each message on through
+/// two threads.
 class TriangulationNodelet : public nodelet::Nodelet {
- public:
-  ~TriangulationNodelet() override {
-    is_over_ = true;
-    if (thread_.joinable())
-      thread_.join();
-  }
-
- private:
   void onInit() override {
     ros::NodeHandle nh = getNodeHandle();
     ros::NodeHandle private_nh = getPrivateNodeHandle();
@@ -33,17 +24,13 @@ class TriangulationNodelet : public nodelet::Nodelet {
       NODELET_FATAL("%s", e.what());
       throw;  // the manager reports that it could not load
     }
-    thread_ = std::thread([this] {
-      const ros::WallDuration until_looking_whether_it_is_over(0.1);
-      while (!is_over_)
-        queue_.callAvailable(until_looking_whether_it_is_over);
-    });
+    thread_.start();
   }
 
+  // The thread ends first, then what its callbacks use.
   ros::CallbackQueue queue_;
   std::unique_ptr<Triangulation> triangulation_;
-  std::atomic<bool> is_over_{false};
-  std::thread thread_;
+  ros::AsyncSpinner thread_{1, &queue_};
 };
 
 }  // namespace wiimote_tracker

@@ -1,6 +1,6 @@
 #include "volume_correction.h"
 
-#include "wiimote_tracker_triangulation/remap/error.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 namespace wiimote_tracker {
 
@@ -16,7 +16,7 @@ bool VolumeCorrection::take(const geometry::Rig& rig) {
   try {
     if (remap_)
       correction_.emplace(*remap_, rig_id);
-  } catch (const remap::RemapError& e) {
+  } catch (const Error& e) {
     problem_ = e.what();
   }
   return remap_ || !had_none;
@@ -30,7 +30,7 @@ void VolumeCorrection::apply(const tracking::Snapshot& snapshot,
     corrected->remapped.push_back(apply(&led));
 }
 
-/// @returns whether the LED lay in the volume that the correction was measured in.
+/// @returns whether the LED is inside the measured volume.
 bool VolumeCorrection::apply(tracking::TrackedLed* led) const {
   if (!correction_)
     return false;

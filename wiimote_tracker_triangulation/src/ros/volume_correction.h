@@ -16,21 +16,21 @@ struct CorrectedSnapshot {
   std::vector<bool> remapped;  ///< Per LED: whether it lay where the correction was measured.
 };
 
-/// The correction of the volume that the rig in use carries, if any, and why it is not used if so.
+/// The rig's correction of the volume, if it has one, and the reason when it is not used.
 class VolumeCorrection {
  public:
-  /// @returns whether it is another one than before.
+  /// @returns whether the correction changed.
   bool take(const geometry::Rig& rig);
 
-  /// Corrects positions, velocities and their covariances. Outside the volume that the correction
-  /// was measured in, an LED is displaced as the border is (remap::Correction). Without a
-  /// correction all stays as it is. Does not allocate once `corrected` is warm.
+  /// Corrects positions, velocities and their covariances; without a correction it copies them.
+  /// Outside the measured volume, LEDs are displaced like its border (remap::Correction). Does not
+  /// allocate once `corrected` is warm.
   void apply(const tracking::Snapshot& snapshot, CorrectedSnapshot* corrected) const;
 
-  /// For people: "none", the name of the model, or "void".
+  /// "none", the name of the model, or "void".
   std::string state() const;
 
-  /// Why the rig's correction is not used and what to do; empty when it is, or there is none.
+  /// Why the rig's correction is not used and what to do; empty when it is used or there is none.
   const std::string& problem() const { return problem_; }
 
  private:

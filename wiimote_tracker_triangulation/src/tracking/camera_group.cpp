@@ -5,8 +5,8 @@
 namespace wiimote_tracker::tracking {
 namespace {
 
-/// Images from one kept state to the next: what a late image costs in steps that are repeated
-/// against what every image costs in copies.
+/// Images from one kept state to the next: a compromise between the steps that a late image repeats
+/// and the copies that every image costs.
 constexpr std::size_t kKeepInterval = 2;
 
 constexpr double kLeastInterval = 1e-4;  // from one exposure of any camera to its next [s]
@@ -21,7 +21,7 @@ geometry::Rig rigOf(const geometry::Rig& rig, const std::vector<std::size_t>& me
   return result;
 }
 
-/// With the members' places among themselves.
+/// The partners of each member, as indices among the members.
 std::vector<std::vector<std::size_t>> partnersOf(
     const std::vector<std::vector<std::size_t>>& partners,
     const std::vector<std::size_t>& members) {
@@ -44,26 +44,26 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
     : options_(options),
       members_(members),
       update_(options),
-      births_(rigOf(rig, members), partnersOf(partners, members), options),
+      initiation_(rigOf(rig, members), partnersOf(partners, members), options),
       history_(kKeepInterval) {
   for (const std::size_t member : members_)
     cameras_.emplace_back(rig, member);
-  state_.unexplained.resize(cameras_.size());
+  state_.unassigned.resize(cameras_.size());
 }
 
-CameraGroup::Fate CameraGroup::add(const StoredImage& image,
-                                   Ids* ids,
-                                   std::vector<CameraView>* views) {
+CameraGroup::Outcome CameraGroup::add(const StoredImage& image,
+                                      Ids* ids,
+                                      std::vector<CameraView>* views) {
   const auto& images = history_.images();
   if (!images.empty() && image.time < images.back().time - options_.history)
-    return Fate::kDropped;
+    return Outcome::kDropped;
   const auto place = history_.placeOf(image);
   if (!place)
-    return Fate::kDropped;
+    return Outcome::kDropped;
   if (*place > images.begin()) {
     const StoredImage& before = images.at(*place - 1);
     if (before.time == image.time && before.camera == image.camera)
-      return Fate::kRepeated;
+      return Outcome::kRepeated;
   }
   const auto mistimed = mistimedBefore(*place, image);
   const bool is_late = mistimed || *place < images.end();
@@ -77,12 +77,12 @@ CameraGroup::Fate CameraGroup::add(const StoredImage& image,
     step(images.at(i), ids, views);
   }
   history_.forgetBefore(images.back().time - options_.history);
-  return is_late ? Fate::kLate : Fate::kTaken;
+  return is_late ? Outcome::kLate : Outcome::kAdded;
 }
 
-/// The same camera's image of nearly the same time. Images that were held up, as by a busy
-/// computer, come in a burst. Each seems to be of the latest exposure until the next one comes, so
-/// only the last is of that time: the others would have the LED stand still and then leap.
+/// An image of the same camera at nearly the same time. When a busy computer delays images, they
+/// arrive in a burst with nearly one stamp, and only the last was exposed then. The others would
+/// make the LED appear to stop and jump.
 std::optional<std::uint64_t> CameraGroup::mistimedBefore(std::uint64_t place,
                                                          const StoredImage& image) const {
   const auto& images = history_.images();
@@ -99,41 +99,40 @@ std::optional<std::uint64_t> CameraGroup::mistimedBefore(std::uint64_t place,
 void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views) {
   const GroupCamera& camera = cameras_[image.camera];
   std::vector<Track>& tracks = state_.tracks;
-  update_.apply(camera, image, &tracks, &state_.encounters);
-  endEncounters(image.time);
+  update_.apply(camera, image, &tracks, &state_.pairs);
+  removeMergedPairs(image.time);
   show(image, views);
-  collectUnexplained(image);
-  births_.find(cameras_, image.camera, state_.encounters, &state_.unexplained, &tracks, ids);
+  collectUnassigned(image);
+  initiation_.apply(cameras_, image.camera, state_.pairs, &state_.unassigned, &tracks, ids);
   for (Track& track : tracks)
-    track.judge(image.time, options_);
+    track.updateStatus(image.time, options_);
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
-                              [](const Track& track) { return track.isOver(); }),
+                              [](const Track& track) { return track.isFinished(); }),
                tracks.end());
 }
 
-/// Those that are decided, and those of tracks that are no more or were found elsewhere since.
-void CameraGroup::endEncounters(double time) {
-  std::vector<Encounter>& encounters = state_.encounters;
-  const auto goesOn = [&](std::uint32_t id, double since) {
+/// Removes pairs that are decided, and those whose tracks ended or were reacquired since.
+void CameraGroup::removeMergedPairs(double time) {
+  std::vector<MergedPair>& pairs = state_.pairs;
+  const auto continues = [&](std::uint32_t id, double since) {
     return std::any_of(state_.tracks.begin(), state_.tracks.end(), [&](const Track& track) {
       return track.id == id && track.startedAt() <= since;
     });
   };
-  const auto is_over = [&](const Encounter& encounter) {
-    return !goesOn(encounter.ids()[0], encounter.openedAt()) ||
-           !goesOn(encounter.ids()[1], encounter.openedAt()) ||
-           encounter.isDecided(time, options_.doubt_time);
+  const auto is_finished = [&](const MergedPair& pair) {
+    return !continues(pair.ids()[0], pair.openedAt()) ||
+           !continues(pair.ids()[1], pair.openedAt()) || pair.isDecided(time, options_.doubt_time);
   };
-  encounters.erase(std::remove_if(encounters.begin(), encounters.end(), is_over), encounters.end());
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_finished), pairs.end());
 }
 
-void CameraGroup::collectUnexplained(const StoredImage& image) {
-  Unexplained& rest = state_.unexplained[image.camera];
+void CameraGroup::collectUnassigned(const StoredImage& image) {
+  UnassignedSpots& rest = state_.unassigned[image.camera];
   rest.time = image.time;
   rest.full = image.full;
   rest.count = 0;
   for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
-    if (update_.trackOfSpot()[spot] != association::kGhost)
+    if (update_.trackOfSpot()[spot] != association::kFalseDetection)
       continue;
     rest.pixels[rest.count] = image.pixels[spot];
     rest.keys[rest.count++] = {image.number, spot};
@@ -151,7 +150,7 @@ void CameraGroup::show(const StoredImage& image, std::vector<CameraView>* views)
     seen.pixel = image.pixels[spot];
     if (spot >= image.spot_count) {
       seen.use = SpotUse::kMasked;
-    } else if (update_.trackOfSpot()[spot] != association::kGhost) {
+    } else if (update_.trackOfSpot()[spot] != association::kFalseDetection) {
       seen.use = SpotUse::kAssigned;
       seen.led = state_.tracks[static_cast<std::size_t>(update_.trackOfSpot()[spot])].id;
     }
@@ -168,8 +167,8 @@ void CameraGroup::adopt(const Track& track) {
 void CameraGroup::clear() {
   history_.clear();
   state_.tracks.clear();
-  state_.encounters.clear();
-  std::fill(state_.unexplained.begin(), state_.unexplained.end(), Unexplained());
+  state_.pairs.clear();
+  std::fill(state_.unassigned.begin(), state_.unassigned.end(), UnassignedSpots());
 }
 
 std::vector<std::vector<std::size_t>> groupsOf(

@@ -1,6 +1,6 @@
 #include "group_camera.h"
 
-#include "wiimote_tracker_triangulation/geometry/image_rules.h"
+#include "geometry/image_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,8 +32,12 @@ GroupCamera::GroupCamera(const geometry::Rig& rig, std::size_t index)
       for_rays_(rig.rayCamera(calibration_)),
       squared_cosine_(squaredCosineOfView(for_rays_.intrinsics)) {}
 
-bool GroupCamera::mayShow(const Eigen::Vector3d& place) const {
-  const Eigen::Vector3d sight = place - for_rays_.center();
+double GroupCamera::imageArea() const {
+  return static_cast<double>(for_rays_.intrinsics.width) * for_rays_.intrinsics.height;
+}
+
+bool GroupCamera::mayShow(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d sight = point - for_rays_.center();
   const double depth = for_rays_.world_from_camera.linear().col(2).dot(sight);
   return depth > 0.0 && depth * depth >= squared_cosine_ * sight.squaredNorm();
 }

@@ -9,7 +9,7 @@
 
 namespace wiimote_tracker::tracking {
 
-/// A camera of a rig, made ready for questions about its view.
+/// A camera of a group, with what is often asked about its view.
 class GroupCamera {
  public:
   GroupCamera(const geometry::Rig& rig, std::size_t index);
@@ -17,8 +17,10 @@ class GroupCamera {
   const geometry::Camera& forRays() const { return for_rays_; }
   std::size_t index() const { return index_; }  // in the rig
 
-  /// Cheap; true for everything in the image and some of what is beside it.
-  bool mayShow(const Eigen::Vector3d& place) const;
+  double imageArea() const;  ///< [px^2]
+
+  /// A cheap test: whether a point [m] is within the cone that encloses the view.
+  bool mayShow(const Eigen::Vector3d& point) const;
 
   bool isInImage(const Eigen::Vector2d& pixel, double margin) const;
   bool isMasked(const Eigen::Vector2d& pixel) const;

@@ -10,8 +10,8 @@
 
 namespace wiimote_tracker::tracking {
 
-/// A queue whose places are numbered from the first element that ever was. Reuses its elements, so
-/// that it does not allocate once it has grown to its working size.
+/// A queue whose elements are numbered from the first one ever added. Reuses its elements, so that
+/// it does not allocate once it has grown to its working size.
 template <typename T>
 class NumberedQueue {
  public:
@@ -24,7 +24,7 @@ class NumberedQueue {
   const T& front() const { return at(begin()); }
   const T& back() const { return at(end() - 1); }
 
-  /// A place at the end, with whatever an element before has left in it.
+  /// Adds an element at the end; its value is left over from an earlier one.
   T& push() {
     if (size_ == ring_.size())
       grow();
@@ -56,8 +56,8 @@ class NumberedQueue {
   std::size_t size_ = 0;
 };
 
-/// The latest images in the order of their times, and the state of things before some of them, so
-/// that a late image can be put in at its time and what followed be repeated.
+/// The latest images in the order of their times, and the state before some of them, so that a late
+/// image can be inserted at its time and the steps after it repeated (roll-back).
 template <typename State>
 class History {
  public:
@@ -66,7 +66,7 @@ class History {
 
   const NumberedQueue<StoredImage>& images() const { return images_; }
 
-  /// Where the image belongs; nothing when that is before everything that can be repeated.
+  /// The image's number in the order of time; nothing when no state before it is kept.
   std::optional<std::uint64_t> placeOf(const StoredImage& image) const {
     std::uint64_t place = images_.end();
     while (place > images_.begin() && image < images_.at(place - 1))
@@ -94,8 +94,8 @@ class History {
     images_.popBack();
   }
 
-  /// Brings back the last kept state before that place, and says where it stands. Call before
-  /// insert().
+  /// Restores the last kept state before an image. Call before insert().
+  /// @returns the number of the image that follows this state
   std::uint64_t rollBack(std::uint64_t place, State* state) {
     while (states_.back().before > place)
       states_.popBack();
@@ -103,7 +103,7 @@ class History {
     return states_.back().before;
   }
 
-  /// Keeps the state before the image at `place` when it is time to.
+  /// Keeps the state before the image at `place`, once per interval.
   void keep(std::uint64_t place, const State& state) {
     if (!states_.empty() && place < states_.back().before + interval_)
       return;
@@ -112,7 +112,7 @@ class History {
     kept.state = state;
   }
 
-  /// Drops what is older than a time [s], but for what is needed to repeat from there.
+  /// Drops what is not needed to repeat the steps since a time [s].
   void forgetBefore(double time) {
     while (states_.end() - states_.begin() > 1 &&
            images_.at(states_.at(states_.begin() + 1).before).time < time)

@@ -5,15 +5,17 @@
 namespace wiimote_tracker::tracking {
 
 void Ids::forgetBefore(double time) {
-  births_.erase(std::remove_if(births_.begin(), births_.end(),
-                               [&](const Birth& birth) { return birth.time < time; }),
-                births_.end());
+  records_.erase(std::remove_if(records_.begin(), records_.end(),
+                                [&](const IdRecord& record) { return record.time < time; }),
+                 records_.end());
 }
 
-std::uint32_t Ids::remember(const std::vector<SpotKey>& founders, double time, std::uint32_t id) {
+std::uint32_t Ids::remember(const std::vector<SpotKey>& initial_spots,
+                            double time,
+                            std::uint32_t id) {
   // By value: id may be that of one of them.
-  for (const SpotKey& key : founders)
-    births_.push_back({key, time, id});
+  for (const SpotKey& key : initial_spots)
+    records_.push_back({key, time, id});
   return id;
 }
 

@@ -7,42 +7,42 @@
 
 namespace wiimote_tracker::tracking {
 
-/// One spot of all: the image's number, and its place in that image.
+/// Identifies a spot: its image's number and its index in the image.
 struct SpotKey {
   std::uint64_t image;
   std::size_t spot;
 };
 
-/// Gives tracks their ids, none twice; but when a late image has the past repeated, an LED that
-/// begins again with some of the same spots is the one that it was.
+/// Gives each new track an id that was never used. When a late image makes the tracker repeat its
+/// steps, a track that starts again with some of the same spots gets the id it had.
 class Ids {
  public:
-  /// @param founders the spots that the track begins with. @param in_use whether an id is taken.
+  /// @param initial_spots the spots that start the track. @param in_use whether an id is taken.
   template <typename InUse>
-  std::uint32_t idFor(const std::vector<SpotKey>& founders, double time, const InUse& in_use) {
-    for (const Birth& birth : births_) {
-      for (const SpotKey& key : founders) {
-        if (key.image == birth.key.image && key.spot == birth.key.spot && !in_use(birth.id))
-          return remember(founders, time, birth.id);
+  std::uint32_t idFor(const std::vector<SpotKey>& initial_spots, double time, const InUse& in_use) {
+    for (const IdRecord& record : records_) {
+      for (const SpotKey& key : initial_spots) {
+        if (key.image == record.key.image && key.spot == record.key.spot && !in_use(record.id))
+          return remember(initial_spots, time, record.id);
       }
     }
-    return remember(founders, time, next_++);
+    return remember(initial_spots, time, next_++);
   }
 
-  /// Nothing before this time [s] will be repeated.
+  /// Steps before this time [s] will not be repeated.
   void forgetBefore(double time);
 
  private:
-  struct Birth {
+  struct IdRecord {
     SpotKey key;
     double time;  // [s]
     std::uint32_t id;
   };
 
-  std::uint32_t remember(const std::vector<SpotKey>& founders, double time, std::uint32_t id);
+  std::uint32_t remember(const std::vector<SpotKey>& initial_spots, double time, std::uint32_t id);
 
   std::uint32_t next_ = 0;
-  std::vector<Birth> births_;
+  std::vector<IdRecord> records_;
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -7,30 +7,29 @@
 
 namespace wiimote_tracker::tracking {
 
-ImageUpdate::ImageUpdate(const TrackerOptions& options)
-    : options_(options), steps_(options.motion) {}
+ImageUpdate::ImageUpdate(const TrackerOptions& options) : options_(options) {}
 
 void ImageUpdate::apply(const GroupCamera& camera,
                         const StoredImage& image,
                         std::vector<Track>* tracks,
-                        std::vector<Encounter>* encounters) {
+                        std::vector<MergedPair>* pairs) {
   noise_.pixel_stddev = options_.pixel_stddev;
   noise_.stamp_stddev = image.stamp_stddev;
   collectCandidates(camera, image, tracks);
-  assign(image, *tracks);
-  followEncounters(camera, image, tracks, encounters);
+  assign(camera, image, *tracks);
+  updateMergedPairs(camera, image, tracks, pairs);
   findMergedSpots(image, *tracks);
-  openEncounters(*tracks, encounters);
+  addMergedPairs(*tracks, pairs);
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const Candidate& candidate = candidates_[i];
     Track& track = (*tracks)[candidate.track];
     if (candidate.updated)
       continue;
-    const Candidate* other = sharing(candidate, *tracks);
-    if (other && track.isConfirmed() && isSeenBeside(image, track))
+    const Candidate* other = mergedWith(candidate, *tracks);
+    if (other && track.isConfirmed() && isSeenByOther(image, track))
       updateMerged(camera, image, candidate, *other, tracks);
     else if (other && track.isConfirmed())
-      track.miss(image.camera, image.time);  // the spot is the other's
+      track.miss(image.camera, image.time);  // only this camera sees it: the spot is the other's
     else if (candidate.spot != kNone)
       updateTrack(camera, image, candidate, other ? &(*tracks)[other->track] : nullptr, &track);
     else if (candidate.expected)
@@ -46,12 +45,12 @@ void ImageUpdate::collectCandidates(const GroupCamera& camera,
     Track& track = (*tracks)[i];
     if (candidate_count_ == candidates_.size())
       return;
-    if (!camera.mayShow(track.roughPlace(image.time)))
+    if (!camera.mayShow(track.approximatePosition(image.time)))
       continue;
-    track.filter.predict(image.time, &steps_);
+    track.filter.predict(image.time);
     const auto prediction = track.filter.predictPixel(camera.forRays(), noise_);
     if (!prediction || !camera.isInImage(prediction->pixel(), options_.merging_distance) ||
-        isVague(track, *prediction, image.time))
+        isTooUncertain(track, *prediction, image.time))
       continue;
     Candidate& candidate = candidates_[candidate_count_++];
     candidate.track = i;
@@ -63,37 +62,38 @@ void ImageUpdate::collectCandidates(const GroupCamera& camera,
   }
 }
 
-/// What was not seen for a while may be anywhere within so wide a region that a single spot there
-/// does not show it: two cameras must (see Births). What blinks is not missed while it may be dark.
-bool ImageUpdate::isVague(const Track& track,
-                          const motion::PixelPrediction& prediction,
-                          double time) const {
-  const double sharp = 2.0 * options_.birth_pixel_stddev;
+/// A track without a recent spot may be predicted so inexactly that a single spot is no evidence of
+/// it. Then two cameras must show it again (see TrackInitiation). LEDs that blink may be dark.
+bool ImageUpdate::isTooUncertain(const Track& track,
+                                 const motion::PixelPrediction& prediction,
+                                 double time) const {
+  const double limit = 2.0 * options_.birth_pixel_stddev;
   return time - track.lastObserved() > options_.birth_window + options_.dark_time &&
-         prediction.covariance().trace() > 2.0 * sharp * sharp;
+         prediction.covariance().trace() > 2.0 * limit * limit;
 }
 
-/// Whether it is not this camera alone that shows it.
-bool ImageUpdate::isSeenBeside(const StoredImage& image, const Track& track) const {
-  return track.isSeenBeside(image.camera, image.time - options_.birth_window);
+/// Whether another camera saw the track's LED lately.
+bool ImageUpdate::isSeenByOther(const StoredImage& image, const Track& track) const {
+  return track.isSeenByOther(image.camera, image.time - options_.birth_window);
 }
 
-/// Costs are negative log likelihoods; a spot's density is that of its prediction, or uniform over
-/// the image for what is no LED's.
-void ImageUpdate::assign(const StoredImage& image, const std::vector<Track>& tracks) {
-  constexpr double kImageArea = 1024.0 * 768.0;  // of a Wii Remote [px^2]; others are near enough
-  constexpr double kDoubtCost = 3.0;             // what may be an LED there yields to what is
+/// Costs are negative log likelihoods. The density of a spot is that of its track's prediction, or
+/// uniform over the image for a false detection.
+void ImageUpdate::assign(const GroupCamera& camera,
+                         const StoredImage& image,
+                         const std::vector<Track>& tracks) {
+  constexpr double kUncertainTrackCost = 3.0;  // tentative, or seen by this camera only
   const double detected = -std::log(options_.detection_probability);
   const double missed = -std::log(1.0 - options_.detection_probability);
-  costs_.reset(image.spot_count, candidate_count_, -std::log(options_.ghost_rate / kImageArea),
-               missed);
+  costs_.reset(image.spot_count, candidate_count_,
+               -std::log(options_.ghost_rate / camera.imageArea()), missed);
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const Candidate& candidate = candidates_[i];
     if (!candidate.expected)
       costs_.miss[i] = detected;
     const Track& track = tracks[candidate.track];
-    const bool is_sure = track.isConfirmed() && isSeenBeside(image, track);
-    const double extra = detected + (is_sure ? 0.0 : kDoubtCost);
+    const bool is_certain = track.isConfirmed() && isSeenByOther(image, track);
+    const double extra = detected + (is_certain ? 0.0 : kUncertainTrackCost);
     for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
       if (const auto likelihood =
               candidate.prediction.logLikelihoodWithin(options_.gate, image.pixels[spot]))
@@ -101,11 +101,11 @@ void ImageUpdate::assign(const StoredImage& image, const std::vector<Track>& tra
     }
   }
   const association::SpotAssignment best = association::assignSpots(costs_);
-  track_of_spot_.fill(association::kGhost);
+  track_of_spot_.fill(association::kFalseDetection);
   for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
-    if (best.track_of_spot[spot] == association::kGhost)
+    if (best.track_of_spot[spot] == association::kFalseDetection)
       continue;
-    give(spot, &candidates_[static_cast<std::size_t>(best.track_of_spot[spot])]);
+    assignSpot(spot, &candidates_[static_cast<std::size_t>(best.track_of_spot[spot])]);
   }
 }
 
@@ -119,15 +119,15 @@ void ImageUpdate::updateTrack(const GroupCamera& camera,
     return;
   track->hit(image.camera, pixel - candidate.prediction.pixel(), true);
   if (other)
-    track->noteShared(other->id, true);
+    track->noteSharedSpot(other->id, true);
   else
-    track->noteAlone();
+    track->noteOwnSpot();
 }
 
-/// The other LED whose light may have fallen into the same spot: one of the two has a spot, the
-/// other none, and they are expected so close together that the camera can not tell them apart.
-const ImageUpdate::Candidate* ImageUpdate::sharing(const Candidate& candidate,
-                                                   const std::vector<Track>& tracks) const {
+/// The other LED of a merged spot: one of the two has a spot, the other has none, and their
+/// predictions are closer than the merging distance. The nearest such LED.
+const ImageUpdate::Candidate* ImageUpdate::mergedWith(const Candidate& candidate,
+                                                      const std::vector<Track>& tracks) const {
   const Candidate* nearest = nullptr;
   double least = options_.merging_distance;
   for (std::size_t i = 0; i < candidate_count_; ++i) {
@@ -144,8 +144,8 @@ const ImageUpdate::Candidate* ImageUpdate::sharing(const Candidate& candidate,
   return nearest;
 }
 
-/// A spot between two LEDs that are expected so close together that the camera can not tell them
-/// apart, and that both have none, is of both: from each alone it may be too far.
+/// An unassigned spot between two LEDs that have none and may merge is the merged spot of both. It
+/// may be outside the gates of both.
 void ImageUpdate::findMergedSpots(const StoredImage& image, const std::vector<Track>& tracks) {
   const auto isAlone = [&](const Candidate& candidate) {
     return candidate.spot == kNone && tracks[candidate.track].isConfirmed();
@@ -164,79 +164,76 @@ void ImageUpdate::findMergedSpots(const StoredImage& image, const std::vector<Tr
       double least = 0.5 * options_.merging_distance;
       for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
         const double distance = (image.pixels[spot] - middle).norm();
-        if (track_of_spot_[spot] == association::kGhost && distance < least) {
+        if (track_of_spot_[spot] == association::kFalseDetection && distance < least) {
           least = distance;
           nearest = spot;
         }
       }
       if (nearest)
-        give(*nearest, (image.pixels[*nearest] - middle).dot(between) > 0.0 ? &b : &a);
+        assignSpot(*nearest, (image.pixels[*nearest] - middle).dot(between) > 0.0 ? &b : &a);
     }
   }
 }
 
-void ImageUpdate::openEncounters(const std::vector<Track>& tracks,
-                                 std::vector<Encounter>* encounters) const {
+void ImageUpdate::addMergedPairs(const std::vector<Track>& tracks,
+                                 std::vector<MergedPair>* pairs) const {
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const Candidate& candidate = candidates_[i];
-    const Candidate* other = candidate.spot == kNone ? nullptr : sharing(candidate, tracks);
+    const Candidate* other = candidate.spot == kNone ? nullptr : mergedWith(candidate, tracks);
     if (!other || !tracks[candidate.track].isConfirmed())
       continue;
     const Track& a = tracks[candidate.track];
     const Track& b = tracks[other->track];
-    const bool is_open =
-        std::any_of(encounters->begin(), encounters->end(), [&](const Encounter& encounter) {
-          const auto& ids = encounter.ids();
-          return std::count(ids.begin(), ids.end(), a.id) ||
-                 std::count(ids.begin(), ids.end(), b.id);
-        });
-    if (!is_open)
-      encounters->emplace_back(a.id, b.id, Encounter::Filters{a.filter, b.filter});
+    const bool is_known = std::any_of(pairs->begin(), pairs->end(), [&](const MergedPair& pair) {
+      return pair.has(a.id) || pair.has(b.id);
+    });
+    if (!is_known)
+      pairs->emplace_back(a.id, b.id, MergedPair::Filters{a.filter, b.filter});
   }
 }
 
-/// In an image that shows both, an encounter says which spots are theirs; else the image is taken
-/// in as any other.
-void ImageUpdate::followEncounters(const GroupCamera& camera,
-                                   const StoredImage& image,
-                                   std::vector<Track>* tracks,
-                                   std::vector<Encounter>* encounters) {
-  for (Encounter& encounter : *encounters) {
-    const std::array<Candidate*, 2> both = {find(*tracks, encounter.ids()[0]),
-                                            find(*tracks, encounter.ids()[1])};
+/// Lets each pair choose the spots of its two LEDs in an image that shows both. Other images update
+/// the two as any other track.
+void ImageUpdate::updateMergedPairs(const GroupCamera& camera,
+                                    const StoredImage& image,
+                                    std::vector<Track>* tracks,
+                                    std::vector<MergedPair>* pairs) {
+  for (MergedPair& pair : *pairs) {
+    const std::array<Candidate*, 2> both = {find(*tracks, pair.ids()[0]),
+                                            find(*tracks, pair.ids()[1])};
     if (!both[0] || !both[1])
       continue;
-    Encounter::View view;
+    MergedPair::View view;
     view.camera = &camera.forRays();
     view.noise = noise_;
     view.time = image.time;
     std::array<std::size_t, association::kMaximumSpots> spot_of;  // of the view
     for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
       const int owner = track_of_spot_[spot];
-      if (owner != association::kGhost && owner != static_cast<int>(both[0]->track) &&
+      if (owner != association::kFalseDetection && owner != static_cast<int>(both[0]->track) &&
           owner != static_cast<int>(both[1]->track))
         continue;
       spot_of[view.spot_count] = spot;
       view.pixels[view.spot_count++] = image.pixels[spot];
     }
-    const auto places = encounter.take(view, options_.gate, &steps_);
-    if (!places)
+    const auto chosen = pair.update(view, options_.gate);
+    if (!chosen)
       continue;
     for (std::size_t i = 0; i < view.spot_count; ++i)
-      track_of_spot_[spot_of[i]] = association::kGhost;
+      track_of_spot_[spot_of[i]] = association::kFalseDetection;
     for (std::size_t i = 0; i < 2; ++i) {
-      const std::size_t spot = spot_of[(*places)[i]];
-      give(spot, both[i]);
+      const std::size_t spot = spot_of[(*chosen)[i]];
+      assignSpot(spot, both[i]);
       both[i]->updated = true;
       Track& track = (*tracks)[both[i]->track];
-      track.filter = encounter.likeliest()[i];
+      track.filter = pair.likeliest()[i];
       track.hit(image.camera, image.pixels[spot] - both[i]->prediction.pixel(), true);
-      track.noteAlone();
+      track.noteOwnSpot();
     }
   }
 }
 
-void ImageUpdate::give(std::size_t spot, Candidate* candidate) {
+void ImageUpdate::assignSpot(std::size_t spot, Candidate* candidate) {
   candidate->spot = static_cast<int>(spot);
   track_of_spot_[spot] = static_cast<int>(candidate->track);
 }
@@ -249,8 +246,8 @@ ImageUpdate::Candidate* ImageUpdate::find(const std::vector<Track>& tracks, std:
   return nullptr;
 }
 
-/// One spot of two LEDs lies between them, perhaps nearer to the brighter one. It moves both by the
-/// same, so that they keep their distance, and says no more than that about either.
+/// A merged spot lies between its two LEDs, perhaps nearer to the brighter one. It moves both by
+/// the same, and its noise covers any place between them.
 void ImageUpdate::updateMerged(const GroupCamera& camera,
                                const StoredImage& image,
                                const Candidate& candidate,
@@ -273,7 +270,7 @@ void ImageUpdate::updateMerged(const GroupCamera& camera,
   if (!track.filter.update(camera.forRays(), *prediction, pixel))
     return;
   track.hit(image.camera, pixel - prediction->pixel(), is_own);
-  track.noteShared((*tracks)[other.track].id, is_own);
+  track.noteSharedSpot((*tracks)[other.track].id, is_own);
 }
 
 }  // namespace wiimote_tracker::tracking

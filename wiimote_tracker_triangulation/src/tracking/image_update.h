@@ -1,11 +1,11 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_UPDATE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_UPDATE_H
 
-#include "encounter.h"
+#include "association/assign_spots.h"
 #include "group_camera.h"
+#include "merged_pair.h"
 #include "stored_image.h"
 #include "track.h"
-#include "wiimote_tracker_triangulation/association/assign_spots.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <array>
@@ -15,8 +15,9 @@
 
 namespace wiimote_tracker::tracking {
 
-/// Takes one image into the tracks: each goes on to the image's time, says where its LED's spot
-/// ought to be, and the spots are given to them by the most likely assignment.
+/// Updates the tracks with one image: predicts each track to the image's time and into the image,
+/// assigns the spots to the tracks by maximum likelihood, and updates each track with its spot.
+/// Where two LEDs may have merged into one spot, follows both hypotheses (MergedPair).
 class ImageUpdate {
  public:
   explicit ImageUpdate(const TrackerOptions& options);
@@ -24,34 +25,38 @@ class ImageUpdate {
   void apply(const GroupCamera& camera,
              const StoredImage& image,
              std::vector<Track>* tracks,
-             std::vector<Encounter>* encounters);
+             std::vector<MergedPair>* pairs);
 
-  /// Of each spot of that image, its place in `tracks` or association::kGhost.
+  /// For each spot of that image its index in `tracks`, or association::kFalseDetection.
   const std::array<int, association::kMaximumSpots>& trackOfSpot() const { return track_of_spot_; }
 
  private:
-  /// A track that this camera may show.
+  /// A track that may be in this camera's image.
   struct Candidate {
     std::size_t track;
     motion::PixelPrediction prediction;
-    bool expected;  // the image ought to show it
-    int spot;       // given to it, or kNone
-    bool updated;   // by an encounter
+    bool expected;  // without a spot, it is a missed detection
+    int spot;       // assigned to it, or kNone
+    bool updated;   // by its MergedPair
   };
   static constexpr int kNone = -1;
 
   void collectCandidates(const GroupCamera& camera,
                          const StoredImage& image,
                          std::vector<Track>* tracks);
-  bool isVague(const Track& track, const motion::PixelPrediction& prediction, double time) const;
-  bool isSeenBeside(const StoredImage& image, const Track& track) const;
-  void assign(const StoredImage& image, const std::vector<Track>& tracks);
+  bool isTooUncertain(const Track& track,
+                      const motion::PixelPrediction& prediction,
+                      double time) const;
+  bool isSeenByOther(const StoredImage& image, const Track& track) const;
+  void assign(const GroupCamera& camera,
+              const StoredImage& image,
+              const std::vector<Track>& tracks);
   void updateTrack(const GroupCamera& camera,
                    const StoredImage& image,
                    const Candidate& candidate,
                    const Track* other,
                    Track* track) const;
-  const Candidate* sharing(const Candidate& candidate, const std::vector<Track>& tracks) const;
+  const Candidate* mergedWith(const Candidate& candidate, const std::vector<Track>& tracks) const;
   void updateMerged(const GroupCamera& camera,
                     const StoredImage& image,
                     const Candidate& candidate,
@@ -59,16 +64,15 @@ class ImageUpdate {
                     std::vector<Track>* tracks) const;
 
   void findMergedSpots(const StoredImage& image, const std::vector<Track>& tracks);
-  void openEncounters(const std::vector<Track>& tracks, std::vector<Encounter>* encounters) const;
-  void followEncounters(const GroupCamera& camera,
-                        const StoredImage& image,
-                        std::vector<Track>* tracks,
-                        std::vector<Encounter>* encounters);
+  void addMergedPairs(const std::vector<Track>& tracks, std::vector<MergedPair>* pairs) const;
+  void updateMergedPairs(const GroupCamera& camera,
+                         const StoredImage& image,
+                         std::vector<Track>* tracks,
+                         std::vector<MergedPair>* pairs);
   Candidate* find(const std::vector<Track>& tracks, std::uint32_t id);
-  void give(std::size_t spot, Candidate* candidate);
+  void assignSpot(std::size_t spot, Candidate* candidate);
 
   TrackerOptions options_;
-  motion::MotionSteps steps_;
   motion::PixelNoise noise_;  // of the image
   std::size_t candidate_count_ = 0;
   std::array<Candidate, association::kMaximumTracks> candidates_;

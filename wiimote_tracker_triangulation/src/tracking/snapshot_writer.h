@@ -11,8 +11,8 @@
 
 namespace wiimote_tracker::tracking {
 
-/// Writes the tracks of all groups at one time, in the order of their ids, and the time. There must
-/// be room in the snapshot for as many LEDs as there are tracks.
+/// Writes the time, and the tracks of all groups at that time in the order of their ids. The
+/// snapshot must have at least as many LEDs as there are tracks.
 void writeLeds(const std::vector<std::unique_ptr<CameraGroup>>& groups,
                double time,
                const TrackerOptions& options,
@@ -20,8 +20,8 @@ void writeLeds(const std::vector<std::unique_ptr<CameraGroup>>& groups,
 
 std::size_t countTracks(const std::vector<std::unique_ptr<CameraGroup>>& groups);
 
-/// Writes snapshots one after the other, and says once of each LED that was in one and is no more
-/// that it is lost. Does not allocate once warm.
+/// Writes snapshots one after the other. An LED of the last snapshot whose track has ended is once
+/// reported as lost. Does not allocate once warm.
 class SnapshotWriter {
  public:
   explicit SnapshotWriter(const TrackerOptions& options) : options_(options) {}

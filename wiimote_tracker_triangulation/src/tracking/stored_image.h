@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_STORED_IMAGE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_STORED_IMAGE_H
 
-#include "wiimote_tracker_triangulation/association/assign_spots.h"
+#include "association/assign_spots.h"
 
 #include <Eigen/Core>
 
@@ -11,19 +11,19 @@
 
 namespace wiimote_tracker::tracking {
 
-/// An image as it is kept: its finite spots, at most as many as one assignment takes.
+/// An image in the history, with as many spots as one assignment takes.
 struct StoredImage {
   std::size_t camera = 0;  // in its group
   double time = 0.0;       // of the exposure, in the rig's time [s]
   double arrival = 0.0;    // [s]
   double stamp_stddev = 0.0;
-  bool full = false;            // lights may be hidden
+  bool full = false;            // as many spots as the camera can report: more LEDs may be visible
   std::uint64_t number = 0;     // of all images, in the order they were added
-  std::size_t spot_count = 0;   // first those of use,
-  std::size_t total_count = 0;  // then the masked ones
+  std::size_t spot_count = 0;   // usable spots, which come first
+  std::size_t total_count = 0;  // with the masked ones
   std::array<Eigen::Vector2d, association::kMaximumSpots> pixels;
 
-  /// In the order in which images are taken in: the same for any order of delivery.
+  /// The order in which images update the tracks, whatever the order of their arrival.
   bool operator<(const StoredImage& other) const {
     return time != other.time ? time < other.time : camera < other.camera;
   }

@@ -1,15 +1,15 @@
-#include "wiimote_tracker_triangulation/tracking/time_watch.h"
+#include "tracking/time_watch.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace wiimote_tracker::tracking {
 
-TimeWatch::Verdict TimeWatch::look(std::size_t camera, double time, double arrival) {
+TimeWatch::Result TimeWatch::check(std::size_t camera, double time, double arrival) {
   in_a_row_ = camera == last_camera_ ? in_a_row_ + 1 : 1;
   last_camera_ = camera;
   Newest& newest = cameras_[camera];
-  // By each camera's own clock: those of two computers may differ by more than a jump.
+  // By each camera's own clock: the clocks of two computers may differ by more than kJump.
   if (arrival < newest.arrival - kJump) {
     newest = Newest();
     newest.jumped = true;
@@ -18,9 +18,9 @@ TimeWatch::Verdict TimeWatch::look(std::size_t camera, double time, double arriv
   newest.arrival = std::max(newest.arrival, arrival);
   const bool is_behind = time < used_until_ - kJump;
   newest.jumped = newest.jumped && is_behind;
-  ++stood_still_;
-  // Nobody goes on from where it was.
-  const bool all_jumped = newest.jumped && stood_still_ > 2 * cameras_.size();
+  ++images_since_progress_;
+  // No camera has gone on from the time before the jump.
+  const bool all_jumped = newest.jumped && images_since_progress_ > 2 * cameras_.size();
   if (all_jumped) {
     for (Newest& other : cameras_) {
       if (!other.jumped)
@@ -34,11 +34,11 @@ TimeWatch::Verdict TimeWatch::look(std::size_t camera, double time, double arriv
   const bool came_first = is_behind && countNear(time) >= 2 && countNear(used_until_) <= 1;
   if (all_jumped || came_first) {
     used_until_ = time;
-    stood_still_ = 0;
-    return Verdict::kJumpedBack;
+    images_since_progress_ = 0;
+    return Result::kJumpedBack;
   }
   if (newest.jumped)
-    return Verdict::kOff;
+    return Result::kWrongClock;
   double others = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (i != camera)
@@ -46,15 +46,15 @@ TimeWatch::Verdict TimeWatch::look(std::size_t camera, double time, double arriv
   }
   const bool others_known = others > -std::numeric_limits<double>::infinity();
   if (others_known && time > others + kJump && in_a_row_ <= kSilence)
-    return Verdict::kOff;
+    return Result::kWrongClock;
   if (time > used_until_) {
     used_until_ = time;
-    stood_still_ = 0;
+    images_since_progress_ = 0;
   }
-  return Verdict::kUsable;
+  return Result::kUsable;
 }
 
-/// Cameras whose newest image is of about this time.
+/// Number of cameras whose newest image is within kJump of a time.
 std::size_t TimeWatch::countNear(double time) const {
   return static_cast<std::size_t>(
       std::count_if(cameras_.begin(), cameras_.end(),

@@ -6,13 +6,13 @@
 namespace wiimote_tracker::tracking {
 namespace {
 
-constexpr unsigned kRecentImages = 0xf;  // the last four
+constexpr unsigned kRecentImages = 0xf;  // mask of the last four
 
 // Two tracks that share nearly all of about so many spots are of one LED; two LEDs that pass each
-// other do so for fewer. What has long been alone is given longer.
+// other share fewer. A track with many spots of its own is given the longer memory.
 constexpr double kShortMemory = 64.0;
 constexpr double kLongMemory = 256.0;
-constexpr double kLeastAlone = 0.15;
+constexpr double kLeastUnmerged = 0.15;
 constexpr double kMostlyOwn = 0.7;
 
 int bits(unsigned x) {
@@ -27,153 +27,156 @@ int bits(unsigned x) {
 Track::Track(const motion::MotionFilter& start, std::uint32_t led_id)
     : filter(start),
       id(led_id),
-      born_(start.time()),
-      started_(born_),
-      last_observed_(born_),
-      last_located_(born_),
-      place_(start.position()),
+      initiated_(start.time()),
+      started_(initiated_),
+      last_observed_(initiated_),
+      last_located_(initiated_),
+      position_(start.position()),
       velocity_(Eigen::Vector3d::Zero()),
-      place_time_(born_) {}
+      position_time_(initiated_) {}
 
-Look& Track::lookOf(std::size_t camera, double time) {
-  for (std::size_t i = 0; i < look_count_; ++i) {
-    if (looks_[i].camera == camera)
-      return looks_[i];
+CameraRecord& Track::recordOf(std::size_t camera, double time) {
+  for (std::size_t i = 0; i < record_count_; ++i) {
+    if (records_[i].camera == camera)
+      return records_[i];
   }
-  std::size_t place = look_count_;
-  if (look_count_ < kMaximumLooks) {
-    ++look_count_;
+  std::size_t index = record_count_;
+  if (record_count_ < kMaximumRecords) {
+    ++record_count_;
   } else {
-    const auto stalest = std::min_element(looks_.begin(), looks_.end(),
-                                          [](auto& a, auto& b) { return a.time < b.time; });
-    place = static_cast<std::size_t>(stalest - looks_.begin());
+    const auto oldest = std::min_element(records_.begin(), records_.end(),
+                                         [](auto& a, auto& b) { return a.time < b.time; });
+    index = static_cast<std::size_t>(oldest - records_.begin());
   }
-  looks_[place] = Look();
-  looks_[place].camera = camera;
-  looks_[place].time = time;
-  looks_[place].hit = looks_[place].own = -std::numeric_limits<double>::infinity();
-  return looks_[place];
+  CameraRecord& record = records_[index];
+  record = CameraRecord();
+  record.camera = camera;
+  record.time = time;
+  record.hit = record.own = -std::numeric_limits<double>::infinity();
+  return record;
 }
 
 void Track::miss(std::size_t camera, double time) {
-  Look& look = lookOf(camera, time);
-  look.time = time;
-  look.recent = look.recent << 1 & kRecentImages;
+  CameraRecord& record = recordOf(camera, time);
+  record.time = time;
+  record.recent = record.recent << 1 & kRecentImages;
   ++misses_in_a_row_;
 }
 
 void Track::hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own) {
   const double time = filter.time();
-  Look& look = lookOf(camera, time);
-  look.time = time;
-  look.hit = time;
+  CameraRecord& record = recordOf(camera, time);
+  record.time = time;
+  record.hit = time;
   if (is_own)
-    look.own = time;
-  look.squared_residual = residual.squaredNorm();
-  look.recent = (look.recent << 1 | 1) & kRecentImages;
+    record.own = time;
+  record.squared_residual = residual.squaredNorm();
+  record.recent = (record.recent << 1 | 1) & kRecentImages;
   misses_in_a_row_ = 0;
   last_observed_ = time;
-  place_ = filter.position();
+  position_ = filter.position();
   velocity_ = filter.velocity();
-  place_time_ = time;
+  position_time_ = time;
 }
 
-void Track::noteAlone() {
+void Track::noteOwnSpot() {
   ++hits_;
-  alone_ += (1.0 - alone_) / kShortMemory;
+  unmerged_share_ += (1.0 - unmerged_share_) / kShortMemory;
 }
 
-void Track::noteShared(std::uint32_t other, bool is_own) {
+void Track::noteSharedSpot(std::uint32_t other, bool is_own) {
   const double memory =
       std::min(std::max(0.5 * static_cast<double>(hits_), kShortMemory), kLongMemory);
-  alone_ -= alone_ / memory;
-  owned_ += ((is_own ? 1.0 : 0.0) - owned_) / kShortMemory;
-  shares_with_ = other;
+  unmerged_share_ -= unmerged_share_ / memory;
+  own_share_ += ((is_own ? 1.0 : 0.0) - own_share_) / kShortMemory;
+  shared_with_ = other;
 }
 
-/// Whether it is another track's LED, of two that share all spots: the spots are mostly the
-/// other's, or of both alike and the other is older.
-bool Track::isAnother() const {
-  return alone_ < kLeastAlone &&
-         (owned_ < 1.0 - kMostlyOwn || (owned_ < kMostlyOwn && shares_with_ < id));
+/// Whether another track that shares nearly all spots follows the same LED and is the better one:
+/// most spots were assigned to it, or about half and it is the older one.
+bool Track::isDuplicate() const {
+  return unmerged_share_ < kLeastUnmerged &&
+         (own_share_ < 1.0 - kMostlyOwn || (own_share_ < kMostlyOwn && shared_with_ < id));
 }
 
-void Track::foundBy(std::size_t camera, double residual) {
-  Look& look = lookOf(camera, filter.time());
-  look.time = look.hit = look.own = filter.time();
-  look.squared_residual = residual * residual;
-  look.recent = 1;
+void Track::addInitialSpot(std::size_t camera, double residual) {
+  CameraRecord& record = recordOf(camera, filter.time());
+  record.time = record.hit = record.own = filter.time();
+  record.squared_residual = residual * residual;
+  record.recent = 1;
 }
 
 void Track::restart(const motion::MotionFilter& start) {
   filter = start;
-  started_ = last_observed_ = last_located_ = place_time_ = start.time();
-  place_ = start.position();
+  started_ = last_observed_ = last_located_ = position_time_ = start.time();
+  position_ = start.position();
   velocity_.setZero();
   misses_in_a_row_ = 0;
-  look_count_ = 0;
+  record_count_ = 0;
 }
 
-void Track::judge(double time, const TrackerOptions& options) {
+void Track::updateStatus(double time, const TrackerOptions& options) {
   std::size_t seen_by = 0;
   std::size_t possible = 0;
-  for (std::size_t i = 0; i < look_count_; ++i) {
-    possible += looks_[i].time >= time - options.tracked_time;
-    seen_by += looks_[i].hit >= time - options.tracked_time;
+  for (std::size_t i = 0; i < record_count_; ++i) {
+    possible += records_[i].time >= time - options.tracked_time;
+    seen_by += records_[i].hit >= time - options.tracked_time;
   }
   if (seen_by >= 2)
     last_located_ = time;
-  if (!place_.allFinite()) {
-    over_ = true;
+  if (!position_.allFinite()) {
+    finished_ = true;
     return;
   }
   if (confirmed_) {
-    over_ = time - last_observed_ > options.prediction_time ||
-            time - last_located_ > options.single_view_time || isAnother();
+    finished_ = time - last_observed_ > options.prediction_time ||
+                time - last_located_ > options.single_view_time || isDuplicate();
     return;
   }
-  const std::size_t supported = supporters(time, options);
-  if (hits_ >= options.confirmation_hits && supported >= 2 &&
-      static_cast<double>(supported) >= options.minimum_support * static_cast<double>(possible)) {
+  const std::size_t supporting = supportingCameras(time, options);
+  if (hits_ >= options.confirmation_hits && supporting >= 2 &&
+      static_cast<double>(supporting) >= options.minimum_support * static_cast<double>(possible)) {
     confirmed_ = true;
     return;
   }
-  constexpr double kLongestTrial = 0.5;  // [s]
+  constexpr double kMaximumTentativeTime = 0.5;  // [s]
   const double unseen = time - last_observed_;
   const double patience = options.tracked_time + options.dark_time;
-  over_ =
+  finished_ =
       unseen > patience || time - last_located_ > patience ||
       (unseen >= options.dark_time && misses_in_a_row_ >= 2 * std::max<std::size_t>(possible, 2)) ||
-      time - born_ > kLongestTrial + options.dark_time;
+      time - initiated_ > kMaximumTentativeTime + options.dark_time;
 }
 
-/// Cameras that showed it in two of their last four images.
-std::size_t Track::supporters(double time, const TrackerOptions& options) const {
+/// Cameras that detected it in two of their last four images.
+std::size_t Track::supportingCameras(double time, const TrackerOptions& options) const {
   return static_cast<std::size_t>(
-      std::count_if(looks_.begin(), looks_.begin() + static_cast<std::ptrdiff_t>(look_count_),
-                    [&](const Look& look) {
-                      return look.time >= time - options.tracked_time && bits(look.recent) >= 2;
+      std::count_if(records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
+                    [&](const CameraRecord& record) {
+                      return record.time >= time - options.tracked_time && bits(record.recent) >= 2;
                     }));
 }
 
-Eigen::Vector3d Track::roughPlace(double time) const {
-  return place_ + (time - place_time_) * velocity_;
+Eigen::Vector3d Track::approximatePosition(double time) const {
+  return position_ + (time - position_time_) * velocity_;
 }
 
 bool Track::isShownBy(std::size_t camera, double time) const {
-  return std::any_of(looks_.begin(), looks_.begin() + static_cast<std::ptrdiff_t>(look_count_),
-                     [&](const Look& look) { return look.camera == camera && look.own == time; });
+  return std::any_of(
+      records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
+      [&](const CameraRecord& record) { return record.camera == camera && record.own == time; });
 }
 
-bool Track::isSeenBeside(std::size_t camera, double since) const {
-  return std::any_of(looks_.begin(), looks_.begin() + static_cast<std::ptrdiff_t>(look_count_),
-                     [&](const Look& look) { return look.camera != camera && look.hit >= since; });
+bool Track::isSeenByOther(std::size_t camera, double since) const {
+  return std::any_of(
+      records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
+      [&](const CameraRecord& record) { return record.camera != camera && record.hit >= since; });
 }
 
-std::size_t Track::showers(double since) const {
+std::size_t Track::camerasShowing(double since) const {
   return static_cast<std::size_t>(
-      std::count_if(looks_.begin(), looks_.begin() + static_cast<std::ptrdiff_t>(look_count_),
-                    [&](const Look& look) { return look.own >= since; }));
+      std::count_if(records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
+                    [&](const CameraRecord& record) { return record.own >= since; }));
 }
 
 void Track::report(double time,
@@ -194,23 +197,23 @@ void Track::report(double time,
     fill(filter);
   }
   led->id = id;
-  led->first_seen = born_;
+  led->first_seen = initiated_;
   led->last_observed = last_observed_;
   led->cameras.clear();
   led->rays_possible = 0;
   double squares = 0.0;
-  for (std::size_t i = 0; i < look_count_; ++i) {
-    const Look& look = looks_[i];
-    if (look.time < time - options.tracked_time)
+  for (std::size_t i = 0; i < record_count_; ++i) {
+    const CameraRecord& record = records_[i];
+    if (record.time < time - options.tracked_time)
       continue;
     ++led->rays_possible;
-    if (look.hit < time - options.tracked_time)
+    if (record.hit < time - options.tracked_time)
       continue;
-    led->cameras.push_back(rig_index[look.camera]);
-    squares += look.squared_residual;
+    led->cameras.push_back(rig_index[record.camera]);
+    squares += record.squared_residual;
   }
   std::sort(led->cameras.begin(), led->cameras.end());
-  // One camera alone does not see how far away it is.
+  // One camera alone does not measure the distance: predicted.
   led->state = !confirmed_                ? TrackState::kTentative
                : led->cameras.size() >= 2 ? TrackState::kTracked
                                           : TrackState::kPredicted;

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_H
 
-#include "wiimote_tracker_triangulation/motion/motion_filter.h"
+#include "motion/motion_filter.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
@@ -13,68 +13,70 @@
 
 namespace wiimote_tracker::tracking {
 
-/// What one camera last had to say about a track.
-struct Look {
+/// A camera's latest images of one track.
+struct CameraRecord {
   std::size_t camera = 0;         // in its group
-  double time = 0.0;              // of the last image that ought to show the LED [s]
-  double hit = 0.0;               // of the last one that did [s]
-  double own = 0.0;               // of the last one whose spot was no other LED's [s]
-  double squared_residual = 0.0;  // of that spot [px^2]
-  unsigned recent = 0;            // one bit per image, the last one lowest: shown or not
+  double time = 0.0;              // last image that should show the LED [s]
+  double hit = 0.0;               // last image with a spot of the LED [s]
+  double own = 0.0;               // last image with a spot that was not assigned to another LED [s]
+  double squared_residual = 0.0;  // of the last spot [px^2]
+  unsigned recent = 0;            // one bit per image, the newest lowest: detected or missed
 };
 
-/// One LED, or what may be one. A value: copies are independent, nothing allocates.
+/// The track of one LED, tentative or confirmed. A value: copies are independent, nothing
+/// allocates.
 class Track {
  public:
-  /// Cameras remembered; of more that see one LED, those that did so last.
-  static constexpr std::size_t kMaximumLooks = 12;
+  /// Most cameras with a record; where more see the LED, the latest.
+  static constexpr std::size_t kMaximumRecords = 12;
 
   Track(const motion::MotionFilter& start, std::uint32_t led_id);
 
-  /// A camera ought to have shown it, and did not.
+  /// Missed detection: the camera should have shown the LED and did not.
   void miss(std::size_t camera, double time);
 
-  /// A camera's spot was taken in at the filter's time. @param residual [px] @param is_own not
-  /// another LED's, with which it was taken to be one spot.
+  /// The filter was updated with a camera's spot, at its present time. @param residual [px]
+  /// @param is_own false: a merged spot that is assigned to another LED.
   void hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own);
 
-  /// Of such a spot: no other LED may be behind it.
-  void noteAlone();
+  /// That spot is of this LED alone.
+  void noteOwnSpot();
 
-  /// Of such a spot: another LED may be behind it.
-  void noteShared(std::uint32_t other, bool is_own);
+  /// That spot may be merged with another LED's.
+  void noteSharedSpot(std::uint32_t other, bool is_own);
 
-  /// A camera's spot was among those that the filter begins with. @param residual [px]
-  void foundBy(std::size_t camera, double residual);
+  /// The filter was initialised with a camera's spot, among others. @param residual [px]
+  void addInitialSpot(std::size_t camera, double residual);
 
-  /// It was found again elsewhere than expected: its motion begins anew.
+  /// Starts the motion anew where the LED was reacquired.
   void restart(const motion::MotionFilter& start);
-  double startedAt() const { return started_; }  // birth or last restart [s]
+  double startedAt() const { return started_; }  // initiation or last restart [s]
 
-  /// Forgets which cameras saw it, for a rig whose cameras are others.
-  void forgetCameras() { look_count_ = 0; }
+  /// Forgets which cameras saw it, for a rig with other cameras.
+  void forgetCameras() { record_count_ = 0; }
 
-  /// Confirms, or notes that it has to go.
-  void judge(double time, const TrackerOptions& options);
-  /// Whether the camera's image of that time [s] had a spot of its own.
+  /// Confirms or finishes the track, by the detections up to a time [s].
+  void updateStatus(double time, const TrackerOptions& options);
+
+  /// Whether the camera's image of that time [s] had a spot of this LED's own.
   bool isShownBy(std::size_t camera, double time) const;
 
-  /// Whether another camera showed it at a time [s] or later.
-  bool isSeenBeside(std::size_t camera, double since) const;
+  /// Whether another camera detected it at a time [s] or later.
+  bool isSeenByOther(std::size_t camera, double since) const;
 
-  /// Cameras that had a spot of its own at a time [s] or later.
-  std::size_t showers(double since) const;
+  /// Cameras with a spot of this LED's own at a time [s] or later.
+  std::size_t camerasShowing(double since) const;
 
-  bool isOver() const { return over_; }
+  bool isFinished() const { return finished_; }
   bool isConfirmed() const { return confirmed_; }
 
-  /// Where it roughly is [m]; for a first, cheap question of who may see it.
-  Eigen::Vector3d roughPlace(double time) const;
+  /// A cheap linear prediction of the position [m], to ask which cameras may see it.
+  Eigen::Vector3d approximatePosition(double time) const;
 
   double lastObserved() const { return last_observed_; }  // [s]
 
-  /// Everything that is published but the calibration's share, at a time not before the filter's.
-  /// @param rig_index of the group's cameras
+  /// Writes the LED at a time not before the filter's, without the covariance of the calibration.
+  /// @param rig_index index in the rig of each of the group's cameras
   void report(double time,
               const TrackerOptions& options,
               const std::vector<std::size_t>& rig_index,
@@ -84,26 +86,26 @@ class Track {
   std::uint32_t id;
 
  private:
-  Look& lookOf(std::size_t camera, double time);
-  bool isAnother() const;
-  std::size_t supporters(double time, const TrackerOptions& options) const;
+  CameraRecord& recordOf(std::size_t camera, double time);
+  bool isDuplicate() const;
+  std::size_t supportingCameras(double time, const TrackerOptions& options) const;
 
-  double born_;           // [s]
-  double started_;        // [s]
-  double last_observed_;  // by any camera [s]
-  double last_located_;   // by two cameras at about one time [s]
-  double alone_ = 1.0;    // share of its recent spots that no other LED may be behind
-  double owned_ = 0.5;    // share of its recent spots, of those not alone, that were its own
-  std::uint32_t shares_with_ = 0;
-  std::size_t hits_ = 0;  // alone
+  double initiated_;             // [s]
+  double started_;               // [s]
+  double last_observed_;         // by any camera [s]
+  double last_located_;          // by two cameras within tracked_time [s]
+  double unmerged_share_ = 1.0;  // of the recent spots, those of this LED alone
+  double own_share_ = 0.5;       // of the recent merged spots, those assigned to this LED
+  std::uint32_t shared_with_ = 0;
+  std::size_t hits_ = 0;  // spots of this LED alone
   std::size_t misses_in_a_row_ = 0;
   bool confirmed_ = false;
-  bool over_ = false;
-  std::size_t look_count_ = 0;
-  Eigen::Vector3d place_;     // at place_time_ [m]
+  bool finished_ = false;
+  std::size_t record_count_ = 0;
+  Eigen::Vector3d position_;  // at position_time_ [m]
   Eigen::Vector3d velocity_;  // [m/s]
-  double place_time_;         // [s]
-  std::array<Look, kMaximumLooks> looks_;
+  double position_time_;      // [s]
+  std::array<CameraRecord, kMaximumRecords> records_;
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -1,11 +1,11 @@
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
+#include "association/shared_views.h"
 #include "camera_group.h"
+#include "geometry/image_rules.h"
 #include "ids.h"
 #include "snapshot_writer.h"
-#include "wiimote_tracker_triangulation/association/shared_views.h"
-#include "wiimote_tracker_triangulation/geometry/image_rules.h"
-#include "wiimote_tracker_triangulation/tracking/time_watch.h"
+#include "tracking/time_watch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ void Tracker::setRig(const geometry::Rig& rig) {
     uncertainty_ = std::make_unique<geometry::CalibrationUncertainty>(rig_);
     return;
   }
-  const auto before = std::move(groups_);
+  const auto before = std::exchange(groups_, {});
   useRig(rig);
   takeOverTracks(before);
 }
@@ -61,15 +61,15 @@ void Tracker::useRig(const geometry::Rig& rig) {
   views_.assign(rig_.cameras.size(), CameraView());
 }
 
-/// Each track goes on before the group of which most cameras may see it.
+/// Moves each track to the group of which most cameras may see it.
 void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before) {
   for (const auto& old_group : before) {
     for (const Track& track : old_group->tracks()) {
-      const Eigen::Vector3d place = track.filter.position();
+      const Eigen::Vector3d position = track.filter.position();
       const auto viewers = [&](const std::unique_ptr<CameraGroup>& group) {
         std::size_t count = 0;
         for (std::size_t i = 0; i < group->members().size(); ++i)
-          count += group->camera(i).mayShow(place);
+          count += group->camera(i).mayShow(position);
         return count;
       };
       const auto best = std::max_element(groups_.begin(), groups_.end(),
@@ -87,13 +87,13 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
     ++counters_.dropped;
     return;
   }
-  const TimeWatch::Verdict verdict = time_watch_->look(camera, time, image.arrival);
+  const TimeWatch::Result result = time_watch_->check(camera, time, image.arrival);
   counters_.disordered += time_watch_->isDisordered();
-  if (verdict == TimeWatch::Verdict::kOff) {
+  if (result == TimeWatch::Result::kWrongClock) {
     ++counters_.dropped;
     return;
   }
-  if (verdict == TimeWatch::Verdict::kJumpedBack) {
+  if (result == TimeWatch::Result::kJumpedBack) {
     ++counters_.resets;
     for (const auto& group : groups_)
       group->clear();
@@ -102,16 +102,16 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
   store(camera, image);
   image_->time = time;
   switch (groups_[places_[camera].group]->add(*image_, ids_.get(), &views_)) {
-    case CameraGroup::Fate::kRepeated:
+    case CameraGroup::Outcome::kRepeated:
       ++counters_.repeated;
       return;
-    case CameraGroup::Fate::kDropped:
+    case CameraGroup::Outcome::kDropped:
       ++counters_.dropped;
       return;
-    case CameraGroup::Fate::kLate:
+    case CameraGroup::Outcome::kLate:
       ++counters_.late;
       break;
-    case CameraGroup::Fate::kTaken:
+    case CameraGroup::Outcome::kAdded:
       break;
   }
   newest_time_ = std::max(newest_time_, time);
@@ -119,7 +119,7 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
   ids_->forgetBefore(newest_time_ - 2.0 * options_.history);
 }
 
-/// Into image_: the spots that are of use, and then the masked ones; the others are left out.
+/// Fills image_: the usable spots, then the masked ones. Spots outside the image are left out.
 void Tracker::store(std::size_t camera, const CameraImage& image) {
   const geometry::RigCamera& calibration = rig_.cameras[camera];
   image_->camera = places_[camera].member;
@@ -174,7 +174,7 @@ bool Tracker::predictTo(double time, Snapshot* snapshot) const {
   return true;
 }
 
-/// Of which images the snapshot is made, at its time.
+/// Writes which images the snapshot is made of.
 void Tracker::describeImages(Snapshot* snapshot) const {
   snapshot->latest_arrival = newest_arrival_;
   snapshot->views = views_;

@@ -1,6 +1,6 @@
 // Spots of one image to tracks, against every assignment there is.
+#include "association/assign_spots.h"
 #include "geometry/random_rigs.h"
-#include "wiimote_tracker_triangulation/association/assign_spots.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ double costOf(const SpotCosts& costs, const std::array<int, kMaximumSpots>& trac
   std::set<int> taken;
   for (std::size_t spot = 0; spot < costs.spots; ++spot) {
     const int track = track_of_spot[spot];
-    if (track == kGhost) {
+    if (track == kFalseDetection) {
       cost += costs.ghost[spot];
     } else {
       EXPECT_TRUE(taken.insert(track).second) << "track " << track << " has two spots";
@@ -85,8 +85,8 @@ TEST(AssignSpots, NothingToAssign) {
   costs.reset(2, 0, 5.0, 2.0);
   const SpotAssignment ghosts = assignSpots(costs);
   EXPECT_EQ(10.0, ghosts.cost);
-  EXPECT_EQ(kGhost, ghosts.track_of_spot[0]);
-  EXPECT_EQ(kGhost, ghosts.track_of_spot[1]);
+  EXPECT_EQ(kFalseDetection, ghosts.track_of_spot[0]);
+  EXPECT_EQ(kFalseDetection, ghosts.track_of_spot[1]);
 }
 
 TEST(AssignSpots, TheNearestIsNotAlwaysRight) {
@@ -136,8 +136,8 @@ TEST(AssignSpots, IsTheOptimumAtFullSize) {
     std::array<double, kNodes> distance{};
     const auto own = [&](std::size_t spot) {
       const int track = assignment.track_of_spot[spot];
-      return track == kGhost ? costs.ghost[spot]
-                             : costs.pair[spot][static_cast<std::size_t>(track)];
+      return track == kFalseDetection ? costs.ghost[spot]
+                                      : costs.pair[spot][static_cast<std::size_t>(track)];
     };
     bool improved = true;
     for (std::size_t round = 0; round <= kNodes && improved; ++round) {
@@ -152,7 +152,7 @@ TEST(AssignSpots, IsTheOptimumAtFullSize) {
         relax(kNodes - 1, costs.ghost[a] - own(a));
         for (std::size_t b = 0; b < costs.spots; ++b) {
           const int track = assignment.track_of_spot[b];
-          if (a != b && track != kGhost)
+          if (a != b && track != kFalseDetection)
             relax(b, costs.pair[a][static_cast<std::size_t>(track)] - own(a));
         }
         // Tracks without a spot, and spots that leave theirs without one.
@@ -167,7 +167,8 @@ TEST(AssignSpots, IsTheOptimumAtFullSize) {
       for (std::size_t b = 0; b < costs.spots; ++b) {
         // "No spot" takes b's track (its miss is paid), or nothing where b is a ghost.
         const int track = assignment.track_of_spot[b];
-        const double length = track == kGhost ? 0.0 : costs.miss[static_cast<std::size_t>(track)];
+        const double length =
+            track == kFalseDetection ? 0.0 : costs.miss[static_cast<std::size_t>(track)];
         if (distance[kNodes - 1] + length < distance[b] - 1e-9) {
           distance[b] = distance[kNodes - 1] + length;
           improved = true;

@@ -1,6 +1,6 @@
 // Between cameras and free LEDs: whose spots are bodies'.
+#include "body/body_follower.h"
 #include "body/body_scene.h"
-#include "wiimote_tracker_triangulation/body/body_follower.h"
 
 #include <gtest/gtest.h>
 

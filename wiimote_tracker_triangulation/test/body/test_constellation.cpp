@@ -1,9 +1,9 @@
 // The shapes of bodies: what is refused, what they may be confused with, learning them, their file.
+#include "body/align.h"
+#include "body/bodies_file.h"
 #include "body/body_scene.h"
-#include "wiimote_tracker_triangulation/body/align.h"
-#include "wiimote_tracker_triangulation/body/bodies_file.h"
-#include "wiimote_tracker_triangulation/body/error.h"
-#include "wiimote_tracker_triangulation/body/learn_constellation.h"
+#include "body/learn_constellation.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ Vector3d noise(Random& random, double stddev) {
 std::string messageOf(const Constellation& body) {
   try {
     body.check();
-  } catch (const BodyError& e) {
+  } catch (const Error& e) {
     return e.what();
   }
   return "good";
@@ -151,7 +151,7 @@ TEST(LearnConstellation, SaysWhatIsWrong) {
   const auto messageFor = [](const std::vector<LedsInstant>& instants) {
     try {
       learnConstellation("thing", instants);
-    } catch (const BodyError& e) {
+    } catch (const Error& e) {
       return std::string(e.what());
     }
     return std::string("learned");
@@ -188,7 +188,7 @@ TEST(BodiesFile, ComesBackBitForBit) {
   EXPECT_EQ(back[0].name, "four_leds");
   EXPECT_EQ(back[1].leds, other.leds);
   EXPECT_NO_THROW(writeBodies(file, {fourLeds(), fourLeds()}));
-  EXPECT_THROW(readBodies(file), BodyError) << "two of one name";
+  EXPECT_THROW(readBodies(file), Error) << "two of one name";
 }
 
 TEST(BodiesFile, ReadsMarkerPositions) {

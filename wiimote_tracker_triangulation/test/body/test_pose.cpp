@@ -1,6 +1,6 @@
 // From points and pixels to one pose.
+#include "body/align.h"
 #include "body/body_scene.h"
-#include "wiimote_tracker_triangulation/body/align.h"
 #include "wiimote_tracker_triangulation/body/match_points.h"
 #include "wiimote_tracker_triangulation/body/solve_pose.h"
 

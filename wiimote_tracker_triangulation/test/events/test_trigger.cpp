@@ -1,6 +1,6 @@
 // Points of a time that is given from outside: exact for motion that the model holds for, honest in
 // their covariance, and independent of when they were asked for; and every reason for a refusal.
-#include "wiimote_tracker_triangulation/events/trigger.h"
+#include "events/trigger.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>

@@ -1,6 +1,6 @@
 // Enter and leave events: one of each per visit, whatever the noise; times and places of crossings
 // against closed forms; LEDs that come, go and are lost; zones that change.
-#include "wiimote_tracker_triangulation/events/zone_watch.h"
+#include "events/zone_watch.h"
 
 #include <gtest/gtest.h>
 

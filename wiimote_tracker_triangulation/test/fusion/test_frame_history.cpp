@@ -1,7 +1,7 @@
 // The images kept of one camera, and its spots from one to the next.
 #include "wiimote_tracker_triangulation/fusion/frame_history.h"
 
-#include "wiimote_tracker_triangulation/fusion/frame.h"
+#include "fusion/frame.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // rig.yaml: nothing is lost on the way to the disk and back, and nothing is guessed.
+#include "geometry/rotation.h"
 #include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
-#include "wiimote_tracker_triangulation/geometry/rotation.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -206,15 +206,15 @@ TEST_F(RigFile, FaultsOfACorrectionAndAWideLensAreNamedByKey) {
     EXPECT_NE(std::string::npos, complaint.find(path_)) << complaint;
     EXPECT_NE(std::string::npos, complaint.find(key)) << complaint;
   };
-  names("model: thin_plate", "model: rubber", "remap: model");
+  names("model: thin_plate", "model: rubber", "remap/model");
   names("model: thin_plate", "model: affine", "parameters, but affine needs 12");
   names("parameters: [", "parameters: [1.0, ", "31 parameters");
-  names("parameters: [", "parameters: [x, ", "remap: parameters");
-  names("support:\n    - [", "support:\n    - [1.0, ", "remap: support");
-  names("support:", "supports:", "remap: support");
+  names("parameters: [", "parameters: [x, ", "remap/parameters");
+  names("support:\n    - [", "support:\n    - [1.0, ", "remap/support");
+  names("support:", "supports:", "remap/support");
   names("rig_id: \"", "rig_id: \"\"  # ", "belongs to no calibration");
   names("distortion_model: equidistant", "distortion_model: plumb_bob",
-        "camera_1: distortion_coefficients");
+        "camera_1/distortion_coefficients");
 }
 
 TEST_F(RigFile, TheUnusedCoefficientOfAWideLensHasNoVariance) {
@@ -284,7 +284,7 @@ TEST_F(RigFile, AFailedWriteLeavesTheOldFile) {
   std::string complaint;
   try {
     writeRigFile(larger, path_);
-  } catch (const RigFileError& e) {
+  } catch (const FileError& e) {
     complaint = e.what();
   }
   ASSERT_EQ(0, setrlimit(RLIMIT_FSIZE, &before));
@@ -299,8 +299,8 @@ TEST_F(RigFile, AFailedWriteLeavesTheOldFile) {
 
 TEST_F(RigFile, CannotBeWrittenWhereThereIsNoFolder) {
   put("in the way");
-  EXPECT_THROW(writeRigFile(fullRig(), path_ + "/rig.yaml"), RigFileError);
-  EXPECT_THROW(writeRigFile(fullRig(), folder_.string()), RigFileError);
+  EXPECT_THROW(writeRigFile(fullRig(), path_ + "/rig.yaml"), FileError);
+  EXPECT_THROW(writeRigFile(fullRig(), folder_.string()), FileError);
   EXPECT_EQ("in the way", contentOf(path_));
 }
 
@@ -343,7 +343,7 @@ TEST_F(RigFile, MissingOrUnreadableIsNamed) {
   const auto complaint = [](const std::string& path) -> std::string {
     try {
       readRigFile(path);
-    } catch (const RigFileError& e) {
+    } catch (const FileError& e) {
       return e.what();
     }
     return "";
@@ -383,11 +383,11 @@ TEST_F(RigFile, FaultsAreNamedByKey) {
   names("virtual_hfov:", "virtual_hfof:", "virtual_hfov");
   names("led_height:", "another: 1\nled_height:", "another");
   names("led_height:", "led_height: 1\nled_height:", "led_height is there twice");
-  names("image_width: ", "image_width: wide", "camera_0: image_width");
-  names("image_width: ", "image_width: 0.", "camera_0: image_width");
-  names("image_height: ", "image_height: -", "camera_0: image_height");
-  names("plumb_bob", "fisheye", "camera_0: distortion_model");
-  names("cols: 5", "cols: 4", "distortion_coefficients: data");
+  names("image_width: ", "image_width: wide", "camera_0/image_width");
+  names("image_width: ", "image_width: 0.", "camera_0/image_width");
+  names("image_height: ", "image_height: -", "camera_0/image_height");
+  names("plumb_bob", "fisheye", "camera_0/distortion_model");
+  names("cols: 5", "cols: 4", "distortion_coefficients/data");
   names("time_offset_rule: one_epoch", "time_offset_rule: sometimes", "time_offset_rule");
   names("ray_model: image_center", "ray_model: other", "ray_model");
   names("frame_id: \"world\"", "frame_id: \"map\"", "frame_id");
@@ -411,7 +411,7 @@ TEST_F(RigFile, ValuesThatAreNoNumbersAreRefused) {
   EXPECT_NE(std::string::npos, complaintAbout(with("1234.5", ".nan")).find("fx"));
   EXPECT_NE(std::string::npos, complaintAbout(with("4321.5", ".nan")).find("camera_0"));
   EXPECT_NE(std::string::npos, complaintAbout(with("4321.5", ".inf")).find("camera_0"));
-  EXPECT_NE(std::string::npos, complaintAbout(with("4321.5", "")).find("translation: x"));
+  EXPECT_NE(std::string::npos, complaintAbout(with("4321.5", "")).find("translation/x"));
 }
 
 }  // namespace

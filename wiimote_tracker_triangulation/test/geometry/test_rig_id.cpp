@@ -1,8 +1,8 @@
 // The id follows everything that moves a point, and nothing else; rotations survive round trips.
+#include "geometry/rotation.h"
 #include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
-#include "wiimote_tracker_triangulation/geometry/rotation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "wiimote_tracker_triangulation/gesture/error.h"
-#include "wiimote_tracker_triangulation/gesture/examples_file.h"
-#include "wiimote_tracker_triangulation/gesture/recognizer.h"
-#include "wiimote_tracker_triangulation/gesture/segmenter.h"
+#include "gesture/examples_file.h"
+#include "gesture/recognizer.h"
+#include "gesture/segmenter.h"
+#include "gesture/spotter.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/gesture/shape.h"
-#include "wiimote_tracker_triangulation/gesture/spotter.h"
 
 #include <gtest/gtest.h>
 
@@ -254,8 +254,8 @@ TEST(Recognizer, KnowsNothingWithoutExamples) {
   EXPECT_FALSE(Recognizer({}).recognize(draw(circle, {})));
   Recognizer recognizer = threeGestures();
   EXPECT_FALSE(recognizer.recognize({}));
-  EXPECT_THROW(recognizer.add({"", "", draw(circle, {})}), GestureError);
-  EXPECT_THROW(recognizer.add({"dot", "", {}}), GestureError);
+  EXPECT_THROW(recognizer.add({"", "", draw(circle, {})}), Error);
+  EXPECT_THROW(recognizer.add({"dot", "", {}}), Error);
   EXPECT_EQ(recognizer.examples().size(), 3u);
 }
 
@@ -529,7 +529,7 @@ TEST(ExamplesFile, DamagedOnesAreRefusedByName) {
   EXPECT_TRUE(contains(messageFor(head + "examples: [{gesture: a, zone: '', path: [[1, 2]]}]\n"),
                        "t, x, y, z"));
   EXPECT_TRUE(contains(messageFor(head + "examples: [{gesture: a, zone: ''}]\n"),
-                       "examples[0]: path is missing; restore the file from its backup or record"));
+                       "examples[0]/path is missing; restore the file from its backup or record"));
   EXPECT_EQ(messageFor(head + "examples: []\n"), "accepted");
   std::remove(file.c_str());
   EXPECT_THROW(readExamples(file), geometry::Error);

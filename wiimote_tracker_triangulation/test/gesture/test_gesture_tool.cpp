@@ -1,8 +1,8 @@
-#include "baselines.h"
-#include "dataset.h"
-#include "evaluate.h"
-#include "report.h"
-#include "wiimote_tracker_triangulation/gesture/error.h"
+#include "gesture_tool/baselines.h"
+#include "gesture_tool/dataset.h"
+#include "gesture_tool/evaluate.h"
+#include "gesture_tool/report.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -36,7 +36,7 @@ class GestureTool : public testing::Test {
   std::string messageOf(const std::string& folder) {
     try {
       readPeople((folder_ / folder).string());
-    } catch (const gesture::GestureError& e) {
+    } catch (const Error& e) {
       return e.what();
     }
     return "accepted";
@@ -132,7 +132,7 @@ TEST_F(GestureTool, NobodyIsTestedWithHisOwnExamples) {
   EXPECT_LE(evaluation.rejected, 12u);
 
   EXPECT_EQ(evaluate(people(5), people(5), 1, anyLength()).examples, 12u);
-  EXPECT_THROW(evaluate(people(1), people(1), 0, anyLength()), gesture::GestureError);
+  EXPECT_THROW(evaluate(people(1), people(1), 0, anyLength()), Error);
 }
 
 TEST_F(GestureTool, AGestureThatNobodyTaughtIsWrong) {
@@ -191,7 +191,7 @@ TEST(Baselines, ACloudHasUnitSize) {
     high = high.max(point.array());
   }
   EXPECT_NEAR((high - low).maxCoeff(), 1.0, 1e-12);
-  EXPECT_THROW(cloudOf(gesture::Path(9, {0.0, {1.0, 1.0, 1.0}})), gesture::GestureError);
+  EXPECT_THROW(cloudOf(gesture::Path(9, {0.0, {1.0, 1.0, 1.0}})), Error);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // How LEDs blink: the codes, their file, and what tells a microcontroller to do it.
-#include "listing.h"
+#include "tools/blink_codes/listing.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/identity/codes_file.h"
-#include "wiimote_tracker_triangulation/identity/error.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 
 #include <gtest/gtest.h>
@@ -143,7 +143,7 @@ TEST(Schemes, ChosenWordsKeepTheirPromises) {
       EXPECT_GE(rotationDistance(far[i], far[j]), 3u);
   }
   EXPECT_TRUE(chooseWords(3, WordRules{1, 2, 5}).empty());
-  EXPECT_THROW(chooseWords(1000000), IdentityError);
+  EXPECT_THROW(chooseWords(1000000), Error);
 }
 
 /// What is said about codes, or nothing when they are accepted.
@@ -241,7 +241,7 @@ TEST_F(CodesFile, ItsFaultsAreNamed) {
   fault(kHead + "scheme: duty\nperiod: [0.1]\n" + leds, "period is not [shortest, longest]");
   fault(kHead + "scheme: duty\nperiod: [0.1, 0.2]\nchip: 0.1\n" + leds, "chip is an unknown key");
   fault(kHead + "scheme: duty\nperiod: [0.1, 0.2]\nleds:\n  - {label: a, share: 0.5, on: 1}\n",
-        "leds[0]: on is an unknown key");
+        "leds[0]/on is an unknown key");
   fault(kHead + "scheme: duty\nperiod: [0.1, 0.2]\nleds:\n  - {label: a, share: 1.5}\n",
         "share of a");
   fault(kHead + "scheme: cyclic\nchip: 0.02\ntolerance: 0.5\nleds:\n  - {label: a, word: \"01\"}\n",
@@ -255,7 +255,7 @@ TEST_F(CodesFile, ChosenCodesAreAFile) {
   const BlinkCodes codes = read(text);
   ASSERT_EQ(5u, codes.codes.size());
   EXPECT_EQ("hip", codes.codes[4].label);
-  EXPECT_THROW(blink_codes_tool::cyclicFile({"hand", "hand"}, 0.02, 0.01), IdentityError);
+  EXPECT_THROW(blink_codes_tool::cyclicFile({"hand", "hand"}, 0.02, 0.01), Error);
 }
 
 TEST(Listing, TheTableTellsWhenToSwitch) {

@@ -1,7 +1,7 @@
 // The labels of LEDs that blink: when they are given, kept, changed and refused.
 #include "allocation_counter.h"
 #include "identity/blinking.h"
-#include "wiimote_tracker_triangulation/identity/error.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/identity/identifier.h"
 
 #include <gtest/gtest.h>
@@ -194,14 +194,14 @@ TEST(Identifier, ThePapersSchemeWithSomeInView) {
 TEST(Identifier, OptionsOutOfRangeAreRefused) {
   IdentifierOptions options;
   options.decide_at = 0.3;
-  EXPECT_THROW(Identifier(fourWords(), options), IdentityError);
+  EXPECT_THROW(Identifier(fourWords(), options), Error);
   options = {};
   options.seeing.seen_when_off = 0.0;
-  EXPECT_THROW(Identifier(fourWords(), options), IdentityError);
+  EXPECT_THROW(Identifier(fourWords(), options), Error);
   options = {};
   options.memory = std::nan("");
-  EXPECT_THROW(Identifier(fourWords(), options), IdentityError);
-  EXPECT_THROW(Identifier(BlinkCodes(), {}), IdentityError);
+  EXPECT_THROW(Identifier(fourWords(), options), Error);
+  EXPECT_THROW(Identifier(BlinkCodes(), {}), Error);
 }
 
 TEST(NoAllocation, OnceWarm) {

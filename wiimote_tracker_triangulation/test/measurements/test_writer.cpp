@@ -1,7 +1,7 @@
 // Tables of measurements: every number comes back bit for bit, files are whole or not there, and
 // what goes wrong is said. How programs of others read the MATLAB file: test_track_bag.py.
-#include "wiimote_tracker_triangulation/measurements/error.h"
-#include "wiimote_tracker_triangulation/measurements/writer.h"
+#include "measurements/writer.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -223,7 +223,7 @@ TEST_F(WriterTest, SaysWhatToDoWhenItCannotWrite) {
       try {
         make(path.string());
         ADD_FAILURE() << path;
-      } catch (const WriteError& e) {
+      } catch (const Error& e) {
         EXPECT_NE(std::string::npos, std::string(e.what()).find(path.string())) << e.what();
       }
     }
@@ -235,7 +235,7 @@ TEST_F(WriterTest, SaysWhatToDoWhenItCannotWrite) {
       writer->add(measurement());
       writer->finish();
       ADD_FAILURE();
-    } catch (const WriteError& e) {
+    } catch (const Error& e) {
       EXPECT_NE(std::string::npos, std::string(e.what()).find("make room")) << e.what();
     }
     EXPECT_FALSE(fs::exists(folder_ / "full.csv"));

@@ -1,9 +1,9 @@
 #include "allocation_counter.h"
 #include "geometry/random_rigs.h"
 #include "motion/known_mode.h"
+#include "motion/motion_filter.h"
 #include "motion/textbook_imm.h"
-#include "wiimote_tracker_triangulation/motion/motion_filter.h"
-#include "wiimote_tracker_triangulation/motion/singer_step.h"
+#include "motion/transition.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
@@ -63,42 +63,33 @@ Vector3d variedPath(double time) {
   return {0.5 + 0.4 * std::sin(angle), 0.25 + 0.4 * (1.0 - std::cos(angle)), 0.21};
 }
 
-TEST(SingerStep, IsTheSolutionOfItsStochasticDifferentialEquation) {
+TEST(Singer, IsTheSolutionOfItsStochasticDifferentialEquation) {
   for (const double time : {0.2, 1.0, 100.0}) {
     // The halves lie on both sides of where the series end.
     for (const double share : {1e-5, 0.0025, 0.1, 0.4999, 0.5, 2.0, 10.0}) {
       const double duration = share * time;
       SCOPED_TRACE(testing::Message() << time << " s, " << duration << " s");
       const test::Transition truth = test::singerTransition(1.0, time, duration);
-      const SingerStep step(duration, time);
-      // The exponential of the matrix holds that of the share, which is rounded as a whole.
-      const auto near = [share](double expected, double actual) {
-        EXPECT_NEAR(expected, actual, 1e-10 * std::exp(share) * std::abs(expected));
-      };
-      near(truth.F(0, 1), step.p_v);
-      near(truth.F(0, 2), step.p_a);
-      near(truth.F(1, 2), step.v_a);
-      near(truth.F(2, 2), step.a_a);
-      if (share < 0.001)
-        continue;  // there the exponential of the matrix is the less exact of the two
-      near(truth.Q(0, 0), step.q_pp);
-      near(truth.Q(0, 1), step.q_pv);
-      near(truth.Q(0, 2), step.q_pa);
-      near(truth.Q(1, 1), step.q_vv);
-      near(truth.Q(1, 2), step.q_va);
-      near(truth.Q(2, 2), step.q_aa);
+      const Transition transition = singer(1.0, time, duration);
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+          // The exponential of the matrix holds that of the share, which is rounded as a whole.
+          const auto near = [share](double expected, double actual) {
+            EXPECT_NEAR(expected, actual, 1e-10 * std::exp(share) * std::abs(expected));
+          };
+          near(truth.F(i, j), transition.F(i, j));
+          if (share > 0.001)  // else the exponential of the matrix is the less exact of the two
+            near(truth.Q(i, j), transition.Q(i, j));
+        }
+      }
     }
   }
 }
 
-TEST(SingerStep, OfNoLengthIsNothing) {
-  const SingerStep step(0.0, 0.3);
-  EXPECT_EQ(0.0, step.p_v);
-  EXPECT_EQ(0.0, step.p_a);
-  EXPECT_EQ(0.0, step.v_a);
-  EXPECT_EQ(1.0, step.a_a);
-  EXPECT_EQ(0.0, step.q_pp);
-  EXPECT_EQ(0.0, step.q_aa);
+TEST(Singer, OverNoTimeIsTheIdentity) {
+  const Transition transition = singer(2.0, 0.3, 0.0);
+  EXPECT_EQ(Matrix3d(Matrix3d::Identity()), transition.F);
+  EXPECT_EQ(Matrix3d(Matrix3d::Zero()), transition.Q);
 }
 
 TEST(MotionFilter, IsTheTextbooksFilter) {
@@ -137,7 +128,7 @@ TEST(MotionFilter, IsTheTextbooksFilter) {
     ASSERT_LT((textbook.mean().head<3>() - filter.position()).norm(), 1e-8) << time;
     ASSERT_LT((textbook.mean().segment<3>(3) - filter.velocity()).norm(), 1e-5) << time;
     ASSERT_NEAR(textbook.models()[0].probability + textbook.models()[1].probability,
-                filter.stillProbability(), 1e-4)
+                filter.restProbability(), 1e-4)
         << time;
     ASSERT_LT(relative(filter.positionCovariance(), textbook.covariance().topLeftCorner<3, 3>()),
               1e-3);
@@ -251,7 +242,7 @@ struct Accuracy {
 TEST(MotionFilter, ReachesThePosteriorCramerRaoBoundOfItsOwnModel) {
   constexpr int kRuns = 60;
   constexpr double kStddev = 2.0, kTime = 0.2;
-  MotionOptions options;  // one way to move, and no other
+  MotionOptions options;  // a single mode
   options.smooth = options.gentle = options.brisk = {kStddev, kTime};
   options.sudden_random_walk = options.stop_rate = 0.0;
   options.initial_speed = 0.3;
@@ -302,7 +293,7 @@ TEST(MotionFilter, ReachesThePosteriorCramerRaoBoundOfItsOwnModel) {
 
 TEST(MotionFilter, IsQuietWhenStillAndKeepsUpWithJumps) {
   constexpr int kRuns = 12;
-  constexpr double kAcceleration = 2.0, kTime = 0.2;  // none of the ways that the filter knows
+  constexpr double kAcceleration = 2.0, kTime = 0.2;  // of none of the filter's modes
   const std::vector<Camera> cameras = ring();
   const Matrix3d covariance = 4e-6 * Matrix3d::Identity();
   Random random(6);
@@ -331,7 +322,7 @@ TEST(MotionFilter, IsQuietWhenStillAndKeepsUpWithJumps) {
       const auto prediction = filter.predictPixel(camera, {kPixelStddev, 0.0});
       ASSERT_TRUE(prediction);
       const Vector2d measured = noisyPixel(camera, truth.position(), random);
-      // No gate needs to be wider than this, but for the shock of a stop at full speed.
+      // No gate needs to be wider than this, except after a stop at full speed.
       EXPECT_LT(prediction->squaredDistance(measured), i % 1400 < 4 ? 100.0 : 36.0);
       ASSERT_TRUE(filter.update(camera, *prediction, measured));
       bound.observe(camera, truth.position(), kPixelStddev);
@@ -463,7 +454,7 @@ TEST(MotionFilter, TheOrderOfImagesOfOneTimeMakesNoDifference) {
   const double stddev = std::sqrt(forwards.positionCovariance().trace());
   EXPECT_LT((forwards.position() - backwards.position()).norm(), 0.01 * stddev);
   EXPECT_LT(relative(forwards.positionCovariance(), backwards.positionCovariance()), 0.01);
-  EXPECT_NEAR(forwards.stillProbability(), backwards.stillProbability(), 0.01);
+  EXPECT_NEAR(forwards.restProbability(), backwards.restProbability(), 0.01);
 }
 
 TEST(MotionFilter, ACopyIsIndependentAndTheSame) {
@@ -515,7 +506,7 @@ TEST(MotionFilter, AbsurdInputIsRefusedOrSurvived) {
 
 TEST(MotionFilter, StaysANumberWhateverIsTakenIn) {
   // Spots that no gate would let through, one after the other, at any distance in time and image;
-  // with ways that are left out, too.
+  // with modes that are left out, too.
   const std::vector<Camera> cameras = ring();
   Random random(15);
   for (int run = 0; run < 300; ++run) {
@@ -545,7 +536,7 @@ TEST(MotionFilter, StaysANumberWhateverIsTakenIn) {
       ASSERT_TRUE(filter.position().allFinite()) << run << " " << i;
       ASSERT_TRUE(filter.positionCovariance().allFinite()) << run << " " << i;
       ASSERT_TRUE(filter.velocityCovariance().allFinite()) << run << " " << i;
-      ASSERT_TRUE(filter.stillProbability() >= 0.0 && filter.stillProbability() <= 1.0 + 1e-9);
+      ASSERT_TRUE(filter.restProbability() >= 0.0 && filter.restProbability() <= 1.0 + 1e-9);
     }
   }
 }

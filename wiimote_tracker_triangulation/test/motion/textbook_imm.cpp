@@ -11,9 +11,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kResting = 2;  // fixed, swaying; then the ways to move
+constexpr int kResting = 2;  // fixed, swaying; then the moving modes
 constexpr int kMoving = 4;
-constexpr int kWays = kResting + kMoving;
+constexpr int kModes = kResting + kMoving;
 
 MatrixXd blocks(double pp, double vv, double aa) {
   VectorXd diagonal(9);
@@ -21,7 +21,7 @@ MatrixXd blocks(double pp, double vv, double aa) {
   return diagonal.asDiagonal();
 }
 
-/// Standard deviation of the acceleration of a way to move.
+/// Standard deviation of the acceleration of a moving mode.
 double acceleration(const MotionOptions& options, int model) {
   switch (model) {
     case 2:
@@ -132,8 +132,8 @@ TextbookImm::TextbookImm(const MotionOptions& options,
                          double time,
                          const Eigen::Vector3d& position,
                          const Eigen::Matrix3d& covariance)
-    : options_(options), time_(time), models_(kWays) {
-  for (int i = 0; i < kWays; ++i) {
+    : options_(options), time_(time), models_(kModes) {
+  for (int i = 0; i < kModes; ++i) {
     models_[i].probability = i < kResting ? 0.1 : 0.2;
     models_[i].mean = VectorXd::Zero(9);
     models_[i].mean.head<3>() = position;
@@ -145,7 +145,7 @@ TextbookImm::TextbookImm(const MotionOptions& options,
 }
 
 void TextbookImm::predict(double time) {
-  for (int i = 0; i < kWays; ++i) {
+  for (int i = 0; i < kModes; ++i) {
     const Transition t = transition(options_, i, time - time_).inThreeAxes();
     models_[i].mean = (t.F * models_[i].mean).eval();
     models_[i].covariance = (t.F * models_[i].covariance * t.F.transpose() + t.Q).eval();
@@ -177,23 +177,23 @@ void TextbookImm::change(double duration) {
 
 void TextbookImm::interact(const Rates& rates, double duration) {
   Rates p;  // probabilities
-  for (int i = 0; i < kWays; ++i) {
+  for (int i = 0; i < kModes; ++i) {
     p.row(i) = rates.row(i) * duration / (1.0 + rates.row(i).sum() * duration);
     p(i, i) = 1.0 - p.row(i).sum();
   }
 
   const std::vector<Model> before = models_;
-  for (int j = 0; j < kWays; ++j) {
-    // The acceleration is drawn anew by who takes up a rasher way, and ends with the movement.
+  for (int j = 0; j < kModes; ++j) {
+    // A more agile mode begins with its own acceleration; a mode at rest has none.
     const double a = acceleration(options_, j);
     double& probability = models_[j].probability;
     probability = 0.0;
-    for (int i = 0; i < kWays; ++i)
+    for (int i = 0; i < kModes; ++i)
       probability += p(i, j) * before[i].probability;
     models_[j].mean.setZero();
     models_[j].covariance.setZero();
     std::vector<Model> entering = before;
-    for (int i = 0; i < kWays; ++i) {
+    for (int i = 0; i < kModes; ++i) {
       if (j < kResting) {
         entering[i].mean.tail<6>().setZero();
         entering[i].covariance.rightCols<6>().setZero();
@@ -203,7 +203,7 @@ void TextbookImm::interact(const Rates& rates, double duration) {
       }
       models_[j].mean += p(i, j) * before[i].probability / probability * entering[i].mean;
     }
-    for (int i = 0; i < kWays; ++i) {
+    for (int i = 0; i < kModes; ++i) {
       const VectorXd d = entering[i].mean - models_[j].mean;
       models_[j].covariance += p(i, j) * before[i].probability / probability *
                                (entering[i].covariance + d * d.transpose());

@@ -25,8 +25,8 @@ struct Transition {
 Transition singerTransition(double stddev, double time, double duration);
 
 /// The interacting multiple model filter as the textbook has it (Bar-Shalom, Li, Kirubarajan 2001,
-/// section 11.6.6), over the ways to move of MotionOptions, with general matrices of nine rows:
-/// written for reading, not for speed. Linearised at the mean of the mixture, once.
+/// section 11.6.6) over the modes of MotionOptions, with dynamic matrices of nine rows and Van
+/// Loan's method instead of closed forms. Linearised at the mean of the mixture, once.
 class TextbookImm {
  public:
   struct Model {
@@ -42,10 +42,10 @@ class TextbookImm {
 
   void predict(double time);
 
-  /// Stops that are due after what has passed.
+  /// Mixing by the stops over a duration [s].
   void stop(double duration);
 
-  /// All other changes between ways to move that are.
+  /// Mixing by all other mode changes over a duration [s].
   void change(double duration);
 
   void update(const geometry::Camera& camera, const Eigen::Vector2d& pixel, double pixel_stddev);

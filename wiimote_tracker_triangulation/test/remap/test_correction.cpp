@@ -1,6 +1,6 @@
 // What a correction of the volume does to points, against formulas written out by hand.
+#include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/remap/correction.h"
-#include "wiimote_tracker_triangulation/remap/error.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/LU>
@@ -116,7 +116,7 @@ TEST(Correction, another_calibration_and_damage_are_refused_in_their_own_words) 
   const auto says = [](Remap remap, const std::string& rig, const std::string& part) {
     try {
       Correction(remap, rig);
-    } catch (const RemapError& e) {
+    } catch (const Error& e) {
       return std::string(e.what()).find(part) != std::string::npos;
     }
     return false;

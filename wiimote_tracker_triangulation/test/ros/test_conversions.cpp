@@ -1,8 +1,8 @@
 // Rigs as messages, and as the files that stock ROS tools read.
 #include "geometry/random_rigs.h"
+#include "geometry/rotation.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
-#include "wiimote_tracker_triangulation/geometry/rotation.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
 #include <camera_calibration_parsers/parse_yml.h>

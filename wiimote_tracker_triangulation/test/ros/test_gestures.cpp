@@ -1,7 +1,7 @@
 // The running node or nodelet: points in, gestures out. Whether they are marked by rests or by
 // light is read from its parameter.
+#include "gesture/examples_file.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
-#include "wiimote_tracker_triangulation/gesture/examples_file.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
 #include <gtest/gtest.h>

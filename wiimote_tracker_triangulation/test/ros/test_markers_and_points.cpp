@@ -1,7 +1,7 @@
 // What rviz and the consumers of points get to see of a snapshot.
 #include "geometry/random_rigs.h"
-#include "marker_builder.h"
-#include "point_message.h"
+#include "ros/marker_builder.h"
+#include "ros/point_message.h"
 
 #include <gtest/gtest.h>
 

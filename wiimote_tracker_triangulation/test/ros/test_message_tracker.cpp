@@ -1,6 +1,6 @@
 // Messages in, messages out, in both modes: what node and track_bag have in common.
 #include "geometry/random_rigs.h"
-#include "message_tracker.h"
+#include "ros/message_tracker.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"

@@ -1,5 +1,8 @@
 // The shipped YAML and the defaults in the code say the same; what is wrong is refused by name.
-#include "parameters.h"
+#include "documented_parameters.h"
+#include "ros/gestures/gesture_parameters.h"
+#include "ros/parameters.h"
+#include "wiimote_tracker_triangulation/ros/parameter_file.h"
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -16,116 +19,27 @@ TrackingParameters read(const ros::NodeHandle& nh) {
   return TrackingParameters::read(ParameterReader(nh));
 }
 
-/// All that is a number, by its key.
-std::map<std::string, double> numbersOf(const TrackingParameters& p) {
-  const tracking::TrackerOptions& tracks = p.estimator.tracks;
-  const motion::MotionOptions& motion = tracks.motion;
-  const fusion::InstantFuserOptions& instant = p.estimator.instant;
-  const auto number = [](std::size_t n) { return static_cast<double>(n); };
-  return {
-      {"pixel_stddev", tracks.pixel_stddev},
-      {"tracks/stamp_stddev", tracks.stamp_stddev},
-      {"tracks/detection_probability", tracks.detection_probability},
-      {"tracks/ghost_rate", tracks.ghost_rate},
-      {"tracks/merging_distance", tracks.merging_distance},
-      {"tracks/maximum_range", tracks.maximum_range},
-      {"tracks/gate", tracks.gate},
-      {"tracks/birth_window", tracks.birth_window},
-      {"tracks/birth_pixel_stddev", tracks.birth_pixel_stddev},
-      {"tracks/minimum_angle", tracks.minimum_angle},
-      {"tracks/confirmation_hits", number(tracks.confirmation_hits)},
-      {"tracks/minimum_support", tracks.minimum_support},
-      {"tracks/tracked_time", tracks.tracked_time},
-      {"tracks/prediction_time", tracks.prediction_time},
-      {"tracks/single_view_time", tracks.single_view_time},
-      {"tracks/doubt_time", tracks.doubt_time},
-      {"tracks/history", tracks.history},
-      {"tracks/output_interval", tracks.output_interval},
-      {"motion/fixed/drift", motion.fixed.drift},
-      {"motion/fixed/start_rate", motion.fixed.start_rate},
-      {"motion/swaying/drift", motion.swaying.drift},
-      {"motion/swaying/start_rate", motion.swaying.start_rate},
-      {"motion/smooth/stddev", motion.smooth.stddev},
-      {"motion/smooth/time", motion.smooth.time},
-      {"motion/gentle/stddev", motion.gentle.stddev},
-      {"motion/gentle/time", motion.gentle.time},
-      {"motion/brisk/stddev", motion.brisk.stddev},
-      {"motion/brisk/time", motion.brisk.time},
-      {"motion/sudden_random_walk", motion.sudden_random_walk},
-      {"motion/stop_rate", motion.stop_rate},
-      {"motion/rise_rate", motion.rise_rate},
-      {"motion/settle_rate", motion.settle_rate},
-      {"motion/initial_speed", motion.initial_speed},
-      {"instant/minimum_angle", instant.triangulation.minimum_angle},
-      {"instant/minimum_rays", number(instant.minimum_rays)},
-      {"instant/maximum_reprojection_error", instant.maximum_reprojection_error},
-      {"instant/camera_timeout", instant.camera_timeout},
-      {"instant/maximum_gap", instant.maximum_gap},
-      {"instant/maximum_spot_speed", instant.maximum_spot_speed},
-      {"instant/maximum_range", instant.maximum_range},
-      {"instant/maximum_leds", number(instant.maximum_leds)},
-      {"instant/confirmations", number(instant.confirmations)},
-      {"instant/maximum_speed", instant.maximum_speed},
-      {"instant/maximum_absence", instant.maximum_absence},
-      {"identity/exposure", p.identity.exposure},
-      {"identity/decide_at", p.identity.identifier.decide_at},
-      {"identity/steady", p.identity.identifier.steady},
-      {"bodies/tracked_time", p.bodies.options.tracked_time},
-      {"bodies/prediction_time", p.bodies.options.prediction_time},
-      {"bodies/gate", p.bodies.options.gate},
-      {"bodies/window", p.bodies.options.window},
-      {"bodies/window_motion", p.bodies.options.window_motion},
-      {"bodies/minimum_margin", p.bodies.options.minimum_margin},
-      {"bodies/acceleration_density", p.bodies.options.motion.acceleration_density},
-      {"bodies/angular_acceleration_density", p.bodies.options.motion.angular_acceleration_density},
-      {"bodies/initial_speed", p.bodies.options.motion.initial_speed},
-      {"bodies/initial_angular_speed", p.bodies.options.motion.initial_angular_speed},
-      {"output/rate", p.output.rate},
-      {"zones/hysteresis", p.zones.hysteresis},
-      {"zones/timeout", p.zones.timeout},
-      {"trigger/maximum_gap", p.trigger.maximum_gap},
-      {"trigger/history", p.trigger.history},
-      {"clock_tolerance", p.clock_tolerance},
-      {"markers/rate", p.markers.rate},
-      {"markers/image_plane_distance", p.markers.image_plane_distance},
-      {"markers/trail_duration", p.markers.trail_duration},
-  };
+TEST(Parameters, ShippedFileHoldsTheDefaults) {
+  ParameterReader reader(readParameterTree(""));
+  TrackingParameters::read(&reader);
+  expectDocumented(reader, CONFIG_FOLDER "/triangulation.yaml");
+  EXPECT_NO_THROW(read(ros::NodeHandle("~shipped"))) << "from the parameter server";
 }
 
-TEST(Parameters, ShippedFileHoldsTheDefaults) {
-  const ros::NodeHandle nh("~shipped");
-  const TrackingParameters defaults;
-  const TrackingParameters shipped = read(nh);
-  for (const char* key :
-       {"labels", "mode", "instant/method", "tracks/minimum_corner", "tracks/maximum_corner",
-        "identity/codes", "output/on_update", "output/predict_to_now", "output/publish_predicted"})
-    EXPECT_TRUE(nh.hasParam(key)) << key;
-  EXPECT_EQ(defaults.labels, shipped.labels);
-  EXPECT_EQ(defaults.estimator.mode, shipped.estimator.mode);
-  EXPECT_EQ(defaults.estimator.instant.triangulation.method,
-            shipped.estimator.instant.triangulation.method);
-  EXPECT_EQ(defaults.estimator.instant.triangulation.pixel_stddev,
-            shipped.estimator.instant.triangulation.pixel_stddev);
-  EXPECT_EQ(defaults.estimator.tracks.minimum_corner, shipped.estimator.tracks.minimum_corner);
-  EXPECT_EQ(defaults.estimator.tracks.maximum_corner, shipped.estimator.tracks.maximum_corner);
-  EXPECT_EQ(defaults.output.on_update, shipped.output.on_update);
-  EXPECT_EQ(defaults.output.predict_to_now, shipped.output.predict_to_now);
-  EXPECT_EQ(defaults.output.publish_predicted, shipped.output.publish_predicted);
-  const auto expected = numbersOf(defaults);
-  for (const auto& [key, value] : numbersOf(shipped)) {
-    // How LEDs move stands in the code alone.
-    EXPECT_EQ(key.find("motion/") != 0, nh.hasParam(key)) << key;
-    EXPECT_EQ(expected.at(key), value) << key;
-  }
+TEST(GestureParameters, ShippedFileHoldsTheDefaults) {
+  ParameterReader reader(readParameterTree(""));
+  GestureParameters::read(&reader);
+  expectDocumented(reader, CONFIG_FOLDER "/gestures.yaml");
 }
 
 TEST(Parameters, EveryNumberIsReadAndBounded) {
-  for (const auto& [key, value] : numbersOf(TrackingParameters())) {
+  ParameterReader defaults(readParameterTree(""));
+  TrackingParameters::read(&defaults);
+  EXPECT_EQ(67u, defaults.ranges().size());
+  for (const auto& [key, range] : defaults.ranges()) {
     ros::NodeHandle nh("~bounded");
-    nh.setParam(key, -1e9);
-    if (key == "tracks/confirmation_hits" || key == "instant/minimum_rays" ||
-        key == "instant/maximum_leds" || key == "instant/confirmations")
-      nh.setParam(key, -1000000000);
+    // Below what every key may be, as the whole number that some must be.
+    nh.setParam(key, -1000000000);
     try {
       read(nh);
       ADD_FAILURE() << key << " was taken";
@@ -163,7 +77,7 @@ TEST(Parameters, WhatIsSetIsTaken) {
 
 TEST(Parameters, BlinkCodesSayWhatTheyAskOfTheTracker) {
   ros::NodeHandle nh("~blinking");
-  nh.setParam("identity/codes", BLINK_CODES_CONFIG "/blink_codes_paper.yaml");
+  nh.setParam("identity/codes", CONFIG_FOLDER "/blink_codes_paper.yaml");
   const TrackingParameters p = read(nh);
   ASSERT_TRUE(p.identity.codes);
   EXPECT_EQ((std::vector<std::string>{"led", "left_hand", "right_hand", "head", "back"}),
@@ -231,7 +145,7 @@ TEST(Parameters, WhatIsWrongIsNamedInFull) {
   EXPECT_TRUE(refuses("label", "led")) << "there may be several";
 
   ros::NodeHandle blinking("~blinking_instants");
-  blinking.setParam("identity/codes", BLINK_CODES_CONFIG "/blink_codes.yaml");
+  blinking.setParam("identity/codes", CONFIG_FOLDER "/blink_codes.yaml");
   blinking.setParam("labels", std::vector<std::string>{"head"});
   EXPECT_THROW(read(blinking), ParameterError) << "two LEDs of one name";
   blinking.deleteParam("labels");

@@ -1,10 +1,10 @@
 // What the node knows besides tracking: names of LEDs, bad images, clocks, lenses, statistics.
-#include "clock_watch.h"
 #include "geometry/random_rigs.h"
-#include "image_message.h"
-#include "led_labels.h"
-#include "lens_check.h"
-#include "statistics.h"
+#include "ros/clock_watch.h"
+#include "ros/image_message.h"
+#include "ros/led_labels.h"
+#include "ros/lens_check.h"
+#include "ros/statistics.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 
 #include <gtest/gtest.h>
@@ -335,11 +335,11 @@ sensor_msgs::CameraInfo infoOf(const geometry::Intrinsics& lens) {
 TEST(LensCheck, AgreesWithTheSameLensAndWithAnUnknownOne) {
   const geometry::Camera camera = someRig(1).cameras[0].camera;
   sensor_msgs::CameraInfo info = infoOf(camera.intrinsics);
-  EXPECT_EQ("", contradictionOf(info, camera));
+  EXPECT_EQ("", lensMismatch(info, camera));
   info.K[2] += 1.0;  // as precise as a lens is known
-  EXPECT_EQ("", contradictionOf(info, camera));
+  EXPECT_EQ("", lensMismatch(info, camera));
   info = sensor_msgs::CameraInfo();
-  EXPECT_EQ("", contradictionOf(info, camera)) << "not calibrated";
+  EXPECT_EQ("", lensMismatch(info, camera)) << "not calibrated";
 }
 
 TEST(LensCheck, NamesAContradiction) {
@@ -347,7 +347,7 @@ TEST(LensCheck, NamesAContradiction) {
   const auto contradicts = [&](const std::function<void(sensor_msgs::CameraInfo&)>& change) {
     sensor_msgs::CameraInfo info = infoOf(camera.intrinsics);
     change(info);
-    return contradictionOf(info, camera).find("camera_info of " + camera.name) == 0;
+    return lensMismatch(info, camera).find("camera_info of " + camera.name) == 0;
   };
   EXPECT_TRUE(contradicts([](auto& i) { i.K[0] *= 1.02; }));
   EXPECT_TRUE(contradicts([](auto& i) { i.K[5] += 3.0; }));
@@ -379,10 +379,10 @@ TEST(Statistics, CountsEachViewOnceAndNotWhatIsMasked) {
   EXPECT_EQ(1u, statistics.snapshots());
   EXPECT_EQ(1u, statistics.leds(TrackState::kTracked));
   EXPECT_EQ(1u, statistics.leds(TrackState::kPredicted));
-  EXPECT_EQ(0.5, statistics.camera(0).shareOfInliers());
+  EXPECT_EQ(0.5, statistics.camera(0).inlierRatio());
   EXPECT_EQ(1u, statistics.camera(0).masked);
   EXPECT_NEAR(5.0, statistics.camera(0).residual(), 1e-9);
-  EXPECT_TRUE(std::isnan(statistics.camera(1).shareOfInliers())) << "counted at its own time";
+  EXPECT_TRUE(std::isnan(statistics.camera(1).inlierRatio())) << "counted at its own time";
   EXPECT_TRUE(std::isnan(statistics.camera(1).residual()));
 }
 
@@ -399,7 +399,7 @@ TEST(Statistics, DelaysLatenciesAndProblemsLastUntilTheyAreCleared) {
   image.stamp = 100.0;
   for (const double arrival : {100.01, 100.03}) {
     image.arrival = arrival;
-    statistics.addImage(0, image);
+    statistics.addImage(0, image, 0);
   }
   statistics.addProblem(0, "broken");
   EXPECT_NEAR(0.02, statistics.camera(0).meanDelay(), 1e-9);
@@ -408,6 +408,23 @@ TEST(Statistics, DelaysLatenciesAndProblemsLastUntilTheyAreCleared) {
   statistics.clear();
   EXPECT_EQ(0u, statistics.camera(0).images);
   EXPECT_EQ("", statistics.camera(0).problem);
+}
+
+TEST(Statistics, CountsLostImagesByTheGapsInTheirNumbers) {
+  Statistics statistics;
+  statistics.setRig(someRig(2));
+  const tracking::CameraImage image;
+  for (const std::uint64_t frame : {5, 6, 9})
+    statistics.addImage(0, image, frame);
+  statistics.addImage(1, image, 100);
+  EXPECT_EQ(2u, statistics.camera(0).lost);
+  EXPECT_EQ(0u, statistics.camera(1).lost) << "the first says nothing of those before it";
+  statistics.clear();
+  statistics.addImage(0, image, 11);
+  EXPECT_EQ(1u, statistics.camera(0).lost) << "of which the last one came before clear()";
+  statistics.addImage(0, image, 0);  // its driver was started again
+  statistics.addImage(0, image, 0);  // or does not count
+  EXPECT_EQ(1u, statistics.camera(0).lost);
 }
 
 }  // namespace

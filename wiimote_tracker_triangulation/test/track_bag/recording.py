@@ -24,7 +24,7 @@ def seconds_of(stamp):
     return (stamp.secs - START) + 1e-9 * stamp.nsecs
 
 
-class Camera(object):
+class Camera:
     """4 m from the middle of the room, 2 m above the floor, looks at the middle."""
 
     def __init__(self, number, distance=4.0):

@@ -169,7 +169,7 @@ class SessionWriter {
           known.push_back({point->position, led.nominal});
       }
       correction.emplace(remap::fitRemap(known, "simulated").remap, "simulated");
-    } catch (const remap::RemapError&) {
+    } catch (const Error&) {
       // It says so, and the volume stays as it is.
     }
     write(method, model_name, [&](const StillLed& led) {

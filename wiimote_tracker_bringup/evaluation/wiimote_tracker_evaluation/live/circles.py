@@ -60,13 +60,13 @@ def errors_of(positions, radius):
 def tell(run, radius, path):
     stamps, positions = path
     if len(positions) < 10 * BLOCKS:
-        run.say('Only %d points with one LED came: there are no figures.' % len(positions))
+        run.say(f'Only {len(positions)} points with one LED came: there are no figures.')
         return
     centre, radial, height = errors_of(positions, radius)
     way = np.linalg.norm(np.diff(positions[::10], axis=0), axis=1).sum()
     speed = way / (stamps[::10][-1] - stamps[0])
     run.say('An LED on a circle of %.3f m about (%.3f, %.3f, %.3f) m, %.2f m/s. Centre and plane of '
-            'the circle are fitted to the points, the radius is the one that was told.'
+            'the circle are fitted to the points, the radius is the given one.'
             % ((radius,) + tuple(centre) + (speed,)))
     for name, values, note in (('radial', radial, 'Radial error, RMS'),
                                ('height', height, 'Error across the circle\'s plane, RMS')):

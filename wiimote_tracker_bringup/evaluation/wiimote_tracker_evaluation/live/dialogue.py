@@ -6,7 +6,7 @@ import sys
 SKIP = 's'
 
 
-class Dialogue(object):
+class Dialogue:
     def __init__(self, source=None, output=None):
         self._source = source or sys.stdin
         self._output = output or sys.stdout
@@ -44,7 +44,7 @@ class Dialogue(object):
                 value = float('nan')
             if lowest <= value <= highest:
                 return value
-            self.tell('      Please type a number within %g and %g, or nothing.' % (lowest, highest))
+            self.tell(f'      Please type a number within {lowest:g} and {highest:g}, or nothing.')
 
     def typed(self):
         """A line that has been typed meanwhile, or None."""

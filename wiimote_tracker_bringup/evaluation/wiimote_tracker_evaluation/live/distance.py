@@ -12,7 +12,7 @@ from wiimote_tracker_evaluation.live.listener import Listener
 TIME_LIMIT = 0.5  # the paper's: no other position for so long [s]
 
 
-class Watch(object):
+class Watch:
     """Since when the brightest spot of a camera has not moved."""
 
     def __init__(self, camera):
@@ -80,8 +80,9 @@ def one_walk(dialogue, camera):
 
 
 def tell(run, camera, pairs):
-    run.say('A person has carried %s away from the LED in small circles until its spot had not moved '
-            'for %.1f s.' % (camera, TIME_LIMIT))
+    run.say(f'A person has carried {camera} away from the LED in small circles until its spot had '
+            'not moved '
+            f'for {TIME_LIMIT:.1f} s.')
     run.table('distances', [('current', 'mA'), ('distance', 'm')], [list(pair) for pair in pairs])
     if not pairs:
         run.say('No distance was measured: there are no figures.')
@@ -93,8 +94,8 @@ def tell(run, camera, pairs):
     factor = np.exp(np.mean(np.log(distances / np.sqrt(1e-3 * currents))))
     for current in np.unique(currents):
         values = distances[currents == current]
-        run.figure('live_%s_mA' % ('%g' % current).replace('.', '_'), np.mean(values), 'm',
-                   len(values), note='Distance from which the LED is seen with %g mA' % current,
+        run.figure(f"live_{('%g' % current).replace('.', '_')}_mA", np.mean(values), 'm',
+                   len(values), note=f'Distance from which the LED is seen with {current:g} mA',
                    end_to_end=True)
     run.figure('live_1_A', factor, 'm', len(pairs), note='The same with 1 A, by the inverse square law '
                'fitted to all', end_to_end=True)
@@ -107,4 +108,4 @@ def tell(run, camera, pairs):
     axes.set_ylim(0.0, None)
     charts.key(axes, 'upper left')
     run.plot('distance', figure, 'Distance from which the LED is seen, over its current.')
-    run.summary('The LED is seen from %.1f m with %g mA.' % (distances[-1], currents[-1]))
+    run.summary(f'The LED is seen from {distances[-1]:.1f} m with {currents[-1]:g} mA.')

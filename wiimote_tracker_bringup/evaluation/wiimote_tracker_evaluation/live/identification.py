@@ -35,8 +35,8 @@ def measure(run, listener, dialogue):
         row = one_try(listener, dialogue, labels)
         if row is None:
             break
-        dialogue.tell('       ' + ('all have their labels after %.2f s' % row[1] if row[0] else
-                                   'not all labels within %.0f s' % PATIENCE))
+        dialogue.tell('       ' + (f'all have their labels after {row[1]:.2f} s' if row[0] else
+                                   f'not all labels within {PATIENCE:.0f} s'))
         rows.append([number + 1, int(row[0]), row[1]])
     tell(run, labels, rows)
 
@@ -90,5 +90,5 @@ def tell(run, labels, rows):
         run.figure('live_time', np.median(good), 's', len(good),
                    statistics.bootstrap(good, np.median, run.seed),
                    'Time until all have their labels, median', end_to_end=True)
-        run.summary('Identification: %d of %d tries, %.2f s (median).'
-                    % (len(good), len(rows), np.median(good)))
+        run.summary(f'Identification: {len(good)} of {len(rows)} tries, {np.median(good):.2f} s '
+                    '(median).')

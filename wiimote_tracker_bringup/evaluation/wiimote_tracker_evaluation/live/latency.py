@@ -13,7 +13,7 @@ LAPS, QUICK_LAPS = 40, 6
 PATIENCE = 15.0  # for the next lap [s]
 
 
-class LapsCounter(object):
+class LapsCounter:
     """Triggers, the newest position at the arrival of each, and the tracker's own answers."""
 
     def __init__(self, listener):

@@ -20,7 +20,7 @@ Led = collections.namedtuple('Led', 'id label since tracked position')
 Place = collections.namedtuple('Place', 'position scatter points')  # mean, standard deviation [m]
 
 
-class Listener(object):
+class Listener:
     """Points and the rig of the tracker that the ROS master knows. @raise ExperimentError: there is
     none."""
 
@@ -77,7 +77,7 @@ class Listener(object):
         sides = self.rig().square_sides
         if not sides or len(set(sides)) > 1:
             raise ExperimentError('the ten points need a rig that was calibrated with a square; its '
-                                  'sides are %s' % (list(sides) or 'unknown'))
+                                  f"sides are {list(sides) or 'unknown'}")
         return sides[0]
 
     def up(self):

@@ -46,9 +46,9 @@ def tell(run):
     for stamps, method, label, _ in METHODS:
         units = units_of(table, SPEED, 'own', stamps, method)
         values[stamps, method] = statistics.rms([value for unit in units for value in unit])
-        run.figure('unsynchronised_%s_%s' % (method, stamps), values[stamps, method], 'mm', len(units),
+        run.figure(f'unsynchronised_{method}_{stamps}', values[stamps, method], 'mm', len(units),
                    statistics.bootstrap(units, statistics.rms, run.seed),
-                   'RMS error at %g m/s, own clocks, %s' % (SPEED, label))
+                   f'RMS error at {SPEED:g} m/s, own clocks, {label}')
     run.summary('**Cameras that are not synchronised**, simulated: at %g m/s %.1f mm RMS with estimated '
                 'exposures (%.1f mm were they exact), %.1f mm with arrivals, %.1f mm when the latest '
                 'spots are intersected.' % (

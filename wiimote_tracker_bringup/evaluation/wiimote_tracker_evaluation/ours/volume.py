@@ -35,15 +35,15 @@ def tell(run):
                 grid = rms_grid(table, method, column, height, places)
                 plot.imshow(grid, origin='lower', cmap='YlOrRd', vmin=0.0, vmax=largest)
                 for (v, h), value in np.ndenumerate(grid):
-                    plot.text(h, v, '%.0f' % value, ha='center', va='center', fontsize=8,
+                    plot.text(h, v, f'{value:.0f}', ha='center', va='center', fontsize=8,
                               color='white' if value > 0.6 * largest else charts.INK)
                 plot.set_xticks(range(len(places)))
                 plot.set_yticks(range(len(places)))
-                plot.set_xticklabels(['%g' % place for place in places], fontsize=7)
-                plot.set_yticklabels(['%g' % place for place in places], fontsize=7)
+                plot.set_xticklabels([f'{place:g}' for place in places], fontsize=7)
+                plot.set_yticklabels([f'{place:g}' for place in places], fontsize=7)
                 plot.grid(False)
-                plot.set_title('%s\nz = %g m' % (word, height), fontsize=8)
-        row[0].set_ylabel('%s\ny [m]' % label)
+                plot.set_title(f'{word}\nz = {height:g} m', fontsize=8)
+        row[0].set_ylabel(f'{label}\ny [m]')
     for plot in axes[1]:
         plot.set_xlabel('x [m]')
     run.plot('volume', figure, 'RMS errors over the cube [mm], measured and predicted side by side, at '
@@ -52,13 +52,13 @@ def tell(run):
         chosen = where(table, method=method)
         for column, word in (('error_mm', 'measured'), ('predicted_mm', 'predicted')):
             units = per_session(table, column, chosen)
-            run.figure('volume_%s_%s' % (method, word), statistics.rms(np.concatenate(units)), 'mm',
+            run.figure(f'volume_{method}_{word}', statistics.rms(np.concatenate(units)), 'mm',
                        len(units), statistics.bootstrap(units, statistics.rms, run.seed),
-                       'RMS error over the cube, %s, %s' % (label, word))
+                       f'RMS error over the cube, {label}, {word}')
         units = per_session(table, 'normalised_squared_error', chosen)
-        run.figure('volume_%s_consistency' % method, np.mean(np.concatenate(units)), '', len(units),
+        run.figure(f'volume_{method}_consistency', np.mean(np.concatenate(units)), '', len(units),
                    statistics.bootstrap(units, np.mean, run.seed),
-                   'Normalised squared error (1: the prediction is true), %s' % label)
+                   f'Normalised squared error (1: the prediction is true), {label}')
     keep(run, PROGRAM, table, 'Errors at 27 places after a calibration.')
 
 

@@ -6,7 +6,7 @@ import os
 from wiimote_tracker_evaluation.page import data, html, markdown
 
 
-class Report(object):
+class Report:
     """What all the pages are made of. command: the options of the run; seconds: it took."""
 
     def __init__(self, options, runs, seconds):

@@ -44,9 +44,9 @@ code { font-size: .9em; background: #f2f4f7; padding: 0 .2em; }
 def page(report):
     parts = ['<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
              '<meta name="viewport" content="width=device-width, initial-scale=1">',
-             '<title>%s</title><style>%s</style></head><body>' % (TITLE, STYLE),
-             '<h1>%s</h1>' % TITLE, '<p class="about">%s</p>' % inline(words.about(report)),
-             '<nav>' + ''.join('<a href="#%s">%s</a>' % (run.name, escaping.escape(run.title))
+             f'<title>{TITLE}</title><style>{STYLE}</style></head><body>',
+             f'<h1>{TITLE}</h1>', f'<p class="about">{inline(words.about(report))}</p>',
+             '<nav>' + ''.join(f'<a href="#{run.name}">{escaping.escape(run.title)}</a>'
                                for run in report.runs)
              + '<a href="#figures">Every figure</a></nav>', in_short(report)]
     parts += [section(run) for run in report.runs] + [every_figure(report)]
@@ -55,33 +55,32 @@ def page(report):
 
 def in_short(report):
     items = [inline(sentence) for run in report.runs for sentence in run.summaries]
-    items += ['<span class="bad">%s failed: %s</span>' % (
-        escaping.escape(run.title), escaping.escape(run.failure))
+    items += [f'<span class="bad">{escaping.escape(run.title)} failed: '
+              f'{escaping.escape(run.failure)}</span>'
         for run in report.runs if run.failure]
     return '<div class="short"><ul>%s</ul></div>' % ''.join(
-        '<li>%s</li>' % item for item in items) if items else ''
+        f'<li>{item}</li>' for item in items) if items else ''
 
 
 def section(run):
-    parts = ['<section id="%s"><h2>%s</h2>' % (run.name, escaping.escape(run.title)),
-             '<p class="kind">%s; %s</p>' % (words.kinds(run), words.duration(run.duration))]
+    parts = [f'<section id="{run.name}"><h2>{escaping.escape(run.title)}</h2>',
+             f'<p class="kind">{words.kinds(run)}; {words.duration(run.duration)}</p>']
     for each in run.contents:
         if isinstance(each, Text):
             parts.append(blocks(each.markdown))
         elif isinstance(each, Plot):
-            parts.append('<figure>%s<figcaption>%s</figcaption></figure>'
-                         % (inner_svg(run, each), inline(each.caption)))
+            parts.append(f'<figure>{inner_svg(run, each)}<figcaption>{inline(each.caption)}</figcaption></figure>')
         elif isinstance(each, Table):
             parts.append(content_table(run, each))
     if run.failure:
-        parts.append('<p class="failure">This section failed: %s</p>' % escaping.escape(run.failure))
+        parts.append(f'<p class="failure">This section failed: {escaping.escape(run.failure)}</p>')
     return '\n'.join(parts + ['</section>'])
 
 
 def every_figure(report):
     return '\n'.join(
         ['<section id="figures"><h2>Every figure</h2>', '<p class="kind">As in figures.json.</p>']
-        + ['<h3>%s</h3>%s' % (escaping.escape(run.title), figures_table(run))
+        + [f'<h3>{escaping.escape(run.title)}</h3>{figures_table(run)}'
            for run in report.runs if run.figures] + ['</section>'])
 
 
@@ -89,7 +88,7 @@ def inner_svg(run, plot):
     """The SVG element alone; ids of several plots in one page must not meet."""
     svg = plot.svg[plot.svg.index('<svg'):]
     svg = re.sub(r'<metadata>.*?</metadata>', '', svg, flags=re.S)
-    prefix = '%s-%s-' % (run.name, plot.name)
+    prefix = f'{run.name}-{plot.name}-'
     svg = re.sub(r'\bid="', 'id="' + prefix, svg)
     svg = re.sub(r'(xlink:href="#|url\(#)', r'\g<1>' + prefix, svg)
     return svg.replace('<svg', '<svg role="img" aria-label="%s"' % escaping.escape(
@@ -103,17 +102,16 @@ def table(heads, rows, caption=''):
     numeric = [all(row[i][1] for row in rows) and bool(rows) for i in range(len(heads))]
     align = [' class="n"' if each else '' for each in numeric]
     return '<div class="scroll"><table>%s<thead><tr>%s</tr></thead><tbody>%s</tbody></table></div>' % (
-        '<caption>%s</caption>' % caption if caption else '',
+        f'<caption>{caption}</caption>' if caption else '',
         ''.join('<th%s>%s</th>' % each for each in zip(align, heads)),
-        ''.join('<tr>%s</tr>' % ''.join('<td%s>%s</td>' % (align[i], cell[0])
+        ''.join('<tr>%s</tr>' % ''.join(f'<td{align[i]}>{cell[0]}</td>'
                                         for i, cell in enumerate(row)) for row in rows))
 
 
 def content_table(run, content):
-    link = '<a href="%s/%s.csv">%s.csv</a>' % (run.name, content.name, content.name)
+    link = f'<a href="{run.name}/{content.name}.csv">{content.name}.csv</a>'
     if not content.shown:
-        return '<p>%s %d rows: %s</p>' % (
-            inline(content.caption or words.plain(content.name) + '.'), len(content.rows), link)
+        return f"<p>{inline(content.caption or words.plain(content.name) + '.')} {len(content.rows)} rows: {link}</p>"
     return table([inline(words.with_unit(name, unit)) for name, unit in content.columns],
                  [[(inline(words.number(cell)), not isinstance(cell, str)) for cell in row]
                   for row in content.rows],
@@ -130,7 +128,7 @@ def figures_table(run):
 
 # --- The little of Markdown that sections use
 
-def blocks(markdown):
+def blocks(markdown: str) -> str:
     """Paragraphs, headings (###) and lists."""
     parts = []
     for block in re.split(r'\n\s*\n', markdown.strip()):
@@ -142,14 +140,14 @@ def blocks(markdown):
         if items:
             text = re.split(r'(?:^|\n)\s*- ', '\n'.join(lines))
             if text[0].strip():
-                parts.append('<p>%s</p>' % inline(text[0]))
-            parts.append('<ul>%s</ul>' % ''.join('<li>%s</li>' % inline(item) for item in text[1:]))
+                parts.append(f'<p>{inline(text[0])}</p>')
+            parts.append('<ul>%s</ul>' % ''.join(f'<li>{inline(item)}</li>' for item in text[1:]))
         elif lines:
-            parts.append('<p>%s</p>' % inline(' '.join(lines)))
+            parts.append(f"<p>{inline(' '.join(lines))}</p>")
     return '\n'.join(parts)
 
 
-def inline(text):
+def inline(text: str) -> str:
     text = escaping.escape(text, quote=False)
     text = re.sub(r'`([^`]+)`', r'<code>\1</code>', text)
     text = re.sub(r'\*\*([^*]+)\*\*', r'<b>\1</b>', text)

@@ -11,7 +11,7 @@ def page(report):
     for run in report.runs:
         lines += ['- ' + sentence for sentence in run.summaries]
         if run.failure:
-            lines.append('- **%s failed:** %s' % (run.title, run.failure))
+            lines.append(f'- **{run.title} failed:** {run.failure}')
     for run in report.runs:
         lines += section(run)
     lines += ['', '## Every figure']
@@ -22,13 +22,13 @@ def page(report):
 
 
 def section(run):
-    lines = ['', '## ' + run.title, '', '*%s*' % words.kinds(run)]
+    lines = ['', '## ' + run.title, '', f'*{words.kinds(run)}*']
     for each in run.contents:
         lines.append('')
         if isinstance(each, Text):
             lines.append(each.markdown)
         elif isinstance(each, Plot):
-            lines += ['![%s](%s/%s.svg)' % (each.name, run.name, each.name), '', each.caption]
+            lines += [f'![{each.name}]({run.name}/{each.name}.svg)', '', each.caption]
         elif isinstance(each, Table):
             lines += content_table(run, each)
     if run.failure:
@@ -41,10 +41,9 @@ def row(cells):
 
 
 def content_table(run, table):
-    link = '[%s.csv](%s/%s.csv)' % (table.name, run.name, table.name)
+    link = f'[{table.name}.csv]({run.name}/{table.name}.csv)'
     if not table.shown:
-        return ['%s %d rows: %s' % (table.caption or words.plain(table.name) + '.',
-                                    len(table.rows), link)]
+        return [f"{table.caption or words.plain(table.name) + '.'} {len(table.rows)} rows: {link}"]
     lines = [row([words.with_unit(name, unit) for name, unit in table.columns]),
              '|' + '---|' * len(table.columns)]
     lines += [row([words.number(cell) for cell in cells]) for cells in table.rows]

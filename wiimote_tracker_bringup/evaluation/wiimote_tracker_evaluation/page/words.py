@@ -1,7 +1,7 @@
 """Numbers and names as people read them; the same in every page."""
 
 
-def number(value, digits=3):
+def number(value, digits: int = 3) -> str:
     """A number with so many significant digits; texts as they are, nothing for None."""
     if value is None:
         return ''
@@ -17,16 +17,16 @@ def number(value, digits=3):
     text = '%.*g' % (digits, value)
     if 'e' not in text:
         return text
-    return '%.0f' % value if 1e3 <= abs(value) < 1e7 else text
+    return f'{value:.0f}' if 1e3 <= abs(value) < 1e7 else text
 
 
-def plain(name):
+def plain(name: str) -> str:
     """An under_scored name in words."""
     return name.replace('_', ' ')
 
 
-def with_unit(name, unit):
-    return '%s [%s]' % (plain(name), unit) if unit else plain(name)
+def with_unit(name: str, unit: str) -> str:
+    return f'{plain(name)} [{unit}]' if unit else plain(name)
 
 
 def interval(figure):
@@ -35,7 +35,7 @@ def interval(figure):
     return '%s … %s' % tuple(number(limit) for limit in figure.interval)
 
 
-def kind(simulated, end_to_end):
+def kind(simulated: bool, end_to_end: bool) -> str:
     """How a number came about."""
     if not simulated:
         return 'measured'
@@ -48,8 +48,8 @@ def kinds(run):
     return '; '.join(found) if found else ('simulated' if run.simulated else 'measured')
 
 
-def duration(seconds):
-    return '%.0f s' % seconds if seconds < 100 else '%.0f min' % (seconds / 60.0)
+def duration(seconds: float) -> str:
+    return f'{seconds:.0f} s' if seconds < 100 else f'{seconds / 60.0:.0f} min'
 
 
 def about(report):
@@ -58,7 +58,7 @@ def about(report):
         how = ('Rehearsed on a simulated rig, with prompts' if report.simulated else
                'Measured on a real rig')
     else:
-        how = 'Simulated, rig `%s`' % report.rig
+        how = f'Simulated, rig `{report.rig}`'
     return '%s, seed %d, %s; took %s.' % (
         how, report.seed,
         'quick run' if report.quick else 'full run', duration(report.seconds))

@@ -2,26 +2,28 @@
 
 import importlib
 import importlib.util
+import types
+from typing import List
 
 # Name, and about how long it takes on two cores [s]: quick, full.
 SECTIONS = (('distance', 2, 5), ('latency', 40, 150), ('identification', 10, 100),
             ('positions', 20, 210), ('circles', 10, 40), ('ours', 20, 190), ('cost', 35, 280))
 
 
-def names():
+def names() -> List[str]:
     """Of all sections there are."""
     return [name for name, _, _ in SECTIONS if importlib.util.find_spec(module_name(name))]
 
 
-def module_name(name):
+def module_name(name: str) -> str:
     return __name__ + '.' + name
 
 
-def load(name):
+def load(name: str) -> types.ModuleType:
     """The module of a section."""
     return importlib.import_module(module_name(name))
 
 
-def seconds(name, quick):
+def seconds(name: str, quick: bool) -> float:
     """About how long a section takes."""
     return next(short if quick else full for each, short, full in SECTIONS if each == name)

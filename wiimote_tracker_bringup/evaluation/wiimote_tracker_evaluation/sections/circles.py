@@ -6,10 +6,11 @@ import os
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, programs, statistics
-from wiimote_tracker_evaluation.live.circles import live  # noqa: F401, with a person
+from wiimote_tracker_evaluation.live import circles as with_a_person
 
 NAME = 'circles'
 TITLE = 'Circles'
+live = with_a_person.live
 
 QUICK, FULL = 6, 24  # sessions with two cameras, and as many with four
 SETS = ((2, 'two'), (4, 'four'))
@@ -52,7 +53,7 @@ def tell(run, laps):
         'brought to one time, rays intersected), *tracks* is ours. *Radial*: distance from the '
         'circle\'s axis less the radius. *Height*: above the circle\'s plane. The circle itself is '
         'exact: the paper\'s 3 cm of placement are not in these errors.'
-        % (len(np.unique(laps['session'])), ', '.join('%g' % speed for speed in speeds)))
+        % (len(np.unique(laps['session'])), ', '.join(f'{speed:g}' for speed in speeds)))
     plot(run, laps, speeds)
     rows = []
     for cameras, words in SETS:
@@ -85,9 +86,10 @@ def row_of(run, laps, chosen, words, method, explained, speed):
         units = errors_of(laps, chosen, which + '_error')
         value = statistics.rms(np.concatenate(units))
         interval = statistics.bootstrap(units, statistics.rms, run.seed)
-        run.figure('%s_%s_%s_%s' % (words, method, which, ('%g' % speed).replace('.', '_')), value,
-                   'mm', len(units), interval, 'RMS %s error on the circles at %g m/s, %s, %s '
-                   'Wiimotes' % (which, speed, explained, words),
+        run.figure(f"{words}_{method}_{which}_{('%g' % speed).replace('.', '_')}", value,
+                   'mm', len(units), interval, f'RMS {which} error on the circles at {speed:g} '
+                                               f'm/s, {explained}, {words} '
+                   'Wiimotes',
                    headline=method == 'wand_tracks' and speed == 1.0)
         row += [value, '%.3g to %.3g' % interval]
     return row + [100.0 * np.isnan(laps['measured_x'][chosen]).mean()]
@@ -106,12 +108,12 @@ def compare(run, laps):
             chosen = ((laps['cameras'] == cameras) & (laps['method'] == method)
                       & ~np.isnan(laps['measured_x']))
             error = np.hypot(laps['radial_error'][chosen], laps['height_error'][chosen])
-            sentences.append('%s, %s Wiimotes: %.0f %%' % (
-                explained, words, 100.0 * np.mean(error <= PAPER_LIMIT)))
+            sentences.append(f'{explained}, {words} Wiimotes: '
+                             f'{100.0 * np.mean(error <= PAPER_LIMIT):.0f} %')
     run.say('The paper says that the errors on the circles "were very close to the errors acquired '
             'with the static tests", and claims 3 cm for both, without numbers by case. Points of '
             'ours that are within 3 cm of the circle:\n\n'
-            + '\n'.join('- %s' % sentence for sentence in sentences))
+            + '\n'.join(f'- {sentence}' for sentence in sentences))
     chosen = ((laps['cameras'] == 4) & (laps['method'] == 'wand_tracks')
               & (laps['speed'] == 1.0))
     run.summary('**Circles**, simulated: at 1 m/s four Wiimotes follow a circle of 75 cm radius with '
@@ -145,10 +147,10 @@ def plot(run, laps, speeds):
             axis.set_yticklabels(['0.5', '1', '2', '5', '10', '20', '50', '100'])
             axis.set_yticks([], minor=True)
             axis.set_xticks(range(len(speeds)))
-            axis.set_xticklabels(['%g' % speed for speed in speeds])
+            axis.set_xticklabels([f'{speed:g}' for speed in speeds])
             if column == 0:
-                axis.set_ylabel('%s error, RMS [mm]' % which)
-        axes[0, column].set_title('%s Wiimotes' % words, fontsize=9.5)
+                axis.set_ylabel(f'{which} error, RMS [mm]')
+        axes[0, column].set_title(f'{words} Wiimotes', fontsize=9.5)
         axes[1, column].set_xlabel('speed [m/s]')
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc='upper center',
                   bbox_to_anchor=(0.5, 0.0), ncol=2, frameon=False,

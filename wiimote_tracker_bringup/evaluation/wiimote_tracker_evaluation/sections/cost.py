@@ -1,5 +1,8 @@
 """Cost: how much of a processor the tracker uses, and what load does to its latency."""
 
+import dataclasses
+from typing import Dict
+
 import json
 import sys
 
@@ -20,13 +23,18 @@ FULL = ((2, ((1, 0),)), (4, ((1, 0), (1, 1), (1, 2), (1, 4), (2, 0), (3, 0), (4,
         (6, ((1, 0),)), (8, ((1, 0), (4, 0))))
 
 
-class Setting(object):
+@dataclasses.dataclass(eq=False)
+class Setting:
     """What was measured. shares: of one core, by node, one value a second. own: from a report on the
     device to the published point [s]."""
 
-    def __init__(self, cameras, leds, busy, shares, images, points, own):
-        self.cameras, self.leds, self.busy = cameras, leds, busy
-        self.shares, self.images, self.points, self.own = shares, images, points, own
+    cameras: int
+    leds: int
+    busy: int
+    shares: Dict[str, np.ndarray]
+    images: float
+    points: float
+    own: np.ndarray
 
     def name(self):
         return 'stack_%d_cameras_%d_leds%s' % (self.cameras, self.leds,
@@ -62,7 +70,7 @@ def run(run):
     tell(run, measured, measure_rooms(run), seconds)
 
 
-class FullStack(object):
+class FullStack:
     """The whole system with so many cameras, and its rig as it truly is; no LED shines at first."""
 
     def __init__(self, run, cameras):
@@ -85,7 +93,7 @@ class FullStack(object):
         self._rig = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
         self._rig.publish(true_rig.true_rig(scene.read_scene(path), rigs.identities(description)))
         self._processes = {node: load.process_of(node) for node in [
-            '/manager', '/calibration'] + ['/%s/driver' % camera for camera in self._cameras]}
+            '/manager', '/calibration'] + [f'/{camera}/driver' for camera in self._cameras]}
 
     def measure(self, leds, busy, seconds):
         """What the nodes use while so many LEDs move, beside so many busy processes."""
@@ -123,7 +131,7 @@ def measure_rooms(run):
         return json.load(file)['scale']
 
 
-# --- What is told
+# --- Report
 
 def tell(run, measured, rooms, seconds):
     run.say(
@@ -160,18 +168,18 @@ def figures_of(run, setting):
     headline = (setting.cameras, setting.leds, setting.busy) == (4, 1, 0)
     run.figure(name + '_driver', 100 * setting.drivers().mean(), '% of a core', setting.cameras,
                widened(run, 100 * setting.drivers(), setting.drivers().shape[1]),
-               'processor time of one driver, %s' % words, end_to_end=True, headline=headline)
+               f'processor time of one driver, {words}', end_to_end=True, headline=headline)
     for key, shares, what in (('tracker', setting.shares['/manager'], 'the tracker'),
                               ('all', setting.whole(), 'all nodes')):
-        run.figure('%s_%s' % (name, key), 100 * shares.mean(), '% of a core', len(shares),
+        run.figure(f'{name}_{key}', 100 * shares.mean(), '% of a core', len(shares),
                    widened(run, 100 * shares, len(shares)),
-                   'processor time of %s, %s' % (what, words), end_to_end=True,
+                   f'processor time of {what}, {words}', end_to_end=True,
                    headline=headline and key == 'all')
     p99 = statistics.quantile(0.99)
     own = 1e3 * setting.own
     run.figure(name + '_latency_p99_ms', p99(own), 'ms', len(own),
                statistics.bootstrap(statistics.blocks(own, 10), p99, run.seed),
-               'latency without Bluetooth, 99 %%, %s' % words, end_to_end=True)
+               f'latency without Bluetooth, 99 %, {words}', end_to_end=True)
 
 
 def widened(run, percent, seconds):

@@ -6,10 +6,11 @@ from wiimote_tracker_evaluation import charts, experiment, programs, statistics
 from wiimote_tracker_evaluation.light import SENSITIVITIES, detection_distance, read_led
 from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.scene import read_scene
-from wiimote_tracker_evaluation.live.distance import live  # noqa: F401, with a person
+from wiimote_tracker_evaluation.live import distance as with_a_person
 
 NAME = 'distance'
 TITLE = 'Detection distance'
+live = with_a_person.live
 
 PAPER_CURRENT, PAPER_DISTANCE = 0.56, 10.0  # [A], [m]
 SHOWN = (0.05, 2.0)                         # currents of the plot [A]
@@ -40,7 +41,7 @@ def tell(run, led, carried):
         'by construction; it confirms nothing there.** Measure a few distances of your own LED, put '
         'them into a copy of `led.yaml`, and give it with `--led`.'
         % (SPEED, TIME_LIMIT, float(detection_distance(1.0, thresholds['wii_3'])),
-           ', '.join('%g m with %g mA' % (distance, 1e3 * current)
+           ', '.join(f'{distance:g} m with {1e3 * current:g} mA'
                      for current, distance in led.measured), led.sensitivity, constant))
     plot(run, led, carried, thresholds, constant)
     table = []
@@ -49,7 +50,7 @@ def tell(run, led, carried):
         table.append([level, thresholds[level], float(detection_distance(1.0, thresholds[level])),
                       float(distance)])
         run.figure('distance_560_mA_' + level, distance, 'm', sessions_of(carried),
-                   note='Distance from which the LED is seen with 560 mA, sensitivity %s' % level)
+                   note=f'Distance from which the LED is seen with 560 mA, sensitivity {level}')
     run.table('levels', [('sensitivity', ''), ('threshold', 'sensor bars at 1 m'),
                          ('sensor_bar_seen_from', 'm'), ('led_560_mA_seen_from', 'm')], table)
     tell_law(run, carried)
@@ -82,7 +83,7 @@ def tell_law(run, carried):
     units = [late[carried['session'] == session] for session in np.unique(carried['session'])]
     run.figure('added_by_time_limit', np.mean(late), 'm', len(units),
                statistics.bootstrap(units, seed=run.seed),
-               'What the time limit of 0.5 s adds to the distance at %.2f m/s' % SPEED)
+               f'What the time limit of 0.5 s adds to the distance at {SPEED:.2f} m/s')
 
 
 def tell_corners(run, led):
@@ -100,7 +101,7 @@ def tell_corners(run, led):
                 worst = needed, distance, np.degrees(angle), camera.name, point
     needed, distance, angle, camera, point = worst
     run.figure('current_for_all_corners', 1e3 * needed, 'mA', 1, note='Current with which every '
-               'camera sees the LED at all ten test points, sensitivity %s' % led.sensitivity)
+               f'camera sees the LED at all ten test points, sensitivity {led.sensitivity}')
     run.say(
         'The test point that is worst to see is (%.2f, %.2f, %.2f) m from %s: %.1f m off and %.0f° out '
         'of the level in which the cone throws the light. That takes %.0f mA at `%s`. %s'
@@ -152,5 +153,5 @@ def plot(run, led, carried, thresholds, constant):
     run.plot('distance', figure, 'Distance from which the LED is seen (Fig. 5). Left: over its '
              'current, for the sensitivities of the remote: dots, where the carried remote was stopped; '
              'lines, the inverse square law. The diamond is the one point that the paper\'s text gives. '
-             'Right: over the direction, at `%s`; the beam is a model, see `led.yaml`.'
-             % led.sensitivity)
+             f'Right: over the direction, at `{led.sensitivity}`; the beam is a model, see '
+             '`led.yaml`.')

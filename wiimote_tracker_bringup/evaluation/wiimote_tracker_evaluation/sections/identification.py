@@ -5,10 +5,11 @@ import os
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, programs, statistics
-from wiimote_tracker_evaluation.live.identification import live  # noqa: F401, with a person
+from wiimote_tracker_evaluation.live import identification as with_a_person
 
 NAME = 'identification'
 TITLE = 'Identification by blinking'
+live = with_a_person.live
 
 QUICK, FULL = 6, 100                             # tries with each scheme, length and set of cameras
 LEDS = 4
@@ -40,7 +41,7 @@ def succeeded(tries):
     return (tries['labelled'] == LEDS) & (tries['wrong'] == 0) & (tries['ever_wrong'] == 0)
 
 
-class Line(object):
+class Line:
     """One scheme with so many cameras, over the length of its period or chip [ms]."""
 
     def __init__(self, tries, scheme, cameras):
@@ -81,17 +82,18 @@ def tell(run, tries):
              for scheme, _, _ in SCHEMES for count in cameras}
     run.say(
         'Four LEDs blink in the middle of the cube before cameras that are not synchronised; a try '
-        'lasts %.0f s and is a success when in the end each has its own label and none was ever '
+        f'lasts {DURATION:.0f} s and is a success when in the end each has its own label and none '
+        'was ever '
         'given another\'s. The whole way is simulated: from the light on the sensor (an LED is seen '
         'when it is lit for more than half of the exposure of 1 ms) over the tracker to the label.\n\n'
-        '**The paper\'s scheme:** on for 90, 60, 40 and 20 %% of a common period, symmetric about its '
-        'middle; the period is looked for within 20 %%. **Cyclic codes:** each LED repeats a word of '
+        '**The paper\'s scheme:** on for 90, 60, 40 and 20 % of a common period, symmetric about its '
+        'middle; the period is looked for within 20 %. **Cyclic codes:** each LED repeats a word of '
         '8 chips when it likes, without a wire between them. The LEDs\' clocks are exact here; very short '
         'periods live by that, since they are seen by images at ever other phases. A label is given when it '
-        'is 99.9 %% certain, so that of four LEDs one may have a wrong one, mostly for a moment, in up to '
+        'is 99.9 % certain, so that of four LEDs one may have a wrong one, mostly for a moment, in up to '
         '4 of 1000 tries; such a try is no success. The paper says that identification '
         '"was successful in all test cases" and gives neither period nor time; it left the shortest '
-        'period for future research.' % DURATION)
+        'period for future research.')
     plot(run, cameras, lines)
     rows = []
     for scheme, word, title in SCHEMES:
@@ -121,18 +123,18 @@ def figures(run, cameras, lines):
                 run.say('With %d cameras and %s, fewer than %.0f %% succeed even at the longest %s.'
                         % (count, title, 100.0 * ENOUGH, word))
             else:
-                run.figure('shortest_%s_%s' % (word, tag), shortest, 'ms', min(line.tries),
+                run.figure(f'shortest_{word}_{tag}', shortest, 'ms', min(line.tries),
                            note='Shortest %s from which on at least %.0f %% of the tries succeed, %s, '
                            '%d cameras' % (word, 100.0 * ENOUGH, title, count))
             at = line.at(SHOWN_PERIOD if scheme == 'paper' else SHOWN_CHIP)
             low, high = line.intervals()[at]
-            run.figure('success_%s' % tag, 100.0 * line.shares()[at], '%', line.tries[at],
+            run.figure(f'success_{tag}', 100.0 * line.shares()[at], '%', line.tries[at],
                        (100.0 * low, 100.0 * high), 'Success with a %s of %g ms, %s, %d cameras' % (
                            word, line.lengths[at], title, count),
                        headline=scheme == 'paper' and count == max(cameras))
             seconds = line.seconds[at]
             if len(seconds) > 1:
-                run.figure('time_%s' % tag, np.median(seconds), 's', len(seconds),
+                run.figure(f'time_{tag}', np.median(seconds), 's', len(seconds),
                            statistics.bootstrap(seconds, np.median, run.seed),
                            'Time until all four LEDs have their labels, %s of %g ms, %s, %d cameras, '
                            'median' % (word, line.lengths[at], title, count))
@@ -175,7 +177,7 @@ def plot(run, cameras, lines):
         axes[1][column].set_xticks([], minor=True)
         axes[1][column].set_xticklabels(['%d' % tick for tick in ticks])
         axes[1][column].set_ylim(0.0, None)
-        axes[1][column].set_xlabel('%s [ms]' % word)
+        axes[1][column].set_xlabel(f'{word} [ms]')
     axes[0][0].set_ylabel('success [%]')
     axes[1][0].set_ylabel('time until all have labels [s]')
     charts.key(axes[0][1], 'lower right')

@@ -4,10 +4,11 @@ import numpy as np
 
 from wiimote_tracker_evaluation import charts, experiment, rigs, stack, statistics
 from wiimote_tracker_evaluation.trace import Recorder
-from wiimote_tracker_evaluation.live.latency import live  # noqa: F401, with a person
+from wiimote_tracker_evaluation.live import latency as with_a_person
 
 NAME = 'latency'
 TITLE = 'Latency'
+live = with_a_person.live
 
 SIDE, HEIGHT = 1.0, 0.5   # of the space: the paper's 1.0 x 1.0 x 0.5 m
 RADIUS = 0.4              # [m]
@@ -21,7 +22,7 @@ PARTS = (('bluetooth', 'Bluetooth (an input of the simulation)'), ('driver', 'dr
          ('image', 'transport of the image'), ('point', 'filter, and transport of the point'))
 
 
-class Measured(object):
+class Measured:
     """laps: crossings of the positive x axis [s since 1970]; angle: of the newest published position
     at each, about the circle's centre [rad]; answer: of the trigger's answer."""
 
@@ -130,7 +131,7 @@ def count_laps(conductor, laps, progress):
     return crossings
 
 
-# --- What is told
+# --- Report
 
 def tell(run, results):
     run.say(
@@ -170,9 +171,9 @@ def fig6(run, results):
         for values, kind, note in (
                 (late, 'counter', 'from the x axis, as in Fig. 6'),
                 (fair, 'answer', "from the trigger's answer")):
-            run.figure('%s_by_%s_ms' % (name, kind), np.mean(values), 'ms', len(values),
+            run.figure(f'{name}_by_{kind}_ms', np.mean(values), 'ms', len(values),
                        statistics.bootstrap(values, np.mean, run.seed),
-                       'latency by the angle %s, mean, %s' % (note, title), end_to_end=True,
+                       f'latency by the angle {note}, mean, {title}', end_to_end=True,
                        headline=kind == 'counter')
         rows.append((title, len(late), np.mean(late), np.min(late), np.max(late), np.mean(fair),
                      1e3 * np.nanmean(measured.answer) * PERIOD / (2.0 * np.pi)))
@@ -223,7 +224,7 @@ def draw_fig6(axes, measured, title):
     late = 1e3 * measured.by_counter()
     axes.set_xlim(-1.2 * RADIUS, 1.55 * RADIUS)
     axes.set_ylim(-1.2 * RADIUS, 1.2 * RADIUS)
-    axes.text(-0.1 * RADIUS, 0.45 * RADIUS, '%s\n%.1f to %.1f ms' % (title, late.min(), late.max()),
+    axes.text(-0.1 * RADIUS, 0.45 * RADIUS, f'{title}\n{late.min():.1f} to {late.max():.1f} ms',
               ha='center', va='center')
     axes.set_aspect('equal')
     axes.set_xlabel('x [m]')
@@ -248,9 +249,9 @@ def direct(run, results):
             'bare message straight from the simulation to the recorder takes %s meanwhile (median). '
             'Exposure itself is an instant here; what happens in the room waits, on average, %s for '
             'the next one.' % (
-                ' and '.join('%.2f ms with %s' % (1e3 * np.median(m.trace.hop), title)
+                ' and '.join(f'{1e3 * np.median(m.trace.hop):.2f} ms with {title}'
                              for _, title, m in results),
-                ' and '.join('%.1f ms with %s' % (1e3 * m.trace.waiting(), title)
+                ' and '.join(f'{1e3 * m.trace.waiting():.1f} ms with {title}'
                              for _, title, m in results)))
     rows = []
     for name, title, measured in results:
@@ -297,9 +298,9 @@ def tell_figures(run, name, title, measured, parts):
             ('own_p99', own, 0.99, 'exposure to published point without Bluetooth, 99 %')):
         statistic = statistics.quantile(share)
         units = measured.per_lap(1e3 * values)
-        run.figure('%s_%s_ms' % (name, key), statistic(1e3 * values), 'ms', len(values),
+        run.figure(f'{name}_{key}_ms', statistic(1e3 * values), 'ms', len(values),
                    statistics.bootstrap(units, statistic, run.seed) if len(units) > 1 else None,
-                   '%s, %s' % (note, title), end_to_end=True, headline=key in (
+                   f'{note}, {title}', end_to_end=True, headline=key in (
                        'total_median', 'own_p99'))
 
 
@@ -323,8 +324,8 @@ def plot_distribution(run, results):
             split.barh(row, mean[key], left=begin, color=color, height=0.5,
                        label=words if row == 0 else None)
             begin += mean[key]
-        split.text(begin, row, '  %.2f ms, after %.1f ms\n  of Bluetooth' % (
-            begin, mean['bluetooth']), va='center', fontsize=8.5)
+        split.text(begin, row, f"  {begin:.2f} ms, after {mean['bluetooth']:.1f} ms\n  of "
+                               "Bluetooth", va='center', fontsize=8.5)
     split.set_yticks(range(len(results)))
     split.set_yticklabels([title for _, title, _ in results])
     split.set_xlim(0.0, 1.5 * split.get_xlim()[1])

@@ -10,10 +10,11 @@ from wiimote_tracker_evaluation import position_plots as plots
 from wiimote_tracker_evaluation import programs, statistics
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.position_results import CASES, FACING, FOUR, OURS, TWO, Results
-from wiimote_tracker_evaluation.live.positions import live  # noqa: F401, with a person
+from wiimote_tracker_evaluation.live import positions as with_a_person
 
 NAME = 'positions'
 TITLE = 'Positions'
+live = with_a_person.live
 
 QUICK, FULL = 10, 120  # sessions with two cameras, and as many with four
 MODELS = (('image_center', 'rays from the image centre'), ('calibrated', 'rays as calibrated'))
@@ -109,7 +110,7 @@ def compare(run, results):
             verdict = claims.verdict(claim, simulated)
             agreeing[model] += verdict == 'yes'
             low, middle, high = 100.0 * simulated
-            row += ['%.1f (%.1f to %.1f)' % (middle, low, high), verdict]
+            row += [f'{middle:.1f} ({low:.1f} to {high:.1f})', verdict]
         rows.append(row)
     run.table('claims', [('claim', ''), ('paper', 'cm'), ('image_center', 'cm'),
                          ('image_center_agrees', ''), ('calibrated', 'cm'),
@@ -117,9 +118,9 @@ def compare(run, results):
               'Errors from where the LED was meant to be, placement included, as the paper measured '
               'them.')
     for model, _ in MODELS:
-        run.figure('paper_claims_agreeing_' + model, agreeing[model], 'of %d' % len(rows),
+        run.figure('paper_claims_agreeing_' + model, agreeing[model], f'of {len(rows)}',
                    results.sessions, None, 'numbers of the paper that the simulation with ray_model '
-                   '%s reproduces' % model)
+                   f'{model} reproduces')
     run.say(details(run, results))
     run.say(conclusion(results, agreeing, len(rows)))
 
@@ -189,9 +190,10 @@ def cases(run, results):
                 interval = statistics.bootstrap(errors, statistics.rms, run.seed)
                 row += [statistics.rms(errors), errors.max()]
                 if cameras != FACING:
-                    run.figure('%s_%s_%s' % (words, case, model), row[-2], 'mm', len(errors),
-                               interval, 'RMS error of the ten points, paper\'s %s, %s Wiimotes, %s, '
-                               'placement included' % (case, words, explained),
+                    run.figure(f'{words}_{case}_{model}', row[-2], 'mm', len(errors),
+                               interval, f'RMS error of the ten points, paper\'s {case}, {words} '
+                                         f'Wiimotes, {explained}, '
+                               'placement included',
                                headline=case == 'C3' and model == 'image_center')
             row.append(group.unsolved())
             rows.append(row)
@@ -219,8 +221,8 @@ def ours(run, results):
             interval = statistics.bootstrap(errors, statistics.rms, run.seed)
             rms = statistics.rms(errors)
             row = [words, WORDS[method], rms, '%.1f to %.1f' % interval]
-            what = '%s, %s Wiimotes' % (WORDS[method], words)
-            name = '%s_%s' % (words, method)
+            what = f'{WORDS[method]}, {words} Wiimotes'
+            name = f'{words}_{method}'
             run.figure(name, rms, 'mm', len(errors), interval, 'RMS error of the ten points, ' + what,
                        headline=method != 'square_remapped')
             if method in OURS:
@@ -274,8 +276,8 @@ def remap(run, results):
         run.figure(words + '_C1_image_center_remapped', statistics.rms(after), 'mm', len(after),
                    statistics.bootstrap(after, statistics.rms, run.seed), 'RMS error of C1, rays from '
                    'the image centre, after a correction of the volume from 27 known places')
-        sentences.append('with %s Wiimotes from %.0f to %.0f mm' % (
-            words, statistics.rms(before), statistics.rms(after)))
+        sentences.append(f'with {words} Wiimotes from {statistics.rms(before):.0f} to '
+                         f'{statistics.rms(after):.0f} mm')
     square = results.group(FOUR, 'square').measured
     kept = np.isclose(square, results.group(FOUR, 'square_remapped').measured).all(axis=(1, 2))
     run.say('**Correcting the volume** from 27 known places, put there as well as the ten points, '

@@ -1,13 +1,13 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_BUNDLE_ERROR_H
 #define WIIMOTE_TRACKER_CALIBRATION_BUNDLE_ERROR_H
 
-#include <stdexcept>
+#include <wiimote_tracker_msgs/error.h>
 
 namespace wiimote_tracker::bundle {
 
 /// The observations do not determine the cameras. what() is one sentence that says what to do.
-struct BundleError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct BundleError : Error {
+  using Error::Error;
 };
 
 /// The progress callback asked to stop.

@@ -11,7 +11,7 @@
 
 namespace wiimote_tracker::bundle {
 
-/// One camera saw one point.
+/// The pixel of one point in one camera.
 struct Observation {
   std::size_t camera;     ///< Index into Reconstruction::cameras.
   std::size_t point;      ///< Index into Reconstruction::points.
@@ -23,7 +23,7 @@ struct Reconstruction {
   std::vector<geometry::Camera> cameras;
   std::vector<std::optional<Eigen::Vector3d>> points;  ///< World [m]; nothing: not determined.
   std::vector<Observation> observations;
-  std::vector<bool> inliers;  ///< One per observation: it took part in the solution.
+  std::vector<bool> inliers;  ///< For each observation.
 };
 
 /// Distance from the projected point to the observed pixel [px]. Nothing when the point is not
@@ -31,11 +31,11 @@ struct Reconstruction {
 std::optional<double> reprojectionError(const Reconstruction& reconstruction,
                                         const Observation& observation);
 
-/// Computes every point anew from the cameras as they stand, and with it which observations are
-/// inliers: those within maximum_error [px] of a point that at least two of them agree on. The
-/// point with the most inliers wins, then the one with the smallest error.
-/// Rays that meet under less than minimum_angle [rad] make no point. Only cameras with
-/// usable[camera] take part; observations of the others become outliers.
+/// Triangulates all points from the present cameras and marks the inliers: observations within
+/// maximum_error [px] of a point that at least two cameras agree on. Of several such points it
+/// takes the one with the most inliers, then with the smallest error. The rays of a point must meet
+/// at an angle of at least minimum_angle [rad]. Observations of cameras without usable[camera] are
+/// outliers.
 void triangulatePoints(Reconstruction* reconstruction,
                        const std::vector<bool>& usable,
                        double maximum_error,

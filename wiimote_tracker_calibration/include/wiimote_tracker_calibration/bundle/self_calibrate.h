@@ -19,52 +19,51 @@ struct SelfCalibrationOptions {
     options.lens.focal_about = 1.4;
     return options;
   }();
-  bool fixed_lenses = false;  ///< The intrinsics of the cameras are given.
+  bool fixed_lenses = false;  ///< The intrinsics are given and exact.
   /// Focal lengths to start from [image widths]: fields of view from 90 to 14 degrees.
   std::vector<double> focal_lengths = {0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0};
   /// Distortions k1 to start from [1].
   std::vector<double> distortions = {0.0, -0.25};
-  /// A focal length less certain than this is called not determined [1].
+  /// A focal length with a larger relative standard deviation counts as not determined [1].
   double maximum_focal_uncertainty = 0.05;
 };
 
-/// How well one camera's lens is known from the observations.
+/// Standard deviations of one camera's lens.
 struct LensCertainty {
-  double focal_stddev = 0.0;            ///< Of fx [px]; infinite when it is not determined at all.
+  double focal_stddev = 0.0;            ///< Of fx [px]; infinite if the covariance is singular.
   double principal_point_stddev = 0.0;  ///< The larger of both axes [px].
   bool focal_determined = false;
 };
 
 struct SelfCalibration {
   Reconstruction reconstruction;
-  double pixel_stddev = 0.0;          ///< Of one coordinate, as the residuals show it [px].
+  double pixel_stddev = 0.0;          ///< Of one coordinate, estimated from the residuals [px].
   std::vector<LensCertainty> lenses;  ///< In the order of the cameras.
-  /// RMS of what the points of a repetition would differ by after the best similarity [unit of the
-  /// points]; nothing when the observations leave it open.
+  /// Expected RMS error of the points after the best similarity [unit of the points]; nothing if
+  /// the covariance is singular.
   std::optional<double> expected_shape_error;
-  std::size_t starts = 0;    ///< Tried: pairs of cameras, focal lengths, distortions.
-  std::size_t followed = 0;  ///< Of these, adjusted to the end: the most promising.
-  std::size_t agreeing = 0;  ///< Of these, ended in the solution that was taken.
+  std::size_t starts = 0;    ///< Combinations of camera pair, focal length, distortion tried.
+  std::size_t followed = 0;  ///< The best of these, adjusted with all cameras.
+  std::size_t agreeing = 0;  ///< Of these, those that reached the solution returned.
 };
 
-/// Called now and then with what is being done and how far it is, 0 to 1. @returns false to stop.
+/// Called during the work with the present step and the progress, 0 to 1. @returns false to stop.
 using ProgressCallback = std::function<bool(const std::string& step, double fraction)>;
 
-/// Cameras, lenses and points from the observations alone. Of `cameras` names and image sizes
-/// count, and the intrinsics when these are given. The result is known up to a similarity, as that
-/// of solve(); no observation tells a recording from one in which all images are mirrored.
+/// Estimates cameras, lenses and points from the observations alone. Of `cameras` it uses names and
+/// image sizes, and the intrinsics if these are given. The result is determined up to a similarity,
+/// as that of solve(), and up to a reflection.
 ///
-/// With given intrinsics: solve(). Otherwise many starts are tried on a part of the points: pairs
-/// of cameras whose views differ by more than a plane explains, with each focal length and
-/// distortion (essential matrix); further cameras join by resection, each with its own best focal
-/// length. The most promising are adjusted to the end, the best of these with all points: focal
-/// lengths, aspect, principal point, k1, k2, p1, p2 of each camera, helped by what Options::lens
-/// says is known of them. A focal length is determined when the observations alone tell it, and
-/// when no other solution explains them as well.
+/// With given intrinsics: solve(). Otherwise it tries many starts with some of the points: pairs of
+/// cameras whose views no plane explains, with each focal length and distortion (essential matrix);
+/// other cameras are added by resection, each with its own best focal length. The best starts are
+/// adjusted with all cameras, the best of these with all points: focal lengths, principal point,
+/// k1, k2, p1, p2 of each camera, with the prior Options::lens. A focal length counts as determined
+/// if its standard deviation without that prior is small and no other solution fits as well.
 ///
-/// @throws BundleError as solve() does, and: one camera's image is mirrored; two cameras' given
-/// intrinsics are exchanged; the light moved on a line or in a plane only, or the cameras stand in
-/// one place; nothing explains the observations; stopped by the callback.
+/// @throws BundleError as solve(), and: one camera's image is mirrored; the given intrinsics of two
+/// cameras are exchanged; the light moved on a line or in a plane only, or all cameras stand in one
+/// place; no solution fits; Cancelled: the callback returned false.
 SelfCalibration selfCalibrate(const std::vector<geometry::Camera>& cameras,
                               const std::vector<Observation>& observations,
                               std::size_t point_count,

@@ -26,7 +26,7 @@ struct Similarity {
 Similarity fitSimilarity(const std::vector<Eigen::Vector3d>& from,
                          const std::vector<Eigen::Vector3d>& to);
 
-/// Moves cameras and points; no reprojection changes.
+/// Applies a similarity to cameras and points; reprojections stay the same.
 void transform(const Similarity& similarity, Reconstruction* reconstruction);
 
 }  // namespace wiimote_tracker::bundle

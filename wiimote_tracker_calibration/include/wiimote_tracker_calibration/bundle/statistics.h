@@ -9,12 +9,12 @@
 
 namespace wiimote_tracker::bundle {
 
-/// Figures of a set of reprojection errors. All but the counts are NaN when there are none.
+/// Statistics of reprojection errors. NaN, except for the counts, if there are none.
 struct Statistics {
-  std::size_t observations = 0;                            ///< All, also those that are no inliers.
-  std::size_t inliers = 0;                                 ///< The figures below are over these.
-  double rms = std::numeric_limits<double>::quiet_NaN();   ///< sqrt(mean(du^2 + dv^2)) [px].
-  double mean = std::numeric_limits<double>::quiet_NaN();  ///< [px]
+  std::size_t observations = 0;                              ///< All, including outliers.
+  std::size_t inliers = 0;                                   ///< The values below are over these.
+  double rms = std::numeric_limits<double>::quiet_NaN();     ///< sqrt(mean(du^2 + dv^2)) [px].
+  double mean = std::numeric_limits<double>::quiet_NaN();    ///< [px]
   double median = std::numeric_limits<double>::quiet_NaN();  ///< [px]
   double rms_m = std::numeric_limits<double>::quiet_NaN();   ///< At the points' distance [m].
 };

@@ -11,7 +11,7 @@
 
 namespace wiimote_tracker::import {
 
-/// Reprojection errors of what one camera saw [px]; over the inliers.
+/// Reprojection errors of one camera over the inliers [px].
 struct Errors {
   std::size_t observations = 0;
   std::size_t inliers = 0;
@@ -20,10 +20,10 @@ struct Errors {
   double p95 = 0.0;
 };
 
-/// Of errors, some of which belong to no inlier (infinite).
+/// From single errors; infinite ones belong to outliers.
 Errors errorsOf(std::vector<double> errors);
 
-/// Own errors, per camera.
+/// Errors of a reconstruction, for each camera.
 std::vector<Errors> errorsOf(const bundle::Reconstruction& reconstruction);
 
 /// Distances between own and shipped points that both have, after an alignment [the shipped unit].
@@ -33,7 +33,7 @@ struct Distances {
   double p95 = 0.0;
 };
 
-/// A solution beside the calibration that was shipped with the recording.
+/// A solution compared with the calibration that was shipped with the recording.
 struct Comparison {
   std::string what;             ///< What was shipped, and in which pixels the errors are.
   std::vector<Errors> own;      ///< Per camera.
@@ -42,15 +42,16 @@ struct Comparison {
   double extent = 0.0;          ///< RMS distance of these from their mean, as shipped.
   Distances similar;            ///< After the best similarity.
   Distances projective;         ///< After the best projective transformation.
-  /// RMS distance that own uncertainty alone lets expect after a similarity; nothing when open.
+  /// Expected RMS distance after a similarity from the solution's own covariance; nothing if
+  /// singular.
   std::optional<double> expected;
 };
 
 /// Nothing when neither projection matrices nor intrinsics were shipped.
 ///
-/// Matrices of the intrinsics that are there too: errors are in pixels as recorded. Other matrices:
-/// errors of both are in the undistorted pixels that they are for. Intrinsics only: the
-/// shipped solution is what bundle::solve makes of them; errors are in pixels as recorded.
+/// If matrices and intrinsics agree, errors are in recorded pixels. Other matrices: errors of both
+/// are in the undistorted pixels of the matrices. Intrinsics only: the shipped solution is that of
+/// bundle::solve() with them; errors are in recorded pixels.
 /// An observation is an inlier within options.maximum_error of the point of that solution.
 /// @throws ImportError: the matrices do not fit to the pixels.
 std::optional<Comparison> compare(const Recording& recording,

@@ -1,7 +1,8 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_IMPORT_NUMBER_TABLE_H
 #define WIIMOTE_TRACKER_CALIBRATION_IMPORT_NUMBER_TABLE_H
 
-#include <stdexcept>
+#include <wiimote_tracker_msgs/error.h>
+
 #include <string>
 #include <vector>
 
@@ -9,8 +10,8 @@ namespace wiimote_tracker::import {
 
 /// A recording cannot be read or used. what() names the file, and line and column where there are
 /// any, in one sentence.
-struct ImportError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct ImportError : Error {
+  using Error::Error;
 };
 
 using NumberTable = std::vector<std::vector<double>>;  ///< Rows of equal length.

@@ -27,7 +27,7 @@ struct Board {
   void check() const;
 };
 
-/// The board as the camera saw it once, held still.
+/// One view of the board, held still.
 struct BoardView {
   /// By the number of the LED: distorted pixel [px], or nothing: not seen.
   std::array<std::optional<Eigen::Vector2d>, kBoardLeds> pixels;
@@ -35,7 +35,7 @@ struct BoardView {
   std::size_t count() const;
 };
 
-/// All that intrinsics are solved from.
+/// Input of solveIntrinsics().
 struct Samples {
   Board board;
   int width = 1024;  ///< Image size [px].

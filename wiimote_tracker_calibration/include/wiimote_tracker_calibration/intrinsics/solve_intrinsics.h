@@ -27,8 +27,8 @@ enum class LensModel {
 std::string nameOf(LensModel model);
 
 struct SolverOptions {
-  /// Nothing: chosen by the data among all but kEquidistant, see IntrinsicsSolution::model. That
-  /// one has to be asked for: up to some 100 degrees across both kinds fit alike.
+  /// Nothing: chosen from the data, see IntrinsicsSolution::model. kEquidistant must be requested:
+  /// up to a field of view of some 100 degrees both kinds fit equally well.
   std::optional<LensModel> model;
   int minimum_views = 12;              ///< [>= 3]
   double start_focal_length = 1300.0;  ///< Fractions of it are tried too [px, > 0].
@@ -42,22 +42,22 @@ struct Candidate {
   LensModel model;
   double reprojection_error = 0.0;  ///< sqrt(mean(du^2 + dv^2)) [px].
   double bic = 0.0;                 ///< Bayesian information criterion (Schwarz 1978); low is good.
-  bool holds = true;                ///< It is one to one over the whole image.
+  bool holds = true;                ///< One-to-one over the whole image.
 };
 
 struct IntrinsicsSolution {
   geometry::Intrinsics intrinsics;
 
   /// Of fx, fy, cx, cy [px] and the coefficients in the order of geometry::Intrinsics [1]; zero for
-  /// what was not estimated. From the spread of the residuals, with the poses of the board
-  /// estimated too.
+  /// what was not estimated. Scaled by the residuals; includes the uncertainty of the board's
+  /// poses.
   Eigen::Matrix<double, 9, 9> covariance = Eigen::Matrix<double, 9, 9>::Zero();
 
-  LensModel model;                    ///< Least bic of those that hold, unless it was given.
-  std::vector<Candidate> candidates;  ///< All that were tried, simple ones first.
-  double reprojection_error = 0.0;    ///< sqrt(mean(du^2 + dv^2)) [px].
-  double pixel_stddev = 0.0;          ///< Of a pixel coordinate, as estimated [px].
-  std::vector<double> view_errors;    ///< Reprojection error of each view [px].
+  LensModel model;  ///< The one that holds with the least bic, or the one requested.
+  std::vector<Candidate> candidates;                 ///< All that were tried, simple ones first.
+  double reprojection_error = 0.0;                   ///< sqrt(mean(du^2 + dv^2)) [px].
+  double pixel_stddev = 0.0;                         ///< Of a pixel coordinate, as estimated [px].
+  std::vector<double> view_errors;                   ///< Reprojection error of each view [px].
   std::vector<Eigen::Isometry3d> camera_from_board;  ///< Of each view [m].
   std::string summary;                               ///< For people.
 };

@@ -31,10 +31,10 @@ struct CorrectionOptions {
   int rounds = 14;     ///< At most [0..1000]; 14 in all of the paper's measurements.
   double limit = 0.0;  ///< Stops when the error of the points is below it [m, >= 0]; 0: never.
   /// Share of the difference by which a principal point moves per round [-1..1, not 0]. A negative
-  /// one goes the wrong way: it is there to show that it diverges.
+  /// one diverges; benchmarks show that.
   double step = 0.25;
   Points points = Points::kOrigin;
-  /// By which the points are measured; kMeanClosest is the paper's "average closest point".
+  /// Of the points; kMeanClosest is the paper's "average closest point".
   geometry::TriangulationMethod method = geometry::TriangulationMethod::kMeanClosest;
   geometry::RayModel ray_model = geometry::RayModel::kCalibrated;  ///< As in geometry::Rig.
   double virtual_hfov = std::numeric_limits<double>::quiet_NaN();  ///< As in geometry::Rig [rad].
@@ -47,19 +47,19 @@ struct CorrectionOptions {
 
 enum class Outcome {
   kLimitReached,  ///< The error of the points is below the limit.
-  kRoundsDone,    ///< All rounds were done; without a limit that is the regular end.
-  kLost,          ///< A step led to principal points with which no rig can be solved.
+  kRoundsDone,    ///< All rounds were done.
+  kLost,          ///< No rig can be solved with the principal points of the last step.
   kCancelled,
 };
 
 struct CorrectionResult {
-  /// As solved in the last round of the trace, with Method::kPerCamera, and with the ray model of
-  /// the options. Its covariance knows nothing of the correction.
+  /// Solved in the last round of the trace, with Method::kPerCamera and the ray model of the
+  /// options. Its covariance does not include the correction.
   geometry::Rig rig;
   bool z_up = true;
   Trace trace;
   Outcome outcome = Outcome::kRoundsDone;
-  std::vector<std::string> warnings;  ///< One sentence each; part of rig.verdict too.
+  std::vector<std::string> warnings;  ///< One sentence each; also in rig.verdict.
 };
 
 /// Called after each solving with the number of rounds done, and the trace so far.
@@ -79,17 +79,16 @@ using RoundCallback = std::function<bool(int rounds_done, const Trace& trace)>;
 /// by 1.25 per round. With RayModel::kCalibrated p is c: there is no gap, the difference is only
 /// noise and what the lens model lacks, and the correction changes little.
 ///
-/// What it cannot see: displacements of the principal points that leave the measured point where it
-/// is. With four cameras all round, a shift of all of them to the same side is one.
+/// It cannot see displacements of the principal points that leave the measured point where it is:
+/// with four cameras around the square, a shift of all of them to the same side.
 ///
-/// With distortion, u = f D(x) + c. A principal point lives in distorted pixels, while the
-/// difference between the points belongs to the plane without distortion; taking one for the other
-/// makes the step wrong by D's derivative at that place. So both points are projected by the lens
-/// that is being corrected, distortion included. Without distortion and virtual_hfov that is the
-/// paper's step to the letter.
+/// With distortion, u = f D(x) + c. A principal point is in distorted pixels, but the difference
+/// between the points is not; they differ by D's derivative. So both points are projected by the
+/// lens that is being corrected, with its distortion. Without distortion and virtual_hfov this is
+/// exactly the paper's step.
 ///
-/// The measurement is made on the pixels the cameras were solved from. Takes some hundredths of a
-/// second per round.
+/// The points are triangulated from the pixels that the cameras were solved from. A round takes
+/// some hundredths of a second.
 /// @throws CorrectionError: an option is out of range; the points cannot be measured at all.
 /// square::SquareError: as solveSquare(), before the first step; later that ends in
 /// Outcome::kLost.

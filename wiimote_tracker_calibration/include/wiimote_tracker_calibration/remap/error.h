@@ -1,13 +1,13 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_REMAP_ERROR_H
 #define WIIMOTE_TRACKER_CALIBRATION_REMAP_ERROR_H
 
-#include <wiimote_tracker_triangulation/remap/error.h>
+#include <wiimote_tracker_msgs/error.h>
 
 namespace wiimote_tracker::remap {
 
 /// The progress callback asked to stop.
-struct Cancelled : RemapError {
-  using RemapError::RemapError;
+struct Cancelled : Error {
+  using Error::Error;
 };
 
 }  // namespace wiimote_tracker::remap

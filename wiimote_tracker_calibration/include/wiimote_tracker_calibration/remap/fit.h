@@ -12,19 +12,19 @@
 
 namespace wiimote_tracker::remap {
 
-/// A place that is known, and where the rig measured it.
+/// A known place, and where the rig measured it.
 struct KnownPoint {
   Eigen::Vector3d measured;  ///< World [m].
   Eigen::Vector3d known;     ///< World [m].
 };
 
 struct FitOptions {
-  /// Those that may be chosen.
+  /// The models to choose from.
   std::vector<Model> models = {Model::kAffine, Model::kProjective, Model::kTrilinear,
                                Model::kThinPlate};
 };
 
-/// How one model did.
+/// The result of one model.
 struct ModelReport {
   Model model = Model::kAffine;
   bool usable = false;
@@ -33,15 +33,14 @@ struct ModelReport {
   double left_out_error = 0;  ///< RMS over the points, each predicted from all others [m].
 };
 
-/// A fitted correction, and how far to trust it.
+/// A fitted correction, and its expected error.
 struct FitResult {
   Remap remap;
   double uncorrected_error = 0.0;  ///< RMS distance from the known points before [m].
-  /// RMS distance to expect of a corrected point in the volume [m]: of points that took part
-  /// neither in the fit nor in the choice of the model (nested cross-validation). It holds the
-  /// errors of the known places too, and is rather too large: a corner that is left out has to be
-  /// extrapolated. It speaks of places like those that were measured: points at the corners alone
-  /// say nothing of the inside.
+  /// Expected RMS error of a corrected point [m]: of points that took part neither in the fit nor
+  /// in the choice of the model (nested cross-validation). It includes the errors of the known
+  /// places, and is rather too large, because a corner that is left out is extrapolated. It holds
+  /// for places like the measured ones: points at the corners say nothing about the inside.
   double expected_error = 0.0;
   std::vector<ModelReport> models;      ///< Those of the options, the simplest first.
   std::vector<double> left_out_errors;  ///< Of the chosen model, per point [m].
@@ -54,9 +53,9 @@ using ProgressCallback = std::function<bool(double fraction)>;
 
 /// Fits each model, and chooses by leave-one-out cross-validation: the simplest, unless one with
 /// more parameters predicts left out points better by more than the standard error of the
-/// difference of their squared errors. How much a thin plate is smoothed is chosen the same way.
+/// difference of their squared errors. The smoothing of a thin plate is chosen in the same way.
 /// Takes milliseconds for tens of points, seconds for hundreds.
-/// @throws RemapError: fewer than 6 or more than 500 points, points on one line or in one plane,
+/// @throws Error: fewer than 6 or more than 500 points, points on one line or in one plane,
 /// twice in one place, not finite; mirrored; no rig id; no model determined by the points, or none
 /// better than no correction. Cancelled.
 FitResult fitRemap(const std::vector<KnownPoint>& points,
@@ -64,7 +63,7 @@ FitResult fitRemap(const std::vector<KnownPoint>& points,
                    const FitOptions& options = {},
                    const ProgressCallback& progress = {});
 
-/// The models side by side as a table for people.
+/// A text table of the models.
 std::string table(const FitResult& result);
 
 }  // namespace wiimote_tracker::remap

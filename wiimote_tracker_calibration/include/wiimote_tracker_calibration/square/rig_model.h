@@ -90,6 +90,9 @@ class RigModel {
  private:
   class Problem;
 
+  /// Away from the floor, in the world.
+  Eigen::Vector3d up() const { return Eigen::Vector3d(0.0, 0.0, z_up_ ? 1.0 : -1.0); }
+
   std::vector<CameraSightings> sightings_;
   SquareLayout layout_;
   bool z_up_;

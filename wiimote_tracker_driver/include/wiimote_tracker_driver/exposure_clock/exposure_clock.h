@@ -19,17 +19,17 @@ struct ExposureClockOptions {
   double stale_age = 0.030;  ///< a report later than this is stale [s], > 0
 };
 
-/// What one report's arrival says. Exposure times are late by the constant part of the delay, which
-/// no arrival can tell.
+/// Estimate from the arrivals up to one report. Exposure times are late by the constant part of the
+/// delay, which cannot be estimated.
 struct Estimate {
   double exposure =
       0.0;              ///< on the clock of the arrivals; later than that of the report before [s]
-  double stddev = 0.0;  ///< of exposure, with the doubt which frame this is [s]
-  double clock_stddev = 0.0;  ///< of exposure, were it sure which frame this is [s]
-  std::int64_t frame = 0;     ///< most probable number of the frame; corrected backwards at times
-  int dropped = 0;     ///< frames lost between the previous report and this one, as it looks now
-  bool stale = false;  ///< waited in a queue: arrived more than stale_age after its time
-  bool restarted = false;  ///< the phase was lost and is learnt anew from this report on
+  double stddev = 0.0;  ///< of exposure, including the uncertain frame number [s]
+  double clock_stddev = 0.0;  ///< of exposure, given the frame number [s]
+  std::int64_t frame = 0;  ///< most probable frame number; later reports may correct it downwards
+  int dropped = 0;         ///< frames lost between the previous report and this one, as known now
+  bool stale = false;      ///< arrived more than stale_age late, e.g. after a stall
+  bool restarted = false;  ///< the phase was lost, and is estimated anew from this report on
 };
 
 /// For diagnostics.
@@ -47,10 +47,10 @@ struct Statistics {
 /// counter and come late, in slots, in bursts or not at all. Causal; constant time and memory per
 /// report.
 ///
-/// A bank of ClockFilters, one per delay model, each weighted by how well it predicts the arrivals
-/// (multiple model estimation: Magill, IEEE Trans. Autom. Control 10, 1965); one FrameCounter
-/// shared by all tells which frame a report is. The belief of the model for a sharp edge and a
-/// steady clock is far from normal; SteadyEdge computes it exactly once it has seen a few seconds.
+/// A bank of ClockFilters, one per delay model, weighted by their likelihoods (multiple model
+/// estimation: Magill, IEEE Trans. Autom. Control 10, 1965). One FrameCounter for all estimates the
+/// frame numbers. With a sharp edge and a steady clock the posterior is far from normal; SteadyEdge
+/// computes it exactly after a few seconds.
 class ExposureClock {
  public:
   /// @throws std::invalid_argument when an option is out of range.
@@ -72,37 +72,37 @@ class ExposureClock {
   static Bank makeBank(const ExposureClockOptions& options);
 
   Estimate restart(double arrival, std::int64_t frame);
-  struct Ways;
-  Ways waysOf(const ClockFilter& filter,
-              double arrival,
-              double arrival_before,
-              double offset) const;
-  void weigh(double arrival);
-  void lookBack(double arrival, double on_time);
-  void learnStalls(const Ways& ways);
-  void sharpenEdge();
-  void reviveLosers();
+  struct ArrivalDensity;
+  ArrivalDensity arrivalDensity(const ClockFilter& filter,
+                                double arrival,
+                                double arrival_before,
+                                double offset) const;
+  void updateModels(double arrival);
+  void learnFromHistory(double arrival, double on_time);
+  void learnStallProbability(const ArrivalDensity& ways);
+  void applySteadyEdge();
+  void reinitialiseUnlikelyModels();
   Estimate estimate(double arrival);
   const ClockFilter& best() const;
 
   ExposureClockOptions options_;
   Bank filters_;
   FrameHistory history_;
-  SteadyEdge edge_;  // what the filter for a sharp edge and a steady clock believes
-  bool edge_joined_ = false;
-  // Of the latest report of which lookBack() has taken notice:
-  double settled_arrival_ = 0.0;
-  std::int64_t settled_frame_ = 0;
-  double stalls_;            // probability that a report is held up,
-  double experience_ = 0.0;  // and number of reports that taught it
+  SteadyEdge edge_;  // exact state of the filter for a sharp edge and a steady clock
+  bool edge_used_ = false;
+  // Of the latest report used by learnFromHistory():
+  double history_arrival_ = 0.0;
+  std::int64_t history_frame_ = 0;
+  double stall_probability_;   // that a report is held up,
+  double sample_count_ = 0.0;  // and number of reports used for it
   std::array<double, kModels> weights_;
   FrameCounter counter_;
-  // Times inside are relative to the first arrival, which keeps their digits.
+  // Internal times are relative to the first arrival, for precision.
   double origin_ = 0.0;
   double last_arrival_ = 0.0, last_exposure_ = 0.0;
-  std::int64_t frame_ = 0;  // where the filters stand: the latest report's most probable number
+  std::int64_t frame_ = 0;  // of the filters' states: the latest report's most probable number
   int unexplained_ = 0;     // reports in a row that no model expected
-  int doubtful_ = 0;        // reports in a row whose exposure is not known to a period
+  int uncertain_ = 0;       // reports in a row with a stddev above one period
   bool running_ = false;
   Statistics statistics_;
 };

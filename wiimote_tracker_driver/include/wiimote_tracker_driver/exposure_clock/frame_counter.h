@@ -6,23 +6,23 @@
 
 namespace wiimote_tracker::exposure_clock {
 
-/// Probabilities of the frame number of the latest report: the forward recursion of a hidden Markov
+/// Probabilities of the latest report's frame number: the forward recursion of a hidden Markov
 /// model (Rabiner, Proc. IEEE 77, 1989, eq. 20) whose transitions are runs of lost frames and,
-/// rarely, a second report of the same frame. How often frames are lost is learnt.
+/// rarely, a duplicate report. The loss probability is estimated.
 class FrameCounter {
  public:
-  /// How many numbers are told apart: reports that waited longer than this many frames are not.
+  /// Number of frame numbers kept: a report must not wait for more frames than this.
   static constexpr int kCapacity = 96;
 
-  /// Probability that the next report is of the frame `frames` after this report's; 0: of the same.
+  /// Probability that the next report is `frames` frames after this one; 0: a duplicate.
   double transition(std::int64_t frames) const;
-  /// A report turned out to be of the frame `frames` after that of the report before.
+  /// Updates the loss probability: a report was `frames` frames after the one before.
   void learn(std::int64_t frames);
 
-  /// The latest report is surely this frame.
+  /// The latest report is certainly this frame.
   void start(std::int64_t frame);
-  /// Probabilities of the next report's number, of all up to at least `newest`, before its arrival
-  /// is weighed. The caller then multiplies each by its likelihood and calls normalise().
+  /// Predicts the next report's frame number, up to at least `newest`. The caller multiplies each
+  /// probability by the likelihood of the arrival and calls normalise().
   void predict(std::int64_t newest);
   void normalise();
 
@@ -36,8 +36,8 @@ class FrameCounter {
   std::array<double, kCapacity> probability_{};
   std::int64_t first_ = 0;
   int size_ = 0;
-  double drops_ = 0.04;      // probability that a frame is lost after one that was not,
-  double experience_ = 0.0;  // and number of reports that taught it
+  double loss_probability_ = 0.04;  // after a frame that was not lost,
+  double sample_count_ = 0.0;       // and number of reports used for it
 };
 
 }  // namespace wiimote_tracker::exposure_clock

@@ -8,27 +8,26 @@
 
 namespace wiimote_tracker::exposure_clock {
 
-/// Frame numbers of the latest reports in hindsight: what came later often settles which frame a
+/// Smoothed frame numbers of the latest reports, because later reports often decide which frame a
 /// report was. The backward recursion to FrameCounter's forward one (Rabiner, Proc. IEEE 77, 1989,
 /// eq. 25 and 27).
 class FrameHistory {
  public:
   struct Report {
     double arrival = 0.0;
-    double on_time = 0.0;      ///< probability that it came when it was ready
-    std::int64_t frame = 0;    ///< most probable number in hindsight,
-    double probability = 0.0;  ///< and how probable it is
+    double on_time = 0.0;      ///< probability that it arrived without waiting
+    std::int64_t frame = 0;    ///< most probable smoothed number,
+    double probability = 0.0;  ///< and its probability
   };
 
   void clear() { size_ = 0; }
   /// The latest report and its possible numbers.
   void add(const FrameCounter& numbers, double arrival, double on_time);
-  /// True when the numbers will not become clearer: the latest is sure, or memory is full.
-  bool settled() const;
-  /// Works out the numbers of all reports since clear(), and forgets them. The result is valid
-  /// until the next add(). @param counter says how often frames are lost.
-  /// @return how many; report(0) is the oldest.
-  int settle(const FrameCounter& counter);
+  /// Whether more reports would not help: the latest number is certain, or memory is full.
+  bool complete() const;
+  /// Smooths the numbers of all reports since clear(), and clears. report() is valid until the next
+  /// add(). @param counter has the loss probability. @return their count; report(0) is the oldest.
+  int smooth(const FrameCounter& counter);
   const Report& report(int i) const { return entries_[static_cast<std::size_t>(i)].report; }
 
  private:
@@ -40,7 +39,7 @@ class FrameHistory {
     int size = 0;
     std::array<double, kNumbers> probability{};
   };
-  static void smooth(const FrameCounter& counter, const Entry& next, Entry* entry);
+  static void smoothEntry(const FrameCounter& counter, const Entry& next, Entry* entry);
   static void decide(Entry& entry);
 
   std::array<Entry, kCapacity> entries_;

@@ -17,18 +17,18 @@ namespace wiimote_tracker::exposure_clock {
 /// the density of the period is piecewise exponential, one piece per corner of the lower convex
 /// hull of the arrivals. Mean and covariance are sums over these pieces.
 ///
-/// Of the last 20 s the earliest report of each block is kept, earliest against the line of the
-/// period: the corners are among them, but for two in one block.
+/// Of the last 20 s each block keeps its earliest report, relative to the line of the period. These
+/// include all corners except where a block has two.
 class SteadyEdge {
  public:
-  /// The period is within `period` +- `tolerance` [s], and nothing else is known of it.
+  /// Prior of the period: uniform within `period` +- `tolerance` [s].
   SteadyEdge(double period, double tolerance);
 
   void clear();
-  /// A report whose number is sure, on time with probability `weight`; `period` [s] is the best
-  /// estimate so far. Frames increase.
+  /// Adds a report with a certain frame number, on time with probability `weight`. `period` [s] is
+  /// the best estimate so far. Frames increase.
   void add(std::int64_t frame, double arrival, double weight, double period);
-  /// Enough reports for state().
+  /// Whether there are enough reports for state().
   bool ready() const;
 
   /// Of `frame`, once ready(). @param spread mean of the exponential [s].
@@ -50,7 +50,7 @@ class SteadyEdge {
 
   double nominal_period_, tolerance_;
   std::array<Block, kBlocks> blocks_;
-  int settling_ = 0;      // reports not used, since clear()
+  int skipped_ = 0;       // reports not used, since clear()
   int blocks_begun_ = 0;  // since clear(); the latest of them are in blocks_
   std::int64_t first_frame_ = 0;
   double first_arrival_ = 0.0;

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <optional>
 
-/// What the remote says. Each decoder returns nothing for a report of another id or one that is
-/// too short; longer ones are accepted, since some stacks pad reports.
+/// Reports of the remote. Each decoder returns nothing for a report of another id or one that is
+/// too short; longer ones are accepted, because some stacks pad reports.
 namespace wiimote_tracker::protocol {
 
 /// Sensor size in the units of IrSpot.
@@ -36,19 +36,19 @@ struct Status {
 };
 std::optional<Status> decodeStatus(const Report& report);
 
-/// Charge [0..1] of a raw battery level; an empirical line, at 1 from about 0x69 up.
+/// Charge [0..1] of a raw battery level: an empirical line that reaches 1 at about 0x69.
 double batteryCharge(std::uint8_t raw);
 
 /// 0x21: up to 16 bytes of memory.
 struct MemoryPacket {
   std::uint16_t address = 0;  ///< Low 16 bits of the address of the first byte.
-  std::uint8_t error = 0;     ///< 0: none; any other: the read has failed and data is void.
+  std::uint8_t error = 0;     ///< 0: none; else the read has failed, and data is invalid.
   std::size_t size = 0;       ///< Valid bytes in data, 1..16; 0 on error.
   std::array<std::uint8_t, 16> data{};
 };
 std::optional<MemoryPacket> decodeMemoryPacket(const Report& report);
 
-/// What an error code of a MemoryPacket or an Acknowledgement means, in a few words: "no answer".
+/// Meaning of an error code of a MemoryPacket or an Acknowledgement, e.g. "unknown".
 const char* errorName(std::uint8_t error);
 
 /// 0x22. It does not say which of several reports of the same id it answers.
@@ -61,8 +61,8 @@ std::optional<Acknowledgement> decodeAcknowledgement(const Report& report);
 /// The values are those of the camera's mode register.
 enum class IrFormat : std::uint8_t { kNone = 0, kBasic = 1, kExtended = 3, kFull = 5 };
 
-/// One slot of infrared data. The sensor's axes: x to the camera's right, y UP. A slot is a hint,
-/// not an identity: a light that was lost may come back in any other.
+/// One slot of infrared data. Sensor axes: x to the camera's right, y UP. A slot is no identity: a
+/// light that was lost may come back in any other slot.
 struct IrSpot {
   bool seen = false;
   int x = 0;          ///< [px] 0..1023
@@ -78,13 +78,12 @@ struct IrSpot {
 struct DataReport {
   std::uint8_t id = 0;
   std::uint16_t buttons = 0;
-  /// x, y, z as converted [0..1023]; y and z have no lowest bit, in a pair none of them has the
-  /// lowest two.
+  /// Raw x, y, z [0..1023]; y and z lack the lowest bit, in a pair all lack the lowest two.
   std::optional<std::array<int, 3>> acceleration;
   IrFormat ir_format = IrFormat::kNone;
   std::array<IrSpot, 4> spots{};
-  /// False when a slot without a light holds other than what such slots hold: the camera is then
-  /// probably in another mode than the report.
+  /// False when a slot without a light has unexpected bytes: the camera is then probably in another
+  /// mode than the report.
   bool plausible = true;
 };
 std::optional<DataReport> decodeDataReport(const Report& report);
@@ -94,7 +93,7 @@ std::optional<DataReport> decodeDataReport(const Report& report);
 constexpr std::uint8_t kFirstHalfId = 0x3e;
 constexpr std::uint8_t kSecondHalfId = 0x3f;
 
-/// What a 0x3e and the 0x3f after it say together; id is 0x3e.
+/// Decodes a 0x3e and the 0x3f after it; id is 0x3e.
 std::optional<DataReport> decodeInterleaved(const Report& first, const Report& second);
 
 }  // namespace wiimote_tracker::protocol

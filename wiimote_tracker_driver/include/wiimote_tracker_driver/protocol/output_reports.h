@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <initializer_list>
 
-/// What the host says. Every output report carries the state of the motor; all reports here ask for
-/// an acknowledgement (0x22) where the remote does not send one anyway.
+/// Reports of the host. Each carries the state of the motor, and asks for an acknowledgement (0x22)
+/// where the remote does not send one anyway.
 namespace wiimote_tracker::protocol {
 
 constexpr std::uint8_t kRumbleId = 0x10;
@@ -24,13 +24,13 @@ constexpr std::uint8_t kRumbleBit = 0x01;
 
 enum class Space : std::uint8_t { kEeprom = 0x00, kRegisters = 0x04 };
 
-/// Nothing but the state of the motor. Never acknowledged.
+/// Sets only the motor. Never acknowledged.
 Report setRumble(bool rumble);
 
 /// Player LEDs 1..4 in bits 0..3.
 Report setLeds(std::uint8_t leds, bool rumble = false);
 
-/// Which data report to send: `continuous` at every instant, else on changes only.
+/// Selects the data report: `continuous` at every sample, else on changes only.
 Report setReportMode(std::uint8_t data_report_id, bool continuous, bool rumble = false);
 
 Report setIrClock(bool on, bool rumble = false);

@@ -6,29 +6,28 @@
 
 namespace wiimote_tracker::virtual_wiimote {
 
-/// What goes wrong between a remote and its host; by default nothing does. Time is counted in
-/// samples, of which a remote takes a hundred a second. Answers are the reports 0x20..0x22. All is
-/// drawn from the seed: the same calls meet the same faults.
+/// Faults between a remote and its host; by default none. Time is in samples of 10 ms. Answers are
+/// the reports 0x20..0x22. The same seed and calls give the same faults.
 struct Faults {
   std::uint32_t seed = 1;
 
-  double lost_answers = 0.0;  ///< Chance of each answer [0..1].
-  double lost_data = 0.0;     ///< Chance of each data report [0..1].
-  double late_answers = 0.0;  ///< Chance of each answer [0..1]; others overtake it.
+  double lost_answers = 0.0;  ///< Probability of each answer [0..1].
+  double lost_data = 0.0;     ///< Probability of each data report [0..1].
+  double late_answers = 0.0;  ///< Probability of each answer [0..1]; others overtake it.
   int late_by = 60;           ///< Late answers come up to so many samples later [>= 1].
-  double duplicated = 0.0;    ///< Chance of each report [0..1].
-  double truncated = 0.0;     ///< Chance of each report [0..1]; at least its id is left.
-  double garbage = 0.0;       ///< Chance in each sample [0..1] of a report that the remote never
+  double duplicated = 0.0;    ///< Probability of each report [0..1].
+  double truncated = 0.0;     ///< Probability of each report [0..1]; at least its id is left.
+  double garbage = 0.0;       ///< Probability per sample [0..1] of a report that the remote never
                               ///< sent: of an id that does not exist, or an answer of random bytes.
 
-  double stalls = 0.0;    ///< Chance in each sample [0..1] that the link stalls: reports are held
+  double stalls = 0.0;    ///< Probability per sample [0..1] that the link stalls: reports are held
                           ///< back, then all come at once, in order.
   int stall_length = 16;  ///< [samples, >= 1]
 
-  int unplug_every = 0;  ///< The remote goes away so many samples after it came [>= 0]; 0: never.
-  int unplug_for = 100;  ///< Then it stays away for so many [>= 1] and comes back power-cycled.
+  int unplug_every = 0;  ///< The remote goes away so long after it came [samples, >= 0]; 0: never.
+  int unplug_for = 100;  ///< For so long [samples, >= 1]; it comes back power-cycled.
 
-  /// Somebody else talks to the same remote as Linux's driver hid-wiimote does: it sets the remote
+  /// Another program uses the remote as Linux's driver hid-wiimote does: it sets the remote
   /// up, sets its own mode after each status report, asks for the battery, looks for a MotionPlus
   /// every 400 samples, sets the LEDs, and programs the camera when one opens its input device.
   bool second_master = false;

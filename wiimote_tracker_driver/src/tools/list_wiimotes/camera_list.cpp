@@ -1,6 +1,6 @@
 #include "camera_list.h"
 
-#include "yaml_line.h"
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cctype>
@@ -8,8 +8,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <optional>
-#include <set>
 #include <sstream>
 
 namespace wiimote_tracker::list_wiimotes {
@@ -23,8 +21,40 @@ std::string lowerCase(std::string text) {
   return text;
 }
 
-bool isCameraName(const std::string& key) {
-  return std::isalpha(static_cast<unsigned char>(key[0])) != 0;
+bool isCameraName(const std::string& name) {
+  return !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
+         std::all_of(name.begin(), name.end(),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+}
+
+bool isBlankOrComment(const std::string& line) {
+  const std::size_t first = line.find_first_not_of(" \t\r");
+  return first == std::string::npos || line[first] == '#';
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+/// Refuses what YAML found at `mark`. `what_to_do`: what the user should write.
+[[noreturn]] void refuse(const YAML::Mark& mark,
+                         const std::vector<std::string>& lines,
+                         const std::string& what_to_do) {
+  const auto line = static_cast<std::size_t>(std::max(0, mark.line));
+  throw CameraListError("line " + std::to_string(line + 1) + " is '" +
+                        (line < lines.size() ? lines[line] : "") + "': " + what_to_do);
+}
+
+YAML::Node load(const std::string& text, const std::vector<std::string>& lines) {
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::Exception& e) {
+    refuse(e.mark, lines, "this is no YAML (" + e.msg + "); correct it");
+  }
 }
 
 }  // namespace
@@ -34,142 +64,98 @@ CameraList::CameraList()
           "# The Wii Remotes of a rig: name of the camera (its namespace and the prefix of its "
           "frames) and the\n# Bluetooth address.\ncameras:\n") {}
 
-CameraList::CameraList(const std::string& text) {
-  bool in_cameras = false;
-  std::set<std::string> names;
-  std::string open;          // the camera whose name stands alone, with lines below it
-  std::string inner_indent;  // of those lines
-  bool open_has_device = true;
-
-  std::istringstream stream(text);
-  std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
-    const auto refuse = [&](const std::string& what_to_do) {
-      throw CameraListError("line " + std::to_string(number) + " is '" + line + "': " + what_to_do);
-    };
-    const auto closeCamera = [&] {
-      if (!open_has_device)
-        refuse("write  identity: \"address\"  below " + open + " first");
-      open.clear();
-    };
-    Line parsed;
-    parsed.text = line;
-    const auto takeDevice = [&](const std::string& name, const Assignment& assignment) {
-      parsed.entry = {name, assignment.value};
-      parsed.key = assignment.before;
-      parsed.comment = assignment.after;
-    };
-    const std::string indent = line.substr(0, line.find_first_not_of(" \t"));
-    const std::optional<Assignment> assignment = parseAssignment(line);
-    const bool is_discover =
-        !in_cameras && indent.empty() && assignment && assignment->key == "discover";
-    if (isBlankOrComment(line) || is_discover) {
-      // stays as it is
-    } else if (!in_cameras) {
-      if (!assignment || assignment->key != "cameras" || !assignment->value.empty() ||
-          !indent.empty())
-        refuse("write \"cameras:\" above the cameras");
-      in_cameras = true;
-    } else if (!open.empty() && indent.size() > indent_.size()) {
-      parsed.in_camera = true;
-      if (inner_indent.empty())
-        inner_indent = indent;
-      if (indent == inner_indent && assignment && assignment->key == "identity" &&
-          !assignment->value.empty()) {
-        takeDevice(open, *assignment);
-        open_has_device = true;
-      }
-    } else {
-      closeCamera();
-      parsed.in_camera = true;
-      if (names.empty())
-        indent_ = indent;
-      if (!assignment || indent != indent_ || indent.empty())
-        refuse("write one line  name: \"address\"  for each camera, indented alike");
-      const std::string& name = assignment->key;
-      if (!isCameraName(name))
-        refuse("a camera's name must be letters, digits and _, a letter first");
-      if (!names.insert(name).second)
-        refuse("camera " + name + " is there already; remove one of the lines");
-      const bool alone = assignment->value.empty();
-      if (alone) {
-        open = name;
-        inner_indent.clear();
-      } else {
-        takeDevice(name, *assignment);
-      }
-      open_has_device = !alone;
-    }
-    lines_.push_back(parsed);
-  }
-  if (!in_cameras)
+CameraList::CameraList(const std::string& text) : lines_(linesOf(text)) {
+  const YAML::Node file = load(text, lines_);
+  if (!file.IsMap() || !file["cameras"])
     throw CameraListError("there is no line \"cameras:\": write one above the cameras");
-  if (!open_has_device)
-    throw CameraListError("camera " + open +
-                          " has no device: write  identity: \"address\"  below it");
+  for (const auto& pair : file) {
+    const std::string key = pair.first.as<std::string>("");
+    if (key != "cameras" && key != "discover")
+      refuse(pair.first.Mark(), lines_, "only \"discover:\" and \"cameras:\" may stand here");
+    if (key == "discover" && pair.first.Mark().line > file["cameras"].Mark().line)
+      refuse(pair.first.Mark(), lines_, "write it above \"cameras:\"");
+  }
+  const YAML::Node cameras = file["cameras"];
+  if (cameras.IsNull())
+    return;
+  if (!cameras.IsMap() || cameras.Style() == YAML::EmitterStyle::Flow)
+    refuse(cameras.Mark(), lines_, "write one line  name: \"address\"  for each camera");
+  for (const auto& pair : cameras) {
+    const YAML::Mark mark = pair.first.Mark();
+    Camera camera;
+    camera.entry.name = pair.first.as<std::string>("");
+    if (!isCameraName(camera.entry.name))
+      refuse(mark, lines_, "a camera's name must be letters, digits and _, a letter first");
+    if (find(camera.entry.name) != nullptr)
+      refuse(mark, lines_, "camera " + camera.entry.name + " is there already; remove one of them");
+    const YAML::Node device = pair.second.IsMap() ? pair.second["identity"] : pair.second;
+    if (!device || !device.IsScalar() || device.Scalar().empty())
+      refuse(
+          mark, lines_,
+          "camera " + camera.entry.name + " has no device: write  identity: \"address\"  below it");
+    camera.entry.device = device.Scalar();
+    camera.line = static_cast<std::size_t>(device.Mark().line);
+    camera.begin = static_cast<std::size_t>(device.Mark().column);
+    const std::string& line = lines_[camera.line];
+    const bool quoted = line[camera.begin] == '"' || line[camera.begin] == '\'';
+    camera.size = camera.entry.device.size() + (quoted ? 2 : 0);
+    if (line.compare(camera.begin + (quoted ? 1 : 0), camera.entry.device.size(),
+                     camera.entry.device) != 0)
+      refuse(device.Mark(), lines_, "write the address in quotes on one line");
+    indent_.assign(static_cast<std::size_t>(mark.column), ' ');
+    cameras_.push_back(camera);
+  }
 }
 
 std::vector<CameraList::Entry> CameraList::entries() const {
   std::vector<Entry> entries;
-  for (const Line& line : lines_) {
-    if (!line.entry.name.empty())
-      entries.push_back(line.entry);
-  }
+  for (const Camera& camera : cameras_)
+    entries.push_back(camera.entry);
   return entries;
 }
 
 std::string CameraList::nameOf(const std::string& device) const {
-  for (const Line& line : lines_) {
-    if (!line.entry.name.empty() && lowerCase(line.entry.device) == lowerCase(device))
-      return line.entry.name;
+  for (const Camera& camera : cameras_) {
+    if (lowerCase(camera.entry.device) == lowerCase(device))
+      return camera.entry.name;
   }
   return "";
 }
 
-CameraList::Line* CameraList::find(const std::string& name) {
-  for (Line& line : lines_) {
-    if (line.entry.name == name)
-      return &line;
-  }
-  return nullptr;
+const CameraList::Camera* CameraList::find(const std::string& name) const {
+  const auto camera = std::find_if(cameras_.begin(), cameras_.end(),
+                                   [&](const Camera& c) { return c.entry.name == name; });
+  return camera == cameras_.end() ? nullptr : &*camera;
 }
 
 void CameraList::replace(const std::string& name, const std::string& device) {
-  Line* const line = name.empty() ? nullptr : find(name);
-  if (line == nullptr) {
+  const Camera* const camera = find(name);
+  if (camera == nullptr) {
     std::string names;
-    for (const Entry& entry : entries())
-      names += (names.empty() ? "" : ", ") + entry.name;
+    for (const Camera& other : cameras_)
+      names += (names.empty() ? "" : ", ") + other.entry.name;
     throw CameraListError("there is no camera '" + name + "': choose one of: " + names);
   }
-  setDevice(*line, device);
-}
-
-void CameraList::setDevice(Line& line, const std::string& device) {
-  line.entry.device = device;
-  line.text = line.key + '"' + device + '"' + line.comment;
+  lines_[camera->line].replace(camera->begin, camera->size, '"' + device + '"');
+  *this = CameraList(text());
 }
 
 std::string CameraList::add(const std::string& device) {
   int number = 1;
   while (find(kPrefix + std::to_string(number)) != nullptr)
     ++number;
-  Line line;
-  line.entry.name = kPrefix + std::to_string(number);
-  line.key = indent_ + line.entry.name + ": ";
-  line.in_camera = true;
-  setDevice(line, device);
+  const std::string name = kPrefix + std::to_string(number);
   // Below the last camera, above the comments that follow it.
-  const auto last = std::find_if(lines_.rbegin(), lines_.rend(),
-                                 [](const Line& other) { return other.in_camera; });
-  lines_.insert(last == lines_.rend() ? lines_.end() : last.base(), line);
-  return line.entry.name;
+  const auto last = std::find_if_not(lines_.rbegin(), lines_.rend(), isBlankOrComment);
+  lines_.insert(last.base(), indent_ + name + ": \"" + device + '"');
+  *this = CameraList(text());
+  return name;
 }
 
 std::string CameraList::text() const {
   std::string text;
-  for (const Line& line : lines_)
-    text += line.text + '\n';
+  for (const std::string& line : lines_)
+    text += line + '\n';
   return text;
 }
 

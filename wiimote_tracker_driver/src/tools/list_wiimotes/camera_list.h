@@ -1,22 +1,22 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_CAMERA_LIST_H
 #define WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_CAMERA_LIST_H
 
-#include <stdexcept>
+#include <wiimote_tracker_msgs/error.h>
+
+#include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::list_wiimotes {
 
 /// A list of cameras that cannot be used; what() says why and what to do.
-struct CameraListError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct CameraListError : Error {
+  using Error::Error;
 };
 
-/// The remotes of a rig by name: the text of a cameras.yaml, which is "cameras:" and below it for
-/// each camera one line 'name: "device"', or 'name:' with 'identity: "device"' among the lines
-/// below it. Above it "discover: true" may stand, which asks for drivers of other remotes, too. All
-/// else stays as it is: order, comments, other lines below a name.
+/// The remotes of a rig by name: the text of a cameras.yaml. Below "cameras:" each camera has a
+/// line 'name: "device"', or 'name:' with 'identity: "device"' among the lines below it. "discover:
+/// true" may stand above. Changes keep the order, the comments and all other lines.
 class CameraList {
  public:
   struct Entry {
@@ -24,7 +24,7 @@ class CameraList {
     std::string device;
   };
 
-  /// An empty list, with a comment that says what it is.
+  /// An empty list with a comment that explains the file.
   CameraList();
 
   /// @throws CameraListError for text of another form than above.
@@ -45,27 +45,25 @@ class CameraList {
   std::string text() const;
 
  private:
-  /// A line that names a device, or another one (then entry.name is empty).
-  struct Line {
-    std::string text;
+  struct Camera {
     Entry entry;
-    std::string key;         ///< What stands before the device, with its blanks.
-    std::string comment;     ///< What stands behind it, with its blanks.
-    bool in_camera = false;  ///< This line is part of a camera.
+    std::size_t line = 0;             ///< Of the device, index into lines_.
+    std::size_t begin = 0, size = 0;  ///< Of the device in its line, with its quotes.
   };
 
-  Line* find(const std::string& name);
-  static void setDevice(Line& line, const std::string& device);
+  const Camera* find(const std::string& name) const;
 
-  std::vector<Line> lines_;
+  std::vector<std::string> lines_;
+  std::vector<Camera> cameras_;
   std::string indent_ = "  ";  ///< Before the names.
 };
 
 /// @throws CameraListError when the file cannot be read or used.
 CameraList readCameraList(const std::string& path);
 
-/// Writes the file anew and then renames it, so that it is never half there; the one before stays
-/// as <path>.bak. @throws CameraListError when that is not possible.
+/// Replaces the file at once, so that it is never half written, and keeps the old one as
+/// <path>.bak.
+/// @throws CameraListError when that is not possible.
 void writeCameraList(const CameraList& list, const std::string& path);
 
 }  // namespace wiimote_tracker::list_wiimotes

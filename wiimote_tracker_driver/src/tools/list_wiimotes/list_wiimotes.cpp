@@ -5,7 +5,8 @@
 #include "remote_check.h"
 #include "replacement.h"
 #include "row.h"
-#include "wiimote_tracker_driver/transport/transport.h"
+#include "tools/command_line.h"
+#include "transport/transport.h"
 
 #include <time.h>
 
@@ -51,7 +52,7 @@ void write(const std::string& path, CameraList list, const std::vector<Row>& row
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
     if (row.text.empty() || row.address.empty()) {
-      std::printf("Remote %zu is not written, because its address is unknown.\n", i + 1);
+      std::printf("Remote %zu is not written because its address is unknown.\n", i + 1);
     } else if (row.camera.empty()) {
       std::printf("Remote %zu (%s) is camera %s.\n", i + 1, row.address.c_str(),
                   list.add(row.text).c_str());
@@ -129,8 +130,8 @@ std::string today() {
 int main(int argc, char** argv) {
   try {
     const Arguments arguments = parseArguments(argc, argv);
-    if (arguments.help) {
-      std::fputs(kUsage, stdout);
+    if (!arguments.help.empty()) {
+      std::fputs(arguments.help.c_str(), stdout);
       return 0;
     }
     if (arguments.replaced_camera.empty())
@@ -140,8 +141,8 @@ int main(int argc, char** argv) {
                    .c_str(),
                stdout);
     return 0;
-  } catch (const BadArguments& e) {
-    std::fprintf(stderr, "list_wiimotes: %s; see --help\n", e.what());
+  } catch (const wiimote_tracker::tools::BadArguments& e) {
+    std::fprintf(stderr, "list_wiimotes: %s\n", e.what());
     return 2;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "list_wiimotes: %s\n", e.what());

@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_REMOTE_CHECK_H
 #define WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_REMOTE_CHECK_H
 
+#include "transport/transport.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
-#include "wiimote_tracker_driver/transport/transport.h"
 
 #include <functional>
 #include <memory>

@@ -1,7 +1,7 @@
 #include "replacement.h"
 
 #include "camera_list.h"
-#include "wiimote_tracker_driver/transport/transport.h"
+#include "transport/transport.h"
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 #include "row.h"
 
+#include "transport/users.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
-#include "wiimote_tracker_driver/transport/users.h"
 
 #include <unistd.h>
 

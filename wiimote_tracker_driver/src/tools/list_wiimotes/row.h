@@ -4,7 +4,7 @@
 #include "camera_list.h"
 #include "host.h"
 #include "remote_check.h"
-#include "wiimote_tracker_driver/transport/transport.h"
+#include "transport/transport.h"
 
 #include <string>
 #include <vector>

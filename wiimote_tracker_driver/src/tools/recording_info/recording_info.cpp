@@ -1,20 +1,15 @@
 // Says what is in recordings of Wii Remotes.
 #include "summary.h"
 
+#include "tools/command_line.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace {
-
-constexpr char kUsage[] =
-    R"(Says what is in recordings of Wii Remotes.
-
-  recording_info FILE...
-
-Exit status: 0 when all are complete, 1 when one is cut off or damaged, 2 when one cannot be read.
-)";
 
 /// @returns the exit status.
 int show(const std::string& path) {
@@ -34,13 +29,23 @@ int show(const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string first = argc > 1 ? argv[1] : "";
-  if (first.empty() || first == "--help" || first == "-h") {
-    std::fputs(kUsage, first.empty() ? stderr : stdout);
-    return first.empty() ? 2 : 0;
+  namespace tools = wiimote_tracker::tools;
+  std::vector<std::string> files;
+  CLI::App app("Says what is in recordings of Wii Remotes.", "recording_info");
+  app.add_option("FILE", files, "recordings")->required();
+  app.footer(
+      "Exit status: 0 when all are complete, 1 when one is cut off or damaged, 2 when one cannot "
+      "be "
+      "read.");
+  try {
+    const std::string help = tools::parse(app, argc, argv);
+    std::fputs(help.c_str(), stdout);
+  } catch (const tools::BadArguments& e) {
+    std::fprintf(stderr, "recording_info: %s\n", e.what());
+    return 2;
   }
   int status = 0;
-  for (int i = 1; i < argc; ++i)
-    status = std::max(status, show(argv[i]));
+  for (const std::string& file : files)
+    status = std::max(status, show(file));
   return status;
 }

@@ -1,10 +1,10 @@
 #include "summary.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <time.h>
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 #include <optional>
 
 namespace wiimote_tracker::recording_info {
@@ -53,15 +53,6 @@ const char* nameOf(std::size_t id) {
     default:
       return id >= 0x30 && id <= 0x3f ? "other data" : "unknown";
   }
-}
-
-__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
-  char text[256];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof(text), pattern, arguments);
-  va_end(arguments);
-  return text;
 }
 
 std::string dateOf(double seconds) {

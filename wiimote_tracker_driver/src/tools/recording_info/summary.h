@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_TOOLS_RECORDING_INFO_SUMMARY_H
 #define WIIMOTE_TRACKER_DRIVER_TOOLS_RECORDING_INFO_SUMMARY_H
 
-#include "wiimote_tracker_driver/recording/reader.h"
+#include "recording/reader.h"
 
 #include <array>
 #include <cstdint>

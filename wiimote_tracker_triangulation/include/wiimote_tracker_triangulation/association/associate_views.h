@@ -11,32 +11,33 @@
 
 namespace wiimote_tracker::association {
 
-/// Costs are -2 log likelihood, like chi^2. For the defaults see typicalCosts.
+/// Costs are -2 log likelihood, like chi^2. The defaults are those of typicalCosts.
 struct AssociationOptions {
-  double pixel_stddev = 0.5;  ///< Of each pixel coordinate, the calibration's error included [px].
-  double ghost = 31.0;        ///< A spot that belongs to no point [> 0].
-  double point = 35.0;        ///< A point that exists [>= 0].
-  double miss = 4.4;          ///< A camera that ought to see a point and does not [>= 0].
+  double pixel_stddev = 0.5;  ///< Of a pixel coordinate, with the calibration's error [px].
+  double ghost = 31.0;        ///< Cost of a false detection: a spot of no point [> 0].
+  double point = 35.0;        ///< Cost of a point [>= 0].
+  double miss = 4.4;          ///< Cost of a missed detection [>= 0].
 
-  /// Spots of two cameras whose rays miss each other by more than this can not be one point: the
-  /// squared distance from the epipolar constraint, to first order, over pixel_stddev^2 [> 0].
+  /// Gate for two spots of one point: the squared distance from the epipolar constraint, to first
+  /// order, over pixel_stddev^2 [> 0].
   double maximum_pair_chi_squared = 30.0;
 
   std::size_t minimum_rays = 2;  ///< Of a point [>= 2].
-  double minimum_angle = 0.02;   ///< Largest angle between any two rays of a point [rad].
+  double minimum_angle = 0.02;   ///< Least for the largest angle between rays of a point [rad].
 
-  /// After this many steps the best points found are taken, proven or not.
+  /// The search stops after this many steps with the best points found, proven or not.
   std::size_t maximum_steps = 5000;
 };
 
-/// Costs for Poisson numbers of LEDs (0.25 per m^3) and of ghosts (ghost_rate per image of 1024 x
-/// 768 px), and cameras that show with detection_probability what they ought to see. With
-/// pixel_stddev = s [px],
-///   ghost = -2 log(2 pi s^2 ghost_rate / (1024 * 768)),
+/// Costs for Poisson numbers of LEDs (0.25 per m^3) and of false detections (ghost_rate per image),
+/// and cameras that detect an LED in their view with detection_probability. With pixel_stddev = s
+/// [px],
+///   ghost = -2 log(2 pi s^2 ghost_rate / mean image area of the rig),
 ///   miss = -2 log((1 - detection_probability) / detection_probability),
 ///   point = -2 log(0.25 (2 pi)^(3/2) v), v the square root of the determinant of the covariance
 /// of a typical point, (3.4 mm / px * s)^3 in a cube of 2.5 m; at least 1, 0 and 0.
-AssociationOptions typicalCosts(double pixel_stddev,
+AssociationOptions typicalCosts(const geometry::Rig& rig,
+                                double pixel_stddev,
                                 double ghost_rate = 0.1,
                                 double detection_probability = 0.9);
 
@@ -44,8 +45,8 @@ AssociationOptions typicalCosts(double pixel_stddev,
 struct View {
   const geometry::Sight* sights = nullptr;  ///< Not owned.
   std::size_t count = 0;
-  bool watching = true;  ///< False: there is no image, so nothing was missed.
-  bool full = false;     ///< As many spots as the camera can report: nothing was missed for sure.
+  bool watching = true;  ///< False: there is no image, so no detection is missed.
+  bool full = false;     ///< As many spots as the camera can report: no detection counts as missed.
 };
 
 struct SpotReference {
@@ -65,22 +66,21 @@ struct Association {
   std::vector<SpotReference> spots;     ///< Of the points, each in the order of the views.
   double cost = 0.0;                    ///< Of the points and of all spots that belong to none.
   bool proven = true;                   ///< No other association costs less.
-  std::size_t steps = 0;                ///< Taken by the search.
+  std::size_t steps = 0;                ///< Of the search.
 };
 
-/// Which spots of several cameras at one time are the same points? Of all ways to divide the spots
-/// into points, of at most one spot per camera, and ghosts, the one with the least sum of
+/// Associates the spots of several cameras at one time with points. A point has at most one spot
+/// per camera; a spot of no point is a false detection. The association has the least sum of
 ///   point: chi^2 of its pixels + AssociationOptions::point + ::miss for each camera that has it in
 ///          view (Camera::sees), is watching and not full, and has no spot of it;
-///   ghost: AssociationOptions::ghost.
+///   false detection: AssociationOptions::ghost.
 /// Exact, by branch and bound: chi^2 only grows with every spot that is added to a point, and
-/// spots that no chain of possible pairs connects do not matter to each other. Does not allocate
-/// once warm.
+/// components of spots that no possible pair connects are solved separately. Does not allocate once
+/// warm.
 class ViewAssociator {
  public:
-  /// @param rig for what is in view of whom; copied.
-  /// @param partners for each camera the others that can see a point together with it, ascending
-  /// and mutual (see sharedViews).
+  /// @param rig copied. @param partners for each camera the others that can see a point together
+  /// with it, ascending and mutual (see sharedViews).
   ViewAssociator(const geometry::Rig& rig,
                  std::vector<std::vector<std::size_t>> partners,
                  const AssociationOptions& options);

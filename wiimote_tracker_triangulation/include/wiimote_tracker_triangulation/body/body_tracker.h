@@ -96,7 +96,7 @@ struct LabelledPoint {
 /// allocate once warm.
 class BodyTracker {
  public:
-  /// @throws BodyError (Constellation::check), geometry::InvalidRigError (Rig::check).
+  /// @throws Error (Constellation::check), geometry::InvalidRigError (Rig::check).
   BodyTracker(const geometry::Rig& rig,
               const std::vector<Constellation>& constellations,
               const BodyTrackerOptions& options);

@@ -24,7 +24,7 @@ struct Constellation {
   /// Label of an LED, or its number.
   std::string labelOf(std::size_t led) const;
 
-  /// @throws BodyError naming what is wrong: its name, too few or too many LEDs, two closer than
+  /// @throws Error naming what is wrong: its name, too few or too many LEDs, two closer than
   /// 1 mm, all on one line, positions that are not finite, labels that are not one for each and all
   /// different, or a symmetric shape without labels.
   void check() const;

@@ -8,8 +8,8 @@
 
 namespace wiimote_tracker::fusion {
 
-/// The images of one camera on both sides of an instant; the same one twice when it was taken just
-/// then.
+/// The images of one camera before and after an instant; the same one twice when its time is the
+/// instant.
 template <typename Frame>
 struct Bracket {
   const Frame* before;
@@ -17,16 +17,16 @@ struct Bracket {
 
   double gap() const { return after->time - before->time; }
 
-  /// Where t lies: 0 at before, 1 at after.
+  /// Interpolation weight of `after` at a time t.
   double shareAt(double t) const { return before == after ? 0.0 : (t - before->time) / gap(); }
 };
 
-/// The latest images of one camera, in the order of their times: Frame::time [s]. Allocates only
-/// while it grows to its working size, as long as assigning one Frame to another does not allocate.
+/// The latest images of one camera, in the order of their times: Frame::time [s]. Does not allocate
+/// once it has grown to its working size, if assigning a Frame does not.
 template <typename Frame>
 class FrameHistory {
  public:
-  /// Most images kept; older ones are dropped.
+  /// Older images are dropped.
   static constexpr std::size_t kMaximumSize = 1024;
 
   bool empty() const { return size_ == 0; }
@@ -47,7 +47,7 @@ class FrameHistory {
     ++size_;
   }
 
-  /// Drops what no instant after t needs: all images before the last one at or before t.
+  /// Drops what is not needed after t: all images before the last one at or before t.
   void forgetBefore(double t) {
     const std::size_t count = countUpTo(t);
     if (count < 2)

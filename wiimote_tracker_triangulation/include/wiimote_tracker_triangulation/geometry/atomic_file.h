@@ -7,10 +7,10 @@ namespace wiimote_tracker::geometry {
 
 /// Writes a file such that a reader, or a crash, meets the old content or the new one, never a mix;
 /// what was there before is kept as path + ".bak". Creates folders; follows a symbolic link.
-/// @throws RigFileError; then the file at `path` is as it was.
+/// @throws FileError; then the file at `path` is as it was.
 void writeFileAtomically(const std::string& path, const std::string& content);
 
-/// @throws RigFileError: missing or unreadable.
+/// @throws FileError: missing or unreadable.
 std::string readFile(const std::string& path);
 
 }  // namespace wiimote_tracker::geometry

@@ -13,16 +13,14 @@
 
 namespace wiimote_tracker::geometry {
 
-/// How far a point is off because the cameras are not quite where and what the rig says: D C D^T,
-/// with the joint covariance C of the rig's parameters and D = d point / d parameters of the point
-/// of maximum likelihood from the cameras that see it. What the cameras have in common, such as a
-/// wrong length of the square, is in C and so in the result.
+/// Covariance of a point due to the calibration's errors: D C D^T, with the joint covariance C of
+/// the rig's parameters and D of pointSensitivity(). C holds errors that all cameras share, such as
+/// a wrong length of the square.
 ///
-/// This error is systematic: it is the same in every image, for as long as the rig is, and nearly
-/// the same for points side by side. It does not average out, and must not be divided by the number
-/// of images. Added to the covariance of the pixels' noise, which does average out, it gives that
-/// of the position in the world. Of a velocity, and of the distance of two near points, it is all
-/// but nothing. Time offsets that are not exact shift what moves; they are not in it.
+/// This error is systematic: the same in every image of a rig, and nearly the same for neighbouring
+/// points. It does not average out over images. Add it to the covariance from pixel noise to get
+/// the covariance of the position in the world. It hardly affects velocities and distances of
+/// neighbouring points. Errors of time offsets, which shift moving points, are not included.
 class CalibrationUncertainty {
  public:
   static constexpr std::size_t kMaximumCameras = 16;  ///< Of a point; more are left out.
@@ -38,9 +36,9 @@ class CalibrationUncertainty {
                                               const std::size_t* cameras,
                                               std::size_t count) const;
 
-  /// The same, but of the middle of the cell of 0.2 m that the point is in, and remembered: some
-  /// percent off, and some hundred times as fast once a cell is known. What it returns depends on
-  /// its arguments only. Does not allocate.
+  /// The same for the centre of the point's cell of 0.2 m, cached: a few percent off, and some
+  /// hundred times as fast for a cached cell. The result depends on the arguments only. Does not
+  /// allocate.
   std::optional<Eigen::Matrix3d> covarianceNear(const Eigen::Vector3d& point,
                                                 const std::size_t* cameras,
                                                 std::size_t count);

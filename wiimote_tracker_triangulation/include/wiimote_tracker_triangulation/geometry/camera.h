@@ -44,11 +44,10 @@ struct Intrinsics {
   Eigen::Vector2d pixelFromNormalized(const Eigen::Vector2d& normalized,
                                       Eigen::Matrix2d* jacobian) const;
 
-  /// Inverse of pixelFromNormalized (Newton's method), exact to 1e-12 where the lens model is
-  /// invertible. Nothing where it is not: beyond the fold, or NaN. Both models are polynomials,
-  /// which are one to one only up to the fold, the radius at which their derivative reaches zero;
-  /// further out they come back into the image. An equidistant lens also has a pixel for what lies
-  /// beside or behind the camera; of that nothing is known here, and it ends 1.55 rad off the axis.
+  /// Inverse of pixelFromNormalized (Newton's method), exact to 1e-12. Nothing for NaN, and where
+  /// the model is not invertible: both models are polynomials that are one to one only up to the
+  /// fold, the radius at which their derivative reaches zero. Equidistant lenses are used up to
+  /// 1.55 rad off the axis.
   std::optional<Eigen::Vector2d> normalizedFromPixel(const Eigen::Vector2d& pixel) const;
 
   /// Whether the lens model is one to one from the principal point out to this normalised point.

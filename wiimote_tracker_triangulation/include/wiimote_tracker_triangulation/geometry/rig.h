@@ -61,7 +61,7 @@ struct Rig {
   Eigen::MatrixXd covariance;
 
   /// Correction of the volume. It may belong to another calibration (remap::Remap::rig_id is not
-  /// id()); then it is void, and kept so that it can be said.
+  /// id()); then it is not applied, and kept so that a message can say so.
   std::optional<remap::Remap> remap;
   std::vector<Zone> zones;
   std::string verdict;
@@ -77,14 +77,13 @@ struct Rig {
 
   /// Hash (16 hexadecimal digits) over everything that changes a triangulated point: world frame,
   /// ray model, and each camera's name, identity, intrinsics, pose, time offset and masks, in the
-  /// order of cameras. The correction of the volume is not in it: that names the id it belongs to,
-  /// and a point says by itself whether it was corrected. Equal rigs have equal ids on every
-  /// machine, also after a round trip through a file or a message: poses are compared as
-  /// canonicalQuaternion (rotation.h) stores them.
+  /// order of cameras. The correction of the volume is not included: it names the id it belongs to.
+  /// Equal rigs have equal ids on every machine, also after a round trip through a file or a
+  /// message: poses are compared as canonicalQuaternion (rotation.h) stores them.
   std::string id() const;
 
   /// @throws InvalidRigError: no camera, two of one name, values out of range or not finite.
-  /// remap::RemapError: a correction of the volume that is damaged (Remap::check).
+  /// Error: a correction of the volume that is damaged (Remap::check).
   void check() const;
 };
 

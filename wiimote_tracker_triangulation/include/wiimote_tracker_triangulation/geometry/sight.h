@@ -9,9 +9,9 @@
 
 namespace wiimote_tracker::geometry {
 
-/// One camera's view of a point, made ready to be intersected with others any number of times: the
-/// lens is undone once. Distances in the image are those of the lens linearised at the pixel, which
-/// for a residual of some pixels is exact to about its square over the focal length.
+/// The ray of a pixel, prepared for repeated triangulation: the lens is inverted once. Residuals
+/// are those of the lens linearised at the pixel, whose error is about the squared residual over
+/// the focal length.
 struct Sight {
   Eigen::Vector3d origin;     ///< Optical centre, world [m].
   Eigen::Vector3d direction;  ///< Of the pixel's ray, world, unit length.

@@ -23,8 +23,8 @@ enum class TriangulationMethod {
                         ///< pairs below minimum_angle are left out.
   kLeastSquares,        ///< Point with the least sum of squared distances to all rays.
   kMaximumLikelihood,   ///< Least sum of squared pixel residuals (Gauss-Newton).
-  kReweightedMidpoint,  ///< kLeastSquares, then once more with each distance in pixels at the first
-                        ///< point's range: all but as good as kMaximumLikelihood, in closed form.
+  kReweightedMidpoint,  ///< kLeastSquares, then again with distances weighted by the range of the
+                        ///< first point: close to kMaximumLikelihood, in closed form.
 };
 
 struct TriangulationOptions {
@@ -48,7 +48,7 @@ struct TriangulatedPoint {
 std::optional<TriangulatedPoint> triangulate(const std::vector<Observation>& observations,
                                              const TriangulationOptions& options);
 
-/// Same from sights, for whoever intersects each of them more than once; reprojection_error is the
+/// Same from sights, for callers that use each of them more than once; reprojection_error is the
 /// linearised one (see Sight). Never allocates.
 std::optional<TriangulatedPoint> triangulate(const Sight* sights,
                                              std::size_t count,

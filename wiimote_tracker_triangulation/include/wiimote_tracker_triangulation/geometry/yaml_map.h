@@ -1,97 +1,108 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_YAML_MAP_H
 #define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_YAML_MAP_H
 
-#include "wiimote_tracker_triangulation/geometry/error.h"
+#include <wiimote_tracker_msgs/error.h>
 
 #include <yaml-cpp/yaml.h>
+#include <Eigen/Core>
 
 #include <set>
+#include <sstream>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::geometry {
 
-/// A map of a YAML file that is read strictly: a key that is missing, of the wrong type, there
-/// twice, or never asked for is an error that names the file and the key.
+/// A map of a YAML file that is read strictly: a key that is missing, of the wrong type, out of
+/// range, there twice, or never asked for is a FileError that names the file and the key in full,
+/// such as "rig.yaml: cameras/left/image_width". All functions throw it.
 class YamlMap {
  public:
-  /// What to do about a rig file that cannot be read.
-  static constexpr const char* kRigAdvice = "restore the file from its backup or calibrate again";
+  /// The whole of a file. `advice`: what the user should do about errors; outlives the map.
+  static YamlMap load(const std::string& file, const char* advice);
 
-  /// `where`: file, and path of this map in it, and `advice`: what to do, for the messages.
-  /// @throws RigFileError: not a map.
-  YamlMap(const YAML::Node& node, const std::string& where, const char* advice = kRigAdvice)
-      : node_(node), where_(where), advice_(advice) {
-    if (!node_.IsMap())
-      throw RigFileError(where_ + " is not a map of keys and values; " + advice_);
-    std::set<std::string> keys;
-    for (const auto& entry : node_) {
-      if (!entry.first.IsScalar())
-        throw RigFileError(where_ + " has a key that is not a word; " + advice_);
-      if (!keys.insert(entry.first.Scalar()).second)
-        throw RigFileError(at(entry.first.Scalar()) + " is there twice; " + advice_);
-    }
-  }
+  /// The same of the file's text.
+  static YamlMap parse(const std::string& text, const std::string& file, const char* advice);
 
-  /// @throws RigFileError: missing, of the wrong type.
+  /// Reads the keys "format" and "version", which must be these.
+  void checkFormat(const std::string& format, int version);
+
+  /// Whether an optional key is there.
+  bool has(const std::string& key) const { return node_[key].IsDefined(); }
+
   template <typename T>
   T get(const std::string& key) {
     try {
       return value(key).template as<T>();
     } catch (const YAML::Exception&) {
-      throw RigFileError(at(key) + " has a value of the wrong kind; " + advice_);
+      throw error(key, "has the wrong type");
     }
   }
 
-  /// A whole number within [minimum, maximum].
   template <typename T>
-  T whole(const std::string& key, long long minimum, long long maximum) {
-    const auto number = get<long long>(key);
-    if (number < minimum || number > maximum)
-      throw RigFileError(at(key) + " is out of range; " + advice_);
-    return static_cast<T>(number);
+  T get(const std::string& key, const T& default_value) {
+    return has(key) ? get<T>(key) : default_value;
   }
 
-  /// Whether an optional key is there.
-  bool has(const std::string& key) const { return node_[key].IsDefined(); }
+  /// A number within [minimum, maximum]; a whole one when T is an integer.
+  template <typename T>
+  T bounded(const std::string& key, T minimum, T maximum) {
+    using Wide = std::conditional_t<std::is_integral_v<T>, long long, double>;
+    const auto number = get<Wide>(key);
+    if (static_cast<Wide>(minimum) <= number && number <= static_cast<Wide>(maximum))
+      return static_cast<T>(number);  // never NaN
+    std::ostringstream text;
+    text << "is " << number << ", but must be within " << minimum << " and " << maximum;
+    throw error(key, text.str());
+  }
 
-  YamlMap map(const std::string& key) { return YamlMap(value(key), at(key), advice_); }
-
-  std::vector<YamlMap> maps(const std::string& key) {
-    const YAML::Node list = value(key);
-    if (!list.IsSequence())
-      throw RigFileError(at(key) + " is not a list; " + advice_);
-    std::vector<YamlMap> result;
-    for (std::size_t i = 0; i < list.size(); ++i)
-      result.emplace_back(list[i], at(key) + "[" + std::to_string(i) + "]", advice_);
-    return result;
+  template <typename T>
+  T bounded(const std::string& key, T minimum, T maximum, T default_value) {
+    return has(key) ? bounded(key, minimum, maximum) : default_value;
   }
 
   std::vector<double> numbers(const std::string& key) { return get<std::vector<double>>(key); }
 
-  /// @throws RigFileError: a key that nobody asked for.
-  void refuseUnknown() const {
-    for (const auto& entry : node_) {
-      if (!asked_.count(entry.first.Scalar()))
-        throw RigFileError(at(entry.first.Scalar()) + " is an unknown key; " + advice_);
-    }
-  }
+  /// A list of so many numbers.
+  std::vector<double> numbers(const std::string& key, std::size_t count);
 
-  std::string at(const std::string& key) const { return where_ + ": " + key; }
+  /// A list of lists of so many numbers each. `names`: of the columns, for the error.
+  std::vector<std::vector<double>> rows(const std::string& key,
+                                        std::size_t columns,
+                                        const std::string& names);
+
+  /// Three finite numbers.
+  Eigen::Vector3d vector(const std::string& key);
+
+  YamlMap map(const std::string& key);
+
+  /// A list of maps.
+  std::vector<YamlMap> maps(const std::string& key);
+
+  /// All keys of this map, with their values, which must be maps; in the order of the file.
+  std::vector<std::pair<std::string, YamlMap>> entries();
+
+  /// Throws for a key that nobody asked for.
+  void refuseUnknown() const;
+
+  /// The error that a key `is wrong`, to be thrown.
+  FileError error(const std::string& key, const std::string& is_wrong) const;
 
  private:
-  YAML::Node value(const std::string& key) {
-    asked_.insert(key);
-    // Through a const node: the other operator[] would insert the key.
-    const YAML::Node& node = node_;
-    const YAML::Node found = node[key];
-    if (!found.IsDefined())
-      throw RigFileError(at(key) + " is missing; " + advice_);
-    return found;
-  }
+  YamlMap(const YAML::Node& node,
+          const std::string& file,
+          const std::string& path,
+          const char* advice);
 
-  YAML::Node node_;
-  std::string where_;
+  YAML::Node value(const std::string& key);
+  std::string pathOf(const std::string& key) const;
+
+  // Const: the other operator[] of a node would insert the key.
+  const YAML::Node node_;
+  std::string file_;
+  std::string path_;  // of this map in the file
   const char* advice_;
   std::set<std::string> asked_;
 };

@@ -28,7 +28,7 @@ struct BlinkCodes {
   /// Most LEDs that can blink together.
   static constexpr std::size_t kMaximumSynchronous = 8;
 
-  /// @throws IdentityError: two that could be confused, one that never blinks or never shines,
+  /// @throws Error: two that could be confused, one that never blinks or never shines,
   /// labels or periods out of range.
   void check() const;
 

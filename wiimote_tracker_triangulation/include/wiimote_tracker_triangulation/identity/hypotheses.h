@@ -16,7 +16,7 @@ namespace wiimote_tracker::identity {
 class Hypotheses {
  public:
   /// @param memory sightings older than this fade out [s, > 0]; with less than three of the longest
-  /// periods, those are taken. @throws IdentityError (see BlinkCodes::check).
+  /// periods, those are taken. @throws Error (see BlinkCodes::check).
   Hypotheses(const BlinkCodes& codes, const SeeingModel& seeing, double memory);
 
   const BlinkCodes& codes() const { return codes_; }

@@ -26,7 +26,7 @@ struct IdentifierOptions {
   /// Shortest time between two decisions [s, 0..1].
   double interval = 0.02;
 
-  /// @throws IdentityError: out of range.
+  /// @throws Error: out of range.
   void check() const;
 };
 
@@ -44,7 +44,7 @@ struct Identity {
 /// options and of the sequence of calls; no clock is read. Does not allocate once warm.
 class Identifier {
  public:
-  /// @throws IdentityError.
+  /// @throws Error.
   Identifier(const BlinkCodes& codes, const IdentifierOptions& options);
 
   /// Of the LED with the tracker's id `led`, new or known. In any order of time, but each camera's

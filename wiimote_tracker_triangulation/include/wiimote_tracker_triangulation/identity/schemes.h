@@ -18,7 +18,7 @@ struct DutyLed {
 /// The paper's scheme: all LEDs blink together, each for another share of the period. The one that
 /// is on for longest is switched on first and off last.
 /// @param shortest, longest: between which the period lies [s]; alike when it is known.
-/// @throws IdentityError.
+/// @throws Error.
 BlinkCodes dutyCodes(const std::vector<DutyLed>& leds, double shortest, double longest);
 
 /// An LED and its word: a character per chip, 1 is on and 0 is off.
@@ -30,7 +30,7 @@ struct CyclicLed {
 /// Cyclic codes: every LED repeats its word for ever, and begins it when it likes.
 /// @param chip duration of one character [s].
 /// @param tolerance relative error of the LEDs' clocks, 0..0.05.
-/// @throws IdentityError: words of different length, alike after rotation, ...
+/// @throws Error: words of different length, alike after rotation, ...
 BlinkCodes cyclicCodes(const std::vector<CyclicLed>& leds, double chip, double tolerance);
 
 /// Number of chips in which two words of equal length differ at least, over all rotations.
@@ -49,7 +49,7 @@ std::vector<std::string> chooseWords(std::size_t count, const WordRules& rules);
 
 /// The same with the rules that suit most: two chips apart, so that one chip seen wrongly makes no
 /// other word; single dark chips where words of 8 chips are enough for that, else two in a row.
-/// @throws IdentityError: too many.
+/// @throws Error: too many.
 std::vector<std::string> chooseWords(std::size_t count);
 
 }  // namespace wiimote_tracker::identity

@@ -30,7 +30,7 @@ struct CorrectedPoint {
 class Correction {
  public:
   /// @param rig_id of the rig whose points are to be corrected (geometry::Rig::id()).
-  /// @throws RemapError: the correction was measured with another calibration; not valid (see
+  /// @throws Error: the correction was measured with another calibration; not valid (see
   /// Remap::check); support without volume; a model that has no value at a point of the support.
   Correction(const Remap& remap, const std::string& rig_id);
 

@@ -20,7 +20,7 @@ enum class Model {
 /// "affine", "projective", "trilinear" or "thin_plate".
 const char* nameOf(Model model);
 
-/// @throws RemapError for any other name.
+/// @throws Error for any other name.
 Model modelFromName(const std::string& name);
 
 /// Number of parameters of a model fitted to so many points of support.
@@ -41,7 +41,7 @@ struct Remap {
   std::vector<double> parameters;        ///< [m]
   std::vector<Eigen::Vector3d> support;  ///< Measured positions, world [m].
 
-  /// @throws RemapError: no rig id, a number of parameters that does not fit the model, values that
+  /// @throws Error: no rig id, a number of parameters that does not fit the model, values that
   /// are not finite.
   void check() const;
 };

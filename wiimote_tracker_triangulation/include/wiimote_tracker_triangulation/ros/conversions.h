@@ -14,7 +14,7 @@ namespace wiimote_tracker {
 wiimote_tracker_msgs::RigCalibration toMessage(const geometry::Rig& rig);
 
 /// Rig of a message. @throws geometry::InvalidRigError: unknown format_version or distortion model,
-/// values out of range or not finite. remap::RemapError: a damaged correction of the volume.
+/// values out of range or not finite. Error: a damaged correction of the volume.
 geometry::Rig fromMessage(const wiimote_tracker_msgs::RigCalibration& message);
 
 using geometry::opticalFrame;

@@ -10,11 +10,11 @@
 
 namespace wiimote_tracker::tracking {
 
-/// One bright spot in an image; fields as in IrBlob.msg.
+/// One spot (blob) of an image; fields as in IrBlob.msg.
 struct Spot {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();         ///< Distorted [px].
   double size = std::numeric_limits<double>::quiet_NaN();  ///< The camera's own unit; NaN: unknown.
-  int slot = -1;                                           ///< Place in the report; -1: unknown.
+  int slot = -1;                                           ///< Index in the report; -1: unknown.
 };
 
 /// An image as it comes from a camera; fields as in IrBlobArray.msg.
@@ -23,7 +23,7 @@ struct CameraImage {
   double arrival = 0.0;  ///< When it reached the computer [s].
   double stamp_stddev = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: unknown.
   std::uint32_t clock_epoch = 0;
-  std::size_t maximum_spots = 4;  ///< With as many spots as this, further lights may be hidden.
+  std::size_t maximum_spots = 4;  ///< With so many spots, more LEDs may be visible.
   std::vector<Spot> spots;
 };
 

@@ -10,28 +10,24 @@
 
 namespace wiimote_tracker::tracking {
 
-/// Counted since the estimator began.
+/// Totals since the estimator was made.
 struct Counters {
-  /// Images older than one of the same or another camera that was already used: put in at their
-  /// time where the estimator can, and counted.
-  std::uint64_t late = 0;
-  std::uint64_t dropped = 0;     ///< Images too old for any use.
-  std::uint64_t repeated = 0;    ///< Images that had been there before.
+  std::uint64_t late = 0;        ///< Images older than one that was already used.
+  std::uint64_t dropped = 0;     ///< Images that could not be used.
+  std::uint64_t repeated = 0;    ///< Images that were added before.
   std::uint64_t disordered = 0;  ///< Images added after one that arrived later.
-  std::uint64_t resets = 0;      ///< Times that all was forgotten because time jumped back.
+  std::uint64_t resets = 0;      ///< Times that everything was forgotten since time jumped back.
 };
 
-/// From the images of a rig's cameras to LEDs. Two kinds: per instant (fusion::InstantFuser, the
-/// paper's way) and tracks in continuous time (tracking::Tracker). The result is a function of the
-/// rig, the options and the sequence of images added; no clock is read. Does not allocate once
-/// warm.
+/// Estimates LEDs from the images of a rig's cameras: per instant (fusion::InstantFuser, the
+/// paper's method) or as tracks in continuous time (tracking::Tracker). The result is a function of
+/// the rig, the options and the sequence of images; no clock is read. Does not allocate once warm.
 class Estimator {
  public:
   virtual ~Estimator() = default;
 
-  /// Takes effect with the next image, all cameras at once. Time goes on: there is no snapshot at
-  /// or before the last one, and no id is used again.
-  /// @throws geometry::InvalidRigError (see Rig::check); then the rig before stays.
+  /// Takes effect with the next image. Snapshots stay in increasing time, and no id is used again.
+  /// @throws geometry::InvalidRigError (see Rig::check); then the old rig stays.
   virtual void setRig(const geometry::Rig& rig) = 0;
 
   /// Adds an image of the camera at `camera` in the rig. Its pixels must be finite.
@@ -43,9 +39,9 @@ class Estimator {
 
   virtual const Counters& counters() const = 0;
 
-  /// Writes all LEDs at a time [s] to which no image has come yet: for output at a fixed rate, and
-  /// for what is now. False, and nothing is written: the estimator can not, has seen no image, or
-  /// has gone beyond that time.
+  /// Predicts all LEDs to a time [s] not before the newest image, for output at a fixed rate.
+  /// False, and nothing is written, when the estimator cannot predict, has seen no image or is past
+  /// that time.
   virtual bool predictTo(double /*time*/, Snapshot* /*snapshot*/) const { return false; }
 };
 

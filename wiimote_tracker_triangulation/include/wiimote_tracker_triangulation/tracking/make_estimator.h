@@ -12,7 +12,7 @@ namespace wiimote_tracker::tracking {
 
 enum class Mode {
   kTracks,   ///< Tracker
-  kInstant,  ///< fusion::InstantFuser, the paper's way
+  kInstant,  ///< fusion::InstantFuser, the paper's method
 };
 
 struct EstimatorOptions {

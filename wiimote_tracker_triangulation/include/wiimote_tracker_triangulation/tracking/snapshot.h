@@ -22,16 +22,16 @@ struct TrackedLed {
   Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  ///< World [m^2].
   std::optional<Eigen::Vector3d> velocity;                        ///< World [m/s].
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  ///< [m^2/s^2]; with a velocity.
-  std::vector<std::size_t> cameras;  ///< Whose rays entered, in the order of the rig.
-  std::size_t rays_possible = 0;     ///< Cameras that ought to see it, or whose rays entered.
+  std::vector<std::size_t> cameras;  ///< Whose rays were used, in the order of the rig.
+  std::size_t rays_possible = 0;     ///< Cameras that should see it, or whose rays were used.
 
-  /// sqrt(mean(du^2 + dv^2)) over the rays that entered [px]; NaN without any.
+  /// sqrt(mean(du^2 + dv^2)) over the rays used [px]; NaN without any.
   double residual = std::numeric_limits<double>::quiet_NaN();
   double first_seen = 0.0;     ///< [s]
   double last_observed = 0.0;  ///< [s]
 };
 
-/// What became of one spot.
+/// How one spot was used.
 enum class SpotUse { kUnassigned, kMasked, kAssigned };
 
 struct SeenSpot {
@@ -40,18 +40,18 @@ struct SeenSpot {
   std::uint32_t led = 0;  ///< Id of the LED it was assigned to.
 };
 
-/// What one camera last contributed.
+/// A camera's newest image.
 struct CameraView {
   std::optional<double> time;  ///< Exposure of its newest image [s]; nothing before the first.
-  bool full = false;           ///< It shows as many spots as it can: further lights may be hidden.
+  bool full = false;           ///< As many spots as it can report: more LEDs may be visible.
   std::vector<SeenSpot> spots;
 };
 
 /// All LEDs at one time.
 struct Snapshot {
   double time = 0.0;              ///< [s]
-  double latest_arrival = 0.0;    ///< Of the newest image that was looked at, dark ones too [s].
-  double skew = 0.0;              ///< Largest distance from time to an image that entered [s].
+  double latest_arrival = 0.0;    ///< Of the images used, those without spots too [s].
+  double skew = 0.0;              ///< Largest distance in time to an image used [s].
   std::vector<TrackedLed> leds;   ///< In the order of their ids.
   std::vector<CameraView> views;  ///< One per camera, in the order of the rig.
 };

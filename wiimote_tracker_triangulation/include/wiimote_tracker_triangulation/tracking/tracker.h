@@ -20,16 +20,14 @@ class SnapshotWriter;
 class TimeWatch;
 struct StoredImage;
 
-/// Tracks of LEDs in continuous time. Each image updates the tracks that its camera may see, at its
-/// own time and at once; nothing waits. A late image is put in at its time and what followed is
-/// repeated. Cameras that share no view, as those of several rooms, cost each other nothing.
+/// Tracks LEDs in continuous time. Each image updates the tracks that its camera may see, at once
+/// and at the image's own time. A late image is inserted at its time and the steps after it are
+/// repeated. Cameras that share no view, as those of several rooms, are independent.
 ///
-/// An image that is newer than all others makes a snapshot of all LEDs at its time: tentative until
-/// images enough of cameras enough have shown them; predicted while none does; lost once, in the
-/// snapshot after they were given up. The covariance of a position is that of its filter and, as
-/// far as two cameras see it now and the rig says how certain it is, that of the calibration. LEDs
-/// that were still being seen when time jumped back are lost with the first snapshot of the time
-/// after.
+/// An image newer than all others makes a snapshot of all LEDs at its time. The states are
+/// explained in doc/tracking.md; a lost LED is in one snapshot only. The covariance of a position
+/// is that of its filter, plus that of the calibration when two cameras see the LED and the rig has
+/// one. LEDs that were seen when time jumped back are lost in the first snapshot after the jump.
 class Tracker : public Estimator {
  public:
   /// @throws geometry::InvalidRigError (see Rig::check).
@@ -38,15 +36,15 @@ class Tracker : public Estimator {
   Tracker(const Tracker&) = delete;
   Tracker& operator=(const Tracker&) = delete;
 
-  /// Tracks go on where the new cameras see what the old ones saw. A rig with the id of the one
-  /// before changes nothing but how certain it is.
+  /// Tracks that the new cameras may see go on. A rig with the same id only changes the covariance
+  /// of the calibration.
   void setRig(const geometry::Rig& rig) override;
 
   void add(std::size_t camera, const CameraImage& image) override;
   const Snapshot* next() override;
   const Counters& counters() const override;
 
-  /// What was lost is not in it.
+  /// Without lost LEDs.
   bool predictTo(double time, Snapshot* snapshot) const override;
 
  private:

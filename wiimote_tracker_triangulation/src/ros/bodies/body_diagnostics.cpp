@@ -10,14 +10,14 @@ namespace wiimote_tracker {
 using diagnostic_msgs::DiagnosticStatus;
 using wiimote_tracker_msgs::TrackedBody;
 
-void BodyDiagnostics::Mean::add(double value) {
+void BodyDiagnostics::Rms::add(double value) {
   if (std::isnan(value))
     return;
   squares += value * value;
   ++count;
 }
 
-double BodyDiagnostics::Mean::root() const {
+double BodyDiagnostics::Rms::value() const {
   return count > 0 ? std::sqrt(squares / static_cast<double>(count))
                    : std::numeric_limits<double>::quiet_NaN();
 }
@@ -61,15 +61,16 @@ void BodyDiagnostics::report(const body::Constellation& body,
                              const std::string& warning,
                              diagnostic_updater::DiagnosticStatusWrapper& status) {
   Seen& seen = seen_[body.name];
-  status.summary(DiagnosticStatus::OK, seen.tracked > 0 ? "tracked" : "not in view");
+  status.summary(DiagnosticStatus::OK, seen.tracked > 0 ? "tracked" : "not seen");
   if (!warning.empty())
     status.mergeSummary(DiagnosticStatus::WARN, warning);
   status.addf("share of images in which it is tracked [%]", "%.1f",
               100.0 * static_cast<double>(seen.tracked) / static_cast<double>(seen.images));
   status.add("times lost", seen.lost);
-  status.addf("residual [px]", "%.3f", seen.residual.root());
+  status.addf("residual [px]", "%.3f", seen.residual.value());
   for (std::size_t i = 0; i < seen.leds.size(); ++i)
-    status.addf("deviation of LED " + body.labelOf(i) + " [mm]", "%.2f", 1e3 * seen.leds[i].root());
+    status.addf("deviation of LED " + body.labelOf(i) + " [mm]", "%.2f",
+                1e3 * seen.leds[i].value());
   const std::size_t leds = seen.leds.size();
   seen = Seen();
   seen.leds.resize(leds);

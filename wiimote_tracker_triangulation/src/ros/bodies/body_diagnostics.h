@@ -14,7 +14,7 @@
 
 namespace wiimote_tracker {
 
-/// Says on /diagnostics how each body is seen: one status for each.
+/// Publishes on /diagnostics: one status for each body.
 class BodyDiagnostics {
  public:
   BodyDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
@@ -26,21 +26,21 @@ class BodyDiagnostics {
   void update() { updater_.update(); }
 
  private:
-  /// The mean of squares.
-  struct Mean {
+  /// Root mean square.
+  struct Rms {
     double squares = 0.0;
     std::size_t count = 0;
 
     void add(double value);
-    double root() const;  ///< NaN of nothing.
+    double value() const;  ///< NaN without values.
   };
   /// Since the last report.
   struct Seen {
     std::size_t images = 0;
     std::size_t tracked = 0;  // of the images
     std::size_t lost = 0;     // times
-    Mean residual;            // [px]
-    std::vector<Mean> leds;   // deviations [m]
+    Rms residual;             // [px]
+    std::vector<Rms> leds;    // deviations [m]
   };
 
   void report(const body::Constellation& body,

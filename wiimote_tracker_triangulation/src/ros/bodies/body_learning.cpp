@@ -1,8 +1,8 @@
 #include "body_learning.h"
 
+#include "body/bodies_file.h"
 #include "body_parameters.h"
-#include "wiimote_tracker_triangulation/body/bodies_file.h"
-#include "wiimote_tracker_triangulation/body/error.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <algorithm>
 #include <chrono>
@@ -18,9 +18,9 @@ using wiimote_tracker_msgs::TrackedPoint;
 constexpr double kDefaultDuration = 3.0;  // [s]
 constexpr double kShortest = 0.5;         // [s]
 constexpr double kLongest = 60.0;         // [s]
-// LEDs of a body that was followed until now become tracks of their own first [s].
+// Time for the LEDs of a tracked body to become tracks of their own [s].
 constexpr double kUntilFree = 0.5;
-// Nothing came for so long: nothing will [s].
+// After this time without points the service gives up [s].
 constexpr int kSilence = 5;
 
 double stddevOf(const TrackedPoint& point) {
@@ -35,7 +35,7 @@ std::vector<Constellation> without(const std::string& name, std::vector<Constell
   return bodies;
 }
 
-/// The labels of LEDs that blink, in the order of the body's, when all do.
+/// The labels of a body's LEDs in their order, if all of them blink.
 std::vector<std::string> labelsOf(const std::vector<std::uint32_t>& ids,
                                   const std::map<std::uint32_t, std::string>& blinks) {
   std::vector<std::string> labels;
@@ -72,9 +72,9 @@ BodyLearning::~BodyLearning() {
 }
 
 void BodyLearning::addPoints(const wiimote_tracker_msgs::TrackedPointArray& points) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   if (!is_collecting_)
     return;
-  const std::lock_guard<std::mutex> lock(mutex_);
   body::LedsInstant instant{points.header.stamp.toSec(), {}};
   if (!instants_.empty() && instant.time < instants_.back().time)
     instants_.clear();  // time jumped back
@@ -93,39 +93,39 @@ void BodyLearning::addPoints(const wiimote_tracker_msgs::TrackedPointArray& poin
 }
 
 std::optional<std::vector<Constellation>> BodyLearning::change() {
+  const std::lock_guard<std::mutex> lock(mutex_);
   if (!has_change_)
     return std::nullopt;
-  const std::lock_guard<std::mutex> lock(mutex_);
   has_change_ = false;
-  return followed_;
+  return tracked_;
 }
 
 bool BodyLearning::onRequest(LearnBody::Request& request, LearnBody::Response& response) {
   response.message = refusal(request);
   if (!response.message.empty())
     return true;
-  follow(without(request.name, bodies_));
+  track(without(request.name, bodies_));
   try {
     collect(request);
     learn(request, &response);
   } catch (const geometry::Error& e) {
     response.message = e.what();
   }
-  follow(bodies_);
+  track(bodies_);
   return true;
 }
 
 std::string BodyLearning::refusal(const LearnBody::Request& request) const {
   if (file_.empty())
-    return "there is no file to keep bodies in; name one with the parameter bodies/file";
+    return "there is no file for bodies; set the parameter bodies/file";
   if (request.duration != 0.0 && !(request.duration >= kShortest && request.duration <= kLongest))
     return "duration must be 0, or from 0.5 to 60 s";
   if (std::find(names_.begin(), names_.end(), request.name) != names_.end())
-    return "'" + request.name + "' is the name of an LED; take another one";
+    return "'" + request.name + "' is the name of an LED; choose another one";
   try {
     // The name alone.
     Constellation{request.name, {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}}}.check();
-  } catch (const body::BodyError& e) {
+  } catch (const Error& e) {
     return e.what();
   }
   return "";
@@ -133,10 +133,10 @@ std::string BodyLearning::refusal(const LearnBody::Request& request) const {
 
 void BodyLearning::collect(const LearnBody::Request& request) {
   std::unique_lock<std::mutex> lock(mutex_);
-  const bool was_followed = followed_.size() < bodies_.size();
+  const bool was_tracked = tracked_.size() < bodies_.size();
   duration_ = request.duration == 0.0 ? kDefaultDuration : request.duration;
   labels_ = {request.labels.begin(), request.labels.end()};
-  const double until_free = was_followed ? kUntilFree : 0.0;
+  const double until_free = was_tracked ? kUntilFree : 0.0;
   duration_ += until_free;
   instants_.clear();
   blinks_.clear();
@@ -148,12 +148,11 @@ void BodyLearning::collect(const LearnBody::Request& request) {
     });
     if (!has_news) {
       is_collecting_ = false;
-      throw body::BodyError(
-          "no points came for 5 s; calibrate the cameras and start their drivers");
+      throw Error("no points came for 5 s; calibrate the cameras and start their drivers");
     }
   }
   if (is_over_)
-    throw body::BodyError("the tracker was stopped");
+    throw Error("the tracker was stopped");
   const double begin = instants_.front().time + until_free;
   instants_.erase(instants_.begin(),
                   std::find_if(instants_.begin(), instants_.end(),
@@ -188,16 +187,16 @@ void BodyLearning::learn(const LearnBody::Request& request, LearnBody::Response*
   response->success = true;
   response->message = "body '" + request.name + "' with " +
                       std::to_string(learned.constellation.leds.size()) + " LEDs is in " + file_ +
-                      " and followed from now on";
+                      " and tracked from now on";
   const std::vector<std::string> warnings = ambiguities({learned.constellation});
   if (!warnings.empty())
     response->message += "; but " + warnings.front();
 }
 
-/// Hands them over to the tracker's thread.
-void BodyLearning::follow(const std::vector<Constellation>& bodies) {
+/// Gives the bodies to the tracker's thread.
+void BodyLearning::track(const std::vector<Constellation>& bodies) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  followed_ = bodies;
+  tracked_ = bodies;
   has_change_ = true;
 }
 

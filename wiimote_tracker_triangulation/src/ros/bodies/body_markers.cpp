@@ -42,7 +42,7 @@ visualization_msgs::MarkerArray BodyMarkers::build(
 }
 
 Marker BodyMarkers::marker(const std::string& ns, std::size_t id, int type) const {
-  // A body that is lost goes from the picture by itself.
+  // So that lost bodies disappear.
   const double lifetime = std::max(0.5, 3.0 * period_);
   return markers::marker(rig_.world_frame, time_, lifetime, ns, id, type);
 }

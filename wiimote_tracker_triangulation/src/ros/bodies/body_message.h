@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_MESSAGE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_MESSAGE_H
 
-#include "wiimote_tracker_triangulation/body/body_follower.h"
+#include "body/body_follower.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
@@ -21,8 +21,8 @@ wiimote_tracker_msgs::TrackedBodyArray bodyMessage(
     const geometry::Rig& rig,
     const std::string& rig_id);
 
-/// Whether a body's pose goes out by itself and as a transform: when it was seen at this instant,
-/// and if so wished also while it is hidden and extrapolated.
+/// Whether to publish a body's pose by itself and as a transform: when it is tracked, or predicted
+/// and `publish_predicted`.
 bool isPose(const wiimote_tracker_msgs::TrackedBody& body, bool publish_predicted);
 
 geometry_msgs::PoseWithCovarianceStamped poseStamped(

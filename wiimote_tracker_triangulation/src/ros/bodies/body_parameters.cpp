@@ -1,7 +1,8 @@
 #include "body_parameters.h"
 
-#include "wiimote_tracker_triangulation/body/bodies_file.h"
-#include "wiimote_tracker_triangulation/body/error.h"
+#include "../parameter_group.h"
+#include "body/bodies_file.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -16,8 +17,8 @@ std::vector<body::Constellation> readKnown(const std::string& file,
   std::vector<body::Constellation> bodies = body::readBodies(file);
   for (const body::Constellation& body : bodies) {
     if (std::find(labels.begin(), labels.end(), body.name) != labels.end())
-      throw body::BodyError("body '" + body.name + "' of " + file +
-                            " has the name of an LED; rename one of them");
+      throw Error("body '" + body.name + "' of " + file +
+                  " has the name of an LED; rename one of them");
   }
   return bodies;
 }
@@ -28,7 +29,8 @@ BodyParameters BodyParameters::read(ParameterReader* reader,
                                     const tracking::TrackerOptions& tracks,
                                     const std::vector<std::string>& labels) {
   BodyParameters p;
-  p.file = reader->optional<std::string>("bodies/file", p.file);
+  const ParameterGroup group(reader, "bodies");
+  group.read("file", &p.file);
   try {
     p.known = readKnown(p.file, labels);
   } catch (const geometry::Error& error) {
@@ -39,21 +41,17 @@ BodyParameters BodyParameters::read(ParameterReader* reader,
   o.merging_distance = tracks.merging_distance;
   o.history = tracks.history;
   o.maximum_range = tracks.maximum_range;
-  o.gate = reader->bounded("bodies/gate", o.gate, 4.0, 100.0);
-  o.tracked_time = reader->bounded("bodies/tracked_time", o.tracked_time, 0.001, 1.0);
-  o.prediction_time = reader->bounded("bodies/prediction_time", o.prediction_time, 0.01, 10.0);
-  o.window = reader->bounded("bodies/window", o.window, 0.001, 0.2);
-  o.window_motion = reader->bounded("bodies/window_motion", o.window_motion, 1e-5, 0.1);
-  o.minimum_margin = reader->bounded("bodies/minimum_margin", o.minimum_margin, 0.0, 1000.0);
+  group.read("gate", &o.gate, 4.0, 100.0);
+  group.read("tracked_time", &o.tracked_time, 0.001, 1.0);
+  group.read("prediction_time", &o.prediction_time, 0.01, 10.0);
+  group.read("window", &o.window, 0.001, 0.2);
+  group.read("window_motion", &o.window_motion, 1e-5, 0.1);
+  group.read("minimum_margin", &o.minimum_margin, 0.0, 1000.0);
   body::PoseFilterOptions& motion = o.motion;
-  motion.acceleration_density =
-      reader->bounded("bodies/acceleration_density", motion.acceleration_density, 0.0, 1000.0);
-  motion.angular_acceleration_density = reader->bounded(
-      "bodies/angular_acceleration_density", motion.angular_acceleration_density, 0.0, 1000.0);
-  motion.initial_speed =
-      reader->bounded("bodies/initial_speed", motion.initial_speed, 0.001, 1000.0);
-  motion.initial_angular_speed =
-      reader->bounded("bodies/initial_angular_speed", motion.initial_angular_speed, 0.001, 1000.0);
+  group.read("acceleration_density", &motion.acceleration_density, 0.0, 1000.0);
+  group.read("angular_acceleration_density", &motion.angular_acceleration_density, 0.0, 1000.0);
+  group.read("initial_speed", &motion.initial_speed, 0.001, 1000.0);
+  group.read("initial_angular_speed", &motion.initial_angular_speed, 0.001, 1000.0);
   return p;
 }
 

@@ -16,18 +16,17 @@ namespace wiimote_tracker {
 struct BodyParameters {
   std::string file;  ///< Empty: no bodies.
   body::BodyTrackerOptions options;
-  std::vector<body::Constellation> known;  ///< Those of the file; none while it is not there.
+  std::vector<body::Constellation> known;  ///< Of the file; empty when it does not exist.
 
-  /// @param tracks what cameras do, and how late images may be, is the same for bodies.
-  /// @param labels of LEDs: their frames are no body's.
+  /// @param tracks camera model and time limits, used for bodies too.
+  /// @param labels names that a body must not have.
   /// @throws ParameterError naming the key, or the file and what is wrong with it.
   static BodyParameters read(ParameterReader* reader,
                              const tracking::TrackerOptions& tracks,
                              const std::vector<std::string>& labels);
 };
 
-/// What is worth a warning: bodies that nearly look the same when they are turned. One sentence
-/// each.
+/// Warnings about bodies that look nearly the same when they are turned, one sentence each.
 std::vector<std::string> ambiguities(const std::vector<body::Constellation>& bodies);
 
 }  // namespace wiimote_tracker

@@ -1,7 +1,8 @@
 #include "body_publishers.h"
 
-#include "../publish_at_once.h"
 #include "body_message.h"
+
+#include <boost/make_shared.hpp>
 
 namespace wiimote_tracker {
 
@@ -29,7 +30,8 @@ void BodyPublishers::publish(const wiimote_tracker_msgs::TrackedBodyArray& bodie
     const auto publisher = publishers_.find(body.name);
     if (publisher == publishers_.end() || !isPose(body, publish_predicted_))
       continue;
-    publishAtOnce(publisher->second, poseStamped(bodies, body));
+    publisher->second.publish(
+        boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>(poseStamped(bodies, body)));
     transforms_.push_back(transform(bodies, body));
   }
   if (!transforms_.empty())

@@ -17,10 +17,10 @@ namespace wiimote_tracker {
 /// transform world -> body.
 class BodyPublishers {
  public:
-  /// `publish_predicted`: the latter also of bodies that are hidden.
+  /// `publish_predicted`: pose and transform of predicted bodies too.
   BodyPublishers(const ros::NodeHandle& nh, bool publish_predicted);
 
-  /// Of these bodies; their topics are there from now on.
+  /// Advertises the topics of these bodies.
   void setBodies(const std::vector<body::Constellation>& bodies);
 
   void publish(const wiimote_tracker_msgs::TrackedBodyArray& bodies);

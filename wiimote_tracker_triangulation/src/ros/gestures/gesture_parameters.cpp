@@ -1,6 +1,6 @@
 #include "gesture_parameters.h"
 
-#include <wiimote_tracker_msgs/parameter_reader.h>
+#include "../parameter_group.h"
 
 #include <cstdlib>
 
@@ -17,51 +17,50 @@ std::string defaultFile() {
 
 }  // namespace
 
-GestureParameters GestureParameters::read(const ros::NodeHandle& nh) {
+GestureParameters GestureParameters::read(ParameterReader reader) {
+  return read(&reader);
+}
+
+GestureParameters GestureParameters::read(ParameterReader* reader) {
   GestureParameters p;
-  ParameterReader reader(nh);
-  p.file = reader.optional<std::string>("file", "");
+  const ParameterGroup group(reader, "");
+  group.read("file", &p.file);
   if (p.file.empty())
     p.file = defaultFile();
-  p.labels = reader.optional<std::vector<std::string>>("labels", p.labels);
+  group.read("labels", &p.labels);
 
   const std::string boundary =
-      reader.choice("boundary", "rest", {"rest", "light", "button", "continuous"});
+      reader->choice("boundary", "rest", {"rest", "light", "button", "continuous"});
   p.continuous = boundary == "continuous";
   if (boundary == "light")
     p.segmenter.boundary = gesture::Boundary::kLight;
   if (boundary == "button")
     p.segmenter.boundary = gesture::Boundary::kButton;
-  p.button = reader.bounded("button", p.button, 0, 31);
+  group.read("button", &p.button, 0, 31);
 
   gesture::RecognizerOptions& recognizer = p.recognizer;
-  recognizer.any_heading = reader.optional("any_heading", recognizer.any_heading);
-  recognizer.rejection_distance =
-      reader.bounded("rejection_distance", recognizer.rejection_distance, 0.01, 10.0);
-  recognizer.shape.minimum_length =
-      reader.bounded("minimum_length", recognizer.shape.minimum_length, 0.0, 10.0);
-  recognizer.shape.smoothing = reader.bounded("smoothing", recognizer.shape.smoothing, 0.001, 0.5);
+  group.read("any_heading", &recognizer.any_heading);
+  group.read("rejection_distance", &recognizer.rejection_distance, 0.01, 10.0);
+  group.read("minimum_length", &recognizer.shape.minimum_length, 0.0, 10.0);
+  group.read("smoothing", &recognizer.shape.smoothing, 0.001, 0.5);
 
   gesture::SegmenterOptions& segmenter = p.segmenter;
-  segmenter.dark_time = reader.bounded("dark_time", segmenter.dark_time, 0.02, 5.0);
-  segmenter.rest_time = reader.bounded("rest_time", segmenter.rest_time, 0.05, 5.0);
-  segmenter.rest_radius = reader.bounded("rest_radius", segmenter.rest_radius, 0.001, 0.5);
-  segmenter.minimum_duration =
-      reader.bounded("minimum_duration", segmenter.minimum_duration, 0.05, 10.0);
-  segmenter.maximum_duration = reader.bounded("maximum_duration", segmenter.maximum_duration,
-                                              segmenter.minimum_duration, 60.0);
+  group.read("dark_time", &segmenter.dark_time, 0.02, 5.0);
+  group.read("rest_time", &segmenter.rest_time, 0.05, 5.0);
+  group.read("rest_radius", &segmenter.rest_radius, 0.001, 0.5);
+  group.read("minimum_duration", &segmenter.minimum_duration, 0.05, 10.0);
+  group.read("maximum_duration", &segmenter.maximum_duration, segmenter.minimum_duration, 60.0);
 
   gesture::SpotterOptions& spotter = p.spotter;
-  spotter.shortest = reader.bounded("continuous/shortest", spotter.shortest, 0.1, 10.0);
-  spotter.longest = reader.bounded("continuous/longest", spotter.longest, spotter.shortest, 20.0);
-  spotter.interval = reader.bounded("continuous/interval", spotter.interval, 0.01, 1.0);
-  spotter.minimum_score =
-      reader.bounded("continuous/minimum_score", spotter.minimum_score, 0.5, 1.0);
-  spotter.straight = reader.bounded("continuous/straight", spotter.straight, 0.0, 1.0);
+  group.read("continuous/shortest", &spotter.shortest, 0.1, 10.0);
+  group.read("continuous/longest", &spotter.longest, spotter.shortest, 20.0);
+  group.read("continuous/interval", &spotter.interval, 0.01, 1.0);
+  group.read("continuous/minimum_score", &spotter.minimum_score, 0.5, 1.0);
+  group.read("continuous/straight", &spotter.straight, 0.0, 1.0);
   spotter.rest_time = segmenter.rest_time;
   spotter.rest_radius = segmenter.rest_radius;
   spotter.longest_hole = segmenter.dark_time;
-  reader.refuseUnknown();
+  reader->refuseUnknown();
   return p;
 }
 

@@ -1,11 +1,11 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURE_PARAMETERS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURE_PARAMETERS_H
 
-#include "wiimote_tracker_triangulation/gesture/recognizer.h"
-#include "wiimote_tracker_triangulation/gesture/segmenter.h"
-#include "wiimote_tracker_triangulation/gesture/spotter.h"
+#include "gesture/recognizer.h"
+#include "gesture/segmenter.h"
+#include "gesture/spotter.h"
 
-#include <ros/node_handle.h>
+#include <wiimote_tracker_msgs/parameter_reader.h>
 
 #include <string>
 #include <vector>
@@ -23,7 +23,8 @@ struct GestureParameters {
   gesture::SpotterOptions spotter;
 
   /// @throws ParameterError naming the key that is wrong or unknown.
-  static GestureParameters read(const ros::NodeHandle& nh);
+  static GestureParameters read(ParameterReader* reader);
+  static GestureParameters read(ParameterReader reader);
 };
 
 }  // namespace wiimote_tracker

@@ -1,8 +1,9 @@
 #include "gestures.h"
 
+#include "../callbacks.h"
+#include "../marker_parts.h"
+#include "gesture/examples_file.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
-#include "wiimote_tracker_triangulation/gesture/error.h"
-#include "wiimote_tracker_triangulation/gesture/examples_file.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
 #include <visualization_msgs/MarkerArray.h>
@@ -13,21 +14,15 @@
 
 namespace wiimote_tracker {
 
+using markers::pointOf;
+using visualization_msgs::Marker;
 using wiimote_tracker_msgs::GestureEvent;
 using wiimote_tracker_msgs::TrackedPoint;
 
 namespace {
 
-// A bag that starts over; small steps back are left to each LED's own order.
+// Time jumps back when a bag is restarted; smaller steps back are ignored.
 constexpr double kJump = 1.0;  // [s]
-
-geometry_msgs::Point toMessage(const Eigen::Vector3d& v) {
-  geometry_msgs::Point point;
-  point.x = v.x();
-  point.y = v.y();
-  point.z = v.z();
-  return point;
-}
 
 bool holds(const geometry::Zone& zone, const Eigen::Vector3d& p) {
   return (p.array() >= zone.minimum.array()).all() && (p.array() <= zone.maximum.array()).all();
@@ -45,7 +40,7 @@ Gestures::Hand::Hand(const GestureParameters& parameters, const ButtonNews& butt
 
 Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
     : nh_(nh),
-      parameters_(GestureParameters::read(private_nh)),
+      parameters_(GestureParameters::read(ParameterReader(private_nh))),
       recognizer_(parameters_.recognizer) {
   if (std::filesystem::exists(parameters_.file)) {
     for (const gesture::Example& example : gesture::readExamples(parameters_.file))
@@ -53,7 +48,7 @@ Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
     ROS_INFO("%zu examples of gestures from %s.", recognizer_.examples().size(),
              parameters_.file.c_str());
   } else {
-    ROS_INFO("No gestures are known yet: record some with the service %s.",
+    ROS_INFO("There are no gestures yet: record some with the service %s.",
              nh_.resolveName("gestures/record").c_str());
   }
   events_publisher_ = nh_.advertise<GestureEvent>("gestures", 20);
@@ -61,34 +56,36 @@ Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
   services_ = {nh_.advertiseService("gestures/record", &Gestures::record, this),
                nh_.advertiseService("gestures/remove", &Gestures::remove, this),
                nh_.advertiseService("gestures/list", &Gestures::list, this)};
-  rig_subscriber_ = nh_.subscribe("calibration/rig", 5, &Gestures::onRig, this);
-  points_subscriber_ =
-      nh_.subscribe("points", 200, &Gestures::onPoints, this, ros::TransportHints().tcpNoDelay());
+  rig_subscriber_ = subscribe<wiimote_tracker_msgs::RigCalibration>(
+      nh_, "calibration/rig", 5, [this](const auto& event) { onRig(*event.getConstMessage()); });
+  points_subscriber_ = subscribe<wiimote_tracker_msgs::TrackedPointArray>(
+      nh_, "points", 200, [this](const auto& event) { onPoints(*event.getConstMessage()); });
   if (!parameters_.continuous && parameters_.segmenter.boundary == gesture::Boundary::kButton)
-    joy_subscriber_ = nh_.subscribe("joy", 50, &Gestures::onJoy, this);
+    joy_subscriber_ = subscribe<sensor_msgs::Joy>(
+        nh_, "joy", 50, [this](const auto& event) { onJoy(*event.getConstMessage()); });
 }
 
-void Gestures::onRig(const wiimote_tracker_msgs::RigCalibrationConstPtr& message) {
+void Gestures::onRig(const wiimote_tracker_msgs::RigCalibration& message) {
   try {
-    zones_ = fromMessage(*message).zones;
+    zones_ = fromMessage(message).zones;
   } catch (const geometry::Error& e) {
     ROS_ERROR("The zones of the rig on %s are not used: %s", rig_subscriber_.getTopic().c_str(),
               e.what());
   }
 }
 
-void Gestures::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& message) {
-  const double time = message->header.stamp.toSec();
+void Gestures::onPoints(const wiimote_tracker_msgs::TrackedPointArray& message) {
+  const double time = message.header.stamp.toSec();
   if (time < time_ - kJump) {
     hands_.clear();
-    ROS_WARN_THROTTLE(10.0, "Time jumped back by more than %.0f s; gestures begin anew.", kJump);
+    ROS_WARN_THROTTLE(10.0, "Time jumped back by more than %.0f s; all gestures are reset.", kJump);
   }
   time_ = time;
-  world_frame_ = message->header.frame_id;
-  for (const TrackedPoint& point : message->points)
+  world_frame_ = message.header.frame_id;
+  for (const TrackedPoint& point : message.points)
     onPoint(point, time);
 
-  // An LED that is no longer spoken of is out.
+  // Remove LEDs that are gone.
   for (auto hand = hands_.begin(); hand != hands_.end();) {
     if (const auto spotted = hand->second.spotter.advance(time))
       publish(GestureEvent::RECOGNISED, spotted->recognition, spotted->path, hand->first,
@@ -97,10 +94,10 @@ void Gestures::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& m
     if (path && (!parameters_.continuous || wanted_))
       onGesture(*path, hand->first, hand->second.label);
     const bool gone =
-        std::none_of(message->points.begin(), message->points.end(), [&](const TrackedPoint& p) {
+        std::none_of(message.points.begin(), message.points.end(), [&](const TrackedPoint& p) {
           return p.id == hand->first && p.state != TrackedPoint::LOST;
         });
-    // The segmenter needs some time to believe it.
+    // The segmenter needs some time to end a gesture.
     hand = gone && time > hand->second.last_seen + 2.0 * parameters_.segmenter.dark_time
                ? hands_.erase(hand)
                : std::next(hand);
@@ -120,7 +117,7 @@ void Gestures::onPoint(const TrackedPoint& point, double time) {
   hand.label = point.label;
   hand.last_seen = time;
   const gesture::PathPoint here{time, {point.position.x, point.position.y, point.position.z}};
-  // What is to be recorded must have a beginning and an end.
+  // An example must have a beginning and an end.
   if (parameters_.continuous && !wanted_) {
     if (const auto spotted = hand.spotter.add(here, recognizer_, zoneOf({here})))
       publish(GestureEvent::RECOGNISED, spotted->recognition, spotted->path, point.id, point.label);
@@ -130,16 +127,16 @@ void Gestures::onPoint(const TrackedPoint& point, double time) {
     onGesture(*path, point.id, point.label);
 }
 
-void Gestures::onJoy(const sensor_msgs::JoyConstPtr& message) {
+void Gestures::onJoy(const sensor_msgs::Joy& message) {
   const auto index = static_cast<std::size_t>(parameters_.button);
-  if (index >= message->buttons.size()) {
+  if (index >= message.buttons.size()) {
     ROS_ERROR_THROTTLE(10.0, "%s has %zu buttons and none with index %d; set ~button.",
-                       joy_subscriber_.getTopic().c_str(), message->buttons.size(),
+                       joy_subscriber_.getTopic().c_str(), message.buttons.size(),
                        parameters_.button);
     return;
   }
-  const bool pressed = message->buttons[index] != 0;
-  const double time = message->header.stamp.toSec();
+  const bool pressed = message.buttons[index] != 0;
+  const double time = message.header.stamp.toSec();
   const bool was_pressed = button_.pressed && !button_.released;
   if (pressed == was_pressed)
     return;
@@ -171,12 +168,12 @@ void Gestures::keepExample(const gesture::Path& path, std::uint32_t id, const st
   try {
     with_it.add(example);
     gesture::writeExamples(parameters_.file, with_it.examples());
-  } catch (const gesture::GestureError&) {
-    return;  // A twitch; the gesture is still to come.
-  } catch (const geometry::Error& e) {
+  } catch (const FileError& e) {
     ROS_ERROR("The example of '%s' is not kept: %s", example.gesture.c_str(), e.what());
     wanted_.reset();
     return;
+  } catch (const Error&) {
+    return;  // too short; wait for the gesture
   }
   recognizer_ = with_it;
   wanted_.reset();
@@ -208,8 +205,8 @@ void Gestures::publish(std::uint8_t event,
     minimum = minimum.min(point.position.array());
     maximum = maximum.max(point.position.array());
   }
-  message.minimum = toMessage(minimum);
-  message.maximum = toMessage(maximum);
+  message.minimum = pointOf(minimum);
+  message.maximum = pointOf(maximum);
   events_publisher_.publish(message);
   if (markers_publisher_.getNumSubscribers() > 0) {
     static const char* const kWords[] = {"", " (rejected)", " (recorded)"};
@@ -217,34 +214,25 @@ void Gestures::publish(std::uint8_t event,
   }
 }
 
-/// The way that was drawn and its name, for a few seconds.
+/// Shows the path and its name for a few seconds.
 void Gestures::draw(const std::string& text, const gesture::Path& path, std::uint32_t id) {
-  visualization_msgs::Marker way;
-  way.header.frame_id = world_frame_;
-  way.header.stamp.fromSec(path.back().time);
-  way.ns = "way";
-  way.id = static_cast<int>(id);
-  way.type = visualization_msgs::Marker::LINE_STRIP;
-  way.pose.orientation.w = 1.0;
-  way.scale.x = 0.01;
-  way.color.r = 1.0;
-  way.color.g = 0.6f;
-  way.color.a = 1.0;
-  way.lifetime = ros::Duration(3.0);
+  constexpr double kLifetime = 3.0;  // [s]
+  const double time = path.back().time;
+  Marker line = markers::marker(world_frame_, time, kLifetime, "way", id, Marker::LINE_STRIP);
+  line.scale.x = 0.01;
+  line.color = markers::color(1.0f, 0.6f, 0.0f, 1.0f);
   for (const gesture::PathPoint& point : path)
-    way.points.push_back(toMessage(point.position));
+    line.points.push_back(pointOf(point.position));
 
-  visualization_msgs::Marker name = way;
-  name.ns = "name";
-  name.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
-  name.points.clear();
+  Marker name =
+      markers::marker(world_frame_, time, kLifetime, "name", id, Marker::TEXT_VIEW_FACING);
+  name.color = line.color;
   name.text = text;
-  name.scale.x = 0.0;
   name.scale.z = 0.15;
-  name.pose.position = toMessage(path.back().position + Eigen::Vector3d(0.0, 0.0, 0.15));
+  name.pose.position = pointOf(path.back().position + Eigen::Vector3d(0.0, 0.0, 0.15));
 
   visualization_msgs::MarkerArray array;
-  array.markers = {way, name};
+  array.markers = {line, name};
   markers_publisher_.publish(array);
 }
 
@@ -253,7 +241,7 @@ bool Gestures::record(wiimote_tracker_msgs::RecordGesture::Request& request,
   response.success = true;
   if (request.gesture.empty()) {
     wanted_.reset();
-    response.message = "nothing will be recorded";
+    response.message = "recording is cancelled";
     return true;
   }
   const bool known_zone = request.zone.empty() ||
@@ -275,7 +263,7 @@ bool Gestures::remove(wiimote_tracker_msgs::RemoveGesture::Request& request,
   const std::size_t removed = without.remove(request.gesture);
   response.success = false;
   if (removed == 0) {
-    response.message = "no gesture '" + request.gesture + "' is known; see gestures/list";
+    response.message = "there is no gesture '" + request.gesture + "'; see gestures/list";
     return true;
   }
   try {
@@ -286,8 +274,7 @@ bool Gestures::remove(wiimote_tracker_msgs::RemoveGesture::Request& request,
   }
   recognizer_ = without;
   response.success = true;
-  response.message =
-      std::to_string(removed) + " examples of '" + request.gesture + "' are forgotten";
+  response.message = std::to_string(removed) + " examples of '" + request.gesture + "' are removed";
   return true;
 }
 
@@ -308,7 +295,7 @@ bool Gestures::list(wiimote_tracker_msgs::ListGestures::Request&,
   return true;
 }
 
-/// The first zone that holds the middle of the way.
+/// The first zone that contains the middle of the path.
 std::string Gestures::zoneOf(const gesture::Path& path) const {
   const Eigen::Vector3d& middle = path[path.size() / 2].position;
   const auto zone = std::find_if(zones_.begin(), zones_.end(),

@@ -1,11 +1,11 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURES_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURES_H
 
+#include "gesture/recognizer.h"
+#include "gesture/segmenter.h"
+#include "gesture/spotter.h"
 #include "gesture_parameters.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
-#include "wiimote_tracker_triangulation/gesture/recognizer.h"
-#include "wiimote_tracker_triangulation/gesture/segmenter.h"
-#include "wiimote_tracker_triangulation/gesture/spotter.h"
 
 #include <ros/ros.h>
 #include <sensor_msgs/Joy.h>
@@ -46,10 +46,10 @@ class Gestures {
     gesture::Spotter spotter;
   };
 
-  void onRig(const wiimote_tracker_msgs::RigCalibrationConstPtr& message);
-  void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& message);
+  void onRig(const wiimote_tracker_msgs::RigCalibration& message);
+  void onPoints(const wiimote_tracker_msgs::TrackedPointArray& message);
   void onPoint(const wiimote_tracker_msgs::TrackedPoint& point, double time);
-  void onJoy(const sensor_msgs::JoyConstPtr& message);
+  void onJoy(const sensor_msgs::Joy& message);
   void onGesture(const gesture::Path& path, std::uint32_t id, const std::string& label);
   void keepExample(const gesture::Path& path, std::uint32_t id, const std::string& label);
   void publish(std::uint8_t event,

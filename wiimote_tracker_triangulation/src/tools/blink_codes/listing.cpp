@@ -2,10 +2,10 @@
 
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <set>
 
 namespace wiimote_tracker::blink_codes_tool {
@@ -14,15 +14,6 @@ namespace {
 using identity::BlinkCode;
 using identity::BlinkCodes;
 using identity::Lit;
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char text[256];
-  va_list values;
-  va_start(values, pattern);
-  std::vsnprintf(text, sizeof(text), pattern, values);
-  va_end(values);
-  return text;
-}
 
 double light(const BlinkCode& code) {
   return identity::litShare(code.waveform, 0.0, 1.0);
@@ -58,7 +49,7 @@ std::string sketch(const BlinkCodes& codes, double period) {
   }
   times.insert(microseconds(1.0, period));
   std::string text =
-      "// Blinks LEDs so that wiimote_tracker can tell them apart. A pin drives an LED through a\n"
+      "// Blinks LEDs so that wiimote_tracker can identify them. A pin drives an LED through a\n"
       "// transistor: HIGH is on.";
   text += codes.synchronous ? " All of them must be driven by one board.\n"
                             : " On a board with fewer LEDs take out the others' pins.\n";

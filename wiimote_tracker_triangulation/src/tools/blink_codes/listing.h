@@ -18,7 +18,7 @@ std::string sketch(const identity::BlinkCodes& codes, double period);
 /// without light, and what cameras of 100 images per second may miss.
 std::string remarks(const identity::BlinkCodes& codes);
 
-/// A file of cyclic codes for these labels, for readBlinkCodes. @throws identity::IdentityError.
+/// A file of cyclic codes for these labels, for readBlinkCodes. @throws Error.
 std::string cyclicFile(const std::vector<std::string>& labels, double chip, double tolerance);
 
 }  // namespace wiimote_tracker::blink_codes_tool

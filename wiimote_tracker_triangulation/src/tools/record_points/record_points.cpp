@@ -1,7 +1,7 @@
 // Writes what the tracker publishes to tables while it runs.
 
-#include "measurement_message.h"
-#include "wiimote_tracker_triangulation/measurements/error.h"
+#include "ros/measurement_message.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <ros/ros.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
@@ -19,7 +19,7 @@ using wiimote_tracker_msgs::TrackedPointArray;
 
 class Recorder {
  public:
-  /// @throws ParameterError, measurements::WriteError.
+  /// @throws ParameterError, Error.
   Recorder(ros::NodeHandle nh, const ros::NodeHandle& private_nh) {
     ParameterReader reader(private_nh);
     const auto csv = reader.optional<std::string>("csv", "");
@@ -37,7 +37,7 @@ class Recorder {
     timer_ = nh.createWallTimer(ros::WallDuration(flush_period), &Recorder::onTimer, this);
   }
 
-  /// @throws measurements::WriteError.
+  /// @throws Error.
   void finish() {
     for (const std::unique_ptr<measurements::Writer>& table : tables_)
       table->finish();

@@ -5,11 +5,16 @@
 
 namespace wiimote_tracker {
 
-/// Names of the tracker's topics, as if it ran in a namespace.
+/// Names of the topics of a tracker that runs in a namespace.
 class Topics {
  public:
-  /// @param name_space with a slash at both ends.
-  explicit Topics(const std::string& name_space = "/") : name_space_(name_space) {}
+  /// @param name_space slashes at its ends may be left out.
+  explicit Topics(const std::string& name_space = "/") : name_space_(name_space) {
+    if (name_space_.empty() || name_space_.front() != '/')
+      name_space_ = "/" + name_space_;
+    if (name_space_.back() != '/')
+      name_space_ += "/";
+  }
 
   std::string rig() const { return resolve("calibration/rig"); }
   std::string trigger() const { return resolve("trigger"); }

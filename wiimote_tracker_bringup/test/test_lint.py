@@ -1,0 +1,76 @@
+"""The lint: what it must notice, each in a small tree of its own."""
+
+import importlib.machinery
+import importlib.util
+import os
+import subprocess
+
+import pytest
+
+SCRIPT = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', 'scripts', 'lint')
+loader = importlib.machinery.SourceFileLoader('lint', SCRIPT)
+lint = importlib.util.module_from_spec(importlib.util.spec_from_loader('lint', loader))
+loader.exec_module(lint)
+
+
+@pytest.fixture(name='package')
+def empty_package(tmp_path, monkeypatch):
+    monkeypatch.setattr(lint, 'TOP', str(tmp_path))
+    folder = tmp_path / 'wiimote_tracker_x'
+    folder.mkdir()
+    return folder
+
+
+def test_finds_scripts_by_their_first_line_and_skips_hidden_folders(package):
+    (package / 'program').write_text('#!/usr/bin/env python3\n')
+    (package / 'module.py').write_text('')
+    (package / 'data').write_text('python\n')
+    (package / '.hidden').mkdir()
+    (package / '.hidden' / 'other.py').write_text('')
+    assert lint.scripts('python', '.py') == ['wiimote_tracker_x/module.py',
+                                             'wiimote_tracker_x/program']
+
+
+def test_finds_an_unused_import(package):
+    (package / 'good.py').write_text('import os\nprint(os.name)\n')
+    assert not lint.check_python()
+    (package / 'bad.py').write_text('import os\n')
+    assert 'imported but unused' in lint.check_python()
+
+
+def test_finds_a_shell_script_that_cannot_be_parsed(package):
+    (package / 'bad.sh').write_text('if true; then\n')
+    assert 'bad.sh' in lint.check_shell()
+
+
+def test_skips_a_tool_that_is_not_installed():
+    with pytest.raises(lint.Skip, match='no_such_tool is not installed'):
+        lint.tool('no_such_tool')
+
+
+def test_changed_files_are_those_since_the_branch_left_its_base_and_new_ones(package):
+    def git(*arguments):
+        subprocess.check_call(('git', '-C', lint.TOP, '-c', 'user.name=x', '-c', 'user.email=x@x')
+                              + arguments, stdout=subprocess.DEVNULL)
+    git('init', '-q', '-b', 'main')
+    for name in ('old.cpp', 'changed.cpp'):
+        (package / name).write_text('int a;\n')
+    git('add', '.')
+    git('commit', '-qm', 'first')
+    (package / 'changed.cpp').write_text('int b;\n')
+    (package / 'new.cpp').write_text('int c;\n')
+    assert lint.changed_since('main') == ['wiimote_tracker_x/changed.cpp',
+                                          'wiimote_tracker_x/new.cpp']
+    with pytest.raises(lint.Skip, match='git does not know nowhere'):
+        lint.changed_since('nowhere')
+
+
+def test_results_hold_passed_failed_and_skipped_checks(tmp_path):
+    suite = lint.ElementTree.Element('testsuite')
+
+    def skipping():
+        raise lint.Skip('not today')
+    assert lint.run_check('good', lambda: '', suite)
+    assert not lint.run_check('bad', lambda: 'a problem', suite)
+    assert lint.run_check('skipped', skipping, suite)
+    assert [[child.tag for child in case] for case in suite] == [[], ['failure'], ['skipped']]

@@ -1,0 +1,42 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CAMERA_BLOCKS_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CAMERA_BLOCKS_H
+
+#include <wiimote_tracker_triangulation/geometry/camera.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace wiimote_tracker::adjust {
+
+// Parameter blocks of one camera. Side by side they are its parameters in the order of a rig's
+// covariance (geometry/camera_parameters.h); a solver holds the blocks that it does not estimate
+// with ceres::Problem::SetParameterBlockConstant().
+constexpr int kRotationSize = 3;    ///< w [rad]: R = exp([w]x) R_start, about the world's axes.
+constexpr int kPositionSize = 3;    ///< Optical centre in the world [m].
+constexpr int kLensSize = 5;        ///< fx, fy, cx, cy [px], k1 [1].
+constexpr int kDistortionSize = 4;  ///< The coefficients after k1 [1].
+
+struct CameraBlocks {
+  explicit CameraBlocks(const geometry::Camera& camera, double time_offset = 0.0);
+
+  /// The camera that these values describe; name, identity and image size are those of `other`.
+  geometry::Camera cameraLike(const geometry::Camera& other) const;
+
+  /// The blocks in the order of a rig's covariance.
+  std::vector<double*> all() {
+    return {rotation.data(), position.data(), lens.data(), distortion.data(), &time_offset};
+  }
+
+  Eigen::Matrix3d world_from_start;  ///< Rotation that `rotation` starts from; not estimated.
+  std::array<double, kRotationSize> rotation;
+  std::array<double, kPositionSize> position;
+  std::array<double, kLensSize> lens;
+  std::array<double, kDistortionSize> distortion;
+  double time_offset;  ///< Exposure time minus stamp [s].
+};
+
+}  // namespace wiimote_tracker::adjust
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CAMERA_BLOCKS_H

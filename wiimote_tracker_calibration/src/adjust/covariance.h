@@ -1,0 +1,21 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_COVARIANCE_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_COVARIANCE_H
+
+#include <ceres/problem.h>
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::adjust {
+
+/// Joint covariance of some parameter blocks of a problem at its present values, in this order:
+/// the inverse of J^T J, with the whitened residuals' Jacobian J by all blocks of the problem.
+/// Blocks that are held have zero rows. Nothing when the residuals leave some parameter open.
+std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
+                                            const std::vector<double*>& blocks);
+
+}  // namespace wiimote_tracker::adjust
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_COVARIANCE_H

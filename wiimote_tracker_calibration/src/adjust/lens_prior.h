@@ -1,0 +1,57 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_LENS_PRIOR_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_LENS_PRIOR_H
+
+#include "adjust/camera_blocks.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera.h>
+
+#include <ceres/autodiff_cost_function.h>
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <limits>
+
+namespace wiimote_tracker::adjust {
+
+/// What is known of a lens beforehand, whitened. Block: lens (CameraBlocks).
+struct LensPrior {
+  geometry::Intrinsics mean;
+  double focal;            ///< Standard deviation of the focal length, relative [1].
+  double aspect;           ///< Of fx / fy, relative [1].
+  double principal_point;  ///< Per axis [px].
+  double k1;               ///< [1]
+
+  ceres::CostFunction* cost() const {
+    return new ceres::AutoDiffCostFunction<LensPrior, kLensSize, kLensSize>(new LensPrior(*this));
+  }
+
+  /// Distance of a lens from the mean [standard deviations]; infinite without positive focal
+  /// length.
+  double deviation(const geometry::Intrinsics& in) const {
+    const double lens[kLensSize] = {in.fx, in.fy, in.cx, in.cy, in.distortion[0]};
+    Eigen::Matrix<double, kLensSize, 1> residual;
+    return (*this)(lens, residual.data()) ? residual.norm()
+                                          : std::numeric_limits<double>::infinity();
+  }
+
+  /// False where a focal length is not positive.
+  template <typename T>
+  bool operator()(const T* lens, T* residual) const {
+    using std::log;
+    if (!(lens[0] > T(0.0)) || !(lens[1] > T(0.0)))
+      return false;
+    const T log_x = log(lens[0] / mean.fx);
+    const T log_y = log(lens[1] / mean.fy);
+    residual[0] = 0.5 * (log_x + log_y) / focal;
+    residual[1] = (log_x - log_y) / aspect;
+    residual[2] = (lens[2] - mean.cx) / principal_point;
+    residual[3] = (lens[3] - mean.cy) / principal_point;
+    residual[4] = (lens[4] - mean.distortion[0]) / k1;
+    return true;
+  }
+};
+
+}  // namespace wiimote_tracker::adjust
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_LENS_PRIOR_H

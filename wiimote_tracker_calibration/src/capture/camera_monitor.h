@@ -1,0 +1,52 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CAMERA_MONITOR_H
+#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CAMERA_MONITOR_H
+
+#include "capture/image.h"
+
+#include <Eigen/Core>
+
+#include <deque>
+#include <limits>
+#include <string>
+
+namespace wiimote_tracker::capture {
+
+/// The recent images of one camera, summarised.
+struct CameraView {
+  bool connected = false;                                  ///< Images arrive.
+  double rate = std::numeric_limits<double>::quiet_NaN();  ///< [Hz]; NaN until two images came.
+  std::size_t blobs = 0;                                   ///< In the latest image.
+  bool sees_led = false;  ///< Exactly one spot, in nearly all images of the window.
+  Eigen::Vector2d pixel =
+      Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());  ///< Of that spot.
+  std::string problem;  ///< One sentence that says what to do; empty when all is well.
+};
+
+/// Summarises the images of one camera. Times [s] are of one clock; when it is set back, earlier
+/// images are forgotten.
+class CameraMonitor {
+ public:
+  /// Images older than this are forgotten [s].
+  static constexpr double kMemory = 10.0;
+
+  void add(double time, const Blobs& blobs);
+
+  /// Summary of the images of the last `window` seconds (up to kMemory).
+  CameraView view(double now, double window = 1.0) const;
+
+ private:
+  struct Image {
+    double time;
+    std::size_t blobs;
+  };
+
+  std::deque<Image> images_;
+  Eigen::Vector2d first_blob_ = Eigen::Vector2d::Zero();
+};
+
+/// Why a camera with this many spots does not see the LED, and what to do; empty for one spot.
+std::string spotCountProblem(std::size_t blobs);
+
+}  // namespace wiimote_tracker::capture
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CAMERA_MONITOR_H

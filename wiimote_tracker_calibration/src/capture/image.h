@@ -1,0 +1,26 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_IMAGE_H
+#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_IMAGE_H
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::capture {
+
+/// Spots of one image [px], lens distortion still in them.
+using Blobs = std::vector<Eigen::Vector2d>;
+
+/// What one camera saw at one time.
+struct Image {
+  std::string camera;
+  double stamp = 0.0;             ///< Exposure time by the camera's clock [s].
+  std::uint32_t clock_epoch = 0;  ///< As in IrBlobArray.msg.
+  Blobs spots;                    ///< Without the masked ones.
+  Blobs masked;                   ///< Spots that lie in a masked region.
+};
+
+}  // namespace wiimote_tracker::capture
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_IMAGE_H

@@ -1,0 +1,25 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MASKS_H
+#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MASKS_H
+
+#include "capture/image.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::capture {
+
+/// Regions of the image to ignore, by the name of the camera.
+using Masks = std::map<std::string, std::vector<geometry::ImageMask>>;
+
+/// Whether the pixel lies in one of the regions.
+bool isMasked(const std::vector<geometry::ImageMask>& masks, const Eigen::Vector2d& pixel);
+
+/// Moves the spots that lie in a region of this image's camera from `spots` to `masked`.
+void applyMasks(const Masks& masks, Image* image);
+
+}  // namespace wiimote_tracker::capture
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MASKS_H

@@ -1,0 +1,29 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_REST_GRAVITY_H
+#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_REST_GRAVITY_H
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+
+namespace wiimote_tracker::capture {
+
+/// Mean specific force of the accelerometer of a camera at rest. It points up.
+class RestGravity {
+ public:
+  /// @param specific_force in the camera's optical frame [m/s^2].
+  void add(const Eigen::Vector3d& specific_force);
+
+  /// Mean [m/s^2], optical frame. Nothing with fewer than 20 readings, when they scatter by more
+  /// than 0.5 m/s^2 (the camera is being moved), or when the mean is not 9.8 m/s^2 within 15 %.
+  std::optional<Eigen::Vector3d> mean() const;
+
+ private:
+  std::size_t count_ = 0;
+  Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
+  double sum_of_squares_ = 0.0;  // of the distances to the mean
+};
+
+}  // namespace wiimote_tracker::capture
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_REST_GRAVITY_H

@@ -1,0 +1,93 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_HEALTH_DRIFT_WATCH_H
+#define WIIMOTE_TRACKER_CALIBRATION_HEALTH_DRIFT_WATCH_H
+
+#include "capture/image.h"
+
+#include <wiimote_tracker_triangulation/fusion/frame_history.h>
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+#include <wiimote_tracker_triangulation/geometry/sight.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wiimote_tracker::health {
+
+struct DriftOptions {
+  double limit = 0.7;    ///< Largest mean residual of a camera that did not move [px, > 0].
+  double window = 60.0;  ///< Over which the mean is taken; judged twelve times in it [s, > 0].
+};
+
+/// The sights of the LED of two cameras or more at one time, with the cameras' indices in the rig,
+/// ascending.
+struct DriftSample {
+  double time;  ///< [s]
+  std::vector<std::pair<std::size_t, geometry::Sight>> sights;
+};
+
+/// How far a camera's images are from what the other cameras see.
+struct Drift {
+  /// Mean residual (predicted less observed); with one other camera only, its size across the
+  /// epipolar line, in x [px].
+  Eigen::Vector2d bias = Eigen::Vector2d::Zero();
+  double stddev = 0.0;   ///< Of the bias, from noise and from the calibration: root of trace [px].
+  double ratio = 0.0;    ///< Of the bias to the tolerance; 1 or more: drifted [1].
+  std::string together;  ///< The other camera, if one of both drifted and it is unknown which.
+};
+
+/// Watches the mean of a rig's residuals while one LED is tracked. Images of several spots take no
+/// part. A rig with RayModel::kImageCenter is not judged: its rays differ from its calibration.
+class DriftWatch {
+ public:
+  DriftWatch(const geometry::Rig& rig, const DriftOptions& options);
+
+  /// One image of any camera; of one camera in the order of their stamps.
+  /// @returns true when a new judgement is there.
+  bool add(const capture::Image& image);
+
+  /// Per camera of the rig, at the time of the latest judgement. Nothing for cameras that shared
+  /// too little motion with others in the window.
+  const std::vector<std::optional<Drift>>& drifts() const { return drifts_; }
+
+ private:
+  struct Frame {
+    double time = 0.0;                     // Of the exposure [s].
+    std::optional<Eigen::Vector2d> pixel;  // Nothing unless there was exactly one spot.
+  };
+  struct Camera {
+    geometry::Camera rays;
+    fusion::FrameHistory<Frame> frames;
+    bool clock_known = false;                    // The time offset holds for the latest image.
+    std::optional<Eigen::Vector2d> last_sample;  // [px]
+  };
+  void sampleUntil(double time);
+  void sampleAt(double time);
+  void judge();
+  std::optional<Drift> driftOf(std::size_t camera, const std::vector<bool>& active) const;
+  std::optional<Drift> driftOfPair(std::size_t a, std::size_t b) const;
+  /// Takes out the cameras that drifted, one after the other. @returns which ones remain.
+  std::vector<bool> judgeAgainstOthers();
+  void judgePairs(const std::vector<bool>& active);
+  /// The largest ratio among these cameras.
+  double worstRatio(const std::vector<bool>& active) const;
+  void restart();
+
+  geometry::Rig rig_;
+  DriftOptions options_;
+  std::vector<Camera> cameras_;
+  std::deque<DriftSample> samples_;
+  bool started_ = false;
+  double newest_ = 0.0;       // Latest exposure [s].
+  double next_sample_ = 0.0;  // [s]
+  double next_judgement_ = 0.0;
+  std::vector<std::optional<Drift>> drifts_;
+};
+
+}  // namespace wiimote_tracker::health
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_HEALTH_DRIFT_WATCH_H

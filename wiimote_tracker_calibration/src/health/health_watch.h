@@ -1,0 +1,72 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_HEALTH_HEALTH_WATCH_H
+#define WIIMOTE_TRACKER_CALIBRATION_HEALTH_HEALTH_WATCH_H
+
+#include "health/alarm.h"
+#include "health/drift_watch.h"
+#include "health/tilt_watch.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <Eigen/Core>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::health {
+
+struct HealthOptions {
+  TiltOptions tilt;
+  DriftOptions drift;
+};
+
+/// Whether one camera has moved since it was calibrated.
+struct CameraHealth {
+  /// What has changed and what to do; empty: nothing has.
+  std::string text;
+  std::optional<Tilt> tilt;    ///< Latest judgement; nothing: none yet.
+  std::optional<Drift> drift;  ///< Same.
+};
+
+/// Watches whether the cameras of a rig are still where they were calibrated.
+class HealthWatch {
+ public:
+  HealthWatch(const geometry::Rig& rig, const HealthOptions& options);
+
+  /// One image of any camera, and the device it is from (empty: unknown).
+  void addImage(const capture::Image& image, const std::string& identity);
+
+  /// A reading of a camera's accelerometer at rest, optical frame [m/s^2].
+  void addAcceleration(const std::string& camera,
+                       double time,
+                       const Eigen::Vector3d& specific_force);
+
+  /// By name, all cameras of the rig.
+  const std::map<std::string, CameraHealth>& cameras() const { return healths_; }
+
+  /// New findings since the last call, one sentence per camera.
+  std::vector<std::string> takeNews();
+
+ private:
+  struct Camera {
+    std::string calibrated_identity;
+    std::string other_device;  // Empty: the one that was calibrated.
+    std::optional<TiltWatch> tilt;
+    Alarm tilt_alarm;
+    Alarm drift_alarm;
+  };
+
+  void describe(const std::string& name);
+
+  HealthOptions options_;
+  std::vector<std::string> order_;  // Of the rig.
+  std::map<std::string, Camera> cameras_;
+  std::map<std::string, CameraHealth> healths_;
+  DriftWatch drift_;
+  std::vector<std::string> news_;
+};
+
+}  // namespace wiimote_tracker::health
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_HEALTH_HEALTH_WATCH_H

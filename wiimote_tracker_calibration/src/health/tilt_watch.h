@@ -1,0 +1,52 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_HEALTH_TILT_WATCH_H
+#define WIIMOTE_TRACKER_CALIBRATION_HEALTH_TILT_WATCH_H
+
+#include "capture/rest_gravity.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+
+namespace wiimote_tracker::health {
+
+struct TiltOptions {
+  double limit = 0.02;   ///< Largest tilt of a camera that did not move [rad, > 0].
+  double window = 10.0;  ///< Readings are averaged over this long [s, > 0].
+  /// Resolution of the accelerometer, per axis [m/s^2, >= 0]. Averaging does not improve it: a
+  /// camera at rest may always read the same number. A Wii Remote's y and z have 54 steps per g.
+  double resolution = 0.18;
+};
+
+/// How far a camera has turned since its calibration. Turns about the vertical are invisible.
+struct Tilt {
+  double angle = 0.0;   ///< [rad]
+  double stddev = 0.0;  ///< Of the angle, in each direction [rad].
+  double ratio = 0.0;   ///< Angle over the tolerance: the larger of the limit and three stddev [1].
+};
+
+/// Compares a camera's accelerometer at rest with its readings at calibration.
+class TiltWatch {
+ public:
+  /// @param gravity specific force at calibration, optical frame [m/s^2, not zero].
+  TiltWatch(const Eigen::Vector3d& gravity, const TiltOptions& options)
+      : gravity_(gravity), options_(options) {}
+
+  /// One reading, optical frame [m/s^2]. A time before the last one starts the window again.
+  /// @returns a judgement at the end of each window; nothing when the camera was shaken
+  /// or gave too few readings (RestGravity::mean()).
+  std::optional<Tilt> add(double time, const Eigen::Vector3d& specific_force);
+
+ private:
+  std::optional<Tilt> judge() const;
+
+  Eigen::Vector3d gravity_;
+  TiltOptions options_;
+  bool started_ = false;
+  double start_ = 0.0;
+  double last_ = 0.0;
+  capture::RestGravity window_;
+};
+
+}  // namespace wiimote_tracker::health
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_HEALTH_TILT_WATCH_H

@@ -1,0 +1,64 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_DECODER_H
+#define WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_DECODER_H
+
+#include "wiimote_tracker_calibration/intrinsics/board.h"
+
+#include <Eigen/Core>
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::intrinsics {
+
+struct DecoderOptions {
+  int minimum_leds = 8;              ///< That a view must have [4 to 16].
+  double radius = 4.0;               ///< Spots this close are one light [px, > 0].
+  double minimum_separation = 12.0;  ///< Between LEDs of a view [px, > 2 radius].
+  double motion_limit = 1.5;         ///< Of an LED between its two flashes, RMS [px, > 0].
+  double minimum_explained = 0.8;    ///< Minimum share of spots that follow the sequence [0 to 1].
+  double longest_gap = 0.1;          ///< Between images [s, > 0].
+};
+
+/// Result of decoding the last cycle.
+struct BoardReading {
+  std::optional<BoardView> view;  ///< Nothing: message says why.
+  std::string message;            ///< For people.
+  double motion = 0.0;            ///< Of the LEDs between their two flashes, RMS [px].
+};
+
+/// Identifies the LED of each spot from one cycle (board_sequence.h) during which the board was
+/// held still. It estimates the phase, accepts any rotation of the camera, missing images and LEDs
+/// out of view, and ignores lights that do not follow the sequence.
+class BoardDecoder {
+ public:
+  /// @throws IntrinsicsError: options out of range.
+  explicit BoardDecoder(const DecoderOptions& options);
+
+  /// One image, also an empty one. Time [s] is that of the exposure. Images are sorted; a
+  /// time that jumps backwards by more than longest_gap clears all earlier images.
+  /// Spots [px] that are not finite are ignored.
+  void add(double time, const std::vector<Eigen::Vector2d>& spots);
+
+  /// Removes all images: the next view takes a whole new cycle.
+  void clear() { frames_.clear(); }
+
+  /// Decodes the last cycle in about a millisecond; a few times per second is enough.
+  BoardReading read() const;
+
+ private:
+  struct Frame {
+    double time;
+    std::vector<Eigen::Vector2d> spots;
+  };
+
+  std::string whyNotReady() const;
+
+  DecoderOptions options_;
+  std::deque<Frame> frames_;  // of one cycle
+};
+
+}  // namespace wiimote_tracker::intrinsics
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_DECODER_H

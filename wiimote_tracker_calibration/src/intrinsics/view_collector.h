@@ -1,0 +1,56 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_VIEW_COLLECTOR_H
+#define WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_VIEW_COLLECTOR_H
+
+#include "wiimote_tracker_calibration/intrinsics/board.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::intrinsics {
+
+struct CollectorOptions {
+  int minimum_views = 12;           ///< [> 0]
+  double minimum_difference = 0.2;  ///< Between views: sum over x, y, size, skew [0 to 4].
+};
+
+/// Variety of the views, as four bars like those of ROS' camera_calibration.
+/// x and y are full when the board covered 0.7 of its range from edge to edge; size when the
+/// largest view covers 0.16 of the image; skew when an angle of a view is 0.25 rad from a right
+/// one.
+struct Coverage {
+  double x = 0.0;                    ///< [0 to 1]
+  double y = 0.0;                    ///< [0 to 1]
+  double size = 0.0;                 ///< [0 to 1]
+  double skew = 0.0;                 ///< [0 to 1]
+  std::vector<std::string> missing;  ///< What to do, one sentence each.
+  bool enough() const { return missing.empty(); }
+};
+
+/// Keeps those views of the board that differ from all kept before.
+class ViewCollector {
+ public:
+  /// @throws IntrinsicsError: board, image size or options out of range.
+  ViewCollector(const Board& board, int width, int height, const CollectorOptions& options);
+
+  /// Keeps the view, or says why not.
+  /// @returns empty when it was kept, else one sentence.
+  std::string add(const BoardView& view);
+
+  /// Removes the last view kept, if any.
+  void undo();
+
+  Coverage coverage() const;
+  const Samples& samples() const { return samples_; }
+
+ private:
+  using Parameters = std::array<double, 4>;  // x, y, size, skew [0 to 1]
+
+  Samples samples_;
+  CollectorOptions options_;
+  std::vector<Parameters> parameters_;  // of samples_.views
+};
+
+}  // namespace wiimote_tracker::intrinsics
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_VIEW_COLLECTOR_H

@@ -1,0 +1,42 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_PLACE_KNOWN_PLACES_H
+#define WIIMOTE_TRACKER_CALIBRATION_PLACE_KNOWN_PLACES_H
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::place {
+
+/// A known place, and where a rig measured it without correction of the volume.
+struct KnownPlace {
+  Eigen::Vector3d known;     ///< World [m].
+  Eigen::Vector3d measured;  ///< World [m].
+};
+
+/// The places to fit a correction of the volume to. All are measured with one calibration.
+class KnownPlaces {
+ public:
+  /// Sets the calibration in use (geometry::Rig::id()). @returns how many places of another one
+  /// were dropped.
+  std::size_t useRig(const std::string& rig_id);
+
+  void add(const KnownPlace& place) { places_.push_back(place); }
+
+  /// Drops the latest. @returns false when there is none.
+  bool undo();
+
+  void clear() { places_.clear(); }
+
+  const std::vector<KnownPlace>& places() const { return places_; }
+  const std::string& rigId() const { return rig_id_; }
+
+ private:
+  std::string rig_id_;
+  std::vector<KnownPlace> places_;
+};
+
+}  // namespace wiimote_tracker::place
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_PLACE_KNOWN_PLACES_H

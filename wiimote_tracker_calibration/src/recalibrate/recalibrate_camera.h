@@ -1,0 +1,63 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_RECALIBRATE_RECALIBRATE_CAMERA_H
+#define WIIMOTE_TRACKER_CALIBRATION_RECALIBRATE_RECALIBRATE_CAMERA_H
+
+#include "capture/image.h"
+#include "wiimote_tracker_calibration/square/rig_model.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::recalibrate {
+
+/// One camera of a rig that was moved or replaced, and images of an LED waved in front of all.
+struct Request {
+  std::string camera;
+  std::string identity;  ///< Of the device that is there now; empty: unknown.
+  /// Its starting values, when it is another device than was calibrated.
+  geometry::Intrinsics intrinsics;
+  std::optional<Eigen::Vector3d> gravity;  ///< As it reads now, optical frame [m/s^2].
+  std::vector<capture::Image> images;      ///< Of each camera in the order of their stamps.
+};
+
+struct Options {
+  square::Uncertainty uncertainty;        ///< Of the starting values of another device's lens.
+  double pixel = 0.5;                     ///< Of a moving spot, per axis [px, > 0]; estimated.
+  double stamp = 0.0003;                  ///< Error of a stamp, correlated over 2 s [s, >= 0].
+  double maximum_offset_stddev = 0.0005;  ///< A result less certain of the offset is refused [s].
+};
+
+/// The rig with the camera as it is now.
+struct Recalibration {
+  /// The other cameras, square and zones are unchanged. The correction of the volume is unchanged,
+  /// too, but no longer valid. Without solved_at. The covariance is joint: it includes the errors
+  /// of the others.
+  geometry::Rig rig;
+  double moved = 0.0;            ///< From where it was calibrated [m].
+  double turned = 0.0;           ///< [rad]
+  double position_stddev = 0.0;  ///< Root of the trace [m].
+  double rotation_stddev = 0.0;  ///< Root of the trace [rad].
+  double offset_stddev = 0.0;    ///< [s]
+  std::size_t images = 0;        ///< Of the camera, that the LED was found in.
+  std::string message;           ///< One sentence: how far it moved, how sure that is.
+};
+
+/// Estimates pose, lens and time offset of one camera, the others being fixed: maximum a posteriori
+/// by Levenberg-Marquardt. The LED's positions are triangulated from the others, interpolated to
+/// the camera's times. The prior of the lens is the rig's lens with its covariance, or the
+/// request's for another device. False detections are left out by gating.
+/// @throws RecalibrateError: the rig lacks the camera, or fewer than two others saw the LED; too
+/// few common images; an LED that hardly moved, or in a plane only; contradictory images; a result
+/// that is too uncertain; a rig with RayModel::kImageCenter; values out of range.
+Recalibration recalibrateCamera(const geometry::Rig& rig,
+                                const Request& request,
+                                const Options& options);
+
+}  // namespace wiimote_tracker::recalibrate
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_RECALIBRATE_RECALIBRATE_CAMERA_H

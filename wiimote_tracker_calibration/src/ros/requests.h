@@ -1,0 +1,79 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_REQUESTS_H
+#define WIIMOTE_TRACKER_CALIBRATION_ROS_REQUESTS_H
+
+#include "workflow/reply.h"
+
+#include <wiimote_tracker_msgs/error.h>
+
+#include <ros/node_handle.h>
+#include <std_srvs/Trigger.h>
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// Proof that the node's mutex is locked.
+using Lock = std::unique_lock<std::mutex>;
+
+/// A request cannot be done now. what() is one sentence: why, and what to do.
+struct Refusal : Error {
+  using Error::Error;
+};
+
+/// What `work` returns. Anything that it throws becomes a refusal in words.
+workflow::Reply replyOf(const std::function<workflow::Reply()>& work);
+
+/// Runs a callback from which nothing may escape; what it throws is logged with this name.
+void runCallback(const std::string& name, const std::function<void()>& callback);
+
+/// Offers a service. Its handler returns the reply, and fills the other fields of the response.
+template <typename Unit, typename Request, typename Response>
+ros::ServiceServer advertise(ros::NodeHandle nh,
+                             const std::string& name,
+                             workflow::Reply (Unit::*handler)(const Request&, Response*),
+                             Unit* unit) {
+  return nh.advertiseService<Request, Response>(
+      name, [unit, handler](Request& request, Response& response) {
+        const workflow::Reply reply = replyOf([&] { return (unit->*handler)(request, &response); });
+        response.success = reply.success;
+        response.message = reply.message;
+        return true;
+      });
+}
+
+/// Offers a service without fields in its request.
+template <typename Unit>
+ros::ServiceServer advertise(ros::NodeHandle nh,
+                             const std::string& name,
+                             workflow::Reply (Unit::*handler)(),
+                             Unit* unit) {
+  using std_srvs::Trigger;
+  return nh.advertiseService<Trigger::Request, Trigger::Response>(
+      name, [unit, handler](Trigger::Request&, Trigger::Response& response) {
+        const workflow::Reply reply = replyOf([&] { return (unit->*handler)(); });
+        response.success = reply.success;
+        response.message = reply.message;
+        return true;
+      });
+}
+
+/// Empties an optional when it leaves scope.
+template <typename Value>
+struct EmptyAtEnd {
+  std::optional<Value>* value;
+  ~EmptyAtEnd() { value->reset(); }
+};
+
+/// Appends a sentence to a list of sentences.
+void addSentence(const std::string& sentence, std::string* list);
+
+/// "; first; second".
+std::string appendix(const std::vector<std::string>& sentences);
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_REQUESTS_H

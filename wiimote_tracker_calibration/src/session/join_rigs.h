@@ -1,0 +1,48 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SESSION_JOIN_RIGS_H
+#define WIIMOTE_TRACKER_CALIBRATION_SESSION_JOIN_RIGS_H
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::session {
+
+/// Two rigs in one world.
+struct JoinedRigs {
+  geometry::Rig rig;  ///< The first as it was, then the cameras that only the second has.
+  Eigen::Isometry3d first_from_second;  ///< World of the second in the world of the first [m].
+  std::vector<std::string> shared;      ///< Cameras of both rigs.
+  /// Disagreement of the two rigs, chi-squared distributed with degrees_of_freedom.
+  double chi_squared = 0.0;
+  int degrees_of_freedom = 0;
+  std::string message;  ///< One sentence: what they share, and how well that agrees.
+};
+
+/// Moves the second rig into the world of the first, such that the shared cameras coincide,
+/// weighted by their covariances in both rigs. A shared camera must not have moved in between, and
+/// stays as it is in the first rig. The joint covariance is to first order, both rigs being
+/// independent.
+/// @throws SessionError: no shared camera; one that contradicts (chi-squared test, 99.9 %), was
+/// moved or is another device; a rig without covariance; different ray models.
+JoinedRigs joinRigs(const geometry::Rig& first, const geometry::Rig& second);
+
+/// A place known in the first world and measured with the second rig.
+struct CommonPlace {
+  Eigen::Vector3d in_first;   ///< [m]
+  Eigen::Vector3d in_second;  ///< [m]
+  double stddev = 0.005;      ///< Of both together, without the second rig's covariance [m, > 0].
+};
+
+/// The same with three or more common places, not on a line, for rigs without a shared camera.
+/// @throws SessionError as above; it names the contradicting place, counted from 1.
+JoinedRigs joinRigs(const geometry::Rig& first,
+                    const geometry::Rig& second,
+                    const std::vector<CommonPlace>& places);
+
+}  // namespace wiimote_tracker::session
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SESSION_JOIN_RIGS_H

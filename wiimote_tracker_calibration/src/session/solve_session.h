@@ -1,0 +1,50 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SESSION_SOLVE_SESSION_H
+#define WIIMOTE_TRACKER_CALIBRATION_SESSION_SOLVE_SESSION_H
+
+#include "session/session.h"
+#include "session/verdict.h"
+#include "wiimote_tracker_calibration/principal_point/correction.h"
+#include "wiimote_tracker_calibration/square/solve_square.h"
+#include "wiimote_tracker_calibration/wave/solve_wave.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <limits>
+#include <optional>
+
+namespace wiimote_tracker::session {
+
+struct SolveOptions {
+  /// Its uncertainty also holds for the wave and the correction.
+  square::SolveOptions square;
+  /// Its uncertainty is not used.
+  wave::WaveOptions wave;
+  /// Corrects the principal points as the paper does (section IV.C), for a square alone: a wave
+  /// determines them itself.
+  bool correct_principal_points = false;
+  /// Its ray model, uncertainty and branch odds are not used.
+  principal_point::CorrectionOptions correction;
+  geometry::RayModel ray_model = geometry::RayModel::kCalibrated;  ///< As in geometry::Rig.
+  double virtual_hfov = std::numeric_limits<double>::quiet_NaN();  ///< As in geometry::Rig [rad].
+  /// Uses the accelerometers. The rig has their readings in either case.
+  bool use_gravity = true;
+};
+
+struct Solution {
+  geometry::Rig rig;  ///< Ready to be published, but for solved_at.
+  Verdict verdict;
+  std::optional<principal_point::Trace> trace;  ///< Of the correction, if it was done.
+};
+
+/// Solves a session that has a wave or a wand with wave::solveWave(), and another one from its
+/// square with the method of the options. The same session and options give the same solution, bit
+/// for bit.
+/// @throws square::SquareError, wave::WaveError, principal_point::CorrectionError as these solvers
+/// do; SessionError: neither square nor wave. wave::Cancelled: `progress` asked to stop.
+Solution solveSession(const Session& session,
+                      const SolveOptions& options,
+                      const wave::ProgressCallback& progress = nullptr);
+
+}  // namespace wiimote_tracker::session
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SESSION_SOLVE_SESSION_H

@@ -1,0 +1,46 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SESSION_VERDICT_H
+#define WIIMOTE_TRACKER_CALIBRATION_SESSION_VERDICT_H
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::session {
+
+/// Values as in CalibrationVerdict.msg.
+enum class Grade { kGood = 0, kUsable = 1, kRedo = 2 };
+
+/// How well one camera was calibrated. Fields as in CameraVerdict.msg: standard deviations are 0
+/// where held fixed, NaN is unknown.
+struct CameraVerdict {
+  std::string name;
+  double residual_px = 0.0;             ///< RMS over both axes together [px].
+  double residual_m = 0.0;              ///< At the distance of the points [m].
+  double inlier_share = 0.0;            ///< Of its observations [0..1].
+  double rotation_stddev = 0.0;         ///< Root of the trace [rad].
+  double position_stddev = 0.0;         ///< Root of the trace [m].
+  double focal_stddev = 0.0;            ///< The larger of both axes [px].
+  double principal_point_stddev = 0.0;  ///< The larger of both axes [px].
+  double k1_stddev = 0.0;               ///< [1]
+  double time_offset_stddev = 0.0;      ///< [s]
+};
+
+/// How good a rig is, in numbers and in words. Fields as in CalibrationVerdict.msg.
+struct Verdict {
+  Grade grade = Grade::kRedo;
+  std::string text;                        ///< Grade, reason, what to do.
+  std::optional<std::size_t> redo_corner;  ///< To be captured again, 0..3.
+  std::vector<CameraVerdict> cameras;      ///< In the order of the rig.
+  /// The corners of the square, then the places 2.5 m above them, world [m]; empty without square.
+  std::vector<Eigen::Vector3d> predicted_at;
+  /// Standard deviation (root of the trace) of a point triangulated there by all cameras that see
+  /// it, from the joint covariance of the rig [m]. NaN where fewer than two cameras see it, or the
+  /// rays are not those of the calibration.
+  std::vector<double> predicted_stddev;
+};
+
+}  // namespace wiimote_tracker::session
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SESSION_VERDICT_H

@@ -1,0 +1,23 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_EXPECTED_ERROR_H
+#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_EXPECTED_ERROR_H
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace wiimote_tracker::square {
+
+/// RMS error, all three axes together [m], of points triangulated by maximum likelihood from all
+/// cameras that see them, as far as it comes from the calibration: the joint covariance of the rig
+/// propagated to first order. Pixel noise comes on top. Points that fewer than two cameras see, or
+/// all from one place, do not count. NaN when the rig has no covariance, or no point counts.
+double expectedError(const geometry::Rig& rig, const std::vector<Eigen::Vector3d>& points);
+
+/// Corners and middle of the box over the square that is as high as its shorter side [m].
+std::vector<Eigen::Vector3d> boxOver(const std::array<Eigen::Vector3d, 4>& corners, bool z_up);
+
+}  // namespace wiimote_tracker::square
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_EXPECTED_ERROR_H

@@ -1,0 +1,180 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_CALIBRATION_H
+#define WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_CALIBRATION_H
+
+#include "capture/corner_capture.h"
+#include "capture/hands_free.h"
+#include "session/session.h"
+#include "wave/coverage.h"
+#include "workflow/captured.h"
+#include "workflow/reply.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::workflow {
+
+/// Values as in CalibrationStatus.msg.
+enum class Step {
+  kIdle = 0,
+  kReady = 1,
+  kCapturing = 2,
+  kWaving = 3,
+  kComplete = 4,
+  kSolving = 5,
+  kSolved = 6,
+  kSaved = 7,
+  kMasking = 8,
+  kMeasuring = 9,
+};
+
+struct CalibrationOptions {
+  capture::CornerCaptureOptions capture;
+  capture::HandsFreeOptions hands_free;
+  wave::CoverageOptions coverage;
+  double led_height = 0.0;                           ///< As in square::SquareLayout [m].
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< As in square::SquareLayout [m].
+  double yaw = 0.0;                                  ///< As in square::SquareLayout [rad].
+  std::string world_frame = "world";
+};
+
+/// The calibration from start to a saved rig, step by step. A request that cannot be done now is
+/// refused with a reason, and changes nothing. While something takes time, and until it has stopped
+/// after a cancel, every request but cancel() is refused. Times [s] are of the clock that stamps
+/// the images.
+class Calibration {
+ public:
+  explicit Calibration(const CalibrationOptions& options) : options_(options) {}
+
+  /// Starts a run with a square. What the run before captured is dropped; the rig stays.
+  /// @param side_x, side_y sides of the rectangle [m].
+  Reply start(double side_x, double side_y, const std::vector<std::string>& cameras);
+
+  /// Starts a run without a square, for a wand.
+  Reply startWithoutSquare(const std::vector<std::string>& cameras);
+
+  /// Begins to capture the next missing corner, or `retake` again (0..3).
+  Reply beginCapture(std::optional<std::size_t> retake, double now);
+
+  /// Gives up the capture that goes on, if there is one; what was captured before stays.
+  void abandonCapture(const std::string& why);
+
+  /// Whether a corner is captured by itself when the LED is held still at a new place.
+  void setHandsFree(bool on);
+  bool isHandsFree() const { return hands_free_on_; }
+
+  /// Begins to record a wave; an earlier one of this run is dropped.
+  /// @param cameras of this run: names, image sizes, and poses if `posed`, which measure the volume
+  /// passed through. @param wand nothing: one LED is waved.
+  Reply beginWave(const std::vector<geometry::Camera>& cameras,
+                  bool posed,
+                  const std::optional<wave::Wand>& wand,
+                  double now);
+  Reply endWave();
+
+  /// One image of one camera; images in the order of their stamps.
+  void addImage(const capture::Image& image);
+
+  /// Advances the time when no image does.
+  void update(double now);
+
+  /// Drops what was captured last: the wave, else the last corner.
+  Reply undo();
+
+  /// Stops what goes on; what was captured before stays. When nothing goes on, it drops the run,
+  /// except right after the solver ended: that cancel was meant for the solver. The rig stays.
+  Reply cancel();
+
+  /// Begins kSolving, kMasking or kMeasuring, which the caller does and then calls end(), also when
+  /// it failed. Refused while something else goes on, and for kSolving when there is not enough to
+  /// be solved.
+  Reply begin(Step step, const std::string& message);
+
+  /// Whether it goes on and was not cancelled.
+  bool isBusyWith(Step step) const { return busy_ == step && !stopping_; }
+
+  /// How far it is [0..1].
+  void setProgress(double progress) { progress_ = progress; }
+
+  /// Ends it, and shows the outcome.
+  void end(const Reply& outcome);
+
+  /// Takes over the result of kSolving, with the zones of the rig before if its world has the same
+  /// name. @returns its verdict, for end().
+  Reply takeSolution(const geometry::Rig& rig);
+
+  /// All that was captured so far. @param facts, masks for every camera of the run that is known;
+  /// after restore() the facts are those of the samples file.
+  session::Session session(const std::map<std::string, CameraFacts>& facts,
+                           const capture::Masks& masks) const {
+    return toSession(captured_, facts, masks);
+  }
+
+  /// Goes on from saved samples instead of the run so far; keeps the rig.
+  Reply restore(const session::Session& session);
+
+  /// Whether the run comes from a samples file, which has its own facts.
+  bool isRestored() const { return !captured_.restored_facts.empty(); }
+
+  /// Takes over a rig that was read from a file. Refused while something goes on.
+  Reply load(const geometry::Rig& rig);
+
+  /// Takes over a rig that was made of the one before, and is not saved yet.
+  void setRig(const geometry::Rig& rig, const std::string& message);
+
+  /// Gives the rig these masks. They move no point: a correction of the volume stays valid.
+  /// @returns whether there is a rig and it changed; then it differs from its file.
+  bool setMasks(const capture::Masks& masks);
+
+  /// Notes that the rig was written to a file.
+  void saved(const std::string& message);
+
+  /// Shows the reason of a failure outside of this class.
+  void note(const std::string& message) { message_ = message; }
+
+  Step step() const { return busy_.value_or(step_); }
+  const std::string& message() const { return message_; }
+  double progress() const;
+  /// What is still missing before this can be solved, most urgent first; one sentence each.
+  std::vector<std::string> missing() const;
+  /// Empty when nothing is started.
+  const std::vector<std::string>& cameras() const { return captured_.cameras; }
+  const SquareRun& square() const { return captured_.square; }
+  /// Along x, along y [m]; empty without a square.
+  std::vector<double> sides() const;
+  /// The wave that is being recorded, or was.
+  const std::optional<WaveRecorder>& wave() const { return captured_.wave; }
+  const std::optional<geometry::Rig>& rig() const { return rig_; }
+
+ private:
+  Reply startWith(Captured captured);
+  /// Why nothing can be begun now.
+  std::string occupied() const;
+  Reply refuse(const std::string& message);
+  Reply accept(const std::string& message);
+  Reply shown(const Reply& reply);
+  /// The step between two requests, by what is captured.
+  void updateStep() { step_ = captured_.isComplete() ? Step::kComplete : Step::kReady; }
+
+  CalibrationOptions options_;
+  Step step_ = Step::kIdle;   // between two requests
+  std::optional<Step> busy_;  // what goes on
+  bool stopping_ = false;     // it was cancelled, but has not ended yet
+  bool just_solved_ = false;  // no request since the solver ended
+  double progress_ = 0.0;     // of what goes on, by setProgress()
+  std::string message_ = "nothing started: start a calibration, or load a rig";
+  Captured captured_;
+  bool hands_free_on_ = false;
+  std::optional<capture::HandsFree> hands_free_;
+  std::optional<geometry::Rig> rig_;
+};
+
+}  // namespace wiimote_tracker::workflow
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_CALIBRATION_H

@@ -1,0 +1,100 @@
+#include "workflow/captured.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace wiimote_tracker::workflow {
+
+namespace {
+
+wave::CameraRecording recordingOf(const Captured& captured,
+                                  const std::string& name,
+                                  const std::map<std::string, CameraFacts>& facts) {
+  wave::CameraRecording camera;
+  camera.sightings.name = name;
+  const auto fact = facts.find(name);
+  if (fact != facts.end()) {
+    camera.sightings.identity = fact->second.identity;
+    camera.sightings.intrinsics = fact->second.intrinsics;
+    camera.sightings.gravity = fact->second.gravity;
+  }
+  for (std::size_t c = 0; c < captured.square.corners().size(); ++c) {
+    const auto view = captured.square.corners()[c].find(name);
+    if (view != captured.square.corners()[c].end())
+      camera.sightings.corners[c] = view->second.pixel;
+  }
+  const WaveRecorder::Track* track = captured.wave ? captured.wave->track(name) : nullptr;
+  if (track != nullptr) {
+    camera.clock_epoch = track->clock_epoch;
+    camera.frames = track->frames;
+  }
+  return camera;
+}
+
+std::optional<WaveRecorder> waveOf(const wave::Recording& recording,
+                                   const wave::CoverageOptions& options) {
+  std::vector<geometry::Camera> cameras;
+  double first = std::numeric_limits<double>::infinity();
+  for (const wave::CameraRecording& camera : recording.cameras) {
+    cameras.emplace_back();
+    cameras.back().name = camera.sightings.name;
+    cameras.back().intrinsics = camera.sightings.intrinsics;
+    if (!camera.frames.empty())
+      first = std::min(first, camera.frames.front().stamp);
+  }
+  if (first == std::numeric_limits<double>::infinity())
+    return std::nullopt;
+  WaveRecorder wave(cameras, false, recording.wand, options, first);
+  for (const wave::CameraRecording& camera : recording.cameras) {
+    for (const wave::Frame& frame : camera.frames)
+      wave.add({camera.sightings.name, frame.stamp, camera.clock_epoch, frame.spots, {}});
+  }
+  return wave;
+}
+
+}  // namespace
+
+session::Session toSession(const Captured& captured,
+                           const std::map<std::string, CameraFacts>& live,
+                           const capture::Masks& masks) {
+  const auto& facts = captured.restored_facts.empty() ? live : captured.restored_facts;
+  session::Session session;
+  session.world_frame = captured.world_frame;
+  session.recording.square = captured.layout;
+  if (captured.wave)
+    session.recording.wand = captured.wave->wand();
+  for (const std::string& name : captured.cameras) {
+    session.recording.cameras.push_back(recordingOf(captured, name, facts));
+    const auto mask = masks.find(name);
+    session.masks.push_back(mask != masks.end() ? mask->second
+                                                : std::vector<geometry::ImageMask>());
+  }
+  return session;
+}
+
+Captured fromSession(const session::Session& session,
+                     const capture::CornerCaptureOptions& capture,
+                     const wave::CoverageOptions& coverage) {
+  Captured captured;
+  captured.layout = session.recording.square;
+  captured.world_frame = session.world_frame;
+  captured.wave = waveOf(session.recording, coverage);
+  std::vector<capture::CapturedCorner> corners;
+  for (const wave::CameraRecording& camera : session.recording.cameras) {
+    const square::CameraSightings& seen = camera.sightings;
+    captured.cameras.push_back(seen.name);
+    captured.restored_facts[seen.name] = {seen.identity, seen.intrinsics, seen.gravity};
+    for (std::size_t c = 0; c < seen.corners.size(); ++c) {
+      if (!seen.corners[c])
+        continue;
+      corners.resize(std::max(corners.size(), c + 1));
+      // The file does not hold the number of samples and their spread.
+      corners[c][seen.name] = {*seen.corners[c], std::numeric_limits<double>::quiet_NaN(), 1};
+    }
+  }
+  captured.square = SquareRun(captured.cameras, capture);
+  captured.square.restore(corners);
+  return captured;
+}
+
+}  // namespace wiimote_tracker::workflow

@@ -1,0 +1,56 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_CAPTURED_H
+#define WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_CAPTURED_H
+
+#include "capture/corner_capture.h"
+#include "capture/masks.h"
+#include "session/session.h"
+#include "wave/coverage.h"
+#include "workflow/square_run.h"
+#include "workflow/wave_recorder.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera.h>
+
+#include <Eigen/Core>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::workflow {
+
+/// What is known of a camera besides where it saw the LED.
+struct CameraFacts {
+  std::string identity;                    ///< Empty if unknown.
+  geometry::Intrinsics intrinsics;         ///< Starting values.
+  std::optional<Eigen::Vector3d> gravity;  ///< Specific force at rest, optical frame [m/s^2].
+};
+
+/// What one run of the calibration has captured.
+struct Captured {
+  std::vector<std::string> cameras;            ///< Empty: nothing is started.
+  std::optional<square::SquareLayout> layout;  ///< Nothing: a run without a square.
+  SquareRun square;
+  std::optional<WaveRecorder> wave;  ///< The wave that is being recorded, or was.
+  std::string world_frame;
+  /// Facts from a samples file; empty: this run is captured live.
+  std::map<std::string, CameraFacts> restored_facts;
+
+  bool hasWand() const { return wave && wave->wand(); }
+  /// Whether it can be solved: four corners, or without a square a wand.
+  bool isComplete() const { return layout ? square.isComplete() : hasWand(); }
+};
+
+/// @param live facts of the cameras now; not used for what comes from a samples file.
+session::Session toSession(const Captured& captured,
+                           const std::map<std::string, CameraFacts>& live,
+                           const capture::Masks& masks);
+
+/// The inverse. @throws wave::WaveError: coverage options out of range.
+Captured fromSession(const session::Session& session,
+                     const capture::CornerCaptureOptions& capture,
+                     const wave::CoverageOptions& coverage);
+
+}  // namespace wiimote_tracker::workflow
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_CAPTURED_H

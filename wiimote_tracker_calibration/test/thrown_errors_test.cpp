@@ -1,0 +1,171 @@
+// Whatever a job of the calibration node throws becomes a refusal, and the next request works.
+
+#include "node_fixture.h"
+
+#include "../src/ros/calibration_node.h"
+
+#include <std_srvs/Trigger.h>
+#include <wiimote_tracker_msgs/AddKnownPlace.h>
+#include <wiimote_tracker_msgs/CheckPlace.h>
+#include <wiimote_tracker_msgs/FitRemap.h>
+#include <wiimote_tracker_msgs/JoinRig.h>
+#include <wiimote_tracker_msgs/LearnMasks.h>
+#include <wiimote_tracker_msgs/LoadSamples.h>
+#include <wiimote_tracker_msgs/RecalibrateCamera.h>
+#include <wiimote_tracker_msgs/SaveSamples.h>
+#include <wiimote_tracker_msgs/SolveBoard.h>
+#include <wiimote_tracker_msgs/StartBoard.h>
+#include <wiimote_tracker_msgs/StartWave.h>
+#include <opencv2/core.hpp>
+
+#include <new>
+#include <stdexcept>
+
+namespace wiimote_tracker {
+namespace {
+
+using namespace wiimote_tracker_msgs;
+using workflow::Reply;
+
+std::unique_ptr<CalibrationNode> node;
+
+void setFault(const std::function<void()>& fault) {
+  const Lock lock(node->context().mutex());
+  node->context().fault = fault;
+}
+
+template <typename Service>
+Reply replyTo(const std::string& name, typename Service::Request request = {}) {
+  typename Service::Response response;
+  EXPECT_TRUE(ros::service::call(name, request, response)) << name;
+  return {response.success != 0, response.message};
+}
+
+/// A request that takes time, and whether it succeeds when nothing is thrown.
+struct Case {
+  std::string name;
+  bool succeeds;
+  std::function<Reply()> request;
+};
+
+class ThrownErrors : public Node {
+ protected:
+  static std::vector<Case> cases() {
+    geometry_msgs::Point corner;
+    corner.y = 2.5;
+    CheckPlace::Request place;
+    place.known = corner;
+    AddKnownPlace::Request known;
+    known.known = corner;
+    LearnMasks::Request masks;
+    masks.duration = 0.5;
+    RecalibrateCamera::Request camera;
+    camera.camera = "camera_1";
+    camera.duration = 0.2;
+    return {
+        {"solve", true, [] { return replyTo<SolveCalibration>("calibration/solve"); }},
+        {"capture_corner", true,
+         [] {
+           const auto result = capture(3);
+           return Reply{result.success != 0, result.message};
+         }},
+        {"check", true, [=] { return replyTo<CheckPlace>("calibration/check", place); }},
+        {"known_places/add", true,
+         [=] { return replyTo<AddKnownPlace>("calibration/known_places/add", known); }},
+        {"known_places/fit", false,
+         [] { return replyTo<FitRemap>("calibration/known_places/fit"); }},
+        {"recalibrate_camera", false,
+         [=] { return replyTo<RecalibrateCamera>("calibration/recalibrate_camera", camera); }},
+        {"save", true, [] { return replyTo<SaveRig>("calibration/save"); }},
+        {"load", true, [] { return replyTo<LoadRig>("calibration/load"); }},
+        {"join", false, [] { return replyTo<JoinRig>("calibration/join"); }},
+        {"check_connection", true,
+         [] { return replyTo<CheckConnection>("calibration/check_connection"); }},
+        {"start_wave", true,
+         [] {
+           const Reply reply = replyTo<StartWave>("calibration/start_wave");
+           if (reply.success)
+             call<std_srvs::Trigger>("calibration/cancel");
+           return reply;
+         }},
+        {"board/solve", false, [] { return replyTo<SolveBoard>("calibration/board/solve"); }},
+        {"save_samples", true, [] { return replyTo<SaveSamples>("calibration/save_samples"); }},
+        {"load_samples", true, [] { return replyTo<LoadSamples>("calibration/load_samples"); }},
+        {"learn_masks", true,
+         [=] {
+           const Reply reply = replyTo<LearnMasks>("calibration/learn_masks", masks);
+           call<std_srvs::Trigger>("calibration/clear_masks");
+           return reply;
+         }},
+    };
+  }
+};
+
+TEST_F(ThrownErrors, become_refusals_and_the_next_request_works) {
+  captureAll();
+  ASSERT_TRUE(call<SolveCalibration>("calibration/solve").success);
+  StartBoard::Request board;
+  board.camera = "camera_1";
+  ASSERT_TRUE(call<StartBoard>("calibration/board/start", board).success);
+
+  const std::vector<std::pair<std::string, std::function<void()>>> faults = {
+      {"memory", [] { throw std::bad_alloc(); }},
+      {"bad matrix",
+       [] { throw cv::Exception(cv::Error::StsBadArg, "bad matrix", "solve", "file", 1); }},
+      {"an unexpected error", [] { throw 7; }},
+      {"no solution", [] { throw geometry::Error("no solution"); }},
+  };
+  for (const Case& each : cases()) {
+    for (const auto& [part, fault] : faults) {
+      SCOPED_TRACE(each.name + ": " + part);
+      setFault(fault);
+      const Reply refused = each.request();
+      EXPECT_FALSE(refused.success);
+      EXPECT_SAYS(refused.message, part);
+      setFault([] {});
+      const Reply next = each.request();
+      EXPECT_EQ(next.success, each.succeeds) << next.message;
+      EXPECT_EQ(next.message.find(part), std::string::npos) << next.message;
+      EXPECT_EQ(next.message.find("wait until"), std::string::npos) << next.message;
+    }
+  }
+}
+
+TEST_F(ThrownErrors, end_no_thread_that_images_come_from) {
+  bool thrown = false;
+  {
+    const Lock lock(node->context().mutex());
+    node->context().inputs().subscribeImages([&](const capture::Image&, const Lock&) {
+      if (!thrown) {
+        thrown = true;
+        throw 7;
+      }
+    });
+  }
+  EXPECT_TRUE(waitUntil([&] {
+    const Lock lock(node->context().mutex());
+    return thrown;
+  }));
+  const Reply reply = replyTo<CheckConnection>("calibration/check_connection");
+  EXPECT_TRUE(reply.success) << reply.message;
+}
+
+}  // namespace
+}  // namespace wiimote_tracker
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "thrown_errors_test");
+  ros::AsyncSpinner spinner(8);
+  spinner.start();
+  wiimote_tracker::Parameters parameters;
+  parameters.calibration.capture.minimum_samples = 20;
+  parameters.calibration.capture.timeout = 3.0;
+  parameters.set_camera_info_timeout = 0.5;
+  ros::param::get("/calibration/rig_file", parameters.rig_file);
+  wiimote_tracker::node =
+      std::make_unique<wiimote_tracker::CalibrationNode>(ros::NodeHandle(), parameters);
+  const int result = RUN_ALL_TESTS();
+  wiimote_tracker::node.reset();
+  return result;
+}

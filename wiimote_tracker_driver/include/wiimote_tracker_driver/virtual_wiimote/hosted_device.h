@@ -1,0 +1,64 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_HOSTED_DEVICE_H
+#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_HOSTED_DEVICE_H
+
+#include "wiimote_tracker_driver/virtual_wiimote/device.h"
+#include "wiimote_tracker_driver/virtual_wiimote/faults.h"
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace wiimote_tracker::virtual_wiimote {
+
+class FaultyDevice;
+
+/// A Device that hosts can reach. Thread-safe. All may throw std::system_error when a fault has the
+/// device come back and it cannot be made reachable again.
+class HostedDevice {
+ public:
+  HostedDevice(const HostedDevice&) = delete;
+  HostedDevice& operator=(const HostedDevice&) = delete;
+
+  /// Samples the device once and sends the resulting reports to the host. @returns whether a data
+  /// report was among them; there is none in another mode, or while memory is read.
+  bool sample(const Senses& senses);
+
+  /// What goes wrong from now on; at first nothing does.
+  void setFaults(const Faults& faults);
+
+  /// Plugs a Nunchuk into the remote, or unplugs it.
+  void setNunchuk(bool plugged);
+
+  /// The batteries' raw level from now on.
+  void setBattery(std::uint8_t level);
+
+  /// Player LEDs 1..4 in bits 0..3, as last set by a host.
+  std::uint8_t leds() const;
+
+  /// Whether the motor runs.
+  bool rumble() const;
+
+  /// Takes the device away (out of range) or brings it back power-cycled. While it is away no host
+  /// is connected. @throws std::system_error when it cannot be made reachable again.
+  void setPresent(bool present);
+
+ protected:
+  HostedDevice(const Device::Options& options, bool present);
+  virtual ~HostedDevice();
+
+  /// Connects the device to its hosts, or disconnects it. Called with the mutex held.
+  virtual void setReachable(bool reachable) = 0;
+  /// Sends reports to the host, if any. Called with the mutex held.
+  virtual void send(const std::vector<Bytes>& reports) = 0;
+
+  mutable std::mutex mutex_;  ///< Guards the device and the connection.
+  const std::unique_ptr<FaultyDevice> device_;
+
+ private:
+  bool present_;  ///< As set; a fault may take the device away all the same.
+};
+
+}  // namespace wiimote_tracker::virtual_wiimote
+
+#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_HOSTED_DEVICE_H

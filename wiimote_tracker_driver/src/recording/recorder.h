@@ -1,0 +1,81 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_RECORDING_RECORDER_H
+#define WIIMOTE_TRACKER_DRIVER_RECORDING_RECORDER_H
+
+#include "recording/format.h"
+#include "transport/transport.h"
+#include "wiimote_tracker_driver/protocol/report.h"
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace wiimote_tracker::recording {
+
+/// Writes the reports between host and remote to a file. The calls only copy into memory; a thread
+/// writes once a second, so that a slow disk delays no report, and a crash loses the last second.
+/// An error with the file ends the recording and nothing else. Times [s] are of any clock that
+/// never goes back. Only error() may be called by another thread.
+class Recorder {
+ public:
+  /// Creates the file. If "name.wiirec" exists, the new file is "name_2.wiirec" and so on.
+  /// `wall_time` [s since 1970] belongs to `now`. @throws BadRecording when it cannot be created.
+  Recorder(const std::string& path, double now, double wall_time);
+  /// Writes the rest.
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  void connected(const Remote& remote, double now) {
+    add({Record::Kind::kConnected, now, {}, remote, ""});
+  }
+  void received(const protocol::Report& report, double now) {
+    add({Record::Kind::kReceived, now, report, {}, ""});
+  }
+  void sent(const protocol::Report& report, double now) {
+    add({Record::Kind::kSent, now, report, {}, ""});
+  }
+  /// `reason`: one sentence; empty when the host disconnected.
+  void disconnected(const std::string& reason, double now) {
+    add({Record::Kind::kDisconnected, now, {}, {}, reason});
+  }
+
+  /// Path of the file.
+  const std::string& path() const { return path_; }
+
+  /// Why the recording has ended too early, one sentence; empty while it is written.
+  std::string error() const;
+
+ private:
+  void add(Record record);
+  void run();
+  std::string write() const;
+  void fail(const std::string& why);
+
+  std::string path_;
+  const double begin_;  ///< [s]
+  int fd_ = -1;
+
+  mutable std::mutex mutex_;  ///< Guards the next four.
+  std::condition_variable wake_;
+  std::vector<std::uint8_t> filling_;
+  std::string error_;
+  bool stop_ = false;
+
+  std::vector<std::uint8_t> writing_;  ///< Used by the thread alone.
+  std::thread thread_;
+};
+
+/// A transport that forwards to `transport` and has `recorder` record every report. `clock` [s] is
+/// read at each report.
+std::unique_ptr<transport::Transport> record(std::unique_ptr<transport::Transport> transport,
+                                             std::shared_ptr<Recorder> recorder,
+                                             std::function<double()> clock);
+
+}  // namespace wiimote_tracker::recording
+
+#endif  // WIIMOTE_TRACKER_DRIVER_RECORDING_RECORDER_H

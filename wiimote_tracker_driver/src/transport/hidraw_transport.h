@@ -1,0 +1,20 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_TRANSPORT_HIDRAW_TRANSPORT_H
+#define WIIMOTE_TRACKER_DRIVER_TRANSPORT_HIDRAW_TRANSPORT_H
+
+#include "transport/transport.h"
+
+namespace wiimote_tracker::transport {
+
+/// The file with the udev rule that lets users open remotes.
+constexpr const char* kUdevRule = "60-wiimote-tracker.rules";
+
+/// Opens a remote that the kernel offers as /dev/hidrawN, by its Bluetooth address, its path or
+/// as the first free one. @throws as open().
+std::unique_ptr<Transport> openHidraw(const DeviceName& name);
+
+/// Throws the error, with its sentence, that belongs to a failed open(2) of a hidraw node.
+[[noreturn]] void throwOpenError(int error_number, const std::string& path);
+
+}  // namespace wiimote_tracker::transport
+
+#endif  // WIIMOTE_TRACKER_DRIVER_TRANSPORT_HIDRAW_TRANSPORT_H

@@ -1,0 +1,76 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_TRANSPORT_TRANSPORT_H
+#define WIIMOTE_TRACKER_DRIVER_TRANSPORT_TRANSPORT_H
+
+#include "wiimote_tracker_driver/protocol/report.h"
+
+#include <wiimote_tracker_msgs/error.h>
+
+#include <memory>
+#include <string>
+
+namespace wiimote_tracker::transport {
+
+/// A failure between host and remote; what() is one sentence that says what to do.
+struct TransportError : Error {
+  using Error::Error;
+};
+/// The text is no name of a device.
+struct BadDeviceName : TransportError {
+  using TransportError::TransportError;
+};
+struct NoSuchDevice : TransportError {
+  using TransportError::TransportError;
+};
+struct PermissionDenied : TransportError {
+  using TransportError::TransportError;
+};
+/// Another driver has the remote.
+struct DeviceTaken : TransportError {
+  using TransportError::TransportError;
+};
+/// The connection was lost.
+struct Disconnected : TransportError {
+  using TransportError::TransportError;
+};
+
+/// An open remote: HID reports out, HID reports in. Closed on destruction. Not thread-safe.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+
+  /// Waits up to `timeout` [s] for a report; 0: does not wait. @returns false without a report.
+  /// @throws Disconnected.
+  virtual bool read(protocol::Report& report, double timeout) = 0;
+
+  /// @throws Disconnected.
+  virtual void write(const protocol::Report& report) = 0;
+
+  /// Path of the remote for the user: "/dev/hidraw3", "virtual:/tmp/wiimote_1.sock".
+  virtual std::string description() const = 0;
+
+  /// Bluetooth address, lower case with colons; empty when not known.
+  virtual std::string identity() const = 0;
+
+  /// The kernel driver of the remote ("wiimote", "hid-generic"); empty without one.
+  virtual std::string kernelDriver() const { return ""; }
+};
+
+/// How a device is named: "" (the first free remote), a Bluetooth address, /dev/hidrawN,
+/// virtual:SOCKET_PATH, or replay:FILE.
+struct DeviceName {
+  enum class Kind { kAny, kAddress, kPath, kVirtual, kReplay };
+  Kind kind = Kind::kAny;
+  std::string value;  ///< Address in lower case with colons, or path.
+};
+
+/// @throws BadDeviceName.
+DeviceName parseDeviceName(const std::string& text);
+
+/// Opens the remote for this process alone. A recording (kReplay) has a time of its own and is
+/// opened by recording::Replay instead. @throws NoSuchDevice, PermissionDenied, DeviceTaken,
+/// TransportError.
+std::unique_ptr<Transport> open(const DeviceName& name);
+
+}  // namespace wiimote_tracker::transport
+
+#endif  // WIIMOTE_TRACKER_DRIVER_TRANSPORT_TRANSPORT_H

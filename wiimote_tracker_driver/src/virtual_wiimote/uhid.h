@@ -1,0 +1,54 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_UHID_H
+#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_UHID_H
+
+#include "wiimote_tracker_driver/virtual_wiimote/hosted_device.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::virtual_wiimote {
+
+/// Makes a Device a Bluetooth Wii Remote of this machine's Linux kernel, through /dev/uhid: the
+/// kernel's driver hid-wiimote binds it, and a hidraw node appears. Needs root and the kernel
+/// module uhid. Owns one thread. setPresent(false) returns when the kernel has removed the device;
+/// after setPresent(true) the kernel sets it up.
+class UhidDevice : public HostedDevice {
+ public:
+  /// The values are the USB product ids.
+  enum class Model : std::uint16_t {
+    kRemote = 0x0306,  ///< RVL-CNT-01
+    /// RVL-CNT-01-TR: refuses output on the control channel, has a built-in MotionPlus.
+    kRemotePlus = 0x0330,
+  };
+
+  /// Called with each output report that reaches the device, in the device's thread. It must not
+  /// throw or call the device.
+  using Listener = std::function<void(const Bytes&)>;
+
+  struct Options {
+    Device::Options device;
+    Model model = Model::kRemote;
+    double latency = 0.0;  ///< [s, >= 0] From the host to the device, as over the air.
+    Listener listener;
+  };
+
+  /// Plugs the remote in at once. `address` is its Bluetooth address ("00:1f:32:00:00:01") and
+  /// should be unique: the kernel refuses a second battery of the same address.
+  /// @throws std::system_error when there is no /dev/uhid or it may not be opened.
+  UhidDevice(const std::string& address, const Options& options);
+  ~UhidDevice() override;
+
+ private:
+  void setReachable(bool reachable) override;
+  void send(const std::vector<Bytes>& reports) override;
+
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace wiimote_tracker::virtual_wiimote
+
+#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_UHID_H

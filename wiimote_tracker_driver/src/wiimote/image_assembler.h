@@ -1,0 +1,40 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_IMAGE_ASSEMBLER_H
+#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_IMAGE_ASSEMBLER_H
+
+#include "wiimote_tracker_driver/protocol/input_reports.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace wiimote_tracker::wiimote {
+
+/// Makes images from the data reports of one infrared format. In the full format an image has two
+/// halves; a half without its partner is dropped.
+class ImageAssembler {
+ public:
+  /// Longest time between two halves of an image [s]. They are one period (10 ms) apart. If the two
+  /// reports between a first and a second half were lost, these are three periods apart; the middle
+  /// separates late reports from losses best. A loss within a burst cannot be detected.
+  static constexpr double kLongestGap = 0.020;
+
+  /// @throws std::invalid_argument for kNone.
+  explicit ImageAssembler(protocol::IrFormat format);
+
+  /// The report mode that carries the format.
+  std::uint8_t reportMode() const { return mode_; }
+
+  /// Whether a data report of this id is part of the format.
+  bool expects(std::uint8_t id) const;
+
+  /// Takes a data report that arrived at `now` [s]. @returns the image that it completes.
+  std::optional<protocol::DataReport> add(const protocol::Report& report, double now);
+
+ private:
+  std::uint8_t mode_;
+  protocol::Report first_;  ///< Half that waits for its second; empty when there is none.
+  double first_arrival_ = 0.0;
+};
+
+}  // namespace wiimote_tracker::wiimote
+
+#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_IMAGE_ASSEMBLER_H

@@ -1,0 +1,196 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_SESSION_H
+#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_SESSION_H
+
+#include "wiimote/camera_configuration.h"
+#include "wiimote/duplicate_filter.h"
+#include "wiimote/factory_calibration.h"
+#include "wiimote/image_assembler.h"
+#include "wiimote/session_options.h"
+#include "wiimote/stream_watch.h"
+#include "wiimote_tracker_driver/protocol/input_reports.h"
+#include "wiimote_tracker_driver/protocol/output_reports.h"
+#include "wiimote_tracker_driver/protocol/report.h"
+
+#include <wiimote_tracker_msgs/error.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace wiimote_tracker::wiimote {
+
+/// The remote is connected but does not do what it is told; what() is one sentence.
+struct SessionError : Error {
+  using Error::Error;
+};
+
+/// One connection to a remote, from the first request to the stream of images and its upkeep. A
+/// state machine, driven by the remote's reports and by deadlines; nothing waits.
+///
+///   state        request                      after its answer
+///   AskStatus    0x15                         SetLeds
+///   SetLeds      0x11                         ReadFactory
+///   ReadFactory  0x17, EEPROM, 1 of 4 blocks  ReadFactory, or StartClock after the last
+///   StartClock   0x13                         StartLogic
+///   StartLogic   0x1a                         WriteCamera
+///   WriteCamera  0x16, registers, 1 of 5      WriteCamera, or ReadCamera (all) after the last
+///   ReadCamera   0x17, registers, 1 of 3      ReadCamera; after the last SetMode or Streaming
+///   SetMode      0x12                         Streaming
+///   Streaming    none
+///
+///   event                                     next state
+///   no answer in time                         the same, five times; then SessionError, but
+///                                             ReadFactory skips a block, ReadCamera has failed
+///   a write is refused, or a register differs StartClock
+///   the registers can never be read           SetMode, and they are not read again
+///   Streaming: a status came                  SetMode
+///   Streaming: check due, other report mode   ReadCamera
+///   Streaming: no images                      ReadCamera; AskStatus if the camera is then off
+///   another sensitivity while set up          WriteCamera
+///
+/// Other programs may use the same remote (the kernel's driver does). So the session expects
+/// answers to requests that are not its own, and matches memory packets by address.
+class Session {
+ public:
+  /// Sends a report; may throw, and the exception passes through the session.
+  using Write = std::function<void(const protocol::Report&)>;
+
+  /// Sends the first request. `now` [s] here and below is any clock that never goes back.
+  /// @throws std::invalid_argument when options.ir_format is kNone.
+  Session(const SessionOptions& options, Write write, double now);
+
+  /// The remote sent a report. @returns the image that it completes, of the camera as configured.
+  /// @throws SessionError when the remote is to be given up.
+  std::optional<protocol::DataReport> handle(const protocol::Report& report, double now);
+
+  /// Does what is due. @throws SessionError when the remote is to be given up.
+  void tick(double now);
+
+  /// When tick() is next due [s].
+  double deadline() const;
+
+  /// Whether the camera is set up and images are expected.
+  bool streaming() const { return streaming_; }
+
+  /// Sets the camera up with another sensitivity, at once when it is streaming. Images are left out
+  /// for five round trips; the report mode stays.
+  void setSensitivity(const protocol::IrSensitivity& sensitivity, double now);
+
+  void setLeds(std::uint8_t leds);
+
+  /// Every output report carries the state of the motor, so reports of other programs stop it. It
+  /// is therefore repeated while the motor runs.
+  void setRumble(bool rumble, double now);
+
+  /// How often the set-up began again from AskStatus, e.g. after a power cycle that did not break
+  /// the connection.
+  int restarts() const { return restarts_; }
+
+  /// How often the configuration was found changed and was restored.
+  std::uint64_t restorations() const { return restorations_; }
+  /// What was found at the last restoration, a phrase.
+  const char* lastRestoration() const { return last_restoration_; }
+
+  /// Calibration of camera and accelerometer from the remote's EEPROM; unreadable parts are unset.
+  const FactoryCalibration& factory() const { return factory_; }
+
+  /// The last status that came.
+  const std::optional<protocol::Status>& status() const { return status_; }
+
+  /// Sends what switches reporting, camera, LEDs and motor off. Waits for no answer.
+  void switchOff();
+
+ private:
+  struct AskStatus {};
+  struct SetLeds {};
+  struct ReadFactory {};
+  struct StartClock {};
+  struct StartLogic {};
+  struct WriteCamera {
+    int block = 0;               ///< Of CameraConfiguration::write().
+    bool after_silence = false;  ///< As in ReadCamera.
+  };
+  struct ReadCamera {
+    int block = 0;                           ///< Of CameraConfiguration::read().
+    int left = CameraConfiguration::kReads;  ///< Reads left, with this one.
+    bool sets_mode = true;                   ///< Then SetMode, else Streaming.
+    bool after_silence = false;              ///< Images did not come: was the remote switched off?
+  };
+  struct SetMode {
+    bool camera_changed = false;  ///< Another sensitivity waits to be written.
+  };
+  struct Streaming {};
+  using State = std::variant<AskStatus,
+                             SetLeds,
+                             ReadFactory,
+                             StartClock,
+                             StartLogic,
+                             WriteCamera,
+                             ReadCamera,
+                             SetMode,
+                             Streaming>;
+  template <typename S>
+  bool in() const {
+    return std::holds_alternative<S>(state_);
+  }
+
+  protocol::Report request() const;
+  void enter(const State& state, double now);
+  void answered(double now);
+  void cameraWritten(WriteCamera state, double now);
+  void cameraRead(ReadCamera state, double now);
+
+  void send(double now);
+  void retry(const std::string& why, double now);
+  void transmit(protocol::Report report);
+  void sendReportMode() { transmit(protocol::setReportMode(assembler_.reportMode(), true)); }
+
+  void handleStatus(const protocol::Status& status, double now);
+  void handleMemory(const protocol::MemoryPacket& packet, double now);
+  void handleAcknowledgement(const protocol::Acknowledgement& acknowledgement, double now);
+  std::optional<protocol::DataReport> handleData(const protocol::Report& report, double now);
+  void handleOtherMode(std::uint8_t id, double now);
+
+  void setUpCamera(double now);
+  void checkCamera(const ReadCamera& check, double now);
+  void checkFailed(const char* fault, double now);
+  void keepStreaming(double now);
+  void imagesStopped(double now);
+  void startOver(double now);
+  void noteFault(const char* fault);
+
+  /// Whether the camera's registers can be read back, as far as known.
+  enum class Registers { kUnknown, kReadable, kUnreadable };
+
+  SessionOptions options_;
+  Write write_;
+  FactoryCalibration factory_;
+  CameraConfiguration camera_;
+  ImageAssembler assembler_;
+  StreamWatch watch_;
+  DuplicateFilter duplicates_;
+  std::optional<protocol::Status> status_;
+
+  State state_;
+  int attempts_ = 0;         ///< Of the state's request.
+  double answer_due_ = 0.0;  ///< [s]
+
+  bool streaming_ = false;  ///< Since Streaming; until the camera is set up again.
+  Registers registers_ = Registers::kUnknown;
+  int set_ups_ = 0;     ///< Of the camera, in a row without success.
+  int silences_ = 0;    ///< In a row, without an image between them.
+  int next_check_ = 0;  ///< Block that the next periodic check reads.
+  int restarts_ = 0;
+
+  const char* fault_ = nullptr;  ///< What is being restored; null when nothing.
+  const char* last_restoration_ = "";
+  std::uint64_t restorations_ = 0;
+
+  std::optional<double> rumble_due_;  ///< [s] While the motor runs: when to repeat it.
+};
+
+}  // namespace wiimote_tracker::wiimote
+
+#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_SESSION_H

@@ -1,0 +1,60 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_STREAM_STATISTICS_H
+#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_STREAM_STATISTICS_H
+
+#include <algorithm>
+#include <cstdint>
+
+namespace wiimote_tracker::wiimote {
+
+/// Rate and gaps of the images since the last take().
+class StreamStatistics {
+ public:
+  /// Longer than this between two images [s] counts as a gap: five images at a remote's 100 Hz.
+  static constexpr double kGap = 0.05;
+
+  struct Summary {
+    double rate = 0.0;         ///< [Hz]
+    double longest_gap = 0.0;  ///< [s] Including the time since the last image.
+    std::uint64_t gaps = 0;    ///< Since the beginning.
+  };
+
+  /// `now` [s] here and below is any clock that never goes back.
+  explicit StreamStatistics(double now) : window_start_(now), last_image_(now) {}
+
+  /// An image has come.
+  void add(double now) {
+    const double interval = now - last_image_;
+    // The time before the first image is no gap.
+    if (any_image_ && interval > kGap)
+      ++gaps_;
+    any_image_ = true;
+    longest_ = std::max(longest_, interval);
+    last_image_ = now;
+    ++images_;
+  }
+
+  /// Returns the summary of this window and begins the next one.
+  Summary take(double now) {
+    Summary summary;
+    if (now > window_start_)
+      summary.rate = static_cast<double>(images_) / (now - window_start_);
+    summary.longest_gap = std::max(longest_, now - last_image_);
+    summary.gaps = gaps_;
+    window_start_ = now;
+    images_ = 0;
+    longest_ = 0.0;
+    return summary;
+  }
+
+ private:
+  double window_start_;
+  double last_image_;
+  double longest_ = 0.0;
+  bool any_image_ = false;
+  std::uint64_t images_ = 0;
+  std::uint64_t gaps_ = 0;
+};
+
+}  // namespace wiimote_tracker::wiimote
+
+#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_STREAM_STATISTICS_H

@@ -1,0 +1,115 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_WIIMOTE_H
+#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_WIIMOTE_H
+
+#include "transport/transport.h"
+#include "wiimote/session.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace wiimote_tracker::wiimote {
+
+struct Options {
+  SessionOptions session;
+  double retry_min = 0.25;  ///< [s, > 0] Pause after the first failure; doubles with each further.
+  double retry_max = 0.5;   ///< [s, >= retry_min] Longest pause.
+};
+
+/// The state of the connection.
+struct Link {
+  enum class State {
+    kSearching,  ///< No remote is open.
+    kStarting,   ///< It is being set up.
+    kStreaming,  ///< Images come.
+  };
+  State state = State::kSearching;
+  std::string error;              ///< Why it is not streaming, one sentence; else empty.
+  std::string description;        ///< Of the transport that is or was open last.
+  std::string identity;           ///< Bluetooth address of the remote that is or was open last.
+  std::string kernel_driver;      ///< Of the remote; empty when none.
+  std::uint32_t clock_epoch = 0;  ///< Counts from 0, one more at each reconnect or power cycle.
+  std::optional<protocol::Status> status;
+  bool accelerometer_calibrated = false;  ///< By the remote's own EEPROM.
+  /// From the remote's EEPROM; nothing when it is damaged.
+  std::optional<protocol::IrCalibration> ir_calibration;
+  /// How often the remote's configuration was found changed and was restored, since the beginning.
+  std::uint64_t restorations = 0;
+  std::string last_restoration;  ///< What was found, a phrase: "the camera was switched off".
+};
+
+/// Keeps a remote connected: opens it, streams from it, and reconnects forever. Not thread-safe:
+/// the thread that calls step() calls everything else.
+class Wiimote {
+ public:
+  /// Opens the transport or throws TransportError.
+  using Open = std::function<std::unique_ptr<transport::Transport>()>;
+  /// Any clock that never goes back [s].
+  using Clock = std::function<double()>;
+
+  Wiimote(const Options& options, Open open, Clock clock);
+  ~Wiimote();
+
+  /// Opens the remote if that is due, else waits up to `max_wait` [s] for one report and handles
+  /// it.
+  /// @returns the report when it is an image. Never throws: an exception of transport or session
+  /// ends the connection, and link() has its text.
+  std::optional<protocol::DataReport> step(double max_wait);
+
+  /// Time until step() will have something to do [s]; 0 while connected.
+  double idleTime() const;
+
+  const Link& link() const { return link_; }
+
+  /// Grows whenever link() has changed.
+  std::uint64_t linkChanges() const { return link_changes_; }
+
+  /// Of the connected remote, or typical values.
+  const protocol::AccelerometerCalibration& accelerometer() const { return accelerometer_; }
+
+  /// Changes the camera's sensitivity, now and after each reconnect. Some ten images are left out;
+  /// the clock epoch stays.
+  void setSensitivity(const protocol::IrSensitivity& sensitivity);
+
+  /// Player LEDs 1..4 in bits 0..3, now and after each reconnect.
+  void setLeds(std::uint8_t leds);
+
+  /// Runs the motor until it is switched off or the connection is lost. It shakes the camera.
+  void setRumble(bool rumble);
+
+  /// Switches the remote's reporting, camera and LEDs off and disconnects.
+  void close();
+
+ private:
+  /// Ends the connection when the action throws.
+  template <typename Action>
+  void orDrop(Action action);
+
+  void connect();
+  void drop(const std::string& error);
+  std::optional<protocol::DataReport> receive(double max_wait);
+  void updateLink(bool image);
+
+  Options options_;
+  const Open open_;
+  const Clock clock_;
+
+  std::unique_ptr<transport::Transport> transport_;
+  std::optional<Session> session_;
+  double retry_pause_;
+  double next_attempt_;
+
+  Link link_;
+  std::uint64_t link_changes_ = 0;
+  protocol::AccelerometerCalibration accelerometer_;
+  bool had_image_ = false;
+  bool new_epoch_ = false;          ///< The next image is the first of another epoch.
+  int restarts_ = 0;                ///< Of the session, as far as seen.
+  std::uint64_t restorations_ = 0;  ///< Likewise.
+};
+
+}  // namespace wiimote_tracker::wiimote
+
+#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_WIIMOTE_H

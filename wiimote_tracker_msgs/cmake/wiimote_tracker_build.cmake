@@ -1,0 +1,110 @@
+# How the packages of the tracker are built. find_package(catkin ... wiimote_tracker_msgs) includes
+# this file; a package then calls wiimote_tracker_package() and uses the functions below it.
+
+# Build type, language, warnings and sanitizers of the package. Call it after find_package(catkin).
+macro(wiimote_tracker_package)
+  option(WIIMOTE_TRACKER_WERROR "Treat compiler warnings as errors" OFF)
+  option(WIIMOTE_TRACKER_SANITIZE "Build with the address and undefined behaviour sanitizers" OFF)
+  if(NOT CMAKE_BUILD_TYPE)
+    set(CMAKE_BUILD_TYPE RelWithDebInfo)
+  endif()
+  set(CMAKE_CXX_STANDARD 17)
+  set(CMAKE_CXX_STANDARD_REQUIRED ON)
+  set(CMAKE_CXX_EXTENSIONS OFF)
+  add_compile_options(-Wall -Wextra -Wpedantic)
+  if(WIIMOTE_TRACKER_WERROR)
+    add_compile_options(-Werror)
+  endif()
+  if(WIIMOTE_TRACKER_SANITIZE)
+    # The checks "null" and "alignment" double the compile time. The address sanitizer stops at a
+    # null access, and an assertion of Eigen at misaligned memory.
+    add_compile_options(-fsanitize=address,undefined -fno-sanitize=null,alignment
+      -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+    set(CMAKE_EXE_LINKER_FLAGS "${CMAKE_EXE_LINKER_FLAGS} -fsanitize=address,undefined")
+    set(CMAKE_SHARED_LINKER_FLAGS "${CMAKE_SHARED_LINKER_FLAGS} -fsanitize=address,undefined")
+  endif()
+  wiimote_tracker_import_libraries()
+endmacro()
+
+# Splits catkin_LIBRARIES. The libraries of the tracker's other packages can be linked by name, as
+# the targets that they are in a common build and as imported ones when they are installed. All
+# others are in ROS_LIBRARIES; the keyword ROS below links them.
+macro(wiimote_tracker_import_libraries)
+  set(ROS_LIBRARIES ${catkin_LIBRARIES})
+  list(FILTER ROS_LIBRARIES EXCLUDE REGEX "wiimote_tracker_")
+  foreach(library ${catkin_LIBRARIES})
+    if(library MATCHES "/lib(wiimote_tracker_[a-z_]+)\\.so$" AND NOT TARGET ${CMAKE_MATCH_1})
+      add_library(${CMAKE_MATCH_1} SHARED IMPORTED)
+      set_target_properties(${CMAKE_MATCH_1} PROPERTIES IMPORTED_LOCATION ${library})
+    endif()
+  endforeach()
+endmacro()
+
+# In the functions below, ROS links what find_package(catkin) found, and LIBRARIES everything else.
+macro(_wiimote_tracker_parse)
+  cmake_parse_arguments(ARG "ROS;STATIC" "" "LIBRARIES" ${ARGN})
+  set(sources ${ARG_UNPARSED_ARGUMENTS})
+endmacro()
+macro(_wiimote_tracker_link name)
+  target_link_libraries(${name} ${ARG_LIBRARIES})
+  if(ARG_ROS)
+    add_dependencies(${name} ${catkin_EXPORTED_TARGETS})
+    target_link_libraries(${name} ${ROS_LIBRARIES})
+  endif()
+endmacro()
+
+# wiimote_tracker_add_library(NAME SOURCE... [ROS] [STATIC] [LIBRARIES LIBRARY...])
+# Adds a library and installs it. A static one, for a program and its tests, is not installed.
+function(wiimote_tracker_add_library name)
+  _wiimote_tracker_parse(${ARGN})
+  if(ARG_STATIC)
+    add_library(${name} STATIC ${sources})
+  else()
+    add_library(${name} ${sources})
+    install(TARGETS ${name}
+      ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+      LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+      RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
+  endif()
+  _wiimote_tracker_link(${name})
+endfunction()
+
+# wiimote_tracker_add_program(NAME SOURCE... [ROS] [LIBRARIES LIBRARY...]): adds and installs it.
+function(wiimote_tracker_add_program name)
+  _wiimote_tracker_parse(${ARGN})
+  add_executable(${name} ${sources})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  _wiimote_tracker_link(${name})
+endfunction()
+
+# wiimote_tracker_add_gtest(NAME SOURCE... [ROS] [LIBRARIES LIBRARY...]): a test without a master.
+function(wiimote_tracker_add_gtest name)
+  _wiimote_tracker_parse(${ARGN})
+  catkin_add_gtest(${name} ${sources})
+  list(APPEND ARG_LIBRARIES gtest_main gtest)
+  _wiimote_tracker_link(${name})
+endfunction()
+
+# wiimote_tracker_add_node_test(NAME LAUNCH SOURCE... [LIBRARIES LIBRARY...] [NODES TARGET...])
+# A gtest that the launch file starts together with these nodes of ours.
+function(wiimote_tracker_add_node_test name launch)
+  cmake_parse_arguments(ARG "" "" "LIBRARIES;NODES" ${ARGN})
+  add_rostest_gtest(${name} ${launch} ${ARG_UNPARSED_ARGUMENTS})
+  set(ARG_ROS ON)
+  list(APPEND ARG_LIBRARIES gtest)
+  _wiimote_tracker_link(${name})
+  if(ARG_NODES)
+    add_dependencies(${name} ${ARG_NODES})
+  endif()
+endfunction()
+
+# wiimote_tracker_add_pytest(NAME FILE [ENVIRONMENT VARIABLE=VALUE...] [DEPENDENCIES TARGET...])
+function(wiimote_tracker_add_pytest name file)
+  cmake_parse_arguments(ARG "" "" "ENVIRONMENT;DEPENDENCIES" ${ARGN})
+  get_filename_component(file ${file} ABSOLUTE)
+  set(results ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/pytest-${name}.xml)
+  string(REPLACE ";" " " environment "${ARG_ENVIRONMENT}")
+  catkin_run_tests_target("pytest" ${name} pytest-${name}.xml
+    COMMAND "${CMAKE_COMMAND} -E env ${environment} ${PYTHON_EXECUTABLE} -m pytest -p no:cacheprovider ${file} --junit-xml=${results}"
+    DEPENDENCIES ${ARG_DEPENDENCIES})
+endfunction()

@@ -1,0 +1,37 @@
+#ifndef WIIMOTE_TRACKER_MSGS_TEXT_H
+#define WIIMOTE_TRACKER_MSGS_TEXT_H
+
+#include <cstdarg>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+
+// Text for people: messages of errors, log lines, tables.
+
+namespace wiimote_tracker {
+
+/// What std::printf would print: format("%.1f mm", 1e3 * metres).
+[[gnu::format(printf, 1, 2)]] inline std::string format(const char* pattern, ...) {
+  std::va_list values;
+  va_start(values, pattern);
+  std::va_list again;
+  va_copy(again, values);
+  std::string text(static_cast<std::size_t>(std::vsnprintf(nullptr, 0, pattern, values)), '\0');
+  va_end(values);
+  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+  va_end(again);
+  return text;
+}
+
+/// The words of a list as "a, b, c".
+template <typename Words>
+std::string joined(const Words& words, const char* separator = ", ") {
+  std::string text;
+  for (const std::string& word : words)
+    text += (text.empty() ? "" : separator) + word;
+  return text;
+}
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_MSGS_TEXT_H

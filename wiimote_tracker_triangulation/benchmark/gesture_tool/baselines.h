@@ -1,0 +1,31 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_BASELINES_H
+#define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_BASELINES_H
+
+#include "wiimote_tracker_triangulation/gesture/shape.h"
+
+#include <Eigen/Core>
+
+#include <array>
+
+namespace wiimote_tracker::gesture_tool {
+
+/// A path as template recognisers of the literature see it: points at equal distances along the
+/// way, their mean zero.
+using Cloud = std::array<Eigen::Vector3d, gesture::Shape::kPoints>;
+
+/// Scaled by the largest side of its bounding box. @throws Error: no length.
+Cloud cloudOf(const gesture::Path& path);
+
+/// $P (Vatavu, Anthony, Wobbrock, ICMI 2012), in three dimensions: greedy matching of two clouds
+/// from several starts (epsilon 0.5), both ways, with falling weights.
+double pointCloudDistance(const Cloud& a, const Cloud& b);
+
+/// Dynamic time warping of the positions without a band (Sakoe and Chiba 1978), Euclidean cost.
+double timeWarpingDistance(const Cloud& a, const Cloud& b);
+
+/// Sum of the distances of points of the same rank: plain nearest neighbour.
+double pointwiseDistance(const Cloud& a, const Cloud& b);
+
+}  // namespace wiimote_tracker::gesture_tool
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_BASELINES_H

@@ -1,0 +1,48 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_EVALUATE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_EVALUATE_H
+
+#include "dataset.h"
+#include "gesture/recognizer.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::gesture_tool {
+
+/// How one method did.
+struct MethodResult {
+  std::string name;
+  std::size_t right = 0;
+};
+
+struct Evaluation {
+  std::vector<std::string> gestures;                ///< Names, sorted.
+  std::vector<std::vector<std::size_t>> confusion;  ///< [drawn][recognised], of this package.
+  std::size_t tested = 0;
+  std::size_t right = 0;     ///< Of this package, whether it would have been accepted or not.
+  std::size_t rejected = 0;  ///< Of those tested, by this package.
+
+  /// Of gestures that nobody had shown: how many were tested, and how many of them rejected. Each
+  /// sample is tested once more without the examples of its own gesture.
+  std::size_t unknown_tested = 0;
+  std::size_t unknown_rejected = 0;
+
+  std::size_t examples = 0;     ///< Most examples there were at once.
+  double median_seconds = 0.0;  ///< Of one recognition of this package [s].
+  std::vector<MethodResult> others;
+};
+
+/// Tests every sample of `test` with the examples of the people in `train`, never with those of the
+/// same person (the same folder).
+/// @param examples  of each gesture, by as many people, beginning with the one after the person
+///                  tested and going round; 0: of all.
+/// @throws Error: nobody is left to learn from.
+Evaluation evaluate(const std::vector<Person>& train,
+                    const std::vector<Person>& test,
+                    std::size_t examples,
+                    const gesture::RecognizerOptions& options);
+
+}  // namespace wiimote_tracker::gesture_tool
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_EVALUATE_H

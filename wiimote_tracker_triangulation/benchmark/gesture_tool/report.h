@@ -1,0 +1,23 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_REPORT_H
+#define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_REPORT_H
+
+#include "evaluate.h"
+#include "false_alarms.h"
+
+#include <optional>
+#include <string>
+
+namespace wiimote_tracker::gesture_tool {
+
+/// For people.
+std::string table(const Evaluation& evaluation, const std::optional<FalseAlarms>& alarms);
+
+/// For programs: accuracy [0..1], gestures, confusion [drawn][recognised], and the rest.
+/// @throws geometry::Error.
+void writeJson(const std::string& file,
+               const Evaluation& evaluation,
+               const std::optional<FalseAlarms>& alarms);
+
+}  // namespace wiimote_tracker::gesture_tool
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_REPORT_H

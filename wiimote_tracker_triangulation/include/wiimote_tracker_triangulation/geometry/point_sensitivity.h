@@ -1,0 +1,46 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_POINT_SENSITIVITY_H
+#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_POINT_SENSITIVITY_H
+
+#include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::geometry {
+
+/// d point / d parameters of one camera.
+using PointJacobian = Eigen::Matrix<double, 3, kParameters>;
+
+/// How a point that is triangulated by maximum likelihood from some cameras of a rig moves with the
+/// rig's parameters, to first order: D_i = -(sum_j P_j^T P_j)^-1 P_i^T A_i, with the derivatives P
+/// of a camera's pixel by the point and A by the camera's parameters (rayProjection()). The errors
+/// of a calibration with covariance C give the point the covariance D C D^T.
+/// @param velocity of the point [m/s]: time offsets shift what moves.
+/// @param by_camera receives the `count` blocks D_i, in the order of `cameras`.
+/// @returns false when the cameras do not determine the point: fewer than two, one without a pixel
+/// of it, all at one place or in one line with it. Does not allocate.
+bool pointSensitivity(const Rig& rig,
+                      const Eigen::Vector3d& point,
+                      const std::size_t* cameras,
+                      std::size_t count,
+                      PointJacobian* by_camera,
+                      const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero());
+
+/// The same as one matrix of 3 rows and a column for each parameter of the rig, 0 for those of
+/// other cameras. Nothing where pointSensitivity() is false.
+std::optional<Eigen::MatrixXd> pointByParameters(
+    const Rig& rig,
+    const Eigen::Vector3d& point,
+    const std::vector<std::size_t>& cameras,
+    const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero());
+
+/// The cameras of a rig that see a point (Camera::sees, of Rig::rayCamera()), ascending.
+std::vector<std::size_t> camerasSeeing(const Rig& rig, const Eigen::Vector3d& point);
+
+}  // namespace wiimote_tracker::geometry
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_POINT_SENSITIVITY_H

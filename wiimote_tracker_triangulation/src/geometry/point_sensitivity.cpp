@@ -1,0 +1,55 @@
+#include "wiimote_tracker_triangulation/geometry/point_sensitivity.h"
+
+#include <Eigen/LU>
+
+namespace wiimote_tracker::geometry {
+
+bool pointSensitivity(const Rig& rig,
+                      const Eigen::Vector3d& point,
+                      const std::size_t* cameras,
+                      std::size_t count,
+                      PointJacobian* by_camera,
+                      const Eigen::Vector3d& velocity) {
+  // Below the angle between rays that any point is triangulated from.
+  constexpr double kSingular = 1e-10;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < count; ++i) {
+    auto projection = rayProjection(rig, cameras[i], point);
+    if (!projection)
+      return false;
+    projection->by_parameters.col(kTimeOffset).noalias() = projection->by_point * velocity;
+    information.noalias() += projection->by_point.transpose() * projection->by_point;
+    by_camera[i].noalias() = projection->by_point.transpose() * projection->by_parameters;
+  }
+  const double trace = information.trace();
+  if (!(information.determinant() > kSingular * trace * trace * trace))
+    return false;
+  const Eigen::Matrix3d inverse = information.inverse();
+  for (std::size_t i = 0; i < count; ++i)
+    by_camera[i] = -inverse * by_camera[i];
+  return true;
+}
+
+std::optional<Eigen::MatrixXd> pointByParameters(const Rig& rig,
+                                                 const Eigen::Vector3d& point,
+                                                 const std::vector<std::size_t>& cameras,
+                                                 const Eigen::Vector3d& velocity) {
+  std::vector<PointJacobian> by_camera(cameras.size());
+  if (!pointSensitivity(rig, point, cameras.data(), cameras.size(), by_camera.data(), velocity))
+    return std::nullopt;
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3, firstParameter(rig.cameras.size()));
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    result.middleCols<kParameters>(firstParameter(cameras[i])) = by_camera[i];
+  return result;
+}
+
+std::vector<std::size_t> camerasSeeing(const Rig& rig, const Eigen::Vector3d& point) {
+  std::vector<std::size_t> cameras;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    if (rig.rayCamera(rig.cameras[i]).sees(point))
+      cameras.push_back(i);
+  }
+  return cameras;
+}
+
+}  // namespace wiimote_tracker::geometry

@@ -1,0 +1,118 @@
+#include "wiimote_tracker_triangulation/geometry/yaml_map.h"
+
+#include "wiimote_tracker_triangulation/geometry/atomic_file.h"
+
+#include <algorithm>
+
+namespace wiimote_tracker::geometry {
+
+YamlMap YamlMap::load(const std::string& file, const char* advice) {
+  return parse(readFile(file), file, advice);
+}
+
+YamlMap YamlMap::parse(const std::string& text, const std::string& file, const char* advice) {
+  try {
+    return YamlMap(YAML::Load(text), file, "", advice);
+  } catch (const YAML::Exception& e) {
+    throw FileError(file + " is not YAML (" + e.what() + "); " + advice);
+  }
+}
+
+YamlMap::YamlMap(const YAML::Node& node,
+                 const std::string& file,
+                 const std::string& path,
+                 const char* advice)
+    : node_(node), file_(file), path_(path), advice_(advice) {
+  if (!node_.IsMap())
+    throw FileError(file_ + (path_.empty() ? "" : ": " + path_) +
+                    " is not a map of keys and values; " + advice_);
+  std::set<std::string> keys;
+  for (const auto& entry : node_) {
+    if (!entry.first.IsScalar())
+      throw FileError(file_ + ": " + path_ + " has a key that is not a word; " + advice_);
+    if (!keys.insert(entry.first.Scalar()).second)
+      throw error(entry.first.Scalar(), "is there twice");
+  }
+}
+
+void YamlMap::checkFormat(const std::string& format, int version) {
+  if (get<std::string>("format") != format)
+    throw error("format", "is not " + format);
+  const auto found = get<std::string>("version");
+  if (found != std::to_string(version))
+    throw FileError(file_ + ": version is " + found + ", but only " + std::to_string(version) +
+                    " is understood; update this program");
+}
+
+std::vector<double> YamlMap::numbers(const std::string& key, std::size_t count) {
+  const std::vector<double> result = numbers(key);
+  if (result.size() != count)
+    throw error(key, "is not a list of " + std::to_string(count) + " numbers");
+  return result;
+}
+
+std::vector<std::vector<double>> YamlMap::rows(const std::string& key,
+                                               std::size_t columns,
+                                               const std::string& names) {
+  const auto result = get<std::vector<std::vector<double>>>(key);
+  if (std::any_of(result.begin(), result.end(),
+                  [columns](const std::vector<double>& row) { return row.size() != columns; }))
+    throw error(key, "has a row that is not [" + names + "]");
+  return result;
+}
+
+Eigen::Vector3d YamlMap::vector(const std::string& key) {
+  const std::vector<double> values = numbers(key);
+  if (values.size() != 3)
+    throw error(key, "must have three numbers: x, y, z");
+  const Eigen::Vector3d vector(values[0], values[1], values[2]);
+  if (!vector.allFinite())
+    throw error(key, "must be finite");
+  return vector;
+}
+
+YamlMap YamlMap::map(const std::string& key) {
+  return YamlMap(value(key), file_, pathOf(key), advice_);
+}
+
+std::vector<YamlMap> YamlMap::maps(const std::string& key) {
+  const YAML::Node list = value(key);
+  if (!list.IsSequence())
+    throw error(key, "is not a list");
+  std::vector<YamlMap> result;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    result.push_back(YamlMap(list[i], file_, pathOf(key) + "[" + std::to_string(i) + "]", advice_));
+  return result;
+}
+
+std::vector<std::pair<std::string, YamlMap>> YamlMap::entries() {
+  std::vector<std::pair<std::string, YamlMap>> result;
+  for (const auto& entry : node_)
+    result.emplace_back(entry.first.Scalar(), map(entry.first.Scalar()));
+  return result;
+}
+
+void YamlMap::refuseUnknown() const {
+  for (const auto& entry : node_) {
+    if (!asked_.count(entry.first.Scalar()))
+      throw error(entry.first.Scalar(), "is an unknown key");
+  }
+}
+
+FileError YamlMap::error(const std::string& key, const std::string& is_wrong) const {
+  return FileError(file_ + ": " + pathOf(key) + " " + is_wrong + "; " + advice_);
+}
+
+YAML::Node YamlMap::value(const std::string& key) {
+  asked_.insert(key);
+  const YAML::Node found = node_[key];
+  if (!found.IsDefined())
+    throw error(key, "is missing");
+  return found;
+}
+
+std::string YamlMap::pathOf(const std::string& key) const {
+  return path_.empty() ? key : path_ + "/" + key;
+}
+
+}  // namespace wiimote_tracker::geometry

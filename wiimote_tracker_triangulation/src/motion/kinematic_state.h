@@ -1,0 +1,41 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_KINEMATIC_STATE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_MOTION_KINEMATIC_STATE_H
+
+#include "motion/transition.h"
+
+#include <Eigen/Core>
+
+namespace wiimote_tracker::motion {
+
+/// Normal distribution of an LED's position, velocity and acceleration, in this order, in the world
+/// [m, s].
+struct KinematicState {
+  Eigen::Matrix<double, 9, 1> mean;
+  Eigen::Matrix<double, 9, 9> covariance;
+
+  Eigen::Vector3d position() const { return mean.head<3>(); }
+  Eigen::Vector3d velocity() const { return mean.segment<3>(3); }
+  Eigen::Matrix3d positionCovariance() const { return covariance.topLeftCorner<3, 3>(); }
+  Eigen::Matrix3d velocityCovariance() const { return covariance.block<3, 3>(3, 3); }
+
+  /// The same transition in each axis: x' = (F (x) I) x + noise of the covariance Q (x) I.
+  void predict(const Transition& transition);
+
+  /// Kalman update by a pixel. @param jacobian d pixel / d position [px/m]
+  /// @param whitening L^-1 of the innovation covariance L L^T, lower triangular [1/px]
+  /// @param innovation [px]
+  void update(const Eigen::Matrix<double, 2, 3>& jacobian,
+              const Eigen::Matrix2d& whitening,
+              const Eigen::Vector2d& innovation);
+
+  /// Along a direction, velocity and acceleration are multiplied by `kept` and get noise, so that
+  /// with kept = 0 they have these variances. @param direction of length 1  @param kept [0..1]
+  void decay(const Eigen::Vector3d& direction,
+             double kept,
+             double velocity_variance,
+             double acceleration_variance);
+};
+
+}  // namespace wiimote_tracker::motion
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_MOTION_KINEMATIC_STATE_H

@@ -1,0 +1,59 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_MODES_H
+#define WIIMOTE_TRACKER_TRIANGULATION_MOTION_MODES_H
+
+#include "motion/kinematic_state.h"
+#include "motion/transition.h"
+#include "wiimote_tracker_triangulation/motion/motion_options.h"
+
+#include <Eigen/Core>
+
+#include <array>
+
+namespace wiimote_tracker::motion {
+
+/// The modes of MotionOptions: two at rest, then the moving ones by their agility.
+enum ModeIndex { kFixed, kSwaying, kSmooth, kGentle, kBrisk, kSudden };
+constexpr int kModes = 6;
+constexpr int kRestModes = 2;
+
+inline bool isAtRest(int mode) {
+  return mode < kRestModes;
+}
+
+/// One mode's probability, and the state of the LED if it is in this mode.
+struct Mode {
+  double probability;  // [0..1]; of 0: the state has no meaning
+  KinematicState state;
+};
+
+using Modes = std::array<Mode, kModes>;
+
+/// Of a new LED. @param position [m]  @param covariance [m^2]
+Modes initialModes(const MotionOptions& options,
+                   const Eigen::Vector3d& position,
+                   const Eigen::Matrix3d& covariance);
+
+/// How a mode's state changes over a duration [s, >= 0].
+Transition transitionOf(const MotionOptions& options, int mode, double duration);
+
+/// Variance of the acceleration with which a mode begins, per axis [m^2/s^4].
+double accelerationVariance(const MotionOptions& options, int mode);
+
+/// Probabilities that a mode (row) changes to another (column).
+using ModeTransitions = Eigen::Matrix<double, kModes, kModes>;
+
+/// From moving modes to those at rest. @param duration [s]
+ModeTransitions stopProbabilities(const MotionOptions& options, double duration);
+
+/// All other changes: from rest to moving modes, and among these. @param duration [s]
+ModeTransitions changeProbabilities(const MotionOptions& options, double duration);
+
+/// The interaction of the filter: each mode's state becomes the mean and covariance of the mixture
+/// of the states that may have led to it, each with its mixing probability. A mode at rest takes
+/// over positions only; what enters a moving mode from rest or from a less agile one gets an
+/// acceleration of that mode.
+void mix(const ModeTransitions& transitions, const MotionOptions& options, Modes* modes);
+
+}  // namespace wiimote_tracker::motion
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_MOTION_MODES_H

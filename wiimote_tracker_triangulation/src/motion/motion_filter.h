@@ -1,0 +1,84 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_FILTER_H
+#define WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_FILTER_H
+
+#include "motion/modes.h"
+#include "motion/pixel_prediction.h"
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+#include "wiimote_tracker_triangulation/motion/motion_options.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+
+namespace wiimote_tracker::motion {
+
+/// One LED's state in continuous time, updated by each camera's spot at that image's own time: an
+/// interacting multiple model filter (Blom and Bar-Shalom 1988; Bar-Shalom, Li and Kirubarajan
+/// 2001, section 11.6.6) over the modes of MotionOptions. The update is an extended Kalman
+/// filter's, iterated where one linearisation is not accurate enough. A value: copies are
+/// independent. Nothing here allocates.
+///
+/// The covariances are those for exact cameras. The error of the calibration is systematic and does
+/// not average out, so its covariance is added to what is published.
+class MotionFilter {
+ public:
+  /// From a triangulated point. @param options not owned. @param time [s], finite.
+  /// @param position [m], finite. @param covariance [m^2], positive definite.
+  MotionFilter(const MotionOptions& options,
+               double time,
+               const Eigen::Vector3d& position,
+               const Eigen::Matrix3d& covariance);
+
+  MotionFilter(const MotionOptions&&,
+               double,
+               const Eigen::Vector3d&,
+               const Eigen::Matrix3d&) = delete;  // the filter would refer to a temporary
+
+  double time() const { return time_; }  ///< [s]
+
+  /// Predicts to a time [s]. Does nothing for a time that is not after time().
+  void predict(double time);
+
+  /// The LED's pixel at time(). Nothing when it is not in front of the camera (Camera::project).
+  std::optional<PixelPrediction> predictPixel(const geometry::Camera& camera,
+                                              const PixelNoise& noise) const;
+
+  /// Updates with the pixel of the LED's spot at time(). The prediction must be this filter's in
+  /// its present state. False, and nothing changes, when the pixel is not finite or more than
+  /// 1e9 px away.
+  bool update(const geometry::Camera& camera,
+              const PixelPrediction& prediction,
+              const Eigen::Vector2d& pixel);
+
+  // Mean and covariance of the mixture of all modes.
+  Eigen::Vector3d position() const;            ///< World [m].
+  Eigen::Matrix3d positionCovariance() const;  ///< [m^2]
+  Eigen::Vector3d velocity() const;            ///< World [m/s].
+  Eigen::Matrix3d velocityCovariance() const;  ///< [m^2/s^2]
+
+  /// Probability of the modes at rest [0..1].
+  double restProbability() const;
+
+ private:
+  bool linearize(const geometry::Camera& camera,
+                 const Eigen::Vector3d& point,
+                 PixelPrediction* prediction) const;
+  bool isLinear(const geometry::Camera& camera,
+                const PixelPrediction& prediction,
+                const Eigen::Vector2d& pixel) const;
+  void apply(const PixelPrediction& prediction, const Eigen::Vector2d& pixel);
+  void inflateUnobservedDepth(const geometry::Camera& camera);
+
+  const MotionOptions* options_;
+  double time_;
+  double last_stop_;      // stops are considered up to here [s]
+  double last_change_;    // all other mode changes up to here [s]
+  double last_update_;    // [s]
+  double last_parallax_;  // last update from another direction than the one before [s]
+  Eigen::Vector3d view_ = Eigen::Vector3d::Zero();  // from that camera to the LED [m]
+  Modes modes_;
+};
+
+}  // namespace wiimote_tracker::motion
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_FILTER_H

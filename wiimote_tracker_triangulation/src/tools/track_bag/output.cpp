@@ -1,0 +1,169 @@
+#include "output.h"
+
+#include "measurements/part_file.h"
+#include "recording.h"
+#include "ros/bodies/body_message.h"
+#include "ros/measurement_message.h"
+#include "ros/point_message.h"
+
+#include <tf2_msgs/TFMessage.h>
+#include <unistd.h>
+#include <boost/make_shared.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace wiimote_tracker {
+
+using tf2_msgs::TFMessage;
+using wiimote_tracker_msgs::RigCalibration;
+using wiimote_tracker_msgs::TrackedPoint;
+using wiimote_tracker_msgs::TrackedPointArray;
+
+Output::Output(const OutputFiles& files, const Topics& topics, bool publish_predicted)
+    : path_(files.bag),
+      topics_(topics),
+      publish_predicted_(publish_predicted),
+      bag_(std::make_unique<rosbag::Bag>()) {
+  if (!files.csv.empty())
+    tables_.push_back(measurements::makeCsvWriter(files.csv));
+  if (!files.matlab.empty())
+    tables_.push_back(measurements::makeMatlabWriter(files.matlab));
+  measurements::createPart(path_);
+  try {
+    bag_->open(measurements::partOf(path_), rosbag::bagmode::Write);
+  } catch (const rosbag::BagException& e) {
+    ::unlink(measurements::partOf(path_).c_str());
+    fail(e.what());
+  }
+}
+
+Output::~Output() {
+  if (!bag_)
+    return;
+  ::unlink(measurements::partOf(path_).c_str());
+  // rosbag::Bag's destructor writes the index and ends the process where that fails, as on a full
+  // disk. The bag is not wanted any more: leave it to the end of the process.
+  static_cast<void>(bag_.release());
+}
+
+void Output::leaveOut(const std::set<std::string>& labels, const std::set<std::string>& bodies) {
+  earlier_topics_ = {topics_.points(), topics_.triggeredPoints(), topics_.zoneEvents(),
+                     topics_.bodies(), topics_.markers()};
+  for (const std::string& label : labels)
+    earlier_topics_.insert(topics_.point(label));
+  for (const std::string& body : bodies)
+    earlier_topics_.insert(topics_.pose(body));
+  earlier_frames_ = labels;
+  earlier_frames_.insert(bodies.begin(), bodies.end());
+}
+
+void Output::copy(const rosbag::MessageInstance& recorded) {
+  const std::string& topic = recorded.getTopic();
+  if (earlier_topics_.count(topic) > 0)
+    return;
+  if (topic != Topics::transforms() || !recorded.isType<TFMessage>()) {
+    write(topic, recorded.getTime(), recorded, recorded.getConnectionHeader());
+    return;
+  }
+  // Others send transforms on this topic too, perhaps in the same message.
+  TFMessage rest;
+  for (const geometry_msgs::TransformStamped& t : recorded.instantiate<TFMessage>()->transforms) {
+    if (earlier_frames_.count(t.child_frame_id) == 0)
+      rest.transforms.push_back(t);
+  }
+  if (!rest.transforms.empty())
+    write(topic, recorded.getTime(), rest, recorded.getConnectionHeader());
+}
+
+void Output::writeRig(const RigCalibration& rig, const ros::Time& time) {
+  const auto header = boost::make_shared<ros::M_string>();
+  (*header)["type"] = ros::message_traits::datatype(rig);
+  (*header)["md5sum"] = ros::message_traits::md5sum(rig);
+  (*header)["message_definition"] = ros::message_traits::definition(rig);
+  (*header)["latching"] = "1";
+  (*header)["callerid"] = "/track_bag";
+  write(topics_.rig(), time, rig, header);
+}
+
+void Output::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
+                      const std::vector<tracking::CameraView>& /*views*/) {
+  ++points_;
+  write(topics_.points(), now_, *points);
+  TFMessage transforms;
+  for (const TrackedPoint& point : points->points) {
+    ids_.insert(point.id);
+    if (!isPosition(point, publish_predicted_))
+      continue;
+    write(topics_.point(point.label), now_, pointStamped(*points, point));
+    transforms.transforms.push_back(transform(*points, point));
+  }
+  if (!transforms.transforms.empty())
+    write(Topics::transforms(), now_, transforms);
+  writeTables(*points, false);
+}
+
+void Output::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
+  write(topics_.bodies(), now_, bodies);
+  TFMessage transforms;
+  for (const wiimote_tracker_msgs::TrackedBody& body : bodies.bodies) {
+    if (!isPose(body, publish_predicted_))
+      continue;
+    write(topics_.pose(body.name), now_, poseStamped(bodies, body));
+    transforms.transforms.push_back(transform(bodies, body));
+  }
+  if (!transforms.transforms.empty())
+    write(Topics::transforms(), now_, transforms);
+}
+
+void Output::onTriggeredPoints(const TrackedPointArray& points) {
+  ++triggers_answered_;
+  write(topics_.triggeredPoints(), now_, points);
+  writeTables(points, true);
+}
+
+void Output::onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) {
+  ++zone_events_;
+  write(topics_.zoneEvents(), now_, event);
+}
+
+void Output::onProblem(const std::string& sentence) {
+  std::fprintf(stderr, "track_bag: at %.6f s: %s\n", now_.toSec(), sentence.c_str());
+}
+
+void Output::finish() {
+  for (const std::unique_ptr<measurements::Writer>& table : tables_)
+    table->finish();
+  try {
+    bag_->close();
+  } catch (const rosbag::BagException& e) {
+    fail(e.what());
+  }
+  bag_.reset();
+  measurements::finishPart(path_);
+}
+
+/// `header`: of the connection; without one the topic has one connection for all its messages.
+template <typename Message>
+void Output::write(const std::string& topic,
+                   const ros::Time& time,
+                   const Message& message,
+                   const boost::shared_ptr<ros::M_string>& header) {
+  try {
+    bag_->write(topic, std::max(time, ros::TIME_MIN), message, header);
+  } catch (const rosbag::BagException& e) {
+    fail(e.what());
+  }
+}
+
+void Output::writeTables(const TrackedPointArray& points, bool triggered) {
+  for (const std::unique_ptr<measurements::Writer>& table : tables_)
+    writeMeasurements(points, triggered, table.get());
+}
+
+void Output::fail(const std::string& reason) {
+  throw BagError("cannot write " + path_ + " (" + reason +
+                 "): choose another place or make room there");
+}
+
+}  // namespace wiimote_tracker

@@ -1,0 +1,89 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_OUTPUT_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_OUTPUT_H
+
+#include "measurements/writer.h"
+#include "ros/message_tracker.h"
+#include "topics.h"
+
+#include <rosbag/bag.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// Files that track_bag writes.
+struct OutputFiles {
+  std::string bag;
+  std::string csv;     ///< Empty: none.
+  std::string matlab;  ///< Empty: none.
+};
+
+/// Writes a new bag, and tables: what the tracker publishes, and recorded messages. The files have
+/// their names only when finish() has returned; a file of that name that was there before is kept
+/// as path + ".bak". All member functions throw BagError or Error.
+class Output : public MessageSink {
+ public:
+  /// @param publish_predicted predicted LEDs and bodies too have a point or a pose of their own.
+  Output(const OutputFiles& files, const Topics& topics, bool publish_predicted);
+  ~Output() override;
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  /// Earlier results that are left out of copies: those of these LEDs and bodies.
+  void leaveOut(const std::set<std::string>& labels, const std::set<std::string>& bodies);
+
+  /// Copies a recorded message, without what a tracker computed before.
+  void copy(const rosbag::MessageInstance& recorded);
+
+  /// Latched.
+  void writeRig(const wiimote_tracker_msgs::RigCalibration& rig, const ros::Time& time);
+
+  /// What the tracker publishes from now on gets this recorded time, or that of an earlier message
+  /// if it is later: results stand in the bag in the order in which they were computed.
+  void setTime(const ros::Time& recorded) { now_ = std::max(now_, recorded); }
+
+  void finish();
+
+  std::uint64_t points() const { return points_; }  ///< Messages on `points`.
+  std::uint64_t leds() const { return ids_.size(); }
+  std::uint64_t triggersAnswered() const { return triggers_answered_; }
+  std::uint64_t zoneEvents() const { return zone_events_; }
+
+  void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
+                const std::vector<tracking::CameraView>& views) override;
+  void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) override;
+  void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) override;
+  void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& points) override;
+  void onProblem(const std::string& sentence) override;
+
+ private:
+  template <typename Message>
+  void write(const std::string& topic,
+             const ros::Time& time,
+             const Message& message,
+             const boost::shared_ptr<ros::M_string>& header = nullptr);
+  void writeTables(const wiimote_tracker_msgs::TrackedPointArray& points, bool triggered);
+  [[noreturn]] void fail(const std::string& reason);
+
+  std::string path_;
+  Topics topics_;
+  bool publish_predicted_;
+  std::unique_ptr<rosbag::Bag> bag_;  // null when finished
+  std::vector<std::unique_ptr<measurements::Writer>> tables_;
+  std::set<std::string> earlier_topics_;
+  std::set<std::string> earlier_frames_;
+  ros::Time now_;
+  std::uint64_t points_ = 0;
+  std::set<std::uint32_t> ids_;
+  std::uint64_t triggers_answered_ = 0;
+  std::uint64_t zone_events_ = 0;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_OUTPUT_H

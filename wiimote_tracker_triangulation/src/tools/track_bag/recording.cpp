@@ -1,0 +1,127 @@
+#include "recording.h"
+
+#include <wiimote_tracker_msgs/IrBlobArray.h>
+#include <wiimote_tracker_msgs/RigCalibration.h>
+#include <wiimote_tracker_msgs/TrackedBodyArray.h>
+#include <wiimote_tracker_msgs/TrackedPointArray.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+
+namespace wiimote_tracker {
+namespace {
+
+using wiimote_tracker_msgs::IrBlobArray;
+using wiimote_tracker_msgs::RigCalibration;
+using wiimote_tracker_msgs::TrackedPointArray;
+
+/// When an image arrived [ns], as the tracker reads it.
+std::uint64_t arrivalOf(const IrBlobArray& image) {
+  return (image.arrival.isZero() ? image.header.stamp : image.arrival).toNSec();
+}
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+}  // namespace
+
+Recording::Recording(const std::string& path) : path_(path) {
+  if (!std::filesystem::is_regular_file(path))
+    throw BagError("there is no file " + path + ": name a bag");
+  try {
+    bag_.open(path, rosbag::bagmode::Read);
+    view_ = std::make_unique<rosbag::View>(bag_);
+    for (const rosbag::MessageInstance& message : *view_)
+      messages_.push_back(message);
+    sort();
+  } catch (const rosbag::BagUnindexedException&) {
+    throw BagError(path +
+                   " has no index, its recording was cut off: repair it with rosbag reindex");
+  } catch (const rosbag::BagException& e) {
+    throw BagError(path + " cannot be read as a bag (" + e.what() +
+                   "): see what rosbag info says, rosbag reindex may help");
+  }
+}
+
+/// Gives every other message the earliest arrival time of the images recorded after it.
+void Recording::sort() {
+  struct Place {
+    std::uint64_t arrival;
+    bool is_image;
+    std::size_t message;
+  };
+  std::vector<Place> places;
+  places.reserve(messages_.size());
+  for (std::size_t i = 0; i < messages_.size(); ++i) {
+    const auto image = read<IrBlobArray>(messages_[i]);
+    if (read<RigCalibration>(messages_[i]) && endsWith(messages_[i].getTopic(), "/calibration/rig"))
+      rig_topics_.insert(messages_[i].getTopic());
+    places.push_back({image ? arrivalOf(*image) : UINT64_MAX, image != nullptr, i});
+    images_ += image != nullptr;
+  }
+  std::uint64_t earliest = UINT64_MAX;
+  for (auto place = places.rbegin(); place != places.rend(); ++place) {
+    if (!place->is_image)
+      place->arrival = earliest;
+    earliest = std::min(earliest, place->arrival);
+  }
+  std::stable_sort(places.begin(), places.end(), [&](const Place& a, const Place& b) {
+    if (a.arrival != b.arrival)
+      return a.arrival < b.arrival;
+    if (a.is_image != b.is_image)
+      return b.is_image;
+    return a.is_image && messages_[a.message].getTopic() < messages_[b.message].getTopic();
+  });
+  order_.reserve(places.size());
+  for (const Place& place : places)
+    order_.push_back(place.message);
+}
+
+ros::Time Recording::justBefore() const {
+  const ros::Time start = messages_.front().getTime();
+  return start > ros::TIME_MIN ? start - ros::Duration(0, 1) : start;
+}
+
+Topics Recording::topics() const {
+  if (rig_topics_.empty())
+    return Topics();
+  if (rig_topics_.size() > 1) {
+    std::string names;
+    for (const std::string& topic : rig_topics_)
+      names += (names.empty() ? "" : ", ") + topic;
+    throw BagError(path_ + " holds the rigs of several trackers (" + names +
+                   "): say whose with --namespace");
+  }
+  const std::string& topic = *rig_topics_.begin();
+  return Topics(topic.substr(0, topic.size() - std::string("calibration/rig").size()));
+}
+
+std::set<std::string> Recording::labels(const std::string& points_topic) const {
+  std::set<std::string> labels;
+  for (const rosbag::MessageInstance& message : messages_) {
+    if (message.getTopic() != points_topic)
+      continue;
+    if (const auto points = read<TrackedPointArray>(message)) {
+      for (const wiimote_tracker_msgs::TrackedPoint& point : points->points)
+        labels.insert(point.label);
+    }
+  }
+  return labels;
+}
+
+std::set<std::string> Recording::bodies(const std::string& bodies_topic) const {
+  std::set<std::string> names;
+  for (const rosbag::MessageInstance& message : messages_) {
+    if (message.getTopic() != bodies_topic)
+      continue;
+    if (const auto bodies = read<wiimote_tracker_msgs::TrackedBodyArray>(message)) {
+      for (const wiimote_tracker_msgs::TrackedBody& body : bodies->bodies)
+        names.insert(body.name);
+    }
+  }
+  return names;
+}
+
+}  // namespace wiimote_tracker

@@ -1,0 +1,80 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_RECORDING_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_RECORDING_H
+
+#include "topics.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// A bag cannot be read, used or written. what() is one sentence that says what to do.
+struct BagError : geometry::Error {
+  using Error::Error;
+};
+
+/// The recorded message if it is of this type, otherwise null. @throws BagError: it has the type,
+/// but in another version of its definition.
+template <typename Message>
+boost::shared_ptr<const Message> read(const rosbag::MessageInstance& recorded) {
+  if (recorded.getDataType() != ros::message_traits::datatype<Message>())
+    return nullptr;
+  if (!recorded.isType<Message>())
+    throw BagError(recorded.getTopic() + " was recorded with another version of " +
+                   recorded.getDataType() + ": convert the bag with rosbag fix");
+  return recorded.instantiate<Message>();
+}
+
+/// The messages of a bag, in the order in which a tracker gets them when nothing is delayed: images
+/// by their arrival time, those with the same arrival time by their topics; every other message
+/// before all images that were recorded after it. The recorded times decide nothing else, so the
+/// recorder's clock does not matter.
+class Recording {
+ public:
+  /// @throws BagError: no such file, no bag, no index, recorded with other message definitions.
+  explicit Recording(const std::string& path);
+
+  std::size_t size() const { return order_.size(); }
+
+  /// The i-th message in that order.
+  const rosbag::MessageInstance& operator[](std::size_t i) const { return messages_[order_[i]]; }
+
+  std::size_t images() const { return images_; }
+  bool holdsRig() const { return !rig_topics_.empty(); }
+
+  /// A time before the first recorded one, if there is one. Needs a message.
+  ros::Time justBefore() const;
+
+  /// Topics of the tracker whose rig the bag holds; without a namespace when it holds no rig.
+  /// @throws BagError: rigs of several trackers.
+  Topics topics() const;
+
+  /// Labels of the LEDs in recorded points.
+  std::set<std::string> labels(const std::string& points_topic) const;
+
+  /// Names of the bodies in recorded poses.
+  std::set<std::string> bodies(const std::string& bodies_topic) const;
+
+ private:
+  void sort();
+
+  std::string path_;
+  rosbag::Bag bag_;
+  std::unique_ptr<rosbag::View> view_;            // the messages refer to it
+  std::deque<rosbag::MessageInstance> messages_;  // as recorded
+  std::vector<std::size_t> order_;
+  std::size_t images_ = 0;
+  std::set<std::string> rig_topics_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_RECORDING_H

@@ -1,0 +1,195 @@
+#include "track_initiation.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wiimote_tracker::tracking {
+namespace {
+
+/// With the pixels' uncertainty enlarged for the motion between the cameras' images.
+association::AssociationOptions associationOptions(const geometry::Rig& rig,
+                                                   const TrackerOptions& options) {
+  association::AssociationOptions result = association::typicalCosts(
+      rig, options.birth_pixel_stddev, options.ghost_rate, options.detection_probability);
+  result.minimum_angle = options.minimum_angle;
+  return result;
+}
+
+}  // namespace
+
+void UnassignedSpots::remove(std::size_t spot) {
+  for (--count; spot < count; ++spot) {
+    pixels[spot] = pixels[spot + 1];
+    keys[spot] = keys[spot + 1];
+  }
+}
+
+TrackInitiation::TrackInitiation(const geometry::Rig& rig,
+                                 const std::vector<std::vector<std::size_t>>& partners,
+                                 const TrackerOptions& options)
+    : options_(options),
+      motion_(&options.motion),
+      partners_(partners),
+      associator_(rig, partners, associationOptions(rig, options)),
+      sight_cache_(rig.cameras.size()),
+      sights_(rig.cameras.size()),
+      spots_(rig.cameras.size()),
+      views_(rig.cameras.size()) {}
+
+void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
+                            std::size_t newest,
+                            const std::vector<MergedPair>& pairs,
+                            std::vector<UnassignedSpots>* unassigned,
+                            std::vector<Track>* tracks,
+                            Ids* ids) {
+  if (!collectViews(cameras, newest, *unassigned))
+    return;
+  const double time = (*unassigned)[newest].time;
+  const association::Association& found = associator_.associate(views_);
+  used_.clear();
+  for (const association::AssociatedPoint& point : found.points) {
+    const auto* first = found.spots.data() + point.first_spot;
+    const auto* last = first + point.spot_count;
+    if (std::none_of(first, last, [&](auto& spot) { return spot.view == newest; }) ||
+        !isAllowed(point))
+      continue;
+    initial_spots_.clear();
+    initial_images_.clear();
+    for (const auto* spot = first; spot != last; ++spot) {
+      const UnassignedSpots& image = (*unassigned)[spot->view];
+      used_.push_back({spot->view, spots_[spot->view][spot->spot]});
+      initial_spots_.push_back(image.keys[used_.back().spot]);
+      initial_images_.push_back({spot->view, image.time});
+    }
+    Track* track = startOrRestart(
+        motion::MotionFilter(*motion_, time, point.point.position, point.point.covariance), pairs,
+        tracks, ids);
+    for (const auto* spot = first; spot != last; ++spot)
+      track->addInitialSpot(spot->view, point.point.reprojection_error);
+  }
+  // From the last to the first, so that the indices of the others stay valid.
+  std::sort(used_.begin(), used_.end(), [](auto& a, auto& b) { return a.spot > b.spot; });
+  for (const association::SpotReference& spot : used_)
+    (*unassigned)[spot.view].remove(spot.spot);
+}
+
+/// Restarts the track that is reacquired, or starts a new one.
+Track* TrackInitiation::startOrRestart(const motion::MotionFilter& start,
+                                       const std::vector<MergedPair>& pairs,
+                                       std::vector<Track>* tracks,
+                                       Ids* ids) const {
+  if (Track* reacquired = findReacquiredTrack(start, pairs, tracks)) {
+    reacquired->restart(start);
+    return reacquired;
+  }
+  const std::uint32_t id = ids->idFor(initial_spots_, start.time(), [&](std::uint32_t candidate) {
+    return std::any_of(tracks->begin(), tracks->end(),
+                       [&](const Track& track) { return track.id == candidate; });
+  });
+  tracks->emplace_back(start, id);
+  return &tracks->back();
+}
+
+/// The most likely of the tracks whose LED may be at the new point. A track is not eligible when
+/// the new point's images, or more cameras since, show its LED elsewhere; when a MergedPair is
+/// about to decide where it is; or while a blinking LED may be dark, since the next spot then
+/// continues its track better than two new rays do. The LED may have moved in a way that no mode
+/// describes, as when it is caught, or its track may have followed a false detection: initial_speed
+/// allows for that.
+Track* TrackInitiation::findReacquiredTrack(const motion::MotionFilter& start,
+                                            const std::vector<MergedPair>& pairs,
+                                            std::vector<Track>* tracks) const {
+  double since = start.time();
+  for (const InitialImage& image : initial_images_)
+    since = std::min(since, image.time);
+  Track* result = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (Track& track : *tracks) {
+    const auto showsIt = [&](const InitialImage& image) {
+      return track.isShownBy(image.camera, image.time);
+    };
+    const auto decidesIt = [&](const MergedPair& pair) {
+      return pair.areSeparate(start.time()) && pair.has(track.id);
+    };
+    const bool may_be_dark = start.time() - track.lastObserved() < options_.dark_time;
+    if (!track.isConfirmed() || may_be_dark ||
+        track.camerasShowing(since) > initial_images_.size() ||
+        std::any_of(initial_images_.begin(), initial_images_.end(), showsIt) ||
+        std::any_of(pairs.begin(), pairs.end(), decidesIt))
+      continue;
+    motion::MotionFilter expected = track.filter;
+    expected.predict(start.time());
+    const double slack = motion_->initial_speed * (start.time() - track.lastObserved());
+    const Eigen::Matrix3d covariance = expected.positionCovariance() + start.positionCovariance() +
+                                       slack * slack * Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d offset = start.position() - expected.position();
+    const double distance = offset.dot(covariance.inverse() * offset);
+    const double cost = distance + std::log(covariance.determinant());  // -2 log likelihood
+    if (distance <= options_.gate && cost < least) {
+      least = cost;
+      result = &track;
+    }
+  }
+  return result;
+}
+
+/// Fills views_ with the recent unassigned spots. False when no two cameras have any.
+bool TrackInitiation::collectViews(const std::vector<GroupCamera>& cameras,
+                                   std::size_t newest,
+                                   const std::vector<UnassignedSpots>& unassigned) {
+  const double time = unassigned[newest].time;
+  const auto isRecent = [&](std::size_t camera) {
+    return unassigned[camera].time >= time - options_.birth_window;
+  };
+  const auto hasSome = [&](std::size_t camera) {
+    return isRecent(camera) && unassigned[camera].count > 0;
+  };
+  if (unassigned[newest].count == 0 ||
+      std::none_of(partners_[newest].begin(), partners_[newest].end(), hasSome))
+    return false;
+  std::fill(views_.begin(), views_.end(), association::View());
+  const auto collect = [&](std::size_t camera) {
+    association::View& view = views_[camera];
+    view.watching = isRecent(camera);
+    view.full = unassigned[camera].full;
+    view.sights = sights_[camera].data();
+    for (std::size_t spot = 0; hasSome(camera) && spot < unassigned[camera].count; ++spot) {
+      const auto& sight = sightOf(cameras[camera], camera, unassigned[camera], spot);
+      if (!sight)
+        continue;
+      spots_[camera][view.count] = spot;
+      sights_[camera][view.count++] = *sight;
+    }
+  };
+  for (association::View& view : views_)
+    view.watching = false;
+  collect(newest);
+  for (const std::size_t partner : partners_[newest])
+    collect(partner);
+  return true;
+}
+
+const std::optional<geometry::Sight>& TrackInitiation::sightOf(const GroupCamera& camera,
+                                                               std::size_t index,
+                                                               const UnassignedSpots& unassigned,
+                                                               std::size_t spot) {
+  const SpotKey& key = unassigned.keys[spot];
+  CachedSight& known = sight_cache_[index][key.spot];
+  if (known.image != key.image) {
+    known.image = key.image;
+    known.sight = geometry::sightFromPixel(camera.forRays(), unassigned.pixels[spot]);
+  }
+  return known.sight;
+}
+
+bool TrackInitiation::isAllowed(const association::AssociatedPoint& point) const {
+  const Eigen::Vector3d& place = point.point.position;
+  return place.allFinite() && point.point.covariance.allFinite() &&
+         (place.array() >= options_.minimum_corner.array()).all() &&
+         (place.array() <= options_.maximum_corner.array()).all();
+}
+
+}  // namespace wiimote_tracker::tracking

@@ -1,0 +1,95 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_INITIATION_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_INITIATION_H
+
+#include "group_camera.h"
+#include "ids.h"
+#include "merged_pair.h"
+#include "stored_image.h"
+#include "track.h"
+#include "wiimote_tracker_triangulation/association/associate_views.h"
+#include "wiimote_tracker_triangulation/geometry/sight.h"
+#include "wiimote_tracker_triangulation/tracking/tracker_options.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::tracking {
+
+/// The spots of a camera's newest image that are assigned to no track.
+struct UnassignedSpots {
+  double time = -1e300;  // [s]
+  bool full = false;     // StoredImage::full
+  std::size_t count = 0;
+  std::array<Eigen::Vector2d, association::kMaximumSpots> pixels;
+  std::array<SpotKey, association::kMaximumSpots> keys;
+
+  void remove(std::size_t spot);
+};
+
+/// Track initiation: where unassigned spots of several cameras form a point, reacquires a track
+/// that lost its LED and may be there, or else starts a new one.
+class TrackInitiation {
+ public:
+  /// @param rig the group's cameras only. @param partners see association::sharedViews.
+  /// @param options must outlive the tracks: their filters refer to options.motion.
+  TrackInitiation(const geometry::Rig& rig,
+                  const std::vector<std::vector<std::size_t>>& partners,
+                  const TrackerOptions& options);
+
+  /// Searches for LEDs at the time of camera `newest`'s image, and removes their spots from
+  /// `unassigned`.
+  void apply(const std::vector<GroupCamera>& cameras,
+             std::size_t newest,
+             const std::vector<MergedPair>& pairs,
+             std::vector<UnassignedSpots>* unassigned,
+             std::vector<Track>* tracks,
+             Ids* ids);
+
+ private:
+  bool collectViews(const std::vector<GroupCamera>& cameras,
+                    std::size_t newest,
+                    const std::vector<UnassignedSpots>& unassigned);
+  const std::optional<geometry::Sight>& sightOf(const GroupCamera& camera,
+                                                std::size_t index,
+                                                const UnassignedSpots& unassigned,
+                                                std::size_t spot);
+  bool isAllowed(const association::AssociatedPoint& point) const;
+  Track* startOrRestart(const motion::MotionFilter& start,
+                        const std::vector<MergedPair>& pairs,
+                        std::vector<Track>* tracks,
+                        Ids* ids) const;
+  Track* findReacquiredTrack(const motion::MotionFilter& start,
+                             const std::vector<MergedPair>& pairs,
+                             std::vector<Track>* tracks) const;
+
+  struct InitialImage {
+    std::size_t camera;
+    double time;  // [s]
+  };
+
+  /// The sight of one spot, kept because spots are searched again with every camera's next image.
+  struct CachedSight {
+    std::uint64_t image = std::numeric_limits<std::uint64_t>::max();  // its number; none yet
+    std::optional<geometry::Sight> sight;
+  };
+
+  TrackerOptions options_;
+  const motion::MotionOptions* motion_;
+  std::vector<std::vector<std::size_t>> partners_;
+  association::ViewAssociator associator_;
+  std::vector<std::array<CachedSight, association::kMaximumSpots>> sight_cache_;  // of each camera
+  std::vector<std::array<geometry::Sight, association::kMaximumSpots>> sights_;
+  std::vector<std::array<std::size_t, association::kMaximumSpots>> spots_;  // of the sights
+  std::vector<association::View> views_;
+  std::vector<SpotKey> initial_spots_;        // of one point
+  std::vector<InitialImage> initial_images_;  // of one point
+  std::vector<association::SpotReference> used_;
+};
+
+}  // namespace wiimote_tracker::tracking
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_INITIATION_H

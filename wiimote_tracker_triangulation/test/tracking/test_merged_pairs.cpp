@@ -1,0 +1,103 @@
+// Two LEDs merge into one spot in all views at once, and part again.
+#include "tracking/scene.h"
+#include "wiimote_tracker_triangulation/tracking/tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+namespace wiimote_tracker::tracking {
+namespace {
+
+using test::Path;
+using test::Scene;
+using test::SceneImage;
+using test::SceneOptions;
+
+constexpr double kMeeting = 1001.0;  // [s]
+
+TrackerOptions exact() {
+  TrackerOptions options;
+  options.pixel_stddev = 0.3;  // the scene's
+  options.stamp_stddev = 0.0;
+  return options;
+}
+
+SceneOptions merging() {
+  SceneOptions options;
+  options.start = kMeeting - 1.5;
+  options.merging_distance = 8.0;
+  return options;
+}
+
+/// Two LEDs that pass each other within some millimetres, each with a steady acceleration.
+std::vector<Path> passing(geometry::test::Random& random, double speed) {
+  std::vector<Path> leds;
+  const Eigen::Vector3d relative = 0.5 * speed * random.inBox(1.0).normalized();
+  for (const double sign : {1.0, -1.0}) {
+    const Eigen::Vector3d place = Eigen::Vector3d(1.25, 1.25, 1.0) + random.inBox(0.003);
+    const Eigen::Vector3d velocity = sign * relative;
+    const Eigen::Vector3d acceleration = random.inBox(1.5);
+    leds.push_back([=](double t) {
+      const double since = t - kMeeting;
+      return Eigen::Vector3d(place + since * velocity + 0.5 * since * since * acceleration);
+    });
+  }
+  return leds;
+}
+
+/// Id of the tracked LED nearest to each true one; -1: none within 5 cm.
+std::array<std::int64_t, 2> idsAt(const Snapshot& snapshot, const std::vector<Path>& leds) {
+  std::array<std::int64_t, 2> result = {-1, -1};
+  for (std::size_t i = 0; i < 2; ++i) {
+    double least = 0.05;
+    for (const TrackedLed& led : snapshot.leds) {
+      const double distance = (led.position - leds[i](snapshot.time)).norm();
+      if (led.state == TrackState::kTracked && distance < least) {
+        least = distance;
+        result[i] = led.id;
+      }
+    }
+  }
+  return result;
+}
+
+/// Ids at the last snapshot before a time [s].
+std::array<std::int64_t, 2> follow(Tracker* tracker,
+                                   Scene* scene,
+                                   double end,
+                                   std::set<std::size_t>* merged = nullptr) {
+  std::array<std::int64_t, 2> ids = {-1, -1};
+  for (;;) {
+    const SceneImage& image = scene->next();
+    if (image.true_time >= end)
+      return ids;
+    if (merged && image.leds_of_spot == std::vector<std::uint64_t>{3})
+      merged->insert(image.camera);
+    tracker->add(image.camera, image.image);
+    while (const Snapshot* snapshot = tracker->next())
+      ids = idsAt(*snapshot, scene->leds());
+  }
+}
+
+TEST(MergedPairs, KeepTheirIdsWhereTheirMotionGoesOn) {
+  // Their merged spot is 4 px from either when they meet, further than the gate of each.
+  const geometry::Rig rig = test::paperRig();
+  geometry::test::Random random(7);
+  for (int i = 0; i < 30; ++i) {
+    Scene scene(rig, passing(random, 0.4), merging(), 100 + i);
+    Tracker tracker(rig, exact());
+    std::set<std::size_t> merged;
+    const auto before = follow(&tracker, &scene, kMeeting - 0.2);
+    EXPECT_NE(-1, before[0]);
+    EXPECT_NE(-1, before[1]);
+    EXPECT_EQ(before, follow(&tracker, &scene, kMeeting + 0.5, &merged)) << i;
+    EXPECT_EQ(4u, merged.size());
+  }
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::tracking

@@ -1,0 +1,263 @@
+// Late, repeated and mistimed images, and wrong clocks.
+#include "tracking/identity_check.h"
+#include "tracking/scene.h"
+#include "tracking/tracker_runs.h"
+#include "wiimote_tracker_triangulation/tracking/tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+namespace wiimote_tracker::tracking {
+namespace {
+
+using test::exactOptions;
+using test::expectSameLeds;
+using test::IdentityCheck;
+using test::idsIn;
+using test::imagesOf;
+using test::paperRig;
+using test::Path;
+using test::SceneImage;
+using test::SceneOptions;
+using test::stateAt;
+using test::track;
+using test::wanderers;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Tracker, LateImagesGiveTheSameResultAsInTime) {
+  const std::vector<Path> leds = wanderers(4, 6);
+  SceneOptions options;
+  options.dropout = 0.1;
+  options.ghosts = 0.5;
+  std::vector<SceneImage> images = imagesOf(paperRig(), leds, options, 1200);
+  Tracker in_order(paperRig(), exactOptions());
+  track(&in_order, images);
+  EXPECT_EQ(0u, in_order.counters().late);
+
+  geometry::test::Random random(4);
+  for (SceneImage& image : images)
+    image.image.arrival += random.uniform(0.0, 0.1);
+  std::stable_sort(images.begin(), images.end(),
+                   [](auto& a, auto& b) { return a.image.arrival < b.image.arrival; });
+  Tracker delayed(paperRig(), exactOptions());
+  const std::vector<Snapshot> snapshots = track(&delayed, images);
+  EXPECT_GT(delayed.counters().late, 600u);
+  EXPECT_EQ(0u, delayed.counters().dropped);
+  EXPECT_EQ(0u, delayed.counters().disordered);
+  expectSameLeds(stateAt(in_order, 1004.0), stateAt(delayed, 1004.0));
+  // A late image makes no snapshot of its own; times only grow.
+  EXPECT_LT(snapshots.size(), 600u);
+  for (std::size_t i = 1; i < snapshots.size(); ++i)
+    EXPECT_GT(snapshots[i].time, snapshots[i - 1].time);
+}
+
+TEST(Tracker, IdsStayTheSameAfterARollBack) {
+  const std::vector<Path> leds = wanderers(4, 7);
+  SceneOptions options;
+  options.delay_jitter = 0.01;
+  Tracker tracker(paperRig(), exactOptions());
+  for (const Snapshot& snapshot : track(&tracker, imagesOf(paperRig(), leds, options, 2000))) {
+    if (snapshot.time > options.start + 0.5) {
+      EXPECT_EQ((std::set<std::uint32_t>{0, 1, 2, 3}), idsIn(snapshot, TrackState::kTracked));
+    }
+  }
+  EXPECT_GT(tracker.counters().late, 500u);
+}
+
+TEST(Tracker, RepeatedAndOldImagesChangeNothing) {
+  const std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(4, 8), {}, 400);
+  Tracker once(paperRig(), exactOptions());
+  track(&once, images);
+  Tracker twice(paperRig(), exactOptions());
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    twice.add(images[i].camera, images[i].image);
+    twice.add(images[i].camera, images[i].image);
+    if (i >= 200)
+      twice.add(images[i - 200].camera, images[i - 200].image);
+  }
+  EXPECT_EQ(400u, twice.counters().repeated);
+  EXPECT_EQ(200u, twice.counters().dropped);
+  expectSameLeds(stateAt(once, 1001.5), stateAt(twice, 1001.5));
+}
+
+TEST(Tracker, OnlyTheLastImageOfABurstOfOneStampCounts) {
+  const std::vector<Path> leds = {test::circle({1.25, 1.25, 1.0}, 0.5, 3.0)};
+  Tracker without(paperRig(), exactOptions());
+  Tracker with(paperRig(), exactOptions());
+  std::size_t compared = 0;
+  std::vector<SceneImage> images = imagesOf(paperRig(), leds, {}, 1600);
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    CameraImage& image = images[i].image;
+    // Twice a second all cameras' images are held up until there are three of each.
+    const double since = std::fmod(image.stamp, 0.5);
+    const int rank = since < 0.4 ? -1 : static_cast<int>((since - 0.4) / 0.01);
+    if (rank >= 0 && rank < 3) {
+      image.stamp += 0.01 * (2 - rank) + 1e-6 * rank;
+      image.stamp_stddev = 0.001;
+    }
+    with.add(images[i].camera, image);
+    if (rank != 0 && rank != 1)
+      without.add(images[i].camera, image);
+    if (rank < 3 || i < 200)
+      continue;
+    const double time = image.stamp + 0.1;
+    const Snapshot state = stateAt(with, time);
+    ASSERT_EQ((std::set<std::uint32_t>{0}), idsIn(state, TrackState::kPredicted)) << i;
+    expectSameLeds(stateAt(without, time), state);
+    ++compared;
+  }
+  EXPECT_GT(compared, 150u);
+}
+
+TEST(Tracker, StartsAnewWhenABagStartsOver) {
+  const std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(2, 9), {}, 1200);
+  Tracker tracker(paperRig(), exactOptions());
+  track(&tracker, images);
+  const std::vector<Snapshot> again = track(&tracker, images);
+  EXPECT_EQ(1u, tracker.counters().resets);
+  EXPECT_EQ((std::set<std::uint32_t>{0, 1}), idsIn(again.front(), TrackState::kLost));
+  std::size_t lost = 0;
+  for (const Snapshot& snapshot : again)
+    lost += idsIn(snapshot, TrackState::kLost).size();
+  EXPECT_EQ(2u, lost);
+  EXPECT_EQ((std::set<std::uint32_t>{2, 3}), idsIn(again.back(), TrackState::kTracked));
+}
+
+TEST(Tracker, ACameraThatLagsOrRunsAheadDoesNotHarmTheOthers) {
+  const std::vector<Path> leds = wanderers(4, 10);
+  for (const double offset : {-1.5, 2.5}) {
+    std::vector<SceneImage> images = imagesOf(paperRig(), leds, {}, 2000);
+    for (SceneImage& image : images) {
+      if (image.camera == 2) {
+        image.image.stamp += offset;
+        image.image.arrival += offset;  // its computer's clock is wrong
+      }
+    }
+    Tracker tracker(paperRig(), exactOptions());
+    IdentityCheck check(leds);
+    const std::vector<Snapshot> snapshots = track(&tracker, images);
+    for (std::size_t i = 200; i < snapshots.size(); ++i)
+      check.look(snapshots[i]);
+    // At the start nobody knows yet whose clock is right.
+    EXPECT_LE(tracker.counters().resets, 1u);
+    EXPECT_GT(tracker.counters().dropped, 490u);
+    EXPECT_EQ(0u, check.uncovered);
+    EXPECT_GT(check.snapshots, 1250u);
+  }
+}
+
+TEST(Tracker, ACameraWhoseClockIsSetBackDoesNotHarmTheOthers) {
+  const std::vector<Path> leds = wanderers(4, 10);
+  // From ahead to right, and from right to far behind and right again.
+  for (const auto& [first, then] :
+       std::vector<std::pair<double, double>>{{5.0, 0.0}, {0.0, -100.0}}) {
+    std::vector<SceneImage> images = imagesOf(paperRig(), leds, {}, 3000);
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      const double offset = i < 1000 ? first : i < 2000 ? then : 0.0;
+      if (images[i].camera == 2) {
+        images[i].image.stamp += offset;
+        images[i].image.arrival += offset;
+      }
+    }
+    Tracker tracker(paperRig(), exactOptions());
+    IdentityCheck check(leds);
+    const std::vector<Snapshot> snapshots = track(&tracker, images);
+    for (std::size_t i = 200; i < snapshots.size(); ++i)
+      check.look(snapshots[i]);
+    EXPECT_LE(tracker.counters().resets, first > 0.0 ? 1u : 0u) << "at the start nobody knows";
+    EXPECT_EQ(0u, check.uncovered);
+    EXPECT_EQ(0u, check.switches);
+    for (const TrackedLed& led : snapshots.back().leds)
+      EXPECT_EQ(4u, led.cameras.size()) << "it is used again";
+  }
+}
+
+TEST(Tracker, InvalidInputNeverReachesAState) {
+  const std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(3, 13), {}, 600);
+  Tracker clean(paperRig(), exactOptions());
+  track(&clean, images);
+  Tracker tracker(paperRig(), exactOptions());
+  int nonsense = 0;
+  for (const SceneImage& image : images) {
+    CameraImage bad = image.image;
+    bad.maximum_spots = 99;
+    for (const double x : {kNan, kInfinity, -kInfinity, 1e9, -300.0}) {
+      Spot spot;
+      spot.pixel = {x, 300.0};
+      bad.spots.insert(bad.spots.begin(), spot);
+      spot.pixel = {300.0, x};
+      bad.spots.push_back(spot);
+    }
+    for (const double x : {kNan, kInfinity}) {
+      CameraImage impossible = bad;
+      impossible.stamp = x;
+      tracker.add(image.camera, impossible);
+      impossible = bad;
+      impossible.arrival = x;
+      tracker.add(image.camera, impossible);
+      nonsense += 2;
+    }
+    bad.stamp_stddev = kNan;  // the option's holds
+    tracker.add(image.camera, bad);
+  }
+  EXPECT_EQ(static_cast<std::uint64_t>(nonsense), tracker.counters().dropped);
+  expectSameLeds(stateAt(clean, 1002.0), stateAt(tracker, 1002.0));
+}
+
+TEST(Tracker, AppliesTheTimeOffsetsOfTheRig) {
+  const std::vector<Path> leds = wanderers(2, 14);
+  std::vector<SceneImage> images = imagesOf(paperRig(), leds, {}, 800);
+  Tracker plain(paperRig(), exactOptions());
+  track(&plain, images);
+  geometry::Rig rig = paperRig();
+  rig.cameras[1].time_offset = 0.25;
+  rig.cameras[1].time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
+  rig.cameras[1].time_offset_epoch = 7;
+  for (SceneImage& image : images) {
+    if (image.camera == 1 && image.image.stamp < 1001.0) {
+      image.image.stamp -= 0.25;
+      image.image.clock_epoch = 7;  // later images are of another epoch, and right as they are
+    }
+  }
+  Tracker tracker(rig, exactOptions());
+  track(&tracker, images);
+  const Snapshot a = stateAt(plain, 1002.0);
+  const Snapshot b = stateAt(tracker, 1002.0);
+  ASSERT_EQ(a.leds.size(), b.leds.size());
+  for (std::size_t i = 0; i < a.leds.size(); ++i)
+    EXPECT_LT((a.leds[i].position - b.leds[i].position).norm(), 1e-6);  // stamps are rounded
+}
+
+TEST(Tracker, PredictsToAnyLaterTime) {
+  Tracker tracker(paperRig(), exactOptions());
+  Snapshot snapshot;
+  EXPECT_FALSE(tracker.predictTo(1000.0, &snapshot));
+  const std::vector<Path> leds = {test::straight({1.0, 1.0, 1.0}, {0.5, 0.0, 0.0}, 1000.0)};
+  const std::vector<Snapshot> snapshots = track(&tracker, imagesOf(paperRig(), leds, {}, 400));
+  const double last = snapshots.back().time;
+  EXPECT_FALSE(tracker.predictTo(last - 0.001, &snapshot));
+  ASSERT_TRUE(tracker.predictTo(last + 0.01, &snapshot));
+  EXPECT_EQ(last + 0.01, snapshot.time);
+  ASSERT_EQ(1u, snapshot.leds.size());
+  const Eigen::Vector3d error = snapshot.leds[0].position - leds[0](last + 0.01);
+  EXPECT_LT(error.norm(), 6.0 * std::sqrt(snapshot.leds[0].position_covariance.trace()));
+  EXPECT_GT(snapshot.leds[0].position_covariance.trace(),
+            snapshots.back().leds[0].position_covariance.trace());
+
+  TrackerOptions options = exactOptions();
+  options.output_interval = 0.02;
+  Tracker seldom(paperRig(), options);
+  const std::vector<Snapshot> few = track(&seldom, imagesOf(paperRig(), leds, {}, 400));
+  for (std::size_t i = 1; i < few.size(); ++i)
+    EXPECT_GE(few[i].time, few[i - 1].time + 0.02);
+  EXPECT_GT(few.size(), 40u);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::tracking

@@ -1,0 +1,39 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_TRACKING_TRACKER_RUNS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TEST_TRACKING_TRACKER_RUNS_H
+
+#include "tracking/scene.h"
+#include "wiimote_tracker_triangulation/tracking/estimator.h"
+#include "wiimote_tracker_triangulation/tracking/snapshot.h"
+#include "wiimote_tracker_triangulation/tracking/tracker.h"
+
+#include <cstdint>
+#include <set>
+#include <vector>
+
+namespace wiimote_tracker::tracking::test {
+
+/// Options for a scene of 0.3 px of noise and exact stamps.
+TrackerOptions exactOptions();
+
+/// LEDs that wander about places of their own in the paper's cube.
+std::vector<Path> wanderers(int count, unsigned seed, double speed = 1.0);
+
+std::vector<SceneImage> imagesOf(const geometry::Rig& rig,
+                                 const std::vector<Path>& leds,
+                                 const SceneOptions& options,
+                                 int count,
+                                 unsigned seed = 1);
+
+/// Adds images and returns all snapshots.
+std::vector<Snapshot> track(Estimator* tracker, const std::vector<SceneImage>& images);
+
+Snapshot stateAt(const Tracker& tracker, double time);
+
+/// Expects the same LEDs bit for bit, whatever their ids.
+void expectSameLeds(Snapshot a, Snapshot b);
+
+std::set<std::uint32_t> idsIn(const Snapshot& snapshot, TrackState state);
+
+}  // namespace wiimote_tracker::tracking::test
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_TRACKING_TRACKER_RUNS_H

@@ -8,15 +8,15 @@
 
 namespace wiimote_tracker::body {
 
-/// The bodies of a YAML file (format wiimote_tracker_bodies, version 1). Strict: keys that are
-/// missing or unknown, foreign formats and versions are refused by name. A file with nothing but
-/// `marker_positions`, a list of {x, y, z} as the rpg_monocular_pose_estimator reads it, is one
-/// body named after the file.
+/// Reads bodies from a YAML file (format wiimote_tracker_bodies, version 1). Missing or unknown
+/// keys and other formats or versions are refused by name. A file that contains only
+/// `marker_positions`, a list of {x, y, z} as in rpg_monocular_pose_estimator, is one body named
+/// after the file.
 /// @throws geometry::Error.
 std::vector<Constellation> readBodies(const std::string& file);
 
-/// Written atomically; what was there before is kept as file + ".bak". Numbers come back bit for
-/// bit. @throws geometry::Error.
+/// Writes atomically; keeps an existing file as file + ".bak". Numbers are read back bit by bit.
+/// @throws geometry::Error.
 void writeBodies(const std::string& file, const std::vector<Constellation>& bodies);
 
 }  // namespace wiimote_tracker::body

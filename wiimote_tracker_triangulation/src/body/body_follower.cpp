@@ -64,7 +64,7 @@ void BodyFollower::take(std::size_t camera, tracking::CameraImage* image) {
     if (!is_taken_[i])
       image->spots[left++] = image->spots[i];
   }
-  // The places that bodies have taken are not free for other lights.
+  // Spots of bodies use up places in the camera's list of spots.
   const std::size_t taken = image->spots.size() - left;
   image->maximum_spots -= std::min(taken, image->maximum_spots);
   image->spots.resize(left);
@@ -82,7 +82,7 @@ const BodySnapshot* BodyFollower::next() {
   const auto& bodies = tracker_->bodies();
   snapshot_.time = last_output_;
   snapshot_.latest_arrival = latest_arrival_;
-  // Those that were lost in the snapshot before have been told.
+  // Bodies lost in the previous snapshot have been reported.
   for (const std::size_t lost : snapshot_.lost)
     snapshot_.bodies[lost].reset();
   snapshot_.lost.clear();

@@ -19,38 +19,39 @@ struct BodySnapshot {
   double time = 0.0;            ///< [s]
   double latest_arrival = 0.0;  ///< Of the newest image [s].
 
-  /// One per constellation; nothing while it is not known where the body is.
+  /// One per constellation; nothing while the body's pose is unknown.
   std::vector<std::optional<BodyEstimate>> bodies;
 
-  /// Indices of bodies that are no more followed since the snapshot before, of which `bodies` has
-  /// the last estimate for once.
+  /// Indices of bodies lost since the previous snapshot; `bodies` holds their last estimate this
+  /// once.
   std::vector<std::size_t> lost;
 };
 
-/// Stands between the cameras and whoever follows free LEDs: looks for bodies in each image, and
-/// takes their spots out of it. A function of the sequence of calls; does not allocate once warm.
+/// Tracks bodies in each image and removes their spots from it, before the image goes to the
+/// tracking of free LEDs. The result depends on the sequence of calls only; does not allocate once
+/// warm.
 class BodyFollower {
  public:
   explicit BodyFollower(const BodyTrackerOptions& options) : options_(options) {}
 
-  /// Bodies are found anew before the new cameras. @throws geometry::InvalidRigError (see
-  /// Rig::check); then the rig before stays.
+  /// Bodies are searched anew. @throws geometry::InvalidRigError (see Rig::check); the previous rig
+  /// then stays.
   void setRig(const geometry::Rig& rig);
 
-  /// The bodies to be followed from now on; those that were followed already are found anew.
-  /// @throws Error (Constellation::check); then those before stay.
+  /// Sets the bodies to track; all are searched anew.
+  /// @throws Error (Constellation::check); the previous bodies then stay.
   void setBodies(const std::vector<Constellation>& constellations);
 
   const std::vector<Constellation>& constellations() const { return constellations_; }
 
-  /// Takes an image in, and the spots of bodies out of it. Only with a rig.
+  /// Tracks bodies in an image and removes their spots from it. Requires a rig.
   void take(std::size_t camera, tracking::CameraImage* image);
 
-  /// See BodyTracker; the points are of the newest snapshot's time.
+  /// See BodyTracker. The points are of the newest snapshot's time.
   void startFromLabels(const std::vector<LabelledPoint>& points);
 
-  /// What the last image has brought, when it is newer than all before and there are bodies to be
-  /// followed; else null. Valid until the next call.
+  /// The snapshot after the last image if it is newer than all before, else null. Valid until the
+  /// next call.
   const BodySnapshot* next();
 
  private:
@@ -65,10 +66,10 @@ class BodyFollower {
   double last_output_ = -std::numeric_limits<double>::infinity();
   BodySnapshot snapshot_;
 
-  // Reused.
+  // Reused buffers.
   std::vector<Eigen::Vector2d> pixels_;
-  std::vector<std::size_t> spots_;  // of the image, that the pixels are of
-  std::vector<bool> is_taken_;      // of the image's spots
+  std::vector<std::size_t> spots_;  // index in the image, per pixel
+  std::vector<bool> is_taken_;      // per spot of the image
 };
 
 }  // namespace wiimote_tracker::body

@@ -11,13 +11,13 @@
 namespace wiimote_tracker::body {
 namespace {
 
-/// Within the window everything moves: rays miss each other by so many times the pixels' noise.
+/// LEDs move within the window, so rays miss each other by this multiple of the pixel noise.
 constexpr double kWindowNoise = 4.0;
 
-/// More than any LED's.
+/// Cost of a false detection: greater than that of any LED.
 constexpr double kGhostCost = 1e6;
 
-/// Which LED of which body a column of the assignment stands for.
+/// LED and body of a column of the assignment.
 struct Column {
   std::size_t body;
   std::size_t led;
@@ -64,7 +64,7 @@ bool BodyTracker::add(std::size_t camera, double time, const std::vector<Eigen::
   taken_.assign(pixels.size(), false);
   if (time < time_ - options_.history)
     return false;
-  // Those that were taken too early are taken again, after this one.
+  // Undo the images that are later than this one; they are processed again below.
   auto next = history_.end();
   const auto comesAfter = [&](const Entry& entry) {
     return entry.time != time ? entry.time > time : entry.camera > camera;
@@ -111,8 +111,8 @@ void BodyTracker::follow(std::size_t camera,
   association::SpotCosts costs;
   std::array<Column, association::kMaximumTracks> columns;
   const std::size_t spots = std::min(pixels.size(), association::kMaximumSpots);
-  // Nothing is known about which LEDs the body itself hides; so a missing one costs nothing, and as
-  // many spots as possible find an LED.
+  // Which LEDs the body itself hides is unknown: a missed LED costs nothing, so that as many spots
+  // as possible are assigned.
   costs.reset(spots, association::kMaximumTracks, kGhostCost, 0.0);
   costs.tracks = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -154,7 +154,7 @@ void BodyTracker::follow(std::size_t camera,
       if (const Column* its = columnOf(other))
         has_spot[its->led] = has_spot[its->led] || its->body == column->body;
     }
-    // Every spot moves the body, and with it what is expected of the next one.
+    // Each update moves the body, and with it the predictions of the remaining spots.
     const LedGroups groups = groupsOf(column->body);
     if (const LedGroup* group = groups.best(column->led, pixels[s], has_spot))
       update(column->body, *group, pixels[s], view, &image);
@@ -186,7 +186,7 @@ void BodyTracker::dropLost(double time) {
 }
 
 void BodyTracker::find(double time) {
-  // One that is hidden may come back elsewhere than where it is expected.
+  // A hidden body may reappear far from its prediction.
   const auto isTracked = [&](const std::optional<Body>& body) {
     return body && time - body->last_observed <= options_.tracked_time;
   };
@@ -196,7 +196,7 @@ void BodyTracker::find(double time) {
     const LastImage& image = images_[c];
     sights_[c].clear();
     views_[c].watching = time - image.time <= options_.window;
-    views_[c].full = true;  // the body itself may hide its LEDs: nothing was missed for sure
+    views_[c].full = true;  // no cost for a missed LED: the body may hide it
     for (const Eigen::Vector2d& pixel : image.free) {
       if (views_[c].watching)
         sights_[c].push_back(*geometry::sightFromPixel(cameras_[c], pixel));
@@ -241,7 +241,7 @@ bool BodyTracker::start(std::size_t body,
                                images_[spot.view].free[spot.spot]});
     }
   }
-  // What moves within the window counts as noise; the motion is found by the images to come.
+  // Motion within the window counts as noise; later images determine the velocity.
   const double noise = kWindowNoise * options_.pixel_stddev;
   const auto solved =
       solvePose(observations_.data(), observations_.size(), match.world_from_body, noise);

@@ -14,7 +14,7 @@
 namespace wiimote_tracker::body {
 namespace {
 
-/// Depth first over all permutations, cutting off those whose distances already differ too much.
+/// Depth-first search over permutations; prunes those whose distances differ too much.
 class SymmetrySearch {
  public:
   explicit SymmetrySearch(const std::vector<Eigen::Vector3d>& leds) : leds_(leds) {}
@@ -40,7 +40,7 @@ class SymmetrySearch {
     }
   }
 
-  /// A root mean square residual r of n points changes no distance by more than r sqrt(2 n).
+  /// An RMS residual r of n points changes no distance by more than r sqrt(2 n).
   bool isPossible(std::size_t i, std::size_t candidate) const {
     const double slack = best_.residual * std::sqrt(2.0 * static_cast<double>(leds_.size()));
     for (std::size_t k = 0; k < i; ++k) {
@@ -96,7 +96,7 @@ void Constellation::check() const {
     throw Error("a body has no name; give it one");
   if (!isWord(name))
     throw Error("'" + name +
-                "' can not be a body's name, which must be a letter, then letters, "
+                "' cannot be a body's name, which must be a letter, then letters, "
                 "digits and underscores");
   const std::string who = "body '" + name + "'";
   if (leds.size() < 3 || leds.size() > kMaximumLeds)

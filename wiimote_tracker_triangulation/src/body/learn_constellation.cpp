@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::size_t kParts = 8;          // of the recording, for the uncertainty
 constexpr std::size_t kFewest = 5;         // instants in each
-constexpr double kSameLed = 0.03;          // a new track this near to a missing LED is its [m]
+constexpr double kSameLed = 0.03;          // a new track this near a missing LED continues it [m]
 constexpr double kNotRigid = 0.01;         // [m]
 constexpr double kMatchMargin = 15.0;      // as BodyTrackerOptions::minimum_margin
 constexpr double kShareOfInstants = 0.05;  // that must show all LEDs
-constexpr int kRounds = 5;                 // of aligning and taking the mean; converges fast
+constexpr int kRounds = 5;                 // of aligning and averaging; converges fast
 
 std::string millimetres(double metres) {
   return format("%.1f mm", 1e3 * metres);
@@ -49,14 +49,14 @@ class Learning {
   }
 
  private:
-  /// An instant, of which is known which LED is which.
+  /// An instant with the LED of each point identified.
   struct Seen {
     std::array<PointPair, kMaximumLeds> pairs;
     std::array<std::size_t, kMaximumLeds> leds;  // of the pairs
     std::size_t count = 0;
   };
 
-  /// The first instant that shows as many LEDs as enough others do.
+  /// Starts from the first instant with as many LEDs as at least 5 % of the instants show.
   void begin() {
     std::map<std::size_t, std::size_t> instants_of_count;
     for (const LedsInstant& instant : instants_)
@@ -125,7 +125,7 @@ class Learning {
     return match && match->margin >= kMatchMargin ? match : std::nullopt;
   }
 
-  /// New tracks of LEDs that are missing.
+  /// Assigns new tracks to LEDs that are missing.
   void recogniseNear(const LedsInstant& instant, const Eigen::Isometry3d& world_from_body) {
     for (std::size_t i = 0; i < body_.leds.size(); ++i) {
       const bool is_there =
@@ -141,7 +141,7 @@ class Learning {
     }
   }
 
-  /// Places in the body of the LEDs of one instant, after it was aligned.
+  /// Calls take(led, position in the body, weight) for the LEDs of one instant after alignment.
   template <typename Take>
   void aligned(Seen* seen, const Take& take) const {
     for (std::size_t i = 0; i < seen->count; ++i)
@@ -165,7 +165,7 @@ class Learning {
     recentre();
   }
 
-  /// Also checks that the body is rigid.
+  /// Also refuses a body that is not rigid.
   std::vector<double> stddevs() {
     struct Part {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -183,7 +183,7 @@ class Learning {
         counts[led] += 1.0;
       });
     std::vector<double> result;
-    // What the alignment takes away: six of all coordinates.
+    // The alignment removes six degrees of freedom.
     const auto coordinates = static_cast<double>(3 * body_.leds.size());
     for (std::size_t led = 0; led < body_.leds.size(); ++led) {
       const double scatter = std::sqrt(squares[led] / counts[led]);

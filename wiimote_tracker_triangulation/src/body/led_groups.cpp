@@ -8,12 +8,12 @@
 namespace wiimote_tracker::body {
 namespace {
 
-// An LED that is expected no better than this, standard deviation, could be any spot: after the
-// body was hidden for long, it is found by its shape, not by a spot of something else [px].
+// An LED whose predicted pixel has a larger standard deviation could be any spot [px]. A body
+// hidden for long must be found by its shape, not by an unrelated spot.
 constexpr double kWidest = 12.0;
 constexpr double kFurtherLed = 2.0;  // cost of each LED beyond the first
-// Of two lights that have become one, either has 1/4 to 3/4 of the brightness: the spot's place
-// between them is uniform over half of their distance, of standard deviation 1/sqrt(48) of it.
+// Of two merged LEDs, either has 1/4 to 3/4 of the brightness: the spot is distributed uniformly
+// over half of the distance between them, with a standard deviation of 1/sqrt(48) of that distance.
 constexpr double kPlaceBetween = 0.1443;
 
 }  // namespace

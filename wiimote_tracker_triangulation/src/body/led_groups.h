@@ -14,24 +14,22 @@
 
 namespace wiimote_tracker::body {
 
-/// LEDs of one body whose lights may be one spot in an image: one, or several that lie close
-/// together there.
+/// One LED, or several neighbouring LEDs of one body, that may cause one spot of an image.
 struct LedGroup {
   std::array<std::size_t, kMaximumLeds> leds;
   std::size_t count = 0;
   LedPrediction prediction;   // of the mean of their pixels
-  double pixel_stddev = 0.0;  // of the spot about it; of several, their brightnesses are not known
+  double pixel_stddev = 0.0;  // of the spot; greater for several LEDs of unknown brightness
 
-  /// -2 log likelihood of a spot, but for a constant, and something for each further LED, for
-  /// lights that are one spot are rarer; infinity beyond the gate (squared Mahalanobis distance).
+  /// -2 log likelihood of a spot without its constant, plus a penalty for each further LED, since
+  /// merged spots are rarer; infinity outside the gate (squared Mahalanobis distance).
   double cost(const Eigen::Vector2d& pixel, double gate) const;
 };
 
-/// All groups of a body in one image that an LED may shine in; none of LEDs of which is hardly
-/// known where they are.
+/// All groups of a body's LEDs in one image, without LEDs whose prediction is too uncertain.
 class LedGroups {
  public:
-  /// @param merging_distance lights closer than this may be one spot [px].
+  /// @param merging_distance LEDs closer than this may merge into one spot [px].
   LedGroups(const PoseFilter& filter,
             const Constellation& constellation,
             const geometry::Camera& camera,
@@ -39,11 +37,11 @@ class LedGroups {
             double merging_distance,
             double gate);
 
-  /// Least cost of a pixel over the groups of an LED; infinity where none fits.
+  /// Least cost of a pixel over the groups with this LED; infinity where none fits.
   double cost(std::size_t led, const Eigen::Vector2d& pixel) const;
 
-  /// The group of that cost, without such groups as need one of the LEDs that have a spot of their
-  /// own. Null where none fits.
+  /// The group of least cost, without groups that contain other LEDs with a spot of their own. Null
+  /// where none fits.
   const LedGroup* best(std::size_t led,
                        const Eigen::Vector2d& pixel,
                        const std::array<bool, kMaximumLeds>& has_spot) const;

@@ -8,7 +8,7 @@
 namespace wiimote_tracker::body {
 namespace {
 
-/// Depth first: each LED in turn takes a point that fits those before it, or none.
+/// Depth-first search: each LED takes a point consistent with those before it, or none.
 class MatchSearch {
  public:
   MatchSearch(const Constellation& constellation,
@@ -35,7 +35,7 @@ class MatchSearch {
     }
     const std::size_t left = leds_.size() - led;
     const double unseen = static_cast<double>(led - seen) * options_.unseen_cost;
-    // What costs more than the runner-up changes nothing.
+    // Costlier branches than the runner-up change nothing.
     if (seen + left < options_.minimum_seen || unseen > runner_up_cost_)
       return;
     for (std::size_t p = 0; p < points_.size(); ++p) {
@@ -73,13 +73,13 @@ class MatchSearch {
       pairs[count++] = {leds_[led], point.position, 1.0 / (point.stddev * point.stddev)};
     }
     const Alignment alignment = align(pairs.data(), count);
-    // Beyond this the distances agreed by chance (a mirrored body, say).
+    // Distances that agree by chance, as of a mirrored body.
     if (alignment.cost > static_cast<double>(count) * options_.gate * options_.gate)
       return;
     const double cost =
         alignment.cost + static_cast<double>(leds_.size() - seen) * options_.unseen_cost;
     if (cost < best_cost_) {
-      // The same pose with an LED more or less is no rival.
+      // A match of the same pose with one LED more or less is not a rival.
       if (found_ && !isSamePose(best_.world_from_body, alignment.world_from_body))
         runner_up_cost_ = best_cost_;
       found_ = true;
@@ -94,7 +94,7 @@ class MatchSearch {
     }
   }
 
-  /// Whether no LED lies elsewhere by more than half the distance to its nearest neighbour.
+  /// Whether all LEDs lie within half the distance to their nearest neighbour.
   bool isSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
     for (std::size_t i = 0; i < leds_.size(); ++i) {
       double nearest = std::numeric_limits<double>::infinity();

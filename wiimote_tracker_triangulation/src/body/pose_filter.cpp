@@ -9,7 +9,7 @@ namespace {
 
 namespace so3 = geometry::so3;
 
-/// What white acceleration does to (value, rate) in a time, one axis.
+/// Process noise of white acceleration over dt, one axis: variances of value and rate, covariance.
 void addWalk(double density, double dt, double* value, double* both, double* rate) {
   const double q = density * density;
   *value = q * dt * dt * dt / 3.0;
@@ -106,7 +106,7 @@ void PoseFilter::update(const LedPrediction& prediction,
   velocity_ += step.segment<3>(6);
   turning_ += step.tail<3>();
 
-  // Joseph's form, which keeps the covariance positive: (I - K H) P (I - K H)' + K R K'.
+  // Joseph's form keeps the covariance positive definite: (I - K H) P (I - K H)' + K R K'.
   Eigen::Matrix<double, 12, 12> reduced = covariance_;
   reduced.noalias() -= gain * to_pixel.transpose();
   const Eigen::Matrix<double, 12, 2> left = reduced.leftCols<6>() * prediction.jacobian.transpose();

@@ -11,8 +11,8 @@
 namespace wiimote_tracker::body {
 namespace {
 
-// Points of LEDs that are seen badly, or a label that is wrong: squared standard deviations per
-// coordinate. And what the LEDs move between the points' images [m].
+// Greatest mean squared residual per coordinate [variances], which refuses wrong labels and poorly
+// seen LEDs; and the LEDs' motion between the images of the points [m].
 constexpr double kWorst = 9.0;
 constexpr double kMotion = 0.002;
 

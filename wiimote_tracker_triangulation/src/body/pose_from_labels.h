@@ -8,8 +8,8 @@
 
 namespace wiimote_tracker::body {
 
-/// The pose of a body whose LEDs have labels, from points in space. Nothing when fewer than three
-/// of its LEDs are among them, those lie on a line, or not as they do on the body.
+/// The pose of a body from labelled points. Nothing when fewer than three of its LEDs are among
+/// them, or they lie on a line or do not agree with the constellation.
 std::optional<SolvedPose> poseFromLabels(const Constellation& constellation,
                                          const std::vector<LabelledPoint>& points);
 

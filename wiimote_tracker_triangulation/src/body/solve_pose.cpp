@@ -1,5 +1,5 @@
-// Levenberg-Marquardt for six parameters, written out: it runs while images are tracked and must
-// not allocate, which the solvers of Eigen and Ceres do.
+// Levenberg-Marquardt for six parameters, written out because it runs for every image and must not
+// allocate, unlike the solvers of Eigen and Ceres.
 #include "wiimote_tracker_triangulation/body/solve_pose.h"
 
 #include "wiimote_tracker_triangulation/geometry/so3.h"
@@ -70,13 +70,13 @@ std::optional<SolvedPose> solvePose(const LedObservation* observations,
     const Eigen::Isometry3d next = moved(pose, step);
     const std::optional<Normal> there = normalAt(observations, count, next);
     if (there && there->cost <= normal->cost) {
-      // A hundredth of the standard deviation in every direction.
+      // The remaining step is below a hundredth of the standard deviation.
       converged = step.dot(normal->gradient) < 1e-4 * pixel_stddev * pixel_stddev;
       pose = next;
       normal = there;
       damping = std::max(0.1 * damping, 1e-9);
     } else {
-      // At the minimum rounding alone keeps the cost from falling.
+      // At the minimum only rounding prevents a decrease.
       converged = step.dot(normal->gradient) < 1e-9 * (normal->cost + 1e-12);
       damping = std::max(10.0 * damping, 1e-3);
     }
@@ -84,7 +84,7 @@ std::optional<SolvedPose> solvePose(const LedObservation* observations,
   if (!normal || !converged)
     return std::nullopt;
   const Eigen::LLT<PoseCovariance> factor(normal->information);
-  // A millimetre and a milliradian both move a spot by about a pixel: no scaling is needed.
+  // A millimetre and a milliradian both move a spot by about a pixel: scaling is not needed.
   if (factor.info() != Eigen::Success || factor.rcond() < 1e-12)
     return std::nullopt;
   SolvedPose solved;

@@ -25,53 +25,51 @@ namespace wiimote_tracker::body {
 struct LedGroup;
 
 struct BodyTrackerOptions {
-  double pixel_stddev = 0.5;  ///< Of each coordinate of a spot [px, > 0].
+  double pixel_stddev = 0.5;  ///< Noise per coordinate of a spot [px, > 0].
   PoseFilterOptions motion;
 
-  /// A spot further than this from an LED's prediction is not its: squared Mahalanobis distance
-  /// [1, > 0].
+  /// Gate: greatest squared Mahalanobis distance of a spot from an LED's prediction [1, > 0].
   double gate = 16.0;
 
-  /// Lights closer together than this in an image may be one spot [px, >= 0].
+  /// LEDs closer than this in an image may merge into one spot [px, >= 0].
   double merging_distance = 24.0;
 
-  double prediction_time = 0.5;  ///< Seen by no camera for longer, a body is lost [s, > 0].
-  double tracked_time = 0.03;    ///< Seen this recently, it is tracked, else predicted [s, > 0].
+  double prediction_time = 0.5;  ///< A body unseen for longer is lost [s, > 0].
+  double tracked_time = 0.03;    ///< Tracked if seen this recently, else predicted [s, > 0].
 
-  // Finding a body that is not tracked.
-  double window = 0.015;         ///< Images of so much time count as one [s, > 0].
-  double window_motion = 0.002;  ///< What LEDs move within the window, standard deviation [m, > 0].
-  double minimum_margin =
-      15.0;  ///< By which the best match must beat the next (Match::margin) [> 0].
+  // Search for bodies that are not tracked.
+  double window = 0.015;         ///< Images this close in time are combined [s, > 0].
+  double window_motion = 0.002;  ///< LED motion within the window (std. dev.) [m, > 0].
+  double minimum_margin = 15.0;  ///< Least Match::margin to start a body [> 0].
   MatchOptions match;
 
-  double history = 0.2;         ///< Images older than the newest by more are of no use [s, >= 0].
-  double maximum_range = 20.0;  ///< Cameras share no view beyond this [m, > 0].
+  double history = 0.2;         ///< Images that are later than this are dropped [s, >= 0].
+  double maximum_range = 20.0;  ///< Greatest range of a camera [m, > 0].
 };
 
-/// What is known of one LED of a body.
+/// Estimate of one LED of a body.
 struct LedEstimate {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< Where the pose has it, world [m].
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< From the pose, in the world [m].
 
-  /// Cameras whose newest image, no older than BodyTrackerOptions::tracked_time, shows it.
+  /// Cameras that show it in their newest image, not older than BodyTrackerOptions::tracked_time.
   std::vector<std::size_t> cameras;
 
-  /// How far its newest spot was from where the pose was expected to have it, in the image [px] and
-  /// across the line of sight at its distance [m]; NaN without cameras.
+  /// Distance of the newest spot from its prediction: in the image [px], and across the line of
+  /// sight at the LED's depth [m]. NaN without cameras.
   double residual = std::numeric_limits<double>::quiet_NaN();
   double deviation = std::numeric_limits<double>::quiet_NaN();
 
-  /// [s]; minus infinity: not since the body was found.
+  /// [s]; minus infinity: not seen since the body was found.
   double last_observed = -std::numeric_limits<double>::infinity();
 };
 
 /// A body at the time of the newest image.
 struct BodyEstimate {
-  bool tracked = false;  ///< False: it is hidden, and the pose extrapolated.
+  bool tracked = false;  ///< False: hidden, the pose is extrapolated.
   Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();  ///< [m]
 
-  /// Of position [m^2] and rotation about the world axes [rad^2], in this order, then velocity
-  /// [m^2/s^2] and turning [rad^2/s^2]; for exact cameras.
+  /// Order: position [m^2], rotation about the world axes [rad^2], velocity [m^2/s^2], angular
+  /// velocity [rad^2/s^2]. Neglects the errors of the calibration.
   MotionCovariance covariance = MotionCovariance::Zero();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< World [m/s].
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< World [rad/s].
@@ -80,20 +78,20 @@ struct BodyEstimate {
   double last_observed = 0.0;                                  ///< [s]
 };
 
-/// An LED whose name is known from how it blinks.
+/// An LED identified by its blink code.
 struct LabelledPoint {
   std::string label;
   Eigen::Vector3d position;    ///< World [m].
   Eigen::Matrix3d covariance;  ///< [m^2], positive definite.
 };
 
-/// Follows rigid bodies directly in the cameras' pixels, each image at its own time. The spots of
-/// an image are shared out among the LEDs of all bodies that are tracked; what is left over belongs
-/// to free LEDs, or to bodies that are not tracked yet: those are looked for in the spots of
-/// several cameras, by the shape of the constellation alone, or by the labels of their LEDs.
+/// Tracks rigid bodies by the pixels of each camera image, at the time of that image. Spots of an
+/// image are first assigned to the LEDs of tracked bodies. Bodies that are not tracked are searched
+/// among the remaining spots of several cameras, by the shape of the constellation, or by the
+/// labels of their LEDs. Other remaining spots belong to free LEDs.
 ///
-/// A function of the sequence of calls. An image that is late is put in at its time. Does not
-/// allocate once warm.
+/// The result depends on the sequence of calls only. Late images are processed in the order of
+/// their times. Does not allocate once warm.
 class BodyTracker {
  public:
   /// @throws Error (Constellation::check), geometry::InvalidRigError (Rig::check).
@@ -102,25 +100,25 @@ class BodyTracker {
               const BodyTrackerOptions& options);
 
   /// Adds the spots of a camera's image.
-  /// @param time  of the exposure [s]. @param pixels  distorted, finite [px].
-  /// @returns false, and does nothing, when it is too old.
+  /// @param time exposure [s]. @param pixels distorted, finite [px].
+  /// @returns false, and does nothing, if the image is too old.
   bool add(std::size_t camera, double time, const std::vector<Eigen::Vector2d>& pixels);
 
-  /// Of each spot of the image that was added last, whether it was taken for a body's.
+  /// For each spot of the image added last: whether it was assigned to a body.
   const std::vector<bool>& taken() const { return taken_; }
 
-  /// Starts the bodies of which nothing is known, as far as at least three of their LEDs are among
-  /// these points of time() and lie as they do on the body.
+  /// Starts bodies that are unknown, if at least three of their LEDs are among these points at
+  /// time() and agree with the constellation.
   void startFromLabels(const std::vector<LabelledPoint>& points);
 
   double time() const { return time_; }  ///< Of the newest image [s].
 
-  /// One per constellation, at time(); nothing while it is not known where the body is.
+  /// One per constellation, at time(); nothing while the body's pose is unknown.
   const std::vector<std::optional<BodyEstimate>>& bodies() const { return estimates_; }
 
   const std::vector<Constellation>& constellations() const { return constellations_; }
 
-  /// Forgets everything, as after a jump of time.
+  /// Forgets all state, as after a jump in time.
   void reset();
 
  private:
@@ -139,7 +137,7 @@ class BodyTracker {
   struct LastImage {
     double time = -std::numeric_limits<double>::infinity();
     std::vector<BodySpot> taken;
-    std::vector<Eigen::Vector2d> free;  // spots of no body that is tracked, all with a ray [px]
+    std::vector<Eigen::Vector2d> free;  // spots of no tracked body that have a ray [px]
   };
   struct Entry {
     std::size_t camera;
@@ -167,22 +165,21 @@ class BodyTracker {
   void estimateLeds(std::size_t body, BodyEstimate* estimate) const;
 
   geometry::Rig rig_;
-  std::vector<geometry::Camera> cameras_;  // of the rays
+  std::vector<geometry::Camera> cameras_;  // as Rig::rayCamera
   std::vector<Constellation> constellations_;
-  std::vector<bool> has_clear_shape_;  // of each constellation: not symmetric
+  std::vector<bool> has_clear_shape_;  // per constellation: not symmetric
   BodyTrackerOptions options_;
   association::ViewAssociator associator_;
 
-  // The state.
   std::vector<std::optional<Body>> bodies_;
   std::vector<LastImage> images_;  // per camera
-  std::list<Entry> history_;       // in the order of their times
+  std::list<Entry> history_;       // sorted by time
 
   double time_ = -std::numeric_limits<double>::infinity();
   std::vector<std::optional<BodyEstimate>> estimates_;
   std::vector<bool> taken_;
 
-  // Reused.
+  // Reused buffers.
   std::list<Entry> spare_;
   std::vector<bool> spots_taken_;
   std::vector<std::vector<geometry::Sight>> sights_;

@@ -17,39 +17,38 @@ namespace wiimote_tracker::body {
 /// A point that may be one of a body's LEDs.
 struct MeasuredPoint {
   Eigen::Vector3d position;  ///< World [m].
-  double stddev = 0.003;     ///< Of each coordinate, what the body itself bends included [m, > 0].
+  double stddev = 0.003;     ///< Per coordinate, including the body's flexing [m, > 0].
   bool taken = false;        ///< Belongs to another body.
 };
 
 constexpr int kUnseen = -1;
 
-/// Which points are the LEDs of a body.
+/// Assignment of points to the LEDs of a body.
 struct Match {
   std::array<int, kMaximumLeds> point_of_led;  ///< Index of the point, or kUnseen.
   std::size_t seen = 0;                        ///< LEDs that have a point.
   Eigen::Isometry3d world_from_body;
 
-  /// Sum of the squared distances over their variances [1].
+  /// Sum of squared distances, each divided by its variance [1].
   double chi_squared = 0.0;
 
-  /// How much worse the best match with another pose is, as a difference of costs like chi^2;
+  /// Cost of the best match with another pose minus the cost of this one (in units of chi^2);
   /// infinity when there is none.
   double margin = std::numeric_limits<double>::infinity();
 };
 
 struct MatchOptions {
-  /// An LED without a point costs this much, like chi^2 [> 0].
+  /// Cost of an LED without a point, in units of chi^2 [> 0].
   double unseen_cost = 25.0;
 
-  /// Distances between LEDs may differ from those of the points by this many standard deviations
-  /// [> 0].
+  /// Gate on each distance between two LEDs [standard deviations, > 0].
   double gate = 4.0;
 
   std::size_t minimum_seen = 3;  ///< [3..]
 };
 
-/// The assignment of points to the LEDs of a body with the least sum of chi^2 and unseen LEDs, over
-/// all assignments whose distances agree; exact. Nothing when no three of them agree.
+/// Minimises chi^2 plus the cost of unseen LEDs over all assignments whose distances pass the gate;
+/// exact. Nothing when fewer than MatchOptions::minimum_seen LEDs can be assigned.
 std::optional<Match> matchPoints(const Constellation& constellation,
                                  const std::vector<MeasuredPoint>& points,
                                  const MatchOptions& options);

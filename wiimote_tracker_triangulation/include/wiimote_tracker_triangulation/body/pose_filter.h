@@ -11,20 +11,20 @@
 namespace wiimote_tracker::body {
 
 struct PoseFilterOptions {
-  /// Of the random acceleration that moves a body, white in time [m/s^2 / sqrt(Hz), >= 0].
+  /// Process noise: white acceleration [m/s^2 / sqrt(Hz), >= 0].
   double acceleration_density = 0.7;
 
-  /// The same of its turning [rad/s^2 / sqrt(Hz), >= 0].
+  /// Process noise: white angular acceleration [rad/s^2 / sqrt(Hz), >= 0].
   double angular_acceleration_density = 7.0;
 
-  double initial_speed = 2.0;          ///< Standard deviation per axis at the start [m/s, > 0].
-  double initial_angular_speed = 6.0;  ///< The same of turning [rad/s, > 0].
+  double initial_speed = 2.0;          ///< Initial standard deviation per axis [m/s, > 0].
+  double initial_angular_speed = 6.0;  ///< Initial standard deviation per axis [rad/s, > 0].
 };
 
 using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 using MotionCovariance = Eigen::Matrix<double, 12, 12>;
 
-/// Where a camera will see an LED of a body.
+/// Predicted measurement of an LED of a body.
 struct LedPrediction {
   Eigen::Vector2d pixel;                 ///< [px]
   Eigen::Matrix2d covariance;            ///< Innovation covariance [px^2].
@@ -32,13 +32,13 @@ struct LedPrediction {
   double depth;                          ///< Along the optical axis [m].
 };
 
-/// A rigid body's state in continuous time: pose, velocity, turning; updated by each camera's spots
-/// at that image's own time (extended Kalman filter; the rotation's error is a small rotation about
-/// the world axes, R_true = exp([w]x) R). A value; never allocates.
+/// Extended Kalman filter of a rigid body's pose, velocity and angular velocity, in continuous
+/// time; each camera's spots update it at the time of their image. The rotation's error is a small
+/// rotation about the world axes: R_true = exp([w]x) R. A value type; never allocates.
 class PoseFilter {
  public:
-  /// @param options not owned. @param covariance of position [m^2] and rotation about the world
-  /// axes [rad^2], in this order.
+  /// @param options not owned. @param covariance position [m^2], then rotation about the world axes
+  /// [rad^2].
   PoseFilter(const PoseFilterOptions& options,
              double time,
              const Eigen::Isometry3d& world_from_body,
@@ -46,22 +46,22 @@ class PoseFilter {
 
   double time() const { return time_; }  ///< [s]
 
-  /// Goes on to a time [s]; one that is not after time() changes nothing.
+  /// Predicts to a time [s]; does nothing unless it is after time().
   void predict(double time);
 
-  /// At time(). Nothing when the LED is not before the camera.
+  /// At time(). Nothing when the LED is behind the camera.
   std::optional<LedPrediction> predictLed(const geometry::Camera& camera,
                                           const Eigen::Vector3d& led,
                                           double pixel_stddev) const;
 
-  /// Takes in the pixel of an LED's spot at time(). The prediction must be of this filter as it is,
-  /// since each update moves it.
+  /// Updates with the pixel of an LED's spot at time(). The prediction must stem from the present
+  /// state: every update changes it.
   void update(const LedPrediction& prediction, const Eigen::Vector2d& pixel, double pixel_stddev);
 
   Eigen::Isometry3d worldFromBody() const;
   PoseCovariance poseCovariance() const { return covariance_.topLeftCorner<6, 6>(); }
 
-  /// Of position, rotation, velocity and turning, in this order.
+  /// Order: position, rotation, velocity, angular velocity.
   const MotionCovariance& covariance() const { return covariance_; }
   const Eigen::Vector3d& velocity() const { return velocity_; }        ///< World [m/s].
   const Eigen::Vector3d& angularVelocity() const { return turning_; }  ///< World [rad/s].

@@ -21,15 +21,15 @@ struct LedObservation {
 
 struct SolvedPose {
   Eigen::Isometry3d world_from_body;
-  PoseCovariance covariance;  ///< Of position [m^2], then rotation about the world axes [rad^2].
+  PoseCovariance covariance;  ///< Position [m^2], rotation about the world axes [rad^2].
   double reprojection_error;  ///< sqrt(mean(du^2 + dv^2)) [px].
 };
 
-/// The pose of a body at one time with the greatest likelihood for Gaussian pixel noise: least sum
-/// of squared pixel residuals over all cameras and LEDs (Gauss-Newton with Levenberg's damping),
-/// begun at `start`. Never allocates.
-/// @returns nothing when the pose is not determined: fewer than three observations, or an LED
-/// behind its camera, or no convergence.
+/// Maximum-likelihood pose of a body at one time for Gaussian pixel noise: minimises the sum of
+/// squared pixel residuals over all cameras and LEDs by Levenberg-Marquardt from `start`. Never
+/// allocates.
+/// @returns nothing when the pose is not determined: fewer than three observations, an LED behind
+/// its camera, or no convergence.
 std::optional<SolvedPose> solvePose(const LedObservation* observations,
                                     std::size_t count,
                                     const Eigen::Isometry3d& start,

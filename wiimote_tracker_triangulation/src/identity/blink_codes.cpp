@@ -9,7 +9,7 @@
 namespace wiimote_tracker::identity {
 namespace {
 
-// Two LEDs must differ for as much of the period; less is not seen at 100 Hz in a few periods.
+// Two LEDs must differ in this share of the period; less is not seen in a few periods at 100 Hz.
 constexpr double kLeastDifference = 0.05;
 
 bool isLabel(const std::string& label) {
@@ -21,16 +21,16 @@ bool isLabel(const std::string& label) {
 void checkWaveform(const BlinkCode& code) {
   double last = -1.0;
   for (const Lit& lit : code.waveform) {
-    // Written so that NaN is refused.
+    // Negated, so that NaN is refused.
     if (!(lit.from >= 0.0 && lit.from > last && lit.from < lit.to && lit.to <= 1.0))
-      throw Error("the times of light of " + code.label +
-                  " are not in ascending order within one period; correct them");
+      throw Error("the intervals of light of " + code.label +
+                  " are not ascending within one period; correct them");
     last = lit.to;
   }
   if (code.waveform.empty())
-    throw Error(code.label + " is never on; give it some light");
+    throw Error(code.label + " is never on; add an interval of light");
   if (longestDark(code.waveform) <= 0.0)
-    throw Error(code.label + " is always on, as every lamp; give it some darkness");
+    throw Error(code.label + " is always on, like any lamp; add a dark interval");
 }
 
 }  // namespace
@@ -43,8 +43,7 @@ void BlinkCodes::check() const {
         "the period must be within 0.02 and 5 s, and the shortest not longer than the longest; "
         "correct it");
   if (longest_period > 10.0 * shortest_period)
-    throw Error(
-        "the longest period is more than ten times the shortest; say more exactly how long it is");
+    throw Error("the longest period is more than ten times the shortest; narrow the range");
   if (synchronous && codes.size() > kMaximumSynchronous)
     throw Error("at most " + std::to_string(kMaximumSynchronous) +
                 " LEDs can blink together; use cyclic codes for more");
@@ -54,15 +53,16 @@ void BlinkCodes::check() const {
     checkWaveform(codes[i]);
     for (std::size_t j = 0; j < i; ++j) {
       if (codes[i].label == codes[j].label)
-        throw Error(codes[i].label + " is there twice; give every LED a name of its own");
+        throw Error(codes[i].label + " is there twice; give every LED its own name");
       const double apart = synchronous
                                ? difference(codes[i].waveform, codes[j].waveform, 0.0)
                                : differenceInAnyRotation(codes[i].waveform, codes[j].waveform);
       if (apart < kLeastDifference - 1e-9)
         throw Error(codes[j].label + " and " + codes[i].label +
-                    (synchronous ? " blink alike; give them different shares"
-                                 : " blink alike but for where they begin; give them words "
-                                   "that differ in every rotation"));
+                    (synchronous
+                         ? " blink alike; give them different shares"
+                         : " blink alike up to a rotation; give them words that differ in every "
+                           "rotation"));
     }
   }
 }

@@ -6,13 +6,13 @@
 namespace wiimote_tracker::identity {
 namespace {
 
-// Between neighbouring frequencies the phase goes apart by this within the memory [periods].
+// Phase error within the memory between neighbouring frequencies of the grid [periods].
 constexpr double kPhasePerFrequency = 0.06;
 
-// A sighting's phase is rounded to a part of the grid's step.
+// The phase of a sighting is rounded to 1/4 of the grid's step.
 constexpr std::size_t kStepsPerPhase = 4;
 
-// Lengths of exposures are rounded to this [periods]; longer ones than the last count as that.
+// Exposure times are rounded to this [periods]; the last one stands for all longer ones.
 constexpr double kBlurStep = 1.0 / 32.0;
 constexpr std::size_t kBlurs = 13;
 
@@ -21,7 +21,7 @@ std::size_t phasesFor(const BlinkCodes& codes) {
   for (const BlinkCode& code : codes.codes)
     shortest = std::min(shortest, shortestRun(code.waveform));
   const double phases = std::clamp(std::ceil(4.0 / shortest), 32.0, 256.0);
-  return 8 * static_cast<std::size_t>(std::ceil(phases / 8.0));  // whole vectors of floats
+  return 8 * static_cast<std::size_t>(std::ceil(phases / 8.0));  // whole SIMD vectors
 }
 
 std::vector<double> frequenciesOf(const BlinkCodes& codes, double memory) {
@@ -50,10 +50,10 @@ Hypotheses::Hypotheses(const BlinkCodes& codes, const SeeingModel& seeing, doubl
       memory_(std::max(memory, 3.0 * codes.longest_period)),
       phases_(phasesFor(codes)),
       frequencies_(frequenciesOf(codes, memory_)) {
-  doubt_ = 1.0 / static_cast<double>(phases_);
+  phase_blur_ = 1.0 / static_cast<double>(phases_);
   if (frequencies_.size() > 1)
-    doubt_ += 0.5 * kPhasePerFrequency;
-  likeness_.resize(kBlurs * 2 * kStepsPerPhase * labels() * 2 * phases_);
+    phase_blur_ += 0.5 * kPhasePerFrequency;
+  log_likelihoods_.resize(kBlurs * 2 * kStepsPerPhase * labels() * 2 * phases_);
   for (std::size_t blur = 0; blur < kBlurs; ++blur) {
     for (const bool seen : {false, true}) {
       for (std::size_t step = 0; step < kStepsPerPhase; ++step) {
@@ -69,21 +69,21 @@ std::size_t Hypotheses::rowStart(std::size_t blur, bool seen, std::size_t step) 
 }
 
 void Hypotheses::fillRow(std::size_t blur, bool seen, std::size_t step, std::size_t label) {
-  constexpr int kSamples = 16;  // over the doubt about the phase
+  constexpr int kSamples = 16;  // over the blur of the phase
   const double phases = static_cast<double>(phases_);
   const double exposure = kBlurStep * static_cast<double>(blur);
-  float* const row = &likeness_[rowStart(blur, seen, step) + label * 2 * phases_];
+  float* const row = &log_likelihoods_[rowStart(blur, seen, step) + label * 2 * phases_];
   for (std::size_t i = 0; i < 2 * phases_; ++i) {
     const double middle = (static_cast<double>(step) + 0.5) / (kStepsPerPhase * phases) -
                           static_cast<double>(i) / phases;
     double light = 0.0;
     for (int k = 0; k < kSamples; ++k) {
-      const double phase = middle + doubt_ * ((k + 0.5) / kSamples - 0.5);
+      const double phase = middle + phase_blur_ * ((k + 0.5) / kSamples - 0.5);
       light += litShare(codes_.codes[label].waveform, phase - 0.5 * exposure, exposure) / kSamples;
     }
     const double probability =
         seeing_.seen_when_off + (seeing_.seen_when_on - seeing_.seen_when_off) * light;
-    // Hidden and off look alike.
+    // Divided by the probability of not seeing an LED that is hidden, or off.
     row[i] =
         static_cast<float>(seen ? std::log(probability)
                                 : std::log((1.0 - probability) / (1.0 - seeing_.seen_when_off)));
@@ -100,9 +100,9 @@ Hypotheses::Lookup Hypotheses::lookup(const Sighting& sighting,
       std::min(static_cast<std::size_t>(phase * static_cast<double>(kStepsPerPhase * phases_)),
                kStepsPerPhase * phases_ - 1);
   const std::size_t step = fine % kStepsPerPhase;
-  // A row runs over two rounds, so that every phase finds its whole round in one piece.
+  // A row holds two periods, so that a whole period is contiguous from any phase.
   const std::size_t first = phases_ - fine / kStepsPerPhase;
-  return {&likeness_[rowStart(blur, sighting.seen, step) + first], 2 * phases_};
+  return {&log_likelihoods_[rowStart(blur, sighting.seen, step) + first], 2 * phases_};
 }
 
 double Hypotheses::steady(bool seen) const {

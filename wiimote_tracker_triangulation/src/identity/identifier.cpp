@@ -131,7 +131,7 @@ bool Identifier::takeFromOthers(std::size_t label) {
   for (const auto& led : leds_) {
     if (!led->used || led->identity.label != label)
       continue;
-    // Whoever is still likely to be the one keeps the label: the other is its mirror image.
+    // The LED with this label keeps it while it is likely; the other is its mirror image.
     if (led->probabilityOf(label) >= 0.5)
       return false;
     led->identity = {};

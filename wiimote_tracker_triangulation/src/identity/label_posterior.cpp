@@ -6,10 +6,10 @@
 namespace wiimote_tracker::identity {
 namespace {
 
-// What is e^-16 as likely as the best does not count.
+// Cells less likely than the best by a factor of e^-16 are neglected.
 constexpr float kNegligible = 16.0f;
 
-// With more possible periods and phases than this, nothing is known yet.
+// With more possible periods and phases than this, the prior is returned.
 constexpr Eigen::Index kMostCells = 2000;
 
 }  // namespace
@@ -64,7 +64,7 @@ void LabelPosterior::computeTogether(std::size_t leds) {
   const auto phases = static_cast<Eigen::Index>(hypotheses_.phases());
   const auto labels = static_cast<Eigen::Index>(hypotheses_.labels());
   const auto frequencies = static_cast<Eigen::Index>(hypotheses_.frequencies().size());
-  // No way of giving labels is likelier than each LED's best.
+  // Upper bound of an assignment: every LED takes its best label.
   bound_.setZero(frequencies * phases);
   for (std::size_t led = 0; led < leds; ++led) {
     const auto steady = static_cast<float>(logWeightOfSteady(led));
@@ -82,7 +82,7 @@ void LabelPosterior::computeTogether(std::size_t leds) {
     posterior_.row(labels).setConstant(steady_prior_);
     return;
   }
-  // What every weight of an LED is divided by, lest they leave the range of numbers.
+  // Each LED's weights are divided by a reference to avoid overflow and underflow.
   reference_.resize(leds);
   for (std::size_t led = 0; led < leds; ++led) {
     reference_[led] = logWeightOfSteady(led);
@@ -101,8 +101,8 @@ void LabelPosterior::computeTogether(std::size_t leds) {
     posterior_.col(led) /= posterior_.col(led).sum();
 }
 
-// The sum over all ways to give the LEDs different labels, or none, is a permanent; here by going
-// through the LEDs with the set of labels that are taken, forwards and backwards.
+// The sum over all assignments of distinct labels, or none, is a permanent. It is computed by a
+// forward and a backward recursion over the LEDs whose state is the set of used labels.
 void LabelPosterior::addCell(std::size_t frequency, std::size_t phase, std::size_t leds) {
   const std::size_t labels = hypotheses_.labels();
   const std::size_t sets = std::size_t{1} << labels;

@@ -48,7 +48,7 @@ std::size_t distanceOf(Bits one, Bits other, std::size_t length) {
   return static_cast<std::size_t>(least);
 }
 
-/// Whether no rotation of the word is a smaller number: one of all its rotations.
+/// Picks one representative of the rotations of a word.
 bool isSmallestRotation(Bits word, std::size_t length) {
   Bits other = word;
   for (std::size_t i = 1; i < length; ++i) {
@@ -59,13 +59,13 @@ bool isSmallestRotation(Bits word, std::size_t length) {
   return true;
 }
 
-/// Whether some `dark` chips in a row are off. A word that is its own smallest rotation begins with
-/// its longest darkness.
+/// Whether `dark` chips in a row are off. A word that is its own smallest rotation starts with its
+/// longest dark run.
 bool isDarkFor(Bits word, std::size_t length, std::size_t dark) {
   return dark <= length && (word >> (length - dark)) == 0;
 }
 
-/// All words of a length that may be used, those that are on for longest first.
+/// All usable words of a length, those with the most light first.
 std::vector<Bits> usableWords(std::size_t length, std::size_t longest_dark) {
   std::vector<Bits> words;
   const Bits all = (Bits{1} << length) - 1;
@@ -77,7 +77,7 @@ std::vector<Bits> usableWords(std::size_t length, std::size_t longest_dark) {
   return words;
 }
 
-/// Goes through the candidates from `first` on and takes each that is far enough from those taken.
+/// Greedy choice from `first` on of candidates at the required distance from those taken.
 std::vector<Bits> takeInTurn(const std::vector<Bits>& candidates,
                              std::size_t first,
                              std::size_t count,
@@ -127,7 +127,7 @@ BlinkCodes cyclicCodes(const std::vector<CyclicLed>& leds, double chip, double t
         led.word.size() > kLongestWord)
       throw Error("the word of " + led.label +
                   " has another length than that of the first LED, or not 2 to 20 chips; "
-                  "take words of one length");
+                  "use words of equal length");
     codes.codes.push_back({led.label, waveformOf(led)});
   }
   const double period = leds.empty() ? chip : chip * static_cast<double>(leds[0].word.size());
@@ -175,7 +175,7 @@ std::vector<std::string> chooseWords(std::size_t count) {
     words = chooseWords(count, rules);
   }
   if (words.empty())
-    throw Error("there are no words for " + std::to_string(count) +
+    throw Error("no words were found for " + std::to_string(count) +
                 " LEDs; ask for at least 1 and at most a few hundred");
   return words;
 }

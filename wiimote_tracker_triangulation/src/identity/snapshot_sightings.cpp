@@ -15,8 +15,8 @@ void SnapshotSightings::expectPixels(const geometry::Camera& camera, const Snaps
     pixels_.push_back(camera.project(led.position));
 }
 
-/// Whether the spot there may be the light of another LED that is believed.
-bool SnapshotSightings::mayBeAnothers(const Eigen::Vector2d& pixel,
+/// Whether the spot may belong to another LED that is tracked or predicted.
+bool SnapshotSightings::mayBeOtherLed(const Eigen::Vector2d& pixel,
                                       const Snapshot& snapshot,
                                       std::size_t led) const {
   const double distance = options_.merging_distance;
@@ -30,7 +30,7 @@ bool SnapshotSightings::mayBeAnothers(const Eigen::Vector2d& pixel,
   return false;
 }
 
-// Nothing: the image need not show the LED, or what it shows may be another.
+// Nothing: the image need not show the LED, or may show another one in its place.
 std::optional<bool> SnapshotSightings::isSeen(const geometry::RigCamera& camera,
                                               const CameraView& view,
                                               const Snapshot& snapshot,
@@ -38,7 +38,7 @@ std::optional<bool> SnapshotSightings::isSeen(const geometry::RigCamera& camera,
   for (const tracking::SeenSpot& spot : view.spots) {
     if (spot.use != tracking::SpotUse::kAssigned || spot.led != snapshot.leds[led].id)
       continue;
-    if (mayBeAnothers(spot.pixel, snapshot, led))
+    if (mayBeOtherLed(spot.pixel, snapshot, led))
       return std::nullopt;
     return true;
   }

@@ -11,7 +11,7 @@ double fraction(double phase) {
   return phase - std::floor(phase);
 }
 
-/// Integral of the light from phase 0 to `phase`, any number [periods].
+/// Integral of the light from phase 0 to `phase` [periods], any number.
 double lightUntil(const Waveform& waveform, double phase) {
   const double whole = std::floor(phase);
   const double rest = phase - whole;
@@ -36,8 +36,8 @@ std::vector<double> edges(const Waveform& waveform) {
   return edges;
 }
 
-/// Lengths of the darkness after each time of light. Zero between one that ends at 1 and one that
-/// begins at 0.
+/// Lengths of the dark interval after each interval of light; zero between one that ends at 1 and
+/// one that starts at 0.
 std::vector<double> darkness(const Waveform& waveform) {
   std::vector<double> lengths;
   for (std::size_t i = 0; i < waveform.size(); ++i) {
@@ -95,7 +95,7 @@ double difference(const Waveform& one, const Waveform& other, double shift) {
 }
 
 double differenceInAnyRotation(const Waveform& one, const Waveform& other) {
-  // Piecewise linear in the shift, with its corners where two edges meet.
+  // Piecewise linear in the shift, with corners where two edges coincide.
   double least = difference(one, other, 0.0);
   for (double a : edges(one)) {
     for (double b : edges(other))

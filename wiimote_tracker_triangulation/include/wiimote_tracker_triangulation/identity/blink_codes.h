@@ -14,25 +14,25 @@ struct BlinkCode {
   Waveform waveform;
 };
 
-/// How the LEDs of a scene blink, so that each can be told from the others.
+/// Blink codes of the LEDs of a scene, which identify each of them.
 struct BlinkCodes {
   std::vector<BlinkCode> codes;
 
-  /// The period lies between these [s]; alike when it is known.
+  /// Bounds of the period [s]; equal when it is known.
   double shortest_period = 0.1;
   double longest_period = 0.1;
 
-  /// All LEDs have one period and begin it together; else each for itself.
+  /// All LEDs share one period and start it together; else each has its own phase.
   bool synchronous = false;
 
-  /// Most LEDs that can blink together.
+  /// Most LEDs with synchronous codes.
   static constexpr std::size_t kMaximumSynchronous = 8;
 
-  /// @throws Error: two that could be confused, one that never blinks or never shines,
-  /// labels or periods out of range.
+  /// @throws Error: two codes that could be confused, one that is always or never on, labels or
+  /// periods out of range.
   void check() const;
 
-  /// For how long an LED may be dark [s]: a track must live through that.
+  /// Longest time that an LED is dark [s]; tracks must survive it.
   double longestDark() const;
 };
 

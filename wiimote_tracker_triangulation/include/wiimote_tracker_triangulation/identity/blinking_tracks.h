@@ -6,8 +6,8 @@
 
 namespace wiimote_tracker::identity {
 
-/// A tracker's options for LEDs that blink so, from those for LEDs that are always on: it waits for
-/// LEDs that are dark, and expects them in no more images than they shine in.
+/// Adapts a tracker's options to blinking LEDs: tracks survive the dark chips, and the detection
+/// probability is multiplied by the share of the time that the LEDs are on.
 tracking::TrackerOptions forBlinking(const BlinkCodes& codes, tracking::TrackerOptions options);
 
 }  // namespace wiimote_tracker::identity

@@ -7,9 +7,9 @@
 
 namespace wiimote_tracker::identity {
 
-/// The codes of a YAML file (format wiimote_tracker_blink_codes, version 1; see
-/// config/blink_codes.yaml and config/blink_codes_paper.yaml). Strict: keys that are missing or
-/// unknown, foreign formats and versions are refused by name.
+/// Reads codes from a YAML file (format wiimote_tracker_blink_codes, version 1; see
+/// config/blink_codes.yaml and config/blink_codes_paper.yaml). Missing or unknown keys and other
+/// formats or versions are refused by name.
 /// @throws geometry::Error.
 BlinkCodes readBlinkCodes(const std::string& file);
 

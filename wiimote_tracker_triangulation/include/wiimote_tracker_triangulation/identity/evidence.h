@@ -11,32 +11,32 @@
 
 namespace wiimote_tracker::identity {
 
-/// What the sightings of one LED say about every hypothesis: log likelihoods that fade with the
-/// hypotheses' memory.
+/// Log likelihoods of all hypotheses given the sightings of one LED, with exponential forgetting
+/// (Hypotheses::memory).
 ///
-/// Darkness is put aside, per camera, until that camera sees the LED again, and counts no more
-/// against any hypothesis than that something was in the way (SeeingModel::hidden).
+/// A dark interval of a camera is kept apart until that camera sees the LED again. Its log
+/// likelihood is limited from below to that of an occlusion (SeeingModel::hidden).
 class Evidence {
  public:
   explicit Evidence(const Hypotheses& hypotheses);
 
-  /// Forgets everything. Phases are counted from `origin` [s], near the first sighting.
+  /// Forgets all sightings. Phases are relative to `origin` [s], near the first sighting.
   void reset(double origin);
 
-  /// Does not allocate, once each camera has had a sighting.
+  /// Does not allocate once each camera has had a sighting.
   void add(const Sighting& sighting);
 
-  /// Log likelihoods of all cells, and of a light that does not blink, now.
-  /// @param cells hypotheses().cells() of them
+  /// Present log likelihoods of all cells, and of a light that does not blink.
+  /// @param cells output, hypotheses().cells() values.
   void read(Eigen::ArrayXf* cells, double* steady) const;
 
   const Hypotheses& hypotheses() const { return *hypotheses_; }
 
  private:
-  /// A camera's present darkness.
+  /// The present dark interval of a camera.
   struct Darkness {
     bool lasts = false;
-    double weight = 1.0;  // of its beginning
+    double weight = 1.0;  // at its start
     Eigen::ArrayXf cells;
     double steady = 0.0;
   };
@@ -49,13 +49,13 @@ class Evidence {
   const Hypotheses* hypotheses_;
   double origin_ = 0.0;  // of the phases [s]
 
-  // Everything is stored times weight_, which grows as if newer sightings were worth more: so
-  // nothing has to be made smaller each time.
+  // All sums are multiplied by weight_, which grows with time, so that forgetting needs no
+  // multiplication of old sums.
   double weight_ = 1.0;
-  double weight_origin_ = 0.0;  // when it was 1 [s]
+  double weight_origin_ = 0.0;  // time of weight 1 [s]
   Eigen::ArrayXf cells_;
   double steady_ = 0.0;
-  std::vector<Darkness> darkness_;  // of each camera
+  std::vector<Darkness> darkness_;  // per camera
 };
 
 }  // namespace wiimote_tracker::identity

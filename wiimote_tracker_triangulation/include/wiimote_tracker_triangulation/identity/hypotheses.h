@@ -11,12 +11,12 @@
 
 namespace wiimote_tracker::identity {
 
-/// All that an LED may be doing: a grid of periods and of phases for each label, and how likely
-/// each of them makes a sighting. Shared by the evidence of all LEDs.
+/// Hypotheses about an LED: a grid of periods and phases for each label, with the likelihood of a
+/// sighting under each. Shared by the evidence of all LEDs.
 class Hypotheses {
  public:
-  /// @param memory sightings older than this fade out [s, > 0]; with less than three of the longest
-  /// periods, those are taken. @throws Error (see BlinkCodes::check).
+  /// @param memory time constant of forgetting [s, > 0]; at least three of the longest periods.
+  /// @throws Error (see BlinkCodes::check).
   Hypotheses(const BlinkCodes& codes, const SeeingModel& seeing, double memory);
 
   const BlinkCodes& codes() const { return codes_; }
@@ -27,21 +27,22 @@ class Hypotheses {
   std::size_t phases() const { return phases_; }
   const std::vector<double>& frequencies() const { return frequencies_; }  ///< [Hz]
 
-  /// Of one label at one frequency begins at (frequency * labels() + label) * phases().
+  /// Number of hypotheses. Those of a label at a frequency start at (frequency * labels() + label)
+  /// * phases().
   std::size_t cells() const { return frequencies_.size() * labels() * phases_; }
 
-  /// Where a sighting finds its likelihoods at one frequency.
+  /// Likelihoods of a sighting at one frequency.
   struct Lookup {
-    const float* row;    ///< Of the first label, for phases 0, 1, ...
-    std::size_t stride;  ///< From one label's row to the next.
+    const float* row;    ///< First label, phases 0, 1, ...
+    std::size_t stride;  ///< Between the rows of two labels.
   };
 
-  /// Log likelihoods of a sighting, relative to those of a hidden LED, that has gone through
-  /// `periods` periods (any number) of a frequency [Hz] since phase 0. The LED's phase is that of
-  /// its waveform at the time of periods = 0, counted backwards.
+  /// Log likelihoods of a sighting, relative to those of a hidden LED.
+  /// @param frequency [Hz]. @param periods periods since phase 0, any number. The phase of a
+  /// hypothesis is minus that of the waveform at periods = 0.
   Lookup lookup(const Sighting& sighting, double frequency, double periods) const;
 
-  /// The same for a light that does not blink.
+  /// Log likelihood for a light that does not blink.
   double steady(bool seen) const;
 
  private:
@@ -53,8 +54,8 @@ class Hypotheses {
   double memory_;
   std::size_t phases_;
   std::vector<double> frequencies_;
-  double doubt_ = 0.0;           // of the phase, from grid and frequency [periods]
-  std::vector<float> likeness_;  // [blur][seen][step within a phase][label][2 * phases]
+  double phase_blur_ = 0.0;             // by the grid's steps of phase and frequency [periods]
+  std::vector<float> log_likelihoods_;  // [blur][seen][step within a phase][label][2 * phases]
 };
 
 }  // namespace wiimote_tracker::identity

@@ -13,14 +13,13 @@ namespace wiimote_tracker::identity {
 struct IdentifierOptions {
   SeeingModel seeing;
 
-  /// Probability that a light does not blink, before it was looked at [1e-9..0.5].
+  /// Prior probability that a light does not blink [1e-9..0.5].
   double steady = 0.01;
 
-  /// A label is given, or changed for another, when it is as probable as this [0.6..0.999999].
+  /// Probability at which a label is assigned or changed [0.6..0.999999].
   double decide_at = 0.999;
 
-  /// Sightings older than this fade out [s, 0.1..60]; with less than three of the longest periods,
-  /// those are taken.
+  /// Time constant of forgetting [s, 0.1..60]; at least three of the longest periods.
   double memory = 1.0;
 
   /// Shortest time between two decisions [s, 0..1].
@@ -30,36 +29,36 @@ struct IdentifierOptions {
   void check() const;
 };
 
-/// Who an LED is thought to be.
+/// The present decision about an LED.
 struct Identity {
-  std::optional<std::size_t> label;  ///< In BlinkCodes::codes; nothing: it has none, or not yet.
-  bool steady = false;               ///< It does not blink, and so has no label.
-  double confidence = 0.0;           ///< Probability of the label, at the last decision [0..1].
-  double since = 0.0;                ///< When it was decided [s].
+  std::optional<std::size_t> label;  ///< In BlinkCodes::codes; nothing: none, or not yet.
+  bool steady = false;               ///< A light that does not blink.
+  double confidence = 0.0;           ///< Probability of the label [0..1].
+  double since = 0.0;                ///< Time of the decision [s].
 };
 
-/// Gives the LEDs of a tracker their labels. An LED keeps its label until another one, or that it
-/// does not blink at all, is as probable as a first decision needs. No two have the same label: the
-/// first keeps it as long as that is likelier than not. The result is a function of the
-/// options and of the sequence of calls; no clock is read. Does not allocate once warm.
+/// Assigns labels to the LEDs of a tracker. An LED keeps its label until another label, or a light
+/// that does not blink, reaches the probability of a first decision. Labels are unique: the first
+/// LED keeps a label while its probability is at least 0.5. The result depends on the options and
+/// the sequence of calls only. Does not allocate once warm.
 class Identifier {
  public:
   /// @throws Error.
   Identifier(const BlinkCodes& codes, const IdentifierOptions& options);
 
-  /// Of the LED with the tracker's id `led`, new or known. In any order of time, but each camera's
-  /// in its own.
+  /// Adds a sighting of the LED with the tracker's id `led`. Sightings of one camera must be in
+  /// order of time.
   void add(std::uint32_t led, const Sighting& sighting);
 
-  /// The LED is gone for good. Its label is free for another one.
+  /// Removes an LED. Its label is free for another one.
   void forget(std::uint32_t led);
 
-  /// Decides, unless it is less than the interval since that was done. Call after add().
-  /// @param time now [s], for Identity::since. When it has gone back, as with a bag that begins
-  /// anew, the LEDs keep their labels and all evidence is forgotten.
+  /// Decides, unless less than the interval has passed since. Call after add().
+  /// @param time now [s], for Identity::since. When time goes back, as with a restarted bag, the
+  /// LEDs keep their labels and all evidence is forgotten.
   void decide(double time);
 
-  /// Null: it had no sighting. Valid until the next call of another kind.
+  /// Null for an LED without sightings. Valid until the next call that is not const.
   const Identity* identityOf(std::uint32_t led) const;
 
   /// Forgets all LEDs.
@@ -73,7 +72,7 @@ class Identifier {
     bool used = false;
     Evidence evidence;
     Identity identity;
-    Eigen::VectorXd probabilities;  // of the labels, then that it does not blink
+    Eigen::VectorXd probabilities;  // per label, then of not blinking
 
     double probabilityOf(std::size_t label) const {
       return probabilities(static_cast<Eigen::Index>(label));
@@ -88,10 +87,10 @@ class Identifier {
   IdentifierOptions options_;
   Hypotheses hypotheses_;
   LabelPosterior posterior_;
-  std::vector<std::unique_ptr<Led>> leds_;  // places, used again
-  std::vector<const Evidence*> evidence_;   // of those in use
+  std::vector<std::unique_ptr<Led>> leds_;  // reused
+  std::vector<const Evidence*> evidence_;   // of the LEDs in use
   std::optional<double> origin_;            // of the phases [s]
-  std::optional<double> decided_;           // when it was last done [s]
+  std::optional<double> decided_;           // last decision [s]
 };
 
 }  // namespace wiimote_tracker::identity

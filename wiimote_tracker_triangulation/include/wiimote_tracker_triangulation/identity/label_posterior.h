@@ -9,17 +9,17 @@
 
 namespace wiimote_tracker::identity {
 
-/// Probability of each label for each LED, from the LEDs' evidence; a column per LED, a row per
-/// label, and a last row for a light that does not blink. Keeps its memory from call to call.
+/// Probabilities of the labels given the evidence: a column per LED, a row per label, and a last
+/// row for a light that does not blink. Keeps its buffers between calls.
 class LabelPosterior {
  public:
-  /// @param steady probability that a light does not blink, before it was looked at [1e-9..0.5].
+  /// @param steady prior probability that a light does not blink [1e-9..0.5].
   LabelPosterior(const Hypotheses& hypotheses, double steady);
 
-  /// Each LED for itself, or, where they blink together, all of them: one period and phase, every
-  /// label at most once, summed over all ways exactly. Together, as long as nearly every period and
-  /// phase is possible, the probabilities are those from before anything was seen.
-  /// @param leds all of the same hypotheses; together, their evidence has one origin.
+  /// Asynchronous LEDs are independent. Synchronous LEDs share period and phase, and each label
+  /// occurs at most once: exact sum over all assignments. While too many periods and phases are
+  /// possible, the result for synchronous LEDs is the prior.
+  /// @param leds evidence of the same hypotheses and, if synchronous, of the same origin.
   const Eigen::MatrixXd& compute(const std::vector<const Evidence*>& leds);
 
  private:
@@ -30,8 +30,8 @@ class LabelPosterior {
 
   const Hypotheses& hypotheses_;
   double steady_prior_;
-  std::vector<Eigen::ArrayXf> cells_;  // of each LED
-  std::vector<double> steady_;         // likewise
+  std::vector<Eigen::ArrayXf> cells_;  // per LED
+  std::vector<double> steady_;         // per LED
   Eigen::MatrixXd posterior_;
   Eigen::ArrayXf best_, bound_;
   std::vector<double> reference_, weights_, forward_, backward_;

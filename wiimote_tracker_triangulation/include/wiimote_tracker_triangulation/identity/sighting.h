@@ -5,23 +5,23 @@
 
 namespace wiimote_tracker::identity {
 
-/// What one image says about one LED that ought to be in it: in the camera's view, not beside
-/// another spot that may have swallowed it, and not perhaps crowded out by four brighter ones. An
-/// image that an LED need not be in says nothing and makes no sighting.
+/// Whether one image shows one LED that it ought to show: inside the camera's view, not near
+/// another spot with which it may merge, and not displaced by four brighter ones. Other images make
+/// no sighting.
 struct Sighting {
   std::size_t camera = 0;
   double time = 0.0;      ///< Middle of the exposure [s].
-  double exposure = 0.0;  ///< Its length, and the doubt about when it was [s, at least 0].
+  double exposure = 0.0;  ///< Its length plus the uncertainty of its time [s, >= 0].
   bool seen = false;
 };
 
-/// How sure a camera is. All cameras alike.
+/// Detection model of all cameras.
 struct SeeingModel {
-  double seen_when_on = 0.94;   ///< Probability that an LED is seen while it is on [0.5..0.999].
-  double seen_when_off = 0.01;  ///< That something else is taken for it [0.0001..0.2].
+  double seen_when_on = 0.94;   ///< Detection probability of an LED that is on [0.5..0.999].
+  double seen_when_off = 0.01;  ///< Probability of a false detection [0.0001..0.2].
 
-  /// Probability that a darkness is no blinking but something in the way [1e-6..0.1]. One camera's
-  /// darkness therefore never speaks more strongly against an LED than this.
+  /// Probability that a dark interval is an occlusion [1e-6..0.1]. It limits the evidence of one
+  /// camera's dark interval against an LED.
   double hidden = 0.002;
 };
 

@@ -12,9 +12,9 @@
 namespace wiimote_tracker::identity {
 
 struct SnapshotSightingsOptions {
-  double exposure = 0.002;  ///< Length, and the doubt about when it was [s, 0..0.02].
+  double exposure = 0.002;  ///< Length plus the uncertainty of its time [s, 0..0.02].
 
-  /// The tracker's: LEDs closer than this may be one spot [px, 0..100].
+  /// As for the tracker: LEDs closer than this may merge [px, 0..100].
   double merging_distance = 24.0;
 };
 
@@ -23,17 +23,17 @@ struct TrackSighting {
   Sighting sighting;
 };
 
-/// Tells an Identifier what a tracker's snapshots say: for each image that is new, which LEDs it
-/// shows, and which ones it does not show though it ought to. Does not allocate once warm.
+/// Feeds an Identifier with a tracker's snapshots: for each new image, which LEDs it shows, and
+/// which ones are missing although it should show them. Does not allocate once warm.
 class SnapshotSightings {
  public:
   explicit SnapshotSightings(const SnapshotSightingsOptions& options) : options_(options) {}
 
-  /// Adds the sightings of a snapshot, forgets the LEDs that are lost, and decides.
-  /// @param rig the one that the snapshot was made with.
+  /// Adds the sightings of a snapshot, removes lost LEDs, and decides.
+  /// @param rig the rig of the snapshot.
   void add(const geometry::Rig& rig, const tracking::Snapshot& snapshot, Identifier* identifier);
 
-  /// Only the sightings of a snapshot. Valid until the next call.
+  /// Extracts the sightings of a snapshot. Valid until the next call.
   const std::vector<TrackSighting>& collect(const geometry::Rig& rig,
                                             const tracking::Snapshot& snapshot);
 
@@ -43,15 +43,14 @@ class SnapshotSightings {
                              const tracking::CameraView& view,
                              const tracking::Snapshot& snapshot,
                              std::size_t led) const;
-  bool mayBeAnothers(const Eigen::Vector2d& pixel,
+  bool mayBeOtherLed(const Eigen::Vector2d& pixel,
                      const tracking::Snapshot& snapshot,
                      std::size_t led) const;
 
   SnapshotSightingsOptions options_;
-  std::vector<std::optional<Eigen::Vector2d>>
-      pixels_;  // where the view ought to show each LED [px]
+  std::vector<std::optional<Eigen::Vector2d>> pixels_;  // predicted, per LED [px]
   std::vector<TrackSighting> sightings_;
-  std::vector<std::optional<double>> times_;  // of each camera's last image [s]
+  std::vector<std::optional<double>> times_;  // of the last image, per camera [s]
 };
 
 }  // namespace wiimote_tracker::identity

@@ -8,13 +8,13 @@
 
 namespace wiimote_tracker::gesture {
 
-/// The examples of a YAML file (format wiimote_tracker_gestures, version 1). Strict: keys that are
-/// missing or unknown, foreign formats and versions are refused by name.
+/// Reads examples from a YAML file (format wiimote_tracker_gestures, version 1). Missing or unknown
+/// keys and other formats or versions are refused by name.
 /// @throws geometry::Error.
 std::vector<Example> readExamples(const std::string& file);
 
-/// Written atomically; what was there before is kept as file + ".bak". Numbers come back bit for
-/// bit. @throws geometry::Error.
+/// Writes atomically; keeps an existing file as file + ".bak". Numbers are read back bit by bit.
+/// @throws geometry::Error.
 void writeExamples(const std::string& file, const std::vector<Example>& examples);
 
 }  // namespace wiimote_tracker::gesture

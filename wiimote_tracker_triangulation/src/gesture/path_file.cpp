@@ -10,7 +10,7 @@
 namespace wiimote_tracker::gesture {
 namespace {
 
-/// The numbers of a line; empty when there is anything else in it.
+/// The numbers of a line; empty when it contains anything else.
 std::vector<double> numbersOf(std::string line) {
   std::replace(line.begin(), line.end(), ',', ' ');
   std::vector<double> numbers;
@@ -36,7 +36,7 @@ Path readPath(const std::string& file) {
   Path path;
   path.reserve(rows.size());
   for (const std::vector<double>& row : rows)
-    // From the first row on: milliseconds since 1970 leave a double few digits.
+    // Relative to the first row: milliseconds since 1970 would cost a double its fine digits.
     path.push_back({1e-3 * (row[3] - rows[0][3]), {row[0], row[1], row[2]}});
   return path;
 }
@@ -53,7 +53,7 @@ std::vector<std::vector<double>> readRows(const std::string& file, std::size_t c
       rows.push_back(std::move(numbers));
     else if (!rows.empty() && line.find_first_not_of(" \t\r") != std::string::npos)
       throw Error(file + ", line " + std::to_string(number) + " is not " + std::to_string(columns) +
-                  " numbers; mend or remove it");
+                  " numbers; correct or remove it");
   }
   if (rows.empty())
     throw Error(file + " has no row of " + std::to_string(columns) +

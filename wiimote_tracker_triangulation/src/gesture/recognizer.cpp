@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The two least of the distances to one gesture's examples.
+/// The two smallest distances to the examples of one gesture.
 struct TwoNearest {
   double first = kInfinity;
   double second = kInfinity;
@@ -68,7 +68,7 @@ std::optional<Recognition> Recognizer::recognize(const Path& path, const std::st
       if (!examples_[i].zone.empty() && examples_[i].zone != zone)
         continue;
       known_here = true;
-      // Further than this, it changes neither of the two nearest.
+      // Larger distances do not change the two nearest.
       nearest.add(distance(options_.any_heading ? turnedTowards(*shape, shapes_[i]) : *shape,
                            shapes_[i], nearest.second));
     }

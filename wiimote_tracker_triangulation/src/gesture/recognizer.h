@@ -13,33 +13,33 @@ namespace wiimote_tracker::gesture {
 struct RecognizerOptions {
   ShapeOptions shape;
 
-  /// The same gesture in another direction of the compass is the same.
+  /// Whether a gesture is recognised in any heading (rotation about the vertical).
   bool any_heading = false;
 
-  /// A path further than this from every gesture is none [1, > 0]; see distance().
+  /// Paths farther than this from every gesture are rejected [1, > 0]; see distance().
   double rejection_distance = 0.65;
 };
 
-/// One way in which a gesture was drawn.
+/// An example of a gesture.
 struct Example {
   std::string gesture;
-  std::string zone;  ///< Only recognised in this zone of the rig; empty: everywhere.
+  std::string zone;  ///< Zone of the rig to which it is limited; empty: none.
   Path path;
 };
 
-/// The gesture that a path resembles most. Scores [0..1]: 1 for the very same shape, 0.5 where it
-/// would be rejected.
+/// The gesture nearest to a path. Scores [0..1]: 1 for an equal shape, 0.5 at the limit of
+/// rejection.
 struct Recognition {
   std::string gesture;
   double score;
-  std::string runner_up;         ///< Another gesture; empty when there is none.
-  double runner_up_score = 0.0;  ///< 0 when there is none.
+  std::string runner_up;         ///< The next gesture; empty: none.
+  double runner_up_score = 0.0;  ///< 0: none.
 
   bool accepted() const { return score >= 0.5; }
 };
 
-/// Knows gestures by examples: one to a few of each. A path is as far from a gesture as the mean of
-/// its distances to the two nearest examples, so that one odd example does little harm.
+/// Recognises gestures by one or a few examples of each. The distance of a path to a gesture is the
+/// mean over the two nearest examples, which limits the effect of an odd example.
 class Recognizer {
  public:
   explicit Recognizer(const RecognizerOptions& options) : options_(options) {}
@@ -47,17 +47,17 @@ class Recognizer {
   /// @throws Error: no name, or a path without a shape.
   void add(const Example& example);
 
-  /// All examples of a gesture; how many there were.
+  /// Removes all examples of a gesture. @returns their number.
   std::size_t remove(const std::string& gesture);
 
   const std::vector<Example>& examples() const { return examples_; }
 
-  /// Nothing when the path has no shape, or no gesture is known in that zone.
+  /// Nothing when the path has no shape, or the zone has no gesture.
   std::optional<Recognition> recognize(const Path& path, const std::string& zone = "") const;
 
  private:
   RecognizerOptions options_;
-  std::vector<Example> examples_;  // those of one gesture side by side
+  std::vector<Example> examples_;  // grouped by gesture
   std::vector<Shape> shapes_;      // parallel to examples_
 };
 

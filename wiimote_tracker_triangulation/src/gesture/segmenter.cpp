@@ -19,7 +19,7 @@ std::optional<Path> Segmenter::add(const PathPoint& point, double seen) {
   const bool at_rest = isAtRest();
   if (moving_ && at_rest) {
     moving_ = false;
-    // The rest at the end is not part of it.
+    // Remove the rest at the end.
     const double end_time = point.time - options_.rest_time;
     while (path_.size() > 1 && path_[path_.size() - 2].time >= end_time)
       path_.pop_back();
@@ -40,8 +40,7 @@ std::optional<Path> Segmenter::advance(double time) {
     return std::nullopt;
   while (!path_.empty() && path_.back().time > seen_)
     path_.pop_back();
-  // Whatever the boundary: a way with a hole in it is not the way that was drawn. Only switching
-  // off is an end that counts.
+  // A path with a gap is discarded; with kLight the gap ends the gesture.
   std::optional<Path> ended = end();
   return options_.boundary == Boundary::kLight ? ended : std::nullopt;
 }
@@ -52,7 +51,7 @@ std::optional<Path> Segmenter::button(double time, bool pressed) {
   pressed_ = pressed;
   if (pressed) {
     std::optional<Path> ended = end_ && *end_ < time ? cutAtButton() : std::nullopt;
-    end_.reset();  // of a time to come, where a bag has started over
+    end_.reset();  // in the future after a restart of a bag
     begin_ = time;
     return ended;
   }
@@ -66,7 +65,7 @@ void Segmenter::reset() {
   end_.reset();
 }
 
-/// What was drawn from when the button was pressed until it was released.
+/// The path between pressing and releasing the button.
 std::optional<Path> Segmenter::cutAtButton() {
   forgetBefore(begin_);
   const auto after =
@@ -95,7 +94,7 @@ bool Segmenter::isAtRest() const {
     if (newest.time - path_[i].time >= options_.rest_time)
       return true;
   }
-  // Too little is known yet: an LED that has just appeared may be moving.
+  // Too few positions: an LED that has just appeared may be moving.
   return false;
 }
 

@@ -8,7 +8,7 @@
 
 namespace wiimote_tracker::gesture {
 
-/// What begins and ends a gesture.
+/// What starts and ends a gesture.
 enum class Boundary {
   kLight,   ///< The LED is switched on and off.
   kButton,  ///< A button is held down.
@@ -18,43 +18,44 @@ enum class Boundary {
 struct SegmenterOptions {
   Boundary boundary = Boundary::kRest;
 
-  /// An LED unseen for longer is switched off [s, > 0].
+  /// An LED unseen for longer counts as switched off [s, > 0].
   double dark_time = 0.15;
 
-  /// Held still: all positions of the last rest_time [s, > 0] within a sphere of rest_radius [m, >
-  /// 0] about the newest.
+  /// At rest: all positions of the last rest_time [s, > 0] are within rest_radius [m, > 0] of the
+  /// newest.
   double rest_time = 0.25;
   double rest_radius = 0.015;
 
-  /// A gesture that lasts longer is cut off at its beginning [s, > 0].
+  /// The start of a longer gesture is cut off [s, > 0].
   double maximum_duration = 10.0;
 
-  /// A shorter one is none [s, > 0].
+  /// Shorter gestures are ignored [s, > 0].
   double minimum_duration = 0.15;
 };
 
-/// Cuts the way of one LED into gestures. Time is the positions' own.
+/// Cuts the path of one LED into gestures. Times are those of the positions.
 class Segmenter {
  public:
   explicit Segmenter(const SegmenterOptions& options) : options_(options) {}
 
-  /// A position of the LED; times must increase, others are ignored.
-  /// @param seen when a camera last saw it [s]. A later position is foretold from its motion, and
-  /// is no part of a gesture if the LED is not seen again.
-  /// @returns a gesture that has just ended.
+  /// Adds a position. Times must increase; others are ignored.
+  /// @param seen time of the last detection [s]. Later positions are predictions, which belong to a
+  /// gesture only if the LED is seen again.
+  /// @returns a gesture that this position ends.
   std::optional<Path> add(const PathPoint& point, double seen);
   std::optional<Path> add(const PathPoint& point) { return add(point, point.time); }
 
-  /// Time has gone on to `time` [s] without a position (the LED is hidden or off).
+  /// Advances to `time` [s] without a position (the LED is hidden or off).
   std::optional<Path> advance(double time);
 
-  /// With Boundary::kButton: it was pressed or released. Positions of times before and after that
-  /// may have been added already, or be added later, by less than kButtonDelay; the gesture is the
-  /// same. @returns a gesture that has just ended.
+  /// With Boundary::kButton: the button was pressed or released. Positions may be added earlier or
+  /// later than their time order requires, by less than kButtonDelay, without effect on the
+  /// gesture.
+  /// @returns a gesture that this event ends.
   std::optional<Path> button(double time, bool pressed);
   static constexpr double kButtonDelay = 0.5;  // [s]
 
-  /// Forgets everything, as after a jump of time.
+  /// Forgets all state, as after a jump in time.
   void reset();
 
  private:
@@ -64,13 +65,13 @@ class Segmenter {
   void forgetBefore(double time);
 
   SegmenterOptions options_;
-  Path path_;            // with kRest also the rest before the gesture
+  Path path_;            // with kRest including the rest before the gesture
   double seen_ = 0.0;    // [s]
   bool moving_ = false;  // with kRest
   // With kButton:
   bool pressed_ = false;
-  double begin_ = 0.0;         // when it was pressed last [s]
-  std::optional<double> end_;  // released, and not yet all positions before that are known [s]
+  double begin_ = 0.0;         // last press [s]
+  std::optional<double> end_;  // release that awaits earlier positions [s]
 };
 
 }  // namespace wiimote_tracker::gesture

@@ -22,8 +22,7 @@ bool isUsable(const Path& path) {
   return true;
 }
 
-/// Each point replaced by the weighed mean of its neighbours in time. The window narrows towards
-/// the ends, so that those stay where they are.
+/// Smooths a path by a Gaussian in time. The window narrows towards the ends, which stay in place.
 std::vector<Eigen::Vector3d> smoothed(const Path& path, double stddev) {
   std::vector<Eigen::Vector3d> result(path.size());
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -49,12 +48,12 @@ std::vector<Eigen::Vector3d> smoothed(const Path& path, double stddev) {
   return result;
 }
 
-/// Points at equal distances along a way. The way must have a length.
+/// Points at equal arc lengths of a path of positive length.
 Eigen::Matrix<double, 3, Shape::kPoints> resampled(const std::vector<Eigen::Vector3d>& way,
                                                    double length) {
   Eigen::Matrix<double, 3, Shape::kPoints> result;
-  std::size_t segment = 0;  // from way[segment] to the next
-  double at_segment = 0.0;  // length of the way up to its beginning
+  std::size_t segment = 0;  // from way[segment] to way[segment + 1]
+  double at_segment = 0.0;  // arc length at its start
   for (int i = 0; i < Shape::kPoints; ++i) {
     const double wanted = length * i / (Shape::kPoints - 1);
     double segment_length = (way[segment + 1] - way[segment]).norm();
@@ -79,7 +78,7 @@ std::optional<Shape> shapeOf(const Path& path, const ShapeOptions& options) {
   double length = 0.0;
   for (std::size_t i = 1; i < way.size(); ++i)
     length += (way[i] - way[i - 1]).norm();
-  // Rounding alone makes a way of what stood still.
+  // Rounding gives a length to a path that does not move.
   const double rounding = 1e-9 * (1.0 + way.front().norm());
   if (length < std::max(options.minimum_length, rounding))
     return std::nullopt;
@@ -89,7 +88,7 @@ std::optional<Shape> shapeOf(const Path& path, const ShapeOptions& options) {
   for (int i = 0; i < Shape::kPoints; ++i) {
     const Eigen::Vector3d along = shape.positions.col(std::min(i + 1, Shape::kPoints - 1)) -
                                   shape.positions.col(std::max(i - 1, 0));
-    // A way that turns back on itself has no direction where it does.
+    // No direction where a path reverses.
     const double norm = along.norm();
     shape.directions.col(i) = norm > 1e-9 * length ? Eigen::Vector3d(along / norm)
                                                    : Eigen::Vector3d(Eigen::Vector3d::Zero());
@@ -101,7 +100,7 @@ std::optional<Shape> shapeOf(const Path& path, const ShapeOptions& options) {
 }
 
 Shape turnedTowards(const Shape& shape, const Shape& other) {
-  // The angle that maximises sum(b . R a): of positions and directions, as distance() weighs them.
+  // The angle that maximises sum(b . R a) over positions and directions, weighted as in distance().
   double along = 0.0;
   double across = 0.0;
   const auto add = [&](const auto& a, const auto& b) {
@@ -116,13 +115,13 @@ Shape turnedTowards(const Shape& shape, const Shape& other) {
 }
 
 double distance(const Shape& a, const Shape& b, double limit) {
-  constexpr int kCells = 2 * kBand + 1;  // of a row: b from a - kBand to a + kBand
+  constexpr int kCells = 2 * kBand + 1;  // per row: b from a - kBand to a + kBand
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double sum_limit = limit * Shape::kPoints;
   std::array<double, kCells + 2> row;  // with a border on both sides
   row.fill(kInfinity);
   for (int i = 0; i < Shape::kPoints; ++i) {
-    // Of the row before, the cell at the same k belongs to the b one less.
+    // In the previous row, index k belongs to b - 1.
     const std::array<double, kCells + 2> before = row;
     row.fill(kInfinity);
     double least = kInfinity;

@@ -10,7 +10,7 @@ double durationOf(const Path& path) {
   return path.back().time - path.front().time;
 }
 
-/// Distance of the ends over the length of the way [0..1].
+/// Distance between the ends divided by the length of the path [0..1].
 double straightness(const Path& path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i)
@@ -54,7 +54,7 @@ void Spotter::reset() {
   best_.reset();
 }
 
-/// What was reported is not looked at again.
+/// Motion that was reported is not examined again.
 std::optional<Spotted> Spotter::report() {
   std::optional<Spotted> spotted = std::exchange(best_, std::nullopt);
   if (spotted) {

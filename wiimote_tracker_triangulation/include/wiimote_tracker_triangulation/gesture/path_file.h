@@ -9,12 +9,12 @@
 
 namespace wiimote_tracker::gesture {
 
-/// The path in a CSV: rows `x y z t_ms`, separated by blanks or commas; lines before the first row
-/// of numbers are passed over. Positions in whatever unit of length the file has; times [s] from
-/// the first row on. @throws Error naming the file, and the line that is wrong.
+/// Reads a path from a CSV file with rows `x y z t_ms`, separated by blanks or commas; lines before
+/// the first numeric row are skipped. Positions keep the file's unit; times [s] are relative to the
+/// first row. @throws Error naming the file and the wrong line.
 Path readPath(const std::string& file);
 
-/// Rows of numbers of a file as above, `columns` or more in each. @throws Error.
+/// Reads the rows of such a file, each with `columns` or more numbers. @throws Error.
 std::vector<std::vector<double>> readRows(const std::string& file, std::size_t columns);
 
 }  // namespace wiimote_tracker::gesture

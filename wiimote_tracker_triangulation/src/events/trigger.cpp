@@ -33,15 +33,15 @@ std::string describe(TriggerResult result, const TriggerOptions& options) {
       break;
     case TriggerResult::kGap:
       return "no images were used within " + std::to_string(options.maximum_gap) +
-             " s around it: see whether the cameras' drivers run";
+             " s around it: check that the cameras' drivers run";
     case TriggerResult::kTooOld:
-      return "it is older than what is remembered, at most " + std::to_string(options.history) +
+      return "it is older than the stored snapshots, at most " + std::to_string(options.history) +
              " s: ask sooner, and set all computers to the same clock";
     case TriggerResult::kTooEarly:
       return "it is more than " + std::to_string(options.history) +
              " s ahead of the images: set all computers to the same clock";
     case TriggerResult::kTooMany:
-      return "too many others wait for images: see whether the cameras' drivers run";
+      return "too many others wait for images: check that the cameras' drivers run";
   }
   return "";
 }
@@ -64,7 +64,7 @@ TrackedLed interpolate(const TrackedLed& before,
         (1.0 - s) * before.position_covariance + s * after.position_covariance;
     return led;
   }
-  // Hermite's basis.
+  // Cubic Hermite basis.
   const double weight = s * s * (3.0 - 2.0 * s);
   const double pull_before = duration * s * (1.0 - s) * (1.0 - s);
   const double pull_after = -duration * s * s * (1.0 - s);

@@ -9,13 +9,13 @@ namespace {
 
 using geometry::Zone;
 
-/// The part of a way that lies in a zone, as shares of the way [0 to 1].
+/// Part of a line segment that lies in a zone, as parameters on the segment [0..1].
 struct Stay {
   double begin = 0.0;
   double end = 1.0;
 };
 
-/// Clips the way to the slabs between opposite sides (Kay and Kajiya 1986).
+/// Clips the segment to the slabs between opposite sides (Kay and Kajiya 1986).
 std::optional<Stay> stayOf(const Eigen::Vector3d& from,
                            const Eigen::Vector3d& to,
                            const Zone& zone) {

@@ -19,41 +19,38 @@ struct ZoneCrossing {
   std::string zone;
   std::uint32_t led = 0;
   bool entered = false;  ///< Otherwise it has left, or was lost inside.
-  double time = 0.0;     ///< When it crossed the border, was first known inside, or was lost [s].
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< Where it was then [m].
+  double time = 0.0;     ///< Of the crossing, the first point inside, or the loss [s].
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< At that time [m].
 };
 
 struct ZoneWatchOptions {
-  /// An LED has left a zone when it is farther outside than this [m, >= 0]; so noise at the border
-  /// makes no events.
+  /// An LED leaves a zone when it is farther outside than this [m, >= 0], so that noise at the
+  /// border causes no events.
   double hysteresis = 0.05;
 
-  /// An LED without a snapshot that shows it for longer than this is lost [s, > 0].
+  /// An LED that no snapshot shows for longer than this is lost [s, > 0].
   double timeout = 1.0;
 };
 
-/// Tells when LEDs enter and leave the zones of a rig.
-///
-/// Between two snapshots an LED is taken to move in a straight line; so the time of a crossing is
-/// finer than the snapshots are, and a zone thinner than a step is not missed. Tentative LEDs are
-/// not counted. Does not allocate but for an event, a new LED or new zones.
+/// Reports LEDs that enter and leave the zones of a rig. An LED moves in a straight line between
+/// two snapshots: crossing times are finer than the interval of the snapshots, and thin zones are
+/// not missed. Tentative LEDs are ignored. Allocates only for an event, a new LED or new zones.
 class ZoneWatch {
  public:
   explicit ZoneWatch(const ZoneWatchOptions& options) : options_(options) {}
 
-  /// From the next snapshot on. What is inside a zone of a name that stays is not reported again; a
-  /// zone that is no longer there is left by all.
+  /// Takes effect with the next snapshot. LEDs inside a zone whose name remains are not reported
+  /// again; all LEDs leave a removed zone.
   void setZones(const std::vector<geometry::Zone>& zones);
 
-  /// The events that this snapshot reveals: LED by LED in the order of their ids, first of those
-  /// that have gone, each LED's own in the order of time. Valid until the next call. When time goes
-  /// back, all LEDs known before are lost.
+  /// The events of this snapshot: by LED in the order of ids, lost LEDs first, each LED's sorted by
+  /// time. Valid until the next call. When time goes back, all LEDs known before are lost.
   const std::vector<ZoneCrossing>& update(const tracking::Snapshot& snapshot);
 
  private:
   struct Presence {
     bool inside = false;
-    double crossed = 0.0;  // when it last went out through the border, while inside
+    double crossed = 0.0;  // last crossing outwards while inside [s]
     Eigen::Vector3d crossed_at = Eigen::Vector3d::Zero();
   };
 
@@ -69,9 +66,9 @@ class ZoneWatch {
 
   ZoneWatchOptions options_;
   std::vector<geometry::Zone> zones_;
-  std::vector<Led> leds_;  // in the order of their ids
+  std::vector<Led> leds_;  // sorted by id
   double newest_ = -std::numeric_limits<double>::infinity();
-  std::vector<ZoneCrossing> gone_;  // of zones that were taken away, for the next snapshot
+  std::vector<ZoneCrossing> gone_;  // of removed zones, for the next snapshot
   std::vector<ZoneCrossing> crossings_;
 };
 

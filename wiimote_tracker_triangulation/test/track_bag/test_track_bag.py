@@ -187,7 +187,7 @@ def test_an_impossible_trigger_is_named(tmp_path):
     status, output, errors = run(tmp_path / 'in.bag', tmp_path / 'out.bag')
     assert status == 0
     assert '0 triggers answered' in output
-    assert 'older than what is remembered' in errors
+    assert 'older than the stored snapshots' in errors
 
 
 def test_zones_are_entered_and_left(tmp_path):

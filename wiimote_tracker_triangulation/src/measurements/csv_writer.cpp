@@ -22,7 +22,7 @@ const char* const kHeader =
     "vcov_zz [m^2/s^2],rays_used,rays_possible,residual [px],last_observed [s],age [s],remapped,"
     "frame,rig_id,method\n";
 
-/// A row as text; always with points as decimal signs, whatever the program's locale.
+/// A row as text; decimal points in any locale.
 class Row {
  public:
   Row() {

@@ -24,7 +24,7 @@ const char* const kReadme =
     "1970]; age of the track [s]; remapped: corrected within the measured volume. label, state, "
     "frame, rig_id, method: numbers of lines of labels, states, frames, rig_ids, methods.";
 
-// The default header holds the date; equal measurements give equal files.
+// The default header contains the date, but equal measurements must give equal files.
 const char* const kFileHeader = "MATLAB 5.0 MAT-file, written by wiimote_tracker_triangulation";
 
 struct FreeVariable {
@@ -61,7 +61,7 @@ Variable text(const char* name, const std::string& words) {
                                 const_cast<char*>(words.c_str()), 0));
 }
 
-/// Words that repeat from row to row, each kept once.
+/// Strings that repeat from row to row, each stored once.
 class Words {
  public:
   void add(const std::string& word) {
@@ -198,7 +198,7 @@ class MatlabWriter : public Writer {
   std::string path_;
   std::unique_ptr<mat_t, CloseFile> file_;
 
-  // A row each.
+  // One entry per row.
   std::vector<double> time_;
   std::vector<std::int64_t> stamp_;
   std::vector<std::uint8_t> triggered_;
@@ -207,9 +207,9 @@ class MatlabWriter : public Writer {
   std::vector<double> label_confidence_;
   std::vector<std::int64_t> label_since_;
   Words state_;
-  std::vector<double> position_;  // three numbers each
+  std::vector<double> position_;  // three per row
   std::vector<double> velocity_;
-  std::vector<double> position_covariance_;  // nine numbers each
+  std::vector<double> position_covariance_;  // nine per row
   std::vector<double> velocity_covariance_;
   std::vector<std::uint32_t> rays_used_;
   std::vector<std::uint32_t> rays_possible_;

@@ -9,7 +9,7 @@
 
 namespace wiimote_tracker::measurements {
 
-/// One LED at one time, as it is written to tables; fields as in TrackedPoint.msg.
+/// One row of a table: an LED at a time; fields as in TrackedPoint.msg.
 struct Measurement {
   std::int64_t stamp = 0;  ///< [ns since 1970]
   bool triggered = false;  ///< Interpolated for a trigger, see events::Trigger.

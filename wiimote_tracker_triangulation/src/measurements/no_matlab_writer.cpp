@@ -1,4 +1,4 @@
-// Stands in where matio is not installed.
+// Replaces matlab_writer.cpp where matio is not installed.
 #include "measurements/writer.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 

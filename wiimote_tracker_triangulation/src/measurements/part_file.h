@@ -5,17 +5,17 @@
 
 namespace wiimote_tracker::measurements {
 
-/// The name of a file while it is being written.
+/// Name of a file while it is being written.
 std::string partOf(const std::string& path);
 
-/// Creates the folder of the file, and the part, empty. @throws Error.
+/// Creates the file's folder and an empty part. @throws Error.
 void createPart(const std::string& path);
 
-/// Brings the part to the disk and gives it its name, in one step for whoever reads; what had the
-/// name before is kept as path + ".bak". @throws Error; then the part stays.
+/// Syncs the part to disk and renames it atomically; keeps an existing file as path + ".bak".
+/// @throws Error; then the part stays.
 void finishPart(const std::string& path);
 
-/// @throws Error that says why, from errno.
+/// @throws Error with the reason for `error`, an errno.
 [[noreturn]] void failToWrite(const std::string& path, int error);
 
 }  // namespace wiimote_tracker::measurements

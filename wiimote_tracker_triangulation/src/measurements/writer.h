@@ -8,9 +8,8 @@
 
 namespace wiimote_tracker::measurements {
 
-/// A file that measurements are written to. It has its name only when finish() has returned, and is
-/// whole then; a file of that name that was there before is kept as path + ".bak". Equal
-/// measurements give equal files.
+/// A file of measurements. It gets its name in finish(), when it is complete; an existing file is
+/// kept as path + ".bak". Equal measurements give equal files.
 class Writer {
  public:
   virtual ~Writer() = default;
@@ -18,27 +17,25 @@ class Writer {
   /// @throws Error.
   virtual void add(const Measurement& measurement) = 0;
 
-  /// Brings what was added so far to the disk, as far as the kind of file can.
-  /// @throws Error.
+  /// Writes what was added to disk, if the format allows. @throws Error.
   virtual void flush() {}
 
-  /// Nothing may be added afterwards. @throws Error.
+  /// Completes the file; nothing may be added afterwards. @throws Error.
   virtual void finish() = 0;
 };
 
-/// Comma-separated values, one row per measurement, the first line names the columns and their
-/// units. Numbers come back bit for bit, unknown ones are "nan"; times are in seconds since 1970
-/// with all nine digits. Rows go to path + ".part" at once, so that a crash loses nothing but the
-/// last of them.
+/// Comma-separated values: one row per measurement; the first line has the columns and their units.
+/// Numbers are read back bit by bit, unknown ones are "nan"; times are in seconds since 1970 with
+/// nine decimals. Rows go to path + ".part" at once, so that a crash loses the last ones only.
 /// @throws Error: the file cannot be created.
 std::unique_ptr<Writer> makeCsvWriter(const std::string& path);
 
 /// Whether this program was built with matio.
 bool hasMatlab();
 
-/// A MAT-file of version 5, compressed: a variable per field of Measurement, its rows are the
-/// measurements; `readme` describes them. Texts are numbers of lines of tables (`label` of
-/// `labels`, ...), from 1. All is kept in memory until finish(), 0.3 kB per measurement.
+/// A compressed MAT-file of version 5: one variable per field of Measurement, with one row per
+/// measurement; the variable `readme` describes them. Strings are 1-based line numbers of tables
+/// (`label` of `labels`, ...). Data stay in memory until finish(), 0.3 kB per measurement.
 /// @throws Error: the file cannot be created, or the program was built without matio.
 std::unique_ptr<Writer> makeMatlabWriter(const std::string& path);
 

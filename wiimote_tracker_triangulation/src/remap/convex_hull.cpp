@@ -8,8 +8,8 @@
 
 namespace wiimote_tracker::remap {
 
-// Every three points are tried: those with no other point on one side span a face. Most are given
-// up after a few points, and points of a face that is known already are passed over.
+// Three points with no other point on one side span a face. All triples are tried; most are
+// rejected after a few points, and points of a known face are skipped.
 ConvexHull::ConvexHull(const std::vector<Eigen::Vector3d>& points) {
   if (points.empty())
     return;

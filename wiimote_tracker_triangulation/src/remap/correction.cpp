@@ -21,21 +21,22 @@ Correction::Correction(const Remap& remap, const std::string& rig_id) : remap_(r
   if (remap.rig_id.empty() || remap.rig_id != rig_id)
     throw Error("the correction of the volume was measured with calibration \"" + remap.rig_id +
                 "\", but the rig is \"" + rig_id +
-                "\": it is void, so measure the known points again");
+                "\": it is void; measure the known points again");
   remap.check();
   frame_ = frameOf(remap.support);
   hull_ = ConvexHull(remap.support);
   if (std::isinf(hull_.excess(frame_.middle)))
     throw Error(
-        "the points of the correction of the volume enclose no volume: it is damaged, so measure "
+        "the points of the correction of the volume enclose no volume: it is damaged; measure "
         "the known points again");
   middle_ = meanOf(remap.support);
-  // A projective model's denominator is linear: it holds in the hull when it holds at its corners.
+  // A projective model's denominator is linear: if positive at all corners, it is positive in the
+  // hull.
   for (const Eigen::Vector3d& point : remap.support) {
     if (!evaluate(remap, frame_, point))
       throw Error(
-          "the correction of the volume sends points that it was measured with to infinity: it is "
-          "damaged, so measure the known points again");
+          "the correction of the volume maps points of its own support to infinity: it is "
+          "damaged; measure the known points again");
   }
 }
 
@@ -45,7 +46,7 @@ std::optional<CorrectedPoint> Correction::apply(const Eigen::Vector3d& measured,
     return std::nullopt;
   CorrectedPoint point;
   point.inside = hull_.encloses(measured);
-  // Where the displacement is taken from.
+  // Point whose displacement is used.
   Eigen::Vector3d place = measured;
   Eigen::Matrix3d place_by_measured = Eigen::Matrix3d::Identity();
   if (!point.inside) {

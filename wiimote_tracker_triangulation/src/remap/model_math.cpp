@@ -39,7 +39,7 @@ Mapped displaced(const Remap& remap, const Frame& frame, const Eigen::Vector3d& 
       const Eigen::Vector3d offset = (point - center) / frame.scale;
       const double distance = offset.norm();
       displacement += weight * distance;
-      // At its own centre a distance has no derivative; the mean over all directions is 0.
+      // A distance has no derivative at its own centre; the mean over all directions is 0.
       if (distance > 0.0)
         derivative += weight * (offset / distance).transpose();
     }
@@ -55,7 +55,7 @@ std::optional<Mapped> projected(const Remap& remap,
       remap.parameters.data());
   const Eigen::Map<const Eigen::Vector3d> plane(remap.parameters.data() + 12);
   const double denominator = 1.0 + plane.dot(q) / frame.scale;
-  // Points near the vanishing plane go to infinity, points behind it come back from there.
+  // Points near the vanishing plane are mapped towards infinity, points behind it wrap around.
   if (denominator < 0.05)
     return std::nullopt;
   const Eigen::Vector3d offset = (numerator.col(0) + numerator.rightCols<3>() * q) / denominator;

@@ -28,7 +28,7 @@ Model modelFromName(const std::string& name) {
       return model;
   }
   throw Error("\"" + name +
-              "\" is no model of a correction of the volume: choose affine, projective, "
+              "\" is not a model of a volume correction: choose affine, projective, "
               "trilinear or thin_plate");
 }
 
@@ -53,20 +53,20 @@ bool operator==(const Remap& a, const Remap& b) {
 void Remap::check() const {
   if (rig_id.empty())
     throw Error(
-        "the correction of the volume belongs to no calibration: it is damaged, so measure the "
+        "the correction of the volume has no rig id: it is damaged; measure the "
         "known points again");
   const std::size_t expected = parameterCount(model, support.size());
   if (parameters.size() != expected)
     throw Error("the correction of the volume has " + std::to_string(parameters.size()) +
                 " parameters, but " + nameOf(model) + " needs " + std::to_string(expected) +
-                ": it is damaged, so measure the known points again");
+                ": it is damaged; measure the known points again");
   const bool finite = std::all_of(parameters.begin(), parameters.end(),
                                   [](double value) { return std::isfinite(value); }) &&
                       std::all_of(support.begin(), support.end(),
                                   [](const Eigen::Vector3d& point) { return point.allFinite(); });
   if (!finite)
     throw Error(
-        "the correction of the volume holds values that are not finite: it is damaged, so measure "
+        "the correction of the volume contains values that are not finite: it is damaged; measure "
         "the known points again");
 }
 

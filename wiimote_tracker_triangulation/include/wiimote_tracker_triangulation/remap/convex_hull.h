@@ -12,24 +12,24 @@ class ConvexHull {
  public:
   ConvexHull() = default;
 
-  /// Time grows with the third power of the number of points, in the worst case with the fourth; a
-  /// hundred take milliseconds. Points in one plane have no volume: nothing is inside.
+  /// Takes time in the third power of the number of points, at worst the fourth; milliseconds for
+  /// 100 points. Points in one plane have no volume: nothing is inside.
   explicit ConvexHull(const std::vector<Eigen::Vector3d>& points);
 
-  /// Whether a point is inside or on the surface (to a billionth of the size). Never allocates.
+  /// Whether a point is inside or on the surface (relative tolerance 1e-9). Never allocates.
   bool encloses(const Eigen::Vector3d& point) const;
 
-  /// How far the point is beyond the face it is farthest beyond [m]; at most 0 inside. Never more
-  /// than the distance to the hull. Infinite for a hull without volume.
+  /// Greatest signed distance of a point from the planes of the faces [m]: at most 0 inside, and
+  /// never more than the distance to the hull. Infinite for a hull without volume.
   double excess(const Eigen::Vector3d& point) const;
 
-  /// Where a line leaves the hull.
+  /// Where a segment leaves the hull.
   struct Exit {
-    double share;            ///< Of the way that lies before it [0 to 1].
-    Eigen::Vector3d normal;  ///< Of the face that it goes through: outwards, unit length.
+    double share;            ///< Position on the segment [0..1].
+    Eigen::Vector3d normal;  ///< Outward unit normal of the face it crosses.
   };
 
-  /// @param inside a point of the inside, @param outside a point that is not enclosed. Of a hull
+  /// @param inside a point inside. @param outside a point that is not enclosed. Requires a hull
   /// with volume. Never allocates.
   Exit exit(const Eigen::Vector3d& inside, const Eigen::Vector3d& outside) const;
 

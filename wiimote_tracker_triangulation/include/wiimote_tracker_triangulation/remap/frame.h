@@ -7,8 +7,8 @@
 
 namespace wiimote_tracker::remap {
 
-/// The axes in which the models are written: middle, and half the longest edge, of the smallest box
-/// round the support [m].
+/// Coordinates of the models: centre and half the longest edge of the bounding box of the support
+/// [m].
 struct Frame {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   double scale = 1.0;

@@ -10,7 +10,7 @@
 
 namespace wiimote_tracker::remap {
 
-/// Where a point goes, and the derivative.
+/// An image point of the model and its derivative.
 struct Mapped {
   Eigen::Vector3d position;
   Eigen::Matrix3d jacobian;
@@ -21,8 +21,8 @@ std::optional<Mapped> evaluate(const Remap& remap,
                                const Frame& frame,
                                const Eigen::Vector3d& point);
 
-/// The first functions b(q) of the models that are linear in their parameters, without the
-/// distances of the thin plate.
+/// The polynomial basis functions b(q) of the linear models; the thin plate's distances are not
+/// among them.
 constexpr int kAffineTerms = 4;
 constexpr int kTrilinearTerms = 8;
 Eigen::Matrix<double, kTrilinearTerms, 1> polynomial(const Eigen::Vector3d& q);

@@ -11,7 +11,7 @@ void followSpots(const Frame& before, double maximum_speed, Frame* frame) {
   const double elapsed = frame->time - before.time;
   const double gate_squared = maximum_speed * maximum_speed * elapsed * elapsed;
   association::SpotCosts costs;
-  // A pair may cost as much as two spots without partners.
+  // A pair costs at most as much as two unassigned spots.
   costs.reset(std::min(frame->spots.size(), association::kMaximumSpots),
               std::min(before.spots.size(), association::kMaximumSpots),
               0.5 * (gate_squared + kOtherSlot), 0.5 * (gate_squared + kOtherSlot));

@@ -23,8 +23,8 @@ struct InstantFuserOptions {
   /// A spot moves no faster than this from one image to the next [px/s, > 0].
   double maximum_spot_speed = 5000.0;
 
-  /// A point with a larger reprojection error is no LED [px, > 0]. Spots are associated with a
-  /// fifth of it as the standard deviation of a pixel.
+  /// Points with a larger reprojection error are refused [px, > 0]. A fifth of it is the standard
+  /// deviation of a pixel in the association.
   double maximum_reprojection_error = 20.0;
 
   std::size_t minimum_rays = 2;  ///< Of a point [>= 2].
@@ -33,7 +33,7 @@ struct InstantFuserOptions {
   /// it are not associated.
   double maximum_range = 15.0;
 
-  std::size_t maximum_leds = 4;   ///< At any time [>= 1].
+  std::size_t maximum_leds = 4;   ///< At one time [>= 1].
   std::size_t confirmations = 3;  ///< An LED seen in fewer instants is tentative [>= 1].
   double maximum_speed = 5.0;     ///< Of an LED, for the gate of its id [m/s, > 0].
   double maximum_absence = 0.5;   ///< An LED that is absent for longer is lost [s, >= 0].
@@ -62,8 +62,8 @@ struct InstantFuserOptions {
 /// repeated); one older than the last snapshot is used for later snapshots only (late).
 class InstantFuser : public tracking::Estimator {
  public:
-  /// Everything is forgotten when a camera's image arrives so much earlier than its last one, as
-  /// when a bag starts over [s].
+  /// All state is forgotten when a camera's image arrives this much earlier than its last one, as
+  /// when a bag restarts [s].
   static constexpr double kJump = 1.0;
 
   /// @throws geometry::InvalidRigError (see Rig::check).

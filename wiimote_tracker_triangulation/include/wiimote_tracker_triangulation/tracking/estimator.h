@@ -16,7 +16,7 @@ struct Counters {
   std::uint64_t dropped = 0;     ///< Images that could not be used.
   std::uint64_t repeated = 0;    ///< Images that were added before.
   std::uint64_t disordered = 0;  ///< Images added after one that arrived later.
-  std::uint64_t resets = 0;      ///< Times that everything was forgotten since time jumped back.
+  std::uint64_t resets = 0;      ///< Resets because time jumped back.
 };
 
 /// Estimates LEDs from the images of a rig's cameras: per instant (fusion::InstantFuser, the

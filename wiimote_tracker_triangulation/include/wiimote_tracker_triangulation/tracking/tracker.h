@@ -62,7 +62,7 @@ class Tracker : public Estimator {
   geometry::Rig rig_;
   std::string rig_id_;
   std::vector<std::unique_ptr<CameraGroup>> groups_;
-  std::vector<Place> places_;  // of each camera of the rig
+  std::vector<Place> places_;  // per camera of the rig
   std::unique_ptr<TimeWatch> time_watch_;
   std::unique_ptr<Ids> ids_;
   std::unique_ptr<StoredImage> image_;
@@ -71,8 +71,8 @@ class Tracker : public Estimator {
   std::vector<CameraView> views_;
   Counters counters_;
   std::uint64_t images_ = 0;
-  double newest_time_;     // of all images that were taken in [s]
-  double newest_arrival_;  // of those [s]
+  double newest_time_;     // of all used images [s]
+  double newest_arrival_;  // of these [s]
   double last_output_;     // [s]
   Snapshot snapshot_;
 };

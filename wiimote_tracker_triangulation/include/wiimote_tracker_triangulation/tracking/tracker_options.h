@@ -37,8 +37,8 @@ struct TrackerOptions {
   double dark_time = 0.0;             ///< Longest dark time of a blinking LED [s, 0..5]; 0: no LED
                                       ///< blinks.
 
-  /// New LEDs are inside this box only: reflections in floors and windows seem to come from behind
-  /// them [m].
+  /// New LEDs are accepted inside this box only [m]. Reflections in floors and windows appear
+  /// outside the room.
   Eigen::Vector3d minimum_corner = Eigen::Vector3d::Constant(-1e6);
   Eigen::Vector3d maximum_corner = Eigen::Vector3d::Constant(1e6);
 

@@ -53,7 +53,7 @@ struct ViewAssociator::Workspace {
     std::size_t edge_count;         // to later spots
     std::size_t place;              // in the component
   };
-  /// Two spots that can be one point.
+  /// Two spots that can belong to one point.
   struct Edge {
     std::size_t later_spot;
     std::size_t next;  // of the same earlier spot; kNone: the last
@@ -64,7 +64,7 @@ struct ViewAssociator::Workspace {
             std::vector<std::vector<std::size_t>> partners,
             const AssociationOptions& association_options)
       : options(association_options), search(rig, std::move(partners), association_options) {
-    constexpr std::size_t kUsual = 64;  // spots of a component; more allocate
+    constexpr std::size_t kUsual = 64;  // spots of a component; larger ones allocate
     component.spots.reserve(kUsual);
     component.pair_chi_squared.reserve(kUsual * kUsual);
   }

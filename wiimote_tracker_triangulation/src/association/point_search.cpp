@@ -43,7 +43,7 @@ void PointSearch::reserve(std::size_t spots) {
 bool PointSearch::solveAsOnePoint(const Component& component, const std::vector<View>& views) {
   const std::size_t size = component.spots.size();
   if (component.pair_count != size * (size - 1) / 2 || size < options_.minimum_rays)
-    return false;  // two spots of one view are no pair either
+    return false;  // also if two spots are of one view
   begin(component, views);
   Draft& draft = drafts_[draft_count_++];
   draft.spots.resize(size);
@@ -51,7 +51,7 @@ bool PointSearch::solveAsOnePoint(const Component& component, const std::vector<
   findFit(&draft);
   if (!draft.fit.is_possible)
     return false;
-  // Any other association has one more point or ghost, or has ghosts only.
+  // Any other association has at least two points, a point and a ghost, or ghosts only.
   const double misfit = draft.fit.chi_squared + missesOf(draft);
   const double least_other =
       std::min(options_.point + std::min(options_.point, options_.ghost), best_cost_);
@@ -80,7 +80,7 @@ void PointSearch::begin(const Component& component, const std::vector<View>& vie
   draft_count_ = 0;
   best_count_ = 0;
   best_cost_ = options_.ghost * static_cast<double>(component.spots.size());
-  has_division_ = false;
+  has_association_ = false;
 }
 
 void PointSearch::prepare() {
@@ -125,7 +125,7 @@ void PointSearch::decide(std::size_t spot, std::size_t ghosts) {
     decide(spot + 1, ghosts + 1);
 }
 
-/// Tries the points that fit best first, so that the first association is a good bound.
+/// Tries the best-fitting points first, so that the first association is a good bound.
 void PointSearch::tryJoining(std::size_t spot, std::size_t ghosts) {
   std::pair<double, std::size_t> last(-kInfinity, 0);
   for (;;) {
@@ -145,7 +145,7 @@ void PointSearch::tryJoining(std::size_t spot, std::size_t ghosts) {
     draft.spots.push_back(spot);
     draft.possible &= partner_spots_[spot];
     draft.fit.is_known = false;
-    if (has_division_)
+    if (has_association_)
       findFit(&draft);
     if (isWorthwhile(spot + 1, ghosts))
       decide(spot + 1, ghosts);
@@ -177,7 +177,7 @@ bool PointSearch::isWorthwhile(std::size_t next_spot, std::size_t ghosts) const 
   for (std::size_t i = 0; i < draft_count_; ++i)
     cost += options_.point + drafts_[i].fit.chi_squared;
   return cost < best_cost_ && cost + leastCostOfSurplus(next_spot) < best_cost_ &&
-         cost + leastCostOfStrangers(next_spot) < best_cost_;
+         cost + leastCostOfUnjoinable(next_spot) < best_cost_;
 }
 
 /// A lower bound: where a view has more spots left than there are points, each surplus spot is a
@@ -199,9 +199,9 @@ double PointSearch::leastCostOfSurplus(std::size_t next_spot) const {
   }
 }
 
-/// A lower bound: a spot that can not join any point that was begun is a ghost or in a new point,
-/// and shares its cost with at most one spot of each view that has partners of it.
-double PointSearch::leastCostOfStrangers(std::size_t next_spot) const {
+/// A lower bound: a spot that can join no draft is a ghost or in a new point, and shares that cost
+/// with at most one spot of each view that has partners of it.
+double PointSearch::leastCostOfUnjoinable(std::size_t next_spot) const {
   Mask joinable = 0;
   for (std::size_t i = 0; i < draft_count_; ++i)
     joinable |= drafts_[i].possible;
@@ -213,10 +213,10 @@ double PointSearch::leastCostOfStrangers(std::size_t next_spot) const {
   return cost;
 }
 
-/// All spots are decided: keeps the association if it is the best. The spots of a draft that is no
-/// point are ghosts.
+/// All spots are decided: keeps the association if it is the best. Spots of drafts that are not
+/// points count as ghosts.
 void PointSearch::finish(std::size_t ghosts) {
-  has_division_ = true;
+  has_association_ = true;
   double cost = options_.ghost * static_cast<double>(ghosts);
   costs_.clear();
   for (std::size_t i = 0; i < draft_count_; ++i) {

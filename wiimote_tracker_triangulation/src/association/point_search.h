@@ -25,9 +25,9 @@ struct Component {
   double pair(std::size_t a, std::size_t b) const { return pair_chi_squared[a * spots.size() + b]; }
 };
 
-/// Associates the spots of one component at the least cost, by depth-first branch and bound. Spot
-/// by spot, it joins a point that was begun, begins one, or is a false detection ("ghost"). A
-/// branch ends when a lower bound of its cost is not below the best association found.
+/// Finds the association of least cost for one component by depth-first branch and bound. Each spot
+/// in turn joins a point, begins one, or is a false detection ("ghost"). A branch ends when a lower
+/// bound of its cost is not below that of the best association found.
 class PointSearch {
  public:
   struct Point {
@@ -42,8 +42,8 @@ class PointSearch {
 
   const std::vector<std::size_t>& partners(std::size_t camera) const { return partners_[camera]; }
 
-  /// Solves the usual case without a search or pair_chi_squared: all spots are one point, and no
-  /// other association costs less. False when that is not so.
+  /// Solves the usual case without a search or pair_chi_squared: all spots are one point, and this
+  /// is optimal. False otherwise.
   bool solveAsOnePoint(const Component& component, const std::vector<View>& views);
 
   /// @returns the number of steps taken: `maximum_steps` when the result is not proven.
@@ -61,15 +61,15 @@ class PointSearch {
 
   /// How well the spots of a draft fit together.
   struct Fit {
-    bool is_known = false;     // else chi_squared is a lower bound and the rest means nothing
-    bool is_possible = false;  // they triangulate; if not, they still may with more spots
+    bool is_known = false;     // else chi_squared is a lower bound and the rest unset
+    bool is_possible = false;  // they triangulate (more spots may help if not)
     double chi_squared = 0.0;
     geometry::TriangulatedPoint location;
   };
   /// A point that has been begun.
   struct Draft {
     std::vector<std::size_t> spots;
-    Mask possible = 0;  // spots that can be one point with all of them
+    Mask possible = 0;  // spots that can join all of these
     Fit fit;
   };
 
@@ -82,7 +82,7 @@ class PointSearch {
   void finish(std::size_t ghosts);
   bool isWorthwhile(std::size_t next_spot, std::size_t ghosts) const;
   double leastCostOfSurplus(std::size_t next_spot) const;
-  double leastCostOfStrangers(std::size_t next_spot) const;
+  double leastCostOfUnjoinable(std::size_t next_spot) const;
   bool isPoint(const Draft& draft) const;
   double meanPairCost(const Draft& draft, std::size_t spot) const;
   void findFit(Draft* draft);
@@ -95,17 +95,17 @@ class PointSearch {
 
   const Component* component_ = nullptr;
   const std::vector<View>* views_ = nullptr;
-  std::vector<std::size_t> view_ends_;  // of each spot, one past the last spot of its view
-  std::vector<Mask> partner_spots_;     // of each spot, those that can be one point with it
-  std::vector<double> least_costs_;     // of each spot, its share in the cost of any point
+  std::vector<std::size_t> view_ends_;  // per spot: one past the last spot of its view
+  std::vector<Mask> partner_spots_;     // per spot: spots that can share a point with it
+  std::vector<double> least_costs_;     // per spot: its least share of a point's cost
   std::size_t steps_ = 0;
   std::size_t maximum_steps_ = 0;
-  std::vector<Draft> drafts_;  // the first draft_count_ are in use; the others keep their memory
+  std::vector<Draft> drafts_;  // the first draft_count_ are in use; the others keep their buffers
   std::size_t draft_count_ = 0;
   std::vector<Point> best_;  // likewise
   std::size_t best_count_ = 0;
   double best_cost_ = 0.0;
-  bool has_division_ = false;            // an association has been completed
+  bool has_association_ = false;         // an association has been completed
   std::vector<geometry::Sight> sights_;  // of one draft
   std::vector<double> costs_;            // of the drafts
 };

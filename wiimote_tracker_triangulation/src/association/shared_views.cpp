@@ -9,7 +9,7 @@ namespace {
 std::vector<Eigen::Vector3d> pointsInView(const geometry::Camera& camera, double range) {
   constexpr int kColumns = 12;
   constexpr int kRows = 9;
-  constexpr double kGrowth = 1.25;  // from one distance to the next
+  constexpr double kGrowth = 1.25;  // ratio of successive distances
   constexpr double kNearest = 0.2;  // [m]
   std::vector<Eigen::Vector3d> points;
   for (int row = 0; row <= kRows; ++row) {

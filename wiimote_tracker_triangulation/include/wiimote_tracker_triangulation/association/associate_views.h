@@ -13,7 +13,7 @@ namespace wiimote_tracker::association {
 
 /// Costs are -2 log likelihood, like chi^2. The defaults are those of typicalCosts.
 struct AssociationOptions {
-  double pixel_stddev = 0.5;  ///< Of a pixel coordinate, with the calibration's error [px].
+  double pixel_stddev = 0.5;  ///< Of a pixel coordinate, including calibration [px].
   double ghost = 31.0;        ///< Cost of a false detection: a spot of no point [> 0].
   double point = 35.0;        ///< Cost of a point [>= 0].
   double miss = 4.4;          ///< Cost of a missed detection [>= 0].
@@ -23,9 +23,10 @@ struct AssociationOptions {
   double maximum_pair_chi_squared = 30.0;
 
   std::size_t minimum_rays = 2;  ///< Of a point [>= 2].
-  double minimum_angle = 0.02;   ///< Least for the largest angle between rays of a point [rad].
+  double minimum_angle = 0.02;   ///< The widest pair of rays spans at least this [rad].
 
-  /// The search stops after this many steps with the best points found, proven or not.
+  /// The search stops after this many steps with the best association so far, proven optimal or
+  /// not.
   std::size_t maximum_steps = 5000;
 };
 

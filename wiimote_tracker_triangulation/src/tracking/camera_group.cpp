@@ -5,11 +5,11 @@
 namespace wiimote_tracker::tracking {
 namespace {
 
-/// Images from one kept state to the next: a compromise between the steps that a late image repeats
-/// and the copies that every image costs.
+/// Number of images between kept states: a compromise between repeated steps for late images and
+/// copies for all images.
 constexpr std::size_t kKeepInterval = 2;
 
-constexpr double kLeastInterval = 1e-4;  // from one exposure of any camera to its next [s]
+constexpr double kLeastInterval = 1e-4;  // between exposures of one camera [s]
 
 geometry::Rig rigOf(const geometry::Rig& rig, const std::vector<std::size_t>& members) {
   geometry::Rig result;
@@ -80,8 +80,8 @@ CameraGroup::Outcome CameraGroup::add(const StoredImage& image,
   return is_late ? Outcome::kLate : Outcome::kAdded;
 }
 
-/// An image of the same camera at nearly the same time. When a busy computer delays images, they
-/// arrive in a burst with nearly one stamp, and only the last was exposed then. The others would
+/// Finds an image of the same camera at nearly the same time. A busy computer delivers delayed
+/// images in a burst with nearly equal stamps, of which only the last is right. The others would
 /// make the LED appear to stop and jump.
 std::optional<std::uint64_t> CameraGroup::mistimedBefore(std::uint64_t place,
                                                          const StoredImage& image) const {

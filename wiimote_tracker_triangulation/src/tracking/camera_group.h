@@ -52,7 +52,7 @@ class CameraGroup {
   struct State {
     std::vector<Track> tracks;
     std::vector<MergedPair> pairs;
-    std::vector<UnassignedSpots> unassigned;  // of each camera
+    std::vector<UnassignedSpots> unassigned;  // per camera
   };
 
   std::optional<std::uint64_t> mistimedBefore(std::uint64_t place, const StoredImage& image) const;

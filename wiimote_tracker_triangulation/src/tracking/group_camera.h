@@ -9,7 +9,7 @@
 
 namespace wiimote_tracker::tracking {
 
-/// A camera of a group, with what is often asked about its view.
+/// A camera of a group with precomputed properties of its view.
 class GroupCamera {
  public:
   GroupCamera(const geometry::Rig& rig, std::size_t index);
@@ -29,7 +29,7 @@ class GroupCamera {
   std::size_t index_;
   geometry::RigCamera calibration_;
   geometry::Camera for_rays_;
-  double squared_cosine_;  // of the cone about the optical axis that holds the view; 0: any
+  double squared_cosine_;  // of the cone around the view; 0: no limit
 };
 
 }  // namespace wiimote_tracker::tracking

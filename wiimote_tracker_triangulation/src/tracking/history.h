@@ -24,7 +24,7 @@ class NumberedQueue {
   const T& front() const { return at(begin()); }
   const T& back() const { return at(end() - 1); }
 
-  /// Adds an element at the end; its value is left over from an earlier one.
+  /// Adds an element at the end; its value is that of a former element.
   T& push() {
     if (size_ == ring_.size())
       grow();
@@ -61,12 +61,12 @@ class NumberedQueue {
 template <typename State>
 class History {
  public:
-  /// @param interval images from one kept state to the next.
+  /// @param interval number of images between kept states.
   explicit History(std::size_t interval) : interval_(interval) {}
 
   const NumberedQueue<StoredImage>& images() const { return images_; }
 
-  /// The image's number in the order of time; nothing when no state before it is kept.
+  /// Index of the image in the order of time; nothing when no earlier state is kept.
   std::optional<std::uint64_t> placeOf(const StoredImage& image) const {
     std::uint64_t place = images_.end();
     while (place > images_.begin() && image < images_.at(place - 1))
@@ -95,7 +95,7 @@ class History {
   }
 
   /// Restores the last kept state before an image. Call before insert().
-  /// @returns the number of the image that follows this state
+  /// @returns the index of the image that follows this state.
   std::uint64_t rollBack(std::uint64_t place, State* state) {
     while (states_.back().before > place)
       states_.popBack();

@@ -13,7 +13,7 @@ void Ids::forgetBefore(double time) {
 std::uint32_t Ids::remember(const std::vector<SpotKey>& initial_spots,
                             double time,
                             std::uint32_t id) {
-  // By value: id may be that of one of them.
+  // id is passed by value: it may refer to an element of records_.
   for (const SpotKey& key : initial_spots)
     records_.push_back({key, time, id});
   return id;

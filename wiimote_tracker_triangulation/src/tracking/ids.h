@@ -13,8 +13,8 @@ struct SpotKey {
   std::size_t spot;
 };
 
-/// Gives each new track an id that was never used. When a late image makes the tracker repeat its
-/// steps, a track that starts again with some of the same spots gets the id it had.
+/// Gives each new track an unused id. When a late image makes the tracker repeat its steps, a track
+/// that starts from some of the same spots gets its former id.
 class Ids {
  public:
   /// @param initial_spots the spots that start the track. @param in_use whether an id is taken.

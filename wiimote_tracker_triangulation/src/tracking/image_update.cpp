@@ -29,7 +29,7 @@ void ImageUpdate::apply(const GroupCamera& camera,
     if (other && track.isConfirmed() && isSeenByOther(image, track))
       updateMerged(camera, image, candidate, *other, tracks);
     else if (other && track.isConfirmed())
-      track.miss(image.camera, image.time);  // only this camera sees it: the spot is the other's
+      track.miss(image.camera, image.time);  // only this camera sees it: give the spot to the other
     else if (candidate.spot != kNone)
       updateTrack(camera, image, candidate, other ? &(*tracks)[other->track] : nullptr, &track);
     else if (candidate.expected)
@@ -62,8 +62,8 @@ void ImageUpdate::collectCandidates(const GroupCamera& camera,
   }
 }
 
-/// A track without a recent spot may be predicted so inexactly that a single spot is no evidence of
-/// it. Then two cameras must show it again (see TrackInitiation). LEDs that blink may be dark.
+/// Without recent spots a prediction may be too uncertain for a single spot to confirm the track.
+/// Then two cameras must reacquire it (see TrackInitiation). Blinking LEDs may just be dark.
 bool ImageUpdate::isTooUncertain(const Track& track,
                                  const motion::PixelPrediction& prediction,
                                  double time) const {

@@ -7,11 +7,11 @@
 namespace wiimote_tracker::tracking {
 namespace {
 
-constexpr double kLeastLogLikelihood = -20.0;  // [log 1/px^2]; one bad spot must not decide
+constexpr double kLeastLogLikelihood = -20.0;  // [log 1/px^2]; limits the weight of one bad spot
 constexpr double kNegligible = 10.0;           // log of 22000 to 1
 
-/// The views' images come within this [s]: where no view showed two spots for longer, the two are
-/// merged in all views.
+/// Images of a view are at most this far apart [s]. When no view showed two spots for longer, the
+/// LEDs are merged in all views.
 constexpr double kImageInterval = 0.02;
 
 }  // namespace
@@ -131,7 +131,7 @@ bool MergedPair::areSeparate(double time) const {
 bool MergedPair::isDecided(double time, double doubt_time) const {
   if (!has_separated_)
     return false;
-  // While they are merged again, no view adds evidence: the time counts from the last that did.
+  // No view adds evidence while the spots are merged again: count from the last one that did.
   const bool is_timed_out = time - separated_at_ > doubt_time &&
                             (areSeparate(time) || time - last_separate_ > doubt_time);
   return hypothesis_count_ == 1 || is_timed_out;

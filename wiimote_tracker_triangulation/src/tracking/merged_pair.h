@@ -14,12 +14,12 @@
 
 namespace wiimote_tracker::tracking {
 
-/// Two LEDs whose light merged into one spot, until it is decided which is which.
+/// Two LEDs whose spots merged, until it is decided which is which.
 ///
-/// A merged spot does not tell where the two are relative to each other, so both motions are kept
-/// as they were before. When a view shows two spots again, either LED may have made either spot, in
-/// each view anew. Each assignment of the spots so far is a hypothesis with its own two filters;
-/// all that are not far less likely than the best are followed.
+/// A merged spot does not measure the relative position of the two, so both filters keep their
+/// former motion. When a view shows two spots again, either LED may belong to either spot,
+/// independently in each view. Each assignment of the spots so far is a hypothesis with two
+/// filters; all hypotheses of sufficient likelihood are kept.
 class MergedPair {
  public:
   using Filters = std::array<motion::MotionFilter, 2>;
@@ -64,7 +64,7 @@ class MergedPair {
     double log_likelihood;  // relative to the most likely hypothesis
   };
 
-  /// What one hypothesis predicts for a view; first index: the LED.
+  /// Predictions of one hypothesis for a view; first index: the LED.
   struct Prediction {
     std::array<std::optional<motion::PixelPrediction>, 2> pixels;
     std::array<std::array<double, association::kMaximumSpots>, 2> log_likelihoods;
@@ -82,7 +82,7 @@ class MergedPair {
   double opened_at_;            // [s]
   double last_separate_;        // last view with two spots [s]; opened_at_ before the first
   bool has_separated_ = false;  // there was such a view
-  double separated_at_ = 0.0;   // when the spots last parted [s]
+  double separated_at_ = 0.0;   // when the spots last separated [s]
   std::size_t hypothesis_count_ = 1;
   std::array<std::optional<Hypothesis>, kMaximumHypotheses> hypotheses_;  // most likely first
 };

@@ -11,8 +11,8 @@
 
 namespace wiimote_tracker::tracking {
 
-/// Writes the time, and the tracks of all groups at that time in the order of their ids. The
-/// snapshot must have at least as many LEDs as there are tracks.
+/// Writes the time, and all tracks at that time sorted by id. The snapshot must have at least as
+/// many LEDs as there are tracks.
 void writeLeds(const std::vector<std::unique_ptr<CameraGroup>>& groups,
                double time,
                const TrackerOptions& options,
@@ -20,8 +20,8 @@ void writeLeds(const std::vector<std::unique_ptr<CameraGroup>>& groups,
 
 std::size_t countTracks(const std::vector<std::unique_ptr<CameraGroup>>& groups);
 
-/// Writes snapshots one after the other. An LED of the last snapshot whose track has ended is once
-/// reported as lost. Does not allocate once warm.
+/// Writes successive snapshots. An LED whose track has ended since the last snapshot is reported as
+/// lost once. Does not allocate once warm.
 class SnapshotWriter {
  public:
   explicit SnapshotWriter(const TrackerOptions& options) : options_(options) {}

@@ -18,9 +18,9 @@ struct StoredImage {
   double arrival = 0.0;    // [s]
   double stamp_stddev = 0.0;
   bool full = false;            // as many spots as the camera can report: more LEDs may be visible
-  std::uint64_t number = 0;     // of all images, in the order they were added
+  std::uint64_t number = 0;     // counts all images in the order of add()
   std::size_t spot_count = 0;   // usable spots, which come first
-  std::size_t total_count = 0;  // with the masked ones
+  std::size_t total_count = 0;  // including masked ones
   std::array<Eigen::Vector2d, association::kMaximumSpots> pixels;
 
   /// The order in which images update the tracks, whatever the order of their arrival.

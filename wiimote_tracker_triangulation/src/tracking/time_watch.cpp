@@ -9,7 +9,7 @@ TimeWatch::Result TimeWatch::check(std::size_t camera, double time, double arriv
   in_a_row_ = camera == last_camera_ ? in_a_row_ + 1 : 1;
   last_camera_ = camera;
   Newest& newest = cameras_[camera];
-  // By each camera's own clock: the clocks of two computers may differ by more than kJump.
+  // Per camera: the clocks of two computers may differ by more than kJump.
   if (arrival < newest.arrival - kJump) {
     newest = Newest();
     newest.jumped = true;
@@ -19,7 +19,7 @@ TimeWatch::Result TimeWatch::check(std::size_t camera, double time, double arriv
   const bool is_behind = time < used_until_ - kJump;
   newest.jumped = newest.jumped && is_behind;
   ++images_since_progress_;
-  // No camera has gone on from the time before the jump.
+  // No camera continued from before the jump.
   const bool all_jumped = newest.jumped && images_since_progress_ > 2 * cameras_.size();
   if (all_jumped) {
     for (Newest& other : cameras_) {

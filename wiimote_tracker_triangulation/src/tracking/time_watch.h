@@ -7,9 +7,9 @@
 
 namespace wiimote_tracker::tracking {
 
-/// Detects from the images' times that time jumped back for all cameras, as when a bag is played in
-/// a loop, and that one camera's clock is wrong: ahead of all others, or set back while the others
-/// go on. When the first images were of a camera that is ahead, time jumps back to the others'.
+/// Detects from the times of images that time jumped back for all cameras, as when a bag is played
+/// in a loop, or that one camera's clock is wrong: ahead of all others, or set back alone. If the
+/// first images came from a camera that is ahead, time jumps back to that of the others.
 class TimeWatch {
  public:
   static constexpr double kJump = 1.0;  ///< [s]
@@ -18,8 +18,8 @@ class TimeWatch {
 
   enum class Result {
     kUsable,
-    kWrongClock,  ///< Not to be used: the camera's clock is far from all others.
-    kJumpedBack   ///< Usable, after everything before it has been forgotten.
+    kWrongClock,  ///< Do not use: its clock is far from all others.
+    kJumpedBack   ///< Usable, after a reset.
   };
 
   /// @param time of the exposure [s] @param arrival [s]
@@ -37,7 +37,7 @@ class TimeWatch {
     bool jumped = false;  // its time jumped back and is still behind the others
   };
 
-  /// After so many images of one camera in a row, the others are considered silent.
+  /// After this many images in a row from one camera, the others are considered silent.
   static constexpr int kSilence = 100;
 
   std::vector<Newest> cameras_;

@@ -8,8 +8,8 @@ namespace {
 
 constexpr unsigned kRecentImages = 0xf;  // mask of the last four
 
-// Two tracks that share nearly all of about so many spots are of one LED; two LEDs that pass each
-// other share fewer. A track with many spots of its own is given the longer memory.
+// Time constants [spots]. Two tracks that share nearly all of 64 spots follow one LED; two LEDs
+// that pass each other share fewer. A track with many spots of its own uses the longer one.
 constexpr double kShortMemory = 64.0;
 constexpr double kLongMemory = 256.0;
 constexpr double kLeastUnmerged = 0.15;

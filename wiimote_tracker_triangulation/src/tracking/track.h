@@ -23,11 +23,10 @@ struct CameraRecord {
   unsigned recent = 0;            // one bit per image, the newest lowest: detected or missed
 };
 
-/// The track of one LED, tentative or confirmed. A value: copies are independent, nothing
-/// allocates.
+/// The track of one LED, tentative or confirmed. A value type that never allocates.
 class Track {
  public:
-  /// Most cameras with a record; where more see the LED, the latest.
+  /// Most cameras with a record; if more see the LED, the latest ones.
   static constexpr std::size_t kMaximumRecords = 12;
 
   Track(const motion::MotionFilter& start, std::uint32_t led_id);
@@ -39,23 +38,23 @@ class Track {
   /// @param is_own false: a merged spot that is assigned to another LED.
   void hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own);
 
-  /// That spot is of this LED alone.
+  /// The last spot belongs to this LED alone.
   void noteOwnSpot();
 
-  /// That spot may be merged with another LED's.
+  /// The last spot may be merged with another LED's.
   void noteSharedSpot(std::uint32_t other, bool is_own);
 
   /// The filter was initialised with a camera's spot, among others. @param residual [px]
   void addInitialSpot(std::size_t camera, double residual);
 
-  /// Starts the motion anew where the LED was reacquired.
+  /// Restarts the motion filter after reacquisition.
   void restart(const motion::MotionFilter& start);
   double startedAt() const { return started_; }  // initiation or last restart [s]
 
-  /// Forgets which cameras saw it, for a rig with other cameras.
+  /// Forgets the cameras' records, after a change of the rig.
   void forgetCameras() { record_count_ = 0; }
 
-  /// Confirms or finishes the track, by the detections up to a time [s].
+  /// Confirms or finishes the track given the detections up to a time [s].
   void updateStatus(double time, const TrackerOptions& options);
 
   /// Whether the camera's image of that time [s] had a spot of this LED's own.
@@ -70,7 +69,7 @@ class Track {
   bool isFinished() const { return finished_; }
   bool isConfirmed() const { return confirmed_; }
 
-  /// A cheap linear prediction of the position [m], to ask which cameras may see it.
+  /// A cheap linear prediction of the position [m], to select cameras that may see it.
   Eigen::Vector3d approximatePosition(double time) const;
 
   double lastObserved() const { return last_observed_; }  // [s]
@@ -94,8 +93,8 @@ class Track {
   double started_;               // [s]
   double last_observed_;         // by any camera [s]
   double last_located_;          // by two cameras within tracked_time [s]
-  double unmerged_share_ = 1.0;  // of the recent spots, those of this LED alone
-  double own_share_ = 0.5;       // of the recent merged spots, those assigned to this LED
+  double unmerged_share_ = 1.0;  // share of recent spots that are this LED's alone
+  double own_share_ = 0.5;       // share of recent merged spots assigned to this LED
   std::uint32_t shared_with_ = 0;
   std::size_t hits_ = 0;  // spots of this LED alone
   std::size_t misses_in_a_row_ = 0;

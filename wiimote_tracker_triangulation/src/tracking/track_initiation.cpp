@@ -9,7 +9,7 @@
 namespace wiimote_tracker::tracking {
 namespace {
 
-/// With the pixels' uncertainty enlarged for the motion between the cameras' images.
+/// The pixels' standard deviation includes the motion between the cameras' images.
 association::AssociationOptions associationOptions(const geometry::Rig& rig,
                                                    const TrackerOptions& options) {
   association::AssociationOptions result = association::typicalCosts(
@@ -70,7 +70,7 @@ void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
     for (const auto* spot = first; spot != last; ++spot)
       track->addInitialSpot(spot->view, point.point.reprojection_error);
   }
-  // From the last to the first, so that the indices of the others stay valid.
+  // In descending order, so that the remaining indices stay valid.
   std::sort(used_.begin(), used_.end(), [](auto& a, auto& b) { return a.spot > b.spot; });
   for (const association::SpotReference& spot : used_)
     (*unassigned)[spot.view].remove(spot.spot);
@@ -93,12 +93,11 @@ Track* TrackInitiation::startOrRestart(const motion::MotionFilter& start,
   return &tracks->back();
 }
 
-/// The most likely of the tracks whose LED may be at the new point. A track is not eligible when
-/// the new point's images, or more cameras since, show its LED elsewhere; when a MergedPair is
-/// about to decide where it is; or while a blinking LED may be dark, since the next spot then
-/// continues its track better than two new rays do. The LED may have moved in a way that no mode
-/// describes, as when it is caught, or its track may have followed a false detection: initial_speed
-/// allows for that.
+/// The most likely track whose LED may be at the new point. Not eligible is a track whose LED is
+/// elsewhere according to the new point's images or more cameras since; one that a MergedPair is
+/// about to decide; or one of a blinking LED that may be dark, since the next spot continues it
+/// better than two new rays. The LED may have moved as no mode describes, as when it is caught, or
+/// its track may have followed a false detection: initial_speed allows for that.
 Track* TrackInitiation::findReacquiredTrack(const motion::MotionFilter& start,
                                             const std::vector<MergedPair>& pairs,
                                             std::vector<Track>* tracks) const {

@@ -31,7 +31,7 @@ struct UnassignedSpots {
 };
 
 /// Track initiation: where unassigned spots of several cameras form a point, reacquires a track
-/// that lost its LED and may be there, or else starts a new one.
+/// that lost its LED, or else starts a new one.
 class TrackInitiation {
  public:
   /// @param rig the group's cameras only. @param partners see association::sharedViews.
@@ -71,7 +71,8 @@ class TrackInitiation {
     double time;  // [s]
   };
 
-  /// The sight of one spot, kept because spots are searched again with every camera's next image.
+  /// The ray of a spot, kept because spots are searched again with every image of the other
+  /// cameras.
   struct CachedSight {
     std::uint64_t image = std::numeric_limits<std::uint64_t>::max();  // its number; none yet
     std::optional<geometry::Sight> sight;
@@ -81,7 +82,7 @@ class TrackInitiation {
   const motion::MotionOptions* motion_;
   std::vector<std::vector<std::size_t>> partners_;
   association::ViewAssociator associator_;
-  std::vector<std::array<CachedSight, association::kMaximumSpots>> sight_cache_;  // of each camera
+  std::vector<std::array<CachedSight, association::kMaximumSpots>> sight_cache_;  // per camera
   std::vector<std::array<geometry::Sight, association::kMaximumSpots>> sights_;
   std::vector<std::array<std::size_t, association::kMaximumSpots>> spots_;  // of the sights
   std::vector<association::View> views_;

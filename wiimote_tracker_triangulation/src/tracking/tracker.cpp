@@ -61,7 +61,7 @@ void Tracker::useRig(const geometry::Rig& rig) {
   views_.assign(rig_.cameras.size(), CameraView());
 }
 
-/// Moves each track to the group of which most cameras may see it.
+/// Moves each track to the group with the most cameras that may see it.
 void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before) {
   for (const auto& old_group : before) {
     for (const Track& track : old_group->tracks()) {
@@ -174,7 +174,7 @@ bool Tracker::predictTo(double time, Snapshot* snapshot) const {
   return true;
 }
 
-/// Writes which images the snapshot is made of.
+/// Writes which images the snapshot contains.
 void Tracker::describeImages(Snapshot* snapshot) const {
   snapshot->latest_arrival = newest_arrival_;
   snapshot->views = views_;

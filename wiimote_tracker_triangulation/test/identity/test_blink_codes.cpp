@@ -261,7 +261,7 @@ TEST_F(CodesFile, ChosenCodesAreAFile) {
 TEST(Listing, TheTableTellsWhenToSwitch) {
   const std::string text =
       blink_codes_tool::table(dutyCodes({{"hand", 0.9}, {"head", 0.2}}, 0.2, 0.3), 0.2);
-  EXPECT_NE(std::string::npos, text.find("period 200.000 ms, all LEDs together"));
+  EXPECT_NE(std::string::npos, text.find("period 200.000 ms, synchronous"));
   EXPECT_NE(std::string::npos, text.find(" 10.000-190.000\n")) << text;
   EXPECT_NE(std::string::npos, text.find(" 80.000-120.000\n")) << text;
 }
@@ -271,7 +271,7 @@ TEST(Listing, RemarksTellWhatIsMissed) {
       blink_codes_tool::remarks(dutyCodes({{"hand", 0.9}, {"head", 0.2}}, 0.08, 0.3));
   EXPECT_NE(std::string::npos, text.find("hand and head, which differ for 70.0 %")) << text;
   EXPECT_NE(std::string::npos, text.find("dark for up to 240.0 ms")) << text;
-  EXPECT_NE(std::string::npos, text.find("shortest light or darkness is 8.0 ms")) << text;
+  EXPECT_NE(std::string::npos, text.find("shortest pulse or gap is 8.0 ms")) << text;
   EXPECT_EQ(std::string::npos,
             blink_codes_tool::remarks(dutyCodes({{"hand", 0.9}, {"head", 0.2}}, 0.11, 0.3))
                 .find("shortest"));

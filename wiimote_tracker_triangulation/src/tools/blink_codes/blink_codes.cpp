@@ -1,4 +1,4 @@
-// How to drive LEDs that are told apart by how they blink.
+// Tables and Arduino sketches for LEDs that are identified by blink codes.
 
 #include "listing.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
@@ -18,11 +18,11 @@ const char* const kUsage =
     "usage: blink_codes table|sketch|check FILE [--period S]\n"
     "       blink_codes choose LABEL... [--chip S] [--tolerance T]\n"
     "  table   prints when each LED of a file of blink codes is on and off\n"
-    "  sketch  prints an Arduino sketch that does it\n"
-    "  check   says whether the file can be used, and what is to be known of its codes\n"
+    "  sketch  prints an Arduino sketch that blinks the LEDs\n"
+    "  check   checks a file and prints the properties of its codes\n"
     "  choose  prints a file of cyclic codes, one for each label\n"
-    "  --period S     of the table and the sketch [s]; default: the shortest that the file allows\n"
-    "                 if it allows several, else the one it names\n"
+    "  --period S     period of table and sketch [s]; default: the shortest one of the file\n"
+    "                 if its LEDs blink together, else the nominal one\n"
     "  --chip S       duration of one character of a word [s]; default 0.023\n"
     "  --tolerance T  relative error of the LED drivers' clocks; default 0.01\n";
 
@@ -64,14 +64,14 @@ Arguments argumentsOf(int argc, char** argv) {
   return arguments;
 }
 
-/// The period in which the LEDs are to be driven [s].
+/// The period for driving the LEDs [s].
 double periodOf(const identity::BlinkCodes& codes, double wanted) {
-  // Of cyclic codes the file names one period, and how far clocks may be off it.
+  // A file of cyclic codes has one nominal period and a tolerance.
   if (wanted == 0.0)
     return codes.synchronous ? codes.shortest_period
                              : 0.5 * (codes.shortest_period + codes.longest_period);
   if (wanted < codes.shortest_period * (1.0 - 1e-9) || wanted > codes.longest_period * (1.0 + 1e-9))
-    throw std::invalid_argument("--period is not one that the file allows");
+    throw std::invalid_argument("--period is outside the range of the file");
   return wanted;
 }
 
@@ -82,9 +82,9 @@ std::string run(const Arguments& arguments) {
     return blink_codes_tool::cyclicFile(arguments.words, arguments.chip, arguments.tolerance);
   }
   if (arguments.command != "table" && arguments.command != "sketch" && arguments.command != "check")
-    throw std::invalid_argument("the first word must be table, sketch, check or choose");
+    throw std::invalid_argument("the command must be table, sketch, check or choose");
   if (arguments.words.size() != 1)
-    throw std::invalid_argument("give one file");
+    throw std::invalid_argument("name one file");
   const identity::BlinkCodes codes = identity::readBlinkCodes(arguments.words[0]);
   if (arguments.command == "check")
     return blink_codes_tool::remarks(codes);

@@ -27,7 +27,7 @@ long microseconds(double share, double period) {
 
 std::string table(const BlinkCodes& codes, double period) {
   std::string text = format("period %.3f ms, %s\n", 1e3 * period,
-                            codes.synchronous ? "all LEDs together" : "each LED for itself");
+                            codes.synchronous ? "synchronous" : "asynchronous");
   text += format("%-16s %7s %10s  %s\n", "label", "light", "dark for", "on from - to [ms]");
   for (const BlinkCode& code : codes.codes) {
     text += format("%-16s %5.1f %% %7.2f ms ", code.label.c_str(), 100.0 * light(code),
@@ -51,14 +51,14 @@ std::string sketch(const BlinkCodes& codes, double period) {
   std::string text =
       "// Blinks LEDs so that wiimote_tracker can identify them. A pin drives an LED through a\n"
       "// transistor: HIGH is on.";
-  text += codes.synchronous ? " All of them must be driven by one board.\n"
-                            : " On a board with fewer LEDs take out the others' pins.\n";
+  text += codes.synchronous ? " Drive all of them with one board.\n"
+                            : " On a board with fewer LEDs remove the other pins.\n";
   text += "struct Led {\n  int pin;\n  int bit;\n};\nconst Led kLeds[] = {\n";
   for (std::size_t i = 0; i < codes.codes.size(); ++i)
     text += format("    {%zu, %zu},  // %s\n", i + 2, i, codes.codes[i].label.c_str());
   text +=
       "};\n\n"
-      "// For how long [us] which LEDs are on: a character for each bit.\n"
+      "// Duration of each step [us] and the state of the LEDs, one character per bit.\n"
       "struct Step {\n  unsigned long duration;\n  const char* lit;\n};\nconst Step kSteps[] = {\n";
   for (auto time = times.begin(); std::next(time) != times.end(); ++time) {
     const double middle = 0.5e-6 * static_cast<double>(*time + *std::next(time)) / period;
@@ -79,7 +79,7 @@ std::string sketch(const BlinkCodes& codes, double period) {
       "  for (const Step& step : kSteps) {\n"
       "    for (const Led& led : kLeds)\n"
       "      digitalWrite(led.pin, step.lit[led.bit] == '1' ? HIGH : LOW);\n"
-      "    step_ends += step.duration;  // from the step before, not from now: no error adds up\n"
+      "    step_ends += step.duration;  // from the last step: errors do not add up\n"
       "    while (static_cast<long>(micros() - step_ends) < 0) {\n"
       "    }\n"
       "  }\n"
@@ -114,18 +114,18 @@ std::string remarks(const BlinkCodes& codes) {
   if (!pair.empty())
     text +=
         "closest: " + pair + format(", which differ for %.1f %% of the time\n", 100.0 * closest);
-  text += format("an LED is dark for up to %.1f ms: a track must be predicted for longer\n",
+  text += format("an LED is dark for up to %.1f ms: tracks must be predicted for longer\n",
                  1e3 * codes.longestDark());
   const double run = 1e3 * shortest * codes.shortest_period;
   if (run < 1e3 * kImageInterval)
     text += format(
-        "the shortest light or darkness is %.1f ms: cameras of 100 images per second "
-        "miss some; take a longer period\n",
+        "the shortest pulse or gap is %.1f ms: cameras at 100 images per second "
+        "miss some; use a longer period\n",
         run);
   else if (!codes.synchronous && run < 2e3 * kImageInterval)
     text += format(
-        "the shortest light or darkness is %.1f ms: one camera of 100 images per second "
-        "shows only one image of some; take a longer chip unless several cameras see "
+        "the shortest pulse or gap is %.1f ms: one camera at 100 images per second "
+        "shows some in one image only; use a longer chip unless several cameras see "
         "each LED\n",
         run);
   return text;
@@ -136,7 +136,7 @@ std::string cyclicFile(const std::vector<std::string>& labels, double chip, doub
   std::vector<identity::CyclicLed> leds;
   for (std::size_t i = 0; i < labels.size(); ++i)
     leds.push_back({labels[i], words[i]});
-  identity::cyclicCodes(leds, chip, tolerance);  // refuses what cannot be read again
+  identity::cyclicCodes(leds, chip, tolerance);  // refuses codes that the reader would refuse
   std::string text = "format: wiimote_tracker_blink_codes\nversion: 1\nscheme: cyclic\n";
   text += format("chip: %.9g  # duration of one character of a word [s]\n", chip);
   text += format("tolerance: %.9g  # relative error of the LED drivers' clocks\n", tolerance);

@@ -8,14 +8,14 @@
 
 namespace wiimote_tracker::blink_codes_tool {
 
-/// When each LED is switched on and off in a period of this length [s], as a table.
+/// On and off times of each LED in a period of this length [s], as a table.
 std::string table(const identity::BlinkCodes& codes, double period);
 
 /// An Arduino sketch that blinks all LEDs, one pin each, with a period of this length [s].
 std::string sketch(const identity::BlinkCodes& codes, double period);
 
-/// What is to be known of codes that are valid: how far they are apart, how long a track must live
-/// without light, and what cameras of 100 images per second may miss.
+/// Properties of valid codes: their least difference, the longest dark time, and what cameras at
+/// 100 images per second may miss.
 std::string remarks(const identity::BlinkCodes& codes);
 
 /// A file of cyclic codes for these labels, for readBlinkCodes. @throws Error.

@@ -1,4 +1,4 @@
-// Writes what the tracker publishes to tables while it runs.
+// Writes the tracker's points to tables while it runs.
 
 #include "ros/measurement_message.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"

@@ -42,8 +42,8 @@ Output::~Output() {
   if (!bag_)
     return;
   ::unlink(measurements::partOf(path_).c_str());
-  // rosbag::Bag's destructor writes the index and ends the process where that fails, as on a full
-  // disk. The bag is not wanted any more: leave it to the end of the process.
+  // rosbag::Bag's destructor writes the index, and ends the process where that fails, as on a full
+  // disk. The bag is not needed: leave it to the end of the process.
   static_cast<void>(bag_.release());
 }
 
@@ -66,7 +66,7 @@ void Output::copy(const rosbag::MessageInstance& recorded) {
     write(topic, recorded.getTime(), recorded, recorded.getConnectionHeader());
     return;
   }
-  // Others send transforms on this topic too, perhaps in the same message.
+  // The topic carries transforms of other nodes too, perhaps in the same message.
   TFMessage rest;
   for (const geometry_msgs::TransformStamped& t : recorded.instantiate<TFMessage>()->transforms) {
     if (earlier_frames_.count(t.child_frame_id) == 0)

@@ -23,28 +23,28 @@ struct OutputFiles {
   std::string matlab;  ///< Empty: none.
 };
 
-/// Writes a new bag, and tables: what the tracker publishes, and recorded messages. The files have
-/// their names only when finish() has returned; a file of that name that was there before is kept
-/// as path + ".bak". All member functions throw BagError or Error.
+/// Writes the tracker's results and recorded messages to a new bag, and results to tables. The
+/// files get their names in finish(); existing files are kept as path + ".bak". All member
+/// functions throw BagError or Error.
 class Output : public MessageSink {
  public:
-  /// @param publish_predicted predicted LEDs and bodies too have a point or a pose of their own.
+  /// @param publish_predicted publish the point or pose topics of predicted LEDs and bodies too.
   Output(const OutputFiles& files, const Topics& topics, bool publish_predicted);
   ~Output() override;
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  /// Earlier results that are left out of copies: those of these LEDs and bodies.
+  /// LEDs and bodies whose earlier results are not copied.
   void leaveOut(const std::set<std::string>& labels, const std::set<std::string>& bodies);
 
-  /// Copies a recorded message, without what a tracker computed before.
+  /// Copies a recorded message, without earlier results.
   void copy(const rosbag::MessageInstance& recorded);
 
   /// Latched.
   void writeRig(const wiimote_tracker_msgs::RigCalibration& rig, const ros::Time& time);
 
-  /// What the tracker publishes from now on gets this recorded time, or that of an earlier message
-  /// if it is later: results stand in the bag in the order in which they were computed.
+  /// Sets the recorded time of the following results, or keeps the present one if that is later:
+  /// results are in the bag in the order in which they were computed.
   void setTime(const ros::Time& recorded) { now_ = std::max(now_, recorded); }
 
   void finish();

@@ -21,8 +21,8 @@ struct BagError : geometry::Error {
   using Error::Error;
 };
 
-/// The recorded message if it is of this type, otherwise null. @throws BagError: it has the type,
-/// but in another version of its definition.
+/// The recorded message if it is of this type, otherwise null. @throws BagError: another version of
+/// the type's definition.
 template <typename Message>
 boost::shared_ptr<const Message> read(const rosbag::MessageInstance& recorded) {
   if (recorded.getDataType() != ros::message_traits::datatype<Message>())
@@ -33,10 +33,9 @@ boost::shared_ptr<const Message> read(const rosbag::MessageInstance& recorded) {
   return recorded.instantiate<Message>();
 }
 
-/// The messages of a bag, in the order in which a tracker gets them when nothing is delayed: images
-/// by their arrival time, those with the same arrival time by their topics; every other message
-/// before all images that were recorded after it. The recorded times decide nothing else, so the
-/// recorder's clock does not matter.
+/// The messages of a bag in the order in which a tracker gets them without delays: images by
+/// arrival time, then topic; every other message before all images recorded after it. Otherwise the
+/// recorded times do not matter, nor does the recorder's clock.
 class Recording {
  public:
   /// @throws BagError: no such file, no bag, no index, recorded with other message definitions.

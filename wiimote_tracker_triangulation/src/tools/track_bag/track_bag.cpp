@@ -1,5 +1,4 @@
-// Computes the points of a recording again, with the code of the node, as fast as the machine
-// allows.
+// Recomputes the points of a recording with the code of the node, as fast as possible.
 
 #include "output.h"
 #include "recording.h"
@@ -32,13 +31,13 @@ struct Arguments {
   bool results_only = false;
 };
 
-/// Gives recorded rigs, triggers and images to the tracker.
+/// Feeds recorded rigs, triggers and images to the tracker.
 class Player {
  public:
   Player(const TrackingParameters& parameters, const Topics& topics, Output* output)
       : tracker_(parameters, output), topics_(topics), output_(output) {}
 
-  /// A rig that cannot be used is named on the error output; the one before stays.
+  /// Reports a rig that cannot be used; the previous one stays.
   void play(const RigCalibration& rig) {
     try {
       tracker_.takeRig(rig);
@@ -88,7 +87,7 @@ class Player {
   MessageTracker tracker_;
   Topics topics_;
   Output* output_;
-  std::map<std::string, std::string> cameras_;  // by the topic of their images
+  std::map<std::string, std::string> cameras_;  // by image topic
   std::size_t images_used_ = 0;
   std::string refusal_;  // of the last rig that was refused
 };
@@ -100,8 +99,7 @@ TrackingParameters parametersOf(const Arguments& arguments) {
   return TrackingParameters::read(ParameterReader(tree));
 }
 
-/// What an earlier tracker may have published: the LEDs and bodies of the bag and of the
-/// parameters.
+/// Excludes results of an earlier tracker: the LEDs and bodies in the bag and in the parameters.
 void leaveOutEarlierResults(const Recording& recording,
                             const Topics& topics,
                             const TrackingParameters& parameters,
@@ -171,12 +169,12 @@ void run(const Arguments& arguments) {
   printSummary(recording, output, player.counters(), duration.count());
 }
 
-/// Fills `arguments`; what may be left out keeps its value.
+/// Reads options into `arguments`; omitted ones keep their values.
 void addOptions(CLI::App* app, Arguments* arguments) {
   app->get_formatter()->label("Usage", "usage");
   app->add_option("IN.bag", arguments->input, "recording to read")->required();
   app->add_option("OUT.bag", arguments->output.bag,
-                  "bag to write: the recording without what was computed before, and the new "
+                  "bag to write: the recording without earlier results, and the new "
                   "points, transforms, zone events and points at triggers")
       ->required();
   app->add_option("--mode", arguments->mode, "tracks or instant, instead of the parameters' mode");

@@ -21,7 +21,7 @@ class ClockWatch {
   /// `delay`: from the arrival time of an image to its handling here [s].
   void add(std::size_t camera, double delay);
 
-  /// How far the camera's clock is ahead of this computer's clock, or of most cameras' clocks [s];
+  /// How far the camera's clock is ahead of this computer's, or of most cameras' clocks [s];
   /// nothing when it agrees or no image came.
   std::optional<double> ahead(std::size_t camera) const;
 

@@ -133,8 +133,8 @@ geometry::RigCamera cameraFromMessage(const CameraCalibration& message) {
   return rig_camera;
 }
 
-/// Where each parameter of the message's covariance stands in the rig's, which has five
-/// coefficients for every lens.
+/// Index of each parameter of the message's covariance in that of the rig, which has five
+/// distortion coefficients for every lens.
 std::vector<Eigen::Index> parametersOfMessage(const geometry::Rig& rig) {
   constexpr std::size_t kBeforeDistortion = 10;
   constexpr std::size_t kPerCamera = 16;

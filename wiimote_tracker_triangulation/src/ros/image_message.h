@@ -14,7 +14,7 @@ namespace wiimote_tracker {
 enum class ImageFault {
   kNone,
   kImpossibleSpots,  ///< Spots that are not finite or lie outside the image; the others are good.
-  kNoTime,           ///< From here on the image must not be used at all.
+  kNoTime,           ///< From here on the image must not be used.
   kImpossibleTime,   ///< Exposed long before it arrived, or long after.
   kOtherCamera,
   kOtherDevice,

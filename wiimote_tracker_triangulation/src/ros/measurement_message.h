@@ -7,7 +7,7 @@
 
 namespace wiimote_tracker {
 
-/// Writes each LED of a message. @param triggered the message answers a trigger.
+/// Writes each LED of a message. @param triggered whether the message answers a trigger.
 /// @throws Error.
 void writeMeasurements(const wiimote_tracker_msgs::TrackedPointArray& points,
                        bool triggered,

@@ -10,7 +10,7 @@
 
 namespace wiimote_tracker {
 
-/// Not below 0, where ros::Time ends.
+/// Clamped to 0, the least ros::Time.
 inline ros::Time timeOf(double seconds) {
   return ros::Time(std::max(0.0, seconds));
 }

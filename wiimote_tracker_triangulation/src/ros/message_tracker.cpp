@@ -233,8 +233,8 @@ void MessageTracker::answerTriggers() {
   }
 }
 
-/// Output at a fixed rate, counted by the arrival times of images: what is due at a time is
-/// published when the first image arrives at that time or later, without using that image.
+/// Output at a fixed rate, clocked by the arrival times of images: an output is published when the
+/// first image arrives at or after its time, without using that image.
 void MessageTracker::publishTicksUntil(double now) {
   const double rate = parameters_.output.rate;
   if (!(rate > 0.0))

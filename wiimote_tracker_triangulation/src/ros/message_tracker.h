@@ -86,11 +86,11 @@ class MessageTracker {
   /// become LEDs. @throws Error; then the previous bodies stay.
   void setBodies(const std::vector<body::Constellation>& bodies);
 
-  /// Asks for the points at a trigger's time. They come as soon as the images reach it; when the
-  /// trigger itself comes does not change them.
+  /// Asks for the points at a trigger's time. They follow as soon as the images reach it; the
+  /// arrival of the trigger does not matter.
   void takeTrigger(const std_msgs::Header& trigger);
 
-  /// No image will follow: refuses triggers that still wait.
+  /// No image will follow: refuses waiting triggers.
   void finish();
 
   const tracking::Counters& counters() const { return estimator_->counters(); }  ///< With a rig.
@@ -138,7 +138,7 @@ class MessageTracker {
   std::optional<std::int64_t> newest_tick_;                          // [1 / rate]
   std::vector<wiimote_tracker_msgs::TrackedPoint> lost_;             // LOST, not yet published
 
-  // Reused.
+  // Reused buffers.
   std::vector<body::LabelledPoint> labelled_;
   tracking::CameraImage image_;
   tracking::Snapshot predicted_;

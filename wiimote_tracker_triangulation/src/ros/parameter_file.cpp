@@ -8,7 +8,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// Words that are neither truth values nor numbers, and all quoted ones, are texts.
+/// Quoted scalars, and those that are neither booleans nor numbers, are strings.
 XmlRpcValue scalarOf(const YAML::Node& node) {
   const bool is_quoted = node.Tag() == "!";
   bool truth = false;

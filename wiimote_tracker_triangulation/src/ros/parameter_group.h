@@ -29,7 +29,7 @@ class ParameterGroup {
         reader_->bounded(prefix_ + key, static_cast<int>(*value), minimum, maximum));
   }
 
-  /// A text, a truth value, or a list.
+  /// A string, a boolean or a list.
   template <typename T>
   void read(const std::string& key, T* value) const {
     *value = reader_->optional(prefix_ + key, *value);

@@ -45,7 +45,7 @@ void checkLabels(const std::string& key, const std::vector<std::string>& labels)
   }
 }
 
-/// @throws ParameterError: a code's label is no name that a track may have.
+/// @throws ParameterError: a track may not have the label of a code.
 void checkCodes(const std::string& key,
                 const identity::BlinkCodes& codes,
                 const std::vector<std::string>& labels) {

@@ -34,7 +34,7 @@ wiimote_tracker_msgs::TrackedPoint trackedPoint(const CorrectedSnapshot& correct
                                                 const geometry::Rig& rig,
                                                 const LedLabels& labels);
 
-/// Whether to publish a point by itself and as a transform: when it is tracked, or predicted and
+/// Whether to publish a point topic and transform: the point is tracked, or predicted and
 /// `publish_predicted`.
 bool isPosition(const wiimote_tracker_msgs::TrackedPoint& point, bool publish_predicted);
 

@@ -93,7 +93,7 @@ void Statistics::addSpot(std::size_t camera,
 }
 
 void Statistics::addLatency(double latency) {
-  constexpr std::size_t kMaximumLatencies = 100000;  // in case nobody clears
+  constexpr std::size_t kMaximumLatencies = 100000;  // limits memory without clear()
   if (latencies_.size() < kMaximumLatencies)
     latencies_.push_back(latency);
 }

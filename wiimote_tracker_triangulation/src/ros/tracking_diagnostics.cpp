@@ -65,7 +65,7 @@ void TrackingDiagnostics::setRig() {
 void TrackingDiagnostics::addArrival(const std::string& camera,
                                      const ros::Time& arrival,
                                      const std::string& node) {
-  // The clock of a bag is too coarse for a comparison.
+  // Simulated time is too coarse for a comparison.
   if (arrival.isZero() || ros::Time::isSimTime())
     return;
   const auto place = std::find(cameras_.begin(), cameras_.end(), camera);

@@ -23,13 +23,13 @@ class TrackingDiagnostics {
                       MessageTracker* tracker,
                       double clock_tolerance);
 
-  /// The tracker has taken a new rig.
+  /// To be called after the tracker got a new rig.
   void setRig();
 
   /// Call it when an image is handled. `node`: its publisher.
   void addArrival(const std::string& camera, const ros::Time& arrival, const std::string& node);
 
-  /// Publishes when it is time to.
+  /// Publishes when due.
   void update() { updater_.update(); }
 
  private:
@@ -46,7 +46,7 @@ class TrackingDiagnostics {
   std::vector<std::string> nodes_;  // per camera
   diagnostic_updater::Updater updater_;
 
-  // Of the period that is reported.
+  // State of the reported period.
   Statistics reported_;
   ClockWatch reported_clocks_;
   ros::WallTime since_ = ros::WallTime::now();

@@ -103,7 +103,7 @@ void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
   bodies_.setBodies(bodies);
   body_diagnostics_.setBodies(bodies);
   for (const std::string& sentence : ambiguities(bodies)) {
-    // While one body is learned, the others are given again.
+    // Learning a body sets all others again.
     if (warned_of_.insert(sentence).second)
       ROS_WARN("%s.", sentence.c_str());
   }

@@ -23,8 +23,8 @@
 namespace wiimote_tracker {
 
 /// The tracker's topics: rig, blobs and triggers in; points, TF, markers, events and diagnostics
-/// out. Node and nodelet are two mains over this class. One thread must call all callbacks of the
-/// handles' queue: it handles images, rigs and triggers in the order in which they came.
+/// out. For node and nodelet. One thread must call all callbacks of the handles' queue, so that
+/// images, rigs and triggers are handled in order of arrival.
 class Triangulation : private MessageSink {
  public:
   /// @throws ParameterError.

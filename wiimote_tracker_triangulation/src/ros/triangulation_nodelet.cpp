@@ -10,8 +10,8 @@
 
 namespace wiimote_tracker {
 
-/// Has a callback queue with a thread of its own: the manager's queues hand each message on through
-/// two threads.
+/// Has its own callback queue and thread: the manager's queues pass each message through two
+/// threads.
 class TriangulationNodelet : public nodelet::Nodelet {
   void onInit() override {
     ros::NodeHandle nh = getNodeHandle();

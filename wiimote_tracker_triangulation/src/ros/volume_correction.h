@@ -22,9 +22,8 @@ class VolumeCorrection {
   /// @returns whether the correction changed.
   bool take(const geometry::Rig& rig);
 
-  /// Corrects positions, velocities and their covariances; without a correction it copies them.
-  /// Outside the measured volume, LEDs are displaced like its border (remap::Correction). Does not
-  /// allocate once `corrected` is warm.
+  /// Corrects positions, velocities and their covariances; copies them if there is no correction.
+  /// Outside the measured volume see remap::Correction. Does not allocate once `corrected` is warm.
   void apply(const tracking::Snapshot& snapshot, CorrectedSnapshot* corrected) const;
 
   /// "none", the name of the model, or "void".

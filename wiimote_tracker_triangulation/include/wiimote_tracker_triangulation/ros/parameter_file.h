@@ -7,8 +7,8 @@
 
 namespace wiimote_tracker {
 
-/// What a YAML file such as config/triangulation.yaml sets, with the types that the parameter
-/// server would give it; for programs without a master. Nothing for an empty path.
+/// The parameters in a YAML file such as config/triangulation.yaml, with the types of the parameter
+/// server; for programs without a master. Nothing for an empty path.
 /// @throws ParameterError with the file, and the line if there is one.
 ParameterTree readParameterTree(const std::string& path);
 

@@ -22,7 +22,7 @@ class BodyDiagnostics {
   void setBodies(const std::vector<body::Constellation>& bodies);
   void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies);
 
-  /// Publishes when it is time to.
+  /// Publishes when due.
   void update() { updater_.update(); }
 
  private:

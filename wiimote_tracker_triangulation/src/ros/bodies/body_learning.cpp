@@ -35,7 +35,7 @@ std::vector<Constellation> without(const std::string& name, std::vector<Constell
   return bodies;
 }
 
-/// The labels of a body's LEDs in their order, if all of them blink.
+/// Labels of a body's LEDs in their order, if all blink.
 std::vector<std::string> labelsOf(const std::vector<std::uint32_t>& ids,
                                   const std::map<std::uint32_t, std::string>& blinks) {
   std::vector<std::string> labels;
@@ -123,7 +123,7 @@ std::string BodyLearning::refusal(const LearnBody::Request& request) const {
   if (std::find(names_.begin(), names_.end(), request.name) != names_.end())
     return "'" + request.name + "' is the name of an LED; choose another one";
   try {
-    // The name alone.
+    // Checks only the name.
     Constellation{request.name, {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}}}.check();
   } catch (const Error& e) {
     return e.what();

@@ -21,8 +21,8 @@
 
 namespace wiimote_tracker {
 
-/// The service learn_body. A thread of its own answers it, since that takes seconds while the
-/// tracker goes on. The tracker's thread calls the public functions.
+/// The service learn_body. Its own thread answers, since that takes seconds. The tracker's thread
+/// calls the public functions.
 class BodyLearning {
  public:
   /// @param file for bodies; empty: the service refuses. @param bodies that are tracked.
@@ -52,9 +52,9 @@ class BodyLearning {
 
   std::string file_;
   std::vector<std::string> names_;
-  std::vector<body::Constellation> bodies_;  // all known ones; of the service's thread
+  std::vector<body::Constellation> bodies_;  // all known; only for the service's thread
 
-  std::mutex mutex_;  // of all that follows
+  std::mutex mutex_;  // protects all below
   std::condition_variable changed_;
   bool is_collecting_ = false;
   bool has_change_ = false;

@@ -13,10 +13,10 @@
 
 namespace wiimote_tracker {
 
-/// Draws bodies for rviz, in the world frame. Namespaces, each with one id per body, in the order
-/// in which they appeared: body_axes (x red, y green, z blue), body_shape (lines from the origin to
-/// its LEDs), body_led, body_label (its name), body_led_label (of LED i: 8 id + i), body_ray (from
-/// each camera to the LEDs that it sees). Predicted bodies and unseen LEDs are pale.
+/// Markers of bodies for rviz, in the world frame. Namespaces, with one id per body in the order of
+/// appearance: body_axes (x red, y green, z blue), body_shape (lines from the origin to the LEDs),
+/// body_led, body_label, body_led_label (LED i: 8 id + i), body_ray (from each camera to the LEDs
+/// it sees). Predicted bodies and unseen LEDs are pale.
 class BodyMarkers {
  public:
   /// @param rate most arrays per second [Hz, > 0].

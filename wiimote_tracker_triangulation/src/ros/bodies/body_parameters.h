@@ -26,7 +26,7 @@ struct BodyParameters {
                              const std::vector<std::string>& labels);
 };
 
-/// Warnings about bodies that look nearly the same when they are turned, one sentence each.
+/// One warning per body that is nearly symmetric.
 std::vector<std::string> ambiguities(const std::vector<body::Constellation>& bodies);
 
 }  // namespace wiimote_tracker

@@ -13,8 +13,8 @@
 
 namespace wiimote_tracker {
 
-/// Publishes bodies: all on `bodies`, and each by itself: its pose on <body>/pose, and the
-/// transform world -> body.
+/// Publishes all bodies on `bodies`, and for each one its pose on <body>/pose and the transform
+/// world -> body.
 class BodyPublishers {
  public:
   /// `publish_predicted`: pose and transform of predicted bodies too.

@@ -105,7 +105,7 @@ void Gestures::onPoints(const wiimote_tracker_msgs::TrackedPointArray& message) 
 }
 
 void Gestures::onPoint(const TrackedPoint& point, double time) {
-  // One camera is enough to see that the light is on.
+  // One camera suffices to see that the light is on.
   const bool is_on = point.state == TrackedPoint::TRACKED ||
                      (point.state == TrackedPoint::PREDICTED && point.rays_used > 0);
   if (!is_on)
@@ -117,7 +117,7 @@ void Gestures::onPoint(const TrackedPoint& point, double time) {
   hand.label = point.label;
   hand.last_seen = time;
   const gesture::PathPoint here{time, {point.position.x, point.position.y, point.position.z}};
-  // An example must have a beginning and an end.
+  // An example needs a start and an end.
   if (parameters_.continuous && !wanted_) {
     if (const auto spotted = hand.spotter.add(here, recognizer_, zoneOf({here})))
       publish(GestureEvent::RECOGNISED, spotted->recognition, spotted->path, point.id, point.label);

@@ -23,15 +23,14 @@
 
 namespace wiimote_tracker {
 
-/// Points in, gestures out. Node and nodelet are two mains over this class. All callbacks must come
-/// from one thread.
+/// Recognises gestures in points, for node and nodelet. All callbacks must come from one thread.
 class Gestures {
  public:
   /// @throws ParameterError. geometry::Error: the file of examples is damaged.
   Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
 
  private:
-  /// When the button was pressed last [s], and released after that.
+  /// Times of the last press [s], and of the release after it.
   struct ButtonNews {
     std::optional<double> pressed;
     std::optional<double> released;

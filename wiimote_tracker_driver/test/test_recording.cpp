@@ -126,10 +126,10 @@ TEST(RecordingFormat, CutOffAnywhereItIsReadUpToThereAndSaysSo) {
 }
 
 TEST(RecordingFormat, WhatIsNoRecordingIsRefused) {
-  EXPECT_TRUE(contains(refusal("#ROSBAG V2.0\n and so on, and so on"), "no recording"));
+  EXPECT_TRUE(contains(refusal("#ROSBAG V2.0\n and so on, and so on"), "not a recording"));
   std::string sent_as_text = kAll;
   sent_as_text.erase(4, 1);  // the carriage return
-  EXPECT_TRUE(contains(refusal(sent_as_text), "no recording"));
+  EXPECT_TRUE(contains(refusal(sent_as_text), "not a recording"));
   std::string future = kAll;
   future[8] = 7;
   EXPECT_TRUE(contains(refusal(future), "version 7"));

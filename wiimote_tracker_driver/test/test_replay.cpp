@@ -417,7 +417,7 @@ TEST_F(Replays, WhatCannotBePlayedIsRefusedByName) {
   };
   EXPECT_TRUE(contains(refusal(directory_ + "/none.wiirec"), directory_ + "/none.wiirec"));
   EXPECT_TRUE(contains(refusal(directory_), directory_));
-  EXPECT_TRUE(contains(refusal(write("#ROSBAG V2.0")), "no recording"));
+  EXPECT_TRUE(contains(refusal(write("#ROSBAG V2.0")), "not a recording"));
   { const Recorder recorder(path_, 0.0, 0.0); }
   EXPECT_TRUE(contains(refusal(path_), "no connection"));
 }

@@ -16,7 +16,7 @@ void appendText(const std::string& text, std::size_t size, std::vector<std::uint
   bytes.insert(bytes.end(), text.begin(), text.begin() + static_cast<std::ptrdiff_t>(size));
 }
 
-/// Three lines.
+/// Identity, kernel driver and description, one per line.
 std::string textOf(const Remote& remote) {
   std::string text = remote.identity + "\n" + remote.kernel_driver + "\n" + remote.description;
   text.resize(std::min(text.size(), kLongestPayload));

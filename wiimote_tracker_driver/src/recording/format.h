@@ -9,21 +9,21 @@
 #include <string>
 #include <vector>
 
-/// The file that doc/recording_format.md describes.
+/// The file format described in doc/recording_format.md.
 namespace wiimote_tracker::recording {
 
-/// What goes wrong with a recording; what() is one sentence that says what to do.
+/// A recording cannot be used; what() is one sentence that says what to do.
 struct BadRecording : transport::TransportError {
   using transport::TransportError::TransportError;
 };
 
-/// At the beginning of the file.
+/// Header of the file.
 struct Header {
-  double wall_time = 0.0;  ///< [s since 1970] At time 0 of the recording.
-  std::string software;    ///< That wrote it, with its version.
+  double wall_time = 0.0;  ///< At time 0 of the recording [s since 1970].
+  std::string software;    ///< Name and version of the writer.
 };
 
-/// Who is at the other end of a connection; the same as Transport tells.
+/// The other end of a connection, as in Transport.
 struct Remote {
   std::string identity;
   std::string description;
@@ -39,22 +39,22 @@ struct Record {
     kDisconnected = 4,
   };
   Kind kind = Kind::kConnected;
-  double time = 0.0;        ///< [s] Since the beginning of the recording.
+  double time = 0.0;        ///< Since the start of the recording [s].
   protocol::Report report;  ///< Of kReceived and kSent.
   Remote remote;            ///< Of kConnected.
-  std::string reason;       ///< Of kDisconnected: one sentence; empty: the host wanted it.
+  std::string reason;       ///< Of kDisconnected: one sentence; empty: by the host.
 };
 
 constexpr std::size_t kMagicSize = 8;
-/// The first byte is no text and the line ends show what has been sent as text.
+/// The first byte is not text, and the line ends reveal a transfer as text.
 constexpr std::uint8_t kMagic[kMagicSize] = {0x89, 'W', 'I', 'I', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kFixedHeaderSize = kMagicSize + 4 + 8 + 1;  ///< Then the software's name.
 constexpr std::size_t kRecordHeaderSize = 1 + 1 + 8;              ///< Then the payload.
-/// Longer texts are cut off [byte].
+/// Longer texts are truncated [byte].
 constexpr std::size_t kLongestPayload = 255;
 
-/// Append what belongs into the file. No allocation where `bytes` has room.
+/// Appends to the file's bytes. Does not allocate if `bytes` has capacity.
 void append(const Header& header, std::vector<std::uint8_t>& bytes);
 void append(const Record& record, std::vector<std::uint8_t>& bytes);
 

@@ -14,11 +14,11 @@
 namespace wiimote_tracker::recording {
 namespace {
 
-// No clock shows more [s]; that of ROS ends in 2106.
+// Greatest plausible times [s]; ROS time ends in 2106.
 constexpr double kLatestWallTime = 3e9;
 constexpr double kLongest = 1e9;
 
-/// @returns how many of `size` bytes there were.
+/// @returns the number of bytes read, at most `size`.
 std::size_t readBytes(std::istream& in, void* to, std::size_t size) {
   in.read(static_cast<char*>(to), static_cast<std::streamsize>(size));
   return static_cast<std::size_t>(in.gcount());
@@ -49,7 +49,7 @@ std::ifstream openRecording(const std::string& path) {
   if (!file)
     throw BadRecording("cannot read the recording (" + std::string(std::strerror(errno)) +
                        "): correct its path");
-  // A folder opens, and then reads like an empty file.
+  // A folder can be opened and then reads like an empty file.
   if (std::filesystem::is_directory(path))
     throw BadRecording("cannot read the recording (it is a folder): correct its path");
   return file;
@@ -59,9 +59,9 @@ Reader::Reader(std::istream& in) : in_(in) {
   std::array<std::uint8_t, kFixedHeaderSize> fixed{};
   const std::size_t size = readBytes(in_, fixed.data(), fixed.size());
   if (!std::equal(fixed.begin(), fixed.begin() + std::min(size, kMagicSize), kMagic))
-    throw BadRecording("this is no recording of a Wii Remote: choose another file");
+    throw BadRecording("this is not a recording of a Wii Remote: choose another file");
   if (size < fixed.size())
-    throw BadRecording("the recording is cut off at its very beginning: choose another file");
+    throw BadRecording("the recording is cut off in its header: choose another file");
   const std::uint64_t version = littleEndian(&fixed[kMagicSize], 4);
   if (version != kVersion)
     throw BadRecording("the recording is of version " + std::to_string(version) +
@@ -69,17 +69,17 @@ Reader::Reader(std::istream& in) : in_(in) {
                        ": use the driver that made it");
   header_.wall_time = 1e-9 * static_cast<double>(littleEndian(&fixed[kMagicSize + 4], 8));
   if (header_.wall_time > kLatestWallTime)
-    throw BadRecording("the recording is damaged at its very beginning: choose another file");
+    throw BadRecording("the recording is damaged in its header: choose another file");
   header_.software.resize(fixed.back());
   if (readBytes(in_, &header_.software[0], header_.software.size()) < header_.software.size())
-    throw BadRecording("the recording is cut off at its very beginning: choose another file");
+    throw BadRecording("the recording is cut off in its header: choose another file");
   position_ = kFixedHeaderSize + header_.software.size();
   payload_.reserve(kLongestPayload);
 }
 
 bool Reader::end(const char* why) {
   const std::string text =
-      format("the recording %s at byte %llu, %.3f s from its beginning", why,
+      format("the recording %s at byte %llu, %.3f s after its start", why,
              static_cast<unsigned long long>(position_), 1e-9 * static_cast<double>(time_));
   damage_ = text;
   ended_ = true;

@@ -10,22 +10,22 @@
 
 namespace wiimote_tracker::recording {
 
-/// Opens the file of a recording. @throws BadRecording when it cannot be read, or is a folder.
+/// Opens the file of a recording. @throws BadRecording if it cannot be read, or is a folder.
 std::ifstream openRecording(const std::string& path);
 
-/// Reads a recording from a stream, one record after the other.
+/// Reads records from a stream.
 class Reader {
  public:
   /// Reads the header. Keeps a reference to the stream.
-  /// @throws BadRecording when it is no recording, or of a version that is not known.
+  /// @throws BadRecording if it is not a recording, or of an unknown version.
   explicit Reader(std::istream& in);
 
   const Header& header() const { return header_; }
 
-  /// @returns false at the end, and where the file is cut off or damaged; damage() tells.
+  /// @returns false at the end, or where the file is cut off or damaged (see damage()).
   bool next(Record& record);
 
-  /// Why reading ended before the end, one sentence; empty when it did not.
+  /// Why reading ended early, one sentence; empty if it did not.
   const std::string& damage() const { return damage_; }
 
  private:
@@ -33,8 +33,8 @@ class Reader {
 
   std::istream& in_;
   Header header_;
-  std::uint64_t position_ = 0;  ///< [byte] Of the record that is read.
-  std::int64_t time_ = 0;       ///< [ns] Of the last record.
+  std::uint64_t position_ = 0;  ///< Of the present record [byte].
+  std::int64_t time_ = 0;       ///< Of the last record [ns].
   std::string payload_;
   std::string damage_;
   bool ended_ = false;

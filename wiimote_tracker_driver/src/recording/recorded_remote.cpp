@@ -12,7 +12,7 @@ using protocol::Report;
 
 constexpr std::size_t kPacketSize = 16;
 constexpr std::uint8_t kRegisters = static_cast<std::uint8_t>(protocol::Space::kRegisters);
-// Both of the camera's sensitivity blocks, and its format; keys of Memory.
+// The camera's two sensitivity blocks and its format; keys of Memory.
 constexpr std::uint32_t kBlock1 = kRegisters << 24 | protocol::kIrBlock1Register;
 constexpr std::uint32_t kBlock2 = kRegisters << 24 | protocol::kIrBlock2Register;
 constexpr std::uint32_t kFormat = kRegisters << 24 | protocol::kIrModeRegister;
@@ -22,7 +22,7 @@ std::uint8_t flags(const Report& report) {
   return report.bytes[1] & 0xfe;
 }
 
-/// Of a request to read or write memory.
+/// Address of a request to read or write memory.
 std::uint32_t address(const Report& report) {
   const auto& b = report.bytes;
   return static_cast<std::uint32_t>((b[1] & kRegisters) << 24 | b[2] << 16 | b[3] << 8 | b[4]);
@@ -32,12 +32,12 @@ std::size_t sizeToRead(const Report& request) {
   return static_cast<std::size_t>(request.bytes[5] << 8 | request.bytes[6]);
 }
 
-/// The place of a packet that answers `request`; nothing when it answers another.
+/// Address of a packet that answers `request`; nothing if it answers another one.
 std::optional<std::uint32_t> placeOf(const protocol::MemoryPacket& packet, const Report& request) {
   if (request.id() != protocol::kReadMemoryId)
     return std::nullopt;
   const std::uint32_t begin = address(request);
-  // The packet has but the lower half of its address.
+  // The packet holds only the lower 16 bits of its address.
   const std::uint32_t offset = (packet.address - begin) & 0xffff;
   if (offset + packet.size > sizeToRead(request))
     return std::nullopt;

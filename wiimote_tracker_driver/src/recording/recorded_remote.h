@@ -13,33 +13,32 @@
 namespace wiimote_tracker::recording {
 
 /// Whether two output reports are the same request, perhaps with other values (other LEDs, other
-/// bytes to the same registers).
+/// bytes for the same registers).
 bool sameRequest(const protocol::Report& a, const protocol::Report& b);
 
-/// What a recording tells about its remote: enough to answer requests that were not recorded.
+/// The remote as known from a recording, which answers requests that were not recorded.
 class RecordedRemote {
  public:
-  /// Takes a record. Call it for all records before the replay.
+  /// Learns from a record. Call it for all records before the replay.
   void learn(const Record& record);
 
-  /// The replay has come to this report of the recorded host.
+  /// The replay has reached this report of the recorded host.
   void recordedHostSent(const protocol::Report& report);
   /// The present host sends this report.
   void hostSends(const protocol::Report& report);
 
-  /// Appends the remote's answers: an acknowledgement, its last status, or memory as far as it is
-  /// known, else an error.
+  /// Appends the remote's answers: an acknowledgement, its last status, known memory, or an error.
   void answer(const protocol::Report& request, std::deque<protocol::Report>& answers) const;
 
-  /// Where a recorded memory packet holds what the recorded host had written, puts in what the
-  /// present host has written. So the host reads its own settings back, unless the remote had lost
-  /// them.
+  /// Replaces values in a recorded memory packet that the recorded host had written by those that
+  /// the present host has written. So the host reads its own settings back, unless the remote had
+  /// lost them.
   void putOwnValuesInto(protocol::Report& report) const;
 
   /// Format of the recorded images; nothing when there are none.
   std::optional<protocol::IrFormat> irFormat() const;
 
-  /// Whether the present host has set another sensitivity, or format, than the recorded host.
+  /// Whether the present host has set another sensitivity, or format, than the recorded one.
   bool sensitivityDiffers() const;
   bool formatDiffers() const;
 
@@ -52,13 +51,13 @@ class RecordedRemote {
   bool differs(std::uint32_t first, std::uint32_t last) const;
 
   protocol::Report status_{0x20, 0, 0, 0, 0, 0, 0};
-  Memory memory_;                              ///< Read by the recorded host, at any time.
+  Memory memory_;                              ///< All memory read by the recorded host.
   Memory settings_;                            ///< Last values written by the recorded host.
   std::array<std::uint64_t, 256> received_{};  ///< Per report id.
 
   protocol::Report recorded_read_;  ///< Last memory request of the recorded host.
   protocol::Report own_read_;       ///< Last memory request of the present host.
-  Memory recorded_values_;          ///< Written by the recorded host up to now.
+  Memory recorded_values_;          ///< Written by the recorded host so far.
   Memory own_values_;               ///< Written by the present host.
 };
 

@@ -13,7 +13,7 @@ namespace wiimote_tracker::recording {
 namespace {
 
 constexpr auto kWriteInterval = std::chrono::seconds(1);
-// Some minutes of reports, in case the disk is slow [byte].
+// Some minutes of reports, for slow disks [byte].
 constexpr std::size_t kCapacity = 1 << 20;
 constexpr int kMaxNames = 10000;
 
@@ -77,7 +77,7 @@ void Recorder::add(Record record) {
   if (!error_.empty())
     return;
   if (filling_.size() + kRecordHeaderSize + kLongestPayload > kCapacity) {
-    fail("since the disk is too slow: record to another one");
+    fail("because the disk is too slow: record to another one");
     return;
   }
   append(record, filling_);
@@ -86,7 +86,7 @@ void Recorder::add(Record record) {
 }
 
 void Recorder::run() {
-  // Also blocks SIGXFSZ, which would end the process when the file is too large.
+  // Blocks SIGXFSZ, too, which would end the process when the file is too large.
   sigset_t all;
   sigfillset(&all);
   ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
@@ -109,16 +109,16 @@ void Recorder::run() {
   }
 }
 
-/// @returns what went wrong; empty when nothing.
+/// @returns what went wrong; empty on success.
 std::string Recorder::write() const {
   struct stat file {};
   if (::fstat(fd_, &file) == 0 && file.st_nlink == 0)
-    return "since somebody has deleted it: leave it in place while the driver runs";
+    return "because it was deleted: leave it in place while the driver runs";
   std::size_t done = 0;
   while (done < writing_.size()) {
     const ssize_t size = ::write(fd_, writing_.data() + done, writing_.size() - done);
     if (size < 0 && errno != EINTR)
-      return std::string("since it cannot be written (") + std::strerror(errno) +
+      return std::string("because it cannot be written (") + std::strerror(errno) +
              "): make room on the disk or record to another one";
     if (size > 0)
       done += static_cast<std::size_t>(size);

@@ -17,13 +17,13 @@
 namespace wiimote_tracker::recording {
 
 /// Writes the reports between host and remote to a file. The calls only copy into memory; a thread
-/// writes once a second, so that a slow disk delays no report, and a crash loses the last second.
-/// An error with the file ends the recording and nothing else. Times [s] are of any clock that
-/// never goes back. Only error() may be called by another thread.
+/// writes once a second, so that a slow disk delays no report and a crash loses at most a second. A
+/// file error ends only the recording. Times [s] are of any monotonic clock. Only error() may be
+/// called by another thread.
 class Recorder {
  public:
   /// Creates the file. If "name.wiirec" exists, the new file is "name_2.wiirec" and so on.
-  /// `wall_time` [s since 1970] belongs to `now`. @throws BadRecording when it cannot be created.
+  /// `wall_time` [s since 1970] corresponds to `now`. @throws BadRecording if it cannot be created.
   Recorder(const std::string& path, double now, double wall_time);
   /// Writes the rest.
   ~Recorder();
@@ -47,7 +47,7 @@ class Recorder {
   /// Path of the file.
   const std::string& path() const { return path_; }
 
-  /// Why the recording has ended too early, one sentence; empty while it is written.
+  /// Why the recording ended early, one sentence; empty while it is written.
   std::string error() const;
 
  private:
@@ -60,18 +60,17 @@ class Recorder {
   const double begin_;  ///< [s]
   int fd_ = -1;
 
-  mutable std::mutex mutex_;  ///< Guards the next four.
+  mutable std::mutex mutex_;  ///< Guards filling_, error_ and stop_.
   std::condition_variable wake_;
   std::vector<std::uint8_t> filling_;
   std::string error_;
   bool stop_ = false;
 
-  std::vector<std::uint8_t> writing_;  ///< Used by the thread alone.
+  std::vector<std::uint8_t> writing_;  ///< Used only by the thread.
   std::thread thread_;
 };
 
-/// A transport that forwards to `transport` and has `recorder` record every report. `clock` [s] is
-/// read at each report.
+/// Wraps `transport` so that `recorder` records every report, at the time of `clock` [s].
 std::unique_ptr<transport::Transport> record(std::unique_ptr<transport::Transport> transport,
                                              std::shared_ptr<Recorder> recorder,
                                              std::function<double()> clock);

@@ -16,14 +16,14 @@ namespace {
 
 using protocol::Report;
 
-// A recorded request matches the host's own when it was recorded within this time after it [s]. The
-// recorded remote answered later than this class may.
+// A recorded request matches the host's if it was recorded at most this much later [s]: the
+// recorded remote may have answered more slowly than this class.
 constexpr double kLookAhead = 0.25;
-// How long open() waits for a recorded connection [s]: longer than the pause between two attempts.
+// Time that open() waits for a recorded connection [s]; longer than the pause between two attempts.
 constexpr double kConnectTimeout = 1.0;
 
-// A request recorded at `time` comes after it: it was sent because that wait was over. Recorded
-// times are rounded.
+// A request recorded at `time` comes after it: it was sent when that wait was over. Recorded times
+// are rounded.
 bool isAfter(const Record& record, double time) {
   return record.time > (record.kind == Record::Kind::kSent ? time - 1e-8 : time);
 }
@@ -68,9 +68,9 @@ struct Replay::State {
 
   struct Event {
     Record record;
-    bool matched = false;  ///< A request that the host has sent as well.
+    bool matched = false;  ///< A request that the present host has sent, too.
   };
-  std::deque<Event> ahead;  ///< Read from the file and not played yet.
+  std::deque<Event> ahead;  ///< Read but not yet played.
   std::deque<Report> answers;
 
   void learn() {
@@ -86,7 +86,7 @@ struct Replay::State {
     }
     damage = first_reader.damage();
     if (!any)
-      throw BadRecording("the recording holds no connection to a Wii Remote" +
+      throw BadRecording("the recording has no connection to a Wii Remote" +
                          (damage.empty() ? "" : " (" + damage + ")") + ": choose another one");
   }
 
@@ -96,7 +96,7 @@ struct Replay::State {
     now = std::max(now, time);
   }
 
-  /// Whether there is one more event, and all up to `time` are in `ahead`.
+  /// Reads all events up to `time` into `ahead`. @returns false if there is none left.
   bool readAhead(double time) {
     while (ahead.empty() || ahead.back().record.time <= time) {
       Event event;
@@ -120,7 +120,7 @@ struct Replay::State {
 
   void connect() {
     answers.clear();
-    // Reports that came while the host was not connected are lost.
+    // Reports that arrived while the host was not connected are lost.
     while (readAhead(now) && (!connected || ahead.front().record.time < now)) {
       const Record& next = ahead.front().record;
       if (!connected && next.time > now + kConnectTimeout)
@@ -180,7 +180,7 @@ struct Replay::State {
       throw transport::Disconnected(end());
     throw transport::Disconnected(
         "in the recording " + path + ", " +
-        (reason.empty() ? "the driver let the Wii Remote go at this time" : reason));
+        (reason.empty() ? "the driver released the Wii Remote at this time" : reason));
   }
 
   void write(const Report& report) {
@@ -255,9 +255,9 @@ std::string Replay::notice() const {
     sentences += (sentences.empty() ? "" : "; ") + std::string(sentence);
   };
   if (state_->remote.sensitivityDiffers())
-    add("the recording was made with another sensitivity of the camera, which stays as it was");
+    add("the recording was made with another sensitivity of the camera, which is kept");
   if (state_->remote.formatDiffers())
-    add("the recording was made with another infrared format, which stays as it was");
+    add("the recording was made with another infrared format, which is kept");
   return sentences;
 }
 

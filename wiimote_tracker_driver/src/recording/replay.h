@@ -12,33 +12,33 @@
 
 namespace wiimote_tracker::recording {
 
-/// Waits until this time [s] of the recording.
+/// Waits until a time [s] of the recording.
 using Pace = std::function<void(double)>;
 
-/// Plays `speed` [> 0] times as fast as recorded, from the first call on.
+/// Plays at `speed` [> 0] times the recorded speed, from the first call on.
 Pace realTime(double speed = 1.0);
 
-/// Plays a recording once, as a remote. Time is that of the recording. It passes only in read(),
-/// open() and pass(), so that a session does the same at any speed; users of the transport must
-/// take the time from here. All recorded reports of the remote come at their times. A request of
-/// the host is answered by the recorded answer if the recorded host sent the same request at that
-/// time, else from what the recording tells about the remote. Not thread-safe.
+/// Plays a recording once, as a remote. Time is that of the recording and passes only in read(),
+/// open() and pass(), so that a session behaves the same at any speed; users of the transport must
+/// take the time from here. All recorded reports of the remote arrive at their times. A request is
+/// answered by the recorded answer if the recorded host sent the same request at that time, else
+/// from what the recording reveals about the remote. Not thread-safe.
 class Replay {
  public:
   /// Reads the whole file. Without a `pace` it is played as fast as possible.
-  /// @throws BadRecording when there is no recording in the file.
+  /// @throws BadRecording if the file is not a usable recording.
   explicit Replay(const std::string& path, Pace pace = nullptr);
   ~Replay();
 
-  /// Connects to the remote as it was at this time, waiting up to a second for it.
-  /// @throws NoSuchDevice when it was not there, or when the recording has ended.
+  /// Connects to the remote as it was at this time; waits up to a second for it.
+  /// @throws NoSuchDevice if it was not there, or the recording has ended.
   std::unique_ptr<transport::Transport> open();
 
-  /// [s] Since the beginning of the recording; exactly the recorded time of the report that was
-  /// read last, until time passes. Starts with the first connection.
+  /// Time since the start of the recording [s]: exactly that of the last report until time passes.
+  /// Starts with the first connection.
   double now() const;
 
-  /// [s since 1970] The wall clock of the recording at now().
+  /// The wall clock of the recording at now() [s since 1970].
   double wallTime() const;
 
   /// Lets time [s, >= 0] pass while no transport is open.
@@ -50,8 +50,8 @@ class Replay {
   /// The infrared format of the recorded images; nothing when there are none.
   std::optional<protocol::IrFormat> irFormat() const;
 
-  /// Sentences for the user: the recording is cut off, or was made with other settings than those
-  /// of the session; empty when neither.
+  /// Sentences for the user if the recording is cut off or was made with other settings; else
+  /// empty.
   std::string notice() const;
 
  private:

@@ -9,7 +9,7 @@ constexpr std::uint8_t kExtensionOnly = 0x3d;
 constexpr std::uint8_t kButtonMaskHigh = 0x1f;
 constexpr std::uint8_t kButtonMaskLow = 0x9f;
 
-/// What a data report carries after the buttons, in this order, each from its beginning.
+/// Contents of a data report after the buttons, in this order, each from its first byte.
 struct Layout {
   bool acceleration = false;
   std::ptrdiff_t infrared = 0;
@@ -45,7 +45,7 @@ std::uint8_t byte(int value) {
   return static_cast<std::uint8_t>(value);
 }
 
-/// Sets bits 5 and 6 of a byte of the buttons, where bits of the acceleration travel.
+/// Sets bits 5 and 6 of a button byte, which carry bits of the acceleration.
 void addBits(std::uint8_t& buttons, int bits) {
   buttons = byte(buttons | (bits & 3) << 5);
 }
@@ -58,7 +58,7 @@ void appendAcceleration(const std::array<int, 3>& raw, Bytes& report) {
   addBits(report[2], (raw[1] >> 1 & 1) | (raw[2] & 2));
 }
 
-/// Half of the infrared data, x or y whole, half of z; all with eight bits.
+/// One of two interleaved reports: half of the infrared data, x or y, half of z; 8 bits each.
 Bytes half(bool first, const Sample& sample) {
   Bytes report = beginReport(first ? kFirstHalf : kSecondHalf, sample.buttons);
   const int z = sample.acceleration[2] >> 2;

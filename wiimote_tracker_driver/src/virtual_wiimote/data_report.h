@@ -8,10 +8,10 @@
 
 namespace wiimote_tracker::virtual_wiimote {
 
-/// What an extension says; the longest report carries all of it.
+/// Bytes of an extension, as many as the longest report carries.
 using ExtensionData = std::array<std::uint8_t, 21>;
 
-/// All that data reports are made of, at one instant.
+/// The contents of data reports at one instant.
 struct Sample {
   std::uint16_t buttons = 0;
   std::array<int, 3> acceleration{};  ///< As converted [0..1023].
@@ -23,7 +23,7 @@ struct Sample {
 constexpr std::uint8_t kFirstHalf = 0x3e;
 constexpr std::uint8_t kSecondHalf = 0x3f;
 
-/// A report begins with its id and, but for 0x3d, the buttons.
+/// A report starts with its id and, except for 0x3d, the buttons.
 Bytes beginReport(std::uint8_t id, std::uint16_t buttons);
 
 bool isDataReport(std::uint8_t id);

@@ -60,7 +60,7 @@ struct Device::State {
   Options options;
   Eeprom eeprom;
 
-  // Does not.
+  // Lost with the batteries.
   struct Volatile {
     explicit Volatile(const Options& options)
         : camera(options.slot_seed), extension(options.motion_plus) {}
@@ -74,9 +74,9 @@ struct Device::State {
     std::uint8_t mode = 0x30;
     bool continuous = false;
     bool reporting = true;  ///< Ends when an extension comes or goes, until the host sets a mode.
-    std::optional<Sample> second_half;  ///< Still to be sent of a sample that takes two reports.
-    Bytes last_data;                    ///< All of the sample that was sent last.
-    std::deque<Bytes> memory_packets;   ///< Still to be sent of the read in progress.
+    std::optional<Sample> second_half;  ///< Pending second report of a sample.
+    Bytes last_data;                    ///< The whole last sample.
+    std::deque<Bytes> memory_packets;   ///< Pending packets of a read.
   } now;
 
   Bytes withButtons(std::uint8_t id) const { return beginReport(id, now.senses.buttons); }
@@ -105,7 +105,7 @@ struct Device::State {
 
   bool inHalves() const { return now.mode == kFirstHalf || now.mode == kSecondHalf; }
 
-  /// The data report that is due; nothing when only changes are wanted and there is none.
+  /// The data report that is due; nothing if only changes are wanted and there is none.
   std::optional<Bytes> nextData(bool changes_only) {
     if (now.second_half) {
       now.second_half->buttons = now.senses.buttons;
@@ -128,7 +128,7 @@ struct Device::State {
     return report;
   }
 
-  /// Whether somebody answers at this address of the register space.
+  /// Whether a device answers at this address of the register space.
   bool onBus(std::uint32_t address) const {
     return (isCamera(address) && now.camera.onBus()) || now.extension.hasRegister(address);
   }
@@ -144,7 +144,7 @@ struct Device::State {
       now.extension.write(address, value);
   }
 
-  /// What is wrong with this part of a space; 0: nothing.
+  /// Error code for an access to this part of a space; 0: none.
   std::uint8_t addressError(std::uint8_t flags, std::uint32_t address, std::size_t size) const {
     const int space = flags & kSpaceMask;
     if (space == kNoSpace)
@@ -184,7 +184,7 @@ struct Device::State {
         writeRegister(address + i, payload[i]);
     }
     out.push_back(acknowledgement(kWriteMemory, error));
-    // To the host it looks as if something had been plugged in or pulled out.
+    // To the host this looks like plugging or unplugging an extension.
     if (now.extension.motionPlusActive() != was_active)
       out.push_back(extensionChanged());
   }
@@ -222,7 +222,7 @@ struct Device::State {
       }
       now.memory_packets.push_back(memoryPacket(first, count, 0, payload));
     }
-    // The first packet is sent at once, the others in place of the data reports that follow.
+    // The first packet is sent at once, the others replace the next data reports.
     out.push_back(now.memory_packets.front());
     now.memory_packets.pop_front();
   }
@@ -253,7 +253,7 @@ std::vector<Bytes> Device::handleOutput(const Bytes& report) {
   State& state = *state_;
   const std::uint8_t id = report[0];
   const std::uint8_t flags = report[1];
-  // A mode that does not exist takes the motor's state with it.
+  // An invalid mode does not set the motor either.
   if (id >= kRumble && id <= kIrLogic && id != kMode)
     state.now.rumble = (flags & kMotor) != 0;
   switch (id) {

@@ -46,13 +46,13 @@ std::array<std::uint8_t, 10> infraredBlock(const FactoryPoints& points) {
 FactoryPoints factoryPoints(double centre_x, double centre_y, std::uint32_t seed) {
   constexpr double kHalfWidth = 0.4 * 1024.0;
   constexpr double kHalfHeight = 0.4 * 768.0;
-  constexpr int kScatter = 8;  // [px]; the corners of the one real block are no rectangle either
+  constexpr int kScatter = 8;  // [px]; the one real block is not an exact rectangle either
   std::mt19937 random(seed);
   const auto near = [&](double value, int limit) {
     const int offset = static_cast<int>(random() % (2 * kScatter + 1)) - kScatter;
     return std::clamp(static_cast<int>(std::lround(value)) + offset, 0, limit - 1);
   };
-  // In the order of the real block: from the top left round to the bottom left.
+  // In the order of the real block: clockwise from the top left.
   constexpr std::array<std::array<int, 2>, 4> kCorners{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
   FactoryPoints points{};
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -13,22 +13,22 @@ constexpr std::uint8_t kSetUpValue = 0x55;
 constexpr std::size_t kEncryption = 0xfb;
 constexpr std::uint8_t kOff = 0x00;
 constexpr std::size_t kActivate = 0xfe;
-// Alone, or passing a Nunchuk or a Classic Controller through.
+// Alone, or with pass-through of a Nunchuk or Classic Controller.
 constexpr std::array<std::uint8_t, 3> kActivateValues{0x04, 0x05, 0x07};
 constexpr std::size_t kIdAddress = 0xfa;
 constexpr SixBytes kNunchukId{0x00, 0x00, 0xa4, 0x20, 0x00, 0x00};
 constexpr SixBytes kInactiveId{0x00, 0x00, 0xa6, 0x20, 0x00, 0x05};
 constexpr SixBytes kActiveId{0x00, 0x00, 0xa4, 0x20, 0x04, 0x05};
 
-// Stick x and y in the middle; x, y at 0 g and z at 1 g; no button pressed.
+// Stick centred; x, y at 0 g and z at 1 g; no button pressed.
 constexpr SixBytes kNunchukAtRest{0x80, 0x80, 0x80, 0x80, 0xb3, 0x03};
-// Three rates of 14 bits, each 0x2000 at rest, low bytes first; all in the fine range.
+// Three rates of 14 bits, each 0x2000 at rest, low bytes first; all in slow mode.
 constexpr SixBytes kMotionPlusAtRest{0x00, 0x00, 0x00, 0x83, 0x82, 0x82};
 
 }  // namespace
 
 Nunchuk::Nunchuk() {
-  // Any value other than kOff: encrypted.
+  // Any value except kOff means encrypted.
   registers_[kEncryption] = 0xff;
 }
 

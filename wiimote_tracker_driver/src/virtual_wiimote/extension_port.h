@@ -9,7 +9,7 @@
 
 namespace wiimote_tracker::virtual_wiimote {
 
-/// A Nunchuk at rest, with registers from a400 00 on. Reads give ff until the host has switched its
+/// A Nunchuk at rest, with registers from a400 00 on. Reads give ff until the host has switched the
 /// encryption off. Its factory calibration is blank.
 class Nunchuk {
  public:
@@ -20,7 +20,7 @@ class Nunchuk {
   void write(std::uint32_t address, std::uint8_t value) { registers_[address % 0x100] = value; }
   std::uint8_t read(std::uint32_t address) const;
 
-  /// As data reports carry it.
+  /// As in data reports.
   ExtensionData data() const;
 
  private:
@@ -29,8 +29,8 @@ class Nunchuk {
   std::array<std::uint8_t, 0x100> registers_{};
 };
 
-/// The built-in MotionPlus of a remote at rest, as far as hosts identify it. It is at a600 00 until
-/// the host activates it; then it takes the extension's place, a400 00, until that is set up again.
+/// The built-in MotionPlus of a remote at rest, as far as hosts need to identify it. It is at a600
+/// 00 until activated, then at a400 00 like an extension, until that is set up again.
 class MotionPlus {
  public:
   MotionPlus();
@@ -41,7 +41,7 @@ class MotionPlus {
   void write(std::uint32_t address, std::uint8_t value);
   std::uint8_t read(std::uint32_t address) const { return registers_[address % 0x100]; }
 
-  /// As data reports carry it while it is active.
+  /// As in data reports while it is active.
   ExtensionData data() const;
 
  private:
@@ -69,7 +69,7 @@ class ExtensionPort {
   /// Ignored where no device has the address.
   void write(std::uint32_t address, std::uint8_t value);
 
-  /// As data reports carry it; ff when empty.
+  /// As in data reports; ff when empty.
   ExtensionData data() const;
 
  private:

@@ -13,7 +13,7 @@ constexpr double kMaximum = 1e9;
 
 struct Fault {
   const char* name;
-  bool whole;  ///< Takes whole numbers only.
+  bool whole;  ///< Accepts only whole numbers.
   double minimum;
   double maximum;
   void (*set)(Faults&, double);
@@ -39,7 +39,7 @@ const Fault kFaults[] = {
      [](Faults& f, double v) { f.seed = static_cast<std::uint32_t>(v); }},
 };
 
-/// The number that the whole of `text` is; NaN when it is none.
+/// The number in `text`; NaN if the whole text is not one.
 double number(const std::string& text) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());

@@ -48,13 +48,13 @@ struct FaultyDevice::State {
 
   bool stalled() const { return samples < stall_end; }
 
-  /// Somebody says something to the device.
+  /// A host sends a report to the device.
   void say(const Bytes& report) {
     for (const Bytes& answer : device.handleOutput(report))
       send(answer);
   }
 
-  /// The device sends a report, which may or may not come through.
+  /// The device sends a report, which may get lost.
   void send(Bytes report) {
     const bool answer = isAnswer(report);
     if (chance(answer ? faults.lost_answers : faults.lost_data))
@@ -71,7 +71,7 @@ struct FaultyDevice::State {
       arrive(report);
   }
 
-  /// A report gets to the host's end of the link, where the second master hears it, too.
+  /// A report reaches the host's end of the link; the second master receives it, too.
   void arrive(const Bytes& report) {
     if (stalled()) {
       held_back.push_back(report);
@@ -85,7 +85,7 @@ struct FaultyDevice::State {
   }
 
   void releaseHeldBack() {
-    // What the second master says to one of these comes after all of them.
+    // Replies of the second master come after all of these.
     std::deque<Bytes> reports;
     reports.swap(held_back);
     for (const Bytes& report : reports)
@@ -101,7 +101,7 @@ struct FaultyDevice::State {
       arrive(report.report);
   }
 
-  /// An id that no report of a remote has, or an answer; at random the rest.
+  /// A random report with an unknown id, or an answer with random contents.
   Bytes garbage() {
     Bytes report(1 + below(kLargestReport));
     std::generate(report.begin(), report.end(),

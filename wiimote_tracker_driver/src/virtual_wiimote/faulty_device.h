@@ -9,33 +9,32 @@
 
 namespace wiimote_tracker::virtual_wiimote {
 
-/// A Device and all that may go wrong between it and its host. Pure logic as the device; without
-/// faults it is as if the host spoke to the device itself.
+/// A Device and the faults of its link. Pure logic; without faults it behaves like the device.
 class FaultyDevice {
  public:
   explicit FaultyDevice(const Device::Options& options, const Faults& faults = Faults());
   ~FaultyDevice();
 
-  /// From now on; what is held back already still comes.
+  /// Sets the faults; delayed reports still arrive.
   void setFaults(const Faults& faults);
 
-  /// The host sent an output report. @returns what reaches the host by that, in order.
+  /// Handles an output report of the host. @returns the reports that reach the host, in order.
   std::vector<Bytes> handleOutput(const Bytes& report);
 
-  /// One sensor instant. @returns what reaches the host now, in order.
+  /// Samples the sensors once. @returns the reports that reach the host now, in order.
   std::vector<Bytes> sample(const Senses& senses);
 
-  /// As the device's; @returns what reaches the host by that.
+  /// As Device::setNunchuk. @returns the reports that reach the host.
   std::vector<Bytes> setNunchuk(bool plugged);
 
-  /// As the device's; what was held back is lost.
+  /// As Device::powerCycle; delayed reports are lost.
   void powerCycle();
 
-  /// Whether the remote is out of reach at present, as Faults::unplug_every has it. Then it hears
-  /// and says nothing.
+  /// Whether the remote is out of range because of Faults::unplug_every. Then it receives and sends
+  /// nothing.
   bool away() const;
 
-  /// For what no host takes part in.
+  /// Access without the link.
   Device& device();
   const Device& device() const;
 

@@ -9,7 +9,7 @@ namespace wiimote_tracker::virtual_wiimote {
 namespace {
 constexpr double kWanderTime = 10.0;
 constexpr double kBellMean = 3.4;  // standard deviations
-// Two reports do not leave in less than this [s].
+// Least time between the departures of two reports [s].
 constexpr double kServiceTime = 0.3e-3;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 }  // namespace
@@ -31,7 +31,7 @@ double FrameTimes::delay() {
   return model_.delay + model_.jitter * std::exponential_distribution<double>(1.0)(random_);
 }
 
-// Draws the same random numbers for every frame: a stall or loss leaves the others as they were.
+// Each frame draws the same random numbers: a stall or loss does not change the others.
 FrameTime FrameTimes::next() {
   FrameTime time;
   time.frame = frame_++;

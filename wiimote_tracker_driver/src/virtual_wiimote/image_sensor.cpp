@@ -16,26 +16,26 @@ constexpr int kRows = 96;
 // The console's middle level: GAINLIMIT and MINSIZE.
 constexpr double kMiddleGainLimit = 0x63;
 constexpr double kMiddleMinimumSize = 0x03;
-// From where a sensor bar is just seen at that level [m]. Chosen: people play from 1 to 5 m.
+// Distance at which a sensor bar is just seen at that level [m]. Chosen: people play from 1 to 5 m.
 constexpr double kMiddleReach = 6.0;
 constexpr double kMiddleThreshold = 1.0 / (kMiddleReach * kMiddleReach);
 
-// Size at the middle level: 2.37 z^-0.778 for a sensor bar at z metres, a curve that Dolphin's
-// authors fitted to a real remote; here z is the distance at which a sensor bar would be as bright.
+// Size at the middle level: 2.37 z^-0.778 for a sensor bar at z metres, fitted by Dolphin's authors
+// to a real remote; here z is the distance of a sensor bar of equal brightness.
 constexpr double kSizeFactor = 2.37;
 constexpr double kSizeExponent = 0.778 / 2.0;
-// They saw about half a unit between the least and the most sensitive level of the console, whose
-// thresholds are 13.6 to 1 here.
+// They saw about half a unit between the console's least and most sensitive levels, whose
+// thresholds have a ratio of 13.6 here.
 constexpr double kSizePerLogSensitivity = 0.5 / 2.61;
 constexpr double kLargestSize = 15.0;
 
-// Irradiance in thresholds at which the positions are as fine as the pixels, and at which the
+// Irradiance, in thresholds, above which positions are resolved to a pixel, and at which the
 // intensity is half its maximum. Both chosen.
 constexpr double kFineFrom = 8.0;
 constexpr double kHalfIntensity = 8.0;
 constexpr double kLargestIntensity = 255.0;
 
-/// A light or several that run into each other, before it is measured.
+/// One light, or several merged ones, before measurement.
 struct Spot {
   double x;
   double y;
@@ -53,7 +53,7 @@ bool inImage(const Light& light) {
   return light.x > -0.5 && light.x < 1023.5 && light.y > -0.5 && light.y < 767.5;
 }
 
-/// Half the width of a spot's image [px].
+/// Radius of a spot [px].
 double radius(double size) {
   return 0.5 * kCell * size;
 }
@@ -68,13 +68,13 @@ Spot together(const Spot& a, const Spot& b) {
   Spot spot;
   spot.x = (a.brightness * a.x + b.brightness * b.x) / brightness;
   spot.y = (a.brightness * a.y + b.brightness * b.y) / brightness;
-  // The longest way across both.
+  // The longest extent of both.
   spot.size = std::max({a.size, b.size, 0.5 * (a.size + b.size) + distance / kCell});
   spot.brightness = brightness;
   return spot;
 }
 
-/// Until no two spots touch.
+/// Merges spots until no two touch.
 void merge(std::vector<Spot>& spots) {
   for (std::size_t i = 0; i < spots.size();) {
     const auto other = std::find_if(spots.begin() + static_cast<std::ptrdiff_t>(i) + 1, spots.end(),
@@ -85,11 +85,11 @@ void merge(std::vector<Spot>& spots) {
     }
     spots[i] = together(spots[i], *other);
     spots.erase(other);
-    i = 0;  // it may have grown into one before
+    i = 0;  // it may now touch an earlier one
   }
 }
 
-/// The pixel of a coordinate on a grid of `step` px, whose lines are those of the cells.
+/// Rounds a coordinate to a grid of `step` px, aligned with the cells.
 int quantised(double coordinate, double step, int limit) {
   const double pixel = (std::floor((coordinate + 0.5) / step) + 0.5) * step - 0.5;
   return std::clamp(static_cast<int>(std::lround(pixel)), 0, limit - 1);
@@ -101,7 +101,7 @@ int cell(double coordinate, int limit) {
 
 Blob measure(const Spot& spot, double threshold) {
   const double strength = spot.brightness / threshold;
-  // A weak spot is a cell or two; its middle is not known better than that.
+  // A weak spot covers one or two cells, which limits its resolution.
   const double step = std::clamp(kFineFrom / strength, 1.0, kCell);
   Blob blob;
   blob.x = quantised(spot.x, step, 1024);

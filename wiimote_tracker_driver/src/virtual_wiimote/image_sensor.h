@@ -9,22 +9,21 @@
 
 namespace wiimote_tracker::virtual_wiimote {
 
-/// A bright spot as the camera measures it.
+/// A spot as measured by the camera.
 struct Blob {
   int x = 0;  ///< 0..1023
   int y = 0;  ///< 0..767, up
   int size = 0;
   int intensity = 0;         ///< 0..255
-  std::array<int, 4> box{};  ///< x and y from, x and y to [cells of 8 px].
+  std::array<int, 4> box{};  ///< x and y minimum, x and y maximum [cells of 8 px].
 };
 
-/// Irradiance, in the unit of Light::brightness, below which nothing is seen, for the registers
-/// GAINLIMIT (the highest gain: the lower the value, the higher) and MINSIZE (of a blob).
+/// Threshold of detection in the unit of Light::brightness, for the registers GAINLIMIT (lower
+/// values allow a higher gain) and MINSIZE (least size of a blob).
 double brightnessThreshold(std::uint8_t gain_limit, std::uint8_t minimum_size);
 
-/// What a camera with that threshold makes of the lights in its image: lights whose images touch
-/// are one blob, those too dim are none, and of the others it measures the four brightest, in the
-/// order of their brightness.
+/// Simulates the camera's detection: lights whose images touch merge, lights below the threshold
+/// vanish, and the four brightest are measured, in the order of their brightness.
 std::vector<Blob> findBlobs(const std::vector<Light>& lights, double threshold);
 
 }  // namespace wiimote_tracker::virtual_wiimote

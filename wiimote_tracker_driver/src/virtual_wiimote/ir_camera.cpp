@@ -19,7 +19,7 @@ constexpr std::uint8_t kBasic = 1;
 constexpr std::uint8_t kExtended = 3;
 constexpr std::uint8_t kFull = 5;
 
-// A light that moves farther than this between two images is taken for another one [px].
+// A light that moves farther between two images counts as a new one [px].
 constexpr int kMaximumStep = 100;
 
 std::uint8_t byte(int value) {
@@ -34,7 +34,7 @@ IrCamera::IrCamera(const std::optional<std::uint32_t>& slot_seed)
 bool IrCamera::seeing() const {
   const std::uint8_t mode = registers_[kMode];
   const bool has_mode = mode == kBasic || mode == kExtended || mode == kFull;
-  // Without its sensitivity blocks the camera lets no spot pass.
+  // Without its sensitivity blocks the camera detects nothing.
   const bool sensitive = registers_[kMaximumSize] > 0 && registers_[kGainLimit] > 0 &&
                          registers_[kGainLimit] < registers_[kGain];
   return clock_ && logic_ && registers_[kControl] == kRunning && has_mode && sensitive;
@@ -57,7 +57,7 @@ void IrCamera::look(const std::vector<Light>& lights) {
     fillFull();
 }
 
-// Hands the blobs to the slots: nearest pairs first, then each that is new to a free slot.
+// Assigns the blobs to slots: nearest pairs first, then new blobs to free slots.
 void IrCamera::follow(const std::vector<Blob>& seen) {
   const std::array<Slot, 4> before = slots_;
   std::array<bool, 4> taken{};
@@ -98,7 +98,7 @@ void IrCamera::follow(const std::vector<Blob>& seen) {
   }
 }
 
-/// There are never more blobs than slots, so one is free.
+/// There are at most as many blobs as slots, so one is free.
 std::size_t IrCamera::chooseFree(const std::array<bool, 4>& taken) {
   const auto free = std::count(taken.begin(), taken.end(), false);
   std::size_t skip = draws_slots_ ? random_() % static_cast<std::size_t>(free) : 0;
@@ -108,7 +108,7 @@ std::size_t IrCamera::chooseFree(const std::array<bool, 4>& taken) {
   return slot;
 }
 
-// In all formats a slot that has lost its light reads ff; newer remotes have zeros in a slot that
+// In all formats a slot that has lost its light reads ff; newer remotes send zeros for a slot that
 // never had one.
 
 void IrCamera::fillBasic() {
@@ -147,7 +147,7 @@ void IrCamera::fillFull() {
   }
 }
 
-/// The three bytes that both formats with a size begin with, or `size` bytes that say: no light.
+/// The first three bytes of both formats with a size, or `size` bytes for a slot without a light.
 void IrCamera::fillSlot(const Slot& slot, std::size_t size, std::uint8_t* out) {
   if (!slot.lit) {
     std::fill_n(out, size, slot.ever_lit ? 0xff : 0x00);

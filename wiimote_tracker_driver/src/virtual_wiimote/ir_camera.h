@@ -13,11 +13,11 @@
 
 namespace wiimote_tracker::virtual_wiimote {
 
-/// The infrared camera behind the remote's internal bus: its registers, the rules by which it
-/// starts to see, and what it makes of the lights in its image.
+/// The infrared camera on the remote's internal bus: its registers, the conditions under which it
+/// works, and its detection of lights.
 class IrCamera {
  public:
-  /// The registers that data reports are filled from.
+  /// Number of registers in data reports.
   static constexpr std::size_t kDataSize = 36;
   using Data = std::array<std::uint8_t, kDataSize>;
 
@@ -31,20 +31,20 @@ class IrCamera {
 
   bool onBus() const { return clock_; }
 
-  /// Register access; the host may do this only while onBus(). Registers repeat every 256 bytes.
+  /// Register access; allowed only while onBus(). Registers repeat every 256 bytes.
   void write(std::uint32_t address, std::uint8_t value) { registers_[address & 0xff] = value; }
   std::uint8_t read(std::uint32_t address) const { return registers_[address & 0xff]; }
 
-  /// One image. Keeps a light in its slot while it is followed from image to image.
+  /// Takes one image. A light keeps its slot while it is tracked from image to image.
   void look(const std::vector<Light>& lights);
 
-  /// The last image as data reports carry it, from the front; ff while the camera does not see.
+  /// The last image as in data reports, from the first byte; ff while the camera does not work.
   Data data() const;
 
  private:
   struct Slot {
-    bool lit = false;       ///< Seen in the last image.
-    bool ever_lit = false;  ///< Seen since the remote was switched on.
+    bool lit = false;       ///< Detected in the last image.
+    bool ever_lit = false;  ///< Detected since power-up.
     Blob blob;
   };
 

@@ -6,7 +6,7 @@
 namespace wiimote_tracker::virtual_wiimote {
 namespace {
 
-// In samples: the kernel's timer of 4 s, and when what people and programs do happens here.
+// In samples: the kernel's timer of 4 s; typical intervals of user actions and programs.
 constexpr std::uint64_t kMotionPlusInterval = 400;
 constexpr std::uint64_t kBatteryInterval = 700;
 constexpr std::uint64_t kDesktopInterval = 900;
@@ -17,7 +17,7 @@ constexpr std::uint64_t kLedsSet = 600;
 constexpr std::uint8_t kOnlyButtons = 0x30;
 constexpr std::uint8_t kWithCamera = 0x36;
 
-/// A register write as it crosses the wire, 22 bytes.
+/// A register write as transmitted, 22 bytes.
 Bytes write(std::uint8_t high, std::uint8_t low, const Bytes& payload) {
   Bytes report(22, 0);
   const std::array<std::uint8_t, 6> head{

@@ -8,15 +8,15 @@
 
 namespace wiimote_tracker::virtual_wiimote {
 
-/// What Linux's driver hid-wiimote and the desktop above it say to a remote that somebody else uses
-/// through hidraw, as seen with the kernels 6.1 and 6.12. Each of its reports carries its own idea
-/// of the motor: off. Unlike the kernel it waits for no answer.
+/// Simulates Linux's driver hid-wiimote and the desktop above it, with a remote that another
+/// program uses through hidraw, as observed with kernels 6.1 and 6.12. All of its reports switch
+/// the motor off. Unlike the kernel it does not wait for answers.
 class SecondMaster {
  public:
-  /// Another sample of the remote has passed. @returns what it says to the remote.
+  /// One sample has passed. @returns reports to the remote.
   std::vector<Bytes> tick();
 
-  /// It hears what the remote says. @returns what it says to that.
+  /// Receives a report of the remote. @returns reports in reply.
   std::vector<Bytes> hear(const Bytes& report) const;
 
  private:

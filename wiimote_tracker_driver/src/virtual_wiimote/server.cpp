@@ -39,7 +39,7 @@ sockaddr_un addressOf(const std::string& path) {
   return address;
 }
 
-/// Removes a socket file that nobody listens at.
+/// Removes a socket file without a listener.
 void removeStale(const std::string& path, const sockaddr_un& address) {
   struct stat info {};
   if (::stat(path.c_str(), &info) != 0 || !S_ISSOCK(info.st_mode))
@@ -81,7 +81,7 @@ struct Server::State {
   const std::string path;
   const std::string identity;
   const FileDescriptor wake;
-  FileDescriptor listener;  ///< Guarded by the server's mutex, as is the next.
+  FileDescriptor listener;  ///< Guarded by the server's mutex, as is `host`.
   FileDescriptor host;
   std::atomic<bool> stop{false};
   std::thread thread;
@@ -89,11 +89,11 @@ struct Server::State {
   void wakeUp() const {
     const std::uint64_t one = 1;
     if (::write(wake.get(), &one, sizeof(one)) < 0) {
-      // The counter is full: the thread is being woken already.
+      // The counter is full: the thread is already being woken.
     }
   }
 
-  // A host that does not read loses reports, as with a real remote.
+  // As with a real remote, a host that does not read loses reports.
   void send(const Bytes& report) const {
     ::send(host.get(), report.data(), report.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   }
@@ -126,7 +126,7 @@ struct Server::State {
       const ssize_t size = ::recv(host.get(), buffer.data(), buffer.size(), MSG_DONTWAIT);
       if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR))
         return;
-      // Reported once when the host left with reports unread; its last reports still follow.
+      // Reported once if the host left with unread reports; its last reports still follow.
       if (size < 0 && errno == ECONNRESET)
         continue;
       if (size <= 0) {
@@ -153,10 +153,10 @@ struct Server::State {
       if (fds[0].revents != 0) {
         std::uint64_t count = 0;
         if (::read(wake.get(), &count, sizeof(count)) < 0) {
-          // Another wake-up was consumed together with this one.
+          // Another wake-up was consumed with this one.
         }
       }
-      // Whatever changed during poll(), these read what there is and never block.
+      // The state may have changed during poll(), but these calls never block.
       const std::lock_guard<std::mutex> lock(server.mutex_);
       if (host.open())
         receive();

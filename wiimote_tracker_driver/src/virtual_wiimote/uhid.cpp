@@ -32,7 +32,7 @@ constexpr std::size_t kLargestReport = 22;
 
 using Clock = std::chrono::steady_clock;
 
-// The report descriptor of a real remote: vendor defined bytes, so many for each report id.
+// The report descriptor of a real remote: vendor-defined bytes for each report id.
 constexpr std::array<std::uint8_t, 218> kReportDescriptor{
     0x05, 0x01, 0x09, 0x05, 0xa1, 0x01,  // a game pad
     // Output reports 0x10..0x1a.
@@ -105,7 +105,7 @@ struct UhidDevice::State {
     Clock::time_point due;
     Bytes report;
   };
-  bool plugged = false;  ///< Guarded by the owner's mutex, as is the next.
+  bool plugged = false;  ///< Guarded by the owner's mutex, as is in_transit.
   std::deque<InTransit> in_transit;
 
   std::atomic<bool> stop{false};
@@ -140,7 +140,7 @@ struct UhidDevice::State {
       fail("unplugging the virtual Wii Remote " + address);
   }
 
-  // The kernel refuses input of a device that it is removing: lost, as over the air.
+  // The kernel refuses input from a device that it is removing: lost, as over the air.
   void send(const Bytes& report) const {
     uhid_event event{};
     event.type = UHID_INPUT2;
@@ -169,7 +169,7 @@ struct UhidDevice::State {
     }
   }
 
-  /// A report on the control channel, where a Remote Plus takes none.
+  /// An output report on the control channel; a Remote Plus refuses it.
   void setReport(const uhid_set_report_req& request) {
     uhid_event reply{};
     reply.type = UHID_SET_REPORT_REPLY;
@@ -185,7 +185,7 @@ struct UhidDevice::State {
       receive(request.data, request.size);
   }
 
-  /// A remote has no report on the control channel.
+  /// A remote has no reports on the control channel.
   void refuseGetReport(const uhid_get_report_req& request) const {
     uhid_event reply{};
     reply.type = UHID_GET_REPORT_REPLY;
@@ -240,7 +240,7 @@ UhidDevice::~UhidDevice() {
   state_->stop = true;
   const std::uint64_t one = 1;
   if (::write(state_->wake.get(), &one, sizeof(one)) < 0) {
-    // The counter is full: the thread is being woken already.
+    // The counter is full: the thread is already being woken.
   }
   state_->thread.join();
   // Closing the descriptor unplugs the device.

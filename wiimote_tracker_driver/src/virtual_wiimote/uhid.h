@@ -11,10 +11,10 @@
 
 namespace wiimote_tracker::virtual_wiimote {
 
-/// Makes a Device a Bluetooth Wii Remote of this machine's Linux kernel, through /dev/uhid: the
-/// kernel's driver hid-wiimote binds it, and a hidraw node appears. Needs root and the kernel
-/// module uhid. Owns one thread. setPresent(false) returns when the kernel has removed the device;
-/// after setPresent(true) the kernel sets it up.
+/// Presents a Device to this machine's Linux kernel as a Bluetooth Wii Remote, through /dev/uhid:
+/// the driver hid-wiimote binds it, and a hidraw node appears. Needs root and the kernel module
+/// uhid. Owns one thread. setPresent(false) returns after the kernel has removed the device; after
+/// setPresent(true) the kernel initialises it.
 class UhidDevice : public HostedDevice {
  public:
   /// The values are the USB product ids.
@@ -24,20 +24,20 @@ class UhidDevice : public HostedDevice {
     kRemotePlus = 0x0330,
   };
 
-  /// Called with each output report that reaches the device, in the device's thread. It must not
-  /// throw or call the device.
+  /// Called with each output report that reaches the device, in the device's thread. Must not throw
+  /// or call the device.
   using Listener = std::function<void(const Bytes&)>;
 
   struct Options {
     Device::Options device;
     Model model = Model::kRemote;
-    double latency = 0.0;  ///< [s, >= 0] From the host to the device, as over the air.
+    double latency = 0.0;  ///< From the host to the device [s, >= 0].
     Listener listener;
   };
 
-  /// Plugs the remote in at once. `address` is its Bluetooth address ("00:1f:32:00:00:01") and
-  /// should be unique: the kernel refuses a second battery of the same address.
-  /// @throws std::system_error when there is no /dev/uhid or it may not be opened.
+  /// Plugs the remote in. `address` is its Bluetooth address ("00:1f:32:00:00:01") and should be
+  /// unique: the kernel refuses a second battery of the same address.
+  /// @throws std::system_error if /dev/uhid does not exist or may not be opened.
   UhidDevice(const std::string& address, const Options& options);
   ~UhidDevice() override;
 

@@ -6,28 +6,28 @@
 
 namespace wiimote_tracker::virtual_wiimote {
 
-/// A camera's own clock, and how its reports come to be late. Times in s. By default all is ideal.
+/// Clock of a camera and delays of its reports. Times in s. The default is ideal.
 struct FrameTimesModel {
   double period = 0.010035;  ///< nominal, between exposures; > 0
   double phase = 0.0;        ///< of the first exposure
   double delay = 0.0;        ///< least time from exposure to arrival
-  double jitter = 0.0;       ///< what `core` makes of it
+  double jitter = 0.0;       ///< meaning: see `core`
   enum class Core {
     kHardEdge,  ///< least delay + exponential of mean `jitter`
     kBell       ///< least delay + normal of mean 3.4 jitter and standard deviation `jitter`, >= 0
   };
   Core core = Core::kHardEdge;
-  /// The true period differs from the nominal one by up to this share (uniform).
+  /// Greatest relative deviation of the true period from the nominal one (uniform).
   double period_tolerance = 0.0;
   /// Standard deviation of the random walk of the phase over 10 s.
   double wander = 0.0;
-  /// Reports leave the device at the slots of the radio link, this far apart; 0: at any time.
+  /// Interval of the radio link's slots, at which reports leave the device; 0: at any time.
   double slot = 0.0;
-  /// Share of lost frames, < 1; each loss takes the next frame along with probability `burst`.
+  /// Share of lost frames, < 1; after a loss, the next frame is lost with probability `burst`.
   double drops = 0.0;
   double burst = 0.0;
-  /// Stalls per second; each holds all reports for up to `longest_stall` (uniform). Those that wait
-  /// then come at once, in order.
+  /// Stalls per second; each delays all reports by up to `longest_stall` (uniform). They then
+  /// arrive together, in order.
   double stalls = 0.0;
   double longest_stall = 0.160;
 };
@@ -35,20 +35,20 @@ struct FrameTimesModel {
 struct FrameTime {
   std::int64_t frame = 0;
   double exposure = 0.0;  ///< [s]
-  bool lost = false;      ///< no report of it arrives, and arrival means nothing
-  double arrival = 0.0;   ///< not before that of the report before [s]
-  /// Waited for an earlier report or for the end of a stall: the arrival says little.
+  bool lost = false;      ///< its report does not arrive; `arrival` is undefined
+  double arrival = 0.0;   ///< never before that of the previous report [s]
+  /// Delayed by an earlier report or a stall: the arrival is uninformative.
   bool queued = false;
 };
 
-/// When the frames of a simulated camera are exposed and their reports arrive, frame after frame.
-/// The same model and seed give the same times.
+/// Exposure and arrival times of the frames of a simulated camera. The same model and seed give the
+/// same times.
 class FrameTimes {
  public:
   FrameTimes(const FrameTimesModel& model, std::uint64_t seed);
 
   FrameTime next();
-  /// The true one of this session [s].
+  /// The true period of this session [s].
   double period() const { return period_; }
 
  private:

@@ -10,15 +10,15 @@
 namespace wiimote_tracker::virtual_wiimote {
 
 /// Makes a Device reachable at a local socket (AF_UNIX, SOCK_SEQPACKET, one report per packet), as
-/// the kernel makes a Wii Remote reachable at a hidraw node. A driver opens it as device
-/// "virtual:PATH". One host at a time; the device keeps its state when hosts come and go. The first
-/// packet to a host is the device's identity as text; a second host gets "taken by process N", N
-/// being the first one, and is disconnected. Owns one thread.
+/// the kernel does at a hidraw node. A driver opens it as device "virtual:PATH". One host at a
+/// time; the device keeps its state between hosts. The first packet to a host is the device's
+/// identity as text. A second host gets "taken by process N", with the first one's process N, and
+/// is disconnected. Owns one thread.
 class Server : public HostedDevice {
  public:
-  /// Listens at `path` at once and replaces a stale socket file. `identity` is what the host sees
-  /// as the Bluetooth address ("00:1f:32:00:00:01").
-  /// @throws std::system_error when the path cannot be used.
+  /// Listens at `path` and replaces a stale socket file. `identity` replaces the Bluetooth address
+  /// ("00:1f:32:00:00:01").
+  /// @throws std::system_error if the path cannot be used.
   Server(const std::string& path, const std::string& identity, const Device::Options& options);
   ~Server() override;
 

@@ -130,7 +130,7 @@ TEST(Host, ConverterHidesTheAddress) {
   const Host host = readHost(root.path());
   ASSERT_EQ(1u, host.remotes.size());
   EXPECT_EQ("", host.remotes[0].adapter);
-  EXPECT_EQ(1, count(problems(host.remotes[0]), "does not tell its Bluetooth address"));
+  EXPECT_EQ(1, count(problems(host.remotes[0]), "does not reveal its Bluetooth address"));
 }
 
 TEST(Host, EachProblemOfTheComputerHasItsSentence) {
@@ -172,7 +172,7 @@ TEST(Host, SevenRemotesFillAnAdapter) {
   for (int i = 1; i <= 6; ++i)
     plug(root, i, "0306", "hid-generic", "hidraw" + std::to_string(i));
   plug(root, 8, "0306", "hid-generic", "hidraw8", "00:1A:7D:DA:71:14");
-  EXPECT_EQ(0, count(problems(readHost(root.path())), "takes no more"));
+  EXPECT_EQ(0, count(problems(readHost(root.path())), "the most it can take"));
   plug(root, 7, "0306", "hid-generic", "hidraw7");
   EXPECT_EQ(1, count(problems(readHost(root.path())), "00:1a:7d:da:71:13 has 7 remotes"));
 }

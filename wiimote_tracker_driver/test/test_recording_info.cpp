@@ -79,7 +79,7 @@ TEST_F(Info, TwoConnections) {
   const std::string text = describe(found);
   for (const char* part : {"test 1", "2023-11-14 22:13:20 UTC", "duration       11.000 s",
                            "connections    2", "00:1f:32:00:00:01 at /dev/hidraw3", "it has gone",
-                           "the driver let it go", "0x33       103  extended infrared",
+                           "the driver released it", "0x33       103  extended infrared",
                            "longest 100.0 ms", "1 over 50 ms", "complete       yes"})
     EXPECT_TRUE(contains(text, part)) << part << " in\n" << text;
 }

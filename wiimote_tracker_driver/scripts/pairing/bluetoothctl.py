@@ -1,6 +1,6 @@
-"""A running bluetoothctl, used as from a terminal.
+"""Runs bluetoothctl in a pseudo-terminal.
 
-It runs in one pseudo-terminal for the whole session, because its agent and its scan end with it.
+One process serves the whole session, because its agent and its scan end with it.
 """
 
 import errno
@@ -15,13 +15,13 @@ import termios
 import time
 from typing import Callable, Optional
 
-# Colours, and the marks that readline puts around them.
+# Colours, and the marks of readline around them.
 DECORATION = re.compile(r'\x1b\[[0-9;?]*[A-Za-z]|[\x01\x02]')
 # "[bluetooth]# ", "[Nintendo RVL-CNT-01]# ", in later versions "[bluetoothctl]> ".
 PROMPT = re.compile(r'\[[^\]]*\][#>] ?')
-# "[agent] Enter PIN code: " waits at the end of its line.
+# Such as "[agent] Enter PIN code: ", without a line end.
 QUESTION = re.compile(r'.*\[agent\] .*: ')
-WIDTH = 250  # [characters] Wide enough that no line is wrapped.
+WIDTH = 250  # characters; avoids wrapped lines
 
 
 class Bluetoothctl:
@@ -46,15 +46,14 @@ class Bluetoothctl:
             os.close(slave)
 
     def send(self, command: str) -> None:
-        """Types a command."""
+        """Sends a command."""
         try:
             os.write(self._terminal, command.encode() + b'\n')
         except OSError:
             self._ended = True
 
     def line(self, timeout: float) -> Optional[str]:
-        """The next line within timeout [s], or None. A prompt, or a question that waits for an
-        answer, is a line too."""
+        """The next line within timeout [s], or None. Prompts and questions count as lines."""
         end = time.monotonic() + timeout
         left = timeout
         while not self._lines and not self._ended and left >= 0.0:
@@ -90,7 +89,7 @@ class Bluetoothctl:
         if not data:
             self._ended = True
         pieces = re.split(rb'[\r\n]+', self._rest + data)
-        self._rest = pieces.pop()  # may end anywhere, also within a colour
+        self._rest = pieces.pop()  # may end within an escape sequence
         for piece in pieces:
             self._add(_plain(piece))
         rest = _plain(self._rest)

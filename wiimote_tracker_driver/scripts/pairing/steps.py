@@ -7,9 +7,9 @@ from typing import Callable, Dict, Optional, Tuple
 
 from .bluetoothctl import Bluetoothctl
 
-COMMAND_TIMEOUT = 10.0  # [s] For a command that needs no remote.
-REMOTE_TIMEOUT = 30.0   # [s] For pairing or connecting.
-SETTLE_TIMEOUT = 10.0   # [s] For a connected remote to become usable, or to go away.
+COMMAND_TIMEOUT = 10.0  # for commands without a remote [s]
+REMOTE_TIMEOUT = 30.0   # for pairing or connecting [s]
+SETTLE_TIMEOUT = 10.0   # for a connected remote to become usable, or to go away [s]
 SETTLE_INTERVAL = 0.5   # [s]
 
 NAMES = ('Nintendo RVL-CNT-01', 'Nintendo RVL-CNT-01-TR')
@@ -68,8 +68,8 @@ class Pairing:
                    COMMAND_TIMEOUT)
 
     def find(self, timeout: float, wanted: Optional[str] = None) -> Tuple[str, bool]:
-        """Waits up to timeout [s] for a remote that looks for a host; wanted: only for this
-        address. Returns its address, and whether it is connected already."""
+        """Waits up to timeout [s] for a remote in search of a host; wanted: its address, or None.
+        Returns its address, and whether it is already connected."""
         self._ctl.send('devices')  # bluetoothctl does not repeat the names of known devices
         self._ctl.send('scan on')
         self._say(f'Now {SYNC}.')
@@ -104,7 +104,7 @@ class Pairing:
                 return address, False
 
     def pair(self, address: str) -> bool:
-        """Returns whether the remote is paired. If not, an old pairing was found and removed."""
+        """Returns whether the remote is paired. If not, an old pairing was removed."""
         self._ctl.send('pair ' + address)
         end = time.monotonic() + REMOTE_TIMEOUT
         patterns = {
@@ -195,8 +195,8 @@ class Pairing:
         return line
 
     def _wait(self, patterns: Dict[str, str], timeout: float) -> Tuple[Optional[str], str]:
-        """The key of the first pattern that a line matches, and the line; (None, '') when none
-        came within timeout [s]."""
+        """Waits for a line that matches a pattern. Returns the pattern's key and the line, or
+        (None, '') after timeout [s]."""
         end = time.monotonic() + timeout
         while True:
             line = self._next(end)

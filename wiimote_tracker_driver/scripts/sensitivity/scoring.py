@@ -1,4 +1,4 @@
-"""Scores sensitivities by the images taken at each: without the LED, and with it far away.
+"""Scores sensitivities by images without the LED and with it far away.
 
 An image is a list of spots (x, y) [px].
 """
@@ -17,7 +17,7 @@ STEADY = 0.98        # Share of the images in which the LED must be seen.
 
 @dataclass
 class Level:
-    """How one sensitivity does."""
+    """Result of one sensitivity."""
 
     name: str
     foreign: float  # lamps and reflections, mean per image
@@ -29,28 +29,28 @@ def score(name: str, images_without: List[Image], images_with: List[Image]) -> L
     if not images_without or not images_with:
         raise ValueError(f'there are no images at sensitivity {name}')
     foreign = sum(len(image) for image in images_without) / len(images_without)
-    # Lamps stand still, so they have few places.
+    # Lamps do not move, so they have few places.
     places = {(round(x), round(y)) for image in images_without for x, y in image}
     seen = sum(any(_is_new(spot, places) for spot in image) for image in images_with)
     return Level(name, foreign, seen / len(images_with))
 
 
 def recommend(levels: List[Level], steady: float = STEADY) -> Tuple[Optional[Level], str]:
-    """The level to use and a sentence why; (None, sentence) when none sees the LED steadily.
-    levels: from the least sensitive to the most."""
+    """The recommended level and the reason; (None, reason) when none sees the LED steadily.
+    levels: by increasing sensitivity."""
     steady_ones = [level for level in levels if level.seen >= steady]
     if not steady_ones:
         best = max(levels, key=lambda level: level.seen)
         sentence = (f'no sensitivity sees the LED steadily; the best, {best.name}, sees it in '
                     f'{100.0 * best.seen:.0f} % of the images: give the LED more current, turn it '
                     'towards the camera or bring it closer')
-        # Lamps hide the LED at their places; and an LED that was never off counts as a lamp.
+        # Lamps hide an LED behind them, and an LED that was never off counts as a lamp.
         if best.foreign >= EQUALLY_FEW:
             sentence += (f'; cover lamps and reflections ({best.foreign:.2f} per image), and have '
                          'the LED off when asked to')
         return None, sentence
     fewest = min(level.foreign for level in steady_ones)
-    # Of the equally good ones the most sensitive, which measures the finest positions.
+    # Of equally good levels the most sensitive, which resolves positions best.
     chosen = [level for level in steady_ones if level.foreign < fewest + EQUALLY_FEW][-1]
     lights = (f'{chosen.foreign:.2f} foreign lights per image' if chosen.foreign
               else 'no foreign light')

@@ -8,7 +8,7 @@
 namespace wiimote_tracker::driver {
 namespace {
 
-// Charge above the threshold from which the batteries count as new.
+// An increase above the threshold by this much means new batteries.
 constexpr double kNewBatteries = 0.1;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 

@@ -13,8 +13,8 @@
 
 namespace wiimote_tracker::driver {
 
-/// A message of a spot. The sensor's y points up, that of the message down. The bounding box covers
-/// whole cells of 8 px. NaN and empty for what the format does not carry.
+/// Message of a spot. The sensor's y points up, the message's down. The bounding box covers whole
+/// cells of 8 px. NaN and empty arrays for what the format does not contain.
 wiimote_tracker_msgs::IrBlob irBlob(const protocol::IrSpot& spot,
                                     protocol::IrFormat format,
                                     std::size_t slot);

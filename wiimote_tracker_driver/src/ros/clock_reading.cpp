@@ -6,7 +6,7 @@
 namespace wiimote_tracker::driver {
 namespace {
 
-// Longest reading during which the thread was certainly not interrupted [s].
+// Readings up to this long were certainly not interrupted [s].
 constexpr double kUninterrupted = 1e-5;
 constexpr int kAttempts = 3;
 

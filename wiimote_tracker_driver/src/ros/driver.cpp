@@ -17,10 +17,10 @@
 namespace wiimote_tracker::driver {
 namespace {
 
-// Longest wait for a report, so that requests of callbacks and the end are not delayed [s].
+// Longest wait for a report [s], which bounds the delay of callbacks' requests and of shutdown.
 constexpr double kReadWait = 0.1;
 constexpr double kDiagnosticsCheck = 0.2;  // [s]
-constexpr double kUsersCheck = 10.0;       // [s] It takes milliseconds.
+constexpr double kUsersCheck = 10.0;       // [s]; takes milliseconds
 
 wiimote::Options wiimoteOptions(const DriverParameters& p, protocol::IrFormat ir_format) {
   wiimote::Options options;
@@ -56,7 +56,7 @@ std::shared_ptr<recording::Recorder> makeRecorder(const DriverParameters& p,
   }
 }
 
-/// A thread in which no signal handler runs, so that none interrupts a read.
+/// A thread without signal handlers, so that none interrupts a read.
 template <typename F>
 std::thread threadWithoutSignals(F f) {
   sigset_t all;
@@ -149,7 +149,7 @@ void Driver::readAndPublish() {
     publishImage(*image);
 }
 
-// A recording waits until it is read, so it needs no priority.
+// A recording cannot overflow, so it needs no priority.
 void Driver::raisePriority() {
   if (parameters_.realtime_priority == 0 || source_->recorded())
     return;
@@ -161,7 +161,7 @@ void Driver::raisePriority() {
                                      : "normal: " + refused;
 }
 
-// Waits until the remote may have something to do. @returns false when it is time to stop.
+// Waits until the remote may need attention. @returns false at shutdown.
 bool Driver::waitForTurn() {
   const double idle = wiimote_.idleTime();
   const bool passed = idle > 0.0 && source_->pass(std::min(idle, kReadWait));

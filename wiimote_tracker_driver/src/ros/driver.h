@@ -71,7 +71,7 @@ class Driver {
   LinkLog log_;
   std::uint64_t seen_changes_ = 0;  // of wiimote_.linkChanges()
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   wiimote::Link link_;
   ImageStamper stamper_;
   double stamp_stddev_;
@@ -79,7 +79,7 @@ class Driver {
   std::string reader_priority_;
   bool stop_ = false;
 
-  // Used by callbacks.
+  // For callbacks.
   LiveSettings settings_;
   JoyFeedback feedback_;
   LinkDiagnostics diagnostics_;

@@ -35,7 +35,7 @@ struct DriverParameters {
   double status_interval = 60.0;  ///< [s]
 };
 
-/// What ir_sensitivity may be: the settings known by name, and custom.
+/// Allowed values of ir_sensitivity: the named settings, and custom.
 std::vector<std::string> sensitivityNames();
 
 /// Name, default and range of every parameter. `reader`: a ParameterReader.

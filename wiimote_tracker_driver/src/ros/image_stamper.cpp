@@ -9,7 +9,7 @@ namespace {
 
 // Smallest deviation that counts as a step of the system clock [s]; less is jitter or drift.
 constexpr double kStep = 0.005;
-// Less certain readings are not used to follow the drift [s].
+// Readings less certain than this do not correct the drift [s].
 constexpr double kMaxClockUncertainty = 1e-4;
 // Share of a deviation that is corrected at each image: a time constant of one second.
 constexpr double kDriftGain = 0.01;
@@ -46,7 +46,7 @@ ImageTime ImageStamper::stamp(const ClockReading& now, std::uint32_t device_epoc
   time.arrival = ros_arrival_;
   time.stddev = std::numeric_limits<double>::quiet_NaN();
   double age = options_.latency;
-  // In simulated time the steady clock says nothing about the age.
+  // In simulated time the steady clock does not measure the age.
   if (options_.estimate && !now.simulated) {
     age += now.steady - estimate.exposure;
     time.stddev = estimate.stddev;

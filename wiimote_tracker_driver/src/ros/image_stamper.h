@@ -16,8 +16,8 @@ struct ImageTime {
   ros::Time arrival;    ///< On the same clock.
   double stddev = 0.0;  ///< Of the stamp [s]; NaN when it is just the arrival less the latency.
   std::uint32_t clock_epoch = 0;
-  /// Counts images, including those known to be lost. If a loss turns out to be none, the number is
-  /// not taken back; instead the next losses are not counted.
+  /// Counts images, including those known to be lost. If an image was wrongly counted as lost,
+  /// later losses are not counted instead.
   std::uint64_t frame = 0;
 };
 
@@ -56,7 +56,7 @@ class ImageStamper {
 
   Options options_;
   exposure_clock::ExposureClock clock_;
-  // The same instant on both clocks: the last arrival.
+  // Last arrival on both clocks.
   double steady_arrival_ = 0.0;
   ros::Time ros_arrival_;
   ros::Time last_stamp_;

@@ -28,7 +28,7 @@ class RemoteControl {
 
  private:
   const double rumble_max_;
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::optional<protocol::IrSensitivity> sensitivity_;
   std::uint8_t leds_;
   bool leds_changed_ = false;

@@ -23,7 +23,7 @@ class LiveRemote : public RemoteSource {
   const transport::DeviceName name_;
 };
 
-// Both clocks show the recording's time, so that the stamps are the same at each replay and speed.
+// Both clocks show the recording's time, so that stamps do not depend on replay and speed.
 class RecordedRemote : public RemoteSource {
  public:
   RecordedRemote(const std::string& file, double rate)

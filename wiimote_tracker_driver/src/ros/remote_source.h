@@ -12,8 +12,8 @@
 
 namespace wiimote_tracker::driver {
 
-/// The source of reports and of time: a remote with the present time, or a recording with the time
-/// when it was made. Not thread-safe.
+/// Source of reports and of time: a remote with the present time, or a recording with its own time.
+/// Not thread-safe.
 class RemoteSource {
  public:
   virtual ~RemoteSource() = default;

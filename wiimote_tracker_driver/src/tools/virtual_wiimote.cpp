@@ -1,4 +1,4 @@
-// A virtual Wii Remote that sees an LED move in a circle, to try a driver without hardware.
+// A virtual Wii Remote that sees LEDs move in a circle, for trying a driver without hardware.
 #include "tools/command_line.h"
 #include "virtual_wiimote/uhid.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"

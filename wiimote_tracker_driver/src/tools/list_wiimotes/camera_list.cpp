@@ -40,7 +40,7 @@ std::vector<std::string> linesOf(const std::string& text) {
   return lines;
 }
 
-/// Refuses what YAML found at `mark`. `what_to_do`: what the user should write.
+/// Refuses YAML at `mark`. `what_to_do`: advice for the user.
 [[noreturn]] void refuse(const YAML::Mark& mark,
                          const std::vector<std::string>& lines,
                          const std::string& what_to_do) {
@@ -53,7 +53,7 @@ YAML::Node load(const std::string& text, const std::vector<std::string>& lines) 
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& e) {
-    refuse(e.mark, lines, "this is no YAML (" + e.msg + "); correct it");
+    refuse(e.mark, lines, "this is not YAML (" + e.msg + "); correct it");
   }
 }
 
@@ -71,7 +71,7 @@ CameraList::CameraList(const std::string& text) : lines_(linesOf(text)) {
   for (const auto& pair : file) {
     const std::string key = pair.first.as<std::string>("");
     if (key != "cameras" && key != "discover")
-      refuse(pair.first.Mark(), lines_, "only \"discover:\" and \"cameras:\" may stand here");
+      refuse(pair.first.Mark(), lines_, "only \"discover:\" and \"cameras:\" are allowed here");
     if (key == "discover" && pair.first.Mark().line > file["cameras"].Mark().line)
       refuse(pair.first.Mark(), lines_, "write it above \"cameras:\"");
   }
@@ -174,7 +174,7 @@ CameraList readCameraList(const std::string& path) {
 
 void writeCameraList(const CameraList& list, const std::string& path) {
   namespace fs = std::filesystem;
-  // Through a symbolic link the file it names is replaced, not the link.
+  // A symbolic link is kept; its target is replaced.
   std::error_code error;
   const fs::path target = fs::exists(path) ? fs::canonical(path, error) : fs::path(path);
   const fs::path fresh = target.string() + ".new";

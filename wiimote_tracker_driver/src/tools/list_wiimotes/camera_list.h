@@ -61,9 +61,8 @@ class CameraList {
 /// @throws CameraListError when the file cannot be read or used.
 CameraList readCameraList(const std::string& path);
 
-/// Replaces the file at once, so that it is never half written, and keeps the old one as
-/// <path>.bak.
-/// @throws CameraListError when that is not possible.
+/// Replaces the file atomically, and keeps the old one as <path>.bak.
+/// @throws CameraListError if that is not possible.
 void writeCameraList(const CameraList& list, const std::string& path);
 
 }  // namespace wiimote_tracker::list_wiimotes

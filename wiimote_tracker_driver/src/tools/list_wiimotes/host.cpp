@@ -37,7 +37,7 @@ std::vector<fs::path> entriesOf(const fs::path& folder) {
   return entries;
 }
 
-/// The lines KEY=VALUE of a uevent file.
+/// The KEY=VALUE lines of a uevent file.
 std::map<std::string, std::string> valuesOf(const fs::path& path) {
   std::map<std::string, std::string> values;
   std::istringstream text(contentOf(path));
@@ -73,7 +73,7 @@ std::vector<KernelRemote> readRemotes(const fs::path& root) {
     if (endsWith(name, "RVL-CNT-01-UC") || endsWith(name, "RVL-WBC-01"))
       continue;
     remote.address = lowerCase(values["HID_UNIQ"]);
-    // Of a Bluetooth device this is its adapter, of others a place.
+    // For a Bluetooth device this is its adapter, for others a location.
     if (isBluetoothAddress(values["HID_PHYS"]))
       remote.adapter = lowerCase(values["HID_PHYS"]);
     remote.kernel_driver = values["DRIVER"];
@@ -92,7 +92,7 @@ std::vector<BluetoothAdapter> readAdapters(const fs::path& root) {
   std::vector<BluetoothAdapter> adapters;
   for (const fs::path& entry : entriesOf(root / "sys/class/bluetooth")) {
     const std::string name = entry.filename().string();
-    // A connection is listed as well, as "hci0:256".
+    // Connections are listed, too, as "hci0:256".
     if (name.find(':') == std::string::npos)
       adapters.push_back({name, BluetoothAdapter::Block::kNone});
   }
@@ -163,9 +163,9 @@ void addBluetoothProblems(const Host& host, std::vector<std::string>* sentences)
   }
   for (const auto& adapter : connected) {
     if (adapter.second >= kRemotesPerAdapter)
-      sentences->push_back("the Bluetooth adapter " + adapter.first + " has " +
-                           std::to_string(adapter.second) +
-                           " remotes and takes no more: pair further ones with another adapter");
+      sentences->push_back(
+          "the Bluetooth adapter " + adapter.first + " has " + std::to_string(adapter.second) +
+          " remotes, the most it can take: pair further ones with another adapter");
   }
 }
 
@@ -204,11 +204,11 @@ std::vector<std::string> problems(const KernelRemote& remote) {
   std::vector<std::string> sentences;
   if (remote.kernel_driver == "wiimote")
     sentences.push_back(
-        "the kernel's driver hid-wiimote shares this remote and now and then interrupts its "
+        "the kernel's driver hid-wiimote shares this remote and sometimes interrupts its "
         "images: see \"kernel driver\" in doc/quirks.md if the driver's diagnostics show gaps");
   if (remote.address.empty())
     sentences.push_back(
-        "this remote does not tell its Bluetooth address, so it cannot be known again: connect it "
+        "this remote does not reveal its Bluetooth address, so it cannot be recognised: connect it "
         "to a Bluetooth adapter of this computer instead of a converter");
   return sentences;
 }

@@ -7,7 +7,7 @@
 
 namespace wiimote_tracker::list_wiimotes {
 
-/// A Wii Remote that the kernel has, also one that nobody can open.
+/// A Wii Remote known to the kernel, even if nobody can open it.
 struct KernelRemote {
   std::string path;           ///< "/dev/hidraw3"; empty when the kernel made no node for it.
   std::string address;        ///< Lower case with colons; empty when not known.
@@ -22,7 +22,7 @@ struct BluetoothAdapter {
   Block block = Block::kNone;
 };
 
-/// What there is to know about this computer without asking a service or opening a device.
+/// What is known about this computer without asking a service or opening a device.
 struct Host {
   std::vector<KernelRemote> remotes;  ///< In the order of their paths.
   std::vector<BluetoothAdapter> adapters;
@@ -30,13 +30,13 @@ struct Host {
   std::optional<bool> bonded_only;  ///< ClassicBondedOnly; nothing when not set.
 };
 
-/// `root`: what stands before /sys, /etc and /lib; for tests.
+/// `root`: prefix of /sys, /etc and /lib; for tests.
 Host readHost(const std::string& root = "");
 
-/// What is not as it ought to be with the computer, one sentence each with what to do.
+/// Problems of the computer, one sentence each with what to do.
 std::vector<std::string> problems(const Host& host);
 
-/// The same for one remote as the kernel has it.
+/// Problems of one remote.
 std::vector<std::string> problems(const KernelRemote& remote);
 
 /// "Wii Remote (RVL-CNT-01)", "Wii Remote Plus (RVL-CNT-01-TR)".

@@ -108,7 +108,7 @@ int list(const Arguments& arguments) {
 std::string cameraInfoFolder(const Arguments& arguments) {
   if (!arguments.camera_info.empty())
     return arguments.camera_info;
-  // Where camera_info_manager keeps them.
+  // As in camera_info_manager.
   const char* const ros_home = std::getenv("ROS_HOME");
   const char* const home = std::getenv("HOME");
   return (ros_home != nullptr ? std::string(ros_home)

@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint8_t kAllLeds = 0xf;
 constexpr double kLit = 0.2;    // [s]
 constexpr double kDark = 0.3;   // [s]
-constexpr double kPause = 0.6;  // [s] Before and after, so that the flashes can be counted.
+constexpr double kPause = 0.6;  // [s] Before and after, to separate the flashes.
 
 }  // namespace
 
@@ -18,7 +18,7 @@ std::optional<protocol::Status> askStatus(transport::Transport& remote, double t
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(timeout);
   remote.write(protocol::requestStatus());
-  // Answers to others and data reports may come before.
+  // Other answers and data reports may come first.
   for (;;) {
     const double left = std::chrono::duration<double>(end - Clock::now()).count();
     if (left <= 0.0)

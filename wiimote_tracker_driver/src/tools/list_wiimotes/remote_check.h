@@ -11,8 +11,8 @@
 
 namespace wiimote_tracker::list_wiimotes {
 
-/// What comes of trying to talk to a remote. A driver that has it is not disturbed, because a
-/// remote is opened for one process alone.
+/// Result of trying to talk to a remote. A driver that uses it is not disturbed, because only one
+/// process can open a remote.
 struct RemoteCheck {
   enum class State {
     kFree,    ///< Nobody has it, and it answers.
@@ -21,19 +21,19 @@ struct RemoteCheck {
   };
   State state = State::kFailed;
   std::string sentence;
-  std::string identity;                    ///< Of a free remote, as it tells itself.
+  std::string identity;                    ///< Of a free remote, as it reports.
   std::optional<protocol::Status> status;  ///< Of a free remote.
 };
 
-/// Opens the remote, asks for its status and lets it go. Waits up to `timeout` [s] for the answer.
+/// Opens the remote, asks for its status and closes it. Waits up to `timeout` [s] for the answer.
 RemoteCheck checkRemote(const transport::DeviceName& device, double timeout);
 
-/// The remote's status, for which it is asked. Nothing after `timeout` [s] without an answer.
+/// Asks the remote for its status. Nothing if there is no answer within `timeout` [s].
 /// @throws transport::Disconnected.
 std::optional<protocol::Status> askStatus(transport::Transport& remote, double timeout);
 
 /// Flashes all four player LEDs `number` times, then lights those of `leds` (LED 1..4 in bits
-/// 0..3). `wait` is told to wait for some time [s]. @throws transport::Disconnected.
+/// 0..3). `wait` waits for a time [s]. @throws transport::Disconnected.
 void flash(transport::Transport& remote,
            int number,
            std::uint8_t leds,

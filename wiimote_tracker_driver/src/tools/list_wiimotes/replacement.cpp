@@ -19,7 +19,7 @@ std::string normalAddress(const std::string& text) {
   } catch (const transport::BadDeviceName&) {
   }
   throw CameraListError("'" + text +
-                        "' is no Bluetooth address: give that of the new remote, such as "
+                        "' is not a Bluetooth address: give that of the new remote, such as "
                         "00:1f:32:12:34:56, as list_wiimotes shows it");
 }
 
@@ -50,7 +50,7 @@ std::string replaceRemote(const Replacement& replacement) {
     fs::rename(calibration, aside, error);
     if (error)
       throw CameraListError(calibration.string() + " cannot be renamed (" + error.message() +
-                            "): it is of the old remote's lens, move it away yourself");
+                            "): it belongs to the old remote's lens, move it away yourself");
     try {
       writeCameraList(list, replacement.cameras_file);
     } catch (const CameraListError&) {
@@ -62,7 +62,7 @@ std::string replaceRemote(const Replacement& replacement) {
     writeCameraList(list, replacement.cameras_file);
   }
   return "Camera " + camera + " is now " + address + " in " + replacement.cameras_file +
-         " (the list before: " + replacement.cameras_file + ".bak).\n" + done +
+         " (previous list: " + replacement.cameras_file + ".bak).\n" + done +
          "Restart the drivers and calibrate the rig again: until then its rig.yaml names the old "
          "remote, and positions with this camera are wrong.\n";
 }

@@ -59,7 +59,7 @@ void check(const CameraList& list, Row* row) {
     row->check = checkRemote(row->device, kAnswerTimeout);
     if (row->address.empty())
       row->address = row->check.identity;
-    // A driver that has it is named already.
+    // If a driver uses it, the check has named it.
     if (row->device.kind == transport::DeviceName::Kind::kPath &&
         row->check.state == RemoteCheck::State::kFree) {
       const std::string others = transport::sharedWith(row->device.value);

@@ -14,7 +14,7 @@ namespace wiimote_tracker::list_wiimotes {
 /// A remote in the list.
 struct Row {
   transport::DeviceName device;  ///< How to open it.
-  std::string text;              ///< How a cameras.yaml names it; empty when it cannot.
+  std::string text;              ///< Device in a cameras.yaml; empty: impossible.
   std::string address;
   std::string description;
   bool can_be_opened = true;
@@ -23,13 +23,13 @@ struct Row {
   std::string camera;
 };
 
-/// The remotes that the kernel has; only that with the address or path `wanted` unless empty.
+/// The remotes known to the kernel, or only that with the address or path `wanted`.
 std::vector<Row> rowsOf(const Host& host, const std::string& wanted);
 
 /// Virtual remotes at these sockets.
 std::vector<Row> rowsOf(const std::vector<std::string>& sockets);
 
-/// Tries to talk to the remote, and looks for its name in the list.
+/// Tries to talk to the remote, and looks up its name in the list.
 void check(const CameraList& list, Row* row);
 
 /// Whether the remote is free or in use by a driver.

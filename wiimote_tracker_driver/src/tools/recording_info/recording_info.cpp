@@ -1,4 +1,4 @@
-// Says what is in recordings of Wii Remotes.
+// Summarises recordings of Wii Remotes.
 #include "summary.h"
 
 #include "tools/command_line.h"
@@ -31,7 +31,7 @@ int show(const std::string& path) {
 int main(int argc, char** argv) {
   namespace tools = wiimote_tracker::tools;
   std::vector<std::string> files;
-  CLI::App app("Says what is in recordings of Wii Remotes.", "recording_info");
+  CLI::App app("Summarises recordings of Wii Remotes.", "recording_info");
   app.add_option("FILE", files, "recordings")->required();
   app.footer(
       "Exit status: 0 when all are complete, 1 when one is cut off or damaged, 2 when one cannot "

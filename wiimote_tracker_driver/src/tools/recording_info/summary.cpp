@@ -12,7 +12,7 @@ namespace {
 
 using recording::Record;
 
-constexpr double kStep = 1e-4;  // [s] Of the histogram.
+constexpr double kStep = 1e-4;  // of the histogram [s]
 
 bool isData(const protocol::Report& report) {
   return report.id() >= 0x30 && report.id() <= 0x3f;
@@ -71,7 +71,7 @@ std::string orNone(const std::string& text) {
 std::string describeConnection(std::size_t number, const Connection& connection) {
   std::string end = "cut off with the recording";
   if (connection.ended)
-    end = connection.end_reason.empty() ? "the driver let it go" : connection.end_reason;
+    end = connection.end_reason.empty() ? "the driver released it" : connection.end_reason;
   return format("connection %zu   %.3f to %.3f s\n", number, connection.begin, connection.end) +
          "  remote       " + orNone(connection.remote.identity) + " at " +
          connection.remote.description + "\n  kernel       " +

@@ -10,7 +10,7 @@
 
 namespace wiimote_tracker::recording_info {
 
-/// The time between one data report and the next of the same connection.
+/// Intervals between successive data reports of a connection.
 class Intervals {
  public:
   /// [s]
@@ -25,7 +25,8 @@ class Intervals {
   static constexpr double kGap = 0.05;  ///< [s] About five lost reports.
 
  private:
-  std::array<std::uint64_t, 10000> histogram_{};  ///< In steps of 0.1 ms; the last holds the rest.
+  std::array<std::uint64_t, 10000>
+      histogram_{};  ///< In steps of 0.1 ms; the last one includes all longer ones.
   std::uint64_t count_ = 0;
   std::uint64_t gaps_ = 0;
   double sum_ = 0.0;
@@ -34,16 +35,16 @@ class Intervals {
 
 struct Connection {
   recording::Remote remote;
-  double begin = 0.0;  ///< [s] Since the beginning of the recording.
+  double begin = 0.0;  ///< Since the start of the recording [s].
   double end = 0.0;
-  bool ended = false;      ///< Else the recording ended before.
-  std::string end_reason;  ///< Empty: the driver let the remote go.
+  bool ended = false;      ///< False: the recording ended first.
+  std::string end_reason;  ///< Empty: the driver released the remote.
 };
 
-/// What is in a recording.
+/// Summary of a recording.
 struct Summary {
   recording::Header header;
-  double duration = 0.0;  ///< [s] To the last record.
+  double duration = 0.0;  ///< Up to the last record [s].
   std::vector<Connection> connections;
   std::array<std::uint64_t, 256> received{};  ///< Reports per id.
   std::array<std::uint64_t, 256> sent{};
@@ -54,7 +55,7 @@ struct Summary {
 /// Reads to the end.
 Summary summarize(recording::Reader& reader);
 
-/// In lines, for people.
+/// Several lines for the user.
 std::string describe(const Summary& summary);
 
 }  // namespace wiimote_tracker::recording_info

@@ -5,14 +5,14 @@
 
 namespace wiimote_tracker::simulation {
 
-/// How an LED blinks, for ever.
+/// Periodic blinking of an LED.
 struct Blink {
   identity::Waveform waveform;
   double period = 1.0;  ///< [s, > 0]
-  double begin = 0.0;   ///< When one of its periods begins [s].
+  double begin = 0.0;   ///< Start of one of its periods [s].
 
-  /// Share of the exposure about `time` [s] for which it shines [0..1]: so much of its light is in
-  /// that image. An exposure lasts 1 ms here; how long a Wii Remote's does, nobody knows.
+  /// Share of the exposure around `time` [s] in which the LED is on [0..1], which scales its
+  /// brightness. An exposure lasts 1 ms here; that of a Wii Remote is unknown.
   double light(double time) const;
 };
 

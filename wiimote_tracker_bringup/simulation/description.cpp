@@ -81,7 +81,7 @@ CameraDescription readCamera(const std::string& name, YamlMap section) {
   return description;
 }
 
-/// Where something lies, or that it is waved or circles from the beginning on.
+/// Position of a still LED, or its wave or circle from the start on.
 LedMotion readMotion(YamlMap* section) {
   LedMotion motion(section->vector("position"));
   if (section->has("wave") && section->has("circle"))
@@ -104,7 +104,7 @@ LedMotion readMotion(YamlMap* section) {
   return motion;
 }
 
-/// Size, brightness and switch of anything that shines.
+/// Size, brightness and switch of a light.
 template <typename Shining>
 void readLight(YamlMap* section, Shining* shining) {
   if (section->has("size"))
@@ -113,7 +113,7 @@ void readLight(YamlMap* section, Shining* shining) {
   shining->lit = section->get<bool>("lit", shining->lit);
 }
 
-/// A label of a file of codes, whose name counts from `folder`; or a word of chips.
+/// A label of a file of codes, relative to `folder`, or a word of chips.
 Blink readBlink(YamlMap section, const std::filesystem::path& folder) {
   identity::BlinkCodes codes;
   std::string label = "led";
@@ -132,7 +132,7 @@ Blink readBlink(YamlMap section, const std::filesystem::path& folder) {
       std::find_if(codes.codes.begin(), codes.codes.end(),
                    [&](const identity::BlinkCode& other) { return other.label == label; });
   if (code == codes.codes.end())
-    throw section.error("label", "must be one of those in the file of codes");
+    throw section.error("label", "must be a label of the file of codes");
   Blink blink;
   blink.waveform = code->waveform;
   blink.period = section.bounded("period", codes.shortest_period, codes.longest_period,
@@ -213,7 +213,7 @@ ReflectionDescription readReflection(const std::string& name, YamlMap section) {
   return reflection;
 }
 
-/// @param folder that the file's name counts from.
+/// @param folder to which the file's name is relative.
 Drawing readDrawing(YamlMap section, const std::filesystem::path& folder) {
   const auto file = section.get<std::string>("file");
   const double size = section.bounded("size", 0.001, 100.0);
@@ -233,7 +233,7 @@ bool hasCamera(const Description& description, const std::string& name) {
                      [&](const CameraDescription& camera) { return camera.camera.name == name; });
 }
 
-/// The named things of a group, of which there must be at least one.
+/// The named entries of a group, at least one.
 std::vector<std::pair<std::string, YamlMap>> entriesOf(YamlMap* file, const std::string& group) {
   auto entries = file->map(group).entries();
   if (entries.empty())
@@ -248,7 +248,7 @@ const typename Things::value_type* find(const Things& things, const std::string&
   return found == things.end() ? nullptr : &*found;
 }
 
-/// An LED turns about one that is there, and that does not turn itself; who carries one is there.
+/// Checks that an LED turns about an existing LED that does not turn, and that its carrier exists.
 void checkHolders(const std::string& name, const YamlMap& section, const Description& description) {
   const LedDescription& led = *find(description.leds, name);
   if (led.turns) {
@@ -261,7 +261,7 @@ void checkHolders(const std::string& name, const YamlMap& section, const Descrip
     throw section.error("carried_by", "must be the name of one of the people or bodies");
 }
 
-/// simulation/set_led knows all by their names.
+/// Names must be unique, because simulation/set_led identifies all things by name.
 template <typename Things>
 void takeNames(const Things& things,
                const std::string& group,
@@ -270,7 +270,7 @@ void takeNames(const Things& things,
   for (const auto& thing : things) {
     if (!names->insert(thing.name).second)
       throw file.error(group + "/" + thing.name,
-                       "is the name of something else, too; give it another one");
+                       "is also the name of something else; rename one of them");
   }
 }
 

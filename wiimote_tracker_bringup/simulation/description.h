@@ -18,53 +18,53 @@
 
 namespace wiimote_tracker::simulation {
 
-/// A camera as it truly is; its optical frame by position and look_at, image x axis horizontal.
+/// A true camera. Its optical frame follows from position and look_at, with a horizontal image x
+/// axis.
 struct CameraDescription {
   geometry::Camera camera;
   virtual_wiimote::FrameTimesModel timing;
 };
 
-/// The other end of a wand: turns about another LED for ever.
+/// The other end of a wand: turns about another LED.
 struct TurnDescription {
   std::string around;     ///< Name of the other LED.
   double distance = 0.0;  ///< Length of the wand [m].
-  double rate = 0.0;      ///< About the vertical [rad/s]; nods up and down meanwhile.
+  double rate = 0.0;      ///< About the vertical [rad/s], while nodding.
 };
 
-/// An LED before simulation/set_led moves it.
+/// The initial state of an LED; simulation/set_led changes it.
 struct LedDescription {
   std::string name;
-  LedMotion motion = LedMotion(Eigen::Vector3d::Zero());  ///< Without effect with `turns`.
+  LedMotion motion = LedMotion(Eigen::Vector3d::Zero());  ///< Ignored with `turns`.
   std::optional<TurnDescription> turns;
 
-  /// Name of a person or a rigid body, in whose axes (see Person, RigidBody) the motion is; or
-  /// empty.
+  /// Name of a person or rigid body in whose axes (see Person, RigidBody) the motion is; or empty.
   std::string carried_by;
   std::optional<double> size;  ///< As of a Lamp [0..15].
   double brightness = 1.0;     ///< As of a Lamp [>= 0].
   bool lit = true;
-  std::optional<Blink> blink;  ///< While it is lit; nothing: it shines.
+  std::optional<Blink> blink;  ///< While lit; not set: steady light.
 };
 
-/// Somebody who stands or walks on the floor and hides what is behind them: an upright cylinder.
+/// A person standing or walking on the floor: an upright cylinder that occludes LEDs.
 struct PersonDescription {
   std::string name;
-  LedMotion motion = LedMotion(Eigen::Vector3d::Zero());  ///< Without its z.
+  LedMotion motion = LedMotion(Eigen::Vector3d::Zero());  ///< z is ignored.
   double turn_rate = 0.0;                                 ///< About the vertical [rad/s].
   double radius = 0.2;                                    ///< [m]
   double height = 1.75;                                   ///< [m]
   bool present = true;
 };
 
-/// How something turns: steadily, or to and fro as in a hand, or both.
+/// Rotation of a body: steady, swaying as in a hand, or both.
 struct TurningDescription {
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< In the world, of any length but 0.
-  double rate = 0.0;                                ///< About it [rad/s].
-  double sway = 0.0;       ///< About its own axes z, and x 0.6 as far [rad].
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< In the world, of any length except 0.
+  double rate = 0.0;                                ///< About this axis [rad/s].
+  double sway = 0.0;       ///< Amplitude about its own z axis, and 0.6 of it about x [rad].
   double sway_rate = 1.0;  ///< [rad/s]
 };
 
-/// Something that is carried about and turned, with LEDs fixed to it.
+/// A moving rigid body with LEDs.
 struct RigidBodyDescription {
   std::string name;
   LedMotion motion = LedMotion(Eigen::Vector3d::Zero());  ///< Of its origin.
@@ -72,17 +72,17 @@ struct RigidBodyDescription {
   bool present = true;
 };
 
-/// A spot that one camera sees always at the same place: a lamp's reflection in a window.
+/// A reflection, as of a lamp in a window: a spot at a fixed place in one camera's image.
 struct ReflectionDescription {
   std::string name;
   std::string camera;                               ///< Name of the camera.
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< In the image, v down [px].
   std::optional<double> size;                       ///< As of a Lamp [0..15].
-  double brightness = 1.0;                          ///< As it reaches the camera [>= 0].
+  double brightness = 1.0;                          ///< At the camera [>= 0].
   bool lit = true;
 };
 
-/// A board of 4 x 4 LEDs that is held before one camera.
+/// A board of 4 x 4 LEDs in front of one camera.
 struct BoardDescription {
   std::string before;            ///< Name of the camera.
   double column_spacing = 0.08;  ///< [m]
@@ -90,7 +90,7 @@ struct BoardDescription {
   double size = 3.0;             ///< Of each LED, as of a Lamp [0..15].
 };
 
-/// A rig that does not exist. The world has z up.
+/// A simulated rig. z points up in the world.
 struct Description {
   std::string world_frame = "world";
   std::uint32_t seed = 1;
@@ -106,8 +106,7 @@ struct Description {
 };
 
 /// Reads a description (layout: paper_rig.yaml, people_rig.yaml, body_rig.yaml). Unknown keys are
-/// refused.
-/// @throws Error naming the file and the key: what is wrong.
+/// refused. @throws Error naming the file, the key and what is wrong.
 Description readDescription(const std::string& path);
 
 }  // namespace wiimote_tracker::simulation

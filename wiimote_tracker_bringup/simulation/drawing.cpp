@@ -7,7 +7,7 @@ namespace wiimote_tracker::simulation {
 
 Drawing::Drawing(const gesture::Path& path, double size, double rest) : path_(path), rest_(rest) {
   if (path_.size() < 2)
-    throw std::invalid_argument("has fewer than two points; record more of it");
+    throw std::invalid_argument("has fewer than two points; record a longer one");
   const double begin = path_.front().time;
   Eigen::Vector3d low = path_.front().position;
   Eigen::Vector3d high = low;
@@ -22,7 +22,7 @@ Drawing::Drawing(const gesture::Path& path, double size, double rest) : path_(pa
   }
   const double extent = (high - low).maxCoeff();
   if (!(extent > 0.0))
-    throw std::invalid_argument("never moves; record it anew");
+    throw std::invalid_argument("does not move; record it again");
   for (gesture::PathPoint& point : path_)
     point.position = size / extent * (point.position - 0.5 * (low + high));
   duration_ = path_.back().time;

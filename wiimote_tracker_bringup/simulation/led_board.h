@@ -13,20 +13,20 @@
 
 namespace wiimote_tracker::simulation {
 
-/// A flat board of 4 x 4 LEDs, from which a lens is calibrated, held before one camera. It lights
-/// its LEDs in the sequence of wiimote_tracker_calibration/doc/board.md, from time 0 on.
+/// A flat board of 4 x 4 LEDs for lens calibration, in front of one camera. From time 0 on it
+/// lights its LEDs in the sequence of wiimote_tracker_calibration/doc/board.md.
 class LedBoard {
  public:
-  /// @param camera before which it is held.
+  /// @param camera in front of which it is held.
   LedBoard(const BoardDescription& description, const geometry::Camera& camera);
 
-  /// Holds it still somewhere new: 0.55 to 1 m away, tilted by 20 to 45 degrees to any side.
-  /// @param pose another one for each number; the same for the same.
+  /// Moves it to another pose: 0.55 to 1 m away, tilted by 20 to 45 degrees in any direction.
+  /// @param pose selects the pose.
   void show(std::uint32_t pose);
 
   void setLit(bool lit) { lit_ = lit; }
 
-  /// Adds the LEDs that shine at `time` [s].
+  /// Adds the LEDs that are on at `time` [s].
   void addLamps(double time, std::vector<Lamp>* lamps) const;
 
  private:

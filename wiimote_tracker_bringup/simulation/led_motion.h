@@ -11,42 +11,41 @@
 
 namespace wiimote_tracker::simulation {
 
-/// Where an LED is, as a function of time: it lies, goes straight to a place, circles, is
-/// waved, or draws. A new motion begins where the LED is at that moment. Positions [m], times [s],
-/// speeds [m/s].
+/// Position of an LED as a function of time: at rest, or moving along a line, a circle, a wave or a
+/// drawing. A new motion starts at the present position. Positions [m], times [s], speeds [m/s].
 class LedMotion {
  public:
   explicit LedMotion(const Eigen::Vector3d& position) : from_(position), to_(position) {}
 
-  /// Position at `time`; before the beginning of the present motion: where it began.
+  /// Position at `time`; before the present motion, its starting point.
   Eigen::Vector3d position(double time) const;
 
-  /// From `time` on it stays where it is.
+  /// Stops at `time`.
   void hold(double time);
 
-  /// From `time` on it goes straight to `target` and stays there. Speed 0: it is there at once.
-  /// @returns when it is there.
+  /// Moves straight to `target` from `time` on, and stays there. Speed 0: immediately.
+  /// @returns the time of arrival.
   double line(double time, const Eigen::Vector3d& target, double speed);
 
-  /// From `time` on it goes straight to the +x side of the horizontal circle around `center`, then
-  /// circles for ever, counter-clockwise seen from above. `radius` [m, > 0], `speed` [m/s, > 0].
-  /// @returns when its first lap begins.
+  /// From `time` on moves straight to the +x side of the horizontal circle around `center`, then
+  /// circles, counter-clockwise seen from above. `radius` [m, > 0], `speed` [m/s, > 0].
+  /// @returns the start of the first lap.
   double circle(double time, const Eigen::Vector3d& center, double radius, double speed);
 
-  /// From `time` on it goes straight to the beginning of a WavePath, then follows that for ever.
-  /// @returns when the wave begins.
+  /// From `time` on moves straight to the start of a WavePath, then follows it.
+  /// @returns the start of the wave.
   double wave(double time,
               const Eigen::Vector3d& middle,
               const Eigen::Vector3d& sides,
               double speed,
               std::uint32_t seed);
 
-  /// From `time` on it goes straight to the beginning of the drawing, whose box is about `middle`,
-  /// rests, draws it once, and stays at its end. Speed 0: it is at the beginning at once.
-  /// @returns when the drawing begins.
+  /// From `time` on moves straight to the start of the drawing, whose box is centred at `middle`,
+  /// rests, draws once, and stays at the end. Speed 0: it is at the start immediately.
+  /// @returns the start of the drawing.
   double draw(double time, const Drawing& drawing, const Eigen::Vector3d& middle, double speed);
 
-  /// Whether it draws at `time`, the rests before and after left out.
+  /// Whether it draws at `time`, excluding the rests before and after.
   bool isDrawing(double time) const;
 
  private:
@@ -54,10 +53,10 @@ class LedMotion {
   double arrival_ = 0.0;  ///< End of the straight part [s].
   Eigen::Vector3d from_;
   Eigen::Vector3d to_;
-  double radius_ = 0.0;             ///< Of the circle that follows; 0: none.
+  double radius_ = 0.0;             ///< Of the following circle; 0: none.
   double angular_speed_ = 0.0;      ///< [rad/s]
-  std::optional<WavePath> wave_;    ///< That follows.
-  std::optional<Drawing> drawing_;  ///< That follows, about middle_.
+  std::optional<WavePath> wave_;    ///< Follows the line.
+  std::optional<Drawing> drawing_;  ///< Follows the line, centred at middle_.
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
 };
 

@@ -6,7 +6,7 @@
 namespace wiimote_tracker::simulation {
 
 bool Pillar::hides(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
-  // Seen from above: the part of the way inside the circle, as shares s of the whole. With
+  // Seen from above: the part of the segment in the circle, as parameters s in [0, 1]. With
   // a = (to - from), b = (from - foot): |b + s a|^2 <= radius^2.
   const Eigen::Vector2d a = (to - from).head<2>();
   const Eigen::Vector2d b = (from - foot).head<2>();

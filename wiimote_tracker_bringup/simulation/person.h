@@ -8,17 +8,17 @@
 
 namespace wiimote_tracker::simulation {
 
-/// An upright cylinder that no light passes.
+/// An upright opaque cylinder.
 struct Pillar {
   Eigen::Vector3d foot;  ///< Centre of the lower end, world [m].
   double radius;         ///< [m]
   double height;         ///< [m]
 
-  /// Whether it stands in the way from one place to the other [m].
+  /// Whether it intersects the segment between two points [m].
   bool hides(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 };
 
-/// Somebody in the room, who walks, turns, is in the light's way, and may carry LEDs.
+/// A person in the room, who walks, turns, occludes LEDs, and may carry some.
 class Person {
  public:
   explicit Person(const PersonDescription& description)
@@ -26,14 +26,14 @@ class Person {
 
   const std::string& name() const { return description_.name; }
 
-  /// The axes in which carried LEDs move: origin on the floor, x where the person faces (along the
-  /// world's x at time 0), z up.
+  /// The axes of carried LEDs: origin on the floor, x forward (along the world's x at time 0), z
+  /// up.
   Eigen::Isometry3d worldFromPerson(double time) const;
 
   Pillar body(double time) const;
 
-  LedMotion motion;  ///< Where they walk; its z is not read.
-  bool present;      ///< Who is away hides nothing, and what they carry is not seen.
+  LedMotion motion;  ///< On the floor; z is ignored.
+  bool present;      ///< If absent, occludes nothing, and carried LEDs are not seen.
 
  private:
   PersonDescription description_;

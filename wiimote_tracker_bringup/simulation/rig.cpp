@@ -17,7 +17,7 @@ Rig::Rig(const Description& description, Deliver deliver, Truth truth, BodyTruth
   for (const LedDescription& led : description.leds)
     leds_.push_back({led, led.motion, led.lit});
   for (const CameraDescription& camera : description.cameras) {
-    // A seed of its own for each camera's pixels and each camera's link.
+    // Separate seeds for each camera's pixels and link.
     const auto number = static_cast<std::uint32_t>(cameras_.size());
     std::seed_seq sequence{description.seed, number};
     std::uint32_t seeds[2];
@@ -110,7 +110,7 @@ Eigen::Vector3d Rig::positionOf(const Led& led, double time) const {
   const auto around = std::find_if(leds_.begin(), leds_.end(), [&](const Led& other) {
     return other.description.name == turns.around;
   });
-  constexpr double kNod = 0.618;     // times per turn, so that no turn is like the one before
+  constexpr double kNod = 0.618;     // irrational, so that turns do not repeat
   constexpr double kSteepest = 1.0;  // [rad]
   const double azimuth = turns.rate * time;
   const double elevation = kSteepest * std::sin(kNod * azimuth);

@@ -17,18 +17,17 @@
 
 namespace wiimote_tracker::simulation {
 
-/// What a camera senses in one image.
+/// Input of a camera's sensor for one image.
 struct Image : virtual_wiimote::Senses {
-  double exposure;  ///< When [s since the start].
+  double exposure;  ///< Time [s since the start].
 };
 
-/// All cameras, LEDs, people and reflections of a description as a queue of events: exposures,
-/// deliveries of reports, instants of truth. Reads no clock: whoever owns it says how far time has
-/// come. The same description and the same motions give the same events, however time is cut into
-/// steps.
+/// A queue of the events of a description: exposures, deliveries of reports, instants of truth.
+/// Reads no clock: the caller sets the time. The events depend on the description and the motions
+/// only, not on the time steps.
 class Rig {
  public:
-  /// Receives an image of camera number `camera`, when its report is due.
+  /// Receives an image of camera number `camera` when its report is due.
   using Deliver = std::function<void(std::size_t camera, const Image& image)>;
   /// Receives the true position [m] of LED number `led` at `time` [s].
   using Truth = std::function<void(std::size_t led, double time, const Eigen::Vector3d& position)>;
@@ -39,33 +38,32 @@ class Rig {
 
   Rig(const Description& description, Deliver deliver, Truth truth, BodyTruth body_truth = {});
 
-  /// Carries out every event up to and including `time` [s since the start], in order.
+  /// Executes all events up to and including `time` [s since the start], in order.
   void runUntil(double time);
 
   /// Time of the next event [s].
   double nextEvent() const { return events_.top().time; }
 
-  /// Motion and switch of an LED. Run until the moment of the change first.
-  /// Nothing (nullptr) when there is no LED of that name.
+  /// State of an LED. Call runUntil() with the time of a change first. Null if there is no such
+  /// LED.
   struct Led {
     LedDescription description;
-    LedMotion
-        motion;  ///< Without effect on an LED that turns; of a carried one in its person's axes.
+    LedMotion motion;  ///< Ignored for an LED that turns; in the carrier's axes if carried.
     bool lit;
   };
   Led* findLed(const std::string& name);
 
-  /// Somebody of the description, or nothing (nullptr). Run until the moment of a change first.
+  /// A person, or null. Call runUntil() with the time of a change first.
   Person* findPerson(const std::string& name);
 
-  /// A rigid body of the description, or nothing (nullptr). Run until the moment of a change first.
+  /// A rigid body, or null. Call runUntil() with the time of a change first.
   RigidBody* findBody(const std::string& name);
 
-  /// A reflection of the description, or nothing (nullptr); its `lit` may be changed. Run until the
-  /// moment of a change first.
+  /// A reflection, or null; its `lit` may be changed. Call runUntil() with the time of a change
+  /// first.
   ReflectionDescription* findReflection(const std::string& name);
 
-  /// The board of the description, or nothing (nullptr). Run until the moment of a change first.
+  /// The board, or null. Call runUntil() with the time of a change first.
   LedBoard* board() { return board_ ? &*board_ : nullptr; }
 
  private:
@@ -106,7 +104,7 @@ class Rig {
   std::vector<RigidBody> rigid_bodies_;
   std::vector<ReflectionDescription> reflections_;
   std::optional<LedBoard> board_;
-  std::vector<Lamp> lamps_;  // reused, as are the next two
+  std::vector<Lamp> lamps_;  // reused, as are bodies_ and glints_
   std::vector<Pillar> bodies_;
   std::vector<Glint> glints_;
   std::priority_queue<Event, std::vector<Event>, std::greater<Event>> events_;

@@ -6,7 +6,7 @@ namespace wiimote_tracker::simulation {
 
 Eigen::Isometry3d RigidBody::worldFromBody(double time) const {
   const TurningDescription& turning = description_.turning;
-  // Rates that have no small common multiple, so that no second is like the one before.
+  // The rates have no small common multiple, so that the motion does not repeat.
   const double phase = turning.sway_rate * time;
   return Eigen::Translation3d(motion.position(time)) *
          Eigen::AngleAxisd(turning.rate * time, turning.axis.normalized()) *

@@ -10,7 +10,7 @@
 
 namespace wiimote_tracker::simulation {
 
-/// Something that is carried about and turned, with LEDs fixed to it. It hides nothing.
+/// A moving rigid body with LEDs. It occludes nothing.
 class RigidBody {
  public:
   explicit RigidBody(const RigidBodyDescription& description)
@@ -18,11 +18,11 @@ class RigidBody {
 
   const std::string& name() const { return description_.name; }
 
-  /// Its axes lie along the world's at time 0.
+  /// Its axes are parallel to the world's at time 0.
   Eigen::Isometry3d worldFromBody(double time) const;
 
   LedMotion motion;  ///< Of its origin.
-  bool present;      ///< The LEDs of what is away are not seen.
+  bool present;      ///< If absent, its LEDs are not seen.
 
  private:
   RigidBodyDescription description_;

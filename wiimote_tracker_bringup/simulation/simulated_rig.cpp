@@ -12,8 +12,8 @@
 namespace wiimote_tracker::simulation {
 namespace {
 
-/// The factory's points lie about the optical axis, but nobody knows how closely a real remote's
-/// do: here within 15 px.
+/// The factory points are centred near the optical axis: within 15 px here. The true spread is
+/// unknown.
 virtual_wiimote::Device::Options deviceOptions(const geometry::Camera& camera, std::uint32_t seed) {
   std::mt19937 random(seed);
   const auto offset = [&] { return static_cast<int>(random() % 31) - 15; };
@@ -118,7 +118,7 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
   return true;
 }
 
-/// @returns when the motion that is asked for arrives [s].
+/// @returns when the requested motion arrives [s].
 double SimulatedRig::move(const SetLed::Request& request, double time, LedMotion* motion) const {
   const Eigen::Vector3d target(request.target.x, request.target.y, request.target.z);
   switch (request.motion) {
@@ -170,7 +170,7 @@ bool SimulatedRig::setBoard(const SetLed::Request& request, SetLed::Response& re
   return true;
 }
 
-/// Why a request cannot be carried out; empty when it can.
+/// Why a request is refused; empty if it is not.
 std::string SimulatedRig::refusal(const SetLed::Request& request) const {
   const bool line = request.motion == SetLed::Request::LINE;
   const bool circle = request.motion == SetLed::Request::CIRCLE;

@@ -18,11 +18,11 @@
 
 namespace wiimote_tracker::simulation {
 
-/// A Rig in real time: every camera as a virtual Wii Remote at <socket_directory>/<camera>.sock,
-/// service simulation/set_led, truth on simulation/truth/<led> and <body> and simulation/exposures.
+/// A Rig in real time: cameras are virtual Wii Remotes at <socket_directory>/<camera>.sock; service
+/// simulation/set_led; truth on simulation/truth/<led> and <body>, and simulation/exposures.
 class SimulatedRig {
  public:
-  /// @throws std::system_error when a socket cannot be made.
+  /// @throws std::system_error if a socket cannot be created.
   SimulatedRig(ros::NodeHandle nh,
                const Description& description,
                const std::string& socket_directory);
@@ -57,7 +57,7 @@ class SimulatedRig {
   ros::Publisher exposures_;
   std::vector<ros::Publisher> truth_;
   std::vector<ros::Publisher> body_truth_;
-  std::mutex mutex_;  ///< Of rig_.
+  std::mutex mutex_;  ///< Guards rig_.
   Rig rig_;
   ros::ServiceServer set_led_;
 };

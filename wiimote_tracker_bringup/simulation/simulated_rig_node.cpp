@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
     parameters.refuseUnknown();
     const auto description = wiimote_tracker::simulation::readDescription(path);
 
-    mkdir(directory.c_str(), 0700);  // when it cannot be made, the first socket says why
+    mkdir(directory.c_str(), 0700);  // if this fails, the first socket reports why
     {
       wiimote_tracker::simulation::SimulatedRig rig(nh, description, directory);
       ROS_INFO_STREAM("Simulating " << description.cameras.size() << " virtual Wii Remotes in "
@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
       spinner.start();
       rig.run();
     }
-    rmdir(directory.c_str());  // stays when it holds anything else
+    rmdir(directory.c_str());  // fails if it contains anything else
     return 0;
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());

@@ -5,8 +5,8 @@
 namespace wiimote_tracker::simulation {
 namespace {
 
-/// Rotation from the remote's own axes (x left, y rear, z up) to the optical frame (x right, y
-/// down, z forward).
+/// Rotation from the remote's axes (x left, y rear, z up) to the optical frame (x right, y down, z
+/// forward).
 Eigen::Matrix3d opticalFromImu() {
   Eigen::Matrix3d rotation;
   rotation.col(0) = -Eigen::Vector3d::UnitX();
@@ -30,7 +30,7 @@ virtual_wiimote::Light VirtualCamera::lightAt(const Eigen::Vector2d& pixel,
                                               double brightness) const {
   virtual_wiimote::Light light;
   light.x = pixel.x() + noise.x();
-  // The sensor's y grows upwards.
+  // The sensor's y points up.
   light.y = camera_.intrinsics.height - 1 - (pixel.y() + noise.y());
   light.size = size;
   light.brightness = brightness;
@@ -49,7 +49,8 @@ virtual_wiimote::Senses VirtualCamera::sense(const std::vector<Lamp>& lamps,
     return Eigen::Vector2d(noise_u, noise_v);
   };
   for (const Lamp& lamp : lamps) {
-    // Drawn for every lamp, seen or not, so that one lamp's noise does not hang on another's place.
+    // Drawn for every lamp, visible or not, so that the noise of lamps is independent of the
+    // others.
     const Eigen::Vector2d noise = draw();
     const auto pixel = camera_.project(lamp.position);
     if (!pixel || std::any_of(bodies.begin(), bodies.end(), [&](const Pillar& body) {

@@ -15,31 +15,30 @@
 
 namespace wiimote_tracker::simulation {
 
-/// An LED that shines, at one instant.
+/// A lit LED at one instant.
 struct Lamp {
   Eigen::Vector3d position;    ///< World [m].
-  std::optional<double> size;  ///< As the sensor reports it [0..15].
-  /// 1 is the Wii's sensor bar. With a size it is what reaches every camera, as if 1 m away;
-  /// without one it falls with the square of the distance, and the size follows.
+  std::optional<double> size;  ///< As reported by the sensor [0..15].
+  /// 1 for the Wii's sensor bar. With a size: at every camera, as if 1 m away. Without a size it
+  /// falls with the square of the distance and determines the size.
   double brightness;
 };
 
-/// A reflection that shines, where one camera sees it.
+/// A lit reflection in one camera's image.
 struct Glint {
   Eigen::Vector2d pixel;       ///< v down [px].
   std::optional<double> size;  ///< As of a Lamp [0..15].
-  double brightness;           ///< As it reaches the camera.
+  double brightness;           ///< At the camera.
 };
 
-/// The optics of one Wii Remote and the way it is mounted: from lamps in the world to what the
-/// device senses. What the sensor itself does (rounding, edges, choice of four) is the device's.
+/// Optics and mounting of one Wii Remote: converts lamps in the world to the input of the device.
+/// The device simulates the sensor (rounding, edges, the limit of four).
 class VirtualCamera {
  public:
   /// `pixel_noise`: standard deviation of each coordinate [px].
   VirtualCamera(const geometry::Camera& camera, double pixel_noise, std::uint32_t seed);
 
-  /// Lights of the lamps before the camera that no body hides, and of its reflections, with noise;
-  /// and gravity.
+  /// The lights of visible lamps and of reflections, with noise; and gravity.
   virtual_wiimote::Senses sense(const std::vector<Lamp>& lamps,
                                 const std::vector<Pillar>& bodies = {},
                                 const std::vector<Glint>& glints = {});

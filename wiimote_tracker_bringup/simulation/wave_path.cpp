@@ -11,7 +11,7 @@ WavePath::WavePath(const Eigen::Vector3d& middle,
                    std::uint32_t seed)
     : middle_(middle), half_sides_(0.5 * sides) {
   std::mt19937 random(seed);
-  // Not std::uniform_real_distribution, whose numbers are the library's own.
+  // Not std::uniform_real_distribution, whose numbers depend on the library.
   const auto between = [&random](double low, double high) {
     return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
   };
@@ -20,7 +20,7 @@ WavePath::WavePath(const Eigen::Vector3d& middle,
     for (int part = 0; part < kParts; ++part) {
       frequency_(axis, part) = part == 0 ? between(0.7, 1.3) : between(1.7, 2.7);
       phase_(axis, part) = between(0.0, 2.0 * M_PI);
-      // The mean square of a cosine is a half.
+      // The mean square of a cosine is 1/2.
       mean_square += 0.5 * std::pow(half_sides_(axis) * kShare[part] * frequency_(axis, part), 2);
     }
   }

@@ -170,7 +170,7 @@ TEST_F(DescriptionFile, drawings_come_from_files_beside_it) {
 
   const std::pair<const char*, const char*> faults[] = {{"0 0 0 0\n", "fewer than two points"},
                                                         {"0 0 0 5\n1 0 0 5\n", "do not increase"},
-                                                        {"1 1 1 0\n1 1 1 5\n", "never moves"},
+                                                        {"1 1 1 0\n1 1 1 5\n", "does not move"},
                                                         {"0 0 0 0\nnan 1 1 5\n", "not finite"}};
   for (const auto& [rows, reason] : faults) {
     std::ofstream(csv) << rows;

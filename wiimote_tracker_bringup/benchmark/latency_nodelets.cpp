@@ -20,7 +20,7 @@ class LatencyProbeNodelet : public nodelet::Nodelet {
   std::unique_ptr<LatencyProbe> probe_;
 };
 
-/// Sends back what it gets, as it is.
+/// Returns every message unchanged.
 class LatencyEchoNodelet : public nodelet::Nodelet {
   void onInit() override {
     pong_ = getNodeHandle().advertise<geometry_msgs::PointStamped>("latency/pong", 10);

@@ -11,9 +11,9 @@
 namespace wiimote_tracker {
 namespace {
 
-constexpr std::size_t kWarmUp = 1000;   // points before the measurement begins
-constexpr double kPingPeriod = 0.0025;  // [s] as often as four cameras' images come
-constexpr double kPatience = 1.0;       // [s] for a pong
+constexpr std::size_t kWarmUp = 1000;   // points before the measurement
+constexpr double kPingPeriod = 0.0025;  // [s]; the mean interval of four cameras' images
+constexpr double kPongTimeout = 1.0;    // [s] for a pong
 
 /// Quantiles of latencies in seconds, as a line of YAML in milliseconds.
 std::string summary(const std::string& name, std::vector<double> seconds) {
@@ -62,7 +62,7 @@ void LatencyProbe::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPt
 void LatencyProbe::onPoint(const ros::MessageEvent<const geometry_msgs::PointStamped>& event) {
   const Arrival arrival{event.getReceiptTime(), ros::Time::now()};
   const std::lock_guard<std::mutex> lock(mutex_);
-  came_[event.getConstMessage()->header.stamp] = arrival;
+  arrivals_[event.getConstMessage()->header.stamp] = arrival;
 }
 
 void LatencyProbe::onPong(const geometry_msgs::PointStampedConstPtr&) {
@@ -83,7 +83,7 @@ bool LatencyProbe::wait(double seconds) {
 void LatencyProbe::run() {
   const auto count = [this] {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return came_.size();
+    return arrivals_.size();
   };
   while (count() < kWarmUp || ping_.getNumSubscribers() == 0 || pong_.getNumPublishers() == 0) {
     if (!wait(0.1))
@@ -94,25 +94,25 @@ void LatencyProbe::run() {
   if (ended_)
     return;
   std::ofstream(file_ + ".part") << points << round_trips;
-  std::rename((file_ + ".part").c_str(), file_.c_str());  // so that it is never half there
+  std::rename((file_ + ".part").c_str(), file_.c_str());  // atomic
 }
 
 std::string LatencyProbe::measurePoints() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    came_.clear();
+    arrivals_.clear();
     reported_.clear();
   }
   if (!wait(seconds_))
     return "";
   std::vector<double> in_process, in_callback;
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (const auto& [stamp, came] : came_) {
+  for (const auto& [stamp, arrival] : arrivals_) {
     const auto reported = reported_.find(stamp);
     if (reported == reported_.end())
       continue;
-    in_process.push_back((came.in_process - reported->second).toSec());
-    in_callback.push_back((came.in_callback - reported->second).toSec());
+    in_process.push_back((arrival.in_process - reported->second).toSec());
+    in_callback.push_back((arrival.in_callback - reported->second).toSec());
   }
   return summary("in_process", in_process) + summary("points", in_callback);
 }
@@ -133,7 +133,7 @@ std::vector<double> LatencyProbe::measureRoundTrips() {
     const Clock::time_point begin = Clock::now();
     ping_.publish(ping);
     lock.lock();
-    if (change_.wait_for(lock, Seconds(kPatience), [this] { return is_back_; }))
+    if (change_.wait_for(lock, Seconds(kPongTimeout), [this] { return is_back_; }))
       latencies.push_back(Seconds(Clock::now() - begin).count());
   }
   return latencies;

@@ -15,14 +15,14 @@
 
 namespace wiimote_tracker {
 
-/// Takes the time from the arrival of a camera's report to that of the PointStamped that it led to:
-/// in this process, and in the hands of a callback. In one manager the former is when it was
-/// published, since nothing lies between. Then the time of a message's way to LatencyEcho and back.
-/// Both are two hops. Callbacks may come from one thread only.
+/// Measures the latency from the arrival of a camera's report to that of the resulting
+/// PointStamped: in this process, and in a callback. In one nodelet manager the former is the time
+/// of publication. Then measures the round trip of a message to LatencyEcho and back. Both are two
+/// hops. Callbacks must come from one thread.
 class LatencyProbe {
  public:
-  /// Private parameters: file (where the results go, as YAML), label of the LED (default led),
-  /// seconds (of each measurement, default 10). @throws std::runtime_error when one is missing.
+  /// Private parameters: file (YAML results), label of the LED (default led), seconds (of each
+  /// measurement, default 10). @throws std::runtime_error if one is missing.
   LatencyProbe(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
   ~LatencyProbe();
 
@@ -37,12 +37,12 @@ class LatencyProbe {
 
   std::string file_;
   double seconds_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // protects the members below
   struct Arrival {
     ros::Time in_process, in_callback;
   };
-  std::map<ros::Time, Arrival> came_;        // when a point of this stamp came
-  std::map<ros::Time, ros::Time> reported_;  // latest arrival of the images of this stamp
+  std::map<ros::Time, Arrival> arrivals_;    // arrival of the point with this stamp
+  std::map<ros::Time, ros::Time> reported_;  // latest arrival of the images for this stamp
   bool is_back_ = false;
   std::condition_variable change_;
 

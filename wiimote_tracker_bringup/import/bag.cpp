@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// The layout holds no times: frames at 100 Hz from a time that is nobody's now.
+// The layout has no times: frames at 100 Hz from an arbitrary time in the past.
 const ros::Time kStart(1000000000, 0);
 constexpr std::uint32_t kNanosecondsPerFrame = 10000000;
 

@@ -7,8 +7,8 @@
 
 namespace wiimote_tracker::import {
 
-/// Writes a solution as the bag that a live tracker would have recorded (topics: README.md). Equal
-/// solutions give equal files. @throws ImportError: the bag cannot be written.
+/// Writes a solution as a bag like that of a live tracker (topics: README.md). Equal solutions give
+/// equal files. @throws ImportError: the bag cannot be written.
 void writeBag(const Solution& solution, const std::string& path);
 
 }  // namespace wiimote_tracker::import

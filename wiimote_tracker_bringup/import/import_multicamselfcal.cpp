@@ -1,4 +1,4 @@
-// Turns a folder in the layout of MultiCamSelfCal or flydra into a bag of this tracker.
+// Converts a folder in the layout of MultiCamSelfCal or flydra to a bag of this tracker.
 
 #include "bag.h"
 #include "solution.h"
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
                 recording.frames.size(), argv[2], solution.rig.method.c_str());
     std::printf("%s\n", solution.rig.verdict.c_str());
     if (!recording.cameras.front().center)
-      std::printf("no camera centres shipped: the scale of this world means nothing\n");
+      std::printf("no camera centres shipped: the scale of this world is arbitrary\n");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "import_multicamselfcal: %s\n", error.what());
     return 1;

@@ -33,7 +33,7 @@ Reconstruction reconstructionOf(const std::vector<geometry::Camera>& cameras,
   return reconstruction;
 }
 
-/// Points of the cameras as they stand; how many observations agree.
+/// Triangulates points with the present cameras. @returns the number of inliers.
 std::size_t triangulate(const bundle::Options& options, Reconstruction* reconstruction) {
   bundle::triangulatePoints(reconstruction, std::vector<bool>(reconstruction->cameras.size(), true),
                             options.maximum_error, options.minimum_angle);
@@ -57,7 +57,7 @@ void alignToCenters(const Recording& recording, Reconstruction* reconstruction) 
     bundle::transform(bundle::fitSimilarity(from, to), reconstruction);
   } catch (const bundle::BundleError& error) {
     throw ImportError(std::string("the shipped camera centres give no frame: ") + error.what() +
-                      "; take Cst.dat or original_cam_centers.dat away to do without");
+                      "; remove Cst.dat or original_cam_centers.dat to ignore them");
   }
 }
 
@@ -83,7 +83,7 @@ geometry::Rig rigOf(const Reconstruction& reconstruction, const std::string& met
   return rig;
 }
 
-/// The cameras of the shipped matrices.
+/// Uses the shipped projection matrices.
 Solution fromProjections(const Recording& recording) {
   const ShippedCameras shipped = shippedCameras(recording, bundle::Options());
   Reconstruction best = shipped.reconstruction;
@@ -100,12 +100,12 @@ Solution fromProjections(const Recording& recording) {
   return solution;
 }
 
-/// The best that can be made of the shipped centres: orientations and points moved, centres not.
+/// The best fit with the shipped centres: orientations and points are adjusted.
 Reference withShippedCenters(const Recording& recording, Reconstruction start) {
   for (std::size_t i = 0; i < start.cameras.size(); ++i)
     start.cameras[i].world_from_camera.translation() = *recording.cameras[i].center;
   bundle::Options options;
-  options.maximum_error = 100.0;  // keeps what our own solution explains: it is to be compared
+  options.maximum_error = 100.0;  // keeps all inliers of our solution, for comparison
   bundle::Held held;
   held.positions = true;
   triangulate(options, &start);

@@ -12,30 +12,30 @@
 
 namespace wiimote_tracker::import {
 
-/// A solution to compare with: cameras, and where they say the light was.
+/// A solution for comparison: cameras and points.
 struct Reference {
   geometry::Rig rig;  ///< Same cameras and pixels as Solution::rig.
   std::vector<std::optional<Eigen::Vector3d>> points;  ///< One per frame [m].
 };
 
-/// A recording with cameras that a tracker can work with.
+/// A recording with a rig that a tracker can use.
 struct Solution {
   geometry::Rig rig;
-  std::vector<Pixels> frames;  ///< As the rig's cameras see them.
+  std::vector<Pixels> frames;  ///< As seen by the rig's cameras.
   std::optional<Reference> reference;
 };
 
-/// Projection matrices shipped: the rig is the shipped one. Such a camera is a pinhole with skew
-/// after the distortion was taken away; the pixels are turned into those of a pinhole without
-/// either, on an image grown so that all of them lie in it. The reference is the shipped points.
+/// If projection matrices are shipped, they are the rig. Such a camera is a pinhole with skew, for
+/// undistorted pixels; the pixels are converted to a pinhole without skew whose image contains them
+/// all. The reference has the shipped points.
 ///
-/// Intrinsics only: the poses are solved from the pixels (bundle::solve), which stay as they are.
-/// The reference holds the shipped camera centres fixed, with the orientations that fit best.
+/// If only intrinsics are shipped, the poses are solved from the pixels (bundle::solve). The
+/// reference keeps the shipped camera centres, with the orientations that fit best.
 ///
-/// Either way the world is the frame of the shipped camera centres; without those it is the
-/// solver's or the matrices' own, with a scale that means nothing.
-/// @throws ImportError: the observations do not determine the cameras, or something shipped with
-/// them is impossible.
+/// The world is the frame of the shipped camera centres; without those it is that of the solver or
+/// of the matrices, with an arbitrary scale.
+/// @throws ImportError: the observations do not determine the cameras, or shipped data are
+/// impossible.
 Solution solve(const Recording& recording);
 
 }  // namespace wiimote_tracker::import

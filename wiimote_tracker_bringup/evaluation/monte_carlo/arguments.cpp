@@ -13,7 +13,7 @@ long number(const std::string& option, const std::string& text, long low, long h
   char* end = nullptr;
   const long value = std::strtol(text.c_str(), &end, 10);
   if (text.empty() || *end != '\0' || value < low || value > high)
-    throw std::invalid_argument(option + " is '" + text + "', but must be a whole number within " +
+    throw std::invalid_argument(option + " is '" + text + "', but must be a whole number between " +
                                 std::to_string(low) + " and " + std::to_string(high));
   return value;
 }
@@ -61,7 +61,7 @@ int runProgram(int argc,
       if (std::string(argv[i]) == "--help" || std::string(argv[i]) == "-h") {
         std::printf(
             "usage: %s --rig FILE --output FILE [--seed N] [--sessions N] [--first N]\n%s\n"
-            "All of it is simulated; the same seed gives the same bytes.\n",
+            "Everything is simulated; the same seed gives the same bytes.\n",
             argv[0], purpose.c_str());
         return 0;
       }

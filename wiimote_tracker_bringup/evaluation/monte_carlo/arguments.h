@@ -7,21 +7,22 @@
 
 namespace wiimote_tracker::monte_carlo {
 
-/// What every program of the evaluation is told: --rig FILE --output FILE [--seed N]
-/// [--sessions N] [--first N]
+/// Arguments of every program of the evaluation: --rig FILE --output FILE [--seed N] [--sessions N]
+/// [--first N]
 struct Arguments {
   std::string rig;         ///< Path of a rig's description.
-  std::string output;      ///< Path of the table (or folder) that is written.
+  std::string output;      ///< Path of the table or folder to write.
   std::uint32_t seed = 1;  ///< Of everything random.
   int sessions = 1;        ///< Independent repetitions [1..100000].
-  int first = 0;           ///< Number of the first of them, so that several programs share them.
+  int first = 0;           ///< Number of the first one, to share them between programs.
 };
 
-/// Seed of one session; those of different seeds and sessions have nothing in common.
+/// Seed of one session; independent for different seeds and sessions.
 std::uint32_t sessionSeed(const Arguments& arguments, int session);
 
-/// A program's main(): parses the arguments and measures; what goes wrong is one sentence on
-/// stderr. @param purpose one sentence for --help. @returns the exit status.
+/// A program's main(): parses the arguments and measures; reports an error in one sentence on
+/// stderr.
+/// @param purpose one sentence for --help. @returns the exit status.
 int runProgram(int argc,
                char** argv,
                const std::string& purpose,

@@ -1,4 +1,4 @@
-// How well the pose of a rigid body with four LEDs is known while it is swung and turned.
+// Errors of the pose of a moving rigid body with four LEDs.
 #include "arguments.h"
 #include "room.h"
 #include "table.h"
@@ -14,10 +14,10 @@ namespace wiimote_tracker::monte_carlo {
 namespace {
 
 constexpr double kDuration = 8.0;  // of a session [s]
-constexpr double kSettled = 3.0;   // not counted before [s]
+constexpr double kSettled = 3.0;   // start of the score [s]
 
-/// A frame with four LEDs, all six distances between them different by 5 cm and more; so wide that
-/// they are four spots from 6 m, mostly.
+/// Four LEDs whose six distances differ by at least 5 cm. The body is large enough to show four
+/// spots at 6 m in most poses.
 body::Constellation frame() {
   body::Constellation constellation;
   constellation.name = "frame";
@@ -31,7 +31,7 @@ struct Motion {
   double turning;  // [rad/s]
 };
 
-/// Swung through the cube on an undulating circle, turning and rocking.
+/// Moves through the cube on an undulating circle, turning and rocking.
 Eigen::Isometry3d poseAt(double time, const Motion& motion, double phase) {
   const double angle = phase + motion.speed / 0.6 * time;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -45,8 +45,8 @@ Eigen::Isometry3d poseAt(double time, const Motion& motion, double phase) {
 }
 
 struct Score {
-  int looked = 0;                                           // images
-  int known = 0;                                            // of them, with a pose
+  int looked = 0;                                           // instants
+  int known = 0;                                            // instants with a pose
   double position = 0.0, rotation = 0.0;                    // squared errors [m^2, rad^2]
   double position_variance = 0.0, rotation_variance = 0.0;  // as stated [m^2, rad^2]
 };
@@ -102,8 +102,8 @@ void measure(const Arguments& arguments) {
   for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
     for (const std::size_t cameras : {std::size_t{2}, all.cameras.size()}) {
       const simulation::Description description = withCameras(all, cameras);
-      // A small LED 6 m away is a cell or two of the sensor; a bright one is three, and soon one
-      // with its neighbour.
+      // A small LED 6 m away covers one or two cells of the sensor. A bright one covers three and
+      // soon merges with its neighbour.
       for (const double size : {1.5, 3.0}) {
         for (const Motion& motion :
              {Motion{0.0, 0.0}, Motion{0.5, 1.0}, Motion{1.0, 2.0}, Motion{2.0, 4.0}}) {
@@ -126,6 +126,6 @@ void measure(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
-      argc, argv, "Position and rotation errors of a body with four LEDs that is swung and turned.",
+      argc, argv, "Position and rotation errors of a moving body with four LEDs.",
       wiimote_tracker::monte_carlo::measure);
 }

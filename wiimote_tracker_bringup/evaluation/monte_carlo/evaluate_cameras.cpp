@@ -1,5 +1,4 @@
-// What more cameras are worth: two to eight on a ring, exactly known; single points, and an LED
-// that is followed.
+// Accuracy with two to eight exactly known cameras on a ring: single points, and a tracked LED.
 #include "arguments.h"
 #include "room.h"
 #include "table.h"
@@ -16,12 +15,12 @@ namespace wiimote_tracker::monte_carlo {
 namespace {
 
 constexpr int kPoints = 40;        // per session
-constexpr double kDuration = 6.0;  // of following an LED [s]
-constexpr double kSettled = 3.0;   // not counted before [s]
+constexpr double kDuration = 6.0;  // of tracking an LED [s]
+constexpr double kSettled = 3.0;   // start of the score [s]
 const Eigen::Vector3d kMiddle(1.25, 1.25, 1.0);
 
-/// `count` cameras like the description's, at even angles around the cube, as far from its axis and
-/// as high as those; two at a right angle, as the paper's.
+/// `count` cameras like those of the description, evenly spaced on the same circle; two at a right
+/// angle, as in the paper.
 simulation::Description ring(const simulation::Description& like, int count) {
   simulation::Description description = like;
   description.cameras.clear();
@@ -39,7 +38,7 @@ simulation::Description ring(const simulation::Description& like, int count) {
   return description;
 }
 
-/// Points anywhere in the cube, from one image of each camera: with the noise of the description,
+/// Points anywhere in the cube, from one image per camera, with the noise of the description,
 /// rounded to whole pixels.
 void measurePoints(const simulation::Description& description,
                    int session,
@@ -60,7 +59,7 @@ void measurePoints(const simulation::Description& description,
       observations.push_back({&camera.camera, pixel.array().round().matrix()});
     }
     geometry::TriangulationOptions options;
-    // Rounding is noise of a twelfth of a square pixel.
+    // Rounding adds a variance of 1/12 px^2.
     options.pixel_stddev = std::sqrt(description.pixel_noise * description.pixel_noise + 1.0 / 12);
     for (const auto& [method, name] :
          {std::make_pair(geometry::TriangulationMethod::kMaximumLikelihood, "most_likely"),
@@ -78,7 +77,7 @@ void measurePoints(const simulation::Description& description,
   }
 }
 
-/// An LED that is carried about in circles, followed.
+/// A tracked LED that moves in circles.
 void measureTrack(const simulation::Description& description,
                   int session,
                   std::uint32_t seed,
@@ -133,7 +132,8 @@ void measure(const Arguments& arguments) {
 int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
       argc, argv,
-      "Errors of single points in the cube, by two methods, and of an LED that is followed, with "
-      "two to eight exactly known cameras on a ring; beside what the covariance says.",
+      "Errors of single points in the cube, by two methods, and of a tracked LED, with two to "
+      "eight "
+      "exactly known cameras on a ring, and the errors predicted by the covariance.",
       wiimote_tracker::monte_carlo::measure);
 }

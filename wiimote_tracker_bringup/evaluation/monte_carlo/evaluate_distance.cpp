@@ -1,4 +1,4 @@
-// How far off a light is seen: the paper's measurement with the virtual Wii Remote's own sensor.
+// Greatest distance at which a light is seen: the paper's measurement with a virtual Wii Remote.
 #include "arguments.h"
 #include "description.h"
 #include "remote_camera.h"
@@ -13,21 +13,21 @@ namespace wiimote_tracker::monte_carlo {
 namespace {
 
 constexpr double kImageInterval = 0.01;  // [s]
-constexpr double kTimeLimit = 0.5;       // the paper's: no other position for so long [s]
-constexpr double kStart = 0.5;           // from the light, where the carrying begins [m]
-constexpr double kEnd = 200.0;           // where it is given up [m]
-constexpr double kSpeed = 0.25;          // of a person who walks slowly backwards [m/s]
-// The small circles: the remote's direction goes round. The light's spot then moves by pixels at
-// any distance, which a shift of the remote would not make it do.
+constexpr double kTimeLimit = 0.5;       // the paper's: time without a new position [s]
+constexpr double kStart = 0.5;           // initial distance from the light [m]
+constexpr double kEnd = 200.0;           // greatest distance tried [m]
+constexpr double kSpeed = 0.25;          // of a person walking slowly backwards [m/s]
+// The paper's small circles: the direction of the remote rotates. Unlike a translation this moves
+// the spot by pixels at any distance.
 constexpr double kCircleAngle = 0.02;  // radius [rad]: 26 px
 constexpr double kCircleRate = 1.0;    // [Hz]
 
 struct Carried {
-  double stopped_at;  // when its position had not changed for the time limit [m]
-  double last_seen;   // at the last image that shows it [m]
+  double stopped_at;  // where the position stayed for the time limit [m]
+  double last_seen;   // at the last image with a spot [m]
 };
 
-/// Carries a remote away from a light of a brightness (1: the Wii's sensor bar).
+/// Moves a remote away from a light of a brightness (1: the Wii's sensor bar).
 Carried carry(const simulation::Description& description,
               const std::string& sensitivity,
               double brightness,
@@ -85,7 +85,7 @@ void measure(const Arguments& arguments) {
 int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
       argc, argv,
-      "Carries a virtual Wii Remote away from lights of several brightnesses (1: the Wii's sensor "
-      "bar) until the position it reports has not changed for 0.5 s.",
+      "Moves a virtual Wii Remote away from lights of several brightnesses (1: the Wii's sensor "
+      "bar) until the reported position has not changed for 0.5 s.",
       wiimote_tracker::monte_carlo::measure);
 }

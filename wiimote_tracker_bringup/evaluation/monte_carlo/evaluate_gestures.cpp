@@ -1,5 +1,5 @@
-// Gestures that made-up people draw with an LED before the cameras, as the tracker has them: a
-// folder per person, in it a CSV per gesture, as gesture_tool reads them.
+// Gestures that simulated people draw with an LED, as tracked: a folder per person with a CSV per
+// gesture, for gesture_tool.
 #include "arguments.h"
 #include "room.h"
 #include "table.h"
@@ -24,11 +24,11 @@ namespace wiimote_tracker::monte_carlo {
 namespace {
 
 using Eigen::Vector3d;
-using Line = std::vector<Vector3d>;  // in a unit square about the origin: x to the right, z up
+using Line = std::vector<Vector3d>;  // in a unit square around the origin: x to the right, z up
 
 constexpr double kRest = 1.0;     // before and after a drawing [s]
-constexpr int kPoints = 400;      // of a drawn line
-constexpr double kMargin = 0.05;  // of the drawing's end that is cut off with the rest [s]
+constexpr int kPoints = 400;      // per line
+constexpr double kMargin = 0.05;  // of the drawing, cut off with the rest [s]
 
 Line arc(double from, double to, const std::function<double(double)>& radius) {
   Line line;
@@ -58,7 +58,7 @@ Line sCurve() {
   return line;
 }
 
-/// What there is to draw.
+/// The gestures to draw.
 std::map<std::string, Line> gestures() {
   const auto corners = [](std::initializer_list<std::array<double, 2>> places) {
     Line line;
@@ -101,7 +101,7 @@ Line evenly(const Line& line, int count) {
   return result;
 }
 
-/// How somebody draws, and every time a little differently.
+/// A person's way of drawing, with variations from drawing to drawing.
 class Hand {
  public:
   explicit Hand(std::uint32_t seed) : random_(seed) {
@@ -114,7 +114,7 @@ class Hand {
     wobble_ = uniform(0.01, 0.04);
   }
 
-  /// A drawing from time 0 on. @param duration of it [s].
+  /// A drawing that starts at time 0. @param duration output [s].
   Path draw(const Line& gesture, double* duration) {
     Line line = round(evenly(distort(gesture), kPoints));
     double length = 0.0;
@@ -125,7 +125,7 @@ class Hand {
     *duration = time;
     return [=](double now) {
       const double share = std::clamp(now / time, 0.0, 1.0);
-      // A soft beginning and end, and a pace that is not even.
+      // Accelerates and decelerates smoothly, at an uneven pace.
       const double soft = share - std::sin(2.0 * M_PI * share) / (2.0 * M_PI);
       const double mixed = 0.5 * (share + soft);
       const double way =
@@ -149,7 +149,7 @@ class Hand {
          Eigen::AngleAxisd(uniform(-0.15, 0.15), Vector3d::UnitY()))
             .toRotationMatrix();
     const Vector3d place(uniform(0.9, 1.6), uniform(0.9, 1.6), uniform(1.0, 1.5));
-    // Waves along the line: nobody meets the corners.
+    // Random waves along the line, as of people who miss the corners.
     Eigen::Matrix3d phases, amplitudes;
     for (int i = 0; i < 9; ++i) {
       phases(i) = uniform(0.0, 2.0 * M_PI);
@@ -169,7 +169,7 @@ class Hand {
     return line;
   }
 
-  /// Cuts the corners, as a moving hand does.
+  /// Rounds the corners, as a moving hand does.
   Line round(const Line& line) const {
     const int reach = static_cast<int>(roundness_ * kPoints);
     Line result;
@@ -187,7 +187,7 @@ class Hand {
   double size_, slant_, aspect_, heading_, roundness_, speed_, wobble_;
 };
 
-/// Has the tracker follow a drawing, and writes what it says.
+/// Tracks a drawing and writes the positions.
 void writeTracked(const simulation::Description& description,
                   const Path& drawing,
                   double duration,
@@ -234,7 +234,8 @@ void measure(const Arguments& arguments) {
 int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
       argc, argv,
-      "Twelve gestures, each drawn once by every made-up person (--sessions of them) and tracked; "
+      "Twelve gestures, each drawn once by every simulated person (--sessions of them) and "
+      "tracked; "
       "--output is a folder for gesture_tool.",
       wiimote_tracker::monte_carlo::measure);
 }

@@ -1,6 +1,5 @@
-// Whether LEDs that blink are told apart, and after what time: the paper's scheme over the length
-// of its period, and cyclic codes over the length of a chip. The whole way, from the light on the
-// sensor over the tracker to the label.
+// Identification of blinking LEDs and its duration, from the light on the sensor to the label: the
+// paper's scheme for several periods, and cyclic codes for several chip durations.
 #include "arguments.h"
 #include "room.h"
 #include "table.h"
@@ -24,8 +23,8 @@ using namespace identity;
 
 constexpr double kDuration = 4.0;     // of a session [s]
 constexpr double kExposure = 0.001;   // of an image [s]
-constexpr double kNear = 0.05;        // a track so near to an LED is its [m]
-constexpr double kPeriodDoubt = 1.2;  // the period is looked for within a fifth of it
+constexpr double kNear = 0.05;        // a track this close to an LED belongs to it [m]
+constexpr double kPeriodDoubt = 1.2;  // the period is known to within this factor
 
 struct Scheme {
   std::string name;
@@ -49,7 +48,7 @@ Scheme cyclicScheme(double chip) {
           chip * static_cast<double>(leds[0].word.size())};
 }
 
-/// In the middle of the cube, one above the other: in no camera do two spots run into each other.
+/// In the middle of the cube, one above the other: no two spots merge in any camera.
 const std::vector<Eigen::Vector3d> kPlaces = {{1.05, 1.05, 0.8},
                                               {1.45, 1.05, 1.1},
                                               {1.45, 1.45, 1.4},
@@ -57,9 +56,9 @@ const std::vector<Eigen::Vector3d> kPlaces = {{1.05, 1.05, 0.8},
 
 struct Outcome {
   int labelled = 0;         // LEDs with a label at the end
-  int wrong = 0;            // of them, with another one's
-  bool ever_wrong = false;  // a label of another LED was given at any time
-  double seconds = std::numeric_limits<double>::quiet_NaN();  // until all had their own
+  int wrong = 0;            // LEDs with the label of another one
+  bool ever_wrong = false;  // an LED had a wrong label at any time
+  double seconds = std::numeric_limits<double>::quiet_NaN();  // until all labels were right
 };
 
 Outcome identify(const simulation::Description& description,
@@ -137,7 +136,7 @@ void measure(const Arguments& arguments) {
 int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
       argc, argv,
-      "Labels of four blinking LEDs and the time until all have their own: the paper's scheme "
+      "Labels of four blinking LEDs and the time until all are right: the paper's scheme "
       "(90/60/40/20 %) over the period, cyclic codes over the chip.",
       wiimote_tracker::monte_carlo::measure);
 }

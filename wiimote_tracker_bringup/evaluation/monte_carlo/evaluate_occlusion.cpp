@@ -1,4 +1,4 @@
-// What is left of an LED's track when cameras lose sight of it now and then.
+// Tracking of an LED that is occluded from each camera at random times.
 #include "arguments.h"
 #include "room.h"
 #include "table.h"
@@ -19,13 +19,13 @@ namespace wiimote_tracker::monte_carlo {
 namespace {
 
 constexpr double kDuration = 12.0;    // of a session [s]
-constexpr double kSettled = 2.0;      // not counted before [s]
-constexpr double kMeanHidden = 0.25;  // that an LED is out of a camera's sight, mean [s]
-constexpr double kNear = 0.05;        // what is further off is not the LED [m]
-constexpr double kStep = 0.005;       // of the time that is counted [s]
-constexpr double kInside = 7.815;     // 95 % of the squared normal errors of three coordinates
+constexpr double kSettled = 2.0;      // start of the score [s]
+constexpr double kMeanHidden = 0.25;  // mean duration of an occlusion [s]
+constexpr double kNear = 0.05;        // points farther off are not of the LED [m]
+constexpr double kStep = 0.005;       // time step of the score [s]
+constexpr double kInside = 7.815;     // 95 % quantile of chi^2, three degrees of freedom
 
-/// When a camera does not see the LED: free and hidden times take turns, both exponential.
+/// Occlusions of the LED from one camera: visible and hidden times alternate, both exponential.
 class Curtain {
  public:
   Curtain(double hidden_share, std::mt19937* random) {
@@ -46,13 +46,13 @@ class Curtain {
   }
 
  private:
-  std::vector<double> turns_;  // shut, open, shut, ... [s]
+  std::vector<double> turns_;  // start, end, start, ... of occlusions [s]
 };
 
 struct Method {
   const char* name;
   tracking::Mode mode;
-  bool takes_predicted;  // points that fewer than two cameras see
+  bool takes_predicted;  // points seen by fewer than two cameras
 };
 
 constexpr Method kMethods[] = {{"tracks", tracking::Mode::kTracks, true},
@@ -61,10 +61,10 @@ constexpr Method kMethods[] = {{"tracks", tracking::Mode::kTracks, true},
 
 struct Score {
   double squared = 0.0;  // of the errors [m^2]
-  int published = 0;     // points of the LED
-  int astray = 0;        // points where it is not
-  int inside = 0;        // points whose 95 % ellipsoid holds it
-  double covered = 0.0;  // time for which the newest point is fresh, and of the LED [s]
+  int published = 0;     // points
+  int astray = 0;        // points farther off than kNear
+  int inside = 0;        // points whose 95 % ellipsoid contains the LED
+  double covered = 0.0;  // time with a fresh point of the LED [s]
   double longest_gap = 0.0;
   std::set<std::uint32_t> ids;
 };
@@ -74,7 +74,7 @@ Score follow(const geometry::Rig& rig,
              const Path& path,
              double lateness,
              const Method& method) {
-  constexpr double kFresh = 0.025;  // a point older than this covers nothing [s]
+  constexpr double kFresh = 0.025;  // greatest age of a fresh point [s]
   tracking::EstimatorOptions options;
   options.mode = method.mode;
   const auto estimator = tracking::makeEstimator(rig, options);
@@ -110,7 +110,7 @@ Score follow(const geometry::Rig& rig,
   return score;
 }
 
-/// Share of the time in which two cameras or more see the LED: nobody can intersect rays otherwise.
+/// Share of the time in which at least two cameras see the LED, as triangulation requires.
 double shareOfTwoViews(const std::vector<Curtain>& curtains) {
   int seen = 0, all = 0;
   for (double time = kSettled; time < kDuration; time += kStep) {
@@ -171,7 +171,7 @@ void measure(const Arguments& arguments) {
 int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
       argc, argv,
-      "An LED on a circle, hidden from each camera at random for a quarter of a second on average: "
-      "for how much of the time its place is known, how well, and under how many ids.",
+      "An LED on a circle, hidden from each camera at random for 0.25 s on average: share of the "
+      "time with a position, its accuracy, and the number of ids.",
       wiimote_tracker::monte_carlo::measure);
 }

@@ -1,5 +1,4 @@
-// What cameras cost that expose when they like, and what it helps to estimate when that was: an LED
-// on a circle, followed in three ways.
+// Errors of a moving LED with unsynchronised cameras, and the benefit of estimated exposure times.
 #include "arguments.h"
 #include "room.h"
 #include "table.h"
@@ -19,10 +18,10 @@ namespace wiimote_tracker::monte_carlo {
 namespace {
 
 constexpr double kDuration = 8.0;     // of a session [s]
-constexpr double kSettled = 3.0;      // not counted before: clocks and tracks are young [s]
+constexpr double kSettled = 3.0;      // start of the score, when clocks and tracks have settled [s]
 constexpr double kRadius = 0.75;      // the paper's circle [m]
-constexpr double kNear = 0.5;         // what is further off is not the LED [m]
-constexpr double kLongestKept = 0.1;  // a spot older than this is not used any more [s]
+constexpr double kNear = 0.5;         // points farther off are not of the LED [m]
+constexpr double kLongestKept = 0.1;  // greatest age of a spot in use [s]
 
 struct Score {
   double squared = 0.0;  // errors [m^2]
@@ -46,7 +45,7 @@ Path circleOf(double speed, double phase) {
   };
 }
 
-/// The tracker's two ways; `lateness` of the stamps [s].
+/// The tracker's two modes. @param lateness of the stamps [s].
 Score follow(const geometry::Rig& rig,
              const std::vector<RoomImage>& images,
              const Path& path,
@@ -74,9 +73,9 @@ Score follow(const geometry::Rig& rig,
   return score;
 }
 
-/// As a program would that knows nothing of time: with each image that arrives, the rays of what
-/// every camera showed last. The place is that of the moment at which the mean of its images was
-/// exposed, which is the best that can be said for it.
+/// Without use of times: intersects the rays of every camera's latest image at each arrival. The
+/// point is compared with the LED at the mean exposure time of its images, the best possible
+/// choice.
 Score intersectLatest(const geometry::Rig& rig,
                       const std::vector<RoomImage>& images,
                       const Path& path) {
@@ -134,7 +133,7 @@ void measure(const Arguments& arguments) {
           };
           write("tracks", follow(rig, images, path, lateness, tracking::Mode::kTracks));
           write("instants", follow(rig, images, path, lateness, tracking::Mode::kInstant));
-          if (stamping == Stamping::kExact)  // it makes no use of stamps
+          if (stamping == Stamping::kExact)  // it does not use stamps
             write("latest", intersectLatest(rig, images, path));
         }
       }
@@ -147,9 +146,9 @@ void measure(const Arguments& arguments) {
 }  // namespace wiimote_tracker::monte_carlo
 
 int main(int argc, char** argv) {
-  return wiimote_tracker::monte_carlo::runProgram(
-      argc, argv,
-      "RMS error of a moving LED with cameras that expose at once or by clocks of their own, and "
-      "with stamps that are exact, estimated, or the arrivals.",
-      wiimote_tracker::monte_carlo::measure);
+  return wiimote_tracker::monte_carlo::runProgram(argc, argv,
+                                                  "RMS error of a moving LED with synchronised and "
+                                                  "unsynchronised cameras, and with stamps that "
+                                                  "are exact, estimated, or the arrivals.",
+                                                  wiimote_tracker::monte_carlo::measure);
 }

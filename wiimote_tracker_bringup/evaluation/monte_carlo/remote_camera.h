@@ -11,15 +11,16 @@
 
 namespace wiimote_tracker::monte_carlo {
 
-/// The camera of a virtual Wii Remote, set up and read by its protocol: what it makes of the light
-/// that falls on its sensor, from the choice of four to whole pixels.
+/// The camera of a virtual Wii Remote, configured and read by its protocol: spots for the light on
+/// its sensor, with the limit of four and whole pixels.
 class RemoteCamera {
  public:
-  /// @param sensitivity a name (see protocol::irSensitivity). @throws std::invalid_argument: of
-  /// none.
+  /// @param sensitivity a name (see protocol::irSensitivity). @throws std::invalid_argument:
+  /// unknown.
   explicit RemoteCamera(const std::string& sensitivity);
 
-  /// One image. Spots with v down [px], in the order of their slots. Valid until the next call.
+  /// Takes one image. Spots with v down [px], in the order of their slots. Valid until the next
+  /// call.
   const std::vector<tracking::Spot>& look(const virtual_wiimote::Senses& senses);
 
  private:

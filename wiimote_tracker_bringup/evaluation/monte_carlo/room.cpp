@@ -7,9 +7,9 @@
 namespace wiimote_tracker::monte_carlo {
 namespace {
 
-// Of the LEDs; with a size they are as bright at any distance.
+// Of the LEDs; with a given size the brightness does not depend on distance.
 constexpr double kLedBrightness = 1.0;
-// Of an exposure that came by its exact stamp [s].
+// For images with exact stamps [s].
 constexpr double kExactStampStddev = 1e-6;
 
 virtual_wiimote::FrameTimesModel timesOf(const virtual_wiimote::FrameTimesModel& described,
@@ -37,7 +37,7 @@ Room::Room(const simulation::Description& description,
     : leds_(leds), options_(options) {
   std::mt19937 random(seed);
   for (const simulation::CameraDescription& camera : description.cameras) {
-    // Each session has other phases than the description, which is one draw of them.
+    // Phases differ from session to session; those of the description are one draw.
     const double phase = camera.timing.period * (random() / 4294967296.0);
     const auto pixel_seed = static_cast<std::uint32_t>(random());
     const auto time_seed = static_cast<std::uint64_t>(random());
@@ -55,7 +55,7 @@ const RoomImage& Room::next() {
     const auto camera = std::min_element(cameras_.begin(), cameras_.end(), [](auto& a, auto& b) {
       return a.coming.exposure < b.coming.exposure;
     });
-    // What is exposed later arrives later than it is exposed.
+    // An image arrives after its exposure, so no later exposure can come first.
     if (!on_the_way_.empty() && on_the_way_.front().image.arrival <= camera->coming.exposure)
       break;
     expose(static_cast<std::size_t>(camera - cameras_.begin()));
@@ -104,7 +104,7 @@ void Room::expose(std::size_t number) {
 
 std::vector<RoomImage> record(Room* room, double duration) {
   std::vector<RoomImage> images;
-  // Nothing that is exposed within the duration arrives later than this after it.
+  // Greatest delay of an image.
   constexpr double kLatest = 1.0;
   while (images.empty() || images.back().image.arrival < duration + kLatest)
     images.push_back(room->next());

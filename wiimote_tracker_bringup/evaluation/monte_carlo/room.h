@@ -20,24 +20,23 @@
 
 namespace wiimote_tracker::monte_carlo {
 
-/// Where an LED is [m, world] at a time [s].
+/// Position of an LED [m, world] at a time [s].
 using Path = std::function<Eigen::Vector3d(double)>;
 
-/// How an image comes by its stamp.
+/// Source of the stamps.
 enum class Stamping {
-  kExact,      ///< The exposure itself: nobody can have that.
-  kEstimated,  ///< The driver's exposure clock, from the arrivals.
+  kExact,      ///< The true exposure time: ideal.
+  kEstimated,  ///< The driver's exposure clock.
   kArrival,    ///< The arrival.
 };
 
 struct RoomOptions {
-  bool synchronised = false;  ///< All cameras expose at once; else each by its own clock.
+  bool synchronised = false;  ///< All cameras expose together; else each by its own clock.
   Stamping stamping = Stamping::kEstimated;
   std::string sensitivity = "wii_3";  ///< Of all cameras.
-  double led_size = 3.0;              ///< As the sensor reports it; nearer than that, LEDs merge.
+  double led_size = 3.0;              ///< As reported by the sensor; closer LEDs merge.
 
-  /// Whether an LED is dark for a camera whose exposure is at this time [s]: something is in the
-  /// way, or it blinks.
+  /// Whether an LED is dark for a camera at an exposure time [s], as by occlusion or blinking.
   std::function<bool(std::size_t camera, std::size_t led, double time)> hidden;
 };
 
@@ -47,9 +46,9 @@ struct RoomImage {
   tracking::CameraImage image;
 };
 
-/// LEDs before the cameras of a description, in simulated time: each exposes by its own clock, the
-/// lens and noise are the description's, the sensor is a virtual Wii Remote's, and the images
-/// arrive late, in order, or not at all.
+/// LEDs seen by the cameras of a description, in simulated time: each camera exposes by its own
+/// clock, lens and noise are those of the description, the sensor is that of a virtual Wii Remote,
+/// and images are delayed or lost.
 class Room {
  public:
   Room(const simulation::Description& description,
@@ -57,7 +56,7 @@ class Room {
        const RoomOptions& options,
        std::uint32_t seed);
 
-  /// The next image in the order of arrival, for ever. Valid until the next call.
+  /// The next image in the order of arrival; endless. Valid until the next call.
   const RoomImage& next();
 
  private:
@@ -74,22 +73,22 @@ class Room {
   std::vector<Path> leds_;
   RoomOptions options_;
   std::vector<Camera> cameras_;
-  std::vector<RoomImage> on_the_way_;  // a heap, the next to arrive at the front
+  std::vector<RoomImage> on_the_way_;  // a heap; the next to arrive is in front
   std::vector<simulation::Lamp> lamps_;
   RoomImage current_;
 };
 
-/// All images that are exposed in the first `duration` [s], in the order of arrival.
+/// All images exposed in the first `duration` [s], in the order of arrival.
 std::vector<RoomImage> record(Room* room, double duration);
 
-/// By how much the images' stamps are late, median [s]: what all cameras have in common of it can
-/// be told by no arrival, and shifts nothing but the time of a point.
+/// Median lateness of the images' stamps [s]. A common part for all cameras cannot be estimated
+/// from the arrivals; it only shifts the times of points.
 double medianLateness(const std::vector<RoomImage>& images);
 
-/// A description with only its first cameras, at most so many.
+/// A description with only its first `count` cameras.
 simulation::Description withCameras(const simulation::Description& description, std::size_t count);
 
-/// The cameras of a description as a rig that is exactly known.
+/// The cameras of a description as an exactly known rig.
 geometry::Rig trueRig(const simulation::Description& description);
 
 }  // namespace wiimote_tracker::monte_carlo

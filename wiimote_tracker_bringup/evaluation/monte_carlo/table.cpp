@@ -43,7 +43,7 @@ void Table::close() {
     throw std::runtime_error("a row of " + path_ + " is not complete");
   file_.close();
   if (!file_)
-    throw std::runtime_error("could not write all of " + path_ + "; is the disk full?");
+    throw std::runtime_error("cannot write all of " + path_ + "; is the disk full?");
 }
 
 }  // namespace wiimote_tracker::monte_carlo

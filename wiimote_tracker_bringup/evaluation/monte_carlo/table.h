@@ -8,18 +8,18 @@
 
 namespace wiimote_tracker::monte_carlo {
 
-/// A CSV file with names in its first line. Numbers are written with nine digits; NaN as nan.
+/// A CSV file with column names in its first line. Numbers have nine digits; NaN is nan.
 class Table {
  public:
   /// @throws std::runtime_error: the file cannot be written.
   Table(const std::string& path, const std::vector<std::string>& columns);
 
-  /// The next cell of the present row; a row ends by itself with its last one.
+  /// Writes the next cell; a row ends after its last one.
   Table& operator<<(double value);
   Table& operator<<(int value);
   Table& operator<<(const std::string& text);  ///< Without commas and quotes.
 
-  /// Ends the file. @throws std::runtime_error: a row is not complete, or the disk is full.
+  /// Closes the file. @throws std::runtime_error: a row is incomplete, or the disk is full.
   void close();
 
  private:

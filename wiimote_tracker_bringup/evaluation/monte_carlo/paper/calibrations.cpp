@@ -49,7 +49,7 @@ std::optional<geometry::TriangulatedPoint> measure(const PaperSession& session,
                                                    const geometry::Rig& rig,
                                                    const StillLed& led,
                                                    const geometry::TriangulationOptions& options) {
-  // A rig can lack cameras that could not be solved.
+  // The rig may lack cameras that could not be solved.
   std::vector<geometry::Camera> cameras;
   std::vector<Eigen::Vector2d> pixels;
   for (std::size_t i = 0; i < led.pixels.size(); ++i) {

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-// What is made of a session: the paper's calibrations, ours, and points measured with them.
+// Calibrations of a session by the paper's methods and ours, and points measured with them.
 namespace wiimote_tracker::monte_carlo {
 
 /// The paper's five (section V.B).
@@ -24,18 +24,18 @@ enum class PaperCase {
   kC5,  ///< Focal lengths of C2, principal points (512, 384), corrected.
 };
 
-/// @throws geometry::Error when the session cannot be solved.
+/// @throws geometry::Error if the session cannot be solved.
 principal_point::CorrectionResult solvePaperCase(const PaperSession& session,
                                                  PaperCase which,
                                                  geometry::RayModel ray_model);
 
-/// The square alone, all in one adjustment. @throws geometry::Error.
+/// The square alone, in one adjustment. @throws geometry::Error.
 geometry::Rig solveJointSquare(const PaperSession& session);
 
-/// The square and what was waved: an LED, or a wand. @throws geometry::Error.
+/// The square and a wave of an LED or a wand. @throws geometry::Error.
 geometry::Rig solveWaved(const wave::SimulatedWave& wave);
 
-/// Where a rig of the session sees an LED that lies still. Nothing when it does not.
+/// Position of a still LED, measured by a rig of the session. Nothing if it cannot be triangulated.
 std::optional<geometry::TriangulatedPoint> measure(const PaperSession& session,
                                                    const geometry::Rig& rig,
                                                    const StillLed& led,

@@ -1,5 +1,5 @@
-// The paper's three circles at several speeds, followed after its calibration and after ours, by
-// cameras that are not synchronised.
+// The paper's three circles at several speeds, tracked by unsynchronised cameras after the paper's
+// calibration and after ours.
 #include "arguments.h"
 #include "calibrations.h"
 #include "experiment.h"
@@ -19,18 +19,18 @@
 namespace wiimote_tracker::monte_carlo {
 namespace {
 
-constexpr double kSettling = 3.0;   // clocks and tracks are young [s]
+constexpr double kSettling = 3.0;   // of clocks and tracks [s]
 constexpr double kInterval = 0.05;  // between rows [s]
-constexpr double kNear = 0.5;       // what is further off is not the LED [m]
+constexpr double kNear = 0.5;       // points farther off are not of the LED [m]
 
-/// A calibration and a way to follow the LED with it.
+/// A calibration and the mode of tracking with it.
 struct Method {
   std::string name;
   geometry::Rig rig;
   tracking::EstimatorOptions options;
 };
 
-/// The cameras of a session, in a description.
+/// The description with the cameras of a session.
 simulation::Description describe(const simulation::Description& description,
                                  const std::vector<std::size_t>& cameras,
                                  const PaperSession& session) {
@@ -43,18 +43,18 @@ simulation::Description describe(const simulation::Description& description,
   return result;
 }
 
-/// Nothing when a camera of the session could not be solved.
+/// Nothing if a camera of the session could not be solved.
 template <typename Solver>
 std::optional<geometry::Rig> solve(const PaperSession& session, const Solver& solver) {
   try {
     geometry::Rig rig = solver();
-    // The waved LED was seen by other clocks than the circles.
+    // The waved LED was recorded with other clocks than the circles.
     for (geometry::RigCamera& camera : rig.cameras)
       camera.time_offset_rule = geometry::TimeOffsetRule::kNone;
     if (rig.cameras.size() == session.wave.cameras.size())
       return rig;
   } catch (const geometry::Error&) {
-    // Told by the rows that are not there.
+    // The table then lacks these rows.
   }
   return std::nullopt;
 }
@@ -86,7 +86,7 @@ std::vector<Method> methodsOf(const simulation::Description& described,
   return methods;
 }
 
-/// Rows of one lap.
+/// Writes the rows of one lap.
 class LapWriter {
  public:
   LapWriter(int session, std::size_t circle, double speed, double phase, Table* table)
@@ -178,7 +178,7 @@ void measureAll(const Arguments& arguments) {
 int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
       argc, argv,
-      "The paper's three circles at 0.5, 1 and 2 m/s, followed by two and by four cameras after "
-      "the paper's calibration and after others: a row for every 50 ms.",
+      "The paper's three circles at 0.5, 1 and 2 m/s, tracked by two and by four cameras after the "
+      "paper's calibration and after others: a row every 50 ms.",
       wiimote_tracker::monte_carlo::measureAll);
 }

@@ -1,5 +1,4 @@
-// How well places all over the cube are known after a calibration, beside what the calibration says
-// of itself.
+// Errors of positions in the whole cube after a calibration, and the errors that it predicts.
 #include "arguments.h"
 #include "calibrations.h"
 #include "table.h"
@@ -14,13 +13,13 @@
 namespace wiimote_tracker::monte_carlo {
 namespace {
 
-/// The covariance of a measured place: of the calibration, and of the pixels' noise [m^2].
+/// The covariance of a measured position, from the calibration and the pixels' noise [m^2].
 Eigen::Matrix3d predicted(const PaperSession& session,
                           const geometry::Rig& rig,
                           const geometry::CalibrationUncertainty& calibration,
                           const StillLed& led,
                           const geometry::TriangulatedPoint& point) {
-  std::vector<std::size_t> cameras;  // of the rig, which can lack some
+  std::vector<std::size_t> cameras;  // of the rig, which may lack some
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     for (std::size_t j = 0; j < led.pixels.size(); ++j) {
       if (led.pixels[j] && session.wave.cameras[j].name == rig.cameras[i].camera.name)
@@ -74,9 +73,9 @@ void measureMap(const Arguments& arguments) {
 }  // namespace wiimote_tracker::monte_carlo
 
 int main(int argc, char** argv) {
-  return wiimote_tracker::monte_carlo::runProgram(
-      argc, argv,
-      "Errors at 27 places all over the cube after a calibration by the square, and by square and "
-      "waved LED, beside the stated ones.",
-      wiimote_tracker::monte_carlo::measureMap);
+  return wiimote_tracker::monte_carlo::runProgram(argc, argv,
+                                                  "Errors at 27 positions in the whole cube after "
+                                                  "a calibration by the square, and by square and "
+                                                  "waved LED, and the predicted errors.",
+                                                  wiimote_tracker::monte_carlo::measureMap);
 }

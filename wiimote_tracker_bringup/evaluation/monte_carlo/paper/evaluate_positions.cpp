@@ -1,5 +1,4 @@
-// The paper's ten points, measured after the paper's calibrations and after ours, session by
-// session.
+// The paper's ten points, measured after the paper's calibrations and after ours, in each session.
 #include "arguments.h"
 #include "calibrations.h"
 #include "session.h"
@@ -34,26 +33,26 @@ const std::vector<std::string> kTraceColumns = {
     "session",  "cameras", "case",   "ray_model",    "round",        "camera",      "center_u",
     "center_v", "true_u",  "true_v", "difference_u", "difference_v", "origin_error"};
 
-/// What is measured of a point, and how far to trust it [m, m^2].
+/// A measured point and its covariance [m, m^2].
 struct Measured {
   Eigen::Vector3d position = Eigen::Vector3d::Constant(kUnknown);
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Constant(kUnknown);
 };
 
-/// Cameras that measure together, numbered from 0, and what they are called in the tables.
+/// Cameras that measure together, numbered from 0, and their name in the tables.
 struct CameraSet {
   std::string name;
   std::vector<std::size_t> cameras;
-  bool ours;  ///< Whether the methods beyond the paper's are tried, too.
+  bool ours;  ///< Whether to evaluate our methods, too.
 };
 
-/// Two neighbours and all four, as in the paper; and two that face each other, since the paper
-/// speaks of opposite corners in one place.
+/// Two neighbours and all four, as in the paper; and two opposite ones, since one sentence of the
+/// paper speaks of opposite corners.
 const std::vector<CameraSet> kCameraSets = {{"1 2", {0, 1}, true},
                                             {"1 3", {0, 2}, false},
                                             {"1 2 3 4", {0, 1, 2, 3}, true}};
 
-/// The rows of one session with one set of cameras.
+/// Writes the rows of one session with one set of cameras.
 class SessionWriter {
  public:
   SessionWriter(int number,
@@ -90,7 +89,7 @@ class SessionWriter {
   }
 
  private:
-  /// A rig without cameras where there is none.
+  /// A rig without cameras if it cannot be solved.
   static geometry::Rig solve(const std::function<geometry::Rig()>& solver) {
     try {
       return solver();
@@ -156,7 +155,7 @@ class SessionWriter {
     });
   }
 
-  /// The volume corrected from 27 places that are known as well as an LED can be put there.
+  /// With a volume correction from 27 points, placed as precisely as an LED can be.
   void writeRemapped(const std::string& method,
                      const std::string& model_name,
                      const geometry::Rig& rig,
@@ -170,7 +169,7 @@ class SessionWriter {
       }
       correction.emplace(remap::fitRemap(known, "simulated").remap, "simulated");
     } catch (const Error&) {
-      // It says so, and the volume stays as it is.
+      // Without a valid correction the volume stays as it is.
     }
     write(method, model_name, [&](const StillLed& led) {
       Measured measured;
@@ -231,7 +230,7 @@ class SessionWriter {
     }
   }
 
-  /// Of a camera among those of the session, from 0.
+  /// Number of a camera among those of the session, from 0.
   std::size_t numberOf(const std::string& name) const {
     std::size_t i = 0;
     while (session_.wave.cameras[i].name != name)

@@ -12,19 +12,19 @@
 namespace wiimote_tracker::monte_carlo {
 namespace {
 
-constexpr int kDraws = 2000;  // of lenses, at most
-constexpr int kImages = 100;  // of an LED that lies still
+constexpr int kDraws = 2000;  // most draws of lenses
+constexpr int kImages = 100;  // of a still LED
 constexpr std::size_t kBoardViews = 12;
 constexpr double kWandLength = 0.5;    // [m]
 constexpr double kStampWander = 3e-4;  // of the driver's clock estimate [s]
 constexpr double kGravity = 9.81;
 
-/// Put somewhere, and not looked at yet.
+/// An LED placed at a point, without pixels.
 StillLed put(const Eigen::Vector3d& nominal, std::mt19937_64& random) {
   return {nominal, placed(nominal, random), {}};
 }
 
-/// The mean of whole pixels, as a Wii Remote reports them.
+/// The mean of whole pixels, as reported by a Wii Remote.
 void look(const std::vector<geometry::Camera>& cameras,
           double pixel_noise,
           std::mt19937_64& random,
@@ -44,7 +44,7 @@ void look(const std::vector<geometry::Camera>& cameras,
   }
 }
 
-/// Everything that the experiment wants to be seen.
+/// All points of the experiment that cameras must see.
 std::vector<StillLed> whatMatters(const std::vector<StillLed>& points) {
   std::vector<StillLed> all = points;
   for (const StillLed& led : points)
@@ -60,7 +60,7 @@ std::vector<StillLed> whatMatters(const std::vector<StillLed>& points) {
   return all;
 }
 
-/// Whether each camera sees all that it ought to see by the description.
+/// Whether each camera sees all points that it sees in the description.
 bool isAimed(const simulation::Description& description,
              const std::vector<std::size_t>& described,
              const std::vector<geometry::Camera>& cameras,
@@ -77,7 +77,7 @@ bool isAimed(const simulation::Description& description,
 geometry::Intrinsics lensFromBoard(const geometry::Intrinsics& truth,
                                    double pixel_noise,
                                    std::uint32_t seed) {
-  // As Matlab's toolbox, which reports how uncertain a result is, but does not refuse it.
+  // Like Matlab's toolbox, which states the uncertainty of a result but does not refuse it.
   intrinsics::SolverOptions options;
   options.model = intrinsics::LensModel::kNoDistortion;
   options.minimum_views = kBoardViews;
@@ -111,7 +111,7 @@ PaperSession drawPaperSession(const simulation::Description& description,
     points.push_back(put(point, random));
   const std::vector<StillLed> wanted = whatMatters(points);
 
-  // Whether lenses suit can be seen without a wave.
+  // No wave is needed to check the lenses.
   wave::WaveScene still = scene;
   still.duration = 0.0;
   std::optional<wave::SimulatedWave> aimed;
@@ -122,7 +122,8 @@ PaperSession drawPaperSession(const simulation::Description& description,
   }
   if (!aimed)
     throw std::runtime_error(
-        "the cameras of the rig's description hardly see the paper's points; aim them at the cube "
+        "the cameras of the rig's description cannot see all of the paper's points; aim them at "
+        "the cube "
         "of 2.5 m");
   for (std::size_t i = 0; i < aimed->cameras.size(); ++i) {
     square::CameraSightings& sightings = aimed->recording.cameras[i].sightings;

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 """Draws the true intrinsics of paper_rig.yaml.
 
-Every camera differs from the paper's K (2) by Gaussian amounts of standard deviation 3 % in focal
-length (both axes together), 15 px in each axis of the principal point, 0.02 in k1. The first seed
-from 1 on is taken with which every camera sees the whole cube with 5 px to spare (people, too, aim
-until all corners are in view), and with which the draw is an ordinary one: the sum of its sixteen
-squares is in the middle half of the chi-squared distribution. (That last condition looks only at
-the draw, but it was added after results with the first draw, an outlier of 4 %, had been seen.)
-Prints the lines that paper_rig.yaml holds; a test compares.
+Each camera differs from the paper's K (2) by Gaussian amounts of standard deviation 3 % in focal
+length (both axes together), 15 px in each axis of the principal point, and 0.02 in k1. The seed is
+the first one from 1 on for which every camera sees the whole cube with a margin of 5 px, as people
+aim cameras, and for which the draw is ordinary: its sum of sixteen squares is in the middle half of
+the chi-squared distribution. (The last condition was added after results with the first draw, an
+outlier of 4 %, had been seen; it depends on the draw only.) Prints the lines of paper_rig.yaml; a
+test compares them.
 """
 
 import sys

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Counts the tests of catkin build folders and says which failed.
+"""Counts the tests of catkin build folders and lists failures.
 
     count_tests.py BUILD [--sanitized BUILD]
 
-Reads the JUnit files in BUILD/test_results. A test that the build folder's makefiles would run but
-that left no result counts as failed. The last line is "N passed, N failed, N skipped"; the exit
-status is 0 only when something passed and nothing failed.
+Reads the JUnit files in BUILD/test_results. A test of the build folder's makefiles without a result
+counts as failed. The last line is "N passed, N failed, N skipped"; the exit status is 0 only if
+something passed and nothing failed.
 """
 
 import argparse
@@ -17,8 +17,8 @@ import sys
 import xml.etree.ElementTree as ElementTree
 from typing import List, Optional, Set, Tuple
 
-# A rostest also writes one "rosunit-" file for each test program in it; its own "rostest-" file
-# repeats those as one case each, and matters only when the rostest itself went wrong.
+# A rostest also writes a "rosunit-" file for each of its test programs. Its own "rostest-" file
+# repeats those as one case each, and matters only if the rostest itself failed.
 LEAF_KINDS = ('gtest-', 'rosunit-', 'pytest-', 'roslaunch-')
 WRAPPER_KINDS = ('rostest-', 'MISSING-')
 
@@ -27,7 +27,7 @@ PASSED, FAILED, SKIPPED = 'passed', 'failed', 'skipped'
 
 @dataclasses.dataclass
 class Case:
-    """One test case: where it is from and its name, its verdict, the text of its failure."""
+    """One test case: its source and name, its verdict, the text of its failure."""
 
     name: str
     verdict: str
@@ -46,7 +46,7 @@ def verdict_of(testcase: ElementTree.Element) -> Tuple[str, str]:
 
 
 def read_cases(path: str, package: str) -> List[Case]:
-    """All cases of one result file. A file that is damaged or holds no test is a failed case."""
+    """All cases of one result file. A damaged or empty file is a failed case."""
     source = f'{package}/{os.path.splitext(os.path.basename(path))[0]}'
     try:
         root = ElementTree.parse(path).getroot()
@@ -61,7 +61,7 @@ def read_cases(path: str, package: str) -> List[Case]:
 
 
 def expected_results(build: str, kinds: Tuple[str, ...]) -> Set[str]:
-    """Result files that the makefiles of a build folder would write, as "package/file.xml"."""
+    """Result files expected from the makefiles of a build folder, as "package/file.xml"."""
     expected = set()
     for makefile in glob.glob(os.path.join(build, '**', 'CMakeFiles', 'run_tests_*.dir',
                                            'build.make'), recursive=True):
@@ -73,7 +73,7 @@ def expected_results(build: str, kinds: Tuple[str, ...]) -> Set[str]:
 
 
 def count(build: str, kinds: Tuple[str, ...] = LEAF_KINDS + WRAPPER_KINDS) -> List[Case]:
-    """All cases of one build folder, those of missing results included."""
+    """All cases of one build folder, including missing results."""
     results = os.path.join(build, 'test_results')
     cases = []
     found = set()

@@ -1,11 +1,11 @@
-# What demo and test have in common: the packages they need, and the workspace they build in.
-# To be sourced; sets strict mode and ends every child when the script ends, however it ends.
+# Shared by demo and test: their packages and their workspace.
+# To be sourced; sets strict mode and ends all children when the script ends.
 # shellcheck shell=bash
 
 set -euo pipefail
 
-# A script that was started in the background of another one ignores Ctrl-C, and bash cannot undo
-# that; a fresh start can.
+# A script started in the background of another one ignores Ctrl-C, which bash cannot undo; a
+# restart can.
 if (( 0x$(awk '/^SigIgn/ { print substr($2, length($2)) }' /proc/$$/status) & 2 )); then
   exec env --default-signal=INT bash "$0" "$@"
 fi
@@ -33,7 +33,7 @@ fail() {
 getent hosts localhost >/dev/null ||
   fail "this computer does not know its own name localhost; add the line '127.0.0.1 localhost' to /etc/hosts"
 
-# --- Children: each step runs in a process group of its own, so that all of it can be ended.
+# --- Children: each step runs in its own process group, so that all of it can be ended.
 
 child=
 run() {
@@ -101,7 +101,7 @@ install_missing_packages() {
     root=(sudo -n)
   fi
   local apt=("${root[@]}" env DEBIAN_FRONTEND=noninteractive)
-  run "${apt[@]}" dpkg --configure -a || true  # mends an installation that was interrupted
+  run "${apt[@]}" dpkg --configure -a || true  # repairs an interrupted installation
   run "${apt[@]}" apt-get update ||
     fail "apt-get update failed (see above); check the network and /etc/apt/sources.list"
   # shellcheck disable=SC2086
@@ -116,13 +116,13 @@ jobs_that_fit() {
   awk -v cpus="$(nproc)" '/^MemAvailable/ { n = int($2 / 1.5e6); print n < 1 ? 1 : n < cpus ? n : cpus }' /proc/meminfo
 }
 
-# Makes the workspace and takes hold of it until the script ends.
+# Makes the workspace and locks it until the script ends.
 prepare_workspace() {
   mkdir -p "$workspace/src" || fail "cannot write to $workspace; set WIIMOTE_TRACKER_WORKSPACE to a folder that can be written"
   workspace=$(cd "$workspace" && pwd -P)
   exec 9>"$workspace/.lock"
   flock -n 9 || fail "another demo or test uses $workspace; wait for it, or set WIIMOTE_TRACKER_WORKSPACE to another folder"
-  # The clone may lie in the src folder of another workspace, which must not find ours in it.
+  # The clone may be in the src folder of another workspace, which must not find ours in it.
   touch "$workspace/CATKIN_IGNORE"
   local package
   find "$workspace/src" -maxdepth 1 -type l -name 'wiimote_tracker_*' -delete

@@ -1,1 +1,1 @@
-"""Leading the tracker through the paper's experiment, and measuring how well it did."""
+"""Runs the paper's experiment on the tracker and measures the errors."""

@@ -17,9 +17,9 @@ class Alignment:
 
 
 def fit(source: np.ndarray, target: np.ndarray, with_scale: bool) -> Alignment:
-    """Alignment with the least sum of squared distances |aligned source - target|^2.
+    """Least-squares alignment: minimises the sum of |aligned source - target|^2.
 
-    source, target: N x 3, three or more points that are not on one line, else ValueError.
+    source, target: N x 3, three or more points not on one line, else ValueError.
     with_scale: similarity; otherwise rigid (scale 1). Never a reflection.
     """
     source = np.asarray(source, dtype=float)
@@ -44,7 +44,7 @@ def rms(difference: np.ndarray) -> float:
     return float(np.sqrt((np.asarray(difference) ** 2).sum(axis=1).mean()))
 
 
-# The three ways in which the accuracy is reported, with the alignment each one fits beforehand.
+# The three ways of reporting accuracy, by the alignment fitted beforehand.
 KINDS = ('absolute', 'rigid', 'similarity')
 
 

@@ -1,11 +1,11 @@
-"""How accurate the tracker can be when all it knows of its cameras comes from the square.
+"""Least possible errors if the cameras are known from the square only.
 
-Cramér-Rao bound of the calibration: the Fisher information of the corners' pixels, with what is
-known beforehand (corners within the accuracy of placing an LED, lenses within their spread), about
-every camera's pose and lens and every corner. A point's error is then this calibration error and
-the noise of its own pixels, carried to first order through the best triangulation.
+Cramér-Rao bound of the calibration: the Fisher information of the corners' pixels and the priors
+(corners: accuracy of placing an LED; lenses: their spread) about each camera's pose and lens and
+each corner. The error of a point is that of the calibration plus the noise of its own pixels,
+propagated to first order through the best triangulation.
 
-Independent of the tracker: own camera model, numerical derivatives.
+Independent of the tracker: separate camera model, numerical derivatives.
 """
 
 import dataclasses
@@ -21,10 +21,10 @@ PER_CAMERA = 11  # rotation vector about the world axes [rad], position [m], fx,
 
 @dataclasses.dataclass(eq=False)
 class Knowledge:
-    """Standard deviations of what is known before a pixel is seen.
+    """Standard deviations of the priors.
 
     focal: of the focal length, relative, common to both axes; focal_ratio: of fy / fx, relative;
-    center: of the principal point, each axis [px]; k1 [1]; corner: of a corner's place, each
+    center: of the principal point, each axis [px]; k1 [1]; corner: of a corner's position, each
     horizontal axis [m]. 0 means exactly known.
     """
 
@@ -93,11 +93,11 @@ def lens_prior(camera, knowledge):
 
 
 class Calibration:
-    """What the square tells about a scene's cameras. covariance: best possible, of all cameras'
-    parameters, 11 per camera; a parameter that is exactly known has zero rows and columns."""
+    """Information of the square about a scene's cameras. covariance: least possible, of all
+    cameras' parameters, 11 per camera; exactly known parameters have zero rows and columns."""
 
     def __init__(self, scene, corners, samples, knowledge):
-        """corners: N x 3, where the LED nominally is [m]; samples: images averaged at each."""
+        """corners: N x 3, nominal positions of the LED [m]; samples: images averaged at each."""
         self._cameras = PER_CAMERA * len(scene.cameras)
         size = self._cameras + 2 * len(corners)
         self._prior = np.zeros((size, size))
@@ -130,9 +130,9 @@ class Calibration:
         self.covariance = self._joint[:self._cameras, :self._cameras]
 
     def error(self, deviation):
-        """By how much the best estimate errs in the cameras' parameters when pixels are perfect and
-        the truth differs from what was believed beforehand: deviation, 5 lens parameters per camera,
-        then x, y of each corner."""
+        """Errors of the cameras' parameters of the best estimate from perfect pixels if the truth
+        deviates from the priors by `deviation`: 5 lens parameters per camera, then x, y of each
+        corner."""
         full = np.zeros(len(self._prior))
         number = self._cameras // PER_CAMERA
         for c in range(number):
@@ -142,15 +142,15 @@ class Calibration:
 
 
 def deviation_of(scene, nominal_lens, corners, placed):
-    """How a rig differs from what is believed: the argument of Calibration.error()."""
+    """Deviation of a rig from the priors: the argument of Calibration.error()."""
     return np.concatenate([camera.parameters - nominal_lens for camera in scene.cameras]
                           + [(np.asarray(placed) - corners)[:, :2].reshape(-1)])
 
 
 def point_sensitivity(scene, calibration, point, samples):
-    """How a triangulated point errs: 3 x (11 cameras) by calibration, 3 x 3 covariance by pixels.
+    """Errors of a triangulated point: 3 x (11 cameras) by calibration, 3 x 3 covariance by pixels.
 
-    The triangulation weighs pixels with their own noise and the calibration's.
+    The triangulation weights pixels with their own noise and that of the calibration.
     """
     seeing = [c for c, camera in enumerate(scene.cameras) if camera.sees(point[None])[0]]
     if len(seeing) < 2:
@@ -167,7 +167,7 @@ def point_sensitivity(scene, calibration, point, samples):
 
 
 def alignment_basis(points: np.ndarray, kind: str) -> np.ndarray:
-    """3N x d: how small alignments of a kind move the points."""
+    """3N x d: displacements of the points by small alignments of a kind."""
     if kind == 'absolute':
         return np.zeros((3 * len(points), 0))
     blocks = []
@@ -181,9 +181,9 @@ def alignment_basis(points: np.ndarray, kind: str) -> np.ndarray:
 
 @dataclasses.dataclass(eq=False)
 class Bound:
-    """Of the RMS error over the test points [m], for one kind of alignment. rms: least possible,
-    over all rigs; low, high: range that holds the RMS of one rig with probability 0.95; best: what
-    the best estimate makes of this rig, None when the rig's deviation was not given."""
+    """Bound of the RMS error over the test points [m], for one kind of alignment. rms: over all
+    rigs; low, high: range of the RMS of one rig with probability 0.95; best: by the best estimate
+    for this rig, None if the rig's deviation was not given."""
 
     rms: float
     low: float
@@ -193,7 +193,7 @@ class Bound:
 
 def position_bounds(scene, corners, test_points, alignment_points, corner_samples, test_samples,
                     alignment_samples, knowledge=None, deviation=None, experiments=4000):
-    """Bound of each of KINDS, for points that are measured by averaging so many images each."""
+    """Bound of each of KINDS, for points measured by averaging this many images each."""
     calibration = Calibration(scene, corners, corner_samples, knowledge or Knowledge())
 
     def joint(points, samples):
@@ -209,7 +209,7 @@ def position_bounds(scene, corners, test_points, alignment_points, corner_sample
     random = np.random.RandomState(1)
     bounds = {}
     for kind in KINDS:
-        # Error left at the test points when an alignment is fitted at the others.
+        # Error left at the test points if an alignment is fitted at the others.
         carry = (alignment_basis(test_points, kind)
                  @ np.linalg.pinv(alignment_basis(alignment_points, kind)))
         by_calibration = test - carry @ aligning

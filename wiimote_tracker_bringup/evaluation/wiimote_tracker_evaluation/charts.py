@@ -1,4 +1,4 @@
-"""How plots of the report look: small, plain, text as text."""
+"""Style of the report's plots: small and plain, text as text."""
 
 import matplotlib
 matplotlib.use('Agg')
@@ -20,16 +20,16 @@ STYLE = {
 
 
 def figure(rows=1, columns=1, height=3.4, width=WIDTH, **more):
-    """A matplotlib figure and its axes, as plt.subplots gives them."""
+    """A matplotlib figure and its axes, as from plt.subplots."""
     with matplotlib.rc_context({name: value for name, value in STYLE.items()
                                 if name in matplotlib.rcParams}):
         return plt.subplots(rows, columns, figsize=(width, height), constrained_layout=True, **more)
 
 
 def cumulative(axes, values, color, label=None, **style):
-    """Share of the values that are not larger, as steps."""
+    """Empirical cumulative distribution, as steps."""
     values = np.sort(np.asarray(values, dtype=float))
-    if len(values) > 2000:  # as many as can be seen
+    if len(values) > 2000:  # resolution of the page
         values = np.quantile(values, np.linspace(0.0, 1.0, 500))
     share = np.arange(1, len(values) + 1) / len(values)
     axes.step(np.concatenate([values[:1], values]), np.concatenate([[0.0], share]), where='post',
@@ -38,12 +38,12 @@ def cumulative(axes, values, color, label=None, **style):
 
 
 def plain_numbers():
-    """For the ticks of a logarithmic axis: 0.1, 1, 10."""
+    """Tick labels of a logarithmic axis: 0.1, 1, 10."""
     return matplotlib.ticker.StrMethodFormatter('{x:g}')
 
 
 def key(axes, loc='best', extra=()):
-    """The legend; extra: (line style, text) of what several curves share."""
+    """The legend; extra: (line style, text) common to several curves."""
     handles, labels = axes.get_legend_handles_labels()
     for style, text in extra:
         handles.append(plt.Line2D([], [], color=INK, linestyle=style))

@@ -1,4 +1,4 @@
-"""Leads a simulated rig through an experiment, by the same services that a person would use."""
+"""Leads a simulated rig through an experiment by the services that a person would use."""
 
 import dataclasses
 import logging
@@ -13,14 +13,14 @@ from wiimote_tracker_msgs.srv import (CheckConnection, SaveRig, SetLed, SetLedRe
 
 from wiimote_tracker_evaluation.errors import ExperimentError
 
-SETTLE = 0.1  # after an LED has arrived, until it is measured [s]
+SETTLE = 0.1  # between arrival of an LED and measurement [s]
 CAPTURE_ATTEMPTS = 3
 
 
 @dataclasses.dataclass(eq=False)
 class Segment:
-    """A span of time in which the LED did one thing. kind: 'test', 'alignment' or 'circle'; target:
-    the place or the circle's centre [m]; start, end [s since 1970]."""
+    """A time span of one motion of the LED. kind: 'test', 'alignment' or 'circle'; target: the
+    place or the circle's centre [m]; start, end [s since 1970]."""
 
     kind: str
     name: str
@@ -31,8 +31,8 @@ class Segment:
 
 class Conductor:
     def __init__(self, led, recorder, check=lambda: None, progress=lambda text: None):
-        """led: name of the LED. recorder: a LiveRecorder. check: called while waiting; raises when
-        waiting has become useless. progress: gets words about what is going on."""
+        """led: name of the LED. recorder: a LiveRecorder. check: called while waiting; raises if
+        waiting is useless. progress: called with a description of the present step."""
         self._led = led
         self._recorder = recorder
         self._check = check
@@ -41,7 +41,7 @@ class Conductor:
         rospy.Subscriber('calibration/status', CalibrationStatus, self._on_status)
         self._capture = actionlib.SimpleActionClient('calibration/capture_corner',
                                                      CaptureCornerAction)
-        # actionlib says so, as an error, when a goal is taken before send_goal() has returned.
+        # actionlib logs this as an error when a goal is accepted before send_goal() has returned.
         logging.getLogger('rosout').addFilter(
             lambda record: 'Got a transition callback' not in record.getMessage())
 
@@ -56,11 +56,11 @@ class Conductor:
         while not condition():
             self._check()
             if rospy.is_shutdown() or rospy.get_time() > deadline:
-                raise ExperimentError(f'gave up after {timeout:.0f} s of waiting for {what}')
+                raise ExperimentError(f'waited {timeout:.0f} s in vain for {what}')
             rospy.sleep(0.01)
 
     def _call(self, service, type_, *arguments, **named):
-        """Response of a service that answers success and a sentence."""
+        """Response of a service that returns success and a sentence."""
         def there():
             try:
                 rospy.wait_for_service(service, timeout=0.1)
@@ -81,15 +81,16 @@ class Conductor:
     # --- The LED
 
     def move(self, target, speed):
-        """Carries the LED straight to a place [m]; returns when it is there [s since 1970]."""
+        """Moves the LED straight to a place [m]. Returns its arrival [s since 1970]."""
         return self._set_led(motion=SetLedRequest.LINE, target=target, speed=speed)
 
     def circle_from(self, center, radius, speed):
-        """Lets the LED circle for ever; when its first lap begins, on the +x side [s since 1970]."""
+        """Moves the LED on a circle. Returns the start of its first lap, on the +x side [s since
+        1970]."""
         return self._set_led(motion=SetLedRequest.CIRCLE, target=center, speed=speed, radius=radius)
 
     def wave(self, led, middle, side, speed, path):
-        """Lets one of the LEDs be waved for ever through a cube of this side about its middle [m]."""
+        """Waves an LED through a cube of this side around its middle [m]."""
         message = SetLedRequest(led=led, on=True, motion=SetLedRequest.WAVE, speed=speed, path=path)
         message.target.x, message.target.y, message.target.z = middle
         message.box.x = message.box.y = message.box.z = side
@@ -106,7 +107,7 @@ class Conductor:
     # --- The steps of a calibration
 
     def wait_for_cameras(self, names):
-        """Until every camera delivers images."""
+        """Waits until every camera delivers images."""
         def missing():
             connected = {camera.name.strip('/') for camera in self._status.cameras
                          if camera.connected} if self._status else set()
@@ -119,13 +120,13 @@ class Conductor:
                                   % (', '.join(missing()), deadline))
 
     def wait_until_seen(self, names):
-        """Until every camera sees one spot."""
+        """Waits until every camera sees one spot."""
         def seeing():
             return {camera.name.strip('/') for camera in self._status.cameras if camera.sees_led}
         self.wait(lambda: seeing().issuperset(names), 10.0, 'all cameras to see the LED')
 
     def wait_for_leds(self, number):
-        """Until so many LEDs are tracked at once."""
+        """Waits until this number of LEDs is tracked at once."""
         tracked = []
         subscriber = rospy.Subscriber('points', TrackedPointArray, lambda message: tracked.append(
             sum(point.state == TrackedPoint.TRACKED for point in message.points)))
@@ -133,7 +134,7 @@ class Conductor:
         subscriber.unregister()
 
     def check_connection(self, duration=1.0):
-        """The node's answer to which cameras see the LED."""
+        """The node's answer about which cameras see the LED."""
         return self._call('calibration/check_connection', CheckConnection, duration)
 
     def start(self, side):
@@ -141,8 +142,8 @@ class Conductor:
             'calibration/start', StartCalibration, side_x=side, side_y=0.0, cameras=[]))
 
     def capture(self, place, speed):
-        """Carries the LED to a place and captures it as the next corner; the action's result. A
-        refused capture is tried again, as the refusal says."""
+        """Moves the LED to a place and captures it as the next corner. Returns the action's result.
+        Tries again after a refusal, as that asks for."""
         self.move(place, speed)
         rospy.sleep(SETTLE)
         for attempt in range(CAPTURE_ATTEMPTS):
@@ -174,12 +175,12 @@ class Conductor:
     # --- Measuring
 
     def dwell(self, kind, name, place, speed, duration):
-        """Carries the LED to a place and leaves it there for a while [s]."""
+        """Moves the LED to a place and leaves it there for a duration [s]."""
         start = self.move(place, speed) + SETTLE
         return self._measure(Segment(kind, name, place, start, start + duration))
 
     def circle(self, name, center, radius, speed, duration):
-        """Lets the LED circle for a while [s]."""
+        """Moves the LED on a circle for a duration [s]."""
         start = self.circle_from(center, radius, speed) + SETTLE
         return self._measure(Segment('circle', name, center, start, start + duration))
 

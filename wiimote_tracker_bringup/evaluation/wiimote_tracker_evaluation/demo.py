@@ -1,4 +1,4 @@
-"""The demonstration: the whole system on the simulated rig, led through the paper's experiment."""
+"""The demonstration: the paper's experiment with the whole system on the simulated rig."""
 
 import argparse
 import os
@@ -26,7 +26,7 @@ RECORDED = (r'(.*)/ir_blobs|(.*)/camera_info|(.*)/imu/data_raw|(.*)/calibration/
 
 
 class Progress:
-    """Steps on the terminal; with a terminal, a line that is overwritten below them."""
+    """Steps on the terminal, with a status line below them that is overwritten."""
 
     def __init__(self, steps):
         self._steps = steps
@@ -48,7 +48,7 @@ class Progress:
         sys.stdout.flush()
 
     def passing(self, text):
-        """Something that need not be kept."""
+        """A status text that need not be kept."""
         if self._live:
             sys.stdout.write('\r\033[K    ' + text[:100])
             sys.stdout.flush()
@@ -56,7 +56,7 @@ class Progress:
 
 
 def prepare_output(folder, cameras):
-    """Makes the output folder and removes what an earlier run left there."""
+    """Makes the output folder and removes results of an earlier run."""
     try:
         os.makedirs(folder, exist_ok=True)
         for name in (['summary.json', 'rig.yaml', 'rig.yaml.bak', 'demo.bag', 'demo.bag.active',
@@ -74,14 +74,14 @@ def prepare_output(folder, cameras):
 
 def has_display(progress):
     if not os.environ.get('DISPLAY') and not os.environ.get('WAYLAND_DISPLAY'):
-        progress.line('No display: rviz stays closed, all the rest is done.')
+        progress.line('No display: rviz is not started.')
         return False
-    progress.line('A display is there: rviz opens.')
+    progress.line('Starting rviz.')
     return True
 
 
 class Demo:
-    """One run. Everything it starts has ended when run() returns or raises."""
+    """One run. All processes that it starts have ended when run() returns or raises."""
 
     def __init__(self, output, mode):
         self._output = output
@@ -105,7 +105,7 @@ class Demo:
         return os.path.join(self._output, name)
 
     def _launch(self, scratch):
-        """Starts a master of our own, the simulated rig, the tracker, and the recorder."""
+        """Starts a separate master, the simulated rig, the tracker, and the recorder."""
         import rosgraph
         import rospy
         self._progress.step('Starting four virtual Wii Remotes, drivers, calibration, tracker')
@@ -127,14 +127,15 @@ class Demo:
                 raise ExperimentError('no ROS master within 30 s; see ' + log)
             time.sleep(0.05)
         rospy.init_node('demo', disable_signals=True)
-        # Not "rosbag record": that is a wrapper, which can end before the bag is closed.
+        # Not "rosbag record", a wrapper that can end before the bag is closed.
         self._recorder = self._processes.start('rosbag', [
             'rosrun', 'rosbag', 'record', '--quiet', '--tcpnodelay', '--buffsize=0', '--regex', RECORDED,
             '--output-name=' + self._file('demo.bag')], log)
 
     def _experiment(self):
-        """The LED's tour. Segments that were measured, and images used at a corner."""
-        # Not before there is a master's address: rospy reads it when it is imported.
+        """The LED's tour. Returns the measured segments, and the number of images used per
+        corner."""
+        # Imported late: rospy reads the master's address at import.
         from wiimote_tracker_evaluation.conductor import Conductor
         from wiimote_tracker_evaluation.recording import LiveRecorder
         progress = self._progress
@@ -188,7 +189,7 @@ class Demo:
         return segments, min(samples)
 
     def _report_view(self):
-        """Says which camera misses what."""
+        """Reports which points each camera misses."""
         complete = True
         for name, points in (('test point', experiment.TEST_POINTS),
                              ('circle point', experiment.circle_points())):
@@ -238,8 +239,8 @@ def main(arguments=None):
     parser.add_argument('--output', metavar='DIR', default='wiimote_tracker_demo',
                         help='folder for the results (default: ./wiimote_tracker_demo)')
     parser.add_argument('--mode', choices=['tracks', 'instant'], default='tracks',
-                        help='tracks: the LED is followed in time (default); instant: rays are '
-                             'intersected, as in the paper')
+                        help='tracks: a filter per LED (default); instant: rays are intersected, '
+                             'as in the paper')
     options = parser.parse_args(arguments)
     raise_when_interrupted()
     try:
@@ -248,7 +249,7 @@ def main(arguments=None):
         print(demo.last_line())
         return 0
     except Interrupted:
-        print('\nInterrupted; everything that was started has ended.', file=sys.stderr)
+        print('\nInterrupted; all started processes have ended.', file=sys.stderr)
         return 130
     except (ExperimentError, ProcessEnded) as error:
         print(f'\nThe demo failed: {error}', file=sys.stderr)

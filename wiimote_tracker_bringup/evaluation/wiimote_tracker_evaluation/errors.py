@@ -1,5 +1,5 @@
-"""What goes wrong in an experiment."""
+"""Errors of an experiment."""
 
 
 class ExperimentError(Exception):
-    """The experiment cannot go on; the text says why and what to do."""
+    """The experiment cannot continue; the text says why and what to do."""

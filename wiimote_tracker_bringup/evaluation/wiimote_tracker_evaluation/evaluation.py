@@ -1,4 +1,4 @@
-"""The evaluation: its sections one after the other, and the report."""
+"""Runs the sections of the evaluation and writes the report."""
 
 import argparse
 import os
@@ -35,15 +35,15 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
                         help='description of your own LED, for the section distance')
     parser.add_argument('--gestures', metavar='DIR',
                         help='recordings of your own gestures, for the section ours: a folder per '
-                        'person, in it a CSV per gesture')
+                             'person with a CSV per gesture')
     parser.add_argument('--sections', metavar='A,B', default=','.join(names),
-                        help=f"only these, of: {', '.join(names)}")
-    parser.add_argument('--quick', action='store_true', help='fewer repetitions, minutes in all')
+                        help=f"only these of: {', '.join(names)}")
+    parser.add_argument('--quick', action='store_true', help='fewer repetitions; takes minutes')
     parser.add_argument('--live', action='store_true',
-                        help='lead a person through it on a tracker that is running')
+                        help='measure a running tracker, with prompts for a person')
     parser.add_argument('--output', metavar='DIR', default='wiimote_tracker_evaluation',
                         help='folder for the results (default: ./wiimote_tracker_evaluation)')
-    parser.add_argument('--seed', type=int, default=1, help='of everything random (default: 1)')
+    parser.add_argument('--seed', type=int, default=1, help='of all random numbers (default: 1)')
     options = parser.parse_args(arguments)
     options.rig = options.rig or package_file('simulation/paper_rig.yaml')
     chosen = options.sections.split(',')
@@ -56,11 +56,10 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     if options.led and not os.path.isfile(options.led):
         parser.error(f'there is no description of an LED {options.led}')
     if options.gestures and len(folders_in(options.gestures)) < 2:
-        parser.error(f'{options.gestures} needs a folder for each of two people or more: each is '
-                     'recognised by what '
-                     'the others have drawn')
+        parser.error(f'{options.gestures} needs folders of at least two people: each person is '
+                     "recognised by the others' drawings")
     if not 0 <= options.seed < 2 ** 31:
-        parser.error('--seed must be within 0 and 2^31 - 1')
+        parser.error('--seed must be between 0 and 2^31 - 1')
     options.rig, options.output = os.path.abspath(options.rig), os.path.abspath(options.output)
     return options
 
@@ -70,7 +69,7 @@ def folders_in(folder: str) -> List[str]:
 
 
 def prepare(folder: str, names: List[str]) -> None:
-    """Makes the output folder and removes what an earlier run left of what this one writes."""
+    """Makes the output folder and removes files of an earlier run that this one writes."""
     try:
         os.makedirs(folder, exist_ok=True)
         for name in REPORT_FILES:
@@ -84,10 +83,10 @@ def prepare(folder: str, names: List[str]) -> None:
 
 
 def carry_out(module, run, live):
-    """Runs a section; what goes wrong in it is written down in it."""
+    """Runs a section and records its failure, if any."""
     try:
         (module.live if live else module.run)(run)
-    except Exception as error:  # the others go on, whatever happened in this one
+    except Exception as error:  # other sections continue
         told = isinstance(error, (ExperimentError, ProcessEnded))
         run.failure = (str(error) if told else f'{type(error).__name__}: {error}') \
             + stack.complaint(run)
@@ -98,7 +97,7 @@ def carry_out(module, run, live):
 
 
 def evaluate(options: argparse.Namespace) -> int:
-    """Carries the sections out; 0 when all went well."""
+    """Runs the sections. Returns 0 if all succeeded."""
     modules = [sections.load(name) for name in options.sections]
     if options.live:
         modules = [module for module in modules if hasattr(module, 'live')]
@@ -119,14 +118,14 @@ def evaluate(options: argparse.Namespace) -> int:
                 run.failure = ''
                 carry_out(module, run, options.live)
             except Interrupted:
-                run.failure = 'It was interrupted before its end.'
+                run.failure = 'It was interrupted.'
                 raise
             finally:
                 run.duration = time.monotonic() - started
                 write_report(options, runs, time.time() - begin)
             progress.end('failed: ' + run.failure if run.failure else 'done')
     except Interrupted:
-        progress.line('Interrupted; what was done until now is in the report.')
+        progress.line('Interrupted; the report contains the results so far.')
         progress.line(os.path.join(options.output, 'report.html'))
         return 130
     finally:

@@ -1,4 +1,4 @@
-"""Ctrl-C and its relatives as an exception, once."""
+"""Turns the first Ctrl-C, or a similar signal, into an exception."""
 
 import signal
 
@@ -10,13 +10,13 @@ class Interrupted(BaseException):
 
 
 def raise_when_interrupted() -> None:
-    """From now on."""
+    """Installs the signal handlers."""
     for number in SIGNALS:
         signal.signal(number, interrupt)
 
 
 def interrupt(number, frame):
-    # A second signal must not disturb the clearing up.
+    # A second signal must not disturb the cleanup.
     for each in SIGNALS:
         signal.signal(each, signal.SIG_IGN)
     raise Interrupted()

@@ -1,7 +1,7 @@
-"""How far an LED is seen: brightness over current and angle, and what the sensor needs.
+"""Range of an LED: its brightness by current and angle, and the threshold of the sensor.
 
-Brightness is the irradiance at the camera, 1 being the Wii's sensor bar from 1 m, as in the virtual
-Wii Remote, whose sensor decides what is seen.
+Brightness is the irradiance at the camera, in units of the Wii's sensor bar at 1 m, as in the
+virtual Wii Remote, whose sensor decides what is seen.
 """
 
 from typing import Optional
@@ -15,30 +15,30 @@ SENSITIVITIES = ('wii_1', 'wii_2', 'wii_3', 'wii_4', 'wii_5', 'max')
 
 
 class Led:
-    """An LED as its file describes it. measured: (current [A], distance [m]) pairs."""
+    """An LED described by a file. measured: (current [A], distance [m]) pairs."""
 
     def __init__(self, half_power_angle, sensitivity, measured):
         """half_power_angle: full [degrees]."""
         self.half_power_angle = half_power_angle
         self.sensitivity = sensitivity
         self.measured = sorted(measured)
-        # Lambert's law generalised: cos^n of the angle, halved at half the full angle.
+        # Generalised Lambertian: cos^n of the angle, halved at half the full angle.
         self.exponent = np.log(0.5) / np.log(np.cos(np.radians(half_power_angle / 2.0)))
 
     def relative(self, angle: float) -> float:
-        """Brightness at an angle [rad] off the brightest direction, of that in it [0..1]."""
+        """Relative brightness at an angle [rad] from the brightest direction [0..1]."""
         return np.maximum(np.cos(angle), 0.0) ** self.exponent
 
     def brightness_per_ampere(self, threshold: float) -> float:
-        """The one constant: brightness from 1 m with 1 A [sensor bars/A], from the measured pairs,
-        for a remote of that threshold. At the distance d the brightness k i / d^2 is the threshold:
-        every pair gives one k, and their geometric mean is the least-squares fit of log d."""
+        """Brightness at 1 m with 1 A [sensor bars/A], fitted to the measured pairs for a remote
+        with this threshold. At the distance d the brightness k i / d^2 equals the threshold: every
+        pair gives a k, and their geometric mean is the least-squares fit of log d."""
         return float(np.exp(np.mean([np.log(threshold * distance ** 2 / current)
                                      for current, distance in self.measured])))
 
     def misfit(self, threshold: float) -> Optional[float]:
-        """By which factor single measured distances differ from the fitted ones (standard deviation
-        of the logarithm); None with fewer than two."""
+        """Ratio between measured and fitted distances (standard deviation of the logarithm); None
+        for fewer than two."""
         if len(self.measured) < 2:
             return None
         fitted = self.brightness_per_ampere(threshold)
@@ -48,12 +48,13 @@ class Led:
 
 
 def detection_distance(brightness: float, threshold: float) -> float:
-    """From where a light of this brightness (at 1 m) is just seen [m]: inverse square law."""
+    """Distance at which a light of this brightness (at 1 m) is just seen [m]: inverse square
+    law."""
     return np.sqrt(np.asarray(brightness, dtype=float) / threshold)
 
 
 def read_led(path: str) -> Led:
-    """Led of a file such as led.yaml. @raise ExperimentError: says what is wrong with it."""
+    """Reads an LED from a file such as led.yaml. @raise ExperimentError: says what is wrong."""
     try:
         with open(path) as file:
             content = yaml.safe_load(file)
@@ -62,7 +63,7 @@ def read_led(path: str) -> Led:
         measured = [(float(current), float(distance))
                     for current, distance in content['distances'].items()]
     except (OSError, yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError) as error:
-        raise ExperimentError(f'{path} is no description of an LED ({type(error).__name__}: '
+        raise ExperimentError(f'{path} is not a description of an LED ({type(error).__name__}: '
                               f'{error}); see led.yaml of this package')
     if not 1.0 <= angle <= 179.0:
         raise ExperimentError(f'{path}: half_power_angle is {angle:g}, but must be within 1 and '

@@ -1,4 +1,4 @@
-"""How much of the processor nodes use."""
+"""Processor time of nodes."""
 
 import os
 import time
@@ -10,23 +10,23 @@ TICK = 1.0 / os.sysconf('SC_CLK_TCK')  # [s]
 
 
 def process_of(node):
-    """Process id of a node, by asking it."""
+    """Process id of a node; asks the node."""
     import rosgraph
     uri = rosgraph.Master('/evaluation').lookupNode(node)
     return xmlrpc.client.ServerProxy(uri).getPid('/evaluation')[2]
 
 
 def processor_time(process: int) -> float:
-    """Of a process and its threads until now, in user and kernel [s]."""
+    """User and kernel time of a process and its threads so far [s]."""
     with open('/proc/%d/stat' % process) as file:
-        # The name in parentheses may itself hold spaces and parentheses.
+        # The name in parentheses may contain spaces and parentheses.
         fields = file.read().rpartition(')')[2].split()
     return TICK * (int(fields[11]) + int(fields[12]))
 
 
 def measure(processes, seconds, check, interval=1.0):
-    """Share of one core that each of the processes (by name) uses, one value per interval; check is
-    called while waiting."""
+    """Processor load of each process (by name) as a share of one core, one value per interval;
+    check is called while waiting."""
     names = list(processes)
     samples = [[processor_time(processes[name]) for name in names]]
     times = [time.monotonic()]

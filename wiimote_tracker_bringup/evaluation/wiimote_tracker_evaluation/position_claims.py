@@ -1,7 +1,7 @@
-"""What the paper's text says of its ten points, beside what simulated sessions give.
+"""Statements of the paper about its ten points, compared with simulated sessions.
 
-Each claim speaks of a few sessions. So it is compared with what as many simulated sessions give,
-drawn again and again: the paper agrees when its number lies within the middle 95 % of that.
+Each statement is about a few sessions. It is compared with the results of as many simulated
+sessions, drawn repeatedly: the paper agrees if its number is in their middle 95 %.
 """
 
 import dataclasses
@@ -18,8 +18,8 @@ PER_CASE = 2  # sessions of the paper
 
 @dataclasses.dataclass(eq=False)
 class Claim:
-    """text: what the paper says. cameras, cases: of whose points. extreme: np.max or np.min over all
-    points of all its sessions. said [m], and the unit of its last digit [m]."""
+    """text: the statement. cameras, cases: of its points. extreme: np.max or np.min over all points
+    of all its sessions. said [m], and the unit of its last digit [m]."""
 
     text: str
     cameras: str
@@ -29,7 +29,7 @@ class Claim:
     digit: float
 
     def simulated(self, results, ray_model, seed):
-        """Least, middle and largest of the middle 95 % of what so few sessions give [m]."""
+        """Lower end, median and upper end of the middle 95 % for this number of sessions [m]."""
         random = np.random.RandomState(seed)
         values = []
         for case in self.cases:
@@ -51,7 +51,7 @@ CLAIMS = (
 
 
 def verdict(claim, simulated):
-    """In words; what was rounded to the number that is said may lie half a digit beside it."""
+    """In words; a rounded number may be half a digit off."""
     low, _, high = simulated
     if claim.said + 0.5 * claim.digit < low:
         return 'no: ours is larger'
@@ -61,8 +61,8 @@ def verdict(claim, simulated):
 
 
 def form_of_cube(results, ray_model):
-    """Distances of the corners of the cube that C2 measures with two cameras from those of the ideal
-    one, and what remains of them after a rigid alignment: sessions x 8 each [m]."""
+    """Distances of the corners of the cube measured by C2 with two cameras from the ideal one, and
+    the residuals of a rigid alignment: sessions x 8 each [m]."""
     group = results.group(TWO, 'C2', ray_model)
     off, left = [], []
     for measured, nominal in zip(group.measured[:, :8], group.nominal[:, :8]):
@@ -75,15 +75,15 @@ def form_of_cube(results, ray_model):
 
 
 def worst_is_fourth_corner(results, ray_model):
-    """In how many of how many sessions with two cameras the largest error of C4 is on the edge of
-    the cube before the missing fourth camera (its points 4 and 8)."""
+    """Number of sessions with two cameras whose largest error of C4 is on the edge of the cube near
+    the missing fourth camera (its points 4 and 8), and number of all sessions."""
     worst = np.argmax(results.group(TWO, 'C4', ray_model).from_nominal(), axis=1)
     return int(np.isin(worst, [3, 7]).sum()), len(worst)
 
 
 def farthest_principal_point(results, ray_model):
-    """95 % of the corrected principal points are within this of (512, 384), each axis [px]; number
-    of cameras and corrections."""
+    """95 % quantile of the distance of corrected principal points from (512, 384), each axis [px];
+    number of cameras and corrections."""
     rows = results.last_round(['C3', 'C4', 'C5'], ray_model)
     off = np.maximum(np.abs(rows['center_u'] - 512.0), np.abs(rows['center_v'] - 384.0))
     units = [off[rows['session'] == session] for session in np.unique(rows['session'])]
@@ -92,8 +92,8 @@ def farthest_principal_point(results, ray_model):
 
 
 def board_error(results):
-    """Three standard deviations of a principal point from 12 views of the board [px], as the paper's
-    toolbox states its error limits; interval; number."""
+    """Three standard deviations of a principal point from 12 views of the board [px], like the
+    error limits of the paper's toolbox; interval; number."""
     rows = results.last_round(['C2'], 'calibrated')
     error = np.stack([rows['center_u'] - rows['true_u'], rows['center_v'] - rows['true_v']], axis=1)
     units = [error[rows['session'] == session] for session in np.unique(rows['session'])]

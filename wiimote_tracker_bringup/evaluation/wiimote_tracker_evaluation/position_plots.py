@@ -1,5 +1,5 @@
-"""Plots of the ten points: cumulative errors (Fig. 7 and 9), cubes (Fig. 8), the correction's way
-(Fig. 2)."""
+"""Plots of the ten points: cumulative errors (Fig. 7 and 9), cubes (Fig. 8), convergence of the
+correction (Fig. 2)."""
 
 import numpy as np
 
@@ -15,8 +15,8 @@ DRAWS_PER_POINT = 100
 
 TITLE_SIZE = 9.5
 
-# What the paper's text says of errors [cm]: number, share of the points that are not larger, words
-# and where they stand beside the mark.
+# Errors stated in the paper [cm]: number, share of the points that are not larger, label and its
+# placement.
 PAPER_MARKS = {
     TWO: ((15.0, 0.0, 'paper: C1,\nC2 from 15', 'left', 6), (50.0, 1.0, 'to 50', 'left', -7),
           (7.0, 1.0, 'C3 to C5\nto 7', 'left', -7)),
@@ -25,7 +25,7 @@ PAPER_MARKS = {
 
 
 def cumulative_errors(results, cameras, protocol):
-    """protocol: sessions of a case that are drawn alone, as the paper had two per case."""
+    """protocol: sessions of a case to draw separately; the paper had two per case."""
     figure, axes = charts.figure(1, 3, height=4.2, width=11.0, sharex=True, sharey=True)
     for axis, model, title in ((axes[0], 'image_center', "the paper's, rays from the image centre"),
                                (axes[1], 'calibrated', "the paper's, rays as calibrated")):
@@ -78,7 +78,7 @@ def ours(axis, results, cameras):
 
 
 def bound_sample(results, cameras, method):
-    """Errors as they would be distributed at the Cramér-Rao bound [m]."""
+    """Errors distributed as at the Cramér-Rao bound [m]."""
     covariance = results.group(cameras, 'bound_' + method).covariance.reshape(-1, 3, 3)
     covariance = covariance[np.isfinite(covariance).all(axis=(1, 2))]
     root = np.linalg.cholesky(covariance)
@@ -87,8 +87,8 @@ def bound_sample(results, cameras, method):
 
 
 def cubes(results, session):
-    """The ideal cube, C2's and C4's, of one session with two cameras, from above and from the side:
-    the corners as they were measured, with rays from the image centre."""
+    """The ideal cube and those of C2 and C4, of one session with two cameras, from above and from
+    the side: the measured corners, with rays from the image centre."""
     figure, axes = charts.figure(1, 2, height=4.4, width=9.0)
     for axis, (across, up), names in ((axes[0], (0, 1), 'xy'), (axes[1], (0, 2), 'xz')):
         for case, color, style, words in (
@@ -114,7 +114,7 @@ EDGES = ([(i, (i + 1) % 4) for i in range(4)] + [(4 + i, 4 + (i + 1) % 4) for i 
 
 
 def correction(results, session):
-    """Round by round, C3 of one session with two cameras, both models of the rays."""
+    """C3 of one session with two cameras by rounds, for both ray models."""
     figure, (way, error) = charts.figure(1, 2, height=3.6, width=9.0)
     for model, style, words in (('image_center', '-', 'rays from the image centre'),
                                 ('calibrated', '--', 'rays as calibrated')):

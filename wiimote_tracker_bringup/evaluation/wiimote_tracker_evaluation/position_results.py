@@ -1,4 +1,4 @@
-"""What the program evaluate_positions measured, by cameras, method and model of the rays."""
+"""Results of the program evaluate_positions, by cameras, method and ray model."""
 
 import dataclasses
 import os
@@ -15,8 +15,8 @@ POINTS = 10
 
 @dataclasses.dataclass(eq=False)
 class Group:
-    """One method in all sessions: arrays of sessions x points x 3 [m]; covariance, sessions x points
-    x 3 x 3 [m^2], NaN where none is stated. Sessions that could not be solved are NaN."""
+    """One method in all sessions: arrays of sessions x points x 3 [m]; covariance, sessions x
+    points x 3 x 3 [m^2], NaN if not stated. Sessions that could not be solved are NaN."""
 
     nominal: np.ndarray
     true: np.ndarray
@@ -24,23 +24,23 @@ class Group:
     covariance: np.ndarray
 
     def from_nominal(self):
-        """Distance from where the LED was meant to be, as the paper measured it: sessions that were
-        solved x points [m]."""
+        """Distance from the nominal position of the LED, as measured by the paper: solved sessions
+        x points [m]."""
         return solved(np.linalg.norm(self.measured - self.nominal, axis=2))
 
     def from_truth(self):
-        """Distance from where the LED was [m]."""
+        """Distance from the true position of the LED [m]."""
         return solved(np.linalg.norm(self.measured - self.true, axis=2))
 
     def unsolved(self):
         return int(np.isnan(self.measured).any(axis=(1, 2)).sum())
 
     def stated(self):
-        """Mean square error that the covariances foretell, sessions x points [m^2]."""
+        """Mean squared error predicted by the covariances, sessions x points [m^2]."""
         return np.trace(self.covariance, axis1=2, axis2=3)
 
     def normalised(self):
-        """Squared errors in units of the covariances that are stated; 3 on average when honest."""
+        """NEES by the stated covariances; its mean is 3 if they are right."""
         error = self.measured - self.true
         whitened = np.linalg.solve(self.covariance, error[..., None])[..., 0]
         return solved((error * whitened).sum(axis=2))
@@ -51,7 +51,7 @@ def solved(values):
 
 
 class Results:
-    """sessions: how many."""
+    """sessions: their number."""
 
     def __init__(self, folders):
         points = [read_csv(os.path.join(folder, 'points.csv')) for folder in folders]
@@ -80,7 +80,7 @@ class Results:
                      covariance.reshape(-1, POINTS, 3, 3))
 
     def trace(self, cameras, case, ray_model, session):
-        """Rounds of one correction, by camera: arrays by name of the table's column."""
+        """Rounds of one correction, by camera: arrays by column name."""
         chosen = ((self.traces['cameras'] == cameras) & (self.traces['case'] == case)
                   & (self.traces['ray_model'] == ray_model) & (self.traces['session'] == session))
         numbers = np.unique(self.traces['camera'][chosen])
@@ -88,13 +88,13 @@ class Results:
                  for name, values in self.traces.items()} for number in numbers]
 
     def last_round(self, cases, ray_model):
-        """Rows of the traces after the last round of each correction, as arrays by name."""
+        """Rows of the traces after the last round of each correction, as arrays by column name."""
         traces = self.traces
         chosen = np.isin(traces['case'], cases) & (traces['ray_model'] == ray_model)
         last = np.zeros(len(chosen), dtype=bool)
         keys = list(zip(traces['session'], traces['cameras'], traces['case'], traces['camera']))
         latest = {}
-        for row in np.flatnonzero(chosen):  # rounds are in their order
+        for row in np.flatnonzero(chosen):  # rounds are sorted
             latest[keys[row]] = row
         last[list(latest.values())] = True
         return {name: values[last] for name, values in traces.items()}

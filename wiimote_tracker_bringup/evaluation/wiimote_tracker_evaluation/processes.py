@@ -1,4 +1,4 @@
-"""Child processes that are gone for certain when their owner is done, with all their children."""
+"""Child processes that end with their owner, with all their children."""
 
 import ctypes
 import os
@@ -13,7 +13,7 @@ PR_SET_CHILD_SUBREAPER = 36
 
 
 class ProcessEnded(Exception):
-    """A process that was needed has ended; the text says which and where its output is."""
+    """A required process has ended; the text says which, and where its output is."""
 
 
 def free_port() -> int:
@@ -27,17 +27,17 @@ def prctl(option, value):
 
 
 def descendants() -> List[int]:
-    """Ids of all processes below this one, zombies excepted."""
+    """Ids of all processes below this one, except zombies."""
     parent_of = {}
     for entry in os.listdir('/proc'):
         if not entry.isdigit():
             continue
         try:
             with open(f'/proc/{entry}/stat') as file:
-                # The name in parentheses may itself hold spaces and parentheses.
+                # The name in parentheses may contain spaces and parentheses.
                 state, parent = file.read().rpartition(')')[2].split()[:2]
         except OSError:
-            continue  # it ended meanwhile
+            continue  # it has ended
         if state != 'Z':
             parent_of[int(entry)] = int(parent)
     found = {os.getpid()}
@@ -49,9 +49,9 @@ def descendants() -> List[int]:
 
 
 class Processes:
-    """Starts processes, each in a session of its own so that a terminal's Ctrl-C reaches only us.
+    """Starts processes in sessions of their own, so that a terminal's Ctrl-C reaches only this one.
 
-    Grandchildren that lose their parent become our children, and so are found when all is stopped.
+    Orphaned grandchildren become our children, so that stop_all() finds them.
     """
 
     def __init__(self):
@@ -59,7 +59,7 @@ class Processes:
         self._started = []  # (name, Popen, path of its output)
 
     def start(self, name: str, command: List[str], output: str) -> subprocess.Popen:
-        """Starts a command whose output goes to the file `output`."""
+        """Starts a command with its output in the file `output`."""
         with open(output, 'ab') as file:
             process = subprocess.Popen(
                 command, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT,
@@ -69,14 +69,14 @@ class Processes:
         return process
 
     def check(self) -> None:
-        """@raise ProcessEnded: one of them is not running any more."""
+        """@raise ProcessEnded: a started process has ended."""
         for name, process, output in self._started:
             if process.poll() is not None:
                 raise ProcessEnded(f'{name} ended unexpectedly (status {process.returncode}); see '
                                    f'{output}')
 
     def stop(self, process: subprocess.Popen, patience: float = 15.0) -> None:
-        """Asks one process to end in good order and waits for it."""
+        """Asks a process to end and waits for it."""
         self._started = [entry for entry in self._started if entry[1] is not process]
         self._signal_group(process, signal.SIGINT)
         try:
@@ -86,7 +86,7 @@ class Processes:
             process.wait()
 
     def stop_all(self, patience: Sequence[float] = (6.0, 2.0, 2.0)) -> None:
-        """Ends every process below this one: first politely, then not."""
+        """Ends every process below this one: by SIGINT, then SIGTERM, then SIGKILL."""
         for _, process, _ in self._started:
             self._signal_group(process, signal.SIGINT)
         for number, seconds in zip((signal.SIGTERM, signal.SIGKILL, None), patience):

@@ -1,4 +1,4 @@
-"""Programs and files of packages: where they are, running them to their end, their tables."""
+"""Programs and files of packages: finding and running programs, and reading their tables."""
 
 import collections
 import os
@@ -34,9 +34,9 @@ def find_program(name: str) -> str:
 
 
 def run_programs(commands, log, progress=lambda done, of: None):
-    """Runs every command (a list of words, the first as for find_program) and waits for all.
+    """Runs all commands (lists of words, the first as for find_program) and waits for them.
 
-    log: file for what they print. progress: gets how many have ended.
+    log: file for their output. progress: called with the number of finished ones.
     @raise ExperimentError: one has failed; the others are ended.
     """
     waiting = collections.deque([find_program(command[0])] + [str(word) for word in command[1:]]
@@ -73,13 +73,13 @@ def last_line(path: str) -> str:
 
 
 def session_parts(sessions, parts=4):
-    """Sessions shared out to programs that each take --first and --sessions: (first, number) each."""
+    """Divides sessions between programs that take --first and --sessions: (first, number) each."""
     edges = [sessions * part // parts for part in range(parts + 1)]
     return [(first, end - first) for first, end in zip(edges[:-1], edges[1:]) if end > first]
 
 
 def read_csv(path: str) -> Dict[str, np.ndarray]:
-    """A table with names in its first line, as arrays by name: numbers where all are, else texts."""
+    """A table with names in its first line, as arrays by name: numbers if all are, else strings."""
     import csv
     with open(path, newline='') as file:
         rows = list(csv.reader(file))
@@ -95,8 +95,8 @@ def read_csv(path: str) -> Dict[str, np.ndarray]:
 
 
 def table_rows(columns):
-    """What read_csv() gives, as rows for Run.table(): None where a number is missing, whole numbers
-    where a column has no other."""
+    """Result of read_csv() as rows for Run.table(): None for a missing number, integers in columns
+    of integers."""
     cells = []
     for values in columns.values():
         if values.dtype.kind == 'f' and np.array_equal(values, np.round(values)):

@@ -1,16 +1,16 @@
-"""How far the evaluation is, and how long it will still take."""
+"""Progress of the evaluation and its remaining time."""
 
 import sys
 import time
 
-QUIET_PERIOD = 15.0  # without a terminal, between lines of one section [s]
+QUIET_PERIOD = 15.0  # interval of lines without a terminal [s]
 
 
 class Progress:
-    """One line per section; with a terminal, a line below that is overwritten."""
+    """One line per section, with a status line below on a terminal."""
 
     def __init__(self, expected, output=None, now=time.monotonic):
-        """expected: name and about how many seconds, of every section to come."""
+        """expected: name and approximate duration [s] of every section."""
         self._expected = list(expected)
         self._output = output or sys.stdout
         self._now = now
@@ -28,7 +28,7 @@ class Progress:
         self.within(0, 1)
 
     def within(self, done: float, of: float, what: str = '') -> None:
-        """The section that is going on is at done of so many."""
+        """The present section has finished `done` of `of` parts."""
         self._share = min(max(float(done) / of, 0.0), 1.0) if of else 0.0
         text = f'{100.0 * self._share:3.0f} %  {remaining_text(self.remaining()):<12} {what}'
         if self._live:
@@ -50,7 +50,7 @@ class Progress:
         self._output.flush()
 
     def remaining(self) -> float:
-        """Of all sections together [s]: what is expected at first, what is seen more and more."""
+        """Of all sections [s]: at first as expected, increasingly as observed."""
         expected = self._expected[max(self._number, 0)][1]
         elapsed = self._now() - self._begin
         total = max(expected, elapsed)

@@ -1,4 +1,4 @@
-"""What the tracker published and what was true, as arrays; from a bag or while it happens."""
+"""Published and true positions as arrays; from a bag or live."""
 
 import numpy as np
 import rosbag
@@ -12,8 +12,8 @@ class Recording:
 
     stamp N, position N x 3, stddev N x 3, rays N, residual N [px];
     truth_stamp M, truth_position M x 3;
-    latency K [s]: of every message on points, from the arrival of its newest image to the recorder;
-    age K [s]: of its positions when it reached the recorder, link and interpolation included.
+    latency K [s]: per message on points, from the arrival of its newest image to the recorder;
+    age K [s]: of its positions at the recorder, including link and interpolation.
     """
 
     def __init__(self, points, truths, latencies, ages):
@@ -31,7 +31,7 @@ class Recording:
         self.age = np.array(ages, dtype=float)
 
     def between(self, start: float, end: float) -> np.ndarray:
-        """Which points lie in this span of time."""
+        """Mask of the points in a time span."""
         return (self.stamp >= start) & (self.stamp <= end)
 
     def truth_at(self, stamps: np.ndarray) -> np.ndarray:
@@ -41,7 +41,7 @@ class Recording:
 
 
 def point_rows(message):
-    """Rows of the points that two cameras or more see."""
+    """Rows of the points seen by at least two cameras."""
     stamp = message.header.stamp.to_sec()
     for point in message.points:
         if point.state == TrackedPoint.TRACKED:
@@ -55,7 +55,7 @@ def truth_row(message):
 
 
 def read_bag(path: str, led: str) -> Recording:
-    """Recording of a bag that holds /points and /simulation/truth/<led>."""
+    """Reads a bag with /points and /simulation/truth/<led>."""
     points, truths, latencies, ages = [], [], [], []
     truth_topic = '/simulation/truth/' + led
     with rosbag.Bag(path) as bag:
@@ -71,7 +71,7 @@ def read_bag(path: str, led: str) -> Recording:
 
 
 class LiveRecorder:
-    """Records from now on."""
+    """Records from its construction on."""
 
     def __init__(self, led):
         self._points, self._truths, self._latencies, self._ages = [], [], [], []

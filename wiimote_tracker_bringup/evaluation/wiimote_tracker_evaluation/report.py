@@ -1,4 +1,4 @@
-"""The results as a table, a sentence, and files."""
+"""The demonstration's results as a table, a sentence, and files."""
 
 import csv
 import json
@@ -10,7 +10,7 @@ from wiimote_tracker_evaluation.alignment import KINDS
 
 
 def table(score, bounds):
-    """The results for people: lines of text."""
+    """The results as lines of text."""
     lines = [f"{'':<3}  {'true [m]':<22}  {'measured [m]':<22}  {'error [mm]'}"]
     for place in score.places:
         lines.append('%-3s  %s  %s  %10.1f' % (
@@ -45,7 +45,7 @@ def table(score, bounds):
 
 
 def sentence(mode, score):
-    """The same figures in one sentence. mode: the tracker's, 'tracks' or 'instant'."""
+    """The results in one sentence. mode: 'tracks' or 'instant'."""
     return ('Simulated rig, mode %s, %d points: RMS error %.1f mm absolute, %.1f mm rigid-aligned, '
             '%.1f mm similarity-aligned; %.0f points/s; latency from report to published point '
             '%.2f ms median, %.2f ms p99.' % (
@@ -87,7 +87,7 @@ def write_summary(path, mode, score, bounds):
 
 
 def write_csv(path, recording, segments):
-    """Every point that was published while measuring, beside the truth."""
+    """All points published while measuring, with the truth."""
     with open(path, 'w', newline='') as file:
         writer = csv.writer(file)
         writer.writerow(['phase', 'name', 'stamp_s', 'x_m', 'y_m', 'z_m', 'true_x_m', 'true_y_m',
@@ -105,7 +105,7 @@ def write_csv(path, recording, segments):
 
 
 def draw_tracks(path, recording, segments, score):
-    """Picture of the tracks from above and from the side, truth beside measurement."""
+    """Picture of the true and measured tracks from above and from the side."""
     import matplotlib
     matplotlib.use('Agg')
     import matplotlib.pyplot as plt
@@ -124,7 +124,7 @@ def draw_tracks(path, recording, segments, score):
             axes.plot(place.true[h], place.true[v], 'o', color='0.65', markersize=11)
             axes.plot(place.measured[h], place.measured[v], '+', color='tab:red', markersize=10,
                       label='measured point' if number == 0 else None)
-            # The error, magnified, since a centimetre cannot be seen at this scale.
+            # The error is magnified: a centimetre is not visible at this scale.
             error = 25.0 * (place.measured - place.true)
             axes.annotate('', xytext=(place.true[h], place.true[v]),
                           xy=(place.true[h] + error[h], place.true[v] + error[v]),

@@ -1,8 +1,8 @@
-"""Reprojection errors of points, from rig and blob messages alone; shares no code with the tracker."""
+"""Reprojection errors of points, from rig and blob messages; shares no code with the tracker."""
 
 import numpy as np
 
-# An observation farther than this from the projected point is not an inlier [px].
+# Largest reprojection error of an inlier [px].
 INLIER_PX = 5.0
 
 
@@ -16,7 +16,7 @@ def rotation_matrix(quaternion):
 
 
 def project(camera, point):
-    """Pixel (u, v) of a world point [m] in a CameraCalibration; None when it is not in front."""
+    """Pixel (u, v) of a world point [m] in a CameraCalibration; None behind the camera."""
     if camera.distortion_model != 'plumb_bob':
         raise ValueError(f'{camera.name}: the distortion model {camera.distortion_model} is not '
                          'supported')
@@ -38,7 +38,7 @@ def errors(rig, points, pixels):
     """{camera name: [px, ...]} over all observations of instants that have a point.
 
     points: {instant: (x, y, z)}; pixels: {instant: {camera name: (u, v)}}. A point behind a camera
-    that saw it counts as infinitely far off.
+    that saw it has an infinite error.
     """
     found = {camera.name: [] for camera in rig.cameras}
     for instant in sorted(points):
@@ -53,7 +53,7 @@ def errors(rig, points, pixels):
 
 
 def figures(distances, inlier_px=INLIER_PX):
-    """What is reported of a list of reprojection errors [px]. RMS: sqrt(mean(du^2 + dv^2))."""
+    """Statistics of reprojection errors [px]. RMS: sqrt(mean(du^2 + dv^2))."""
     if not distances:
         return {'observations': 0, 'inliers': 0, 'rms': None, 'median': None, 'mean': None,
                 'p95': None}
@@ -64,7 +64,7 @@ def figures(distances, inlier_px=INLIER_PX):
 
 
 def per_camera(rig, points, pixels, inlier_px=INLIER_PX):
-    """figures() by camera name, and of all cameras together below 'all'."""
+    """figures() by camera name, and of all cameras as 'all'."""
     by_camera = errors(rig, points, pixels)
     result = {name: figures(distances, inlier_px) for name, distances in by_camera.items()}
     result['all'] = figures([d for distances in by_camera.values() for d in distances], inlier_px)

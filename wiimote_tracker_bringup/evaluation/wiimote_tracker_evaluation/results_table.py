@@ -1,4 +1,4 @@
-"""The results table of a document, made from figures.json; and whether a fresh run agrees with it."""
+"""Makes a document's results table from figures.json, and compares it with a fresh run."""
 
 import argparse
 import json
@@ -11,7 +11,7 @@ from wiimote_tracker_evaluation import statistics
 from wiimote_tracker_evaluation.page import words
 
 Measurement = Tuple[float, Tuple[float, float]]  # value, its 95 % interval
-ROUNDING = 0.005  # of the table's three digits, as a share of the number
+ROUNDING = 0.005  # relative, of the table's three digits
 BEGIN, END = '<!-- results: begin -->', '<!-- results: end -->'
 
 
@@ -25,7 +25,7 @@ def interval_of(entry: Dict) -> str:
 
 
 def cells(entry: Dict) -> List[str]:
-    """A figure's row: what it is, value with unit, interval, how it came about."""
+    """A figure's row: description, value with unit, interval, origin."""
     return [(entry['note'] or words.plain(entry['name'])).replace('|', '/'),
             f"{words.number(entry['value'])} {entry['unit']}".strip(), interval_of(entry),
             words.kind(entry['simulated'], entry['end_to_end'])]
@@ -39,7 +39,7 @@ def headlines(content: Dict) -> List[Dict]:
 
 
 def lines(content: Dict) -> List[str]:
-    """The table as Markdown."""
+    """The table in Markdown."""
     return (['| | value | 95 % interval | how |', '|---|---|---|---|'] + [
         '| ' + ' | '.join(cells(entry)) + ' |' for entry in headlines(content)] + [
         '', 'By `rosrun wiimote_tracker_bringup evaluate%s --seed %d`, rig `%s`.' % (
@@ -64,7 +64,7 @@ def written(text: str, content: Dict) -> str:
 
 
 def numbers_of(row: List[str]) -> Measurement:
-    """Value and interval that a row of the table states; without an interval the value twice."""
+    """Value and interval stated by a row of the table; without an interval the value twice."""
     value = float(row[1].split()[0])
     if row[2] == '–':
         return value, (value, value)
@@ -83,16 +83,16 @@ def rows_of(text: str) -> Dict[str, Measurement]:
 
 
 def too_far_apart(stated: Measurement, fresh: Measurement, allowed: float) -> bool:
-    """Whether two measurements, each (value, (low, high)), differ by more than so many times what
-    both are uncertain by together, on the sides that face each other."""
+    """Whether two measurements, each (value, (low, high)), differ by more than `allowed` times
+    their combined half widths on the sides that face each other."""
     (low, (_, above)), (high, (below, _)) = sorted([stated, fresh])
     slack = ROUNDING * max(abs(low), abs(high))
     return high - low > allowed * np.hypot(above - low, high - below) + slack
 
 
 def disagreements(text: str, content: Dict) -> Tuple[List[str], List[str]]:
-    """Sentences about figures of a run that differ from the table's by more than chance: of the
-    cores in process, and of the full stack, which depend on the machine."""
+    """Sentences about figures of a run that differ significantly from the table: of results in
+    process, and of the full stack, which depend on the machine."""
     stated, entries = rows_of(text), headlines(content)
     allowed = statistics.agreement(len(entries))
     in_process, full_stack = [], []
@@ -116,8 +116,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument('figures', help='figures.json of an evaluation')
     parser.add_argument('document', help='Markdown file with the two marks')
     parser.add_argument('--check', action='store_true',
-                        help='write nothing; say where the table and the figures of a fresh run '
-                        'differ by more than both are uncertain by together')
+                        help='write nothing; list the significant differences between the table '
+                             'and the figures of a fresh run')
     options = parser.parse_args(arguments)
     try:
         with open(options.figures, encoding='utf-8') as file:

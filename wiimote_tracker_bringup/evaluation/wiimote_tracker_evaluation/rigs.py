@@ -1,4 +1,4 @@
-"""Descriptions of simulated rigs that are made from another one."""
+"""Descriptions of simulated rigs derived from another one."""
 
 import math
 from typing import Dict
@@ -27,7 +27,7 @@ def identities(description: Dict) -> Dict[str, str]:
 
 
 def centred(description: Dict, scale: float) -> Dict:
-    """The rig about the origin instead of the floor's middle, every distance times `scale`."""
+    """The rig moved from the floor's middle to the origin, with all distances times `scale`."""
     moved = dict(description)
     moved['cameras'] = {name: dict(camera, **{
         key: (scale * (np.array(camera[key]) - MIDDLE)).tolist() for key in ('position', 'look_at')})
@@ -36,8 +36,8 @@ def centred(description: Dict, scale: float) -> Dict:
 
 
 def with_leds(description, positions, lit=True):
-    """The rig with LEDs at these places [m] and nothing else, like its first one; named led, led_b,
-    led_c, ..."""
+    """The rig with only LEDs at these places [m], like its first one; named led, led_b, led_c,
+    ..."""
     first = next(iter(description['leds'].values()))
     like = {key: first[key] for key in ('size', 'brightness') if key in first}
     changed = {key: value for key, value in description.items()
@@ -49,8 +49,8 @@ def with_leds(description, positions, lit=True):
 
 
 def with_cameras(description: Dict, number: int) -> Dict:
-    """The first `number` cameras; when there are not so many, more stand between them, on the same
-    circle about the floor's middle, equal but for their clocks and addresses."""
+    """The first `number` cameras. Further ones are placed between them on the same circle, with
+    other clocks and addresses."""
     cameras = dict(list(description['cameras'].items())[:number])
     originals = list(description['cameras'].values())
     for extra in range(number - len(cameras)):
@@ -64,5 +64,5 @@ def with_cameras(description: Dict, number: int) -> Dict:
             like, position=position.tolist(), clock=clock,
             identity=f'00:1f:32:00:01:{extra:02x}')
     changed = dict(description, cameras=cameras)
-    changed.pop('board', None)  # its camera may be gone
+    changed.pop('board', None)  # its camera may be missing
     return changed

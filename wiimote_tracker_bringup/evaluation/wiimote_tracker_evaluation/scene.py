@@ -1,6 +1,6 @@
-"""A rig's description as arrays: an independent camera model for scoring and bounds.
+"""A rig description as arrays: an independent camera model for scoring and bounds.
 
-It shares no code with the tracker, so that an error there is not repeated here.
+It shares no code with the tracker, so that errors there are not repeated here.
 """
 
 import dataclasses
@@ -11,8 +11,8 @@ import yaml
 
 
 class Camera:
-    """Pinhole with radial k1. parameters: fx, fy, cx, cy, k1. rotation: columns are the image's
-    right, down and forward in the world. position [m]. size: width, height [px]."""
+    """Pinhole with radial k1. parameters: fx, fy, cx, cy, k1. rotation: its columns are the image's
+    right, down and forward directions in the world. position [m]. size: width, height [px]."""
 
     def __init__(self, name, parameters, rotation, position, size):
         self.name = name
@@ -26,7 +26,7 @@ class Camera:
         return project(self.parameters, self.rotation, self.position, points)
 
     def sees(self, points: np.ndarray) -> np.ndarray:
-        """For each of N x 3 points, whether its pixel lies in the image."""
+        """For each of N x 3 points, whether its pixel is in the image."""
         pixel = self.project(points)
         with np.errstate(invalid='ignore'):
             return ((pixel >= 0) & (pixel <= np.asarray(self.size) - 1)).all(axis=1)
@@ -44,7 +44,7 @@ def project(parameters: np.ndarray, rotation: np.ndarray, position: np.ndarray,
 
 
 def look_at(position: np.ndarray, target: np.ndarray) -> np.ndarray:
-    """Rotation of a camera whose axis passes through target and whose image x axis is level."""
+    """Rotation of a camera with its axis through target and a horizontal image x axis."""
     forward = np.asarray(target, dtype=float) - position
     forward /= np.linalg.norm(forward)
     right = np.cross(forward, [0.0, 0.0, 1.0])
@@ -54,31 +54,31 @@ def look_at(position: np.ndarray, target: np.ndarray) -> np.ndarray:
 
 @dataclasses.dataclass(eq=False)
 class Scene:
-    """Cameras as they truly are, and the noise of their pixels [px] before rounding."""
+    """True cameras, and the noise of their pixels [px] before rounding."""
 
     cameras: List[Camera]
     pixel_noise: float
 
     def effective_noise(self) -> float:
-        """Standard deviation of one pixel coordinate, the rounding to whole pixels included."""
+        """Standard deviation of one pixel coordinate, including rounding to whole pixels."""
         return float(np.sqrt(self.pixel_noise ** 2 + 1.0 / 12.0))
 
     def missed(self, points: np.ndarray) -> List[List[str]]:
-        """For each of N x 3 points, the names of the cameras that do not see it."""
+        """For each of N x 3 points, the names of cameras that do not see it."""
         seen = [camera.sees(points) for camera in self.cameras]
         return [[camera.name for camera, sees in zip(self.cameras, seen) if not sees[i]]
                 for i in range(len(points))]
 
 
 def read_scene(path: str) -> Scene:
-    """Scene of a rig description. ValueError when a lens has more distortion than k1."""
+    """Scene of a rig description. ValueError if a lens has distortion other than k1."""
     with open(path) as file:
         description = yaml.safe_load(file)
     cameras = []
     for name, entry in description['cameras'].items():
         lens = entry['intrinsics']
         if any(lens['distortion'][1:]):
-            raise ValueError(f'{path}: {name} has distortion beyond k1, which scoring does not '
+            raise ValueError(f'{path}: {name} has distortion other than k1, which scoring does not '
                              'know')
         position = np.asarray(entry['position'], dtype=float)
         cameras.append(Camera(

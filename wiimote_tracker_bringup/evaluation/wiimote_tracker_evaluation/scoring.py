@@ -1,4 +1,4 @@
-"""From a recording and the spans of time in it to figures."""
+"""Computes figures from a recording and its segments."""
 
 import dataclasses
 from typing import Dict, List
@@ -10,8 +10,8 @@ from wiimote_tracker_evaluation import alignment, experiment
 
 @dataclasses.dataclass(eq=False)
 class MeasuredPlace:
-    """Where the LED lay, and the mean of what was measured meanwhile [m]; scatter: standard
-    deviation of single points about that mean, over all three axes together [m]."""
+    """Position of a still LED and mean of the measurements [m]; scatter: standard deviation of
+    single points about that mean, over all three axes [m]."""
 
     name: str
     true: np.ndarray
@@ -25,7 +25,7 @@ class MeasuredPlace:
 
 @dataclasses.dataclass(eq=False)
 class MeasuredCircle:
-    """RMS of the distance from the axis less the radius, and of the height, single points [m]."""
+    """RMS of single points: distance from the axis minus the radius, and height [m]."""
 
     name: str
     radial: float
@@ -35,8 +35,8 @@ class MeasuredCircle:
 
 @dataclasses.dataclass(eq=False)
 class Score:
-    """places: of the test points. position_rms: by kind of alignment [m]. scatter: of single points,
-    RMS over the places [m]. rate: points a second while measuring [Hz]. latency_p50, latency_p99:
+    """places: of the test points. position_rms: by kind of alignment [m]. scatter: of single
+    points, RMS over the places [m]. rate: of points while measuring [Hz]. latency_p50, latency_p99:
     from a report's arrival to its point [s]. age_p50: from the instant of a point to its arrival at
     the recorder [s]."""
 

@@ -1,8 +1,7 @@
-"""What a section of the evaluation gets to work with, and what it leaves behind.
+"""Input and output of a section of the evaluation.
 
-A section is a module in sections/ with NAME (as in --sections), TITLE, and run(run), which gets a
-Run and tells it what was found. One that a person can be led through on a real rig also has
-live(run).
+A section is a module in sections/ with NAME (as in --sections), TITLE, and run(run), which adds its
+results to a Run. A section for a person on a real rig also has live(run).
 """
 
 import dataclasses
@@ -58,38 +57,38 @@ class Text:
 
 
 class Run:
-    """One section being carried out.
+    """One section in execution.
 
-    quick: keep it short. seed: of everything random. rig: path of the rig's description. folder: for
-    files of one's own; what table() and plot() write goes there, too. simulated: False when a person
-    leads a real rig. led: path of the description of the user's own LED, or None. gestures: folder
-    of the user's own recordings, or None.
+    quick: shorter. seed: of all random numbers. rig: path of the rig's description. folder: for own
+    files, and those of table() and plot(). simulated: False if a person uses a real rig. led: path
+    of the description of the user's own LED, or None. gestures: folder of the user's own
+    recordings, or None.
     """
 
-    SHOWN_ROWS = 40  # a longer table is in the report only as a link
+    SHOWN_ROWS = 40  # longer tables are linked in the report
 
     def __init__(self, name, title, rig, folder, quick=False, seed=1, simulated=True,
                  on_progress=lambda done, of, what: None, led=None, gestures=None):
         self.name, self.title = name, title
         self.quick, self.seed, self.rig, self.folder = quick, seed, rig, folder
         self.simulated, self.led, self.gestures = simulated, led, gestures
-        self.contents = []   # Text, Plot, Table, in their order
+        self.contents = []   # Text, Plot, Table, in order
         self.figures = []
         self.summaries = []  # sentences for the head of the report
-        self.failure = ''    # why it did not come to its end
+        self.failure = ''    # why it did not finish
         self._on_progress = on_progress
         os.makedirs(folder, exist_ok=True)
 
     # --- While it goes on
 
     def progress(self, done: float, of: float, what: str = '') -> None:
-        """How far this section is, done of so many, and what is going on."""
+        """Progress of this section, done of `of` parts, and the present step."""
         self._on_progress(done, of, what)
 
     def compute(self, commands: List[list], what: str, begin: float = 0.0,
                 end: float = 1.0) -> None:
-        """Runs programs to their end, two at a time; each a list of words, the first `program` of
-        this package or `package/program`. They take the section from the share `begin` to `end`."""
+        """Runs programs, two at a time; each is a list of words, the first `program` of this
+        package or `package/program`. They take the section from the share `begin` to `end`."""
         self.progress(begin, 1.0, what)
         programs.run_programs(commands, self.file('programs.log'), lambda done, of: self.progress(
             begin + (end - begin) * done / of, 1.0, what))
@@ -101,22 +100,22 @@ class Run:
     # --- What was found
 
     def summary(self, sentence: str) -> None:
-        """A sentence for the head of the report: what the rig can be trusted for."""
+        """A sentence for the head of the report: the accuracy to expect of the rig."""
         self.summaries.append(sentence)
 
     def say(self, markdown: str) -> None:
-        """A paragraph, a heading (###), or a list, in this place. Knows **bold**, *italic*, `code`
-        and [links](...)."""
+        """A paragraph, a heading (###), or a list. Supports **bold**, *italic*, `code` and
+        [links](...)."""
         self.contents.append(Text(markdown))
 
     def figure(self, name: str, value: float, unit: str, samples: int,
                interval: Optional[Sequence[float]] = None, note: str = '',
                end_to_end: bool = False, headline: bool = False,
                simulated: Optional[bool] = None) -> None:
-        """A number. name: under_scored, never changed. samples: how many independent measurements it
-        comes from. interval: (low, high), 95 %. note: what it is, in words. end_to_end: through the
-        full stack, rather than the cores in process. headline: stands in the table of doc/results.md, too.
-        simulated: by default as the whole section."""
+        """A number. name: under_scored, never changed. samples: number of independent measurements.
+        interval: (low, high), 95 %. note: description. end_to_end: through the full stack, not in
+        process. headline: also in the table of doc/results.md. simulated: default as the
+        section."""
         check_name(name, [figure.name for figure in self.figures])
         numbers = [value] + (list(interval) if interval is not None else [])
         if not all(math.isfinite(number) for number in numbers):
@@ -129,9 +128,9 @@ class Run:
 
     def table(self, name: str, columns: Sequence[Tuple[str, str]], rows: Iterable,
               caption: str = '', shown: Optional[bool] = None) -> None:
-        """A table in this place, as a CSV file, and as a struct in the section's .mat. columns:
-        (name, unit) each, under_scored; rows: numbers or texts, None where there is none. shown:
-        whether the report holds it or a link; by default when it is short."""
+        """A table, also as a CSV file and a struct in the section's .mat. columns: (name, unit)
+        each, under_scored; rows: numbers or strings, None if missing. shown: whether the report
+        contains it or a link; default: if it is short."""
         check_name(name, [each.name for each in self.contents if isinstance(each, Table)])
         taken = []
         for column, _ in columns:
@@ -144,12 +143,12 @@ class Run:
                                    len(rows) <= self.SHOWN_ROWS if shown is None else shown))
 
     def plot(self, name: str, figure, caption: str) -> None:
-        """A matplotlib figure in this place and as an SVG file. It is closed."""
+        """A matplotlib figure, also as an SVG file. It is closed."""
         check_name(name, [each.name for each in self.contents if isinstance(each, Plot)])
         import matplotlib
         import matplotlib.pyplot as plt
         text = io.StringIO()
-        # Text stays text; the same figure gives the same bytes.
+        # Text stays text; equal figures give equal files.
         with matplotlib.rc_context({'svg.fonttype': 'none', 'svg.hashsalt': self.name + name}):
             figure.savefig(text, format='svg', bbox_inches='tight', metadata={'Date': None})
         plt.close(figure)

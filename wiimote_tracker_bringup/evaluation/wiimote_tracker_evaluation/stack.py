@@ -1,7 +1,7 @@
-"""The full stack on virtual Wii Remotes, for sections that are measured end to end.
+"""The full stack on virtual Wii Remotes, for end-to-end sections.
 
-One ROS master and one node of this process serve all of them, since a Python process can be one node
-only; what a section launches has ended before the next begins.
+One ROS master and one node of this process serve all of them, since a Python process can be only
+one node; each launch ends the previous one.
 """
 
 import os
@@ -22,7 +22,7 @@ _launched = []
 
 
 def master(log):
-    """Starts the master and makes this process a node, once. log: file for what it prints."""
+    """Starts the master and makes this process a node, once. log: file for its output."""
     global _processes, _scratch
     if _processes is not None:
         return
@@ -40,13 +40,13 @@ def master(log):
         if time.monotonic() > deadline:
             raise ExperimentError(f'no ROS master within {MASTER_DEADLINE:.0f} s; see {log}')
         time.sleep(0.02)
-    import rospy  # not earlier: it reads the master's address when it is imported
+    import rospy  # reads the master's address at import
     rospy.init_node('evaluation', disable_signals=True)
 
 
 def launch(run, file, **arguments):
-    """Starts a launch file of this package (its path within it) for a section; ends
-    what the section has launched before. Returns a folder that is empty, for its files."""
+    """Starts a launch file of this package (relative path) for a section; ends what the section has
+    launched before. Returns an empty folder for its files."""
     log = run.file('nodes.log')
     master(log)
     stop()
@@ -59,21 +59,21 @@ def launch(run, file, **arguments):
 
 
 def start(run, command):
-    """Starts a command beside what was launched; it ends with it, or by end()."""
+    """Starts a command beside the launch file; end() or the end of the launch file stops it."""
     process = _processes.start(command[0], command, run.file('nodes.log'))
     _launched.append(process)
     return process
 
 
 def end(process):
-    """Ends what start() started, in good order."""
+    """Ends a process of start() in good order."""
     _launched.remove(process)
     _processes.stop(process)
 
 
 def complaint(run):
-    """What a node of this section said before it gave up, as an addition to another sentence; empty
-    when none did."""
+    """The last fatal message of a node of this section, as an addition to another sentence; empty
+    without one."""
     try:
         with open(run.file('nodes.log'), errors='replace') as file:
             said = [line for line in file if 'FATAL' in line]
@@ -84,23 +84,23 @@ def complaint(run):
 
 
 def cores():
-    """Processor cores that this process may use."""
+    """Number of processor cores for this process."""
     return len(os.sched_getaffinity(0))
 
 
 def check():
-    """@raise ProcessEnded: something that is needed has ended."""
+    """@raise ProcessEnded: a required process has ended."""
     _processes.check()
 
 
 def stop():
-    """Ends what was launched; the master stays."""
+    """Ends all launched processes except the master."""
     while _launched:
         _processes.stop(_launched.pop())
 
 
 def stop_all():
-    """Ends everything, the master too."""
+    """Ends all processes, including the master."""
     global _processes
     _launched.clear()
     if _processes is not None:

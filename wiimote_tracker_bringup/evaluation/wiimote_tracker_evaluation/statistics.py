@@ -1,4 +1,4 @@
-"""Confidence intervals. Every one is (low, high) and repeatable."""
+"""Confidence intervals (low, high); all are reproducible."""
 
 from typing import Callable, Sequence, Tuple
 
@@ -10,12 +10,12 @@ NORMAL_QUANTILE = 1.959963984540054  # of CONFIDENCE, both sides
 
 
 def bootstrap(units, statistic=np.mean, seed=1, resamples=1000, confidence=CONFIDENCE):
-    """Interval of statistic(all values), by drawing whole units again (B. Efron, 1979): expanded
-    percentile interval (T. Hesterberg, The American Statistician 69, 2015), which is as wide for few
-    units as Student's. Of fewer than six it is their range at most, and covers 1 - 2^(1 - units).
+    """Interval of statistic(all values) by resampling whole units (B. Efron, 1979): expanded
+    percentile interval (T. Hesterberg, The American Statistician 69, 2015), as wide for few units
+    as Student's. For fewer than six it is at most their range, and covers 1 - 2^(1 - units).
 
-    units: one array of values (or of rows) for each independent unit, such as a session; values of
-    one unit may depend on each other. statistic: of one array to a number. @raise ValueError: fewer
+    units: one array of values (or of rows) per independent unit, such as a session; values of one
+    unit may depend on each other. statistic: of one array to a number. @raise ValueError: fewer
     than two units.
     """
     units = [np.atleast_1d(np.asarray(unit, dtype=float)) for unit in units]
@@ -30,17 +30,17 @@ def bootstrap(units, statistic=np.mean, seed=1, resamples=1000, confidence=CONFI
 
 
 def expanded_tail(units: int, tail: float) -> float:
-    """Share of a bootstrap's draws to leave out on either side, so that as much as `tail` of the
-    truth is missed there: draws scatter less than the truth by the root of (units - 1) / units, and
-    by how much they scatter is itself uncertain."""
+    """Share of a bootstrap's draws to omit on either side, so that the interval misses a share
+    `tail` there: draws scatter less than the truth by sqrt((units - 1) / units), and their scatter
+    is itself uncertain."""
     return float(ndtr(np.sqrt(units / (units - 1.0)) * stdtrit(units - 1.0, tail)))
 
 
 def wilson(successes: int, trials: int) -> Tuple[float, float]:
-    """Interval of a probability after so many independent trials (E. B. Wilson, JASA 22, 1927).
+    """Interval of a probability after independent trials (E. B. Wilson, JASA 22, 1927).
     @raise ValueError: no trials."""
     if not 0 <= successes <= trials or trials < 1:
-        raise ValueError('successes must be within 0 and the number of trials, which is 1 or more')
+        raise ValueError('successes must be between 0 and the number of trials, at least 1')
     z2 = NORMAL_QUANTILE ** 2
     share = successes / trials
     middle = (share + z2 / (2.0 * trials)) / (1.0 + z2 / trials)
@@ -51,8 +51,8 @@ def wilson(successes: int, trials: int) -> Tuple[float, float]:
 
 
 def agreement(statements: int) -> float:
-    """How many combined half widths two measurements of the same thing may differ by, when so many
-    pairs are compared and all shall agree with CONFIDENCE (Bonferroni)."""
+    """Allowed difference of two measurements in combined half widths, if all of this number of
+    pairs are to agree with CONFIDENCE (Bonferroni)."""
     return float(ndtri(1.0 - 0.5 * (1.0 - CONFIDENCE) / statements) / NORMAL_QUANTILE)
 
 
@@ -62,11 +62,11 @@ def rms(values: Sequence[float]) -> float:
 
 
 def quantile(share: float) -> Callable[[Sequence[float]], float]:
-    """The statistic "this quantile", for bootstrap()."""
+    """The statistic for a quantile, for bootstrap()."""
     return lambda values: float(np.quantile(values, share))
 
 
 def blocks(values, number):
-    """A series in time cut into so many contiguous pieces, as units for bootstrap() when neighbours
-    depend on each other."""
+    """Divides a time series into contiguous parts, as units for bootstrap() when neighbours depend
+    on each other."""
     return [piece for piece in np.array_split(np.asarray(values, dtype=float), number) if len(piece)]

@@ -1,6 +1,6 @@
-"""Where the time goes from an exposure to the published point: recorded while the full stack runs.
+"""Latency by parts, from exposure to published point: recorded while the full stack runs.
 
-Simulation, driver, tracker and recorder run on one computer and take their times from one clock.
+Simulation, driver, tracker and recorder run on one computer with one clock.
 """
 
 import os
@@ -13,20 +13,20 @@ from wiimote_tracker_evaluation import stack
 from wiimote_tracker_evaluation.errors import ExperimentError
 
 EXPOSURES = '/simulation/exposures'
-DEADLINE = 20.0       # for the recorder to be there [s]
-ROUNDING = 2e-6       # of a time that was a floating-point number on its way [s]
+DEADLINE = 20.0       # for the start of the recorder [s]
+ROUNDING = 2e-6       # of times converted to floating point [s]
 LONGEST_DRIVER = 0.5  # from a report's delivery to its arrival at the driver [s]
 
 
 class Trace:
     """Times [s since 1970], one row per published output.
 
-    exposure: true, of the newest image that entered; delivered: its report was handed to the virtual
-    device; arrived: by the driver's clock; heard: the driver's message of it reached the recorder,
-    as it does the tracker; published: the point reached the recorder; hop: of the exposure's own
-    message from the simulation to the recorder [s].
-    stamp, position: of the LED's point. exposures, deliveries: of all images, of all cameras, in the
-    order of their exposures; those of images that were overtaken, and made no point, too.
+    exposure: true, of the newest image used; delivered: its report reached the virtual device;
+    arrived: by the driver's clock; heard: the driver's message reached the recorder, and the
+    tracker; published: the point reached the recorder; hop: of the exposure's message from the
+    simulation to the recorder [s]. stamp, position: of the LED's point. exposures, deliveries: of
+    all images of all cameras, sorted by exposure, including images that were overtaken and gave no
+    point.
     """
 
     def __init__(self, rows, images, triggered):
@@ -35,15 +35,15 @@ class Trace:
          self.stamp) = rows[:, :7].T
         self.position = rows[:, 7:10]
         self.exposures, self.deliveries = np.array(sorted(images), dtype=float).reshape(-1, 2).T
-        self.triggered = triggered  # position of the LED by the trigger's time
+        self.triggered = triggered  # position of the LED by time of the trigger
 
     def between(self, start, end):
-        """Which outputs were published in this span of time."""
+        """Mask of the outputs published in a time span."""
         return (self.published >= start) & (self.published < end)
 
     def parts(self, chosen):
-        """From exposure to published point and its parts, one row per chosen output [s]; every part
-        is the difference of two times that were recorded."""
+        """Duration from exposure to published point and its parts, one row per chosen output [s];
+        each part is the difference of two recorded times."""
         return {'total': (self.published - self.exposure)[chosen],
                 'bluetooth': (self.delivered - self.exposure)[chosen],
                 'driver': (self.arrived - self.delivered)[chosen],
@@ -51,13 +51,13 @@ class Trace:
                 'point': (self.published - self.heard)[chosen]}
 
     def waiting(self):
-        """Mean time from any instant to the next exposure of any camera [s]."""
+        """Mean time from a random instant to the next exposure of any camera [s]."""
         gaps = np.diff(self.exposures)
         return float((gaps ** 2).sum() / (2.0 * gaps.sum()))
 
 
 class Recorder:
-    """Records what a Trace is made of, from its making until read()."""
+    """Records the contents of a Trace from its construction until read()."""
 
     def __init__(self, run, cameras, name):
         self._path = run.file(name + '.bag')
@@ -78,7 +78,7 @@ class Recorder:
 
 
 def wait_until_connected(node, topics):
-    """Until the node whose name begins so hears a publisher of each topic."""
+    """Waits until the node whose name begins so is connected to a publisher of each topic."""
     import rosgraph
     master = rosgraph.Master('/evaluation')
     deadline = time.monotonic() + DEADLINE
@@ -90,7 +90,7 @@ def wait_until_connected(node, topics):
 
 
 def connected_topics(master, node):
-    """The master knows who wants a topic; only the node itself knows from whom it already comes."""
+    """Topics that reach a node; only the node itself knows from whom messages already come."""
     names = {name for _, subscribers in master.getSystemState()[1] for name in subscribers
              if name.startswith(node)}
     connections = [connection for name in names for connection in xmlrpc.client.ServerProxy(
@@ -100,7 +100,7 @@ def connected_topics(master, node):
 
 
 def read_trace(path, cameras):
-    """Trace of a bag. Images, exposures and points are brought together by their times."""
+    """Trace of a bag. Images, exposures and points are matched by their times."""
     import rosbag
     delivered = {camera: [] for camera in cameras}  # rows: delivered, exposure, hop
     arrivals, points, triggered, images = [], [], {}, []
@@ -143,7 +143,7 @@ def read_trace(path, cameras):
 
 
 def first_position(message):
-    """Of the first LED that is seen, or None."""
+    """Position of the first LED that is seen, or None."""
     from wiimote_tracker_msgs.msg import TrackedPoint
     for point in message.points:
         if point.state == TrackedPoint.TRACKED:

@@ -1,4 +1,4 @@
-"""The rig as it truly is, for experiments that are not about calibration."""
+"""The true rig, for experiments that do not test calibration."""
 
 import numpy as np
 from wiimote_tracker_msgs.msg import CameraCalibration, RigCalibration
@@ -6,7 +6,7 @@ from wiimote_tracker_msgs.msg import CameraCalibration, RigCalibration
 
 def quaternion(rotation: np.ndarray) -> np.ndarray:
     """x, y, z, w of a rotation matrix."""
-    # The eigenvector of the largest eigenvalue of a symmetric matrix made of it (Bar-Itzhack 2000).
+    # Eigenvector of the largest eigenvalue of a symmetric matrix (Bar-Itzhack 2000).
     (xx, yx, zx), (xy, yy, zy), (xz, yz, zz) = rotation.T
     k = np.array([[xx - yy - zz, xy + yx, xz + zx, zy - yz],
                   [xy + yx, yy - xx - zz, yz + zy, xz - zx],
@@ -16,7 +16,7 @@ def quaternion(rotation: np.ndarray) -> np.ndarray:
 
 
 def true_rig(scene, identities):
-    """RigCalibration of a scene's cameras, exactly; identities: by camera name."""
+    """RigCalibration of a scene's exact cameras; identities: by camera name."""
     rig = RigCalibration(format_version=RigCalibration.FORMAT_VERSION, id='', method='true',
                          ray_model=RigCalibration.RAY_MODEL_CALIBRATED,
                          virtual_hfov=float('nan'), led_height=float('nan'))

@@ -1,4 +1,4 @@
-"""A person is led through the experiments on a tracker that runs, by prompts on the terminal.
+"""Experiments on a running tracker: prompts on the terminal lead a person through them.
 
-Only what a user of the tracker has is read: points, images, the rig, triggers; no truth.
+They use only what a user of the tracker has: points, images, the rig, triggers; no ground truth.
 """

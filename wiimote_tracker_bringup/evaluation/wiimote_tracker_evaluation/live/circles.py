@@ -1,4 +1,4 @@
-"""An LED that goes round, with a person who makes it go."""
+"""Circles: a person moves the LED on a circle."""
 
 import time
 
@@ -9,7 +9,7 @@ from wiimote_tracker_evaluation.live.dialogue import Dialogue
 from wiimote_tracker_evaluation.live.listener import Listener
 
 DURATION, QUICK = 15.0, 3.0  # of the measurement [s]
-BLOCKS = 10                  # independent pieces of it
+BLOCKS = 10                  # independent parts of the measurement
 
 
 def live(run, dialogue=None):
@@ -28,7 +28,7 @@ def measure(run, listener, dialogue):
     radius = dialogue.ask_number('Its radius in metres, when it is going round (Enter: leave this '
                                  'out):', 0.05, 10.0)
     if radius is None:
-        run.say('The circle was left out.')
+        run.say('The circle was skipped.')
         return
     duration = QUICK if run.quick else DURATION
     begin = listener.now()
@@ -39,15 +39,15 @@ def measure(run, listener, dialogue):
 
 
 def path_of(seen):
-    """Stamps [s] and positions [m] of the instants with exactly one LED."""
+    """Stamps [s] and positions [m] of instants with exactly one LED."""
     single = [each for each in seen if len(each.leds) == 1]
     return (np.array([each.stamp for each in single]),
             np.array([each.leds[0].position for each in single]).reshape(-1, 3))
 
 
 def errors_of(positions, radius):
-    """Centre, and by point the radial and the height error [m]: the centre and the tilt are fitted,
-    the radius is the person's."""
+    """Centre, and radial and height error of each point [m]. Centre and tilt are fitted; the radius
+    is given by the person."""
     middle = positions.mean(axis=0)
     _, _, axes = np.linalg.svd(positions - middle, full_matrices=False)
     plane = (positions - middle) @ axes[:2].T

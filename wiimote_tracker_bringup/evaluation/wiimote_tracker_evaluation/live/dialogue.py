@@ -1,4 +1,4 @@
-"""Prompts on the terminal, and what is typed."""
+"""Prompts and answers on the terminal."""
 
 import select
 import sys
@@ -16,24 +16,24 @@ class Dialogue:
         self._output.flush()
 
     def passing(self, text):
-        """Something that need not be kept; only on a terminal."""
+        """A status text that need not be kept; only on a terminal."""
         if self._output.isatty():
             self._output.write('\r\033[K      ' + text[:90])
             self._output.flush()
 
     def beep(self):
-        """For a person who looks at the LED and not at the screen."""
+        """A signal for a person who looks at the LED."""
         if self._output.isatty():
             self._output.write('\a')
             self._output.flush()
 
     def ask(self, text):
-        """What is typed, without blanks around it; empty at the end of the input."""
+        """The typed line, stripped; empty at the end of the input."""
         self.tell('   ?  ' + text + ' ', end='')
         return self._source.readline().strip()
 
     def ask_number(self, text, lowest, highest):
-        """A number, or None for an empty answer; asks again until it is one."""
+        """A number, or None for an empty answer; repeats the question if it is not valid."""
         while True:
             answer = self.ask(text)
             if not answer:
@@ -47,7 +47,7 @@ class Dialogue:
             self.tell(f'      Please type a number within {lowest:g} and {highest:g}, or nothing.')
 
     def typed(self):
-        """A line that has been typed meanwhile, or None."""
+        """A line typed in the meantime, or None."""
         if select.select([self._source], [], [], 0.0)[0]:
             return self._source.readline().strip()
         return None

@@ -1,4 +1,4 @@
-"""Detection distance, with a person who carries the remote away."""
+"""Detection distance: a person carries the remote away from the LED."""
 
 import time
 
@@ -9,17 +9,17 @@ from wiimote_tracker_evaluation import charts
 from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
 from wiimote_tracker_evaluation.live.listener import Listener
 
-TIME_LIMIT = 0.5  # the paper's: no other position for so long [s]
+TIME_LIMIT = 0.5  # the paper's: time without a new position [s]
 
 
 class Watch:
-    """Since when the brightest spot of a camera has not moved."""
+    """Time since the brightest spot of a camera moved."""
 
     def __init__(self, camera):
         import rospy
         from wiimote_tracker_msgs.msg import IrBlobArray
         self._pixel = None
-        self.changed = None  # [s, monotonic]; None: nothing was seen yet
+        self.changed = None  # [s, monotonic]; None: not seen yet
         self._subscriber = rospy.Subscriber(camera + '/ir_blobs', IrBlobArray, self._on_image)
 
     def _on_image(self, message):
@@ -49,7 +49,7 @@ def measure(run, dialogue):
                   'slowly backwards until you hear a beep. Then measure the distance.')
     camera = dialogue.ask('Name of that camera, such as wiimote_1 (Enter: leave this out):')
     if not camera:
-        run.say('The detection distance was left out.')
+        run.say('The detection distance was skipped.')
         return
     pairs = []
     while True:
@@ -63,7 +63,7 @@ def measure(run, dialogue):
 
 
 def one_walk(dialogue, camera):
-    """The distance that the person measured [m], or None."""
+    """The distance measured by the person [m], or None."""
     dialogue.tell('      Begin near the LED; walk when you like (s and Enter: leave this one out).')
     watch = Watch(camera)
     try:

@@ -1,4 +1,4 @@
-"""How long it takes until blinking LEDs have their names, with a person who switches them on."""
+"""Time to identify blinking LEDs: a person switches them on."""
 
 import time
 
@@ -9,7 +9,7 @@ from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
 from wiimote_tracker_evaluation.live.listener import Listener
 
 TRIES, QUICK_TRIES = 10, 3
-PATIENCE = 10.0  # for labels, after the LEDs are seen [s]
+LABEL_TIMEOUT = 10.0  # for labels, after the LEDs are seen [s]
 
 
 def live(run, dialogue=None):
@@ -26,7 +26,7 @@ def measure(run, listener, dialogue):
     names = dialogue.ask('Labels of the LEDs, separated by commas (Enter: leave this out):')
     labels = sorted(name.strip() for name in names.split(',') if name.strip())
     if not labels:
-        run.say('Identification was left out.')
+        run.say('Identification was skipped.')
         return
     listener.wait_for_points()
     rows = []
@@ -36,13 +36,13 @@ def measure(run, listener, dialogue):
         if row is None:
             break
         dialogue.tell('       ' + (f'all have their labels after {row[1]:.2f} s' if row[0] else
-                                   f'not all labels within {PATIENCE:.0f} s'))
+                                   f'not all labels within {LABEL_TIMEOUT:.0f} s'))
         rows.append([number + 1, int(row[0]), row[1]])
     tell(run, labels, rows)
 
 
 def one_try(listener, dialogue, labels):
-    """Whether all were labelled, and after what time from their first light [s]; None: skipped."""
+    """Whether all LEDs were labelled, and the time from their first light [s]; None: skipped."""
     if not wait(dialogue, lambda: not shown(listener)):
         return None
     begin = listener.now()
@@ -57,7 +57,7 @@ def one_try(listener, dialogue, labels):
 
 
 def first_light(listener, begin):
-    """When the first point after `begin` was heard; None: not yet."""
+    """Arrival of the first point after `begin`; None: not yet."""
     return next((seen.heard for seen in listener.since(begin) if seen.leds), None)
 
 

@@ -1,4 +1,4 @@
-"""Latency by the laps counter, with a person who sets it up."""
+"""Latency by the laps counter: a person sets it up."""
 
 import time
 
@@ -14,15 +14,15 @@ PATIENCE = 15.0  # for the next lap [s]
 
 
 class LapsCounter:
-    """Triggers, the newest position at the arrival of each, and the tracker's own answers."""
+    """Triggers, the newest position at the arrival of each, and the tracker's answers."""
 
     def __init__(self, listener):
         import rospy
         from std_msgs.msg import Header
         from wiimote_tracker_msgs.msg import TrackedPointArray
         self._listener = listener
-        self.newest = {}   # by the trigger's stamp [ns]: position known then [m]
-        self.answers = {}  # the same: position by the answer [m]
+        self.newest = {}   # by the trigger's stamp [ns]: newest position then [m]
+        self.answers = {}  # by the trigger's stamp [ns]: position of the answer [m]
         self._subscribers = [
             rospy.Subscriber('trigger', Header, self._on_trigger, tcp_nodelay=True),
             rospy.Subscriber('triggered_points', TrackedPointArray, self._on_answer)]
@@ -40,7 +40,7 @@ class LapsCounter:
             self.answers[message.header.stamp.to_nsec()] = np.array([point.x, point.y, point.z])
 
     def laps(self):
-        """Stamps [ns] of the triggers that both are known of."""
+        """Stamps [ns] of the triggers with both."""
         return sorted(set(self.newest) & set(self.answers))
 
     def close(self):
@@ -118,7 +118,7 @@ def tell(run, counter, positions):
 
 
 def draw_circle(axes, points, turn, answers, newest):
-    """Seen along the axis of the turn, from its tip; the laps counter is to the right."""
+    """Draws the circle along its axis; the laps counter is on the right."""
     normal = turn / np.linalg.norm(turn)
     across = answers.mean(axis=0)
     across = across - normal * (normal @ across)
@@ -134,7 +134,7 @@ def draw_circle(axes, points, turn, answers, newest):
 
 
 def behind(newest, answer, axis):
-    """Angle about the axis from one direction to the other [rad]."""
+    """Angle from one direction to the other about the axis [rad]."""
     axis = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
     newest, answer = (each - axis * (axis @ each) for each in (newest, answer))
     return float(np.arctan2(axis @ np.cross(newest, answer), newest @ answer))

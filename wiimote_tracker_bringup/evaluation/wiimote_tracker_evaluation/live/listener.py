@@ -1,4 +1,4 @@
-"""What a running tracker says, kept for a while."""
+"""Stores recent messages of a running tracker."""
 
 import collections
 import time
@@ -9,11 +9,11 @@ from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.live.dialogue import SKIP
 
 KEPT = 60.0         # [s]
-STILL_TIME = 1.5    # for which an LED must not move to be measured [s]
-STILL = 0.01        # within which it stays [m]
-ELSEWHERE = 0.15    # at least so far from the place before [m]
-FEWEST = 20         # points of a measured place
-THERE = 10.0        # within which a tracker that runs is heard [s]
+STILL_TIME = 1.5    # at rest, for a measurement [s]
+STILL = 0.01        # greatest motion at rest [m]
+ELSEWHERE = 0.15    # least distance from the previous place [m]
+FEWEST = 20         # least number of points at a place
+THERE = 10.0        # to hear a running tracker [s]
 
 Seen = collections.namedtuple('Seen', 'stamp heard leds')  # [s since 1970]; leds: of one instant
 Led = collections.namedtuple('Led', 'id label since tracked position')
@@ -21,8 +21,8 @@ Place = collections.namedtuple('Place', 'position scatter points')  # mean, stan
 
 
 class Listener:
-    """Points and the rig of the tracker that the ROS master knows. @raise ExperimentError: there is
-    none."""
+    """Points and the rig of the tracker at the ROS master. @raise ExperimentError: there is no
+    master."""
 
     def __init__(self):
         import rosgraph
@@ -46,7 +46,7 @@ class Listener:
             subscriber.unregister()
 
     def is_simulated(self):
-        """Whether virtual remotes play the real ones: then the report must say so."""
+        """Whether the remotes are virtual, which the report must state."""
         return any(name.startswith('/simulation/')
                    for name, _ in self._rospy.get_published_topics())
 
@@ -73,7 +73,7 @@ class Listener:
         return self._rig
 
     def side(self):
-        """Of the square that the rig was calibrated with [m]."""
+        """Side of the square used to calibrate the rig [m]."""
         sides = self.rig().square_sides
         if not sides or len(set(sides)) > 1:
             raise ExperimentError('the ten points need a rig that was calibrated with a square; its '
@@ -81,7 +81,7 @@ class Listener:
         return sides[0]
 
     def up(self):
-        """1 with z up; -1 with z down, as in the paper: cameras hang above the floor."""
+        """1 if z points up; -1 if down, as in the paper: cameras are above the floor."""
         heights = [camera.world_from_camera.position.z for camera in self.rig().cameras]
         return 1.0 if np.mean(heights) > 0.0 else -1.0
 
@@ -92,15 +92,15 @@ class Listener:
                    'calibrate for what the cameras see')
 
     def since(self, begin):
-        """What was heard after a time [s since 1970]."""
+        """Points that arrived after a time [s since 1970]."""
         return [seen for seen in list(self._seen) if seen.heard > begin]
 
     def newest(self):
         return self._seen[-1] if self._seen else None
 
     def still(self, dialogue, before=None):
-        """The Place where the only LED has been put down, when it has lain still for a while, away
-        from the place before [m]; None when the person skips it."""
+        """Waits until the only LED has been at rest for some time, away from the previous place
+        [m]. Returns the Place; None if the person skips it."""
         begin = self.now()
         while dialogue.typed() != SKIP:
             rows = [(seen.stamp, seen.leds) for seen in self.since(max(begin, self.now() - STILL_TIME))]

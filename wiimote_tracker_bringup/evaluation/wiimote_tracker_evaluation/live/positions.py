@@ -1,4 +1,4 @@
-"""The ten points, with a person who puts the LED there."""
+"""The ten points: a person puts the LED there."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from wiimote_tracker_evaluation import charts, experiment, statistics
 from wiimote_tracker_evaluation.live.dialogue import Dialogue
 from wiimote_tracker_evaluation.live.listener import Listener
 
-FLOOR, AIR = 0.01, 0.03  # the paper's largest errors of putting the LED there [m]
+FLOOR, AIR = 0.01, 0.03  # the paper's largest placement errors [m]
 PAPER_LIMIT = 3.0         # its accuracy [cm]
 
 
@@ -20,7 +20,7 @@ def live(run, dialogue=None):
 
 
 def targets(side, up):
-    """The paper's ten points in a cube of this side [m]; up: 1 or -1, as z."""
+    """The paper's ten points in a cube of this side [m]; up: 1 or -1, sign of z."""
     return experiment.TEST_POINTS / experiment.SIDE * side * [1.0, 1.0, up]
 
 

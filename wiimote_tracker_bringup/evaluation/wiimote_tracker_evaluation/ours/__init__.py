@@ -1,1 +1,1 @@
-"""The parts of the section ours, one subject each: commands(run), and tell(run)."""
+"""The parts of the section ours, one per subject: commands(run), and tell(run)."""

@@ -7,7 +7,7 @@ from wiimote_tracker_evaluation.ours.columns import keep, per_session, read_shar
 
 PROGRAM = 'evaluate_bodies'
 SMALL, LARGE = 1.5, 3.0
-WRONG = 10.0  # a rotation further off is that of another assignment [degrees]
+WRONG = 10.0  # greater rotation errors are wrong assignments [degrees]
 
 
 def commands(run):
@@ -67,5 +67,5 @@ def tell(run):
 
 
 def quantiles(units):
-    """5, 50 and 95 % of all; not numbers without any."""
+    """5, 50 and 95 % quantiles of all values; NaN without any."""
     return np.quantile(np.concatenate(units), [0.05, 0.5, 0.95]) if units else [float('nan')] * 3

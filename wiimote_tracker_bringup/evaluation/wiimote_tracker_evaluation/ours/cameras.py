@@ -9,7 +9,7 @@ PROGRAM = 'evaluate_cameras'
 METHODS = (('most_likely', 'single points, most likely', charts.BLUE),
            ('mean_closest', 'single points, mean of closest points (paper)', charts.RED),
            ('tracks_1_m_per_s', 'an LED at 1 m/s, followed', charts.GREEN))
-MIDDLE = np.array([1.25, 1.25, 1.0])  # which the ring of evaluate_cameras looks at [m]
+MIDDLE = np.array([1.25, 1.25, 1.0])  # target of the ring of evaluate_cameras [m]
 
 
 def commands(run):
@@ -54,7 +54,7 @@ def units_of(table, count, method):
 
 
 def ring_bounds(rig, table, counts):
-    """Root mean squared bound of the very points that were measured [mm], for each count."""
+    """RMS of the bounds of the measured points [mm], for each number of cameras."""
     described = scene.read_scene(rig)
     bounds = []
     for count in counts:
@@ -66,7 +66,7 @@ def ring_bounds(rig, table, counts):
 
 
 def ring(described, count):
-    """The cameras that evaluate_cameras puts around the cube."""
+    """The cameras of evaluate_cameras around the cube."""
     first = described.cameras[0].position - MIDDLE
     step = np.pi / 2.0 if count == 2 else 2.0 * np.pi / count
     cameras = []
@@ -80,7 +80,7 @@ def ring(described, count):
 
 
 def point_bound(cameras, noise, points):
-    """Root mean square over the points of the least standard deviation of a position [m]."""
+    """RMS over the points of the least standard deviation of a position [m]."""
     step = 1e-5
     information = np.zeros((len(points), 3, 3))
     for camera in cameras:

@@ -1,4 +1,4 @@
-"""Long tables of measurements, by their columns."""
+"""Long tables of measurements, by column."""
 
 import glob
 import os
@@ -12,7 +12,7 @@ UNITS = {'_mm': 'mm', '_m': 'm', '_m_per_s': 'm/s', '_rad_per_s': 'rad/s', '_deg
 
 
 def shared(run, program, sessions, *options):
-    """The commands that let two processes share the sessions of a program; see read_shared."""
+    """Commands that share the sessions of a program between two processes; see read_shared."""
     first = (sessions + 1) // 2
     return [[program, '--rig', run.rig, '--output', part_file(run, program, part), '--seed', run.seed,
              '--sessions', number, '--first', begin] + list(options)
@@ -24,7 +24,7 @@ def part_file(run, program, part):
 
 
 def read_shared(run, program):
-    """Their tables as one, by column."""
+    """Their tables joined, by column."""
     paths = sorted(glob.glob(run.file(program + '_*.csv')))
     parts = [programs.read_csv(path) for path in paths]
     columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
@@ -34,7 +34,7 @@ def read_shared(run, program):
 
 
 def keep(run, program, columns, caption):
-    """Leaves what read_shared() gave in the report's folder."""
+    """Copies the result of read_shared() to the report's folder."""
     run.table(program.replace('evaluate_', ''), [name_and_unit(name) for name in columns],
               programs.table_rows(columns), caption, shown=False)
 
@@ -49,7 +49,7 @@ def name_and_unit(name):
 
 
 def where(columns, **values):
-    """Which rows have these values."""
+    """Mask of the rows with these values."""
     chosen = np.ones(len(next(iter(columns.values()))), dtype=bool)
     for name, value in values.items():
         chosen &= columns[name] == value
@@ -57,7 +57,7 @@ def where(columns, **values):
 
 
 def per_session(columns, name, chosen):
-    """Finite values of a column, an array for each session: the independent units."""
+    """Finite values of a column, one array per session: the independent units."""
     units = [columns[name][chosen & (columns['session'] == session)]
              for session in np.unique(columns['session'])]
     return [unit[np.isfinite(unit)] for unit in units if np.isfinite(unit).any()]

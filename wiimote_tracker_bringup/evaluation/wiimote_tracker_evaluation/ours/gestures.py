@@ -1,4 +1,4 @@
-"""Gestures: which is taken for which, of people who are made up or of the user's own recordings."""
+"""Confusion of gestures, of simulated people or of the user's recordings."""
 
 import json
 
@@ -47,7 +47,7 @@ def tell(run):
 
 
 def recognised(run):
-    """What gesture_tool finds: each person is recognised by the others' examples."""
+    """Result of gesture_tool: each person is recognised by the others' examples."""
     folder = run.gestures or run.file('drawings')
     programs.run_programs([['wiimote_tracker_triangulation/gesture_tool', 'evaluate', '--train',
                             folder, '--test', folder, '--json', run.file('gestures.json')]

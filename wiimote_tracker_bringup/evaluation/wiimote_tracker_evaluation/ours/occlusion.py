@@ -1,4 +1,4 @@
-"""LEDs that cameras lose sight of."""
+"""Occluded LEDs."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ PROGRAM = 'evaluate_occlusion'
 METHODS = (('tracks', 'tracks, predicted points too', charts.BLUE),
            ('tracked', 'tracks, tracked points only', charts.GREEN),
            ('instants', 'instant by instant', charts.ORANGE))
-HIDDEN = 0.3  # of the figures
+HIDDEN = 0.3  # hidden share shown as figures
 
 
 def commands(run):

@@ -1,4 +1,4 @@
-"""Cameras with clocks of their own, and what estimating their exposures is worth."""
+"""Unsynchronised cameras, and the benefit of estimated exposure times."""
 
 from wiimote_tracker_evaluation import charts, statistics
 from wiimote_tracker_evaluation.ours.columns import keep, per_session, read_shared, shared, where

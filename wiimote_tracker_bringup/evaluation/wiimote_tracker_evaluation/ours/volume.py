@@ -1,4 +1,4 @@
-"""Accuracy all over the cube after a calibration, predicted beside measured."""
+"""Predicted and measured accuracy in the whole cube after a calibration."""
 
 import numpy as np
 
@@ -63,7 +63,7 @@ def tell(run):
 
 
 def rms_grid(table, method, column, height, places):
-    """Root mean squares by y (rows) and x (columns) [mm]."""
+    """RMS by y (rows) and x (columns) [mm]."""
     return np.array([[statistics.rms(table[column][where(table, method=method, x_m=x, y_m=y,
                                                          z_m=height)]) for x in places]
                      for y in places])

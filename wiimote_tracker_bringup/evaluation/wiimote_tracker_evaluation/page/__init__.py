@@ -1,5 +1,5 @@
-"""What the evaluation leaves behind: report.html, report.md, figures.json, and a folder of tables and
-plots for each section."""
+"""Output of the evaluation: report.html, report.md, figures.json, and a folder of tables and plots
+for each section."""
 
 import os
 
@@ -7,7 +7,7 @@ from wiimote_tracker_evaluation.page import data, html, markdown
 
 
 class Report:
-    """What all the pages are made of. command: the options of the run; seconds: it took."""
+    """Contents of all pages. command: the options of the run; seconds: its duration."""
 
     def __init__(self, options, runs, seconds):
         self.rig = 'the running one' if options.live else os.path.basename(options.rig)
@@ -19,7 +19,7 @@ class Report:
 
 
 def write_report(options, runs, seconds):
-    """Writes everything anew from the sections there are until now."""
+    """Writes all files from the sections so far."""
     report = Report(options, runs, seconds)
     for run in runs:
         data.write_section(run)
@@ -29,7 +29,7 @@ def write_report(options, runs, seconds):
 
 
 def write(path, text):
-    """Never leaves half a file."""
+    """Writes a file atomically."""
     with open(path + '.part', 'w', encoding='utf-8') as file:
         file.write(text)
     os.replace(path + '.part', path)

@@ -39,7 +39,7 @@ def write_section(run):
 
 
 def write_csv(path, table):
-    """The first line has names with units, as in `error_mm`."""
+    """The first line has the names with units, such as `error_mm`."""
     with open(path, 'w', newline='', encoding='utf-8') as file:
         writer = csv.writer(file, lineterminator='\n')
         writer.writerow([name + ('_' + word(unit) if unit else '') for name, unit in table.columns])
@@ -54,14 +54,14 @@ def word(unit):
 
 
 def column(values):
-    """A table's column for MATLAB: numbers (NaN where there is none), or texts."""
+    """A table's column for MATLAB: numbers (NaN if missing), or strings."""
     if any(isinstance(value, str) for value in values):
         return np.array(['' if value is None else str(value) for value in values], dtype=object)
     return np.array([np.nan if value is None else float(value) for value in values]).reshape(-1, 1)
 
 
 def write_matlab(path, run):
-    """One struct named as the section: figures.<name>, and one struct of columns for each table."""
+    """One struct with the section's name: figures.<name>, and a struct of columns per table."""
     import scipy.io
     content = {'title': run.title, 'seed': float(run.seed), 'simulated': run.simulated,
                'quick': run.quick, 'failure': run.failure}

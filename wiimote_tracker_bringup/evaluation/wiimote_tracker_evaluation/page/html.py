@@ -1,4 +1,4 @@
-"""report.html: one file that holds everything, plots as SVG."""
+"""report.html: a single file with plots as SVG."""
 
 import html as escaping
 import re
@@ -85,7 +85,7 @@ def every_figure(report):
 
 
 def inner_svg(run, plot):
-    """The SVG element alone; ids of several plots in one page must not meet."""
+    """The SVG element alone; ids of several plots in one page must differ."""
     svg = plot.svg[plot.svg.index('<svg'):]
     svg = re.sub(r'<metadata>.*?</metadata>', '', svg, flags=re.S)
     prefix = f'{run.name}-{plot.name}-'
@@ -98,7 +98,7 @@ def inner_svg(run, plot):
 # --- Tables
 
 def table(heads, rows, caption=''):
-    """heads: texts; rows: (text, is a number) cells; all already HTML."""
+    """heads: strings; rows: (text, is a number) cells; all already HTML."""
     numeric = [all(row[i][1] for row in rows) and bool(rows) for i in range(len(heads))]
     align = [' class="n"' if each else '' for each in numeric]
     return '<div class="scroll"><table>%s<thead><tr>%s</tr></thead><tbody>%s</tbody></table></div>' % (
@@ -126,7 +126,7 @@ def figures_table(run):
          (words.kind(figure.simulated, figure.end_to_end), False)] for figure in run.figures])
 
 
-# --- The little of Markdown that sections use
+# --- The subset of Markdown that sections use
 
 def blocks(markdown: str) -> str:
     """Paragraphs, headings (###) and lists."""

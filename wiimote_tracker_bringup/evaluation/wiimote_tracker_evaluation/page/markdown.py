@@ -1,4 +1,4 @@
-"""report.md: the report for people who read text."""
+"""report.md: the report as text."""
 
 from wiimote_tracker_evaluation.page import words
 from wiimote_tracker_evaluation.section import Plot, Table, Text

@@ -1,8 +1,8 @@
-"""Numbers and names as people read them; the same in every page."""
+"""Numbers and names for readers; the same in all pages."""
 
 
 def number(value, digits: int = 3) -> str:
-    """A number with so many significant digits; texts as they are, nothing for None."""
+    """A number with significant digits; strings unchanged, empty for None."""
     if value is None:
         return ''
     if isinstance(value, str):
@@ -36,14 +36,14 @@ def interval(figure):
 
 
 def kind(simulated: bool, end_to_end: bool) -> str:
-    """How a number came about."""
+    """Origin of a number."""
     if not simulated:
         return 'measured'
     return 'simulated, full stack' if end_to_end else 'simulated, in process'
 
 
 def kinds(run):
-    """How the numbers of a section came about."""
+    """Origins of the numbers of a section."""
     found = sorted({kind(figure.simulated, figure.end_to_end) for figure in run.figures})
     return '; '.join(found) if found else ('simulated' if run.simulated else 'measured')
 

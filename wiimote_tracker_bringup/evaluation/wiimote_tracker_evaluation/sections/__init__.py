@@ -5,13 +5,13 @@ import importlib.util
 import types
 from typing import List
 
-# Name, and about how long it takes on two cores [s]: quick, full.
+# Name, and approximate duration on two cores [s]: quick, full.
 SECTIONS = (('distance', 2, 5), ('latency', 40, 150), ('identification', 10, 100),
             ('positions', 20, 210), ('circles', 10, 40), ('ours', 20, 190), ('cost', 35, 280))
 
 
 def names() -> List[str]:
-    """Of all sections there are."""
+    """Of all sections."""
     return [name for name, _, _ in SECTIONS if importlib.util.find_spec(module_name(name))]
 
 
@@ -25,5 +25,5 @@ def load(name: str) -> types.ModuleType:
 
 
 def seconds(name: str, quick: bool) -> float:
-    """About how long a section takes."""
+    """Approximate duration of a section."""
     return next(short if quick else full for each, short, full in SECTIONS if each == name)

@@ -1,5 +1,4 @@
-"""The three circles of the paper (section V.B) at constant speed, by cameras that are not
-synchronised."""
+"""The paper's three circles (section V.B) at constant speed, with unsynchronised cameras."""
 
 import os
 
@@ -12,7 +11,7 @@ NAME = 'circles'
 TITLE = 'Circles'
 live = with_a_person.live
 
-QUICK, FULL = 6, 24  # sessions with two cameras, and as many with four
+QUICK, FULL = 6, 24  # sessions each with two and with four cameras
 SETS = ((2, 'two'), (4, 'four'))
 METHODS = (
     ('C3_image_center', "the paper's C3, rays from the image centre", charts.RED),
@@ -29,14 +28,14 @@ def run(run):
 
 
 def simulate(run, sessions):
-    """Every point of so many sessions, as arrays by name."""
+    """All points of the sessions, as arrays by name."""
     parts = [(run.file('laps_%d.csv' % first), first, number)
              for first, number in programs.session_parts(sessions)]
     run.compute([['evaluate_circles', '--rig', run.rig, '--output', path, '--seed', run.seed,
                   '--sessions', number, '--first', first] for path, first, number in parts],
                 '%d sessions with two cameras, and with four' % sessions, 0.0, 0.9)
     tables = []
-    for path, _, _ in parts:  # it is all in the section's own table
+    for path, _, _ in parts:  # repeated in the section's own table
         tables.append(programs.read_csv(path))
         os.remove(path)
     return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
@@ -74,7 +73,7 @@ def tell(run, laps):
 
 
 def errors_of(laps, chosen, which):
-    """By session [mm]."""
+    """Errors by session [mm]."""
     chosen = chosen & ~np.isnan(laps['measured_x'])
     return [1e3 * laps[which][chosen & (laps['session'] == session)]
             for session in np.unique(laps['session'][chosen])]

@@ -1,4 +1,4 @@
-"""Cost: how much of a processor the tracker uses, and what load does to its latency."""
+"""Cost: processor time of the tracker, and its latency under load."""
 
 import dataclasses
 from typing import Dict
@@ -15,9 +15,9 @@ NAME = 'cost'
 TITLE = 'Cost'
 
 SPEED = 1.0      # of every LED [m/s]
-BOX = 1.2        # through which it is waved [m]
+BOX = 1.2        # side of the cube of its wave [m]
 PLACES = ((0.9, 0.9, 0.9), (1.6, 1.6, 1.1), (0.9, 1.6, 1.3), (1.6, 0.9, 0.7))  # at first [m]
-# By number of cameras: LEDs, never fewer than before, and processes that do nothing but compute.
+# By number of cameras: numbers of LEDs, ascending, and of busy processes.
 QUICK = ((2, ((1, 0),)), (4, ((1, 0), (1, 2), (4, 0))))
 FULL = ((2, ((1, 0),)), (4, ((1, 0), (1, 1), (1, 2), (1, 4), (2, 0), (3, 0), (4, 0))),
         (6, ((1, 0),)), (8, ((1, 0), (4, 0))))
@@ -25,8 +25,8 @@ FULL = ((2, ((1, 0),)), (4, ((1, 0), (1, 1), (1, 2), (1, 4), (2, 0), (3, 0), (4,
 
 @dataclasses.dataclass(eq=False)
 class Setting:
-    """What was measured. shares: of one core, by node, one value a second. own: from a report on the
-    device to the published point [s]."""
+    """Measurements of a setting. shares: of one core, by node, one value a second. own: from a
+    report on the device to the published point [s]."""
 
     cameras: int
     leds: int
@@ -51,7 +51,7 @@ class Setting:
         return np.array([share for name, share in self.shares.items() if name.endswith('/driver')])
 
     def whole(self):
-        """Of drivers, tracker and calibration node together, one value a second."""
+        """Sum of drivers, tracker and calibration node, one value a second."""
         return sum(self.shares.values())
 
 
@@ -71,7 +71,7 @@ def run(run):
 
 
 class FullStack:
-    """The whole system with so many cameras, and its rig as it truly is; no LED shines at first."""
+    """The whole system with a number of cameras and its true rig; all LEDs are off at first."""
 
     def __init__(self, run, cameras):
         self._run, self._number = run, cameras
@@ -83,7 +83,7 @@ class FullStack:
         stack.launch(run, 'evaluation/full_stack.launch', description=path, folder='{folder}',
                      labels=','.join(self._leds))
 
-        # Not before there is a master's address: rospy reads it when it is imported.
+        # Imported late: rospy reads the master's address at import.
         import rospy
         from wiimote_tracker_evaluation import true_rig
         from wiimote_tracker_evaluation.conductor import Conductor
@@ -96,7 +96,7 @@ class FullStack:
             '/manager', '/calibration'] + [f'/{camera}/driver' for camera in self._cameras]}
 
     def measure(self, leds, busy, seconds):
-        """What the nodes use while so many LEDs move, beside so many busy processes."""
+        """Load of the nodes while LEDs move, beside busy processes."""
         import rospy
         for number, label in enumerate(self._leds[:leds]):
             self._conductor.wave(label, PLACES[number], BOX, SPEED, number + 1)
@@ -183,7 +183,7 @@ def figures_of(run, setting):
 
 
 def widened(run, percent, seconds):
-    """Interval of the mean; the kernel counts no finer than a tick in all these seconds."""
+    """Interval of the mean, at least the resolution of the kernel's ticks."""
     low, high = statistics.bootstrap(percent, np.mean, run.seed)
     tick = 100 * load.TICK / seconds
     return low - tick, high + tick

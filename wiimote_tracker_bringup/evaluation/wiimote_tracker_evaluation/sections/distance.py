@@ -62,14 +62,14 @@ def sessions_of(carried):
 
 
 def threshold(carried, level):
-    """Brightness at which a light is just seen, from where it was seen last: between that and one
-    image's way farther."""
+    """Brightness at which a light is just seen, from where it was seen last: between that distance
+    and that of the next image."""
     chosen = carried['sensitivity'] == level
     return float(np.mean(carried['brightness'][chosen] / carried['last_seen_m'][chosen] ** 2))
 
 
 def tell_law(run, carried):
-    """The power of the current with which the distance grows, and what the time limit adds."""
+    """Exponent of the distance by current, and the effect of the time limit."""
     slopes = []
     for session in np.unique(carried['session']):
         for level in SENSITIVITIES:
@@ -87,7 +87,7 @@ def tell_law(run, carried):
 
 
 def tell_corners(run, led):
-    """Whether the light reaches every camera from everywhere in the cube."""
+    """Whether every camera sees the LED everywhere in the cube."""
     scene = read_scene(run.rig)
     worst = None
     for camera in scene.cameras:

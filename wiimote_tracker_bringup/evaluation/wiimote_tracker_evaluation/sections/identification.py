@@ -1,4 +1,4 @@
-"""Identification of four LEDs by how they blink: the paper's scheme, and cyclic codes beside it."""
+"""Identification of four blinking LEDs: the paper's scheme, and cyclic codes."""
 
 import os
 
@@ -16,7 +16,7 @@ LEDS = 4
 DURATION = 4.0                                   # of one try of evaluate_identification [s]
 SCHEMES = (('paper', 'period', 'the paper\'s scheme'), ('cyclic', 'chip', 'cyclic codes'))
 UNITS = {'length_ms': ('length', 'ms'), 'period_ms': ('period', 'ms'), 'seconds': ('time', 's')}
-ENOUGH = 0.95                                    # of the tries that succeed, to be called reliable
+ENOUGH = 0.95                                    # share of successful tries that counts as reliable
 SHOWN_PERIOD, SHOWN_CHIP = 150.0, 23.0           # of the figures [ms]
 
 
@@ -37,12 +37,12 @@ def run(run):
 
 
 def succeeded(tries):
-    """Of each try, whether all LEDs had their own labels in the end, and none ever another's."""
+    """For each try, whether all labels were right in the end and none was ever wrong."""
     return (tries['labelled'] == LEDS) & (tries['wrong'] == 0) & (tries['ever_wrong'] == 0)
 
 
 class Line:
-    """One scheme with so many cameras, over the length of its period or chip [ms]."""
+    """One scheme and number of cameras, by the length of its period or chip [ms]."""
 
     def __init__(self, tries, scheme, cameras):
         chosen = (tries['scheme'] == scheme) & (tries['cameras'] == cameras)
@@ -64,7 +64,7 @@ class Line:
                          for right, tries in zip(self.right, self.tries)])
 
     def shortest(self):
-        """Shortest length from which on ENOUGH tries succeeded; None without any [ms]."""
+        """Shortest length from which on ENOUGH tries succeed [ms]; None without any."""
         found = None
         for length, right, tries in reversed(list(zip(self.lengths, self.right, self.tries))):
             if right < ENOUGH * tries:

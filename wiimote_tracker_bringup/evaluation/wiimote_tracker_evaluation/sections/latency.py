@@ -1,4 +1,4 @@
-"""Latency: by the paper's laps counter (Fig. 6), and directly from exposure to published point."""
+"""Latency: by the paper's laps counter (Fig. 6), and from exposure to published point."""
 
 import numpy as np
 
@@ -23,8 +23,8 @@ PARTS = (('bluetooth', 'Bluetooth (an input of the simulation)'), ('driver', 'dr
 
 
 class Measured:
-    """laps: crossings of the positive x axis [s since 1970]; angle: of the newest published position
-    at each, about the circle's centre [rad]; answer: of the trigger's answer."""
+    """laps: crossings of the positive x axis [s since 1970]; angle: of the newest published
+    position at each, about the circle's centre [rad]; answer: the same of the trigger's answer."""
 
     def __init__(self, trace, laps, error):
         self.trace = trace
@@ -40,12 +40,12 @@ class Measured:
         self.error = error
 
     def by_counter(self):
-        """Of each lap: how long ago the LED was where the newest position says [s]."""
+        """For each lap: age of the newest position [s], from its angle."""
         return -self.angle * PERIOD / (2.0 * np.pi)
 
     def by_answer(self):
-        """The same, against where the tracker itself saw the LED at the crossing [s]: free of what
-        the calibration turns and shifts."""
+        """The same relative to the tracker's answer for the time of the crossing [s], which removes
+        rotations and translations of the calibration."""
         late = (self.answer - self.angle) * PERIOD / (2.0 * np.pi)
         return late[np.isfinite(late)]
 
@@ -53,7 +53,7 @@ class Measured:
         return self.trace.between(self.laps[0], self.laps[-1])
 
     def per_lap(self, values):
-        """Values of the chosen outputs, cut by laps: the independent units."""
+        """Values of the chosen outputs, divided by laps: the independent units."""
         cut = np.searchsorted(self.trace.published[self.chosen()], self.laps[1:-1])
         return [part for part in np.split(values, cut) if len(part)]
 
@@ -87,7 +87,7 @@ def measure(run, name, cameras, laps, done):
     stack.launch(run, 'evaluation/full_stack.launch', description=run.file(name + '_rig.yaml'),
                  folder='{folder}', side_length=SIDE, origin=SIDE / 2.0)
 
-    # Not before there is a master's address: rospy reads it when it is imported.
+    # Imported late: rospy reads the master's address at import.
     from wiimote_tracker_evaluation.conductor import Conductor
     conductor = Conductor('led', None, stack.check)
     conductor.wait_for_cameras(description['cameras'])
@@ -107,7 +107,8 @@ def measure(run, name, cameras, laps, done):
 
 
 def count_laps(conductor, laps, progress):
-    """The laps counter: a trigger at every crossing of the positive x axis. Their times."""
+    """The laps counter: sends a trigger at every crossing of the positive x axis. Returns the
+    times."""
     import rospy
     from std_msgs.msg import Header
     from wiimote_tracker_msgs.msg import TrackedPointArray
@@ -118,7 +119,7 @@ def count_laps(conductor, laps, progress):
     conductor.wait(lambda: counter.get_num_connections() and subscriber.get_num_connections(), 10.0,
                    'the tracker to listen for triggers')
     first = conductor.circle_from(CENTRE, RADIUS, SPEED)
-    # The first half lap is for the filter to forget that the LED lay still.
+    # The first half lap lets the filter adapt to the motion.
     crossings = [first + lap * PERIOD for lap in range(1, laps + 2)]
     for lap, crossing in enumerate(crossings):
         conductor.wait(lambda: rospy.get_time() >= crossing, 2.0 * PERIOD, 'the next lap')
@@ -202,7 +203,7 @@ def draw_fig6(axes, measured, title):
     turn = np.linspace(0.0, 2.0 * np.pi, 200)
     axes.plot(centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn),
               color=charts.RED, linewidth=1.2)
-    near = axes.inset_axes([0.2, 0.22, 0.42, 0.23])  # the crossing, larger
+    near = axes.inset_axes([0.2, 0.22, 0.42, 0.23])  # the crossing, enlarged
     near.plot(centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn),
               color=charts.RED, linewidth=1.2)
     for part in (axes, near):

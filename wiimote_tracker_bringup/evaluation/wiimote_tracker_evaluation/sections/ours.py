@@ -1,4 +1,4 @@
-"""What the paper has not: own clocks, occlusion, more cameras, bodies, gestures, an accuracy map."""
+"""Subjects beyond the paper: clocks, occlusion, more cameras, bodies, gestures, an accuracy map."""
 
 from wiimote_tracker_evaluation.ours import (bodies, cameras, gestures, occlusion, unsynchronised,
                                              volume)

@@ -1,4 +1,4 @@
-"""The ten points: the paper's five cases (Fig. 2, 7, 8, 9), ours, and what is possible at best."""
+"""The ten points: the paper's five cases (Fig. 2, 7, 8, 9), our methods, and the bounds."""
 
 import os
 import shutil
@@ -16,7 +16,7 @@ NAME = 'positions'
 TITLE = 'Positions'
 live = with_a_person.live
 
-QUICK, FULL = 10, 120  # sessions with two cameras, and as many with four
+QUICK, FULL = 10, 120  # sessions each with two and with four cameras
 MODELS = (('image_center', 'rays from the image centre'), ('calibrated', 'rays as calibrated'))
 SETS = ((TWO, 'two'), (FOUR, 'four'))
 WORDS = {'square': 'square alone, one adjustment', 'square_remapped': 'square alone, and the volume corrected',
@@ -28,7 +28,7 @@ def run(run):
 
 
 def simulate(run, sessions):
-    """Results of so many sessions."""
+    """Results of this number of sessions."""
     commands, folders = [], []
     for first, number in programs.session_parts(sessions):
         folders.append(run.file('sessions_%d' % first))
@@ -37,7 +37,7 @@ def simulate(run, sessions):
                          '--seed', run.seed, '--sessions', number, '--first', first])
     run.compute(commands, '%d sessions with two cameras, and with four' % sessions, 0.0, 0.9)
     results = Results(folders)
-    for folder in folders:  # it is all in the section's own tables
+    for folder in folders:  # repeated in the section's own tables
         shutil.rmtree(folder)
     return results
 
@@ -60,7 +60,7 @@ def tell(run, results):
 
 
 def check(results):
-    """@raise ExperimentError: there is nothing to tell."""
+    """@raise ExperimentError: there are no results."""
     if not results.has(FOUR):
         raise ExperimentError('this section needs a rig of four cameras or more; see --rig')
     for cameras, words in SETS:
@@ -75,7 +75,7 @@ def check(results):
 
 
 def protocol_sessions(case):
-    """The two sessions of a case, of ten, as the paper had them; numbers from 0."""
+    """The two of ten sessions for a case, as in the paper; numbers from 0."""
     first = 2 * CASES.index(case)
     return range(first, first + 2)
 
@@ -160,7 +160,7 @@ def details(run, results):
 
 
 def conclusion(results, agreeing, of):
-    """What the numbers come to, in words that follow from them."""
+    """Conclusions from the numbers, in words."""
     two, four = (statistics.rms(results.group(cameras, 'C3', 'image_center').from_nominal())
                  for cameras in (TWO, FOUR))
     words = ('Rays from the image centre reproduce %d of the %d numbers, rays as calibrated %d. After '
@@ -247,7 +247,8 @@ def ours(run, results):
 
 
 def beside_bound(run, results, cameras, method, name, what):
-    """Bound [mm], error over bound and normalised squared error with intervals; figures of both."""
+    """Bound [mm], error over bound and normalised squared error with intervals; adds both
+    figures."""
     group, bound = results.group(cameras, method), results.group(cameras, 'bound_' + method)
     kept = ~np.isnan(group.measured).any(axis=(1, 2))
     squared = np.linalg.norm(group.measured - group.true, axis=2)[kept] ** 2

@@ -56,7 +56,7 @@ class Person:
             (r'Its radius in metres.*?: ', self.circle),
             (r'Name of that camera.*?: ', lambda: self.type('wiimote_1')),
             (r'Current through the LED.*?: ', self.current),
-            (r'Begin near the LED', self.walk),
+            (r'Start near the LED', self.walk),
             (r'Distance to the LED in metres.*?: ', self.distance),
             (r'Labels of the LEDs.*?: ', lambda: self.type('')))
 

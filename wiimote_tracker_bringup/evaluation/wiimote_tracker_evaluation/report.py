@@ -36,11 +36,11 @@ def table(score, bounds):
               'age of a point               %.1f ms median, from exposure to publication' % (
                   1e3 * score.age_p50),
               '',
-              '(1) What the best estimate makes of this very rig, given the square alone, to first order.',
-              '(2) Cramer-Rao bound with the square alone, a mean over rigs whose corners are put down',
-              '    with %.0f mm and whose lenses are known to 3 %%, 15 px and 0.02. One rig is one draw.'
+              '(1) Error of the best estimate for this rig, from the square alone, to first order.',
+              '(2) Cramer-Rao bound from the square alone, averaged over rigs with corners placed',
+              '    to %.0f mm and lenses known to 3 %%, 15 px and 0.02. One rig may differ.'
               % (1e3 * experiment.CORNER_STDDEV),
-              '(3) Alignment fitted on other points than the ones it is judged by.']
+              '(3) Alignment fitted to points other than the scored ones.']
     return lines
 
 

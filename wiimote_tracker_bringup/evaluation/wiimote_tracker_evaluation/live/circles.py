@@ -23,10 +23,10 @@ def live(run, dialogue=None):
 
 def measure(run, listener, dialogue):
     listener.wait_for_points()
-    dialogue.tell('Let one LED go round on a level circle at constant speed: a turntable, or an arm on '
-                  'a motor.')
-    radius = dialogue.ask_number('Its radius in metres, when it is going round (Enter: leave this '
-                                 'out):', 0.05, 10.0)
+    dialogue.tell('Move one LED on a horizontal circle at constant speed: on a turntable, or an '
+                  'arm of a motor.')
+    radius = dialogue.ask_number('Its radius in metres, when it moves (Enter: skip this):',
+                                 0.05, 10.0)
     if radius is None:
         run.say('The circle was skipped.')
         return
@@ -65,8 +65,8 @@ def tell(run, radius, path):
     centre, radial, height = errors_of(positions, radius)
     way = np.linalg.norm(np.diff(positions[::10], axis=0), axis=1).sum()
     speed = way / (stamps[::10][-1] - stamps[0])
-    run.say('An LED on a circle of %.3f m about (%.3f, %.3f, %.3f) m, %.2f m/s. Centre and plane of '
-            'the circle are fitted to the points, the radius is the given one.'
+    run.say('An LED on a circle of %.3f m around (%.3f, %.3f, %.3f) m, %.2f m/s. Centre and plane '
+            'of the circle are fitted to the points, the radius is given.'
             % ((radius,) + tuple(centre) + (speed,)))
     for name, values, note in (('radial', radial, 'Radial error, RMS'),
                                ('height', height, 'Error across the circle\'s plane, RMS')):

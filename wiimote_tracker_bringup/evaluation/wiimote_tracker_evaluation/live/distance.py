@@ -47,13 +47,13 @@ def live(run, dialogue=None):
 def measure(run, dialogue):
     dialogue.tell('Take one remote; hold it towards the LED, in small circles all the time, and walk '
                   'slowly backwards until you hear a beep. Then measure the distance.')
-    camera = dialogue.ask('Name of that camera, such as wiimote_1 (Enter: leave this out):')
+    camera = dialogue.ask('Name of that camera, such as wiimote_1 (Enter: skip this):')
     if not camera:
         run.say('The detection distance was skipped.')
         return
     pairs = []
     while True:
-        current = dialogue.ask_number('Current through the LED in mA (Enter: no more):', 0.1, 1e5)
+        current = dialogue.ask_number('Current through the LED in mA (Enter: finish):', 0.1, 1e5)
         if current is None:
             break
         distance = one_walk(dialogue, camera)
@@ -64,7 +64,7 @@ def measure(run, dialogue):
 
 def one_walk(dialogue, camera):
     """The distance measured by the person [m], or None."""
-    dialogue.tell('      Begin near the LED; walk when you like (s and Enter: leave this one out).')
+    dialogue.tell('      Start near the LED and walk (s and Enter: skip this one).')
     watch = Watch(camera)
     try:
         while not watch.is_over():
@@ -75,7 +75,7 @@ def one_walk(dialogue, camera):
     finally:
         watch.close()
     dialogue.beep()
-    return dialogue.ask_number('Not seen any more. Distance to the LED in metres (Enter: forget it):',
+    return dialogue.ask_number('Not seen any more. Distance to the LED in metres (Enter: discard):',
                                0.01, 1000.0)
 
 

@@ -22,8 +22,9 @@ def live(run, dialogue=None):
 
 
 def measure(run, listener, dialogue):
-    dialogue.tell('The tracker must know how your LEDs blink (argument blink_codes of its launch file).')
-    names = dialogue.ask('Labels of the LEDs, separated by commas (Enter: leave this out):')
+    dialogue.tell('The tracker needs the codes of your LEDs (argument blink_codes of its launch '
+                  'file).')
+    names = dialogue.ask('Labels of the LEDs, separated by commas (Enter: skip this):')
     labels = sorted(name.strip() for name in names.split(',') if name.strip())
     if not labels:
         run.say('Identification was skipped.')
@@ -76,8 +77,8 @@ def wait(dialogue, condition):
 
 
 def tell(run, labels, rows):
-    run.say('A person has switched %d LEDs (%s) off and on; the time runs from the first point of any '
-            'to the labels of all.' % (len(labels), ', '.join(labels)))
+    run.say('A person has switched %d LEDs (%s) off and on; the time is from the first point of '
+            'any of them to the labels of all.' % (len(labels), ', '.join(labels)))
     run.table('tries', [('try', ''), ('all_labelled', ''), ('time', 's')], rows)
     if not rows:
         return

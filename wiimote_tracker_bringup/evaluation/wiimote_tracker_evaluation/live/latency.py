@@ -63,9 +63,9 @@ def measure(run, listener, counter, dialogue):
     wanted = QUICK_LAPS if run.quick else LAPS
     listener.wait_for_points()
     dialogue.tell(
-        'Let one LED go round on a level circle at constant speed, and let a laps counter publish a '
+        'Move one LED on a horizontal circle at constant speed, and let a laps counter publish a '
         'std_msgs/Header on /trigger, stamped with the time, whenever the LED passes it. Waiting for '
-        '%d laps (s and Enter: leave this out).' % wanted)
+        '%d laps (s and Enter: skip this).' % wanted)
     begin = listener.now()
     last, count = time.monotonic(), 0
     while len(counter.laps()) < wanted + 1:
@@ -89,9 +89,9 @@ def tell(run, counter, positions):
     late = np.array([behind(counter.newest[lap] - centre, counter.answers[lap] - centre, turn)
                      for lap in laps]) * 1e3 * period / (2.0 * np.pi)
     run.say(
-        'The laps counter has counted %d laps of %.4f s. At each of its triggers, the newest point '
-        'that was known then lies behind the place where the tracker itself, with hindsight, puts the '
-        'LED at that moment; the angle between them times the period is the latency, as in Fig. 6.'
+        'The laps counter has counted %d laps of %.4f s. At each of its triggers, the newest known '
+        'point lies behind the position that the tracker later estimates for that time; the angle '
+        'between them times the period is the latency, as in Fig. 6.'
         % (len(laps) - 1, period))
     run.figure('live_mean', np.mean(late), 'ms', len(late),
                statistics.bootstrap(late, np.mean, run.seed), 'Latency by the angle, mean',
@@ -109,9 +109,9 @@ def tell(run, counter, positions):
     axes.set_xlabel('latency [ms]')
     axes.set_ylabel('share of the laps')
     axes.set_xlim(0.0, None)
-    run.plot('latency', figure, 'Left, as Fig. 6: all points (red), the newest ones at the triggers '
-             '(blue crosses), and the axis of the laps counter, where the tracker sees the LED at the '
-             'triggers with hindsight. Right: cumulative distribution of the latency.')
+    run.plot('latency', figure, 'Left, as Fig. 6: all points (red), the newest ones at the '
+             'triggers (blue crosses), and the axis of the laps counter, where the tracker later '
+             'estimates the LED at the triggers. Right: cumulative distribution of the latency.')
     run.summary('Latency by the laps counter: %.1f ms on average (%d laps%s).' % (
         np.mean(late), len(late) - 1,
         '' if run.simulated else '; the paper measured 280 to 320 ms'))

@@ -76,7 +76,7 @@ class Listener:
         """Side of the square used to calibrate the rig [m]."""
         sides = self.rig().square_sides
         if not sides or len(set(sides)) > 1:
-            raise ExperimentError('the ten points need a rig that was calibrated with a square; its '
+            raise ExperimentError('the ten points need a rig calibrated with a square; its '
                                   f"sides are {list(sides) or 'unknown'}")
         return sides[0]
 
@@ -106,10 +106,10 @@ class Listener:
             rows = [(seen.stamp, seen.leds) for seen in self.since(max(begin, self.now() - STILL_TIME))]
             place = self._place(rows) if self.now() - begin > STILL_TIME else None
             if place is None:
-                dialogue.passing('waiting for one LED that lies still (%d seen)'
+                dialogue.passing('waiting for one still LED (%d seen)'
                                  % (len(rows[-1][1]) if rows else 0))
             elif before is not None and np.linalg.norm(place.position - before) < ELSEWHERE:
-                dialogue.passing('waiting for the LED to be taken to the next place')
+                dialogue.passing('waiting for the LED at the next place')
             else:
                 dialogue.beep()
                 return place

@@ -28,7 +28,7 @@ def measure(run, listener, dialogue):
     points = targets(listener.side(), listener.up())
     listener.wait_for_points()
     dialogue.tell('Take one LED to ten places, one after the other, and hold it still until the next '
-                  'one is named (s and Enter: leave it out).')
+                  'one is named (s and Enter: skip it).')
     rows, before = [], None
     for number, target in enumerate(points):
         dialogue.tell('   %2d  Put the LED at x = %.3f m, y = %.3f m, z = %.3f m.'
@@ -46,9 +46,10 @@ def measure(run, listener, dialogue):
 
 
 def tell(run, rows, of):
-    run.say('A person has put the LED at %d of the %d points and held it still; measured is the mean '
-            'over %.1f s. The places are as true as they were measured: the paper puts that at %.0f cm '
-            'at most on the floor and %.0f cm above.' % (len(rows), of, 1.5, 100 * FLOOR, 100 * AIR))
+    run.say('A person has put the LED at %d of the %d points and held it still; the measurement is '
+            'the mean over %.1f s. The errors include those of placing the LED, which the paper '
+            'states as at most %.0f cm on the floor and %.0f cm above.'
+            % (len(rows), of, 1.5, 100 * FLOOR, 100 * AIR))
     run.table('places', [('point', ''), ('x', 'm'), ('y', 'm'), ('z', 'm'), ('error_x', 'mm'),
                          ('error_y', 'mm'), ('error_z', 'mm'), ('error', 'mm'),
                          ('scatter', 'mm'), ('points', '')], rows)

@@ -20,12 +20,11 @@ def tell(run):
     speeds = sorted(set(table['speed_m_per_s']))
     run.say(
         '### Body poses\n\n'
-        'Four LEDs on a frame about 40 cm wide, all distances between them different, is swung round '
-        'and turned (2 rad/s for each m/s); the pose is followed directly in the pixels. The errors are '
-        'those of sessions without a wrong pose; a pose is called wrong when the rotation\'s RMS error '
-        'exceeds %.0f°. LEDs whose spots touch are one spot to the sensor: with small spots (size '
-        '%.1f, of which two touch within %.0f px) that is rare at 6 m, with large ones (size %.0f, %.0f '
-        'px) not.' % (WRONG, SMALL, 8 * SMALL, LARGE, 8 * LARGE))
+        'Four LEDs on a frame about 40 cm wide, with six different distances, move and turn (2 '
+        'rad/s per m/s); the pose is tracked directly by the pixels. The errors are those of '
+        'sessions without a wrong pose, one whose RMS rotation error exceeds %.0f°. Touching spots '
+        'merge in the sensor: rarely at 6 m for small spots (size %.1f, merging within %.0f px), '
+        'often for large ones (size %.0f, %.0f px).' % (WRONG, SMALL, 8 * SMALL, LARGE, 8 * LARGE))
     right = table['rotation_rms_deg'] < WRONG
     figure, axes = charts.figure(1, 2)
     for count, color in zip(counts, charts.COLORS):
@@ -43,8 +42,8 @@ def tell(run):
         plot.set_ylabel('RMS error of the ' + name)
         plot.set_ylim(0.0, None)
     charts.key(axes[0], 'upper left', (('-', 'measured'), ('--', 'stated')))
-    run.plot('bodies', figure, 'RMS error of a body\'s pose in a session over its speed, small spots: '
-             'median of the sessions, and 5 to 95 % of them.')
+    run.plot('bodies', figure, 'RMS error of a body\'s pose per session by speed, small spots: '
+             'median and 5 to 95 % of the sessions.')
     for count in counts:
         chosen = right & where(table, cameras=count, led_size=SMALL, speed_m_per_s=1.0)
         for column, name, unit in (('position_rms_mm', 'position', 'mm'),
@@ -63,7 +62,7 @@ def tell(run):
             run.figure('body_wrong_%s_spots_%d_cameras' % (word, count), 100.0 * wrong / chosen.sum(),
                        '%', int(chosen.sum()), (100.0 * low, 100.0 * high),
                        'Sessions with a wrong pose, %s spots, %d cameras' % (word, count))
-    keep(run, PROGRAM, table, 'A body with four LEDs, swung and turned.')
+    keep(run, PROGRAM, table, 'A moving body with four LEDs.')
 
 
 def quantiles(units):

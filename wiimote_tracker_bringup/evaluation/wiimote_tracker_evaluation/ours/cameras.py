@@ -21,11 +21,12 @@ def tell(run):
     counts = [int(count) for count in sorted(set(table['cameras']))]
     run.say(
         '### Two to eight cameras\n\n'
-        'On a ring around the cube, exactly known; two stand at a right angle. Single points: one '
-        'image of each camera, anywhere in the cube, pixels rounded. The bound is that of Cramér and '
-        'Rao, computed here by a camera model that shares no code with the tracker. The paper\'s mean '
-        'counts every pair of rays alike; those of cameras that face each other lie nearly in one line '
-        'and leave its place along them open, which spoils four and six.')
+        'The cameras are exactly known and stand on a ring around the cube; two are at a right '
+        'angle. Single points: one image per camera, anywhere in the cube, pixels rounded. The '
+        'Cramér-Rao bound is computed by a camera model that shares no code with the tracker. The '
+        'paper\'s mean weights all pairs of rays equally. Rays of opposite cameras are nearly '
+        'collinear and do not determine the position along them, which increases the error for '
+        'four and six cameras.')
     bounds = ring_bounds(run.rig, table, counts)
     figure, axes = charts.figure()
     for method, label, color in METHODS:
@@ -37,7 +38,7 @@ def tell(run):
     axes.set_ylim(0.0, None)
     axes.set_xticks(counts)
     charts.key(axes, 'upper right')
-    run.plot('cameras', figure, 'RMS error over the number of cameras, the cameras exactly known.')
+    run.plot('cameras', figure, 'RMS error by the number of exactly known cameras.')
     for count in (2, 4, 8):
         for method, label, _ in METHODS:
             units = units_of(table, count, method)

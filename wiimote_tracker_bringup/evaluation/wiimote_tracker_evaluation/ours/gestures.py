@@ -23,16 +23,16 @@ def tell(run):
     if run.gestures:
         run.say(
             '### Gestures\n\n'
-            'Your own recordings (`--gestures`), measured, not simulated: %d drawings of %d gestures, '
-            'each recognised by what the other people have drawn (at most %d examples of all gestures '
-            'together).' % (tested, len(names), result['examples']))
+            'Your own recordings (`--gestures`), measured, not simulated: %d drawings of %d '
+            'gestures, each recognised by the drawings of the other people (at most %d examples of '
+            'all gestures together).' % (tested, len(names), result['examples']))
         note = 'Gestures of your own recordings recognised, by examples of other people'
     else:
         run.say(
             '### Gestures\n\n'
-            'Twelve gestures, drawn with an LED by made-up people of different size, slant, roundness '
-            'and pace, tracked, and recognised from %d examples by other people. **The people are made '
-            'up**; `--gestures DIR` takes recordings of real ones instead.' % EXAMPLES)
+            'Twelve gestures, drawn with an LED by simulated people of different size, slant, '
+            'roundness and pace, tracked, and recognised by %d examples of other people. **The '
+            'people are simulated**; `--gestures DIR` uses recordings of real ones.' % EXAMPLES)
         note = 'Gestures of made-up people recognised, %d examples each by others' % EXAMPLES
     draw(run, names, confusion)
     run.table('confusion', [('drawn', '')] + [('as_%d' % (i + 1), '') for i in range(len(names))],
@@ -72,4 +72,4 @@ def draw(run, names, confusion):
     axes.set_xlabel('recognised')
     axes.set_ylabel('drawn')
     axes.grid(False)
-    run.plot('gestures', figure, 'Which gesture was taken for which (numbers of drawings).')
+    run.plot('gestures', figure, 'Confusion matrix (numbers of drawings).')

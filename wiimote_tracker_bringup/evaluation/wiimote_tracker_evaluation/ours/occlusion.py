@@ -22,13 +22,12 @@ def tell(run):
     shares = sorted(set(table['hidden_share']))
     run.say(
         '### Occlusion\n\n'
-        'An LED goes round at 1 m/s; each camera for itself loses sight of it at random, for a '
-        'quarter of a second on average. Covered is the time in which its newest published point is '
-        'younger than 25 ms and less than 5 cm off. Instant by instant, rays are intersected as in '
-        'the paper; that ends where fewer than two cameras see the LED (the dashed line). Tracks go '
-        'on for a second with one camera, which does not see how far away the LED is, and for half a '
-        'second with none: their points are then said to be predicted, and have no topic of their '
-        'own. With two cameras they are tracked.')
+        'An LED circles at 1 m/s. Each camera independently loses sight of it at random, for 0.25 '
+        's on average. The covered time is that with a newest published point younger than 25 ms '
+        'and less than 5 cm off. *Instant by instant* triangulates as in the paper, which requires '
+        'two cameras (dashed line). *Tracks* continue for up to 1 s with one camera, which does '
+        'not measure the distance, and for 0.5 s with none. These points are marked as predicted '
+        'and are not on the LED\'s own topic.')
     figure, axes = charts.figure(1, 2)
     for plot, count in zip(axes, (counts[0], counts[-1])):
         for method, label, color in METHODS:
@@ -44,7 +43,7 @@ def tell(run):
         plot.set_ylim(0.0, 104.0)
     axes[0].set_ylabel('covered time [%]')
     charts.key(axes[0], 'lower left')
-    run.plot('occlusion', figure, 'For how much of the time the LED\'s place is known.')
+    run.plot('occlusion', figure, 'Share of the time with a known position of the LED.')
     for count in (counts[0], counts[-1]):
         for method, label, _ in METHODS:
             chosen = where(table, cameras=count, hidden_share=HIDDEN, method=method)
@@ -60,4 +59,4 @@ def tell(run):
                            statistics.bootstrap(units, statistic, run.seed),
                            '%s, each of %d cameras blind %d %% of the time, %s' % (
                                note, count, 100 * HIDDEN, label))
-    keep(run, PROGRAM, table, 'An LED that is hidden now and then.')
+    keep(run, PROGRAM, table, 'An LED with random occlusions.')

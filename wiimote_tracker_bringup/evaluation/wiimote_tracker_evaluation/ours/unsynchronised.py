@@ -19,14 +19,14 @@ def tell(run):
     table = read_shared(run, PROGRAM)
     run.say(
         '### Cameras that are not synchronised\n\n'
-        'An LED on a circle of 75 cm before cameras that are exactly known, each on its own clock '
-        '(about 10 ms, phases at random), reports late by the delays of the rig\'s description. '
-        'Latest spots: with each report the last spots of all cameras are intersected (the mean of '
-        'closest points), as a program does that knows nothing of time; it is scored at the mean of '
-        'the instants that entered, which is the best for it. What the stamps of all cameras are late '
-        'by together (about 9.5 ms here) cannot be told from arrivals; it shifts the time of a point '
-        'and is left out of these errors. Cameras that expose all at once (dashed) are no better: their '
-        'images come in bunches, and between these there is nothing.')
+        'An LED moves on a circle of 75 cm. The cameras are exactly known and have their own '
+        'clocks (period about 10 ms, random phases); reports are delayed as in the rig\'s '
+        'description. *Latest spots*: at each report, the rays of all cameras\' latest spots are '
+        'intersected (mean of the closest points), without use of times; the point is compared '
+        'with the LED at the mean exposure time, the best possible choice. A common lateness of '
+        'all stamps (about 9.5 ms here) cannot be estimated from arrivals. It shifts the times of '
+        'points and is removed from these errors. Synchronised cameras (dashed) are no better: '
+        'their images arrive in groups, with gaps between them.')
     speeds = sorted(set(table['speed_m_per_s']))
     figure, axes = charts.figure()
     for stamps, method, label, color in METHODS:
@@ -41,7 +41,7 @@ def tell(run):
     axes.set_ylim(0.0, None)
     charts.key(axes, 'upper left', (('-', 'cameras on their own clocks'),
                                     ('--', 'all expose at once')))
-    run.plot('unsynchronised', figure, 'RMS error over the LED\'s speed.')
+    run.plot('unsynchronised', figure, 'RMS error by the LED\'s speed.')
     values = {}
     for stamps, method, label, _ in METHODS:
         units = units_of(table, SPEED, 'own', stamps, method)

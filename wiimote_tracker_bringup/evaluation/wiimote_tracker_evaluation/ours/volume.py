@@ -17,10 +17,10 @@ def tell(run):
     table = read_shared(run, PROGRAM)
     run.say(
         '### Accuracy over the volume\n\n'
-        'Each session has other lenses and other errors of putting the LED on the corners, is '
-        'calibrated, and measures an LED that lies still at 27 places; measured is the RMS error over '
-        'the sessions, predicted what the calibration says of itself before. '
-        'Normalised squared errors of 1 on average mean that it says the truth.')
+        'Each session has other lenses and other placement errors of the corners, is calibrated, '
+        'and measures a still LED at 27 positions. *Measured*: RMS error over the sessions. '
+        '*Predicted*: by the calibration itself. Its covariance is right if the normalised squared '
+        'error is 1 on average.')
     heights = sorted(set(table['z_m']))
     places = sorted(set(table['x_m']))
     figure, axes = charts.figure(2, 2 * len(heights), height=4.4)
@@ -46,8 +46,8 @@ def tell(run):
         row[0].set_ylabel(f'{label}\ny [m]')
     for plot in axes[1]:
         plot.set_xlabel('x [m]')
-    run.plot('volume', figure, 'RMS errors over the cube [mm], measured and predicted side by side, at '
-             'three heights.')
+    run.plot('volume', figure, 'RMS errors in the cube [mm], measured and predicted, at three '
+                               'heights.')
     for method, label in METHODS:
         chosen = where(table, method=method)
         for column, word in (('error_mm', 'measured'), ('predicted_mm', 'predicted')):

@@ -44,14 +44,14 @@ def simulate(run, sessions):
 def tell(run, laps):
     speeds = np.unique(laps['speed'])
     run.say(
-        'Simulated, in process: %d sessions each with two and with four Wiimotes, drawn as those of '
-        'the ten points. An LED goes round the paper\'s three circles (radius 0.75 m) at %s m/s; one '
-        'lap each, after 3 s for clocks and tracks to settle. Every camera exposes by its own clock, '
-        'and its images arrive late or not at all, as the rig\'s description has it; their times are '
-        'the driver\'s estimates from the arrivals. *Instant by instant* is the paper\'s way (spots '
-        'brought to one time, rays intersected), *tracks* is ours. *Radial*: distance from the '
-        'circle\'s axis less the radius. *Height*: above the circle\'s plane. The circle itself is '
-        'exact: the paper\'s 3 cm of placement are not in these errors.'
+        'Simulated, in process: %d sessions each with two and with four Wiimotes, drawn as for the '
+        'ten points. An LED moves on the paper\'s three circles (radius 0.75 m) at %s m/s, one lap '
+        'each, 3 s after the start of clocks and tracks. Every camera exposes by its own clock. '
+        'Images are delayed or lost as in the rig\'s description; their times are the driver\'s '
+        'estimates. *Instant by instant* is the paper\'s method (spots interpolated to one time, '
+        'rays intersected), *tracks* is ours. *Radial*: distance from the circle\'s axis minus the '
+        'radius. *Height*: above the circle\'s plane. The circle itself is exact: the paper\'s '
+        'placement error of 3 cm is not included.'
         % (len(np.unique(laps['session'])), ', '.join(f'{speed:g}' for speed in speeds)))
     plot(run, laps, speeds)
     rows = []
@@ -65,8 +65,8 @@ def tell(run, laps):
     run.table('errors', [('wiimotes', ''), ('method', ''), ('speed', 'm/s'), ('sessions', ''),
                          ('radial_rms', 'mm'), ('radial_95', 'mm'), ('height_rms', 'mm'),
                          ('height_95', 'mm'), ('not_seen', '%')], rows,
-              'RMS over all circles and the sessions that could be solved, with its interval; and how '
-              'often no point was there within 0.5 m of the LED.')
+              'RMS over all circles and all solved sessions, with its interval; and the share of '
+              'times without a point within 0.5 m of the LED.')
     run.table('laps', [(name, unit_of(name)) for name in laps], programs.table_rows(laps),
               'Every point.', shown=False)
     compare(run, laps)
@@ -110,8 +110,8 @@ def compare(run, laps):
             sentences.append(f'{explained}, {words} Wiimotes: '
                              f'{100.0 * np.mean(error <= PAPER_LIMIT):.0f} %')
     run.say('The paper says that the errors on the circles "were very close to the errors acquired '
-            'with the static tests", and claims 3 cm for both, without numbers by case. Points of '
-            'ours that are within 3 cm of the circle:\n\n'
+            'with the static tests", and claims 3 cm for both, without numbers by case. Our points '
+            'within 3 cm of the circle:\n\n'
             + '\n'.join(f'- {sentence}' for sentence in sentences))
     chosen = ((laps['cameras'] == 4) & (laps['method'] == 'wand_tracks')
               & (laps['speed'] == 1.0))

@@ -136,12 +136,12 @@ def measure_rooms(run):
 def tell(run, measured, rooms, seconds):
     run.say(
         'Processor time of the nodes, from `/proc/<pid>/stat`, while the whole system runs on the '
-        'simulated rig for %.0f s in each setting: one driver per camera, the tracker in its nodelet '
-        'manager, the calibration node. The simulation itself, the recorder and this program are not '
-        'counted, but they run on the same %d processor cores and take their share of the latency. '
-        'Every camera sends 100 images a second, less the lost ones; every LED moves at %.0f m/s. '
-        'Cameras beyond the rig\'s own stand between them. *Own latency*: from a report on the '
-        'virtual device to the point in another process, Bluetooth left out.'
+        'simulated rig for %.0f s per setting: one driver per camera, the tracker in its nodelet '
+        'manager, the calibration node. Simulation, recorder and this program are not counted, but '
+        'run on the same %d processor cores and affect the latency. Every camera sends 100 '
+        'images/s, less the lost ones; every LED moves at %.0f m/s. Further cameras are placed '
+        'between those of the rig. *Own latency*: from a report on the virtual device to the point '
+        'in another process, without Bluetooth.'
         % (seconds, stack.cores(), SPEED))
     run.table('nodes', [
         ('cameras', ''), ('LEDs', ''), ('busy_processes', ''), ('images', '1/s'), ('points', '1/s'),
@@ -217,14 +217,14 @@ def plot(run, measured):
     latency.set_xlabel('own latency [ms]')
     latency.set_ylabel('share of the points')
     charts.key(latency, loc='lower right')
-    run.plot('cost', figure, 'Processor time against the number of cameras and of LEDs; latency '
-             'without Bluetooth, idle and beside processes that do nothing but compute.')
+    run.plot('cost', figure, 'Processor time by the number of cameras and of LEDs; latency without '
+             'Bluetooth, idle and beside busy processes.')
 
 
 def rooms_of(run, rooms):
-    run.say('### The tracker alone\nIn process, in simulated time, without ROS and without drivers: '
-            'rooms of four cameras and four LEDs each, all in one tracker. *Load*: of one core in '
-            'real time.')
+    run.say('### The tracker alone\n'
+            'In process, in simulated time, without ROS and without drivers: rooms of four cameras '
+            'and four LEDs each, all in one tracker. *Load*: share of one core in real time.')
     run.table('rooms', [('setting', ''), ('images', ''), ('time_per_image', 'µs'),
                         ('load', '% of a core'), ('leds_tracked', '')],
               [(row['name'], row['images'], row['us/image'], 100 * row['load'], row['leds'])

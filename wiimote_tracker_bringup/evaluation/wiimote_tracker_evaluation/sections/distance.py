@@ -29,17 +29,16 @@ def tell(run, led, carried):
     thresholds = {level: threshold(carried, level) for level in SENSITIVITIES}
     constant = led.brightness_per_ampere(thresholds[led.sensitivity])
     run.say(
-        'A virtual Wii Remote is carried away from a light at %.2f m/s, its direction going round in '
-        'small circles, until the position it reports has not changed for %.1f s, as in the paper. '
-        'Whether the light is seen is decided by the same sensor as everywhere in the simulation, '
-        'read through the remote\'s own protocol.\n\n'
-        'The model: the light that reaches the remote is proportional to the current (the paper says '
-        'so) and falls with the square of the distance. The sensor\'s threshold follows from the '
-        'registers of its sensitivity; at the console\'s middle level (`wii_3`) a sensor bar is seen '
-        'from %.1f m. How bright the LED is, is the one constant that is fitted: to %s, at `%s`, it '
-        'is %.2f sensor bars per ampere. **The fitted curve passes through a single measured point '
-        'by construction; it confirms nothing there.** Measure a few distances of your own LED, put '
-        'them into a copy of `led.yaml`, and give it with `--led`.'
+        'A virtual Wii Remote moves away from a light at %.2f m/s, while its direction describes '
+        'small circles, until the reported position has not changed for %.1f s, as in the paper. '
+        'Its sensor is that of the whole simulation, read by the remote\'s protocol.\n\nThe light '
+        'at the remote is assumed proportional to the current, as in the paper, and falls with the '
+        'square of the distance. The sensor\'s threshold follows from its registers; at the '
+        'console\'s middle level (`wii_3`) a sensor bar is seen from %.1f m. The brightness of the '
+        'LED is the only fitted constant: from %s, at `%s`, it is %.2f sensor bars per ampere. '
+        '**The fitted curve passes through a single measured point by construction, which confirms '
+        'nothing.** Measure a few distances of your own LED, enter them in a copy of `led.yaml`, '
+        'and use it with `--led`.'
         % (SPEED, TIME_LIMIT, float(detection_distance(1.0, thresholds['wii_3'])),
            ', '.join(f'{distance:g} m with {1e3 * current:g} mA'
                      for current, distance in led.measured), led.sensitivity, constant))
@@ -103,11 +102,11 @@ def tell_corners(run, led):
     run.figure('current_for_all_corners', 1e3 * needed, 'mA', 1, note='Current with which every '
                f'camera sees the LED at all ten test points, sensitivity {led.sensitivity}')
     run.say(
-        'The test point that is worst to see is (%.2f, %.2f, %.2f) m from %s: %.1f m off and %.0f° out '
-        'of the level in which the cone throws the light. That takes %.0f mA at `%s`. %s'
+        'The darkest test point is (%.2f, %.2f, %.2f) m from %s: %.1f m away and %.0f° off the '
+        'plane of the cone\'s light. It requires %.0f mA at `%s`. %s'
         % (tuple(point) + (camera, distance, abs(angle), 1e3 * needed, led.sensitivity,
-           'The paper\'s 560 mA are enough, as it says.' if needed <= PAPER_CURRENT else
-           'By this model the paper\'s 560 mA are not enough, though it says that they are.')))
+           'The paper\'s 560 mA suffice, as it says.' if needed <= PAPER_CURRENT else
+           'By this model the paper\'s 560 mA do not suffice, although it says so.')))
     run.summary('**Detection distance**, simulated: an LED with %.0f mA is seen from %.0f m (fitted to a measured point); every camera '
                 'of this rig sees all ten test points from %.0f mA on.' % (
                     1e3 * led.measured[-1][0], led.measured[-1][1], 1e3 * needed))
@@ -150,8 +149,8 @@ def plot(run, led, carried, thresholds, constant):
     beam.set_ylabel('detection distance, 560 mA [m]')
     beam.set_ylim(0.0, None)
     beam.set_xticks([-60, -30, 0, 30, 60])
-    run.plot('distance', figure, 'Distance from which the LED is seen (Fig. 5). Left: over its '
-             'current, for the sensitivities of the remote: dots, where the carried remote was stopped; '
-             'lines, the inverse square law. The diamond is the one point that the paper\'s text gives. '
-             f'Right: over the direction, at `{led.sensitivity}`; the beam is a model, see '
+    run.plot('distance', figure, 'Distance from which the LED is seen (Fig. 5). Left: by its '
+             'current, for the sensitivities of the remote: dots, where the remote stopped; lines, '
+             'the inverse square law; diamond, the only point in the paper\'s text. '
+             f'Right: by the direction, at `{led.sensitivity}`; the beam is a model, see '
              '`led.yaml`.')

@@ -81,19 +81,18 @@ def tell(run, tries):
     lines = {(scheme, count): Line(tries, scheme, count)
              for scheme, _, _ in SCHEMES for count in cameras}
     run.say(
-        'Four LEDs blink in the middle of the cube before cameras that are not synchronised; a try '
-        f'lasts {DURATION:.0f} s and is a success when in the end each has its own label and none '
-        'was ever '
-        'given another\'s. The whole way is simulated: from the light on the sensor (an LED is seen '
-        'when it is lit for more than half of the exposure of 1 ms) over the tracker to the label.\n\n'
-        '**The paper\'s scheme:** on for 90, 60, 40 and 20 % of a common period, symmetric about its '
-        'middle; the period is looked for within 20 %. **Cyclic codes:** each LED repeats a word of '
-        '8 chips when it likes, without a wire between them. The LEDs\' clocks are exact here; very short '
-        'periods live by that, since they are seen by images at ever other phases. A label is given when it '
-        'is 99.9 % certain, so that of four LEDs one may have a wrong one, mostly for a moment, in up to '
-        '4 of 1000 tries; such a try is no success. The paper says that identification '
-        '"was successful in all test cases" and gives neither period nor time; it left the shortest '
-        'period for future research.')
+        'Four LEDs blink in the middle of the cube, seen by unsynchronised cameras; a try lasts '
+        f'{DURATION:.0f} s and is a success if all labels are right in the end and none was ever '
+        'wrong. Everything is simulated from the light on the sensor (an LED is seen if it is on '
+        'for more than half of the exposure of 1 ms) to the label.\n\n'
+        '**The paper\'s scheme:** on for 90, 60, 40 and 20 % of a common period, centred in it; the '
+        'period is known to within 20 %. **Cyclic codes:** each LED repeats a word of 8 chips with '
+        'its own phase, without wires. The LEDs\' clocks are exact here. Very short periods depend '
+        'on that, because they are sampled over many periods. A label is assigned at a probability '
+        'of 99.9 %, so that in up to 4 of 1000 tries one of four LEDs may have a wrong one, mostly '
+        'for a moment; such a try is not a success. The paper says that identification "was '
+        'successful in all test cases", without period or time, and leaves the shortest period to '
+        'future research.')
     plot(run, cameras, lines)
     rows = []
     for scheme, word, title in SCHEMES:
@@ -108,8 +107,9 @@ def tell(run, tries):
                              float(np.max(seconds)) if len(seconds) else None])
     run.table('lengths', [('scheme', ''), ('cameras', ''), ('period_or_chip', 'ms'), ('tries', ''),
                           ('success', '%'), ('low', '%'), ('high', '%'), ('median_time', 's'),
-                          ('longest_time', 's')], rows, 'Success and time until all four LEDs have '
-              'their labels, over period or chip.', shown=False)
+                          ('longest_time', 's')], rows,
+              'Success and time until all four LEDs have their labels, by period or chip.',
+              shown=False)
     figures(run, cameras, lines)
 
 
@@ -145,8 +145,8 @@ def figures(run, cameras, lines):
                'Tries in which an LED was ever given the label of another, of all lengths')
     best = lines['paper', max(cameras)]
     if best.shortest() is not None and len(best.seconds[best.at(SHOWN_PERIOD)]):
-        run.summary('**Identification**, simulated: four LEDs by the paper\'s blinking are told apart '
-                    'in at least %.0f %% of the tries with periods from %.0f ms on (%d cameras); with '
+        run.summary('**Identification**, simulated: the paper\'s scheme identifies four LEDs in at '
+                    'least %.0f %% of the tries with periods from %.0f ms on (%d cameras); with '
                     '%.0f ms it takes %.2f s.' % (
                         100.0 * ENOUGH, best.shortest(), max(cameras), SHOWN_PERIOD,
                         np.median(best.seconds[best.at(SHOWN_PERIOD)])))
@@ -182,5 +182,5 @@ def plot(run, cameras, lines):
     axes[1][0].set_ylabel('time until all have labels [s]')
     charts.key(axes[0][1], 'lower right')
     run.plot('identification', figure, 'Success (with 95 % intervals) and time until all four LEDs '
-             'have their labels (median, and 5 to 95 %; successes only), over the period of the '
+             'have their labels (median, and 5 to 95 %; successes only), by the period of the '
              'paper\'s scheme and the chip of cyclic codes.')

@@ -136,15 +136,14 @@ def count_laps(conductor, laps, progress):
 
 def tell(run, results):
     run.say(
-        'The whole system, simulated: virtual Wii Remotes, drivers, calibration by the four corners '
-        'of a %.1f m square, tracker. The rig is that of Fig. 1 made smaller, about a space of '
-        '%.1f × %.1f × %.1f m. The LED circles with a radius of %.0f cm about the origin, %.4f s a '
-        'lap (Fig. 6 has 1.4833 s in its caption); a laps counter stands at the positive x axis and '
-        'sends a trigger at every crossing.\n\n'
-        '**What reaches the computer over Bluetooth and when is an input of the simulation** (its '
-        'description: constant delay, jitter, radio slots), not a measurement of Bluetooth. The '
-        'paper\'s 280–320 ms were measured on real hardware and another operating system, so no '
-        'ratio to them is given.'
+        'The whole system, simulated: virtual Wii Remotes, drivers, calibration by the four '
+        'corners of a %.1f m square, tracker. The rig is that of Fig. 1, scaled to a space of %.1f '
+        '× %.1f × %.1f m. The LED circles around the origin with a radius of %.0f cm and %.4f s '
+        'per lap (1.4833 s in the caption of Fig. 6); a laps counter at the positive x axis sends '
+        'a trigger at every crossing.\n\n'
+        '**The Bluetooth delay is an input of the simulation** (in its description: constant '
+        'delay, jitter, radio slots), not a measurement. The paper\'s 280–320 ms were measured on '
+        'real hardware and another operating system, so no ratio to them is given.'
         % (SIDE, SIDE, SIDE, HEIGHT, 100.0 * RADIUS, PERIOD))
     fig6(run, results)
     direct(run, results)
@@ -153,18 +152,18 @@ def tell(run, results):
     bluetooth = 1e3 * np.median(main.trace.parts(main.chosen())['bluetooth'])
     run.summary(
         '**Latency**, simulated: a point is published %.1f ms after the exposure (median, 99 %% '
-        'within %.1f ms) with four Wiimotes; %.1f ms of it are the Bluetooth delay that the '
-        'simulation is given, the rest is drivers, filter and transport.'
+        'within %.1f ms) with four Wiimotes; %.1f ms of it are the simulated Bluetooth delay, the '
+        'rest is drivers, filter and transport.'
         % (np.median(total), np.quantile(total, 0.99), bluetooth))
 
 
 def fig6(run, results):
-    run.say("### The laps counter's angle, as in Fig. 6\n"
-            'The newest position that was known when the LED crossed the axis lies behind it; the '
-            'angle times the period is the latency. Corners that were put down some millimetres off '
-            'turn and shift the measured circle a little, which the angle cannot tell from time; '
-            'measured from the trigger\'s answer instead (where the tracker, with hindsight, puts the '
-            'LED at that moment), this falls out.')
+    run.say('### The laps counter\'s angle, as in Fig. 6\n'
+            'The newest position known when the LED crosses the axis lies behind it; the angle '
+            'times the period is the latency. Placement errors of the corners rotate and shift the '
+            'measured circle slightly, which the angle cannot distinguish from latency. Measured '
+            'from the trigger\'s answer instead, the tracker\'s later estimate for the time of the '
+            'crossing, this error cancels.')
     rows = []
     for name, title, measured in results:
         late = 1e3 * measured.by_counter()
@@ -181,8 +180,8 @@ def fig6(run, results):
     run.table('laps_counter', [
         ('cameras', ''), ('laps', ''), ('mean', 'ms'), ('least', 'ms'), ('most', 'ms'),
         ('mean_from_answer', 'ms'), ('answer_ahead', 'ms')], rows,
-        'Latency by the angle. *Answer ahead*: by how much the trigger\'s answer itself lies past '
-        'the axis; its mean is the calibration\'s share.')
+        'Latency by the angle. *Answer ahead*: how far the trigger\'s answer is past the axis; its '
+        'mean is the error of the calibration.')
     run.table('crossings', [('cameras', ''), ('crossing', 's'), ('x', 'm'), ('y', 'm'), ('z', 'm'),
                             ('angle', 'rad'), ('answer', 'rad')],
               [(title, lap - measured.laps[0]) + tuple(position) + (angle, answer)
@@ -192,9 +191,9 @@ def fig6(run, results):
     figure, views = charts.figure(1, 2, height=3.9)
     for axes, (_, title, measured) in zip(views, results):
         draw_fig6(axes, measured, title)
-    run.plot('fig6', figure, 'As Fig. 6: the circle fitted to all measured positions (red), where '
-             'the measured position was when the LED crossed the positive x axis (blue crosses), and '
-             'the two angles between which these lie; inside, the crossing larger.')
+    run.plot('fig6', figure, 'As Fig. 6: the circle fitted to all measured positions (red), the '
+             'measured positions when the LED crossed the positive x axis (blue crosses), and '
+             'their range of angles; inset: the crossing enlarged.')
 
 
 def draw_fig6(axes, measured, title):
@@ -241,15 +240,14 @@ def fitted_circle(points):
 
 def direct(run, results):
     run.say('### Directly, from exposure to published point\n'
-            'The simulation says when each image was exposed and when its report was handed over; a '
-            'recorder in another process takes the times at which the image and the point reach it. '
-            '*Driver*: from the report on the device to its arrival stamp. *Transport of the image*: '
-            'until the driver\'s message is in another process, with the driver\'s work on it. '
-            '*Filter, and transport of the point*: from there until the point is in that process, '
-            'the tracker\'s work and one more message. Waiting for a processor is in all of them. A '
-            'bare message straight from the simulation to the recorder takes %s meanwhile (median). '
-            'Exposure itself is an instant here; what happens in the room waits, on average, %s for '
-            'the next one.' % (
+            'The simulation records when each image was exposed and its report delivered; a '
+            'recorder in another process records the arrival of image and point. *Driver*: from '
+            'the report on the device to its arrival stamp. *Transport of the image*: until the '
+            'driver\'s message is in another process, including the driver\'s work. *Filter, and '
+            'transport of the point*: from there to the point in that process, including the '
+            'tracker\'s work and one more message. All include waiting for a processor. A bare '
+            'message from the simulation to the recorder takes %s (median). Exposures are '
+            'instantaneous here; an event waits %s for the next one on average.' % (
                 ' and '.join(f'{1e3 * np.median(m.trace.hop):.2f} ms with {title}'
                              for _, title, m in results),
                 ' and '.join(f'{1e3 * m.trace.waiting():.1f} ms with {title}'
@@ -279,7 +277,7 @@ def direct(run, results):
         (title, exposed - measured.laps[0], 1e3 * (delivered - exposed))
         for _, title, measured in results
         for exposed, delivered in zip(measured.trace.exposures, measured.trace.deliveries)],
-        'Every image, also those that were overtaken by a newer one and made no point.', shown=False)
+        'Every image, including those overtaken by a newer one, which gave no point.', shown=False)
     plot_distribution(run, results)
 
 

@@ -47,11 +47,11 @@ def tell(run, results):
     explain(run, results)
     for cameras, words in SETS:
         run.plot(words, plots.cumulative_errors(results, cameras, protocol_sessions), (
-            'Cumulative errors with %s Wiimotes (Fig. %s). Left and middle: the paper\'s cases, error '
-            'from where the LED was meant to be; dotted, two sessions per case as the paper had them; '
-            'diamonds, what the paper\'s text says. Right: the error of the measurement itself, from '
-            'where the LED was; with C5 (rays as calibrated) and C1 (rays from the image centre, the '
-            'volume corrected from 27 places) for comparison.' % (words, '7' if cameras == TWO else '9')))
+            'Cumulative errors with %s Wiimotes (Fig. %s). Left and middle: the paper\'s cases, '
+            'error from the nominal position of the LED; dotted, two sessions per case as in the '
+            'paper; diamonds, values of the paper\'s text. Right: error from the true position of '
+            'the LED; C5 (rays as calibrated) and C1 (rays from the image centre, with volume '
+            'correction from 27 points) for comparison.' % (words, '7' if cameras == TWO else '9')))
     compare(run, results)
     cases(run, results)
     ours(run, results)
@@ -69,8 +69,8 @@ def check(results):
             group = results.group(cameras, method, model)
             if len(group.from_nominal()) < 2:
                 raise ExperimentError(
-                    '%d of %d sessions with %s Wiimotes could not be solved by %s (%s); let the '
-                    "rig's cameras stand as the paper's, all four seeing the whole cube" % (
+                    '%d of %d sessions with %s Wiimotes could not be solved by %s (%s); place the '
+                    'rig\'s cameras as in the paper, so that all four see the whole cube' % (
                         group.unsolved(), results.sessions, words, method, model))
 
 
@@ -83,25 +83,25 @@ def protocol_sessions(case):
 def explain(run, results):
     run.say(
         'Simulated, in process: %d sessions with two neighbouring cameras (the paper\'s positions 1 '
-        'and 2) and as many with all four; in each, every case and every method measures the same ten '
-        'points. Cameras stand where the rig\'s description has them. Their lenses are drawn about '
-        'the paper\'s K (2), one standard deviation 3 %% in focal length, 15 px in the principal '
-        'point, 0.02 in k1, such that all points are in view. The LED is put on the corners of the '
-        'square with 5 mm of error per axis (twice that is the paper\'s 1 cm), on the ten points '
-        'anywhere within 1 cm on the floor and within 3 cm above it. Pixels are whole numbers with '
-        'the description\'s noise; a point is the mean of 100 images.\n\n'
-        'The paper\'s calibration is repeated in both ways in which its rays can be read '
-        '(`ray_model`): from the image centre (512, 384), whatever principal point the poses were '
-        'solved with, or as calibrated.' % results.sessions)
+        'and 2) and as many with all four; in each, every case and every method measures the same '
+        'ten points. Camera poses are those of the rig\'s description. Their lenses are drawn '
+        'around the paper\'s K (2) with standard deviations of 3 %% in focal length, 15 px in the '
+        'principal point and 0.02 in k1, such that all points are in view. Placement errors of the '
+        'LED are 5 mm per axis at the corners of the square (the paper\'s 1 cm is twice that), and '
+        'up to 1 cm on the floor and 3 cm above it at the ten points. Pixels are integers with the '
+        'description\'s noise; a point is the mean of 100 images.\n\n'
+        'The paper\'s calibration is repeated for both interpretations of its rays (`ray_model`): '
+        'from the image centre (512, 384), whatever principal point was used for the poses, or as '
+        'calibrated.' % results.sessions)
 
 
 # --- The paper
 
 def compare(run, results):
-    run.say('### What the paper says\nEach number of the paper\'s text beside what as many simulated '
-            'sessions as it had give: the middle of many draws, and the range of 95 %% of them. '
-            '*Agrees* when the paper\'s number, as it is rounded, lies in that range.%s' % (
-                ' This quick run has too few sessions for the ends of the ranges.' if run.quick else ''))
+    run.say('### What the paper says\nEach number in the paper\'s text, and the results of as many '
+            'simulated sessions: their median over many draws, and their 95 %% range. *Agrees*: '
+            'the paper\'s rounded number is in that range.%s' % (
+                ' A quick run has too few sessions for these limits.' if run.quick else ''))
     rows, agreeing = [], {model: 0 for model, _ in MODELS}
     for claim in claims.CLAIMS:
         row = [claim.text, 100.0 * claim.said]
@@ -115,8 +115,8 @@ def compare(run, results):
     run.table('claims', [('claim', ''), ('paper', 'cm'), ('image_center', 'cm'),
                          ('image_center_agrees', ''), ('calibrated', 'cm'),
                          ('calibrated_agrees', '')], rows,
-              'Errors from where the LED was meant to be, placement included, as the paper measured '
-              'them.')
+              'Errors from the nominal position of the LED, including placement errors, as '
+              'measured in the paper.')
     for model, _ in MODELS:
         run.figure('paper_claims_agreeing_' + model, agreeing[model], f'of {len(rows)}',
                    results.sessions, None, 'numbers of the paper that the simulation with ray_model '
@@ -148,7 +148,7 @@ def details(run, results):
     return (
         '- *Without the correction the cube is shifted, and keeps its form with slight deformations*: '
         'the corners of C2 with two Wiimotes and rays from the image centre are %.0f mm off (RMS), '
-        'and %.0f mm when the whole cube is turned and shifted onto the ideal one.\n'
+        'and %.0f mm after a rigid alignment of the cube.\n'
         '- *The worst corner of C4 with two Wiimotes is the one before camera 4*: in %.0f %% of our '
         'sessions with rays from the image centre (%.0f to %.0f %%; 20 %% by chance).\n'
         '- *Corrected principal points are within ±5 px of (512, 384)*: 95 %% of ours are within '
@@ -168,15 +168,15 @@ def conclusion(results, agreeing, of):
              'Wiimotes and of %.1f cm with four. ' % (
                  agreeing['image_center'], of, agreeing['calibrated'], 100.0 * two, 100.0 * four))
     if four > two:
-        words += ('**Four are worse than two here, and the paper\'s are not**: a sideways shift of all '
-                  'principal points together leaves the measured origin where it is, so the '
-                  'correction cannot see it. The paper\'s 2.8 cm of C3 with four Wiimotes remain '
+        words += ('**Four are worse than two here, unlike in the paper**: a common sideways shift '
+                  'of all principal points leaves the measured origin unchanged, so the correction '
+                  'cannot detect it. The paper\'s 2.8 cm of C3 with four Wiimotes remain '
                   'unexplained. ')
-    return words + ('With rays as calibrated, poses and rays belong to one camera model, and there is '
-                    'nothing to correct but noise and what the model lacks. Lenses whose principal '
-                    'points truly are within 5 px of (512, 384), other steps, and the 41° that the '
-                    'paper\'s virtual model assumes (with which its correction does not help) are in '
-                    '`benchmark_calibration --section paper`.')
+    return words + ('With rays as calibrated, poses and rays have the same camera model, and only '
+                    'noise and model errors remain to be corrected. `benchmark_calibration '
+                    '--section paper` tests lenses with principal points within 5 px of (512, '
+                    '384), other steps, and the 41° of the paper\'s virtual model, with which its '
+                    'correction does not help.')
 
 
 def cases(run, results):
@@ -200,19 +200,20 @@ def cases(run, results):
     run.table('cases', [('wiimotes', ''), ('case', ''), ('image_center_rms', 'mm'),
                         ('image_center_largest', 'mm'), ('calibrated_rms', 'mm'),
                         ('calibrated_largest', 'mm'), ('unsolved_sessions', '')], rows,
-              'The paper\'s cases, placement included. The paper\'s text speaks of neighbouring '
-              'Wiimotes and, in one place, of opposite corners; so both are here.')
+              'The paper\'s cases, including placement errors. The paper\'s text mentions '
+              'neighbouring Wiimotes and, once, opposite corners; so both are listed.')
 
 
 # --- Ours
 
 def ours(run, results):
-    run.say('### Ours, and what is possible\nOn the same sessions; errors from where the LED was. The '
-            'bound is Cramér and Rao\'s, of the corners, the waved LED or wand, and the point\'s own '
-            'pixels, with the same knowledge beforehand. *Stated*: mean squared error over what the '
-            'measurement\'s own covariance foretells (1 when honest). Both may fall a little short of 1: '
-            'lenses with which a point would be out of view are not used, so the others are nearer to '
-            'K (2) than is assumed beforehand.')
+    run.say('### Ours, and what is possible\n'
+            'The same sessions; errors from the true position of the LED. The Cramér-Rao bound '
+            'includes the corners, the waved LED or wand, the point\'s own pixels, and the same '
+            'priors. *Stated*: mean squared error divided by the value predicted by the '
+            'measurement\'s covariance (1 if right). Both may be slightly below 1: lenses that do '
+            'not see all points are rejected, so the others are closer to K (2) than the prior '
+            'assumes.')
     rows = []
     for cameras, words in SETS:
         for method in ('square', 'square_remapped', 'wave', 'wand'):
@@ -281,10 +282,10 @@ def remap(run, results):
                          f'{statistics.rms(after):.0f} mm')
     square = results.group(FOUR, 'square').measured
     kept = np.isclose(square, results.group(FOUR, 'square_remapped').measured).all(axis=(1, 2))
-    run.say('**Correcting the volume** from 27 known places, put there as well as the ten points, '
-            'takes C1 with rays from the image centre %s; the paper expects that such errors can be '
-            'mended so. Of our square alone with four Wiimotes the fit finds nothing that it could '
-            'better in %d of %d sessions, and says so.' % (' and '.join(sentences), kept.sum(), len(kept)))
+    run.say('**Volume correction** from 27 known points, placed as accurately as the ten points, '
+            'changes C1 with rays from the image centre %s; the paper expects that it can correct '
+            'such errors. For our square alone with four Wiimotes the fit finds no improvement in '
+            '%d of %d sessions, and says so.' % (' and '.join(sentences), kept.sum(), len(kept)))
 
 
 def unit_of(name):
@@ -299,12 +300,12 @@ def unit_of(name):
 
 def shapes(run, results):
     session = protocol_sessions('C2')[0]
-    run.plot('cubes', plots.cubes(results, session), 'The cube as it is measured with two Wiimotes '
-             'and rays from the image centre (Fig. 8); simulated session %d.' % (session + 1))
+    run.plot('cubes', plots.cubes(results, session), 'The cube measured with two Wiimotes and rays '
+             'from the image centre (Fig. 8); simulated session %d.' % (session + 1))
     session = protocol_sessions('C3')[0]
-    run.plot('correction', plots.correction(results, session), 'The principal point correction (Fig. '
-             '2), C3 with two Wiimotes, simulated session %d. Left: the difference in each image, '
-             'round by round; each round takes a quarter of it. Right: the distance of the measured '
-             'origin from the ideal one.' % (session + 1))
+    run.plot('correction', plots.correction(results, session), 'The principal point correction '
+             '(Fig. 2), C3 with two Wiimotes, simulated session %d. Left: the difference in each '
+             'image by rounds; each round corrects a quarter of it. Right: the distance of the '
+             'measured origin from the ideal one.' % (session + 1))
     run.table('correction_rounds', [(name, unit_of(name)) for name in results.traces],
               programs.table_rows(results.traces), 'Every round of every correction.', shown=False)

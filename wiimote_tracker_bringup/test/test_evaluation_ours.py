@@ -56,7 +56,7 @@ def test_the_led_that_is_shipped_has_the_papers_point():
 
 
 @pytest.mark.parametrize('content, named', [
-    ('[]', 'no description'), ('half_power_angle: 70\nsensitivity: wii_3\n', 'distances'),
+    ('[]', 'not a description'), ('half_power_angle: 70\nsensitivity: wii_3\n', 'distances'),
     ('half_power_angle: 0\nsensitivity: wii_3\ndistances: {1: 1}', 'half_power_angle'),
     ('half_power_angle: 70\nsensitivity: high\ndistances: {1: 1}', 'sensitivity'),
     ('half_power_angle: 70\nsensitivity: max\ndistances: {}', 'distances'),

@@ -320,8 +320,8 @@ TEST_F(Replacing, WorksWithoutACalibration) {
 TEST_F(Replacing, WhatMakesNoSenseChangesNothing) {
   EXPECT_TRUE(
       contains(errorOf([&] { replace("window", "00:1f:32:aa:bb:cc"); }), "door, wiimote_2"));
-  EXPECT_TRUE(contains(errorOf([&] { replace("door", "hidraw3"); }), "no Bluetooth address"));
-  EXPECT_TRUE(contains(errorOf([&] { replace("door", "/dev/hidraw3"); }), "no Bluetooth address"));
+  EXPECT_TRUE(contains(errorOf([&] { replace("door", "hidraw3"); }), "not a Bluetooth address"));
+  EXPECT_TRUE(contains(errorOf([&] { replace("door", "/dev/hidraw3"); }), "not a Bluetooth address"));
   EXPECT_TRUE(contains(errorOf([&] { replace("wiimote_2", "00:1f:32:00:00:01"); }),
                        "is already camera door"));
   EXPECT_EQ(kList, folder_.read("cameras.yaml"));

@@ -212,7 +212,7 @@ TEST_F(RigFile, FaultsOfACorrectionAndAWideLensAreNamedByKey) {
   names("parameters: [", "parameters: [x, ", "remap/parameters");
   names("support:\n    - [", "support:\n    - [1.0, ", "remap/support");
   names("support:", "supports:", "remap/support");
-  names("rig_id: \"", "rig_id: \"\"  # ", "belongs to no calibration");
+  names("rig_id: \"", "rig_id: \"\"  # ", "has no rig id");
   names("distortion_model: equidistant", "distortion_model: plumb_bob",
         "camera_1/distortion_coefficients");
 }

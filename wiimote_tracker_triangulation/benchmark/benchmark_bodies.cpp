@@ -1,5 +1,5 @@
-// How well rigid bodies are found and followed: one table per section. With --body FILE that file's
-// first body is measured as well (a file of bodies, or one of rpg_monocular_pose_estimator).
+// Accuracy of finding and following rigid bodies: one table per section. With --body FILE the first
+// body of that file is measured too (a file of bodies, or one of rpg_monocular_pose_estimator).
 #include "benchmark_program.h"
 #include "body/bodies_file.h"
 #include "body/body_scene.h"
@@ -25,8 +25,8 @@ using body::test::tumbling;
 using tracking::test::SceneOptions;
 
 constexpr double kPixelNoise = 0.5;  // [px]
-constexpr double kBegin = 1001.0;    // of what counts; the scene begins at 1000 [s]
-constexpr double kWrong = 0.35;      // a rotation farther off is of another assignment [rad]
+constexpr double kBegin = 1001.0;    // errors before are not scored [s]
+constexpr double kWrong = 0.35;      // a larger rotation error means a wrong assignment [rad]
 
 std::vector<Constellation> g_bodies;
 
@@ -40,7 +40,7 @@ geometry::Rig rigOf(std::size_t cameras) {
   return rig;
 }
 
-/// A body before cameras, and how long its tracker takes.
+/// A body in front of cameras, and the time its tracker takes.
 class Session {
  public:
   Session(const geometry::Rig& rig,
@@ -60,7 +60,7 @@ class Session {
 
   const FollowedBody& followed() const { return followed_; }
 
-  /// Quantile of the time that an image took [s].
+  /// Quantile of the processing time per image [s].
   double took(double q) {
     std::sort(seconds_.begin(), seconds_.end());
     return seconds_[static_cast<std::size_t>(q * static_cast<double>(seconds_.size() - 1))];

@@ -1,4 +1,4 @@
-// How often LEDs that blink are taken for others: one table per section.
+// How often blinking LEDs get a wrong label: one table per section.
 #include "benchmark_identity_sections.h"
 #include "benchmark_program.h"
 

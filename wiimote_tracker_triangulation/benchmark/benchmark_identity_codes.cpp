@@ -18,20 +18,20 @@ using identity::test::BlinkingOptions;
 using identity::test::LedSighting;
 using identity::test::simulateBlinking;
 
-constexpr int kRunsPerRun = 50;  // of --runs
+constexpr int kRunsPerRun = 50;  // simulated runs for each of --runs
 
 const char* const kColumns =
     " wrong %: of the runs, in which the likeliest label of an LED is not its own; given wrong %: "
     "in which a label was given (as probable as a decision needs) that is not its own; none yet %: "
     "in which no wrong label was given, but an LED has none.";
 
-/// Runs with an LED whose ...
+/// Counts of runs.
 struct Score {
   int runs = 0;
-  int wrong = 0;          // likeliest label is not its own
-  int given_wrong = 0;    // label is given and not its own
-  int none_yet = 0;       // label is not given, and none is given wrongly
-  int counted_wrong = 0;  // share of images that show it is nearest to that of another label
+  int wrong = 0;          // some LED's likeliest label is wrong
+  int given_wrong = 0;    // some LED was given a wrong label
+  int none_yet = 0;       // no wrong label was given, but an LED has none
+  int counted_wrong = 0;  // some LED is wrong by isCountedWrong()
 
   void add(const Score& other) {
     runs += other.runs;
@@ -55,8 +55,8 @@ struct Score {
   }
 };
 
-/// Whether some LED's share of sightings is nearer to that of another label than to its own's: what
-/// one would do without a decoder.
+/// Whether some LED's share of seen images is nearer to another label's duty cycle than to its own:
+/// the baseline without a decoder.
 bool isCountedWrong(const BlinkingOptions& options, const std::vector<LedSighting>& sightings) {
   for (std::size_t led = 0; led < options.leds.size(); ++led) {
     double seen = 0.0, all = 0.0;
@@ -77,8 +77,8 @@ bool isCountedWrong(const BlinkingOptions& options, const std::vector<LedSightin
   return false;
 }
 
-/// The share of the posterior that each LED's own label has for whoever knows period and phase, and
-/// that every label is there once: as good as the sightings allow.
+/// The probability of each LED's own label for an observer that knows period and phase, and that
+/// every label occurs once: the best that the sightings allow.
 std::vector<double> knownPhasePosterior(const BlinkingOptions& options,
                                         const std::vector<LedSighting>& sightings,
                                         double phase) {
@@ -115,7 +115,8 @@ std::vector<double> knownPhasePosterior(const BlinkingOptions& options,
   return own;
 }
 
-/// In how many runs somebody who knows period and phase could not yet be sure of all labels [%].
+/// Share of runs in which an observer that knows period and phase is not yet sure of all labels
+/// [%].
 double knownPhaseNoneYet(const BlinkingOptions& options, int runs, unsigned seed) {
   Random random(seed);
   int none_yet = 0;
@@ -128,7 +129,7 @@ double knownPhaseNoneYet(const BlinkingOptions& options, int runs, unsigned seed
   return 100.0 * none_yet / runs;
 }
 
-/// LEDs that blink for options.duration, and what is thought of them then.
+/// Blinking LEDs, observed for options.duration, and the labels at its end.
 Score simulate(const BlinkingOptions& options,
                const Hypotheses& hypotheses,
                int runs,
@@ -284,7 +285,7 @@ void runCyclic(const BenchmarkSettings& settings, const RowCallback& row) {
           Score score;
           for (std::size_t led = 0; led < set.words.size(); ++led) {
             options.leds = {led};
-            // Short runs of single LEDs: many of them.
+            // A run of a single LED is short, so there are many.
             score.add(simulate(options, hypotheses,
                                20 * kRunsPerRun * settings.runs / static_cast<int>(leds.size()),
                                settings.seed + static_cast<unsigned>(led)));

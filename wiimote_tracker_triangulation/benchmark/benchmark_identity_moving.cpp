@@ -26,7 +26,7 @@ using tracking::test::Scene;
 using tracking::test::SceneOptions;
 
 constexpr double kSecondsPerRun = 1.0;
-constexpr double kNear = 0.1;  // a track this near to an LED is its [m]
+constexpr double kNear = 0.1;  // largest distance of a track from its LED [m]
 
 struct Kind {
   std::string name;
@@ -48,11 +48,11 @@ std::vector<Path> pathsOf(double speed, unsigned seed) {
 
 struct Result {
   double led_time = 0.0;       // LEDs in snapshots
-  double followed = 0.0;       // of them with a track near
-  double labelled = 0.0;       // with a label
-  double wrong = 0.0;          // with another LED's label
+  double followed = 0.0;       // of these, with a track near
+  double labelled = 0.0;       // of these, with a label
+  double wrong = 0.0;          // of these, with another LED's label
   double squared = 0.0;        // errors of position [m^2]
-  double decided_after = 0.0;  // from the first sight of a track to its label, summed [s]
+  double decided_after = 0.0;  // from a track's first image to its label, summed [s]
   double decisions = 0.0;
   std::size_t tracks = 0;
 };

@@ -11,16 +11,16 @@ BenchmarkSection paperSection();
 /// The same with only some of the LEDs in view.
 BenchmarkSection someInViewSection();
 
-/// The same over the length of the period, down to what cameras cannot see any more.
+/// The same for shorter periods, down to ones that cameras cannot resolve.
 BenchmarkSection periodsSection();
 
-/// Cyclic codes after a while.
+/// Cyclic codes by the time observed.
 BenchmarkSection cyclicSection();
 
-/// Blinking LEDs, still and moved, followed by the tracker.
+/// Blinking LEDs at rest and moving, followed by the tracker.
 BenchmarkSection movingSection();
 
-/// What a sighting and a decision take.
+/// Processing time of a sighting and of a decision.
 BenchmarkSection timeSection();
 
 }  // namespace wiimote_tracker

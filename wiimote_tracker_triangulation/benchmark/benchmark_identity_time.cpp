@@ -1,4 +1,4 @@
-// What identifying takes.
+// Processing time of the identification.
 #include "benchmark_identity_sections.h"
 #include "identity/blinking.h"
 #include "wiimote_tracker_triangulation/identity/identifier.h"
@@ -57,7 +57,7 @@ BenchmarkRow measure(const std::string& name,
           {{"cells", static_cast<double>(cells)},
            {"sighting us", 1e6 * best_add},
            {"decision us", 1e6 * best_decide},
-           // Four cameras of 100 images per second show four LEDs; decisions as by default.
+           // Four cameras with 100 images per second see four LEDs; default interval of decisions.
            {"core %", 100.0 * (1600.0 * best_add + best_decide / IdentifierOptions().interval)}}};
 }
 

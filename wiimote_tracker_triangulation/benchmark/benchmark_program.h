@@ -8,8 +8,8 @@
 
 namespace wiimote_tracker {
 
-/// A benchmark's main(): runs all sections, or the one that is asked for, and prints their tables
-/// and writes them as JSON. @param takes_motion it has the option --motion.
+/// A benchmark's main(): runs all sections, or the requested one, prints their tables and writes
+/// them as JSON. @param takes_motion whether it has the option --motion.
 int runBenchmark(const std::string& program,
                  const std::vector<BenchmarkSection>& sections,
                  int argc,

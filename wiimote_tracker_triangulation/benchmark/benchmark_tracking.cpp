@@ -1,4 +1,4 @@
-// How well LEDs are tracked, beside what is possible at best: one table per section.
+// Accuracy of tracking LEDs, compared with bounds: one table per section.
 #include "benchmark_program.h"
 
 int main(int argc, char** argv) {

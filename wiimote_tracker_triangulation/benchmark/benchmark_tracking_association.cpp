@@ -22,16 +22,16 @@ using association::test::SimulatedViews;
 using association::test::Tuple;
 
 constexpr int kLeds = 4;
-constexpr int kTimedTogether = 100;  // frames
+constexpr int kTimedTogether = 100;  // frames per timing
 
-/// Of this process on its processors [s]: others on the machine do not count.
+/// CPU time of this process [s]: other processes do not count.
 double processTime() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// The LEDs that two cameras see.
+/// The LEDs that at least two cameras see.
 Division truthOf(const SimulatedViews& views) {
   Division truth;
   for (int led = 0; led < kLeds; ++led) {
@@ -52,7 +52,7 @@ struct Case {
   std::string name;
   int cameras;
   Disturbance disturbance;
-  /// What is the best; null where it would take too long.
+  /// The optimum; null where computing it takes too long.
   Division (*oracle)(const geometry::Rig&,
                      const SimulatedViews&,
                      const association::AssociationOptions&);
@@ -102,7 +102,7 @@ BenchmarkRow runCase(const Case& c, const BenchmarkSettings& settings) {
            {"us_worst", 1e6 * longest}}};
 }
 
-/// Spots of one image to tracks: a noisy spot for each track, and one that is nobody's.
+/// Spots of one image to tracks: one noisy spot per track, and one ghost.
 BenchmarkRow runOneImage(int tracks, const BenchmarkSettings& settings) {
   constexpr double kGate = 30.0;  // [px^2 of one standard deviation]
   Random random(settings.seed);

@@ -32,7 +32,7 @@ constexpr double kPixelStddev = 0.5;
 constexpr double kPeriod = 0.01;           // of each camera's images [s]
 constexpr double kStep = kPeriod / 4.0;    // from one camera's image to the next one's [s]
 constexpr double kStartStddev = 2e-3;      // of the first position, per axis [m]
-constexpr double kSettled = 0.5;           // the start is not counted [s]
+constexpr double kSettled = 0.5;           // errors before are not scored [s]
 constexpr double kWithin95 = 7.814727903;  // quantile of chi square with three degrees of freedom
 
 /// Errors, their bound, and how they fit the covariance.
@@ -95,7 +95,7 @@ struct Drawn {
   double duration;      // [s]
 };
 
-/// Adds one run; `moving` and `still` may be one. Ends early where the LED leaves a view.
+/// Adds one run; `moving` and `still` may be the same. Ends early where the LED leaves a view.
 void runDrawn(const Drawn& drawn,
               const MotionOptions& options,
               Random& random,
@@ -204,7 +204,7 @@ std::vector<Sample> watch(const Path& path,
   }
 }
 
-/// Runs a filter, made for the first sample, over all of them.
+/// Runs a filter, initialised at the first sample, over all samples.
 template <typename Filter>
 void follow(const std::vector<Sample>& samples,
             Filter* filter,
@@ -285,11 +285,11 @@ Path smoothed(const std::vector<Vector3d>& samples, double interval) {
 /// Markers of a recording at 60 Hz, moved into view.
 void recorded(const BenchmarkSettings& settings, const RowCallback& row) {
   constexpr double kInterval = 1.0 / 60.0;
-  const std::array<double, 3> limits{0.1, 0.5, 1.5};  // of the classes [m/s]
+  const std::array<double, 3> limits{0.1, 0.5, 1.5};  // upper speeds of the classes [m/s]
   std::vector<std::vector<Sample>> recordings;
   constexpr int kMarkers = 28;
   for (int marker = 0; marker < std::min(kMarkers, settings.runs); ++marker) {
-    // With few runs, markers from all over the body.
+    // With few runs, the markers are spread over the whole body.
     const int column = 1 + 3 * (marker * kMarkers / std::min(kMarkers, settings.runs));
     std::vector<Vector3d> samples = tracking::test::readMotion(settings.motion, column);
     for (Vector3d& sample : samples)

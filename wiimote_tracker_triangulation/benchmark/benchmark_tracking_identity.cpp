@@ -15,7 +15,7 @@ using namespace tracking;
 using namespace tracking::test;
 
 constexpr double kPixelNoise = 0.3;  // [px]
-constexpr double kMerging = 8.0;     // of the sensor; the tracker reckons with its default [px]
+constexpr double kMerging = 8.0;     // of the sensor; the tracker assumes its default [px]
 
 TrackerOptions trackerOptions() {
   TrackerOptions options;
@@ -24,8 +24,8 @@ TrackerOptions trackerOptions() {
   return options;
 }
 
-/// Four LEDs, each in a quarter of the volume of its own, 0.4 m apart at least: some view always
-/// keeps them apart. In single views they pass and merge all the time.
+/// Four LEDs, each in its own quarter of the volume, at least 0.4 m apart: some view always
+/// resolves them. In single views they often pass and merge.
 std::vector<Path> fourLeds(geometry::test::Random& random, double speed) {
   std::vector<Path> leds;
   for (int i = 0; i < 4; ++i) {
@@ -130,7 +130,7 @@ BenchmarkRow meetingRow(const std::string& name,
       }
     }
     const std::optional<bool> oracle = oracleErrs(meeting, rig, leds, images, kPixelNoise);
-    // Never one spot in all views, or not known apart before: nothing to compare.
+    // Never merged in all views, or not resolved before: nothing to compare.
     if (!oracle || before[0] < 0 || before[1] < 0 || after[0] < 0 || after[1] < 0) {
       ++left_out;
       continue;

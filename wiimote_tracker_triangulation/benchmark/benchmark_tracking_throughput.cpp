@@ -15,19 +15,19 @@ using namespace tracking::test;
 
 constexpr double kPixelNoise = 0.3;  // [px]
 
-/// Of the processor since `start` [s].
+/// CPU time since `start` [s].
 double since(std::clock_t start) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 struct Timing {
-  double seconds = 0.0;  // of the processor
+  double seconds = 0.0;  // CPU time
   double images = 0.0;
   double snapshots = 0.0;
   double leds = 0.0;  // confirmed in the last snapshot
 };
 
-/// Images are made in batches, of which only the tracker's part is timed.
+/// Images are simulated in batches; only the tracker's work is timed.
 Timing timed(const geometry::Rig& rig,
              const std::vector<Path>& leds,
              const SceneOptions& options,
@@ -121,7 +121,7 @@ void runScale(const BenchmarkSettings& settings, const RowCallback& row) {
       tracker_options.output_interval = interval;
       const Timing timing =
           timed(roomsRig(rooms, 4), leds, options, tracker_options, settings.runs, settings.seed);
-      const double seconds = timing.images / (400.0 * rooms);  // that the images stand for
+      const double seconds = timing.images / (400.0 * rooms);  // simulated
       const std::string name =
           format("%d cameras, %d LEDs, %d rooms, output %s", 4 * rooms, 4 * rooms, rooms,
                  interval > 0.0 ? "every 2.5 ms" : "at once");

@@ -20,7 +20,7 @@ using tracking::test::Path;
 using tracking::test::SceneImage;
 
 constexpr double kDuration = 10.0;  // of a run [s]
-constexpr double kSettled = 0.5;    // after the first image; the start is not counted [s]
+constexpr double kSettled = 0.5;    // errors before are not scored, after the first image [s]
 constexpr double kDelay = 0.0112;   // from exposure to arrival, mean [s]
 constexpr double kJitter = 0.0024;  // of that, standard deviation [s]
 
@@ -29,7 +29,7 @@ struct Stamping {
   const char* name;
   double offset;  // constant of each camera, standard deviation [s]
   double noise;   // of each image, standard deviation [s]
-  bool arrival;   // instead: arrival less the mean delay
+  bool arrival;   // the stamp is the arrival less the mean delay instead
 };
 
 /// Errors at the times of the snapshots.

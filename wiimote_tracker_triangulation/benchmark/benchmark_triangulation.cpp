@@ -1,5 +1,5 @@
 // Accuracy and time of triangulation, ours and other libraries', in one table: RMS over the
-// Cramer-Rao bound, normalised error squared (3 when the covariance is honest), time per point.
+// Cramer-Rao bound, normalised error squared (3 when the covariance is consistent), time per point.
 #include "triangulation_methods.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kTimedPoints = 1000;
-constexpr int kRepetitions = 21;  // of each method, in turn, so that all meet the same disturbances
+constexpr int kRepetitions = 21;  // of each method, taken in turn against drift
 
 struct Row {
   std::string method;
@@ -104,7 +104,7 @@ std::vector<Row> measure(const TriangulationScene& scene) {
   return rows;
 }
 
-/// As many digits as there are; JSON has no NaN.
+/// With all digits; JSON has no NaN.
 std::string jsonNumber(double value) {
   const std::string text = format("%.9g", value);
   return std::isfinite(value) ? text : "null";

@@ -18,7 +18,7 @@ namespace {
 using tracking::test::Path;
 using tracking::test::SceneImage;
 
-/// Half of a path: from the meeting away in time, either way, sampled.
+/// Samples of half a path, from the meeting forward or backward in time.
 std::vector<Eigen::Vector3d> wander(geometry::test::Random& random,
                                     const LedMeeting& meeting,
                                     Eigen::Vector3d p,
@@ -174,7 +174,7 @@ std::vector<Path> LedMeeting::draw(geometry::test::Random& random) const {
   const Eigen::Vector3d middle(1.25, 1.25, 1.0);
   std::vector<Path> paths;
   for (int led = 0; led < 2; ++led) {
-    // Of two independent ones the difference has twice the variance.
+    // The difference of two independent velocities has twice the variance of one.
     const Eigen::Vector3d p = middle + drawn(0.003);
     const Eigen::Vector3d v = drawn(relative_speed / std::sqrt(2.0));
     const Eigen::Vector3d a = drawn(acceleration);

@@ -43,7 +43,7 @@ TriangulationMethodUnderTest fromSights(const std::string& name, TriangulationMe
           }};
 }
 
-/// The lens is undone, too.
+/// Includes undistortion.
 TriangulationMethodUnderTest fromPixels() {
   return {"maximum likelihood, from pixels", true, true, false,
           [](const TriangulationScene& scene) {

@@ -11,10 +11,10 @@
 
 namespace wiimote_tracker {
 
-/// What a method makes of all points of a scene. Room is made before the time is taken.
+/// A method's results for all points of a scene. Memory is allocated before the timing.
 struct TriangulationOutput {
   std::vector<Eigen::Vector3d> positions;    ///< World [m], or in first_camera's axes, see Method.
-  std::vector<Eigen::Matrix3d> covariances;  ///< [m^2]; as it was where a method has none.
+  std::vector<Eigen::Matrix3d> covariances;  ///< [m^2]; unchanged where a method has none.
 };
 
 /// A way to intersect rays, ours or a library's.
@@ -24,14 +24,14 @@ struct TriangulationMethodUnderTest {
   bool has_covariance;
   bool in_first_camera;  ///< Positions are in the first camera's axes, not the world's.
 
-  /// Brings a scene into the form that the method reads (lens undone, rays, matrices), which is not
-  /// timed, and returns what is.
+  /// Converts a scene to the method's input (undistorted pixels, rays, matrices) and returns the
+  /// function to be timed.
   std::function<std::function<void(TriangulationOutput*)>(const TriangulationScene&)> prepare;
 };
 
 std::vector<TriangulationMethodUnderTest> ourMethods();
 
-/// Those of OpenCV, OpenGV and mrcal, as far as they were there when this was configured.
+/// Those of OpenCV, OpenGV and mrcal that were found when this was configured.
 std::vector<TriangulationMethodUnderTest> peerMethods();
 
 }  // namespace wiimote_tracker

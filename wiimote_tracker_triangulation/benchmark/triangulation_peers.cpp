@@ -1,5 +1,5 @@
-// Other libraries' methods, each in the form and at the price at which a caller gets it: many
-// points at once where it takes many, the point only. All of them take two views.
+// Other libraries' methods, called as their users call them: many points at once where the method
+// takes many, without covariance. All take two views.
 #include "triangulation_methods.h"
 
 #ifdef WIIMOTE_TRACKER_HAVE_OPENCV

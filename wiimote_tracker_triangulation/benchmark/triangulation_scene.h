@@ -12,8 +12,8 @@ namespace wiimote_tracker {
 
 constexpr double kBenchmarkPixelStddev = 0.5;  ///< Of each pixel coordinate [px].
 
-/// Points seen by all of some cameras, which have no distortion; noise is Gaussian. No code that is
-/// measured takes part in making them.
+/// Points seen by all of some cameras, which have no distortion; noise is Gaussian. Simulated
+/// without any measured code.
 struct TriangulationScene {
   std::string name;
   std::vector<geometry::Camera> cameras;

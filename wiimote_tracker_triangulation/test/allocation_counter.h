@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_ALLOCATION_COUNTER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TEST_ALLOCATION_COUNTER_H
 
-// Counts what a test program takes from the heap. For the one source file of a program that says
-// so: it replaces operator new.
+// Counts the heap allocations of a test program. Include it in one source file only: it replaces
+// operator new.
 
 #include <cstddef>
 #include <cstdlib>

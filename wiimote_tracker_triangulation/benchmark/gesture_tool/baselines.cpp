@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t kPoints = std::tuple_size<Cloud>::value;
 
-/// Each point of a, from `start` on, takes the nearest point of b that is left; early ones count
-/// more.
+/// Matches each point of a, from `start` on, to the nearest unmatched point of b. Early matches
+/// weigh more.
 double greedyMatch(const Cloud& a, const Cloud& b, std::size_t start) {
   std::array<bool, kPoints> taken{};
   double sum = 0.0;

@@ -9,8 +9,8 @@
 
 namespace wiimote_tracker::gesture_tool {
 
-/// A path as template recognisers of the literature see it: points at equal distances along the
-/// way, their mean zero.
+/// A path as in the template recognisers of the literature: resampled at equal distances, mean
+/// zero.
 using Cloud = std::array<Eigen::Vector3d, gesture::Shape::kPoints>;
 
 /// Scaled by the largest side of its bounding box. @throws Error: no length.
@@ -23,7 +23,7 @@ double pointCloudDistance(const Cloud& a, const Cloud& b);
 /// Dynamic time warping of the positions without a band (Sakoe and Chiba 1978), Euclidean cost.
 double timeWarpingDistance(const Cloud& a, const Cloud& b);
 
-/// Sum of the distances of points of the same rank: plain nearest neighbour.
+/// Sum of the distances of points of the same index: plain nearest neighbour.
 double pointwiseDistance(const Cloud& a, const Cloud& b);
 
 }  // namespace wiimote_tracker::gesture_tool

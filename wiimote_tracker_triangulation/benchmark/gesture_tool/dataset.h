@@ -11,7 +11,7 @@ namespace wiimote_tracker::gesture_tool {
 /// One gesture, as a person drew it.
 struct Sample {
   std::string gesture;  ///< The file's name without .csv.
-  gesture::Path path;   ///< In whatever unit of length the file has.
+  gesture::Path path;   ///< In the file's unit of length.
 };
 
 struct Person {

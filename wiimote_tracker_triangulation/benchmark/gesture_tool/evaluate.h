@@ -10,7 +10,7 @@
 
 namespace wiimote_tracker::gesture_tool {
 
-/// How one method did.
+/// The result of one method.
 struct MethodResult {
   std::string name;
   std::size_t right = 0;
@@ -20,24 +20,24 @@ struct Evaluation {
   std::vector<std::string> gestures;                ///< Names, sorted.
   std::vector<std::vector<std::size_t>> confusion;  ///< [drawn][recognised], of this package.
   std::size_t tested = 0;
-  std::size_t right = 0;     ///< Of this package, whether it would have been accepted or not.
+  std::size_t right = 0;     ///< By this package, accepted or not.
   std::size_t rejected = 0;  ///< Of those tested, by this package.
 
-  /// Of gestures that nobody had shown: how many were tested, and how many of them rejected. Each
-  /// sample is tested once more without the examples of its own gesture.
+  /// Unknown gestures: how many were tested, and how many of those rejected. Each sample is tested
+  /// once more without the examples of its own gesture.
   std::size_t unknown_tested = 0;
   std::size_t unknown_rejected = 0;
 
-  std::size_t examples = 0;     ///< Most examples there were at once.
+  std::size_t examples = 0;     ///< Largest number of examples used at once.
   double median_seconds = 0.0;  ///< Of one recognition of this package [s].
   std::vector<MethodResult> others;
 };
 
 /// Tests every sample of `test` with the examples of the people in `train`, never with those of the
 /// same person (the same folder).
-/// @param examples  of each gesture, by as many people, beginning with the one after the person
-///                  tested and going round; 0: of all.
-/// @throws Error: nobody is left to learn from.
+/// @param examples per gesture, each of another person, in cyclic order from the one after the
+/// person tested; 0: all.
+/// @throws Error: no person is left to learn from.
 Evaluation evaluate(const std::vector<Person>& train,
                     const std::vector<Person>& test,
                     std::size_t examples,

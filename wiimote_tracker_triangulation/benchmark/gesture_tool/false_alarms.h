@@ -11,11 +11,11 @@
 
 namespace wiimote_tracker::gesture_tool {
 
-/// Gestures found in motion that holds none, all markers together.
+/// Gestures found in motion that contains none, summed over all markers.
 struct FalseAlarms {
   double minutes = 0.0;           ///< Of motion, summed over the markers [min].
   std::size_t continuous = 0;     ///< Found by the spotter.
-  std::size_t between_rests = 0;  ///< Found in what the segmenter cut at rests.
+  std::size_t between_rests = 0;  ///< Found in segments between rests.
 };
 
 /// @param motion  CSV with a header line: time [s], then x, y, z [mm] of each marker.

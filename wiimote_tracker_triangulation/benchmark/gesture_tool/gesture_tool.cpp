@@ -1,4 +1,4 @@
-// How well gestures are recognised, from recordings of people.
+// Accuracy of gesture recognition on recordings of people.
 
 #include "evaluate.h"
 #include "false_alarms.h"

@@ -9,11 +9,11 @@
 
 namespace wiimote_tracker::gesture_tool {
 
-/// For people.
+/// A text.
 std::string table(const Evaluation& evaluation, const std::optional<FalseAlarms>& alarms);
 
-/// For programs: accuracy [0..1], gestures, confusion [drawn][recognised], and the rest.
-/// @throws geometry::Error.
+/// JSON: accuracy [0..1], gestures, confusion [drawn][recognised], and the rest. @throws
+/// geometry::Error.
 void writeJson(const std::string& file,
                const Evaluation& evaluation,
                const std::optional<FalseAlarms>& alarms);

@@ -54,7 +54,7 @@ class BestDivision {
     const Hypothesis* hypothesis;  // of the lowest spot; null: it is a ghost
   };
 
-  /// All tuples, and of those whose cost is below that of as many ghosts a hypothesis.
+  /// Goes through all tuples; those that cost less than as many ghosts become hypotheses.
   void enumerate(Tuple* tuple, std::uint64_t spots, std::size_t rays) {
     const std::size_t camera = tuple->size();
     if (camera == rig_.cameras.size()) {
@@ -111,7 +111,7 @@ class BestDivision {
   const AssociationOptions& options_;
   std::vector<std::vector<std::uint64_t>> bits_;                 // of each spot
   std::map<std::uint64_t, std::vector<Hypothesis>> hypotheses_;  // by their lowest spot
-  std::map<std::uint64_t, Choice> known_;                        // by the spots that are left
+  std::map<std::uint64_t, Choice> known_;                        // by the remaining spots
   Division division_;
 };
 

@@ -102,7 +102,7 @@ TEST(AssignSpots, TheNearestIsNotAlwaysRight) {
   EXPECT_EQ(5.0, assignment.cost);
 }
 
-TEST(AssignSpots, IsAsGoodAsTheBestOfAllAssignments) {
+TEST(AssignSpots, MatchesTheBestOfAllAssignments) {
   Random random(11);
   for (int i = 0; i < 100000; ++i) {
     const SpotCosts costs = randomCosts(random, 4);
@@ -116,7 +116,7 @@ TEST(AssignSpots, IsAsGoodAsTheBestOfAllAssignments) {
   }
 }
 
-/// Duality proves an optimum of any size: no cycle of tracks that change hands makes it cheaper.
+/// An assignment of any size is optimal when no cyclic exchange of tracks costs less.
 TEST(AssignSpots, IsTheOptimumAtFullSize) {
   Random random(12);
   for (int i = 0; i < 300; ++i) {

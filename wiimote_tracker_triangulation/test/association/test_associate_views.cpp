@@ -23,13 +23,13 @@ using test::simulateViews;
 
 constexpr double kRange = 10.0;  // [m]
 
-/// Identical, or two divisions between which rounding decides.
+/// The same points; costs differ by rounding only.
 void expectSame(const Division& expected, const Division& found, int frame) {
   EXPECT_NEAR(expected.cost, found.cost, 1e-3 * expected.cost) << "frame " << frame;
   EXPECT_EQ(expected.points, found.points) << "frame " << frame;
 }
 
-TEST(AssociateViews, FourLedsInFourCamerasAreTheBestOfAllPermutations) {
+TEST(AssociateViews, FourLedsInFourCamerasMatchTheBestPermutation) {
   Random random(21);
   const geometry::Rig rig = ringRig(4);
   const AssociationOptions options;
@@ -42,7 +42,7 @@ TEST(AssociateViews, FourLedsInFourCamerasAreTheBestOfAllPermutations) {
   }
 }
 
-TEST(AssociateViews, WithMissingAndGhostSpotsItIsTheBestOfAllDivisions) {
+TEST(AssociateViews, MatchesExhaustiveSearchWithMissedAndGhostSpots) {
   Random random(22);
   const geometry::Rig rig = ringRig(4);
   const AssociationOptions options;
@@ -59,8 +59,8 @@ TEST(AssociateViews, WithMissingAndGhostSpotsItIsTheBestOfAllDivisions) {
   }
 }
 
-TEST(AssociateViews, WhereAlmostEverythingFitsItIsTheBestOfAllDivisions) {
-  // Noise of 3 px and LEDs close together: many divisions are nearly as good.
+TEST(AssociateViews, MatchesExhaustiveSearchWhereManyDivisionsFit) {
+  // With noise of 3 px and LEDs close together, many divisions are nearly as good.
   Random random(23);
   AssociationOptions options;
   options.pixel_stddev = 3.0;
@@ -90,7 +90,7 @@ TEST(AssociateViews, WhereAlmostEverythingFitsItIsTheBestOfAllDivisions) {
   }
 }
 
-TEST(AssociateViews, SpotsThatFitBadlyEnterWhereThatIsTheBestOfAllDivisions) {
+TEST(AssociateViews, MatchesExhaustiveSearchWithOutlyingSpots) {
   Random random(27);
   const geometry::Rig rig = ringRig(4);
   AssociationOptions options;
@@ -113,7 +113,7 @@ TEST(AssociateViews, SpotsThatFitBadlyEnterWhereThatIsTheBestOfAllDivisions) {
   EXPECT_LT(kept, 40u * 12u - 3u) << "and sometimes not";
 }
 
-TEST(AssociateViews, GivesThePointOfItsSpotsAndWhatItCosts) {
+TEST(AssociateViews, GivesThePointAndCostOfItsSpots) {
   Random random(24);
   const geometry::Rig rig = ringRig(4);
   const AssociationOptions options;
@@ -139,7 +139,7 @@ TEST(AssociateViews, GivesThePointOfItsSpotsAndWhatItCosts) {
   EXPECT_NEAR(options.point + chi_squared, associator.associate(views.views).cost, 1e-9);
 }
 
-TEST(AssociateViews, WantsAsManyRaysAsItIsTold) {
+TEST(AssociateViews, RespectsMinimumRays) {
   Random random(25);
   const geometry::Rig rig = ringRig(4);
   AssociationOptions options;
@@ -164,16 +164,16 @@ TEST(AssociateViews, NothingSeen) {
   EXPECT_TRUE(association.proven);
 }
 
-TEST(AssociateViews, ABoundedSearchSaysThatItProvesNothing) {
+TEST(AssociateViews, ABoundedSearchIsNotProven) {
   Random random(26);
   const geometry::Rig rig = ringRig(4);
   AssociationOptions options;
-  // Two LEDs in one plane with two cameras: their spots can be told apart by the others only.
+  // Two LEDs in one plane with two cameras: only the other cameras resolve the ambiguity.
   const Vector3d led(0.2, -0.3, 1.0);
   const Vector3d baseline = rig.cameras[1].camera.center() - rig.cameras[0].camera.center();
   const SimulatedViews views =
       simulateViews(random, rig, {led, led + 0.3 * baseline.normalized()}, {});
-  for (const std::size_t bound : {7u, 8u, 1000u}) {  // one step for each spot leads to the points
+  for (const std::size_t bound : {7u, 8u, 1000u}) {  // one step per spot reaches the points
     options.maximum_steps = bound;
     ViewAssociator associator(rig, sharedViews(rig, kRange), options);
     const Association& association = associator.associate(views.views);
@@ -184,7 +184,7 @@ TEST(AssociateViews, ABoundedSearchSaysThatItProvesNothing) {
   }
 }
 
-TEST(SharedViews, AreOnlyThoseThatSeeTheSame) {
+TEST(SharedViews, AreOnlyCamerasWithCommonVolume) {
   // Two rooms of four cameras, 30 m apart, and one camera that looks away.
   geometry::Rig rig = ringRig(4);
   const geometry::Rig other = ringRig(4);

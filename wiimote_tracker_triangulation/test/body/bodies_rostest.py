@@ -142,7 +142,7 @@ class Bodies(unittest.TestCase):
 
     def test_learn_follow_lose_find_and_compute_again(self):
         self.learn()
-        # Learning has ended somewhere; the recording is from here on.
+        # Learning ends at an unknown image; the recording starts after it.
         rest = [i for i in self.images
                 if recording.seconds_of(i.arrival) >= LEARNED_AT]
         self.hear('/wand/pose', PoseWithCovarianceStamped)
@@ -175,7 +175,7 @@ class Bodies(unittest.TestCase):
             self.show([image])
             if answers:
                 break
-            # Enough for it to have begun; more is not asked for.
+            # Leaves time for the service to start; more is not needed.
             time.sleep(0.001)
         thread.join(60)
         self.assertTrue(answers and answers[0].success, answers)
@@ -243,7 +243,7 @@ class Bodies(unittest.TestCase):
                  'the poses of all images in which it was tracked')
 
     def offline(self):
-        """A recording of all, and its parameters: the same poses, once both know the body."""
+        """A recording gives the same poses, once both know the body."""
         bag_path, out_path = (os.path.join(self.folder, name) for name in ('in.bag', 'out.bag'))
         parameters = os.path.join(self.folder, 'parameters.yaml')
         with open(parameters, 'w') as file:
@@ -255,7 +255,7 @@ class Bodies(unittest.TestCase):
         program = roslib.packages.find_node(PACKAGE, 'track_bag')[0]
         subprocess.check_call([program, bag_path, out_path, '--params', parameters],
                               stdout=subprocess.DEVNULL)
-        # After all were hidden, what was before does not matter any more.
+        # After all LEDs were hidden, the earlier state does not matter.
         begin = recording.time_of(ALL_HIDDEN[1])
         with rosbag.Bag(out_path) as bag:
             offline = [bytes_of(m) for _, m, _ in bag.read_messages('/wand/pose')

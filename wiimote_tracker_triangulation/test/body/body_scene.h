@@ -15,8 +15,8 @@ namespace wiimote_tracker::body::test {
 /// A body's pose in the world at a time [s].
 using Motion = std::function<Eigen::Isometry3d(double)>;
 
-/// Four LEDs about 100 mm from their middle. Turned, they look the same within 11.5 mm; without the
-/// last one, within 0.5 mm.
+/// Four LEDs about 100 mm from their middle. Their nearest symmetry fits within 11.5 mm; without
+/// the last LED, within 0.5 mm.
 Constellation fourLeds();
 
 /// As in a hand: up to 0.6 m/s.
@@ -31,7 +31,7 @@ std::vector<tracking::test::Path> pathsOf(const Constellation& body, const Motio
 /// Small rotation from one orientation to another, about the world's axes [rad].
 Eigen::Vector3d rotationError(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to);
 
-/// Squared error over its claimed covariance, both of position and rotation [1]: six on average.
+/// Normalised squared error of position and rotation [1]: 6 on average for a consistent covariance.
 double normalisedError(const Eigen::Isometry3d& truth,
                        const Eigen::Isometry3d& found,
                        const PoseCovariance& covariance);
@@ -43,7 +43,7 @@ PoseCovariance boundOf(const geometry::Rig& rig,
                        const Eigen::Isometry3d& pose,
                        double pixel_stddev);
 
-/// A body that moves before cameras, and a tracker that follows it, image by image.
+/// A body that moves in front of cameras, and a tracker that follows it image by image.
 class FollowedBody {
  public:
   FollowedBody(const geometry::Rig& rig,
@@ -57,8 +57,8 @@ class FollowedBody {
     track();
   }
 
-  void show();   ///< The next image to the tracker, ...
-  void track();  ///< ... which takes it.
+  void show();   ///< Simulates the next image.
+  void track();  ///< Gives that image to the tracker.
 
   double time() const { return tracker_.time(); }
   const std::optional<BodyEstimate>& estimate() const { return tracker_.bodies()[0]; }
@@ -78,8 +78,8 @@ class FollowedBody {
   std::vector<Eigen::Vector2d> pixels_;
 };
 
-/// How well a body is followed, beside the bound of one image by each camera. The shares are of all
-/// images that were added; the errors of every eighth, for neighbours are alike.
+/// Accuracy of following a body, compared with the bound for one image per camera. Shares count all
+/// added images; errors every eighth, since neighbouring ones are correlated.
 class BodyScore {
  public:
   void add(const FollowedBody& followed);
@@ -88,9 +88,9 @@ class BodyScore {
   double positionRatio() const;  ///< Over the bound [1].
   double rotation() const;       ///< RMS error [rad].
   double rotationRatio() const;
-  double nees() const;   ///< Normalised error per coordinate: 1 when the covariance is honest.
+  double nees() const;   ///< Normalised error per coordinate: 1 when the covariance is consistent.
   double known() const;  ///< Share of images after which there was a pose.
-  double wrong() const;  ///< Share of those in which it was 20 degrees off: another assignment.
+  double wrong() const;  ///< Share of those more than 20 degrees off: a wrong assignment.
 
  private:
   double images_ = 0.0, known_ = 0.0, wrong_ = 0.0, judged_ = 0.0;

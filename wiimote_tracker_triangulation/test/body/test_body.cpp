@@ -1,4 +1,4 @@
-// Bodies that are followed image by image: how well, and in odd situations.
+// Following bodies image by image: accuracy and special cases.
 #include "allocation_counter.h"
 #include "body/body_scene.h"
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
@@ -64,7 +64,7 @@ TEST(BodyTracker, FollowsAHandWithinTheBoundOfASingleView) {
   RecordProperty("nees", std::to_string(result.nees()));
 }
 
-TEST(BodyTracker, FollowsAFullTurnASecond) {
+TEST(BodyTracker, FollowsOneTurnPerSecond) {
   FollowedBody follow(paperRig(), fourLeds(), tumbling, halfAPixel(), 22);
   const BodyScore result = score(&follow, 6.0);
   EXPECT_GT(result.known(), 0.999);
@@ -95,7 +95,7 @@ TEST(BodyTracker, IsNotLostWhenItIsShaken) {
   RecordProperty("nees", std::to_string(result.nees()));
 }
 
-TEST(BodyTracker, LightsThatBecomeOneSpotPullItNowhere) {
+TEST(BodyTracker, MergedSpotsDoNotBiasThePose) {
   tracking::test::SceneOptions options = halfAPixel();
   options.merging_distance = 12.0;
   FollowedBody follow(paperRig(), fourLeds(), handheld, options, 29);
@@ -278,8 +278,8 @@ void showExactly(const Isometry3d& pose,
   }
 }
 
-TEST(BodyTracker, DoesNotGuessHowABodyIsTurned) {
-  // Of these three LEDs two may be exchanged.
+TEST(BodyTracker, DoesNotGuessAnAmbiguousPose) {
+  // Two of these three LEDs may be exchanged.
   const std::vector<Vector3d> all = fourLeds().leds;
   BodyTracker tracker(paperRig(), {fourLeds()}, BodyTrackerOptions());
   const Isometry3d pose(Eigen::Translation3d(1.2, 1.3, 1.1));
@@ -311,7 +311,7 @@ TEST(BodyTracker, ABodyThatComesBackElsewhereIsTheSame) {
   EXPECT_EQ(tracker.bodies()[0]->first_seen, first_seen);
 }
 
-TEST(BodyTracker, LabelsTellHowASymmetricBodyIsTurned) {
+TEST(BodyTracker, LabelsResolveASymmetricBody) {
   const Constellation square{
       "square", {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}, {"a", "b", "c", "d"}};
   BodyTrackerOptions options;
@@ -320,7 +320,7 @@ TEST(BodyTracker, LabelsTellHowASymmetricBodyIsTurned) {
   Random random(43);
   const Isometry3d pose = randomPose(random, {1.2, 1.3, 1.1});
   showExactly(pose, square.leds, 0, 40, &tracker);
-  EXPECT_FALSE(tracker.bodies()[0]) << "its shape does not tell";
+  EXPECT_FALSE(tracker.bodies()[0]) << "its shape is ambiguous";
   std::vector<LabelledPoint> points;
   for (const std::size_t led : {3, 0, 2})
     points.push_back(
@@ -337,13 +337,13 @@ TEST(BodyTracker, LabelsTellHowASymmetricBodyIsTurned) {
   showExactly(pose, square.leds, 40, 200, &tracker);
   ASSERT_TRUE(tracker.bodies()[0]);
   EXPECT_LT(rotationError(pose, tracker.bodies()[0]->world_from_body).norm(), 0.01);
-  // It is followed, not started again and again.
+  // It keeps its state, and is not initialised again.
   const MotionCovariance covariance = tracker.bodies()[0]->covariance;
   tracker.startFromLabels(points);
   EXPECT_EQ(tracker.bodies()[0]->covariance, covariance);
 }
 
-TEST(BodyTracker, ACameraThatFellSilentShowsNothing) {
+TEST(BodyTracker, ASilentCameraIsNotReported) {
   const Isometry3d pose(Eigen::Translation3d(1.2, 1.3, 1.1));
   BodyTracker tracker(paperRig(), {fourLeds()}, BodyTrackerOptions());
   showExactly(pose, fourLeds().leds, 0, 40, &tracker);
@@ -378,7 +378,7 @@ TEST(BodyTracker, DoesNotAllocateOnceWarm) {
       pixels.push_back(spot.pixel);
     const int before = g_allocations;
     tracker.add(image.camera, image.image.stamp, pixels);
-    // Found again after each loss: what is known of it is new then.
+    // Finding it again after a loss may allocate.
     if (i > 4 * 100 * 4 && tracker.bodies()[0] &&
         tracker.bodies()[0]->first_seen < tracker.time() - 0.1)
       allocations += g_allocations - before;

@@ -1,4 +1,4 @@
-// Between cameras and free LEDs: whose spots are bodies'.
+// The follower takes the spots of bodies out of the images; the rest is for free LEDs.
 #include "body/body_follower.h"
 #include "body/body_scene.h"
 
@@ -26,7 +26,7 @@ tracking::CameraImage exactImage(const geometry::Camera& camera,
   return image;
 }
 
-TEST(BodyFollower, TakesTheSpotsOfBodiesOutOfTheImages) {
+TEST(BodyFollower, RemovesTheSpotsOfBodiesFromImages) {
   const geometry::Rig rig = tracking::test::paperRig();
   BodyFollower follower((BodyTrackerOptions()));
   const Constellation three{"three", {{0.1, 0.0, 0.0}, {-0.08, 0.02, 0.0}, {0.0, 0.07, 0.05}}};

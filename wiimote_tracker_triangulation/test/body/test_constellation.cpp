@@ -1,4 +1,4 @@
-// The shapes of bodies: what is refused, what they may be confused with, learning them, their file.
+// Shapes of bodies: refusals, symmetries, learning, and their file.
 #include "body/align.h"
 #include "body/bodies_file.h"
 #include "body/body_scene.h"
@@ -116,7 +116,7 @@ std::vector<LedsInstant> lookAt(const Constellation& body, double stddev, Random
   return instants;
 }
 
-TEST(LearnConstellation, KnowsHowWellItKnowsTheShape) {
+TEST(LearnConstellation, ItsCovarianceIsConsistent) {
   Random random(41);
   double errors = 0.0;
   double expected = 0.0;
@@ -136,7 +136,7 @@ TEST(LearnConstellation, KnowsHowWellItKnowsTheShape) {
     std::vector<PointPair> pairs;
     for (std::size_t led = 0; led < 4; ++led)
       pairs.push_back({fourLeds().leds[led], learned.constellation.leds[led], 1.0});
-    // Six of the twelve coordinates are free: where the body's axes lie.
+    // Six of the twelve coordinates are free: the pose of the body's axes.
     errors += align(pairs.data(), pairs.size()).cost;
     for (const double stddev : learned.stddev)
       expected += 6.0 / 4.0 * stddev * stddev;

@@ -58,7 +58,7 @@ TEST(Align, IsThatOfUmeyama) {
   }
 }
 
-TEST(Align, APairOfTwiceTheWeightIsTwoPairs) {
+TEST(Align, APairOfDoubleWeightEqualsTwoPairs) {
   Random random(4);
   std::vector<PointPair> pairs;
   for (int i = 0; i < 4; ++i)
@@ -102,11 +102,11 @@ TEST(MatchPoints, FindsTheBodyAmongOtherPoints) {
       EXPECT_LT((match->world_from_body.translation() - pose.translation()).norm(), 0.02);
     }
   }
-  // A stranger may fit better than an LED with its noise.
+  // An LED that is not the body's may fit better than a noisy one that is.
   EXPECT_GE(right, 297);
 }
 
-TEST(MatchPoints, KnowsWhenItCannotTell) {
+TEST(MatchPoints, ReportsAmbiguity) {
   const Constellation isosceles{"a", {{-0.05, 0, 0}, {0.05, 0, 0}, {0, 0.2, 0}}};
   std::vector<MeasuredPoint> points;
   for (const Vector3d& led : isosceles.leds)
@@ -127,7 +127,7 @@ TEST(MatchPoints, AMirroredBodyIsAnother) {
   EXPECT_TRUE(!match || match->seen < 4);
 }
 
-TEST(SolvePose, ReachesTheBoundAndKnowsItsError) {
+TEST(SolvePose, ReachesTheBoundWithConsistentCovariance) {
   Random random(7);
   const geometry::Rig rig = tracking::test::paperRig();
   double squared = 0.0;

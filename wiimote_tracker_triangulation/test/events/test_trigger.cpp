@@ -1,5 +1,5 @@
-// Points of a time that is given from outside: exact for motion that the model holds for, honest in
-// their covariance, and independent of when they were asked for; and every reason for a refusal.
+// Points at a requested time: exact where the motion model holds, with a conservative covariance,
+// independent of the time of the request; and every reason for a refusal.
 #include "events/trigger.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using tracking::Snapshot;
 using tracking::TrackedLed;
 using tracking::TrackState;
 
-constexpr double kStart = 1.7e9;  // now and then
+constexpr double kStart = 1.7e9;  // [s since 1970]
 
 TrackedLed ledAt(const Vector3d& position, std::optional<Vector3d> velocity = std::nullopt) {
   TrackedLed led;
@@ -128,10 +128,10 @@ TEST(Interpolate, CovarianceHoldsForEveryCorrelation) {
   }
 }
 
-TEST(Interpolate, VelocitiesAddWhatTheyAreDoubtedTimesTheirPull) {
+TEST(Interpolate, VelocityCovarianceCountsByItsWeight) {
   TrackedLed end = ledAt(Vector3d::Zero(), Vector3d::Zero());
   end.position_covariance.setZero();
-  // In the middle a velocity pulls by an eighth of the duration.
+  // In the middle a velocity counts by an eighth of the duration.
   const TrackedLed led = interpolate(end, 10.0, end, 10.4, 10.2);
   const Matrix3d expected = 2.0 * 0.05 * 0.05 * end.velocity_covariance;
   EXPECT_LT((led.position_covariance - expected).norm(), 1e-12 * expected.norm());
@@ -171,7 +171,7 @@ TEST(Trigger, WaitsForALaterSnapshot) {
   EXPECT_EQ(kStart + 0.11, answer.snapshot.latest_arrival);
 }
 
-TEST(Trigger, AnAnswerIsAsSkewedAsTheWorseOfItsSnapshots) {
+TEST(Trigger, ItsSkewIsTheLargerOfBothSnapshots) {
   for (const bool first_is_worse : {false, true}) {
     Trigger trigger{TriggerOptions()};
     for (const int i : {0, 1}) {
@@ -197,7 +197,7 @@ TEST(Trigger, TheTimeOfASnapshotGivesThatSnapshot) {
   }
 }
 
-TEST(Trigger, TheAnswerDoesNotDependOnWhenItWasAskedFor) {
+TEST(Trigger, TheAnswerDoesNotDependOnTheTimeOfTheRequest) {
   std::vector<Vector3d> positions;
   for (const int asked_at : {0, 1, 30, 31, 99}) {
     Trigger trigger{TriggerOptions()};
@@ -230,7 +230,7 @@ TEST(Trigger, AnswersSeveralEachOnce) {
   EXPECT_EQ((std::vector<std::uint64_t>{2, 1, 3}), requests);
 }
 
-TEST(Trigger, LeavesOutLedsThatOneSideDoesNotShow) {
+TEST(Trigger, OmitsLedsMissingInOneSnapshot) {
   Trigger trigger{TriggerOptions()};
   TrackedLed other = ledAt({1.0, 0.0, 0.0});
   other.id = 5;
@@ -246,7 +246,7 @@ TEST(Trigger, LeavesOutLedsThatOneSideDoesNotShow) {
   EXPECT_EQ(3u, answer.snapshot.leds[0].id);
 }
 
-TEST(Trigger, AnEmptyRoomIsAnAnswerToo) {
+TEST(Trigger, AnswersForAnEmptyRoom) {
   Trigger trigger{TriggerOptions()};
   trigger.add(snapshot(0.0, {}));
   trigger.add(snapshot(0.01, {}));
@@ -265,7 +265,7 @@ TEST(Trigger, RefusesBeyondGaps) {
   EXPECT_EQ(TriggerResult::kGap, only(&trigger).result);
 }
 
-TEST(Trigger, RefusesWhatItNoLongerRemembers) {
+TEST(Trigger, RefusesTimesBeforeItsHistory) {
   TriggerOptions options;
   options.history = 0.5;
   Trigger trigger(options);
@@ -277,7 +277,7 @@ TEST(Trigger, RefusesWhatItNoLongerRemembers) {
   EXPECT_EQ(TriggerResult::kTooOld, only(&trigger).result);
 }
 
-TEST(Trigger, RemembersTheSnapshotJustBeforeItsHistoryToo) {
+TEST(Trigger, KeepsTheSnapshotJustBeforeItsHistory) {
   TriggerOptions options;
   options.history = 0.5;
   Trigger trigger(options);
@@ -288,7 +288,7 @@ TEST(Trigger, RemembersTheSnapshotJustBeforeItsHistoryToo) {
   EXPECT_EQ(TriggerResult::kAnswered, only(&trigger).result);
 }
 
-TEST(Trigger, RemembersAllWhenSnapshotsComeFasterAndFaster) {
+TEST(Trigger, KeepsItsHistoryAtAGrowingRate) {
   TriggerOptions options;
   options.maximum_gap = 1.0;
   Trigger trigger(options);
@@ -308,7 +308,7 @@ TEST(Trigger, RemembersAllWhenSnapshotsComeFasterAndFaster) {
 TEST(Trigger, RefusesTheFarFuture) {
   Trigger trigger{TriggerOptions()};
   trigger.ask(kStart + 1e6, 1);
-  EXPECT_EQ(nullptr, trigger.next()) << "nobody knows yet what time it is";
+  EXPECT_EQ(nullptr, trigger.next()) << "the time is not known yet";
   trigger.add(walking(0));
   EXPECT_EQ(TriggerResult::kTooEarly, only(&trigger).result);
   trigger.ask(kStart + 1.9, 2);
@@ -317,7 +317,7 @@ TEST(Trigger, RefusesTheFarFuture) {
   EXPECT_EQ(TriggerResult::kTooEarly, only(&trigger).result);
 }
 
-TEST(Trigger, RefusesMoreThanItCanKeep) {
+TEST(Trigger, RefusesTooManyPendingRequests) {
   Trigger trigger{TriggerOptions()};
   for (std::size_t i = 0; i <= Trigger::kMaximumPending; ++i)
     trigger.ask(kStart, i);
@@ -326,7 +326,7 @@ TEST(Trigger, RefusesMoreThanItCanKeep) {
   EXPECT_EQ(Trigger::kMaximumPending, answer.request);
 }
 
-TEST(Trigger, FinishLetsNobodyWait) {
+TEST(Trigger, FinishAnswersAllPendingRequests) {
   Trigger trigger{TriggerOptions()};
   trigger.add(walking(0));
   trigger.ask(kStart + 0.005, 1);
@@ -335,7 +335,7 @@ TEST(Trigger, FinishLetsNobodyWait) {
   EXPECT_EQ(TriggerResult::kGap, only(&trigger).result);
 }
 
-TEST(Trigger, ForgetsWhatWasBeforeAJumpBack) {
+TEST(Trigger, ClearsItsHistoryWhenTimeJumpsBack) {
   Trigger trigger{TriggerOptions()};
   trigger.add(walking(50));
   trigger.add(walking(51));
@@ -349,7 +349,7 @@ TEST(Trigger, ForgetsWhatWasBeforeAJumpBack) {
   EXPECT_EQ(1.0, answer.snapshot.leds.at(0).position.z());
 }
 
-TEST(Trigger, EveryRefusalHasItsWords) {
+TEST(Trigger, EveryRefusalHasAText) {
   for (const TriggerResult result : {TriggerResult::kGap, TriggerResult::kTooOld,
                                      TriggerResult::kTooEarly, TriggerResult::kTooMany})
     EXPECT_NE(std::string::npos, describe(result, TriggerOptions()).find(": "));

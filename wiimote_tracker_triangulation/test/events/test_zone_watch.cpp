@@ -149,7 +149,7 @@ TEST_F(ZoneWatchTest, TentativeLedsDoNotCount) {
   EXPECT_EQ("+box7", story());
 }
 
-TEST_F(ZoneWatchTest, LedsAndZonesDoNotMeddleWithEachOther) {
+TEST_F(ZoneWatchTest, LedsAndZonesAreIndependent) {
   watch_.setZones({kBox, {"next", {1.0, 0.0, 0.0}, {2.0, 1.0, 1.0}}});
   show(0.0, {led({0.5, 0.5, 0.5}, 3), led({0.5, 5.0, 0.5}, 9)});
   show(1.0, {led({1.5, 0.5, 0.5}, 3), led({0.5, 0.5, 0.5}, 9)});
@@ -160,14 +160,14 @@ TEST_F(ZoneWatchTest, LedsAndZonesDoNotMeddleWithEachOther) {
   EXPECT_EQ("+box3 -box3 +next3 +box9 -next3", story());
 }
 
-TEST_F(ZoneWatchTest, WhenTimeGoesBackAllBeginsAnew) {
+TEST_F(ZoneWatchTest, RestartsWhenTimeJumpsBack) {
   show(100.0, {led({0.5, 0.5, 0.5})});
   show(1.0, {led({0.5, 0.5, 0.5}, 8)});
   ASSERT_EQ("+box7 -box7 +box8", story());
   EXPECT_EQ(1.0, events_[1].time);
 }
 
-TEST_F(ZoneWatchTest, NewZonesKeepWhatTheyShareWithTheOld) {
+TEST_F(ZoneWatchTest, UnchangedZonesKeepTheirState) {
   show(0.0, {led({0.5, 0.5, 0.5})});
   watch_.setZones({{"new", {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}}, kBox});
   show(0.1, {led({0.5, 0.5, 0.5})});
@@ -181,8 +181,8 @@ TEST_F(ZoneWatchTest, NewZonesKeepWhatTheyShareWithTheOld) {
   EXPECT_EQ(4u, events_.size());
 }
 
-/// Every visit of a random walk among random boxes, against a watch that looks at tiny steps.
-TEST(ZoneWatch, AgreesWithAFineWalkAlongTheSameWay) {
+/// Every visit of a random walk to random boxes, compared with a watch that gets tiny steps.
+TEST(ZoneWatch, AgreesWithFineSteps) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(-1.0, 1.0);
   std::uniform_real_distribution<double> edge(0.1, 0.8);

@@ -43,7 +43,7 @@ TEST(FrameHistory, BracketsAnInstant) {
   EXPECT_FALSE(history.firstTimeAfter(4.0));
 }
 
-TEST(FrameHistory, ForgetsOnlyWhatNobodyNeeds) {
+TEST(FrameHistory, DropsOnlyFramesThatAreNotNeeded) {
   History history;
   for (int round = 0; round < 100; ++round) {  // around the ring and through its growth
     for (int i = 0; i < 7; ++i)
@@ -91,7 +91,7 @@ std::vector<int> linksOf(const Frame& frame) {
 
 constexpr double kSpeed = 5000.0;  // [px/s]
 
-TEST(FollowSpots, ByDistanceAndNoFurtherThanTheSpeedAllows) {
+TEST(FollowSpots, MatchesNearestWithinTheMaximumSpeed) {
   const Frame before = frameOf(1.0, {{100.0, 100.0}, {200.0, 100.0}, {800.0, 500.0}}, {});
   Frame frame = frameOf(1.01, {{205.0, 104.0}, {600.0, 500.0}, {96.0, 97.0}}, {});
   followSpots(before, kSpeed, &frame);
@@ -99,7 +99,7 @@ TEST(FollowSpots, ByDistanceAndNoFurtherThanTheSpeedAllows) {
   EXPECT_NEAR(0.0, (frame.spots[0].velocity - Vector2d(500.0, 400.0)).norm(), 1e-6);
 }
 
-TEST(FollowSpots, TwoThatCrossKeepTheirWays) {
+TEST(FollowSpots, CrossingSpotsAreNotExchanged) {
   // Towards each other along one line, 40 px per image; they meet between two images.
   Frame before = frameOf(1.0, {{100.0, 100.0}, {250.0, 102.0}}, {});
   Frame frame;
@@ -111,14 +111,14 @@ TEST(FollowSpots, TwoThatCrossKeepTheirWays) {
   }
 }
 
-TEST(FollowSpots, ASlotIsNoMoreThanAHint) {
+TEST(FollowSpots, SlotsOnlyDecideTies) {
   const Frame before = frameOf(1.0, {{100.0, 100.0}, {104.0, 100.0}}, {0, 1});
   Frame near = frameOf(1.01, {{102.1, 100.0}, {106.0, 100.0}}, {1, 0});
   followSpots(before, kSpeed, &near);
   EXPECT_EQ((std::vector<int>{0, 1}), linksOf(near)) << "both slots change, but the places do not";
   Frame doubtful = frameOf(1.01, {{102.1, 100.0}}, {0});
   followSpots(before, kSpeed, &doubtful);
-  EXPECT_EQ(0, doubtful.spots[0].before) << "as near to either; the slot decides";
+  EXPECT_EQ(0, doubtful.spots[0].before) << "equal distances: the slot decides";
   Frame far = frameOf(1.01, {{130.0, 100.0}, {100.0, 100.0}}, {0, 1});
   followSpots(before, kSpeed, &far);
   EXPECT_EQ((std::vector<int>{1, 0}), linksOf(far)) << "the slots were exchanged";

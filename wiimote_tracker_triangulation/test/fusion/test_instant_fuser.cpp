@@ -1,4 +1,4 @@
-// One LED in front of cameras that are not synchronised, that go blind, die and come back.
+// One LED in front of unsynchronised cameras that lose sight of it, fail and come back.
 #include "fusion/film.h"
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
@@ -140,7 +140,7 @@ TEST(InstantFuser, SaysHowOldAndHowFarApartItsImagesAre) {
   }
 }
 
-TEST(InstantFuser, ABlindCameraStopsNothing) {
+TEST(InstantFuser, ACameraWithoutSpotsDoesNotStopTheOthers) {
   const Rig rig = threeCameras();
   InstantFuser fuser(rig, {});
   std::vector<Delivery> deliveries = film(rig, 100.0, 101.0, still);
@@ -159,7 +159,7 @@ TEST(InstantFuser, ABlindCameraStopsNothing) {
   }
 }
 
-TEST(InstantFuser, SaysWhenNothingIsSeen) {
+TEST(InstantFuser, ReportsWhenNothingIsSeen) {
   const Rig rig = threeCameras();
   InstantFuser fuser(rig, {});
   std::vector<Delivery> deliveries = film(rig, 100.0, 100.2, still);
@@ -183,7 +183,7 @@ TEST(InstantFuser, NeverReportsAnOldPointAsNew) {
     EXPECT_FALSE(ledOf(instant) && instant.time >= 100.5);
 }
 
-TEST(InstantFuser, ADeadCameraDelaysByItsTimeoutOnceAndIsUsedAgain) {
+TEST(InstantFuser, AFailedCameraDelaysOnceByItsTimeoutAndIsUsedAgain) {
   const Rig rig = threeCameras();
   InstantFuser fuser(rig, {});
   const auto all = film(rig, 100.0, 102.0, circle);
@@ -226,7 +226,7 @@ TEST(InstantFuser, ADeadCameraDelaysByItsTimeoutOnceAndIsUsedAgain) {
   EXPECT_GT(again, 130);
 }
 
-TEST(InstantFuser, ACameraThatNeverSpeaksDelaysTheStartOnly) {
+TEST(InstantFuser, ACameraWithoutImagesDelaysTheStartOnly) {
   const Rig rig = threeCameras();
   InstantFuser fuser(rig, {});
   std::vector<Delivery> deliveries;
@@ -299,8 +299,8 @@ TEST(InstantFuser, DoesNotStartOverForASmallStepBack) {
   EXPECT_EQ(120u, lateImages(fuser));
 }
 
-/// Each camera's images stay in order; otherwise anything goes, as long as no image is overtaken by
-/// one that arrived `most` later.
+/// A random order that keeps each camera's images in order; no image is overtaken by one that
+/// arrived more than `most` later.
 std::vector<Delivery> shuffled(std::vector<Delivery> rest, double most, Random& random) {
   std::vector<Delivery> result;
   while (!rest.empty()) {
@@ -334,7 +334,7 @@ TEST(InstantFuser, TheOrderOfCallbacksBetweenCamerasDoesNotMatter) {
     const auto mixed = shuffled(deliveries, 0.09, random);
     auto instants = fuse(fuser, mixed);
     EXPECT_EQ(0u, lateImages(fuser));
-    // What is due at the end depends on what came last; both have seen the same by then.
+    // The last instants depend on the last image; by then both have received the same images.
     expectIdentical(expected, instants);
   }
 }
@@ -376,7 +376,7 @@ TEST(InstantFuser, AppliesTimeOffsetsByTheirRule) {
   EXPECT_GT(worstError(other_epoch), 1e-3);
 }
 
-TEST(InstantFuser, LampsTakeNoPart) {
+TEST(InstantFuser, LampsAreIgnored) {
   Rig rig = threeCameras();
   rig.cameras[0].masks = {{Vector2d(5.0, 5.0), 3.0}};
   auto deliveries = film(rig, 100.0, 100.5, still);
@@ -474,7 +474,8 @@ TEST(InstantFuser, ANewRigTakesEffectAtOnceAndTimeGoesOn) {
       newest = instant->time;
       if (const TrackedLed* led = ledOf(*instant)) {
         const Vector3d expected = still(0) + Vector3d(i < 150 ? 0.0 : 0.02, 0.0, 0.0);
-        EXPECT_LT((led->position - expected).norm(), 1e-9) << "never from old and new cameras";
+        EXPECT_LT((led->position - expected).norm(), 1e-9)
+            << "not from old and new cameras together";
         EXPECT_EQ(0u, led->id);
       }
     }

@@ -1,4 +1,4 @@
-// Several LEDs, instant by instant: which is which, and which are there.
+// Several LEDs, instant by instant: ids, appearance and loss.
 #include "fusion/film.h"
 #include "geometry/random_rigs.h"
 
@@ -101,7 +101,7 @@ TEST(InstantFuser, KeepsFourLedsApart) {
   EXPECT_GT(complete, 0.98 * static_cast<double>(instants.size()));
 }
 
-TEST(InstantFuser, AnIdLastsThroughAShortAbsenceAndLossIsSaidOnce) {
+TEST(InstantFuser, AnIdSurvivesAShortAbsenceAndLossIsReportedOnce) {
   const Rig rig = fourCameras();
   InstantFuserOptions options;
   options.maximum_absence = 0.2;
@@ -170,7 +170,7 @@ TEST(InstantFuser, AnLedIsTentativeAtFirst) {
   EXPECT_GT(seen, 100);
 }
 
-TEST(InstantFuser, HasNoMoreLedsThanItIsTold) {
+TEST(InstantFuser, RespectsMaximumLeds) {
   const Rig rig = fourCameras();
   InstantFuserOptions options;
   options.maximum_leds = 2;
@@ -184,7 +184,7 @@ TEST(InstantFuser, HasNoMoreLedsThanItIsTold) {
   EXPECT_EQ(2u, instants.back().leds.size());
 }
 
-TEST(InstantFuser, WantsAsManyRaysAsItIsTold) {
+TEST(InstantFuser, RespectsMinimumRays) {
   const Rig rig = fourCameras();
   InstantFuserOptions options;
   options.minimum_rays = 3;

@@ -10,7 +10,7 @@
 
 namespace wiimote_tracker::geometry::test {
 
-/// A camera as OpenCV computes it: an opinion that shares no code with ours.
+/// A camera computed by OpenCV, which shares no code with ours.
 struct OpenCvCamera {
   explicit OpenCvCamera(const Camera& camera) {
     const Intrinsics& i = camera.intrinsics;

@@ -34,7 +34,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-/// A lens like a Wii Remote's, never the same, of varying image size.
+/// A random lens similar to a Wii Remote's, with a random image size.
 inline Intrinsics randomIntrinsics(Random& random) {
   Intrinsics intrinsics;
   intrinsics.width = static_cast<int>(random.uniform(640, 1920));
@@ -61,7 +61,7 @@ inline Intrinsics randomFisheye(Random& random) {
 }
 
 /// Cameras on a ring of 3 to 6 m around the origin, one per equal share of the circle, looking
-/// roughly at the origin, rolled at will.
+/// roughly at the origin, with random roll.
 inline Rig randomRig(Random& random, int cameras) {
   Rig rig;
   for (int i = 0; i < cameras; ++i) {

@@ -38,7 +38,7 @@ Rig uncertainRig(Random& random) {
   return rig;
 }
 
-/// The rig with its parameters off by that much, as RigCalibration.msg defines them.
+/// The rig with errors added to its parameters, as RigCalibration.msg defines them.
 Rig shifted(const Rig& rig, const VectorXd& by) {
   Rig result = rig;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
@@ -59,7 +59,7 @@ Rig shifted(const Rig& rig, const VectorXd& by) {
   return result;
 }
 
-/// Where the rig says that a point is which other cameras, the true ones, see.
+/// The point that the rig triangulates from the pixels of the true cameras.
 Vector3d measured(const Rig& rig, const Rig& truth, const Vector3d& point) {
   std::vector<Observation> observations;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
@@ -75,7 +75,7 @@ TEST(CalibrationUncertainty, IsTheSpreadOfPointsOverRigsDrawnFromTheCovariance) 
   ASSERT_TRUE(uncertainty.isKnown());
   const auto covariance = uncertainty.covarianceOf(point, kAll, 4);
   ASSERT_TRUE(covariance);
-  // Small, so that it is linear; scaled back.
+  // Small errors keep it linear; the spread is scaled back.
   constexpr double kSmall = 0.05;
   constexpr int kDraws = 4000;
   MatrixXd root = rig.covariance;
@@ -98,7 +98,7 @@ TEST(CalibrationUncertainty, IsTheSpreadOfPointsOverRigsDrawnFromTheCovariance) 
 }
 
 TEST(CalibrationUncertainty, IsSystematic) {
-  // All cameras moved alike: the point moves with them, however many they are.
+  // All cameras shift together, so the point shifts with them, however many there are.
   Random random(42);
   Rig rig = test::randomRig(random, 4);
   constexpr double kShift = 0.01;
@@ -116,11 +116,11 @@ TEST(CalibrationUncertainty, IsSystematic) {
   }
 }
 
-TEST(CalibrationUncertainty, NearIsOfTheCellAndNeverOfAnother) {
+TEST(CalibrationUncertainty, NearIsTheCovarianceOfTheCell) {
   Random random(43);
   const Rig rig = uncertainRig(random);
   CalibrationUncertainty uncertainty(rig);
-  for (int i = 0; i < 3000; ++i) {  // more than are remembered
+  for (int i = 0; i < 3000; ++i) {  // more than the cache holds
     const Vector3d point = random.inBox(1.0);
     const std::size_t count = 2 + static_cast<std::size_t>(i) % 3;
     const Vector3d middle = 0.2 * ((point / 0.2).array().floor() + 0.5).matrix();
@@ -133,7 +133,7 @@ TEST(CalibrationUncertainty, NearIsOfTheCellAndNeverOfAnother) {
   }
 }
 
-TEST(CalibrationUncertainty, SaysWhenItDoesNotKnow) {
+TEST(CalibrationUncertainty, IsNothingWhereUnknown) {
   Random random(44);
   Rig rig = uncertainRig(random);
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -1,4 +1,4 @@
-// The camera model against OpenCV's, and at the edges where it ends.
+// The camera model, compared with OpenCV's, and the limits of its validity.
 #include "opencv_camera.h"
 #include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"

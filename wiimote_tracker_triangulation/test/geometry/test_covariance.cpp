@@ -1,6 +1,6 @@
-// Whether the covariance is honest: against the errors that noisy pixels cause, and against the
-// Cramer-Rao bound, computed here with OpenCV's projection, numerical derivatives and our own
-// inverse, so that no code is the estimator's.
+// Whether the covariance is consistent with the errors that noisy pixels cause and with the
+// Cramer-Rao bound. The bound uses OpenCV's projection, numerical derivatives and an inverse
+// written here, so it shares no code with the estimator.
 #include "opencv_camera.h"
 #include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
@@ -74,9 +74,9 @@ Rig paperRig(Random& random, int cameras) {
 }
 
 struct Score {
-  double nees = 0.0;              // mean normalised estimation error squared; 3 when honest
+  double nees = 0.0;              // mean normalised estimation error squared; 3 when consistent
   double rms_over_bound = 0.0;    // 1 when efficient
-  double claimed_over_rms = 0.0;  // RMS that the covariance claims, over the true one
+  double claimed_over_rms = 0.0;  // RMS error by the covariance, over the true one
 };
 
 Score score(TriangulationMethod method, unsigned seed, int cameras = 4) {
@@ -128,7 +128,7 @@ void report(const std::string& method, const Score& s) {
             << ", claimed over true RMS " << s.claimed_over_rms << std::endl;
 }
 
-TEST(Covariance, MaximumLikelihoodIsHonestAndReachesTheBound) {
+TEST(Covariance, MaximumLikelihoodIsConsistentAndReachesTheBound) {
   const Score s = score(TriangulationMethod::kMaximumLikelihood, 21);
   report("maximum likelihood", s);
   EXPECT_NEAR(s.nees, 3.0, 0.04);
@@ -146,7 +146,7 @@ TEST(Covariance, MaximumLikelihoodReachesTheBoundWithAnyNumberOfCameras) {
   }
 }
 
-TEST(Covariance, ReweightedMidpointIsHonestAndAllButReachesTheBound) {
+TEST(Covariance, ReweightedMidpointIsConsistentAndNearTheBound) {
   const Score s = score(TriangulationMethod::kReweightedMidpoint, 25);
   report("reweighted midpoint", s);
   EXPECT_NEAR(s.nees, 3.0, 0.04);
@@ -155,7 +155,7 @@ TEST(Covariance, ReweightedMidpointIsHonestAndAllButReachesTheBound) {
   EXPECT_LE(s.rms_over_bound, 1.01);
 }
 
-TEST(Covariance, LeastSquaresIsHonest) {
+TEST(Covariance, LeastSquaresIsConsistent) {
   const Score s = score(TriangulationMethod::kLeastSquares, 22);
   report("least squares", s);
   EXPECT_NEAR(s.nees, 3.0, 0.04);
@@ -163,7 +163,7 @@ TEST(Covariance, LeastSquaresIsHonest) {
   EXPECT_GE(s.rms_over_bound, 0.99);
 }
 
-TEST(Covariance, MeanClosestIsHonest) {
+TEST(Covariance, MeanClosestIsConsistent) {
   const Score s = score(TriangulationMethod::kMeanClosest, 23);
   report("mean of closest points", s);
   EXPECT_NEAR(s.nees, 3.0, 0.04);

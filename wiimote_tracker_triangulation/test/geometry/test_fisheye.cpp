@@ -1,4 +1,4 @@
-// The equidistant lens against OpenCV's cv::fisheye, and where it ends.
+// The equidistant lens, compared with OpenCV's cv::fisheye, and the limits of its validity.
 #include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
@@ -147,7 +147,7 @@ TEST(Fisheye, FindsAFoldThatAHigherCoefficientHidesAgain) {
   EXPECT_TRUE(lens.isBeforeFold({std::tan(0.499), 0.0}));
   EXPECT_FALSE(lens.isBeforeFold({std::tan(0.501), 0.0}));
   EXPECT_FALSE(lens.isBeforeFold({std::tan(0.9), 0.0}));
-  // 9 k4 (s - 0.3)^2 (s - 0.5)^2, and a little: comes near zero twice, and is never there.
+  // 9 k4 (s - 0.3)^2 (s - 0.5)^2 plus a constant: near zero twice, but never zero.
   const auto grazing = [](double above) {
     const double c = 1.0 / (0.0225 + above);
     Intrinsics graze = ideal();

@@ -1,4 +1,4 @@
-// rig.yaml: nothing is lost on the way to the disk and back, and nothing is guessed.
+// rig.yaml: round trips are exact, and damaged files are refused.
 #include "geometry/rotation.h"
 #include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
@@ -37,7 +37,7 @@ class RigFile : public testing::Test {
 
   void put(const std::string& content) { std::ofstream(path_, std::ios::binary) << content; }
 
-  /// What readRigFile says about a content; empty when it takes it.
+  /// The error of readRigFile for a content; empty when it is accepted.
   std::string complaintAbout(const std::string& content) {
     put(content);
     try {
@@ -233,7 +233,7 @@ TEST_F(RigFile, ManyRandomRigsComeBackBitForBit) {
 }
 
 TEST_F(RigFile, NumbersAreFloatingPointForRosparamToo) {
-  // static_transform_publisher takes no whole number, and rosparam no 1e-09 for a number.
+  // static_transform_publisher refuses integers, and rosparam reads 1e-09 as a string.
   Rig rig = fullRig(1);
   rig.cameras[0].camera.world_from_camera = Eigen::Isometry3d::Identity();
   rig.cameras[0].camera.world_from_camera.translation() << 4.0, -1e-9, 1e300;
@@ -274,7 +274,7 @@ TEST_F(RigFile, MakesFoldersAndFollowsALink) {
 TEST_F(RigFile, AFailedWriteLeavesTheOldFile) {
   write(fullRig());
   Rig larger = fullRig(4);
-  // A full disk, as far as this process can tell: files must not grow beyond the old one's size.
+  // Simulates a full disk: files must not grow beyond the old one's size.
   rlimit before{};
   ASSERT_EQ(0, getrlimit(RLIMIT_FSIZE, &before));
   rlimit tight = before;

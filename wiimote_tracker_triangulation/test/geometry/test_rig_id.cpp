@@ -1,4 +1,5 @@
-// The id follows everything that moves a point, and nothing else; rotations survive round trips.
+// The id depends on everything that moves a point and on nothing else; rotations survive round
+// trips.
 #include "geometry/rotation.h"
 #include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
@@ -31,8 +32,8 @@ TEST(RigId, HasSixteenHexadecimalDigits) {
 }
 
 TEST(RigId, IsTheSameOnEveryMachine) {
-  // Simple numbers only, so that this rig is the same everywhere; a change of this value orphans
-  // every recorded bag. FNV-1a over these bytes was computed apart from this code, in Python.
+  // Simple numbers only, so that the rig is the same everywhere. A change of this value invalidates
+  // the id in every recorded bag. It was computed by an independent FNV-1a in Python.
   Rig rig;
   RigCamera camera;
   camera.camera.name = "a";
@@ -121,7 +122,7 @@ TEST(Rotation, QuaternionSurvivesEveryRoundTripBitForBit) {
   }
 }
 
-TEST(Rotation, WhatIsNoRotationDoesNotHang) {
+TEST(Rotation, TerminatesForAnyMatrix) {
   const Eigen::Matrix3d nothing = Eigen::Matrix3d::Constant(kNaN);
   EXPECT_FALSE(canonicalQuaternion(nothing).coeffs().allFinite());
   canonicalQuaternion(Eigen::Matrix3d::Zero());

@@ -105,8 +105,8 @@ TEST(Triangulate, MeanClosestAveragesOverAllPairs) {
 
 TEST(Triangulate, ReweightedMidpointCountsARayByItsRange) {
   // Rays along x, y and z that pass the origin at (0, a, 0), (b, 0, 0) and (0, 0, 0), from 2, 4 and
-  // 8 m away: weights 16, 4 and 1 but for a factor. Each coordinate is the weighted mean of what
-  // the two rays across it say.
+  // 8 m away: weights 16, 4 and 1 up to a factor. Each coordinate is the weighted mean of those of
+  // the two rays across it.
   const double a = 0.001, b = 0.002;  // [m] so small that the first point's ranges are these
   const Vector3d passes[] = {{0.0, a, 0.0}, {b, 0.0, 0.0}, {0.0, 0.0, 0.0}};
   const double ranges[] = {2.0, 4.0, 8.0};
@@ -168,7 +168,7 @@ TEST(Triangulate, AgreesWithOpenCvForTwoViews) {
       sums[m] += (point->position - truth).squaredNorm();
     }
   }
-  // They weight the two rays differently, so with noise they agree in quality, not in each point.
+  // They weight the two rays differently, so with noise only their accuracy agrees, not each point.
   for (const double sum : sums)
     EXPECT_NEAR(std::sqrt(sum / opencv_sum), 1.0, 0.05);
   EXPECT_LT(sums[2], 1.01 * opencv_sum) << "maximum likelihood must not be worse";
@@ -310,7 +310,7 @@ double squaredResiduals(const std::vector<Observation>& observations, const Vect
   return sum;
 }
 
-/// What Newton's method with numerical derivatives still gains from a point on [px^2].
+/// By how much Newton's method with numerical derivatives lowers the cost of a point [px^2].
 double gainLeft(const std::vector<Observation>& observations, const Vector3d& point) {
   constexpr double h = 1e-3;  // [m]
   const auto cost = [&](const Vector3d& offset) {

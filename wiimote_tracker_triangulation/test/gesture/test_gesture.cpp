@@ -62,7 +62,7 @@ Shape shapeOfDrawing(const Curve& curve, const Drawing& drawing) {
   return shapeOf(draw(curve, drawing), ShapeOptions()).value();
 }
 
-/// Time warping with the whole table written out.
+/// Time warping over the full cost table.
 double distanceByTable(const Shape& a, const Shape& b) {
   constexpr int n = Shape::kPoints;
   std::vector<std::vector<double>> table(n + 1, std::vector<double>(n + 1, INFINITY));
@@ -120,7 +120,7 @@ TEST(Shape, PointsOfACircleAreEvenlySpread) {
   }
 }
 
-TEST(Shape, RefusesWhatIsNoGesture) {
+TEST(Shape, RefusesPathsThatAreNoGesture) {
   const ShapeOptions options;
   EXPECT_FALSE(shapeOf({}, options));
   Path path = draw(circle, {});
@@ -140,7 +140,7 @@ TEST(Shape, RefusesWhatIsNoGesture) {
   EXPECT_FALSE(shapeOf(draw(circle, small), options));
 }
 
-TEST(Shape, NoNumberIsLostWhereAWayTurnsBack) {
+TEST(Shape, StaysFiniteWhereAPathTurnsBack) {
   const auto shape = shapeOf(
       draw([](double s) { return Eigen::Vector3d(0.4 * (0.5 - std::abs(s - 0.5)), 0, 0); }, {}),
       ShapeOptions());
@@ -149,7 +149,7 @@ TEST(Shape, NoNumberIsLostWhereAWayTurnsBack) {
   EXPECT_TRUE(shape->directions.allFinite());
 }
 
-TEST(Distance, IsThatOfTheWholeTable) {
+TEST(Distance, MatchesTheFullTable) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 200; ++trial) {
@@ -171,7 +171,7 @@ TEST(Distance, IsThatOfTheWholeTable) {
   }
 }
 
-TEST(Distance, TurningFindsTheHeading) {
+TEST(Distance, RotationFindsTheHeading) {
   Drawing turned;
   turned.heading = 2.1;
   const Shape plain = shapeOfDrawing(zigzag, {});
@@ -180,7 +180,7 @@ TEST(Distance, TurningFindsTheHeading) {
   EXPECT_LT(distance(plain, turnedTowards(other, plain)), 1e-12);
 }
 
-TEST(Recognizer, TellsGesturesApartWhereverTheyAreDrawn) {
+TEST(Recognizer, RecognisesGesturesWhereverTheyAreDrawn) {
   const Recognizer recognizer = threeGestures();
   const std::vector<std::pair<std::string, Curve>> gestures = {
       {"circle", circle}, {"zigzag", zigzag}, {"hook", hook}};
@@ -207,7 +207,7 @@ TEST(Recognizer, TellsGesturesApartWhereverTheyAreDrawn) {
   }
 }
 
-TEST(Recognizer, HeadingMattersUnlessItIsToldOtherwise) {
+TEST(Recognizer, HeadingMattersUnlessAnyIsAllowed) {
   Drawing turned;
   turned.heading = -1.8;
   RecognizerOptions any_heading;
@@ -228,7 +228,7 @@ TEST(Recognizer, AMirroredOrReversedGestureIsAnother) {
   EXPECT_FALSE(mirrored->accepted());
 }
 
-TEST(Recognizer, RejectsWhatIsNoGesture) {
+TEST(Recognizer, RejectsOtherMotion) {
   const Recognizer recognizer = threeGestures();
   std::mt19937 random(9);
   std::normal_distribution<double> normal;
@@ -250,7 +250,7 @@ TEST(Recognizer, RejectsWhatIsNoGesture) {
   EXPECT_LE(accepted, 10);
 }
 
-TEST(Recognizer, KnowsNothingWithoutExamples) {
+TEST(Recognizer, RecognisesNothingWithoutExamples) {
   EXPECT_FALSE(Recognizer({}).recognize(draw(circle, {})));
   Recognizer recognizer = threeGestures();
   EXPECT_FALSE(recognizer.recognize({}));
@@ -336,7 +336,7 @@ TEST(Segmenter, CutsWhereTheLightGoesOut) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->size(), path.size());
   EXPECT_FALSE(segmenter.advance(2.0));
-  // The light that comes back shows that it was out.
+  // Without advance(), the gap before the next point shows that the light was out.
   Drawing later;
   later.start = 10.0;
   EXPECT_TRUE(feed(&segmenter, draw(circle, later)).empty());
@@ -358,13 +358,13 @@ TEST(Segmenter, CutsAtTheButton) {
   EXPECT_FALSE(segmenter.button(1.6, false));
 }
 
-TEST(Segmenter, AButtonsNewsMayComeEarlyOrLate) {
+TEST(Segmenter, ButtonEventsMayComeEarlyOrLate) {
   SegmenterOptions options;
   options.boundary = Boundary::kButton;
   Drawing drawing;
   drawing.duration = 3.0;
   const Path path = draw(circle, drawing);
-  // Pressed from 0.995 s to 2.005 s; the news comes as much later than the positions of that time.
+  // Pressed from 0.995 s to 2.005 s; the button events arrive `delay` after the positions.
   for (const double delay : {-0.4, -0.1, 0.0, 0.1, 0.4}) {
     Segmenter segmenter(options);
     std::vector<Path> found;
@@ -389,7 +389,7 @@ TEST(Segmenter, AButtonsNewsMayComeEarlyOrLate) {
   }
 }
 
-TEST(Segmenter, WhatIsForetoldAfterTheLightWentOutWasNotDrawn) {
+TEST(Segmenter, PredictedPointsAfterTheLightWentOutAreDropped) {
   SegmenterOptions options;
   options.boundary = Boundary::kLight;
   Segmenter segmenter(options);
@@ -401,7 +401,7 @@ TEST(Segmenter, WhatIsForetoldAfterTheLightWentOutWasNotDrawn) {
   EXPECT_EQ(found->back().time, path[142].time);
 }
 
-TEST(Segmenter, AHoleInTheWayIsNoGesture) {
+TEST(Segmenter, APathWithAGapIsNoGesture) {
   Segmenter segmenter{SegmenterOptions()};
   feed(&segmenter, stay(0.0, 1.0, circle(0.0)));
   Drawing drawing;
@@ -426,7 +426,7 @@ TEST(Segmenter, OldTimesAreIgnored) {
   EXPECT_EQ(feed(&segmenter, stay(3.51, 4.0, circle(1.0))).size(), 1u);
 }
 
-TEST(Spotter, FindsAGestureInMotionThatGoesOn) {
+TEST(Spotter, FindsAGestureInContinuousMotion) {
   const Recognizer recognizer = threeGestures();
   Spotter spotter{SpotterOptions()};
   // To and fro, then a zigzag, then to and fro again.

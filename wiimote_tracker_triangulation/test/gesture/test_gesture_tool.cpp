@@ -49,7 +49,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// A stroke whose bends are drawn from `kind`, done by somebody's hand.
+/// A stroke whose bends depend on `kind`, with small deviations by person.
 gesture::Path stroke(unsigned kind, unsigned person) {
   std::mt19937 kinds(kind);
   std::mt19937 hands(1000 * person + kind);
@@ -113,7 +113,7 @@ TEST_F(GestureTool, SaysWhatIsWrongWithTheFiles) {
   EXPECT_TRUE(contains(messageOf("broken"), "v.csv, line 2"));
 }
 
-TEST_F(GestureTool, NobodyIsTestedWithHisOwnExamples) {
+TEST_F(GestureTool, APersonsOwnExamplesAreExcluded) {
   const Evaluation evaluation = evaluate(people(5), people(5), 0, anyLength());
   EXPECT_EQ(evaluation.tested, 60u);
   EXPECT_EQ(evaluation.examples, 48u);
@@ -135,7 +135,7 @@ TEST_F(GestureTool, NobodyIsTestedWithHisOwnExamples) {
   EXPECT_THROW(evaluate(people(1), people(1), 0, anyLength()), Error);
 }
 
-TEST_F(GestureTool, AGestureThatNobodyTaughtIsWrong) {
+TEST_F(GestureTool, AGestureWithoutExamplesCountsAsWrong) {
   std::vector<Person> teachers = people(3);
   for (Person& teacher : teachers)
     teacher.samples.erase(teacher.samples.begin());

@@ -13,7 +13,7 @@
 
 namespace wiimote_tracker::identity::test {
 
-/// The paper's four LEDs, on for 90, 60, 40 and 20 % of a period that they have in common [s].
+/// The paper's four LEDs, on for 90, 60, 40 and 20 % of a common period [s].
 inline BlinkCodes paperCodes(double shortest, double longest) {
   return dutyCodes({{"a", 0.9}, {"b", 0.6}, {"c", 0.4}, {"d", 0.2}}, shortest, longest);
 }
@@ -30,16 +30,16 @@ inline BlinkCodes fourWords() {
 struct BlinkingOptions {
   BlinkCodes codes;
   double period = 0.1;            ///< [s]
-  std::vector<std::size_t> leds;  ///< Which are there; a number beyond the labels does not blink.
+  std::vector<std::size_t> leds;  ///< LEDs present; a number beyond the labels does not blink.
   std::size_t cameras = 1;
   double start = 1000.0;         ///< [s]
   double duration = 1.0;         ///< [s]
-  double image_interval = 0.01;  ///< Of each camera, at a phase of its own [s].
+  double image_interval = 0.01;  ///< Of each camera, at its own phase [s].
   double exposure = 0.001;       ///< [s]
   double drop = 0.0;             ///< Probability that an LED that is on is not seen.
-  double flip = 0.0;             ///< Probability of any sighting to be the contrary.
+  double flip = 0.0;             ///< Probability that a sighting is inverted.
 
-  /// Whether something is in the way of an LED.
+  /// Whether an LED is occluded.
   std::function<bool(std::size_t camera, std::size_t led, double time)> hidden;
 };
 
@@ -48,9 +48,9 @@ struct LedSighting {
   Sighting sighting;
 };
 
-/// The sightings of blinking LEDs by cameras that are not synchronised, in the order of time. An
-/// LED's begin when it is first seen, as a tracker's do.
-/// @param phase where to tell the phase at options.start that LEDs which blink together have.
+/// The sightings of blinking LEDs by unsynchronised cameras, in the order of time. Those of an LED
+/// begin when it is first seen, as a tracker's do. @param phase receives the common phase of
+/// synchronous LEDs at options.start.
 inline std::vector<LedSighting> simulateBlinking(const BlinkingOptions& options,
                                                  geometry::test::Random* random,
                                                  double* phase = nullptr) {
@@ -58,7 +58,7 @@ inline std::vector<LedSighting> simulateBlinking(const BlinkingOptions& options,
   if (phase)
     *phase = common_phase;
   std::vector<double> phases;
-  // The share of an exposure that must be lit differs with distance and brightness.
+  // How much of an exposure must be lit varies with distance and brightness.
   std::vector<double> thresholds;
   for (std::size_t i = 0; i < options.leds.size(); ++i) {
     phases.push_back(options.codes.synchronous ? common_phase : random->uniform(0.0, 1.0));

@@ -14,25 +14,25 @@
 
 namespace wiimote_tracker::identity::test {
 
-/// The probability of each label, by going through every period, phase and way to give labels, one
-/// after the other, and every sighting for each of them: what the definition says, and slow.
+/// The probability of each label by its definition: a slow sum over every period, phase and
+/// assignment of labels, with every sighting for each.
 struct ExhaustiveLabels {
   BlinkCodes codes;
   SeeingModel seeing;
   double steady = 0.01;
   double memory = 1.0;
-  std::vector<double> periods;  ///< All that are possible [s].
+  std::vector<double> periods;  ///< All candidates [s].
   int phases = 100;
-  double phase_doubt = 0.0;  ///< Width over which the phase is uncertain anyhow [periods].
+  double phase_blur = 0.0;  ///< Width over which the phase is uncertain [periods].
 
-  /// A column per LED, a row per label, and a last one for a light that does not blink.
+  /// A column per LED, a row per label, and a last row for a light that does not blink.
   Eigen::MatrixXd posterior(const std::vector<LedSighting>& sightings, std::size_t leds) const {
     const std::size_t labels = codes.codes.size();
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(labels + 1, leds);
     std::vector<double> steady_light(leds);
     for (std::size_t led = 0; led < leds; ++led)
       steady_light[led] = logLikelihood(sightings, led, [](double) { return 1.0; });
-    std::vector<Eigen::MatrixXd> ways;  // of every period and phase, log likelihoods
+    std::vector<Eigen::MatrixXd> ways;  // log likelihoods, per period and phase
     for (const double period : periods) {
       for (int phase = 0; phase < phases; ++phase) {
         Eigen::MatrixXd cell(labels + 1, leds);
@@ -76,13 +76,13 @@ struct ExhaustiveLabels {
     return label == labels ? steady : (1.0 - steady) / static_cast<double>(labels);
   }
 
-  /// Mean light of the exposures, over the doubt about the phase.
+  /// Mean light of the exposure, over the blur of the phase.
   double light(const Waveform& waveform, double phase, double period) const {
     constexpr int kSamples = 16;
     double sum = 0.0;
     for (int i = 0; i < kSamples; ++i)
       sum += litShare(waveform,
-                      phase + phase_doubt * ((i + 0.5) / kSamples - 0.5) - 0.5 * exposure / period,
+                      phase + phase_blur * ((i + 0.5) / kSamples - 0.5) - 0.5 * exposure / period,
                       exposure / period) /
              kSamples;
     return sum;

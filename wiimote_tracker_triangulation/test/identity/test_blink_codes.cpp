@@ -1,4 +1,4 @@
-// How LEDs blink: the codes, their file, and what tells a microcontroller to do it.
+// Blink codes, their file, and the table and sketch for a microcontroller.
 #include "tools/blink_codes/listing.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/identity/codes_file.h"
@@ -77,7 +77,7 @@ TEST(Waveform, TheDifferenceIsTheLeastOfManyShifts) {
   EXPECT_NEAR(least, differenceInAnyRotation(one, other), 0.004);
 }
 
-TEST(Schemes, ThePaperSwitchesOnInOrderAndOffInReverse) {
+TEST(Schemes, ThePapersLedsSwitchOnInOrderAndOffInReverse) {
   const BlinkCodes codes = dutyCodes({{"a", 0.9}, {"b", 0.6}, {"c", 0.4}, {"d", 0.2}}, 0.1, 0.3);
   EXPECT_TRUE(codes.synchronous);
   const double shares[] = {0.9, 0.6, 0.4, 0.2};
@@ -121,7 +121,7 @@ std::size_t longestRunOfZeros(const std::string& word) {
   return longest;
 }
 
-TEST(Schemes, ChosenWordsKeepTheirPromises) {
+TEST(Schemes, ChosenWordsFollowTheRules) {
   for (const std::size_t count : {1, 2, 3, 4, 5, 8, 10, 16, 33, 100}) {
     const std::vector<std::string> words = chooseWords(count);
     ASSERT_EQ(count, words.size());
@@ -146,7 +146,7 @@ TEST(Schemes, ChosenWordsKeepTheirPromises) {
   EXPECT_THROW(chooseWords(1000000), Error);
 }
 
-/// What is said about codes, or nothing when they are accepted.
+/// The refusal of codes; empty when they are accepted.
 template <typename Make>
 std::string refusal(Make make) {
   try {
@@ -157,7 +157,7 @@ std::string refusal(Make make) {
   return "";
 }
 
-TEST(BlinkCodes, WhatCannotBeToldApartIsRefusedByName) {
+TEST(BlinkCodes, IndistinguishableCodesAreRefusedByName) {
   const auto cyclic = [](const std::string& one, const std::string& other) {
     return refusal([&] { cyclicCodes({{"hand", one}, {"head", other}}, 0.02, 0.01); });
   };
@@ -258,7 +258,7 @@ TEST_F(CodesFile, ChosenCodesAreAFile) {
   EXPECT_THROW(blink_codes_tool::cyclicFile({"hand", "hand"}, 0.02, 0.01), Error);
 }
 
-TEST(Listing, TheTableTellsWhenToSwitch) {
+TEST(Listing, TheTableListsSwitchingTimes) {
   const std::string text =
       blink_codes_tool::table(dutyCodes({{"hand", 0.9}, {"head", 0.2}}, 0.2, 0.3), 0.2);
   EXPECT_NE(std::string::npos, text.find("period 200.000 ms, synchronous"));
@@ -266,7 +266,7 @@ TEST(Listing, TheTableTellsWhenToSwitch) {
   EXPECT_NE(std::string::npos, text.find(" 80.000-120.000\n")) << text;
 }
 
-TEST(Listing, RemarksTellWhatIsMissed) {
+TEST(Listing, RemarksNameWhatCamerasMiss) {
   const std::string text =
       blink_codes_tool::remarks(dutyCodes({{"hand", 0.9}, {"head", 0.2}}, 0.08, 0.3));
   EXPECT_NE(std::string::npos, text.find("hand and head, which differ for 70.0 %")) << text;
@@ -277,7 +277,7 @@ TEST(Listing, RemarksTellWhatIsMissed) {
                 .find("shortest"));
 }
 
-/// Runs a sketch for ten periods, and looks at its pins in between.
+/// Runs a sketch for ten periods and samples its pins.
 void checkSketch(void (*setup)(), void (*loop)(), const BlinkCodes& codes, double period) {
   arduino::outputs.clear();
   arduino::written.clear();

@@ -1,4 +1,4 @@
-// The labels of LEDs that blink: when they are given, kept, changed and refused.
+// Labels of blinking LEDs: when they are given, kept, changed and refused.
 #include "allocation_counter.h"
 #include "identity/blinking.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
@@ -19,13 +19,13 @@ using test::fourWords;
 using test::LedSighting;
 using test::paperCodes;
 
-/// LEDs that blink before an Identifier, from time to time looked at.
+/// Blinking LEDs whose sightings go to an Identifier.
 class Blinking {
  public:
   Blinking(const BlinkingOptions& options, unsigned seed)
       : options_(options), random_(seed), identifier_(options.codes, {}) {}
 
-  /// Goes on for `duration` [s]; calls `look` after every decision.
+  /// Continues for `duration` [s]; calls `look` after every decision.
   template <typename Look>
   void run(double duration, Look look) {
     options_.duration = duration;
@@ -89,7 +89,7 @@ TEST(Identifier, ALightThatDoesNotBlinkHasNoLabel) {
   EXPECT_FALSE(blinking.identifier().identityOf(1)->steady);
 }
 
-TEST(Identifier, TheMindIsChangedOnlyOnEvidence) {
+TEST(Identifier, LabelsChangeOnlyOnEvidence) {
   Blinking blinking(cyclicOptions({1}, 2), 3);
   blinking.run(1.0);
   ASSERT_EQ(1u, blinking.labelOf(0));
@@ -97,7 +97,7 @@ TEST(Identifier, TheMindIsChangedOnlyOnEvidence) {
   blinking.options().flip = 0.1;
   blinking.run(1.0, [&](double) { EXPECT_EQ(1u, blinking.labelOf(0)); });
   EXPECT_EQ(since, blinking.identifier().identityOf(0)->since);
-  // The track has gone over to another LED.
+  // The track has switched to another LED.
   blinking.options().flip = 0.01;
   blinking.options().leds = {2};
   blinking.run(0.1, [&](double) { EXPECT_EQ(1u, blinking.labelOf(0)); });
@@ -106,8 +106,8 @@ TEST(Identifier, TheMindIsChangedOnlyOnEvidence) {
   EXPECT_GT(blinking.identifier().identityOf(0)->since, 1002.1);
 }
 
-TEST(Identifier, SomethingInTheWayIsNotDarkness) {
-  // One camera sees the LED once and never again, the other one not for a while, now and then.
+TEST(Identifier, OcclusionIsNotDarkness) {
+  // Camera 1 sees the LED only once; camera 0 misses it for 0.3 s of each second.
   Blinking blinking(cyclicOptions({2}, 2), 4);
   blinking.options().hidden = [](std::size_t camera, std::size_t, double time) {
     return camera == 1 || std::fmod(time, 1.0) > 0.7;
@@ -120,7 +120,7 @@ TEST(Identifier, SomethingInTheWayIsNotDarkness) {
   });
 }
 
-TEST(Identifier, TheFirstOfTwoAlikeKeepsTheLabel) {
+TEST(Identifier, TheFirstOfTwoEqualLedsKeepsTheLabel) {
   Blinking blinking(cyclicOptions({1}, 2), 5);
   blinking.run(0.5);
   ASSERT_EQ(1u, blinking.labelOf(0));
@@ -144,7 +144,7 @@ TEST(Identifier, TimeMayJumpBack) {
   blinking.options().start = 900.0;
   blinking.run(2.0, [&](double) { EXPECT_EQ(1u, blinking.labelOf(0)); });
   EXPECT_GT(blinking.identifier().identityOf(0)->confidence, 0.999);
-  // What was seen in times to come is no evidence.
+  // Sightings with later times are no evidence.
   blinking.options().start = 800.0;
   blinking.options().leds = {2};
   blinking.run(2.0);
@@ -165,7 +165,7 @@ TEST(Identifier, ANewLedInheritsNothing) {
   EXPECT_FALSE(identifier.identityOf(5)->label);
 }
 
-TEST(Identifier, DecidesNoMoreOftenThanItIsTold) {
+TEST(Identifier, RespectsTheIntervalOfDecisions) {
   BlinkingOptions options = cyclicOptions({1}, 2);
   options.duration = 0.5;
   Random random(10);

@@ -1,5 +1,4 @@
-// Which LED is which, from its sightings: against an exhaustive computation, and by counting
-// errors.
+// Label probabilities from sightings, compared with an exhaustive computation; error rates.
 #include "identity/blinking.h"
 #include "identity/exhaustive_labels.h"
 #include "wiimote_tracker_triangulation/identity/label_posterior.h"
@@ -34,8 +33,8 @@ Eigen::MatrixXd posteriorOf(const Hypotheses& hypotheses,
   return LabelPosterior(hypotheses, 0.01).compute(pointers);
 }
 
-/// Largest difference of the probabilities to those of the exhaustive computation in some runs.
-/// @param raster on which the times of sightings lie [s]; 0: anywhere.
+/// Largest difference from the exhaustive probabilities in some runs. @param raster step to which
+/// the times of sightings are rounded [s]; 0: not rounded.
 double errorAgainstExhaustive(BlinkingOptions options, int runs, double raster) {
   const Hypotheses hypotheses(options.codes, {}, 1.0);
   test::ExhaustiveLabels exhaustive;
@@ -43,9 +42,9 @@ double errorAgainstExhaustive(BlinkingOptions options, int runs, double raster) 
   exhaustive.memory = hypotheses.memory();
   exhaustive.exposure = options.exposure;
   exhaustive.phases = static_cast<int>(hypotheses.phases());
-  exhaustive.phase_doubt = 1.0 / static_cast<double>(hypotheses.phases());
+  exhaustive.phase_blur = 1.0 / static_cast<double>(hypotheses.phases());
   if (hypotheses.frequencies().size() > 1)
-    exhaustive.phase_doubt += 0.03;
+    exhaustive.phase_blur += 0.03;
   for (const double frequency : hypotheses.frequencies())
     exhaustive.periods.push_back(1.0 / frequency);
   double error = 0.0;
@@ -65,7 +64,7 @@ double errorAgainstExhaustive(BlinkingOptions options, int runs, double raster) 
   return error;
 }
 
-TEST(LabelPosterior, EachForItselfIsAsTheExhaustiveComputation) {
+TEST(LabelPosterior, AsynchronousMatchesTheExhaustiveComputation) {
   BlinkingOptions options;
   options.codes = fourWords();
   options.period = 0.184;
@@ -87,7 +86,7 @@ TEST(LabelPosterior, EachForItselfIsAsTheExhaustiveComputation) {
   EXPECT_LT(error, 1e-3);
 }
 
-TEST(LabelPosterior, TogetherIsAsTheExhaustiveComputation) {
+TEST(LabelPosterior, SynchronousMatchesTheExhaustiveComputation) {
   BlinkingOptions options;
   options.codes = paperCodes(0.125, 0.137);
   options.period = 0.131;
@@ -108,7 +107,7 @@ TEST(LabelPosterior, TogetherIsAsTheExhaustiveComputation) {
   EXPECT_LT(one, 0.1);
 }
 
-/// Runs whose likeliest labels are not all right.
+/// Number of runs with a wrong likeliest label.
 int wrongRuns(const BlinkingOptions& options, const Hypotheses& hypotheses, int runs) {
   int wrong_runs = 0;
   for (int run = 0; run < runs; ++run) {
@@ -126,7 +125,7 @@ int wrongRuns(const BlinkingOptions& options, const Hypotheses& hypotheses, int 
   return wrong_runs;
 }
 
-/// More than this happen by chance in one test of a thousand, when `expected` do on average.
+/// Number of errors that one test of a thousand exceeds by chance, when `expected` is the mean.
 int poissonBound(double expected) {
   double term = std::exp(-expected);
   double sum = term;
@@ -187,15 +186,15 @@ TEST(Hypotheses, RememberThreePeriodsAtLeast) {
   EXPECT_DOUBLE_EQ(Hypotheses(oneWord(), {}, 1.0).memory(), 1.0);
 }
 
-TEST(Evidence, DarknessIsNeverWorseThanSomethingInTheWay) {
+TEST(Evidence, DarknessIsNeverLessLikelyThanOcclusion) {
   const SeeingModel seeing;
   const Hypotheses hypotheses(oneWord(), seeing, 1.0);
   Evidence evidence(hypotheses);
   evidence.reset(0.0);
   Eigen::ArrayXf cells(static_cast<Eigen::Index>(hypotheses.cells()));
   double steady = 0.0;
-  // It counts as of its beginning, and fades with the memory; for longer than numbers are kept in
-  // one scale.
+  // Darkness counts from its beginning and fades with the memory; 2000 images exceed the range in
+  // which numbers keep one scale.
   for (int i = 0; i < 2000; ++i) {
     const double time = 0.01 * i;
     evidence.add({0, time, 0.001, false});
@@ -204,7 +203,7 @@ TEST(Evidence, DarknessIsNeverWorseThanSomethingInTheWay) {
     ASSERT_GE(cells.minCoeff(), least) << time;
     ASSERT_GE(steady, least) << time;
   }
-  // Seen again: what is left of the darkness, and the light.
+  // Seen again: the faded darkness, and the light.
   evidence.add({0, 20.0, 0.001, true});
   evidence.read(&cells, &steady);
   EXPECT_NEAR(steady, std::log(seeing.seen_when_on), 1e-6);

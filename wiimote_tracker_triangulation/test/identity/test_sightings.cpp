@@ -1,4 +1,4 @@
-// What images say about LEDs that blink, and tracks that live through their darkness.
+// Sightings of blinking LEDs in images, and tracks that survive dark intervals.
 #include "identity/blinking.h"
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
@@ -71,20 +71,20 @@ class Sightings : public testing::Test {
   SnapshotSightings sightings_{{0.002, 24.0}};
 };
 
-TEST_F(Sightings, SeenAndNotSeenByThoseThatLookThere) {
+TEST_F(Sightings, SeenAndNotSeenByCamerasThatLookThere) {
   see(0, {0, 0}, 7);
   see(1, {100, 0}, 8);
   EXPECT_EQ("s0u1", collect());
   EXPECT_EQ("", collect()) << "the same images again";
 }
 
-TEST_F(Sightings, AnImageThatNeedNotShowItSaysNothing) {
+TEST_F(Sightings, AnImageThatNeedNotShowItIsNoEvidence) {
   see(0, {9, 0}, 8);               // perhaps both in one spot
   snapshot_.views[1].full = true;  // perhaps crowded out
   EXPECT_EQ("", collect());
 }
 
-TEST_F(Sightings, ASpotThatMayBeAnotherLedsSaysNothing) {
+TEST_F(Sightings, ASpotThatMayBeAnotherLedsIsNoEvidence) {
   see(0, {9, 0}, 7);
   tracking::TrackedLed other = snapshot_.leds[0];
   other.id = 8;
@@ -93,11 +93,10 @@ TEST_F(Sightings, ASpotThatMayBeAnotherLedsSaysNothing) {
   EXPECT_EQ("", collect()) << "either LED's light";
   snapshot_.views[0].time = 9.996;
   snapshot_.leds[1].state = tracking::TrackState::kTentative;
-  EXPECT_EQ(1u, sightings_.collect(rig_, snapshot_).size())
-      << "not that of one that is not believed";
+  EXPECT_EQ(1u, sightings_.collect(rig_, snapshot_).size()) << "a tentative LED does not count";
 }
 
-TEST_F(Sightings, WhereLightIsIgnoredNothingIsSeen) {
+TEST_F(Sightings, MaskedRegionsSeeNothing) {
   rig_.cameras[1].masks.push_back({*rig_.cameras[1].camera.project(Eigen::Vector3d::Zero()), 20.0});
   EXPECT_EQ("u0", collect());
 }
@@ -114,8 +113,8 @@ TEST_F(Sightings, LostLedsAreForgotten) {
   EXPECT_EQ(nullptr, identifier.identityOf(7));
 }
 
-/// An LED with a label of the codes, among the first `cameras` of the paper's rig: how often it was
-/// tracked, under which ids, and what it was called in the end.
+/// An LED with a label of the codes, seen by the first `cameras` of the paper's rig: how often it
+/// was tracked, its ids, and its final label.
 struct Followed {
   std::set<std::uint32_t> ids;
   std::size_t tracked = 0, predicted = 0, lost = 0;
@@ -155,7 +154,7 @@ Followed follow(const BlinkCodes& codes, double period, std::size_t label, std::
   }
 }
 
-TEST(BlinkingTracks, LiveThroughDarkness) {
+TEST(BlinkingTracks, SurviveDarkness) {
   const BlinkCodes paper = paperCodes(0.11, 0.25);
   const BlinkCodes words = fourWords();
   for (const std::size_t cameras : {2, 4}) {

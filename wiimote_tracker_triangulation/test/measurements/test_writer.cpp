@@ -1,5 +1,5 @@
-// Tables of measurements: every number comes back bit for bit, files are whole or not there, and
-// what goes wrong is said. How programs of others read the MATLAB file: test_track_bag.py.
+// Tables of measurements: numbers survive bit for bit, files are complete or absent, errors are
+// reported. test_track_bag.py reads the MATLAB file with other programs.
 #include "measurements/writer.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
@@ -165,7 +165,7 @@ TEST_F(WriterTest, CsvGivesNumbersBackBitForBit) {
   }
 }
 
-TEST_F(WriterTest, CsvDoesNotKnowAboutLocales) {
+TEST_F(WriterTest, CsvIgnoresLocales) {
   for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) {
     if (std::setlocale(LC_ALL, name))
       break;
@@ -197,7 +197,7 @@ TEST_F(WriterTest, NeverSaysMinusNan) {
   EXPECT_EQ("nan", written({m}).at(0).at(27));
 }
 
-TEST_F(WriterTest, TheFileHasItsNameWhenItIsWhole) {
+TEST_F(WriterTest, TheFileGetsItsNameWhenComplete) {
   const fs::path path = folder_ / "new folder" / "out.csv";
   {
     const auto writer = makeCsvWriter(path.string());
@@ -216,7 +216,7 @@ TEST_F(WriterTest, TheFileHasItsNameWhenItIsWhole) {
   EXPECT_LT(contentOf(path).size(), first.size());
 }
 
-TEST_F(WriterTest, SaysWhatToDoWhenItCannotWrite) {
+TEST_F(WriterTest, AdvisesWhenItCannotWrite) {
   std::ofstream(folder_ / "file").put('x');
   for (const fs::path& path : {folder_ / "file" / "out", folder_}) {
     for (const auto make : {makeCsvWriter, makeMatlabWriter}) {

@@ -77,7 +77,7 @@ void KnownModeBound::observe(const geometry::Camera& camera,
   const Eigen::Matrix2d S =
       H * gain.topRows(3) + pixel_stddev * pixel_stddev * Eigen::Matrix2d::Identity();
   P_ -= (gain * S.inverse() * gain.transpose()).eval();
-  P_ = (0.5 * (P_ + P_.transpose())).eval();  // what rounding parts would part for ever
+  P_ = (0.5 * (P_ + P_.transpose())).eval();  // else asymmetry from rounding grows
 }
 
 }  // namespace wiimote_tracker::motion::test

@@ -31,9 +31,9 @@ class SingerTruth {
   Eigen::Matrix3d state_ = Eigen::Matrix3d::Zero();  // columns: position, velocity, acceleration
 };
 
-/// Posterior Cramer-Rao bound of the position of a SingerTruth, for who knows when it moves: the
-/// recursion of Tichavsky, Muravchik and Nehorai (IEEE Trans. SP 46(5), 1998), as a covariance, the
-/// pixels' derivatives taken at the truth.
+/// Posterior Cramer-Rao bound of the position of a SingerTruth, for an observer that knows when it
+/// moves: the recursion of Tichavsky, Muravchik and Nehorai (IEEE Trans. SP 46(5), 1998), as a
+/// covariance, with the pixels' derivatives at the truth.
 class KnownModeBound {
  public:
   KnownModeBound(double stddev,

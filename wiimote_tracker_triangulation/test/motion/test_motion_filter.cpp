@@ -42,7 +42,7 @@ Vector2d noisyPixel(const Camera& camera, const Vector3d& point, Random& random)
   return *camera.project(point) + kPixelStddev * Vector2d(u, random.gaussian());
 }
 
-/// As a tracker does with each image. False when the LED is not before the camera.
+/// Takes an image as a tracker does. False when the LED is not in front of the camera.
 bool takeIn(MotionFilter* filter, double time, const Camera& camera, const Vector2d& pixel) {
   filter->predict(time);
   const auto prediction = filter->predictPixel(camera, {kPixelStddev, 0.0});
@@ -53,7 +53,7 @@ double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).norm() / b.norm();
 }
 
-/// A path with everything in it: still, a sudden start, a curve, a sudden stop.
+/// A path with rest, a sudden start, a curve and a sudden stop.
 Vector3d variedPath(double time) {
   if (time < 0.5)
     return {0.2, 0.1, 0.3};
@@ -170,7 +170,7 @@ TEST(PixelPrediction, IsTheMixturesDensityAndMoments) {
   EXPECT_TRUE(std::isnan(prediction->squaredDistance({NAN, 0.0})));
 }
 
-TEST(PixelPrediction, AGateLetsThroughWhatIsWithinAndNothingElse) {
+TEST(PixelPrediction, AGateAcceptsExactlyThePixelsWithin) {
   const Camera camera = ring()[1];
   MotionFilter filter(kDefault, 0.0, {0.1, 0.2, 0.3}, 1e-6 * Matrix3d::Identity());
   Random random(13);
@@ -199,7 +199,7 @@ TEST(PixelPrediction, AGateLetsThroughWhatIsWithinAndNothingElse) {
   EXPECT_GT(within, 3000);
 }
 
-TEST(PixelPrediction, AnUncertainStampSmearsAlongTheWay) {
+TEST(PixelPrediction, AnUncertainStampAddsNoiseAlongTheMotion) {
   const std::vector<Camera> cameras = ring();
   MotionFilter filter(kDefault, 0.0, Vector3d(-0.2, 0.0, 0.1), 1e-6 * Matrix3d::Identity());
   Random random(4);
@@ -222,7 +222,7 @@ TEST(PixelPrediction, AnUncertainStampSmearsAlongTheWay) {
   EXPECT_LT(relative(smeared->covariance() - exact->covariance(), expected), 1e-4);
 }
 
-/// Errors beside a bound, and whether the covariance tells the truth about them.
+/// Errors relative to a bound, and the consistency of the covariance.
 struct Accuracy {
   double squared = 0.0;
   double bound = 0.0;
@@ -373,7 +373,7 @@ TEST(MotionFilter, GrowsUncertainInAGapAndFindsBack) {
     ASSERT_TRUE(filter.position().allFinite());
     ASSERT_EQ(Eigen::Success, filter.positionCovariance().llt().info());
     if (gap > 10.0)
-      continue;  // nothing is known of where it is
+      continue;  // its position is unknown
     const Vector3d truth = variedPath(end);
     const Vector3d error = filter.position() - truth;
     EXPECT_LT(error.dot(filter.positionCovariance().llt().solve(error)), 16.3);  // 99.9 %
@@ -383,7 +383,7 @@ TEST(MotionFilter, GrowsUncertainInAGapAndFindsBack) {
   }
 }
 
-TEST(MotionFilter, OneCameraAloneDoesNotPretendToKnowTheDistance) {
+TEST(MotionFilter, OneCameraAloneLeavesTheDistanceUncertain) {
   constexpr int kRuns = 150;
   constexpr double kRadius = 0.75, kSpeed = 1.0;
   const std::vector<Camera> cameras = ring();
@@ -410,14 +410,14 @@ TEST(MotionFilter, OneCameraAloneDoesNotPretendToKnowTheDistance) {
       }
     }
   }
-  // Nine of ten and more, less four standard deviations of so many runs.
+  // At least 90 %, less four standard deviations for this number of runs.
   const double least = 0.9 * kRuns - 4.0 * std::sqrt(0.9 * 0.1 * kRuns);
   for (std::size_t i = 0; i < alone.size(); ++i)
     EXPECT_GT(inside[i], least) << alone[i];
 }
 
 TEST(MotionFilter, IteratesFromAPoorStart) {
-  // Depth all but unknown: a single linearisation would miss by several standard deviations.
+  // Depth almost unknown: a single linearisation would miss by several standard deviations.
   const std::vector<Camera> cameras = ring();
   const Vector3d truth(0.1, 0.2, 0.3);
   const Vector3d away = (truth - cameras[0].center()).normalized();
@@ -450,7 +450,7 @@ TEST(MotionFilter, TheOrderOfImagesOfOneTimeMakesNoDifference) {
     ASSERT_TRUE(takeIn(&forwards, time, cameras[i], pixels[i]));
     ASSERT_TRUE(takeIn(&backwards, time, cameras[3 - i], pixels[3 - i]));
   }
-  // But for where each was linearised: a small part of the standard deviation.
+  // They differ only in the point of linearisation: a small part of the standard deviation.
   const double stddev = std::sqrt(forwards.positionCovariance().trace());
   EXPECT_LT((forwards.position() - backwards.position()).norm(), 0.01 * stddev);
   EXPECT_LT(relative(forwards.positionCovariance(), backwards.positionCovariance()), 0.01);
@@ -504,9 +504,8 @@ TEST(MotionFilter, AbsurdInputIsRefusedOrSurvived) {
   EXPECT_FALSE(behind.predictPixel(camera, {kPixelStddev, 0.0}));
 }
 
-TEST(MotionFilter, StaysANumberWhateverIsTakenIn) {
-  // Spots that no gate would let through, one after the other, at any distance in time and image;
-  // with modes that are left out, too.
+TEST(MotionFilter, StaysFiniteForAnySpot) {
+  // Successive spots beyond any gate, at any distance in time and image; also with modes left out.
   const std::vector<Camera> cameras = ring();
   Random random(15);
   for (int run = 0; run < 300; ++run) {

@@ -16,8 +16,8 @@ Eigen::Vector3d noise(std::mt19937_64& random, double stddev) {
   return Eigen::Vector3d(x, y, normal(random));
 }
 
-// A point is inside when some distribution of weights over the points has its mean there: a second
-// implementation, by construction, and by a separating plane.
+// Two independent tests: a point is inside when weights of the points have their mean there, and
+// outside when a plane separates it.
 TEST(ConvexHull, holds_all_mixtures_of_its_points_and_nothing_beyond) {
   std::mt19937_64 random(16);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);

@@ -1,4 +1,4 @@
-// What a correction of the volume does to points, against formulas written out by hand.
+// What a volume correction does to points, compared with formulas written out by hand.
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/remap/correction.h"
 
@@ -57,7 +57,7 @@ TEST(Correction, a_point_outside_is_displaced_as_the_border_before_it) {
   EXPECT_FALSE(point->inside);
   // At the border, x = 2, the model adds 0.5.
   EXPECT_LT((point->position - Eigen::Vector3d(101.5, 2.0, 1.1)).norm(), 1e-12);
-  // All along that line: the error of x stays as it is.
+  // All along that line the displacement stays the same.
   EXPECT_NEAR(point->covariance(0, 0), 1.0, 1e-12);
 }
 
@@ -106,13 +106,13 @@ TEST(Correction, the_derivative_is_that_of_the_positions_inside_and_outside) {
   }
 }
 
-TEST(Correction, what_is_no_point_is_not_corrected) {
+TEST(Correction, points_that_are_not_finite_are_not_corrected) {
   const Correction correction(stretched(), kRig);
   EXPECT_FALSE(correction.apply({NAN, 1.0, 1.0}, Eigen::Matrix3d::Identity()));
   EXPECT_FALSE(correction.apply({1.0, HUGE_VAL, 1.0}, Eigen::Matrix3d::Identity()));
 }
 
-TEST(Correction, another_calibration_and_damage_are_refused_in_their_own_words) {
+TEST(Correction, another_calibration_and_damage_are_refused_with_different_texts) {
   const auto says = [](Remap remap, const std::string& rig, const std::string& part) {
     try {
       Correction(remap, rig);

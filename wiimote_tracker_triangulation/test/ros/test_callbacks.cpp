@@ -1,5 +1,5 @@
-// How images reach the tracker: in order, bounded, and with nothing that a callback throws, or a
-// tracker that ends, stopping the process.
+// Image callbacks: in order and bounded; neither an exception in one nor the end of a tracker stops
+// the process.
 #include "geometry/random_rigs.h"
 #include "ros/callbacks.h"
 #include "ros/triangulation.h"
@@ -31,7 +31,7 @@ using wiimote_tracker_msgs::IrBlobArray;
 
 constexpr auto kDeadline = std::chrono::seconds(60);
 
-/// A callback queue that is called when the test says so.
+/// A callback queue that the test calls.
 class Callbacks : public ::testing::Test {
  protected:
   Callbacks() { nh_.setCallbackQueue(&queue_); }

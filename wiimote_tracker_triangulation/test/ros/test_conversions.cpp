@@ -52,7 +52,7 @@ Rig fullRig() {
   return rig;
 }
 
-/// A bare lens, a wide one with four coefficients, another bare one; a correction of the volume.
+/// A pinhole, a wide lens with four coefficients, another pinhole; a volume correction.
 Rig correctedRig() {
   Random random(63);
   Rig rig = fullRig();
@@ -65,7 +65,7 @@ Rig correctedRig() {
   return rig;
 }
 
-TEST(Conversions, MessageSaysWhatTheRigSays) {
+TEST(Conversions, MessageEqualsTheRig) {
   const Rig rig = fullRig();
   const RigCalibration message = toMessage(rig);
   EXPECT_EQ("world", message.header.frame_id);
@@ -170,7 +170,7 @@ TEST(Conversions, ACorrectionOfTheVolumeIsInTheMessage) {
   EXPECT_THROW(fromMessage(damaged), geometry::Error);
 }
 
-TEST(Conversions, RefusesWhatItDoesNotUnderstand) {
+TEST(Conversions, RefusesInvalidMessages) {
   const auto complaint = [](const std::function<void(RigCalibration&)>& change) -> std::string {
     RigCalibration message = toMessage(fullRig());
     change(message);

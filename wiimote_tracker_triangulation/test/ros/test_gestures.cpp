@@ -36,7 +36,8 @@ Vector3d corner(double s) {
   return s < 0.5 ? Vector3d(0.0, 0.8 * s, 0.0) : Vector3d(0.0, 0.4, -0.8 * (s - 0.5));
 }
 
-/// Draws, and collects what comes back; one for all tests, which follow each other in time.
+/// Publishes drawings and collects the answers; shared by all tests, which follow each other in
+/// time.
 class Bench {
  public:
   Bench() {
@@ -87,7 +88,7 @@ class Bench {
     time_ += 0.01;
   }
 
-  /// The button is held for the next second; the news of its release comes early.
+  /// The button is held for the next second; its release is published early.
   void holdButton() {
     sensor_msgs::Joy joy;
     for (const bool pressed : {true, false}) {
@@ -95,10 +96,10 @@ class Bench {
       joy.buttons = {0, 0, pressed};
       joy_.publish(joy);
     }
-    list();  // an answer: the news has gone ahead of what comes next, by half a second at least
+    list();  // its answer shows that the button events have arrived
   }
 
-  /// A gesture with whatever marks its beginning and end, 1 s long.
+  /// A gesture with its boundaries, 1 s long.
   void draw(const std::function<Vector3d(double)>& curve, const Vector3d& place) {
     const bool rests = boundary_ != "light";
     const auto at = [&](double s) { return Vector3d(place + curve(s)); };
@@ -240,7 +241,7 @@ TEST_F(GesturesTest, ZonesHaveTheirOwn) {
   EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
   bench_->draw(circle, {12.0, 0.0, 1.0});
   bench_->draw(circle, {2.0, 0.0, 1.0});
-  // In the studio nothing is known, so that nothing is said.
+  // The studio has no gestures, so none is reported.
   const GestureEvent event = bench_->nextEvent();
   EXPECT_EQ(event.event, GestureEvent::RECOGNISED);
   EXPECT_EQ(event.zone, "kitchen");
@@ -261,7 +262,7 @@ TEST_F(GesturesTest, GoOnAfterABagStartsOver) {
 
 class ContinuousGesturesTest : public GesturesTest {};
 
-TEST_F(ContinuousGesturesTest, AreFoundInMotionThatGoesOn) {
+TEST_F(ContinuousGesturesTest, AreFoundInContinuousMotion) {
   ASSERT_EQ(bench_->record("circle"), "");
   bench_->draw(circle, {0.0, 0.0, 1.0});
   EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
@@ -282,7 +283,7 @@ TEST_F(ContinuousGesturesTest, AreFoundInMotionThatGoesOn) {
   EXPECT_GE(found.score, 0.7);
   EXPECT_NEAR(found.begin.toSec(), begin, 0.2);
   EXPECT_NEAR(found.end.toSec(), begin + 1.0, 0.2);
-  // The light goes out right after it, and it is told nevertheless.
+  // It is reported although the light goes out right after it.
   on(circle, {1.0, 0.6, 0.6});
   for (int i = 0; i < 40; ++i)
     bench_->publish(nullptr);

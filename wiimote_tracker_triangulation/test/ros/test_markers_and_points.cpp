@@ -1,4 +1,4 @@
-// What rviz and the consumers of points get to see of a snapshot.
+// Markers and point messages of a snapshot.
 #include "geometry/random_rigs.h"
 #include "ros/marker_builder.h"
 #include "ros/point_message.h"
@@ -84,7 +84,7 @@ const Marker& find(const MarkerArray& array, const std::string& ns, int id) {
   throw std::logic_error("no marker " + ns + " " + std::to_string(id));
 }
 
-TEST(PointMessage, SaysWhatIsKnownAndNoMore) {
+TEST(PointMessage, HoldsOnlyKnownValues) {
   const Rig rig = threeCameras();
   const auto message = messageOf(someSnapshot(rig), rig);
   EXPECT_EQ(ros::Time(100.0), message.header.stamp);
@@ -143,7 +143,7 @@ TEST(PointMessage, IsEmptyWithoutALed) {
   EXPECT_EQ(ros::Time(100.0), message.header.stamp);
 }
 
-TEST(PointMessage, OnlyWhatIsSeenIsAPosition) {
+TEST(PointMessage, OnlyObservedLedsHaveAPosition) {
   TrackedPoint point;
   for (const bool publish_predicted : {false, true}) {
     point.state = TrackedPoint::TENTATIVE;
@@ -175,7 +175,7 @@ TEST(VolumeCorrection, MovesPositionsAndVelocities) {
   correction.apply(raw.snapshot, &corrected);
   ASSERT_EQ(2u, corrected.snapshot.leds.size());
   EXPECT_EQ((std::vector<bool>{true, false}), corrected.remapped);
-  // The velocity is what positions along the way say.
+  // The velocity matches differences of corrected positions.
   constexpr double kStep = 1e-6;
   CorrectedSnapshot later = raw;
   later.snapshot.leds[0].position += kStep * *raw.snapshot.leds[0].velocity;
@@ -280,7 +280,7 @@ TEST(Markers, EllipsoidHolds95Percent) {
   EXPECT_NEAR(0.95, static_cast<double>(inside) / kDraws, 0.003);
 }
 
-TEST(Markers, ALostPointIsTakenAwayAndTheTrailFades) {
+TEST(Markers, ALostPointIsRemovedAndTheTrailFades) {
   const Rig rig = threeCameras();
   MarkerOptions options;
   options.trail_duration = 1.0;
@@ -321,7 +321,7 @@ TEST(Markers, EveryLedIsDrawnWithItsName) {
   EXPECT_LT(find(array, "point", 3).color.a, find(array, "point", 0).color.a)
       << "what is not seen is pale";
   EXPECT_EQ(Marker::ADD, find(array, "covariance", 3).action);
-  // One that is there no more without ever having been called lost is taken away too.
+  // A point that vanishes without being reported lost is removed too.
   corrected.snapshot.leds.pop_back();
   corrected.snapshot.time = 100.1;
   array = draw(&builder, corrected, rig);
@@ -329,7 +329,7 @@ TEST(Markers, EveryLedIsDrawnWithItsName) {
   EXPECT_EQ(Marker::ADD, find(array, "point", 0).action);
 }
 
-TEST(Markers, ShowWhatIsMaskedAndWhatBelongsToNoLed) {
+TEST(Markers, ShowMaskedAndUnassignedSpots) {
   Rig rig = threeCameras();
   rig.cameras[0].masks = {{{300.0, 200.0}, 25.0}};
   MarkerOptions options;
@@ -356,7 +356,7 @@ TEST(Markers, ShowWhatIsMaskedAndWhatBelongsToNoLed) {
   EXPECT_EQ(4u, find(array, "ray", 0).points.size()) << "none of the masked spot";
 }
 
-TEST(Markers, WhatACameraSawLongAgoIsNotDrawn) {
+TEST(Markers, OldSpotsAreNotDrawn) {
   const Rig rig = threeCameras();
   MarkerBuilder builder({});
   builder.setRig(rig);

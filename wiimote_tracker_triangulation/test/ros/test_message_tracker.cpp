@@ -1,4 +1,4 @@
-// Messages in, messages out, in both modes: what node and track_bag have in common.
+// The code that node and track_bag share, in both modes: messages in, messages out.
 #include "geometry/random_rigs.h"
 #include "ros/message_tracker.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
@@ -36,8 +36,8 @@ using wiimote_tracker_msgs::ZoneEvent;
 constexpr double kPeriod = 0.01;
 constexpr double kDelay = 0.002;  // from exposure to arrival [s]
 
-// Exact pixels: what remains is what interpolation between images or the motion model make of a
-// circle of 0.5 m at 0.5 m/s, far below this [m].
+// Bound on errors with exact pixels, which come from interpolation or the motion model on a circle
+// of 0.5 m at 0.5 m/s [m].
 constexpr double kNear = 2e-3;
 
 using Paths = std::vector<std::function<Vector3d(double)>>;
@@ -80,7 +80,7 @@ TrackingParameters parametersOf(Mode mode) {
   return parameters;
 }
 
-/// A tracker before three cameras that film, each at its own phase, in the order of arrival.
+/// A tracker and three cameras, each with its own phase; images come in the order of arrival.
 class Studio {
  public:
   explicit Studio(const TrackingParameters& parameters) : tracker(parameters, &heard) {
@@ -172,7 +172,7 @@ TEST_P(InBothModes, SeveralLedsHaveTheirLabelsAndPlaces) {
   parameters.labels = {"low", "high"};
   Studio studio(parameters);
   studio.film(1.0, {onCircle, besideCircle});
-  // Which of two that begin together is the first, nobody can know.
+  // The order of two LEDs that appear together is arbitrary.
   const bool swapped = studio.pointsOf("low", 1000.5).at(0).second.position.z > 0.4;
   studio.expectNear("low", 1000.5, swapped ? besideCircle : onCircle);
   studio.expectNear("high", 1000.5, swapped ? onCircle : besideCircle);
@@ -187,7 +187,7 @@ TEST_P(InBothModes, SeveralLedsHaveTheirLabelsAndPlaces) {
   EXPECT_TRUE(studio.heard.problems.empty());
 }
 
-TEST_P(InBothModes, ALostLedIsSaidOnceAndItsLabelIsGivenAgain) {
+TEST_P(InBothModes, ALostLedIsReportedOnceAndItsLabelReused) {
   Studio studio(parametersOf(GetParam()));
   studio.film(0.5, {onCircle});
   studio.film(5.0, {});
@@ -244,7 +244,7 @@ TEST_P(InBothModes, ABadRigIsRefusedAndTheOneBeforeStays) {
   RigCalibration bad = toMessage(studio.rig);
   bad.cameras[1].fx = -1.0;
   EXPECT_THROW(studio.tracker.takeRig(bad), geometry::Error);
-  // A transform from a frame to itself breaks everybody's TF.
+  // A transform from a frame to itself would break TF for all nodes.
   for (const std::string& frame : {std::string("led"), std::string("camera_9_optical_frame")}) {
     TrackingParameters parameters = parametersOf(GetParam());
     parameters.labels = {"led", "camera_9_optical_frame"};
@@ -265,7 +265,7 @@ TEST_P(InBothModes, BadImagesAreNamedOnceAndNeverInTheOutput) {
   Studio studio(parametersOf(GetParam()));
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   int turn = 0;
-  // The third camera sends all kinds of nonsense; the others are enough.
+  // The third camera sends invalid images; the others are enough.
   studio.spoil = [&](std::size_t camera, IrBlobArray* image) {
     if (camera != 2)
       return;
@@ -304,7 +304,7 @@ TEST_P(InBothModes, BadImagesAreNamedOnceAndNeverInTheOutput) {
     ASSERT_EQ(2u, point.rays_used) << time;
 }
 
-TEST_P(InBothModes, ABagThatStartsOverStartsAllAnew) {
+TEST_P(InBothModes, ABagThatStartsOverResetsAll) {
   Studio studio(parametersOf(GetParam()));
   studio.film(3.0, {onCircle});
   const std::size_t count = studio.heard.arrays.size();
@@ -319,7 +319,7 @@ TEST_P(InBothModes, ABagThatStartsOverStartsAllAnew) {
   EXPECT_EQ("led", last.points[0].label) << "the label is free again";
 }
 
-TEST_P(InBothModes, ZonesAreEnteredAndLeftOnTheWay) {
+TEST_P(InBothModes, ZonesAreEnteredAndLeft) {
   Studio studio(parametersOf(GetParam()));
   studio.rig.zones = {{"right", {0.3, -1.0, -1.0}, {1.0, 1.0, 1.0}}};
   studio.tracker.takeRig(toMessage(studio.rig));
@@ -345,10 +345,10 @@ TEST_P(InBothModes, ATriggerGetsThePointsOfItsTime) {
   std_msgs::Header trigger;
   trigger.stamp = ros::Time(1000, 712345678);
   studio.tracker.takeTrigger(trigger);
-  ASSERT_EQ(1u, studio.heard.triggered.size()) << "it lies back";
+  ASSERT_EQ(1u, studio.heard.triggered.size()) << "its time is past";
   trigger.stamp.fromSec(studio.now + 0.5);
   studio.tracker.takeTrigger(trigger);
-  EXPECT_EQ(1u, studio.heard.triggered.size()) << "it has not been filmed";
+  EXPECT_EQ(1u, studio.heard.triggered.size()) << "no image of its time yet";
   studio.film(1.0, {onCircle});
   ASSERT_EQ(2u, studio.heard.triggered.size());
   EXPECT_EQ(ros::Time(1000, 712345678), studio.heard.triggered[0].header.stamp);
@@ -369,7 +369,7 @@ TEST_P(InBothModes, ATriggerGetsThePointsOfItsTime) {
   EXPECT_EQ(2u, studio.heard.triggered.size());
 }
 
-TEST_P(InBothModes, OutputAtARateIsThinnedAndLosesNoLoss) {
+TEST_P(InBothModes, OutputAtARateKeepsEveryLoss) {
   TrackingParameters parameters = parametersOf(GetParam());
   parameters.output.on_update = false;
   parameters.output.rate = 20.0;
@@ -409,7 +409,7 @@ bool isInEllipsoid(const Vector3d& error, const Covariance& row_major) {
   return error.dot(covariance.ldlt().solve(error)) < 7.815;
 }
 
-TEST(Identity, LedsThatBlinkHaveTheirLabelsAndAreFollowedThroughTheDark) {
+TEST(Identity, BlinkingLedsKeepTheirLabelsThroughDarkness) {
   constexpr double kChip = 0.023;
   const std::vector<std::string> words = {"01011111", "01010101"};
   TrackingParameters parameters = parametersOf(Mode::kTracks);

@@ -1,4 +1,4 @@
-// The shipped YAML and the defaults in the code say the same; what is wrong is refused by name.
+// The shipped YAML equals the defaults in the code; wrong values are refused by name.
 #include "documented_parameters.h"
 #include "ros/gestures/gesture_parameters.h"
 #include "ros/parameters.h"
@@ -38,7 +38,7 @@ TEST(Parameters, EveryNumberIsReadAndBounded) {
   EXPECT_EQ(67u, defaults.ranges().size());
   for (const auto& [key, range] : defaults.ranges()) {
     ros::NodeHandle nh("~bounded");
-    // Below what every key may be, as the whole number that some must be.
+    // Below every range, and an integer, as some parameters require.
     nh.setParam(key, -1000000000);
     try {
       read(nh);
@@ -51,7 +51,7 @@ TEST(Parameters, EveryNumberIsReadAndBounded) {
   }
 }
 
-TEST(Parameters, WhatIsSetIsTaken) {
+TEST(Parameters, SetValuesAreRead) {
   ros::NodeHandle nh("~set");
   nh.setParam("labels", std::vector<std::string>{"left", "right_hand"});
   nh.setParam("mode", "instant");
@@ -75,7 +75,7 @@ TEST(Parameters, WhatIsSetIsTaken) {
   EXPECT_TRUE(p.output.publish_predicted);
 }
 
-TEST(Parameters, BlinkCodesSayWhatTheyAskOfTheTracker) {
+TEST(Parameters, BlinkCodesSetTheTrackersOptions) {
   ros::NodeHandle nh("~blinking");
   nh.setParam("identity/codes", CONFIG_FOLDER "/blink_codes_paper.yaml");
   const TrackingParameters p = read(nh);
@@ -91,7 +91,7 @@ TEST(Parameters, BlinkCodesSayWhatTheyAskOfTheTracker) {
   EXPECT_TRUE(describeIdentity(TrackingParameters()).empty());
 }
 
-TEST(Parameters, EveryMethodHasItsWord) {
+TEST(Parameters, EveryMethodHasAName) {
   using geometry::TriangulationMethod;
   tracking::EstimatorOptions options;
   EXPECT_EQ("track", methodWord(options));
@@ -109,7 +109,7 @@ TEST(Parameters, EveryMethodHasItsWord) {
   }
 }
 
-TEST(Parameters, WhatIsWrongIsNamedInFull) {
+TEST(Parameters, WrongValuesAreNamedByTheirFullKey) {
   const auto refuses = [](const std::string& key, const XmlRpc::XmlRpcValue& value) {
     ros::NodeHandle nh("~wrong");
     nh.setParam(key, value);

@@ -1,4 +1,4 @@
-// What the node knows besides tracking: names of LEDs, bad images, clocks, lenses, statistics.
+// Parts of the node besides tracking: labels, bad images, clocks, lenses, statistics.
 #include "geometry/random_rigs.h"
 #include "ros/clock_watch.h"
 #include "ros/image_message.h"
@@ -89,7 +89,7 @@ TEST(LedLabels, AreAllFreeWhenTimeStartsAnew) {
   EXPECT_EQ("a", labels.of(2).name);
 }
 
-/// One camera sees LED `id` for 2 s from `start` on: as word 0 of two, or always.
+/// One camera sees LED `id` for 2 s from `start` on: blinking as word 0 of two, or steady.
 void see(identity::Identifier* identifier, std::uint32_t id, double start, bool steady) {
   for (double time = start; time < start + 2.0; time += 0.01) {
     const double phase = std::fmod((time - start) / 0.184, 1.0);
@@ -97,7 +97,7 @@ void see(identity::Identifier* identifier, std::uint32_t id, double start, bool 
   }
 }
 
-TEST(LedLabels, AreToldByBlinking) {
+TEST(LedLabels, ComeFromBlinking) {
   identity::Identifier identifier(
       identity::cyclicCodes({{"left", "01111111"}, {"right", "01010111"}}, 0.023, 0.001), {});
   LedLabels labels({"lamp"});
@@ -116,7 +116,7 @@ TEST(LedLabels, AreToldByBlinking) {
   EXPECT_GT(labels.of(1).confidence, 0.999);
   EXPECT_EQ(102.0, labels.of(1).since);
 
-  // A label that was told is kept in the dark, and in the message that says that its LED is lost.
+  // A label from blinking is kept in the dark, and in the message that reports the loss.
   labels.update({led(1, TrackState::kPredicted)}, &identifier);
   EXPECT_EQ("left", labels.of(1).name);
   identifier.forget(1);
@@ -124,7 +124,7 @@ TEST(LedLabels, AreToldByBlinking) {
   EXPECT_EQ("left", labels.of(1).name);
 }
 
-TEST(LedLabels, GoToWhomTheEvidenceSays) {
+TEST(LedLabels, FollowTheEvidence) {
   identity::Identifier identifier(
       identity::cyclicCodes({{"left", "01111111"}, {"right", "01010111"}}, 0.023, 0.001), {});
   LedLabels labels({"lamp"});
@@ -173,7 +173,7 @@ IrBlobArray goodImage(const geometry::Camera& camera) {
   return image;
 }
 
-TEST(ImageMessage, IsReadAsItStands) {
+TEST(ImageMessage, IsReadUnchanged) {
   const geometry::Camera camera = someRig(1).cameras[0].camera;
   tracking::CameraImage image;
   EXPECT_EQ(ImageFault::kNone, readImage(goodImage(camera), camera, &image));
@@ -188,7 +188,7 @@ TEST(ImageMessage, IsReadAsItStands) {
   EXPECT_EQ(3, image.spots[1].slot);
 }
 
-TEST(ImageMessage, UnknownIsUnknown) {
+TEST(ImageMessage, UnknownValuesStayUnknown) {
   const geometry::Camera camera = someRig(1).cameras[0].camera;
   IrBlobArray message = goodImage(camera);
   message.camera = message.identity = "";
@@ -204,7 +204,7 @@ TEST(ImageMessage, UnknownIsUnknown) {
   EXPECT_GT(image.maximum_spots, 1000000u) << "no number of spots means that the image is full";
 }
 
-TEST(ImageMessage, ImpossibleSpotsAreLeftOut) {
+TEST(ImageMessage, ImpossibleSpotsAreOmitted) {
   const geometry::Camera camera = someRig(1).cameras[0].camera;
   const double width = camera.intrinsics.width;
   const double height = camera.intrinsics.height;
@@ -234,7 +234,7 @@ TEST(ImageMessage, ImpossibleSpotsAreLeftOut) {
   EXPECT_EQ(ImageFault::kNone, readImage(message, camera, &image)) << "the border is inside";
 }
 
-TEST(ImageMessage, OfNoUseIsNamed) {
+TEST(ImageMessage, UnusableImagesAreNamed) {
   const geometry::Camera camera = someRig(1).cameras[0].camera;
   const auto says = [&](const IrBlobArray& message, ImageFault expected, const std::string& words) {
     tracking::CameraImage image;
@@ -288,7 +288,7 @@ TEST(ClockWatch, FindsAClockThatIsAhead) {
   ASSERT_TRUE(watch.ahead(1));
   EXPECT_NEAR(0.1, *watch.ahead(1), 1e-12);
   EXPECT_FALSE(watch.ahead(2));
-  // From the future, also without others to compare with.
+  // Stamps in the future, also without other cameras to compare with.
   watch.clear(1);
   watch.add(0, -0.1);
   ASSERT_TRUE(watch.ahead(0));
@@ -310,7 +310,7 @@ TEST(ClockWatch, FindsTheOneThatIsBehindTheOthers) {
   EXPECT_FALSE(watch.ahead(1));
 }
 
-TEST(ClockWatch, TakesADelayThatAllHaveForADelay) {
+TEST(ClockWatch, ACommonDelayIsNoClockError) {
   ClockWatch watch(0.02);
   watch.clear(3);
   for (std::size_t camera = 0; camera < 3; ++camera)
@@ -358,7 +358,7 @@ TEST(LensCheck, NamesAContradiction) {
   EXPECT_TRUE(contradicts([](auto& i) { i.width += 1; }));
 }
 
-TEST(Statistics, CountsEachViewOnceAndNotWhatIsMasked) {
+TEST(Statistics, CountsEachViewOnceWithoutMaskedSpots) {
   const Rig rig = someRig(2);
   Statistics statistics;
   statistics.setRig(rig);
@@ -423,7 +423,7 @@ TEST(Statistics, CountsLostImagesByTheGapsInTheirNumbers) {
   statistics.addImage(0, image, 11);
   EXPECT_EQ(1u, statistics.camera(0).lost) << "of which the last one came before clear()";
   statistics.addImage(0, image, 0);  // its driver was started again
-  statistics.addImage(0, image, 0);  // or does not count
+  statistics.addImage(0, image, 0);  // or does not number its images
   EXPECT_EQ(1u, statistics.camera(0).lost);
 }
 

@@ -40,14 +40,13 @@ using wiimote_tracker_msgs::TrackedPoint;
 using wiimote_tracker_msgs::TrackedPointArray;
 
 constexpr double kPeriod = 0.01;
-// The order of topics is free within it, and a camera that is that much behind still counts.
+// Topics may overtake each other within it; a camera this late still counts.
 constexpr double kBatch = 0.02;
 
-// Exact pixels: what remains is what the motion model makes of a circle, far below this [m].
+// Bound on errors with exact pixels, which come from the motion model on a circle [m].
 constexpr double kNear = 2e-3;
 
-// Outputs in 0.2 s, however the images of different cameras overtake each other: those of the
-// camera whose images are the newest, but for the last one.
+// Outputs in 0.2 s for any order of arrival: one per image of the newest camera, less the last.
 constexpr std::size_t kFewest = 19;
 
 /// 0.5 m/s, in view of all cameras.
@@ -59,7 +58,7 @@ Vector3d otherLedAt(double t) {
   return ledAt(t) + Vector3d(0.0, 0.0, 0.4);
 }
 
-/// Collects everything and feeds cameras; one for all tests, which follow each other in time.
+/// Publishes images and collects all output; shared by all tests, which follow each other in time.
 class Bench {
  public:
   Bench() {
@@ -148,7 +147,7 @@ class Bench {
     return blobs;
   }
 
-  /// Films for a while with these cameras, batch by batch, each of which is awaited.
+  /// Publishes images of these cameras for a while in batches, and waits for the output of each.
   bool film(double duration, const std::vector<std::size_t>& cameras) {
     for (const double end = now_ + duration; now_ < end; now_ += kBatch) {
       for (const std::size_t c : cameras) {
@@ -157,7 +156,7 @@ class Bench {
           newest_[c] = std::max(newest_[c], t);
         }
       }
-      // Without a word from the others for 0.1 s, the cameras that film decide.
+      // Cameras without an image for 0.1 s are not waited for.
       double reached = now_ + kBatch;
       const double newest = *std::max_element(newest_.begin(), newest_.end());
       for (const double t : newest_) {
@@ -221,9 +220,9 @@ void expectOnPath(const TrackedPointArray& array, std::size_t rays) {
   EXPECT_LT(point.residual, 0.5);
 }
 
-// In the order in which they stand: each continues where the one before ended.
+// In this order: each test continues where the one before ended.
 
-TEST(Triangulation, SaysWhatToDoWithoutARig) {
+TEST(Triangulation, AdvisesWithoutARig) {
   EXPECT_TRUE(g_bench->waitForLog("calibrate, or load a saved rig"));
 }
 
@@ -265,7 +264,7 @@ TEST(Triangulation, PublishesThePointAlone) {
 TEST(Triangulation, PublishesTheTransform) {
   tf2_ros::Buffer buffer(ros::Duration(1000.0));
   tf2_ros::TransformListener listener(buffer, g_bench->nh_);
-  // From now on the listener hears; film until it has.
+  // Publishes until the listener is connected.
   ASSERT_TRUE(Bench::waitFor([&] {
     return g_bench->film(kBatch, {0, 1, 2}) && buffer.canTransform("world", "led", ros::Time(0));
   }));
@@ -291,7 +290,7 @@ TEST(Triangulation, GivesPointsAtAFixedRate) {
   ASSERT_TRUE(Bench::waitFor(arrives));
   const auto& arrays = g_bench->steady_arrays_;
   const std::size_t before = arrays.size();
-  // Not all at once: what it had to wait for would be too late for it.
+  // Batch by batch: images that wait too long would be too late.
   for (int batch = 0; batch < 50; ++batch) {
     ASSERT_TRUE(g_bench->film(kBatch, {0, 1, 2}));
     ASSERT_TRUE(Bench::waitFor(arrives));
@@ -370,7 +369,7 @@ TEST(Triangulation, ReportsDiagnosticsOfAllAndOfEachCamera) {
   }));
 }
 
-TEST(Triangulation, IgnoresACameraThatIsAnotherDeviceAndSaysSo) {
+TEST(Triangulation, IgnoresAndReportsACameraThatIsAnotherDevice) {
   std::string& identity = g_bench->rig_.cameras[1].camera.identity;  // of the images to come
   const std::string calibrated = identity;
   identity = "00:00:00:00:00:99";
@@ -434,7 +433,7 @@ TEST(Triangulation, GoesOnWhenOneCameraStopsAndWhenItComesBack) {
     expectOnPath(array, 3);
 }
 
-TEST(Triangulation, SaysWhenNothingIsSeen) {
+TEST(Triangulation, ReportsWhenNothingIsSeen) {
   const double begin = g_bench->now_;
   g_bench->leds_.clear();
   ASSERT_TRUE(g_bench->film(3.0, {0, 1, 2}));
@@ -455,7 +454,7 @@ TEST(Triangulation, SaysWhenNothingIsSeen) {
     EXPECT_LT(point.header.stamp.toSec(), begin + 0.06);
 }
 
-TEST(Triangulation, CallsEachOfSeveralLedsByItsName) {
+TEST(Triangulation, PublishesSeveralLedsUnderTheirLabels) {
   g_bench->leds_ = {ledAt, otherLedAt};
   const double begin = g_bench->now_;
   ASSERT_TRUE(g_bench->film(0.6, {0, 1, 2}));
@@ -499,7 +498,7 @@ TEST(Triangulation, AnswersATrigger) {
   EXPECT_TRUE(g_bench->waitForLog("there are no points for the trigger at 500"));
 }
 
-TEST(Triangulation, SaysWhoEntersAndLeavesAZone) {
+TEST(Triangulation, ReportsLedsThatEnterAndLeaveAZone) {
   const double begin = g_bench->now_;
   const Vector3d here = ledAt(begin);
   Rig rig = g_bench->rig_;
@@ -531,7 +530,7 @@ TEST(Triangulation, KeepsItsRigWhenABadOneComes) {
   }
 }
 
-/// Everything 0.1 m higher, measured between these heights.
+/// A correction that raises points by 0.1 m, measured between these heights.
 remap::Remap raised(const Rig& rig, double bottom, double top) {
   remap::Remap remap{rig.id(), remap::Model::kAffine, std::vector<double>(12, 0.0), {}};
   remap.parameters[2] = 0.1;
@@ -541,13 +540,13 @@ remap::Remap raised(const Rig& rig, double bottom, double top) {
   return remap;
 }
 
-/// Films with a rig that carries this correction; expects the points at this height, 0.2 m being
-/// the truth, and all of them remapped or none.
+/// Publishes images with a rig that has this correction. Expects the points at this height (the
+/// truth is 0.2 m), and all of them remapped or none.
 void expectCorrected(const std::optional<remap::Remap>& remap, double height, bool remapped) {
   Rig rig = g_bench->rig_;
   rig.remap = remap;
   g_bench->rig_publisher_.publish(toMessage(rig));
-  // From the first point at that height on; the rig may overtake images, and they it.
+  // Starts at the first point at that height: rig and images may overtake each other.
   ASSERT_TRUE(Bench::waitFor([&] {
     if (!g_bench->film(kBatch, {0, 1, 2}))
       return false;
@@ -570,9 +569,9 @@ void expectCorrected(const std::optional<remap::Remap>& remap, double height, bo
   }
 }
 
-TEST(Triangulation, CorrectsTheVolumeAndNothingElse) {
+TEST(Triangulation, CorrectsOnlyTheMeasuredVolume) {
   expectCorrected(raised(g_bench->rig_, 0.0, 1.0), 0.3, true);
-  // All below what was measured: displaced as the border is, and not said to be corrected.
+  // All points are below the measured volume: displaced as at its border, not marked as corrected.
   expectCorrected(raised(g_bench->rig_, 0.5, 1.0), 0.3, false);
   expectCorrected(std::nullopt, 0.2, false);
   ASSERT_TRUE(Bench::waitFor([] {
@@ -582,7 +581,7 @@ TEST(Triangulation, CorrectsTheVolumeAndNothingElse) {
   EXPECT_EQ(g_bench->arrays_.back().points.at(0).position, g_bench->points_.back().point);
 }
 
-TEST(Triangulation, SaysThatACorrectionOfAnotherCalibrationIsVoid) {
+TEST(Triangulation, ReportsACorrectionOfAnotherCalibration) {
   remap::Remap old = raised(g_bench->rig_, 0.0, 1.0);
   old.rig_id = "0123456789abcdef";
   g_bench->diagnostics_.clear();
@@ -611,11 +610,11 @@ TEST(Triangulation, TakesANewRigAtOnce) {
   const std::string first = "Rig " + g_bench->rig_.id();
   const std::size_t place = g_bench->log_.find(first);
   ASSERT_NE(std::string::npos, place);
-  EXPECT_EQ(std::string::npos, g_bench->log_.find(first, place + 1)) << "taken once only";
+  EXPECT_EQ(std::string::npos, g_bench->log_.find(first, place + 1)) << "only one new rig";
   ASSERT_TRUE(g_bench->film(0.3, {0, 1, 2}));
   for (const auto& array : g_bench->arraysSince(g_bench->now_ - 0.3))
     EXPECT_EQ(shifted.id(), array.rig_id);
-  // No LED is where it was taken to be; it is found where it is.
+  // The LED is not where the old rig put it, and is found again.
   ASSERT_TRUE(g_bench->film(2.0, {0, 1, 2}));
   std::size_t found = 0;
   for (const auto& array : g_bench->arraysSince(g_bench->now_ - 0.5)) {
@@ -636,7 +635,7 @@ TEST(Triangulation, IgnoresImagesOfAnotherSize) {
   EXPECT_TRUE(g_bench->waitForLog("images of camera_0 have"));
 }
 
-TEST(Triangulation, StartsAnewWhenABagStartsOver) {
+TEST(Triangulation, RestartsWhenABagStartsOver) {
   g_bench->now_ = 1000.0;
   g_bench->newest_.assign(3, -1.0);
   g_bench->arrays_.clear();

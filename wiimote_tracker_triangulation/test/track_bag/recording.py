@@ -1,4 +1,4 @@
-"""A small simulated recording: four cameras on clocks of their own, LEDs on known ways. Shares no
+"""A small simulated recording: four cameras with their own clocks, LEDs on known paths. Shares no
 code with the tracker."""
 
 import math

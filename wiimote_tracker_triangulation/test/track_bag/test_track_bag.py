@@ -1,5 +1,5 @@
-"""track_bag on simulated recordings: what it finds is compared with the truth they were made from,
-what it writes is read by programs of others, and the same recording gives the same bytes."""
+"""track_bag on simulated recordings: results are compared with the truth, output is read by other
+programs, and equal input gives equal bytes."""
 
 import csv
 import os
@@ -153,7 +153,7 @@ def test_the_same_bag_gives_the_same_bytes_with_any_number_of_threads(tmp_path):
     assert len(contents) == 1
 
 
-def test_nothing_but_arrivals_decides_the_order(bag, tmp_path):
+def test_only_arrivals_decide_the_order(bag, tmp_path):
     """Neither the order of recording nor the recorder's clock."""
     track(bag, tmp_path / 'out.bag')
     expected = all_bytes(arrays(tmp_path / 'out.bag'))
@@ -171,7 +171,7 @@ def test_nothing_but_arrivals_decides_the_order(bag, tmp_path):
     assert all_bytes(arrays(tmp_path / 'out2.bag')) == expected
 
 
-def test_a_trigger_is_answered_at_its_very_time(tmp_path):
+def test_a_trigger_is_answered_at_its_exact_time(tmp_path):
     times = [0.5, 1.2345678, 1.5]
     write(tmp_path / 'in.bag', recorded() + [('/trigger', trigger(t), t + 0.02) for t in times])
     track(tmp_path / 'in.bag', tmp_path / 'out.bag')
@@ -223,7 +223,7 @@ def test_a_rig_takes_effect_where_it_was_recorded(tmp_path):
     assert abs((first.latest_arrival - first_image.arrival).to_sec()) < 1e-6
 
 
-def test_the_recording_is_kept_but_for_what_was_computed_before(bag, tmp_path):
+def test_the_recording_is_kept_without_earlier_results(bag, tmp_path):
     track(bag, tmp_path / 'first.bag')
     stranger = TransformStamped()
     stranger.header.frame_id, stranger.child_frame_id = 'world', 'robot'
@@ -261,7 +261,7 @@ def times_of_chunks(bag):
     return [times[chunk.pos] for chunk in bag._chunks]
 
 
-def test_the_new_bag_is_one_as_rosbag_makes_them(tmp_path):
+def test_the_new_bag_is_like_those_of_rosbag(tmp_path):
     write(tmp_path / 'in.bag', recorded((recording.walk, recording.other), duration=2.5))
     track(tmp_path / 'in.bag', tmp_path / 'out.bag')
 
@@ -273,7 +273,7 @@ def test_the_new_bag_is_one_as_rosbag_makes_them(tmp_path):
         assert len(out._chunks) > 1
         assert [(c.start_time.to_nsec(), c.end_time.to_nsec()) for c in out._chunks] == [
             (min(times), max(times)) for times in times_of_chunks(out)]
-        # From anywhere, by the index.
+        # Random access by the index.
         middle = expected[len(expected) // 2][4]
         assert raw(out.read_messages(raw=True, start_time=genpy.Time(0, middle))) == \
             [m for m in expected if m[4] >= middle]
@@ -528,7 +528,7 @@ def test_a_disk_that_is_full(bag, tmp_path):
         assert 'make room there' in errors
 
 
-def test_a_folder_that_cannot_be(bag, tmp_path):
+def test_a_folder_that_cannot_be_created(bag, tmp_path):
     (tmp_path / 'file').write_text('')
     assert 'choose another place' in refused(tmp_path, bag, tmp_path / 'file' / 'out.bag')
 

@@ -18,8 +18,8 @@ void IdentityCheck::look(const Snapshot& snapshot) {
     for (const TrackedLed& track : snapshot.leds) {
       if (track.state != TrackState::kTracked && track.state != TrackState::kPredicted)
         continue;
-      // What was this LED's is preferred, so that two LEDs that pass each other do not look like
-      // an exchange.
+      // The LED's previous track is preferred, so that two LEDs that pass each other do not look
+      // exchanged.
       const auto owner = led_of_id_.find(track.id);
       const bool was_its = owner != led_of_id_.end() && owner->second == led;
       const double distance = (track.position - truth).norm();
@@ -38,7 +38,7 @@ void IdentityCheck::look(const Snapshot& snapshot) {
       renamed += last_ids_[led] >= 0 && last_ids_[led] != id;
       led_of_id_[nearest->id] = led;
     } else if (owner->second != led) {
-      // Near to both: only when its own LED is not near any more is it an exchange.
+      // Near two LEDs: an exchange only when it is no longer near its own.
       if ((leds_[owner->second](snapshot.time) - nearest->position).norm() < kNear)
         continue;
       ++switches;

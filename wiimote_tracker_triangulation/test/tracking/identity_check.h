@@ -11,10 +11,10 @@
 
 namespace wiimote_tracker::tracking::test {
 
-/// Holds snapshots against where the LEDs truly were.
+/// Compares snapshots with the true positions.
 class IdentityCheck {
  public:
-  /// A track this near to an LED [m] is its.
+  /// Largest distance of a track from its LED [m].
   static constexpr double kNear = 0.1;
 
   explicit IdentityCheck(const std::vector<Path>& leds) : leds_(leds), last_ids_(leds.size(), -1) {}
@@ -22,8 +22,8 @@ class IdentityCheck {
   void look(const Snapshot& snapshot);
 
   std::uint64_t snapshots = 0;
-  std::uint64_t switches = 0;      ///< A track went over to an LED that had not been its.
-  std::uint64_t renamed = 0;       ///< An LED's track was given up, and it got another.
+  std::uint64_t switches = 0;      ///< A track switched to another LED.
+  std::uint64_t renamed = 0;       ///< An LED's track ended, and it got a new one.
   std::uint64_t uncovered = 0;     ///< LEDs in snapshots without a confirmed track near.
   std::uint64_t false_tracks = 0;  ///< Tracked in snapshots where no LED is near.
   double squared_error = 0.0;      ///< Of those near [m^2], summed.

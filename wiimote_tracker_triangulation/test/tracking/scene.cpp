@@ -58,7 +58,7 @@ geometry::Rig roomsRig(int rooms, int cameras_per_room) {
   for (int room = 0; room < rooms; ++room) {
     const Eigen::Vector3d middle(100.0 * room, 0.0, 1.0);
     for (int i = 0; i < cameras_per_room; ++i) {
-      // Not quite even: no two face each other.
+      // Slightly uneven, so that no two face each other.
       const double angle = 2.0 * M_PI * (i + 0.2 * (i % 2)) / cameras_per_room + 0.3;
       const Eigen::Vector3d position =
           middle + Eigen::Vector3d(5.0 * std::cos(angle), 5.0 * std::sin(angle), 1.5);
@@ -152,7 +152,7 @@ void Scene::collectLights(std::size_t camera_index, double time) {
   }
 }
 
-/// The closest two first, until all are far enough apart.
+/// Merges the closest two first, until all are far enough apart.
 void Scene::merge() {
   for (;;) {
     double closest = options_.merging_distance;
@@ -179,7 +179,7 @@ void Scene::merge() {
   }
 }
 
-/// A light that was there stays in its place of the report; a new one takes the first that is free.
+/// A known light keeps its slot in the report; a new one takes the first free slot.
 void Scene::keepSlots(std::size_t camera, SceneImage* image) {
   std::vector<std::uint64_t>& slots = slots_[camera];
   slots.resize(options_.maximum_spots);

@@ -21,7 +21,7 @@ geometry::Rig paperRig();
 /// Rooms 100 m apart along x, each with cameras on a circle about its middle (0, 0, 1) m.
 geometry::Rig roomsRig(int rooms, int cameras_per_room);
 
-/// What the cameras do with the light, and the radio with their images. All cameras alike.
+/// Model of the cameras and of the radio, the same for all cameras.
 struct SceneOptions {
   double start = 1000.0;        ///< Time of the first exposures [s].
   double period = 0.01;         ///< Of the exposures [s].
@@ -31,7 +31,7 @@ struct SceneOptions {
   bool integer_pixels = false;  ///< Rounded, as a Wii Remote does.
   double dropout = 0.0;         ///< Probability that an image misses an LED that it ought to show.
   double lost_images = 0.0;     ///< Probability that an image never arrives.
-  double ghosts = 0.0;  ///< Probability of a spot in each image that nothing made, anywhere in it.
+  double ghosts = 0.0;          ///< Probability of a ghost in each image, anywhere in it.
   double merging_distance = 0.0;  ///< Spots closer than this become one, in the middle [px].
   std::size_t maximum_spots = 4;  ///< The nearest LEDs win.
   double range = 20.0;            ///< Walls: a camera sees no further [m].
@@ -46,7 +46,7 @@ struct SceneOptions {
   std::function<bool(std::size_t camera, std::size_t led, double time)> hidden;
 };
 
-/// An image, and what nobody else knows of it.
+/// An image and its ground truth.
 struct SceneImage {
   std::size_t camera = 0;
   CameraImage image;
@@ -56,8 +56,8 @@ struct SceneImage {
   std::vector<std::uint64_t> leds_of_spot;
 };
 
-/// LEDs before cameras that run on their own clocks; gives their images in the order of arrival,
-/// for ever.
+/// Simulates LEDs and cameras with their own clocks; gives images in the order of arrival, without
+/// end.
 class Scene {
  public:
   Scene(const geometry::Rig& rig,

@@ -83,7 +83,7 @@ std::array<std::int64_t, 2> follow(Tracker* tracker,
   }
 }
 
-TEST(MergedPairs, KeepTheirIdsWhereTheirMotionGoesOn) {
+TEST(MergedPairs, KeepTheirIdsByTheirMotion) {
   // Their merged spot is 4 px from either when they meet, further than the gate of each.
   const geometry::Rig rig = test::paperRig();
   geometry::test::Random random(7);

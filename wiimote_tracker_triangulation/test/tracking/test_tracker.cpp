@@ -1,4 +1,4 @@
-// Finding LEDs and locating them, and what is reported.
+// Track initiation, accuracy and reports.
 #include "tracking/identity_check.h"
 #include "tracking/scene.h"
 #include "tracking/tracker_runs.h"

@@ -155,8 +155,8 @@ TEST(Tracker, TwoLedsMergedInAllViewsKeepTheirIdsByTheirMotion) {
   }
 }
 
-// It blinks at the height of the cameras, where the first two that see it light up may face each
-// other: their rays hardly tell how far along their line it is, its motion does.
+// It blinks at the height of the cameras. The first two that see it again may face each other:
+// their rays hardly determine its position along their line, its motion does.
 TEST(Tracker, ABlinkingLedKeepsItsMotionWhileItIsDark) {
   const Path led = test::circle({1.25, 1.25, 1.9}, 0.4, 0.5);
   SceneOptions options;
@@ -203,7 +203,7 @@ TEST(Tracker, AnLedThatJumpsIsNeverTrackedAtTheWrongPlace) {
     const double since_leap = std::fmod(s.time - 1000.0, 0.25);
     bool covered = false;
     for (const TrackedLed& track : s.leds) {
-      // Of the first images after a leap some may show what might as well be where it was.
+      // Some of the first images after a jump may also fit the old position.
       if (track.state != TrackState::kTracked || track.last_observed < s.time || since_leap < 0.06)
         continue;
       const double error = (track.position - led(s.time)).norm();
@@ -216,7 +216,7 @@ TEST(Tracker, AnLedThatJumpsIsNeverTrackedAtTheWrongPlace) {
 }
 
 TEST(Tracker, ATrackThatLostItsLedReacquiresItWithItsId) {
-  // A jerk that no way to move allows, and spots that are not the LED's.
+  // A jump that no mode allows, and spots that are not the LED's.
   for (const double jump : {0.02, 0.04, 0.06}) {
     const Path led = [&](double t) {
       return Eigen::Vector3d(1.2 + (t > 1001.0 ? jump : 0.0), 1.3, 1.0);
@@ -237,7 +237,7 @@ TEST(Tracker, ATrackThatLostItsLedReacquiresItWithItsId) {
 }
 
 TEST(Tracker, OfTwoTracksThatShareAllSpotsOneEnds) {
-  // They meet; and then there is one light only.
+  // They meet, and from then on there is only one light.
   const std::vector<Path> leds = {test::still({1.25, 1.25, 1.0}), [](double t) {
                                     return Eigen::Vector3d(
                                         1.25, 1.25, 1.0 + std::max(0.004, 0.2 * (1001.0 - t)));
@@ -247,7 +247,7 @@ TEST(Tracker, OfTwoTracksThatShareAllSpotsOneEnds) {
   Tracker tracker(paperRig(), exactOptions());
   const std::vector<Snapshot> snapshots =
       track(&tracker, imagesOf(paperRig(), leds, options, 2000));
-  // No sooner than two that pass each other slowly may need.
+  // Not before two LEDs that pass each other slowly would have parted.
   for (const Snapshot& s : snapshots) {
     if (s.time > 1000.2 && s.time < 1001.2) {
       EXPECT_EQ(2u, s.leds.size()) << s.time;

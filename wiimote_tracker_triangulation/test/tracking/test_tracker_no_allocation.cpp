@@ -1,4 +1,4 @@
-// A tracker that is warm takes images and gives snapshots without allocating.
+// A warmed-up tracker takes images and gives snapshots without allocating.
 #include "allocation_counter.h"
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
@@ -18,7 +18,7 @@ TEST(TrackerNoAllocation, TheCounterCounts) {
   EXPECT_EQ(before + 2, g_allocations);
 }
 
-/// Of `count` images, after as many that warm up.
+/// Allocations in `count` images, after as many for warm-up.
 int allocations(const test::SceneOptions& options, int count) {
   geometry::test::Random random(3);
   std::vector<test::Path> leds;

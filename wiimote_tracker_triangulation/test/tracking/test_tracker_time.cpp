@@ -115,7 +115,7 @@ TEST(Tracker, OnlyTheLastImageOfABurstOfOneStampCounts) {
   EXPECT_GT(compared, 150u);
 }
 
-TEST(Tracker, StartsAnewWhenABagStartsOver) {
+TEST(Tracker, RestartsWhenABagStartsOver) {
   const std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(2, 9), {}, 1200);
   Tracker tracker(paperRig(), exactOptions());
   track(&tracker, images);
@@ -144,7 +144,7 @@ TEST(Tracker, ACameraThatLagsOrRunsAheadDoesNotHarmTheOthers) {
     const std::vector<Snapshot> snapshots = track(&tracker, images);
     for (std::size_t i = 200; i < snapshots.size(); ++i)
       check.look(snapshots[i]);
-    // At the start nobody knows yet whose clock is right.
+    // At the start it is unknown whose clock is right.
     EXPECT_LE(tracker.counters().resets, 1u);
     EXPECT_GT(tracker.counters().dropped, 490u);
     EXPECT_EQ(0u, check.uncovered);
@@ -170,7 +170,8 @@ TEST(Tracker, ACameraWhoseClockIsSetBackDoesNotHarmTheOthers) {
     const std::vector<Snapshot> snapshots = track(&tracker, images);
     for (std::size_t i = 200; i < snapshots.size(); ++i)
       check.look(snapshots[i]);
-    EXPECT_LE(tracker.counters().resets, first > 0.0 ? 1u : 0u) << "at the start nobody knows";
+    EXPECT_LE(tracker.counters().resets, first > 0.0 ? 1u : 0u)
+        << "at the start it is unknown whose clock is right";
     EXPECT_EQ(0u, check.uncovered);
     EXPECT_EQ(0u, check.switches);
     for (const TrackedLed& led : snapshots.back().leds)
@@ -222,7 +223,7 @@ TEST(Tracker, AppliesTheTimeOffsetsOfTheRig) {
   for (SceneImage& image : images) {
     if (image.camera == 1 && image.image.stamp < 1001.0) {
       image.image.stamp -= 0.25;
-      image.image.clock_epoch = 7;  // later images are of another epoch, and right as they are
+      image.image.clock_epoch = 7;  // later images are of another epoch and need no offset
     }
   }
   Tracker tracker(rig, exactOptions());

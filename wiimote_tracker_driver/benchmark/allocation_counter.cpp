@@ -11,8 +11,8 @@ std::atomic<std::uint64_t> released{0};
 
 }  // namespace
 
-// The other forms of new and delete come down to these two, but for those of over-aligned types,
-// which the driver has none of.
+// The other forms of new and delete call these two, except those of over-aligned types, which the
+// driver does not have.
 void* operator new(std::size_t size) {
   made.fetch_add(1, std::memory_order_relaxed);
   if (void* memory = std::malloc(size > 0 ? size : 1))

@@ -5,11 +5,10 @@
 
 namespace wiimote_tracker {
 
-/// Calls of operator new in this program, which allocation_counter.cpp replaces, and of its
-/// counterpart.
+/// Counts operator new and delete in this program, which allocation_counter.cpp replaces.
 struct Allocations {
   std::uint64_t made = 0;
-  std::uint64_t alive = 0;  ///< Not given back.
+  std::uint64_t alive = 0;  ///< Not freed.
 };
 
 Allocations allocations();

@@ -1,4 +1,4 @@
-// What the driver costs and how well it holds: 32 remotes at once, a week of reports, timing.
+// Cost and reliability of the driver: 32 remotes at once, a week of reports, timing.
 #include "load_trial.h"
 #include "soak_trial.h"
 
@@ -109,7 +109,7 @@ int run(const Options& options) {
     text += (text.empty() ? "{\n\"" : ",\n\"") + std::string(section) + "\": " + content;
   };
   bool good = true;
-  // First, since it forks: this process has one thread yet.
+  // First, since it forks while this process has one thread.
   if (asked(options, "load")) {
     const Results results = runLoad(options.remotes, options.seconds);
     print("Load (virtual remotes in another process, nodelets and subscriber in this one)",

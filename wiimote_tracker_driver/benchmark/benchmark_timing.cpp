@@ -1,4 +1,4 @@
-// Exposure times from arrival times: our clock beside others, for every model of the link.
+// Exposure times from arrival times: our clock and others, for every model of the link.
 #include "timing_trial.h"
 
 #include <wiimote_tracker_msgs/text.h>

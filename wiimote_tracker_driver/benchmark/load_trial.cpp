@@ -25,16 +25,16 @@ namespace wiimote_tracker {
 namespace {
 
 constexpr double kStartLimit = 60.0;  // [s]
-// All remotes have streamed so many images before the measurement begins.
+// Each remote has streamed this many images before the measurement begins.
 constexpr std::uint32_t kWarmUp = 300;
-// What was sent within this time before the end may still be under way [s].
+// Reports sent within this time before the end may still be in transit [s].
 constexpr double kUnderWay = 0.5;
 
 void wait(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-/// A folder for sockets, gone with all in it afterwards.
+/// A folder for sockets, removed with its content at the end.
 class Folder {
  public:
   Folder() {
@@ -56,7 +56,7 @@ class Folder {
   std::string path_;
 };
 
-/// When each sample of a remote arrived [s]; 0: it did not. Written by one thread.
+/// Arrival time of each sample of a remote [s]; 0: none. Written by one thread.
 class Arrivals {
  public:
   Arrivals() : arrivals_(VirtualRemotes::kMostSamples, 0.0) {}
@@ -69,7 +69,7 @@ class Arrivals {
     const int y = static_cast<int>(message.height) - 1 - static_cast<int>(blob.y);
     const std::uint32_t sample = VirtualRemotes::sampleAt(static_cast<int>(blob.x), y);
     if (sample >= arrivals_.size() || arrivals_[sample] > 0.0)
-      return;  // a report is repeated when the mode is said again
+      return;  // a report is repeated when the mode is set again
     arrivals_[sample] = now;
     ++received_;
   }
@@ -82,7 +82,7 @@ class Arrivals {
   std::atomic<std::uint32_t> received_{0};
 };
 
-/// [s] Of this process.
+/// CPU time of this process [s].
 double processorTime() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
@@ -100,7 +100,7 @@ void startRos(OwnMaster& master) {
           "no ROS master could be started: source ROS's setup.bash, so that rosmaster is found");
     wait(0.1);
   }
-  // 32 nodelets have much to say about files that are not there.
+  // 32 nodelets log much about missing files.
   if (ros::console::set_logger_level("ros", ros::console::levels::Error))
     ros::console::notifyLoggerLevelsChanged();
 }

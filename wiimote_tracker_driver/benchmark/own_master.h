@@ -5,11 +5,10 @@
 
 namespace wiimote_tracker {
 
-/// A ROS master of this process alone, at a free port, so that a running system is not disturbed
-/// and does not disturb.
+/// A ROS master for this process only, at a free port, independent of a running system.
 class OwnMaster {
  public:
-  /// Starts it, and lets this process and its children use it. Returns at once.
+  /// Starts it for this process and its children. Returns at once.
   /// @throws std::runtime_error when no port is free.
   OwnMaster();
   ~OwnMaster();

@@ -92,7 +92,7 @@ class ExposureGrid {
  public:
   explicit ExposureGrid(double period) : cell_(period / kCells) {}
 
-  /// The newest report now is another one: `frames` true periods later, by runs of lost frames.
+  /// Moves on to the next report: `frames` true periods later, by runs of lost frames.
   void advance(std::int64_t frames, const LinkModel& link) {
     const double drop = link.drops * (1.0 - link.burst) / (1.0 - link.drops);
     std::fill(next_.begin(), next_.end(), 0.0);

@@ -15,16 +15,16 @@ double leastSquares(const SimulatedSession& session);
 /// INFOCOM 2002).
 double convexHull(const SimulatedSession& session);
 
-/// Least delay so far, ageing by the most that the clocks may drift, 500 ppm (Olson, A Passive
+/// Least delay so far, ageing by the largest drift of the clocks, 500 ppm (Olson, A Passive
 /// Solution to the Sensor Synchronization Problem, IROS 2010).
 double olson(const SimulatedSession& session);
 
-/// What can be reached: knows spread, wander, slots and which reports were queued. For a bell a
-/// Kalman filter that does not know the period; for a hard edge a point-mass filter that does.
+/// A lower bound: knows spread, wander, slots and which reports were queued. For a bell a Kalman
+/// filter that does not know the period; for a hard edge a point-mass filter that does.
 double oracle(const SimulatedSession& session, const LinkModel& link);
 
-/// The same for a hard edge, of one who is not told the frame numbers but how frames are lost: a
-/// point-mass filter over the exposure time of the newest report, period after period.
+/// The same for a hard edge without the frame numbers, but with the model of losses: a point-mass
+/// filter over the exposure time of the newest report, period after period.
 double oracleWithoutNumbers(const SimulatedSession& session, const LinkModel& link);
 
 }  // namespace wiimote_tracker::exposure_clock

@@ -9,7 +9,7 @@
 
 namespace wiimote_tracker {
 
-/// A number with its unit and what it is.
+/// A number with its unit and its name.
 struct Result {
   std::string name;  ///< Lower case with underscores.
   double value;

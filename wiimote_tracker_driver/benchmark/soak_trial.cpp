@@ -14,12 +14,12 @@ namespace wiimote_tracker {
 namespace {
 
 constexpr double kHour = 3600.0;  // [s]
-// Disturbances keep away from what the driver does by the minute [s].
+// Offset of disturbances from what the driver does every minute [s].
 constexpr double kPastTheHour = 17.3;
-// Until then everything has happened once, and all has its size.
+// After this time everything has happened once and all buffers have their size.
 constexpr std::uint64_t kWarmHours = 25;
 
-/// Of this process [MB].
+/// Memory of this process [MB].
 double residentMemory() {
   std::ifstream file("/proc/self/statm");
   double pages = 0.0;
@@ -27,7 +27,7 @@ double residentMemory() {
   return pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// What happens to the remote, by the hour.
+/// The disturbance of each hour.
 void disturb(wiimote::SteadyRemote& remote, std::uint64_t hour) {
   if (hour % 24 == 0)
     remote.disconnect();

@@ -7,9 +7,9 @@
 
 namespace wiimote_tracker {
 
-/// So many data reports (>= 1e7; 6e7 are a week's) through decoder and state machine in fake time,
-/// as fast as they go. Once an hour somebody takes the remote's mode away, every six hours its
-/// power is cycled, and once a day the connection is lost.
+/// Sends data reports (>= 1e7; 6e7 are a week's) through decoder and state machine in fake time, as
+/// fast as possible. Every hour the remote loses its mode, every six hours its power is cycled, and
+/// once a day the connection is lost.
 Results runSoak(std::uint64_t reports);
 
 }  // namespace wiimote_tracker

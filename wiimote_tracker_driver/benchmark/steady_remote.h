@@ -10,9 +10,9 @@
 
 namespace wiimote_tracker::wiimote {
 
-/// A remote in fake time that costs next to nothing: does what it is told at once, sends a data
-/// report every period in modes 0x33, 0x37 and 0x3e, with one light that moves, and allocates
-/// nothing. For measuring the driver, not for testing it: it checks nothing.
+/// A remote in fake time at almost no cost: obeys at once, sends a data report every period in
+/// modes 0x33, 0x37 and 0x3e, with one moving light, and allocates nothing. For measuring the
+/// driver, not for testing it: it checks nothing.
 class SteadyRemote {
  public:
   double now = 0.0;        ///< [s]
@@ -20,10 +20,10 @@ class SteadyRemote {
 
   std::unique_ptr<transport::Transport> open();
 
-  /// Somebody else takes the data reports away.
+  /// Another program stops the data reports.
   void loseMode() { mode_ = 0; }
 
-  /// All is as after switching on.
+  /// Resets the remote as after switching on.
   void powerCycle();
 
   /// The next read fails.

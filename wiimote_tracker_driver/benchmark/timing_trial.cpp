@@ -63,7 +63,7 @@ TimingScore runTiming(const LinkModel& link,
       blind.push_back(toNearest(error));
       blind_wrong += std::abs(error) > 0.5 * session.period;
     }
-    // A bell's reference is its mean less a typical spread.
+    // The reference of a bell is its mean less a typical spread.
     const double bell = link.core == LinkModel::Core::kBell ? 3.4 * link.jitter - 0.0024 : 0.0;
     const double error = estimate.exposure - truth - bell;
     const double frames = std::round(error / session.period);

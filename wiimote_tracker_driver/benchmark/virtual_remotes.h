@@ -9,19 +9,19 @@
 
 namespace wiimote_tracker {
 
-/// [s] The clock that both processes share.
+/// The clock that both processes share [s].
 double steadyNow();
 
-/// Virtual remotes in a process of their own, so that their work is not taken for the driver's.
-/// Each samples 100 times a second, evenly spread over the period; one light shows by its place
-/// which sample it is.
+/// Virtual remotes in their own process, so that their work does not count as the driver's. Each
+/// samples 100 times a second, evenly spread over the period; the place of one light encodes the
+/// sample.
 class VirtualRemotes {
  public:
   static constexpr double kPeriod = 0.01;  ///< [s]
-  /// Samples of a remote: about ten minutes' worth. Then nothing more comes.
+  /// Samples of a remote: about ten minutes. After them it sends nothing.
   static constexpr std::uint32_t kMostSamples = 1u << 16;
 
-  /// Forks; to be called while this process has one thread. The sockets are made in `folder`.
+  /// Forks; call it while this process has one thread. The sockets are made in `folder`.
   /// @throws std::system_error.
   VirtualRemotes(int count, const std::string& folder);
   ~VirtualRemotes();
@@ -34,7 +34,7 @@ class VirtualRemotes {
   /// When this sample's data report was given to the link [s]; 0 when there was none (yet).
   double sentAt(int remote, std::uint32_t sample) const;
 
-  /// The sample that a light at this place (y up) stands for.
+  /// The sample that a light at this place (y up) encodes.
   static std::uint32_t sampleAt(int x, int y) { return static_cast<std::uint32_t>(1024 * y + x); }
 
  private:

@@ -10,8 +10,8 @@
 namespace wiimote_tracker {
 
 /// A number in a report, by the places of its bits on the wire, highest first: "8.5-4 6.7-0" is
-/// bits 5 and 4 of byte 8, then all bits of byte 6. Knows nothing of what the number means, so that
-/// a table of such texts is a second description of the reports, and this its one interpreter.
+/// bits 5 and 4 of byte 8, then all bits of byte 6. Tables of such texts are a second, independent
+/// description of the reports; this class is their only interpreter.
 class BitField {
  public:
   /// `first_byte` is added to every byte number.

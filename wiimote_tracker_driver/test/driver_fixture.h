@@ -18,14 +18,14 @@
 
 namespace wiimote_tracker::driver {
 
-/// A virtual remote with a clock as real ones have it: images at start() + n * kPeriod, reported
-/// after a delay. Senses the same thing until told otherwise.
+/// A virtual remote with a realistic clock: images at start() + n * kPeriod, reported after a
+/// delay. Senses the same thing until changed.
 class Remote {
  public:
   static constexpr double kPeriod = 0.010035;  // [s]
   static constexpr double kDelay = 0.008;      // [s]
 
-  /// What happens at image n.
+  /// The events of image n.
   struct Instant {
     virtual_wiimote::Senses senses;
     double delay = kDelay;  ///< Of its report [s].
@@ -44,13 +44,13 @@ class Remote {
     play([senses](std::uint64_t) { return Instant{senses, kDelay}; });
   }
 
-  /// Sense what `script` says of each image.
+  /// Senses what `script` returns for each image.
   void play(std::function<Instant(std::uint64_t)> script) {
     const std::lock_guard<std::mutex> lock(mutex_);
     script_ = std::move(script);
   }
 
-  /// When image n is taken, on the steady clock [s].
+  /// Exposure of image n on the steady clock [s].
   double exposure(std::uint64_t n) const { return start_ + static_cast<double>(n) * kPeriod; }
 
   static double now() {
@@ -81,7 +81,7 @@ class Remote {
   std::thread thread_;
 };
 
-/// Handles callbacks until the condition holds; false when it does not within 20 s.
+/// Handles callbacks until the condition holds; false after 20 s.
 template <typename Condition>
 bool eventually(Condition condition) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
@@ -93,7 +93,7 @@ bool eventually(Condition condition) {
   return true;
 }
 
-/// All messages of a topic since this was made.
+/// All messages of a topic since construction.
 template <typename M>
 struct Recorder {
   explicit Recorder(const std::string& topic)

@@ -15,9 +15,8 @@
 
 namespace wiimote_tracker::wiimote {
 
-/// A remote in fake time, in raw bytes: answers what it is asked 5 ms later and sends an
-/// infrared report every 10 ms once it is in mode 0x33, 0x37 or 0x3e. Tests take away, add and
-/// change what it says.
+/// A remote in fake time, in raw bytes: answers requests after 5 ms and sends an infrared report
+/// every 10 ms in modes 0x33, 0x37 and 0x3e. Tests remove, add and change its reports.
 class FakeRemote {
  public:
   using Report = protocol::Report;
@@ -40,12 +39,12 @@ class FakeRemote {
   std::array<std::uint8_t, 11> ir_copy = ir_block;
   bool light = true;
   bool registers_readable = true;
-  bool echoes = true;  ///< Says its present data at once when a mode is set.
+  bool echoes = true;  ///< Sends its present data at once when a mode is set.
 
   std::vector<Written> written;
   int opened = 0;
 
-  // State that somebody else may change behind the driver's back.
+  // State that others may change without the driver.
   std::uint8_t mode = 0x30;
   bool camera = false;  ///< 0x13
   bool logic = false;   ///< 0x1a
@@ -64,7 +63,7 @@ class FakeRemote {
     rumble = false;
   }
 
-  /// Says this `delay` seconds from now.
+  /// Sends this `delay` seconds from now.
   void say(const Report& report, double delay = 0.0) {
     pending_.push_back({now + delay, report});
     std::stable_sort(pending_.begin(), pending_.end(),
@@ -143,7 +142,7 @@ class FakeRemote {
     if (b[1] & 2)
       say({0x22, 0, 0, b[0], 0}, kDelay);
     if (b[0] == 0x12 && sendsImages() && echoes)
-      say(image(), kDelay);  // what it has, at once
+      say(image(), kDelay);  // its present data, at once
   }
 
  private:
@@ -209,7 +208,7 @@ class FakeRemote {
   std::vector<Written> pending_;
   double next_image_ = 0.0;
   unsigned samples_ = 0;
-  bool second_half_ = true;  ///< Was the last one said.
+  bool second_half_ = true;  ///< The last half sent was the second.
 };
 
 class FakeTransport : public transport::Transport {

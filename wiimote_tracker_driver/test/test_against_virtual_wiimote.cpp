@@ -1,4 +1,4 @@
-// Driver and virtual remote share no code, so what one writes the other must read.
+// Driver and virtual remote share no code, so each must read what the other writes.
 #include "virtual_wiimote/faulty_device.h"
 #include "wiimote/wiimote.h"
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
@@ -25,12 +25,11 @@ protocol::Report reportOf(const Bytes& bytes) {
   return report;
 }
 
-constexpr double kPeriod = 0.01;  // [s]
-constexpr double kLatency =
-    0.012;  // [s] Of what the host says; what the remote says comes at once.
+constexpr double kPeriod = 0.01;    // [s]
+constexpr double kLatency = 0.012;  // [s] Of output reports; input reports arrive at once.
 
-/// A virtual remote that senses every 10 ms of a time of its own, and what it sees. The kernel's
-/// driver may share it.
+/// A virtual remote that samples every 10 ms of fake time, and its view. The kernel's driver may
+/// share it.
 struct Remote {
   explicit Remote(const virtual_wiimote::Faults& faults = {}, const Device::Options& options = {})
       : device(options, faults) {}
@@ -43,7 +42,7 @@ struct Remote {
     }
   }
 
-  /// Lets time pass until there is something to hear, at most until `end`.
+  /// Advances the time until there is a report, at most until `end`.
   void passUntil(double end) {
     while (heard.empty()) {
       const double next = std::min(next_sample, said.empty() ? end : said.front().first);
@@ -94,7 +93,7 @@ class RemoteTransport : public transport::Transport {
   Remote* remote_;
 };
 
-/// A driver at such a remote.
+/// A driver of such a remote.
 struct Driven {
   explicit Driven(const Options& options = Options(),
                   const virtual_wiimote::Faults& faults = {},
@@ -105,7 +104,7 @@ struct Driven {
             [this] { return std::make_unique<RemoteTransport>(&remote); },
             [this] { return remote.now; }) {}
 
-  /// Lets time pass. @returns the number of images that show a light.
+  /// Advances the time. @returns the number of images that show a light.
   int run(double duration) {
     int lit = 0;
     for (const double end = remote.now + duration; remote.now < end;) {
@@ -121,7 +120,7 @@ struct Driven {
     return lit;
   }
 
-  /// Until an image shows a light. @returns whether one has come within 5 s.
+  /// Runs until an image shows a light. @returns whether one has come within 5 s.
   bool runToLight() {
     for (const double end = remote.now + 5.0; remote.now < end;) {
       if (run(kPeriod) > 0)
@@ -137,7 +136,7 @@ struct Driven {
   int missing = 0;       ///< Periods of the remote without an image.
 };
 
-TEST(AgainstVirtualWiimote, EverySensitivityMakesItSee) {
+TEST(AgainstVirtualWiimote, EverySensitivityShowsTheLight) {
   for (const std::string& name : protocol::irSensitivityNames()) {
     Options options;
     options.session.sensitivity = *protocol::irSensitivity(name);
@@ -198,7 +197,7 @@ TEST(AgainstVirtualWiimote, EveryFormatStreams) {
   }
 }
 
-TEST(AgainstVirtualWiimote, ActiveMotionPlusHindersNoFormat) {
+TEST(AgainstVirtualWiimote, ActiveMotionPlusBlocksNoFormat) {
   for (const auto format :
        {protocol::IrFormat::kBasic, protocol::IrFormat::kExtended, protocol::IrFormat::kFull}) {
     Device::Options device;
@@ -234,7 +233,7 @@ TEST(AgainstVirtualWiimote, SensitivityChangedInTheStreamShowsAtOnce) {
   driven.missing = 0;
   driven.wiimote.setSensitivity(*protocol::irSensitivity("max"));
   const int lit = driven.run(1.0);
-  // Five round trips of 12 ms, in which the camera stands still.
+  // Five round trips of 12 ms, during which the camera is stopped.
   RecordProperty("missing_images", driven.missing);
   EXPECT_LE(driven.missing, 7);
   EXPECT_GE(lit, 90);
@@ -245,7 +244,7 @@ TEST(AgainstVirtualWiimote, SensitivityChangedInTheStreamShowsAtOnce) {
   EXPECT_EQ(0u, driven.wiimote.link().restorations);
 }
 
-/// Images that are missing in 100 s.
+/// Missing images in 100 s.
 int missing(double status_interval, bool kernel) {
   Options options;
   options.session.status_interval = status_interval;
@@ -260,11 +259,11 @@ int missing(double status_interval, bool kernel) {
   return driven.missing;
 }
 
-TEST(AgainstVirtualWiimote, AskingForTheBatteryCostsNoImage) {
+TEST(AgainstVirtualWiimote, RequestsForTheBatteryCostNoImage) {
   EXPECT_LE(missing(1.0, false), missing(1e6, false));
 }
 
-TEST(AgainstVirtualWiimote, AskingForTheBatteryBesideTheKernelsDriverCostsFewImages) {
+TEST(AgainstVirtualWiimote, RequestsForTheBatteryBesideTheKernelsDriverCostFewImages) {
   const double each = 0.01 * (missing(1.0, true) - missing(1e6, true));
   RecordProperty("missing_per_question", std::to_string(each));
   EXPECT_LE(each, 5.0);
@@ -274,7 +273,7 @@ TEST(AgainstVirtualWiimote, ChecksOfTheCameraCostOneImageInTwoHundredAtMost) {
   EXPECT_LE(missing(1e6, false), 50);
 }
 
-TEST(AgainstVirtualWiimote, AnyLightsComeThrough) {
+TEST(AgainstVirtualWiimote, AnyLightsAreTransmitted) {
   Device device;
   const std::vector<Bytes> set_up{
       {0x13, 0x04},
@@ -297,7 +296,7 @@ TEST(AgainstVirtualWiimote, AnyLightsComeThrough) {
       Senses senses;
       senses.buttons = static_cast<std::uint16_t>(random() & 0x1f9f);
       const int count = uniform(5);
-      // One in each corner of the image, so far from the others that their images cannot touch.
+      // One light near each corner of the image, too far apart to merge.
       for (int light = 0; light < count; ++light) {
         const int x = uniform(392) + light % 2 * 632;
         const int y = uniform(263) + light / 2 * 504 + 1;
@@ -309,7 +308,7 @@ TEST(AgainstVirtualWiimote, AnyLightsComeThrough) {
       const auto data = protocol::decodeDataReport(reportOf(*sampled));
       ASSERT_TRUE(data);
       EXPECT_EQ(senses.buttons, data->buttons);
-      // Slots are the device's affair: the same lights, in any order.
+      // Slots are up to the device: the same lights in any order.
       using Spot = std::array<int, 3>;
       std::vector<Spot> expected;
       for (const auto& light : senses.lights)

@@ -1,5 +1,5 @@
-// A link that stalls: the images that were held up come in a burst and are stamped with their own
-// times, as far as arrivals can tell, and no more surely than that.
+// A link that stalls: delayed images come in a burst. They get their own exposure times as far as
+// arrivals determine them, with a standard deviation that covers the rest.
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
 #include <gtest/gtest.h>
@@ -28,8 +28,8 @@ struct Image {
   bool held_up;
 };
 
-/// Written anew, without anything of the clock's or the simulated rig's own model of a link. Every
-/// other session begins with a stall.
+/// A simulation of its own, without the clock's or the simulated rig's model of a link. Every other
+/// session begins with a stall.
 std::vector<Image> imagesOver(const Link& link, double duration, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -60,7 +60,7 @@ std::vector<Image> imagesOver(const Link& link, double duration, std::uint64_t s
   return images;
 }
 
-/// Of errors over the stddev that the clock claims.
+/// Errors, and the stddev by the clock.
 struct Share {
   int images = 0, inside = 0;  // inside: within two stddev
   double squares = 0.0, claimed = 0.0;
@@ -77,10 +77,10 @@ struct Share {
 
 struct Result {
   Share all, bursts;
-  Share first;       // of bursts: held up, the one before was not
-  Share lateness;    // of these: how late they came, by which an arrival for a stamp would be off
-  Share after_gaps;  // that came after one and a half periods without any
-  Share settling;    // of the first seconds, but the very first
+  Share first;       // first of each burst: delayed, the one before was not
+  Share lateness;    // delay of these: the error of a stamp by arrival
+  Share after_gaps;  // images after a gap of one and a half periods
+  Share settling;    // images of the first seconds without the first
 };
 
 Result play(const Link& link) {
@@ -95,7 +95,7 @@ Result play(const Link& link) {
       if (!image.held_up && image.exposure > kLearning)
         in_time.push_back(estimates.back().exposure - image.exposure);
     }
-    // What no arrival tells: the constant part of the delay.
+    // The constant part of the delay, which arrivals cannot show.
     const auto middle = in_time.begin() + static_cast<std::ptrdiff_t>(in_time.size() / 2);
     std::nth_element(in_time.begin(), middle, in_time.end());
     for (std::size_t i = 1; i < images.size(); ++i) {
@@ -136,28 +136,28 @@ std::string describe(const Link& link) {
          " lost, stalls per second: " + std::to_string(link.stalls);
 }
 
-TEST(ExposureClockBursts, stamps_are_no_surer_than_they_are_right) {
+TEST(ExposureClockBursts, standard_deviations_cover_the_errors) {
   for (double losses : {0.0, 0.04})
     for (const Link& link : links(losses)) {
       SCOPED_TRACE(describe(link));
       const Result result = play(link);
-      // The errors of a normal are within two stddev in 95.4 %.
+      // Normal errors are within two stddev in 95.4 %.
       EXPECT_GT(result.all.within(), 0.95);
       EXPECT_GT(result.settling.within(), 0.92);
       EXPECT_GT(result.bursts.within(), losses > 0.0 ? 0.87 : 0.95);
-      // After a gap the receiver has to doubt: was an image lost, or is this one late?
+      // After a gap it is uncertain whether an image was lost or this one is late.
       EXPECT_GT(result.after_gaps.images, 500);
       EXPECT_LT(result.after_gaps.rms(), 1.2 * result.after_gaps.claimedRms());
     }
 }
 
-TEST(ExposureClockBursts, where_none_is_lost_the_first_image_has_its_own_time) {
+TEST(ExposureClockBursts, without_losses_the_first_image_of_a_burst_has_its_own_time) {
   for (const Link& link : links(0.0)) {
     SCOPED_TRACE(describe(link));
     const Result result = play(link);
     EXPECT_GT(result.first.images, 80);
     EXPECT_GT(result.lateness.rms(), 0.05);
-    // To the next frame; better where there are stalls enough to learn from.
+    // Within one frame; better where there are stalls enough to learn from.
     EXPECT_LT(result.first.rms(), (link.stalls > 1.0 ? 0.5 : 1.0) * kPeriod);
   }
 }

@@ -1,4 +1,4 @@
-// Who has a device: found for real processes, on a plain file in place of a hidraw node.
+// Users of a device: found for real processes, on a plain file in place of a hidraw node.
 #include "transport/transport.h"
 #include "transport/users.h"
 
@@ -19,7 +19,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Another program that has the file open, and locked if told so, while this object lives.
+/// Another program that has the file open, and locked if requested, while this object lives.
 class OtherProgram {
  public:
   OtherProgram(const std::string& path, bool lock) {
@@ -35,7 +35,7 @@ class OtherProgram {
       ::dup2(alive[0], STDIN_FILENO);
       ::dup2(started[1], STDOUT_FILENO);
       ::setenv("ROS_NAMESPACE", "/wiimote_1", 1);
-      // Says that it runs, and waits for its input to end.
+      // Reports that it runs, and waits for its input to end.
       ::execl("/bin/sh", "/bin/sh", "-c", "echo; read end", "driver", "__name:=driver", nullptr);
       ::_exit(1);
     }
@@ -120,11 +120,11 @@ TEST_F(Users, DriverInAnotherProcessWithItsNodeName) {
   ::close(fd);
 }
 
-TEST_F(Users, ProgramsThatKnowNothingOfTheLockAreFound) {
+TEST_F(Users, ProgramsWithoutTheLockAreFound) {
   EXPECT_EQ("", sharedWith(path_));
   const int fd = open();
   lockDevice(fd, "");
-  EXPECT_EQ("", sharedWith(path_)) << "we are not the others";
+  EXPECT_EQ("", sharedWith(path_)) << "this process is not listed";
   {
     const OtherProgram other(path_, false);
     const std::string sentence = sharedWith(path_);
@@ -136,7 +136,7 @@ TEST_F(Users, ProgramsThatKnowNothingOfTheLockAreFound) {
   ::close(fd);
 }
 
-TEST_F(Users, ProcessThatIsGoneHasNoNameButItsNumber) {
+TEST_F(Users, AProcessThatHasEndedIsNamedByItsNumber) {
   pid_t gone = 0;
   { gone = OtherProgram(path_, false).process(); }
   EXPECT_EQ("another program (process " + std::to_string(gone) + ")", describeProcess(gone));

@@ -1,4 +1,4 @@
-// The driver as its users see it, node and nodelet alike, with a virtual remote on its socket.
+// The driver as a node and as a nodelet, with a virtual remote on its socket.
 #include "driver_fixture.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
@@ -76,7 +76,7 @@ class DriverTest : public testing::Test {
 
 std::unique_ptr<Remote> DriverTest::remote;
 
-TEST_F(DriverTest, BlobsAreInImageConvention) {
+TEST_F(DriverTest, BlobsFollowTheImageConvention) {
   remote->sense(lights({{291, 69, 3, 9}, {1023, 767, 1, 8}, {0, 100, 15, 7}}));
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
   ASSERT_TRUE(eventually(
@@ -103,7 +103,7 @@ TEST_F(DriverTest, BlobsAreInImageConvention) {
   EXPECT_EQ(2, message.blobs[2].slot);
 }
 
-TEST_F(DriverTest, SlotStaysWithTheLightThatIsLeft) {
+TEST_F(DriverTest, ARemainingLightKeepsItsSlot) {
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
   const auto sees = [&](std::size_t count) {
     return !blobs.messages.empty() && blobs.messages.back().blobs.size() == count;
@@ -117,7 +117,7 @@ TEST_F(DriverTest, SlotStaysWithTheLightThatIsLeft) {
   EXPECT_EQ(1, blobs.messages.back().blobs[0].slot);
 }
 
-TEST_F(DriverTest, DarkImagesAreEmptyArraysNotSilence) {
+TEST_F(DriverTest, DarkImagesAreEmptyArrays) {
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
   // The first ones may still show the lights of the test before.
   const auto last_are_empty = [&](std::size_t count) {
@@ -141,7 +141,7 @@ TEST_F(DriverTest, StampsFollowTheExposuresNotTheArrivals) {
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
   ASSERT_TRUE(eventually([&] { return blobs.messages.size() >= 600; }));
 
-  // Of the last 300, when the clock has learnt.
+  // The last 300, after the clock has settled.
   const ros::Time ros_start = ros::Time::now() - ros::Duration(Remote::now() - remote->exposure(0));
   const std::uint64_t thousands =
       static_cast<std::uint64_t>((Remote::now() - remote->exposure(0)) / Remote::kPeriod) /
@@ -174,7 +174,7 @@ TEST_F(DriverTest, StampsFollowTheExposuresNotTheArrivals) {
     return median(v);
   };
   ASSERT_GT(stamp_errors.size(), 200u);
-  EXPECT_GT(spread(arrival_errors), 0.001) << "the jitter has to be there";
+  EXPECT_GT(spread(arrival_errors), 0.001) << "there must be jitter";
   EXPECT_LT(spread(stamp_errors), 0.4 * spread(arrival_errors));
   // A stall widens the standard deviation of the images it delays, as it should.
   EXPECT_LT(median(stamp_stddevs), Remote::kPeriod);
@@ -233,14 +233,14 @@ TEST_F(DriverTest, StaticTransformFromOpticalToImu) {
     return !transform.child_frame_id.empty();
   }));
   EXPECT_EQ("wiimote_1_imu_frame", transform.child_frame_id);
-  // Columns of the rotation matrix: where the remote's left, rear and up point in the image.
+  // Columns of the rotation matrix: directions of the remote's left, rear and up in the image.
   const auto& q = transform.transform.rotation;
   EXPECT_NEAR(-1.0, 1 - 2 * (q.y * q.y + q.z * q.z), 1e-12);  // left: -x
   EXPECT_NEAR(-1.0, 2 * (q.y * q.z + q.x * q.w), 1e-12);      // rear: -z
   EXPECT_NEAR(-1.0, 2 * (q.y * q.z - q.x * q.w), 1e-12);      // up: -y
 }
 
-TEST_F(DriverTest, CameraInfoGoesWithEachImageAndCanBeSet) {
+TEST_F(DriverTest, CameraInfoComesWithEachImageAndCanBeSet) {
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
   Recorder<sensor_msgs::CameraInfo> infos("/wiimote_1/camera_info");
   ASSERT_TRUE(eventually([&] { return infos.messages.size() >= 10; }));
@@ -274,7 +274,7 @@ TEST_F(DriverTest, CameraInfoGoesWithEachImageAndCanBeSet) {
       << "saved where camera_info_url says";
 }
 
-TEST_F(DriverTest, FactoryCalibrationIsOffered) {
+TEST_F(DriverTest, FactoryCalibrationIsPublished) {
   Recorder<sensor_msgs::CameraInfo> infos("/wiimote_1/factory/camera_info");
   ASSERT_TRUE(eventually([&] { return infos.any(); })) << "latched";
   // The mean of the four points of the virtual remote, (525.5, 353.75) with y up.
@@ -330,7 +330,7 @@ TEST_F(DriverTest, FeedbackLightsLedsAndRumblesForAWhile) {
   EXPECT_TRUE(eventually([&] { return remote->server.leds() == 0x4; }));
 }
 
-TEST_F(DriverTest, BatteryIsPublishedAndWarnedOf) {
+TEST_F(DriverTest, BatteryIsPublishedWithAWarning) {
   Recorder<sensor_msgs::BatteryState> battery("/wiimote_1/battery");
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   ASSERT_TRUE(eventually([&] { return battery.any(); })) << "latched";
@@ -352,7 +352,7 @@ TEST_F(DriverTest, BatteryIsPublishedAndWarnedOf) {
   EXPECT_TRUE(eventually([&] { return battery.last().percentage == 1.0f; }));
 }
 
-/// Sets text parameters of the driver while it runs. @returns the settings that are then in use.
+/// Sets text parameters of the running driver. @returns the settings that are then in use.
 std::map<std::string, std::string> set(
     const std::vector<std::pair<std::string, std::string>>& texts) {
   dynamic_reconfigure::Reconfigure call;
@@ -392,7 +392,7 @@ TEST_F(DriverTest, SensitivityChangesWithoutLosingTheStream) {
   EXPECT_EQ("wii_5", set({{"ir_sensitivity", "wii_5"}})["ir_sensitivity"]);
 }
 
-TEST_F(DriverTest, ASettingThatDoesNotExistIsNotTakenOver) {
+TEST_F(DriverTest, AnUnknownSettingIsRefused) {
   EXPECT_EQ("wii_5", set({{"ir_sensitivity", "bright"}})["ir_sensitivity"]);
   auto used = set({{"ir_sensitivity", "custom"}, {"ir_sensitivity_block1", "12 34"}});
   EXPECT_EQ("wii_5", used["ir_sensitivity"]);
@@ -415,7 +415,7 @@ TEST_F(DriverTest, LedsCanBeChanged) {
   EXPECT_TRUE(eventually([&] { return remote->server.leds() == 0x4; }));
 }
 
-TEST_F(DriverTest, DiagnosticsTellHowItIs) {
+TEST_F(DriverTest, DiagnosticsDescribeTheState) {
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   ASSERT_TRUE(eventually([&] {
     const auto status = driverStatus(diagnostics);
@@ -440,7 +440,7 @@ TEST_F(DriverTest, DiagnosticsTellHowItIs) {
     EXPECT_EQ(1u, value.count(key)) << key;
 }
 
-TEST_F(DriverTest, SecondDriverSaysWhoHasTheRemote) {
+TEST_F(DriverTest, SecondDriverNamesTheUserOfTheRemote) {
   ASSERT_TRUE(eventually([&] { return remote->server.connected(); }));
   ASSERT_EQ(0, std::system(("ROS_NAMESPACE=wiimote_8 rosrun wiimote_tracker_driver driver_node "
                             "__name:=driver _device:=virtual:" +
@@ -531,7 +531,7 @@ TEST(DriverInOtherModes, BasicModeHasPositionsOnlyAndArrivalsCanBeStamps) {
   EXPECT_NEAR(0.02, (message.arrival - message.header.stamp).toSec(), 2e-6);
 }
 
-// The last tests: the driver does not come back.
+// The last tests: the driver does not return.
 TEST_F(DriverTest, ShutDownSwitchesTheRemoteOff) {
   ASSERT_TRUE(eventually([&] { return remote->server.connected(); }));
   ASSERT_TRUE(eventually([&] { return remote->server.leds() == 0x4; })) << "as configured";
@@ -541,7 +541,7 @@ TEST_F(DriverTest, ShutDownSwitchesTheRemoteOff) {
   EXPECT_FALSE(remote->server.rumble());
 }
 
-TEST(DriverInOtherModes, WhatWasRecordedIsPlayedInItsOwnTime) {
+TEST(DriverInOtherModes, ARecordingIsPlayedAtItsOwnTimes) {
   const ros::Time now = ros::Time::now();
   Recorder<IrBlobArray> blobs("/wiimote_4/ir_blobs");
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a user gets to read when the driver cannot run or has no remote, and that it stops at once."""
+"""The driver's messages when it cannot run or has no remote, and that it stops at once."""
 import os
 import signal
 import subprocess
@@ -15,7 +15,7 @@ DEADLINE = 30.0
 
 
 def run(*arguments, **environment):
-    """Runs the driver to its end. Returns its exit code and all it said."""
+    """Runs the driver to its end. Returns its exit code and output."""
     done = subprocess.run(COMMAND + list(arguments), env=dict(os.environ, **environment),
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=DEADLINE)
     return done.returncode, done.stdout.decode()
@@ -41,7 +41,7 @@ class DriverConfiguration(unittest.TestCase):
         self.assert_refused("/driver_e/camera_info_url is 'nowhere'", "__name:=driver_e",
                             "_camera_info_url:=nowhere")
 
-    def test_sensitivity_blocks_that_are_none(self):
+    def test_invalid_sensitivity_blocks(self):
         self.assert_refused("/driver_i/ir_sensitivity_block1 and _block2: ", "__name:=driver_i",
                             "_ir_sensitivity:=custom", "_ir_sensitivity_block1:=07 00")
 
@@ -75,7 +75,7 @@ class DriverConfiguration(unittest.TestCase):
         path = rospkg.RosPack().get_path("wiimote_tracker_driver")
         with open(os.path.join(path, "config", "driver.yaml")) as file:
             rospy.set_param("/driver_g", yaml.safe_load(file))
-        # A misspelt key beside them is all that is wrong.
+        # Only the misspelt key is wrong.
         self.assert_refused("unknown parameter /driver_g/other:", "__name:=driver_g", "_other:=1")
 
     def test_waits_for_its_remote_and_stops_at_once(self):

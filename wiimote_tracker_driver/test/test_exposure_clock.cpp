@@ -56,14 +56,14 @@ LinkModel bell(double wander = 0.0) {
   return link;
 }
 
-/// A clock that has seen `reports` reports with exponential delays of mean 2 ms, none lost, from
-/// time 0.
+/// A clock that has received `reports` reports with exponential delays of mean 2 ms, none lost,
+/// from time 0.
 struct Running {
   explicit Running(int reports) {
     for (; frame < reports; ++frame)
       estimate = clock.update(arrival());
   }
-  /// Of the next frame; reports do not overtake each other.
+  /// Arrival of the next frame; reports do not overtake each other.
   double arrival() { return latest = std::max(latest, time() + delay(random)); }
   /// Exposure of the next frame.
   double time() const { return frame * kPeriod; }
@@ -82,13 +82,12 @@ TEST(ExposureClockAccuracy, finds_a_hard_edge_to_0_05_ms) {
     EXPECT_LT(score.clock, 0.05e-3 * kTolerance) << mean;
     EXPECT_LT(score.clock, 0.2 * score.least_squares) << mean;
     EXPECT_LT(score.clock, score.convex_hull_own) << mean;  // which has the same numbers
-    // Careful rather than sure: the doubt whether the clock wanders is in it, and may be most of
-    // it.
+    // Conservative: the uncertainty about clock wander is included, and may be most of it.
     EXPECT_LT(score.clock_ratio, 1.3) << mean;
   }
 }
 
-TEST(ExposureClockAccuracy, finds_a_sharp_edge_like_the_hull_that_is_told_the_frame_numbers) {
+TEST(ExposureClockAccuracy, finds_a_sharp_edge_like_the_hull_with_known_frame_numbers) {
   const TimingScore score = runTiming(edge(0.002), 10.0, kSessions, false);
   EXPECT_LT(score.clock, 1.2 * score.convex_hull);
 }
@@ -113,7 +112,7 @@ TEST(ExposureClockAccuracy, follows_a_wandering_clock_like_a_filter_that_knows_t
   }
 }
 
-TEST(ExposureClockAccuracy, stalls_and_slots_do_not_spoil_it) {
+TEST(ExposureClockAccuracy, is_robust_to_stalls_and_slots) {
   LinkModel link = bell(0.3e-3);
   link.slot = 1.25e-3;
   link.stalls = 0.3;
@@ -143,7 +142,7 @@ TEST(ExposureClockAccuracy, numbers_frames_through_losses) {
   EXPECT_LT(clock.statistics().period_stddev, 10e-6 * kPeriod);
 }
 
-TEST(ExposureClockAccuracy, twenty_minutes_of_losses_and_stalls_lose_neither_count_nor_clock) {
+TEST(ExposureClockAccuracy, keeps_count_and_clock_over_twenty_minutes_of_losses_and_stalls) {
   LinkModel steady_edge = edge(0.003), wandering_bell = bell(1e-3);
   for (LinkModel link : {steady_edge, wandering_bell}) {
     link.slot = 1.25e-3;
@@ -185,7 +184,7 @@ TEST(ExposureClockAccuracy, a_remote_may_be_fast_or_slow) {
     }
 }
 
-/// Errors of a clock to which a share of the reports from 10 to 70 s comes twice, out of 90 s:
+/// Errors of a clock that receives a share of the reports from 10 to 70 s twice, out of 90 s:
 /// during that time, and from `healing` seconds after it.
 struct Twice {
   Twice(const LinkModel& link, double share, double later, double healing) {
@@ -237,7 +236,7 @@ TEST(ExposureClockAccuracy, few_reports_that_come_twice_do_no_harm) {
   }
 }
 
-// What an echo of 3 ms teaches of the delays is forgotten more slowly.
+// Delays learnt from an echo of 3 ms are forgotten more slowly.
 TEST(ExposureClockAccuracy, heals_after_all_reports_came_twice) {
   for (double later : {0.0, 0.003}) {
     const Twice run(edge(0.002), 1.0, later, later > 0.0 ? 12.0 : 2.0);
@@ -247,7 +246,7 @@ TEST(ExposureClockAccuracy, heals_after_all_reports_came_twice) {
   }
 }
 
-TEST(ExposureClock, tells_the_kind_and_the_size_of_the_jitter) {
+TEST(ExposureClock, identifies_the_kind_and_the_size_of_the_jitter) {
   for (const LinkModel& link : {edge(0.004), bell()}) {
     ExposureClock clock;
     for (const virtual_wiimote::FrameTime& report : simulate(link, 20.0, 7).reports)
@@ -269,7 +268,7 @@ TEST(ExposureClock, starts_with_the_arrival_and_a_large_stddev) {
   EXPECT_FALSE(first.restarted);
 }
 
-TEST(ExposureClock, keeps_its_digits_at_times_since_1970) {
+TEST(ExposureClock, stays_precise_at_times_since_1970) {
   ExposureClock small, large;
   for (const virtual_wiimote::FrameTime& report : simulate(edge(0.002), 5.0, 11).reports) {
     const Estimate a = small.update(report.arrival), b = large.update(report.arrival + 1.7e9);
@@ -364,7 +363,7 @@ TEST(ExposureClock, a_wrong_period_does_no_worse_than_a_late_stamp) {
   }
 }
 
-TEST(ExposureClock, refuses_arrivals_and_options_that_are_none) {
+TEST(ExposureClock, refuses_invalid_arrivals_and_options) {
   ExposureClock clock;
   EXPECT_THROW(clock.update(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
   ExposureClockOptions options;
@@ -384,8 +383,7 @@ TEST(ExposureClock, a_new_epoch_is_like_a_new_clock) {
   EXPECT_EQ(run.clock.statistics().reports, 50u);
 }
 
-// Whatever arrives: times increase, are finite, and not later than the arrival by more than they
-// may.
+// For any arrivals, times increase, are finite, and exceed the arrival by no more than allowed.
 TEST(ExposureClockProperties, hold_for_any_arrivals) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     std::mt19937_64 random(seed);

@@ -1,5 +1,4 @@
-// What goes wrong on demand between the virtual remote and its host, and that the driver gets over
-// each of it.
+// Faults on demand between the virtual remote and its host, and the driver's recovery from each.
 #include "virtual_remote_bytes.h"
 #include "virtual_wiimote/faulty_device.h"
 #include "wiimote/wiimote.h"
@@ -26,7 +25,7 @@ const Bytes kAskStatus{0x15, 0x00};
 const Bytes kContinuous30{0x12, 0x04, 0x30};
 const Bytes kAsked30{0x12, 0x06, 0x30};
 
-/// All that reaches the host in so many samples.
+/// All reports to the host in this number of samples.
 std::vector<Bytes> samples(FaultyDevice& device, int count, const Senses& senses = Senses()) {
   std::vector<Bytes> all;
   for (int i = 0; i < count; ++i) {
@@ -41,14 +40,14 @@ std::ptrdiff_t countOf(const std::vector<Bytes>& reports, std::uint8_t id) {
                        [id](const Bytes& report) { return report[0] == id; });
 }
 
-/// A second of buttons that tell the samples apart.
+/// A second of buttons that identify the samples.
 Senses counted(int i) {
   Senses senses;
   senses.buttons = static_cast<std::uint16_t>((i / 32 % 32) << 8 | (i % 32));
   return senses;
 }
 
-TEST(Faults, NoneIsTheDeviceItself) {
+TEST(Faults, WithoutFaultsItIsTheDevice) {
   Device device;
   FaultyDevice faulty{Device::Options()};
   std::vector<Bytes> outputs = handshake();
@@ -63,7 +62,7 @@ TEST(Faults, NoneIsTheDeviceItself) {
   EXPECT_EQ(Answers{*device.setNunchuk(true)}, faulty.setNunchuk(true));
 }
 
-TEST(Faults, SameSeedSameFaults) {
+TEST(Faults, SameSeedGivesSameFaults) {
   const auto all = [](std::uint32_t seed) {
     Faults faults;
     faults.seed = seed;
@@ -104,7 +103,7 @@ TEST(Faults, LostDataLeavesAnswersAlone) {
     EXPECT_EQ(Answers{kStatus}, device.handleOutput(kAskStatus));
 }
 
-TEST(Faults, LateAnswersComeOnceAndAreOvertaken) {
+TEST(Faults, LateAnswersComeOnceAndMayBeOvertaken) {
   Faults faults;
   faults.late_answers = 1.0;
   faults.late_by = 5;
@@ -153,7 +152,7 @@ TEST(Faults, GarbageIsNeverData) {
   EXPECT_NEAR(250, countOf(all, 0x20) + countOf(all, 0x21) + countOf(all, 0x22), 50);
 }
 
-TEST(Faults, StallsHoldBackEverythingAndLoseNothing) {
+TEST(Faults, StallsDelayAllReportsAndLoseNone) {
   Faults faults;
   faults.stalls = 0.1;
   faults.stall_length = 10;
@@ -206,7 +205,7 @@ TEST(Faults, SecondMasterDoesWhatTheKernelDoes) {
   samples(device, 1);
   EXPECT_EQ(1, device.device().leds());
 
-  // Our own question for the battery ends our stream, and the motor stops.
+  // Our request for the battery ends our stream, and the motor stops.
   for (const Bytes& output : handshake())
     device.handleOutput(output);
   device.handleOutput({0x10, 0x01});
@@ -217,11 +216,12 @@ TEST(Faults, SecondMasterDoesWhatTheKernelDoes) {
   EXPECT_FALSE(device.device().rumble());
   EXPECT_TRUE(samples(device, 10, senses).empty());
 
-  // Its own business: foreign answers, here of the search for a MotionPlus after 4 s.
+  // The second master's own traffic: foreign answers, here of the search for a MotionPlus after 4
+  // s.
   const std::vector<Bytes> later = samples(device, 400, senses);
   EXPECT_NE(0, std::count(later.begin(), later.end(), (Bytes{0x22, 0, 0, 0x16, 0x07})));
   EXPECT_NE(0, countOf(later, 0x21));
-  // And somebody opened its camera, which changes ours.
+  // It also opens its camera, which changes ours.
   EXPECT_NE(0, countOf(later, 0x36));
   EXPECT_EQ((Answers{{0x22, 0, 0, 0x16, 0x07}}),
             device.handleOutput(write(0x04, {0xb0, 0x00, 0x30}, {0x08})))
@@ -390,8 +390,8 @@ class FaultyTransport : public transport::Transport {
 struct Case {
   const char* name;
   std::vector<const char*> faults;
-  int images;      ///< At least so many come in a minute, of 6000 samples.
-  double longest;  ///< Never longer than this between two [s].
+  int images;      ///< Least number per minute, of 6000 samples.
+  double longest;  ///< Longest gap [s].
 };
 
 void PrintTo(const Case& c, std::ostream* out) {

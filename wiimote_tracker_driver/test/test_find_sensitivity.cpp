@@ -103,12 +103,12 @@ TEST_F(FindSensitivity, LeavesTheDriverAsItWas) {
   EXPECT_EQ("wii_2", sensitivity());
 }
 
-TEST_F(FindSensitivity, AppliesWhatItRecommends) {
+TEST_F(FindSensitivity, AppliesItsRecommendation) {
   run("--apply");
   EXPECT_EQ("wii_4", sensitivity());
 }
 
-TEST_F(FindSensitivity, WithoutADriverItSaysHowToStartOne) {
+TEST_F(FindSensitivity, AdvisesWithoutADriver) {
   Program program("rosrun wiimote_tracker_driver find_sensitivity elsewhere");
   EXPECT_TRUE(program.says("roslaunch wiimote_tracker_driver driver.launch camera:=elsewhere"));
   EXPECT_EQ(1, program.end());

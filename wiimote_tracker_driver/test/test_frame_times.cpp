@@ -1,4 +1,4 @@
-// The simulated clock and link does what its model says.
+// The simulated clock and link follow their model.
 
 #include "wiimote_tracker_driver/virtual_wiimote/frame_times.h"
 
@@ -13,7 +13,7 @@ namespace {
 
 using Core = FrameTimesModel::Core;
 
-/// So rare that reports never meet.
+/// A period so long that reports never meet.
 FrameTimesModel rare() {
   FrameTimesModel model;
   model.period = 10.0;
@@ -25,7 +25,7 @@ struct Moments {
   double mean = 0.0, stddev = 0.0, skewness = 0.0, least = 1e9;
 };
 
-/// Of the delays of `frames` frames.
+/// Statistics of the delays of `frames` frames.
 Moments delays(const FrameTimesModel& model, int frames) {
   FrameTimes times(model, 7);
   std::vector<double> all;
@@ -60,7 +60,7 @@ TEST(FrameTimes, an_ideal_camera_exposes_at_its_phase_and_period) {
   }
 }
 
-TEST(FrameTimes, the_same_seed_gives_the_same_times_and_another_others) {
+TEST(FrameTimes, equal_seeds_give_equal_times_and_other_seeds_other_times) {
   FrameTimesModel model;
   model.jitter = 0.002;
   model.period_tolerance = 500e-6;
@@ -110,7 +110,7 @@ TEST(FrameTimes, periods_of_many_sessions_fill_the_tolerance) {
   EXPECT_NEAR(mean, 0.010035, 0.010035 * 50e-6);
 }
 
-TEST(FrameTimes, the_phase_wanders_as_far_as_told_in_10_s) {
+TEST(FrameTimes, the_phase_wanders_as_far_as_set_in_10_s) {
   FrameTimesModel model;
   model.wander = 1e-3;
   constexpr int kSessions = 400;
@@ -167,7 +167,7 @@ TEST(FrameTimes, reports_leave_at_the_slots_and_never_overtake) {
   EXPECT_GT(queued, 5000);
 }
 
-TEST(FrameTimes, a_stall_holds_all_reports_and_then_gives_them_at_once) {
+TEST(FrameTimes, a_stall_delays_all_reports_and_then_gives_them_at_once) {
   FrameTimesModel model;
   model.delay = 0.006;
   model.stalls = 0.5;

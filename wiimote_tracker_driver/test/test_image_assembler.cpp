@@ -1,4 +1,4 @@
-// Which reports make an image together.
+// Which reports form an image.
 #include "wiimote/image_assembler.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using protocol::DataReport;
 using protocol::IrFormat;
 using protocol::Report;
 
-/// One half of image `number`, which shows a light at x = number in the first slot of either half.
+/// One half of image `number`; both halves show a light at x = number in the first slot.
 Report half(bool second, int number) {
   Report report{static_cast<std::uint8_t>(second ? 0x3f : 0x3e), 0, 0, 0x80};
   report.size = 22;
@@ -106,7 +106,7 @@ TEST_F(ImageHalves, TruncatedHalfGivesNoImage) {
   EXPECT_EQ(-1, add(second(1), 0.01));
 }
 
-// Random losses, alone and in bursts, in order and in time.
+// Random losses, alone and in bursts, with reports in order and on time.
 TEST_F(ImageHalves, NoLossMixesImages) {
   std::mt19937 random(5);
   int complete = 0;

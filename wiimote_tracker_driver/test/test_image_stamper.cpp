@@ -1,4 +1,4 @@
-// Stamps of images, with clocks that the test sets.
+// Stamps of images, with clocks controlled by the test.
 #include "ros/image_stamper.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ constexpr double kDelay = 0.006;         // [s] Least time from exposure to arri
 constexpr double kSteadyStart = 5000.0;  // [s]
 const ros::Time kRosStart(1700000000, 0);
 
-/// A remote whose images arrive at kDelay and some after its exposures, and a computer to read
+/// A remote whose images arrive at least kDelay after their exposures, and a computer that reads
 /// them.
 class ImageStamperTest : public testing::Test {
  protected:
@@ -40,7 +40,7 @@ class ImageStamperTest : public testing::Test {
 
   double period_ = kPeriod;
   ros::Duration step_{0.0};    ///< By which the system clock was set.
-  double misreading_ = 0.0;    ///< [s] The thread was interrupted between the two clocks.
+  double misreading_ = 0.0;    ///< [s] From an interruption between reading the two clocks.
   double uncertainty_ = 1e-6;  ///< [s]
   bool simulated_ = false;
   std::uint32_t device_epoch_ = 0;
@@ -124,8 +124,8 @@ TEST_F(ImageStamperTest, LostImagesAreGapsInTheCount) {
   EXPECT_EQ(18, stamper_.totals().dropped);
 }
 
-TEST_F(ImageStamperTest, ALossThatWasNoneLeavesNoGapForEver) {
-  // Behind such delays a late report looks like one after a loss, until others follow.
+TEST_F(ImageStamperTest, AFalseLossLeavesNoPermanentGap) {
+  // With such delays a late report looks like one after a loss, until others follow.
   std::exponential_distribution<double> late(1.0 / 0.005);
   std::bernoulli_distribution lost(0.05);
   double arrival = 0.0;
@@ -148,10 +148,10 @@ TEST_F(ImageStamperTest, ALossThatWasNoneLeavesNoGapForEver) {
   EXPECT_LE(std::abs(ahead_at_end), 2);
 }
 
-TEST_F(ImageStamperTest, StaleReportsKeepTheirOwnTimes) {
+TEST_F(ImageStamperTest, DelayedReportsGetTheirOwnTimes) {
   for (int n = 0; n < 500; ++n)
     take(n, softDelay());
-  // The reader is held up for 200 ms; what waited comes at once.
+  // The reader stalls for 200 ms; waiting reports then come at once.
   for (int n = 500; n < 520; ++n) {
     const ImageTime time = take(n, (520 - n) * kPeriod + 0.0001 * (n - 500));
     EXPECT_NEAR(kDelay, (time.stamp - exposure(n)).toSec(), 0.001) << n;
@@ -252,7 +252,7 @@ TEST_F(ImageStamperTest, SimulatedTimeIsNotMixedWithTheSteadyClock) {
     ASSERT_EQ(0u, time.clock_epoch);
   }
   const ros::Time before = time.stamp;
-  step_ -= ros::Duration(period_);  // stands still
+  step_ -= ros::Duration(period_);  // time stands still
   EXPECT_LT(before, take(100).stamp);
   step_ -= ros::Duration(1000.0);  // a bag begins again
   EXPECT_EQ(1u, take(101).clock_epoch);

@@ -1,5 +1,5 @@
-// What list_wiimotes knows of a computer, from a made-up /sys and /etc; the list of cameras; and
-// talking to a virtual remote.
+// list_wiimotes: its view of a computer with a simulated /sys and /etc, the list of cameras, and
+// access to a virtual remote.
 #include "tools/list_wiimotes/camera_list.h"
 #include "tools/list_wiimotes/host.h"
 #include "tools/list_wiimotes/remote_check.h"
@@ -52,7 +52,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// How many of the sentences contain the part.
+/// Number of sentences that contain the part.
 int count(const std::vector<std::string>& sentences, const std::string& part) {
   int found = 0;
   for (const std::string& sentence : sentences)
@@ -88,7 +88,7 @@ void plug(const TemporaryFolder& root,
     root.write(folder + "hidraw/" + hidraw + "/dev", "241:0\n");
 }
 
-TEST(Host, RemotesAreFoundWithAllThatTheKernelTells) {
+TEST(Host, RemotesAreFoundWithAllThatTheKernelReports) {
   const TemporaryFolder root;
   plug(root, 1, "0306", "wiimote", "hidraw10");
   plug(root, 2, "0330", "hid-generic", "hidraw9");
@@ -112,7 +112,7 @@ TEST(Host, RemotesAreFoundWithAllThatTheKernelTells) {
   EXPECT_EQ(1, count(problems(host.remotes[1]), "hid-wiimote shares"));
 }
 
-TEST(Host, RemoteWithoutDriverIsSeenAllTheSame) {
+TEST(Host, RemoteWithoutKernelDriverIsFound) {
   const TemporaryFolder root;
   plug(root, 1, "0306", "", "");
   const Host host = readHost(root.path());
@@ -133,7 +133,7 @@ TEST(Host, ConverterHidesTheAddress) {
   EXPECT_EQ(1, count(problems(host.remotes[0]), "does not reveal its Bluetooth address"));
 }
 
-TEST(Host, EachProblemOfTheComputerHasItsSentence) {
+TEST(Host, EachProblemOfTheComputerHasASentence) {
   const TemporaryFolder root;
   fs::create_directories(root / "sys");
   EXPECT_EQ(1, count(problems(readHost(root.path())), "no Bluetooth adapter"));
@@ -216,7 +216,7 @@ TEST(CameraList, TheExampleCanBeRead) {
   EXPECT_EQ("wiimote_4", list.nameOf("00:1f:32:00:00:04"));
 }
 
-TEST(CameraList, ACameraMayHaveMoreThanADevice) {
+TEST(CameraList, ACameraMayHaveDriverParameters) {
   const std::string text =
       "cameras:\n  door:\n    driver:\n      identity: inside\n      ir_mode: full\n"
       "    identity: \"00:1f:32:00:00:01\"  # this\n  wiimote_1: \"00:1f:32:00:00:02\"\n"
@@ -236,14 +236,14 @@ TEST(CameraList, ACameraMayHaveMoreThanADevice) {
       list.text());
 }
 
-TEST(CameraList, ItMayAskForDriversOfOtherRemotes) {
+TEST(CameraList, ItMayDiscoverOtherRemotes) {
   CameraList list("discover: true  # whatever is there\n\ncameras:\n");
   EXPECT_EQ("wiimote_1", list.add("00:1f:32:00:00:01"));
   EXPECT_EQ("discover: true  # whatever is there\n\ncameras:\n  wiimote_1: \"00:1f:32:00:00:01\"\n",
             list.text());
 }
 
-TEST(CameraList, WhatItCannotKeepItRefuses) {
+TEST(CameraList, RefusesTextsThatItCannotPreserve) {
   for (const char* text :
        {"", "# nothing\n", "wiimote_1: \"00:1f:32:00:00:01\"\n", "cameras: {a: \"x\"}\n",
         "cameras:\n  - a\n", "cameras:\n  a:\n    driver: \"x\"\n", "cameras:\n  a:\n",
@@ -255,7 +255,7 @@ TEST(CameraList, WhatItCannotKeepItRefuses) {
                        "line 2 is '  - a'"));
 }
 
-TEST(CameraList, WritingKeepsTheFileBefore) {
+TEST(CameraList, WritingKeepsTheOldFile) {
   const TemporaryFolder folder;
   const std::string path = folder / "cameras.yaml";
   EXPECT_TRUE(contains(errorOf([&] { readCameraList(path); }), "cannot be read"));
@@ -303,7 +303,7 @@ TEST_F(Replacing, KeepsTheNameAndSetsTheCalibrationAside) {
   EXPECT_EQ(kList, folder_.read("cameras.yaml.bak"));
 }
 
-TEST_F(Replacing, TwiceADayLosesNothing) {
+TEST_F(Replacing, TwiceADayKeepsBothCalibrations) {
   replace("door", "00:1f:32:aa:bb:cc");
   folder_.write("camera_info/door.yaml", "of the second lens");
   replace("door", "00:1f:32:aa:bb:dd");
@@ -317,18 +317,19 @@ TEST_F(Replacing, WorksWithoutACalibration) {
   EXPECT_EQ("door", readCameraList(folder_ / "cameras.yaml").nameOf("00:1f:32:aa:bb:cc"));
 }
 
-TEST_F(Replacing, WhatMakesNoSenseChangesNothing) {
+TEST_F(Replacing, InvalidArgumentsChangeNothing) {
   EXPECT_TRUE(
       contains(errorOf([&] { replace("window", "00:1f:32:aa:bb:cc"); }), "door, wiimote_2"));
   EXPECT_TRUE(contains(errorOf([&] { replace("door", "hidraw3"); }), "not a Bluetooth address"));
-  EXPECT_TRUE(contains(errorOf([&] { replace("door", "/dev/hidraw3"); }), "not a Bluetooth address"));
+  EXPECT_TRUE(
+      contains(errorOf([&] { replace("door", "/dev/hidraw3"); }), "not a Bluetooth address"));
   EXPECT_TRUE(contains(errorOf([&] { replace("wiimote_2", "00:1f:32:00:00:01"); }),
                        "is already camera door"));
   EXPECT_EQ(kList, folder_.read("cameras.yaml"));
   EXPECT_TRUE(fs::exists(folder_ / "camera_info/door.yaml"));
 }
 
-TEST_F(Replacing, AListThatCannotBeWrittenLeavesTheCalibration) {
+TEST_F(Replacing, AListThatCannotBeWrittenKeepsTheCalibration) {
   // The new file cannot be made where a folder has its name.
   fs::create_directories(folder_ / "cameras.yaml.new/in_the_way");
   EXPECT_TRUE(
@@ -347,7 +348,7 @@ class RemoteTest : public testing::Test {
   transport::DeviceName device() const {
     return transport::parseDeviceName("virtual:" + folder_ / "remote.sock");
   }
-  // The server handles what it is sent in a thread of its own.
+  // The server handles reports in its own thread.
   bool showsLeds(std::uint8_t leds) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
     while (server_.leds() != leds) {
@@ -362,14 +363,14 @@ class RemoteTest : public testing::Test {
   virtual_wiimote::Server server_;
 };
 
-TEST_F(RemoteTest, AFreeOneTellsItsBattery) {
+TEST_F(RemoteTest, AFreeOneReportsItsBattery) {
   const RemoteCheck check = checkRemote(device(), 10.0);
   ASSERT_EQ(RemoteCheck::State::kFree, check.state) << check.sentence;
   EXPECT_EQ("00:1f:32:00:00:01", check.identity);
   EXPECT_EQ(0x50, check.status->battery);
 }
 
-TEST_F(RemoteTest, ATakenOneIsLeftAlone) {
+TEST_F(RemoteTest, AnOccupiedOneIsNotDisturbed) {
   const auto driver = transport::open(device());
   const RemoteCheck check = checkRemote(device(), 10.0);
   EXPECT_EQ(RemoteCheck::State::kTaken, check.state);
@@ -378,18 +379,18 @@ TEST_F(RemoteTest, ATakenOneIsLeftAlone) {
   EXPECT_FALSE(driver->read(report, 0.0));
 }
 
-TEST_F(RemoteTest, AnAbsentOneIsAFailure) {
+TEST_F(RemoteTest, AnAbsentOneIsAnError) {
   server_.setPresent(false);
   const RemoteCheck check = checkRemote(device(), 10.0);
   EXPECT_EQ(RemoteCheck::State::kFailed, check.state);
   EXPECT_NE("", check.sentence);
 }
 
-TEST_F(RemoteTest, FlashesAsOftenAsItsNumberAndThenShowsItsLedsAgain) {
+TEST_F(RemoteTest, FlashesByItsNumberAndThenRestoresItsLeds) {
   const auto remote = transport::open(device());
   std::vector<std::uint8_t> shown;
   std::uint8_t expected = 0x0;
-  // Between two waits the LEDs change from dark to lit or back; the pause at either end is dark.
+  // The LEDs change from dark to lit or back after each wait; the pause at either end is dark.
   flash(*remote, 3, 0x4, [&](double seconds) {
     EXPECT_GT(seconds, 0.1);
     EXPECT_TRUE(showsLeds(expected)) << shown.size();

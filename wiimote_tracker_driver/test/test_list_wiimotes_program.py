@@ -1,4 +1,4 @@
-"""The program list_wiimotes, run with remotes that are made here, byte by byte.
+"""The program list_wiimotes with simulated remotes, byte by byte.
 
 The environment variable LIST_WIIMOTES is the path of the program.
 """
@@ -15,13 +15,13 @@ EXAMPLE = 'cameras:\n  door: "virtual:%s"  # mine\n'
 
 
 class Remote:
-    """A remote at a local socket that answers a request for its status, and notes its LEDs."""
+    """A remote at a local socket that answers a request for its status, and records its LEDs."""
 
     def __init__(self, path, address, battery=0x69, answers=True):
         self.path = path
         self._leds = []
         self._hung_up = threading.Condition()
-        self._hosts = 0  # that have come and gone
+        self._hosts = 0  # that have disconnected
         self._address = address.encode()
         self._battery = battery
         self._answers = answers
@@ -50,7 +50,7 @@ class Remote:
                 self._hung_up.notify_all()
 
     def leds_after(self, hosts):
-        """What its LEDs showed, when so many hosts have come and gone."""
+        """The states of its LEDs, once this many hosts have disconnected."""
         with self._hung_up:
             assert self._hung_up.wait_for(lambda: self._hosts >= hosts, DEADLINE)
         return self._leds
@@ -76,17 +76,17 @@ def test_free_remotes_are_shown_with_their_battery(remotes):
     assert text.count('free, battery 100 % (raw 105)') == 2
 
 
-def test_a_remote_in_use_is_no_fault(remotes):
+def test_a_remote_in_use_is_no_error(remotes):
     taker = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     taker.connect(remotes[0].path)
     taker.recv(32)
-    # This made-up remote lets a second host wait instead of cutting it off.
+    # This simulated remote lets a second host wait instead of refusing it.
     status, text = list_wiimotes('--virtual', remotes[0].path)
     assert status == 0
     assert 'in use' in text
 
 
-def test_a_remote_that_does_not_answer_or_is_not_there_is_one(tmp_path):
+def test_a_silent_or_absent_remote_is_an_error(tmp_path):
     silent = Remote(str(tmp_path / 'silent.sock'), '00:1f:32:00:00:03', answers=False)
     status, text = list_wiimotes('--virtual', silent.path)
     assert status == 1
@@ -96,15 +96,15 @@ def test_a_remote_that_does_not_answer_or_is_not_there_is_one(tmp_path):
     assert 'no virtual Wii Remote listens' in text
 
 
-def test_identify_flashes_each_its_number(remotes):
+def test_identify_flashes_each_remote_by_its_number(remotes):
     _, text = list_wiimotes('--identify', '--virtual', remotes[0].path, remotes[1].path)
     assert 'Remote 2 flashes 2 times.' in text
-    # One host asks for the status, the next lets it flash; at the end all is as before.
+    # One host asks for the status, the next flashes it; at the end the LEDs are as before.
     assert remotes[0].leds_after(2) == [0, 15, 0, 2]
     assert remotes[1].leds_after(2) == [0, 15, 0, 15, 0, 2]
 
 
-def test_write_names_new_ones_and_keeps_old_names(remotes, tmp_path):
+def test_write_adds_new_remotes_and_keeps_old_names(remotes, tmp_path):
     path = tmp_path / 'cameras.yaml'
     path.write_text(EXAMPLE % remotes[1].path)
     sockets = [remote.path for remote in remotes]
@@ -154,7 +154,7 @@ def test_replace_finds_the_calibration_where_ros_keeps_it(tmp_path):
 @pytest.mark.parametrize('arguments', [
     ['--identfy'], ['--write'], ['--virtual'], ['--replace', 'a'],
     ['--replace', 'a', '00:1f:32:00:00:01'], ['--device', 'hidraw0']])
-def test_arguments_without_sense_are_refused(arguments):
+def test_invalid_arguments_are_refused(arguments):
     status, text = list_wiimotes(*arguments)
     assert status == 2
     assert text.startswith('list_wiimotes: ')

@@ -1,4 +1,4 @@
-// Once warm, no report costs an allocation.
+// Reports cause no allocation after warm-up.
 #include "allocation_counter.h"
 #include "steady_remote.h"
 
@@ -33,7 +33,7 @@ TEST_P(NoAllocation, PerReportInAnHour) {
     ASSERT_LT(remote.now, 10.0);
   }
 
-  // With all that belongs to it: questions for the battery, checks of the camera.
+  // Includes requests for the battery and checks of the camera.
   const double end = remote.now + 3600.0;
   const std::uint64_t sent = remote.sent;
   const std::uint64_t made = allocations().made;
@@ -49,8 +49,8 @@ TEST_P(NoAllocation, PerReportInAnHour) {
   const std::uint64_t per_image = GetParam() == protocol::IrFormat::kFull ? 2 : 1;
   const std::uint64_t complete = (remote.sent - sent) / per_image;
   EXPECT_GT(complete, 350000u / per_image);
-  // After each of 60 statuses the mode is said twice: an image that comes at once counts as the
-  // mode's echo, and a pair may begin anew.
+  // After each of 60 statuses the mode is set twice: an image that comes at once counts as the
+  // mode's echo, and a pair may restart.
   EXPECT_GE(images + 121, complete);
   EXPECT_GT(lights, images / 2);
 }

@@ -1,4 +1,4 @@
-// What the node's messages and parameters mean, without a master.
+// Messages and parameters of the node, without a master.
 #include "ros/battery_publisher.h"
 #include "ros/blob_publisher.h"
 #include "ros/driver_parameters.h"
@@ -35,7 +35,7 @@ protocol::IrSpot spot() {
   return s;
 }
 
-TEST(Blob, FullFormatSaysAllAndPointsDown) {
+TEST(Blob, FullFormatHasAllFieldsWithYDown) {
   const auto blob = irBlob(spot(), protocol::IrFormat::kFull, 2);
   EXPECT_EQ(300, blob.x);
   EXPECT_EQ(667, blob.y);
@@ -53,7 +53,7 @@ TEST(Blob, BoxOfTheWholeSensorIsTheImage) {
             irBlob(s, protocol::IrFormat::kFull, 0).bounding_box);
 }
 
-TEST(Blob, OtherFormatsDoNotInventWhatTheyDoNotSay) {
+TEST(Blob, OtherFormatsLeaveMissingFieldsUnknown) {
   const auto extended = irBlob(spot(), protocol::IrFormat::kExtended, 0);
   EXPECT_EQ(4, extended.size);
   EXPECT_TRUE(std::isnan(extended.intensity));
@@ -92,7 +92,7 @@ TEST(PlayerLeds, AddUpToTheNumberInTheName) {
   EXPECT_EQ(0xf, playerLeds("wiimote_0"));
 }
 
-TEST(Battery, IsLowByItsChargeOrByItsOwnWord) {
+TEST(Battery, IsLowByItsChargeOrByItsFlag) {
   protocol::Status status;
   status.battery = 0x20;  // 29.6 %
   EXPECT_FALSE(batteryLow(status, 0.2));
@@ -110,8 +110,8 @@ TEST(Sensitivity, ByNameOrCustom) {
   EXPECT_THROW(sensitivity("07 00 00 71 01 00 72 00 20 1f 03", "", ""), std::invalid_argument);
 }
 
-/// In the place of a ParameterReader: checks that config/driver.yaml has each parameter with its
-/// default, below a comment with a sentence and the range.
+/// Replaces a ParameterReader: checks that config/driver.yaml has each parameter with its default,
+/// below a comment with a sentence and the range.
 class DriverYaml {
  public:
   DriverYaml() : values_(YAML::LoadFile(DRIVER_YAML)) {
@@ -192,7 +192,7 @@ TEST(Parameters, TheLiveSettingsOfferEverySensitivity) {
     EXPECT_NE(std::string::npos, menu.find("'" + name + "'")) << name << " in " << menu;
 }
 
-TEST(LogExceptions, NothingThrownLeaves) {
+TEST(LogExceptions, NoExceptionLeaves) {
   EXPECT_NO_THROW(logExceptions("wiimote_1", [] { throw std::runtime_error("reason"); }));
   EXPECT_NO_THROW(logExceptions("wiimote_1", [] { throw 1; }));
 }
@@ -231,7 +231,7 @@ TEST_F(DiagnosticsTest, AllIsWell) {
   EXPECT_EQ("streaming", status.message);
 }
 
-TEST_F(DiagnosticsTest, WhatWasRestoredIsToldOnce) {
+TEST_F(DiagnosticsTest, RestorationsAreReportedOnce) {
   state_.link.restorations = 2;
   state_.link.last_restoration = "the camera was switched off";
   const auto status = describe();
@@ -242,7 +242,7 @@ TEST_F(DiagnosticsTest, WhatWasRestoredIsToldOnce) {
   EXPECT_EQ("the camera was switched off", value("Last restoration"));
 }
 
-TEST_F(DiagnosticsTest, WhatIsWrongIsInTheSummary) {
+TEST_F(DiagnosticsTest, ProblemsAreInTheSummary) {
   const auto says = [&](const std::string& text) {
     const auto status = describe();
     return status.level != diagnostic_msgs::DiagnosticStatus::OK &&

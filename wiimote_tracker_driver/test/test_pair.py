@@ -22,7 +22,7 @@ from pairing import steps  # noqa: E402
 A = '00:1F:32:12:34:56'
 C = '00:1A:7D:DA:71:13'
 
-# What bluetoothctl says at each step when all goes well.
+# Output of bluetoothctl at each step of a successful pairing.
 START = 'Waiting to connect to bluetoothd...\nAgent registered\n'
 POWER = '''> power on
 [CHG] Controller %s Powered: yes
@@ -90,7 +90,7 @@ class Computer:
         return (self.folder / 'calls').read_text().splitlines()
 
     def pair(self, dialogue, *arguments):
-        """Exit status of pair, and what it says to people and of errors."""
+        """Exit status, standard output and error output of pair."""
         (self.folder / 'dialogue').write_text(dialogue)
         self.monkeypatch.setenv('FAKE_BLUETOOTHCTL', str(self.folder / 'dialogue'))
         self.monkeypatch.setattr(sys, 'argv', ['pair'] + list(arguments))
@@ -111,7 +111,7 @@ def computer(tmp_path, monkeypatch, capsys):
     # Its name comes after its address.
     START + POWER + SCAN + '[NEW] Device %s 00-1F-32-12-34-56\n' % A
     + '[CHG] Device %s Name: Nintendo RVL-CNT-01\n' % A + TO_THE_END,
-    # It was known before, told at the start by old versions and in a list by new ones.
+    # It was known before: old versions report it at the start, new ones in a list.
     START + NEW + POWER + SCAN + '[CHG] Device %s RSSI: 0xffffffc9 (-55)\n' % A + TO_THE_END,
     START + POWER + SCAN.replace('> scan', 'Device %s Nintendo RVL-CNT-01\n> scan' % A)
     + '[CHG] Device %s RSSI: -55\n' % A + TO_THE_END,
@@ -125,7 +125,7 @@ def test_a_remote_is_paired_and_tried(computer, dialogue):
     assert computer.calls() == ['wiimote_tracker_driver list_wiimotes --device ' + A]
 
 
-def test_an_old_pairing_is_removed_and_made_anew(computer):
+def test_an_old_pairing_is_replaced(computer):
     again = SCAN.replace('Discovery started',
                          'Failed to start discovery: org.bluez.Error.InProgress')
     status, out, _ = computer.pair(
@@ -138,7 +138,7 @@ def test_an_old_pairing_is_removed_and_made_anew(computer):
     assert out.count('Now press the red SYNC button') == 2
 
 
-def test_a_remote_that_comes_back_by_itself_is_not_paired_again(computer):
+def test_a_remote_that_reconnects_is_not_paired_again(computer):
     status, out, _ = computer.pair(
         START + POWER + SCAN.replace('> scan', 'Device %s Nintendo RVL-CNT-01\n> scan' % A)
         + '[CHG] Device %s Connected: yes\n' % A + SILENCE)
@@ -181,8 +181,8 @@ def test_another_remote_than_the_wanted_one_is_left_alone(computer):
 ], ids=['no_service', 'ends', 'no_adapter', 'blocked', 'busy', 'no_access', 'silent_adapter',
         'no_search', 'nothing_found', 'refused', 'no_answer', 'asleep', 'pin', 'no_trust',
         'not_connected', 'silent_connection'])
-def test_each_failure_says_what_to_do(computer, monkeypatch, dialogue, to_do):
-    # What never comes is waited for in these tests, so not for long.
+def test_each_failure_gives_advice(computer, monkeypatch, dialogue, to_do):
+    # Short timeouts: these tests wait for events that never come.
     monkeypatch.setattr(steps, 'COMMAND_TIMEOUT', 2.0)
     monkeypatch.setattr(steps, 'REMOTE_TIMEOUT', 2.0)
     status, out, err = computer.pair(dialogue, '--timeout', '2')
@@ -191,7 +191,7 @@ def test_each_failure_says_what_to_do(computer, monkeypatch, dialogue, to_do):
     assert not (computer.folder / 'calls').exists()
 
 
-def test_a_service_that_runs_but_does_not_answer_is_a_matter_of_permission(computer, monkeypatch):
+def test_a_running_service_without_answer_is_a_permission_problem(computer, monkeypatch):
     monkeypatch.setattr(steps, 'COMMAND_TIMEOUT', 1.0)
     computer.program('systemctl', 'exit 0')
     _, _, err = computer.pair('Waiting to connect to bluetoothd...\n' + SILENCE)
@@ -205,27 +205,27 @@ def test_a_service_that_runs_while_bluetoothctl_ends_is_restarted(computer):
 
 
 def test_a_remote_that_goes_away_again_has_no_bond(computer):
-    # Not there yet when it is looked for the first time.
+    # Not there yet at the first check.
     computer.program('rosrun', 'echo "This Wii Remote is not connected"; exit 1')
     _, _, err = computer.pair(FOUND + TO_THE_END + '[CHG] Device %s Connected: no\n' % A + SILENCE)
     assert 'went away at once' in err and 'ClassicBondedOnly=false' in err
 
 
-def test_no_node_is_a_matter_of_the_kernel(computer, monkeypatch):
+def test_a_missing_node_is_a_kernel_problem(computer, monkeypatch):
     monkeypatch.setattr(steps, 'SETTLE_TIMEOUT', 0.5)
     computer.program('rosrun', 'echo "This Wii Remote is not connected"; exit 1')
     _, _, err = computer.pair(FOUND + TO_THE_END + SILENCE)
     assert 'modprobe hid-wiimote' in err
 
 
-def test_what_list_wiimotes_finds_wrong_is_passed_on(computer, monkeypatch):
+def test_problems_found_by_list_wiimotes_are_passed_on(computer, monkeypatch):
     monkeypatch.setattr(steps, 'SETTLE_TIMEOUT', 0.5)
     computer.program('rosrun', 'echo "permission denied on /dev/hidraw3: install the rule"; exit 1')
     _, _, err = computer.pair(FOUND + TO_THE_END + SILENCE)
     assert 'permission denied on /dev/hidraw3: install the rule' in err
 
 
-def test_a_node_that_takes_its_time_is_waited_for(computer):
+def test_waits_for_a_late_node(computer):
     computer.program('rosrun', 'test -e {0}/second && exit 0; touch {0}/second; exit 1'.format(
         computer.folder))
     status, _, err = computer.pair(FOUND + TO_THE_END + SILENCE)
@@ -261,7 +261,7 @@ def test_a_camera_that_is_not_in_the_list_is_refused_at_once(computer):
 @pytest.mark.parametrize('arguments', [
     ['--replace', 'wiimote_2'], ['--cameras', 'x'], ['--address', 'hidraw0'], ['--timeout', '0'],
     ['--replace', 'a', '--cameras', '/nowhere/cameras.yaml'], ['--timeout', 'nan']])
-def test_arguments_without_sense_are_refused_before_anything_is_done(computer, arguments):
+def test_invalid_arguments_are_refused_before_anything_is_done(computer, arguments):
     with pytest.raises(SystemExit) as stop:
         computer.pair('', *arguments)
     assert stop.value.code == 2

@@ -1,4 +1,4 @@
-// Bytes and their meaning, from hand-written vectors and from lines sent by real remotes.
+// Bytes and their meaning, from hand-written vectors and from reports of real remotes.
 #include "protocol/accelerometer.h"
 #include "protocol/ir_calibration.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
@@ -67,7 +67,7 @@ TEST(Infrared, FullReport33) {
   expectSpot(data->spots[0], 0x155, 0x2aa, 13);
   expectSpot(data->spots[1], 0x3fe, 0x001, 5);
   EXPECT_FALSE(data->spots[2].seen);
-  // y = 0x321 = 801 is below the last line of the sensor, so this is no spot either.
+  // y = 0x321 = 801 is below the last line of the sensor, so this is not a spot.
   EXPECT_FALSE(data->spots[3].seen);
 }
 
@@ -131,7 +131,7 @@ TEST(Infrared, FullGoldenVector) {
   EXPECT_TRUE(data->plausible);
 }
 
-TEST(Infrared, HalvesInAnyOtherOrderAreNoImage) {
+TEST(Infrared, HalvesInAnotherOrderAreNoImage) {
   EXPECT_FALSE(decodeInterleaved(kSecondHalf, kFirstHalf));
   EXPECT_FALSE(decodeInterleaved(kFirstHalf, kFirstHalf));
   EXPECT_FALSE(decodeInterleaved(kSecondHalf, kSecondHalf));
@@ -154,7 +154,7 @@ TEST(Infrared, FullUnseenSlotHasNeitherSizeNorBoxNorIntensity) {
   EXPECT_FALSE(data->plausible);
 }
 
-TEST(Infrared, SlotsThatNoCameraInTheFormatSaysAreNotPlausible) {
+TEST(Infrared, SlotsThatNoCameraInTheFormatSendsAreNotPlausible) {
   const std::vector<std::uint8_t> good{0x23, 0x45, 0x13, 0xff, 0xff, 0xff,
                                        0,    0,    0,    0xff, 0x10, 0x02};
   EXPECT_TRUE(extended(good).plausible);
@@ -204,7 +204,7 @@ TEST(Accelerometer, DamagedBlockIsRefused) {
     EXPECT_FALSE(decodeAccelerometerBlock(damaged)) << "byte " << i;
   }
   EXPECT_FALSE(decodeAccelerometerBlock({{0, 0, 0, 0, 0, 0, 0, 0, 0, 0}}));
-  // A right checksum but no difference between 0 g and 1 g would divide by zero.
+  // A correct checksum, but no difference between 0 g and 1 g: it would divide by zero.
   EXPECT_FALSE(decodeAccelerometerBlock({{0, 0, 0, 0, 0, 0, 0, 0, 0, 0x55}}));
 }
 
@@ -230,7 +230,7 @@ TEST(IrCalibration, DamagedBlockIsRefused) {
   }
   EXPECT_FALSE(decodeIrCalibrationBlock({{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}}));
   EXPECT_FALSE(decodeIrCalibrationBlock({{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x55}})) << "blank";
-  // A right checksum, but the second point is at y = 778.
+  // A correct checksum, but the second point is at y = 778.
   EXPECT_FALSE(decodeIrCalibrationBlock(
       {{0x88, 0x85, 0x8f, 0x8b, 0x0a, 0x97, 0x3f, 0x30, 0x8c, 0x39, 0x51}}));
 }

@@ -1,4 +1,4 @@
-// By what the scenarios beside a real kernel are judged.
+// The criteria of the scenarios with a real kernel.
 #include "../real_kernel/guest/recovery.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ void append(std::vector<double>& images, double begin, double rate, int count) {
     images.push_back(begin + i / rate);
 }
 
-TEST(RecoveryTime, OfAStreamThatWasNotDisturbedIsTheTimeToTheNextImage) {
+TEST(RecoveryTime, OfAnUndisturbedStreamIsTheTimeToTheNextImage) {
   std::vector<double> images;
   append(images, 0.0, 100.0, 300);
   EXPECT_NEAR(0.005, recoveryTime(images, 1.005), 1e-9);
@@ -49,7 +49,7 @@ TEST(RecoveryTime, NeedsNinetyImagesASecond) {
   EXPECT_EQ(0.0, recoveryTime(images, 0.0));
 }
 
-TEST(RecoveryTime, OrWhateverRateIsWanted) {
+TEST(RecoveryTime, OrAnotherRate) {
   std::vector<double> images;
   append(images, 0.0, 43.5, 1000);
   EXPECT_LT(recoveryTime(images, 0.0, 45.0), 0.0);

@@ -104,7 +104,7 @@ TEST(RecordingFormat, SameBytesAreWritten) {
   EXPECT_EQ(kAll, std::string(bytes.begin(), bytes.end()));
 }
 
-TEST(RecordingFormat, CutOffAnywhereItIsReadUpToThereAndSaysSo) {
+TEST(RecordingFormat, TruncatedAnywhereItIsReadUpToThereWithAnError) {
   std::vector<std::size_t> ends{kHeader.size()};
   for (const std::string& record : {kConnected, kSent, kReceived, kDisconnected})
     ends.push_back(ends.back() + record.size());
@@ -125,7 +125,7 @@ TEST(RecordingFormat, CutOffAnywhereItIsReadUpToThereAndSaysSo) {
   }
 }
 
-TEST(RecordingFormat, WhatIsNoRecordingIsRefused) {
+TEST(RecordingFormat, OtherFilesAreRefused) {
   EXPECT_TRUE(contains(refusal("#ROSBAG V2.0\n and so on, and so on"), "not a recording"));
   std::string sent_as_text = kAll;
   sent_as_text.erase(4, 1);  // the carriage return
@@ -138,7 +138,7 @@ TEST(RecordingFormat, WhatIsNoRecordingIsRefused) {
   EXPECT_TRUE(contains(refusal(no_time), "damaged"));
 }
 
-TEST(RecordingFormat, DamagedRecordEndsIt) {
+TEST(RecordingFormat, ADamagedRecordEndsIt) {
   const auto damage = [](const std::string& record) {
     const Contents contents = read(kHeader + kReceived + record + kReceived);
     EXPECT_EQ(1u, contents.records.size());
@@ -177,7 +177,7 @@ TEST(RecordingFormat, NoBytesMakeItCrash) {
   }
 }
 
-/// A directory of its own for the recordings of one test.
+/// A separate directory for the recordings of each test.
 class Recording : public testing::Test {
  protected:
   void SetUp() override {
@@ -212,7 +212,7 @@ class Recording : public testing::Test {
   std::string path_;
 };
 
-TEST_F(Recording, HoldsWhatWasToldAtItsTimes) {
+TEST_F(Recording, HoldsAllRecordsAtTheirTimes) {
   {
     Recorder recorder(path_, 1000.0, 1.7e9);
     EXPECT_EQ(path_, recorder.path());
@@ -255,7 +255,7 @@ TEST_F(Recording, KeepsEarlierOnes) {
   EXPECT_EQ(directory_ + "/a_3.wiirec", third.path());
 }
 
-TEST_F(Recording, PlaceThatCannotBeWritten) {
+TEST_F(Recording, RefusesAFolderThatCannotBeWritten) {
   const std::string path = directory_ + "/none/a.wiirec";
   try {
     Recorder(path, 0.0, 0.0);
@@ -265,7 +265,7 @@ TEST_F(Recording, PlaceThatCannotBeWritten) {
   }
 }
 
-TEST_F(Recording, FullDiskEndsItAndTheRestIsKept) {
+TEST_F(Recording, AFullDiskEndsItAndKeepsTheRest) {
   rlimit before{};
   ASSERT_EQ(0, ::getrlimit(RLIMIT_FSIZE, &before));
   rlimit small = before;

@@ -1,4 +1,4 @@
-// What recording_info finds in a recording.
+// The summary that recording_info prints.
 #include "tools/recording_info/summary.h"
 
 #include <gtest/gtest.h>
@@ -96,7 +96,7 @@ TEST_F(Info, CutOff) {
   EXPECT_TRUE(contains(describe(found), "complete       no: the recording is cut off"));
 }
 
-TEST_F(Info, NothingInIt) {
+TEST_F(Info, AnEmptyRecording) {
   const Summary found = summary();
   EXPECT_EQ(0.0, found.intervals.mean());
   EXPECT_EQ(0.0, found.intervals.quantile(0.5));

@@ -38,7 +38,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// A light on its way round, so that no two images are alike.
+/// A light on a closed path, so that no two images are equal.
 Senses sensesAt(double time) {
   Senses senses;
   virtual_wiimote::Light light;
@@ -49,8 +49,8 @@ Senses sensesAt(double time) {
   return senses;
 }
 
-/// A virtual remote, with all its faults, in fake time: it senses every 10 ms, and its reports take
-/// up to 5 ms.
+/// A virtual remote with all its faults in fake time: samples every 10 ms, and its reports take up
+/// to 5 ms.
 struct SimulatedRemote {
   explicit SimulatedRemote(const Faults& faults)
       : device(virtual_wiimote::Device::Options(), faults) {}
@@ -70,7 +70,7 @@ struct SimulatedRemote {
   void sampleUntil(double time) {
     for (; next_sample <= time; next_sample += 0.01) {
       take(device.sample(sensesAt(next_sample)));
-      if (under_way.size() > 64)  // what the kernel keeps for us
+      if (under_way.size() > 64)  // the kernel's queue
         under_way.resize(64);
     }
   }
@@ -239,7 +239,7 @@ TEST_F(Replays, SameImagesAtTheSameTimes) {
   EXPECT_TRUE(contains(link.error, "has ended")) << link.error;
 }
 
-TEST_F(Replays, SameImagesWithAllThatGoesWrong) {
+TEST_F(Replays, SameImagesWithAllFaults) {
   Faults faults;
   faults.lost_answers = 0.1;
   faults.lost_data = 0.05;
@@ -254,14 +254,14 @@ TEST_F(Replays, SameImagesWithAllThatGoesWrong) {
   for (faults.seed = 1; faults.seed <= 5; ++faults.seed) {
     const std::vector<Frame> recorded = recordSimulation(faults, 30.0);
     EXPECT_LT(500u, recorded.size());
-    EXPECT_LT(1u, recorded.back().epoch) << "too little has gone wrong";
+    EXPECT_LT(1u, recorded.back().epoch) << "too few faults";
     Replay replay(path_);
     expectSame(recorded, 50.0, play(replay));
     ::unlink(path_.c_str());
   }
 }
 
-TEST_F(Replays, EndsOnceAndForAll) {
+TEST_F(Replays, EndsOnce) {
   recordSimulation(Faults(), 1.0);
   Replay replay(path_);
   play(replay);
@@ -271,7 +271,7 @@ TEST_F(Replays, EndsOnceAndForAll) {
   }
 }
 
-TEST_F(Replays, OtherSettingsGetTheirAnswersAndTheRecordedImages) {
+TEST_F(Replays, OtherSettingsAreAnsweredAndGetTheRecordedImages) {
   const std::vector<Frame> recorded = recordSimulation(Faults(), 3.0);
   Options options;
   options.session.leds = 0x8;
@@ -282,8 +282,8 @@ TEST_F(Replays, OtherSettingsGetTheirAnswersAndTheRecordedImages) {
   EXPECT_FALSE(contains(replay.notice(), "format")) << replay.notice();
 }
 
-// A driver of another version asks for other things, in another order, and at other times.
-TEST_F(Replays, RequestsThatWereNotMadeThenAreAnswered) {
+// A driver of another version sends other requests, in another order, and at other times.
+TEST_F(Replays, RequestsThatWereNotRecordedAreAnswered) {
   recordSimulation(Faults(), 1.0);
   Replay replay(path_);
   const auto transport = replay.open();
@@ -305,7 +305,7 @@ TEST_F(Replays, RequestsThatWereNotMadeThenAreAnswered) {
   EXPECT_EQ(0xc2, answer.bytes[6]);
   EXPECT_EQ(0xe7, answer.bytes[7]);
   ASSERT_TRUE(ask(protocol::readMemory(protocol::Space::kEeprom, 0x0018, 2), 0x21));
-  EXPECT_EQ(0x86, answer.bytes[6]) << "part of what was read then";
+  EXPECT_EQ(0x86, answer.bytes[6]) << "part of the recorded data";
   EXPECT_EQ(0x30, answer.bytes[7]);
   ASSERT_TRUE(ask(protocol::readMemory(protocol::Space::kEeprom, 0x1000, 20), 0x21));
   EXPECT_EQ(0x08, answer.bytes[3] & 0x0f) << "not known";
@@ -315,7 +315,7 @@ TEST_F(Replays, RequestsThatWereNotMadeThenAreAnswered) {
   EXPECT_EQ(0xa0, answer.bytes[6]);
 }
 
-// As recorded but for one value: the host reads back what it wrote itself, not what was recorded.
+// As recorded but for one value: the host reads back its own write, not the recorded value.
 TEST_F(Replays, OwnSettingsAreReadBack) {
   recordSimulation(Faults(), 1.0);
   std::vector<Report> requests;
@@ -346,7 +346,7 @@ TEST_F(Replays, OwnSettingsAreReadBack) {
   EXPECT_TRUE(contains(replay.notice(), "format")) << replay.notice();
 }
 
-TEST_F(Replays, CutOffAnywhereItPlaysUpToThere) {
+TEST_F(Replays, TruncatedAnywhereItPlaysUpToThere) {
   recordSimulation(Faults(), 0.5);
   const std::string all = bytes();
   const std::vector<Frame> whole = [&] {
@@ -393,7 +393,7 @@ TEST_F(Replays, NoBytesMakeItCrashOrHang) {
     const std::string path = write(damaged);
     try {
       Replay replay(path);
-      // A time that was hit may leave the remote silent or away for very long.
+      // A damaged time may leave the remote silent or absent for very long.
       Wiimote wiimote(
           Options(), [&] { return replay.open(); }, [&] { return replay.now(); });
       for (int i = 0; i < 2000 && !replay.ended(); ++i) {
@@ -406,7 +406,7 @@ TEST_F(Replays, NoBytesMakeItCrashOrHang) {
   }
 }
 
-TEST_F(Replays, WhatCannotBePlayedIsRefusedByName) {
+TEST_F(Replays, FilesThatCannotBePlayedAreRefusedByName) {
   const auto refusal = [](const std::string& path) -> std::string {
     try {
       Replay replay(path);
@@ -422,7 +422,7 @@ TEST_F(Replays, WhatCannotBePlayedIsRefusedByName) {
   EXPECT_TRUE(contains(refusal(path_), "no connection"));
 }
 
-TEST_F(Replays, PaceIsToldTheRecordedTimes) {
+TEST_F(Replays, PaceGetsTheRecordedTimes) {
   const std::vector<Frame> recorded = recordSimulation(Faults(), 1.0);
   std::vector<double> told;
   Replay replay(path_, [&](double time) { told.push_back(time); });
@@ -432,7 +432,7 @@ TEST_F(Replays, PaceIsToldTheRecordedTimes) {
   EXPECT_NEAR(recorded.back().arrival - 50.0, *(told.end() - 1), 0.01);
 }
 
-TEST_F(Replays, RealTimeTakesItsTime) {
+TEST_F(Replays, PlaysInRealTime) {
   const auto steady = [] {
     using namespace std::chrono;
     return duration<double>(steady_clock::now().time_since_epoch()).count();
@@ -445,7 +445,7 @@ TEST_F(Replays, RealTimeTakesItsTime) {
   EXPECT_THROW(realTime(0.0), std::invalid_argument);
 }
 
-/// A clock that stands still between two reports, so that all who ask it agree on the arrival.
+/// A clock that stands still between two reports, so that all readers agree on the arrival.
 class ArrivalClock : public transport::Transport {
  public:
   ArrivalClock(std::unique_ptr<transport::Transport> transport, std::atomic<double>* now)

@@ -20,7 +20,7 @@ def chosen(*levels):
     return level.name if level else None
 
 
-def test_the_led_is_what_was_not_there_before():
+def test_the_led_is_the_light_that_was_not_there_before():
     level = score('wii_3', [[LAMP]] * 4, [[LAMP, LED], [LED], [LAMP], []])
     assert (level.name, level.foreign, level.seen) == ('wii_3', 1.0, 0.5)
 
@@ -32,7 +32,7 @@ def test_a_lamp_that_flickers_by_some_pixels_is_not_the_led():
         return [(LAMP[0] + rng.uniform(-5, 5), LAMP[1] + rng.uniform(-5, 5))]
 
     assert score('max', [lamp() for _ in range(200)], [lamp() for _ in range(200)]).seen == 0.0
-    # A light that is on in some images only is foreign in those.
+    # A light that is on in some images only counts as foreign in those.
     assert score('max', [lamp(), []], [lamp()]).foreign == 0.5
 
 
@@ -56,7 +56,7 @@ def test_a_level_that_flickers_is_not_steady():
     assert chosen(('wii_1', 0.0, 0.97), ('wii_2', 0.5, 0.99)) == 'wii_2'
 
 
-def test_lamps_that_must_be_put_up_with_are_named():
+def test_unavoidable_lamps_are_named():
     _, sentence = recommend([Level('wii_5', 2.0, 1.0)])
     assert '2.00 foreign lights' in sentence and 'cover these lamps' in sentence
     _, sentence = recommend([Level('wii_5', 0.0, 1.0)])

@@ -1,4 +1,4 @@
-// The exact posterior behind a hard edge, and frame numbers in hindsight, against brute force.
+// The exact posterior behind a hard edge, and smoothed frame numbers, compared with brute force.
 
 #include "wiimote_tracker_driver/exposure_clock/frame_history.h"
 #include "wiimote_tracker_driver/exposure_clock/steady_edge.h"
@@ -82,7 +82,7 @@ TEST(SteadyEdge, is_the_posterior_mean_and_covariance) {
     const double spread = seed % 2 ? 0.005 : 0.002;
     const auto reports = exponentialReports(700, spread, kPeriod + 3e-6, seed);
     SteadyEdge edge(kPeriod, kTolerance);
-    // What it ignores while it settles must not count on the other side either.
+    // Reports ignored while it settles are ignored by brute force too.
     std::vector<Report> used;
     for (const Report& report : reports) {
       edge.add(report.frame, report.arrival, 1.0, kPeriod + 3e-6);
@@ -93,7 +93,7 @@ TEST(SteadyEdge, is_the_posterior_mean_and_covariance) {
     const std::int64_t frame = 705;
     const ClockState ours = edge.state(frame, spread);
     const ClockState truth = bruteForce(used, frame, spread);
-    // Two corners of the hull in one block are rare, and then differ little.
+    // Two corners of the hull in one block are rare, and then the difference is small.
     const bool same = std::abs(ours.time - truth.time) < 0.02 * std::sqrt(truth.p00) &&
                       std::abs(ours.period - truth.period) < 0.02 * std::sqrt(truth.p11) &&
                       std::abs(ours.p00 / truth.p00 - 1.0) < 0.05 &&
@@ -126,7 +126,7 @@ TEST(SteadyEdge, forgets_what_is_older_than_its_memory) {
   EXPECT_NEAR(edge.state(2999, 50e-6).time, 5.001 + 2999 * kPeriod, 2e-6);
 }
 
-TEST(SteadyEdge, keeps_its_digits_for_days) {
+TEST(SteadyEdge, stays_precise_for_days) {
   const double period = kPeriod + 3e-6;
   SteadyEdge young(kPeriod, kTolerance), old(kPeriod, kTolerance);
   for (int k = 0; k < 60; ++k)
@@ -155,7 +155,7 @@ TEST(SteadyEdge, is_not_ready_before_it_has_seen_a_few_seconds) {
   EXPECT_FALSE(edge.ready());
 }
 
-// Three reports after a sure one, each with any likelihoods of its numbers.
+// Three reports after a certain one, each with random likelihoods of its numbers.
 TEST(FrameHistory, agrees_with_the_enumeration_of_all_paths) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> uniform(0.001, 1.0);
@@ -214,7 +214,7 @@ TEST(FrameHistory, is_complete_when_the_latest_number_is_certain_or_memory_is_fu
   int reports = 0;
   for (; !history.complete(); ++reports) {
     ASSERT_LT(reports, 1000);
-    counter.predict(counter.frame(0) + 3);  // as likely early as late, for ever
+    counter.predict(counter.frame(0) + 3);  // equally likely early and late, always
     counter.normalise();
     history.add(counter, reports, 1.0);
   }

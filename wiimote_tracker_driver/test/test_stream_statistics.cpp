@@ -1,4 +1,4 @@
-// Rate and gaps as diagnostics show them.
+// Rate and gaps for the diagnostics.
 #include "wiimote/stream_statistics.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ TEST(StreamStatistics, RateOfAWindow) {
   EXPECT_EQ(0u, summary.gaps);
   summary = statistics.take(13.0);
   EXPECT_EQ(0.0, summary.rate);
-  EXPECT_NEAR(2.0, summary.longest_gap, 1e-9) << "a gap that still lasts shows";
+  EXPECT_NEAR(2.0, summary.longest_gap, 1e-9) << "an unfinished gap counts";
 }
 
 TEST(StreamStatistics, GapsAreCountedOnceAndNotBeforeTheFirstImage) {

@@ -95,7 +95,7 @@ TEST(OpenErrors, HidrawThatIsNotThere) {
   EXPECT_TRUE(contains(sentenceOf<NoSuchDevice>([&] { open(parseDeviceName(path)); }), path));
 }
 
-/// A directory of its own for the sockets of one test.
+/// A separate directory for the sockets of each test.
 class Sockets : public testing::Test {
  protected:
   void SetUp() override {
@@ -161,7 +161,7 @@ TEST_F(Sockets, ReadReturnsEmptyHandedAtItsTimeout) {
   EXPECT_FALSE(transport->read(report, 0.01));
 }
 
-TEST_F(Sockets, NobodyListens) {
+TEST_F(Sockets, RefusesASocketWithoutAServer) {
   EXPECT_TRUE(contains(sentenceOf<NoSuchDevice>([&] { connect(); }), path_));
   std::ofstream(path_) << "not a socket";
   EXPECT_TRUE(contains(sentenceOf<NoSuchDevice>([&] { connect(); }), path_));
@@ -186,7 +186,7 @@ TEST_F(Sockets, SecondHostIsRefusedUntilTheFirstHasGone) {
   EXPECT_EQ("00:1f:32:00:00:01", connect()->identity());
 }
 
-TEST_F(Sockets, SecondHostIsToldTheOtherProcess) {
+TEST_F(Sockets, SecondHostGetsTheOtherProcess) {
   const auto server = serve();
   const pid_t other = ::fork();
   if (other == 0) {
@@ -225,7 +225,7 @@ TEST_F(Sockets, DeviceGoesAwayAndComesBackPowerCycled) {
   EXPECT_EQ(0x20, next(*again).id());
 }
 
-TEST_F(Sockets, HostThatDoesNotReadBlocksNobody) {
+TEST_F(Sockets, AHostThatDoesNotReadDoesNotBlock) {
   const auto server = serve();
   const auto transport = connect();
   transport->write({0x12, 0x06, 0x30});
@@ -235,8 +235,8 @@ TEST_F(Sockets, HostThatDoesNotReadBlocksNobody) {
   EXPECT_EQ(0x30, next(*transport).id());
 }
 
-// The kernel reports that a peer has left with unread reports before what that peer had written.
-TEST_F(Sockets, LastWordsOfAHostThatLeavesReportsUnreadAreHeard) {
+// The kernel reports that a peer left with unread reports before it delivers that peer's writes.
+TEST_F(Sockets, LastWritesOfAHostThatLeavesReportsUnreadArrive) {
   const auto server = serve();
   for (int i = 0; i < 200; ++i) {
     auto transport = connect();

@@ -1,4 +1,4 @@
-// What the virtual remote's camera makes of lights, in raw bytes.
+// Lights in the virtual remote's camera, in raw bytes.
 #include "virtual_remote_bytes.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@ struct Level {
   const char* name;
   Bytes block1;
   Bytes block2;
-  /// Where a sensor bar is just seen, [m]: 6 sqrt(99 * 3 / (GAINLIMIT * max(MINSIZE, 1))).
+  /// Largest distance at which a sensor bar is seen [m]: 6 sqrt(99 * 3 / (GAINLIMIT * max(MINSIZE,
+  /// 1))).
   double reach;
 };
 
@@ -66,7 +67,7 @@ class Camera {
   Device device_;
 };
 
-/// The Wii's sensor bar, this far away [m].
+/// The Wii's sensor bar at this distance [m].
 Light barAt(double distance) {
   Light light;
   light.x = 200.0;
@@ -178,7 +179,7 @@ TEST(Image, EndsAtItsEdges) {
   EXPECT_EQ(767, spots[1].y);
 }
 
-TEST(Image, LightsThatAreNoneAreNotSeen) {
+TEST(Image, InvalidLightsAreNotSeen) {
   const double nan = std::nan("");
   EXPECT_EQ(0u, Camera(kLevels[kMiddle])
                     .see({{nan, 5, 2, 1},
@@ -204,7 +205,7 @@ TEST(Slots, FourBrightestOnly) {
 TEST(Slots, LightKeepsItsSlotWhileFollowed) {
   Camera camera(kLevels[kMiddle]);
   camera.see({{100, 100, 2, 2}, {200, 100, 2, 1}});
-  // The second becomes the brighter one, both move, and are listed the other way round.
+  // The second becomes the brighter one, both move, and their order is exchanged.
   auto spots = camera.see({{205, 100, 2, 9}, {105, 100, 2, 1}});
   ASSERT_EQ(2u, spots.size());
   EXPECT_EQ(105, spots[0].x);

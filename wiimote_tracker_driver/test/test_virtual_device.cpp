@@ -1,4 +1,4 @@
-// The virtual Wii Remote spoken to in raw bytes, as documented for the real one.
+// The virtual Wii Remote by its raw bytes, as documented for the real one.
 #include "virtual_remote_bytes.h"
 
 #include <gtest/gtest.h>
@@ -21,11 +21,11 @@ Bytes infraredAfter(const std::vector<Bytes>& outputs, const Senses& senses) {
 const Senses kThreeLights = lights({{291, 69, 3, 9}, {1023, 767, 1, 8}, {512, 384, 15, 7}});
 const Bytes kThreeExtended{0x23, 0x45, 0x13, 0xff, 0xff, 0xb1, 0x00, 0x80, 0x6f, 0, 0, 0};
 
-TEST(Handshake, RightOneGivesInfrared) {
+TEST(Handshake, CorrectOneGivesInfrared) {
   EXPECT_EQ(kThreeExtended, infraredAfter(handshake(), kThreeLights));
 }
 
-TEST(Handshake, AnyStepLeftOutGivesNone) {
+TEST(Handshake, AnyMissingStepGivesNone) {
   const Bytes nothing(12, 0xff);
   // All but the first write of register 0x30 and the report mode itself.
   for (const std::size_t left_out : {0u, 1u, 3u, 4u, 5u, 6u}) {
@@ -111,7 +111,7 @@ TEST(Eeprom, InfraredBlock) {
             device.handleOutput({0x17, 0x00, 0x00, 0x00, 0x00, 0x00, 0x0b}));
 }
 
-TEST(Eeprom, FactoryPointsOfARemoteOfItsOwn) {
+TEST(Eeprom, FactoryPointsCanBeSet) {
   Device::Options options;
   options.factory_points = {{{102, 77}, {102, 691}, {922, 691}, {922, 77}}};  // 10 % and 90 %
   Device device(options);

@@ -21,7 +21,7 @@ const Bytes kId{0x21, 0x00, 0x00, 0x50, 0x00, 0xfa, 0x00, 0x00, 0xa4, 0x20, 0x00
 const Bytes kEncryptedId{0x21, 0x00, 0x00, 0x50, 0x00, 0xfa, 0xff, 0xff, 0xff, 0xff, 0xff,
                          0xff, 0,    0,    0,    0,    0,    0,    0,    0,    0,    0};
 
-TEST(Nunchuk, StatusTellsOfItsComingAndGoing) {
+TEST(Nunchuk, StatusReportsPlugAndUnplug) {
   Device device;
   EXPECT_EQ((Bytes{0x20, 0x00, 0x00, 0x02, 0x00, 0x00, 0xa0}), device.setNunchuk(true));
   EXPECT_EQ(std::nullopt, device.setNunchuk(true));
@@ -58,7 +58,7 @@ TEST(Nunchuk, AnswersOnTheBusOnlyWhilePlugged) {
   EXPECT_EQ(no_answer, device.handleOutput(kReadId));
 }
 
-TEST(Nunchuk, SaysWhatItIsWithoutEncryption) {
+TEST(Nunchuk, IdentifiesItselfWithoutEncryption) {
   Device device;
   device.setNunchuk(true);
   EXPECT_EQ(Answers{kEncryptedId}, device.handleOutput(kReadId));

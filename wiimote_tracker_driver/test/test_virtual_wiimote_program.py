@@ -1,4 +1,4 @@
-"""The program virtual_wiimote, run as people run it; its path is in the environment."""
+"""The program virtual_wiimote, run as users run it; its path is in the environment."""
 import math
 import os
 import signal
@@ -9,7 +9,7 @@ import time
 import pytest
 
 PROGRAM = os.environ["VIRTUAL_WIIMOTE"]
-PATIENCE = 20.0  # [s]
+TIMEOUT = 20.0  # [s]
 
 HANDSHAKE = [
     "13 04",
@@ -25,7 +25,7 @@ HANDSHAKE = [
 
 def call(*arguments):
     return subprocess.run([PROGRAM] + list(arguments), stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, timeout=PATIENCE, universal_newlines=True)
+                          stderr=subprocess.PIPE, timeout=TIMEOUT, universal_newlines=True)
 
 
 class Remote:
@@ -35,10 +35,10 @@ class Remote:
         self.path = str(path)
         self.process = subprocess.Popen([PROGRAM, "--socket", self.path] + list(arguments),
                                         stdout=subprocess.PIPE, universal_newlines=True)
-        # The line comes when the socket is there.
+        # The line is printed once the socket exists.
         self.process.stdout.readline()
         self.host = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        self.host.settimeout(PATIENCE)
+        self.host.settimeout(TIMEOUT)
         self.host.connect(self.path)
         self.identity = self.host.recv(64).decode()
 
@@ -46,7 +46,7 @@ class Remote:
         self.host.send(bytes.fromhex(text))
 
     def next(self, report_id):
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + TIMEOUT
         while time.monotonic() < deadline:
             report = self.host.recv(64)
             if report[0] == report_id:
@@ -55,7 +55,7 @@ class Remote:
 
     def end(self):
         self.process.send_signal(signal.SIGINT)
-        return self.process.communicate(timeout=PATIENCE)[0]
+        return self.process.communicate(timeout=TIMEOUT)[0]
 
 
 @pytest.fixture
@@ -74,7 +74,7 @@ def start(tmp_path):
         remote.process.stdout.close()
 
 
-def test_led_goes_round_in_a_circle(start):
+def test_led_moves_in_a_circle(start):
     remote = start("--battery", "100", "--address", "00:1f:32:12:34:56")
     assert remote.identity == "00:1f:32:12:34:56"
     remote.say("15 00")
@@ -85,14 +85,14 @@ def test_led_goes_round_in_a_circle(start):
     while len(angles) < 8:
         report = remote.next(0x33)
         if report[6:9] in (b"\xff\xff\xff", b"\0\0\0"):
-            continue  # of before the first image
+            continue  # from before the first image
         x = report[6] + (report[8] >> 4 & 3) * 256 - 512
         y = report[7] + (report[8] >> 6) * 256 - 384
         assert math.hypot(x, y) == pytest.approx(250, abs=1)
         angles.add(math.floor(4 * math.atan2(y, x) / math.pi))
 
 
-def test_says_what_a_person_would_see_and_cleans_up(start):
+def test_prints_visible_changes_and_cleans_up(start):
     remote = start()
     remote.say("11 51")
     assert remote.process.stdout.readline() == "LEDs: 1 - 3 -\n"
@@ -127,7 +127,7 @@ def test_wrong_arguments_are_refused(arguments, says):
     assert says in result.stderr
 
 
-def test_path_that_cannot_be(tmp_path):
+def test_a_path_that_cannot_exist(tmp_path):
     path = str(tmp_path / "none" / "remote.sock")
     result = call("--socket", path)
     assert result.returncode == 1

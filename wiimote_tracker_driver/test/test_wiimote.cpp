@@ -1,5 +1,5 @@
-// How the driver brings a remote to sending images and keeps it there: in fake time, against a
-// remote that loses, refuses, forgets and goes away.
+// The driver's state machine for a remote, in fake time: it starts the images and keeps them
+// coming, from a remote that loses, refuses, forgets and disappears.
 #include "fake_remote.h"
 #include "wiimote/wiimote.h"
 
@@ -55,7 +55,7 @@ class WiimoteTest : public testing::Test {
             [this] { return remote_.open(); },
             [this] { return remote_.now; }) {}
 
-  /// Lets time pass. @returns the number of images.
+  /// Advances the time. @returns the number of images.
   int run(double duration) {
     const double end = remote_.now + duration;
     int images = 0;
@@ -123,7 +123,7 @@ TEST_F(WiimoteTest, EveryLostRequestOrAnswerIsRepeated) {
   }
 }
 
-TEST_F(WiimoteTest, SilentRemoteIsGivenUpAndTriedAgain) {
+TEST_F(WiimoteTest, ASilentRemoteIsReconnected) {
   remote_.answers = false;
   run(2.6);
   EXPECT_EQ(5, remote_.count(kStatusRequest));
@@ -191,7 +191,7 @@ TEST_F(WiimoteTest, StatusThatNobodyAskedForStopsNothing) {
 
 TEST_F(WiimoteTest, KernelThatResetsTheModeAfterEachStatusIsOvercome) {
   runToImage();
-  // The kernel's 12 00 30 arrives after our own 0x12, and the remote says one report 0x30.
+  // The kernel's 12 00 30 arrives after our own 0x12, and the remote sends one report 0x30.
   remote_.say({0x20, 0, 0, 0x18, 0, 0, 0x8f});
   run(0.007);
   remote_.mode = 0x30;
@@ -275,7 +275,7 @@ TEST_F(WiimoteTest, LostModeIsSetAgainAfterTheShortestSilence) {
   EXPECT_EQ(0u, wiimote_.link().clock_epoch);
 }
 
-TEST_F(WiimoteTest, LostModeThatCannotBeSetAtOnceIsTheWatchdogs) {
+TEST_F(WiimoteTest, LostModeThatCannotBeSetAtOnceIsLeftToTheWatchdog) {
   runToImage();
   remote_.mode = 0x30;
   int losses = 1;
@@ -321,7 +321,7 @@ TEST_F(WiimoteTest, RemoteThatAcknowledgesButSendsNoImagesIsGivenUp) {
 }
 
 TEST_F(WiimoteTest, ForeignAnswersAreTolerated) {
-  // What the kernel's own driver provokes: answers to its reads and writes of extension registers,
+  // Provoked by the kernel's own driver: answers to its reads and writes of extension registers,
   // before every answer to us.
   remote_.lose = [&](const Report&) {
     Report no_motion_plus{0x21, 0, 0, 0xf7, 0x00, 0xfa};
@@ -348,7 +348,7 @@ TEST_F(WiimoteTest, ForeignWriteErrorInTheMiddleIsOvercome) {
   EXPECT_EQ(3, remote_.registers[0x33]);
 }
 
-TEST_F(WiimoteTest, ForeignGoodAnswerThatHidesALostWriteIsFoundOut) {
+TEST_F(WiimoteTest, ForeignGoodAnswerThatHidesALostWriteIsDetected) {
   int losses = 1;
   remote_.lose = [&](const Report& report) {
     if (report == kMode && losses-- > 0) {
@@ -379,7 +379,7 @@ TEST_F(WiimoteTest, UnreadableRegistersDoNotPreventStreaming) {
   EXPECT_EQ(3, remote_.count(kVerify));
   EXPECT_EQ(1, remote_.opened);
   EXPECT_NEAR(100, run(1.0), 1);
-  // Silence then cannot be looked into, so everything is set up again.
+  // Silence then has no known cause, so everything is set up again.
   remote_.powerCycle();
   run(0.8);
   EXPECT_TRUE(streaming());
@@ -435,7 +435,7 @@ TEST_F(WiimoteTest, DamagedCalibrationIsTakenFromItsCopy) {
   EXPECT_EQ(536, wiimote_.accelerometer().at_zero_g[2]);
 }
 
-TEST_F(WiimoteTest, WithoutCalibrationATypicalOneServes) {
+TEST_F(WiimoteTest, WithoutCalibrationATypicalOneIsUsed) {
   remote_.block[2] ^= 0x10;
   remote_.copy[2] ^= 0x10;
   runToImage();
@@ -483,7 +483,7 @@ TEST_F(WiimoteTest, RemoteThatIsNotThereYetIsLookedForWithGrowingPauses) {
     EXPECT_NEAR(pauses[i], attempts[i + 1] - attempts[i], 1e-9);
 }
 
-TEST_F(WiimoteTest, BatteryIsAskedForFromTimeToTime) {
+TEST_F(WiimoteTest, BatteryIsRequestedRegularly) {
   runToImage();
   const int images = run(121.0);
   EXPECT_EQ(3, remote_.count(kStatusRequest));
@@ -508,7 +508,7 @@ TEST_F(WiimoteTest, CloseOfARemoteThatHasGoneIsHarmless) {
   EXPECT_NO_THROW(wiimote_.close());
 }
 
-TEST_F(WiimoteTest, EachQuestionForTheBatteryCostsNoImage) {
+TEST_F(WiimoteTest, RequestsForTheBatteryCostNoImage) {
   runToImage();
   const int images = run(59.0);
   ASSERT_EQ(1, remote_.count(kStatusRequest));
@@ -521,7 +521,7 @@ TEST_F(WiimoteTest, ModeThatTheKernelResetsSilentlyAfterAStatusCostsFewImages) {
   runToImage();
   remote_.say({0x20, 0, 0, 0x18, 0, 0, 0x8f});
   run(0.008);
-  // The kernel's 12 00 30 has overtaken ours; nothing changes, so the remote says nothing more.
+  // The kernel's 12 00 30 has overtaken ours; nothing changes, so the remote sends nothing more.
   remote_.mode = 0x30;
   const double then = remote_.now;
   runToImage();
@@ -529,7 +529,7 @@ TEST_F(WiimoteTest, ModeThatTheKernelResetsSilentlyAfterAStatusCostsFewImages) {
   EXPECT_EQ(0u, wiimote_.link().restorations);
 }
 
-TEST_F(WiimoteTest, LedsThatOthersSwitchAreSetAgainAfterTheNextStatus) {
+TEST_F(WiimoteTest, LedsSwitchedByOthersAreSetAgainAfterTheNextStatus) {
   runToImage();
   remote_.leds = 0x8;
   run(61.0);
@@ -554,7 +554,7 @@ TEST_F(WiimoteTest, DamagedCameraCalibrationIsTakenFromItsCopy) {
   EXPECT_EQ(907, wiimote_.link().ir_calibration->points[1][0]);
 }
 
-TEST_F(WiimoteTest, WithoutCameraCalibrationItStreamsAllTheSame) {
+TEST_F(WiimoteTest, ItStreamsWithoutCameraCalibration) {
   remote_.ir_block[4] ^= 0x01;
   remote_.ir_copy[0] ^= 0x80;
   runToImage();
@@ -562,7 +562,7 @@ TEST_F(WiimoteTest, WithoutCameraCalibrationItStreamsAllTheSame) {
   EXPECT_TRUE(wiimote_.link().accelerometer_calibrated);
 }
 
-TEST_F(WiimoteTest, RemoteWithoutEepromStreamsAllTheSame) {
+TEST_F(WiimoteTest, ItStreamsWithoutEeprom) {
   remote_.lose = [](const Report& report) {
     return report.bytes[0] == 0x17 && report.bytes[1] == 0;
   };
@@ -573,7 +573,7 @@ TEST_F(WiimoteTest, RemoteWithoutEepromStreamsAllTheSame) {
   EXPECT_FALSE(wiimote_.link().accelerometer_calibrated);
 }
 
-// ---- What others change
+// ---- Changes by others
 
 struct Manipulation {
   const char* found;
@@ -583,7 +583,7 @@ struct Manipulation {
 
 class ManipulationTest : public WiimoteTest, public testing::WithParamInterface<Manipulation> {};
 
-TEST_P(ManipulationTest, IsFoundRestoredCountedAndNamed) {
+TEST_P(ManipulationTest, IsDetectedRestoredCountedAndNamed) {
   runToImage();
   run(0.73);
   const std::map<int, std::uint8_t> registers = remote_.registers;
@@ -608,7 +608,7 @@ TEST_P(ManipulationTest, IsFoundRestoredCountedAndNamed) {
 }
 
 constexpr char kSensitivityChanged[] = "the camera's sensitivity was changed";
-// Each third of the configuration has its turn every 6 s.
+// Each third of the configuration is checked every 6 s.
 constexpr double kSilent = 6.2;
 INSTANTIATE_TEST_SUITE_P(
     Others,
@@ -633,7 +633,7 @@ INSTANTIATE_TEST_SUITE_P(
                      },
                      0.1}));
 
-TEST_F(WiimoteTest, ImagesThatNoCameraInThisFormatSaysAreLookedInto) {
+TEST_F(WiimoteTest, ImagesThatNoCameraInThisFormatSendsCauseACheck) {
   runToImage();
   run(1.1);
   const int checks = remote_.count(kVerify);
@@ -642,7 +642,7 @@ TEST_F(WiimoteTest, ImagesThatNoCameraInThisFormatSaysAreLookedInto) {
   remote_.say(foreign);
   run(0.02);
   EXPECT_EQ(checks + 1, remote_.count(kVerify));
-  // A clone that always says such things is not asked all the time.
+  // A clone that always sends such data is not checked all the time.
   for (int i = 0; i < 1000; ++i) {
     remote_.say(foreign);
     run(0.01);
@@ -651,7 +651,7 @@ TEST_F(WiimoteTest, ImagesThatNoCameraInThisFormatSaysAreLookedInto) {
   EXPECT_EQ(0u, wiimote_.link().restorations);
 }
 
-TEST_F(WiimoteTest, StatusThatSaysTheCameraIsOffIsLookedInto) {
+TEST_F(WiimoteTest, StatusWithTheCameraOffCausesACheck) {
   runToImage();
   remote_.camera = false;
   remote_.say({0x20, 0, 0, 0x10, 0, 0, 0x8f});
@@ -702,24 +702,24 @@ TEST_F(WiimoteTest, ChecksAreAsRareAsStated) {
   EXPECT_NEAR(30, reads, 1);
 }
 
-TEST_F(WiimoteTest, WhatFollowsAModeAtOnceIsNoImageOfItsOwn) {
+TEST_F(WiimoteTest, TheReportRightAfterAModeIsNoNewImage) {
   runToImage();
   int images = 0;
   for (int i = 0; i < 40; ++i) {
-    remote_.say({0x20, 0, 0, 0x18, 0, 0, 0x8f});  // the mode is then said again, and answered
+    remote_.say({0x20, 0, 0, 0x18, 0, 0, 0x8f});  // the mode is then set again, and answered
     images += run(0.25);
   }
   EXPECT_NEAR(1000, images, 2);
   EXPECT_LE(40, remote_.count({0x12, 0x06, 0x33}));
 }
 
-TEST_F(WiimoteTest, ImageInItsRhythmIsNoEchoOfAMode) {
+TEST_F(WiimoteTest, AnImageAtItsRegularTimeIsNoEchoOfAMode) {
   remote_.echoes = false;
   runToImage();
   int images = 0;
   for (int i = 0; i < 40; ++i) {
     remote_.say({0x20, 0, 0, 0x18, 0, 0, 0x8f});
-    images += run(0.2513);  // at another place between two images each time
+    images += run(0.2513);  // at another phase between two images each time
   }
   EXPECT_NEAR(1005, images, 1);
 }
@@ -732,7 +732,7 @@ TEST_F(WiimoteTest, CheckWithoutAnswerDisturbsNoStream) {
   EXPECT_EQ(0u, wiimote_.link().restorations);
 }
 
-TEST_F(WiimoteTest, CheckDuringSomebodyElsesLongReadWaits) {
+TEST_F(WiimoteTest, CheckDuringAForeignLongReadWaits) {
   runToImage();
   const double busy_until = remote_.now + 2.3;
   remote_.lose = [&](const Report& report) {
@@ -762,7 +762,7 @@ TEST_F(WiimoteTest, SensitivityChangesInTheStream) {
     states.push_back(wiimote_.link().state);
   }
   EXPECT_EQ(std::vector<Link::State>(100, Link::State::kStreaming), states);
-  // Five writes of 5 ms each, while the camera stands still.
+  // Five writes of 5 ms each, while the camera is stopped.
   EXPECT_GE(images, 96);
   EXPECT_EQ(0x96, remote_.registers[0x06]);
   EXPECT_EQ(0xb3, remote_.registers[0x1a]);
@@ -781,7 +781,7 @@ TEST_F(WiimoteTest, SensitivityChangesInTheStream) {
   EXPECT_EQ(written, remote_.written.size());
 }
 
-TEST_F(WiimoteTest, NoImageIsTakenWhileTheCameraStandsStill) {
+TEST_F(WiimoteTest, NoImageIsTakenWhileTheCameraIsStopped) {
   runToImage();
   wiimote_.setSensitivity(kWii2);
   for (int i = 0; i < 50; ++i) {
@@ -791,7 +791,7 @@ TEST_F(WiimoteTest, NoImageIsTakenWhileTheCameraStandsStill) {
   }
 }
 
-TEST_F(WiimoteTest, SensitivityChangedAtAnyMomentIsTheLastOneSet) {
+TEST_F(WiimoteTest, TheLastSensitivityAppliesAtAnyMomentOfChange) {
   const protocol::IrSensitivity marcan = *protocol::irSensitivity("marcan");
   for (int i = 0; i < 240; ++i) {
     const double moment = 100.0 + 0.001 * (i / 2);
@@ -805,7 +805,7 @@ TEST_F(WiimoteTest, SensitivityChangedAtAnyMomentIsTheLastOneSet) {
       return images;
     };
     runUntil(moment);
-    if (i % 2 == 1) {  // twice, the second time while the first is under way
+    if (i % 2 == 1) {  // twice, the second time before the first is done
       wiimote.setSensitivity(kWii2);
       runUntil(moment + 0.0075);
     }
@@ -827,7 +827,7 @@ TEST_F(WiimoteTest, LedsChangeAtOnce) {
   EXPECT_EQ(0xa, remote_.leds);
 }
 
-TEST_F(WiimoteTest, MotorRunsUntilToldOtherwiseWhateverOthersSay) {
+TEST_F(WiimoteTest, MotorRunsUntilStoppedWhateverOthersWrite) {
   runToImage();
   for (const FakeRemote::Written& written : remote_.written)
     EXPECT_EQ(0, written.report.bytes[1] & 1) << "never by ourselves";
@@ -835,7 +835,7 @@ TEST_F(WiimoteTest, MotorRunsUntilToldOtherwiseWhateverOthersSay) {
   EXPECT_TRUE(remote_.rumble);
   const std::size_t before = remote_.written.size();
   for (int i = 0; i < 40; ++i) {
-    remote_.rumble = false;  // the kernel has said something
+    remote_.rumble = false;  // the kernel has written something
     EXPECT_NEAR(11, run(0.11), 2);
     EXPECT_TRUE(remote_.rumble);
   }
@@ -851,7 +851,7 @@ TEST_F(WiimoteTest, MotorRunsUntilToldOtherwiseWhateverOthersSay) {
   EXPECT_FALSE(remote_.rumble);
 }
 
-TEST_F(WiimoteTest, MotorStandsStillAfterCloseAndAfterAReconnect) {
+TEST_F(WiimoteTest, MotorIsOffAfterCloseAndAfterAReconnect) {
   runToImage();
   wiimote_.setRumble(true);
   remote_.present = false;
@@ -962,7 +962,7 @@ TEST(Format, MustBeChosen) {
 
 // ---- Hostile remotes
 
-TEST(HostileRemote, EachReportIsAnsweredByFewAndTimeAlwaysEndsInADecision) {
+TEST(HostileRemote, EachReportCausesFewWritesAndEveryWaitEnds) {
   std::mt19937 random(11);
   int sessions = 0;
   for (int i = 0; i < 300; ++i) {
@@ -983,7 +983,7 @@ TEST(HostileRemote, EachReportIsAnsweredByFewAndTimeAlwaysEndsInADecision) {
           now);
       ++sessions;
       for (int j = 0; j < 2000; ++j) {
-        // Mostly what is likely to be an answer, at times far from it.
+        // Mostly likely answers, sometimes far from them.
         Report report;
         report.size = Report::kCapacity;
         for (std::uint8_t& byte : report.bytes)
@@ -1005,13 +1005,13 @@ TEST(HostileRemote, EachReportIsAnsweredByFewAndTimeAlwaysEndsInADecision) {
         now += 0.001 * static_cast<double>(random() % 20);
       }
     } catch (const SessionError&) {
-      // Given up: as good as streaming.
+      // Giving up is as good as streaming.
     }
   }
   EXPECT_EQ(300, sessions);
 }
 
-TEST(HostileRemote, OneThatNeverSendsAnImageIsGivenUpWhateverElseItSays) {
+TEST(HostileRemote, OneThatNeverSendsAnImageIsGivenUpWhateverElseItSends) {
   // Always answers as asked, but with these reports all the time.
   for (const Report& noise : std::vector<Report>{{0x30, 0, 0},
                                                  {0x31, 0, 0, 0, 0, 0},

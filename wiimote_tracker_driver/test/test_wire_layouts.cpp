@@ -1,5 +1,5 @@
-// The driver's decoders and encoders against a second description of the wire: exhaustive per
-// field, with everything around it at random.
+// The driver's decoders and encoders, compared with a second description of the wire: all values of
+// each field, with random data around it.
 #include "wire_layouts.h"
 
 #include "protocol/accelerometer.h"
@@ -20,7 +20,7 @@ namespace {
 using protocol::IrSpot;
 using protocol::Report;
 
-/// A report of that id and size whose other bytes are noise.
+/// A report of that id and size whose other bytes are random.
 class Noise {
  public:
   Report report(int id, std::size_t size) {
@@ -38,7 +38,7 @@ class Noise {
   std::mt19937 random_{1};
 };
 
-/// What the tables say a spot is. A slot without a light has a y that the sensor has not, or zeros.
+/// The spot by the tables. A slot without a light has a y beyond the sensor, or zeros.
 bool same(const IrSpot& found, unsigned x, unsigned y, unsigned size) {
   const bool seen = y < 768 && (x != 0 || y != 0 || size != 0);
   if (!seen)
@@ -51,8 +51,8 @@ bool isHalf(const wire::DataReport& layout) {
   return layout.format == wire::Format::kFull;
 }
 
-// ---- Spots. In all tests each slot goes through all values, at any time other ones than its
-// neighbours.
+// ---- Spots. In all tests each slot goes through all values; neighbouring slots differ at any
+// time.
 
 TEST(WireLayouts, ExtendedSpotsOfEveryPlaceAndSizeInEverySlot) {
   Noise noise;
@@ -184,9 +184,9 @@ TEST(WireLayouts, EveryValueOfEveryFieldOfAFullSpot) {
   }
 }
 
-// ---- What shares a report with them.
+// ---- Other data in the same report.
 
-TEST(WireLayouts, DataReportsHaveTheirPartsAndNoOthers) {
+TEST(WireLayouts, DataReportsHaveTheirPartsOnly) {
   Noise noise;
   for (const wire::DataReport& layout : wire::kDataReports) {
     if (isHalf(layout))
@@ -365,7 +365,7 @@ TEST(WireLayouts, OnlyTheTwoHalvesInTheirOrderAreAnInterleavedReport) {
   }
 }
 
-// ---- What the host sends: rebuilt bit by bit and compared whole.
+// ---- Output reports: rebuilt bit by bit and compared as a whole.
 
 TEST(WireLayouts, EverySwitch) {
   for (const unsigned rumble : {0u, 1u}) {
@@ -496,7 +496,7 @@ TEST(WireLayouts, EveryCoordinateOfTheIrCalibrationBlock) {
   }
 }
 
-TEST(WireLayouts, OneChecksumOf256IsRight) {
+TEST(WireLayouts, OneChecksumOf256IsCorrect) {
   std::array<std::uint8_t, protocol::kAccelerometerBlockSize> block{
       {0x84, 0x82, 0x86, 0x30, 0x9f, 0x9d, 0x9f, 0x02, 0x40, 0}};
   for (unsigned checksum = 0; checksum < 256; ++checksum) {

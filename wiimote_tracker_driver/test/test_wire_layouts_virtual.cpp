@@ -1,4 +1,4 @@
-// The virtual remote's reports against the same second description of the wire.
+// The virtual remote's reports, compared with the same second description of the wire.
 #include "wire_layouts.h"
 
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
@@ -13,7 +13,7 @@
 namespace wiimote_tracker::virtual_wiimote {
 namespace {
 
-/// What a host would send to see in that format, in bytes by hand: the console's fifth level.
+/// A host's writes to see in that format, in bytes by hand: the console's fifth level.
 void startCamera(Device& device, wire::Format format, int report) {
   const Bytes outputs[] = {
       {0x13, 0x04},
@@ -38,7 +38,7 @@ Light light(unsigned x, unsigned y, unsigned size) {
 
 using Seen = std::multiset<std::tuple<unsigned, unsigned, unsigned>>;  // x, y, size
 
-/// Adds the spots of a report as the tables say.
+/// Adds the spots of a report by the tables.
 void read(const wire::DataReport& layout, const Bytes& report, Seen& seen) {
   for (std::size_t slot = 0; slot < layout.slots; ++slot) {
     const wire::Spot place = wire::spot(layout.format, slot, layout.infrared);
@@ -47,7 +47,7 @@ void read(const wire::DataReport& layout, const Bytes& report, Seen& seen) {
     seen.emplace(x, y, place.size ? place.size->read(report.data()) : 0);
     if (layout.format != wire::Format::kFull)
       continue;
-    // A box has the spot in it, and the sensor has so many cells.
+    // The box contains the spot, and lies on the sensor.
     EXPECT_LE(place.x_min->read(report.data()), x / 8);
     EXPECT_GE(place.x_max->read(report.data()), x / 8);
     EXPECT_LE(place.y_min->read(report.data()), y / 8);
@@ -63,14 +63,14 @@ const wire::DataReport& layoutOf(int id) {
                        [id](const wire::DataReport& layout) { return layout.id == id; });
 }
 
-/// Until the next report is the first half of a pair.
+/// Samples until the next report is the first half of a pair.
 void finishPair(Device& device) {
   for (auto report = device.sample(Senses()); report && (*report)[0] != 0x3f;)
     report = device.sample(Senses());
 }
 
-/// Four lights at all places: far enough from each other not to run together, and no two alike in
-/// any byte. Each takes every `step`-th place of a row; with 2 they take all places together.
+/// Four lights at all places: too far apart to merge, and no two equal in any byte. Each takes
+/// every `step`-th place of a row; with 2 they cover all places together.
 void expectEveryPlace(int id, unsigned step) {
   const wire::DataReport& layout = layoutOf(id);
   const bool sized = layout.format != wire::Format::kBasic;
@@ -165,7 +165,7 @@ TEST(VirtualWireLayouts, AccelerationIsTheSameInEveryReport) {
         wire::kInterleavedZ.read(first->data()) << 4 | wire::kInterleavedZ.read(second->data()),
         reference[2] / 4);
   }
-  // 10 g in steps of about one unit of the converter: nearly its whole range was there.
+  // 10 g in steps of about one unit of the converter: nearly its whole range.
   EXPECT_GT(seen_x.size(), 900u);
 }
 
@@ -217,7 +217,7 @@ TEST(VirtualWireLayouts, EveryStatus) {
   }
 }
 
-TEST(VirtualWireLayouts, WhatIsWrittenIsReadAtEveryPlaceAndInEverySize) {
+TEST(VirtualWireLayouts, WritesAreReadBackAtEveryPlaceAndInEverySize) {
   Device device;
   for (unsigned address = 0; address < 0x1700; address += 7) {
     const unsigned size = std::min(address % 16 + 1, 0x1700 - address);

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-/// Where everything is in the Wii Remote's reports: tables of bit places, written from descriptions
-/// of the device and sharing nothing with the driver or the virtual remote.
+/// Positions of all data in the Wii Remote's reports: tables of bit places, written from
+/// descriptions of the device, independent of the driver and the virtual remote.
 namespace wiimote_tracker::wire {
 
-/// Exhaustive tests take every value; under the address sanitizer, which looks for other things and
-/// makes them ten times as slow, only every eighth.
+/// Exhaustive tests take every value; under the address sanitizer, which is ten times as slow and
+/// checks other things, only every eighth.
 #ifdef __SANITIZE_ADDRESS__
 constexpr unsigned kStep = 8;
 #else
@@ -25,8 +25,7 @@ constexpr unsigned kStep = 1;
 /// The infrared formats by the number that the camera's mode register takes.
 enum class Format { kNone = 0, kBasic = 1, kExtended = 3, kFull = 5 };
 
-/// What a report that carries sensor data consists of. Byte 0 is the report id, bytes 1 and 2 are
-/// the buttons.
+/// The parts of a report with sensor data. Byte 0 is the report id, bytes 1 and 2 are the buttons.
 struct DataReport {
   int id;
   std::size_t size;
@@ -47,7 +46,7 @@ const std::array<DataReport, 10> kDataReports{{{0x30, 3, false, Format::kNone, 0
                                                {0x3e, 22, false, Format::kFull, 4, 2},
                                                {0x3f, 22, false, Format::kFull, 4, 2}}};
 
-/// The buttons; all other bits of bytes 1 and 2 belong to others or to nobody.
+/// The buttons; all other bits of bytes 1 and 2 have other meanings or none.
 struct Button {
   const char* name;
   const char* place;

@@ -10,7 +10,7 @@
 
 namespace wiimote_tracker::fuzz {
 
-/// The input of a fuzz target as a sequence of decisions. Used up, it answers 0.
+/// The input of a fuzz target as a sequence of decisions; 0 when it is used up.
 class Decisions {
  public:
   Decisions(const std::uint8_t* data, std::size_t size) : next_(data), end_(data + size) {}

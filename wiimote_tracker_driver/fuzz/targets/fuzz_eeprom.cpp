@@ -12,8 +12,8 @@
 namespace wiimote_tracker::fuzz {
 namespace {
 
-/// The next bytes of the input as a block that ends with a checksum, which is right if the first
-/// byte is odd: by chance it hardly ever would be.
+/// The next bytes of the input as a block with a checksum. It is correct if the first byte is odd:
+/// by chance it hardly ever would be.
 template <std::size_t N>
 std::array<std::uint8_t, N> block(Decisions& in) {
   const bool right = in.byte() % 2 == 1;

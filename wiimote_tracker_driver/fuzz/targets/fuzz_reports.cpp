@@ -48,7 +48,7 @@ void fuzzReports(const std::uint8_t* data, std::size_t size) {
   if (pair)
     requireImage(*pair, protocol::IrFormat::kFull);
 
-  // Some stacks pad reports: what follows the meaningful bytes changes nothing.
+  // Some stacks pad reports: bytes after the meaningful ones change nothing.
   if (meanings == 1 && report.size < Report::kCapacity) {
     Report padded = report;
     padded.size = Report::kCapacity;

@@ -15,15 +15,15 @@ namespace {
 using protocol::Report;
 using wiimote::Session;
 
-// A well-behaved remote streams again after this at the latest [s]: the watchdog's longest patience
-// with darkness, and what it then may try in vain.
+// Largest time until a well-behaved remote streams again [s]: the watchdog's longest interval in
+// darkness, and failed attempts.
 constexpr double kRecovery = 60.0;
-// More than the driver ever sends in answer to one event.
+// Larger than the number of reports that the driver ever sends for one event.
 constexpr int kMostWrites = 6;
 // Deadlines that can fall due in one instant.
 constexpr int kMostTicks = 4;
 
-/// A session in fake time, begun again whenever it gives its remote up.
+/// A session in fake time, restarted whenever it gives up its remote.
 class Trial {
  public:
   explicit Trial(Decisions& in) : in_(in) {
@@ -65,7 +65,7 @@ class Trial {
     }
   }
 
-  /// What is due is done, and then nothing is due any more.
+  /// Handles due deadlines; afterwards none is due.
   void tick() {
     for (int i = 0; i < kMostTicks && session_->deadline() <= now_; ++i)
       act([this] { session_->tick(now_); });
@@ -100,7 +100,7 @@ class Trial {
     hear(report);
   }
 
-  /// As a camera says that got all that was written.
+  /// The answer of a camera that stored all writes.
   void memoryAsWritten() {
     const std::uint8_t size = asked_.bytes[6] % 17;
     Report report{0x21,           0, 0, static_cast<std::uint8_t>(16 * size - 16), asked_.bytes[3],
@@ -175,7 +175,7 @@ class Trial {
     }
   }
 
-  /// From now on a remote that has just been switched on behaves.
+  /// From now on the input has no effect: a remote that was just switched on works correctly.
   void recover() {
     remote_.emplace();
     remote_->next_sample = now_;

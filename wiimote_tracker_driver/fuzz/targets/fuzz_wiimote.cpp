@@ -14,14 +14,14 @@ namespace {
 using protocol::Report;
 using virtual_wiimote::Bytes;
 
-// A remote that behaves streams again after this at the latest [s].
+// Largest time until a well-behaved remote streams again [s].
 constexpr double kRecovery = 60.0;
 // Turns in which nothing happens and no time passes.
 constexpr int kMostIdleTurns = 8;
-// Longest sentence that says what is wrong [characters].
+// Longest error text [characters].
 constexpr std::size_t kLongestError = 500;
 
-/// A remote behind a link on which everything happens that the input says.
+/// A remote behind a link with the faults that the input chooses.
 class HostileWorld {
  public:
   explicit HostileWorld(Decisions& in) : in_(in) {}
@@ -89,12 +89,12 @@ class HostileWorld {
         throw transport::Disconnected("gone while reading");
       case 2:  // an interrupted wait
         return std::nullopt;
-      case 3:  // this machine has slept
+      case 3:  // this computer was suspended
         now = until + in_.byte();
         return std::nullopt;
       case 4:
         return in_.report();
-      case 5: {  // one byte is another
+      case 5: {  // one byte differs
         auto report = remote_.next(now, until);
         if (report && report->size > 0)
           report->bytes[in_.byte() % report->size] = in_.byte();
@@ -179,7 +179,7 @@ wiimote::Options optionsOf(Decisions& in) {
   return options;
 }
 
-/// The driver in that world.
+/// The driver with that link.
 class Trial {
  public:
   explicit Trial(Decisions& in)
@@ -205,7 +205,7 @@ class Trial {
   }
 
  private:
-  /// What users may want meanwhile; mostly nothing.
+  /// Requests by users; mostly none.
   void command() {
     switch (in_.byte()) {
       case 1:

@@ -9,8 +9,8 @@
 
 namespace wiimote_tracker::fuzz {
 
-/// A virtual remote in fake time: answers 5 ms after it is asked, and senses every 10 ms. Others
-/// may meddle with what it is and says: all is open.
+/// A virtual remote in fake time: answers after 5 ms and samples every 10 ms. All members are
+/// public, so that the input may change its state and its reports.
 struct HonestRemote {
   static constexpr double kAnswerDelay = 0.005;  // [s]
   static constexpr double kPeriod = 0.01;        // [s]
@@ -31,7 +31,7 @@ struct HonestRemote {
   void hear(const protocol::Report& output, double now);
   void say(const virtual_wiimote::Bytes& bytes, double due);
 
-  /// The next report up to `until`, at which `now` then is; else `until` is.
+  /// The next report before `until`; sets `now` to its time, or to `until`.
   std::optional<protocol::Report> next(double& now, double until);
 };
 

@@ -8,7 +8,7 @@
 
 namespace wiimote_tracker::fuzz {
 
-/// A promise of the driver that an input has broken.
+/// An invariant of the driver that an input has violated.
 struct Broken : std::logic_error {
   using std::logic_error::logic_error;
 };
@@ -21,7 +21,8 @@ inline void require(bool kept, const char* promise) {
 /// Everything in a decoded data report is in its range. @throws Broken.
 void requireInRange(const protocol::DataReport& data);
 
-/// An image of that format, as a session returns it, with all in its range. @throws Broken.
+/// The image has that format, as a session returns it, and all its values are in range. @throws
+/// Broken.
 void requireImage(const protocol::DataReport& image, protocol::IrFormat format);
 
 /// The remote would understand this output report. @throws Broken.

@@ -1,4 +1,4 @@
-// Makes one target (FUZZ_TARGET) a program of libFuzzer.
+// Builds one target (FUZZ_TARGET) as a program of libFuzzer.
 #include "targets.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What is fuzzed. Each runs one input of any content and size from a clean state.
-/// @throws Broken (invariants.h) when a promise is not kept; nothing else gets out.
+/// Fuzz targets. Each runs one input of any content and size from a clean state. @throws Broken
+/// (invariants.h) for a violated invariant; nothing else.
 namespace wiimote_tracker::fuzz {
 
-/// One input report, and with the next 22 bytes a pair of them: all decoders.
+/// One input report, and with the next 22 bytes an interleaved pair: all decoders.
 void fuzzReports(const std::uint8_t* data, std::size_t size);
 
 /// The factory's blocks in the EEPROM.

@@ -22,8 +22,8 @@ Bytes writeCamera(std::uint8_t address, const Bytes& data) {
   return report;
 }
 
-/// What is said, what the driver calls it when it changes the driver's configuration, and whether
-/// images that show the light stop by it.
+/// What is sent, how the driver names the change of its configuration, and whether images with the
+/// light stop.
 struct Word {
   const char* what;
   Bytes report;
@@ -38,8 +38,8 @@ constexpr char kFormat[] = "the camera's format was changed";
 constexpr char kSensitivity[] = "the camera's sensitivity was changed";
 constexpr char kMode[] = "the report mode was changed";
 
-// What stops the images is put right at once. The rest shows only when the camera's registers are
-// read back: each third of them every 6 s, and then it takes some round trips [s].
+// Changes that stop the images are corrected at once. Others show only when the camera's registers
+// are read back: each third of them every 6 s, plus some round trips [s].
 constexpr double kWhenStopped = 1.0;
 constexpr double kWhenSilent = 6.5;
 

@@ -5,8 +5,8 @@
 
 namespace wiimote_tracker::real_kernel {
 
-/// Scenario: another program that opens the same hidraw node, without asking for our lock, and
-/// talks to the remote.
+/// Scenario: another program opens the same hidraw node, without asking for our lock, and writes to
+/// the remote.
 void anotherProgram(Checks& checks);
 
 }  // namespace wiimote_tracker::real_kernel

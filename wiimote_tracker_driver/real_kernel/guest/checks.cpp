@@ -13,9 +13,9 @@ namespace wiimote_tracker::real_kernel {
 namespace {
 
 constexpr double kLongestRecovery = 1.0;  // [s]
-// A stream that is not back by then is not coming back by itself [s].
-constexpr double kPatience = 15.0;
-// Between the moments of repeated disturbances [s]; no multiple of the remote's 10 ms.
+// A stream that has not recovered by then counts as lost [s].
+constexpr double kRecoveryTimeout = 15.0;
+// Increment between the moments of repeated disturbances [s]; no multiple of the remote's 10 ms.
 constexpr double kShift = 0.0137;
 
 struct Recovery {
@@ -29,7 +29,7 @@ Recovery waitForRecovery(const RunningDriver& driver, double since) {
       [&] {
         return (recovery.time = recoveryTime(driver.images(), since, driver.recoveryRate())) >= 0.0;
       },
-      kPatience);
+      kRecoveryTimeout);
   if (recovered)
     recovery.pause = longestPause(driver.images(), since, since + recovery.time + kRecoveryWindow);
   else
@@ -38,10 +38,10 @@ Recovery waitForRecovery(const RunningDriver& driver, double since) {
 }
 
 std::string describe(const Recovery& recovery, const RunningDriver& driver) {
-  if (recovery.time <= kPatience)
+  if (recovery.time <= kRecoveryTimeout)
     return "back within " + seconds(recovery.time) + ", longest pause " + seconds(recovery.pause);
   const std::string reason = driver.link().error;
-  return "no stream within " + seconds(kPatience) + "; " +
+  return "no stream within " + seconds(kRecoveryTimeout) + "; " +
          (reason.empty() ? "the driver gives no reason" : reason);
 }
 
@@ -70,7 +70,7 @@ void Checks::recovers(const std::string& name,
     const Recovery recovery = waitForRecovery(driver, since);
     worst.time = std::max(worst.time, recovery.time);
     worst.pause = std::max(worst.pause, recovery.pause);
-    if (worst.time > kPatience)
+    if (worst.time > kRecoveryTimeout)
       break;
   }
   check(name, worst.time <= kLongestRecovery,
@@ -85,7 +85,7 @@ void Checks::restores(const std::string& name,
   const std::uint64_t before = driver.link().restorations;
   const double since = now();
   disturb();
-  waitFor([&] { return driver.link().restorations > before; }, kPatience);
+  waitFor([&] { return driver.link().restorations > before; }, kRecoveryTimeout);
   const double restored = now();
   const wiimote::Link link = driver.link();
   check(name + ": found and put right",

@@ -13,15 +13,15 @@ class Checks {
  public:
   void check(const std::string& name, bool passed, const std::string& seen = "");
 
-  /// Disturbs the remote and checks that the driver's images are back within 1 s of recoveryTime();
-  /// so `times` times, at moments that lie differently to the remote's own.
+  /// Disturbs the remote `times` times and checks that the driver's images are back within 1 s of
+  /// recoveryTime(). The moments differ relative to the remote's samples.
   void recovers(const std::string& name,
                 const RunningDriver& driver,
                 const std::function<void()>& disturb,
                 int times = 1);
 
-  /// Disturbs the remote and checks that the driver finds it within so long [s], calls it by this
-  /// name, puts it right once, and streams on.
+  /// Disturbs the remote and checks that the driver detects it within this time [s], reports it
+  /// under this name, corrects it once, and keeps streaming.
   void restores(const std::string& name,
                 const RunningDriver& driver,
                 const std::function<void()>& disturb,

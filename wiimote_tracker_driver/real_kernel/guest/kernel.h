@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// What the kernel shows of a Wii Remote in its file systems.
+/// The kernel's view of a Wii Remote in its file systems.
 namespace wiimote_tracker::real_kernel {
 
 /// "/dev/hidraw0" of the remote with this Bluetooth address; empty when there is none.

@@ -11,8 +11,8 @@
 
 namespace wiimote_tracker::real_kernel {
 
-/// A virtual Wii Remote plugged into this kernel. It sees one light that stands still, 100 times a
-/// second, and keeps what it is told by the kernel and by drivers.
+/// A virtual Wii Remote plugged into this kernel. It sees one light at rest, 100 times a second,
+/// and records output reports of the kernel and of drivers.
 class PluggedRemote {
  public:
   using Bytes = virtual_wiimote::Bytes;
@@ -25,7 +25,7 @@ class PluggedRemote {
     Bytes report;
   };
 
-  /// Output reports are 12 ms under way.
+  /// Transit time of output reports is 12 ms.
   PluggedRemote(const std::string& address, const Light& light, Model model = Model::kRemote);
   ~PluggedRemote();
 

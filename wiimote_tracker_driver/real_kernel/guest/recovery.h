@@ -3,7 +3,7 @@
 
 #include <vector>
 
-/// How soon a stream is back, from the arrival times of its images [s], in order.
+/// Time until a stream has recovered, from the arrival times of its images [s], in order.
 namespace wiimote_tracker::real_kernel {
 
 constexpr double kRecoveryWindow = 1.0;  ///< [s]

@@ -12,8 +12,8 @@
 namespace wiimote_tracker::real_kernel {
 namespace {
 
-constexpr double kTurn = 0.05;            // [s] Longest wait before a look at whether to stop.
-constexpr double kCommandPatience = 5.0;  // [s]
+constexpr double kTurn = 0.05;           // [s] Longest wait between checks whether to stop.
+constexpr double kCommandTimeout = 5.0;  // [s]
 
 wiimote::Options withSession(const wiimote::SessionOptions& session) {
   wiimote::Options options;
@@ -72,7 +72,7 @@ void RunningDriver::command(const std::function<void(wiimote::Wiimote&)>& action
         const std::lock_guard<std::mutex> lock(mutex_);
         return !command_;
       },
-      kCommandPatience);
+      kCommandTimeout);
   if (!done)
     throw std::runtime_error("the driver's thread hangs");
 }

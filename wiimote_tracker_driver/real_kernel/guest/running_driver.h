@@ -14,7 +14,7 @@
 
 namespace wiimote_tracker::real_kernel {
 
-/// The driver's core at work over hidapi and hidraw, in a thread of its own as in the driver node.
+/// The driver's core over hidapi and hidraw, in its own thread as in the driver node.
 class RunningDriver {
  public:
   /// `device` as in the driver's parameter: empty, a Bluetooth address or /dev/hidrawN. `light` is
@@ -24,7 +24,7 @@ class RunningDriver {
                 const wiimote::SessionOptions& options = {});
   ~RunningDriver();
 
-  /// Has the driver's thread do this, and waits until it has.
+  /// Runs this in the driver's thread, and waits for it.
   void command(const std::function<void(wiimote::Wiimote&)>& action);
 
   /// Images a second of an undisturbed stream, less a tenth [Hz].
@@ -35,7 +35,7 @@ class RunningDriver {
   /// Arrival times of the images that show the light [s].
   std::vector<double> images() const;
 
-  /// How many images showed another one. Images without any light count as neither.
+  /// Number of images with another light. Images without any light do not count.
   std::size_t wrongImages() const;
 
   /// Waits until the link is in this state, at most `timeout` [s].

@@ -31,7 +31,7 @@ using Light = PluggedRemote::Light;
 using Model = PluggedRemote::Model;
 using State = wiimote::Link::State;
 
-/// What the kernel says after each status while nobody uses its input devices.
+/// The kernel's report after each status while no program uses its input devices.
 Bytes kernelsMode() {
   return {0x12, 0x00, 0x30};
 }
@@ -66,8 +66,8 @@ class OpenFile {
   int fd_;
 };
 
-/// What the kernel says to a remote without extension while it sets it up: the first eight bytes
-/// of its reports in the order of first appearance, without the motor's bit.
+/// The kernel's reports to a remote without extension during setup: the first eight bytes of each
+/// in the order of first appearance, without the motor's bit.
 void kernelTraffic(Checks& checks) {
   const double plugged = now();
   const PluggedRemote remote(kAddress, kLight);
@@ -90,7 +90,7 @@ void kernelTraffic(Checks& checks) {
   std::string all;
   for (const std::string& text : said)
     all += (all.empty() ? "" : " ") + text;
-  // The kernel's workers may swap neighbours; what is said is the same.
+  // The kernel's workers may swap neighbouring reports.
   checks.check("the kernel sets the virtual remote up as it does a real one",
                std::set<std::string>(said.begin(), said.end()) ==
                    std::set<std::string>(expected.begin(), expected.end()),
@@ -119,13 +119,13 @@ void kernelTraffic(Checks& checks) {
 
 void plug(Checks& checks) {
   const RunningDriver driver("", kLight);
-  const bool says_so = waitFor([&] { return !driver.link().error.empty(); }, kPatience);
+  const bool says_so = waitFor([&] { return !driver.link().error.empty(); }, kTimeout);
   checks.check("without a remote the driver searches and says so",
                says_so && driver.link().state == State::kSearching, driver.link().error);
   std::unique_ptr<PluggedRemote> remote;
   const double since = now();
   remote = std::make_unique<PluggedRemote>(kAddress, kLight);
-  const bool streams = driver.waitForState(State::kStreaming, kPatience);
+  const bool streams = driver.waitForState(State::kStreaming, kTimeout);
   const wiimote::Link link = driver.link();
   checks.check("a remote that is plugged in streams", streams, "after " + seconds(now() - since));
   checks.check("it is known by its Bluetooth address", link.identity == kAddress, link.identity);
@@ -183,7 +183,7 @@ void replug(Checks& checks) {
   }
 }
 
-/// Each remote is where its own light is, so that a driver at the wrong remote shows.
+/// Each remote sees its own light, which exposes a driver at the wrong remote.
 std::string addressOf(int number) {
   return "00:1f:32:00:00:0" + std::to_string(number);
 }
@@ -196,11 +196,11 @@ void fourAtOnce(Checks& checks) {
   std::deque<PluggedRemote> remotes;
   for (int i = 1; i <= 4; ++i)
     drivers.emplace_back(addressOf(i), lightOf(i));
-  // Not in the order of the drivers.
+  // In another order than the drivers.
   for (const int i : {3, 1, 4, 2})
     remotes.emplace_back(addressOf(i), lightOf(i), i == 4 ? Model::kRemotePlus : Model::kRemote);
   for (const RunningDriver& driver : drivers)
-    driver.waitForState(State::kStreaming, kPatience);
+    driver.waitForState(State::kStreaming, kTimeout);
   for (int i = 1; i <= 4; ++i)
     checks.recovers("remote " + std::to_string(i) + " streams to its driver", drivers[i - 1],
                     [] {});
@@ -215,7 +215,7 @@ void fourAtOnce(Checks& checks) {
                  count(in_time, "images"));
   }
 
-  // They come back in another order and so at other nodes.
+  // They come back in another order, so at other nodes.
   std::vector<std::string> before;
   for (int i = 1; i <= 4; ++i)
     before.push_back(hidrawOf(addressOf(i)));
@@ -227,7 +227,7 @@ void fourAtOnce(Checks& checks) {
     remote->plug();
   bool moved = false;
   for (int i = 1; i <= 4; ++i) {
-    waitFor([&] { return !hidrawOf(addressOf(i)).empty(); }, kPatience);
+    waitFor([&] { return !hidrawOf(addressOf(i)).empty(); }, kTimeout);
     moved = moved || hidrawOf(addressOf(i)) != before[static_cast<std::size_t>(i - 1)];
   }
   checks.check("plugged in again, they are at other nodes", moved);
@@ -351,7 +351,7 @@ void otherFormats(Checks& checks) {
   }
 }
 
-/// What the driver's own user changes while it streams.
+/// Settings that the driver's own user changes while it streams.
 void inTheStream(Checks& checks) {
   Streaming streaming;
   const PluggedRemote& remote = streaming.remote;
@@ -411,7 +411,7 @@ void rebind(Checks& checks) {
 void taken(Checks& checks) {
   Streaming streaming;
   const RunningDriver second(kAddress, kLight);
-  const bool told = waitFor([&] { return !second.link().error.empty(); }, kPatience);
+  const bool told = waitFor([&] { return !second.link().error.empty(); }, kTimeout);
   checks.check("a second driver is told that the remote is taken",
                told && second.link().state == State::kSearching, second.link().error);
   sleepFor(3.0);
@@ -454,14 +454,14 @@ std::string openAsNobody() {
 
 void nonRoot(Checks& checks) {
   const PluggedRemote remote(kAddress, kLight);
-  waitFor([] { return !hidrawOf(kAddress).empty(); }, kPatience);
+  waitFor([] { return !hidrawOf(kAddress).empty(); }, kTimeout);
   sleepFor(kSetUpTime);
   const std::string said = openAsNobody();
   checks.check("an ordinary user is denied the remote", said.compare(0, 7, "denied:") == 0, said);
   checks.check("and told of the udev rule",
                said.find("60-wiimote-tracker.rules") != std::string::npos &&
                    said.find("/etc/udev/rules.d") != std::string::npos);
-  ::chmod(hidrawOf(kAddress).c_str(), 0666);  // as the rule would, for members of a group
+  ::chmod(hidrawOf(kAddress).c_str(), 0666);  // as the udev rule does for members of a group
   const std::string again = openAsNobody();
   checks.check("with access it opens", again == "opened", again);
 }

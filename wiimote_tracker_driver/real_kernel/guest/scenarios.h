@@ -7,7 +7,7 @@
 
 namespace wiimote_tracker::real_kernel {
 
-/// What may happen to a Wii Remote on a Linux machine. Each has a freshly booted kernel for itself.
+/// Events on a Linux machine that affect a Wii Remote. Each scenario has a freshly booted kernel.
 struct Scenario {
   const char* name;
   void (*run)(Checks& checks);

@@ -13,19 +13,19 @@ namespace wiimote_tracker::real_kernel {
 constexpr char kAddress[] = "00:1f:32:00:00:01";
 constexpr PluggedRemote::Light kLight{300.0, 200.0, 3.0, 1.0};
 
-// The kernel has set a remote up when it has asked for the battery and nothing more comes [s].
+// Time after the kernel's request for the battery without further reports: setup is complete [s].
 constexpr double kSetUpTime = 1.0;
-// For what takes its time but is no part of a recovery [s].
-constexpr double kPatience = 5.0;
+// Limit for waits that are no part of a recovery [s].
+constexpr double kTimeout = 5.0;
 
-/// A remote, the kernel done with it, and a driver that streams from it.
+/// A remote that the kernel has set up, and a driver that streams from it.
 struct Streaming {
   explicit Streaming(const std::string& address = kAddress,
                      const PluggedRemote::Light& light = kLight,
                      PluggedRemote::Model model = PluggedRemote::Model::kRemote,
                      const wiimote::SessionOptions& options = {})
       : remote(address, light, model), driver(address, light, options) {
-    if (!driver.waitForState(wiimote::Link::State::kStreaming, kPatience))
+    if (!driver.waitForState(wiimote::Link::State::kStreaming, kTimeout))
       throw std::runtime_error("the driver does not stream: " + driver.link().error);
     sleepFor(kSetUpTime);
   }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Four LEDs on two people blink: each is published under its own name, and never under another's."""
+"""Four LEDs on two people blink: each is published under its own name, and no other LED's."""
 
 import collections
 import math
@@ -12,8 +12,8 @@ from geometry_msgs.msg import PointStamped
 from live_rig import LiveRigTest
 from wiimote_tracker_msgs.msg import TrackedPoint
 
-DURATION = 5.0   # that is judged [s]
-ASTRAY = 0.1     # farther from its LED no point is: the LEDs are farther apart [m]
+DURATION = 5.0   # evaluated [s]
+ASTRAY = 0.1     # largest error of a point; the LEDs are farther apart [m]
 
 
 class Blinking(LiveRigTest):
@@ -49,7 +49,7 @@ class Blinking(LiveRigTest):
                       led, stamps[0] - points[0].header.stamp.to_sec(), 100 * share,
                       1e3 * np.median(error), 1e3 * error.max(), 100 * np.mean(~seen),
                       collections.Counter(p.id for _, p in named)))
-            # Also of the time before all had names: one that is given is right.
+            # Includes the time before all had names: a name that is given must be right.
             self.assertLess(error.max(), ASTRAY, led)
             self.assertGreater(share, 0.9, led)
             for _, point in named:

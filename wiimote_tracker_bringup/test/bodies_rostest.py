@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A rigid body through drivers and tracker: its pose is where the simulation says, also with an LED
+"""A rigid body through drivers and tracker: its pose agrees with the simulation, also with an LED
 hidden, and it is found again soon after all were hidden."""
 
 import collections
@@ -29,7 +29,7 @@ def quaternion(q):
 
 
 def rotation_vector(start, end):
-    """Small rotation about the world's axes from one orientation to another [rad]."""
+    """Rotation from one orientation to another about the world's axes, for small angles [rad]."""
     x, y, z, w = start
     left = np.array([[w, z, -y, -x], [-z, w, x, -y], [y, -x, w, -z], [x, y, z, w]])
     difference = left @ end  # conjugate(start) * end, in the body's axes
@@ -53,7 +53,7 @@ class Bodies(LiveRigTest):
         cls.set_led = rospy.ServiceProxy('simulation/set_led', SetLed)
 
     def switch(self, leds, on):
-        """@returns when the last of them was switched."""
+        """@returns the time when the last of them was switched."""
         for led in leds:
             answer = self.set_led(SetLedRequest(led=led, on=on, motion=SetLedRequest.HOLD))
             self.assertTrue(answer.success, answer.message)
@@ -64,12 +64,12 @@ class Bodies(LiveRigTest):
                   self.poses and self.poses[-1].header.stamp.to_sec() > end, 'the time to pass')
 
     def seen_between(self, begin, end):
-        """Of each array: its time, and the wand or None."""
+        """Each array's time, and the wand or None."""
         return [(array.header.stamp.to_sec(), array.bodies[0] if array.bodies else None)
                 for array in list(self.bodies) if begin <= array.header.stamp.to_sec() < end]
 
     def judge(self, seen, share):
-        """Tracked in that share at least, and where it truly is."""
+        """Checks that at least that share is tracked, with consistent errors."""
         tracked = [(t, b) for t, b in seen if b and b.state == TrackedBody.TRACKED]
         self.assertGreater(len(tracked), share * len(seen))
         truth = list(self.poses)
@@ -78,7 +78,7 @@ class Bodies(LiveRigTest):
         for t, body in tracked:
             i = np.searchsorted(stamps, t)
             nearest = truth[i if stamps[i] - t < t - stamps[i - 1] else i - 1]
-            # What it moved since the nearest instant of truth.
+            # The motion since the nearest sample of the truth.
             step = t - nearest.header.stamp.to_sec()
             position = vector(body.pose.pose.position) - vector(nearest.pose.position) - \
                 step * vector(body.twist.twist.linear)
@@ -91,10 +91,10 @@ class Bodies(LiveRigTest):
             positions.append(position @ position)
             rotations.append(rotation @ rotation)
         print('%d poses: %.2f mm, %.2f deg, median of the normalised squared error %.2f '
-              '(5.35 when all is known)' % (
+              '(5.35 when consistent)' % (
                   len(tracked), 1e3 * np.sqrt(np.mean(positions)),
                   np.degrees(np.sqrt(np.mean(rotations))), np.median(squared)))
-        # What the covariance does not know of: quantised pixels, spots that are two LEDs', stamps.
+        # The covariance ignores quantised pixels, merged spots and errors of stamps.
         self.assertLess(np.median(squared), CHI_SQUARED_999)
         self.assertLess(np.degrees(np.sqrt(max(rotations))), 20.0, 'LEDs were confused')
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Remotes that connect while the drivers run get a name and a driver, and keep both when they go and
-come again."""
+"""Remotes that connect while the drivers run get a name and a driver, and keep both when they
+disconnect and connect again."""
 
 import os
 import shutil
@@ -47,7 +47,7 @@ class Discover(unittest.TestCase):
         process.wait(DEADLINE)
 
     def connect(self, number):
-        """A remote, as one is switched on."""
+        """Switches a remote on."""
         return self.start(program('wiimote_tracker_driver', 'virtual_wiimote'),
                           '--socket', os.path.join(self.folder, f'{number}.sock'),
                           '--address', f'00:1f:32:00:00:0{number}')
@@ -70,7 +70,7 @@ class Discover(unittest.TestCase):
         self.start(program('wiimote_tracker_bringup', 'drivers'), '_file:=' + self.cameras,
                    '_socket_directory:=' + self.folder, '_discovery_period:=0.5',
                    '_camera_info_directory:=' + self.folder)
-        # The second socket is the first to be there.
+        # The second socket appears first.
         second = self.connect(2)
         self.wait_for_more_of('wiimote_1')
         self.connect(1)

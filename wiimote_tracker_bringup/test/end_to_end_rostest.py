@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """From HID reports to points: a simulated rig is calibrated by its four corners and measures.
 
-How well it may do is known: lenses and the placement of the corners are one draw (fixed seeds), of
-which the best estimate, computed by code that is not the tracker's, makes a certain error; and the
-bound says in which range 95 % of all draws lie.
+The achievable accuracy is known: lenses and the placement of the corners are one draw (fixed
+seeds). For this draw, code that is not the tracker's computes the error of the best estimate; the
+bound gives the range of 95 % of all draws.
 """
 
 import os
@@ -20,15 +20,15 @@ from wiimote_tracker_evaluation.conductor import SETTLE, Conductor
 from wiimote_tracker_evaluation.recording import LiveRecorder
 
 DWELL = 0.5  # [s]
-RATE = 100.0  # images a second of one camera [Hz]
+RATE = 100.0  # of images of one camera [Hz]
 TEST_POINTS = experiment.TEST_POINTS[[0, 2, 5, 7, 9]]
 ALIGNMENT_POINTS = experiment.alignment_points(2, 8)
 
 
 def least_scatter(places):
-    """How little the means of all images so far scatter, while an LED lies still at so many places;
-    one image scatters by 1. They do so by less in 0.1 % of all cases, if all noise of a place is
-    along one axis, and more rarely otherwise."""
+    """Lower limit of the scatter of running means over all images so far, with an LED at rest at
+    `places` places, relative to the scatter of one image. 0.1 % of all cases lie below if the noise
+    of a place is along one axis, fewer otherwise."""
     images = RATE * np.arange(SETTLE, SETTLE + DWELL, 1.0 / RATE)
     covariance = 1.0 / np.maximum(images[:, None], images)
     centered = (covariance - covariance.mean(axis=0) - covariance.mean(axis=1)[:, None]
@@ -50,7 +50,7 @@ class EndToEnd(unittest.TestCase):
     def tearDownClass(cls):
         shutil.rmtree(os.path.dirname(cls.rig_file), ignore_errors=True)
 
-    def test_calibrated_by_four_corners_it_measures_as_well_as_can_be(self):
+    def test_calibrated_by_four_corners_it_reaches_the_best_accuracy(self):
         recorder = LiveRecorder('led')
         conductor = Conductor('led', recorder)
         conductor.wait_for_cameras([camera.name for camera in self.scene.cameras])
@@ -85,13 +85,13 @@ class EndToEnd(unittest.TestCase):
             print('%s: measured %.2f mm, best %.2f mm, bound %.2f mm, 95 %% in %.2f .. %.2f mm' % (
                 kind, 1e3 * measured, 1e3 * best, 1e3 * bounds[kind].rms, 1e3 * bounds[kind].low,
                 1e3 * bounds[kind].high))
-            # The best estimate's error is known to first order; what is left out is k1 squared and
-            # the accelerometers, which the tracker uses too.
+            # The best estimate's error is known to first order. It ignores k1 squared and the
+            # accelerometers, which the tracker uses too.
             self.assertLess(measured, 1.2 * best, kind)
             self.assertGreater(measured, 0.8 * best, kind)
 
-        # Followed in time, it is calmer than what one image of each camera can tell, but no calmer
-        # than the mean of all images since the LED came to rest.
+        # Filtering makes the scatter less than that of one image of each camera, but not less than
+        # that of the mean of all images since the LED came to rest.
         variances = []
         for point in TEST_POINTS:
             calibration = np.zeros((4 * bound.PER_CAMERA,) * 2)

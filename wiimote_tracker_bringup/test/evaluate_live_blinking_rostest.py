@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Somebody switches blinking LEDs off and on as `evaluate --live` prompts for, on a terminal."""
+"""A simulated person switches blinking LEDs as `evaluate --live` prompts, on a terminal."""
 
 import json
 import os
@@ -21,7 +21,7 @@ from wiimote_tracker_msgs.srv import SetLedRequest
 
 EVALUATE = ['rosrun', 'wiimote_tracker_bringup', 'evaluate', '--live', '--quick', '--sections',
             'identification', '--output']
-DARK = 0.6  # without any point, until the LEDs are taken to be off [s]
+DARK = 0.6  # time without points after which the LEDs count as off [s]
 
 
 class Switcher(Person):

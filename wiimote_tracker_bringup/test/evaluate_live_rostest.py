@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Somebody does what `evaluate --live` prompts for, on a terminal, with the LED of a simulated rig;
-the figures of the report are held against what can be expected."""
+"""A simulated person follows the prompts of `evaluate --live` on a terminal, with the LED of a
+simulated rig; the report's figures are compared with expected ones."""
 
 import json
 import os
@@ -28,7 +28,7 @@ EVALUATE = ['rosrun', 'wiimote_tracker_bringup', 'evaluate', '--live', '--quick'
             'distance,latency,identification,positions,circles', '--output']
 DEADLINE = 150.0                   # [s]
 SPEED = 4.0                        # of the hand [m/s]
-CHOSEN = (1, 10)                   # of the ten points; the others are left out
+CHOSEN = (1, 10)                   # of the ten points; the others are skipped
 LAP_CENTRE, LAP_RADIUS, LAP_SPEED = (1.25, 1.25, 0.5), 0.4, 4.0  # [m], [m], [m/s]
 RADIUS = 0.75                      # of the circle [m]
 CURRENT, DISTANCE = 560.0, 10.0    # [mA], [m]
@@ -45,9 +45,9 @@ class Person:
         self._trigger = rospy.Publisher('trigger', Header, queue_size=10)
         self._images = 0
         self._walks = 0
-        self.ages = []      # of the newest point at each trigger [s]
-        self.readers = set()  # nodes that read what the simulation says of the truth
-        self._points = []   # stamp, and when it was heard [s]
+        self.ages = []      # age of the newest point at each trigger [s]
+        self.readers = set()  # nodes that subscribe to the simulation's truth
+        self._points = []   # stamp and arrival [s]
         rospy.Subscriber('points', TrackedPointArray, self._on_points)
         rospy.Subscriber('wiimote_1/ir_blobs', IrBlobArray, self._on_image)
         self._does = (
@@ -68,7 +68,7 @@ class Person:
         self._images += bool(message.blobs)
 
     def obey(self, process):
-        """Until the program has ended; what it said."""
+        """Follows the prompts until the program has ended; returns its output."""
         text, done = '', 0
         deadline = rospy.get_time() + DEADLINE
         while process.poll() is None:
@@ -78,7 +78,7 @@ class Person:
                 continue
             try:
                 text += os.read(self._terminal, 4096).decode()
-            except OSError:  # its end
+            except OSError:  # the program has ended
                 break
             while True:
                 found = [(match.end(), match, action) for pattern, action in self._does
@@ -108,7 +108,7 @@ class Person:
         while rospy.get_time() < time:
             rospy.sleep(0.005)
 
-    # --- What is asked for
+    # --- Tasks
 
     def place(self, number, *position):
         if int(number) not in CHOSEN:
@@ -155,7 +155,7 @@ class Person:
 
 class EvaluateLive(unittest.TestCase):
 
-    def test_a_person_is_led_to_a_report(self):
+    def test_a_person_is_guided_to_a_report(self):
         rospy.init_node('evaluate_live_rostest')
         path = rospy.get_param('~description')
         with open(path) as file:
@@ -188,7 +188,7 @@ class EvaluateLive(unittest.TestCase):
 
         def value(section, name):
             return figures[section, name]['value']
-        # The mean over a place is better than a single image's point, which the bound is of.
+        # The mean over a place is better than one image's point, to which the bound applies.
         places = experiment.TEST_POINTS[[number - 1 for number in CHOSEN]]
         bound = 1e3 * point_bound(described.cameras, described.effective_noise(), places)
         self.assertEqual(figures['positions', 'live_rms']['samples'], len(CHOSEN))
@@ -196,8 +196,8 @@ class EvaluateLive(unittest.TestCase):
         self.assertGreater(value('positions', 'live_rms'), 0.0)
         self.assertLess(value('circles', 'live_radial'), SIGMAS * bound)
         self.assertLess(value('circles', 'live_height'), SIGMAS * bound)
-        # By the angle, against the age of the newest point that another process knew of; on a busy
-        # machine the two hear of it at different times.
+        # The latency by the angle, compared with the age of the newest point known to another
+        # process. On a busy computer the two receive it at different times.
         spread = 1e3 * np.std(person.ages) / np.sqrt(len(person.ages))
         self.assertAlmostEqual(value('latency', 'live_mean'), 1e3 * np.mean(person.ages),
                                delta=SIGMAS * spread + 5.0)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""What an LED draws in the air is recognised: from reports of virtual Wii Remotes to events.
+"""Gestures of an LED are recognised: from reports of virtual Wii Remotes to events.
 
-One node is told by the LED being switched on and off where a gesture begins and ends, the other one
-by its being held still. Anna teaches; Ben draws elsewhere, larger and in his own way.
+One node finds begin and end of a gesture by the LED being switched on and off, the other one by its
+being held still. Anna teaches; Ben draws elsewhere, larger and in his own way.
 """
 
 import collections
@@ -22,8 +22,8 @@ TEACHING = (1.0, 1.2, 1.1)  # where Anna draws [m]
 ELSEWHERE = (1.6, 1.4, 1.3)  # and Ben
 REST_TIME, REST_RADIUS = 0.25, 0.015  # config/gestures.yaml [s], [m]
 APPEARS = 0.15        # an LED that was switched on is tracked within [s]
-FRAMES = 0.03         # three of them; the grain of what is said about time [s]
-SIGMAS = 5.0          # no coordinate of a hundred points is further off
+FRAMES = 0.03         # three of them: tolerance of times [s]
+SIGMAS = 5.0          # largest error of any coordinate of a hundred points
 
 
 class Gestures(LiveRigTest):
@@ -68,7 +68,7 @@ class Gestures(LiveRigTest):
             else:
                 self.check_times_by_rest(event, begin, end)
 
-        # Lit while it draws and no longer: nobody sees it rest.
+        # Lit only while it draws, so that no node sees it at rest.
         drawn = self.draw('check_by_ben', ELSEWHERE, on=False)
         event = self.next_event('by_light')
         self.assertEqual((event.event, event.gesture), (GestureEvent.RECOGNISED, 'check'))
@@ -76,7 +76,7 @@ class Gestures(LiveRigTest):
         self.check_box(event)
 
         self.draw('spiral_by_ben', ELSEWHERE, on=True)
-        for node in NODES:  # of the check, the one that waits for rests said nothing
+        for node in NODES:  # by_rest has published nothing for the check
             self.assertEqual(self.next_event(node).event, GestureEvent.REJECTED)
 
     def record(self, gesture):
@@ -102,7 +102,7 @@ class Gestures(LiveRigTest):
         return begin - entry['rest'], self.switch_off()
 
     def switch_off(self):
-        """And waits until the tracker has given the LED up. @returns when it went dark [s]."""
+        """Waits until the tracker has lost the LED. @returns when it was switched off [s]."""
         response = self.set_led(SetLedRequest(led='led', on=False, motion=SetLedRequest.HOLD))
         self.assertTrue(response.success, response.message)
         self.wait(lambda: not self.points[-1].points, 'the LED to be lost')
@@ -123,7 +123,7 @@ class Gestures(LiveRigTest):
                 np.array([(m.point.x, m.point.y, m.point.z) for m in messages]))
 
     def check_box(self, event):
-        """It holds where the LED truly was, as well as the tracker says it knows."""
+        """The box contains the true positions, within the tracker's covariance."""
         begin, end = event.begin.to_sec(), event.end.to_sec()
         sigma = np.sqrt(max(max(point.position_covariance[::4])
                             for message in list(self.points)
@@ -140,7 +140,7 @@ class Gestures(LiveRigTest):
         self.assertAlmostEqual(event.end.to_sec(), off, delta=FRAMES)
 
     def check_times_by_rest(self, event, on, off):
-        """From the rest before to the rest after it; a position is known to half a rest's radius."""
+        """From the rest before to the rest after; positions are known to half a rest's radius."""
         times, places = self.truth_between(on, off)
         from_begin = np.linalg.norm(places - places[0], axis=1)
         from_end = np.linalg.norm(places - places[-1], axis=1)

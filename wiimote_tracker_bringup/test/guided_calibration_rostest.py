@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A person calibrates a simulated rig as the program calibrate says; what comes out is as good as
-it claims to be."""
+"""A simulated person calibrates a simulated rig as the program calibrate prompts; the result's
+errors agree with its covariance."""
 
 import fcntl
 import os
@@ -39,13 +39,13 @@ KNOWN_PLACES = ((0.3, 0.3, 0.2), (2.2, 0.3, 0.4), (2.2, 2.2, 0.2), (0.3, 2.2, 1.
                 (2.2, 0.3, 1.6), (1.2, 1.3, 1.0), (0.4, 0.5, 1.5), (1.9, 2.0, 1.5))
 WAVE_SPEED = 1.3  # [m/s]
 WAVE_MIDDLE, WAVE_BOX = (1.25, 1.25, 1.2), (2.3, 2.3, 2.1)  # [m]
-# Square root of the 99.9 % and 0.1 % quantiles of chi-squared / degrees of freedom, for three: as
-# few as there are when the errors of all places are one and the same.
+# Square root of the 99.9 % and 0.1 % quantiles of chi-squared / degrees of freedom, for three
+# degrees: the fewest possible, when the errors of all places are fully correlated.
 LARGEST, SMALLEST = 2.33, 0.09
 
 
 class Program:
-    """calibrate --plain, talked to as a person would."""
+    """calibrate --plain, used as a person would."""
 
     def __init__(self, *arguments):
         self._process = subprocess.Popen(CALIBRATE + ['--plain'] + list(arguments),
@@ -65,7 +65,7 @@ class Program:
         self._process.stdin.flush()
 
     def expect(self, pattern):
-        """The next line in which the pattern is; None stands for the end."""
+        """The next line that matches the pattern; None stands for the end."""
         end = time.monotonic() + DEADLINE
         while True:
             try:
@@ -110,7 +110,7 @@ class Screen:
                     text = os.read(self._terminal, 65536).decode(errors='replace')
                 except OSError:
                     raise AssertionError(f'it ended without "{pattern}": {self.seen[-4000:]!r}')
-                # Moves of the cursor part words that were drawn at different times.
+                # Moves of the cursor separate words that were drawn at different times.
                 self.seen += re.sub(r'\x1b\[[0-9;?]*[A-Za-z]|\x1b\([A-Z]', ' ', text)
 
     def end(self):
@@ -118,7 +118,7 @@ class Screen:
 
 
 def triangulated(cameras, pixels):
-    """The place with the least reprojection error. cameras: (parameters, rotation, position)."""
+    """The point with the least reprojection error. cameras: (parameters, rotation, position)."""
     place = np.array([1.25, 1.25, 1.0])
     for _ in range(20):
         def residuals(at):
@@ -157,7 +157,7 @@ class GuidedCalibration(unittest.TestCase):
         shutil.rmtree(os.path.dirname(cls.rig_file), ignore_errors=True)
 
     def led(self, led='led', on=True, target=None, motion=SetLedRequest.HOLD, **more):
-        """Switches or moves an LED; returns when it is where it should be."""
+        """Switches or moves an LED; returns when it has arrived."""
         request = SetLedRequest(led=led, on=on, motion=motion, **more)
         if target is not None:
             request.target.x, request.target.y, request.target.z = target
@@ -170,7 +170,7 @@ class GuidedCalibration(unittest.TestCase):
         self.led(target=target, motion=SetLedRequest.LINE, speed=CARRY_SPEED)
 
     def wait_for_cameras(self, program):
-        """Until all drivers deliver; who starts calibrate sooner is told to wait."""
+        """Waits until all drivers deliver; before that, calibrate asks to wait."""
         end = time.monotonic() + DEADLINE
         while True:
             program.type('connection')
@@ -179,8 +179,8 @@ class GuidedCalibration(unittest.TestCase):
             self.assertLess(time.monotonic(), end, program.heard)
 
     def capture(self, program, number):
-        """A computer that is slow shows the LED on its way still; what is refused is tried again,
-        as the refusal says. @return how often it was."""
+        """On a slow computer the LED may still be moving in the images: a refused capture is
+        repeated, as the refusal advises. @return the number of refusals."""
         for refused in range(ATTEMPTS):
             program.type('next')
             if 'refused' not in program.expect(f'^corner {number} captured by 4|refused'):
@@ -188,13 +188,13 @@ class GuidedCalibration(unittest.TestCase):
         self.fail('\n'.join(program.heard))
 
     def test_square_wave_solve_save(self):
-        # The drivers take a while: a program of its own, that may fail.
+        # Waits for the drivers with a separate program, which may fail.
         self.carry(experiment.CORNERS[0])
         starting = Program()
         self.wait_for_cameras(starting)
         starting.end()
 
-        self.led('lamp', on=True)  # that somebody left on
+        self.led('lamp', on=True)  # a lamp that was left on
         self.led(on=False)
         program = Program('--side', f'{experiment.SIDE:g}')
         program.expect('Switch the LED off')
@@ -256,7 +256,7 @@ class GuidedCalibration(unittest.TestCase):
         self.assertGreater(rms, SMALLEST)
 
     def check_on_the_screen(self):
-        """The check of the next morning, with keys."""
+        """The check of a saved rig, with keys."""
         self.carry((1.25, 1.25, 1.0))
         screen = Screen()
         screen.expect('wiimote_4')
@@ -269,7 +269,7 @@ class GuidedCalibration(unittest.TestCase):
         self.assertEqual(screen.end(), 0)
 
     def ask(self, program, line, answer):
-        """Asks until it is not refused: an LED that a slow computer shows on its way still."""
+        """Repeats a refused command: on a slow computer the LED may still be moving."""
         for _ in range(ATTEMPTS):
             program.type(line)
             if 'refused' not in program.expect(f'^({answer}|refused)'):
@@ -277,7 +277,7 @@ class GuidedCalibration(unittest.TestCase):
         self.fail('\n'.join(program.heard))
 
     def correct_the_volume_and_recalibrate(self):
-        """What else there is once a rig is solved, by words."""
+        """The other commands of a solved rig, as words."""
         program = Program()
         program.expect('c checks the rig')
         program.type('fit')
@@ -306,7 +306,7 @@ class GuidedCalibration(unittest.TestCase):
         screen = Screen('--board', 'wiimote_1')
         screen.expect('Hold the 16-LED board in front of wiimote_1')
         screen.type(' ')
-        # What stays the same on the screen is not drawn again.
+        # The screen draws changes only.
         screen.expect('board still for two seconds')
         self.show_board_until_enough(views)
         screen.expect('solves the lens')
@@ -322,7 +322,7 @@ class GuidedCalibration(unittest.TestCase):
             info = rospy.wait_for_message('wiimote_1/camera_info', CameraInfo, DEADLINE)
             if info.K[0] > 0.0:
                 break
-        # The views are still there: the same lens again, and one as the simulated lens is.
+        # The views are still stored: the same lens again, and one with the simulated lens's model.
         solve = rospy.ServiceProxy('calibration/board/solve', SolveBoard)
         self.assertEqual(info.K, solve(SolveBoardRequest.AUTOMATIC).camera_info.K)
         lens = solve(SolveBoardRequest.K1)
@@ -334,7 +334,7 @@ class GuidedCalibration(unittest.TestCase):
             self.assertLess(abs(measured - true), SIGMAS * sigma)
 
     def show_board_until_enough(self, views):
-        """One pose after the other; a computer that is slow gets more of them."""
+        """One pose after the other; a slow computer gets more of them."""
         end = time.monotonic() + 2 * DEADLINE
         pose = 0
         while not views or views[-1][0] == 0 or views[-1][1] > 0:

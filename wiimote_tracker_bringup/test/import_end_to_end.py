@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Recordings in foreign layouts go through importer and nodelet; what comes out is compared with the
-recordings' own files and with the truth they were made from, by code that shares nothing with either.
+"""Recordings in foreign layouts go through importer and nodelet. The result is compared with the
+recordings' own files and with the truth, by code that shares nothing with either.
 """
 
 import json
@@ -91,7 +91,8 @@ class ImportEndToEnd(unittest.TestCase):
     def test_flydra(self):
         report = self.report(FLYDRA)
         published = self.published(report)
-        # Camera 1 saw all points of the excerpt, each with another camera: its file is the order.
+        # Camera 1 saw all points of the excerpt, each with another camera: its file gives the
+        # order.
         rows = [np.loadtxt(os.path.join(FLYDRA, 'cam%d.points4cal.dat' % n)) for n in range(1, 6)]
         self.assertEqual(sorted(published), list(range(len(rows[0]))))
         frame_of = {tuple(row[:3]): frame for frame, row in enumerate(rows[0])}
@@ -109,7 +110,7 @@ class ImportEndToEnd(unittest.TestCase):
                 of_shipped.append(np.linalg.norm(pixel_of(projection, row[:3]) - pixel))
             self.assertLess(np.median(of_published), 0.35)
             name = 'cam%d_0' % n
-            # The report is on pixels whose skew (below 1 %) was taken out.
+            # The report uses pixels whose skew (below 1 %) was removed.
             figures = report['published'][name]
             self.assertEqual(figures['observations'], len(of_published))
             self.assertAlmostEqual(figures['rms'] / rms(of_published), 1.0, delta=0.02)
@@ -117,8 +118,8 @@ class ImportEndToEnd(unittest.TestCase):
             self.assertIn(name, self.output)
             all_published += of_published
             all_shipped += of_shipped
-        # Maximum likelihood makes the squares least: the shipped points cannot be better by more
-        # than what the skew and their rounding change.
+        # Maximum likelihood minimises the squares: the shipped points cannot be better except for
+        # the skew and their rounding.
         self.assertLess(rms(all_published), 1.01 * rms(all_shipped))
         self.assertLess(np.median(all_published), 0.25)
 
@@ -141,7 +142,7 @@ class ImportEndToEnd(unittest.TestCase):
             self.assertLess(figures['median'], 2 * Room.NOISE)
             self.assertGreaterEqual(figures['inliers'], figures['observations'] - 2)
 
-    def test_solved_cameras_stand_where_they_stood(self):
+    def test_solved_cameras_are_at_their_true_places(self):
         room = Room(self.folder)
         bag_path = os.path.join(self.folder, 'out.bag')
         status, _, errors = run('import_multicamselfcal', room.folder, bag_path)
@@ -176,7 +177,7 @@ class ImportEndToEnd(unittest.TestCase):
                 contents.append(stream.read())
         self.assertTrue(contents[0] == contents[1])
 
-    def test_bad_input_gets_one_sentence(self):
+    def test_bad_input_gets_one_error_line(self):
         missing = os.path.join(self.folder, 'missing')
         out = os.path.join(self.folder, 'out.bag')
         status, _, errors = run('import_multicamselfcal', missing, out)
@@ -201,7 +202,7 @@ class ImportEndToEnd(unittest.TestCase):
 
 
 class Room:
-    """Four distorting cameras, a light that wanders, and the folder that MultiCamSelfCal would want."""
+    """Four cameras with distortion, a moving light, and the folder that MultiCamSelfCal expects."""
 
     CAMERAS, FRAMES, NOISE = 4, 240, 0.2
 
@@ -235,7 +236,7 @@ class Room:
         self.pixels[random.uniform(size=self.pixels.shape[:2]) < 0.2] = np.nan
         self.pixels[:, 100] = np.nan
         self.pixels[1:, 101] = np.nan
-        # Far off, where all four see the light: the fourth can be told to be wrong.
+        # A large error where all four see the light, so that it can be identified.
         by_all = np.flatnonzero(np.isfinite(self.pixels).all(axis=(0, 2)))
         self.spoiled = [(0, by_all[10]), (2, by_all[20])]
         for c, f in self.spoiled:

@@ -1,5 +1,5 @@
-"""What the tests with virtual Wii Remotes have in common: the rig's description, its truth, and a
-deadline for whatever is waited for."""
+"""Shared by the tests with virtual Wii Remotes: the rig's description, its truth, and a deadline
+for every wait."""
 
 import collections
 import unittest
@@ -15,7 +15,7 @@ DEADLINE = 90.0  # [s]
 
 
 class LiveRigTest(unittest.TestCase):
-    """Listens to the nodes on a simulated rig, whose file ~description names."""
+    """Listens to the nodes on the simulated rig of the file ~description."""
 
     @classmethod
     def setUpClass(cls):
@@ -45,7 +45,7 @@ class LiveRigTest(unittest.TestCase):
             rospy.sleep(0.01)
 
     def calibrate(self, masks=()):
-        """Once all cameras give images, the tracker gets the rig as it truly is.
+        """Waits until all cameras deliver images and gives the tracker the true rig.
         @param masks: pairs of a camera's name and an IrMask."""
         self.wait(lambda: len(self.images) == len(self.scene.cameras), 'images of all cameras')
         rig = true_rig.true_rig(self.scene, {
@@ -55,13 +55,13 @@ class LiveRigTest(unittest.TestCase):
         self.rig_publisher.publish(rig)
 
     def wait_until(self, time):
-        """Until points and truth of that time are there [s]."""
+        """Waits until there are points and truth of that time [s]."""
         for messages in [self.points] + list(self.truth.values()):
             self.wait(lambda: messages and messages[-1].header.stamp.to_sec() > time,
                       f'the instant {time:.3f}')
 
     def truth_at(self, led, stamps):
-        """N x 3 true places at N times."""
+        """N x 3 true positions at N times."""
         messages = list(self.truth[led])
         times = [m.header.stamp.to_sec() for m in messages]
         places = np.array([(m.point.x, m.point.y, m.point.z) for m in messages])

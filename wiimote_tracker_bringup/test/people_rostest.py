@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Two people carry four LEDs: each LED keeps its identity through hiding, reflections and losses.
 
-The truth comes from the simulation. That two cameras always keep any two LEDs apart is seen to by
-test_people.cpp.
+The truth comes from the simulation. test_people.cpp checks that two cameras always separate any two
+LEDs.
 """
 
 import collections
@@ -13,15 +13,15 @@ import rostest
 from live_rig import LiveRigTest
 from wiimote_tracker_msgs.msg import IrMask, TrackedPoint
 
-DURATION = 20.0   # that is judged [s]
+DURATION = 20.0   # evaluated [s]
 WARM_UP = 3.0     # after all are tracked; the drivers' clocks settle [s]
 MASK_RADIUS = 6.0  # about a reflection [px]
-ASTRAY = 0.1      # farther from every LED no point is of any of them: they are farther apart [m]
+ASTRAY = 0.1      # largest error of a point; the LEDs are farther apart [m]
 CHI_SQUARED_95 = 7.81  # 95 % quantile, three degrees of freedom
 
 
 class Track:
-    """What was published of one LED, id by id."""
+    """The published points of one LED, by id."""
 
     def __init__(self):
         self.stamps, self.positions, self.covariances, self.states = [], [], [], []
@@ -70,7 +70,7 @@ class People(LiveRigTest):
                 number, '/'.join(sorted(labels[number])), led, 100 * share, 1e3 * np.median(error),
                 1e3 * error.max()))
             covered[led] += len(at)
-            # A reflection or a wrong pair is nobody's, and never believed for long.
+            # A reflection or a wrong association is no LED's, and must not become tracked.
             self.assertLess(distances.min(axis=0).max(), ASTRAY, f'track {number}')
             for switch in np.flatnonzero(np.diff(nearest)):
                 self.fail('track %d went from %s to %s at %.3f s' % (
@@ -89,19 +89,19 @@ class People(LiveRigTest):
             TrackedPoint.TRACKED) >= len(self.leds)
 
     def masks(self):
-        """The reflections were learned, as calibrating does. They still take places of the
-        sensor's."""
+        """Masks of the reflections, as a calibration learns them. They still take the sensor's
+        slots."""
         return [(reflection['camera'], IrMask(x=reflection['pixel'][0], y=reflection['pixel'][1],
                                               radius=MASK_RADIUS))
                 for reflection in self.description['reflections'].values()]
 
     def check_covariance(self, track, truth):
-        """The claimed scatter is that of the errors, as far as samples that hang together tell."""
+        """The covariance is consistent with the errors, as far as correlated samples show."""
         error = np.array(track.positions) - truth
         covariance = np.array(track.covariances).reshape(-1, 3, 3)
         squared = np.einsum('ni,nij,nj->n', error, np.linalg.inv(covariance), error)
         print(f'    median of the normalised squared error: {np.median(squared):.2f} (2.37 when '
-              'all is known)')
+              'consistent)')
         self.assertLess(np.median(squared), CHI_SQUARED_95)
 
 

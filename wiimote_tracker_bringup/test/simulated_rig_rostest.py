@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What real drivers read from the virtual Wii Remotes is what the description says they see."""
+"""Real drivers read from the virtual Wii Remotes what the description specifies."""
 
 import collections
 import os
@@ -52,8 +52,8 @@ class SimulatedRig(unittest.TestCase):
         return self.set_led(request)
 
     def images_after(self, time, number=IMAGES):
-        """The first images of every camera that arrived more than 50 ms after a time: nothing that
-        was on its way is among them."""
+        """The first images of every camera that arrived more than 50 ms after a time, so that none
+        was exposed before it."""
         def after(name):
             return [image for image in list(self.images[name])
                     if image.arrival.to_sec() > time + 0.05]
@@ -75,17 +75,17 @@ class SimulatedRig(unittest.TestCase):
                     self.assertEqual(image.camera.strip('/'), camera.name)
                     pixels.append((image.blobs[0].x, image.blobs[0].y))
                 mean = np.mean(pixels, axis=0)
-                # Six standard errors, and what rounding leaves of 0.3 px of noise after averaging.
+                # Six standard errors, and the rounding error left after averaging 0.3 px of noise.
                 tolerance = 6.0 * self.scene.effective_noise() / np.sqrt(IMAGES) + 0.06
                 np.testing.assert_allclose(mean, camera.project(np.array([target]))[0],
                                            atol=tolerance)
 
-    def test_identities_are_those_of_the_description(self):
+    def test_identities_match_the_description(self):
         images = self.images_after(rospy.get_time(), 1)
         for number, camera in enumerate(self.scene.cameras, 1):
             self.assertEqual(images[camera.name][0].identity, f'00:1f:32:00:00:{number:02}')
 
-    def test_accelerometer_feels_gravity_as_mounted(self):
+    def test_accelerometer_measures_gravity_as_mounted(self):
         names = [camera.name for camera in self.scene.cameras]
         self.wait(lambda: all(len(self.imu[name]) >= 20 for name in names), 'imu of all cameras')
         for camera in self.scene.cameras:
@@ -107,7 +107,7 @@ class SimulatedRig(unittest.TestCase):
             self.assertTrue(response.success, response.message)
             images = self.images_after(response.arrival.to_sec())
             counts = [len(image.blobs) for series in images.values() for image in series]
-            # Where one end is straight behind the other they are one spot.
+            # Where one end is exactly behind the other they are one spot.
             self.assertGreater(counts.count(2), 0.8 * len(counts))
         finally:
             self.set_led(SetLedRequest(led='wand_end', on=False, motion=SetLedRequest.HOLD))
@@ -127,7 +127,7 @@ class SimulatedRig(unittest.TestCase):
             self.assertAlmostEqual(x, 1.5 - 2.0 * (arrival - t), delta=1e-5)
         self.assertTrue(all(x == 1.5 for t, x in track if t > arrival))
 
-    def test_a_request_that_makes_no_sense_is_refused_in_words(self):
+    def test_an_invalid_request_is_refused_with_a_reason(self):
         refused = [
             (dict(led='candle', motion=SetLedRequest.HOLD), "reflection 'candle'"),
             (dict(led='led', motion=9), 'HOLD, LINE, CIRCLE, WAVE or DRAW'),

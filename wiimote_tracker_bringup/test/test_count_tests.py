@@ -1,4 +1,4 @@
-"""The counter of tests: what it must notice, each from hand-written result files."""
+"""The counter of tests, with hand-written result files."""
 
 import importlib.util
 import os

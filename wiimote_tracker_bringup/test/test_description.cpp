@@ -55,7 +55,7 @@ class DescriptionFile : public testing::Test {
     return readDescription(path_);
   }
 
-  /// What reading says about the good file in which `from` is replaced by `to`.
+  /// The error for the good file with `from` replaced by `to`.
   std::string complaint(const std::string& from, const std::string& to) {
     std::string text = kGood;
     const auto place = text.find(from);
@@ -73,7 +73,7 @@ class DescriptionFile : public testing::Test {
   std::string path_;
 };
 
-TEST_F(DescriptionFile, holds_what_was_written_in_the_order_of_the_file) {
+TEST_F(DescriptionFile, keeps_all_entries_in_the_order_of_the_file) {
   const Description d = read(kGood);
   EXPECT_EQ(d.world_frame, "room");
   EXPECT_EQ(d.seed, 3u);
@@ -115,7 +115,7 @@ TEST_F(DescriptionFile, holds_what_was_written_in_the_order_of_the_file) {
   EXPECT_FALSE(d.leds[0].lit);
 }
 
-TEST_F(DescriptionFile, led_without_size_is_as_bright_as_its_distance_lets_it_be) {
+TEST_F(DescriptionFile, an_led_without_size_is_dimmed_by_distance) {
   std::string text = kGood;
   text.replace(text.find("size: 5"), 7, "brightness: 0");
   const Description d = read(text);
@@ -123,7 +123,7 @@ TEST_F(DescriptionFile, led_without_size_is_as_bright_as_its_distance_lets_it_be
   EXPECT_EQ(d.leds[0].brightness, 0.0);
 }
 
-TEST_F(DescriptionFile, an_led_may_turn_about_another_one_that_does_not) {
+TEST_F(DescriptionFile, an_led_may_turn_about_one_that_does_not_turn) {
   const std::string end =
       "lit: false}\n  end: {turns: {around: led, distance: 0.5, rate: 1.5}, brightness: 1}";
   std::string text = kGood;
@@ -148,7 +148,7 @@ TEST_F(DescriptionFile, an_led_may_turn_about_another_one_that_does_not) {
             std::string::npos);
 }
 
-TEST_F(DescriptionFile, drawings_come_from_files_beside_it) {
+TEST_F(DescriptionFile, drawings_are_read_from_the_same_folder) {
   const std::string csv = path_ + ".csv";
   const std::string name = csv.substr(csv.rfind('/') + 1);
   const std::string key = "leds:\n  led";
@@ -181,7 +181,7 @@ TEST_F(DescriptionFile, drawings_come_from_files_beside_it) {
   std::remove(csv.c_str());
 }
 
-TEST_F(DescriptionFile, a_board_is_held_before_a_camera_that_is_there) {
+TEST_F(DescriptionFile, a_board_needs_an_existing_camera) {
   EXPECT_FALSE(read(kGood).board);
   const std::string text = std::string(kGood) + "board: {before: first, row_spacing: 0.1}\n";
   const Description d = read(text);
@@ -194,7 +194,7 @@ TEST_F(DescriptionFile, a_board_is_held_before_a_camera_that_is_there) {
             std::string::npos);
 }
 
-TEST_F(DescriptionFile, things_may_move_from_the_beginning_on) {
+TEST_F(DescriptionFile, motions_may_start_with_the_simulation) {
   std::string text = kGood;
   text.replace(text.find("size: 5"), 7,
                "wave: {middle: [1, 2, 1], box: [1, 1, 0], speed: 0.5, path: 3}");

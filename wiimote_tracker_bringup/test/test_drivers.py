@@ -1,4 +1,4 @@
-"""The list of cameras, as the drivers script reads it."""
+"""The list of cameras, as read by the drivers script."""
 
 import importlib.machinery
 import importlib.util
@@ -60,7 +60,7 @@ def test_a_camera_may_have_parameters_of_its_own(tmp_path):
     ('cameras: {1: "00:1f:32:00:00:01"}', 'camera name 1'),
     ('cameras: {a: "00:1F:32:00:00:01", b: "00:1f:32:00:00:01"}', 'so has another one'),
 ])
-def test_a_list_that_cannot_be_used_is_refused_in_words(tmp_path, text, complaint):
+def test_an_unusable_list_is_refused_with_a_reason(tmp_path, text, complaint):
     with pytest.raises(drivers.CamerasError) as error:
         read(tmp_path, text)
     assert complaint in str(error.value)
@@ -72,12 +72,12 @@ def test_a_missing_file_is_named(tmp_path):
         drivers.read_devices(str(tmp_path / 'nothing.yaml'), '')
 
 
-def test_discovered_remotes_keep_the_names_that_they_get(tmp_path, monkeypatch):
+def test_discovered_remotes_keep_their_names(tmp_path, monkeypatch):
     path = tmp_path / 'cameras.yaml'
     path.write_text('discover: true\ncameras:\n')
     assert drivers.is_discovering(str(path))
     assert drivers.read_devices(str(path), '') == []
-    # In list_wiimotes' place: one that has found a remote.
+    # Replaces list_wiimotes by a program that has found a remote.
     finder = tmp_path / 'finder'
     finder.write_text('#!/bin/sh\n[ "$1" = --write ] || exit 2\n'
                       'printf \'  wiimote_1: "00:1f:32:00:00:01"\\n\' >> "$2"\n')
@@ -88,23 +88,23 @@ def test_discovered_remotes_keep_the_names_that_they_get(tmp_path, monkeypatch):
     assert drivers.is_discovering(str(path))
 
 
-def test_the_program_that_discovers_takes_a_file_that_asks_for_it(tmp_path):
+def test_discovery_needs_a_file_with_one_line_per_camera(tmp_path):
     path = tmp_path / 'cameras.yaml'
     path.write_text('discover: true\ncameras:\n  a: "00:1f:32:00:00:01"\n')
     drivers.discover(str(path), '')
     assert drivers.read_devices(str(path), '')[0] == ('a', '00:1f:32:00:00:01')
-    path.write_text('cameras: {a: "00:1f:32:00:00:01"}\n')  # not a line for each
+    path.write_text('cameras: {a: "00:1f:32:00:00:01"}\n')  # not one line per camera
     with pytest.raises(drivers.CamerasError, match='remotes cannot be looked for'):
         drivers.discover(str(path), '')
 
 
-def test_a_virtual_remote_that_was_discovered_is_found_where_it_was(tmp_path):
+def test_a_discovered_virtual_remote_keeps_its_socket(tmp_path):
     text = 'discover: true\ncameras:\n  a: "virtual:/tmp/x.sock"\n  b: "00:1f:32:00:00:01"\n'
     assert read(tmp_path, text, '/tmp/s') == [('a', 'virtual:/tmp/x.sock'),
                                               ('b', 'virtual:/tmp/s/b.sock')]
 
 
-def test_discovery_is_asked_for_in_so_many_words(tmp_path):
+def test_discovery_must_be_true_or_false(tmp_path):
     path = tmp_path / 'cameras.yaml'
     path.write_text('discover: maybe\ncameras: {a: "00:1f:32:00:00:01"}')
     with pytest.raises(drivers.CamerasError, match='"discover" must be true or false'):
@@ -113,7 +113,7 @@ def test_discovery_is_asked_for_in_so_many_words(tmp_path):
     assert not drivers.is_discovering(str(path))
 
 
-def test_more_remotes_than_the_adapters_connect_are_named():
+def test_too_many_remotes_for_the_adapters_are_named():
     def remotes(number):
         return [(f'wiimote_{i}', f'00:1f:32:00:00:{i:02x}') for i in range(number)]
     assert drivers.too_many(remotes(7), 1) is None

@@ -1,4 +1,4 @@
-"""The whole evaluation, --quick, and its figures against bounds that are computed here."""
+"""The whole evaluation with --quick; figures are compared with bounds that are computed here."""
 
 import csv
 import json
@@ -19,7 +19,7 @@ from wiimote_tracker_evaluation import bound, experiment, scene, sections  # noq
 
 PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
 SEED = 3
-LIMIT = 900.0  # of the whole run, on a machine that does other things too [s]
+LIMIT = 900.0  # of the whole run, on a busy computer [s]
 LAP = 1.4883   # of the latency section [s]
 
 
@@ -39,7 +39,7 @@ class Results:
         return self.figure(section, name)['value']
 
     def table(self, section, name):
-        """Rows of a table, as dictionaries of texts."""
+        """Rows of a table, as dictionaries of strings."""
         with open(os.path.join(self.folder, section, name + '.csv'), newline='') as file:
             return list(csv.DictReader(file))
 
@@ -59,7 +59,7 @@ def column(rows, name):
     return np.array([float(row[name]) for row in rows])
 
 
-def test_every_section_is_there_with_figures_and_plots(results):
+def test_every_section_has_figures_and_plots(results):
     assert results.content['failed'] == []
     names = [name for name, _, _ in sections.SECTIONS]
     assert {each['section'] for each in results.content['figures']} == set(names)
@@ -75,14 +75,14 @@ def test_every_section_is_there_with_figures_and_plots(results):
             assert texts, f'{drawing} has no text'
 
 
-def test_all_is_called_simulated(results):
+def test_everything_is_marked_as_simulated(results):
     assert results.content['simulated'] is True
     assert all(each['simulated'] and each['seed'] == SEED for each in results.content['figures'])
     page = open(os.path.join(results.folder, 'report.md'), encoding='utf-8').read()
     assert 'Simulated, rig `paper_rig.yaml`, seed %d, quick run' % SEED in page
 
 
-def test_intervals_hold_what_they_are_for(results):
+def test_intervals_contain_their_values(results):
     for each in results.content['figures']:
         if each['interval'] is not None:
             low, high = each['interval']
@@ -90,12 +90,12 @@ def test_intervals_hold_what_they_are_for(results):
             assert each['samples'] >= 2, each
 
 
-# --- Latency: the same thing measured in two ways, and the simulation's own delay
+# --- Latency: measured in two ways, and the simulation's own delay
 
 @pytest.mark.parametrize('case, cameras', [('four', 'four Wiimotes'), ('two', 'two Wiimotes')])
 def test_the_laps_counter_finds_the_age_of_the_newest_point(results, case, cameras):
-    """At any moment the newest point is as old as its latency and the time since it came; the laps
-    counter looks at moments that have nothing to do with the points."""
+    """The age of the newest point is its latency plus the time since it arrived. The laps counter
+    samples it at times that are independent of the points."""
     rows = [row for row in results.table('latency', 'points') if row['cameras'] == cameras]
     published, total = column(rows, 'published_s'), 1e-3 * column(rows, 'total_ms')
     gap = np.diff(published)
@@ -107,7 +107,7 @@ def test_the_laps_counter_finds_the_age_of_the_newest_point(results, case, camer
     answered = np.isfinite(answer)
     assert answered.sum() >= 6
     measured = ((answer - angle) * LAP / (2.0 * np.pi))[answered]
-    # A filtered position is some millimetres off; at 1.69 m/s that is as many half milliseconds.
+    # A filtered position has an error of some millimetres; at 1.69 m/s half a millisecond for each.
     off = 0.005 / (2.0 * np.pi * 0.4 / LAP)
     assert abs(measured.mean() - mean) < 4.0 * np.hypot(spread, off) / np.sqrt(len(measured))
     assert results.value('latency', case + '_by_answer_ms') == pytest.approx(
@@ -125,12 +125,12 @@ def test_parts_of_the_latency_add_up(results):
         assert min(mean.values()) > 0.0
 
 
-def test_bluetooth_is_the_delay_that_the_description_asks_for(results):
+def test_bluetooth_is_the_delay_of_the_description(results):
     with open(PAPER_RIG) as file:
         delay = yaml.safe_load(file)['cameras']['wiimote_1']['delay']
     assert delay['shape'] == 'bell'
     # Normal with this mean, then until the next slot: half a slot more on average. Waiting for the
-    # report before is rare; a simulation that is woken late only adds.
+    # report before is rare; a delayed simulation only adds time.
     least = delay['constant'] + 3.4 * delay['jitter'] + 0.5 * delay['slot']
     for cameras in ('four Wiimotes', 'two Wiimotes'):
         rows = [row for row in results.table('latency', 'images') if row['cameras'] == cameras]
@@ -141,7 +141,7 @@ def test_bluetooth_is_the_delay_that_the_description_asks_for(results):
 
 # --- Cost
 
-def test_images_of_the_cost_are_those_that_the_cameras_send(results):
+def test_the_cost_counts_all_images_that_the_cameras_send(results):
     with open(PAPER_RIG) as file:
         camera = yaml.safe_load(file)['cameras']['wiimote_1']
     sent = (1.0 - camera['delay']['drops']) / camera['clock']['period']  # 1/s
@@ -207,12 +207,12 @@ def test_with_two_cameras_the_correction_repairs_rays_from_the_image_centre(resu
 
 
 @pytest.mark.parametrize('cameras, number', [('1 2', 2), ('1 2 3 4', 4)])
-def test_the_bound_is_that_of_another_implementation(results, cameras, number):
-    """bound.py has its own camera model and derivatives; the description's rig is one more draw."""
+def test_the_bound_agrees_with_another_implementation(results, cameras, number):
+    """bound.py has its own camera model and derivatives; the description's rig is another draw."""
     _, least = sums_by_session(results, cameras, 'bound_square')
     drawn = np.sqrt(least / 10.0)
     rig = paper_scene(number)
-    corner_pixel = 0.2  # as the sessions have it [px]
+    corner_pixel = 0.2  # as in the sessions [px]
     other = bound.position_bounds(
         rig, experiment.CORNERS, experiment.TEST_POINTS, experiment.alignment_points(1),
         (rig.effective_noise() / corner_pixel) ** 2, 100, 100,
@@ -220,9 +220,9 @@ def test_the_bound_is_that_of_another_implementation(results, cameras, number):
     assert abs(other - drawn.mean()) < 4.0 * drawn.std(ddof=1)
 
 
-def test_tracks_are_better_than_single_images_allow(results):
-    """Exactly known cameras, slow circles: radial and height error against the bound of one image of
-    each camera."""
+def test_tracks_are_better_than_the_bound_of_single_images(results):
+    """Exactly known cameras, slow circles: radial and height error, compared with the bound for one
+    image of each camera."""
     rig = paper_scene(4)
     least = []
     for center in experiment.CIRCLE_CENTERS:

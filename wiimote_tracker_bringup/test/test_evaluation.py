@@ -1,4 +1,4 @@
-"""Alignment, bound, scoring and the demo's helpers, against closed forms and small cases."""
+"""Alignment, bound, scoring and the demo's helpers, compared with closed forms and small cases."""
 
 import json
 import os
@@ -63,7 +63,7 @@ def test_no_small_change_of_the_alignment_fits_better(with_scale):
 
 @pytest.mark.parametrize('points', [np.zeros((5, 3)), np.outer(np.arange(5.0), [1, 2, 3]),
                                     np.eye(3)[:2], np.full((4, 3), np.nan), np.zeros((3, 2))])
-def test_alignment_refuses_what_does_not_determine_it(points):
+def test_alignment_refuses_points_that_do_not_determine_it(points):
     with pytest.raises(ValueError):
         alignment.fit(points, points, with_scale=True)
 
@@ -91,7 +91,7 @@ def test_camera_model_agrees_with_opencv_convention_by_hand():
         == [True, False, False]
 
 
-def test_paper_rig_sees_all_that_is_measured():
+def test_paper_rig_sees_all_measured_places():
     rig = scene.read_scene(PAPER_RIG)
     assert [camera.name for camera in rig.cameras] == [f'wiimote_{i}' for i in (1, 2, 3, 4)]
     for points in (experiment.TEST_POINTS, experiment.circle_points(), experiment.CORNERS,
@@ -105,7 +105,7 @@ def test_missed_names_the_cameras():
     assert rig.missed(np.array([[5.0, 0.0, 1.0], [0.0, 9.0, 1.0]])) == [['b'], ['a', 'b']]
 
 
-def test_intrinsics_of_the_paper_rig_are_those_that_were_drawn():
+def test_intrinsics_of_the_paper_rig_are_the_drawn_ones():
     drawn = subprocess.check_output(
         ['/usr/bin/python3', os.path.join(HERE, '..', 'simulation', 'draw_intrinsics.py')],
         universal_newlines=True)
@@ -169,8 +169,8 @@ def test_pose_bound_agrees_with_many_least_squares_solutions():
 
 
 def test_misplaced_corners_that_are_a_motion_of_the_square_move_the_world():
-    """With perfect pixels and lenses the bound is what the corners' misplacement alone does: a
-    point in the middle of the square moves with the mean of the corners, 5 mm / sqrt 4 each axis."""
+    """With perfect pixels and lenses only the corners' misplacement contributes: a point in the
+    middle of the square moves with the mean of the corners, 5 mm / sqrt 4 in each axis."""
     rig = scene.read_scene(PAPER_RIG)
     rig.pixel_noise = 0.0
     knowledge = bound.Knowledge(focal=0.0, focal_ratio=0.0, center=0.0, k1=0.0, corner=0.005)
@@ -197,8 +197,8 @@ def test_alignment_only_helps_and_the_range_holds_the_mean():
         assert bounds[kind].low < bounds[kind].rms < bounds[kind].high
 
 
-def test_bound_is_the_mean_over_rigs_of_what_is_best_for_each():
-    """Rigs drawn at random from what is believed: their mean square best error is the bound's."""
+def test_bound_is_the_mean_of_the_best_errors_over_rigs():
+    """Rigs drawn from the prior: their mean square best error equals the bound's."""
     knowledge = bound.Knowledge()
     random = np.random.RandomState(8)
     squares = []
@@ -218,12 +218,12 @@ def test_bound_is_the_mean_over_rigs_of_what_is_best_for_each():
     assert (error < 0.2 * expected).all()
 
 
-def test_a_shifted_square_shifts_the_world_and_nothing_else():
+def test_a_shifted_square_only_shifts_the_world():
     deviation = np.zeros(5 * 4 + 8)
     deviation[20::2] = 0.003  # all four corners 3 mm too far along x
     bounds = the_bounds(deviation)
     assert bounds['absolute'].best == pytest.approx(0.003, rel=0.01)
-    assert bounds['rigid'].best < 6e-4  # what the pixels leave
+    assert bounds['rigid'].best < 6e-4  # the part due to pixel noise
 
 
 def test_knowing_more_lowers_the_bound():
@@ -232,8 +232,8 @@ def test_knowing_more_lowers_the_bound():
         assert the_bounds(**more)['absolute'].rms < much['absolute'].rms
 
 
-def test_with_only_the_size_of_the_square_wrong_a_similarity_leaves_nothing():
-    """All that a rigidly moved and scaled world leaves after a similarity alignment is pixels."""
+def test_a_similarity_removes_an_error_of_the_squares_size():
+    """After a similarity alignment, a rigidly moved and scaled world has only pixel errors."""
     rig = scene.read_scene(PAPER_RIG)
     basis = bound.alignment_basis(experiment.TEST_POINTS, 'similarity')
     fitted = bound.alignment_basis(experiment.alignment_points(2), 'similarity')
@@ -246,7 +246,7 @@ def test_with_only_the_size_of_the_square_wrong_a_similarity_leaves_nothing():
 # --- Scoring and report, on a recording made by hand
 
 class HandMade:
-    """A recording in which every point is measured with a known error."""
+    """A recording with a known error of every point."""
 
     def __init__(self):
         from wiimote_tracker_evaluation import recording
@@ -301,14 +301,14 @@ def test_score_of_a_recording_with_known_errors(hand_made):
     assert score.age_p50 == pytest.approx(0.02)
 
 
-def test_a_place_without_points_is_refused_by_name(hand_made):
+def test_a_place_without_points_is_named(hand_made):
     segment = hand_made.segments[0]
     late = type(segment)('test', 'P11', segment.target, 1.0, 2.0)
     with pytest.raises(ValueError, match='P11'):
         scoring.score(hand_made.recording, hand_made.segments + [late])
 
 
-def test_files_hold_the_figures(hand_made, tmp_path):
+def test_files_contain_the_figures(hand_made, tmp_path):
     score = scoring.score(hand_made.recording, hand_made.segments)
     bounds = the_bounds()
     report.write_summary(str(tmp_path / 'summary.json'), 'tracks', score, bounds)
@@ -343,7 +343,7 @@ import os, sys, time
 sys.path.insert(0, %r)
 from wiimote_tracker_evaluation.processes import Processes, descendants
 p = Processes()
-# A shell that leaves behind, in a session of its own, a process that ignores polite requests.
+# A shell whose child, in its own session, ignores SIGINT and SIGTERM.
 p.start('shell', ['sh', '-c', "setsid sh -c \\"trap '' INT TERM; echo up > %s; while :; do sleep 1; "
         "done\\" & wait"], os.devnull)
 deadline = time.monotonic() + 20

@@ -1,5 +1,5 @@
-"""Distance, identification and ours: models against closed forms, programs against bounds that are
-computed here, and what live measurements are made of."""
+"""Distance, identification and ours: models are compared with closed forms, programs with bounds
+that are computed here, and the parts of live measurements are tested."""
 
 import io
 import os
@@ -33,13 +33,13 @@ def table_of(folder, program, sessions, seed=1):
 
 # --- The LED's brightness
 
-def test_the_constant_is_found_again_whatever_the_currents():
+def test_the_constant_is_recovered_for_any_currents():
     constant, threshold = 3.7, 0.02
     pairs = [(current, np.sqrt(constant * current / threshold)) for current in (0.1, 0.3, 1.2)]
     led = light.Led(70.0, 'wii_3', pairs)
     assert led.brightness_per_ampere(threshold) == pytest.approx(constant)
     assert led.misfit(threshold) == pytest.approx(0.0, abs=1e-12)
-    # A distance that is a tenth too long: by log(1.1) - log(1.1) / 3 and - log(1.1) / 3 twice.
+    # A distance that is 10 % too long: by log(1.1) - log(1.1) / 3 and - log(1.1) / 3 twice.
     led = light.Led(70.0, 'wii_3', pairs[:2] + [(1.2, 1.1 * pairs[2][1])])
     assert led.misfit(threshold) == pytest.approx(np.log(1.1) / np.sqrt(3.0))
 
@@ -51,7 +51,7 @@ def test_half_the_power_at_half_the_angle():
     assert light.Led(120.0, 'wii_3', [(1.0, 1.0)]).exponent == pytest.approx(1.0), 'Lambert'
 
 
-def test_the_led_that_is_shipped_has_the_papers_point():
+def test_the_shipped_led_has_the_papers_point():
     assert light.read_led(LED).measured == [(0.56, 10.0)]
 
 
@@ -61,7 +61,7 @@ def test_the_led_that_is_shipped_has_the_papers_point():
     ('half_power_angle: 70\nsensitivity: high\ndistances: {1: 1}', 'sensitivity'),
     ('half_power_angle: 70\nsensitivity: max\ndistances: {}', 'distances'),
     ('half_power_angle: 70\nsensitivity: max\ndistances: {0.0: 1}', 'distances')])
-def test_what_is_no_led_is_refused(tmp_path, content, named):
+def test_invalid_leds_are_refused(tmp_path, content, named):
     path = tmp_path / 'led.yaml'
     path.write_text(content)
     with pytest.raises(ExperimentError) as caught:
@@ -71,23 +71,25 @@ def test_what_is_no_led_is_refused(tmp_path, content, named):
 
 # --- Programs
 
-def test_lights_are_seen_as_far_as_the_sensors_thresholds_say(tmp_path):
-    """Thresholds as the virtual Wii Remote documents them; its steps are one image of the walk."""
+def test_lights_are_seen_up_to_the_distance_of_the_threshold(tmp_path):
+    """Thresholds as the virtual Wii Remote documents them; the resolution is one image of the
+    walk."""
     table, _ = table_of(tmp_path, 'evaluate_distance', 1)
     step = 0.25 * 0.01
     for level, threshold in (('wii_1', 0.12), ('wii_3', 1.0 / 36.0), ('max', 0.0060)):
         chosen = table['sensitivity'] == level
-        # The light is 0.02 rad off the axis, and so that much farther than the way.
+        # The light is 0.02 rad off the axis, so its distance exceeds the way by this factor.
         expected = np.sqrt(table['brightness'][chosen] / threshold) / np.sqrt(1.0 + 0.02 ** 2)
-        tolerance = step + 1e-6 + (0.01 * expected if level != 'wii_3' else 0.0)  # two digits are told
+        tolerance = step + 1e-6 + (0.01 * expected if level != 'wii_3' else 0.0)  # two digits
         assert (np.abs(table['last_seen_m'][chosen] - expected) <= tolerance).all()
     late = table['stopped_at_m'] - table['last_seen_m']
-    # Half a second of walking from the last change, which is a pixel's way before the last sight.
+    # Walking stops 0.5 s after the last change, which is up to one pixel of motion before the last
+    # image with the light.
     assert (late <= 0.25 * 0.5 + step).all() and (late > 0.0).all()
 
 
 @pytest.mark.parametrize('program', ['cameras', 'map', 'occlusion'])
-def test_a_programs_table_is_a_function_of_its_seed(tmp_path, program):
+def test_a_programs_table_depends_only_on_its_seed(tmp_path, program):
     def written(seed):
         with open(table_of(tmp_path, 'evaluate_' + program, 1, seed)[1], 'rb') as file:
             return file.read()
@@ -95,7 +97,7 @@ def test_a_programs_table_is_a_function_of_its_seed(tmp_path, program):
     assert written(1) == first and written(2) != first
 
 
-def test_a_sections_files_are_a_function_of_its_seed(tmp_path):
+def test_a_sections_files_depend_only_on_its_seed(tmp_path):
     def written(seed):
         assert evaluation.main(['--quick', '--sections', 'distance', '--rig', RIG, '--seed',
                                 str(seed), '--output', str(tmp_path)]) == 0
@@ -107,7 +109,8 @@ def test_a_sections_files_are_a_function_of_its_seed(tmp_path):
 
 
 def test_the_bound_of_two_cameras_at_a_right_angle():
-    """Each sees two axes, both see the height: sum of 1, 1 and 1/2 of (pixel * distance / f)^2."""
+    """Each sees two axes, both see the height: sum of 1, 1 and 1/2 times (pixel * distance /
+    f)^2."""
     f, distance, noise = 1300.0, 6.0, 0.4
     rig = []
     for position in ((-distance, 0.0, 0.0), (0.0, -distance, 0.0)):
@@ -124,22 +127,23 @@ def test_single_points_reach_the_bound_and_the_papers_mean_does_not(tmp_path):
         bound, = cameras.ring_bounds(RIG, table, [count])
         errors = table['error_mm'][(table['cameras'] == count) & (table['method'] == 'most_likely')]
         errors = errors[np.isfinite(errors)]
-        # A mean of squares of some three normal coordinates; rounding is not quite normal noise.
+        # A mean of squares of about three normal coordinates each; rounding is not quite normal
+        # noise.
         spread = np.sqrt(2.0 / len(errors)) * bound ** 2
         assert abs(np.mean(errors ** 2) - bound ** 2) < SIGMAS * spread
     four = table['cameras'] == 4
     assert statistics.rms(table['error_mm'][four & (table['method'] == 'mean_closest')]) > 1.2 * bound
 
 
-def test_instants_end_where_two_cameras_do_not_see_and_tracks_go_on(tmp_path):
+def test_tracks_continue_where_fewer_than_two_cameras_see(tmp_path):
     table, _ = table_of(tmp_path, 'evaluate_occlusion', 3)
     instants, tracks = table['method'] == 'instants', table['method'] == 'tracks'
-    # Each time that they end they cover 25 ms more; in 10 s, there are at most some 20 ends.
+    # Each time that they end they cover 25 ms more; in 10 s there are at most about 20 ends.
     assert (table['covered_share'][instants] <= table['two_views_share'][instants] + 0.06).all()
     hidden = (table['hidden_share'] >= 0.3) & (table['cameras'] == 4)
     assert (table['covered_share'][tracks & hidden].mean()
             > table['two_views_share'][tracks & hidden].mean())
-    # Where fewer than two see it, distances are extrapolated; these are not said to be tracked.
+    # With fewer than two cameras distances are extrapolated; such points are not marked as tracked.
     tracked = table['method'] == 'tracked'
     hidden = (table['hidden_share'] >= 0.3) & (table['cameras'] == 2)
     assert table['astray_share'][tracked].max() < 0.01
@@ -153,8 +157,8 @@ def test_cameras_on_their_own_clocks_need_estimated_times_as_the_speed_grows(tmp
         value, = table['rms_mm'][(table['speed_m_per_s'] == speed) & (table['stamps'] == stamps)
                                  & (table['clocks'] == 'own') & (table['method'] == method)]
         return value
-    # What arrivals vary by, 2.4 ms, is so many millimetres at 3 m/s in each camera; of the mean of
-    # four cameras, and of a few images of each, less remains, but not nothing.
+    # The jitter of arrivals, 2.4 ms, is 2.4 mm per m/s in each camera. The mean of four cameras and
+    # of a few images of each reduces it.
     assert rms(3.0, 'arrival', 'tracks') > 0.5 * 2.4 * 3.0
     assert rms(3.0, 'estimated', 'tracks') < 0.6 * rms(3.0, 'arrival', 'tracks')
     assert rms(3.0, 'exact', 'latest') > 2.0 * rms(3.0, 'estimated', 'tracks')
@@ -163,7 +167,7 @@ def test_cameras_on_their_own_clocks_need_estimated_times_as_the_speed_grows(tmp
 # --- Gestures
 
 def write_drawing(path, shape, random):
-    """A drawing with a hand that trembles; rows x y z t_ms, millimetres."""
+    """A drawing with a trembling hand; rows x y z t_ms, millimetres."""
     turn = np.linspace(0.0, 1.0, 60)
     points = {'circle': np.stack([np.cos(6.28 * turn), 0.0 * turn, np.sin(6.28 * turn)], axis=1),
               'to-the-right': np.stack([turn, 0.0 * turn, 0.0 * turn], axis=1),
@@ -201,7 +205,7 @@ def tries(length, labelled, seconds):
             'scheme': np.array(['paper'] * count), 'seconds': np.array(seconds, dtype=float)}
 
 
-def test_the_shortest_period_is_that_from_which_on_nearly_all_succeed():
+def test_the_shortest_period_is_the_one_above_which_nearly_all_succeed():
     line = identification.Line(tries([50, 60, 60, 80, 80], [4, 4, 3, 4, 4], [1, 2, 9, 3, 4]),
                                'paper', 4)
     assert line.shortest() == 80.0  # 50 ms by chance, since 60 ms fails
@@ -226,7 +230,7 @@ def test_circle_errors_of_a_tilted_circle():
 
 
 @pytest.mark.parametrize('way', [1.0, -1.0])
-def test_the_newest_point_lies_behind_in_the_direction_of_the_turn(way):
+def test_the_newest_point_lags_in_the_direction_of_motion(way):
     def at(angle):
         return np.array([np.cos(angle), np.sin(angle), 0.3])
     assert latency.behind(at(0.1 * way), at(0.3 * way), [0.0, 0.0, 2.0 * way]) == pytest.approx(0.2)
@@ -250,7 +254,7 @@ def test_a_place_is_one_led_that_lies_still():
     assert listener.Listener._place(two) is None, 'which one?'
 
 
-def test_a_number_is_asked_for_until_it_makes_sense():
+def test_a_number_is_requested_until_it_is_valid():
     said = io.StringIO()
     person = dialogue.Dialogue(io.StringIO('far\nnan\n300\n2.5\n\n'), said)
     assert person.ask_number('How far?', 0.01, 100.0) == 2.5

@@ -1,5 +1,5 @@
-"""Positions and circles of the evaluation, from tables that are made up: known errors must come out
-as the figures, and larger ones as larger."""
+"""Positions and circles of the evaluation, from synthetic tables: known errors must appear in the
+figures, and larger errors in larger figures."""
 
 import csv
 import functools
@@ -20,8 +20,8 @@ from wiimote_tracker_evaluation.section import Run, Table  # noqa: E402
 from wiimote_tracker_evaluation.sections import circles, positions  # noqa: E402
 
 SESSIONS = 10
-PLACED = 0.01       # of the LED beside its place, along x [m]
-CASE_ERROR = 0.05   # of the paper's cases, along y [m]
+PLACED = 0.01       # error of the LED's placement, along x [m]
+CASE_ERROR = 0.05   # error of the paper's cases, along y [m]
 BOUND_STDDEV = 0.004  # per axis [m]
 POINT_COLUMNS = (['session', 'cameras', 'method', 'ray_model', 'point']
                  + [f'{name}_{axis}' for name in ('nominal', 'true', 'measured')
@@ -33,7 +33,7 @@ TRACE_COLUMNS = ['session', 'cameras', 'case', 'ray_model', 'round', 'camera', '
 
 @pytest.fixture(autouse=True)
 def short(monkeypatch):
-    """Drawing and resampling would take most of the time; both are looked at elsewhere."""
+    """Drawing and resampling would take most of the time; other tests cover both."""
     monkeypatch.setattr(statistics, 'bootstrap',
                         functools.partial(statistics.bootstrap, resamples=50))
     for name in ('cumulative_errors', 'cubes', 'correction'):
@@ -48,7 +48,7 @@ def write_csv(path, columns, rows):
 
 
 def point_rows(session, cameras, method, model, error, variance):
-    """Ten points in a row; error: along y, of every point [m]; None: not measured."""
+    """Ten points in a row; error: along y, of each point [m]; None: not measured."""
     rows = []
     for point in range(1, 11):
         nominal = np.array([0.1 * point, 1.0, 2.0 * (point % 2)])
@@ -60,7 +60,7 @@ def point_rows(session, cameras, method, model, error, variance):
 
 
 def make_results(folder, our_error):
-    """our_error: of every point of square, wave and wand, up or down by session [m]."""
+    """our_error: of each point by square, wave and wand; its sign alternates by session [m]."""
     points, traces = [], []
     for session in range(SESSIONS):
         for cameras in (TWO, FACING, FOUR):
@@ -94,9 +94,9 @@ def told(section, tmp_path, *data):
     return run, {figure.name: figure for figure in run.figures}
 
 
-def test_figures_are_the_errors_that_were_made(tmp_path):
+def test_figures_equal_the_simulated_errors(tmp_path):
     run, figures = told(positions, tmp_path, make_results(tmp_path / 'good', 0.006))
-    # The paper measures from where the LED was meant to be, we from where it was.
+    # The paper's errors are relative to the intended place of the LED, ours to the true one.
     assert figures['two_C3_image_center'].value == pytest.approx(
         1e3 * np.hypot(CASE_ERROR, PLACED))
     assert figures['four_wand'].value == pytest.approx(6.0)
@@ -104,7 +104,7 @@ def test_figures_are_the_errors_that_were_made(tmp_path):
         0.006 / (np.sqrt(3.0) * BOUND_STDDEV))
     assert figures['four_wand_stated'].value == pytest.approx(
         (0.006 / BOUND_STDDEV) ** 2 / 3.0)
-    # The principal points end 14 px from the middle; the board errs by (8, 4) px.
+    # The principal points end 14 px from the middle; the board's errors are (8, 4) px.
     assert figures['corrected_principal_point_off'].value == pytest.approx(14.0)
     assert figures['board_principal_point_error'].value == pytest.approx(
         3.0 * np.sqrt((64.0 + 16.0) / 2.0))
@@ -116,7 +116,7 @@ def test_figures_are_the_errors_that_were_made(tmp_path):
     assert verdicts['two, C3 to C5: largest error'] == 'no: ours is smaller'
 
 
-def test_a_worse_method_shows(tmp_path):
+def test_a_worse_method_has_larger_figures(tmp_path):
     _, good = told(positions, tmp_path, make_results(tmp_path / 'good', 0.006))
     _, bad = told(positions, tmp_path, make_results(tmp_path / 'bad', 0.012))
     for name in ('four_wand', 'four_wand_over_bound', 'two_square'):
@@ -125,7 +125,7 @@ def test_a_worse_method_shows(tmp_path):
     assert bad['four_wand_stated'].value == pytest.approx(4.0 * good['four_wand_stated'].value)
 
 
-def test_a_claim_is_compared_with_what_as_few_sessions_give(tmp_path):
+def test_a_claim_is_compared_with_the_spread_of_equally_few_sessions(tmp_path):
     results = make_results(tmp_path / 'all', 0.006)
     # Errors of the sessions 1, 2, ..., 10 cm: the largest of two draws k with probability
     # (2 k - 1) / 100, so that 2.5 % lie below 2 and 97.5 % at 10.
@@ -142,7 +142,7 @@ def test_a_claim_is_compared_with_what_as_few_sessions_give(tmp_path):
                               (low, middle, high)) == expected
 
 
-def test_the_form_of_the_cube_is_what_a_shift_leaves(tmp_path):
+def test_the_form_of_the_cube_is_the_error_after_a_shift(tmp_path):
     results = make_results(tmp_path / 'all', 0.006)
     off, left = claims.form_of_cube(results, 'image_center')
     assert off == pytest.approx(np.full((SESSIONS, 8), np.hypot(CASE_ERROR, PLACED)))
@@ -153,7 +153,7 @@ def test_the_form_of_the_cube_is_what_a_shift_leaves(tmp_path):
     assert (0.001 < left.max(axis=1)).all() and (left.max(axis=1) < 0.01).all()
 
 
-def test_a_session_without_a_result_is_counted_and_left_out(tmp_path):
+def test_a_session_without_a_result_is_counted_and_skipped(tmp_path):
     results = make_results(tmp_path / 'all', 0.006)
     lost = (results.points['method'] == 'wand') & (results.points['session'] == 3)
     results.points['measured_z'][lost] = np.nan
@@ -175,8 +175,8 @@ def test_a_method_that_never_works_is_named(tmp_path):
 
 
 def made_laps(radial):
-    """A circle that is measured too wide by `radial`, and 1 mm too high [m]; one point is missing in
-    every lap."""
+    """A circle whose measured radius is too large by `radial`, 1 mm too high [m]; one point is
+    missing in every lap."""
     columns = {name: [] for name in (
         'session', 'cameras', 'method', 'circle', 'speed', 'time', 'true_x', 'true_y',
         'true_z', 'measured_x', 'measured_y', 'measured_z', 'radial_error', 'height_error')}
@@ -193,7 +193,7 @@ def made_laps(radial):
     return {name: np.array(values) for name, values in columns.items()}
 
 
-def test_circles_are_the_errors_that_were_made(tmp_path):
+def test_circle_figures_equal_the_simulated_errors(tmp_path):
     run, figures = told(circles, tmp_path, made_laps(0.003))
     assert figures['two_wand_tracks_radial_1'].value == pytest.approx(3.0)
     assert figures['two_wand_tracks_height_0_5'].value == pytest.approx(1.0)
@@ -202,6 +202,6 @@ def test_circles_are_the_errors_that_were_made(tmp_path):
     assert all(row[-1] == pytest.approx(10.0) for row in table.rows)
 
 
-def test_worse_circles_show(tmp_path):
+def test_worse_circles_have_larger_figures(tmp_path):
     _, worse = told(circles, tmp_path, made_laps(0.006))
     assert worse['two_wand_tracks_radial_1'].value == pytest.approx(6.0)

@@ -1,4 +1,5 @@
-"""The evaluation's frame: statistics against closed forms, report and files of made-up sections."""
+"""The evaluation's framework: statistics compared with closed forms, report and files of test
+sections."""
 
 import csv
 import html.parser
@@ -27,7 +28,7 @@ PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
 # --- Statistics
 
 @pytest.mark.parametrize('units', [8, 30])
-def test_bootstrap_of_a_mean_covers_the_truth_as_often_as_it_says(units):
+def test_bootstrap_of_a_mean_has_its_nominal_coverage(units):
     random = np.random.RandomState(3)
     runs, covered = 120, 0
     for run in range(runs):
@@ -62,7 +63,7 @@ def test_wilson_limits_solve_the_equation_they_are_defined_by(successes, trials)
         assert deviation == pytest.approx(expected, abs=1e-7)
 
 
-def test_wilson_refuses_what_is_no_count():
+def test_wilson_refuses_invalid_counts():
     for successes, trials in ((0, 0), (3, 2), (-1, 2)):
         with pytest.raises(ValueError):
             statistics.wilson(successes, trials)
@@ -75,7 +76,7 @@ def test_blocks_keep_every_value_in_its_order():
     assert len(statistics.blocks([1.0], 5)) == 1
 
 
-# --- A report of made-up sections
+# --- A report of test sections
 
 def a_section(name, run):
     module = types.ModuleType(name)
@@ -178,7 +179,7 @@ class Reader(html.parser.HTMLParser):
         self.text.append(data)
 
 
-def test_the_page_holds_everything_in_itself(evaluate, tmp_path):
+def test_the_page_is_self_contained(evaluate, tmp_path):
     assert evaluate([a_section('first', a_good_run), a_section('second', a_good_run)]) == 0
     page = (tmp_path / 'out/report.html').read_text(encoding='utf-8')
     reader = Reader(page)
@@ -187,7 +188,7 @@ def test_the_page_holds_everything_in_itself(evaluate, tmp_path):
     for link in reader.links:
         if link.startswith('#'):
             assert link[1:] in reader.ids
-        else:  # the tables; nothing is fetched from elsewhere
+        else:  # the tables; nothing is loaded from elsewhere
             assert (tmp_path / 'out' / link).is_file()
     assert not re.search(r'url\((?!#)', page)
     text = ''.join(reader.text)
@@ -210,7 +211,7 @@ def test_the_same_figure_is_the_same_svg():
     assert drawn() == drawn()
 
 
-def test_a_section_that_fails_is_told_and_the_others_go_on(evaluate, tmp_path, capsys):
+def test_a_failed_section_is_reported_and_the_others_run(evaluate, tmp_path, capsys):
     assert evaluate([a_section('bad', a_failing_run), a_section('good', a_good_run)]) == 1
     assert figures(tmp_path)['failed'] == ['bad']
     assert [each['section'] for each in figures(tmp_path)['figures']] == ['good', 'good']
@@ -220,7 +221,7 @@ def test_a_section_that_fails_is_told_and_the_others_go_on(evaluate, tmp_path, c
     assert 'Failed: bad' in capsys.readouterr().out
 
 
-def test_what_was_done_before_an_interruption_stays(evaluate, tmp_path):
+def test_results_before_an_interruption_are_kept(evaluate, tmp_path):
     modules = [a_section('good', a_good_run), a_section('cut', an_interrupted_run),
                a_section('never', a_failing_run)]
     assert evaluate(modules) == 130
@@ -230,7 +231,7 @@ def test_what_was_done_before_an_interruption_stays(evaluate, tmp_path):
     assert 'About never' not in page
 
 
-def test_a_measured_figure_among_simulated_ones_is_called_so(evaluate, tmp_path):
+def test_a_measured_figure_among_simulated_ones_is_marked(evaluate, tmp_path):
     def with_own(run):
         a_good_run(run)
         run.figure('own', 2.0, '', 3, simulated=False)
@@ -254,7 +255,7 @@ def test_only_the_chosen_sections_run_and_others_are_refused(evaluate, tmp_path,
     assert 'there is no section' in capsys.readouterr().err
 
 
-def test_what_the_user_brings_reaches_the_sections(evaluate, tmp_path):
+def test_the_users_files_reach_the_sections(evaluate, tmp_path):
     for person in ('anna', 'ben'):
         (tmp_path / 'people' / person).mkdir(parents=True)
     led, people, seen = str(tmp_path / 'led.yaml'), str(tmp_path / 'people'), []
@@ -264,7 +265,7 @@ def test_what_the_user_brings_reaches_the_sections(evaluate, tmp_path):
     assert seen == [(led, people)]
 
 
-def test_a_second_run_leaves_nothing_of_the_first(evaluate, tmp_path):
+def test_a_second_run_removes_the_results_of_the_first(evaluate, tmp_path):
     assert evaluate([a_section('first', a_good_run)]) == 0
     stale = tmp_path / 'out/first/stale.csv'
     stale.write_text('old')
@@ -301,7 +302,7 @@ class Clock:
         return self.time
 
 
-def test_remaining_time_is_the_expected_one_first_and_the_seen_one_last():
+def test_remaining_time_goes_from_expected_to_measured():
     clock = Clock()
     shown = progress.Progress([('a', 100), ('b', 50)], io.StringIO(), clock)
     shown.begin('a', 'A')
@@ -349,16 +350,16 @@ def test_table_is_written_between_its_marks_and_agrees_with_itself():
 
 @pytest.mark.parametrize('fresh, agrees', [
     (content_of(10.1, [9.5, 10.6]), True), (content_of(12.0, [11.0, 13.0]), False),
-    (content_of(10.5, [9.9, 11.0]), False),  # meeting is not enough: the odds are 1 in 90
+    (content_of(10.5, [9.9, 11.0]), False),  # touching intervals differ: the probability is 1 in 90
     (content_of(9.12, None), True), (content_of(9.0, [8.0, 10.0], 'other'), False),
-    # A short run is uncertain to the side of the other, or to the other side.
+    # The interval of a short run is long towards the other value, or away from it.
     (content_of(12.0, [8.5, 12.1]), True), (content_of(12.0, [11.9, 15.5]), False)])
-def test_table_disagrees_when_the_difference_is_more_than_both_are_uncertain_by(fresh, agrees):
+def test_table_disagrees_when_the_difference_exceeds_the_uncertainty(fresh, agrees):
     text = results_table.written(README, content_of(9.1234, [8.0, 10.0]))
     assert (results_table.disagreements(text, fresh) == ([], [])) == agrees
 
 
-def test_numbers_that_depend_on_the_machine_are_told_apart(tmp_path, capsys):
+def test_numbers_that_depend_on_the_machine_are_not_checked(tmp_path, capsys):
     content, other = content_of(9.0, [8.0, 10.0]), content_of(20.0, [19.0, 21.0])
     for each in (content, other):
         each['figures'][0]['end_to_end'] = True
@@ -374,7 +375,7 @@ def test_numbers_that_depend_on_the_machine_are_told_apart(tmp_path, capsys):
 
 
 def table_of(random, truths, spread):
-    """A run whose figures scatter about the truth as their 95 % intervals say."""
+    """A run whose figures scatter about the truth as their 95 % intervals state."""
     content = content_of(0.0, None)
     half = statistics.NORMAL_QUANTILE * spread
     content['figures'] = [dict(content['figures'][0], name=f'f{i}', value=value, interval=[
@@ -383,7 +384,7 @@ def table_of(random, truths, spread):
     return content
 
 
-def test_a_fresh_run_of_another_length_agrees_as_often_as_it_should():
+def test_a_fresh_run_of_another_length_agrees_at_the_nominal_rate():
     random, truths, runs = np.random.RandomState(2), 10.0 + np.arange(20.0), 300
     agreed, found = 0, 0
     for _ in range(runs):
@@ -391,8 +392,8 @@ def test_a_fresh_run_of_another_length_agrees_as_often_as_it_should():
         agreed += results_table.disagreements(text, table_of(random, truths, 0.4))[0] == []
         moved = truths + 6.0 * np.hypot(0.1, 0.4) * (np.arange(20) == 7)
         found += results_table.disagreements(text, table_of(random, moved, 0.4))[0] != []
-    # Of runs that agree 95 % shall pass, and those the more for what rounding allows; one figure
-    # that is six standard deviations off passes by chance hardly ever.
+    # 95 % of agreeing runs must pass, and more because of rounding. One figure with an error of six
+    # standard deviations hardly ever passes by chance.
     assert agreed / runs > 0.95 - 3.0 * np.sqrt(0.95 * 0.05 / runs)
     assert found / runs > 0.98
 
@@ -405,7 +406,7 @@ def test_table_needs_its_marks(text):
 
 # --- Rigs made from another one
 
-def test_more_cameras_stand_where_they_see_the_same_space(tmp_path):
+def test_more_cameras_see_the_same_space(tmp_path):
     description = rigs.with_cameras(rigs.read(PAPER_RIG), 8)
     path = str(tmp_path / 'rig.yaml')
     rigs.write(path, description)
@@ -421,7 +422,7 @@ def test_more_cameras_stand_where_they_see_the_same_space(tmp_path):
     assert list(rigs.with_cameras(description, 2)['cameras']) == ['wiimote_1', 'wiimote_2']
 
 
-def test_the_smaller_rig_sees_its_space_about_the_origin(tmp_path):
+def test_the_scaled_rig_sees_its_space_about_the_origin(tmp_path):
     path = str(tmp_path / 'rig.yaml')
     rigs.write(path, rigs.centred(rigs.read(PAPER_RIG), 0.4))
     corners = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (0.0, 0.5)])
@@ -430,7 +431,7 @@ def test_the_smaller_rig_sees_its_space_about_the_origin(tmp_path):
 
 # --- Programs and load
 
-def test_programs_that_fail_are_told_by_their_last_words(monkeypatch, tmp_path):
+def test_failed_programs_are_reported_with_their_last_line(monkeypatch, tmp_path):
     monkeypatch.setattr(programs, 'find_program', lambda name: name)
     log, ended = str(tmp_path / 'log'), []
     programs.run_programs([['true'], ['true'], ['true']], log, lambda done, of: ended.append(
@@ -440,7 +441,7 @@ def test_programs_that_fail_are_told_by_their_last_words(monkeypatch, tmp_path):
         programs.run_programs([['sh', '-c', 'echo no such luck; exit 3']], log)
 
 
-def test_tables_of_programs_are_numbers_where_all_are(tmp_path):
+def test_columns_of_numbers_are_read_as_numbers(tmp_path):
     path = tmp_path / 'a.csv'
     path.write_text('case,error\nC1,1.5\nC2,nan\n')
     columns = programs.read_csv(str(path))

@@ -12,7 +12,7 @@
 namespace wiimote_tracker::import {
 namespace {
 
-TEST(SelfCalibrateExcerpt, isNoWorseThanWhatFlydraShipped) {
+TEST(SelfCalibrateExcerpt, isNoWorseThanFlydrasCalibration) {
   const Recording recording = readRecording(FLYDRA_EXCERPT);
   std::vector<geometry::Camera> cameras;
   for (const RecordedCamera& recorded : recording.cameras) {
@@ -42,7 +42,7 @@ TEST(SelfCalibrateExcerpt, isNoWorseThanWhatFlydraShipped) {
     EXPECT_LE(comparison->own[i].mean, comparison->shipped[i].mean);
     EXPECT_LE(comparison->own[i].p95, comparison->shipped[i].p95);
   }
-  // Flydra's pixels have skew, which ours have not: that much the points may differ.
+  // Flydra's pixels have skew, which ours do not: this is the effect on the points.
   EXPECT_LT(comparison->similar.median, 0.01 * comparison->extent);
 }
 

@@ -30,7 +30,7 @@ geometry::Camera cameraAt(double angle) {
   return camera;
 }
 
-/// Four cameras with distortion around a room, and what they see of 150 places of a light.
+/// Four cameras with distortion around a room, and their pixels of 150 positions of a light.
 struct Room {
   std::vector<geometry::Camera> cameras;
   std::vector<Eigen::Vector3d> points;
@@ -62,7 +62,7 @@ ProjectionMatrix projectionOf(const Eigen::Matrix3d& k,
   return k * world_from_camera.inverse().matrix().topRows<3>();
 }
 
-TEST(Pinhole, takesAMatrixApart) {
+TEST(Pinhole, decomposesAMatrix) {
   Eigen::Matrix3d k;
   k << 1200.0, -11.0, 340.0, 0.0, 1250.0, 230.0, 0.0, 0.0, 1.0;
   const Eigen::Isometry3d pose = cameraAt(0.7).world_from_camera;
@@ -101,7 +101,7 @@ TEST(ImportSolution, intrinsicsAloneGiveThePosesInTheFrameOfTheCentres) {
   }
 }
 
-TEST(ImportSolution, wrongCentresAreHeldInTheReferenceOnly) {
+TEST(ImportSolution, wrongCentresAreFixedInTheReferenceOnly) {
   Room room;
   *room.recording.cameras[2].center += Eigen::Vector3d(0.05, 0.0, 0.0);
   const Solution solution = solve(room.recording);
@@ -121,7 +121,7 @@ TEST(ImportSolution, withoutCentresThereIsNoReference) {
   EXPECT_LT(solution.rig.cameras[0].residual_px, 1e-4);
 }
 
-TEST(ImportSolution, centresOnALineAreRefusedWithAWayOut) {
+TEST(ImportSolution, centresOnALineAreRefusedWithAdvice) {
   Room room;
   for (std::size_t i = 0; i < 4; ++i)
     room.recording.cameras[i].center = Eigen::Vector3d(static_cast<double>(i), 0.0, 0.0);
@@ -134,15 +134,15 @@ TEST(ImportSolution, centresOnALineAreRefusedWithAWayOut) {
   }
 }
 
-TEST(ImportSolution, tooLittleToSolveIsRefused) {
+TEST(ImportSolution, tooFewFramesAreRefused) {
   Room room;
   room.recording.frames.resize(5);
   EXPECT_THROW(solve(room.recording), ImportError);
 }
 
-/// The shipped matrix of a camera with skew, whose distortion was taken out with another focal
-/// length and principal point: undistorted pixel = K_matrix [R | t] X, with
-/// distorted = K_lens distort(K_lens^-1 undistorted).
+/// The shipped matrix of a camera with skew, undistorted with another focal length and principal
+/// point: undistorted pixel = K_matrix [R | t] X, with distorted = K_lens distort(K_lens^-1
+/// undistorted).
 class ShippedMatrices : public testing::TestWithParam<bool> {};
 
 TEST_P(ShippedMatrices, giveTheTruePointsInTheFrameOfTheCentres) {
@@ -150,7 +150,7 @@ TEST_P(ShippedMatrices, giveTheTruePointsInTheFrameOfTheCentres) {
   Room room;
   Eigen::Matrix3d k;
   k << 520.0, -4.0, 322.0, 0.0, 531.0, 241.0, 0.0, 0.0, 1.0;
-  // The matrices live in another frame and scale than the centres.
+  // The matrices have another frame and scale than the centres.
   Eigen::Matrix4d other = Eigen::Matrix4d::Identity();
   other.topLeftCorner<3, 3>() =
       7.0 * Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
@@ -199,7 +199,7 @@ TEST_P(ShippedMatrices, giveTheTruePointsInTheFrameOfTheCentres) {
 
 INSTANTIATE_TEST_SUITE_P(ImportSolution, ShippedMatrices, testing::Bool());
 
-TEST(ImportSolution, flydrasOwnPointsFitToItsOwnMatrices) {
+TEST(ImportSolution, flydrasPointsFitItsMatrices) {
   const Recording recording = readRecording(FLYDRA_EXCERPT);
   ASSERT_EQ(recording.cameras.size(), 5u);
   ASSERT_EQ(recording.frames.size(), 102u);
@@ -215,7 +215,7 @@ TEST(ImportSolution, flydrasOwnPointsFitToItsOwnMatrices) {
     }
   }
   // The points were shipped in millimetres in the frame of Cst.dat, the matrices in a mirrored
-  // frame of another scale: a median of a quarter pixel means that all of it fell into place.
+  // frame of another scale: a median of a quarter pixel shows that both were aligned.
   std::sort(errors.begin(), errors.end());
   EXPECT_LT(errors[errors.size() / 2], 0.25);
   for (std::size_t i = 0; i < 5; ++i)

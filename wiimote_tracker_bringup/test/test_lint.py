@@ -1,4 +1,4 @@
-"""The lint: what it must notice, each in a small tree of its own."""
+"""The lint, in a small tree for each test."""
 
 import importlib.machinery
 import importlib.util

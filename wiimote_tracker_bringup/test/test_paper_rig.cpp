@@ -1,5 +1,5 @@
-// The paper's Fig. 1 as described: where its cameras stand, and that everything the paper measures
-// is in view of all of them.
+// The rig of the paper's Fig. 1: where its cameras stand, and that all of them see everything that
+// the paper measures.
 
 #include "description.h"
 
@@ -65,14 +65,14 @@ TEST_F(PaperRig, sees_every_test_point_and_every_circle_with_every_camera) {
     for (const Vector3d& point : points) {
       const auto pixel = camera.camera.project(point);
       ASSERT_TRUE(pixel);
-      // Three standard deviations of the noise, and 5 mm of misplacement, inside.
+      // Inside by three standard deviations of the noise and 5 mm of misplacement.
       EXPECT_TRUE(pixel->x() > 3.0 && pixel->x() < 1020.0 && pixel->y() > 3.0 && pixel->y() < 764.0)
           << camera.camera.name << " misses " << point.transpose() << ", at " << pixel->transpose();
     }
   }
 }
 
-TEST_F(PaperRig, lenses_differ_from_the_papers_as_much_as_is_claimed) {
+TEST_F(PaperRig, lenses_differ_from_the_papers_as_documented) {
   double focal = 0.0, center = 0.0, k1 = 0.0;
   for (const CameraDescription& camera : description_.cameras) {
     const geometry::Intrinsics& lens = camera.camera.intrinsics;
@@ -94,7 +94,7 @@ TEST_F(PaperRig, clocks_and_links_are_those_of_real_remotes) {
   for (std::size_t i = 0; i < 4; ++i) {
     const auto& timing = description_.cameras[i].timing;
     EXPECT_EQ(0.010035, timing.period);
-    EXPECT_EQ(500e-6, timing.period_tolerance) << "so each has a rate of its own";
+    EXPECT_EQ(500e-6, timing.period_tolerance) << "each camera has its own rate";
     EXPECT_GE(timing.drops, 0.03);
     EXPECT_LE(timing.drops, 0.05);
     for (std::size_t j = 0; j < i; ++j)

@@ -1,5 +1,5 @@
-// The evaluation's sessions of the paper: what they are drawn from, and that a good calibration can
-// be told from a bad one in them.
+// The evaluation's sessions of the paper: their random draws, and that they separate good
+// calibrations from bad ones.
 #include "paper/calibrations.h"
 #include "paper/experiment.h"
 #include "paper/session.h"
@@ -37,7 +37,7 @@ double squaredError(const PaperSession& session,
   return sum;
 }
 
-/// Least mean of the same, whatever the estimator.
+/// Least mean of the same for any estimator.
 double leastSquaredError(const PaperSession& session,
                          const wave::WaveScene& scene,
                          const wave::SimulatedWave& wave) {
@@ -53,9 +53,9 @@ double leastSquaredError(const PaperSession& session,
   return sum;
 }
 
-/// How far the mean of `count` sums of squares can be above its expectation by chance, 3 standard
-/// deviations, as a factor: a sum of squares of Gaussian errors with covariance S has the variance
-/// 2 tr(S^2), which is at most 2 tr(S)^2.
+/// Largest ratio of a mean of `count` sums of squares to its expectation by chance (3 standard
+/// deviations): a sum of squares of Gaussian errors with covariance S has the variance 2 tr(S^2),
+/// which is at most 2 tr(S)^2.
 double chance(int count) {
   return 1.0 + 3.0 * std::sqrt(2.0 / count);
 }
@@ -81,7 +81,7 @@ TEST(PaperSessions, PointsAreThePapersAndPlacedWithinItsErrors) {
   EXPECT_GT(farthest_above, 0.0297);
 }
 
-TEST(PaperSessions, OneSeedIsOneSession) {
+TEST(PaperSessions, EqualSeedsGiveEqualSessions) {
   const PaperSession a = twoCameras(7);
   const PaperSession b = twoCameras(7);
   const PaperSession c = twoCameras(8);
@@ -90,7 +90,7 @@ TEST(PaperSessions, OneSeedIsOneSession) {
   EXPECT_EQ(a.wand.recording.cameras[0].frames.back().stamp,
             b.wand.recording.cameras[0].frames.back().stamp);
   EXPECT_NE(a.wave.cameras[1].intrinsics.fx, c.wave.cameras[1].intrinsics.fx);
-  // The wand is waved before the same cameras, and all ten points are seen by both.
+  // The wand is waved in front of the same cameras, and both see all ten points.
   EXPECT_EQ(a.wave.cameras[1].intrinsics.fx, a.wand.cameras[1].intrinsics.fx);
   for (const StillLed& led : a.points) {
     for (const auto& pixel : led.pixels)
@@ -98,8 +98,8 @@ TEST(PaperSessions, OneSeedIsOneSession) {
   }
 }
 
-// Rays from the image centre are (535.0, 401.7) - (512, 384) px beside the poses, to begin with; 14
-// rounds leave 0.75^14 of that, and what other errors there are.
+// Rays from the image centre start (535.0, 401.7) - (512, 384) px off the poses; 14 rounds leave
+// 0.75^14 of that, plus the other errors.
 TEST(PaperSessions, TheCorrectionRepairsRaysFromTheImageCentreOfTwoCameras) {
   const auto mean_closest = geometry::TriangulationMethod::kMeanClosest;
   for (std::uint32_t seed = 1; seed <= 3; ++seed) {

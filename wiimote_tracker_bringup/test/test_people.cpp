@@ -1,4 +1,4 @@
-// People: what they carry and hide; reflections; and that people_rig.yaml can be tracked at all.
+// People: the LEDs that they carry and hide; reflections; and that people_rig.yaml can be tracked.
 
 #include "rig.h"
 
@@ -30,21 +30,21 @@ class Random {
   std::mt19937 engine_{7};
 };
 
-TEST(Pillar, hides_what_has_it_in_the_way) {
+TEST(Pillar, hides_points_behind_it) {
   const Pillar pillar{Vector3d(1.0, 0.0, 0.0), 0.2, 1.8};
   const Vector3d from(0.0, 0.0, 1.0);
   EXPECT_TRUE(pillar.hides(from, Vector3d(2.0, 0.0, 1.0)));
   EXPECT_TRUE(pillar.hides(from, Vector3d(2.0, 0.35, 1.0)));
   EXPECT_FALSE(pillar.hides(from, Vector3d(2.0, 0.5, 1.0))) << "beside it";
   EXPECT_FALSE(pillar.hides(from, Vector3d(0.7, 0.0, 1.0))) << "before it";
-  EXPECT_FALSE(pillar.hides(from, Vector3d(-2.0, 0.0, 1.0))) << "the other way";
+  EXPECT_FALSE(pillar.hides(from, Vector3d(-2.0, 0.0, 1.0))) << "in the opposite direction";
   EXPECT_FALSE(pillar.hides(Vector3d(0.0, 0.0, 2.0), Vector3d(2.0, 0.0, 2.0))) << "above it";
   EXPECT_TRUE(pillar.hides(Vector3d(0.0, 0.0, 2.0), Vector3d(2.0, 0.0, 1.0))) << "down into it";
   EXPECT_TRUE(pillar.hides(Vector3d(1.0, 0.0, 3.0), Vector3d(1.0, 0.0, 1.0))) << "from above";
   EXPECT_FALSE(pillar.hides(Vector3d(1.3, 0.0, 3.0), Vector3d(1.3, 0.0, 0.0))) << "straight down";
 }
 
-TEST(Pillar, agrees_with_walking_along_the_way_step_by_step) {
+TEST(Pillar, agrees_with_steps_along_the_line) {
   Random random;
   const int steps = 2000;
   int hidden = 0;
@@ -81,8 +81,8 @@ CameraDescription cameraAt(const std::string& name, const Vector3d& position) {
   return description;
 }
 
-/// Camera "front" looks along +x at the origin, "back" along -x. Somebody stands in the origin and
-/// holds an LED before them.
+/// Camera "front" looks along +x at the origin, "back" along -x. A person stands in the origin and
+/// holds an LED in front.
 Description carriedLed() {
   Description description;
   description.pixel_noise = 0.0;
@@ -125,7 +125,7 @@ TEST(Person, carries_an_led_and_turns_with_it) {
       << "they stay on the floor";
 }
 
-TEST(Person, hides_what_is_behind_them) {
+TEST(Person, hides_points_behind_them) {
   Watched watched(carriedLed());
   watched.rig.runUntil(0.005);
   EXPECT_EQ(watched.lights[0].size(), 1u) << "before the body";
@@ -135,7 +135,7 @@ TEST(Person, hides_what_is_behind_them) {
   EXPECT_EQ(watched.lights[1].size(), 1u);
 }
 
-TEST(Person, who_is_away_hides_nothing_and_takes_what_they_carry_along) {
+TEST(Person, an_absent_person_hides_nothing_and_takes_their_leds_along) {
   Description description = carriedLed();
   LedDescription other;
   other.name = "other";
@@ -181,13 +181,13 @@ TEST(RigidBody, carries_leds_and_turns_with_them) {
   EXPECT_EQ(lights, 0u) << "it is away";
 }
 
-TEST(RigidBody, sways_and_is_back_where_it_began) {
+TEST(RigidBody, sways_and_returns) {
   RigidBodyDescription description;
   description.turning.sway = 0.5;
   description.turning.sway_rate = M_PI;
   const RigidBody body(description);
   EXPECT_LT((body.worldFromBody(0.0).linear() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
-  // Half a second on, all of the way about z: x goes where z turns it, however it nods.
+  // After half a second, the full angle about z: nodding does not change the azimuth of x.
   const Vector3d x = body.worldFromBody(0.5).linear().col(0);
   EXPECT_NEAR(std::atan2(x.y(), x.x()), 0.5, 1e-9);
   EXPECT_NEAR(x.z(), 0.0, 1e-9);
@@ -256,7 +256,7 @@ class PeopleRig : public testing::Test {
   static constexpr int kSteps = 6000;    // two minutes
 };
 
-TEST_F(PeopleRig, four_leds_stay_in_the_papers_cube_and_are_hidden_now_and_then) {
+TEST_F(PeopleRig, four_leds_stay_in_the_papers_cube_and_are_sometimes_hidden) {
   ASSERT_EQ(description_.leds.size(), 4u);
   ASSERT_EQ(people_.size(), 2u);
   int hidden = 0;
@@ -272,7 +272,7 @@ TEST_F(PeopleRig, four_leds_stay_in_the_papers_cube_and_are_hidden_now_and_then)
   EXPECT_GT(hidden, kSteps / 10);
 }
 
-TEST_F(PeopleRig, two_cameras_always_keep_any_two_leds_apart) {
+TEST_F(PeopleRig, two_cameras_always_separate_any_two_leds) {
   constexpr double kApart = 15.0;  // [px] well above the size of a spot
   int not_apart = 0;
   double nearest = 10.0;

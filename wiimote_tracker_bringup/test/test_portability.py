@@ -1,4 +1,4 @@
-"""Sources use nothing that ROS Noetic on Ubuntu 20.04 lacks, and packages name what they need.
+"""Sources use only what ROS Noetic on Ubuntu 20.04 has, and packages declare their dependencies.
 
 Stands in for a machine with GCC 9, Python 3.8, Eigen 3.3, OpenCV 4.2, Ceres 1.14, hidapi 0.9.
 """
@@ -14,7 +14,7 @@ HERE = os.path.dirname(os.path.realpath(__file__))
 TOP = os.path.dirname(os.path.dirname(HERE))
 PACKAGES = sorted(os.path.dirname(p) for p in glob.glob(TOP + '/wiimote_tracker_*/package.xml'))
 
-# What must not be there, and why.
+# Forbidden patterns, and why.
 CPP = {
     r'\bhid_get_device_info\b': 'hidapi 0.13',
     r'\bhid_version\b|\bHID_API_VERSION\b': 'hidapi 0.10',
@@ -35,7 +35,7 @@ PYTHON = {
     r'->.*\w \| \w|^\s*def .*:\s*\w+ \| \w': 'Python 3.10',
     r'\bmath\.lcm\b|\bzoneinfo\b|\btomllib\b': 'Python 3.9 or later',
 }
-# Floating point only: from_chars of integers is there.
+# Floating point only: from_chars of integers exists.
 FLOATING_FROM_CHARS = re.compile(r'from_chars\([^;]*chars_format')
 
 
@@ -76,7 +76,7 @@ def violations(paths, rules):
                         yield f'{os.path.relpath(path, TOP)}:{number} needs {since}: {line.strip()}'
 
 
-def test_the_rules_find_what_they_are_meant_to_find(tmp_path):
+def test_the_rules_find_examples(tmp_path):
     bad = tmp_path / 'bad.cpp'
     bad.write_text('auto i = hid_get_device_info(d);\nx = m.reshaped();\ncv::SOLVEPNP_SQPNP;\n'
                    'auto s = std::format("{}", 1);\nParameters p{.a = 1};\nEigen::seq(0, 2);\n'
@@ -106,7 +106,7 @@ def test_python_uses_nothing_that_noetic_lacks():
 
 # --- package.xml against CMakeLists.txt
 
-# What find_package() and pkg_check_modules() are called with, as rosdep keys.
+# Arguments of find_package() and pkg_check_modules(), as rosdep keys.
 ROSDEP_KEY = {'CLI11': 'cli11', 'Eigen3': 'eigen', 'yaml-cpp': 'yaml-cpp', 'Ceres': 'libceres-dev',
               'OpenCV': 'libopencv-dev', 'hidapi-hidraw': 'libhidapi-dev', 'Boost': 'boost'}
 # Parts of every toolchain.

@@ -1,4 +1,4 @@
-"""Which computer runs what when the tracker runs on several."""
+"""The distribution of nodes when the tracker runs on several computers."""
 
 import importlib.machinery
 import importlib.util
@@ -21,7 +21,7 @@ def load(*arguments):
                                                 verbose=False, assign_machines=False)
 
 
-def test_drivers_run_near_the_remotes_and_all_else_here():
+def test_drivers_run_near_the_remotes_and_the_rest_here():
     config = load('first:=192.0.2.1', 'second:=192.0.2.2', 'user:=tracker', 'first_cameras:=/etc/a.yaml')
     machines = {node.name: node.machine_name for node in config.nodes}
     assert machines.pop('first_drivers') == 'first'
@@ -37,7 +37,7 @@ def test_drivers_run_near_the_remotes_and_all_else_here():
     assert config.params['/first_drivers/file'].value == '/etc/a.yaml'
 
 
-def test_without_arguments_all_runs_here():
+def test_without_arguments_everything_runs_here():
     machines = load().machines
     assert machines
     assert all(roslaunch.core.is_machine_local(machine) for machine in machines.values())

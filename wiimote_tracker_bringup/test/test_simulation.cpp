@@ -17,13 +17,13 @@ using Eigen::Vector3d;
 
 // --- Motions
 
-TEST(LedMotion, lies_until_it_is_moved) {
+TEST(LedMotion, rests_until_it_is_moved) {
   const LedMotion motion(Vector3d(1.0, 2.0, 3.0));
   EXPECT_EQ(motion.position(-1.0), Vector3d(1.0, 2.0, 3.0));
   EXPECT_EQ(motion.position(100.0), Vector3d(1.0, 2.0, 3.0));
 }
 
-TEST(LedMotion, goes_straight_at_the_given_speed_and_stays) {
+TEST(LedMotion, moves_on_a_line_at_the_given_speed_and_stops) {
   LedMotion motion(Vector3d(0.0, 0.0, 0.0));
   const double arrival = motion.line(10.0, Vector3d(3.0, 4.0, 0.0), 2.0);
   EXPECT_DOUBLE_EQ(arrival, 12.5);  // 5 m at 2 m/s
@@ -47,7 +47,7 @@ TEST(LedMotion, holds_in_the_middle_of_a_line) {
   EXPECT_LT((motion.position(0.9) - Vector3d(0.25, 0.0, 0.0)).norm(), 1e-12);
 }
 
-TEST(LedMotion, a_new_line_begins_where_the_old_one_was_left) {
+TEST(LedMotion, a_new_line_begins_at_the_present_position) {
   LedMotion motion(Vector3d(0.0, 0.0, 0.0));
   motion.line(0.0, Vector3d(1.0, 0.0, 0.0), 1.0);
   const double arrival = motion.line(0.5, Vector3d(0.5, 2.0, 0.0), 1.0);
@@ -74,7 +74,7 @@ TEST(LedMotion, circles_counter_clockwise_from_the_x_side_at_constant_speed) {
   EXPECT_LT((motion.position(arrival + lap / 3) - left).norm(), 1e-12);
 }
 
-TEST(LedMotion, is_waved_through_its_box_smoothly_at_the_given_speed_and_never_out_of_it) {
+TEST(LedMotion, is_waved_smoothly_inside_its_box_at_the_given_speed) {
   const Vector3d middle(1.0, 1.0, 1.2), sides(2.0, 1.6, 0.8);
   LedMotion motion(Vector3d(1.0, 1.0, 0.0));
   const double arrival = motion.wave(3.0, middle, sides, 1.3, 7);
@@ -94,7 +94,7 @@ TEST(LedMotion, is_waved_through_its_box_smoothly_at_the_given_speed_and_never_o
     high = high.cwiseMax(here);
   }
   EXPECT_NEAR(std::sqrt(sum_of_squares / steps), 1.3, 0.065);
-  EXPECT_LT(fastest, 12.0) << "m/s^2: a hand can do that";
+  EXPECT_LT(fastest, 12.0) << "m/s^2: the limit of a hand";
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_GE(low(axis), middle(axis) - sides(axis) / 2);
     EXPECT_LE(high(axis), middle(axis) + sides(axis) / 2);
@@ -121,13 +121,13 @@ TEST(LedMotion, a_wave_begins_where_the_way_to_it_ends_and_can_be_held) {
   EXPECT_EQ(motion.position(arrival + 9.0), held);
 }
 
-/// A roof: up in 1 s, down in 3 s, in decimetres and from 5 s on.
+/// A roof: up in 1 s, down in 3 s, in decimetres, starting at 5 s.
 Drawing roof(double size, double rest) {
   return Drawing({{5.0, {7.0, 0.0, 0.0}}, {6.0, {9.0, 0.0, 1.0}}, {9.0, {11.0, 0.0, 0.0}}}, size,
                  rest);
 }
 
-TEST(LedMotion, draws_in_the_box_it_is_told_after_a_rest_and_stays_at_the_end) {
+TEST(LedMotion, draws_in_its_box_after_a_rest_and_stays_at_the_end) {
   LedMotion motion(Vector3d(0.0, 0.0, 1.0));
   const Vector3d middle(1.0, 2.0, 1.0);
   // The longest side is 0.8 m, hence the other one 0.2 m; the beginning is (0.6, 2, 0.9).
@@ -162,7 +162,7 @@ geometry::Camera cameraAt(const Vector3d& position, const Vector3d& target) {
   return camera;
 }
 
-TEST(VirtualCamera, puts_a_lamp_where_a_pinhole_would_and_lets_y_grow_upwards) {
+TEST(VirtualCamera, projects_like_a_pinhole_with_y_upwards) {
   VirtualCamera optics(cameraAt(Vector3d(0, 0, 1), Vector3d(5, 0, 1)), 0.0, 1);
   // Camera looks along +x: its right is -y, its down is -z.
   const auto senses = optics.sense({{Vector3d(5.0, -0.5, 1.2), 4.0, 2.0}});
@@ -191,7 +191,7 @@ TEST(VirtualCamera, applies_the_lens_distortion) {
   EXPECT_NEAR(senses.lights.at(0).x, 500.0 + 1300.0 * 0.2 * (1.0 + 0.1 * 0.04), 1e-9);
 }
 
-TEST(VirtualCamera, does_not_sense_what_is_behind_it) {
+TEST(VirtualCamera, does_not_see_points_behind_it) {
   VirtualCamera optics(cameraAt(Vector3d(0, 0, 1), Vector3d(5, 0, 1)), 0.3, 1);
   EXPECT_TRUE(optics.sense({{Vector3d(-5.0, 0.0, 1.0), 1.0, 1.0}}).lights.empty());
 }
@@ -270,7 +270,7 @@ std::vector<Delivered> deliveries(const Description& description, double step) {
   return all;
 }
 
-TEST(Rig, gives_the_same_events_however_time_is_cut) {
+TEST(Rig, gives_the_same_events_for_any_time_steps) {
   const auto once = deliveries(twoCameras(), 10.0);
   EXPECT_GT(once.size(), 190u);
   EXPECT_EQ(once, deliveries(twoCameras(), 0.0007));
@@ -291,7 +291,7 @@ TEST(Rig, a_moving_led_is_seen_where_it_was_at_the_exposure_not_at_the_delivery)
   Description description = twoCameras();
   description.pixel_noise = 0.0;
   description.cameras.resize(1);
-  description.cameras[0].timing = {0.01, 0.0, 0.2, 0.0};  // on its way for 0.2 s
+  description.cameras[0].timing = {0.01, 0.0, 0.2, 0.0};  // in transit for 0.2 s
   std::vector<double> x;
   Rig rig(
       description,
@@ -304,7 +304,7 @@ TEST(Rig, a_moving_led_is_seen_where_it_was_at_the_exposure_not_at_the_delivery)
     EXPECT_NEAR(x[i], 500.0 + 1300.0 * (0.01 * static_cast<double>(i)) / 3.0, 1e-6);
 }
 
-TEST(Rig, lost_frames_are_not_delivered_and_spoil_no_others) {
+TEST(Rig, lost_frames_are_not_delivered_and_do_not_affect_others) {
   Description description = twoCameras();
   description.cameras.resize(1);
   description.cameras[0].timing.drops = 0.2;
@@ -333,7 +333,7 @@ TEST(Rig, lost_frames_are_not_delivered_and_spoil_no_others) {
   }
 }
 
-TEST(Rig, tells_the_truth_at_its_rate) {
+TEST(Rig, publishes_the_truth_at_its_rate) {
   std::vector<double> times;
   std::vector<Vector3d> positions;
   Rig rig(
@@ -374,11 +374,11 @@ TEST(Rig, the_other_end_of_a_wand_stays_at_its_distance_and_turns) {
     low = low.cwiseMin(wand);
     high = high.cwiseMax(wand);
   }
-  EXPECT_GT((high - low).minCoeff(), 0.6) << "in 10 s it has pointed everywhere";
+  EXPECT_GT((high - low).minCoeff(), 0.6) << "in 10 s it has pointed in all directions";
 }
 
 TEST(LedBoard, lights_rows_then_columns_four_at_a_time) {
-  // The table of wiimote_tracker_calibration/doc/board.md, by hand: when, and which four.
+  // The table of wiimote_tracker_calibration/doc/board.md, by hand: times, and the four LEDs.
   const std::vector<std::pair<double, std::vector<int>>> table = {
       {0.000, {0, 1, 2, 3}},     {0.060, {4, 5, 6, 7}},  {0.120, {8, 9, 10, 11}},
       {0.180, {12, 13, 14, 15}}, {0.240, {0, 4, 8, 12}}, {0.480, {1, 5, 9, 13}},
@@ -412,7 +412,7 @@ TEST(LedBoard, lights_rows_then_columns_four_at_a_time) {
       EXPECT_TRUE(lamps.empty()) << dark;
     }
   }
-  // A flat grid with the given spacings, seen from its front.
+  // A flat grid with the given spacings, as seen from the front.
   EXPECT_NEAR((all[3] - all[0]).norm(), 0.24, 1e-12);
   EXPECT_NEAR((all[12] - all[0]).norm(), 0.3, 1e-12);
   EXPECT_LT((all[0] + all[15] - all[3] - all[12]).norm(), 1e-12);
@@ -420,7 +420,7 @@ TEST(LedBoard, lights_rows_then_columns_four_at_a_time) {
   EXPECT_GT(into.dot(all[0] - camera.center()), 0.0);
 }
 
-TEST(LedBoard, is_in_view_in_nearly_every_pose_and_each_is_another) {
+TEST(LedBoard, is_in_view_in_nearly_every_pose_and_all_poses_differ) {
   const geometry::Camera camera = cameraAt(Vector3d(0, 0, 1), Vector3d(5, 0, 1));
   LedBoard board(BoardDescription(), camera);
   board.setLit(true);

@@ -44,8 +44,8 @@ struct Projection {
 /// Nothing where the camera has no pixel of the point.
 std::optional<Projection> projectionOf(const Camera& camera, const Eigen::Vector3d& point);
 
-/// Same for one camera of a rig as its rays are built (Rig::rayCamera()): what the ray
-/// model sets is no error of the calibration, and has derivative 0.
+/// Same for the camera that a rig builds its rays with (Rig::rayCamera()). Derivatives by
+/// parameters that the ray model replaces are 0.
 std::optional<Projection> rayProjection(const Rig& rig,
                                         std::size_t camera,
                                         const Eigen::Vector3d& point);

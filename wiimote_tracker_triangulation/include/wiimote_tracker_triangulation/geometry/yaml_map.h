@@ -65,10 +65,10 @@ class YamlMap {
 
   std::vector<double> numbers(const std::string& key) { return get<std::vector<double>>(key); }
 
-  /// A list of so many numbers.
+  /// A list of `count` numbers.
   std::vector<double> numbers(const std::string& key, std::size_t count);
 
-  /// A list of lists of so many numbers each. `names`: of the columns, for the error.
+  /// A list of lists of `columns` numbers each. `names`: of the columns, for the error.
   std::vector<std::vector<double>> rows(const std::string& key,
                                         std::size_t columns,
                                         const std::string& names);
@@ -84,7 +84,7 @@ class YamlMap {
   /// All keys of this map, with their values, which must be maps; in the order of the file.
   std::vector<std::pair<std::string, YamlMap>> entries();
 
-  /// Throws for a key that nobody asked for.
+  /// Throws for a key that was never read.
   void refuseUnknown() const;
 
   /// The error that a key `is wrong`, to be thrown.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kWarmUp = 1000;   // points before the measurement
 constexpr double kPingPeriod = 0.0025;  // [s]; the mean interval of four cameras' images
-constexpr double kPongTimeout = 1.0;    // [s] for a pong
+constexpr double kPongTimeout = 1.0;    // [s]
 
 /// Quantiles of latencies in seconds, as a line of YAML in milliseconds.
 std::string summary(const std::string& name, std::vector<double> seconds) {

@@ -187,7 +187,6 @@ class Hand {
   double size_, slant_, aspect_, heading_, roundness_, speed_, wobble_;
 };
 
-/// Tracks a drawing and writes the positions.
 void writeTracked(const simulation::Description& description,
                   const Path& drawing,
                   double duration,

@@ -20,7 +20,6 @@ struct RecognizerOptions {
   double rejection_distance = 0.65;
 };
 
-/// An example of a gesture.
 struct Example {
   std::string gesture;
   std::string zone;  ///< Zone of the rig to which it is limited; empty: none.

@@ -12,7 +12,6 @@
 
 namespace wiimote_tracker {
 
-/// The label of an LED.
 struct LedLabel {
   std::string name;
 

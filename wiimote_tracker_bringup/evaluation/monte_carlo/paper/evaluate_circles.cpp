@@ -30,7 +30,6 @@ struct Method {
   tracking::EstimatorOptions options;
 };
 
-/// The description with the cameras of a session.
 simulation::Description describe(const simulation::Description& description,
                                  const std::vector<std::size_t>& cameras,
                                  const PaperSession& session) {

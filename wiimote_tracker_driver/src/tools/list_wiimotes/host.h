@@ -36,7 +36,6 @@ Host readHost(const std::string& root = "");
 /// Problems of the computer, one sentence each with what to do.
 std::vector<std::string> problems(const Host& host);
 
-/// Problems of one remote.
 std::vector<std::string> problems(const KernelRemote& remote);
 
 /// "Wii Remote (RVL-CNT-01)", "Wii Remote Plus (RVL-CNT-01-TR)".

@@ -41,7 +41,6 @@ struct Connection {
   std::string end_reason;  ///< Empty: the driver released the remote.
 };
 
-/// Summary of a recording.
 struct Summary {
   recording::Header header;
   double duration = 0.0;  ///< Up to the last record [s].

@@ -21,8 +21,8 @@ void expectSame(const geometry::Intrinsics& a, const geometry::Intrinsics& b) {
 }
 
 TEST(Parameters, the_file_says_what_the_defaults_are) {
-  const Parameters file = readParameters(ros::NodeHandle("~from_file"));
-  const Parameters none = readParameters(ros::NodeHandle("~nothing"));
+  const Parameters file = readParameters(ParameterReader(ros::NodeHandle("~from_file")));
+  const Parameters none = readParameters(ParameterReader(ros::NodeHandle("~nothing")));
   EXPECT_EQ(file.cameras, none.cameras);
   EXPECT_EQ(file.side_length, none.side_length);
   EXPECT_EQ(file.second_side_length, none.second_side_length);
@@ -86,7 +86,7 @@ TEST(Parameters, the_file_says_what_the_defaults_are) {
 }
 
 TEST(Parameters, single_cameras_can_have_their_own_intrinsics) {
-  const Parameters own = readParameters(ros::NodeHandle("~own"));
+  const Parameters own = readParameters(ParameterReader(ros::NodeHandle("~own")));
   EXPECT_EQ(own.intrinsicsOf("wiimote_1").fx, 1298.0);
   EXPECT_EQ(own.intrinsicsOf("wiimote_1").width, 640);
   EXPECT_EQ(own.intrinsicsOf("wiimote_1").fy, 1302.3);
@@ -99,7 +99,7 @@ TEST(Parameters, single_cameras_can_have_their_own_intrinsics) {
 }
 
 TEST(Parameters, what_the_paper_does_can_be_chosen) {
-  const Parameters paper = readParameters(ros::NodeHandle("~paper"));
+  const Parameters paper = readParameters(ParameterReader(ros::NodeHandle("~paper")));
   EXPECT_EQ(paper.solve.square.method, square::Method::kPerCamera);
   EXPECT_TRUE(paper.solve.correct_principal_points);
   EXPECT_EQ(paper.solve.correction.points, principal_point::Points::kAllCorners);
@@ -110,7 +110,7 @@ TEST(Parameters, what_the_paper_does_can_be_chosen) {
 TEST(Parameters, bad_values_are_refused_by_name) {
   for (const std::string key : {"short", "word", "mounted", "fisheye"}) {
     try {
-      readParameters(ros::NodeHandle("~" + key));
+      readParameters(ParameterReader(ros::NodeHandle("~" + key)));
       FAIL() << key;
     } catch (const ParameterError& error) {
       EXPECT_NE(std::string(error.what()).find("/parameters_test/" + key), std::string::npos)

@@ -105,7 +105,7 @@ TEST(ParameterReader, AFractionIsNoWholeNumber) {
   EXPECT_TRUE(contains(errorOf([&] { reader.bounded("count", 1, 0, 5); }),
                        nh.resolveName("count") + " has the wrong type: expected a whole number"));
   nh.setParam("count", 2);
-  EXPECT_EQ(2, reader.bounded("count", 1, 0, 5));
+  EXPECT_EQ(2, ParameterReader(nh).bounded("count", 1, 0, 5));
 }
 
 TEST(ParameterReaderOfAFile, ErrorsNameFileAndKey) {

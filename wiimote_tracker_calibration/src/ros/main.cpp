@@ -14,7 +14,8 @@ int main(int argc, char** argv) {
   const ros::NodeHandle nh;
   const ros::NodeHandle private_nh("~");
   try {
-    wiimote_tracker::CalibrationNode node(nh, wiimote_tracker::readParameters(private_nh));
+    wiimote_tracker::CalibrationNode node(
+        nh, wiimote_tracker::readParameters(wiimote_tracker::ParameterReader(private_nh)));
     // Services take their time, and cancel must get through meanwhile.
     ros::MultiThreadedSpinner spinner(8);
     spinner.spin();

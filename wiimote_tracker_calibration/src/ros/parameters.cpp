@@ -132,12 +132,10 @@ geometry::Intrinsics readIntrinsics(ParameterReader* reader,
 }
 
 /// Names below cameras_intrinsics. A name may contain slashes; its keys are the last part.
-/// @param all names of all parameters, in full.
-std::set<std::string> camerasWithOwnIntrinsics(const ParameterReader& reader,
-                                               const std::vector<std::string>& all) {
+std::set<std::string> camerasWithOwnIntrinsics(const ParameterReader& reader) {
   const std::string prefix = reader.nameOf("cameras_intrinsics") + "/";
   std::set<std::string> names;
-  for (const std::string& name : all) {
+  for (const std::string& name : reader.fullNames()) {
     if (name.compare(0, prefix.size(), prefix) != 0)
       continue;
     const std::string rest = name.substr(prefix.size());
@@ -148,11 +146,11 @@ std::set<std::string> camerasWithOwnIntrinsics(const ParameterReader& reader,
   return names;
 }
 
-template <typename Source>
-Parameters readFrom(const Source& source) {
+}  // namespace
+
+Parameters readParameters(ParameterReader reader) {
   Parameters parameters;
   workflow::CalibrationOptions& calibration = parameters.calibration;
-  ParameterReader reader(source);
   parameters.cameras = reader.optional<std::vector<std::string>>("cameras", {});
   parameters.side_length = reader.bounded("side_length", 0.0, 0.0, 1000.0);
   parameters.second_side_length = reader.bounded("second_side_length", 0.0, 0.0, 1000.0);
@@ -192,28 +190,16 @@ Parameters readFrom(const Source& source) {
   parameters.board.row_spacing = row_spacing > 0.0 ? row_spacing : parameters.board.column_spacing;
   parameters.board_views = reader.bounded("board_views", parameters.board_views, 3, 1000);
   parameters.intrinsics = readIntrinsics(&reader, "intrinsics", parameters.intrinsics);
-  std::vector<std::string> all;
-  source.getParamNames(all);
-  for (const std::string& name : camerasWithOwnIntrinsics(reader, all))
+  for (const std::string& name : camerasWithOwnIntrinsics(reader))
     parameters.own_intrinsics[name] =
         readIntrinsics(&reader, "cameras_intrinsics/" + name, parameters.intrinsics);
   reader.refuseUnknown();
   return parameters;
 }
 
-}  // namespace
-
 const geometry::Intrinsics& Parameters::intrinsicsOf(const std::string& camera) const {
   const auto own = own_intrinsics.find(camera);
   return own != own_intrinsics.end() ? own->second : intrinsics;
-}
-
-Parameters readParameters(const ros::NodeHandle& private_nh) {
-  return readFrom(private_nh);
-}
-
-Parameters readParameters(const ParameterTree& file) {
-  return readFrom(file);
 }
 
 }  // namespace wiimote_tracker

@@ -9,8 +9,7 @@
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
-#include <ros/node_handle.h>
-#include <wiimote_tracker_msgs/parameter_tree.h>
+#include <wiimote_tracker_msgs/parameter_reader.h>
 
 #include <map>
 #include <string>
@@ -40,11 +39,9 @@ struct Parameters {
   const geometry::Intrinsics& intrinsicsOf(const std::string& camera) const;
 };
 
+/// Of a node, or of a file like config/calibration.yaml.
 /// @throws ParameterError naming the key that is unknown, of the wrong type or out of range.
-Parameters readParameters(const ros::NodeHandle& private_nh);
-
-/// Same from a file like config/calibration.yaml.
-Parameters readParameters(const ParameterTree& file);
+Parameters readParameters(ParameterReader reader);
 
 }  // namespace wiimote_tracker
 

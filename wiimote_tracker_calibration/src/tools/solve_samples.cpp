@@ -46,7 +46,7 @@ void addTo(CLI::App* app, Arguments* arguments) {
 session::SolveOptions optionsOf(const Arguments& arguments) {
   session::SolveOptions options;
   if (!arguments.params.empty())
-    options = readParameters(readParameterTree(arguments.params)).solve;
+    options = readParameters(ParameterReader(readParameterTree(arguments.params))).solve;
   if (!arguments.method.empty())
     options.square.method =
         arguments.method == "joint" ? square::Method::kJoint : square::Method::kPerCamera;

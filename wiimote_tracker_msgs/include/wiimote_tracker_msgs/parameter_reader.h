@@ -6,14 +6,11 @@
 
 #include <ros/node_handle.h>
 
-#include <cmath>
 #include <map>
 #include <set>
 #include <sstream>
 #include <string>
-#include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -28,21 +25,20 @@ struct ParameterError : Error {
 /// given namespace; refuseUnknown() then throws for keys that are set there and that nobody read.
 class ParameterReader {
  public:
-  explicit ParameterReader(const ros::NodeHandle& nh) : source_(nh) {}
+  /// The parameters as they are set now.
+  explicit ParameterReader(const ros::NodeHandle& nh) : ParameterReader(treeOf(nh)) {}
 
   /// Reads what a file says instead.
-  explicit ParameterReader(const ParameterTree& tree) : source_(tree) {}
+  explicit ParameterReader(const ParameterTree& tree) : tree_(tree) {}
 
   /// The key in full, as errors call it.
-  std::string nameOf(const std::string& key) const {
-    return std::visit([&](const auto& source) { return source.resolveName(key); }, source_);
-  }
+  std::string nameOf(const std::string& key) const { return tree_.fullName(key); }
 
   /// @throws ParameterError when the key is absent or of the wrong type.
   template <typename T>
   T required(const std::string& key, const std::string& what_to_set) {
     used_.insert(nameOf(key));
-    if (!isSet(key))
+    if (!tree_.has(key))
       throw ParameterError("set " + nameOf(key) + ": " + what_to_set);
     return get<T>(key);
   }
@@ -52,7 +48,7 @@ class ParameterReader {
   T optional(const std::string& key, const T& default_value) {
     used_.insert(nameOf(key));
     defaults_[key] = textOf(default_value);
-    return isSet(key) ? get<T>(key) : default_value;
+    return tree_.has(key) ? get<T>(key) : default_value;
   }
 
   /// A number within [minimum, maximum]. @throws ParameterError when it is not.
@@ -82,6 +78,9 @@ class ParameterReader {
     throw ParameterError(nameOf(key) + " is '" + value + "', but must be one of: " + list);
   }
 
+  /// Full names of all values that are set.
+  std::vector<std::string> fullNames() const { return tree_.fullNames(); }
+
   /// Defaults as YAML and ranges of the keys that were read with one, for checks of documents.
   const std::map<std::string, std::string>& defaults() const { return defaults_; }
   const std::map<std::string, std::pair<double, double>>& ranges() const { return ranges_; }
@@ -91,17 +90,9 @@ class ParameterReader {
 
   /// @throws ParameterError naming every key below the namespace that was not read.
   void refuseUnknown() const {
-    std::vector<std::string> all;
-    std::string prefix;
-    std::visit(
-        [&](const auto& source) {
-          source.getParamNames(all);
-          prefix = source.getNamespace() + "/";
-        },
-        source_);
     std::string unknown;
-    for (const std::string& name : all) {
-      if (name.compare(0, prefix.size(), prefix) == 0 && !isUsed(name))
+    for (const std::string& name : fullNames()) {
+      if (!isUsed(name))
         unknown += (unknown.empty() ? "" : ", ") + name;
     }
     if (!unknown.empty())
@@ -109,26 +100,19 @@ class ParameterReader {
   }
 
  private:
-  bool isSet(const std::string& key) const {
-    return std::visit([&](const auto& source) { return source.hasParam(key); }, source_);
+  static ParameterTree treeOf(const ros::NodeHandle& nh) {
+    XmlRpc::XmlRpcValue values;
+    if (!nh.getParam(nh.getNamespace(), values))
+      values.begin();  // a struct without members
+    return ParameterTree(nh.getNamespace(), values);
   }
 
   template <typename T>
   T get(const std::string& key) const {
     T value;
-    if (isFraction<T>(key) ||
-        !std::visit([&](const auto& source) { return source.getParam(key, value); }, source_))
+    if (!tree_.read(key, &value))
       throw ParameterError(nameOf(key) + " has the wrong type: expected " + typeName(T()));
     return value;
-  }
-
-  /// Whether a whole number is wanted and another one is set, which roscpp would round.
-  template <typename T>
-  bool isFraction(const std::string& key) const {
-    double number = 0.0;
-    return std::is_same_v<T, int> &&
-           std::visit([&](const auto& source) { return source.getParam(key, number); }, source_) &&
-           number != std::floor(number);
   }
 
   template <typename T>
@@ -179,7 +163,7 @@ class ParameterReader {
     return "[" + list + "]";
   }
 
-  std::variant<ros::NodeHandle, ParameterTree> source_;
+  ParameterTree tree_;
   std::set<std::string> used_;
   std::map<std::string, std::string> defaults_;
   std::map<std::string, std::pair<double, double>> ranges_;

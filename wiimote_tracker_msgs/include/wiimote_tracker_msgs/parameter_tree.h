@@ -4,42 +4,45 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <algorithm>
+#include <climits>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker {
 
-/// Parameters that come from a file instead of the parameter server: a struct whose members are
-/// values, lists or structs again. Has the functions of ros::NodeHandle that ParameterReader needs,
-/// and needs no master.
+/// Parameters of a node or a file: a struct whose members are values, lists or structs again. Keys
+/// name a value by its levels, such as "tracks/gate".
 class ParameterTree {
  public:
-  /// `name`: stands before the keys in error messages, such as the file.
+  /// `name`: stands before the keys in error messages, such as the node or the file.
   ParameterTree(const std::string& name, const XmlRpc::XmlRpcValue& values)
       : name_(name), values_(values) {}
 
-  const std::string& getNamespace() const { return name_; }
+  std::string fullName(const std::string& key) const { return name_ + "/" + key; }
 
-  std::string resolveName(const std::string& key) const { return name_ + "/" + key; }
-
-  bool hasParam(const std::string& key) const {
-    XmlRpc::XmlRpcValue value;
+  bool has(const std::string& key) const {
+    Value value;
     return find(key, &value);
   }
 
-  /// False when it is absent or of the wrong type.
+  /// False when it is absent or of the wrong type. A whole number may be written as 3 or 3.0.
   template <typename T>
-  bool getParam(const std::string& key, T& value) const {
-    XmlRpc::XmlRpcValue found;
-    return find(key, &found) && read(found, &value);
+  bool read(const std::string& key, T* value) const {
+    Value found;
+    return find(key, &found) && convert(found, value);
   }
 
-  /// Of the highest level; as if it stood in the file.
-  void setParam(const std::string& key, const std::string& value) { values_[key] = value; }
+  /// Sets a value of the highest level.
+  void set(const std::string& key, const std::string& value) { values_[key] = value; }
 
   /// Full names of all values.
-  void getParamNames(std::vector<std::string>& names) const { appendNames(name_, values_, &names); }
+  std::vector<std::string> fullNames() const {
+    std::vector<std::string> names;
+    appendNames(name_, values_, &names);
+    return names;
+  }
 
  private:
   using Value = XmlRpc::XmlRpcValue;
@@ -59,21 +62,22 @@ class ParameterTree {
     return true;
   }
 
-  static bool read(Value& from, bool* value) {
+  static bool convert(Value& from, bool* value) {
     if (from.getType() != Value::TypeBoolean)
       return false;
     *value = static_cast<bool>(from);
     return true;
   }
 
-  static bool read(Value& from, int* value) {
-    if (from.getType() != Value::TypeInt)
+  static bool convert(Value& from, int* value) {
+    double number = 0.0;
+    if (!convert(from, &number) || number != std::floor(number) || std::abs(number) > INT_MAX)
       return false;
-    *value = static_cast<int>(from);
+    *value = static_cast<int>(number);
     return true;
   }
 
-  static bool read(Value& from, double* value) {
+  static bool convert(Value& from, double* value) {
     if (from.getType() == Value::TypeInt) {
       *value = static_cast<int>(from);
       return true;
@@ -84,7 +88,7 @@ class ParameterTree {
     return true;
   }
 
-  static bool read(Value& from, std::string* value) {
+  static bool convert(Value& from, std::string* value) {
     if (from.getType() != Value::TypeString)
       return false;
     *value = static_cast<std::string>(from);
@@ -92,13 +96,13 @@ class ParameterTree {
   }
 
   template <typename T>
-  static bool read(Value& from, std::vector<T>* values) {
+  static bool convert(Value& from, std::vector<T>* values) {
     if (from.getType() != Value::TypeArray)
       return false;
     std::vector<T> result(static_cast<std::size_t>(from.size()));
     for (int i = 0; i < from.size(); ++i) {
       T entry;
-      if (!read(from[i], &entry))
+      if (!convert(from[i], &entry))
         return false;
       result[static_cast<std::size_t>(i)] = entry;
     }

@@ -95,7 +95,7 @@ class Player {
 TrackingParameters parametersOf(const Arguments& arguments) {
   ParameterTree tree = readParameterTree(arguments.parameters);
   if (!arguments.mode.empty())
-    tree.setParam("mode", arguments.mode);
+    tree.set("mode", arguments.mode);
   return TrackingParameters::read(ParameterReader(tree));
 }
 

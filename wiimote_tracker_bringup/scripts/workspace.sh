@@ -81,16 +81,27 @@ trap end_child EXIT
 
 # --- Packages
 
+# Those of these packages that are not installed.
+not_installed() {
+  # dpkg-query fails when it has never heard of one of them.
+  comm -23 <(printf '%s\n' "$@" | sort -u) <(
+    { dpkg-query -W -f '${Package} ${db:Status-Status}\n' "$@" 2>/dev/null || true; } |
+      awk '$2 == "installed" { print $1 }' | sort -u)
+}
+
+# install_missing_packages LIST...: the packages in these files. One that is marked with "?" is left
+# out where this release of Debian does not have it.
 install_missing_packages() {
   command -v apt-get >/dev/null && command -v dpkg-query >/dev/null ||
-    fail "this needs apt-get (Debian 12); on another system install what package.xml names and use catkin_make"
-  local wanted installed missing root=()
-  wanted=$(grep -v '^#' "$bringup/scripts/debian_packages.txt" | sort -u)
-  # shellcheck disable=SC2086
-  # dpkg-query fails when it has never heard of one of them.
-  installed=$({ dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null || true; } |
-    awk '$2 == "installed" { print $1 }' | sort -u)
-  missing=$(comm -23 <(echo "$wanted") <(echo "$installed"))
+    fail "this needs apt-get (Debian 11 to 13); on another system install what package.xml names and use catkin_make"
+  local missing optional package root=()
+  # shellcheck disable=SC2046
+  missing=$(not_installed $(grep -hv '^#' "$@" | grep -v '?'))
+  # shellcheck disable=SC2046
+  optional=$(not_installed $(grep -hv '^#' "$@" | sed -n 's/ *?$//p'))
+  for package in $optional; do
+    [[ -z $(apt-cache madison "$package" 2>/dev/null) ]] || missing+=" $package"
+  done
   [[ -n $missing ]] || return 0
 
   # shellcheck disable=SC2086
@@ -106,7 +117,7 @@ install_missing_packages() {
     fail "apt-get update failed (see above); check the network and /etc/apt/sources.list"
   # shellcheck disable=SC2086
   run "${apt[@]}" apt-get install -y --no-install-recommends $missing ||
-    fail "apt-get could not install the missing packages (see above); on Debian 12 all of them are in main"
+    fail "apt-get could not install the missing packages (see above); on Debian 11 to 13 all of them are in main"
 }
 
 # --- Workspace
@@ -131,9 +142,13 @@ prepare_workspace() {
   done
 }
 
-# build_workspace [CMake arguments]
+# build_workspace [make targets or CMake arguments]
+# Demo and tests share the build, so both build with these flags. -g1 compiles in three quarters of
+# the time of -g, and still names files and lines.
 build_workspace() {
-  run catkin_make -C "$workspace" -j"$(jobs_that_fit)" "$@"
+  run catkin_make -C "$workspace" -j"$(jobs_that_fit)" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g1 -DNDEBUG" -DWIIMOTE_TRACKER_WERROR=ON \
+    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "$@"
 }
 
 use_workspace() {

@@ -47,7 +47,7 @@ BenchmarkRow rowOf(const std::string& name, PaperSession session, int runs) {
            {"refused", static_cast<double>(runs - solved)}}};
 }
 
-void run(int runs, const RowCallback& row) {
+void runPaper(int runs, const RowCallback& row) {
   struct Cameras {
     const char* name;
     std::vector<std::size_t> indices;
@@ -87,7 +87,7 @@ BenchmarkSection paperSection() {
           "lost the rig; sessions refused.\n"
           "The paper reports, for two cameras, 15-50 before and 0-7 after; for four, 2.8 (C3), "
           "8.5 (C4) and below 4.8 (C5) after.",
-          run};
+          runPaper};
 }
 
 }  // namespace wiimote_tracker

@@ -88,7 +88,7 @@ BenchmarkRow rowOf(const std::string& name, Deformation deformation, int side, i
            {"refused", static_cast<double>(refused)}}};
 }
 
-void run(int runs, const RowCallback& row) {
+void runRemap(int runs, const RowCallback& row) {
   for (const int side : {2, 3, 4}) {
     row(rowOf("affine", affine, side, runs));
     row(rowOf("projective", projective, side, runs));
@@ -106,7 +106,7 @@ BenchmarkSection remapSection() {
           "RMS distance of 200 other points inside, free of noise, from the truth [mm]: before, "
           "after; the expected error that the fit states, which holds the noise of the known "
           "points too [mm]; how often each model was chosen; sessions refused.",
-          run};
+          runRemap};
 }
 
 }  // namespace wiimote_tracker

@@ -8,7 +8,7 @@ namespace wiimote_tracker::exposure_clock {
 
 namespace {
 constexpr double kNominalPeriod = 0.010035;
-constexpr double kTolerance = 500e-6;
+constexpr double kPeriodTolerance = 500e-6;
 
 double kalman(const SimulatedSession& session, const LinkModel& link) {
   const double noise = link.jitter * link.jitter + link.slot * link.slot / 12.0;
@@ -16,7 +16,7 @@ double kalman(const SimulatedSession& session, const LinkModel& link) {
   const virtual_wiimote::FrameTime& first = session.reports.front();
   // Relative to the nominal period.
   double time = 0.0, period = 0.0;
-  double p00 = 1.0, p01 = 0.0, p11 = std::pow(kNominalPeriod * kTolerance, 2) / 3.0;
+  double p00 = 1.0, p01 = 0.0, p11 = std::pow(kNominalPeriod * kPeriodTolerance, 2) / 3.0;
   std::int64_t frame = first.frame;
   for (const virtual_wiimote::FrameTime& report : session.reports) {
     const auto n = static_cast<double>(report.frame - frame);
@@ -210,7 +210,8 @@ double olson(const SimulatedSession& session) {
   double offset = 0.0, device = 0.0;
   for (const virtual_wiimote::FrameTime& report : session.reports) {
     const double now = static_cast<double>(report.frame - first.frame) * kNominalPeriod;
-    offset = std::min(offset + kTolerance * (now - device), report.arrival - first.arrival - now);
+    offset =
+        std::min(offset + kPeriodTolerance * (now - device), report.arrival - first.arrival - now);
     device = now;
   }
   return first.arrival + device + offset;

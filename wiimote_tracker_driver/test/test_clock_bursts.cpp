@@ -14,7 +14,7 @@
 namespace wiimote_tracker::exposure_clock {
 namespace {
 
-constexpr double kPeriod = 0.010035;
+constexpr double kFramePeriod = 0.010035;
 constexpr double kLearning = 10.0;  // [s]
 
 struct Link {
@@ -35,7 +35,7 @@ std::vector<Image> imagesOver(const Link& link, double duration, std::uint64_t s
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::normal_distribution<double> normal;
   std::exponential_distribution<double> exponential;
-  const double period = kPeriod * (1.0 + 1e-3 * (2.0 * uniform(random) - 1.0));
+  const double period = kFramePeriod * (1.0 + 1e-3 * (2.0 * uniform(random) - 1.0));
   double stall_begin = seed % 2 ? 0.0 : exponential(random) / link.stalls;
   double stall_end = stall_begin + 0.01 * std::pow(30.0, uniform(random));
   double radio_free = 0.0;
@@ -114,7 +114,7 @@ Result play(const Link& link) {
         result.first.add(error, stddev);
         result.lateness.add(image.arrival - image.exposure - *middle, stddev);
       }
-      if (image.arrival - images[i - 1].arrival > 1.5 * kPeriod)
+      if (image.arrival - images[i - 1].arrival > 1.5 * kFramePeriod)
         result.after_gaps.add(error, stddev);
     }
     EXPECT_EQ(0u, clock.statistics().restarts);
@@ -158,7 +158,7 @@ TEST(ExposureClockBursts, without_losses_the_first_image_of_a_burst_has_its_own_
     EXPECT_GT(result.first.images, 80);
     EXPECT_GT(result.lateness.rms(), 0.05);
     // Within one frame; better where there are stalls enough to learn from.
-    EXPECT_LT(result.first.rms(), (link.stalls > 1.0 ? 0.5 : 1.0) * kPeriod);
+    EXPECT_LT(result.first.rms(), (link.stalls > 1.0 ? 0.5 : 1.0) * kFramePeriod);
   }
 }
 

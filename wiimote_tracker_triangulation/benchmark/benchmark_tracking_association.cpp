@@ -141,7 +141,7 @@ BenchmarkRow runOneImage(int tracks, const BenchmarkSettings& settings) {
           {{"images", count}, {"us", 1e6 * seconds / count}, {"mean_cost", sum / count}}};
 }
 
-void run(const BenchmarkSettings& settings, const RowCallback& row) {
+void runAssociation(const BenchmarkSettings& settings, const RowCallback& row) {
   using association::test::bestDivision;
   using association::test::bestPermutation;
   Disturbance clean;
@@ -170,7 +170,7 @@ BenchmarkSection associationSection() {
           "looking at all possibilities (all spots seen: at all permutations; else at all "
           "divisions into points and ghosts); right: all points that two cameras see, and no "
           "other; us: per frame, from sights (the lens undone), mean and longest",
-          run};
+          runAssociation};
 }
 
 }  // namespace wiimote_tracker

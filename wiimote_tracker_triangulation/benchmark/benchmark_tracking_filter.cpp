@@ -332,7 +332,7 @@ void speed(const BenchmarkSettings& settings, const RowCallback& row) {
   row({"time per image, fastest run", {{"ns", 1e9 * best}}});
 }
 
-void run(const BenchmarkSettings& settings, const RowCallback& row) {
+void runFilter(const BenchmarkSettings& settings, const RowCallback& row) {
   ownModel(settings, row);
   jumps(settings, row);
   circles(settings, row);
@@ -351,7 +351,7 @@ BenchmarkSection filterSection() {
           "with the posterior Cramer-Rao bound, which knows the mode; (c) compared with the "
           "constant-velocity or constant-acceleration filter whose noise suits the row best. NEES: "
           "3 when the covariance is right.",
-          run};
+          runFilter};
 }
 
 }  // namespace wiimote_tracker

@@ -14,15 +14,7 @@ namespace {
 using namespace tracking;
 using namespace tracking::test;
 
-constexpr double kPixelNoise = 0.3;  // [px]
-constexpr double kMerging = 8.0;     // of the sensor; the tracker assumes its default [px]
-
-TrackerOptions trackerOptions() {
-  TrackerOptions options;
-  options.pixel_stddev = kPixelNoise;
-  options.stamp_stddev = 0.0;
-  return options;
-}
+constexpr double kMerging = 8.0;  // of the sensor; the tracker assumes its default [px]
 
 /// Four LEDs, each in its own quarter of the volume, at least 0.4 m apart: some view always
 /// resolves them. In single views they often pass and merge.
@@ -153,7 +145,7 @@ BenchmarkRow meetingRow(const std::string& name,
            {"ratio", static_cast<double>(errors + renamed) / oracle_errors}}};
 }
 
-void run(const BenchmarkSettings& settings, const RowCallback& row) {
+void runIdentity(const BenchmarkSettings& settings, const RowCallback& row) {
   const int frames = 10000 * settings.runs;
   row(timeRow("0.5 m/s", 0.5, 0.1, 1.0, 0.0, frames, settings.seed));
   row(timeRow("1 m/s", 1.0, 0.1, 1.0, 0.0, frames, settings.seed + 1));
@@ -184,7 +176,7 @@ BenchmarkSection identitySection() {
           "Then two LEDs whose spots merge in all views, 20 meetings per run: identity swaps of a "
           "smoothing maximum-likelihood oracle, of this oracle with the tracker's filters, and of "
           "the tracker; LEDs that got a new track; errors of the tracker over those of the oracle.",
-          run};
+          runIdentity};
 }
 
 }  // namespace wiimote_tracker

@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_TRACKING_SECTIONS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_TRACKING_SECTIONS_H
 
+#include "wiimote_tracker_triangulation/tracking/tracker.h"
+
 #include <functional>
 #include <string>
 #include <utility>
@@ -29,6 +31,16 @@ struct BenchmarkSection {
   std::string explanation;  ///< Of the columns.
   std::function<void(const BenchmarkSettings& settings, const RowCallback& row)> run;
 };
+
+/// Standard deviation of the simulated pixels, as the tracker is told [px].
+constexpr double kPixelNoise = 0.3;
+
+inline tracking::TrackerOptions trackerOptions() {
+  tracking::TrackerOptions options;
+  options.pixel_stddev = kPixelNoise;
+  options.stamp_stddev = 0.0;
+  return options;
+}
 
 BenchmarkSection associationSection();
 

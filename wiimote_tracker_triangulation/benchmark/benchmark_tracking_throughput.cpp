@@ -13,8 +13,6 @@ namespace {
 using namespace tracking;
 using namespace tracking::test;
 
-constexpr double kPixelNoise = 0.3;  // [px]
-
 /// CPU time since `start` [s].
 double since(std::clock_t start) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -58,13 +56,6 @@ Timing timed(const geometry::Rig& rig,
     timing.images += kBatch;
   }
   return timing;
-}
-
-TrackerOptions trackerOptions() {
-  TrackerOptions options;
-  options.pixel_stddev = kPixelNoise;
-  options.stamp_stddev = 0.0;
-  return options;
 }
 
 SceneOptions sceneOptions() {

@@ -20,7 +20,7 @@ using tracking::test::Path;
 using tracking::test::SceneImage;
 
 constexpr double kDuration = 10.0;  // of a run [s]
-constexpr double kSettled = 0.5;    // errors before are not scored, after the first image [s]
+constexpr double kWarmUp = 0.5;     // errors before are not scored, after the first image [s]
 constexpr double kDelay = 0.0112;   // from exposure to arrival, mean [s]
 constexpr double kJitter = 0.0024;  // of that, standard deviation [s]
 
@@ -79,7 +79,7 @@ void track(const std::vector<SceneImage>& images, const Path& path, Mode mode, E
   for (const SceneImage& image : images) {
     estimator->add(image.camera, image.image);
     while (const tracking::Snapshot* snapshot = estimator->next()) {
-      if (snapshot->time < images.front().true_time + kSettled)
+      if (snapshot->time < images.front().true_time + kWarmUp)
         continue;
       ++errors->snapshots;
       // The nearest track; false tracks are not counted here.
@@ -95,7 +95,7 @@ void track(const std::vector<SceneImage>& images, const Path& path, Mode mode, E
   }
 }
 
-void run(const BenchmarkSettings& settings, const RowCallback& row) {
+void runUnsynchronised(const BenchmarkSettings& settings, const RowCallback& row) {
   const Stamping stampings[] = {{"exact stamps", 0.0, 0.0, false},
                                 {"stamps off by 0.02 ms", 1.4e-5, 1.4e-5, false},
                                 {"stamps off by 0.1 ms", 7e-5, 7e-5, false},
@@ -134,7 +134,7 @@ BenchmarkSection unsynchronisedSection() {
           "then the paper's method (interpolated to an instant, intersected). Ratio: RMS over that "
           "of the tracks with exact stamps. Half of the variance of a stamp's error is constant "
           "for each camera.",
-          run};
+          runUnsynchronised};
 }
 
 }  // namespace wiimote_tracker

@@ -17,7 +17,7 @@ using workflow::Step;
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLongest = 3600.0;  // [s]
 
 Eigen::Vector3d fromMessage(const geometry_msgs::Point& point) {
@@ -112,10 +112,10 @@ capture::CapturedCorner PlaceServices::captureStillLed(const geometry::Rig& rig,
 }
 
 Reply PlaceServices::check(const CheckPlace::Request& request, CheckPlace::Response* response) {
-  response->measured = toMessage(Eigen::Vector3d::Constant(kNan));
-  response->covariance.fill(kNan);
-  response->error = kNan;
-  response->expected_stddev = kNan;
+  response->measured = toMessage(Eigen::Vector3d::Constant(kUnknown));
+  response->covariance.fill(kUnknown);
+  response->error = kUnknown;
+  response->expected_stddev = kUnknown;
   Lock lock(context_.mutex());
   return context_.answer(&lock, [&] {
     const double known_stddev = request.known_stddev != 0.0
@@ -140,7 +140,7 @@ std::string PlaceServices::dropPlacesOfOtherRigs(const Lock& lock) {
 }
 
 Reply PlaceServices::add(const AddKnownPlace::Request& request, AddKnownPlace::Response* response) {
-  response->measured = toMessage(Eigen::Vector3d::Constant(kNan));
+  response->measured = toMessage(Eigen::Vector3d::Constant(kUnknown));
   Lock lock(context_.mutex());
   const std::string dropped = dropPlacesOfOtherRigs(lock);
   place::KnownPlaces& places = context_.knownPlaces(lock);
@@ -185,8 +185,8 @@ Reply PlaceServices::clear() {
 }
 
 Reply PlaceServices::fit(const FitRemap::Request& request, FitRemap::Response* response) {
-  response->uncorrected_error = kNan;
-  response->expected_error = kNan;
+  response->uncorrected_error = kUnknown;
+  response->expected_error = kUnknown;
   Lock lock(context_.mutex());
   const std::string dropped = dropPlacesOfOtherRigs(lock);
   Reply reply = context_.answer(&lock, [&] {

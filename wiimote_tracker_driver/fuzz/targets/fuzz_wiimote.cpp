@@ -15,7 +15,7 @@ using protocol::Report;
 using virtual_wiimote::Bytes;
 
 // Largest time until a well-behaved remote streams again [s].
-constexpr double kRecovery = 60.0;
+constexpr double kWiimoteRecovery = 60.0;
 // Turns in which nothing happens and no time passes.
 constexpr int kMostIdleTurns = 8;
 // Longest error text [characters].
@@ -180,9 +180,9 @@ wiimote::Options optionsOf(Decisions& in) {
 }
 
 /// The driver with that link.
-class Trial {
+class WiimoteTrial {
  public:
-  explicit Trial(Decisions& in)
+  explicit WiimoteTrial(Decisions& in)
       : in_(in),
         world_(in),
         options_(optionsOf(in)),
@@ -197,7 +197,7 @@ class Trial {
       turn();
     }
     world_.behave();
-    const double end = world_.now + kRecovery;
+    const double end = world_.now + kWiimoteRecovery;
     while (!turn())
       require(world_.now < end, "images come again from a remote that behaves");
     require(wiimote_.link().state == wiimote::Link::State::kStreaming, "images mean streaming");
@@ -248,7 +248,7 @@ class Trial {
 
 void fuzzWiimote(const std::uint8_t* data, std::size_t size) {
   Decisions in(data, size);
-  Trial(in).run();
+  WiimoteTrial(in).run();
 }
 
 }  // namespace wiimote_tracker::fuzz

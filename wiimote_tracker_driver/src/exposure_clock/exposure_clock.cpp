@@ -70,10 +70,6 @@ constexpr double kMinWeight = 1.5e-4;
 constexpr double kNegligible = 1e-6;
 // Shortest time between two exposures, where a frame number was corrected downwards [s].
 constexpr double kMinStep = 1e-6;
-
-double square(double x) {
-  return x * x;
-}
 }  // namespace
 
 /// Densities of an arrival [1/s]: the report was on time, or waited for the one before, or was held
@@ -268,7 +264,7 @@ void ExposureClock::applySteadyEdge() {
     weights_[kSteadyEdge] = std::max(weights_[kSteadyEdge], kSteadyEdgeWeight);
   }
   ClockState state = edge_.state(frame_, filter.spread());
-  state.p00 += square(kSteady) * kEdgeMemory;
+  state.p00 += kSteady * kSteady * kEdgeMemory;
   filter.setState(state);
 }
 
@@ -300,7 +296,7 @@ Estimate ExposureClock::estimate(double arrival) {
     spread += weights_[m] * filters_[m].spread();
   }
   for (std::size_t m = 0; m < kModels; ++m)
-    variance += weights_[m] * (filters_[m].timeVariance() + square(filters_[m].time() - time));
+    variance += weights_[m] * (filters_[m].timeVariance() + std::pow(filters_[m].time() - time, 2));
 
   // An exposure is not after its arrival, nor before that of the previous report.
   const double exposure =
@@ -309,7 +305,7 @@ Estimate ExposureClock::estimate(double arrival) {
   for (int i = 0; i < counter_.size(); ++i)
     number_variance +=
         counter_[i] *
-        square(time + static_cast<double>(counter_.frame(i) - frame_) * period - exposure);
+        std::pow(time + static_cast<double>(counter_.frame(i) - frame_) * period - exposure, 2);
 
   Estimate e;
   e.exposure = origin_ + exposure;

@@ -9,7 +9,7 @@ namespace {
 constexpr double kNextLoss = 0.3;    // probability of a loss after a loss
 constexpr double kDuplicate = 1e-4;  // probability of a duplicate report
 constexpr double kFloor = 1e-8;      // least probability of each number
-constexpr double kNegligible = 1e-7;
+constexpr double kNegligibleShare = 1e-7;
 // Number of reports that the initial loss probability counts as, number of latest reports it is
 // estimated from, and its least value.
 constexpr double kPrior = 300.0;
@@ -67,9 +67,9 @@ void FrameCounter::normalise() {
   for (int i = 0; i < size_; ++i)
     sum += (*this)[i];
   int begin = 0, end = size_;
-  while (begin + 1 < end && (*this)[begin] < kNegligible * sum)
+  while (begin + 1 < end && (*this)[begin] < kNegligibleShare * sum)
     ++begin;
-  while (end - 1 > begin && (*this)[end - 1] < kNegligible * sum)
+  while (end - 1 > begin && (*this)[end - 1] < kNegligibleShare * sum)
     --end;
   for (int i = begin; i < end; ++i)
     (*this)[i - begin] = (*this)[i] / sum;

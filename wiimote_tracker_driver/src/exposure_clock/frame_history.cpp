@@ -5,7 +5,7 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-constexpr double kCertain = 0.9999;
+constexpr double kCertainToDrop = 0.9999;
 constexpr int kNumbersBelow = 4;  // of those kept, below the most probable one
 }  // namespace
 
@@ -23,7 +23,7 @@ void FrameHistory::add(const FrameCounter& numbers, double arrival, double on_ti
 }
 
 bool FrameHistory::complete() const {
-  return size_ == kCapacity || (size_ > 0 && report(size_ - 1).probability > kCertain);
+  return size_ == kCapacity || (size_ > 0 && report(size_ - 1).probability > kCertainToDrop);
 }
 
 int FrameHistory::smooth(const FrameCounter& counter) {

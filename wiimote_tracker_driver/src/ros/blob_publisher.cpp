@@ -12,7 +12,7 @@ using wiimote_tracker_msgs::IrBlobArray;
 
 constexpr int kCell = 8;  // [px] Side of a cell of a bounding box.
 constexpr int kLastRow = protocol::kSensorHeight - 1;
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
 std::uint8_t irMode(IrFormat format) {
   switch (format) {
@@ -35,8 +35,8 @@ wiimote_tracker_msgs::IrBlob irBlob(const protocol::IrSpot& spot,
   wiimote_tracker_msgs::IrBlob blob;
   blob.x = spot.x;
   blob.y = kLastRow - spot.y;
-  blob.size = format == IrFormat::kBasic ? kUnknown : static_cast<float>(spot.size);
-  blob.intensity = kUnknown;
+  blob.size = format == IrFormat::kBasic ? kNoValue : static_cast<float>(spot.size);
+  blob.intensity = kNoValue;
   blob.slot = static_cast<std::uint8_t>(slot);
   if (format == IrFormat::kFull) {
     blob.intensity = static_cast<float>(spot.intensity);

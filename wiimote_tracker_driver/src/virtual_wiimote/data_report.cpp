@@ -1,5 +1,7 @@
 #include "data_report.h"
 
+#include "byte.h"
+
 #include <optional>
 
 namespace wiimote_tracker::virtual_wiimote {
@@ -39,10 +41,6 @@ std::optional<Layout> layoutOf(std::uint8_t id) {
     default:
       return std::nullopt;
   }
-}
-
-std::uint8_t byte(int value) {
-  return static_cast<std::uint8_t>(value);
 }
 
 /// Sets bits 5 and 6 of a button byte, which carry bits of the acceleration.

@@ -15,7 +15,7 @@ namespace {
 // Output reports.
 constexpr std::uint8_t kRumble = 0x10;
 constexpr std::uint8_t kLeds = 0x11;
-constexpr std::uint8_t kMode = 0x12;
+constexpr std::uint8_t kReportMode = 0x12;
 constexpr std::uint8_t kIrClock = 0x13;
 constexpr std::uint8_t kSpeaker = 0x14;
 constexpr std::uint8_t kRequestStatus = 0x15;
@@ -163,7 +163,7 @@ struct Device::State {
     now.reporting = true;
     now.second_half.reset();
     if (in[1] & kAcknowledge)
-      out.push_back(acknowledgement(kMode, 0));
+      out.push_back(acknowledgement(kReportMode, 0));
     if (now.memory_packets.empty())
       out.push_back(*nextData(false));
   }
@@ -254,10 +254,10 @@ std::vector<Bytes> Device::handleOutput(const Bytes& report) {
   const std::uint8_t id = report[0];
   const std::uint8_t flags = report[1];
   // An invalid mode does not set the motor either.
-  if (id >= kRumble && id <= kIrLogic && id != kMode)
+  if (id >= kRumble && id <= kIrLogic && id != kReportMode)
     state.now.rumble = (flags & kMotor) != 0;
   switch (id) {
-    case kMode:
+    case kReportMode:
       state.setMode(report, answers);
       return answers;
     case kWriteMemory:

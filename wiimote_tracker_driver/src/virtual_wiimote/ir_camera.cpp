@@ -1,5 +1,7 @@
 #include "ir_camera.h"
 
+#include "byte.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +13,7 @@ constexpr std::size_t kGain = 0x08;
 constexpr std::size_t kGainLimit = 0x1a;
 constexpr std::size_t kMinimumSize = 0x1b;
 constexpr std::size_t kControl = 0x30;
-constexpr std::size_t kMode = 0x33;
+constexpr std::size_t kModeRegister = 0x33;
 constexpr std::size_t kData = 0x37;
 
 constexpr std::uint8_t kRunning = 8;
@@ -22,17 +24,13 @@ constexpr std::uint8_t kFull = 5;
 // A light that moves farther between two images counts as a new one [px].
 constexpr int kMaximumStep = 100;
 
-std::uint8_t byte(int value) {
-  return static_cast<std::uint8_t>(value);
-}
-
 }  // namespace
 
 IrCamera::IrCamera(const std::optional<std::uint32_t>& slot_seed)
     : draws_slots_(slot_seed.has_value()), random_(slot_seed.value_or(0)) {}
 
 bool IrCamera::seeing() const {
-  const std::uint8_t mode = registers_[kMode];
+  const std::uint8_t mode = registers_[kModeRegister];
   const bool has_mode = mode == kBasic || mode == kExtended || mode == kFull;
   // Without its sensitivity blocks the camera detects nothing.
   const bool sensitive = registers_[kMaximumSize] > 0 && registers_[kGainLimit] > 0 &&
@@ -49,9 +47,9 @@ void IrCamera::look(const std::vector<Light>& lights) {
   follow(findBlobs(lights, brightnessThreshold(registers_[kGainLimit], registers_[kMinimumSize])));
 
   std::fill_n(registers_.begin() + kData, kDataSize, 0xff);
-  if (registers_[kMode] == kBasic)
+  if (registers_[kModeRegister] == kBasic)
     fillBasic();
-  else if (registers_[kMode] == kExtended)
+  else if (registers_[kModeRegister] == kExtended)
     fillExtended();
   else
     fillFull();

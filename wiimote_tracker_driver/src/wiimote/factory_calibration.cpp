@@ -8,12 +8,12 @@
 namespace wiimote_tracker::wiimote {
 namespace {
 
-struct Area {
+struct EepromBlock {
   std::uint32_t address;
   std::size_t size;
 };
 // In the order of FactoryCalibration::Block.
-constexpr std::array<Area, 4> kAreas{
+constexpr std::array<EepromBlock, 4> kBlocks{
     {{protocol::kIrCalibrationAddress, protocol::kIrCalibrationBlockSize},
      {protocol::kIrCalibrationCopyAddress, protocol::kIrCalibrationBlockSize},
      {protocol::kAccelerometerAddress, protocol::kAccelerometerBlockSize},
@@ -29,16 +29,16 @@ std::array<std::uint8_t, N> firstBytes(const protocol::MemoryPacket& packet) {
 }  // namespace
 
 protocol::Report FactoryCalibration::request() const {
-  const Area& area = kAreas[static_cast<std::size_t>(block_)];
-  return protocol::readMemory(protocol::Space::kEeprom, area.address,
-                              static_cast<std::uint16_t>(area.size));
+  const EepromBlock& block = kBlocks[static_cast<std::size_t>(block_)];
+  return protocol::readMemory(protocol::Space::kEeprom, block.address,
+                              static_cast<std::uint16_t>(block.size));
 }
 
 bool FactoryCalibration::take(const protocol::MemoryPacket& packet) {
   if (complete())
     return false;
-  const Area& area = kAreas[static_cast<std::size_t>(block_)];
-  if (packet.address != area.address || (packet.error == 0 && packet.size != area.size))
+  const EepromBlock& block = kBlocks[static_cast<std::size_t>(block_)];
+  if (packet.address != block.address || (packet.error == 0 && packet.size != block.size))
     return false;
   if (packet.error == 0 && decode(packet))
     skip();

@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_MSGS_TEXT_H
 #define WIIMOTE_TRACKER_MSGS_TEXT_H
 
+#include <algorithm>
+#include <cctype>
 #include <cstdarg>
 #include <cstddef>
 #include <cstdio>
@@ -20,6 +22,13 @@ namespace wiimote_tracker {
   va_end(values);
   std::vsnprintf(text.data(), text.size() + 1, pattern, again);
   va_end(again);
+  return text;
+}
+
+/// ASCII letters in lower case.
+inline std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 

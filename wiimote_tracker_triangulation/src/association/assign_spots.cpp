@@ -6,7 +6,7 @@
 namespace wiimote_tracker::association {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTooFar = std::numeric_limits<double>::infinity();
 constexpr int kNobody = -1;
 
 /// Spots are rows, tracks are columns. The false detection is one more column, which any number of
@@ -69,8 +69,8 @@ class Assignment {
     std::array<bool, kMaximumTracks> reached{};
     std::array<double, kMaximumTracks> distance;  // from the tree of reached tracks
     std::array<int, kMaximumTracks> previous;     // the reached track before
-    distance.fill(kInfinity);
-    double ghost_distance = kInfinity;
+    distance.fill(kTooFar);
+    double ghost_distance = kTooFar;
     int ghost_previous = kStart;
 
     int last = kStart;  // the track reached last
@@ -143,7 +143,7 @@ void SpotCosts::reset(std::size_t spot_count,
   spots = spot_count;
   tracks = track_count;
   for (std::size_t spot = 0; spot < spots; ++spot)
-    std::fill_n(pair[spot].begin(), tracks, kInfinity);
+    std::fill_n(pair[spot].begin(), tracks, kTooFar);
   std::fill_n(ghost.begin(), spots, ghost_cost);
   std::fill_n(miss.begin(), tracks, miss_cost);
 }

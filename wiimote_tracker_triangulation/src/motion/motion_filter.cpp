@@ -20,10 +20,6 @@ constexpr double kStopInterval = 0.002;
 /// All other mode changes [s]: in so short a time they hardly move an LED.
 constexpr double kChangeInterval = 0.01;
 
-double square(double x) {
-  return x * x;
-}
-
 /// L^-1 of a covariance L L^T whose variances are at least `least`: rounding may leave less of a
 /// very large covariance. @returns lower triangular
 Matrix2d whiteningOf(const Matrix2d& covariance, double least) {
@@ -71,7 +67,7 @@ std::optional<PixelPrediction> MotionFilter::predictPixel(const geometry::Camera
                                                           const PixelNoise& noise) const {
   PixelPrediction prediction;
   prediction.smear_ = noise.stamp_stddev * velocity();
-  prediction.pixel_variance_ = square(noise.pixel_stddev);
+  prediction.pixel_variance_ = std::pow(noise.pixel_stddev, 2);
   if (!linearize(camera, position(), &prediction))
     return std::nullopt;
   return prediction;
@@ -117,7 +113,7 @@ bool MotionFilter::isLinear(const geometry::Camera& camera,
       variance = std::max(variance, mode.state.positionCovariance().trace());
   }
   return variance * (pixel - prediction.pixel_).squaredNorm() <
-         square(kNegligible * depth) * prediction.pixel_variance_;
+         std::pow(kNegligible * depth, 2) * prediction.pixel_variance_;
 }
 
 bool MotionFilter::update(const geometry::Camera& camera,
@@ -125,7 +121,7 @@ bool MotionFilter::update(const geometry::Camera& camera,
                           const Vector2d& pixel) {
   constexpr int kIterations = 3;
   constexpr double kFarthest = 1e9;  // [px]
-  if (!((pixel - prediction.pixel_).squaredNorm() < square(kFarthest)))
+  if (!((pixel - prediction.pixel_).squaredNorm() < kFarthest * kFarthest))
     return false;
   if (isLinear(camera, prediction, pixel)) {
     apply(prediction, pixel);
@@ -180,7 +176,8 @@ void MotionFilter::inflateUnobservedDepth(const geometry::Camera& camera) {
   const Vector3d view = position() - camera.center();
   const double duration = time_ - last_update_;
   last_update_ = time_;
-  if (square(view.dot(view_)) <= (1.0 - kSquaredSine) * view.squaredNorm() * view_.squaredNorm()) {
+  if (std::pow(view.dot(view_), 2) <=
+      (1.0 - kSquaredSine) * view.squaredNorm() * view_.squaredNorm()) {
     view_ = view;
     last_parallax_ = time_;
     return;

@@ -15,6 +15,20 @@ Constellation fourLeds() {
           {{0.09, 0.0, 0.03}, {-0.05, 0.085, 0.0}, {-0.06, -0.07, 0.04}, {0.02, 0.03, -0.09}}};
 }
 
+Isometry3d randomPose(geometry::test::Random& random, const Vector3d& center) {
+  Isometry3d pose = Isometry3d::Identity();
+  const Vector3d axis = random.inBox(1.0).normalized();
+  pose.linear() = Eigen::AngleAxisd(random.uniform(-M_PI, M_PI), axis).toRotationMatrix();
+  pose.translation() = center + random.inBox(0.5);
+  return pose;
+}
+
+Vector3d noise(geometry::test::Random& random, double stddev) {
+  const double x = random.gaussian();
+  const double y = random.gaussian();
+  return stddev * Vector3d(x, y, random.gaussian());
+}
+
 Isometry3d handheld(double time) {
   Isometry3d pose = Isometry3d::Identity();
   pose.translation() =

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_BODY_BODY_SCENE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TEST_BODY_BODY_SCENE_H
 
+#include "geometry/random_rigs.h"
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 
@@ -18,6 +19,12 @@ using Motion = std::function<Eigen::Isometry3d(double)>;
 /// Four LEDs about 100 mm from their middle. Their nearest symmetry fits within 11.5 mm; without
 /// the last LED, within 0.5 mm.
 Constellation fourLeds();
+
+/// Any orientation, within 0.5 m of a centre along each axis.
+Eigen::Isometry3d randomPose(geometry::test::Random& random, const Eigen::Vector3d& center);
+
+/// Gaussian, of this standard deviation along each axis.
+Eigen::Vector3d noise(geometry::test::Random& random, double stddev);
 
 /// As in a hand: up to 0.6 m/s.
 Eigen::Isometry3d handheld(double time);

@@ -20,17 +20,10 @@ using test::FollowedBody;
 using test::fourLeds;
 using test::handheld;
 using test::pathsOf;
+using test::randomPose;
 using test::rotationError;
 using test::tumbling;
 using tracking::test::paperRig;
-
-Isometry3d randomPose(Random& random, const Vector3d& center) {
-  Isometry3d pose = Isometry3d::Identity();
-  Vector3d axis = random.inBox(1.0).normalized();
-  pose.linear() = Eigen::AngleAxisd(random.uniform(-M_PI, M_PI), axis).toRotationMatrix();
-  pose.translation() = center + random.inBox(0.5);
-  return pose;
-}
 
 tracking::test::SceneOptions halfAPixel() {
   tracking::test::SceneOptions options;

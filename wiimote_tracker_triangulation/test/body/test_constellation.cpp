@@ -20,12 +20,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using geometry::test::Random;
 using test::fourLeds;
-
-Vector3d noise(Random& random, double stddev) {
-  const double x = random.gaussian();
-  const double y = random.gaussian();
-  return stddev * Vector3d(x, y, random.gaussian());
-}
+using test::noise;
 
 std::string messageOf(const Constellation& body) {
   try {

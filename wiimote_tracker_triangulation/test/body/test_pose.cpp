@@ -17,22 +17,10 @@ using Eigen::Vector3d;
 using geometry::test::Random;
 using test::boundOf;
 using test::fourLeds;
+using test::noise;
 using test::normalisedError;
+using test::randomPose;
 using test::rotationError;
-
-Isometry3d randomPose(Random& random, const Vector3d& center) {
-  Isometry3d pose = Isometry3d::Identity();
-  Vector3d axis = random.inBox(1.0).normalized();
-  pose.linear() = Eigen::AngleAxisd(random.uniform(-M_PI, M_PI), axis).toRotationMatrix();
-  pose.translation() = center + random.inBox(0.5);
-  return pose;
-}
-
-Vector3d noise(Random& random, double stddev) {
-  const double x = random.gaussian();
-  const double y = random.gaussian();
-  return stddev * Vector3d(x, y, random.gaussian());
-}
 
 TEST(Align, IsThatOfUmeyama) {
   Random random(3);

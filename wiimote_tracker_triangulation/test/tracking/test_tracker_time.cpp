@@ -27,7 +27,7 @@ using test::stateAt;
 using test::track;
 using test::wanderers;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(Tracker, LateImagesGiveTheSameResultAsInTime) {
@@ -188,14 +188,14 @@ TEST(Tracker, InvalidInputNeverReachesAState) {
   for (const SceneImage& image : images) {
     CameraImage bad = image.image;
     bad.maximum_spots = 99;
-    for (const double x : {kNan, kInfinity, -kInfinity, 1e9, -300.0}) {
+    for (const double x : {kNotANumber, kInfinity, -kInfinity, 1e9, -300.0}) {
       Spot spot;
       spot.pixel = {x, 300.0};
       bad.spots.insert(bad.spots.begin(), spot);
       spot.pixel = {300.0, x};
       bad.spots.push_back(spot);
     }
-    for (const double x : {kNan, kInfinity}) {
+    for (const double x : {kNotANumber, kInfinity}) {
       CameraImage impossible = bad;
       impossible.stamp = x;
       tracker.add(image.camera, impossible);
@@ -204,7 +204,7 @@ TEST(Tracker, InvalidInputNeverReachesAState) {
       tracker.add(image.camera, impossible);
       nonsense += 2;
     }
-    bad.stamp_stddev = kNan;  // the option's holds
+    bad.stamp_stddev = kNotANumber;  // the option's holds
     tracker.add(image.camera, bad);
   }
   EXPECT_EQ(static_cast<std::uint64_t>(nonsense), tracker.counters().dropped);

@@ -1,5 +1,6 @@
 #include "camera_list.h"
 
+#include <wiimote_tracker_msgs/text.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -14,12 +15,6 @@ namespace wiimote_tracker::list_wiimotes {
 namespace {
 
 constexpr char kPrefix[] = "wiimote_";
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 bool isCameraName(const std::string& name) {
   return !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&

@@ -1,5 +1,7 @@
 #include "host.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -14,12 +16,6 @@ namespace fs = std::filesystem;
 
 // A Bluetooth adapter has at most this many devices.
 constexpr std::size_t kRemotesPerAdapter = 7;
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 std::string contentOf(const fs::path& path) {
   std::ifstream file(path);

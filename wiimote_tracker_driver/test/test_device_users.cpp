@@ -1,4 +1,5 @@
 // Users of a device: found for real processes, on a plain file in place of a hidraw node.
+#include "contains.h"
 #include "transport/transport.h"
 #include "transport/users.h"
 
@@ -14,10 +15,6 @@
 
 namespace wiimote_tracker::transport {
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// Another program that has the file open, and locked if requested, while this object lives.
 class OtherProgram {

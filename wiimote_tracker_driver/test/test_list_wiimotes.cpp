@@ -1,5 +1,6 @@
 // list_wiimotes: its view of a computer with a simulated /sys and /etc, the list of cameras, and
 // access to a virtual remote.
+#include "contains.h"
 #include "tools/list_wiimotes/camera_list.h"
 #include "tools/list_wiimotes/host.h"
 #include "tools/list_wiimotes/remote_check.h"
@@ -47,10 +48,6 @@ class TemporaryFolder {
  private:
   std::string path_;
 };
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// Number of sentences that contain the part.
 int count(const std::vector<std::string>& sentences, const std::string& part) {

@@ -1,4 +1,5 @@
 // The file of a recording, byte by byte, and the recorder that writes it.
+#include "contains.h"
 #include "recording/reader.h"
 #include "recording/recorder.h"
 
@@ -20,10 +21,6 @@ namespace {
 
 using protocol::Report;
 using Kind = Record::Kind;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::string text(std::initializer_list<int> bytes) {
   return std::string(bytes.begin(), bytes.end());

@@ -1,4 +1,5 @@
 // The summary that recording_info prints.
+#include "contains.h"
 #include "tools/recording_info/summary.h"
 
 #include <gtest/gtest.h>
@@ -10,10 +11,6 @@ namespace {
 
 using recording::Record;
 using Kind = Record::Kind;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 class Info : public testing::Test {
  protected:

@@ -1,4 +1,5 @@
 // A recording of the driver's core, played back to it.
+#include "contains.h"
 #include "recording/reader.h"
 #include "recording/recorder.h"
 #include "recording/replay.h"
@@ -33,10 +34,6 @@ using virtual_wiimote::FaultyDevice;
 using virtual_wiimote::Senses;
 using wiimote::Options;
 using wiimote::Wiimote;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// A light on a closed path, so that no two images are equal.
 Senses sensesAt(double time) {

@@ -13,8 +13,8 @@
 namespace wiimote_tracker::exposure_clock {
 namespace {
 
-constexpr double kPeriod = 0.010035;
-constexpr double kTolerance = 6e-6;
+constexpr double kNominalPeriod = 0.010035;
+constexpr double kDriftTolerance = 6e-6;
 
 struct Report {
   std::int64_t frame;
@@ -43,11 +43,12 @@ ClockState bruteForce(const std::vector<Report>& reports, std::int64_t frame, do
   std::vector<double> drift, bound, weight;
   double greatest = -1e300;
   for (int i = 0; i <= kGrid; ++i) {
-    drift.push_back(kTolerance * (2.0 * i / kGrid - 1.0));
+    drift.push_back(kDriftTolerance * (2.0 * i / kGrid - 1.0));
     double least = 1e300;
     for (const Report& report : reports)
-      least = std::min(least, report.arrival - 1000.0 -
-                                  static_cast<double>(report.frame) * (kPeriod + drift.back()));
+      least =
+          std::min(least, report.arrival - 1000.0 -
+                              static_cast<double>(report.frame) * (kNominalPeriod + drift.back()));
     bound.push_back(least);
     weight.push_back(rate * (least + center * drift.back()));
     greatest = std::max(greatest, weight.back());
@@ -55,7 +56,9 @@ ClockState bruteForce(const std::vector<Report>& reports, std::int64_t frame, do
   double sum = 0.0;
   ClockState mean;
   const auto n = static_cast<double>(frame);
-  const auto time = [&](std::size_t i) { return bound[i] + n * (kPeriod + drift[i]) - 1.0 / rate; };
+  const auto time = [&](std::size_t i) {
+    return bound[i] + n * (kNominalPeriod + drift[i]) - 1.0 / rate;
+  };
   for (std::size_t i = 0; i < weight.size(); ++i) {
     weight[i] = std::exp(weight[i] - greatest);
     sum += weight[i];
@@ -72,7 +75,7 @@ ClockState bruteForce(const std::vector<Report>& reports, std::int64_t frame, do
   }
   mean.p00 += 1.0 / (rate * rate);
   mean.time += 1000.0;
-  mean.period += kPeriod;
+  mean.period += kNominalPeriod;
   return mean;
 }
 
@@ -80,12 +83,12 @@ TEST(SteadyEdge, is_the_posterior_mean_and_covariance) {
   int differ = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const double spread = seed % 2 ? 0.005 : 0.002;
-    const auto reports = exponentialReports(700, spread, kPeriod + 3e-6, seed);
-    SteadyEdge edge(kPeriod, kTolerance);
+    const auto reports = exponentialReports(700, spread, kNominalPeriod + 3e-6, seed);
+    SteadyEdge edge(kNominalPeriod, kDriftTolerance);
     // Reports ignored while it settles are ignored by brute force too.
     std::vector<Report> used;
     for (const Report& report : reports) {
-      edge.add(report.frame, report.arrival, 1.0, kPeriod + 3e-6);
+      edge.add(report.frame, report.arrival, 1.0, kNominalPeriod + 3e-6);
       if (report.frame >= 25)
         used.push_back(report);
     }
@@ -106,29 +109,29 @@ TEST(SteadyEdge, is_the_posterior_mean_and_covariance) {
 }
 
 TEST(SteadyEdge, with_equal_delays_it_is_the_line_itself) {
-  SteadyEdge edge(kPeriod, kTolerance);
+  SteadyEdge edge(kNominalPeriod, kDriftTolerance);
   for (int k = 0; k < 5000; ++k)
-    edge.add(k, 7.0 + k * (kPeriod - 2e-6), 1.0, kPeriod);
+    edge.add(k, 7.0 + k * (kNominalPeriod - 2e-6), 1.0, kNominalPeriod);
   const ClockState state = edge.state(4999, 20e-6);
-  EXPECT_NEAR(state.time, 7.0 + 4999 * (kPeriod - 2e-6), 1e-6);
-  EXPECT_NEAR(state.period, kPeriod - 2e-6, 1e-9);
+  EXPECT_NEAR(state.time, 7.0 + 4999 * (kNominalPeriod - 2e-6), 1e-6);
+  EXPECT_NEAR(state.period, kNominalPeriod - 2e-6, 1e-9);
   EXPECT_GT(state.p00, 0.0);
   EXPECT_GE(state.p11, 0.0);
 }
 
 TEST(SteadyEdge, forgets_what_is_older_than_its_memory) {
-  SteadyEdge edge(kPeriod, kTolerance);
-  edge.add(0, 5.0, 1.0, kPeriod);
+  SteadyEdge edge(kNominalPeriod, kDriftTolerance);
+  edge.add(0, 5.0, 1.0, kNominalPeriod);
   for (int k = 1; k < 200; ++k)
-    edge.add(k, 5.0 + k * kPeriod, 1.0, kPeriod);
+    edge.add(k, 5.0 + k * kNominalPeriod, 1.0, kNominalPeriod);
   for (int k = 200; k < 3000; ++k)  // the clock has jumped by 1 ms
-    edge.add(k, 5.001 + k * kPeriod, 1.0, kPeriod);
-  EXPECT_NEAR(edge.state(2999, 50e-6).time, 5.001 + 2999 * kPeriod, 2e-6);
+    edge.add(k, 5.001 + k * kNominalPeriod, 1.0, kNominalPeriod);
+  EXPECT_NEAR(edge.state(2999, 50e-6).time, 5.001 + 2999 * kNominalPeriod, 2e-6);
 }
 
 TEST(SteadyEdge, stays_precise_for_days) {
-  const double period = kPeriod + 3e-6;
-  SteadyEdge young(kPeriod, kTolerance), old(kPeriod, kTolerance);
+  const double period = kNominalPeriod + 3e-6;
+  SteadyEdge young(kNominalPeriod, kDriftTolerance), old(kNominalPeriod, kDriftTolerance);
   for (int k = 0; k < 60; ++k)
     old.add(k, 1000.0 + k * period, 1.0, period);
   constexpr std::int64_t kDays = 100000000;  // 11 of them
@@ -146,10 +149,10 @@ TEST(SteadyEdge, stays_precise_for_days) {
 }
 
 TEST(SteadyEdge, is_not_ready_before_it_has_seen_a_few_seconds) {
-  SteadyEdge edge(kPeriod, kTolerance);
+  SteadyEdge edge(kNominalPeriod, kDriftTolerance);
   EXPECT_FALSE(edge.ready());
   for (int k = 0; k < 400; ++k)
-    edge.add(k, k * kPeriod, 1.0, kPeriod);
+    edge.add(k, k * kNominalPeriod, 1.0, kNominalPeriod);
   EXPECT_TRUE(edge.ready());
   edge.clear();
   EXPECT_FALSE(edge.ready());

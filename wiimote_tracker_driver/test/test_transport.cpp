@@ -1,4 +1,5 @@
 // Device names, error sentences, and the socket transport against the virtual remote.
+#include "contains.h"
 #include "transport/hidraw_transport.h"
 #include "transport/transport.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
@@ -23,10 +24,6 @@ namespace {
 
 using protocol::Report;
 using virtual_wiimote::Server;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 template <typename Error, typename F>
 std::string sentenceOf(F f) {

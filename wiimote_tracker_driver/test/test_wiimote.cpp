@@ -894,7 +894,7 @@ TEST_F(WiimoteTest, SettingSomethingWhenTheRemoteHasJustGoneIsHarmless) {
 
 // ---- Formats
 
-Options withFormat(protocol::IrFormat format) {
+Options optionsOf(protocol::IrFormat format) {
   Options options;
   options.session.ir_format = format;
   return options;
@@ -902,7 +902,7 @@ Options withFormat(protocol::IrFormat format) {
 
 class BasicFormat : public WiimoteTest {
  protected:
-  BasicFormat() : WiimoteTest(withFormat(protocol::IrFormat::kBasic)) {}
+  BasicFormat() : WiimoteTest(optionsOf(protocol::IrFormat::kBasic)) {}
 };
 
 TEST_F(BasicFormat, Streams) {
@@ -926,7 +926,7 @@ TEST_F(BasicFormat, Streams) {
 
 class FullFormat : public WiimoteTest {
  protected:
-  FullFormat() : WiimoteTest(withFormat(protocol::IrFormat::kFull)) {}
+  FullFormat() : WiimoteTest(optionsOf(protocol::IrFormat::kFull)) {}
 };
 
 TEST_F(FullFormat, StreamsCompleteImagesAtHalfTheRate) {
@@ -956,7 +956,7 @@ TEST_F(FullFormat, OtherReportIdsAreCorrected) {
 
 TEST(Format, MustBeChosen) {
   EXPECT_THROW(Session(
-                   withFormat(protocol::IrFormat::kNone).session, [](const Report&) {}, 0.0),
+                   optionsOf(protocol::IrFormat::kNone).session, [](const Report&) {}, 0.0),
                std::invalid_argument);
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using geometry::test::Random;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTooFar = std::numeric_limits<double>::infinity();
 
 double costOf(const SpotCosts& costs, const std::array<int, kMaximumSpots>& track_of_spot) {
   double cost = 0.0;
@@ -44,7 +44,7 @@ double leastCost(const SpotCosts& costs, std::size_t spot, unsigned taken) {
   }
   double least = costs.ghost[spot] + leastCost(costs, spot + 1, taken);
   for (std::size_t track = 0; track < costs.tracks; ++track) {
-    if ((taken >> track & 1u) || costs.pair[spot][track] == kInfinity)
+    if ((taken >> track & 1u) || costs.pair[spot][track] == kTooFar)
       continue;
     least =
         std::min(least, costs.pair[spot][track] + leastCost(costs, spot + 1, taken | 1u << track));

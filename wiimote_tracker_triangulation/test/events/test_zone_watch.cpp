@@ -27,7 +27,7 @@ tracking::TrackedLed led(const Vector3d& position,
   return result;
 }
 
-tracking::Snapshot snapshot(double time, const std::vector<tracking::TrackedLed>& leds) {
+tracking::Snapshot snapshotAt(double time, const std::vector<tracking::TrackedLed>& leds) {
   tracking::Snapshot result;
   result.time = time;
   result.leds = leds;
@@ -39,7 +39,7 @@ class ZoneWatchTest : public testing::Test {
   ZoneWatchTest() { watch_.setZones({kBox}); }
 
   void show(double time, const std::vector<tracking::TrackedLed>& leds) {
-    for (const ZoneCrossing& crossing : watch_.update(snapshot(time, leds)))
+    for (const ZoneCrossing& crossing : watch_.update(snapshotAt(time, leds)))
       events_.push_back(crossing);
   }
 
@@ -209,10 +209,10 @@ TEST(ZoneWatch, AgreesWithFineSteps) {
     constexpr int kSteps = 300;
     for (int step = 0; step < 20; ++step) {
       const Vector3d to(place(random), place(random), place(random));
-      append(coarse.update(snapshot(step + 1.0, {led(to)})), &seen);
+      append(coarse.update(snapshotAt(step + 1.0, {led(to)})), &seen);
       for (int i = step == 0 ? kSteps : 1; i <= kSteps; ++i) {
         const double share = static_cast<double>(i) / kSteps;
-        append(fine.update(snapshot(step + share, {led(from + share * (to - from))})), &expected);
+        append(fine.update(snapshotAt(step + share, {led(from + share * (to - from))})), &expected);
       }
       from = to;
     }

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::Random;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
 
 class RigFile : public testing::Test {
  protected:
@@ -307,7 +307,7 @@ TEST_F(RigFile, CannotBeWrittenWhereThereIsNoFolder) {
 TEST_F(RigFile, AnUnusableRigIsNotWritten) {
   write(fullRig());
   Rig bad = fullRig();
-  bad.cameras[1].camera.intrinsics.fx = kNaN;
+  bad.cameras[1].camera.intrinsics.fx = kUnset;
   EXPECT_THROW(writeRigFile(bad, path_), InvalidRigError);
   bad = fullRig();
   bad.cameras[1].camera.name = bad.cameras[0].camera.name;

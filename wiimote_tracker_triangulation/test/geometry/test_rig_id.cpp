@@ -16,7 +16,7 @@ namespace {
 
 using test::Random;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotSet = std::numeric_limits<double>::quiet_NaN();
 
 Rig someRig() {
   Random random(31);
@@ -96,7 +96,7 @@ TEST(RigId, DoesNotChangeWithWhatMovesNoPoint) {
       [](Rig& r) { r.cameras[0].residual_px = 0.3; },
       [](Rig& r) { r.cameras[0].gravity = Eigen::Vector3d(0.0, -9.8, 0.0); },
       [](Rig& r) { r.cameras[0].camera.intrinsics.distortion[1] = 0.0; },
-      [](Rig& r) { r.cameras[0].time_offset = -kNaN; },
+      [](Rig& r) { r.cameras[0].time_offset = -kNotSet; },
   };
   Rig reference = someRig();
   reference.cameras[0].camera.intrinsics.distortion[1] = -0.0;
@@ -123,7 +123,7 @@ TEST(Rotation, QuaternionSurvivesEveryRoundTripBitForBit) {
 }
 
 TEST(Rotation, TerminatesForAnyMatrix) {
-  const Eigen::Matrix3d nothing = Eigen::Matrix3d::Constant(kNaN);
+  const Eigen::Matrix3d nothing = Eigen::Matrix3d::Constant(kNotSet);
   EXPECT_FALSE(canonicalQuaternion(nothing).coeffs().allFinite());
   canonicalQuaternion(Eigen::Matrix3d::Zero());
   canonicalQuaternion(Eigen::Matrix3d::Constant(1e300));
@@ -164,9 +164,10 @@ TEST(Rig, CheckNamesTheCameraAndTheFault) {
   EXPECT_TRUE(names([](Rig& r) { r.cameras[2].camera.name = ""; }, "no name"));
   EXPECT_TRUE(names([](Rig& r) { r.cameras[2].camera.name = "a b"; }, "'a b'"));
   EXPECT_TRUE(names([](Rig& r) { r.cameras[2].camera.name = "1st"; }, "'1st'"));
-  EXPECT_TRUE(names([](Rig& r) { r.cameras[1].camera.intrinsics.fx = kNaN; }, "camera_1': fx"));
-  EXPECT_TRUE(names([](Rig& r) { r.cameras[1].camera.world_from_camera.translation().x() = kNaN; },
-                    "camera_1"));
+  EXPECT_TRUE(names([](Rig& r) { r.cameras[1].camera.intrinsics.fx = kNotSet; }, "camera_1': fx"));
+  EXPECT_TRUE(
+      names([](Rig& r) { r.cameras[1].camera.world_from_camera.translation().x() = kNotSet; },
+            "camera_1"));
   EXPECT_TRUE(names([](Rig& r) { r.cameras[1].camera.world_from_camera.linear() *= 1.1; },
                     "not a rotation"));
   EXPECT_TRUE(names([](Rig& r) { r.cameras[1].camera.world_from_camera.linear() *= -1.0; },

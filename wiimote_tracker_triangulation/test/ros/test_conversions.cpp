@@ -25,7 +25,7 @@ using geometry::Rig;
 using geometry::test::Random;
 using wiimote_tracker_msgs::RigCalibration;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
 
 Rig fullRig() {
   Random random(61);
@@ -201,10 +201,10 @@ TEST(Conversions, RefusesInvalidMessages) {
   EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].distortion.pop_back(); }, "camera_1"));
   EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].gravity.pop_back(); }, "gravity"));
   EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].time_offset_rule = 9; }, "camera_1"));
-  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].fx = kNaN; }, "fx"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].fx = kUnset; }, "fx"));
   EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].width = 0; }, "width"));
   EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].width = 4294967295u; }, "width"));
-  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].world_from_camera.position.x = kNaN; },
+  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].world_from_camera.position.x = kUnset; },
                    "camera_1"));
   EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].world_from_camera.orientation.w += 0.1; },
                    "quaternion"));

@@ -1,5 +1,6 @@
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
+#include "allocation_counter.h"
 #include "simulated_link.h"
 #include "timing_trial.h"
 
@@ -7,29 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <cstdint>
 #include <limits>
-#include <new>
 #include <random>
 #include <vector>
-
-namespace {
-bool counting = false;
-int allocations = 0;
-}  // namespace
-
-void* operator new(std::size_t size) {
-  allocations += counting;
-  if (void* memory = std::malloc(size))
-    return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace wiimote_tracker::exposure_clock {
 namespace {
@@ -407,12 +389,10 @@ TEST(ExposureClockProperties, hold_for_any_arrivals) {
 TEST(ExposureClockProperties, no_allocation_per_report) {
   const SimulatedSession session = simulate(edge(0.005), 10.0, 2);
   ExposureClock clock;
-  allocations = 0;
-  counting = true;
+  const std::uint64_t before = allocations().made;
   for (const virtual_wiimote::FrameTime& report : session.reports)
     clock.update(report.arrival);
-  counting = false;
-  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(before, allocations().made);
 }
 
 }  // namespace

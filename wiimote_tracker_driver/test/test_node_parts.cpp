@@ -4,10 +4,10 @@
 #include "ros/driver_parameters.h"
 #include "ros/joy_publisher.h"
 #include "ros/link_diagnostics.h"
-#include "ros/log_exceptions.h"
 
 #include <gtest/gtest.h>
 #include <wiimote_tracker_driver/DriverConfig.h>
+#include <wiimote_tracker_msgs/log_exceptions.h>
 #include <yaml-cpp/yaml.h>
 
 #include <array>

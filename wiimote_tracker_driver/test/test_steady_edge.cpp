@@ -13,7 +13,7 @@
 namespace wiimote_tracker::exposure_clock {
 namespace {
 
-constexpr double kNominalPeriod = 0.010035;
+constexpr double kEdgePeriod = 0.010035;
 constexpr double kDriftTolerance = 6e-6;
 
 struct Report {
@@ -48,7 +48,7 @@ ClockState bruteForce(const std::vector<Report>& reports, std::int64_t frame, do
     for (const Report& report : reports)
       least =
           std::min(least, report.arrival - 1000.0 -
-                              static_cast<double>(report.frame) * (kNominalPeriod + drift.back()));
+                              static_cast<double>(report.frame) * (kEdgePeriod + drift.back()));
     bound.push_back(least);
     weight.push_back(rate * (least + center * drift.back()));
     greatest = std::max(greatest, weight.back());
@@ -57,7 +57,7 @@ ClockState bruteForce(const std::vector<Report>& reports, std::int64_t frame, do
   ClockState mean;
   const auto n = static_cast<double>(frame);
   const auto time = [&](std::size_t i) {
-    return bound[i] + n * (kNominalPeriod + drift[i]) - 1.0 / rate;
+    return bound[i] + n * (kEdgePeriod + drift[i]) - 1.0 / rate;
   };
   for (std::size_t i = 0; i < weight.size(); ++i) {
     weight[i] = std::exp(weight[i] - greatest);
@@ -75,7 +75,7 @@ ClockState bruteForce(const std::vector<Report>& reports, std::int64_t frame, do
   }
   mean.p00 += 1.0 / (rate * rate);
   mean.time += 1000.0;
-  mean.period += kNominalPeriod;
+  mean.period += kEdgePeriod;
   return mean;
 }
 
@@ -83,12 +83,12 @@ TEST(SteadyEdge, is_the_posterior_mean_and_covariance) {
   int differ = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const double spread = seed % 2 ? 0.005 : 0.002;
-    const auto reports = exponentialReports(700, spread, kNominalPeriod + 3e-6, seed);
-    SteadyEdge edge(kNominalPeriod, kDriftTolerance);
+    const auto reports = exponentialReports(700, spread, kEdgePeriod + 3e-6, seed);
+    SteadyEdge edge(kEdgePeriod, kDriftTolerance);
     // Reports ignored while it settles are ignored by brute force too.
     std::vector<Report> used;
     for (const Report& report : reports) {
-      edge.add(report.frame, report.arrival, 1.0, kNominalPeriod + 3e-6);
+      edge.add(report.frame, report.arrival, 1.0, kEdgePeriod + 3e-6);
       if (report.frame >= 25)
         used.push_back(report);
     }
@@ -109,29 +109,29 @@ TEST(SteadyEdge, is_the_posterior_mean_and_covariance) {
 }
 
 TEST(SteadyEdge, with_equal_delays_it_is_the_line_itself) {
-  SteadyEdge edge(kNominalPeriod, kDriftTolerance);
+  SteadyEdge edge(kEdgePeriod, kDriftTolerance);
   for (int k = 0; k < 5000; ++k)
-    edge.add(k, 7.0 + k * (kNominalPeriod - 2e-6), 1.0, kNominalPeriod);
+    edge.add(k, 7.0 + k * (kEdgePeriod - 2e-6), 1.0, kEdgePeriod);
   const ClockState state = edge.state(4999, 20e-6);
-  EXPECT_NEAR(state.time, 7.0 + 4999 * (kNominalPeriod - 2e-6), 1e-6);
-  EXPECT_NEAR(state.period, kNominalPeriod - 2e-6, 1e-9);
+  EXPECT_NEAR(state.time, 7.0 + 4999 * (kEdgePeriod - 2e-6), 1e-6);
+  EXPECT_NEAR(state.period, kEdgePeriod - 2e-6, 1e-9);
   EXPECT_GT(state.p00, 0.0);
   EXPECT_GE(state.p11, 0.0);
 }
 
 TEST(SteadyEdge, forgets_what_is_older_than_its_memory) {
-  SteadyEdge edge(kNominalPeriod, kDriftTolerance);
-  edge.add(0, 5.0, 1.0, kNominalPeriod);
+  SteadyEdge edge(kEdgePeriod, kDriftTolerance);
+  edge.add(0, 5.0, 1.0, kEdgePeriod);
   for (int k = 1; k < 200; ++k)
-    edge.add(k, 5.0 + k * kNominalPeriod, 1.0, kNominalPeriod);
+    edge.add(k, 5.0 + k * kEdgePeriod, 1.0, kEdgePeriod);
   for (int k = 200; k < 3000; ++k)  // the clock has jumped by 1 ms
-    edge.add(k, 5.001 + k * kNominalPeriod, 1.0, kNominalPeriod);
-  EXPECT_NEAR(edge.state(2999, 50e-6).time, 5.001 + 2999 * kNominalPeriod, 2e-6);
+    edge.add(k, 5.001 + k * kEdgePeriod, 1.0, kEdgePeriod);
+  EXPECT_NEAR(edge.state(2999, 50e-6).time, 5.001 + 2999 * kEdgePeriod, 2e-6);
 }
 
 TEST(SteadyEdge, stays_precise_for_days) {
-  const double period = kNominalPeriod + 3e-6;
-  SteadyEdge young(kNominalPeriod, kDriftTolerance), old(kNominalPeriod, kDriftTolerance);
+  const double period = kEdgePeriod + 3e-6;
+  SteadyEdge young(kEdgePeriod, kDriftTolerance), old(kEdgePeriod, kDriftTolerance);
   for (int k = 0; k < 60; ++k)
     old.add(k, 1000.0 + k * period, 1.0, period);
   constexpr std::int64_t kDays = 100000000;  // 11 of them
@@ -149,10 +149,10 @@ TEST(SteadyEdge, stays_precise_for_days) {
 }
 
 TEST(SteadyEdge, is_not_ready_before_it_has_seen_a_few_seconds) {
-  SteadyEdge edge(kNominalPeriod, kDriftTolerance);
+  SteadyEdge edge(kEdgePeriod, kDriftTolerance);
   EXPECT_FALSE(edge.ready());
   for (int k = 0; k < 400; ++k)
-    edge.add(k, k * kNominalPeriod, 1.0, kNominalPeriod);
+    edge.add(k, k * kEdgePeriod, 1.0, kEdgePeriod);
   EXPECT_TRUE(edge.ready());
   edge.clear();
   EXPECT_FALSE(edge.ready());

@@ -1,9 +1,9 @@
 #include "driver.h"
 
-#include "log_exceptions.h"
 #include "realtime_priority.h"
 #include "transport/users.h"
 
+#include <wiimote_tracker_msgs/log_exceptions.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
 #include <pthread.h>

@@ -1,8 +1,7 @@
 #include "live_settings.h"
 
-#include "log_exceptions.h"
-
 #include <ros/console.h>
+#include <wiimote_tracker_msgs/log_exceptions.h>
 
 #include <stdexcept>
 

@@ -1,26 +1,14 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_CALLBACKS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_CALLBACKS_H
 
-#include <ros/console.h>
 #include <ros/message_event.h>
 #include <ros/node_handle.h>
+#include <wiimote_tracker_msgs/log_exceptions.h>
 
 #include <cstdint>
-#include <exception>
 #include <string>
 
-/// No exception may leave a callback: roscpp would end the process, with all nodelets in it.
 namespace wiimote_tracker {
-
-/// Calls `work` and logs what it throws.
-template <typename Work>
-void logExceptions(const std::string& callback, const Work& work) {
-  try {
-    work();
-  } catch (const std::exception& e) {
-    ROS_ERROR_THROTTLE(1.0, "%s: %s", callback.c_str(), e.what());
-  }
-}
 
 /// Subscribes without Nagle's algorithm, which delays small messages.
 /// @param queue_size messages that may wait; then roscpp drops the oldest.

@@ -142,13 +142,27 @@ prepare_workspace() {
   done
 }
 
-# build_workspace [make targets or CMake arguments]
+# make_workspace [make targets or CMake arguments]
 # Demo and tests share the build, so both build with these flags. -g1 compiles in three quarters of
 # the time of -g, and still names files and lines.
-build_workspace() {
-  run catkin_make -C "$workspace" -j"$(jobs_that_fit)" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+make_workspace() {
+  catkin_make -C "$workspace" -j"$(jobs_that_fit)" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
     -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O2 -g1 -DNDEBUG" -DWIIMOTE_TRACKER_WERROR=ON \
     -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "$@"
+}
+
+# The same, but prints only how far it is; build.log has the rest.
+make_with_progress() {
+  local line percent shown=0 left
+  SECONDS=0
+  make_workspace "$@" 2>&1 | tee "$workspace/build.log" | while IFS= read -r line; do
+    [[ $line =~ ^\[\ *([0-9]+)%\] ]] || continue
+    percent=${BASH_REMATCH[1]}
+    (( percent >= shown + 5 )) || continue
+    shown=$percent
+    left=$(( SECONDS * (100 - percent) / percent / 60 + 1 ))
+    (( percent == 100 )) && say "  built" || say "  $percent %, about $left min left"
+  done
 }
 
 use_workspace() {

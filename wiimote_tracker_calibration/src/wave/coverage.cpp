@@ -15,7 +15,7 @@ namespace {
 
 // A light's spot moves less than this from image to image [px], and is back within [s].
 constexpr double kLongestJump = 80.0;
-constexpr double kLongestGap = 0.05;
+constexpr double kLongestTrackGap = 0.05;
 // Speeds are taken over this time [s]; a spot slower than this [px/s] is still.
 constexpr double kSpan = 0.1;
 constexpr double kStill = 30.0;
@@ -109,7 +109,7 @@ void Coverage::follow(View* view, const Frame& frame) const {
   std::vector<Track>& tracks = view->tracks;
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
                               [&](const Track& track) {
-                                return frame.stamp - track.places.back().first > kLongestGap;
+                                return frame.stamp - track.places.back().first > kLongestTrackGap;
                               }),
                tracks.end());
   std::vector<bool> taken(tracks.size(), false);

@@ -11,17 +11,17 @@ namespace wiimote_tracker::wave {
 namespace {
 
 // A lamp's spot stays within this [px].
-constexpr double kCell = 8.0;
+constexpr double kImageCell = 8.0;
 // The LED, which moves, is at one place in far fewer of the frames than a lamp.
-constexpr double kLeastShare = 0.25;
+constexpr double kLampShare = 0.25;
 // With fewer frames nothing can be said.
 constexpr std::size_t kLeastFrames = 100;
 
 using Cell = std::pair<int, int>;
 
 Cell cellOf(const Eigen::Vector2d& spot) {
-  return {static_cast<int>(std::floor(spot.x() / kCell)),
-          static_cast<int>(std::floor(spot.y() / kCell))};
+  return {static_cast<int>(std::floor(spot.x() / kImageCell)),
+          static_cast<int>(std::floor(spot.y() / kImageCell))};
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ std::vector<Frame> movingSpots(const std::vector<Frame>& frames) {
         count += found == frames_with_spot.end() ? 0 : found->second;
       }
     }
-    return static_cast<double>(count) > kLeastShare * static_cast<double>(with_spots);
+    return static_cast<double>(count) > kLampShare * static_cast<double>(with_spots);
   };
   for (Frame& frame : moving)
     frame.spots.erase(std::remove_if(frame.spots.begin(), frame.spots.end(), still),

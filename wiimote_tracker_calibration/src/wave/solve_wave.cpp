@@ -23,7 +23,7 @@ namespace wiimote_tracker::wave {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // Spots are matched more and more closely. At the start lenses, clocks and poses are off [px].
 constexpr double kWideGates[] = {40.0, 12.0};
 constexpr double kWideLosses[] = {8.0, 3.0};
@@ -63,7 +63,7 @@ class Reporter {
 /// digits left for the microseconds that an adjustment moves a clock by.
 Recording prepared(const Recording& input) {
   Recording recording = input;
-  double start = kInfinity;
+  double start = kInfinite;
   for (const CameraRecording& camera : input.cameras)
     start = std::min(start, camera.frames.front().stamp);
   for (CameraRecording& camera : recording.cameras) {
@@ -130,7 +130,7 @@ Fit adjust(const Recording& recording,
     checkMatching(recording, matching);
     const bool same = round > 0 && sameSpots(matching.matches, fit.matching.matches);
     fit.matching = std::move(matching);
-    adjustment->use(fit.matching.matches, kInfinity);
+    adjustment->use(fit.matching.matches, kInfinite);
     fit.iterations += adjustment->solve(state, keep_going);
     const double misfit = adjustment->misfit(*state);
     if (same && std::abs(misfit - 1.0) < kNoiseSettled)

@@ -22,9 +22,9 @@ namespace {
 // Times at which the views are compared. More do not make the start better, only slower.
 constexpr std::size_t kInstants = 200;
 // Frames farther apart than this are not joined [s].
-constexpr double kLongestGap = 0.035;
+constexpr double kLongestFrameGap = 0.035;
 // Nor are spots that jump more than this from frame to frame [px].
-constexpr double kLongestJump = 80.0;
+constexpr double kLongestFrameJump = 80.0;
 // Lenses are off by several per cent and clocks by milliseconds: so are the pixels [px]. Narrow and
 // wide in turns.
 constexpr double kTolerances[] = {6.0, 12.0};
@@ -50,8 +50,8 @@ std::optional<Eigen::Vector2d> middleAt(const std::vector<Frame>& frames, double
   const double gap = after->stamp - before->stamp;
   const auto first = middle(*before, wand);
   const auto second = middle(*after, wand);
-  if (!first || !second || !(gap > 0.0) || gap > kLongestGap ||
-      (*second - *first).norm() > kLongestJump)
+  if (!first || !second || !(gap > 0.0) || gap > kLongestFrameGap ||
+      (*second - *first).norm() > kLongestFrameJump)
     return std::nullopt;
   return *first + (time - before->stamp) / gap * (*second - *first);
 }

@@ -107,7 +107,7 @@ def test_python_uses_nothing_that_noetic_lacks():
 # --- package.xml against CMakeLists.txt
 
 # Arguments of find_package() and pkg_check_modules(), as rosdep keys.
-ROSDEP_KEY = {'CLI11': 'cli11', 'Eigen3': 'eigen', 'yaml-cpp': 'yaml-cpp', 'Ceres': 'libceres-dev',
+ROSDEP_KEY = {'Eigen3': 'eigen', 'yaml-cpp': 'yaml-cpp', 'Ceres': 'libceres-dev',
               'OpenCV': 'libopencv-dev', 'hidapi-hidraw': 'libhidapi-dev', 'Boost': 'boost'}
 # Parts of every toolchain.
 NOT_PACKAGES = {'catkin', 'Threads', 'PkgConfig', 'GTest', 'PythonInterp'}

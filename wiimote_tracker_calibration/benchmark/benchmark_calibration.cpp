@@ -1,11 +1,10 @@
 // How good a calibration is, beside what is possible at best: one table per section.
 #include "benchmark_calibration_sections.h"
 
+#include <wiimote_tracker_msgs/argument_parser.h>
+
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <exception>
 #include <string>
 #include <vector>
 
@@ -52,11 +51,34 @@ void runSection(const BenchmarkSection& section, int runs, bool first_section, s
     std::fprintf(json, "\n ]");
 }
 
-int usage() {
-  std::fprintf(stderr,
-               "usage: benchmark_calibration [--json FILE] [--runs N, at least 2] "
-               "[--section NAME]\n");
-  return 2;
+/// All sections, or the one named `only`. @param path of the JSON; empty: none.
+/// @returns the exit status.
+int run(const std::vector<BenchmarkSection>& sections,
+        const std::string& only,
+        int runs,
+        const std::string& path) {
+  std::FILE* file = path.empty() ? nullptr : std::fopen(path.c_str(), "w");
+  if (!path.empty() && !file) {
+    std::perror(path.c_str());
+    return 1;
+  }
+  std::printf("Simulated, %d sessions per row, fixed seeds.\n", runs);
+  if (file)
+    std::fprintf(file, "{");
+  bool first = true;
+  for (const BenchmarkSection& section : sections) {
+    if (!only.empty() && section.name != only)
+      continue;
+    runSection(section, runs, first, file);
+    first = false;
+  }
+  if (file)
+    std::fprintf(file, "\n}\n");
+  if (file && std::fclose(file) != 0) {
+    std::perror(path.c_str());
+    return 1;
+  }
+  return 0;
 }
 
 }  // namespace
@@ -65,54 +87,15 @@ int main(int argc, char** argv) {
   const std::vector<BenchmarkSection> sections = {poseSection(),  poseMethodsSection(),
                                                   waveSection(),  waveTimeSection(),
                                                   paperSection(), remapSection()};
-  const char* json = nullptr;
-  const char* only = nullptr;
+  std::vector<std::string> names;
+  for (const BenchmarkSection& section : sections)
+    names.push_back(section.name);
+  std::string path;
+  std::string only;
   int runs = 20;
-  for (int i = 1; i < argc; i += 2) {
-    if (i + 1 >= argc)
-      return usage();
-    if (!std::strcmp(argv[i], "--json"))
-      json = argv[i + 1];
-    else if (!std::strcmp(argv[i], "--runs"))
-      runs = std::atoi(argv[i + 1]);
-    else if (!std::strcmp(argv[i], "--section"))
-      only = argv[i + 1];
-    else
-      return usage();
-  }
-  if (runs < 2)
-    return usage();
-  std::FILE* file = json ? std::fopen(json, "w") : nullptr;
-  if (json && !file) {
-    std::perror(json);
-    return 1;
-  }
-  std::printf("Simulated, %d sessions per row, fixed seeds.\n", runs);
-  bool found = false;
-  try {
-    if (file)
-      std::fprintf(file, "{");
-    for (const BenchmarkSection& section : sections) {
-      if (only && section.name != only)
-        continue;
-      runSection(section, runs, !found, file);
-      found = true;
-    }
-    if (file)
-      std::fprintf(file, "\n}\n");
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  if (file && std::fclose(file) != 0) {
-    std::perror(json);
-    return 1;
-  }
-  if (!found) {
-    std::fprintf(stderr, "no section %s; there are:\n", only);
-    for (const BenchmarkSection& section : sections)
-      std::fprintf(stderr, "  %s\n", section.name.c_str());
-    return 2;
-  }
-  return 0;
+  ArgumentParser parser("benchmark_calibration", "Simulates, and prints one table per section.");
+  parser.option("--json FILE", &path, "write the tables to this file, too");
+  parser.option("--section NAME", &only, names, "run only this one");
+  parser.option("--runs N", &runs, 2, 1000000000, "simulated sessions per row");
+  return parser.run(argc, argv, [&] { return run(sections, only, runs, path); });
 }

@@ -4,10 +4,11 @@
 
 #include <sys/wait.h>
 #include <unistd.h>
+#include <wiimote_tracker_msgs/argument_parser.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -17,51 +18,13 @@ using namespace wiimote_tracker;
 
 namespace {
 
-constexpr char kUsage[] =
-    "usage: benchmark_driver [--sections load,soak,timing] [--json FILE]\n"
-    "                        [--remotes N] [--seconds S] [--reports N]\n"
-    "\n"
-    "load    N (32) virtual remotes at 100 Hz into driver nodelets in this process, for S (30)\n"
-    "        seconds; brings its own ROS master\n"
-    "soak    N (60000000) reports through decoder and state machine in fake time\n"
-    "timing  the table of benchmark_timing\n";
-
 struct Options {
   std::string sections = "load,soak,timing";
   std::string json;
   int remotes = 32;
-  double seconds = 30.0;
+  double seconds = 30.0;  // [s]
   std::uint64_t reports = 60000000;
 };
-
-Options parse(int argc, char** argv) {
-  Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string name = argv[i];
-    if (i + 1 >= argc)
-      throw std::invalid_argument(kUsage);
-    const char* value = argv[++i];
-    if (name == "--sections")
-      options.sections = value;
-    else if (name == "--json")
-      options.json = value;
-    else if (name == "--remotes")
-      options.remotes = std::atoi(value);
-    else if (name == "--seconds")
-      options.seconds = std::atof(value);
-    else if (name == "--reports")
-      options.reports = std::strtoull(value, nullptr, 10);
-    else
-      throw std::invalid_argument(kUsage);
-  }
-  if (options.remotes < 1 || options.remotes > 256)
-    throw std::invalid_argument("--remotes must be from 1 to 256\n");
-  if (!(options.seconds >= 1.0 && options.seconds <= 500.0))
-    throw std::invalid_argument("--seconds must be from 1 to 500\n");
-  if (options.reports < 10000000)
-    throw std::invalid_argument("--reports must be at least 10000000, more than a day's worth\n");
-  return options;
-}
 
 bool asked(const Options& options, const std::string& section) {
   return ("," + options.sections + ",").find("," + section + ",") != std::string::npos;
@@ -127,7 +90,7 @@ int run(const Options& options) {
     add("timing", "{\"unit\": \"s; wrong_*, error_over_stddev, within_2_stddev: 1\",\n\"rows\": " +
                       runTimingProgram() + "}");
   if (text.empty())
-    throw std::invalid_argument(kUsage);
+    throw BadArguments("--sections must name load, soak or timing");
   if (!options.json.empty()) {
     std::ofstream file(options.json);
     file << text << "\n}\n";
@@ -142,13 +105,18 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(parse(argc, argv));
-  } catch (const std::invalid_argument& e) {
-    std::fprintf(stderr, "%s", e.what());
-    return 2;
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "%s\n", e.what());
-    return 1;
-  }
+  Options options;
+  ArgumentParser parser(
+      "benchmark_driver",
+      "load    virtual remotes at 100 Hz into driver nodelets in this process; brings its own ROS\n"
+      "        master\n"
+      "soak    reports through decoder and state machine in fake time\n"
+      "timing  the table of benchmark_timing");
+  parser.option("--sections A,B,...", &options.sections, "what to run");
+  parser.option("--json FILE", &options.json, "write the results to this file, too");
+  parser.option("--remotes N", &options.remotes, 1, 256, "of the load");
+  parser.option("--seconds S", &options.seconds, 1.0, 500.0, "of the load [s]");
+  // At least more than a day's worth, so that what grows has time to.
+  parser.option("--reports N", &options.reports, 10000000, 1000000000000, "of the soak");
+  return parser.run(argc, argv, [&] { return run(options); });
 }

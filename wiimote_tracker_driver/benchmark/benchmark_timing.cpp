@@ -1,11 +1,12 @@
 // Exposure times from arrival times: our clock and others, for every model of the link.
 #include "timing_trial.h"
 
+#include <wiimote_tracker_msgs/argument_parser.h>
 #include <wiimote_tracker_msgs/text.h>
 
+#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -45,37 +46,13 @@ std::vector<Row> rows() {
   add(Core::kBell, 2.4e-3, 0.3e-3, 1.25e-3, 0.3);
   return rows;
 }
-}  // namespace
 
-int main(int argc, char** argv) {
-  const char* json = nullptr;
-  int sessions = 200;
-  std::uint64_t seed = 1;
-  double duration = 10.0;
-  for (int i = 1; i < argc; ++i) {
-    const bool more = i + 1 < argc;
-    if (!std::strcmp(argv[i], "--json") && more) {
-      json = argv[++i];
-    } else if (!std::strcmp(argv[i], "--sessions") && more) {
-      sessions = std::atoi(argv[++i]);
-    } else if (!std::strcmp(argv[i], "--seed") && more) {
-      seed = std::strtoull(argv[++i], nullptr, 10);
-    } else if (!std::strcmp(argv[i], "--seconds") && more) {
-      duration = std::atof(argv[++i]);
-    } else {
-      std::fprintf(
-          stderr,
-          "usage: benchmark_timing [--json FILE] [--sessions N] [--seconds S] [--seed N]\n");
-      return 2;
-    }
-  }
-  if (sessions < 2 || !(duration >= 1.0)) {
-    std::fprintf(stderr, "Give at least 2 sessions of at least 1 second.\n");
-    return 2;
-  }
-  std::FILE* file = json ? std::fopen(json, "w") : nullptr;
-  if (json && !file) {
-    std::perror(json);
+/// @param duration of a session [s]. @param json path of a file; empty: none.
+/// @returns the exit status.
+int run(int sessions, double duration, std::uint64_t seed, const std::string& json) {
+  std::FILE* file = json.empty() ? nullptr : std::fopen(json.c_str(), "w");
+  if (!json.empty() && !file) {
+    std::perror(json.c_str());
     return 1;
   }
   std::printf(
@@ -118,9 +95,26 @@ int main(int argc, char** argv) {
   if (file) {
     std::fprintf(file, "\n]\n");
     if (std::fclose(file) != 0) {
-      std::perror(json);
+      std::perror(json.c_str());
       return 1;
     }
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string json;
+  int sessions = 200;
+  std::uint64_t seed = 1;
+  double duration = 10.0;
+  wiimote_tracker::ArgumentParser parser(
+      "benchmark_timing", "Errors of exposure times that are estimated from arrival times.");
+  parser.option("--json FILE", &json, "write the table to this file, too");
+  parser.option("--sessions N", &sessions, 2, 1000000000, "per row");
+  parser.option("--seconds S", &duration, 1.0, 1e6, "duration of a session [s]");
+  parser.option("--seed N", &seed, 0, std::numeric_limits<std::int64_t>::max(),
+                "of the random numbers");
+  return parser.run(argc, argv, [&] { return run(sessions, duration, seed, json); });
 }

@@ -1,9 +1,9 @@
 #include "benchmark_program.h"
 
+#include <wiimote_tracker_msgs/argument_parser.h>
+
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
 
 namespace wiimote_tracker {
 namespace {
@@ -13,27 +13,6 @@ struct Arguments {
   std::string section;
   BenchmarkSettings settings;
 };
-
-bool parse(int argc, char** argv, bool takes_motion, Arguments* arguments) {
-  for (int i = 1; i < argc; i += 2) {
-    if (i + 1 >= argc)
-      return false;
-    const std::string option = argv[i];
-    if (option == "--json")
-      arguments->json = argv[i + 1];
-    else if (option == "--section")
-      arguments->section = argv[i + 1];
-    else if (option == "--runs")
-      arguments->settings.runs = std::atoi(argv[i + 1]);
-    else if (option == "--seed")
-      arguments->settings.seed = static_cast<unsigned>(std::strtoul(argv[i + 1], nullptr, 10));
-    else if (takes_motion && option == "--motion")
-      arguments->settings.motion = argv[i + 1];
-    else
-      return false;
-  }
-  return arguments->settings.runs >= 1;
-}
 
 void printRow(const BenchmarkRow& row, std::vector<std::string>* columns) {
   std::vector<std::string> names;
@@ -82,6 +61,32 @@ void runSection(const BenchmarkSection& section,
     std::fprintf(json, "\n ]");
 }
 
+/// @returns the exit status.
+int run(const std::vector<BenchmarkSection>& sections, const Arguments& arguments) {
+  std::FILE* json = arguments.json.empty() ? nullptr : std::fopen(arguments.json.c_str(), "w");
+  if (!arguments.json.empty() && !json) {
+    std::perror(arguments.json.c_str());
+    return 1;
+  }
+  std::printf("Simulated; runs %d, seed %u.\n", arguments.settings.runs, arguments.settings.seed);
+  if (json)
+    std::fprintf(json, "{");
+  bool first = true;
+  for (const BenchmarkSection& section : sections) {
+    if (!arguments.section.empty() && section.name != arguments.section)
+      continue;
+    runSection(section, arguments.settings, first, json);
+    first = false;
+  }
+  if (json)
+    std::fprintf(json, "\n}\n");
+  if (json && std::fclose(json) != 0) {
+    std::perror(arguments.json.c_str());
+    return 1;
+  }
+  return 0;
+}
+
 }  // namespace
 
 int runBenchmark(const std::string& program,
@@ -90,45 +95,18 @@ int runBenchmark(const std::string& program,
                  char** argv,
                  bool takes_motion) {
   Arguments arguments;
-  if (!parse(argc, argv, takes_motion, &arguments)) {
-    std::fprintf(stderr,
-                 "usage: %s [--json FILE] [--section NAME] [--runs N, at least 1] [--seed N]%s\n",
-                 program.c_str(), takes_motion ? " [--motion FILE.csv]" : "");
-    return 2;
-  }
-  std::FILE* json = arguments.json.empty() ? nullptr : std::fopen(arguments.json.c_str(), "w");
-  if (!arguments.json.empty() && !json) {
-    std::perror(arguments.json.c_str());
-    return 1;
-  }
-  std::printf("Simulated; runs %d, seed %u.\n", arguments.settings.runs, arguments.settings.seed);
-  bool found = false;
-  try {
-    if (json)
-      std::fprintf(json, "{");
-    for (const BenchmarkSection& section : sections) {
-      if (!arguments.section.empty() && section.name != arguments.section)
-        continue;
-      runSection(section, arguments.settings, !found, json);
-      found = true;
-    }
-    if (json)
-      std::fprintf(json, "\n}\n");
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  if (json && std::fclose(json) != 0) {
-    std::perror(arguments.json.c_str());
-    return 1;
-  }
-  if (!found) {
-    std::fprintf(stderr, "no section %s; there are:\n", arguments.section.c_str());
-    for (const BenchmarkSection& section : sections)
-      std::fprintf(stderr, "  %s\n", section.name.c_str());
-    return 2;
-  }
-  return 0;
+  std::vector<std::string> names;
+  for (const BenchmarkSection& section : sections)
+    names.push_back(section.name);
+  ArgumentParser parser(program, "Simulates, and prints one table per section.");
+  parser.option("--json FILE", &arguments.json, "write the tables to this file, too");
+  parser.option("--section NAME", &arguments.section, names, "run only this one");
+  parser.option("--runs N", &arguments.settings.runs, 1, 1000000000, "repetitions per row");
+  parser.option("--seed N", &arguments.settings.seed, 0, 4294967295, "of the random numbers");
+  if (takes_motion)
+    parser.option("--motion FILE.csv", &arguments.settings.motion,
+                  "recorded motion [mm] for the section filter");
+  return parser.run(argc, argv, [&] { return run(sections, arguments); });
 }
 
 }  // namespace wiimote_tracker

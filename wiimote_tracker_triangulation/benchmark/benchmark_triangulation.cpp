@@ -2,6 +2,7 @@
 // Cramer-Rao bound, normalised error squared (3 when the covariance is consistent), time per point.
 #include "triangulation_methods.h"
 
+#include <wiimote_tracker_msgs/argument_parser.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/Cholesky>
@@ -10,8 +11,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -140,36 +139,11 @@ void write(const TriangulationScene& scene,
   std::fprintf(json, "\n ]");
 }
 
-int usage() {
-  std::fprintf(stderr,
-               "usage: benchmark_triangulation [--points N, at least 100] [--seed N] "
-               "[--json FILE]\n");
-  return 2;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  const char* path = nullptr;
-  int points = 100000;
-  unsigned seed = 1;
-  for (int i = 1; i < argc; i += 2) {
-    if (i + 1 >= argc)
-      return usage();
-    if (!std::strcmp(argv[i], "--json"))
-      path = argv[i + 1];
-    else if (!std::strcmp(argv[i], "--points"))
-      points = std::atoi(argv[i + 1]);
-    else if (!std::strcmp(argv[i], "--seed"))
-      seed = static_cast<unsigned>(std::strtoul(argv[i + 1], nullptr, 10));
-    else
-      return usage();
-  }
-  if (points < 100)
-    return usage();
-  std::FILE* json = path ? std::fopen(path, "w") : nullptr;
-  if (path && !json) {
-    std::perror(path);
+/// @param path of the JSON; empty: none. @returns the exit status.
+int run(int points, unsigned seed, const std::string& path) {
+  std::FILE* json = path.empty() ? nullptr : std::fopen(path.c_str(), "w");
+  if (!path.empty() && !json) {
+    std::perror(path.c_str());
     return 1;
   }
 
@@ -196,8 +170,22 @@ int main(int argc, char** argv) {
   if (json)
     std::fprintf(json, "\n}\n");
   if (json && std::fclose(json) != 0) {
-    std::perror(path);
+    std::perror(path.c_str());
     return 1;
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int points = 100000;
+  unsigned seed = 1;
+  std::string path;
+  ArgumentParser parser("benchmark_triangulation",
+                        "Errors of triangulated points beside the bound, and the time they take.");
+  parser.option("--points N", &points, 100, 1000000000, "points per row");
+  parser.option("--seed N", &seed, 0, 4294967295, "of the random numbers");
+  parser.option("--json FILE", &path, "write the tables to this file, too");
+  return parser.run(argc, argv, [&] { return run(points, seed, path); });
 }

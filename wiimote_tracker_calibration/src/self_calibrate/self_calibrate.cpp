@@ -7,11 +7,10 @@
 #include "wiimote_tracker_calibration/import/comparison.h"
 #include "wiimote_tracker_calibration/import/number_table.h"
 
-#include <CLI/CLI.hpp>
+#include <wiimote_tracker_msgs/argument_parser.h>
 
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -27,6 +26,7 @@ struct Arguments {
   std::string subset;      // names with commas; empty: all cameras
   std::string intrinsics;  // empty: to be estimated
   std::string json;        // empty: none
+  bool estimate = false;   // the intrinsics, as without --fix-intrinsics
   bool one_lens = false;
   bool points = false;
 };
@@ -39,17 +39,11 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
-void addTo(CLI::App* app, Arguments* arguments) {
-  app->add_option("FOLDER_OR_BAG", arguments->source, "Recording")->required();
-  app->add_option("--camera-subset", arguments->subset, "Use only these cameras: A,B,...");
-  auto* const estimate = app->add_flag("--estimate-intrinsics", "Estimate the lenses (default)");
-  auto* const fix = app->add_option("--fix-intrinsics", arguments->intrinsics,
-                                    "Lenses from a rig file, or a folder with basenameN.rad");
-  auto* const one_lens =
-      app->add_flag("--one-lens", arguments->one_lens, "All cameras have the same lens");
-  fix->excludes(estimate)->excludes(one_lens);
-  app->add_flag("--points", arguments->points, "Print the points too");
-  app->add_option("--json", arguments->json, "Write all figures, cameras and points to a file");
+/// @throws BadArguments.
+void check(const Arguments& arguments) {
+  if (!arguments.intrinsics.empty() && (arguments.estimate || arguments.one_lens))
+    throw wiimote_tracker::BadArguments(
+        "--fix-intrinsics excludes --estimate-intrinsics and --one-lens");
 }
 
 /// Prints the progress to the standard error output, at most once a second.
@@ -118,22 +112,24 @@ void writeJson(const import::Report& report, const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Calibrates synchronised cameras from what they saw of one moving light alone.");
   Arguments arguments;
-  addTo(&app, &arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  wiimote_tracker::ArgumentParser parser(
+      "self_calibrate",
+      "Calibrates synchronised cameras from what they saw of one moving light alone.");
+  parser.positional("FOLDER_OR_BAG", &arguments.source);
+  parser.option("--camera-subset A,B,...", &arguments.subset, "use only these cameras");
+  parser.flag("--estimate-intrinsics", &arguments.estimate, "estimate the lenses (default)");
+  parser.option("--fix-intrinsics FILE", &arguments.intrinsics,
+                "lenses from a rig file, or a folder with basenameN.rad");
+  parser.flag("--one-lens", &arguments.one_lens, "all cameras have the same lens");
+  parser.flag("--points", &arguments.points, "print the points too");
+  parser.option("--json FILE", &arguments.json, "write all figures, cameras and points");
+  return parser.run(argc, argv, [&] {
+    check(arguments);
     const import::Report report = solve(arguments);
     import::print(report, arguments.points, stdout);
     if (!arguments.json.empty())
       writeJson(report, arguments.json);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "self_calibrate: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+    return 0;
+  });
 }

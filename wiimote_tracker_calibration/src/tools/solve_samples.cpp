@@ -4,14 +4,12 @@
 #include "session/session_file.h"
 #include "session/solve_session.h"
 
+#include <wiimote_tracker_msgs/argument_parser.h>
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 #include <wiimote_tracker_triangulation/ros/parameter_file.h>
 
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 #include <ctime>
-#include <exception>
 #include <string>
 
 namespace {
@@ -27,21 +25,6 @@ struct Arguments {
   bool without_gravity = false;
   bool correct_principal_points = false;
 };
-
-void addTo(CLI::App* app, Arguments* arguments) {
-  app->add_option("FILE", arguments->samples, "File that save_samples wrote")->required();
-  app->add_option("--params", arguments->params,
-                  "Parameters of the node, a file like config/calibration.yaml (default: their "
-                  "defaults); the options below override it");
-  app->add_option("--rig", arguments->rig, "Write the rig to this file");
-  app->add_option("--method", arguments->method, "How to solve a square without a wave")
-      ->check(CLI::IsMember({"joint", "per_camera"}));
-  app->add_option("--ray-model", arguments->ray_model, "Camera model of the rays")
-      ->check(CLI::IsMember({"calibrated", "image_center"}));
-  app->add_flag("--without-gravity", arguments->without_gravity, "Do not use the accelerometers");
-  app->add_flag("--correct-principal-points", arguments->correct_principal_points,
-                "Correct the principal points as the paper does");
-}
 
 session::SolveOptions optionsOf(const Arguments& arguments) {
   session::SolveOptions options;
@@ -86,15 +69,23 @@ void print(const session::Solution& solution) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Solves what calibration/save_samples wrote, and prints the verdict.");
   Arguments arguments;
-  addTo(&app, &arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
-  try {
+  ArgumentParser parser("solve_samples",
+                        "Solves FILE, which calibration/save_samples wrote, and prints the "
+                        "verdict.");
+  parser.positional("FILE", &arguments.samples);
+  parser.option("--params FILE", &arguments.params,
+                "parameters of the node, a file like config/calibration.yaml (default: their "
+                "defaults); the options below override it");
+  parser.option("--rig FILE", &arguments.rig, "write the rig to this file");
+  parser.option("--method NAME", &arguments.method, {"joint", "per_camera"},
+                "how to solve a square without a wave");
+  parser.option("--ray-model NAME", &arguments.ray_model, {"calibrated", "image_center"},
+                "camera model of the rays");
+  parser.flag("--without-gravity", &arguments.without_gravity, "do not use the accelerometers");
+  parser.flag("--correct-principal-points", &arguments.correct_principal_points,
+              "correct the principal points as the paper does");
+  return parser.run(argc, argv, [&] {
     session::Solution solution =
         session::solveSession(session::readSessionFile(arguments.samples), optionsOf(arguments));
     print(solution);
@@ -103,8 +94,5 @@ int main(int argc, char** argv) {
       geometry::writeRigFile(solution.rig, arguments.rig);
     }
     return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
+  });
 }

@@ -1,13 +1,13 @@
 // A virtual Wii Remote that sees LEDs move in a circle, for trying a driver without hardware.
-#include "tools/command_line.h"
 #include "virtual_wiimote/uhid.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
+
+#include <wiimote_tracker_msgs/argument_parser.h>
 
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <exception>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -24,40 +24,25 @@ void handleSignal(int) {
 }
 
 struct Arguments {
-  std::string help;  ///< Text to print instead of anything else; or empty.
   std::string socket;
   bool uhid = false;
   bool plus = false;
   std::string address = "00:1f:32:00:00:01";
   int battery = 0xa0;
   int lights = 1;
-  Faults faults;
+  std::vector<std::string> faults;  ///< NAME=VALUE.
 };
 
-Arguments parse(int argc, char** argv) {
-  Arguments a;
-  std::vector<std::string> faults;
-  CLI::App app(
-      "A virtual Wii Remote: 100 images a second of an LED 2 m away that moves in a circle.",
-      "virtual_wiimote");
-  app.add_option("--socket", a.socket, "listen at this socket; drivers open device virtual:PATH")
-      ->type_name("PATH");
-  app.add_flag("--uhid", a.uhid,
-               "be a Bluetooth remote of this machine's kernel (needs root and the module uhid)");
-  app.add_flag("--plus", a.plus, "be an RVL-CNT-01-TR with MotionPlus, not an RVL-CNT-01");
-  app.add_option("--address", a.address, "Bluetooth address (default 00:1f:32:00:00:01)");
-  app.add_option("--battery", a.battery, "raw level of the batteries (default 160)")
-      ->check(CLI::Range(0, 255));
-  app.add_option("--lights", a.lights, "number of LEDs on the circle (default 1)")
-      ->check(CLI::Range(0, 16));
-  app.add_option("--fault", faults, "a fault to simulate; may be repeated")
-      ->type_name("NAME=VALUE");
-  a.help = tools::parse(app, argc, argv);
-  if (a.help.empty() && a.uhid == !a.socket.empty())
-    throw tools::BadArguments("give either --socket PATH or --uhid");
-  for (const std::string& fault : faults)
-    setFault(a.faults, fault);
-  return a;
+/// @throws BadArguments.
+Faults faultsOf(const Arguments& arguments) {
+  Faults faults;
+  try {
+    for (const std::string& fault : arguments.faults)
+      setFault(faults, fault);
+  } catch (const std::invalid_argument& e) {
+    throw BadArguments(e.what());
+  }
+  return faults;
 }
 
 Device::Options deviceOptions(const Arguments& arguments) {
@@ -110,9 +95,9 @@ class Display {
   bool rumble_ = false;
 };
 
-void run(HostedDevice& remote, const Arguments& arguments) {
+void run(HostedDevice& remote, const Arguments& arguments, const Faults& faults) {
   using Clock = std::chrono::steady_clock;
-  remote.setFaults(arguments.faults);
+  remote.setFaults(faults);
   Display display;
   const Clock::time_point start = Clock::now();
   for (int i = 0; !stop; ++i) {
@@ -122,11 +107,15 @@ void run(HostedDevice& remote, const Arguments& arguments) {
   }
 }
 
+/// @throws BadArguments.
 void runFor(const Arguments& arguments) {
+  if (arguments.uhid == !arguments.socket.empty())
+    throw BadArguments("give either --socket PATH or --uhid");
+  const Faults faults = faultsOf(arguments);
   if (!arguments.uhid) {
     Server server(arguments.socket, arguments.address, deviceOptions(arguments));
     std::printf("a virtual Wii Remote, device virtual:%s\n", arguments.socket.c_str());
-    run(server, arguments);
+    run(server, arguments, faults);
     return;
   }
   UhidDevice::Options options;
@@ -134,7 +123,7 @@ void runFor(const Arguments& arguments) {
   options.model = arguments.plus ? UhidDevice::Model::kRemotePlus : UhidDevice::Model::kRemote;
   UhidDevice device(arguments.address, options);
   std::printf("a virtual Wii Remote, device %s\n", arguments.address.c_str());
-  run(device, arguments);
+  run(device, arguments, faults);
 }
 
 }  // namespace
@@ -142,25 +131,24 @@ void runFor(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   using namespace wiimote_tracker::virtual_wiimote;
-  try {
-    const Arguments arguments = parse(argc, argv);
-    if (!arguments.help.empty()) {
-      std::fputs(arguments.help.c_str(), stdout);
-      return 0;
-    }
+  Arguments arguments;
+  wiimote_tracker::ArgumentParser parser(
+      "virtual_wiimote",
+      "A virtual Wii Remote: 100 images a second of an LED 2 m away that moves in a circle.");
+  parser.option("--socket PATH", &arguments.socket,
+                "listen at this socket; drivers open device virtual:PATH");
+  parser.flag("--uhid", &arguments.uhid,
+              "be a Bluetooth remote of this machine's kernel (needs root and the module uhid)");
+  parser.flag("--plus", &arguments.plus, "be an RVL-CNT-01-TR with MotionPlus, not an RVL-CNT-01");
+  parser.option("--address ADDRESS", &arguments.address, "Bluetooth address");
+  parser.option("--battery N", &arguments.battery, 0, 255, "raw level of the batteries");
+  parser.option("--lights N", &arguments.lights, 0, 16, "number of LEDs on the circle");
+  parser.option("--fault NAME=VALUE", &arguments.faults, "a fault to simulate; may be repeated");
+  return parser.run(argc, argv, [&] {
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
     std::signal(SIGINT, handleSignal);
     std::signal(SIGTERM, handleSignal);
     runFor(arguments);
     return 0;
-  } catch (const wiimote_tracker::tools::BadArguments& error) {
-    std::fprintf(stderr, "virtual_wiimote: %s\n", error.what());
-    return 2;
-  } catch (const std::invalid_argument& error) {  // of setFault()
-    std::fprintf(stderr, "virtual_wiimote: %s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "virtual_wiimote: %s\n", error.what());
-    return 1;
-  }
+  });
 }

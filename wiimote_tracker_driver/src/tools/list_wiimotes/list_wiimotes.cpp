@@ -5,7 +5,6 @@
 #include "remote_check.h"
 #include "replacement.h"
 #include "row.h"
-#include "tools/command_line.h"
 #include "transport/transport.h"
 
 #include <time.h>
@@ -13,7 +12,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -128,24 +126,15 @@ std::string today() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    const Arguments arguments = parseArguments(argc, argv);
-    if (!arguments.help.empty()) {
-      std::fputs(arguments.help.c_str(), stdout);
-      return 0;
-    }
-    if (arguments.replaced_camera.empty())
+  Arguments arguments;
+  return parserOf(&arguments).run(argc, argv, [&] {
+    check(&arguments);
+    if (arguments.replace.empty())
       return list(arguments);
-    std::fputs(replaceRemote({arguments.replaced_camera, arguments.new_address, arguments.cameras,
+    std::fputs(replaceRemote({arguments.replace[0], arguments.replace[1], arguments.cameras,
                               cameraInfoFolder(arguments), today()})
                    .c_str(),
                stdout);
     return 0;
-  } catch (const wiimote_tracker::tools::BadArguments& e) {
-    std::fprintf(stderr, "list_wiimotes: %s\n", e.what());
-    return 2;
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "list_wiimotes: %s\n", e.what());
-    return 1;
-  }
+  });
 }

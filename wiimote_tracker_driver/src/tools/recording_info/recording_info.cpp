@@ -1,7 +1,7 @@
 // Summarises recordings of Wii Remotes.
 #include "summary.h"
 
-#include "tools/command_line.h"
+#include <wiimote_tracker_msgs/argument_parser.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -29,23 +29,17 @@ int show(const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace tools = wiimote_tracker::tools;
   std::vector<std::string> files;
-  CLI::App app("Summarises recordings of Wii Remotes.", "recording_info");
-  app.add_option("FILE", files, "recordings")->required();
-  app.footer(
+  wiimote_tracker::ArgumentParser parser(
+      "recording_info",
+      "Summarises recordings of Wii Remotes.\n"
       "Exit status: 0 when all are complete, 1 when one is cut off or damaged, 2 when one cannot "
-      "be "
-      "read.");
-  try {
-    const std::string help = tools::parse(app, argc, argv);
-    std::fputs(help.c_str(), stdout);
-  } catch (const tools::BadArguments& e) {
-    std::fprintf(stderr, "recording_info: %s\n", e.what());
-    return 2;
-  }
-  int status = 0;
-  for (const std::string& file : files)
-    status = std::max(status, show(file));
-  return status;
+      "be read.");
+  parser.positional("FILE...", &files);
+  return parser.run(argc, argv, [&] {
+    int status = 0;
+    for (const std::string& file : files)
+      status = std::max(status, show(file));
+    return status;
+  });
 }

@@ -7,8 +7,8 @@
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 #include "wiimote_tracker_triangulation/ros/parameter_file.h"
 
+#include <wiimote_tracker_msgs/argument_parser.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
-#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <cstdio>
@@ -169,49 +169,32 @@ void run(const Arguments& arguments) {
   printSummary(recording, output, player.counters(), duration.count());
 }
 
-/// Reads options into `arguments`; omitted ones keep their values.
-void addOptions(CLI::App* app, Arguments* arguments) {
-  app->get_formatter()->label("Usage", "usage");
-  app->add_option("IN.bag", arguments->input, "recording to read")->required();
-  app->add_option("OUT.bag", arguments->output.bag,
-                  "bag to write: the recording without earlier results, and the new "
-                  "points, transforms, zone events and points at triggers")
-      ->required();
-  app->add_option("--mode", arguments->mode, "tracks or instant, instead of the parameters' mode");
-  app->add_option("--params", arguments->parameters,
-                  "YAML with the node's parameters; default: those of config/triangulation.yaml");
-  app->add_option("--rig", arguments->rig, "rig.yaml to use instead of the rigs in the bag");
-  app->add_option("--csv", arguments->output.csv, "also write the points as CSV");
-  app->add_option("--mat", arguments->output.matlab, "also write the points as a MATLAB file");
-  app->add_option("--namespace", arguments->name_space,
-                  "of the tracker's topics; default: that of the rig in the bag");
-  app->add_flag("--results-only", arguments->results_only,
-                "leave the recording itself out of OUT.bag");
-  app->add_option_function<unsigned>(
-         "--threads", [](const unsigned&) {}, "has no effect: one thread does all the work")
-      ->check(CLI::Range(1, 999));
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app(
-      "Computes the points of a recording from its images and its rig, as the node would have "
-      "done with nothing delayed on the way.",
-      "track_bag");
-  addOptions(&app, &arguments);
-  try {
-    app.parse(argc, argv);
+  ArgumentParser parser("track_bag",
+                        "Computes the points of a recording from its images and its rig, as the "
+                        "node would have\ndone with nothing delayed on the way. OUT.bag gets the "
+                        "recording without earlier results,\nand the new points, "
+                        "transforms, zone events and points at triggers.");
+  parser.positional("IN.bag", &arguments.input);
+  parser.positional("OUT.bag", &arguments.output.bag);
+  parser.option("--mode MODE", &arguments.mode,
+                "tracks or instant, instead of the parameters' mode");
+  parser.option("--params FILE", &arguments.parameters,
+                "YAML with the node's parameters; default: those of config/triangulation.yaml");
+  parser.option("--rig FILE", &arguments.rig, "rig.yaml to use instead of the rigs in the bag");
+  parser.option("--csv FILE", &arguments.output.csv, "also write the points as CSV");
+  parser.option("--mat FILE", &arguments.output.matlab, "also write the points as a MATLAB file");
+  parser.option("--namespace NAME", &arguments.name_space,
+                "of the tracker's topics; default: that of the rig in the bag");
+  parser.flag("--results-only", &arguments.results_only,
+              "leave the recording itself out of OUT.bag");
+  int threads = 1;
+  parser.option("--threads N", &threads, 1, 999, "has no effect: one thread does all the work");
+  return parser.run(argc, argv, [&] {
     run(arguments);
     return 0;
-  } catch (const CLI::Success& e) {  // --help
-    return app.exit(e);
-  } catch (const CLI::ParseError& e) {
-    std::fprintf(stderr, "track_bag: %s\n%s", e.what(), app.help().c_str());
-    return 2;
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "track_bag: %s\n", e.what());
-    return 1;
-  }
+  });
 }

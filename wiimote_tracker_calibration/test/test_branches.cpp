@@ -2,7 +2,6 @@
 
 #include "square/error.h"
 #include "square/planar_pose.h"
-#include "square/three_corner_pose.h"
 #include "wiimote_tracker_calibration/square/branches.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
@@ -164,44 +163,6 @@ TEST(Branches, the_other_cameras_resolve_a_camera_that_cannot_tell) {
     EXPECT_LT((solution.rig.cameras[0].camera.center() - far.translation()).norm(), 1.0);
   }
   EXPECT_GE(misled_alone, 3);
-}
-
-TEST(ThreeCornerPoses, hold_the_true_one_and_see_the_points_where_they_were_seen) {
-  Random random(9);
-  const std::array<Eigen::Vector3d, 3> points = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2, 0, 0),
-                                                 Eigen::Vector3d(2, 1.5, 0)};
-  std::size_t most = 0;
-  for (int trial = 0; trial < 1000; ++trial) {
-    Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
-    truth.linear() = Eigen::Quaterniond(uniform(random, -1, 1), uniform(random, -1, 1),
-                                        uniform(random, -1, 1), uniform(random, -1, 1))
-                         .normalized()
-                         .toRotationMatrix();
-    truth.translation() =
-        Eigen::Vector3d(uniform(random, -4, 4), uniform(random, -4, 4), uniform(random, 1, 3));
-    // On the axis of the triangle's symmetry, and over the circle round it, roots meet.
-    if (trial % 7 == 0)
-      truth.translation().head<2>() = Eigen::Vector2d(1.0, 0.75);
-    std::array<Eigen::Vector3d, 3> directions;
-    for (std::size_t i = 0; i < 3; ++i)
-      directions[i] = uniform(random, 0.1, 3.0) * (truth.inverse() * points[i]);
-    const auto poses = threeCornerPoses(points, directions);
-    most = std::max(most, poses.size());
-    double nearest = 1.0;
-    for (const Eigen::Isometry3d& pose : poses) {
-      nearest = std::min(nearest, (pose.matrix() - truth.matrix()).norm());
-      EXPECT_NEAR(pose.linear().determinant(), 1.0, 1e-9);
-      for (std::size_t i = 0; i < 3; ++i)
-        EXPECT_LT(
-            (pose.inverse() * points[i]).normalized().cross(directions[i].normalized()).norm(),
-            1e-2);
-    }
-    EXPECT_LT(nearest, 1e-4) << trial;
-  }
-  EXPECT_GE(most, 4U);
-  EXPECT_TRUE(threeCornerPoses(points, {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitZ(),
-                                        Eigen::Vector3d::UnitZ()})
-                  .empty());
 }
 
 TEST(Branches, a_wrong_branch_is_not_returned) {

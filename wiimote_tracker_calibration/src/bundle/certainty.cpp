@@ -11,8 +11,8 @@ namespace wiimote_tracker::bundle {
 
 namespace {
 
-constexpr Eigen::Index kPoseSize = 6;
-constexpr Eigen::Index kLensSize = 9;
+constexpr int kPoseSize = 6;
+constexpr int kLensSize = 9;
 constexpr double kGiven = 1e12;  // information of a parameter that is given
 constexpr double kOpen = 1e-13;  // eigenvalues below this share of the largest are rounding errors
 
@@ -65,86 +65,74 @@ double pixelStddev(const Reconstruction& reconstruction, const Options& options)
 Certainty::Certainty(const Reconstruction& reconstruction,
                      const Options& options,
                      bool fixed_lenses)
-    : one_lens_(options.one_lens),
-      camera_count_(static_cast<Eigen::Index>(reconstruction.cameras.size())) {
-  const Eigen::Index size = column(camera_count_ - 1, kPoseSize - 1) + 1;
+    : one_lens_(options.one_lens), camera_count_(reconstruction.cameras.size()) {
+  const Eigen::Index size = poseColumn(camera_count_);
   information_ = Eigen::MatrixXd::Zero(size, size);
   addObservations(reconstruction, options);
-  const Eigen::Index lenses = column(0, 0);
   if (fixed_lenses)
-    information_.diagonal().head(lenses).array() += kGiven;
+    information_.diagonal().head(poseColumn(0)).array() += kGiven;
   else
     addLensPrior(reconstruction, options);
   fixWorld(reconstruction);
   invert();
 }
 
-/// Where a parameter of a camera stands: kPoseSize of the pose, then kLensSize of the lens, in the
-/// order of geometry/camera_parameters.h.
-Eigen::Index Certainty::column(Eigen::Index camera, Eigen::Index parameter) const {
-  if (parameter >= kPoseSize)
-    return (one_lens_ ? 0 : camera) * kLensSize + parameter - kPoseSize;
-  return (one_lens_ ? 1 : camera_count_) * kLensSize + camera * kPoseSize + parameter;
+/// Where the parameters of a camera stand, in the order of geometry/camera_parameters.h.
+Eigen::Index Certainty::lensColumn(std::size_t camera) const {
+  return one_lens_ ? 0 : kLensSize * static_cast<Eigen::Index>(camera);
 }
 
-void Certainty::add(const PointView& a,
-                    const PointView& b,
-                    const Matrix15& block,
-                    Eigen::MatrixXd* to) const {
-  for (Eigen::Index row = 0; row < block.rows(); ++row) {
-    for (Eigen::Index col = 0; col < block.cols(); ++col)
-      (*to)(column(a.camera, row), column(b.camera, col)) += block(row, col);
-  }
+Eigen::Index Certainty::poseColumn(std::size_t camera) const {
+  const std::size_t lenses = one_lens_ ? 1 : camera_count_;
+  return static_cast<Eigen::Index>(kLensSize * lenses + kPoseSize * camera);
 }
 
 /// Information of the observations about lenses and poses, the points being free.
 void Certainty::addObservations(const Reconstruction& reconstruction, const Options& options) {
   const double stddev = pixelStddev(reconstruction, options);
-  std::vector<std::vector<std::size_t>> seen_by(reconstruction.points.size());
+  std::vector<std::vector<const Observation*>> views(reconstruction.points.size());
   for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
-    const std::size_t point = reconstruction.observations[i].point;
-    if (reconstruction.inliers[i] && reconstruction.points[point])
-      seen_by[point].push_back(i);
+    const Observation& observation = reconstruction.observations[i];
+    if (reconstruction.inliers[i] && reconstruction.points[observation.point])
+      views[observation.point].push_back(&observation);
   }
-  for (std::size_t i = 0; i < seen_by.size(); ++i) {
-    if (seen_by[i].size() < 2)
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (views[i].size() < 2)
       continue;
-    PointViews point;
-    point.position = *reconstruction.points[i];
-    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-    for (const std::size_t index : seen_by[i]) {
-      const Observation& observation = reconstruction.observations[index];
+    const Eigen::Vector3d& position = *reconstruction.points[i];
+    // Derivatives of the whitened pixels.
+    const auto rows = static_cast<Eigen::Index>(2 * views[i].size());
+    Eigen::MatrixXd by_parameters = Eigen::MatrixXd::Zero(rows, information_.cols());
+    Eigen::MatrixX3d by_point = Eigen::MatrixX3d::Zero(rows, 3);
+    Eigen::Index row = 0;
+    for (const Observation* view : views[i]) {
       const auto projection =
-          geometry::projectionOf(reconstruction.cameras[observation.camera], point.position);
+          geometry::projectionOf(reconstruction.cameras[view->camera], position);
       if (!projection)
         continue;
-      const double error = (projection->pixel - observation.pixel).norm();
-      const double weight = huberWeight(error, options.loss_scale) / (stddev * stddev);
-      const Eigen::Matrix<double, 2, 15> by_camera = projection->by_parameters.leftCols<15>();
-      PointView view;
-      view.camera = static_cast<Eigen::Index>(observation.camera);
-      view.cross = weight * by_camera.transpose() * projection->by_point;
-      information += weight * projection->by_point.transpose() * projection->by_point;
-      add(view, view, weight * by_camera.transpose() * by_camera, &information_);
-      point.views.push_back(view);
+      const double error = (projection->pixel - view->pixel).norm();
+      const double weight = std::sqrt(huberWeight(error, options.loss_scale)) / stddev;
+      by_parameters.block<2, kPoseSize>(row, poseColumn(view->camera)) =
+          weight * projection->by_parameters.leftCols<kPoseSize>();
+      by_parameters.block<2, kLensSize>(row, lensColumn(view->camera)) =
+          weight * projection->by_parameters.middleCols<kLensSize>(geometry::kLens);
+      by_point.middleRows<2>(row) = weight * projection->by_point;
+      row += 2;
     }
-    point.covariance = information.inverse();
-    for (const PointView& a : point.views) {
-      for (const PointView& b : point.views)
-        add(a, b, -a.cross * point.covariance * b.cross.transpose(), &information_);
-    }
-    points_.push_back(point);
+    const Eigen::Matrix3d covariance = (by_point.transpose() * by_point).inverse();
+    points_.push_back({position, covariance, -covariance * by_point.transpose() * by_parameters});
+    information_ +=
+        by_parameters.transpose() * (by_parameters + by_point * points_.back().by_parameters);
   }
 }
 
 /// Adds the prior Options::lens without its focal length.
 void Certainty::addLensPrior(const Reconstruction& reconstruction, const Options& options) {
   const LensPrior& prior = options.lens;
-  for (Eigen::Index camera = 0; camera < (one_lens_ ? 1 : camera_count_); ++camera) {
-    const geometry::Intrinsics& lens =
-        reconstruction.cameras[static_cast<std::size_t>(camera)].intrinsics;
-    auto information = information_.block<kLensSize, kLensSize>(column(camera, kPoseSize),
-                                                                column(camera, kPoseSize));
+  for (std::size_t camera = 0; camera < (one_lens_ ? 1 : camera_count_); ++camera) {
+    const geometry::Intrinsics& lens = reconstruction.cameras[camera].intrinsics;
+    auto information =
+        information_.block<kLensSize, kLensSize>(lensColumn(camera), lensColumn(camera));
     const Eigen::Vector2d by_aspect(1.0 / (lens.fx * prior.aspect),
                                     -1.0 / (lens.fy * prior.aspect));
     information.topLeftCorner<2, 2>() += by_aspect * by_aspect.transpose();
@@ -158,11 +146,10 @@ void Certainty::addLensPrior(const Reconstruction& reconstruction, const Options
 /// The pose of the first camera and its distance to the farthest one define the world.
 void Certainty::fixWorld(const Reconstruction& reconstruction) {
   const Eigen::Vector3d origin = reconstruction.cameras.front().center();
-  Eigen::Index farthest = 0;
+  std::size_t farthest = 0;
   Eigen::Vector3d baseline = Eigen::Vector3d::Zero();
-  for (Eigen::Index camera = 1; camera < camera_count_; ++camera) {
-    const Eigen::Vector3d to =
-        reconstruction.cameras[static_cast<std::size_t>(camera)].center() - origin;
+  for (std::size_t camera = 1; camera < camera_count_; ++camera) {
+    const Eigen::Vector3d to = reconstruction.cameras[camera].center() - origin;
     if (to.norm() > baseline.norm()) {
       baseline = to;
       farthest = camera;
@@ -170,8 +157,8 @@ void Certainty::fixWorld(const Reconstruction& reconstruction) {
   }
   // Large against what the observations say, but not so large that these drown in rounding errors.
   const double kExact = 1e4;
-  information_.diagonal().segment<kPoseSize>(column(0, 0)) *= 1.0 + kExact;
-  const Eigen::Index position = column(farthest, geometry::kPosition);
+  information_.diagonal().segment<kPoseSize>(poseColumn(0)) *= 1.0 + kExact;
+  const Eigen::Index position = poseColumn(farthest) + geometry::kPosition;
   auto block = information_.block<3, 3>(position, position);
   const Eigen::Vector3d along = baseline.normalized();
   block += kExact * block.norm() * along * along.transpose();
@@ -195,7 +182,7 @@ void Certainty::invert() {
 std::optional<Eigen::MatrixXd> Certainty::lensCovariance(std::size_t camera) const {
   if (!covariance_)
     return std::nullopt;
-  const Eigen::Index first = column(static_cast<Eigen::Index>(camera), kPoseSize);
+  const Eigen::Index first = lensColumn(camera);
   return Eigen::MatrixXd(covariance_->block(first, first, kLensSize, kLensSize));
 }
 
@@ -205,28 +192,20 @@ std::optional<double> Certainty::expectedShapeError() const {
   if (!covariance_)
     return std::nullopt;
   std::vector<Eigen::Vector3d> positions;
-  for (const PointViews& point : points_)
+  for (const Point& point : points_)
     positions.push_back(point.position);
   const Eigen::MatrixXd motions = similarityMotions(positions);
-  const Eigen::Index size = covariance_->rows();
-  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(size, size);  // D^T D
-  Eigen::MatrixXd along = Eigen::MatrixXd::Zero(7, size);       // Q^T D
+  Eigen::MatrixXd along = Eigen::MatrixXd::Zero(7, covariance_->rows());  // Q^T D
   double sum = 0.0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const PointViews& point = points_[i];
+    const Point& point = points_[i];
     const auto motion = motions.middleRows<3>(3 * static_cast<Eigen::Index>(i));
-    sum += point.covariance.trace() - (motion.transpose() * point.covariance * motion).trace();
-    for (const PointView& a : point.views) {
-      const Eigen::Matrix<double, 3, 15> by_a = -point.covariance * a.cross.transpose();
-      const Eigen::Matrix<double, 7, 15> along_a = motion.transpose() * by_a;
-      for (Eigen::Index k = 0; k < 15; ++k)
-        along.col(column(a.camera, k)) += along_a.col(k);
-      for (const PointView& b : point.views)
-        add(a, b, -by_a.transpose() * point.covariance * b.cross.transpose(), &squares);
-    }
+    const Eigen::Matrix3d covariance =
+        point.covariance + point.by_parameters * *covariance_ * point.by_parameters.transpose();
+    sum += covariance.trace() - (motion.transpose() * point.covariance * motion).trace();
+    along += motion.transpose() * point.by_parameters;
   }
-  sum +=
-      covariance_->cwiseProduct(squares).sum() - (along * *covariance_ * along.transpose()).trace();
+  sum -= (along * *covariance_ * along.transpose()).trace();
   return std::sqrt(sum / static_cast<double>(points_.size()));
 }
 

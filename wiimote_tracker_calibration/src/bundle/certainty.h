@@ -33,33 +33,22 @@ class Certainty {
   std::optional<double> expectedShapeError() const;
 
  private:
-  using Matrix15 = Eigen::Matrix<double, 15, 15>;  // of a camera's pose, then lens
-  using Matrix15x3 = Eigen::Matrix<double, 15, 3>;
-
-  struct PointView {
-    Eigen::Index camera;
-    Matrix15x3 cross;  ///< Information shared by the camera and the point.
-  };
-  struct PointViews {
+  struct Point {
     Eigen::Vector3d position;
-    Eigen::Matrix3d covariance;  ///< Of the point, the cameras being exact.
-    std::vector<PointView> views;
+    Eigen::Matrix3d covariance;      ///< The cameras being exact.
+    Eigen::Matrix3Xd by_parameters;  ///< How it moves with the lenses and poses.
   };
 
-  /// Adds a block of the parameters of two cameras to a matrix of all parameters.
-  void add(const PointView& a,
-           const PointView& b,
-           const Matrix15& block,
-           Eigen::MatrixXd* to) const;
-  Eigen::Index column(Eigen::Index camera, Eigen::Index parameter) const;
+  Eigen::Index lensColumn(std::size_t camera) const;
+  Eigen::Index poseColumn(std::size_t camera) const;
   void addObservations(const Reconstruction& reconstruction, const Options& options);
   void addLensPrior(const Reconstruction& reconstruction, const Options& options);
   void fixWorld(const Reconstruction& reconstruction);
   void invert();
 
   const bool one_lens_;
-  const Eigen::Index camera_count_;
-  std::vector<PointViews> points_;             // with two views or more
+  const std::size_t camera_count_;
+  std::vector<Point> points_;                  // with two views or more
   Eigen::MatrixXd information_;                // of lenses, then poses
   std::optional<Eigen::MatrixXd> covariance_;  // of the same
 };

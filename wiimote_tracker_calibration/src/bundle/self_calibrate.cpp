@@ -18,17 +18,6 @@ namespace wiimote_tracker::bundle {
 
 namespace {
 
-Reconstruction observedBy(const std::vector<geometry::Camera>& cameras,
-                          const std::vector<Observation>& observations,
-                          std::size_t point_count) {
-  Reconstruction reconstruction;
-  reconstruction.cameras = cameras;
-  reconstruction.points.resize(point_count);
-  reconstruction.observations = observations;
-  reconstruction.inliers.assign(observations.size(), false);
-  return reconstruction;
-}
-
 /// Some of the points, at random but those that many cameras saw first: about per_camera
 /// observations of each camera.
 Reconstruction thinned(const Reconstruction& all, std::size_t per_camera) {
@@ -90,17 +79,14 @@ class Search {
     start(&result->starts);
     if (attempts_.empty())
       throw BundleError(reason_);
-    followAll("cameras of a few starts", 0.3, 0.5, std::min(kFewCameras, all_.cameras.size()));
-    keepBest();
-    followAll("all cameras", 0.5, 0.7, all_.cameras.size());
-    for (std::size_t i = 0; i < attempts_.size(); ++i) {
-      tell("adjusting the best starts", 0.7 + 0.1 * fraction(i));
-      guarded(&attempts_[i],
+    followAll("cameras of a few starts", 0.3, 0.5, [&](Attempt* attempt) {
+      growTo(std::min(kFewCameras, all_.cameras.size()), attempt);
+    });
+    attempts_.resize(std::min(attempts_.size(), kFollowed));
+    followAll("all cameras", 0.5, 0.7,
+              [&](Attempt* attempt) { growTo(all_.cameras.size(), attempt); });
+    followAll("adjusting the best starts", 0.7, 0.8,
               [&](Attempt* attempt) { settle(options_.bundle, maximumError(), attempt); });
-    }
-    sort();
-    if (attempts_.empty())
-      throw BundleError(reason_);
     result->followed = attempts_.size();
     result->agreeing = static_cast<std::size_t>(std::count_if(
         attempts_.begin(), attempts_.end(),
@@ -124,10 +110,6 @@ class Search {
   static constexpr double kSameFocal = 0.01;
 
   double maximumError() const { return options_.bundle.maximum_error; }
-
-  double fraction(std::size_t i) const {
-    return static_cast<double>(i) / static_cast<double>(attempts_.size());
-  }
 
   void tell(const char* step, double fraction) const {
     if (progress_ && !progress_(step, fraction))
@@ -175,26 +157,24 @@ class Search {
     return std::abs(k1) * corner * corner > kMuch;
   }
 
-  template <typename Step>
-  void guarded(Attempt* attempt, const Step& step) {
-    try {
-      step(attempt);
-    } catch (const Cancelled&) {
-      throw;
-    } catch (const BundleError& error) {
-      reason_ = error.what();
-      attempt->cost = std::numeric_limits<double>::infinity();
-    }
+  void growTo(std::size_t cameras, Attempt* attempt) const {
+    grow(options_, cameras, attempt);
+    if (cameras == all_.cameras.size())
+      refuseUnexplained(attempt->reconstruction, options_.bundle);
   }
 
-  void followAll(const char* step, double from, double to, std::size_t cameras) {
+  /// Takes all attempts one step further; drops those that fail, and sorts the others.
+  template <typename Step>
+  void followAll(const char* name, double from, double to, const Step& step) {
     for (std::size_t i = 0; i < attempts_.size(); ++i) {
-      tell(step, from + (to - from) * fraction(i));
-      guarded(&attempts_[i], [&](Attempt* attempt) {
-        grow(options_, cameras, attempt);
-        if (cameras == all_.cameras.size())
-          refuseUnexplained(attempt->reconstruction, options_.bundle);
-      });
+      tell(name,
+           from + (to - from) * static_cast<double>(i) / static_cast<double>(attempts_.size()));
+      try {
+        step(&attempts_[i]);
+      } catch (const BundleError& error) {
+        reason_ = error.what();
+        attempts_[i].cost = std::numeric_limits<double>::infinity();
+      }
     }
     sort();
     if (attempts_.empty())
@@ -232,8 +212,6 @@ class Search {
                      [](const Attempt& a, const Attempt& b) { return a.cost < b.cost; });
   }
 
-  void keepBest() { attempts_.resize(std::min(attempts_.size(), kFollowed)); }
-
   /// Adjusts a solution of few points with all of them, roughly: refine() follows.
   Attempt withAllPoints(const Attempt& solved) const {
     tell("adjusting with all points", 0.8);
@@ -267,12 +245,11 @@ void judgeLenses(const SelfCalibrationOptions& options, bool ambiguous, SelfCali
       lens.focal_determined = true;
     } else if (covariance) {
       lens.focal_stddev = std::sqrt((*covariance)(0, 0));
-      lens.principal_point_stddev = std::sqrt(std::max((*covariance)(2, 2), (*covariance)(3, 3)));
       lens.focal_determined =
           !ambiguous && lens.focal_stddev < options.maximum_focal_uncertainty *
                                                 result->reconstruction.cameras[i].intrinsics.fx;
     } else {
-      lens.focal_stddev = lens.principal_point_stddev = std::numeric_limits<double>::infinity();
+      lens.focal_stddev = std::numeric_limits<double>::infinity();
     }
     result->lenses.push_back(lens);
   }

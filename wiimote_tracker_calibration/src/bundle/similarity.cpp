@@ -10,14 +10,9 @@ namespace wiimote_tracker::bundle {
 
 namespace {
 
-Eigen::Matrix3Xd columns(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i)
-    result.col(static_cast<Eigen::Index>(i)) = points[i];
-  return result;
-}
+using Columns = Eigen::Map<const Eigen::Matrix3Xd>;
 
-bool onOneLine(const Eigen::Matrix3Xd& points) {
+bool onOneLine(const Columns& points) {
   const Eigen::Matrix3Xd centered = points.colwise() - points.rowwise().mean();
   const Eigen::Vector3d spread = centered.jacobiSvd().singularValues();
   return !(spread(1) > 1e-6 * spread(0));  // also true for NaN
@@ -29,8 +24,9 @@ Similarity fitSimilarity(const std::vector<Eigen::Vector3d>& from,
                          const std::vector<Eigen::Vector3d>& to) {
   if (from.size() != to.size() || from.size() < 3)
     throw BundleError("an alignment needs three or more points, as many in both frames");
-  const Eigen::Matrix3Xd from_columns = columns(from);
-  const Eigen::Matrix3Xd to_columns = columns(to);
+  const auto count = static_cast<Eigen::Index>(from.size());
+  const Columns from_columns(from.front().data(), 3, count);
+  const Columns to_columns(to.front().data(), 3, count);
   if (onOneLine(from_columns) || onOneLine(to_columns))
     throw BundleError("the points of an alignment must not lie on one line");
   const Eigen::Matrix4d transform = Eigen::umeyama(from_columns, to_columns, true);

@@ -2,19 +2,56 @@
 
 #include "checks.h"
 #include "start.h"
+#include "wiimote_tracker_calibration/bundle/error.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
+#include <string>
 
 namespace wiimote_tracker::bundle {
+
+namespace {
+
+std::string commonText(const NormalizedViews& views, const Reconstruction& reconstruction) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    for (std::size_t j = i + 1; j < views.size(); ++j)
+      texts.push_back(format("%s and %s %zu", reconstruction.cameras[i].name.c_str(),
+                             reconstruction.cameras[j].name.c_str(),
+                             commonViews(views[i], views[j]).first.size()));
+  }
+  return joined(texts);
+}
+
+/// Starts from the pair of cameras with the most parallax.
+void startFromPair(const NormalizedViews& views,
+                   const Options& options,
+                   Reconstruction* reconstruction,
+                   std::vector<bool>* placed) {
+  Pair best;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    for (std::size_t j = i + 1; j < views.size(); ++j) {
+      const auto pair = solvePair(views, *reconstruction, options, i, j);
+      if (pair && pair->parallax > best.parallax)
+        best = *pair;
+    }
+  }
+  if (!(best.parallax > 0.0))
+    throw BundleError("no two cameras agree on where they stand; they need " +
+                      std::to_string(options.minimum_common_points) +
+                      " or more points in common, spread over the room, and have: " +
+                      commonText(views, *reconstruction));
+  startFrom(best, reconstruction, placed);
+}
+
+}  // namespace
 
 Reconstruction solve(const std::vector<geometry::Camera>& cameras,
                      const std::vector<Observation>& observations,
                      std::size_t point_count,
                      const Options& options) {
-  Reconstruction reconstruction;
-  reconstruction.cameras = cameras;
-  reconstruction.points.resize(point_count);
-  reconstruction.observations = observations;
+  Reconstruction reconstruction = observedBy(cameras, observations, point_count);
   checkObservations(reconstruction, options);
 
   const NormalizedViews views = normalize(reconstruction);

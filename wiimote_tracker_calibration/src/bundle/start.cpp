@@ -1,11 +1,13 @@
 #include "start.h"
 
+#include "adjust/opencv_pose.h"
 #include "wiimote_tracker_calibration/bundle/error.h"
 
 #include <Eigen/Dense>
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
+#include <opencv2/core/eigen.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,19 +19,6 @@ namespace {
 
 // Factor on the error of an outlier before any adjustment.
 constexpr double kStartTolerance = 4.0;
-
-Eigen::Matrix3d eigenFromCv(const cv::Mat& matrix) {
-  Eigen::Matrix3d result;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column)
-      result(row, column) = matrix.at<double>(row, column);
-  }
-  return result;
-}
-
-Eigen::Vector3d vectorFromCv(const cv::Mat& column) {
-  return {column.at<double>(0), column.at<double>(1), column.at<double>(2)};
-}
 
 /// Whether the points of an image cover more than a line.
 bool fillsAnArea(const std::vector<cv::Point2d>& points) {
@@ -44,18 +33,6 @@ bool fillsAnArea(const std::vector<cv::Point2d>& points) {
 
 double focalLength(const geometry::Camera& camera) {
   return 0.5 * (camera.intrinsics.fx + camera.intrinsics.fy);
-}
-
-std::string commonText(const NormalizedViews& views, const Reconstruction& reconstruction) {
-  std::string text;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    for (std::size_t j = i + 1; j < views.size(); ++j) {
-      text += (text.empty() ? "" : ", ") + reconstruction.cameras[i].name + " and " +
-              reconstruction.cameras[j].name + " " +
-              std::to_string(commonViews(views[i], views[j]).first.size());
-    }
-  }
-  return text;
 }
 
 }  // namespace
@@ -131,8 +108,10 @@ std::optional<Pair> solvePair(const NormalizedViews& views,
   Pair pair;
   pair.first = first_camera;
   pair.second = second_camera;
-  pair.second_from_first.linear() = eigenFromCv(rotation);
-  pair.second_from_first.translation() = vectorFromCv(translation);
+  Eigen::Matrix3d second_from_first;
+  cv::cv2eigen(rotation, second_from_first);
+  pair.second_from_first.linear() = second_from_first;
+  pair.second_from_first.translation() = adjust::vectorFromCv(translation);
   for (std::size_t i = 0; i < first.size(); ++i) {
     if (mask.at<unsigned char>(static_cast<int>(i)) == 0)
       continue;
@@ -149,26 +128,6 @@ void startFrom(const Pair& pair, Reconstruction* reconstruction, std::vector<boo
   reconstruction->cameras[pair.second].world_from_camera = pair.second_from_first.inverse();
   (*placed)[pair.first] = true;
   (*placed)[pair.second] = true;
-}
-
-void startFromPair(const NormalizedViews& views,
-                   const Options& options,
-                   Reconstruction* reconstruction,
-                   std::vector<bool>* placed) {
-  Pair best;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    for (std::size_t j = i + 1; j < views.size(); ++j) {
-      const auto pair = solvePair(views, *reconstruction, options, i, j);
-      if (pair && pair->parallax > best.parallax)
-        best = *pair;
-    }
-  }
-  if (!(best.parallax > 0.0))
-    throw BundleError("no two cameras agree on where they stand; they need " +
-                      std::to_string(options.minimum_common_points) +
-                      " or more points in common, spread over the room, and have: " +
-                      commonText(views, *reconstruction));
-  startFrom(best, reconstruction, placed);
 }
 
 namespace {
@@ -240,20 +199,22 @@ std::size_t place(const NormalizedViews& views,
   std::vector<int> inliers;
   const double tolerance = kStartTolerance * options.maximum_error / focalLength(camera);
   const int iterations = options.rough ? 150 : 1000;  // 150: one in two may be wrong
-  const bool found = cv::solvePnPRansac(known.points, known.views, cv::Mat::eye(3, 3, CV_64F),
-                                        cv::noArray(), rotation_vector, translation, false,
-                                        iterations, tolerance, 0.9999, inliers, cv::SOLVEPNP_EPNP);
-  if (!found || inliers.size() < options.minimum_common_points)
+  bool found = false;
+  try {
+    found = cv::solvePnPRansac(known.points, known.views, cv::Mat::eye(3, 3, CV_64F), cv::noArray(),
+                               rotation_vector, translation, false, iterations, tolerance, 0.9999,
+                               inliers, cv::SOLVEPNP_EPNP);
+  } catch (const cv::Exception&) {
+    found = false;  // degenerate points
+  }
+  if (found)
+    camera.world_from_camera = adjust::poseFromCv(rotation_vector, translation);
+  if (!found || inliers.size() < options.minimum_common_points ||
+      !camera.world_from_camera.matrix().allFinite())
     throw BundleError("no pose of " + camera.name + " explains what it saw of " +
                       std::to_string(known.points.size()) +
                       " points: check its intrinsics and its frame numbers; or " +
                       adviceFor(camera.name));
-  cv::Mat rotation;
-  cv::Rodrigues(rotation_vector, rotation);
-  Eigen::Isometry3d camera_from_world = Eigen::Isometry3d::Identity();
-  camera_from_world.linear() = eigenFromCv(rotation);
-  camera_from_world.translation() = vectorFromCv(translation);
-  camera.world_from_camera = camera_from_world.inverse();
   (*placed)[index] = true;
   return inliers.size();
 }

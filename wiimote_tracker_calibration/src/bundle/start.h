@@ -56,13 +56,6 @@ std::optional<Pair> solvePair(const NormalizedViews& views,
 /// Makes the first camera of the pair the world, and marks both as placed.
 void startFrom(const Pair& pair, Reconstruction* reconstruction, std::vector<bool>* placed);
 
-/// Starts from the pair of cameras with the most parallax.
-/// @throws BundleError when no pair has enough points in common.
-void startFromPair(const NormalizedViews& views,
-                   const Options& options,
-                   Reconstruction* reconstruction,
-                   std::vector<bool>* placed);
-
 /// The camera that sees most known points of those not placed.
 /// @throws BundleError when it sees too few of them.
 std::size_t nextToPlace(const NormalizedViews& views,

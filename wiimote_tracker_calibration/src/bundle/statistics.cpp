@@ -2,59 +2,65 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <numeric>
 
 namespace wiimote_tracker::bundle {
 
 namespace {
 
-double medianOf(std::vector<double> values) {
-  const std::size_t half = values.size() / 2;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half),
-                   values.end());
-  if (values.size() % 2 == 1)
-    return values[half];
-  const double below =
-      *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(half));
-  return 0.5 * (below + values[half]);
+/// Quantile of sorted values, interpolated; NaN when there are none.
+double quantile(const std::vector<double>& sorted, double share) {
+  if (sorted.empty())
+    return std::numeric_limits<double>::quiet_NaN();
+  const double place = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
 template <typename Wanted>
 Statistics over(const Reconstruction& reconstruction, const Wanted& wanted) {
-  Statistics result;
   std::vector<double> errors;
-  double sum = 0.0;
-  double squares = 0.0;
   double squares_m = 0.0;
   for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
     const Observation& observation = reconstruction.observations[i];
     if (!wanted(observation))
       continue;
-    ++result.observations;
     const auto error = reprojectionError(reconstruction, observation);
+    errors.push_back(kOutlier);
     if (!reconstruction.inliers[i] || !error)
       continue;
+    errors.back() = *error;
     const geometry::Camera& camera = reconstruction.cameras[observation.camera];
     const double depth =
         (camera.world_from_camera.inverse() * *reconstruction.points[observation.point]).z();
     const double focal_length = 0.5 * (camera.intrinsics.fx + camera.intrinsics.fy);
-    errors.push_back(*error);
-    sum += *error;
-    squares += *error * *error;
     squares_m += std::pow(*error * depth / focal_length, 2);
   }
-  result.inliers = errors.size();
-  if (errors.empty())
-    return result;
-  const auto count = static_cast<double>(errors.size());
-  result.rms = std::sqrt(squares / count);
-  result.mean = sum / count;
-  result.median = medianOf(errors);
-  result.rms_m = std::sqrt(squares_m / count);
+  Statistics result = statisticsOf(errors);
+  if (result.inliers > 0)
+    result.rms_m = std::sqrt(squares_m / static_cast<double>(result.inliers));
   return result;
 }
 
 }  // namespace
+
+Statistics statisticsOf(std::vector<double> errors) {
+  Statistics result;
+  result.observations = errors.size();
+  errors.erase(std::remove_if(errors.begin(), errors.end(),
+                              [](double error) { return !std::isfinite(error); }),
+               errors.end());
+  std::sort(errors.begin(), errors.end());
+  result.inliers = errors.size();
+  const auto count = static_cast<double>(errors.size());
+  result.rms =
+      std::sqrt(std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0) / count);
+  result.mean = std::accumulate(errors.begin(), errors.end(), 0.0) / count;
+  result.median = quantile(errors, 0.5);
+  result.p95 = quantile(errors, 0.95);
+  return result;
+}
 
 Statistics statistics(const Reconstruction& reconstruction) {
   return over(reconstruction, [](const Observation&) { return true; });

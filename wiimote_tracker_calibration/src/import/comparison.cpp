@@ -8,37 +8,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace wiimote_tracker::import {
 
 namespace {
 
-constexpr double kNoInlier = std::numeric_limits<double>::infinity();
+using bundle::kOutlier;
+using bundle::Statistics;
 
 using Points = std::vector<Eigen::Vector3d>;
 
-/// Quantile of sorted values, interpolated.
-double quantile(const std::vector<double>& sorted, double share) {
-  if (sorted.empty())
-    return std::numeric_limits<double>::quiet_NaN();
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
-Distances distancesBetween(const Points& a, const Points& b) {
+Statistics distancesBetween(const Points& a, const Points& b) {
   std::vector<double> distances;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
+  for (std::size_t i = 0; i < a.size(); ++i)
     distances.push_back((a[i] - b[i]).norm());
-    squares += distances.back() * distances.back();
-  }
-  std::sort(distances.begin(), distances.end());
-  return {std::sqrt(squares / static_cast<double>(a.size())), quantile(distances, 0.5),
-          quantile(distances, 0.95)};
+  return bundle::statisticsOf(distances);
 }
 
 /// Brings points to mean 0 and RMS distance sqrt(3), for a well-conditioned fit.
@@ -136,9 +121,9 @@ void comparePoints(const bundle::Reconstruction& own,
 }
 
 /// Errors of the own solution in the undistorted pixels of the shipped matrices.
-std::vector<Errors> rectifiedErrors(const bundle::Reconstruction& own,
-                                    const ShippedCameras& shipped,
-                                    double maximum_error) {
+std::vector<Statistics> rectifiedErrors(const bundle::Reconstruction& own,
+                                        const ShippedCameras& shipped,
+                                        double maximum_error) {
   std::vector<std::vector<double>> errors(own.cameras.size());
   for (const bundle::Observation& observation : own.observations) {
     const auto& rectify = shipped.rectifications[observation.camera];
@@ -146,12 +131,12 @@ std::vector<Errors> rectifiedErrors(const bundle::Reconstruction& own,
     const auto seen = rectify(observation.pixel);
     const auto projected = point ? own.cameras[observation.camera].project(*point) : std::nullopt;
     const auto expected = projected ? rectify(*projected) : std::nullopt;
-    const double error = seen && expected ? (*seen - *expected).norm() : kNoInlier;
-    errors[observation.camera].push_back(error <= maximum_error ? error : kNoInlier);
+    const double error = seen && expected ? (*seen - *expected).norm() : kOutlier;
+    errors[observation.camera].push_back(error <= maximum_error ? error : kOutlier);
   }
-  std::vector<Errors> result;
+  std::vector<Statistics> result;
   for (const std::vector<double>& of_camera : errors)
-    result.push_back(errorsOf(of_camera));
+    result.push_back(bundle::statisticsOf(of_camera));
   return result;
 }
 
@@ -182,32 +167,11 @@ std::optional<bundle::Reconstruction> withLenses(const Recording& recording,
 
 }  // namespace
 
-Errors errorsOf(std::vector<double> errors) {
-  Errors result;
-  result.observations = errors.size();
-  errors.erase(std::remove_if(errors.begin(), errors.end(),
-                              [](double error) { return !std::isfinite(error); }),
-               errors.end());
-  std::sort(errors.begin(), errors.end());
-  result.inliers = errors.size();
-  result.median = quantile(errors, 0.5);
-  result.mean = std::accumulate(errors.begin(), errors.end(), 0.0) /
-                static_cast<double>(std::max<std::size_t>(errors.size(), 1));
-  result.p95 = quantile(errors, 0.95);
-  return result;
-}
-
-std::vector<Errors> errorsOf(const bundle::Reconstruction& reconstruction) {
-  std::vector<std::vector<double>> errors(reconstruction.cameras.size());
-  for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
-    const bundle::Observation& observation = reconstruction.observations[i];
-    const auto error = bundle::reprojectionError(reconstruction, observation);
-    errors[observation.camera].push_back(reconstruction.inliers[i] && error ? *error : kNoInlier);
-  }
-  std::vector<Errors> result;
-  for (const std::vector<double>& of_camera : errors)
-    result.push_back(errorsOf(of_camera));
-  return result;
+std::vector<Statistics> errorsOf(const bundle::Reconstruction& reconstruction) {
+  std::vector<Statistics> errors;
+  for (std::size_t i = 0; i < reconstruction.cameras.size(); ++i)
+    errors.push_back(bundle::statistics(reconstruction, i));
+  return errors;
 }
 
 std::optional<Comparison> compare(const Recording& recording,

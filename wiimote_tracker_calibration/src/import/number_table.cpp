@@ -33,7 +33,7 @@ double parseNumber(const std::string& text, const std::string& where) {
   return value;
 }
 
-NumberTable readNumberTable(const std::string& path) {
+NumberTable readNumberTable(const std::string& path, std::size_t rows, std::size_t columns) {
   std::ifstream file = open(path);
   NumberTable table;
   std::string line;
@@ -52,11 +52,6 @@ NumberTable readNumberTable(const std::string& path) {
   }
   if (table.empty())
     throw ImportError(path + " is empty");
-  return table;
-}
-
-NumberTable readNumberTable(const std::string& path, std::size_t rows, std::size_t columns) {
-  NumberTable table = readNumberTable(path);
   if (rows != 0 && table.size() != rows)
     throw ImportError(path + " has " + size(table.size(), "row") + ", but must have " +
                       std::to_string(rows));

@@ -245,4 +245,21 @@ Recording readRecording(const std::string& folder, bool intrinsics_required) {
   return recording;
 }
 
+bundle::Reconstruction observedBy(const Recording& recording) {
+  bundle::Reconstruction observed;
+  for (const RecordedCamera& recorded : recording.cameras) {
+    geometry::Camera& camera = observed.cameras.emplace_back();
+    camera.name = recorded.name;
+    camera.intrinsics = recorded.intrinsics;
+  }
+  observed.points.resize(recording.frames.size());
+  for (std::size_t frame = 0; frame < recording.frames.size(); ++frame) {
+    for (std::size_t camera = 0; camera < recording.cameras.size(); ++camera) {
+      if (const auto& pixel = recording.frames[frame][camera])
+        observed.observations.push_back({camera, frame, *pixel});
+    }
+  }
+  return observed;
+}
+
 }  // namespace wiimote_tracker::import

@@ -13,26 +13,16 @@ namespace wiimote_tracker::place {
 
 namespace {
 
-std::string millimetres(double metres) {
-  return format("%.1f mm", 1000.0 * metres);
-}
-
-std::string pixels(double value) {
-  return format("%.1f px", value);
-}
-
 /// Which cameras do not fit together, and what to do about it.
 std::string contradiction(const MeasuredPlace& measured) {
-  std::string list;
-  for (const std::string& name : measured.suspects)
-    list += (list.empty() ? "" : " or ") + name;
-  if (!list.empty())
-    return list +
+  if (!measured.suspects.empty())
+    return joined(measured.suspects, " or ") +
            " contradicts the other cameras: it was moved, or sees another light; clear that up, "
            "then recalibrate this camera";
+  std::vector<std::string> misses;
   for (const PlaceView& view : measured.views)
-    list += (list.empty() ? "" : ", ") + view.camera + " by " + pixels(view.residual.norm());
-  return "the rays of the cameras miss each other (" + list +
+    misses.push_back(view.camera + format(" by %.1f px", view.residual.norm()));
+  return "the rays of the cameras miss each other (" + joined(misses) +
          "): one was moved, or they see different lights; clear that up, then recalibrate it";
 }
 
@@ -66,9 +56,11 @@ PlaceCheck checkPlace(const MeasuredPlace& measured,
   check.consistent =
       difference.dot(covariance.ldlt().solve(difference)) <= chiSquaredQuantile(3, kTwoNines);
   check.message =
-      "measured " + millimetres(check.error) + " from the known place, where " +
-      millimetres(check.expected_stddev) +
-      " (one standard deviation) are to be expected: " + advice(measured, check.consistent);
+      format(
+          "measured %.1f mm from the known place, where %.1f mm (one standard deviation) are to "
+          "be expected: ",
+          1000.0 * check.error, 1000.0 * check.expected_stddev) +
+      advice(measured, check.consistent);
   return check;
 }
 

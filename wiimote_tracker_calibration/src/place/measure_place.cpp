@@ -1,9 +1,10 @@
 #include "place/measure_place.h"
 
-#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include "place/chi_squared.h"
 #include "place/error.h"
 
+#include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 #include <wiimote_tracker_triangulation/remap/correction.h>
 
@@ -119,14 +120,15 @@ MeasuredPlace measurePlace(const geometry::Rig& rig,
   if (!(pixel_stddev > 0.0))
     throw PlaceError("pixel_stddev must be above 0: correct it");
   std::vector<View> views;
-  std::string names;
+  std::vector<std::string> seeing;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     const auto view = seen.find(rig.cameras[i].camera.name);
     if (view == seen.end())
       continue;
     views.push_back({i, view->second.pixel});
-    names += (names.empty() ? "" : ", ") + view->first;
+    seeing.push_back(view->first);
   }
+  const std::string names = joined(seeing);
   if (views.size() < 2)
     throw PlaceError("the LED was seen by " +
                      (names.empty() ? "no camera of the rig" : names + " alone") +

@@ -3,6 +3,8 @@
 #include "square/error.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -81,9 +83,14 @@ std::optional<Round> evaluate(const geometry::Rig& rig,
   return round;
 }
 
-void applyRayModel(const CorrectionOptions& options, geometry::Rig* rig) {
-  rig->ray_model = options.ray_model;
-  rig->virtual_hfov = options.virtual_hfov;
+square::SquareSolution solve(const square::SquareLayout& layout,
+                             const std::vector<square::CameraSightings>& cameras,
+                             const CorrectionOptions& options) {
+  square::SquareSolution solution = square::solveSquare(
+      layout, cameras, {square::Method::kPerCamera, options.uncertainty, options.branch_odds});
+  solution.rig.ray_model = options.ray_model;
+  solution.rig.virtual_hfov = options.virtual_hfov;
+  return solution;
 }
 
 double errorOf(const Round& round, Points points) {
@@ -94,16 +101,17 @@ std::vector<std::string> warningsOf(const CorrectionOptions& options,
                                     const CorrectionResult& result) {
   std::vector<std::string> warnings;
   if (result.outcome == Outcome::kLost)
-    warnings.push_back("the principal point correction was stopped after round " +
-                       std::to_string(result.trace.rounds.size() - 1) +
-                       ", because its next step led to no usable rig: do without it, and check "
-                       "the starting intrinsics");
+    warnings.push_back(
+        format("the principal point correction was stopped after round %zu, because its next step "
+               "led to no usable rig: do without it, and check the starting intrinsics",
+               result.trace.rounds.size() - 1));
   const double before = errorOf(result.trace.rounds.front(), options.points);
   const double after = errorOf(result.trace.rounds.back(), options.points);
   if (after > before)
-    warnings.push_back("the principal point correction made the measured corners worse (" +
-                       std::to_string(std::lround(1e3 * before)) + " mm before, " +
-                       std::to_string(std::lround(1e3 * after)) + " mm after): do without it");
+    warnings.push_back(
+        format("the principal point correction made the measured corners worse (%ld mm before, "
+               "%ld mm after): do without it",
+               std::lround(1e3 * before), std::lround(1e3 * after)));
   const bool distorted = std::any_of(
       result.rig.cameras.begin(), result.rig.cameras.end(), [](const geometry::RigCamera& c) {
         const auto& distortion = c.camera.intrinsics.distortion;
@@ -135,12 +143,9 @@ CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
                                         const CorrectionOptions& options,
                                         const RoundCallback& progress) {
   options.check();
-  const square::SolveOptions solve_options{square::Method::kPerCamera, options.uncertainty,
-                                           options.branch_odds};
-  square::SquareSolution solution = square::solveSquare(layout, cameras, solve_options);
+  square::SquareSolution solution = solve(layout, cameras, options);
   std::vector<square::CameraSightings> sightings = solvedOnes(cameras, solution.rig);
   const square::Corners ideal = layout.corners(solution.z_up);
-  applyRayModel(options, &solution.rig);
 
   CorrectionResult result;
   for (const square::CameraSightings& camera : sightings)
@@ -168,8 +173,7 @@ CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
       sightings[i].intrinsics.cy += options.step * last.differences[i].y();
     }
     try {
-      square::SquareSolution next = square::solveSquare(layout, sightings, solve_options);
-      applyRayModel(options, &next.rig);
+      const square::SquareSolution next = solve(layout, sightings, options);
       round = evaluate(next.rig, sightings, ideal, options);
       if (round)
         solution = next;

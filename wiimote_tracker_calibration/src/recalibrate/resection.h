@@ -1,11 +1,14 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_RESECTION_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_RESECTION_H
 
+#include "recalibrate/recalibrate_camera.h"
 #include "seen_path.h"
 
-#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include "adjust/camera_blocks.h"
+#include "wiimote_tracker_calibration/square/rig_model.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 
 #include <Eigen/Core>
 
@@ -15,21 +18,26 @@
 
 namespace wiimote_tracker::recalibrate {
 
-using ParameterVector = Eigen::Matrix<double, geometry::kParameters, 1>;
 using ParameterMatrix = Eigen::Matrix<double, geometry::kParameters, geometry::kParameters>;
+using LensMatrix = Eigen::Matrix<double, adjust::kLensSize, adjust::kLensSize>;
 
-/// Prior of the camera.
+/// What is known of the camera beforehand. The distortion beyond k1 is held, as in a square and in
+/// a wave.
 struct Prior {
   geometry::Intrinsics lens;
-  /// Of the lens and of the time offset; 0 on the diagonal: held. Pose: not read.
-  ParameterMatrix covariance = ParameterMatrix::Zero();
-  double time_offset = 0.0;  ///< [s]
+  square::Uncertainty uncertainty;            ///< Of the lens, unless it has a covariance.
+  std::optional<LensMatrix> lens_covariance;  ///< Of fx, fy, cx, cy, k1, as the rig has it.
+  double time_offset = 0.0;                   ///< [s]
+
+  /// Inverse of lens_covariance.
+  LensMatrix lensInformation() const;
 };
 
 /// A spot of the camera and the LED's position at its time.
 struct Match {
   PathPoint point;  ///< At the time offset at which it was associated.
   Eigen::Vector2d pixel;
+  Eigen::Matrix2d whitening;  ///< Of the spot against the expected pixel [1/px].
 };
 
 /// Estimate of camera and time offset, with its data.
@@ -41,30 +49,12 @@ struct Fit {
   double duration = 0.0;          ///< Of the camera's images [s].
   std::size_t expected = 0;       ///< Images with spots while the others saw the LED.
   std::size_t contradictory = 0;  ///< Images for which the others' rays did not meet.
-  ParameterMatrix information = ParameterMatrix::Zero();  ///< With the prior's; held: zero.
-  ParameterMatrix prior_information = ParameterMatrix::Zero();
-  std::vector<Eigen::Index> free;  ///< Parameters that were not held.
 };
 
-struct ResectionOptions {
-  double pixel = 0.5;     ///< [px]
-  double stamp = 0.0003;  ///< [s]
-};
-
-/// Derivative of a match's residual (predicted less observed) by the camera's parameters, and its
-/// covariance.
-struct Linearized {
-  Eigen::Vector2d residual;
-  geometry::ParameterJacobian jacobian;
-  Eigen::Matrix<double, 2, 3> by_point;
-  Eigen::Matrix2d covariance;
-};
-
-/// Nothing when the camera does not see the point.
-std::optional<Linearized> linearize(const geometry::Camera& camera,
-                                    const Match& match,
-                                    double pixel_stddev,
-                                    double stamp_stddev);
+/// Pixel of the LED and its derivatives; that by the time offset is the LED's motion. Nothing when
+/// the camera does not see it.
+std::optional<geometry::Projection> projectionOf(const geometry::Camera& camera,
+                                                 const PathPoint& point);
 
 /// Maximum a posteriori pose, lens and time offset. @param images of this camera, ascending.
 /// @throws RecalibrateError: too few images in common with the others, or no pose explains them.
@@ -72,7 +62,11 @@ Fit resect(const SeenPath& path,
            const std::vector<capture::Image>& images,
            const geometry::Camera& start,
            const Prior& prior,
-           const ResectionOptions& options);
+           const Options& options);
+
+/// Covariance of the camera's parameters, the others and the stamps' slow errors being exact.
+/// @throws RecalibrateError: the matches leave a parameter open.
+ParameterMatrix covarianceOf(const Fit& fit, const Prior& prior);
 
 }  // namespace wiimote_tracker::recalibrate
 

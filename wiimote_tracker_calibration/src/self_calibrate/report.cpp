@@ -1,5 +1,7 @@
 #include "report.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <cmath>
 #include <vector>
 
@@ -7,7 +9,7 @@ namespace wiimote_tracker::import {
 
 namespace {
 
-void printErrors(const std::string& name, const Errors& errors, std::FILE* file) {
+void printErrors(const std::string& name, const bundle::Statistics& errors, std::FILE* file) {
   std::fprintf(file, "%-20s %6zu of %-6zu %9.3f %9.3f %9.3f\n", name.c_str(), errors.inliers,
                errors.observations, errors.median, errors.mean, errors.p95);
 }
@@ -69,73 +71,57 @@ void printComparison(const Report& report, std::FILE* file) {
                comparison.projective.rms, comparison.projective.median, comparison.projective.p95);
 }
 
-void jsonNumber(double value, std::FILE* file) {
-  if (std::isfinite(value))
-    std::fprintf(file, "%.17g", value);
-  else
-    std::fprintf(file, "null");
+std::string json(double value) {
+  return std::isfinite(value) ? format("%.17g", value) : "null";
 }
 
-template <typename Numbers>
-void jsonNumbers(const char* key, const Numbers& numbers, std::FILE* file) {
-  std::fprintf(file, "\"%s\": [", key);
-  bool first = true;
-  for (const double number : numbers) {
-    std::fprintf(file, first ? "" : ", ");
-    jsonNumber(number, file);
-    first = false;
-  }
-  std::fprintf(file, "]");
+std::string jsonList(const std::vector<double>& numbers) {
+  std::vector<std::string> texts;
+  for (const double number : numbers)
+    texts.push_back(json(number));
+  return "[" + joined(texts) + "]";
 }
 
-void jsonErrors(const char* key, const Errors& errors, std::FILE* file) {
-  std::fprintf(file, "\"%s\": {\"observations\": %zu, \"inliers\": %zu, \"median\": ", key,
-               errors.observations, errors.inliers);
-  jsonNumber(errors.median, file);
-  std::fprintf(file, ", \"mean\": ");
-  jsonNumber(errors.mean, file);
-  std::fprintf(file, ", \"p95\": ");
-  jsonNumber(errors.p95, file);
-  std::fprintf(file, "}");
+std::string json(const bundle::Statistics& errors) {
+  return format("{\"observations\": %zu, \"inliers\": %zu, ", errors.observations, errors.inliers) +
+         "\"median\": " + json(errors.median) + ", \"mean\": " + json(errors.mean) +
+         ", \"p95\": " + json(errors.p95) + "}";
 }
 
-void jsonCamera(const Report& report, std::size_t i, const Errors& errors, std::FILE* file) {
+std::string jsonDistances(const bundle::Statistics& distances) {
+  return "{\"rms\": " + json(distances.rms) + ", \"median\": " + json(distances.median) +
+         ", \"p95\": " + json(distances.p95) + "}";
+}
+
+std::string jsonCamera(const Report& report, std::size_t i, const bundle::Statistics& errors) {
   const geometry::Camera& camera = report.solution.reconstruction.cameras[i];
   const geometry::Intrinsics& lens = camera.intrinsics;
   const bundle::LensCertainty& certainty = report.solution.lenses[i];
   const Eigen::Vector3d center = camera.center();
   const Eigen::Quaterniond q(camera.world_from_camera.linear());
-  std::fprintf(file, "  {\"name\": \"%s\", \"width\": %d, \"height\": %d,\n   ",
-               camera.name.c_str(), lens.width, lens.height);
-  jsonErrors("reprojection_px", errors, file);
-  std::fprintf(file, ",\n   ");
-  jsonNumbers("fx_fy_cx_cy", std::vector<double>{lens.fx, lens.fy, lens.cx, lens.cy}, file);
-  std::fprintf(file, ", \"distortion_model\": \"%s\", ", nameOf(lens.distortion_model));
-  jsonNumbers("distortion", lens.distortion, file);
-  std::fprintf(file, ",\n   \"focal_stddev_px\": ");
-  jsonNumber(certainty.focal_stddev, file);
-  std::fprintf(file, ", \"focal_determined\": %s,\n   ",
-               certainty.focal_determined ? "true" : "false");
-  jsonNumbers("position", std::vector<double>{center.x(), center.y(), center.z()}, file);
-  std::fprintf(file, ", ");
-  jsonNumbers("world_from_camera_xyzw", std::vector<double>{q.x(), q.y(), q.z(), q.w()}, file);
-  if (report.comparison && !report.comparison->own.empty()) {
-    std::fprintf(file, ",\n   ");
-    jsonErrors("compared", report.comparison->own[i], file);
-    std::fprintf(file, ", ");
-    jsonErrors("shipped", report.comparison->shipped[i], file);
-  }
-  std::fprintf(file, "}");
+  std::string text =
+      format("  {\"name\": \"%s\", \"width\": %d, \"height\": %d,\n   ", camera.name.c_str(),
+             lens.width, lens.height) +
+      "\"reprojection_px\": " + json(errors) +
+      ",\n   \"fx_fy_cx_cy\": " + jsonList({lens.fx, lens.fy, lens.cx, lens.cy}) +
+      ", \"distortion_model\": \"" + nameOf(lens.distortion_model) +
+      "\", \"distortion\": " + jsonList({lens.distortion.begin(), lens.distortion.end()}) +
+      ",\n   \"focal_stddev_px\": " + json(certainty.focal_stddev) +
+      ", \"focal_determined\": " + (certainty.focal_determined ? "true" : "false") +
+      ",\n   \"position\": " + jsonList({center.x(), center.y(), center.z()}) +
+      ", \"world_from_camera_xyzw\": " + jsonList({q.x(), q.y(), q.z(), q.w()});
+  if (report.comparison && !report.comparison->own.empty())
+    text += ",\n   \"compared\": " + json(report.comparison->own[i]) +
+            ", \"shipped\": " + json(report.comparison->shipped[i]);
+  return text + "}";
 }
 
-void jsonDistances(const char* key, const Distances& distances, std::FILE* file) {
-  std::fprintf(file, "\"%s\": {\"rms\": ", key);
-  jsonNumber(distances.rms, file);
-  std::fprintf(file, ", \"median\": ");
-  jsonNumber(distances.median, file);
-  std::fprintf(file, ", \"p95\": ");
-  jsonNumber(distances.p95, file);
-  std::fprintf(file, "}");
+std::string jsonShipped(const Comparison& comparison) {
+  return format(",\n \"shipped\": {\"points\": %zu, ", comparison.points) +
+         "\"extent\": " + json(comparison.extent) +
+         ", \"after_similarity\": " + jsonDistances(comparison.similar) +
+         ", \"after_projective\": " + jsonDistances(comparison.projective) +
+         ", \"expected\": " + json(comparison.expected.value_or(std::nan(""))) + "}";
 }
 
 }  // namespace
@@ -157,7 +143,7 @@ void print(const Report& report, bool points, std::FILE* file) {
   std::fprintf(file, "Noise of a pixel coordinate: %.3f px\n", solution.pixel_stddev);
   std::fprintf(file, "\n%-20s %16s %9s %9s %9s\n", "reprojection [px]", "inliers", "median", "mean",
                "p95");
-  const std::vector<Errors> errors = errorsOf(reconstruction);
+  const std::vector<bundle::Statistics> errors = errorsOf(reconstruction);
   for (std::size_t i = 0; i < errors.size(); ++i)
     printErrors(reconstruction.cameras[i].name, errors[i], file);
   printLenses(report, file);
@@ -171,39 +157,23 @@ void print(const Report& report, bool points, std::FILE* file) {
   }
 }
 
-void printJson(const Report& report, std::FILE* file) {
-  const bundle::Reconstruction& reconstruction = report.solution.reconstruction;
-  std::fprintf(file, "{\"starts\": %zu, \"followed\": %zu, \"agreeing\": %zu,\n \"pixel_stddev\": ",
-               report.solution.starts, report.solution.followed, report.solution.agreeing);
-  jsonNumber(report.solution.pixel_stddev, file);
-  std::fprintf(file, ",\n \"cameras\": [\n");
-  const std::vector<Errors> errors = errorsOf(reconstruction);
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    std::fprintf(file, i == 0 ? "" : ",\n");
-    jsonCamera(report, i, errors[i], file);
-  }
-  std::fprintf(file, "\n ],\n \"points\": [");
-  for (std::size_t i = 0; i < reconstruction.points.size(); ++i) {
-    std::fprintf(file, i == 0 ? "\n  " : ",\n  ");
-    if (const auto& point = reconstruction.points[i])
-      std::fprintf(file, "[%.17g, %.17g, %.17g]", point->x(), point->y(), point->z());
-    else
-      std::fprintf(file, "null");
-  }
-  std::fprintf(file, "\n ]");
-  if (report.comparison && !report.comparison->own.empty()) {
-    std::fprintf(file,
-                 ",\n \"shipped\": {\"points\": %zu, \"extent\": ", report.comparison->points);
-    jsonNumber(report.comparison->extent, file);
-    std::fprintf(file, ", ");
-    jsonDistances("after_similarity", report.comparison->similar, file);
-    std::fprintf(file, ", ");
-    jsonDistances("after_projective", report.comparison->projective, file);
-    std::fprintf(file, ", \"expected\": ");
-    jsonNumber(report.comparison->expected.value_or(std::nan("")), file);
-    std::fprintf(file, "}");
-  }
-  std::fprintf(file, "}\n");
+std::string jsonText(const Report& report) {
+  const bundle::SelfCalibration& solution = report.solution;
+  const bundle::Reconstruction& reconstruction = solution.reconstruction;
+  std::vector<std::string> cameras;
+  for (const bundle::Statistics& errors : errorsOf(reconstruction))
+    cameras.push_back(jsonCamera(report, cameras.size(), errors));
+  std::vector<std::string> points;
+  for (const auto& point : reconstruction.points)
+    points.push_back(point ? jsonList({point->x(), point->y(), point->z()}) : "null");
+  std::string text = format("{\"starts\": %zu, \"followed\": %zu, \"agreeing\": %zu,\n ",
+                            solution.starts, solution.followed, solution.agreeing) +
+                     "\"pixel_stddev\": " + json(solution.pixel_stddev) + ",\n \"cameras\": [\n" +
+                     joined(cameras, ",\n") + "\n ],\n \"points\": [\n  " +
+                     joined(points, ",\n  ") + "\n ]";
+  if (report.comparison && !report.comparison->own.empty())
+    text += jsonShipped(*report.comparison);
+  return text + "}\n";
 }
 
 }  // namespace wiimote_tracker::import

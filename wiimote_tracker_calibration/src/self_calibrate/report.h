@@ -22,8 +22,8 @@ struct Report {
 /// Tables for people. @param points also the 3D points, one per line.
 void print(const Report& report, bool points, std::FILE* file);
 
-/// The same figures, all cameras and all points.
-void printJson(const Report& report, std::FILE* file);
+/// The same figures, all cameras and all points, as JSON.
+std::string jsonText(const Report& report);
 
 }  // namespace wiimote_tracker::import
 

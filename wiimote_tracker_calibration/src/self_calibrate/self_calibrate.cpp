@@ -11,15 +11,15 @@
 
 #include <chrono>
 #include <cstdio>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 namespace {
 
-namespace bundle = wiimote_tracker::bundle;
-namespace geometry = wiimote_tracker::geometry;
-namespace import = wiimote_tracker::import;
+using namespace wiimote_tracker;
+using namespace wiimote_tracker::import;
 
 struct Arguments {
   std::string source;
@@ -42,7 +42,7 @@ std::vector<std::string> split(const std::string& text) {
 /// @throws BadArguments.
 void check(const Arguments& arguments) {
   if (!arguments.intrinsics.empty() && (arguments.estimate || arguments.one_lens))
-    throw wiimote_tracker::BadArguments(
+    throw BadArguments(
         "--fix-intrinsics excludes --estimate-intrinsics and --one-lens");
 }
 
@@ -62,58 +62,41 @@ class ProgressLine {
   std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();
 };
 
-import::Report solve(const Arguments& arguments){
-    import::Recording recording = import::fileExists(arguments.source + "/Res.dat")
-                                      ? import::readRecording(arguments.source, false)
-                                      : import::readBag(arguments.source);
-if (!arguments.subset.empty())
-  recording = import::subsetOf(recording, split(arguments.subset));
-import::Recording used = recording;
-if (!arguments.intrinsics.empty())
-  import::takeIntrinsics(arguments.intrinsics, &used);
-
-std::vector<geometry::Camera> cameras;
-for (const import::RecordedCamera& recorded : used.cameras) {
-  geometry::Camera camera;
-  camera.name = recorded.name;
-  camera.intrinsics = recorded.intrinsics;
-  cameras.push_back(camera);
+Report solve(const Arguments& arguments) {
+  Recording recording = fileExists(arguments.source + "/Res.dat")
+                            ? readRecording(arguments.source, false)
+                            : readBag(arguments.source);
+  if (!arguments.subset.empty())
+    recording = subsetOf(recording, split(arguments.subset));
+  Recording used = recording;
+  if (!arguments.intrinsics.empty())
+    takeIntrinsics(arguments.intrinsics, &used);
+  const bundle::Reconstruction observed = observedBy(used);
+  bundle::SelfCalibrationOptions options;
+  options.fixed_lenses = !arguments.intrinsics.empty();
+  options.bundle.one_lens = arguments.one_lens;
+  Report report;
+  report.source = arguments.source;
+  report.frames = used.frames.size();
+  report.lenses_given = options.fixed_lenses;
+  report.solution = bundle::selfCalibrate(observed.cameras, observed.observations, report.frames,
+                                          options, ProgressLine());
+  report.comparison = compare(recording, report.solution, options.bundle);
+  return report;
 }
-std::vector<bundle::Observation> observations;
-for (std::size_t frame = 0; frame < used.frames.size(); ++frame) {
-  for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
-    if (const auto& pixel = used.frames[frame][camera])
-      observations.push_back({camera, frame, *pixel});
-  }
-}
-bundle::SelfCalibrationOptions options;
-options.fixed_lenses = !arguments.intrinsics.empty();
-options.bundle.one_lens = arguments.one_lens;
-import::Report report;
-report.source = arguments.source;
-report.frames = used.frames.size();
-report.lenses_given = options.fixed_lenses;
-report.solution =
-    bundle::selfCalibrate(cameras, observations, used.frames.size(), options, ProgressLine());
-report.comparison = import::compare(recording, report.solution, options.bundle);
-return report;
-}  // namespace
 
-void writeJson(const import::Report& report, const std::string& path) {
-  std::FILE* file = std::fopen(path.c_str(), "w");
-  if (file == nullptr)
-    throw import::ImportError(path + " cannot be written");
-  import::printJson(report, file);
-  const bool failed = std::ferror(file) != 0;
-  if (std::fclose(file) != 0 || failed)
-    throw import::ImportError(path + " cannot be written");
+void writeJson(const Report& report, const std::string& path) {
+  std::ofstream file(path);
+  file << jsonText(report) << std::flush;
+  if (!file)
+    throw ImportError(path + " cannot be written");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  wiimote_tracker::ArgumentParser parser(
+  ArgumentParser parser(
       "self_calibrate",
       "Calibrates synchronised cameras from what they saw of one moving light alone.");
   parser.positional("FOLDER_OR_BAG", &arguments.source);
@@ -126,8 +109,8 @@ int main(int argc, char** argv) {
   parser.option("--json FILE", &arguments.json, "write all figures, cameras and points");
   return parser.run(argc, argv, [&] {
     check(arguments);
-    const import::Report report = solve(arguments);
-    import::print(report, arguments.points, stdout);
+    const Report report = solve(arguments);
+    print(report, arguments.points, stdout);
     if (!arguments.json.empty())
       writeJson(report, arguments.json);
     return 0;

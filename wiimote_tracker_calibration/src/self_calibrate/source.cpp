@@ -2,6 +2,7 @@
 
 #include "wiimote_tracker_calibration/import/number_table.h"
 
+#include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 
 #include <algorithm>
@@ -12,15 +13,15 @@ namespace wiimote_tracker::import {
 
 Recording subsetOf(const Recording& recording, const std::vector<std::string>& names) {
   std::vector<std::size_t> kept;
-  std::string known;
+  std::vector<std::string> known;
   for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
-    known += (i == 0 ? "" : ", ") + recording.cameras[i].name;
+    known.push_back(recording.cameras[i].name);
     if (std::find(names.begin(), names.end(), recording.cameras[i].name) != names.end())
       kept.push_back(i);
   }
   if (kept.size() != names.size())
     throw ImportError("the camera subset must name cameras of the recording once each; it has: " +
-                      known);
+                      joined(known));
   Recording subset;
   for (const std::size_t i : kept)
     subset.cameras.push_back(recording.cameras[i]);

@@ -1,240 +1,45 @@
 #include "session/join_rigs.h"
 
-#include "place/chi_squared.h"
+#include "rig_motion.h"
 #include "session/error.h"
+#include "square/usable_cameras.h"
 
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <limits>
 
 namespace wiimote_tracker::session {
 
 namespace {
 
-namespace so3 = geometry::so3;
+using geometry::firstParameter;
+using geometry::kParameters;
+using geometry::kPosition;
+using geometry::kRotation;
+using geometry::kTimeOffset;
 
 // A larger angle between the gravity readings of a shared camera means that it was moved [rad].
 constexpr double kTurned = 0.05;
 // Minimum width of the places relative to their length: on a line the rotation is not determined.
 constexpr double kThinnest = 0.05;
-// Smallest standard deviation [rad, m]: keeps covariances invertible if a parameter was held.
-constexpr double kLeastStddev = 1e-5;
-
-std::string listOf(const std::vector<std::string>& words) {
-  std::string list;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    list += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
-  return list;
-}
-
-/// Linearised conditions: residual + by_motion * m + by_first * a + by_second * b + noise = 0, with
-/// the errors (true minus estimated) m of the motion between the worlds (rotation about the first
-/// world's axes, translation), a and b of the parameters of both rigs.
-struct Conditions {
-  Eigen::VectorXd residual;
-  Eigen::MatrixXd by_motion;
-  Eigen::MatrixXd by_first;
-  Eigen::MatrixXd by_second;
-  Eigen::VectorXd variance;  ///< Of the noise.
-
-  Conditions(Eigen::Index rows, const geometry::Rig& first, const geometry::Rig& second)
-      : residual(Eigen::VectorXd::Zero(rows)),
-        by_motion(Eigen::MatrixXd::Zero(rows, 6)),
-        by_first(Eigen::MatrixXd::Zero(rows, first.covariance.cols())),
-        by_second(Eigen::MatrixXd::Zero(rows, second.covariance.cols())),
-        variance(Eigen::VectorXd::Constant(rows, kLeastStddev * kLeastStddev)) {}
-};
-
-/// What both rigs share, as conditions on the motion between them.
-class Joint {
- public:
-  Joint(const geometry::Rig& first, const geometry::Rig& second) : first_(first), second_(second) {}
-  virtual ~Joint() = default;
-
-  virtual std::size_t count() const = 0;
-  virtual Eigen::Isometry3d start() const = 0;
-  /// Linearised at a motion, without the shared thing of index left_out (none if >= count()).
-  virtual Conditions conditions(const Eigen::Isometry3d& first_from_second,
-                                std::size_t left_out) const = 0;
-
- protected:
-  const geometry::Rig& first_;
-  const geometry::Rig& second_;
-};
-
-/// Cameras of both rigs: six conditions each.
-class SharedCameras : public Joint {
- public:
-  using Joint::Joint;
-
-  void add(std::size_t in_first, std::size_t in_second) {
-    pairs_.emplace_back(in_first, in_second);
-  }
-
-  std::size_t count() const override { return pairs_.size(); }
-
-  Eigen::Isometry3d start() const override {
-    return pose(first_, pairs_[0].first) * pose(second_, pairs_[0].second).inverse();
-  }
-
-  Conditions conditions(const Eigen::Isometry3d& motion, std::size_t left_out) const override {
-    const std::size_t used = count() - (left_out < count() ? 1 : 0);
-    Conditions result(6 * static_cast<Eigen::Index>(used), first_, second_);
-    Eigen::Index row = 0;
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      if (i == left_out)
-        continue;
-      const Eigen::Isometry3d expected = pose(first_, pairs_[i].first);
-      const Eigen::Isometry3d second = pose(second_, pairs_[i].second);
-      const Eigen::Isometry3d moved = motion * second;
-      const Eigen::Index first_column = geometry::firstParameter(pairs_[i].first);
-      const Eigen::Index second_column = geometry::firstParameter(pairs_[i].second);
-      result.residual.segment<3>(row) = so3::log(moved.linear() * expected.linear().transpose());
-      result.residual.segment<3>(row + 3) = moved.translation() - expected.translation();
-      result.by_motion.block<6, 6>(row, 0).setIdentity();
-      result.by_motion.block<3, 3>(row + 3, 0) = -so3::skew(motion.linear() * second.translation());
-      result.by_first.block<6, 6>(row, first_column) = -Eigen::Matrix<double, 6, 6>::Identity();
-      result.by_second.block<3, 3>(row, second_column + geometry::kRotation) = motion.linear();
-      result.by_second.block<3, 3>(row + 3, second_column + geometry::kPosition) = motion.linear();
-      row += 6;
-    }
-    return result;
-  }
-
- private:
-  static Eigen::Isometry3d pose(const geometry::Rig& rig, std::size_t camera) {
-    return rig.cameras[camera].camera.world_from_camera;
-  }
-
-  std::vector<std::pair<std::size_t, std::size_t>> pairs_;
-};
-
-/// Places known in the first world and measured with the second rig: three conditions each.
-class SharedPlaces : public Joint {
- public:
-  SharedPlaces(const geometry::Rig& first,
-               const geometry::Rig& second,
-               const std::vector<CommonPlace>& places)
-      : Joint(first, second), places_(places) {
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const auto derivative = geometry::pointByParameters(
-          second, places[i].in_second, geometry::camerasSeeing(second, places[i].in_second));
-      if (!derivative)
-        throw SessionError("no two cameras of the second rig look at place " +
-                           std::to_string(i + 1) + ": measure places that they see");
-      derivatives_.push_back(*derivative);
-    }
-  }
-
-  std::size_t count() const override { return places_.size(); }
-
-  Eigen::Isometry3d start() const override {
-    Eigen::Matrix3Xd from(3, places_.size());
-    Eigen::Matrix3Xd to(3, places_.size());
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      from.col(static_cast<Eigen::Index>(i)) = places_[i].in_second;
-      to.col(static_cast<Eigen::Index>(i)) = places_[i].in_first;
-    }
-    return Eigen::Isometry3d(Eigen::umeyama(from, to, false));
-  }
-
-  Conditions conditions(const Eigen::Isometry3d& motion, std::size_t left_out) const override {
-    const std::size_t used = count() - (left_out < count() ? 1 : 0);
-    Conditions result(3 * static_cast<Eigen::Index>(used), first_, second_);
-    Eigen::Index row = 0;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      if (i == left_out)
-        continue;
-      const CommonPlace& place = places_[i];
-      result.residual.segment<3>(row) = motion * place.in_second - place.in_first;
-      result.by_motion.block<3, 3>(row, 0) = -so3::skew(motion.linear() * place.in_second);
-      result.by_motion.block<3, 3>(row, 3).setIdentity();
-      result.by_second.middleRows<3>(row) = motion.linear() * derivatives_[i];
-      result.variance.segment<3>(row).array() += place.stddev * place.stddev;
-      row += 3;
-    }
-    return result;
-  }
-
- private:
-  const std::vector<CommonPlace>& places_;
-  std::vector<Eigen::MatrixXd> derivatives_;
-};
-
-/// The best motion, and how its error depends on those of the rigs.
-struct Motion {
-  Eigen::Isometry3d first_from_second;
-  Eigen::MatrixXd gain;  ///< error = -gain * (by_first * a + by_second * b + noise).
-  double chi_squared = 0.0;
-  int degrees_of_freedom = 0;
-};
-
-/// Generalised least squares by Gauss-Newton, weighted by the covariances of both rigs.
-Motion fitMotion(const geometry::Rig& first,
-                 const geometry::Rig& second,
-                 const Joint& joint,
-                 std::size_t left_out) {
-  Motion motion;
-  motion.first_from_second = joint.start();
-  for (int iteration = 0;; ++iteration) {
-    const Conditions conditions = joint.conditions(motion.first_from_second, left_out);
-    Eigen::MatrixXd covariance = conditions.variance.asDiagonal();
-    covariance += conditions.by_first * first.covariance * conditions.by_first.transpose();
-    covariance += conditions.by_second * second.covariance * conditions.by_second.transpose();
-    const Eigen::LDLT<Eigen::MatrixXd> weight(covariance);
-    const Eigen::MatrixXd weighed = weight.solve(conditions.by_motion);
-    const Eigen::Matrix<double, 6, 6> information = conditions.by_motion.transpose() * weighed;
-    motion.gain = information.ldlt().solve(weighed.transpose());
-    motion.chi_squared = conditions.residual.dot(weight.solve(conditions.residual));
-    motion.degrees_of_freedom = static_cast<int>(conditions.residual.size()) - 6;
-    const Eigen::Matrix<double, 6, 1> step = -motion.gain * conditions.residual;
-    if (!step.allFinite())
-      throw SessionError("what the rigs share does not tell how one lies in the other: share more");
-    if (step.norm() < 1e-10 || iteration == 20)
-      return motion;
-    motion.first_from_second.linear() =
-        Eigen::Quaterniond(so3::exp(step.head<3>()) * motion.first_from_second.linear())
-            .normalized()
-            .toRotationMatrix();
-    motion.first_from_second.translation() += step.tail<3>();
-  }
-}
-
-bool contradicts(const Motion& motion) {
-  return motion.degrees_of_freedom > 0 &&
-         motion.chi_squared >
-             place::chiSquaredQuantile(motion.degrees_of_freedom, place::kThreeNines);
-}
-
-/// Index of the shared thing without which the rest fits best.
-std::size_t oddOneOut(const geometry::Rig& first, const geometry::Rig& second, const Joint& joint) {
-  std::size_t odd = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < joint.count(); ++i) {
-    const double without = fitMotion(first, second, joint, i).chi_squared;
-    if (without < least) {
-      least = without;
-      odd = i;
-    }
-  }
-  return odd;
-}
 
 /// Offset of the second rig's clock from the first's, from shared cameras with known time offsets.
 struct ClockShift {
-  double shift = 0.0;
-  std::vector<std::pair<std::size_t, std::size_t>> cameras;  ///< Empty: not known.
+  double shift = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: not known.
+  Eigen::RowVectorXd by_errors;                             ///< As RigMotion::by_errors.
 };
 
-ClockShift clockShift(const geometry::Rig& first, const geometry::Rig& second) {
-  ClockShift result;
+ClockShift clockShift(const geometry::Rig& first,
+                      const geometry::Rig& second,
+                      Eigen::Index error_count) {
+  ClockShift sum{0.0, Eigen::RowVectorXd::Zero(error_count)};
+  int count = 0;
   for (std::size_t i = 0; i < first.cameras.size(); ++i) {
     for (std::size_t j = 0; j < second.cameras.size(); ++j) {
       const geometry::RigCamera& a = first.cameras[i];
@@ -246,77 +51,55 @@ ClockShift clockShift(const geometry::Rig& first, const geometry::Rig& second) {
           (a.time_offset_rule == geometry::TimeOffsetRule::kOneEpoch &&
            a.time_offset_epoch != b.time_offset_epoch))
         continue;
-      result.shift += shift;
-      result.cameras.emplace_back(i, j);
+      ++count;
+      sum.shift += shift;
+      sum.by_errors[firstParameter(i) + kTimeOffset] += 1.0;
+      sum.by_errors[first.covariance.cols() + firstParameter(j) + kTimeOffset] -= 1.0;
     }
   }
-  if (!result.cameras.empty())
-    result.shift /= static_cast<double>(result.cameras.size());
-  return result;
-}
-
-Eigen::Index offsetParameter(std::size_t camera) {
-  return geometry::firstParameter(camera) + geometry::kTimeOffset;
+  if (count == 0)
+    return {};
+  return {sum.shift / count, sum.by_errors / count};
 }
 
 /// The first rig with the second's other cameras, moved into its world.
 geometry::Rig joined(const geometry::Rig& first,
                      const geometry::Rig& second,
-                     const Motion& motion,
-                     const Conditions& conditions) {
+                     const RigMotion& motion) {
   const Eigen::Isometry3d& moved = motion.first_from_second;
-  const ClockShift clock = clockShift(first, second);
+  const Eigen::Index errors = motion.by_errors.cols();
+  const ClockShift clock = clockShift(first, second, errors);
   geometry::Rig rig = first;
-  // Derivatives of the result's errors by those of both rigs and by the noise.
-  const Eigen::Index most = first.covariance.rows() + second.covariance.rows();
-  Eigen::MatrixXd by_first = Eigen::MatrixXd::Zero(most, first.covariance.rows());
-  Eigen::MatrixXd by_second = Eigen::MatrixXd::Zero(most, second.covariance.rows());
-  Eigen::MatrixXd by_noise = Eigen::MatrixXd::Zero(most, conditions.variance.size());
-  by_first.topRows(first.covariance.rows()).setIdentity();
-  Eigen::Index row = first.covariance.rows();
+  const Eigen::Index known = first.covariance.rows();
+  // The result's errors by those of both rigs and of what they share.
+  Eigen::MatrixXd by_errors = Eigen::MatrixXd::Zero(known + second.covariance.rows(), errors);
+  by_errors.topLeftCorner(known, known).setIdentity();
   for (std::size_t j = 0; j < second.cameras.size(); ++j) {
     if (first.find(second.cameras[j].camera.name))
       continue;
     geometry::RigCamera camera = second.cameras[j];
-    const Eigen::Vector3d turned = moved.linear() * camera.camera.center();
-    const Eigen::Index column = geometry::firstParameter(j);
-    by_second.block<geometry::kParameters, geometry::kParameters>(row, column).setIdentity();
-    by_second.block<3, 3>(row, column) = moved.linear();
-    by_second.block<3, 3>(row + 3, column + 3) = moved.linear();
-    Eigen::Matrix<double, 6, 6> by_motion = Eigen::Matrix<double, 6, 6>::Identity();
-    by_motion.block<3, 3>(3, 0) = -so3::skew(turned);
-    const Eigen::MatrixXd by_conditions = -by_motion * motion.gain;
-    by_first.middleRows<6>(row) += by_conditions * conditions.by_first;
-    by_second.middleRows<6>(row) += by_conditions * conditions.by_second;
-    by_noise.middleRows<6>(row) = by_conditions;
-    const Eigen::Index offset = row + geometry::kTimeOffset;
-    for (const auto& shared : clock.cameras) {
-      const double share = 1.0 / static_cast<double>(clock.cameras.size());
-      by_first(offset, offsetParameter(shared.first)) += share;
-      by_second(offset, offsetParameter(shared.second)) -= share;
-    }
-    if (clock.cameras.empty()) {
-      by_second.row(offset).setZero();
-      camera.time_offset = std::numeric_limits<double>::quiet_NaN();
+    auto rows = by_errors.middleRows<kParameters>(firstParameter(rig.cameras.size()));
+    const Eigen::Index column = known + firstParameter(j);
+    rows.middleCols<kParameters>(column).setIdentity();
+    rows.block<3, 3>(kRotation, column + kRotation) = moved.linear();
+    rows.block<3, 3>(kPosition, column + kPosition) = moved.linear();
+    rows.topRows<6>() += motion.by_errors;
+    rows.middleRows<3>(kPosition) -= geometry::so3::skew(moved.linear() * camera.camera.center()) *
+                                     motion.by_errors.topRows<3>();
+    if (std::isnan(clock.shift)) {
+      rows.row(kTimeOffset).setZero();
       camera.time_offset_rule = geometry::TimeOffsetRule::kNone;
     } else {
-      camera.time_offset += clock.shift;
+      rows.row(kTimeOffset) += clock.by_errors;
     }
-    camera.camera.world_from_camera = moved * camera.camera.world_from_camera;
-    camera.camera.world_from_camera.linear() =
-        Eigen::Quaterniond(camera.camera.world_from_camera.linear())
-            .normalized()
-            .toRotationMatrix();
+    camera.time_offset += clock.shift;
+    Eigen::Isometry3d& pose = camera.camera.world_from_camera;
+    pose = moved * pose;
+    pose.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
     rig.cameras.push_back(camera);
-    row += geometry::kParameters;
   }
-  by_first.conservativeResize(row, Eigen::NoChange);
-  by_second.conservativeResize(row, Eigen::NoChange);
-  by_noise.conservativeResize(row, Eigen::NoChange);
-  const Eigen::MatrixXd covariance =
-      by_first * first.covariance * by_first.transpose() +
-      by_second * second.covariance * by_second.transpose() +
-      by_noise * conditions.variance.asDiagonal() * by_noise.transpose();
+  by_errors.conservativeResize(firstParameter(rig.cameras.size()), Eigen::NoChange);
+  const Eigen::MatrixXd covariance = by_errors * motion.error_covariance * by_errors.transpose();
   rig.covariance = 0.5 * (covariance + covariance.transpose());
   return rig;
 }
@@ -370,23 +153,21 @@ void checkGravity(const geometry::RigCamera& first, const geometry::RigCamera& s
 
 JoinedRigs finish(const geometry::Rig& first,
                   const geometry::Rig& second,
-                  const Joint& joint,
-                  const Motion& motion,
+                  const RigMotion& motion,
                   const std::string& over) {
   JoinedRigs result;
   result.first_from_second = motion.first_from_second;
   result.chi_squared = motion.chi_squared;
   result.degrees_of_freedom = motion.degrees_of_freedom;
-  result.rig =
-      joined(first, second, motion, joint.conditions(motion.first_from_second, joint.count()));
+  result.rig = joined(first, second, motion);
   const std::size_t added = result.rig.cameras.size() - first.cameras.size();
-  result.message = std::to_string(added) + (added == 1 ? " camera" : " cameras") +
-                   " joined to the " + std::to_string(first.cameras.size()) +
-                   " of the first rig over " + over;
+  result.message = format("%zu %s joined to the %zu of the first rig over ", added,
+                          added == 1 ? "camera" : "cameras", first.cameras.size()) +
+                   over;
   if (motion.degrees_of_freedom > 0)
-    result.message += "; the rigs disagree " +
-                      format("%.1f", std::sqrt(motion.chi_squared / motion.degrees_of_freedom)) +
-                      " times as much as their uncertainties let expect";
+    result.message +=
+        format("; the rigs disagree %.1f times as much as their uncertainties let expect",
+               std::sqrt(motion.chi_squared / motion.degrees_of_freedom));
   else
     result.message += "; nothing checks that it did not move in between, a second one would";
   result.rig.method = first.method + " joined with " + second.method;
@@ -395,49 +176,15 @@ JoinedRigs finish(const geometry::Rig& first,
   return result;
 }
 
-}  // namespace
-
-JoinedRigs joinRigs(const geometry::Rig& first, const geometry::Rig& second) {
-  checkRigs(first, second);
-  SharedCameras joint(first, second);
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < first.cameras.size(); ++i) {
-    for (std::size_t j = 0; j < second.cameras.size(); ++j) {
-      if (first.cameras[i].camera.name != second.cameras[j].camera.name)
-        continue;
-      checkGravity(first.cameras[i], second.cameras[j]);
-      joint.add(i, j);
-      names.push_back(first.cameras[i].camera.name);
-    }
-  }
-  if (names.empty())
-    throw SessionError(
-        "the rigs share no camera: calibrate the second room together with a camera of the first "
-        "that stays where it is, or measure three known places or more of the first world with the "
-        "second rig");
-  const Motion motion = fitMotion(first, second, joint, joint.count());
-  if (contradicts(motion)) {
-    const std::string advice =
-        ": it was moved in between, or was calibrated badly; calibrate one of the rooms anew";
-    if (names.size() == 2)
-      throw SessionError(names[0] + " and " + names[1] +
-                         " do not stand to each other in the second rig as in the first: one of "
-                         "them was moved in between, or calibrated badly; calibrate one of the "
-                         "rooms anew");
-    throw SessionError(names[oddOneOut(first, second, joint)] +
-                       " does not stand to the other shared cameras in the second rig as in the "
-                       "first" +
-                       advice);
-  }
-  JoinedRigs result = finish(first, second, joint, motion, listOf(names));
-  result.shared = names;
-  return result;
+/// Derivative of the pose of a camera by all parameters of its rig.
+Eigen::MatrixXd poseByParameters(const geometry::Rig& rig, std::size_t camera) {
+  Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(6, rig.covariance.cols());
+  derivative.middleCols<6>(firstParameter(camera)).setIdentity();
+  return derivative;
 }
 
-JoinedRigs joinRigs(const geometry::Rig& first,
-                    const geometry::Rig& second,
-                    const std::vector<CommonPlace>& places) {
-  checkRigs(first, second);
+/// @throws SessionError: too few places, values out of range, or all on one line.
+void checkPlaces(const std::vector<CommonPlace>& places) {
   if (places.size() < 3)
     throw SessionError(std::to_string(places.size()) +
                        " common places do not tell how one rig lies in the other: measure three or "
@@ -456,18 +203,88 @@ JoinedRigs joinRigs(const geometry::Rig& first,
       Eigen::JacobiSVD<Eigen::MatrixXd>(centered.transpose()).singularValues();
   if (!(extent[1] > kThinnest * extent[0]))
     throw SessionError("the common places are on one line: measure one beside it, too");
-  const SharedPlaces joint(first, second, places);
-  const Motion motion = fitMotion(first, second, joint, joint.count());
-  if (contradicts(motion)) {
+}
+
+/// The motion that brings the places of the second world nearest to those of the first.
+Eigen::Isometry3d startOver(const std::vector<CommonPlace>& places) {
+  Eigen::Matrix3Xd from(3, places.size());
+  Eigen::Matrix3Xd to(3, places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    from.col(static_cast<Eigen::Index>(i)) = places[i].in_second;
+    to.col(static_cast<Eigen::Index>(i)) = places[i].in_first;
+  }
+  return Eigen::Isometry3d(Eigen::umeyama(from, to, false));
+}
+
+}  // namespace
+
+JoinedRigs joinRigs(const geometry::Rig& first, const geometry::Rig& second) {
+  checkRigs(first, second);
+  std::vector<Shared> shared;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < first.cameras.size(); ++i) {
+    for (std::size_t j = 0; j < second.cameras.size(); ++j) {
+      if (first.cameras[i].camera.name != second.cameras[j].camera.name)
+        continue;
+      checkGravity(first.cameras[i], second.cameras[j]);
+      shared.push_back({first.cameras[i].camera.world_from_camera,
+                        second.cameras[j].camera.world_from_camera, poseByParameters(first, i),
+                        poseByParameters(second, j)});
+      names.push_back(first.cameras[i].camera.name);
+    }
+  }
+  if (names.empty())
+    throw SessionError(
+        "the rigs share no camera: calibrate the second room together with a camera of the first "
+        "that stays where it is, or measure three known places or more of the first world with the "
+        "second rig");
+  const Eigen::Isometry3d start = shared[0].in_first * shared[0].in_second.inverse();
+  const RigMotion motion = fitMotion(first, second, shared, start);
+  if (motion.contradicts()) {
+    if (names.size() == 2)
+      throw SessionError(names[0] + " and " + names[1] +
+                         " do not stand to each other in the second rig as in the first: one of "
+                         "them was moved in between, or calibrated badly; calibrate one of the "
+                         "rooms anew");
+    throw SessionError(names[oddOneOut(first, second, shared, start)] +
+                       " does not stand to the other shared cameras in the second rig as in the "
+                       "first: it was moved in between, or was calibrated badly; calibrate one of "
+                       "the rooms anew");
+  }
+  JoinedRigs result = finish(first, second, motion, square::listOf(names));
+  result.shared = names;
+  return result;
+}
+
+JoinedRigs joinRigs(const geometry::Rig& first,
+                    const geometry::Rig& second,
+                    const std::vector<CommonPlace>& places) {
+  checkRigs(first, second);
+  checkPlaces(places);
+  std::vector<Shared> shared;
+  for (const CommonPlace& place : places) {
+    const auto derivative = geometry::pointByParameters(
+        second, place.in_second, geometry::camerasSeeing(second, place.in_second));
+    if (!derivative)
+      throw SessionError("no two cameras of the second rig look at place " +
+                         std::to_string(shared.size() + 1) + ": measure places that they see");
+    shared.push_back({Eigen::Isometry3d(Eigen::Translation3d(place.in_first)),
+                      Eigen::Isometry3d(Eigen::Translation3d(place.in_second)),
+                      Eigen::MatrixXd::Zero(3, first.covariance.cols()), *derivative,
+                      place.stddev});
+  }
+  const Eigen::Isometry3d start = startOver(places);
+  const RigMotion motion = fitMotion(first, second, shared, start);
+  if (motion.contradicts()) {
     if (places.size() == 3)
       throw SessionError(
           "the three common places do not lie to one another in the second rig as in the first: "
           "measure them again, and a fourth");
-    throw SessionError("place " + std::to_string(oddOneOut(first, second, joint) + 1) +
+    throw SessionError("place " + std::to_string(oddOneOut(first, second, shared, start) + 1) +
                        " does not lie to the other common places in the second rig as in the "
                        "first: measure it again");
   }
-  return finish(first, second, joint, motion, std::to_string(places.size()) + " common places");
+  return finish(first, second, motion, std::to_string(places.size()) + " common places");
 }
 
 }  // namespace wiimote_tracker::session

@@ -1,8 +1,9 @@
 #include "judge.h"
 
+#include "square/expected_error.h"
+
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
-#include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <algorithm>
@@ -83,17 +84,6 @@ double cornerError(const Session& session, const geometry::Rig& rig, bool z_up) 
     ++count;
   }
   return count > 0 ? std::sqrt(sum / count) : kNan;
-}
-
-/// The calibration's part of the standard deviation of a point triangulated by all cameras that see
-/// it: root of the trace of D C D^T with the joint covariance C of the rig [m].
-double predictedStddev(const geometry::Rig& rig, const Eigen::Vector3d& point) {
-  const auto derivative =
-      geometry::hasCovariance(rig)
-          ? geometry::pointByParameters(rig, point, geometry::camerasSeeing(rig, point))
-          : std::nullopt;
-  return derivative ? std::sqrt((*derivative * rig.covariance * derivative->transpose()).trace())
-                    : kNan;
 }
 
 /// Mean distance of the cameras from a place [m].
@@ -197,8 +187,9 @@ Verdict judge(const Session& session, const geometry::Rig& rig, const Findings& 
     for (const Eigen::Vector3d& corner : corners)
       verdict.predicted_at.push_back(corner + above);
     for (const Eigen::Vector3d& place : verdict.predicted_at)
-      verdict.predicted_stddev.push_back(
-          rig.ray_model == geometry::RayModel::kCalibrated ? predictedStddev(rig, place) : kNan);
+      verdict.predicted_stddev.push_back(rig.ray_model == geometry::RayModel::kCalibrated
+                                             ? square::expectedError(rig, {place})
+                                             : kNan);
   }
   const Accuracy accuracy = accuracyOf(session, rig, findings, verdict);
   const std::vector<std::string> reasons = shortcomings(accuracy, findings, verdict);
@@ -213,9 +204,7 @@ Verdict judge(const Session& session, const geometry::Rig& rig, const Findings& 
         "at it from different sides, or wave an LED through the volume";
   } else if (!reasons.empty()) {
     verdict.grade = Grade::kUsable;
-    verdict.text = "usable: ";
-    for (const std::string& reason : reasons)
-      verdict.text += (&reason == &reasons.front() ? "" : ", and ") + reason;
+    verdict.text = "usable: " + joined(reasons, ", and ");
   } else {
     verdict.grade = Grade::kGood;
     verdict.text = "good";

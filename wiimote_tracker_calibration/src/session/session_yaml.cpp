@@ -159,8 +159,8 @@ geometry::Intrinsics readLens(YamlMap map) {
   if (!model)
     throw map.error("distortion_model", "is not known");
   lens.distortion_model = *model;
-  const Eigen::VectorXd distortion =
-      readVector(map, "distortion", geometry::coefficientCount(*model));
+  const std::vector<double> distortion =
+      map.numbers("distortion", geometry::coefficientCount(*model));
   std::copy(distortion.begin(), distortion.end(), lens.distortion.begin());
   map.refuseUnknown();
   return lens;

@@ -2,10 +2,8 @@
 
 #include "square/error.h"
 #include "square/planar_pose.h"
-#include "square/three_corner_pose.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -85,47 +83,20 @@ std::vector<Combination> singleChanges(const RigModel& model,
   return combinations;
 }
 
-/// Poses of least reprojection error. Empty when there is none.
-std::vector<Eigen::Isometry3d> startPoses(const CameraSightings& sightings,
-                                          const Corners& corners) {
-  std::vector<Eigen::Isometry3d> poses;
-  if (sightings.cornersSeen() == 4) {
-    std::array<Eigen::Vector2d, 4> pixels;
-    for (std::size_t c = 0; c < 4; ++c)
-      pixels[c] = *sightings.corners[c];
-    for (const PlanarPose& pose : planarPoses(sightings.intrinsics, pixels, corners))
-      poses.push_back(pose.world_from_camera);
-    return poses;
-  }
-  std::array<Eigen::Vector3d, 3> points;
-  std::array<Eigen::Vector3d, 3> directions;
-  std::size_t seen = 0;
-  for (std::size_t c = 0; c < 4; ++c) {
-    if (!sightings.corners[c])
-      continue;
-    const auto normalized = sightings.intrinsics.normalizedFromPixel(*sightings.corners[c]);
-    if (!normalized)
-      return poses;
-    points[seen] = corners[c];
-    directions[seen] = normalized->homogeneous();
-    ++seen;
-  }
-  return threeCornerPoses(points, directions);
-}
-
 }  // namespace
 
 std::vector<Branch> findBranches(const RigModel& model, std::size_t camera) {
   const RigModel alone = model.only(camera);
+  const CameraSightings& seen = alone.sightings().front();
   std::vector<Branch> branches;
-  for (const Eigen::Isometry3d& pose :
-       startPoses(alone.sightings().front(), alone.nominalCorners())) {
-    const RigState start = alone.start({pose});
+  for (const PlanarPose& pose :
+       cornerPoses(seen.intrinsics, seen.corners, alone.nominalCorners())) {
+    const RigState start = alone.start({pose.world_from_camera});
     RigState probable = start;
     const std::optional<double> cost = alone.refineAll(&probable, RigModel::Precision::kCoarse);
     const double error = alone.reprojectionError(start, 0);
     if (cost && std::isfinite(error))
-      branches.push_back({pose, error, *cost});
+      branches.push_back({pose.world_from_camera, error, *cost});
   }
   std::sort(branches.begin(), branches.end(),
             [](const Branch& a, const Branch& b) { return a.cost < b.cost; });

@@ -8,7 +8,8 @@
 #include <Eigen/Geometry>
 
 #include <array>
-#include <cstddef>
+#include <optional>
+#include <vector>
 
 namespace wiimote_tracker::square {
 
@@ -18,34 +19,28 @@ struct PlanarPose {
   double cost = 0.0;  ///< Sum of the squared distances in the image [px^2].
 };
 
-/// None, one, or two poses: the better first.
-class PlanarPoses {
- public:
-  const PlanarPose* begin() const { return poses_.data(); }
-  const PlanarPose* end() const { return poses_.data() + size_; }
-  std::size_t size() const { return size_; }
-  bool empty() const { return size_ == 0; }
-  const PlanarPose& operator[](std::size_t i) const { return poses_[i]; }
+using PlanarPoses = std::vector<PlanarPose>;
 
-  /// Keeps the order, and the two best.
-  void add(const PlanarPose& pose);
-
- private:
-  std::array<PlanarPose, 2> poses_;
-  std::size_t size_ = 0;
-};
-
-/// Most probable poses of a camera that saw the four corners, for pixel errors that are Gaussian,
-/// independent and equal in both axes. A plane has up to two: the second is, nearly, its mirror
-/// image at the line of sight. They start from the derivative of the homography in the middle of
-/// the corners (Collins and Bartoli, Infinitesimal Plane-Based Pose Estimation, 2014), and are then
-/// refined by Levenberg-Marquardt with the lens as it is. Does not allocate.
+/// Most probable poses of a camera that saw three or four of the corners, for pixel errors that are
+/// Gaussian, independent and equal in both axes: the better first. Four have up to two: a plane and
+/// its mirror image at the line of sight look nearly the same. They start from the derivative of
+/// the homography in the middle of the corners (Collins and Bartoli, Infinitesimal Plane-Based Pose
+/// Estimation, 2014). Three have up to four (Ke and Roumeliotis, An Efficient Algebraic Solution to
+/// the Perspective-Three-Point Problem, 2017), and nothing in the image tells which. All are then
+/// refined by Levenberg-Marquardt with the lens as it is.
 /// @param pixels as observed, distorted [px].
 /// @param corners of the same z, no three on a line.
 /// Empty when no pose explains the pixels: three on one line, or beyond what the lens can image.
-PlanarPoses planarPoses(const geometry::Intrinsics& intrinsics,
-                        const std::array<Eigen::Vector2d, 4>& pixels,
+PlanarPoses cornerPoses(const geometry::Intrinsics& intrinsics,
+                        const std::array<std::optional<Eigen::Vector2d>, 4>& pixels,
                         const Corners& corners);
+
+/// The same of a camera that saw all four.
+inline PlanarPoses planarPoses(const geometry::Intrinsics& intrinsics,
+                               const std::array<Eigen::Vector2d, 4>& pixels,
+                               const Corners& corners) {
+  return cornerPoses(intrinsics, {pixels[0], pixels[1], pixels[2], pixels[3]}, corners);
+}
 
 /// Whether two poses are the same to within 0.02 degrees and 0.02 % of the distance to the square.
 bool isSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const Corners& corners);

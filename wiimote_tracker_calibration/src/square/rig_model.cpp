@@ -69,17 +69,11 @@ class RigModel::Problem {
     ceres::Solver::Options options;
     options.max_num_iterations = 200;
     options.logging_type = ceres::SILENT;
-    if (precision == Precision::kCoarse) {
-      options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-      options.function_tolerance = 1e-9;
-      options.gradient_tolerance = 1e-13;
-      options.parameter_tolerance = 1e-13;
-    } else {
-      options.linear_solver_type = ceres::DENSE_QR;
-      options.function_tolerance = 1e-15;
-      options.gradient_tolerance = 1e-13;
-      options.parameter_tolerance = 1e-13;
-    }
+    const bool coarse = precision == Precision::kCoarse;
+    options.linear_solver_type = coarse ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
+    options.function_tolerance = coarse ? 1e-9 : 1e-15;
+    options.gradient_tolerance = 1e-13;
+    options.parameter_tolerance = 1e-13;
     double start_cost = 0.0;
     if (!problem_.Evaluate(ceres::Problem::EvaluateOptions(), &start_cost, nullptr, nullptr,
                            nullptr))

@@ -81,11 +81,11 @@ void refuseUndecided(const RigModel& model,
   const double apart =
       (both[0].world_from_camera.translation() - both[1].world_from_camera.translation()).norm();
   throw SquareError(
-      model.sightings()[i].name + " can stand in two places, " + format("%.2f m", apart) +
-      " apart, that explain what it saw (to " + format("%.2f", both[0].reprojection_error) +
-      " and " + format("%.2f px", both[1].reprojection_error) +
-      "), and nothing tells which: let it look at the square more from the side or from nearer, "
-      "use a larger square, or connect its accelerometer");
+      model.sightings()[i].name +
+      format(" can stand in two places, %.2f m apart, that explain what it saw (to %.2f and %.2f "
+             "px), and nothing tells which: let it look at the square more from the side or from "
+             "nearer, use a larger square, or connect its accelerometer",
+             apart, both[0].reprojection_error, both[1].reprojection_error));
 }
 
 /// Ratio of the residuals to what the uncertainties let expect; about 1 when all is well.
@@ -147,10 +147,10 @@ Explanation displacedCorner(const RigModel& model,
     return result;
   const double freedom = std::max(1, model.degreesOfFreedom() - 2);
   result.misfit = std::sqrt(std::max(0.0, choice.cost - suspect->chi_squared) / freedom);
-  result.text = ", most at corner " + std::to_string(suspect->corner + 1) + " (" +
-                format("%.0f mm", 1e3 * suspect->distance) +
-                " off): check the sides of the square and capture that corner again, or state a "
-                "larger placement error";
+  result.text = format(
+      ", most at corner %zu (%.0f mm off): check the sides of the square and capture that corner "
+      "again, or state a larger placement error",
+      suspect->corner + 1, 1e3 * suspect->distance);
   return result;
 }
 
@@ -210,20 +210,21 @@ geometry::RigCamera rigCamera(const RigModel& model, const RigState& state, std:
 }
 
 std::string verdict(const SquareSolution& solution) {
+  const geometry::Rig& rig = solution.rig;
   double worst_px = 0.0;
   double worst_m = 0.0;
-  for (std::size_t i = 0; i < solution.rig.cameras.size(); ++i) {
-    worst_px = std::max(worst_px, solution.rig.cameras[i].residual_px);
-    worst_m = std::max(worst_m, solution.rig.cameras[i].residual_m);
+  for (const geometry::RigCamera& camera : rig.cameras) {
+    worst_px = std::max(worst_px, camera.residual_px);
+    worst_m = std::max(worst_m, camera.residual_m);
   }
-  std::string text = std::to_string(solution.rig.cameras.size()) + " cameras solved from a " +
-                     format("%.3f m", solution.rig.square_sides[0]) + " x " +
-                     format("%.3f m", solution.rig.square_sides[1]) + " square, z points " +
-                     (solution.z_up ? "up" : "down") + "; residuals at most " +
-                     format("%.2f px", worst_px) + " (" + format("%.1f mm", 1000.0 * worst_m) + ")";
+  std::string text = format(
+      "%zu cameras solved from a %.3f m x %.3f m square, z points %s; residuals at most %.2f px "
+      "(%.1f mm)",
+      rig.cameras.size(), rig.square_sides[0], rig.square_sides[1], solution.z_up ? "up" : "down",
+      worst_px, 1000.0 * worst_m);
   if (std::isfinite(solution.expected_error))
-    text += ", points over the square expected within " +
-            format("%.0f mm", 1000.0 * solution.expected_error) + " (RMS)";
+    text += format(", points over the square expected within %.0f mm (RMS)",
+                   1000.0 * solution.expected_error);
   for (const std::string& warning : solution.warnings)
     text += "; warning: " + warning;
   return text;
@@ -277,10 +278,10 @@ SquareSolution solveSquare(const SquareLayout& layout,
     rig.cameras.push_back(rigCamera(model, state, i));
   solution.expected_error = expectedError(rig, boxOver(model.nominalCorners(), solution.z_up));
   if (solution.expected_error > kErrorLimit * std::min(layout.side_x, layout.side_y))
-    solution.warnings.push_back("points over the square are known to " +
-                                format("%.2f m", solution.expected_error) +
-                                " only: use a larger square, or place the cameras so that they "
-                                "look at it from different sides");
+    solution.warnings.push_back(
+        format("points over the square are known to %.2f m only: use a larger square, or place the "
+               "cameras so that they look at it from different sides",
+               solution.expected_error));
   rig.verdict = verdict(solution);
   return solution;
 }

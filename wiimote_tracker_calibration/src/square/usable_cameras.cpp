@@ -3,6 +3,8 @@
 #include "square/corner_order.h"
 #include "square/error.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -62,13 +64,9 @@ std::string refusal(CornerOrder order, const std::string& cameras) {
 }  // namespace
 
 std::string listOf(const std::vector<std::string>& words) {
-  std::string list;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0)
-      list += i + 1 == words.size() ? " and " : ", ";
-    list += words[i];
-  }
-  return list;
+  if (words.size() < 2)
+    return joined(words);
+  return joined(std::vector<std::string>(words.begin(), words.end() - 1)) + " and " + words.back();
 }
 
 UsableCameras usableCameras(const std::vector<CameraSightings>& cameras) {

@@ -28,10 +28,9 @@ struct SelfCalibrationOptions {
   double maximum_focal_uncertainty = 0.05;
 };
 
-/// Standard deviations of one camera's lens.
+/// How well the lens of one camera is known.
 struct LensCertainty {
-  double focal_stddev = 0.0;            ///< Of fx [px]; infinite if the covariance is singular.
-  double principal_point_stddev = 0.0;  ///< The larger of both axes [px].
+  double focal_stddev = 0.0;  ///< Of fx [px]; infinite if the covariance is singular.
   bool focal_determined = false;
 };
 

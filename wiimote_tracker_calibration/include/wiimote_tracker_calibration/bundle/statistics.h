@@ -9,6 +9,9 @@
 
 namespace wiimote_tracker::bundle {
 
+/// Error of an observation that is no inlier [px].
+constexpr double kOutlier = std::numeric_limits<double>::infinity();
+
 /// Statistics of reprojection errors. NaN, except for the counts, if there are none.
 struct Statistics {
   std::size_t observations = 0;                              ///< All, including outliers.
@@ -16,8 +19,12 @@ struct Statistics {
   double rms = std::numeric_limits<double>::quiet_NaN();     ///< sqrt(mean(du^2 + dv^2)) [px].
   double mean = std::numeric_limits<double>::quiet_NaN();    ///< [px]
   double median = std::numeric_limits<double>::quiet_NaN();  ///< [px]
+  double p95 = std::numeric_limits<double>::quiet_NaN();     ///< [px]
   double rms_m = std::numeric_limits<double>::quiet_NaN();   ///< At the points' distance [m].
 };
+
+/// From single errors, in their unit and without rms_m; those that are not finite are outliers'.
+Statistics statisticsOf(std::vector<double> errors);
 
 /// Over all cameras.
 Statistics statistics(const Reconstruction& reconstruction);

@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_IMPORT_COMPARISON_H
 
 #include "wiimote_tracker_calibration/bundle/self_calibrate.h"
+#include "wiimote_tracker_calibration/bundle/statistics.h"
 #include "wiimote_tracker_calibration/import/recording.h"
 
 #include <cstddef>
@@ -11,37 +12,20 @@
 
 namespace wiimote_tracker::import {
 
-/// Reprojection errors of one camera over the inliers [px].
-struct Errors {
-  std::size_t observations = 0;
-  std::size_t inliers = 0;
-  double median = 0.0;
-  double mean = 0.0;
-  double p95 = 0.0;
-};
-
-/// From single errors; infinite ones belong to outliers.
-Errors errorsOf(std::vector<double> errors);
-
-/// Errors of a reconstruction, for each camera.
-std::vector<Errors> errorsOf(const bundle::Reconstruction& reconstruction);
-
-/// Distances between own and shipped points that both have, after an alignment [the shipped unit].
-struct Distances {
-  double rms = 0.0;
-  double median = 0.0;
-  double p95 = 0.0;
-};
+/// Statistics of each camera of a reconstruction.
+std::vector<bundle::Statistics> errorsOf(const bundle::Reconstruction& reconstruction);
 
 /// A solution compared with the calibration that was shipped with the recording.
 struct Comparison {
-  std::string what;             ///< What was shipped, and in which pixels the errors are.
-  std::vector<Errors> own;      ///< Per camera.
-  std::vector<Errors> shipped;  ///< Same pixels, same limit for inliers.
-  std::size_t points = 0;       ///< That both solutions have.
-  double extent = 0.0;          ///< RMS distance of these from their mean, as shipped.
-  Distances similar;            ///< After the best similarity.
-  Distances projective;         ///< After the best projective transformation.
+  std::string what;                         ///< What was shipped, and the errors' pixels.
+  std::vector<bundle::Statistics> own;      ///< Per camera.
+  std::vector<bundle::Statistics> shipped;  ///< Same pixels, same limit for inliers.
+  std::size_t points = 0;                   ///< That both solutions have.
+  double extent = 0.0;                      ///< RMS distance of these from their mean, as shipped.
+  /// Distances between own and shipped points, after the best similarity and after the best
+  /// projective transformation [the shipped unit].
+  bundle::Statistics similar;
+  bundle::Statistics projective;
   /// Expected RMS distance after a similarity from the solution's own covariance; nothing if
   /// singular.
   std::optional<double> expected;

@@ -16,12 +16,11 @@ struct ImportError : Error {
 
 using NumberTable = std::vector<std::vector<double>>;  ///< Rows of equal length.
 
-/// Numbers separated by blanks, one row per line; NaN is allowed, empty lines are skipped.
-/// @throws ImportError: missing, empty, not a number, infinite, rows of different length.
-NumberTable readNumberTable(const std::string& path);
-
-/// Same, and the size must be rows x columns; 0 allows any.
-NumberTable readNumberTable(const std::string& path, std::size_t rows, std::size_t columns);
+/// Numbers separated by blanks, one row per line; NaN is allowed, empty lines are skipped. The size
+/// must be rows x columns; 0 allows any.
+/// @throws ImportError: missing, empty, not a number, infinite, rows of different length, another
+/// size.
+NumberTable readNumberTable(const std::string& path, std::size_t rows = 0, std::size_t columns = 0);
 
 /// Lines that are not empty, without blanks at their ends. @throws ImportError: missing.
 std::vector<std::string> readLines(const std::string& path);

@@ -1,7 +1,9 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_IMPORT_RECORDING_H
 #define WIIMOTE_TRACKER_CALIBRATION_IMPORT_RECORDING_H
 
-#include "wiimote_tracker_triangulation/geometry/camera.h"
+#include "wiimote_tracker_calibration/bundle/reconstruction.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera.h>
 
 #include <Eigen/Core>
 
@@ -34,6 +36,9 @@ struct Recording {
 /// A folder without any basenameN.rad is read only if intrinsics are not required.
 /// @throws ImportError: a file is missing, damaged, or does not fit to the others.
 Recording readRecording(const std::string& folder, bool intrinsics_required = true);
+
+/// Cameras without poses, and what they saw: a point for each frame, not determined yet.
+bundle::Reconstruction observedBy(const Recording& recording);
 
 }  // namespace wiimote_tracker::import
 

@@ -1,0 +1,28 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_OPENCV_POSE_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_OPENCV_POSE_H
+
+#include <wiimote_tracker_triangulation/geometry/so3.h>
+
+#include <Eigen/Geometry>
+
+#include <opencv2/core.hpp>
+
+namespace wiimote_tracker::adjust {
+
+/// A column of three doubles.
+inline Eigen::Vector3d vectorFromCv(const cv::Mat& column) {
+  return {column.at<double>(0), column.at<double>(1), column.at<double>(2)};
+}
+
+/// World from camera, of the rotation vector and the translation that cv::solvePnP() gives: those
+/// of camera from world.
+inline Eigen::Isometry3d poseFromCv(const cv::Mat& rotation_vector, const cv::Mat& translation) {
+  Eigen::Isometry3d camera_from_world = Eigen::Isometry3d::Identity();
+  camera_from_world.linear() = geometry::so3::exp(vectorFromCv(rotation_vector)).toRotationMatrix();
+  camera_from_world.translation() = vectorFromCv(translation);
+  return camera_from_world.inverse();
+}
+
+}  // namespace wiimote_tracker::adjust
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_OPENCV_POSE_H

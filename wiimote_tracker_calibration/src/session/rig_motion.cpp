@@ -1,0 +1,144 @@
+// A solver of its own: the weights turn with the motion that is estimated, and the covariance of
+// the joined rig needs the gain of every error, which the loop below has at hand. Six unknowns, and
+// three or six conditions for each thing shared, are solved in closed form a few times.
+#include "rig_motion.h"
+
+#include "place/chi_squared.h"
+#include "session/error.h"
+
+#include <wiimote_tracker_triangulation/geometry/so3.h>
+
+#include <Eigen/Cholesky>
+
+#include <limits>
+
+namespace wiimote_tracker::session {
+
+namespace {
+
+namespace so3 = geometry::so3;
+
+// Smallest standard deviation [rad, m]: keeps covariances invertible if a parameter was held.
+constexpr double kLeastStddev = 1e-5;
+
+/// Linearised conditions: residual + by_motion * m + by_errors * e = 0, with the errors m of the
+/// motion and e, both as RigMotion counts them.
+struct Conditions {
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd by_motion;
+  Eigen::MatrixXd by_errors;
+};
+
+Eigen::Index conditionCount(const std::vector<Shared>& shared) {
+  Eigen::Index count = 0;
+  for (const Shared& one : shared)
+    count += one.by_second.rows();
+  return count;
+}
+
+Conditions conditionsAt(const Eigen::Isometry3d& motion, const std::vector<Shared>& shared) {
+  const Eigen::Index count = conditionCount(shared);
+  const Eigen::Index first_size = shared.front().by_first.cols();
+  const Eigen::Index second_size = shared.front().by_second.cols();
+  Conditions result{Eigen::VectorXd(count), Eigen::MatrixXd::Zero(count, 6),
+                    Eigen::MatrixXd(count, first_size + second_size + count)};
+  result.by_errors.rightCols(count).setIdentity();
+  Eigen::Index row = 0;
+  for (const Shared& one : shared) {
+    const Eigen::Index rows = one.by_second.rows();
+    result.by_errors.block(row, 0, rows, first_size) = -one.by_first;
+    for (Eigen::Index k = 0; k < rows; k += 3)
+      result.by_errors.block(row + k, first_size, 3, second_size) =
+          motion.linear() * one.by_second.middleRows<3>(k);
+    const Eigen::Isometry3d moved = motion * one.in_second;
+    if (rows == 6) {
+      result.residual.segment<3>(row) =
+          so3::log(moved.linear() * one.in_first.linear().transpose());
+      result.by_motion.block<3, 3>(row, 0).setIdentity();
+    }
+    row += rows;
+    result.residual.segment<3>(row - 3) = moved.translation() - one.in_first.translation();
+    result.by_motion.block<3, 3>(row - 3, 0) =
+        -so3::skew(motion.linear() * one.in_second.translation());
+    result.by_motion.block<3, 3>(row - 3, 3).setIdentity();
+  }
+  return result;
+}
+
+Eigen::MatrixXd errorCovariance(const geometry::Rig& first,
+                                const geometry::Rig& second,
+                                const std::vector<Shared>& shared) {
+  const Eigen::Index first_size = first.covariance.rows();
+  const Eigen::Index second_size = second.covariance.rows();
+  const Eigen::Index count = conditionCount(shared);
+  Eigen::VectorXd variances(count);
+  Eigen::Index row = 0;
+  for (const Shared& one : shared) {
+    const Eigen::Index rows = one.by_second.rows();
+    variances.segment(row, rows).setConstant(kLeastStddev * kLeastStddev + one.stddev * one.stddev);
+    row += rows;
+  }
+  const Eigen::Index size = first_size + second_size + count;
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
+  covariance.topLeftCorner(first_size, first_size) = first.covariance;
+  covariance.block(first_size, first_size, second_size, second_size) = second.covariance;
+  covariance.diagonal().tail(count) = variances;
+  return covariance;
+}
+
+}  // namespace
+
+bool RigMotion::contradicts() const {
+  return degrees_of_freedom > 0 &&
+         chi_squared > place::chiSquaredQuantile(degrees_of_freedom, place::kThreeNines);
+}
+
+RigMotion fitMotion(const geometry::Rig& first,
+                    const geometry::Rig& second,
+                    const std::vector<Shared>& shared,
+                    const Eigen::Isometry3d& start) {
+  RigMotion motion;
+  motion.first_from_second = start;
+  motion.error_covariance = errorCovariance(first, second, shared);
+  for (int iteration = 0;; ++iteration) {
+    const Conditions conditions = conditionsAt(motion.first_from_second, shared);
+    const Eigen::LDLT<Eigen::MatrixXd> weight(conditions.by_errors * motion.error_covariance *
+                                              conditions.by_errors.transpose());
+    const Eigen::MatrixXd weighed = weight.solve(conditions.by_motion);
+    const Eigen::Matrix<double, 6, 6> information = conditions.by_motion.transpose() * weighed;
+    const Eigen::MatrixXd gain = -information.ldlt().solve(weighed.transpose());
+    motion.by_errors = gain * conditions.by_errors;
+    motion.chi_squared = conditions.residual.dot(weight.solve(conditions.residual));
+    motion.degrees_of_freedom = static_cast<int>(conditions.residual.size()) - 6;
+    const Eigen::Matrix<double, 6, 1> step = gain * conditions.residual;
+    if (!step.allFinite())
+      throw SessionError("what the rigs share does not tell how one lies in the other: share more");
+    if (step.norm() < 1e-10 || iteration == 20)
+      return motion;
+    motion.first_from_second.linear() =
+        Eigen::Quaterniond(so3::exp(step.head<3>()) * motion.first_from_second.linear())
+            .normalized()
+            .toRotationMatrix();
+    motion.first_from_second.translation() += step.tail<3>();
+  }
+}
+
+std::size_t oddOneOut(const geometry::Rig& first,
+                      const geometry::Rig& second,
+                      const std::vector<Shared>& shared,
+                      const Eigen::Isometry3d& start) {
+  std::size_t odd = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    std::vector<Shared> others = shared;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const double without = fitMotion(first, second, others, start).chi_squared;
+    if (without < least) {
+      least = without;
+      odd = i;
+    }
+  }
+  return odd;
+}
+
+}  // namespace wiimote_tracker::session

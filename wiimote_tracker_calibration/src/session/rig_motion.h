@@ -1,0 +1,53 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_RIG_MOTION_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_RIG_MOTION_H
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <vector>
+
+namespace wiimote_tracker::session {
+
+/// What two rigs share: a camera, of which both know the pose, or a place. Derivatives are by all
+/// parameters of a rig; their rows are the rotation, of a camera only, then the position.
+struct Shared {
+  Eigen::Isometry3d in_first;   ///< [m]
+  Eigen::Isometry3d in_second;  ///< [m]
+  Eigen::MatrixXd by_first;
+  Eigen::MatrixXd by_second;
+  double stddev = 0.0;  ///< Of in_second against in_first, without the rigs' covariances [m].
+};
+
+/// The motion between two rigs that fits best to what they share.
+struct RigMotion {
+  Eigen::Isometry3d first_from_second;
+  /// Its error (true minus estimated: rotation about the first world's axes, translation) by the
+  /// errors of the parameters of the first rig, of the second, and of what they share.
+  Eigen::MatrixXd by_errors;
+  Eigen::MatrixXd error_covariance;  ///< Of these errors.
+  double chi_squared = 0.0;
+  int degrees_of_freedom = 0;
+
+  /// Whether what they share contradicts itself (chi-squared test, 99.9 %).
+  bool contradicts() const;
+};
+
+/// Generalised least squares, weighted by the covariances of both rigs.
+/// @throws SessionError: what they share leaves the motion open.
+RigMotion fitMotion(const geometry::Rig& first,
+                    const geometry::Rig& second,
+                    const std::vector<Shared>& shared,
+                    const Eigen::Isometry3d& start);
+
+/// Index of the shared thing without which the rest fits best.
+std::size_t oddOneOut(const geometry::Rig& first,
+                      const geometry::Rig& second,
+                      const std::vector<Shared>& shared,
+                      const Eigen::Isometry3d& start);
+
+}  // namespace wiimote_tracker::session
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_RIG_MOTION_H

@@ -8,7 +8,7 @@
 namespace wiimote_tracker::capture {
 namespace {
 
-constexpr double kPeriod = 0.01;  // [s]
+constexpr double kFramePeriod = 0.01;  // [s]
 
 /// Two cameras that see an LED; the second sees it shifted by 300 px.
 class Hands : public ::testing::Test {
@@ -20,7 +20,7 @@ class Hands : public ::testing::Test {
             double tremor = 0.0) {
     std::normal_distribution<double> noise(0.0, 0.4);
     int noticed = 0;
-    for (const double end = now_ + duration, start = now_; now_ < end; now_ += kPeriod) {
+    for (const double end = now_ + duration, start = now_; now_ < end; now_ += kFramePeriod) {
       const double share = (now_ - start) / duration;
       const Eigen::Vector2d sway =
           tremor * Eigen::Vector2d(std::sin(7.0 * now_), std::cos(5.0 * now_));
@@ -44,7 +44,7 @@ class Hands : public ::testing::Test {
   /// Nobody sees the LED.
   int hide(double duration) {
     int noticed = 0;
-    for (const double end = now_ + duration; now_ < end; now_ += kPeriod) {
+    for (const double end = now_ + duration; now_ < end; now_ += kFramePeriod) {
       for (const char* camera : {"a", "b"})
         noticed += hands_free_.add({camera, now_, 0, {}, {}}, captured_);
     }
@@ -97,13 +97,13 @@ TEST_F(Hands, a_drop_out_begins_the_wait_anew_and_nobody_is_not_still) {
 
 TEST_F(Hands, all_cameras_that_see_it_must_see_it_still_and_enough_of_them) {
   int noticed = 0;
-  for (int i = 0; i < 500; ++i, now_ += kPeriod) {
+  for (int i = 0; i < 500; ++i, now_ += kFramePeriod) {
     noticed += hands_free_.add({"a", now_, 0, {first_}, {}}, {});
     noticed += hands_free_.add({"b", now_, 0, {{400.0 + i, 200.0}}, {}}, {});
   }
   EXPECT_EQ(noticed, 0);
   hands_free_.restart();
-  for (int i = 0; i < 500; ++i, now_ += kPeriod) {
+  for (int i = 0; i < 500; ++i, now_ += kFramePeriod) {
     noticed += hands_free_.add({"a", now_, 0, {first_}, {}}, {});
     noticed += hands_free_.add({"b", now_, 0, {first_, second_}, {}}, {});  // which one is it?
     noticed += hands_free_.add({"stranger", now_, 0, {first_}, {}}, {});

@@ -20,7 +20,7 @@ namespace {
 
 #define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
-std::string refusalOf(const std::function<void()>& action) {
+std::string joinRefusal(const std::function<void()>& action) {
   try {
     action();
   } catch (const SessionError& error) {
@@ -131,9 +131,9 @@ class JoinRigs : public ::testing::Test {
 };
 
 TEST_F(JoinRigs, a_rig_is_not_joined_with_itself) {
-  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, first_); }), "the same rig");
+  EXPECT_SAYS(joinRefusal([&] { joinRigs(first_, first_); }), "the same rig");
   geometry::Rig again = exactRig(0, 3, worldFromSecond(), random_);
-  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, again); }), "nothing to join");
+  EXPECT_SAYS(joinRefusal([&] { joinRigs(first_, again); }), "nothing to join");
   // The other way round there is one to add.
   EXPECT_EQ(joinRigs(again, first_).rig.cameras.size(), 4U);
 }
@@ -175,18 +175,20 @@ TEST_F(JoinRigs, errors_are_as_large_as_stated) {
 
 TEST_F(JoinRigs, a_camera_that_was_moved_is_named) {
   second_.cameras[1].camera.world_from_camera.translation().x() += 0.2;
-  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, second_); }), "camera_3 and camera_4 do not stand");
+  EXPECT_SAYS(joinRefusal([&] { joinRigs(first_, second_); }),
+              "camera_3 and camera_4 do not stand");
   geometry::Rig second = exactRig(1, 6, worldFromSecond(), random_);
   second.cameras[1].camera.world_from_camera.translation().x() += 0.2;
-  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, second); }),
+  EXPECT_SAYS(joinRefusal([&] { joinRigs(first_, second); }),
               "camera_3 does not stand to the other shared cameras");
   first_.cameras[3].gravity = Eigen::Vector3d(0.0, -9.8, 0.0);
   second_.cameras[1].gravity = Eigen::Vector3d(0.0, -9.7, 0.9);
-  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, second_); }), "camera_4 was turned by 5.3 degrees");
+  EXPECT_SAYS(joinRefusal([&] { joinRigs(first_, second_); }),
+              "camera_4 was turned by 5.3 degrees");
 }
 
 TEST_F(JoinRigs, what_cannot_be_joined_is_refused) {
-  const auto refusal = [this] { return refusalOf([this] { joinRigs(first_, second_); }); };
+  const auto refusal = [this] { return joinRefusal([this] { joinRigs(first_, second_); }); };
   first_.cameras[2].camera.identity = "00:19:1d:00:00:01";
   second_.cameras[0].camera.identity = "00:19:1d:00:00:02";
   EXPECT_SAYS(refusal(), "camera_3 is another device in the second rig");
@@ -268,7 +270,7 @@ TEST_F(JoinRigs, places_that_tell_too_little_or_contradict_are_refused) {
   const geometry::Rig first = exactRig(0, 3, Eigen::Isometry3d::Identity(), random_);
   const geometry::Rig second = exactRig(3, 6, worldFromSecond(), random_);
   std::vector<CommonPlace> common = places(second, 0.003, random_);
-  const auto refusal = [&] { return refusalOf([&] { joinRigs(first, second, common); }); };
+  const auto refusal = [&] { return joinRefusal([&] { joinRigs(first, second, common); }); };
   common[2].in_first.z() += 0.2;
   EXPECT_SAYS(refusal(), "place 3 does not lie");
   common.resize(3);

@@ -14,7 +14,7 @@
 namespace wiimote_tracker::square {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
+constexpr double kOneDegree = M_PI / 180.0;
 
 geometry::Intrinsics distortingLens() {
   geometry::Intrinsics lens;
@@ -30,12 +30,12 @@ geometry::Intrinsics wideLens() {
   return lens;
 }
 
-struct Setup {
+struct PoseSetup {
   geometry::Intrinsics lens;
   int poses;  // per tilt bin
 };
 
-class Lenses : public ::testing::TestWithParam<Setup> {};
+class Lenses : public ::testing::TestWithParam<PoseSetup> {};
 
 TEST_P(Lenses, any_rectangle_without_noise_gives_the_exact_pose) {
   std::mt19937_64 random(3);
@@ -43,7 +43,7 @@ TEST_P(Lenses, any_rectangle_without_noise_gives_the_exact_pose) {
   for (int i = 0; i < 300; ++i) {
     // Straight from above is among them.
     PoseTrial trial =
-        drawPoseTrial(random, GetParam().lens, 0.0, i % 10 == 0 ? 0.0 : 75.0 * kDegree);
+        drawPoseTrial(random, GetParam().lens, 0.0, i % 10 == 0 ? 0.0 : 75.0 * kOneDegree);
     // Another rectangle, of either direction, anywhere in a plane of any height.
     const double stretch = 1.0 + 0.2 * uniform(random);
     const Eigen::Vector3d shift(uniform(random), uniform(random), 0.3 * uniform(random));
@@ -76,8 +76,8 @@ TEST_P(Lenses, is_as_good_as_many_starts_and_reaches_the_bound) {
     std::mt19937_64 random(static_cast<std::uint64_t>(bin + 1));
     PoseTally tally;
     for (int i = 0; i < GetParam().poses; ++i) {
-      const PoseTrial trial =
-          drawPoseTrial(random, GetParam().lens, 15.0 * bin * kDegree, 15.0 * (bin + 1) * kDegree);
+      const PoseTrial trial = drawPoseTrial(random, GetParam().lens, 15.0 * bin * kOneDegree,
+                                            15.0 * (bin + 1) * kOneDegree);
       tally.add(trial, planarPoses(GetParam().lens, trial.pixels, trial.corners),
                 multiStartPoses(trial, 2, random));
     }
@@ -98,16 +98,16 @@ TEST_P(Lenses, is_as_good_as_many_starts_and_reaches_the_bound) {
 
 INSTANTIATE_TEST_SUITE_P(PinholeDistortedWide,
                          Lenses,
-                         ::testing::Values(Setup{geometry::Intrinsics(), 1000},
-                                           Setup{distortingLens(), 150},
-                                           Setup{wideLens(), 150}));
+                         ::testing::Values(PoseSetup{geometry::Intrinsics(), 1000},
+                                           PoseSetup{distortingLens(), 150},
+                                           PoseSetup{wideLens(), 150}));
 
 TEST(PlanarPose, both_branches_are_found_best_first_and_their_costs_are_reprojection_errors) {
   std::mt19937_64 random(5);
   int two = 0;
   for (int i = 0; i < 200; ++i) {
     const PoseTrial trial =
-        drawPoseTrial(random, geometry::Intrinsics(), 20.0 * kDegree, 75.0 * kDegree);
+        drawPoseTrial(random, geometry::Intrinsics(), 20.0 * kOneDegree, 75.0 * kOneDegree);
     const PlanarPoses found = planarPoses(trial.truth.intrinsics, trial.pixels, trial.corners);
     two += found.size() == 2;
     for (const PlanarPose& pose : found) {

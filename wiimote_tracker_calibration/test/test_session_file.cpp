@@ -155,26 +155,26 @@ Session expectedSession() {
 }
 
 /// Compares bits: 0 is not -0.
-void expectSame(double a, double b) {
+void expectSameSession(double a, double b) {
   EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0) << a << " " << b;
 }
 
 template <typename A, typename B>
 void expectSameVector(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
   for (Eigen::Index i = 0; i < a.size(); ++i)
-    expectSame(a(i), b(i));
+    expectSameSession(a(i), b(i));
 }
 
 void expectSameLens(const geometry::Intrinsics& a, const geometry::Intrinsics& b) {
   EXPECT_EQ(a.width, b.width);
   EXPECT_EQ(a.height, b.height);
-  expectSame(a.fx, b.fx);
-  expectSame(a.fy, b.fy);
-  expectSame(a.cx, b.cx);
-  expectSame(a.cy, b.cy);
+  expectSameSession(a.fx, b.fx);
+  expectSameSession(a.fy, b.fy);
+  expectSameSession(a.cx, b.cx);
+  expectSameSession(a.cy, b.cy);
   EXPECT_EQ(a.distortion_model, b.distortion_model);
   for (std::size_t i = 0; i < a.distortion.size(); ++i)
-    expectSame(a.distortion[i], b.distortion[i]);
+    expectSameSession(a.distortion[i], b.distortion[i]);
 }
 
 void expectSameCamera(const wave::CameraRecording& a, const wave::CameraRecording& b) {
@@ -192,7 +192,7 @@ void expectSameCamera(const wave::CameraRecording& a, const wave::CameraRecordin
   EXPECT_EQ(a.clock_epoch, b.clock_epoch);
   ASSERT_EQ(a.frames.size(), b.frames.size());
   for (std::size_t i = 0; i < a.frames.size(); ++i) {
-    expectSame(a.frames[i].stamp, b.frames[i].stamp);
+    expectSameSession(a.frames[i].stamp, b.frames[i].stamp);
     ASSERT_EQ(a.frames[i].spots.size(), b.frames[i].spots.size());
     for (std::size_t s = 0; s < a.frames[i].spots.size(); ++s)
       expectSameVector(a.frames[i].spots[s], b.frames[i].spots[s]);
@@ -203,16 +203,16 @@ void expectSameSession(const Session& a, const Session& b) {
   EXPECT_EQ(a.world_frame, b.world_frame);
   ASSERT_EQ(a.recording.square.has_value(), b.recording.square.has_value());
   if (a.recording.square) {
-    expectSame(a.recording.square->side_x, b.recording.square->side_x);
-    expectSame(a.recording.square->side_y, b.recording.square->side_y);
-    expectSame(a.recording.square->led_height, b.recording.square->led_height);
+    expectSameSession(a.recording.square->side_x, b.recording.square->side_x);
+    expectSameSession(a.recording.square->side_y, b.recording.square->side_y);
+    expectSameSession(a.recording.square->led_height, b.recording.square->led_height);
     expectSameVector(a.recording.square->origin, b.recording.square->origin);
-    expectSame(a.recording.square->yaw, b.recording.square->yaw);
+    expectSameSession(a.recording.square->yaw, b.recording.square->yaw);
   }
   ASSERT_EQ(a.recording.wand.has_value(), b.recording.wand.has_value());
   if (a.recording.wand) {
-    expectSame(a.recording.wand->length, b.recording.wand->length);
-    expectSame(a.recording.wand->stddev, b.recording.wand->stddev);
+    expectSameSession(a.recording.wand->length, b.recording.wand->length);
+    expectSameSession(a.recording.wand->stddev, b.recording.wand->stddev);
   }
   ASSERT_EQ(a.recording.cameras.size(), b.recording.cameras.size());
   ASSERT_EQ(a.masks.size(), b.masks.size());
@@ -221,7 +221,7 @@ void expectSameSession(const Session& a, const Session& b) {
     ASSERT_EQ(a.masks[i].size(), b.masks[i].size());
     for (std::size_t m = 0; m < a.masks[i].size(); ++m) {
       expectSameVector(a.masks[i][m].center, b.masks[i][m].center);
-      expectSame(a.masks[i][m].radius, b.masks[i][m].radius);
+      expectSameSession(a.masks[i][m].radius, b.masks[i][m].radius);
     }
   }
 }

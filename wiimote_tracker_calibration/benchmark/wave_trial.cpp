@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -221,14 +220,12 @@ WaveTrial runWaveTrial(const WaveScene& scene, std::uint64_t seed, bool with_pos
   const std::vector<Eigen::Vector3d> points = cubePoints(wave.cameras);
   WaveTrial trial;
   WaveSolution solution;
-  const auto start = std::chrono::steady_clock::now();
   try {
     solution = solveWave(wave.recording, options);
   } catch (const geometry::Error& error) {
     trial.refusal = error.what();
     return trial;
   }
-  trial.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   const double pixel = std::sqrt(scene.pixel * scene.pixel + (scene.quantized ? 1.0 / 12.0 : 0.0));
   const WaveBound bound =

@@ -41,7 +41,6 @@ struct WaveTrial {
   Share regions;                       ///< Points within their 95 % ellipsoid.
   double length_error = 0.0;  ///< Mean error of measured wands, as a share of their length.
   PositionError position;
-  double seconds = 0.0;  ///< That solving took, by the wall clock.
 };
 
 /// @param with_positions fills `position`, too.

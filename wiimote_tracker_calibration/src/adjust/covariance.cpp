@@ -1,20 +1,71 @@
 #include "adjust/covariance.h"
 
-#include <ceres/covariance.h>
+#include <ceres/crs_matrix.h>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <unordered_set>
 
 namespace wiimote_tracker::adjust {
 
+namespace {
+
+// Least information of a parameter that the others do not take away, as a share of all that it has:
+// below it is rounding error.
+constexpr double kOpen = 1e-13;
+
+/// J^T J by the blocks that are estimated, the wanted ones first.
+Eigen::SparseMatrix<double> informationOf(ceres::Problem* problem,
+                                          const std::vector<double*>& wanted) {
+  ceres::Problem::EvaluateOptions options;
+  std::vector<double*> all;
+  problem->GetParameterBlocks(&all);
+  all.insert(all.begin(), wanted.begin(), wanted.end());
+  std::unordered_set<const double*> taken;
+  for (double* block : all) {
+    if (taken.insert(block).second && !problem->IsParameterBlockConstant(block))
+      options.parameter_blocks.push_back(block);
+  }
+  ceres::CRSMatrix rows;
+  problem->Evaluate(options, nullptr, nullptr, nullptr, &rows);
+  const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> jacobian(
+      rows.num_rows, rows.num_cols, static_cast<Eigen::Index>(rows.values.size()), rows.rows.data(),
+      rows.cols.data(), rows.values.data());
+  return jacobian.transpose() * jacobian;
+}
+
+}  // namespace
+
 std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
                                             const std::vector<double*>& blocks) {
+  std::vector<Eigen::Index> places;  // in the result, of the parameters that are estimated
   Eigen::Index size = 0;
-  for (const double* block : blocks)
-    size += problem->ParameterBlockSize(block);
-  const std::vector<const double*> wanted(blocks.begin(), blocks.end());
-  ceres::Covariance covariance{ceres::Covariance::Options()};
-  Eigen::MatrixXd result(size, size);
-  if (!covariance.Compute(wanted, problem) ||
-      !covariance.GetCovarianceMatrix(wanted, result.data()) || !result.allFinite())
+  for (double* block : blocks) {
+    for (int i = 0; i < problem->ParameterBlockSize(block); ++i, ++size) {
+      if (!problem->IsParameterBlockConstant(block))
+        places.push_back(size);
+    }
+  }
+  const Eigen::SparseMatrix<double> information = informationOf(problem, blocks);
+  // Parameters of very different units: scaled to a unit diagonal.
+  const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
+  if (!scale.allFinite())
     return std::nullopt;
+  const Eigen::SparseMatrix<double> scaled = scale.asDiagonal() * information * scale.asDiagonal();
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(scaled);
+  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > kOpen))
+    return std::nullopt;
+  const auto wanted = static_cast<Eigen::Index>(places.size());
+  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(scaled.rows(), wanted);
+  const Eigen::MatrixXd inverse = factor.solve(unit);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size, size);
+  for (Eigen::Index i = 0; i < wanted; ++i) {
+    for (Eigen::Index j = 0; j < wanted; ++j)
+      result(places[static_cast<std::size_t>(i)], places[static_cast<std::size_t>(j)]) =
+          scale(i) * scale(j) * inverse(i, j);
+  }
   return 0.5 * (result + result.transpose());  // symmetric to the last bit
 }
 

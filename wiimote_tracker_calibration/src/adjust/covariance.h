@@ -13,6 +13,8 @@ namespace wiimote_tracker::adjust {
 /// Joint covariance of some parameter blocks of a problem at its present values, in this order:
 /// the inverse of J^T J, with the whitened residuals' Jacobian J by all blocks of the problem.
 /// Blocks that are held have zero rows. Nothing when the residuals leave some parameter open.
+/// By a sparse Cholesky factor, of which only these blocks' columns are solved: ceres::Covariance
+/// factors J itself (QR), which takes minutes for the path of a long wave.
 std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
                                             const std::vector<double*>& blocks);
 

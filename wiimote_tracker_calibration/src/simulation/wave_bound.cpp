@@ -1,5 +1,8 @@
 #include "wiimote_tracker_calibration/simulation/wave_bound.h"
 
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <Eigen/Cholesky>
@@ -9,31 +12,19 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace wiimote_tracker::wave {
 
 namespace {
 
+// As WaveBound::covariance: the parameters of a rig's covariance that a wave estimates.
 constexpr Eigen::Index kPerCamera = 12;
 constexpr Eigen::Index kTimeOffset = 11;
-constexpr double kSteps[kPerCamera] = {1e-6, 1e-6, 1e-6, 1e-5, 1e-5, 1e-5,
-                                       1e-3, 1e-3, 1e-3, 1e-3, 1e-6, 0.0};
-
-geometry::Camera changed(geometry::Camera camera, Eigen::Index parameter, double step) {
-  geometry::Intrinsics& lens = camera.intrinsics;
-  if (parameter < 3)
-    camera.world_from_camera.linear() = Eigen::AngleAxisd(step, Eigen::Vector3d::Unit(parameter)) *
-                                        camera.world_from_camera.linear();
-  else if (parameter < 6)
-    camera.world_from_camera.translation()[parameter - 3] += step;
-  else
-    *std::array<double*, 5>{&lens.fx, &lens.fy, &lens.cx, &lens.cy,
-                            &lens.distortion[0]}[static_cast<std::size_t>(parameter - 6)] += step;
-  return camera;
-}
+// Stands for a parameter that is given.
+constexpr double kGiven = 1e-9;
 
 /// B-spline of a degree on whole-numbered knots, by Cox and de Boor's recursion.
 double basis(int degree, double knot, double t) {
@@ -44,53 +35,211 @@ double basis(int degree, double knot, double t) {
          (knot + n + 1.0 - t) / n * basis(degree - 1, knot + 1.0, t);
 }
 
-/// Sparse normal equations, row by row.
+/// Derivatives of a camera's pixel of a point.
+struct Slopes {
+  Eigen::Matrix<double, 2, kPerCamera> by_camera;
+  Eigen::Matrix<double, 2, 3> by_point;
+};
+
+Slopes slopesOf(const geometry::Camera& camera,
+                const Eigen::Vector3d& point,
+                const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero()) {
+  const geometry::Projection projection = geometry::projectionOf(camera, point).value();
+  Slopes slopes;
+  slopes.by_camera << projection.by_parameters.leftCols<kTimeOffset>(),
+      projection.by_point * velocity;
+  slopes.by_point = projection.by_point;
+  return slopes;
+}
+
+/// Derivatives of one residual: column and value.
+using Row = std::vector<std::pair<Eigen::Index, double>>;
+
+template <typename Values>
+void append(Eigen::Index column, const Values& values, Row* row) {
+  for (Eigen::Index k = 0; k < values.size(); ++k)
+    row->emplace_back(column + k, values(k));
+}
+
+/// Sparse normal equations of a wave, row by row: of the cameras, the corners' displacements (2
+/// each), the wand's length, the control points.
 class Information {
  public:
-  explicit Information(Eigen::Index size) : matrix_(size, size) {}
+  Information(const WaveScene& scene, const SimulatedWave& wave, double knot_spacing)
+      : scene_(scene), wave_(wave), spacing_(knot_spacing), leds_(scene.length > 0.0 ? 2 : 1) {
+    double end = -std::numeric_limits<double>::infinity();
+    for (const SimulatedWave::View& view : wave.views) {
+      start_ = std::min(start_, view.time);
+      end = std::max(end, view.time);
+    }
+    if (!wave.views.empty())
+      intervals_ = static_cast<Eigen::Index>(std::ceil((end - start_) / knot_spacing)) + 1;
+  }
 
-  void add(const std::vector<std::pair<Eigen::Index, double>>& row, double stddev) {
+  void addViews(double pixel) {
+    for (const SimulatedWave::View& view : wave_.views) {
+      // Times are by the first camera's clock: its offset is no parameter.
+      Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+      if (view.camera > 0)
+        velocity = wave_.path.velocity(view.path_time, view.led);
+      const Slopes slopes = slopesOf(wave_.cameras[view.camera],
+                                     wave_.path.position(view.path_time, view.led), velocity);
+      for (Eigen::Index r = 0; r < 2; ++r) {
+        Row row;
+        append(cameraColumn(view.camera), slopes.by_camera.row(r), &row);
+        appendPath(view.time, view.led, slopes.by_point.row(r), &row);
+        add(row, pixel);
+      }
+    }
+  }
+
+  /// What is known of the cameras and the corners beforehand, and the corners' pixels.
+  void addSquareAndLenses() {
+    const square::Uncertainty& u = scene_.uncertainty;
+    for (std::size_t i = 0; i < wave_.cameras.size(); ++i) {
+      const geometry::Intrinsics& lens = wave_.cameras[i].intrinsics;
+      const Eigen::Index at = cameraColumn(i);
+      add({{at + 6, 0.5 / lens.fx}, {at + 7, 0.5 / lens.fy}}, u.focal);
+      add({{at + 6, 1.0 / lens.fx}, {at + 7, -1.0 / lens.fy}}, u.aspect);
+      add({{at + 8, 1.0}}, u.principal_point);
+      add({{at + 9, 1.0}}, u.principal_point);
+      add({{at + 10, 1.0}}, u.k1);
+      add({{at + kTimeOffset, 1.0}}, i == 0 ? kGiven : 0.05);
+      // Without square the first camera is the world.
+      for (Eigen::Index k = 0; !scene_.square && i == 0 && k < 6; ++k)
+        add({{at + k, 1.0}}, kGiven);
+      for (std::size_t c = 0; scene_.square && c < 4; ++c) {
+        const Slopes slopes = slopesOf(wave_.cameras[i], wave_.corners[c]);
+        for (Eigen::Index r = 0; r < 2; ++r) {
+          Row row;
+          append(at, slopes.by_camera.row(r), &row);
+          append(cornerColumn(c), slopes.by_point.row(r).head<2>(), &row);
+          add(row, u.pixel);
+        }
+      }
+    }
+    for (Eigen::Index k = 0; k < 8; ++k)
+      add({{cornerColumn(0) + k, 1.0}}, u.placement);
+  }
+
+  void addWand(double wand_stddev) {
+    add({{wandColumn(), 1.0}}, wand_stddev);
+    const double kStick = 0.0002;
+    for (Eigen::Index i = 0; leds_ == 2 && i < intervals_; ++i) {
+      const double time = start_ + spacing_ * static_cast<double>(i);
+      const double path_time = time + wave_.views.front().path_time - wave_.views.front().time;
+      const Eigen::RowVector3d direction =
+          (wave_.path.position(path_time, 0) - wave_.path.position(path_time, 1)).normalized();
+      Row row = {{wandColumn(), -1.0}};
+      appendPath(time, 0, direction, &row);
+      appendPath(time, 1, -direction, &row);
+      add(row, kStick);
+    }
+  }
+
+  /// Covariance of the cameras.
+  Eigen::MatrixXd inverse() {
+    // Control points that nobody saw.
+    const Eigen::Index size = controlColumn(intervals_ > 0 ? intervals_ + 3 : 0, 0);
+    for (Eigen::Index k = controlColumn(0, 0); k < size; ++k)
+      add({{k, 1.0}}, 10.0);
+    Eigen::SparseMatrix<double> matrix(size, size);
+    matrix.setFromTriplets(entries_.begin(), entries_.end());
+    // Parameters of very different units.
+    const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::SparseMatrix<double> scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(scaled);
+    const Eigen::Index first = cornerColumn(0);
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(size, first);
+    const Eigen::MatrixXd columns = solver.solve(unit);
+    return scale.head(first).asDiagonal() * columns.topRows(first) * scale.head(first).asDiagonal();
+  }
+
+ private:
+  static Eigen::Index cameraColumn(std::size_t camera) {
+    return kPerCamera * static_cast<Eigen::Index>(camera);
+  }
+  Eigen::Index cornerColumn(std::size_t corner) const {
+    return cameraColumn(wave_.cameras.size()) + 2 * static_cast<Eigen::Index>(corner);
+  }
+  Eigen::Index wandColumn() const { return cornerColumn(4); }
+  Eigen::Index controlColumn(Eigen::Index control, Eigen::Index led) const {
+    return wandColumn() + 1 + 3 * (leds_ * control + led);
+  }
+
+  /// Derivatives by the control points, from those by the path's position at a time.
+  void appendPath(double time,
+                  Eigen::Index led,
+                  const Eigen::RowVector3d& by_position,
+                  Row* row) const {
+    const double t = (time - start_) / spacing_;
+    const auto first = static_cast<Eigen::Index>(t);
+    for (Eigen::Index k = first; k < first + 4; ++k)
+      append(controlColumn(k, led), basis(3, static_cast<double>(k - 3), t) * by_position, row);
+  }
+
+  void add(const Row& row, double stddev) {
     for (const auto& [i, a] : row) {
       for (const auto& [j, b] : row)
         entries_.emplace_back(i, j, a * b / (stddev * stddev));
     }
   }
 
-  /// Covariance of the first parameters.
-  Eigen::MatrixXd inverse(Eigen::Index first) {
-    matrix_.setFromTriplets(entries_.begin(), entries_.end());
-    // Parameters of very different units.
-    const Eigen::VectorXd scale = matrix_.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::SparseMatrix<double> scaled = scale.asDiagonal() * matrix_ * scale.asDiagonal();
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(scaled);
-    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(matrix_.rows(), first);
-    const Eigen::MatrixXd columns = solver.solve(unit);
-    return scale.head(first).asDiagonal() * columns.topRows(first) * scale.head(first).asDiagonal();
-  }
-
- private:
+  const WaveScene& scene_;
+  const SimulatedWave& wave_;
+  double spacing_;
+  Eigen::Index leds_;
+  double start_ = std::numeric_limits<double>::infinity();
+  Eigen::Index intervals_ = 0;
   std::vector<Eigen::Triplet<double>> entries_;
-  Eigen::SparseMatrix<double> matrix_;
 };
 
-using PixelByCamera = Eigen::Matrix<double, 2, kPerCamera>;
-
-PixelByCamera byCamera(const geometry::Camera& camera, const Eigen::Vector3d& point) {
-  PixelByCamera result = PixelByCamera::Zero();
-  for (Eigen::Index k = 0; k < kTimeOffset; ++k)
-    result.col(k) = (*changed(camera, k, kSteps[k]).project(point) -
-                     *changed(camera, k, -kSteps[k]).project(point)) /
-                    (2.0 * kSteps[k]);
-  return result;
+/// Small motions of the points, one per column: rigid, or with a scale too.
+Eigen::MatrixXd motionsOf(const std::vector<Eigen::Vector3d>& points, bool with_scale) {
+  Eigen::MatrixXd motions =
+      Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(points.size()), with_scale ? 7 : 6);
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const Eigen::Index row = 3 * static_cast<Eigen::Index>(p);
+    const Eigen::Vector3d r = points[p] - Eigen::Vector3d::Constant(1.25);
+    motions.block<3, 3>(row, 0).setIdentity();
+    motions.block<3, 3>(row, 3) = geometry::so3::skew(r);
+    if (with_scale)
+      motions.block<3, 1>(row, 6) = r;
+  }
+  return motions;
 }
 
-Eigen::Matrix<double, 2, 3> byPoint(const geometry::Camera& camera, const Eigen::Vector3d& point) {
-  const double kStep = 1e-5;
-  Eigen::Matrix<double, 2, 3> result;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
-    result.col(axis) =
-        (*camera.project(point + step) - *camera.project(point - step)) / (2.0 * kStep);
+/// RMS of the points' errors by causes of this covariance, before and after an alignment.
+VolumeError rmsOf(const Eigen::MatrixXd& by_causes,
+                  const Eigen::MatrixXd& covariance,
+                  const std::vector<Eigen::Vector3d>& points) {
+  const auto rms = [&](const Eigen::MatrixXd& a) {
+    return std::sqrt((a * covariance).cwiseProduct(a).sum() / static_cast<double>(points.size()));
+  };
+  const auto aligned = [&](bool with_scale) {
+    const Eigen::MatrixXd motions = motionsOf(points, with_scale);
+    return rms(by_causes - motions * motions.householderQr().solve(by_causes));
+  };
+  return {rms(by_causes), aligned(false), aligned(true)};
+}
+
+/// How the points move with the parameters of the cameras that see them.
+Eigen::MatrixXd byCameras(const std::vector<geometry::Camera>& cameras,
+                          const std::vector<Eigen::Vector3d>& points) {
+  geometry::Rig rig;
+  for (const geometry::Camera& camera : cameras)
+    rig.cameras.emplace_back().camera = camera;
+  Eigen::MatrixXd result =
+      Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(points.size()),
+                            kPerCamera * static_cast<Eigen::Index>(cameras.size()));
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const Eigen::MatrixXd slopes =
+        geometry::pointByParameters(rig, points[p], geometry::camerasSeeing(rig, points[p]))
+            .value();
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+      result.block<3, kTimeOffset>(3 * static_cast<Eigen::Index>(p),
+                                   kPerCamera * static_cast<Eigen::Index>(i)) =
+          slopes.middleCols<kTimeOffset>(geometry::firstParameter(i));
   }
   return result;
 }
@@ -131,31 +280,10 @@ Eigen::Matrix3Xd pointErrors(const std::vector<geometry::Camera>& truth,
   return errors;
 }
 
-Eigen::Matrix3Xd aligned(const Eigen::Matrix3Xd& errors,
-                         const std::vector<Eigen::Vector3d>& points,
-                         bool with_scale) {
-  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(errors.size(), with_scale ? 7 : 6);
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    const Eigen::Index row = 3 * static_cast<Eigen::Index>(p);
-    const Eigen::Vector3d r = points[p] - Eigen::Vector3d::Constant(1.25);
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      motions(row + axis, axis) = 1.0;
-      motions.block<3, 1>(row, 3 + axis) = Eigen::Vector3d::Unit(axis).cross(r);
-    }
-    if (with_scale)
-      motions.block<3, 1>(row, 6) = r;
-  }
-  const Eigen::VectorXd all = Eigen::Map<const Eigen::VectorXd>(errors.data(), errors.size());
-  const Eigen::VectorXd rest = all - motions * motions.householderQr().solve(all);
-  return Eigen::Map<const Eigen::Matrix3Xd>(rest.data(), 3, errors.cols());
-}
-
 VolumeError volumeError(const Eigen::Matrix3Xd& errors,
                         const std::vector<Eigen::Vector3d>& points) {
-  const double count = static_cast<double>(points.size());
-  return {std::sqrt(errors.squaredNorm() / count),
-          std::sqrt(aligned(errors, points, false).squaredNorm() / count),
-          std::sqrt(aligned(errors, points, true).squaredNorm() / count)};
+  return rmsOf(Eigen::Map<const Eigen::VectorXd>(errors.data(), errors.size()),
+               Eigen::MatrixXd::Identity(1, 1), points);
 }
 
 WaveBound waveBound(const WaveScene& scene,
@@ -164,146 +292,12 @@ WaveBound waveBound(const WaveScene& scene,
                     double pixel,
                     double wand_stddev,
                     const std::vector<Eigen::Vector3d>& points) {
-  const auto cameras = static_cast<Eigen::Index>(wave.cameras.size());
-  const Eigen::Index camera_columns = kPerCamera * cameras;
-  const Eigen::Index wand_column = camera_columns + 8;
-  const Eigen::Index path_column = wand_column + 1;
-  double start = std::numeric_limits<double>::infinity();
-  double end = -start;
-  for (const SimulatedWave::View& view : wave.views) {
-    start = std::min(start, view.time);
-    end = std::max(end, view.time);
-  }
-  const Eigen::Index intervals =
-      wave.views.empty() ? 0
-                         : static_cast<Eigen::Index>(std::ceil((end - start) / knot_spacing)) + 1;
-  const Eigen::Index controls = intervals > 0 ? intervals + 3 : 0;
-  const Eigen::Index leds = scene.length > 0.0 ? 2 : 1;
-  Information information(path_column + 3 * leds * controls);
-
-  // A path's position at a time as weights of its control points.
-  const auto weights = [&](double time) {
-    const double t = (time - start) / knot_spacing;
-    const auto first = static_cast<Eigen::Index>(t);
-    std::array<std::pair<Eigen::Index, double>, 4> result;
-    for (Eigen::Index k = 0; k < 4; ++k)
-      result[static_cast<std::size_t>(k)] = {first + k,
-                                             basis(3, static_cast<double>(first + k - 3), t)};
-    return result;
-  };
-  const auto column = [&](Eigen::Index control, Eigen::Index led, Eigen::Index axis) {
-    return path_column + 3 * (leds * control + led) + axis;
-  };
-  using Row = std::vector<std::pair<Eigen::Index, double>>;
-  for (const SimulatedWave::View& view : wave.views) {
-    const geometry::Camera& camera = wave.cameras[view.camera];
-    const Eigen::Vector3d point = wave.path.position(view.path_time, view.led);
-    PixelByCamera by_camera = byCamera(camera, point);
-    const Eigen::Matrix<double, 2, 3> by_point = byPoint(camera, point);
-    if (view.camera > 0)
-      by_camera.col(kTimeOffset) = by_point * wave.path.velocity(view.path_time, view.led);
-    for (Eigen::Index r = 0; r < 2; ++r) {
-      Row row;
-      for (Eigen::Index k = 0; k < kPerCamera; ++k) {
-        if (by_camera(r, k) != 0.0)
-          row.emplace_back(kPerCamera * static_cast<Eigen::Index>(view.camera) + k,
-                           by_camera(r, k));
-      }
-      for (const auto& [control, weight] : weights(view.time)) {
-        for (Eigen::Index axis = 0; axis < 3; ++axis)
-          row.emplace_back(column(control, view.led, axis), weight * by_point(r, axis));
-      }
-      information.add(row, pixel);
-    }
-  }
-
-  const square::Uncertainty& u = scene.uncertainty;
-  for (Eigen::Index i = 0; i < cameras; ++i) {
-    const geometry::Camera& camera = wave.cameras[static_cast<std::size_t>(i)];
-    const geometry::Intrinsics& lens = camera.intrinsics;
-    const Eigen::Index at = kPerCamera * i;
-    information.add({{at + 6, 0.5 / lens.fx}, {at + 7, 0.5 / lens.fy}}, u.focal);
-    information.add({{at + 6, 1.0 / lens.fx}, {at + 7, -1.0 / lens.fy}}, u.aspect);
-    information.add({{at + 8, 1.0}}, u.principal_point);
-    information.add({{at + 9, 1.0}}, u.principal_point);
-    information.add({{at + 10, 1.0}}, u.k1);
-    information.add({{at + kTimeOffset, 1.0}}, i == 0 ? 1e-9 : 0.05);
-    // Without square the first camera is the world.
-    for (Eigen::Index k = 0; !scene.square && i == 0 && k < 6; ++k)
-      information.add({{at + k, 1.0}}, 1e-9);
-    for (Eigen::Index c = 0; scene.square && c < 4; ++c) {
-      const auto& corner = wave.corners[static_cast<std::size_t>(c)];
-      const PixelByCamera by_camera = byCamera(camera, corner);
-      const Eigen::Matrix<double, 2, 3> by_point = byPoint(camera, corner);
-      for (Eigen::Index r = 0; r < 2; ++r) {
-        Row row;
-        for (Eigen::Index k = 0; k < kTimeOffset; ++k)
-          row.emplace_back(at + k, by_camera(r, k));
-        for (Eigen::Index axis = 0; axis < 2; ++axis)
-          row.emplace_back(camera_columns + 2 * c + axis, by_point(r, axis));
-        information.add(row, u.pixel);
-      }
-    }
-  }
-  for (Eigen::Index c = 0; c < 8; ++c)
-    information.add({{camera_columns + c, 1.0}}, u.placement);
-  information.add({{wand_column, 1.0}}, wand_stddev);
-  for (Eigen::Index i = 0; leds == 2 && i < intervals; ++i) {
-    const double kStick = 0.0002;
-    const double time = start + knot_spacing * static_cast<double>(i);
-    const double path_time =
-        time - start + wave.views.front().path_time - (wave.views.front().time - start);
-    const Eigen::Vector3d direction =
-        (wave.path.position(path_time, 0) - wave.path.position(path_time, 1)).normalized();
-    Row row = {{wand_column, -1.0}};
-    for (const auto& [control, weight] : weights(time)) {
-      for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        row.emplace_back(column(control, 0, axis), weight * direction[axis]);
-        row.emplace_back(column(control, 1, axis), -weight * direction[axis]);
-      }
-    }
-    information.add(row, kStick);
-  }
-  // Control points that nobody saw.
-  for (Eigen::Index k = path_column; k < path_column + 3 * leds * controls; ++k)
-    information.add({{k, 1.0}}, 10.0);
-
-  WaveBound bound;
-  bound.covariance = information.inverse(camera_columns);
-
-  // Point errors from parameter errors, and what alignment leaves of them.
-  Eigen::MatrixXd errors(3 * static_cast<Eigen::Index>(points.size()), camera_columns);
-  Eigen::MatrixXd rigid = errors;
-  Eigen::MatrixXd similarity = errors;
-  errors.setZero();
-  rigid.setZero();
-  similarity.setZero();
-  for (Eigen::Index k = 0; k < camera_columns; ++k) {
-    const Eigen::Index parameter = k % kPerCamera;
-    if (parameter == kTimeOffset)
-      continue;
-    const auto i = static_cast<std::size_t>(k / kPerCamera);
-    const double step = kSteps[parameter];
-    std::vector<geometry::Camera> plus = wave.cameras;
-    std::vector<geometry::Camera> minus = wave.cameras;
-    plus[i] = changed(plus[i], parameter, step);
-    minus[i] = changed(minus[i], parameter, -step);
-    const Eigen::Matrix3Xd slope =
-        (pointErrors(wave.cameras, plus, points) - pointErrors(wave.cameras, minus, points)) /
-        (2.0 * step);
-    const auto store = [&](const Eigen::Matrix3Xd& from, Eigen::MatrixXd* to) {
-      to->col(k) = Eigen::Map<const Eigen::VectorXd>(from.data(), from.size());
-    };
-    store(slope, &errors);
-    store(aligned(slope, points, false), &rigid);
-    store(aligned(slope, points, true), &similarity);
-  }
-  const auto rms = [&](const Eigen::MatrixXd& a) {
-    return std::sqrt((a * bound.covariance).cwiseProduct(a).sum() /
-                     static_cast<double>(points.size()));
-  };
-  bound.volume = {rms(errors), rms(rigid), rms(similarity)};
-  return bound;
+  Information information(scene, wave, knot_spacing);
+  information.addViews(pixel);
+  information.addSquareAndLenses();
+  information.addWand(wand_stddev);
+  const Eigen::MatrixXd covariance = information.inverse();
+  return {covariance, rmsOf(byCameras(wave.cameras, points), covariance, points)};
 }
 
 std::optional<Eigen::Matrix3d> pointBound(const std::vector<geometry::Camera>& cameras,
@@ -323,8 +317,9 @@ std::optional<Eigen::Matrix3d> pointBound(const std::vector<geometry::Camera>& c
   for (std::size_t k = 0; k < seeing.size(); ++k) {
     const auto row = 2 * static_cast<Eigen::Index>(k);
     const auto column = kPerCamera * static_cast<Eigen::Index>(seeing[k]);
-    by_cameras.block<2, kPerCamera>(row, column) = byCamera(cameras[seeing[k]], point);
-    by_point.middleRows<2>(row) = byPoint(cameras[seeing[k]], point);
+    const Slopes slopes = slopesOf(cameras[seeing[k]], point);
+    by_cameras.block<2, kPerCamera>(row, column) = slopes.by_camera;
+    by_point.middleRows<2>(row) = slopes.by_point;
   }
   const Eigen::MatrixXd noise = by_cameras * covariance * by_cameras.transpose() +
                                 pixel * pixel * Eigen::MatrixXd::Identity(rows, rows);

@@ -1,7 +1,6 @@
 #include "checks.h"
 
-#include "lens_prior.h"
-
+#include "square/lens_prior.h"
 #include "wave/error.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -175,9 +174,8 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
                     ": check that no camera was moved and that their times are of one clock");
   for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
     const square::CameraSightings& start = recording.cameras[i].sightings;
-    const double deviation = lensResidual(solution->rig.cameras[i].camera.intrinsics,
-                                          start.intrinsics, options.uncertainty)
-                                 .norm();
+    const double deviation = square::lensPrior(start.intrinsics, options.uncertainty)
+                                 .deviation(solution->rig.cameras[i].camera.intrinsics);
     if (deviation > kLensLimit)
       throw WaveError("no lens like the one stated explains what " + start.name +
                       " saw: check its starting intrinsics, that its image is not mirrored or "

@@ -74,6 +74,44 @@ std::string emptiestPart(const CameraCoverage& camera) {
   return name;
 }
 
+/// What to do until the wave is enough, most urgent first.
+std::vector<std::string> missing(const CoverageReport& report, const CoverageOptions& options) {
+  std::vector<std::string> result;
+  for (const CameraCoverage& camera : report.cameras) {
+    if (camera.seconds == 0.0)
+      result.push_back(camera.name +
+                       " has not seen the LED move: wave it where it looks, or cover the light it "
+                       "sees instead");
+    else if (camera.together < kLeastTogether)
+      result.push_back(camera.name + " and another camera have seen the LED together for " +
+                       format("%.0f s", camera.together) + " only: wave it where both look");
+    if (camera.distraction > options.distraction)
+      result.push_back(camera.name + " sees other lights in " +
+                       format("%.0f %%", 100.0 * camera.distraction) +
+                       " of its images: cover lamps and what reflects");
+  }
+  for (const CameraCoverage& camera : report.cameras) {
+    if (camera.seconds > 0.0 && camera.image_share < options.image_share)
+      result.push_back(camera.name + " has seen the LED in " +
+                       format("%.0f %%", 100.0 * camera.image_share) +
+                       " of its image: wave it at the " + emptiestPart(camera));
+    if (camera.seconds > 0.0 && camera.image_speed < options.image_speed)
+      result.push_back("the LED is slow in the image of " + camera.name + ": wave it faster");
+  }
+  if (report.volume && *report.volume < options.volume)
+    result.push_back("the LED has been in " + format("%.1f", *report.volume) + " of " +
+                     format("%.1f cubic metres", options.volume) +
+                     ": wave it high and low, near and far");
+  if (report.speed && *report.speed < options.speed)
+    result.push_back("the LED moves at " + format("%.1f m/s", *report.speed) +
+                     ": wave it faster than " + format("%.1f m/s", options.speed));
+  if (report.seconds < options.seconds - 0.5 * kTimeStep)
+    result.push_back("wave on for " +
+                     format("%.0f s", std::ceil(options.seconds - report.seconds)) +
+                     " where two cameras see the LED");
+  return result;
+}
+
 }  // namespace
 
 void Coverage::Speeds::add(double speed, double step) {
@@ -227,40 +265,7 @@ CoverageReport Coverage::report() const {
     report.volume = kCell * kCell * kCell * static_cast<double>(cells_.size());
   if (posed_ && speeds_.total > 0)
     report.speed = speeds_.median(kSpeedStep);
-
-  std::vector<std::string>& missing = report.missing;
-  for (const CameraCoverage& camera : report.cameras) {
-    if (camera.seconds == 0.0)
-      missing.push_back(camera.name +
-                        " has not seen the LED move: wave it where it looks, or cover the light it "
-                        "sees instead");
-    else if (camera.together < kLeastTogether)
-      missing.push_back(camera.name + " and another camera have seen the LED together for " +
-                        format("%.0f s", camera.together) + " only: wave it where both look");
-    if (camera.distraction > options_.distraction)
-      missing.push_back(camera.name + " sees other lights in " +
-                        format("%.0f %%", 100.0 * camera.distraction) +
-                        " of its images: cover lamps and what reflects");
-  }
-  for (const CameraCoverage& camera : report.cameras) {
-    if (camera.seconds > 0.0 && camera.image_share < options_.image_share)
-      missing.push_back(camera.name + " has seen the LED in " +
-                        format("%.0f %%", 100.0 * camera.image_share) +
-                        " of its image: wave it at the " + emptiestPart(camera));
-    if (camera.seconds > 0.0 && camera.image_speed < options_.image_speed)
-      missing.push_back("the LED is slow in the image of " + camera.name + ": wave it faster");
-  }
-  if (report.volume && *report.volume < options_.volume)
-    missing.push_back("the LED has been in " + format("%.1f", *report.volume) + " of " +
-                      format("%.1f cubic metres", options_.volume) +
-                      ": wave it high and low, near and far");
-  if (report.speed && *report.speed < options_.speed)
-    missing.push_back("the LED moves at " + format("%.1f m/s", *report.speed) +
-                      ": wave it faster than " + format("%.1f m/s", options_.speed));
-  if (report.seconds < options_.seconds - 0.5 * kTimeStep)
-    missing.push_back("wave on for " +
-                      format("%.0f s", std::ceil(options_.seconds - report.seconds)) +
-                      " where two cameras see the LED");
+  report.missing = missing(report, options_);
   return report;
 }
 

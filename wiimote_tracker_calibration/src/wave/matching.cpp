@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 namespace wiimote_tracker::wave {
 
@@ -88,87 +89,92 @@ std::array<int, 2> bestSpots(const Frame& frame,
   return best;
 }
 
+/// An LED that a camera could have seen in one frame.
+struct Sighting {
+  std::size_t camera;
+  Eigen::Index led;
+  Eigen::Index interval;
+  std::optional<Match> match;  // nothing: it did not see it
+};
+
+/// What one camera could have seen, and what of it it saw.
+void addSightings(const CameraRecording& recording,
+                  const State& state,
+                  std::size_t camera,
+                  const Gate& gate,
+                  std::vector<Sighting>* sightings) {
+  const Eigen::Index leds = state.trajectory.leds();
+  for (const Frame& frame : recording.frames) {
+    const auto place = state.trajectory.at(frame.stamp + state.offsets[camera]);
+    if (!place || frame.spots.empty())
+      continue;
+    std::array<std::optional<Prediction>, 2> predictions;
+    for (Eigen::Index led = 0; led < leds; ++led)
+      predictions[static_cast<std::size_t>(led)] = predict(state, camera, *place, led, gate);
+    if (predictions[0] && predictions[1] &&
+        (predictions[0]->pixel - predictions[1]->pixel).norm() < kRunTogether)
+      continue;
+    const std::array<int, 2> chosen = bestSpots(frame, predictions, gate.limit);
+    for (Eigen::Index led = 0; led < leds; ++led) {
+      const std::optional<Prediction>& prediction = predictions[static_cast<std::size_t>(led)];
+      if (!prediction)
+        continue;
+      Sighting sighting{camera, led, place->first, std::nullopt};
+      const int spot = chosen[static_cast<std::size_t>(led)];
+      if (spot >= 0)
+        sighting.match = Match{camera,
+                               led,
+                               place->first,
+                               frame.stamp,
+                               frame.spots[static_cast<std::size_t>(spot)],
+                               prediction->whitening};
+      else if (!inImage(state.cameras[camera].intrinsics, prediction->pixel))
+        continue;
+      sightings->push_back(sighting);
+    }
+  }
+}
+
+/// Per knot interval: whether two cameras or more see an LED there or in the next intervals.
+std::vector<bool> seenBySeveral(const std::vector<Sighting>& sightings,
+                                Eigen::Index led,
+                                Eigen::Index intervals) {
+  std::vector<std::set<std::size_t>> cameras(static_cast<std::size_t>(intervals));
+  for (const Sighting& sighting : sightings) {
+    if (!sighting.match || sighting.led != led)
+      continue;
+    const Eigen::Index last = std::min(sighting.interval + 1, intervals - 1);
+    for (Eigen::Index i = std::max<Eigen::Index>(sighting.interval - 1, 0); i <= last; ++i)
+      cameras[static_cast<std::size_t>(i)].insert(sighting.camera);
+  }
+  std::vector<bool> several;
+  for (const std::set<std::size_t>& in_interval : cameras)
+    several.push_back(in_interval.size() >= 2);
+  return several;
+}
+
 }  // namespace
 
 Matching matchSpots(const Recording& recording, const State& state, const Gate& gate) {
   const std::size_t cameras = recording.cameras.size();
-  const auto intervals = static_cast<std::size_t>(state.trajectory.intervals());
-  const bool wand = state.trajectory.leds() == 2;
-  struct Expected {
-    std::size_t camera;
-    Eigen::Index led;
-    std::size_t interval;
-    std::optional<Match> match;
-  };
-  std::vector<Expected> all;
-  // Per LED and knot interval: the cameras that see it there, as the last of them and whether there
-  // is another.
-  struct Seen {
-    std::size_t camera = std::numeric_limits<std::size_t>::max();
-    bool by_several = false;
-    void add(std::size_t other) {
-      by_several =
-          by_several || (camera != std::numeric_limits<std::size_t>::max() && camera != other);
-      camera = other;
-    }
-  };
-  std::array<std::vector<Seen>, 2> seen;
-  seen.fill(std::vector<Seen>(intervals));
-
-  for (std::size_t c = 0; c < cameras; ++c) {
-    for (const Frame& frame : recording.cameras[c].frames) {
-      const auto place = state.trajectory.at(frame.stamp + state.offsets[c]);
-      if (!place || frame.spots.empty())
-        continue;
-      std::array<std::optional<Prediction>, 2> predictions;
-      for (Eigen::Index led = 0; led < state.trajectory.leds(); ++led)
-        predictions[static_cast<std::size_t>(led)] = predict(state, c, *place, led, gate);
-      std::array<int, 2> chosen = {-1, -1};
-      if (!wand) {
-        if (predictions[0])
-          chosen[0] = bestSpot(frame, *predictions[0], gate.limit, -1);
-      } else {
-        if (predictions[0] && predictions[1] &&
-            (predictions[0]->pixel - predictions[1]->pixel).norm() < kRunTogether)
-          continue;
-        chosen = bestSpots(frame, predictions, gate.limit);
-      }
-      for (Eigen::Index led = 0; led < state.trajectory.leds(); ++led) {
-        const auto l = static_cast<std::size_t>(led);
-        if (!predictions[l])
-          continue;
-        Expected expected{c, led, static_cast<std::size_t>(place->first), std::nullopt};
-        if (chosen[l] >= 0) {
-          expected.match =
-              Match{c, led, frame.stamp, frame.spots[static_cast<std::size_t>(chosen[l])],
-                    predictions[l]->whitening};
-          seen[l][expected.interval].add(c);
-        } else if (!inImage(state.cameras[c].intrinsics, predictions[l]->pixel)) {
-          continue;
-        }
-        all.push_back(expected);
-      }
-    }
-  }
+  std::vector<Sighting> sightings;
+  for (std::size_t c = 0; c < cameras; ++c)
+    addSightings(recording.cameras[c], state, c, gate, &sightings);
+  std::vector<std::vector<bool>> several;
+  for (Eigen::Index led = 0; led < state.trajectory.leds(); ++led)
+    several.push_back(seenBySeveral(sightings, led, state.trajectory.intervals()));
 
   Matching result;
   result.expected.assign(cameras, 0);
   result.found.assign(cameras, 0);
-  for (const Expected& expected : all) {
-    const std::vector<Seen>& of_led = seen[static_cast<std::size_t>(expected.led)];
-    Seen around;
-    for (std::size_t i = std::max<std::size_t>(expected.interval, 1) - 1;
-         i <= std::min(expected.interval + 1, intervals - 1); ++i) {
-      if (of_led[i].camera != std::numeric_limits<std::size_t>::max())
-        around.add(of_led[i].camera);
-      around.by_several = around.by_several || of_led[i].by_several;
-    }
-    if (!around.by_several)
+  for (const Sighting& sighting : sightings) {
+    if (!several[static_cast<std::size_t>(sighting.led)]
+                [static_cast<std::size_t>(sighting.interval)])
       continue;
-    ++result.expected[expected.camera];
-    if (expected.match) {
-      ++result.found[expected.camera];
-      result.matches.push_back(*expected.match);
+    ++result.expected[sighting.camera];
+    if (sighting.match) {
+      ++result.found[sighting.camera];
+      result.matches.push_back(*sighting.match);
     }
   }
   return result;

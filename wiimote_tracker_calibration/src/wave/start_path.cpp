@@ -1,10 +1,11 @@
 #include "start_path.h"
 
-#include "band_matrix.h"
-
 #include "wave/error.h"
 
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
@@ -227,46 +228,61 @@ void refuseFew(std::size_t places) {
                     "nobody moved a camera, and wave it where two cameras see it");
 }
 
-/// Spline through places some of which are wrong: least squares, each place weighted by how well
-/// the spline before explained it.
+/// Control points of one LED's path, one per row: least squares over places of it and the prior of
+/// its acceleration.
+/// @param errors of the positions [m]. @param bend error of a second difference of the controls
+/// [m].
+Eigen::MatrixX3d controlsThrough(const std::vector<Trajectory::Place>& places,
+                                 const std::vector<Eigen::Vector3d>& positions,
+                                 const std::vector<double>& errors,
+                                 double bend,
+                                 Eigen::Index controls) {
+  const auto count = static_cast<Eigen::Index>(places.size());
+  std::vector<Eigen::Triplet<double>> design;
+  Eigen::MatrixX3d target = Eigen::MatrixX3d::Zero(count + controls - 2, 3);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    for (Eigen::Index k = 0; k < 4; ++k)
+      design.emplace_back(row, places[i].first + k, places[i].value(k) / errors[i]);
+    target.row(row) = positions[i].transpose() / errors[i];
+  }
+  for (Eigen::Index k = 0; k + 2 < controls; ++k) {
+    design.emplace_back(count + k, k, 1.0 / bend);
+    design.emplace_back(count + k, k + 1, -2.0 / bend);
+    design.emplace_back(count + k, k + 2, 1.0 / bend);
+  }
+  Eigen::SparseMatrix<double> by_controls(target.rows(), controls);
+  by_controls.setFromTriplets(design.begin(), design.end());
+  const Eigen::SparseMatrix<double> information = by_controls.transpose() * by_controls;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(information);
+  if (solver.info() != Eigen::Success)
+    refuseFew(0);
+  const Eigen::MatrixX3d right = by_controls.transpose() * target;
+  return solver.solve(right);
+}
+
+/// Spline through places some of which are wrong: each weighted by how well the spline before
+/// explained it.
 void fit(const std::vector<Instant>& instants, double acceleration, Trajectory* trajectory) {
   // Errors of the places as the rounds go on [m].
   const double kErrors[] = {1.0, 0.3, 0.1, 0.05, 0.05};
-  const Eigen::Index controls = trajectory->controls().cols();
-  const double weight = 1.0 / (trajectory->spacing() * trajectory->spacing() * acceleration);
-  const double factors[] = {weight, -2.0 * weight, weight};
+  const double bend = trajectory->spacing() * trajectory->spacing() * acceleration;
+  std::vector<Trajectory::Place> places;
+  for (const Instant& instant : instants)
+    places.push_back(*trajectory->at(instant.time));
   for (Eigen::Index led = 0; led < trajectory->leds(); ++led) {
-    bool first = true;
+    std::vector<Eigen::Vector3d> positions;
+    for (const Instant& instant : instants)
+      positions.push_back(instant.leds[static_cast<std::size_t>(led)]);
+    std::vector<double> offs(instants.size(), 0.0);  // [m]
     for (const double error : kErrors) {
-      BandMatrix band(controls, 3);
-      RowMajorMatrix right = RowMajorMatrix::Zero(controls, 3);
-      for (const Instant& instant : instants) {
-        const Trajectory::Place place = *trajectory->at(instant.time);
-        const Eigen::Vector3d& position = instant.leds[static_cast<std::size_t>(led)];
-        const double off =
-            first ? 0.0 : (trajectory->position(place, led) - position).norm() / error;
-        const double information = 1.0 / (error * error * std::pow(1.0 + off * off, 2));
-        for (Eigen::Index k = 0; k < 4; ++k) {
-          right.row(place.first + k) += information * place.value(k) * position.transpose();
-          for (Eigen::Index l = 0; l <= k; ++l)
-            band(place.first + k, place.first + l) += information * place.value(k) * place.value(l);
-        }
-      }
-      for (Eigen::Index control = 0; control + 2 < controls; ++control) {
-        for (Eigen::Index k = 0; k < 3; ++k) {
-          for (Eigen::Index l = 0; l <= k; ++l)
-            band(control + k, control + l) += factors[k] * factors[l];
-        }
-      }
-      if (!band.factorize())
-        refuseFew(0);
-      band.solveLower(&right);
-      for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        Eigen::VectorXd column = right.col(axis);
-        band.solveUpper(&column);
-        trajectory->controls().row(3 * led + axis) = column.transpose();
-      }
-      first = false;
+      std::vector<double> errors;
+      for (const double off : offs)
+        errors.push_back(error + off * off / error);
+      auto controls = trajectory->controls().middleRows<3>(3 * led);
+      controls = controlsThrough(places, positions, errors, bend, controls.cols()).transpose();
+      for (std::size_t i = 0; i < places.size(); ++i)
+        offs[i] = (trajectory->position(places[i], led) - positions[i]).norm();
     }
   }
 }

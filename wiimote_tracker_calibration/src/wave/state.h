@@ -3,12 +3,11 @@
 
 #include "trajectory.h"
 
-#include "wiimote_tracker_calibration/square/square_layout.h"
-
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -19,15 +18,17 @@ struct State {
   std::vector<geometry::Camera> cameras;
   std::vector<double> offsets;  ///< exposure time = stamp + offset [s].
   Trajectory trajectory;
-  square::Corners corners{};  ///< Where the LED was put [m].
-  double wand_length = 0.0;   ///< [m]
+  bool z_up = true;                               ///< As in SquareLayout::corners(); not estimated.
+  std::array<Eigen::Vector2d, 4> corner_offsets;  ///< Displacements from the layout [m].
+  double wand_length = 0.0;                       ///< [m]
 };
 
 /// A spot that is taken for an LED.
 struct Match {
   std::size_t camera;
   Eigen::Index led;
-  double stamp;  ///< [s]
+  Eigen::Index interval;  ///< Of the path's knots, in which it was exposed.
+  double stamp;           ///< [s]
   Eigen::Vector2d pixel;
   Eigen::Matrix2d whitening;  ///< Of the pixel error [1/px].
 };

@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_TRAJECTORY_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_TRAJECTORY_H
 
+#include "adjust/cubic_spline.h"
+
 #include <Eigen/Core>
 
 #include <cmath>
@@ -12,11 +14,9 @@ namespace wiimote_tracker::wave {
 /// a weighted mean of four neighbouring control points.
 class Trajectory {
  public:
-  /// The four control points that shape the path at one time.
-  struct Place {
-    Eigen::Index first;     ///< Of the four, also the number of the knot interval.
-    Eigen::Vector4d value;  ///< Weights of the position; their sum is 1.
-    Eigen::Vector4d rate;   ///< Weights of the velocity [1/s].
+  /// The four control points that shape the path at one time, and their weights.
+  struct Place : adjust::SplineWeights {
+    Eigen::Index first;  ///< Of the four, also the number of the knot interval.
   };
 
   Trajectory() = default;
@@ -38,23 +38,20 @@ class Trajectory {
 
   /// One column per control point, LED below LED [m].
   Eigen::MatrixXd& controls() { return controls_; }
+  double* control(Eigen::Index index, Eigen::Index led) { return &controls_(3 * led, index); }
   const Eigen::MatrixXd& controls() const { return controls_; }
+
+  /// A time by the polynomial of a knot interval, which goes on beyond its two knots.
+  Place in(Eigen::Index interval, double time) const {
+    return {adjust::splineWeights(time - timeOf(interval), spacing_), interval};
+  }
 
   /// Nothing outside the times it is defined for.
   std::optional<Place> at(double time) const {
     const double knots = (time - start_) / spacing_;
     if (!(knots >= 0.0) || !(knots < static_cast<double>(intervals())))
       return std::nullopt;
-    Place place;
-    place.first = static_cast<Eigen::Index>(knots);
-    const double u = knots - static_cast<double>(place.first);
-    const double v = 1.0 - u;
-    place.value << v * v * v, 3.0 * u * u * u - 6.0 * u * u + 4.0,
-        3.0 * v * v * v - 6.0 * v * v + 4.0, u * u * u;
-    place.value /= 6.0;
-    place.rate << -v * v, 3.0 * u * u - 4.0 * u, -3.0 * v * v + 4.0 * v, u * u;
-    place.rate /= 2.0 * spacing_;
-    return place;
+    return in(static_cast<Eigen::Index>(knots), time);
   }
 
   Eigen::Vector3d position(const Place& place, Eigen::Index led) const {

@@ -27,16 +27,11 @@ Eigen::Matrix3Xd pointErrors(const std::vector<geometry::Camera>& truth,
                              const std::vector<geometry::Camera>& estimate,
                              const std::vector<Eigen::Vector3d>& points);
 
-/// What is left of the errors after the best small motion, rigid or with a scale.
-Eigen::Matrix3Xd aligned(const Eigen::Matrix3Xd& errors,
-                         const std::vector<Eigen::Vector3d>& points,
-                         bool with_scale);
-
 VolumeError volumeError(const Eigen::Matrix3Xd& errors, const std::vector<Eigen::Vector3d>& points);
 
 /// What the Fisher information of a simulated recording allows at best: the same model (a cubic
-/// B-spline of the same knots, the same prior knowledge), computed another way, at the truth, by
-/// numerical differentiation and a general sparse factorisation.
+/// B-spline of the same knots, the same prior knowledge), written down once more, at the truth: the
+/// solver's cost functions (adjust/) are no part of it, so that it can show their errors.
 struct WaveBound {
   /// Of 12 parameters per camera: rotation, position, fx, fy, cx, cy, k1, time offset.
   Eigen::MatrixXd covariance;
@@ -44,6 +39,7 @@ struct WaveBound {
 };
 
 /// Of a wave without views it is the bound of the square alone.
+/// @param points that two cameras or more see.
 /// @param pixel standard deviation of what the cameras report, rounding included [px].
 /// @param wand_stddev of the wand's length [m].
 WaveBound waveBound(const WaveScene& scene,

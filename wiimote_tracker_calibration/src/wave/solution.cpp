@@ -1,0 +1,175 @@
+#include "solution.h"
+
+#include "adjustment.h"
+#include "predicted_error.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace wiimote_tracker::wave {
+
+namespace {
+
+/// Slow errors of the clocks hardly average out over a wave, and the offsets are means over it:
+/// the variance of the mean of an error that settles with a time constant. The first camera's
+/// enters all offsets.
+void addWander(const WaveOptions& options, double seconds, Eigen::MatrixXd* covariance) {
+  const double kSettling = 2.0;  // [s]
+  const double share = std::min(1.0, 2.0 * kSettling / seconds);
+  const double variance = options.wander * options.wander * share;
+  constexpr Eigen::Index kStep = geometry::kParameters;
+  constexpr Eigen::Index kSecond = kStep + geometry::kTimeOffset;
+  for (Eigen::Index i = kSecond; i < covariance->rows(); i += kStep) {
+    for (Eigen::Index j = kSecond; j < covariance->cols(); j += kStep)
+      (*covariance)(i, j) += i == j ? 2.0 * variance : variance;
+  }
+}
+
+/// Enough points to stand for the path.
+std::vector<Eigen::Vector3d> thinned(const std::vector<Eigen::Vector3d>& path) {
+  const std::size_t kEnough = 150;
+  const std::size_t stride = std::max<std::size_t>(1, path.size() / kEnough);
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < path.size(); i += stride)
+    points.push_back(path[i]);
+  return points;
+}
+
+geometry::RigCamera rigCamera(const CameraRecording& recording,
+                              const State& state,
+                              std::size_t index,
+                              const Matching& matching) {
+  geometry::RigCamera result;
+  result.camera = state.cameras[index];
+  result.time_offset = state.offsets[index];
+  result.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
+  result.time_offset_epoch = recording.clock_epoch;
+  result.gravity = recording.sightings.gravity;
+  result.observations = static_cast<std::uint32_t>(matching.expected[index]);
+  result.inliers = static_cast<std::uint32_t>(matching.found[index]);
+  const geometry::Intrinsics& lens = result.camera.intrinsics;
+  double squared_px = 0.0;
+  double squared_m = 0.0;
+  for (const Match& match : matching.matches) {
+    if (match.camera != index)
+      continue;
+    const Trajectory::Place place =
+        state.trajectory.in(match.interval, match.stamp + result.time_offset);
+    const Eigen::Vector3d point = state.trajectory.position(place, match.led);
+    const double squared = (*result.camera.project(point) - match.pixel).squaredNorm();
+    squared_px += squared;
+    squared_m += squared * (point - result.camera.center()).squaredNorm() / (lens.fx * lens.fy);
+  }
+  result.residual_px = std::sqrt(squared_px / result.inliers);
+  result.residual_m = std::sqrt(squared_m / result.inliers);
+  return result;
+}
+
+CameraReport cameraReport(const Eigen::MatrixXd& covariance,
+                          std::size_t index,
+                          const Matching& matching) {
+  const auto stddev = [&](Eigen::Index parameter) {
+    const Eigen::Index k = geometry::firstParameter(index) + parameter;
+    return std::sqrt(covariance(k, k));
+  };
+  CameraReport report;
+  report.inlier_share =
+      static_cast<double>(matching.found[index]) / static_cast<double>(matching.expected[index]);
+  report.focal_stddev = stddev(geometry::kLens);
+  report.principal_point_stddev =
+      std::max(stddev(geometry::kLens + 2), stddev(geometry::kLens + 3));
+  report.offset_stddev = stddev(geometry::kTimeOffset);
+  return report;
+}
+
+/// @param covariances of the corners' displacements, 2 rows each.
+void describeSquare(const Recording& recording,
+                    const WaveOptions& options,
+                    const State& state,
+                    const Eigen::MatrixXd& covariances,
+                    WaveSolution* solution) {
+  geometry::Rig& rig = solution->rig;
+  rig.method = "square+" + rig.method;
+  rig.square_sides = {recording.square->side_x, recording.square->side_y};
+  rig.led_height = recording.square->led_height;
+  square::CornerEstimates corners;
+  for (std::size_t c = 0; c < state.corner_offsets.size(); ++c) {
+    const Eigen::Index row = 2 * static_cast<Eigen::Index>(c);
+    solution->corner_offsets[c].head<2>() = state.corner_offsets[c];
+    corners.offsets[c] = solution->corner_offsets[c];
+    corners.covariances[c] = covariances.block<2, 2>(row, row);
+  }
+  solution->suspect = square::suspectCorner(corners, options.uncertainty.placement);
+}
+
+/// What the path was like, where it was seen.
+void describePath(const State& state, const Matching& matching, WaveSolution* solution) {
+  const Trajectory& trajectory = state.trajectory;
+  std::vector<bool> seen(static_cast<std::size_t>(trajectory.intervals()), false);
+  for (const Match& match : matching.matches)
+    seen[static_cast<std::size_t>(match.interval)] = true;
+  std::vector<double> speeds;
+  for (Eigen::Index i = 0; i < trajectory.intervals(); ++i) {
+    if (!seen[static_cast<std::size_t>(i)])
+      continue;
+    solution->seconds_seen += trajectory.spacing();
+    const Trajectory::Place place =
+        trajectory.in(i, trajectory.timeOf(i) + 0.5 * trajectory.spacing());
+    for (Eigen::Index led = 0; led < trajectory.leds(); ++led) {
+      solution->path.push_back(trajectory.position(place, led));
+      speeds.push_back(trajectory.velocity(place, led).norm());
+    }
+  }
+  const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
+  std::nth_element(speeds.begin(), middle, speeds.end());
+  solution->median_speed = *middle;
+
+  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(solution->path.size()));
+  for (std::size_t i = 0; i < solution->path.size(); ++i)
+    points.col(static_cast<Eigen::Index>(i)) = solution->path[i];
+  const Eigen::Matrix3Xd centered = points.colwise() - points.rowwise().mean();
+  const Eigen::Matrix3d scatter =
+      centered * centered.transpose() / static_cast<double>(points.cols());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  solution->extent = solver.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt();
+}
+
+}  // namespace
+
+WaveSolution solutionOf(const Recording& recording,
+                        const WaveOptions& options,
+                        const State& state,
+                        const Matching& matching) {
+  WaveSolution solution;
+  solution.gauge = recording.square ? Gauge::kSquare : Gauge::kFirstCamera;
+  solution.z_up = state.z_up;
+  solution.wand_length = state.wand_length;
+  solution.corner_offsets.fill(Eigen::Vector3d::Zero());
+  describePath(state, matching, &solution);
+
+  const Eigen::MatrixXd joint = covarianceOf(recording, options, matching.matches, state);
+  const Eigen::Index cameras = geometry::firstParameter(state.cameras.size());
+  geometry::Rig& rig = solution.rig;
+  rig.method = recording.wand ? "wand" : "wave";
+  rig.covariance = joint.topLeftCorner(cameras, cameras);
+  addWander(options, solution.seconds_seen, &rig.covariance);
+  for (std::size_t i = 0; i < state.cameras.size(); ++i) {
+    rig.cameras.push_back(rigCamera(recording.cameras[i], state, i, matching));
+    solution.cameras.push_back(cameraReport(rig.covariance, i, matching));
+  }
+  if (recording.square)
+    describeSquare(recording, options, state, joint.bottomRightCorner(8, 8), &solution);
+  const PredictedError predicted = predictedError(rig, thinned(solution.path));
+  solution.expected_error = predicted.absolute;
+  solution.expected_shape_error = predicted.shape;
+  return solution;
+}
+
+}  // namespace wiimote_tracker::wave

@@ -63,9 +63,9 @@ ClockShift clockShift(const geometry::Rig& first,
 }
 
 /// The first rig with the second's other cameras, moved into its world.
-geometry::Rig joined(const geometry::Rig& first,
-                     const geometry::Rig& second,
-                     const RigMotion& motion) {
+geometry::Rig joinedRig(const geometry::Rig& first,
+                        const geometry::Rig& second,
+                        const RigMotion& motion) {
   const Eigen::Isometry3d& moved = motion.first_from_second;
   const Eigen::Index errors = motion.by_errors.cols();
   const ClockShift clock = clockShift(first, second, errors);
@@ -159,7 +159,7 @@ JoinedRigs finish(const geometry::Rig& first,
   result.first_from_second = motion.first_from_second;
   result.chi_squared = motion.chi_squared;
   result.degrees_of_freedom = motion.degrees_of_freedom;
-  result.rig = joined(first, second, motion);
+  result.rig = joinedRig(first, second, motion);
   const std::size_t added = result.rig.cameras.size() - first.cameras.size();
   result.message = format("%zu %s joined to the %zu of the first rig over ", added,
                           added == 1 ? "camera" : "cameras", first.cameras.size()) +

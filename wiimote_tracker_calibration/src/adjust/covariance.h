@@ -14,7 +14,7 @@ namespace wiimote_tracker::adjust {
 /// the inverse of J^T J, with the whitened residuals' Jacobian J by all blocks of the problem.
 /// Blocks that are held have zero rows. Nothing when the residuals leave some parameter open.
 /// By a sparse Cholesky factor, of which only these blocks' columns are solved: ceres::Covariance
-/// factors J itself (QR), which takes minutes for the path of a long wave.
+/// factors J itself (QR), which takes more than a minute for the path of a long wave.
 std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
                                             const std::vector<double*>& blocks);
 

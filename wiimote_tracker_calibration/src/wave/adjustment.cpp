@@ -60,14 +60,15 @@ class WaveProblem {
     holdGauge();
   }
 
+  /// @param tolerance ends when a step makes less of a difference than this to the sum of squares.
   /// @returns the number of iterations.
-  int solve(const std::function<bool()>& keep_going) {
+  int solve(double tolerance, const std::function<bool()>& keep_going) {
     KeepGoing callback(keep_going);
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
     options.max_num_iterations = 60;
     options.max_num_consecutive_invalid_steps = 20;  // the trust region shrinks before
-    options.function_tolerance = 1e-9;
+    options.function_tolerance = tolerance;
     options.gradient_tolerance = 1e-14;
     options.parameter_tolerance = 1e-12;
     options.num_threads = 1;  // the same bits on every run
@@ -224,7 +225,8 @@ Refinement refine(const Recording& recording,
                   const std::function<bool()>& keep_going,
                   State* state) {
   WaveProblem problem(recording, options, matches, loss_scale, state);
-  const int iterations = problem.solve(keep_going);
+  // A robust fit is but the start of a closer one.
+  const int iterations = problem.solve(std::isfinite(loss_scale) ? 1e-4 : 1e-9, keep_going);
   return {iterations, problem.misfit()};
 }
 

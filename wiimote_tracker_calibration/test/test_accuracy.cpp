@@ -317,8 +317,3 @@ TEST(Accuracy, joint_beats_per_camera_and_both_know_their_error) {
 
 }  // namespace
 }  // namespace wiimote_tracker::square
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

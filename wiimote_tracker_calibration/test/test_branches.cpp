@@ -216,8 +216,3 @@ TEST(Branches, a_wrong_branch_is_not_returned) {
 
 }  // namespace
 }  // namespace wiimote_tracker::square
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

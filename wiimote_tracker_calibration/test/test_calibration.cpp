@@ -441,8 +441,3 @@ TEST_F(Workflow, samples_that_are_restored_are_the_same_samples) {
 
 }  // namespace
 }  // namespace wiimote_tracker::workflow
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

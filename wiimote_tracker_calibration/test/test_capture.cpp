@@ -287,8 +287,3 @@ TEST(CornerCapture, what_is_captured_does_not_depend_on_the_time_that_others_tak
 
 }  // namespace
 }  // namespace wiimote_tracker::capture
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

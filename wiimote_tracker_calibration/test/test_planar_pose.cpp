@@ -151,8 +151,3 @@ TEST(PlanarPose, pixels_that_no_rectangle_can_have_give_none) {
 
 }  // namespace
 }  // namespace wiimote_tracker::square
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

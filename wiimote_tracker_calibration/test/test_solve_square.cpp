@@ -375,8 +375,3 @@ TEST_F(FourCameras, residuals_are_in_pixels_and_metres) {
 
 }  // namespace
 }  // namespace wiimote_tracker::square
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

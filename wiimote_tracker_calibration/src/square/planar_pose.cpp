@@ -58,11 +58,19 @@ std::vector<Eigen::Isometry3d> startPoses(const geometry::Intrinsics& intrinsics
   const cv::Mat pinhole = cv::Mat::eye(3, 3, CV_64F);
   std::vector<cv::Mat> rotations;
   std::vector<cv::Mat> translations;
-  if (image.size() == 3)
-    cv::solveP3P(plane, image, pinhole, cv::noArray(), rotations, translations, cv::SOLVEPNP_AP3P);
-  else
+  const auto solve = [&](cv::SolvePnPMethod method) {
     cv::solvePnPGeneric(plane, image, pinhole, cv::noArray(), rotations, translations, false,
-                        cv::SOLVEPNP_IPPE);
+                        method);
+  };
+  if (image.size() == 3) {
+    cv::solveP3P(plane, image, pinhole, cv::noArray(), rotations, translations, cv::SOLVEPNP_AP3P);
+  } else {
+    solve(cv::SOLVEPNP_IPPE);
+    // In some views from straight above IPPE gives NaN.
+    if (std::none_of(rotations.begin(), rotations.end(),
+                     [](const cv::Mat& rotation) { return cv::checkRange(rotation); }))
+      solve(cv::SOLVEPNP_ITERATIVE);
+  }
   std::vector<Eigen::Isometry3d> poses;
   for (std::size_t i = 0; i < rotations.size(); ++i) {
     Eigen::Isometry3d pose = adjust::poseFromCv(rotations[i], translations[i]);

@@ -17,6 +17,10 @@ namespace {
 
 constexpr double kSameAngle = 3.5e-4;   // [rad]
 constexpr double kSameDistance = 2e-4;  // [1]
+// Displacement of one corner in the image plane of depth 1, where OpenCV's IPPE gives no number: it
+// takes the root of 1 - 1, give or take a rounding error, where the camera is tilted about an axis
+// of the square, or not at all.
+constexpr double kNudge = 1e-4;
 
 /// The corners that a camera saw.
 struct SeenCorners {
@@ -38,6 +42,13 @@ bool isDegenerate(const std::vector<Eigen::Vector3d>& points) {
   return false;
 }
 
+bool isInFront(const std::vector<Eigen::Vector3d>& places,
+               const Eigen::Isometry3d& world_from_camera) {
+  return std::all_of(places.begin(), places.end(), [&](const Eigen::Vector3d& place) {
+    return (world_from_camera.inverse() * place).z() > 1e-6;
+  });
+}
+
 /// Poses in closed form, with all corners in front of the camera.
 std::vector<Eigen::Isometry3d> startPoses(const geometry::Intrinsics& intrinsics,
                                           const SeenCorners& seen) {
@@ -55,31 +66,26 @@ std::vector<Eigen::Isometry3d> startPoses(const geometry::Intrinsics& intrinsics
   }
   if (isDegenerate(normalized))
     return {};
-  const cv::Mat pinhole = cv::Mat::eye(3, 3, CV_64F);
-  std::vector<cv::Mat> rotations;
-  std::vector<cv::Mat> translations;
-  const auto solve = [&](cv::SolvePnPMethod method) {
-    cv::solvePnPGeneric(plane, image, pinhole, cv::noArray(), rotations, translations, false,
-                        method);
-  };
-  if (image.size() == 3) {
-    cv::solveP3P(plane, image, pinhole, cv::noArray(), rotations, translations, cv::SOLVEPNP_AP3P);
-  } else {
-    solve(cv::SOLVEPNP_IPPE);
-    // In some views from straight above IPPE gives NaN.
-    if (std::none_of(rotations.begin(), rotations.end(),
-                     [](const cv::Mat& rotation) { return cv::checkRange(rotation); }))
-      solve(cv::SOLVEPNP_ITERATIVE);
-  }
   std::vector<Eigen::Isometry3d> poses;
-  for (std::size_t i = 0; i < rotations.size(); ++i) {
-    Eigen::Isometry3d pose = adjust::poseFromCv(rotations[i], translations[i]);
-    pose.translation().z() += seen.places.front().z();
-    const bool in_front = std::all_of(
-        seen.places.begin(), seen.places.end(),
-        [&](const Eigen::Vector3d& place) { return (pose.inverse() * place).z() > 1e-6; });
-    if (in_front)
-      poses.push_back(pose);
+  for (const double nudge : {0.0, kNudge}) {
+    image.front().x += nudge;
+    const cv::Mat pinhole = cv::Mat::eye(3, 3, CV_64F);
+    std::vector<cv::Mat> rotations;
+    std::vector<cv::Mat> translations;
+    if (image.size() == 3)
+      cv::solveP3P(plane, image, pinhole, cv::noArray(), rotations, translations,
+                   cv::SOLVEPNP_AP3P);
+    else
+      cv::solvePnPGeneric(plane, image, pinhole, cv::noArray(), rotations, translations, false,
+                          cv::SOLVEPNP_IPPE);
+    for (std::size_t i = 0; i < rotations.size(); ++i) {
+      Eigen::Isometry3d pose = adjust::poseFromCv(rotations[i], translations[i]);
+      pose.translation().z() += seen.places.front().z();
+      if (isInFront(seen.places, pose))
+        poses.push_back(pose);
+    }
+    if (!poses.empty())
+      break;
   }
   return poses;
 }

@@ -30,8 +30,7 @@ class PathPixelError : public ceres::SizedCostFunction<2,
   PathPixelError(const PixelError& pixel, double since_knot, double spacing)
       : pixel_(pixel.cost()), since_knot_(since_knot), spacing_(spacing) {}
 
-  /// Differentiates the pixel by the point, and chains: 18 dual numbers instead of 28, for what
-  /// takes most of the time of an adjustment.
+  /// Differentiates the pixel by the point, and chains: 18 dual numbers instead of 28.
   bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override {
     constexpr int kOffset = 4;
     constexpr int kControls = 5;

@@ -15,7 +15,7 @@ import rostest
 import yaml
 from evaluate_live_rostest import DEADLINE, Person
 from wiimote_tracker_evaluation import scene, true_rig
-from wiimote_tracker_evaluation.live.identification import PATIENCE, QUICK_TRIES
+from wiimote_tracker_evaluation.live.identification import LABEL_TIMEOUT, QUICK_TRIES
 from wiimote_tracker_msgs.msg import RigCalibration, TrackedPointArray
 from wiimote_tracker_msgs.srv import SetLedRequest
 
@@ -79,7 +79,7 @@ class EvaluateLiveBlinking(unittest.TestCase):
         self.assertEqual((figures['live_success']['value'], figures['live_success']['samples']),
                          (100.0, QUICK_TRIES))
         self.assertGreater(figures['live_time']['value'], 0.0)
-        self.assertLess(figures['live_time']['value'], PATIENCE)
+        self.assertLess(figures['live_time']['value'], LABEL_TIMEOUT)
 
 
 if __name__ == '__main__':

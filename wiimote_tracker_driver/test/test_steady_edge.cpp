@@ -46,9 +46,8 @@ ClockState bruteForce(const std::vector<Report>& reports, std::int64_t frame, do
     drift.push_back(kDriftTolerance * (2.0 * i / kGrid - 1.0));
     double least = 1e300;
     for (const Report& report : reports)
-      least =
-          std::min(least, report.arrival - 1000.0 -
-                              static_cast<double>(report.frame) * (kEdgePeriod + drift.back()));
+      least = std::min(least, report.arrival - 1000.0 -
+                                  static_cast<double>(report.frame) * (kEdgePeriod + drift.back()));
     bound.push_back(least);
     weight.push_back(rate * (least + center * drift.back()));
     greatest = std::max(greatest, weight.back());

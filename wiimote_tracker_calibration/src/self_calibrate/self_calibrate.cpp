@@ -42,8 +42,7 @@ std::vector<std::string> split(const std::string& text) {
 /// @throws BadArguments.
 void check(const Arguments& arguments) {
   if (!arguments.intrinsics.empty() && (arguments.estimate || arguments.one_lens))
-    throw BadArguments(
-        "--fix-intrinsics excludes --estimate-intrinsics and --one-lens");
+    throw BadArguments("--fix-intrinsics excludes --estimate-intrinsics and --one-lens");
 }
 
 /// Prints the progress to the standard error output, at most once a second.

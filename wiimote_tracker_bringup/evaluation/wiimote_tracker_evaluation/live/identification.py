@@ -50,7 +50,7 @@ def one_try(listener, dialogue, labels):
     if not wait(dialogue, lambda: first_light(listener, begin) is not None):
         return None
     first = first_light(listener, begin)
-    while listener.now() < first + PATIENCE:
+    while listener.now() < first + LABEL_TIMEOUT:
         if sorted(led.label for led in shown(listener) if led.since > 0.0) == labels:
             return True, listener.now() - first
         time.sleep(0.005)

@@ -252,7 +252,7 @@ reflections:
                 .find("reflections/window/pixel must have two numbers"),
             std::string::npos);
   EXPECT_NE(complaint("leds:", "people: {led: {position: [1, 2, 0]}}\nleds:")
-                .find("people/led is the name of something else"),
+                .find("people/led is also the name of something else"),
             std::string::npos);
 }
 

@@ -123,12 +123,13 @@ SeenPath::Sight SeenPath::positionAt(double time, PathPoint* point) const {
 SeenPath::Sight SeenPath::at(double time, PathPoint* point) const {
   PathPoint before;
   PathPoint after;
-  for (const auto& part : {std::make_pair(time - kStep, &before),
-                           std::make_pair(time + kStep, &after), std::make_pair(time, point)}) {
-    const Sight sight = positionAt(part.first, part.second);
-    if (sight != Sight::kSeen)
-      return sight;
-  }
+  Sight sight = positionAt(time - kStep, &before);
+  if (sight == Sight::kSeen)
+    sight = positionAt(time + kStep, &after);
+  if (sight == Sight::kSeen)
+    sight = positionAt(time, point);
+  if (sight != Sight::kSeen)
+    return sight;
   point->velocity = (after.position - before.position) / (2.0 * kStep);
   return Sight::kSeen;
 }

@@ -1,6 +1,5 @@
 // Two LEDs merge into one spot in all views at once, and part again.
-#include "tracking/scene.h"
-#include "wiimote_tracker_triangulation/tracking/tracker.h"
+#include "tracking/tracker_runs.h"
 
 #include <gtest/gtest.h>
 
@@ -9,22 +8,10 @@
 #include <set>
 #include <vector>
 
-namespace wiimote_tracker::tracking {
+namespace wiimote_tracker::tracking::test {
 namespace {
 
-using test::Path;
-using test::Scene;
-using test::SceneImage;
-using test::SceneOptions;
-
 constexpr double kMeeting = 1001.0;  // [s]
-
-TrackerOptions exact() {
-  TrackerOptions options;
-  options.pixel_stddev = 0.3;  // the scene's
-  options.stamp_stddev = 0.0;
-  return options;
-}
 
 SceneOptions merging() {
   SceneOptions options;
@@ -85,11 +72,11 @@ std::array<std::int64_t, 2> follow(Tracker* tracker,
 
 TEST(MergedPairs, KeepTheirIdsByTheirMotion) {
   // Their merged spot is 4 px from either when they meet, further than the gate of each.
-  const geometry::Rig rig = test::paperRig();
+  const geometry::Rig rig = paperRig();
   geometry::test::Random random(7);
   for (int i = 0; i < 30; ++i) {
     Scene scene(rig, passing(random, 0.4), merging(), 100 + i);
-    Tracker tracker(rig, exact());
+    Tracker tracker(rig, exactOptions());
     std::set<std::size_t> merged;
     const auto before = follow(&tracker, &scene, kMeeting - 0.2);
     EXPECT_NE(-1, before[0]);
@@ -100,4 +87,4 @@ TEST(MergedPairs, KeepTheirIdsByTheirMotion) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::tracking
+}  // namespace wiimote_tracker::tracking::test

@@ -1,11 +1,8 @@
 // Track initiation, accuracy and reports.
-#include "tracking/identity_check.h"
-#include "tracking/scene.h"
 #include "tracking/tracker_runs.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
-#include "wiimote_tracker_triangulation/tracking/tracker.h"
 
 #include <gtest/gtest.h>
 
@@ -16,21 +13,8 @@
 #include <set>
 #include <vector>
 
-namespace wiimote_tracker::tracking {
+namespace wiimote_tracker::tracking::test {
 namespace {
-
-using test::exactOptions;
-using test::expectSameLeds;
-using test::IdentityCheck;
-using test::idsIn;
-using test::imagesOf;
-using test::paperRig;
-using test::Path;
-using test::SceneImage;
-using test::SceneOptions;
-using test::stateAt;
-using test::track;
-using test::wanderers;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -59,8 +43,7 @@ TEST(Tracker, AStillLedIsLocatedBetterThanByOneImageOfEachCamera) {
   Tracker tracker(rig, exactOptions());
   double squares = 0.0;
   int count = 0;
-  for (const Snapshot& s :
-       track(&tracker, imagesOf(rig, {test::still(place)}, SceneOptions(), 2000))) {
+  for (const Snapshot& s : track(&tracker, imagesOf(rig, {still(place)}, SceneOptions(), 2000))) {
     if (s.time < 1002.0)
       continue;
     ASSERT_EQ(1u, s.leds.size());
@@ -92,7 +75,7 @@ TEST(Tracker, LightsSeenBySingleCamerasAreNoLeds) {
 }
 
 TEST(Tracker, ABoxExcludesMirroredLights) {
-  const std::vector<Path> leds = {test::still({1.25, 1.25, 0.3}), test::still({1.25, 1.25, -0.3})};
+  const std::vector<Path> leds = {still({1.25, 1.25, 0.3}), still({1.25, 1.25, -0.3})};
   const auto images = imagesOf(paperRig(), leds, {}, 400);
   Tracker open(paperRig(), exactOptions());
   EXPECT_EQ(2u, track(&open, images).back().leds.size());
@@ -106,8 +89,8 @@ TEST(Tracker, ABoxExcludesMirroredLights) {
 
 TEST(Tracker, MoreLightsThanACameraReports) {
   // The two nearest of three win in each view, so that each LED is seen by two of them or more.
-  const std::vector<Path> leds = {test::still({0.6, 0.6, 0.9}), test::still({1.9, 0.7, 1.0}),
-                                  test::still({1.3, 1.9, 1.1})};
+  const std::vector<Path> leds = {still({0.6, 0.6, 0.9}), still({1.9, 0.7, 1.0}),
+                                  still({1.3, 1.9, 1.1})};
   SceneOptions options;
   options.maximum_spots = 2;
   Tracker tracker(paperRig(), exactOptions());
@@ -162,8 +145,7 @@ TEST(Tracker, MaskedSpotsAreReportedAndNotUsed) {
   geometry::Rig rig = paperRig();
   rig.cameras[0].masks.push_back({*rig.cameras[0].camera.project(place), 30.0});
   Tracker tracker(rig, exactOptions());
-  const Snapshot last =
-      track(&tracker, imagesOf(rig, {test::still(place)}, SceneOptions(), 400)).back();
+  const Snapshot last = track(&tracker, imagesOf(rig, {still(place)}, SceneOptions(), 400)).back();
   ASSERT_EQ(1u, last.leds.size());
   EXPECT_EQ((std::vector<std::size_t>{1, 2, 3}), last.leds[0].cameras);
   EXPECT_EQ(3u, last.leds[0].rays_possible);
@@ -174,10 +156,10 @@ TEST(Tracker, MaskedSpotsAreReportedAndNotUsed) {
 }
 
 TEST(Tracker, RoomsAreIndependent) {
-  const geometry::Rig rig = test::roomsRig(2, 3);
+  const geometry::Rig rig = roomsRig(2, 3);
   geometry::test::Random random(15);
-  const std::vector<Path> leds = {test::wandering(random, {0.3, 0.0, 1.0}, 0.3, 1.0),
-                                  test::wandering(random, {100.0, 0.3, 1.0}, 0.3, 1.0)};
+  const std::vector<Path> leds = {wandering(random, {0.3, 0.0, 1.0}, 0.3, 1.0),
+                                  wandering(random, {100.0, 0.3, 1.0}, 0.3, 1.0)};
   const std::vector<SceneImage> images = imagesOf(rig, leds, {}, 1200);
   std::vector<SceneImage> first_room;
   std::copy_if(images.begin(), images.end(), std::back_inserter(first_room),
@@ -196,7 +178,7 @@ TEST(Tracker, RoomsAreIndependent) {
 
 TEST(Tracker, TheCovarianceContainsTheCalibrations) {
   const Eigen::Vector3d place(1.25, 1.25, 1.0);
-  const auto images = imagesOf(paperRig(), {test::still(place)}, SceneOptions(), 800);
+  const auto images = imagesOf(paperRig(), {still(place)}, SceneOptions(), 800);
   Tracker exactly(paperRig(), exactOptions());
   const TrackedLed known = track(&exactly, images).back().leds.at(0);
   geometry::Rig rig = paperRig();
@@ -223,4 +205,4 @@ TEST(Tracker, MakeEstimatorMakesBothKinds) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::tracking
+}  // namespace wiimote_tracker::tracking::test

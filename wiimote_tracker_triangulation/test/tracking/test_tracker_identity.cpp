@@ -1,8 +1,5 @@
 // LEDs keep their ids through occlusion, merged spots, jumps and blinking.
-#include "tracking/identity_check.h"
-#include "tracking/scene.h"
 #include "tracking/tracker_runs.h"
-#include "wiimote_tracker_triangulation/tracking/tracker.h"
 
 #include <gtest/gtest.h>
 
@@ -11,22 +8,11 @@
 #include <set>
 #include <vector>
 
-namespace wiimote_tracker::tracking {
+namespace wiimote_tracker::tracking::test {
 namespace {
 
-using test::exactOptions;
-using test::IdentityCheck;
-using test::idsIn;
-using test::imagesOf;
-using test::paperRig;
-using test::Path;
-using test::SceneImage;
-using test::SceneOptions;
-using test::track;
-using test::wanderers;
-
 TEST(Tracker, AHiddenLedIsPredictedAndKeepsItsId) {
-  const std::vector<Path> leds = {test::circle({1.25, 1.25, 1.0}, 0.4, 0.5)};
+  const std::vector<Path> leds = {circle({1.25, 1.25, 1.0}, 0.4, 0.5)};
   SceneOptions options;
   options.hidden = [](std::size_t, std::size_t, double t) { return t > 1001.0 && t < 1001.25; };
   Tracker tracker(paperRig(), exactOptions());
@@ -50,7 +36,7 @@ TEST(Tracker, AHiddenLedIsPredictedAndKeepsItsId) {
 }
 
 TEST(Tracker, AnLedSeenByOneCameraIsPredicted) {
-  const std::vector<Path> leds = {test::circle({1.25, 1.25, 1.0}, 0.4, 0.5)};
+  const std::vector<Path> leds = {circle({1.25, 1.25, 1.0}, 0.4, 0.5)};
   SceneOptions options;
   options.hidden = [](std::size_t camera, std::size_t, double t) {
     return camera != 2 && t > 1001.0 && t < 1001.4;
@@ -107,8 +93,8 @@ TEST(Tracker, TwoLedsMergedInOneViewKeepTheirIds) {
   const Eigen::Vector3d middle(1.25, 1.25, 1.0);
   const Eigen::Vector3d along = (middle - camera.center()).normalized();
   const Eigen::Vector3d across = along.cross(Eigen::Vector3d::UnitZ()).normalized();
-  const std::vector<Path> leds = {test::straight(middle - 0.15 * along, 0.3 * across, 1001.0),
-                                  test::straight(middle + 0.15 * along, -0.3 * across, 1001.0)};
+  const std::vector<Path> leds = {straight(middle - 0.15 * along, 0.3 * across, 1001.0),
+                                  straight(middle + 0.15 * along, -0.3 * across, 1001.0)};
   SceneOptions options;
   options.merging_distance = 8.0;
   const std::vector<SceneImage> images = imagesOf(rig, leds, options, 800);
@@ -132,8 +118,8 @@ TEST(Tracker, TwoLedsMergedInAllViewsKeepTheirIdsByTheirMotion) {
   for (const double speed : {0.3, 0.6, 1.2}) {
     const Eigen::Vector3d velocity = speed * Eigen::Vector3d(0.6, 0.0, 0.8);
     const std::vector<Path> leds = {
-        test::straight(middle, velocity, 1001.5),
-        test::straight(middle + Eigen::Vector3d(0.0, 0.01, 0.0), -velocity, 1001.5)};
+        straight(middle, velocity, 1001.5),
+        straight(middle + Eigen::Vector3d(0.0, 0.01, 0.0), -velocity, 1001.5)};
     SceneOptions options;
     options.merging_distance = 8.0;
     options.start = 1001.1;
@@ -158,7 +144,7 @@ TEST(Tracker, TwoLedsMergedInAllViewsKeepTheirIdsByTheirMotion) {
 // It blinks at the height of the cameras. The first two that see it again may face each other:
 // their rays hardly determine its position along their line, its motion does.
 TEST(Tracker, ABlinkingLedKeepsItsMotionWhileItIsDark) {
-  const Path led = test::circle({1.25, 1.25, 1.9}, 0.4, 0.5);
+  const Path led = circle({1.25, 1.25, 1.9}, 0.4, 0.5);
   SceneOptions options;
   options.hidden = [](std::size_t, std::size_t, double t) { return std::fmod(t, 0.3) < 0.2; };
   const auto rmsWith = [&](double dark_time) {
@@ -238,7 +224,7 @@ TEST(Tracker, ATrackThatLostItsLedReacquiresItWithItsId) {
 
 TEST(Tracker, OfTwoTracksThatShareAllSpotsOneEnds) {
   // They meet, and from then on there is only one light.
-  const std::vector<Path> leds = {test::still({1.25, 1.25, 1.0}), [](double t) {
+  const std::vector<Path> leds = {still({1.25, 1.25, 1.0}), [](double t) {
                                     return Eigen::Vector3d(
                                         1.25, 1.25, 1.0 + std::max(0.004, 0.2 * (1001.0 - t)));
                                   }};
@@ -258,4 +244,4 @@ TEST(Tracker, OfTwoTracksThatShareAllSpotsOneEnds) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::tracking
+}  // namespace wiimote_tracker::tracking::test

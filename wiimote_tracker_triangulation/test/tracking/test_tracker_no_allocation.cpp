@@ -1,14 +1,13 @@
 // A warmed-up tracker takes images and gives snapshots without allocating.
 #include "allocation_counter.h"
-#include "tracking/scene.h"
-#include "wiimote_tracker_triangulation/tracking/tracker.h"
+#include "tracking/tracker_runs.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <vector>
 
-namespace wiimote_tracker::tracking {
+namespace wiimote_tracker::tracking::test {
 namespace {
 
 TEST(TrackerNoAllocation, TheCounterCounts) {
@@ -19,20 +18,20 @@ TEST(TrackerNoAllocation, TheCounterCounts) {
 }
 
 /// Allocations in `count` images, after as many for warm-up.
-int allocations(const test::SceneOptions& options, int count) {
+int allocations(const SceneOptions& options, int count) {
   geometry::test::Random random(3);
-  std::vector<test::Path> leds;
+  std::vector<Path> leds;
   for (int i = 0; i < 4; ++i) {
     const Eigen::Vector3d center(i % 2 ? 1.7 : 0.8, i / 2 ? 1.7 : 0.8, 1.0);
-    leds.push_back(test::wandering(random, center, 0.25, 1.0));
+    leds.push_back(wandering(random, center, 0.25, 1.0));
   }
-  test::Scene scene(test::paperRig(), leds, options, 5);
-  std::vector<test::SceneImage> images;
+  Scene scene(paperRig(), leds, options, 5);
+  std::vector<SceneImage> images;
   for (int i = 0; i < 2 * count; ++i)
     images.push_back(scene.next());
   TrackerOptions tracker_options;
   tracker_options.pixel_stddev = options.pixel_noise;
-  Tracker tracker(test::paperRig(), tracker_options);
+  Tracker tracker(paperRig(), tracker_options);
   int before = 0;
   std::size_t leds_seen = 0;
   for (std::size_t i = 0; i < images.size(); ++i) {
@@ -48,20 +47,20 @@ int allocations(const test::SceneOptions& options, int count) {
 }
 
 TEST(TrackerNoAllocation, ImagesInOrder) {
-  EXPECT_EQ(0, allocations(test::SceneOptions(), 1000));
+  EXPECT_EQ(0, allocations(SceneOptions(), 1000));
 }
 
 TEST(TrackerNoAllocation, MergedSpots) {
-  test::SceneOptions options;
+  SceneOptions options;
   options.merging_distance = 24.0;
   EXPECT_EQ(0, allocations(options, 4000));
 }
 
 TEST(TrackerNoAllocation, LateImages) {
-  test::SceneOptions options;
+  SceneOptions options;
   options.delay_jitter = 0.003;
   EXPECT_EQ(0, allocations(options, 1000));
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::tracking
+}  // namespace wiimote_tracker::tracking::test

@@ -1,8 +1,5 @@
 // Late, repeated and mistimed images, and wrong clocks.
-#include "tracking/identity_check.h"
-#include "tracking/scene.h"
 #include "tracking/tracker_runs.h"
-#include "wiimote_tracker_triangulation/tracking/tracker.h"
 
 #include <gtest/gtest.h>
 
@@ -11,21 +8,8 @@
 #include <set>
 #include <vector>
 
-namespace wiimote_tracker::tracking {
+namespace wiimote_tracker::tracking::test {
 namespace {
-
-using test::exactOptions;
-using test::expectSameLeds;
-using test::IdentityCheck;
-using test::idsIn;
-using test::imagesOf;
-using test::paperRig;
-using test::Path;
-using test::SceneImage;
-using test::SceneOptions;
-using test::stateAt;
-using test::track;
-using test::wanderers;
 
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -87,7 +71,7 @@ TEST(Tracker, RepeatedAndOldImagesChangeNothing) {
 }
 
 TEST(Tracker, OnlyTheLastImageOfABurstOfOneStampCounts) {
-  const std::vector<Path> leds = {test::circle({1.25, 1.25, 1.0}, 0.5, 3.0)};
+  const std::vector<Path> leds = {circle({1.25, 1.25, 1.0}, 0.5, 3.0)};
   Tracker without(paperRig(), exactOptions());
   Tracker with(paperRig(), exactOptions());
   std::size_t compared = 0;
@@ -239,7 +223,7 @@ TEST(Tracker, PredictsToAnyLaterTime) {
   Tracker tracker(paperRig(), exactOptions());
   Snapshot snapshot;
   EXPECT_FALSE(tracker.predictTo(1000.0, &snapshot));
-  const std::vector<Path> leds = {test::straight({1.0, 1.0, 1.0}, {0.5, 0.0, 0.0}, 1000.0)};
+  const std::vector<Path> leds = {straight({1.0, 1.0, 1.0}, {0.5, 0.0, 0.0}, 1000.0)};
   const std::vector<Snapshot> snapshots = track(&tracker, imagesOf(paperRig(), leds, {}, 400));
   const double last = snapshots.back().time;
   EXPECT_FALSE(tracker.predictTo(last - 0.001, &snapshot));
@@ -261,4 +245,4 @@ TEST(Tracker, PredictsToAnyLaterTime) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::tracking
+}  // namespace wiimote_tracker::tracking::test

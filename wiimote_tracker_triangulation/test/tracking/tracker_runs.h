@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_TRACKING_TRACKER_RUNS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TEST_TRACKING_TRACKER_RUNS_H
 
+#include "tracking/identity_check.h"
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"

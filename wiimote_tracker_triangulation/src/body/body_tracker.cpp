@@ -261,7 +261,7 @@ void BodyTracker::startFromLabels(const std::vector<LabelledPoint>& points) {
   estimate();
 }
 
-void BodyTracker::startAt(std::size_t body, const SolvedPose& pose, double time) {
+void BodyTracker::startAt(std::size_t body, const BodyPose& pose, double time) {
   Body started{
       PoseFilter(options_.motion, time, pose.world_from_body, pose.covariance), time, time, {}};
   if (bodies_[body])

@@ -18,8 +18,8 @@ constexpr double kMotion = 0.002;
 
 }  // namespace
 
-std::optional<SolvedPose> poseFromLabels(const Constellation& constellation,
-                                         const std::vector<LabelledPoint>& points) {
+std::optional<BodyPose> poseFromLabels(const Constellation& constellation,
+                                       const std::vector<LabelledPoint>& points) {
   std::array<PointPair, kMaximumLeds> pairs;
   std::array<Eigen::Matrix3d, kMaximumLeds> information;
   std::size_t count = 0;
@@ -52,11 +52,7 @@ std::optional<SolvedPose> poseFromLabels(const Constellation& constellation,
   const Eigen::LLT<PoseCovariance> factor(normal);
   if (factor.info() != Eigen::Success || factor.rcond() < 1e-12)
     return std::nullopt;
-  SolvedPose pose;
-  pose.world_from_body = alignment.world_from_body;
-  pose.covariance = factor.solve(PoseCovariance::Identity());
-  pose.reprojection_error = 0.0;
-  return pose;
+  return BodyPose{alignment.world_from_body, factor.solve(PoseCovariance::Identity())};
 }
 
 }  // namespace wiimote_tracker::body

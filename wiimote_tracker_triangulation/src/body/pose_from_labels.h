@@ -10,8 +10,8 @@ namespace wiimote_tracker::body {
 
 /// The pose of a body from labelled points. Nothing when fewer than three of its LEDs are among
 /// them, or they lie on a line or do not agree with the constellation.
-std::optional<SolvedPose> poseFromLabels(const Constellation& constellation,
-                                         const std::vector<LabelledPoint>& points);
+std::optional<BodyPose> poseFromLabels(const Constellation& constellation,
+                                       const std::vector<LabelledPoint>& points);
 
 }  // namespace wiimote_tracker::body
 

@@ -160,7 +160,7 @@ class BodyTracker {
              const Match& match,
              const association::Association& found,
              double time);
-  void startAt(std::size_t body, const SolvedPose& pose, double time);
+  void startAt(std::size_t body, const BodyPose& pose, double time);
   void estimate();
   void estimateLeds(std::size_t body, BodyEstimate* estimate) const;
 

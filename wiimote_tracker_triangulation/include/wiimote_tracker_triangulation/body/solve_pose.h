@@ -19,9 +19,12 @@ struct LedObservation {
   Eigen::Vector2d pixel;                     ///< Distorted [px].
 };
 
-struct SolvedPose {
+struct BodyPose {
   Eigen::Isometry3d world_from_body;
   PoseCovariance covariance;  ///< Position [m^2], rotation about the world axes [rad^2].
+};
+
+struct SolvedPose : BodyPose {
   double reprojection_error;  ///< sqrt(mean(du^2 + dv^2)) [px].
 };
 

@@ -2,8 +2,9 @@
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
-#include <string>
 
 namespace wiimote_tracker::identity {
 namespace {
@@ -18,7 +19,7 @@ const IdentifierOptions& checked(const IdentifierOptions& options) {
 void IdentifierOptions::check() const {
   const auto within = [](const char* name, double value, double least, double most) {
     if (!(value >= least && value <= most))
-      throw Error(std::string(name) + " is out of range; see its range in identifier.h");
+      throw Error(format("%s is %g; choose a value from %g to %g", name, value, least, most));
   };
   within("seen_when_on", seeing.seen_when_on, 0.5, 0.999);
   within("seen_when_off", seeing.seen_when_off, 0.0001, 0.2);

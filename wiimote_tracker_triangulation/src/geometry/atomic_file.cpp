@@ -16,7 +16,7 @@ namespace {
 
 [[noreturn]] void fail(const std::string& what, const std::string& path, int error) {
   throw FileError("cannot " + what + " " + path + " (" + std::strerror(error) +
-                  "); choose another place or repair this one");
+                  "); check its permissions and free space, or choose another path");
 }
 
 class FileDescriptor {
@@ -50,7 +50,7 @@ void writeAndSync(const std::string& path, const std::string& content) {
     fail("write", path, errno);
 }
 
-/// Puts content in the place of path by a rename, which is atomic within a folder.
+/// Replaces the file by a rename, which is atomic within a folder.
 void replace(const std::filesystem::path& path, const std::string& content) {
   const std::string fresh = path.string() + ".new" + std::to_string(::getpid());
   try {
@@ -61,7 +61,7 @@ void replace(const std::filesystem::path& path, const std::string& content) {
     ::unlink(fresh.c_str());
     throw;
   }
-  // Makes the rename itself last through a power cut, where the file system can.
+  // So that the rename survives a power failure, if the file system supports it.
   const FileDescriptor folder(
       ::open(path.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (folder.get() >= 0)

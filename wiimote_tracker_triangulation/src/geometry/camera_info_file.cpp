@@ -2,17 +2,10 @@
 #include "wiimote_tracker_triangulation/geometry/atomic_file.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
 
-#include <algorithm>
-
 namespace wiimote_tracker::geometry {
 
 void writeCameraInfoFile(const Camera& camera, const std::string& path) {
   const Intrinsics& intrinsics = camera.intrinsics;
-  // camera_calibration_parsers allows letters, digits and underscores.
-  std::string name = camera.name.substr(camera.name.find_first_not_of('/') == std::string::npos
-                                            ? 0
-                                            : camera.name.find_first_not_of('/'));
-  std::replace(name.begin(), name.end(), '/', '_');
   Eigen::Matrix<double, 3, 4> P = Eigen::Matrix<double, 3, 4>::Zero();
   P(0, 0) = intrinsics.fx;
   P(1, 1) = intrinsics.fy;
@@ -22,7 +15,8 @@ void writeCameraInfoFile(const Camera& camera, const std::string& path) {
 
   YAML::Emitter out;
   out << YAML::BeginMap;
-  emitIntrinsics(name, intrinsics, out);
+  // camera_calibration_parsers allows letters, digits and underscores.
+  emitIntrinsics(withoutSlashes(camera.name), intrinsics, out);
   emitMatrix("rectification_matrix", Eigen::Matrix3d::Identity(), out);
   emitMatrix("projection_matrix", P, out);
   out << YAML::EndMap;

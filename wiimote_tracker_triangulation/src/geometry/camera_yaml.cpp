@@ -14,11 +14,11 @@ std::string yamlNumber(double value) {
   if (std::isinf(value))
     return value > 0.0 ? ".inf" : "-.inf";
   std::ostringstream text;
-  text.imbue(std::locale::classic());  // a decimal point in every country
+  text.imbue(std::locale::classic());  // a decimal point in every locale
   text.precision(std::numeric_limits<double>::max_digits10);
   text << value;
   std::string number = text.str();
-  // YAML 1.1, which rosparam reads, takes 4 for a whole number and 1e-09 for a word.
+  // YAML 1.1, as in rosparam, reads 4 as an integer and 1e-09 as a string.
   if (number.find('.') == std::string::npos)
     number.insert(std::min(number.find('e'), number.size()), ".0");
   return number;

@@ -6,8 +6,8 @@
 #include <array>
 #include <optional>
 
-// The lens models on the image plane of depth 1: where a pinhole would put a point, and where the
-// lens does. None of them allocates.
+// The lens models on the image plane of depth 1, between undistorted and distorted points. None of
+// them allocates.
 
 namespace wiimote_tracker::geometry {
 
@@ -24,7 +24,7 @@ std::optional<Eigen::Vector2d> undistort(const Coefficients& k, const Eigen::Vec
 
 bool isBeforeFold(const Coefficients& k, const Eigen::Vector2d& n);
 
-/// Both at once, which costs little more than one: nothing beyond the fold.
+/// distort(), or nothing beyond the fold: both share most of the computation.
 std::optional<Eigen::Vector2d> distortBeforeFold(const Coefficients& k,
                                                  const Eigen::Vector2d& n,
                                                  Eigen::Matrix2d* jacobian);
@@ -39,7 +39,7 @@ Eigen::Vector2d distort(const Coefficients& k, const Eigen::Vector2d& n, Eigen::
 
 std::optional<Eigen::Vector2d> undistort(const Coefficients& k, const Eigen::Vector2d& target);
 
-/// Also false further off the axis than the model is used, 1.55 rad.
+/// Also false beyond 1.55 rad from the axis.
 bool isBeforeFold(const Coefficients& k, const Eigen::Vector2d& n);
 
 }  // namespace equidistant

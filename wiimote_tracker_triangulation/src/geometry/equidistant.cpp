@@ -10,7 +10,7 @@ namespace {
 using Vector2 = Eigen::Vector2d;
 using Matrix2 = Eigen::Matrix2d;
 
-/// Where the model ends: towards a right angle the image plane goes to infinity [rad].
+/// Limit of the model: near a right angle, the point on the image plane goes to infinity [rad].
 constexpr double kLargestAngle = 1.55;
 
 double radiusOf(const Coefficients& k, double angle) {
@@ -22,15 +22,15 @@ double slopeOf(const Coefficients& k, double angle) {
   return 1.0 + s * (3.0 * k[0] + s * (5.0 * k[1] + s * (7.0 * k[2] + s * 9.0 * k[3])));
 }
 
-/// Whether a polynomial of degree 4 is above 0 on all of [0, 1], by its coefficients in Bernstein's
-/// basis: it lies between the least and the largest of them, and each half has its own.
+/// Whether a polynomial of degree 4 is positive on [0, 1], from its Bernstein coefficients: it lies
+/// between the least and the largest. The interval is halved where that does not decide.
 bool isPositive(const std::array<double, 5>& b, int halvings) {
   if (!(b.front() > 0.0 && b.back() > 0.0))
     return false;
   if (*std::min_element(b.begin(), b.end()) > 0.0)
     return true;
   if (halvings == 0)
-    return false;  // a slope of zero within rounding
+    return false;  // zero within rounding
   std::array<double, 5> left, right = b;
   for (std::size_t i = 0; i < b.size(); ++i) {
     left[i] = right[0];
@@ -40,7 +40,7 @@ bool isPositive(const std::array<double, 5>& b, int halvings) {
   return isPositive(left, halvings - 1) && isPositive(right, halvings - 1);
 }
 
-/// Whether the radius grows all the way out to this angle.
+/// Whether the radius grows monotonically up to this angle.
 bool growsUpTo(const Coefficients& k, double angle) {
   if (!(angle <= kLargestAngle))
     return false;
@@ -97,7 +97,7 @@ std::optional<Vector2> undistort(const Coefficients& k, const Vector2& target) {
       next_error = radiusOf(k, next) - radius;
     }
     if (!(std::abs(next_error) < std::abs(error)))
-      break;  // as close as rounding, or the fold, lets it come
+      break;  // rounding or the fold allow no further step
     angle = next;
     error = next_error;
   }

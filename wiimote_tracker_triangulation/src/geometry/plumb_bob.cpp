@@ -12,7 +12,7 @@ namespace {
 using Vector2 = Eigen::Vector2d;
 using Matrix2 = Eigen::Matrix2d;
 
-/// Whether the radius grows all the way out to the squared radius s:
+/// Whether the radius grows monotonically up to the squared radius s:
 /// d/dr (r + k1 r^3 + k2 r^5 + k3 r^7) = 1 + 3 k1 s + 5 k2 s^2 + 7 k3 s^3 > 0 on [0, s].
 bool radiusGrowsUpTo(const Coefficients& k, double s) {
   const double a = 3.0 * k[0];
@@ -23,8 +23,8 @@ bool radiusGrowsUpTo(const Coefficients& k, double s) {
     return false;
   if (a >= 0.0 && b >= 0.0 && c >= 0.0)
     return true;
-  // The least slope lies at an end or where its derivative a + 2 b t + 3 c t^2 is zero. The roots
-  // are taken in the form that does not cancel and that also holds for c = 0.
+  // The least slope is at an end or where its derivative a + 2 b t + 3 c t^2 is zero. This form of
+  // the roots does not cancel and also holds for c = 0.
   const double discriminant = b * b - 3.0 * a * c;
   if (discriminant < 0.0)
     return true;
@@ -73,7 +73,7 @@ std::optional<Vector2> undistort(const Coefficients& k, const Vector2& target) {
       next_error = distort(k, next, nullptr) - target;
     }
     if (!(next_error.norm() < error.norm()))
-      break;  // as close as rounding, or the fold, lets it come
+      break;  // rounding or the fold allow no further step
     n = next;
     error = distort(k, n, &jacobian) - target;
   }

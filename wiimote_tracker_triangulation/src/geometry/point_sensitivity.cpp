@@ -10,7 +10,7 @@ bool pointSensitivity(const Rig& rig,
                       std::size_t count,
                       PointJacobian* by_camera,
                       const Eigen::Vector3d& velocity) {
-  // Below the angle between rays that any point is triangulated from.
+  // Less than for any angle between rays that triangulate() accepts.
   constexpr double kSingular = 1e-10;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < count; ++i) {

@@ -1,5 +1,6 @@
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
+#include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <algorithm>
@@ -92,18 +93,17 @@ void Rig::check() const {
     }
   }
 
-  // Rotation, position, fx fy cx cy, distortion, time offset.
-  const auto parameters = static_cast<Eigen::Index>(cameras.size()) * (3 + 3 + 4 + 5 + 1);
+  const Eigen::Index parameters = firstParameter(cameras.size());
   require(covariance.size() == 0 ||
               (covariance.rows() == parameters && covariance.cols() == parameters),
           "the rig's covariance must have 16 rows and columns per camera, or none");
   require(covariance.size() == 0 || covariance.allFinite(), "the rig's covariance is not finite");
-  for (Eigen::Index i = 0; covariance.size() > 0 && i < static_cast<Eigen::Index>(cameras.size());
-       ++i) {
-    const RigCamera& camera = cameras[static_cast<std::size_t>(i)];
-    if (camera.camera.intrinsics.distortion_model == DistortionModel::kEquidistant)
-      require(covariance.row(16 * i + 14).isZero(0.0) && covariance.col(16 * i + 14).isZero(0.0),
-              "camera '" + camera.camera.name +
+  for (std::size_t i = 0; covariance.size() > 0 && i < cameras.size(); ++i) {
+    const Camera& camera = cameras[i].camera;
+    const Eigen::Index fifth = firstParameter(i) + kDistortion + 4;
+    if (camera.intrinsics.distortion_model == DistortionModel::kEquidistant)
+      require(covariance.row(fifth).isZero(0.0) && covariance.col(fifth).isZero(0.0),
+              "camera '" + camera.name +
                   "': the rig's covariance must be zero for the fifth coefficient, which an "
                   "equidistant lens does not have");
   }
@@ -119,12 +119,14 @@ void Rig::check() const {
   }
 }
 
+std::string withoutSlashes(const std::string& camera_name) {
+  std::string name = camera_name.substr(camera_name.compare(0, 1, "/") == 0 ? 1 : 0);
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
 std::string opticalFrame(const std::string& camera_name) {
-  std::string frame = camera_name.substr(camera_name.find_first_not_of('/') == std::string::npos
-                                             ? camera_name.size()
-                                             : camera_name.find_first_not_of('/'));
-  std::replace(frame.begin(), frame.end(), '/', '_');
-  return frame + "_optical_frame";
+  return withoutSlashes(camera_name) + "_optical_frame";
 }
 
 }  // namespace wiimote_tracker::geometry

@@ -20,7 +20,7 @@ class Hash {
   }
 
   void add(double value) {
-    // One zero and one NaN: their other bits do not move a point.
+    // 0 and -0 hash alike, and so do all NaNs.
     if (value == 0.0)
       value = 0.0;
     else if (std::isnan(value))
@@ -37,10 +37,7 @@ class Hash {
       addByte(static_cast<unsigned char>(c));
   }
 
-  std::string text() const {
-    const std::string digits = format("%016llx", static_cast<unsigned long long>(state_));
-    return digits;
-  }
+  std::string text() const { return format("%016llx", static_cast<unsigned long long>(state_)); }
 
  private:
   void addByte(unsigned char byte) { state_ = (state_ ^ byte) * 1099511628211ULL; }
@@ -57,7 +54,7 @@ void addIntrinsics(const Intrinsics& intrinsics, Hash* hash) {
   hash->add(intrinsics.cy);
   for (const double k : intrinsics.distortion)
     hash->add(k);
-  // Ids from before there was a choice stay as they are.
+  // Only other models: the ids of older rigs, which had no choice, stay valid.
   if (intrinsics.distortion_model != DistortionModel::kPlumbBob)
     hash->add(std::string(nameOf(intrinsics.distortion_model)));
 }

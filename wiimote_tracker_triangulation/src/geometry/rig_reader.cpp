@@ -26,12 +26,12 @@ Eigen::Isometry3d readTransform(YamlMap map) {
   YamlMap rotation = map.map("rotation");
   const Eigen::Quaterniond q(rotation.get<double>("w"), rotation.get<double>("x"),
                              rotation.get<double>("y"), rotation.get<double>("z"));
-  // Room for hand-written digits, none for a lost one.
+  // Rounded by hand is accepted; a wrong digit is not.
   if (!(std::abs(q.norm() - 1.0) < 1e-3))
     throw map.error("rotation", "is not a quaternion of unit length");
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
   transform.linear() = matrixFromQuaternion(q);
-  // Not with <<: its assertion ends the program when a key that cannot be read throws in between.
+  // Not with <<: when a getter throws before the last coefficient, its assertion ends the program.
   transform.translation() = Eigen::Vector3d(
       translation.get<double>("x"), translation.get<double>("y"), translation.get<double>("z"));
   translation.refuseUnknown();

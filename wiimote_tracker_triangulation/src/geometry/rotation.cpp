@@ -8,8 +8,8 @@
 namespace wiimote_tracker::geometry {
 namespace {
 
-// Written out in scalars: a library's vectorised version may round differently from machine to
-// machine, and the rig's id depends on every bit.
+// Written out in scalars: vectorised code may round differently on another machine, and the rig's
+// id depends on every bit.
 using Wxyz = std::array<double, 4>;
 
 Wxyz withPositiveSign(Wxyz q) {

@@ -16,7 +16,7 @@ using Matrix3 = Eigen::Matrix3d;
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
 
-/// What is intersected; not owned.
+/// A range of sights; not owned.
 struct Sights {
   const Sight* first;
   std::size_t count;
@@ -25,8 +25,7 @@ struct Sights {
   const Sight* end() const { return first + count; }
 };
 
-/// minimum_angle's sine squared. The sine, not the cosine: exact for small angles. Opposite
-/// directions are parallel, too.
+/// Compares sines, which are exact for small angles. Opposite directions are parallel, too.
 bool isParallel(const Sight& a, const Sight& b, double minimum_sine_squared) {
   return !(a.direction.cross(b.direction).squaredNorm() >= minimum_sine_squared);
 }
@@ -116,7 +115,7 @@ struct Nearest {
 
 constexpr auto kEqualWeights = [](const Sight&) { return 1.0; };
 
-/// From the rays with weights that hardly change with the pixels, such as those of their ranges.
+/// The covariance neglects that the weights change with the pixels.
 template <typename Weight>
 void takeNearest(const Sights& sights, const Weight& weight, TriangulatedPoint* point) {
   const Nearest nearest(sights, weight);
@@ -129,7 +128,7 @@ void takeNearest(const Sights& sights, const Weight& weight, TriangulatedPoint* 
   }
 }
 
-/// One pass with equal weights for the ranges, one in which each ray's distance counts in pixels.
+/// First with equal weights, then with each ray's distance in pixels at the depth of the result.
 void reweightedMidpoint(const Sights& sights, TriangulatedPoint* point) {
   const Vector3 first = Nearest(sights, kEqualWeights).position;
   takeNearest(
@@ -141,10 +140,10 @@ void reweightedMidpoint(const Sights& sights, TriangulatedPoint* point) {
       point);
 }
 
-/// Gauss-Newton on the residuals. False when it does not settle.
+/// Gauss-Newton on the residuals. False when it does not converge.
 bool maximumLikelihood(const Sights& sights, TriangulatedPoint* point) {
   constexpr int kMaximumSteps = 100;
-  constexpr double kNegligible = 1e-6;  // of the cost: far below what noise makes of it
+  constexpr double kNegligible = 1e-6;  // share of the cost, far below the noise
   constexpr double kRounding = 1e-18;   // [px^2]
   Vector3 position = Nearest(sights, kEqualWeights).position;
   Vector3 step = Vector3::Zero();
@@ -202,7 +201,7 @@ bool isInFront(const Sights& sights, const Vector3& position) {
                      [&](const Sight& s) { return s.depth(position) > 0.0; });
 }
 
-/// As many as there are observations; on the stack as long as they are few.
+/// On the stack for up to 16 sights.
 class SightBuffer {
  public:
   explicit SightBuffer(std::size_t size) {

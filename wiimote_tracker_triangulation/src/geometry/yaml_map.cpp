@@ -29,7 +29,7 @@ YamlMap::YamlMap(const YAML::Node& node,
   std::set<std::string> keys;
   for (const auto& entry : node_) {
     if (!entry.first.IsScalar())
-      throw FileError(file_ + ": " + path_ + " has a key that is not a word; " + advice_);
+      throw FileError(file_ + ": " + path_ + " has a key that is not a string; " + advice_);
     if (!keys.insert(entry.first.Scalar()).second)
       throw error(entry.first.Scalar(), "is there twice");
   }

@@ -12,8 +12,8 @@ int endOf(const MotionOptions& options) {
   return options.sudden_random_walk > 0.0 ? kModes : kSudden;
 }
 
-/// Probabilities over a duration from rates [1/s]: r h / (1 + sum(r) h) of a change, and the rest
-/// that nothing changes.
+/// Probabilities over a duration h from rates r [1/s]: r h / (1 + sum(r) h) for each change, the
+/// rest for none.
 ModeTransitions probabilities(const ModeTransitions& rates, double duration) {
   ModeTransitions result;
   for (int i = 0; i < kModes; ++i) {
@@ -128,7 +128,7 @@ void mix(const ModeTransitions& transitions, const MotionOptions& options, Modes
   const Modes before = *modes;
   for (int j = 0; j < kModes; ++j) {
     Eigen::Matrix<double, kModes, 1> weights;
-    double less_agile = 0.0;  // probability of what enters from there
+    double less_agile = 0.0;  // probability of entering from these
     for (int i = 0; i < kModes; ++i) {
       weights[i] = transitions(i, j) * before[i].probability;
       if (i < j)

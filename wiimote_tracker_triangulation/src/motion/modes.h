@@ -48,10 +48,9 @@ ModeTransitions stopProbabilities(const MotionOptions& options, double duration)
 /// All other changes: from rest to moving modes, and among these. @param duration [s]
 ModeTransitions changeProbabilities(const MotionOptions& options, double duration);
 
-/// The interaction of the filter: each mode's state becomes the mean and covariance of the mixture
-/// of the states that may have led to it, each with its mixing probability. A mode at rest takes
-/// over positions only; what enters a moving mode from rest or from a less agile one gets an
-/// acceleration of that mode.
+/// The interaction (mixing) step: each mode's state becomes the mean and covariance of the mixture
+/// of all modes' states, weighted by their mixing probabilities. A mode at rest mixes positions
+/// only. States that enter a moving mode from a less agile one get its variance of acceleration.
 void mix(const ModeTransitions& transitions, const MotionOptions& options, Modes* modes);
 
 }  // namespace wiimote_tracker::motion

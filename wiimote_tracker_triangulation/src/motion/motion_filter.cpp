@@ -12,12 +12,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
-/// A moving LED may stop at every image, but stops are considered no more often than this [s]. A
-/// longer interval would cost accuracy where an LED stops: its state at rest would be where it was
-/// when stops were last considered.
+/// Shortest interval between two mixings of moving modes into those at rest [s]. With a longer one,
+/// the state at rest of an LED that stops would be where the LED was at the last mixing.
 constexpr double kStopInterval = 0.002;
 
-/// All other mode changes [s]: in so short a time they hardly move an LED.
+/// Shortest interval between the other mixings [s]: an LED hardly moves in it.
 constexpr double kChangeInterval = 0.01;
 
 /// L^-1 of a covariance L L^T whose variances are at least `least`: rounding may leave less of a

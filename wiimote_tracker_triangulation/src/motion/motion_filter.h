@@ -71,8 +71,8 @@ class MotionFilter {
 
   const MotionOptions* options_;
   double time_;
-  double last_stop_;      // stops are considered up to here [s]
-  double last_change_;    // all other mode changes up to here [s]
+  double last_stop_;      // last mixing into the modes at rest [s]
+  double last_change_;    // last of the other mixings [s]
   double last_update_;    // [s]
   double last_parallax_;  // last update from another direction than the one before [s]
   Eigen::Vector3d view_ = Eigen::Vector3d::Zero();  // from that camera to the LED [m]

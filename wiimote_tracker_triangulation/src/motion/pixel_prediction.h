@@ -52,14 +52,13 @@ class PixelPrediction {
   };
   Distances distancesTo(const Eigen::Vector2d& pixel) const;
 
-  /// Density of a mode of probability 1, over exp(-least / 2) so that it does not become 0 for all
-  /// modes, and times 2 pi.
+  /// Density of one mode times 2 pi exp(least / 2), so that it does not underflow for all modes.
   double scaledDensity(int mode, const Distances& distances) const;
   double logDensity(const Distances& distances) const;
 
   Eigen::Vector2d pixel_;
   Eigen::Matrix<double, 2, 3> jacobian_;  // d pixel / d position [px/m]
-  Eigen::Vector3d smear_;                 // standard deviation that the stamp's makes [m]
+  Eigen::Vector3d smear_;                 // displacement by one stamp_stddev [m]
   double pixel_variance_;                 // [px^2]
   std::array<ModePixel, kModes> modes_;
 };

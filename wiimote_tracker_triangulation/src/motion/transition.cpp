@@ -24,8 +24,8 @@ UnitSinger closedForm(double x) {
   return result;
 }
 
-/// The same by the series of the exponentials, from the first term that does not cancel: for small
-/// x the closed forms are differences of nearly equal numbers.
+/// The same by the power series of the exponentials, without the terms that cancel: for small x the
+/// closed forms subtract nearly equal numbers.
 UnitSinger series(double x) {
   constexpr int kTerms = 18;
   constexpr double kNegligible = 1e-15;

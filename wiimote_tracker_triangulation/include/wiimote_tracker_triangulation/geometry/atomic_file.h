@@ -5,9 +5,9 @@
 
 namespace wiimote_tracker::geometry {
 
-/// Writes a file such that a reader, or a crash, meets the old content or the new one, never a mix;
-/// what was there before is kept as path + ".bak". Creates folders; follows a symbolic link.
-/// @throws FileError; then the file at `path` is as it was.
+/// Writes a file atomically: for every reader, and after a crash, it has its old content or all of
+/// the new. The old file is kept as path + ".bak". Creates folders; follows a symbolic link.
+/// @throws FileError; then the file at `path` is unchanged.
 void writeFileAtomically(const std::string& path, const std::string& content);
 
 /// @throws FileError: missing or unreadable.

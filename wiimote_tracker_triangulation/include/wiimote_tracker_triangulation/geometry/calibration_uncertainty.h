@@ -27,7 +27,7 @@ class CalibrationUncertainty {
 
   explicit CalibrationUncertainty(const Rig& rig);
 
-  /// Whether the rig says how certain its cameras are. If not, there is no covariance anywhere.
+  /// Whether the rig has the covariance of its parameters. If not, there is none of any point.
   bool isKnown() const { return rig_.covariance.size() > 0; }
 
   /// Covariance [m^2] of a point seen by these cameras of the rig (ascending). Nothing when it is
@@ -53,7 +53,7 @@ class CalibrationUncertainty {
   };
 
   Rig rig_;
-  std::vector<Cell> cells_;  // a hash table in which the latest takes the place of another
+  std::vector<Cell> cells_;  // a hash table in which a new cell overwrites that of the same hash
 };
 
 }  // namespace wiimote_tracker::geometry

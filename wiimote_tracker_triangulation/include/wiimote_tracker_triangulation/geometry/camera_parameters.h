@@ -11,8 +11,7 @@
 
 namespace wiimote_tracker::geometry {
 
-/// Parameters of one camera in a rig's covariance (Rig::covariance), and where they stand
-/// among them.
+/// Number of a camera's parameters in Rig::covariance, and the indices among them.
 constexpr Eigen::Index kParameters = 16;
 constexpr Eigen::Index kRotation = 0;
 constexpr Eigen::Index kPosition = 3;
@@ -22,12 +21,12 @@ constexpr Eigen::Index kTimeOffset = 15;
 
 using ParameterJacobian = Eigen::Matrix<double, 2, kParameters>;
 
-/// Where those of a camera begin.
+/// Index of a camera's first parameter.
 inline Eigen::Index firstParameter(std::size_t camera) {
   return kParameters * static_cast<Eigen::Index>(camera);
 }
 
-/// Whether the rig says how certain its cameras are.
+/// Whether the rig has the covariance of its parameters.
 inline bool hasCovariance(const Rig& rig) {
   return rig.covariance.size() > 0;
 }
@@ -36,8 +35,8 @@ inline bool hasCovariance(const Rig& rig) {
 struct Projection {
   Eigen::Vector2d pixel;
   Eigen::Matrix<double, 2, 3> by_point;  ///< [px/m]
-  /// By the camera's parameters. That of the time offset, for a point that stands still, is 0: a
-  /// moving one adds by_point * velocity.
+  /// By the camera's parameters. The column of the time offset is 0: for a moving point it is
+  /// by_point * velocity.
   ParameterJacobian by_parameters;
 };
 

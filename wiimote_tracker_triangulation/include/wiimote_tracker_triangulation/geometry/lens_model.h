@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-// The lens models, for any scalar: double, or a dual number such as ceres::Jet. They map a point of
-// the image plane of depth 1, where a pinhole would put it, to where the lens does.
+// The lens models, for any scalar: double, or a dual number such as ceres::Jet. They map a point on
+// the image plane of depth 1 from its undistorted to its distorted place.
 
 namespace wiimote_tracker::geometry {
 

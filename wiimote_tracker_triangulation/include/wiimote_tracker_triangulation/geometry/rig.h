@@ -30,8 +30,8 @@ struct Zone {
   Eigen::Vector3d maximum;  ///< [m]
 };
 
-/// A camera of a rig, and how it came to be known. Fields as in CameraCalibration.msg; NaN and
-/// empty mean unknown.
+/// A camera of a rig and its calibration. Fields as in CameraCalibration.msg; NaN and empty mean
+/// unknown.
 struct RigCamera {
   Camera camera;
   double time_offset = std::numeric_limits<double>::quiet_NaN();  ///< [s]
@@ -90,6 +90,9 @@ struct Rig {
 /// Optical frame of a camera: its name without a leading slash, other slashes as underscores,
 /// + "_optical_frame".
 std::string opticalFrame(const std::string& camera_name);
+
+/// The same without "_optical_frame".
+std::string withoutSlashes(const std::string& camera_name);
 
 }  // namespace wiimote_tracker::geometry
 

@@ -7,7 +7,7 @@
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
 #include <algorithm>
-#include <fstream>
+#include <filesystem>
 
 namespace wiimote_tracker {
 
@@ -49,7 +49,7 @@ FileServices::FileServices(NodeContext* context) : context_(*context) {
     const Lock lock(context_.mutex());
     path = rigPath("", context_.parameters(lock));
   }
-  if (std::ifstream(path).good()) {
+  if (std::filesystem::exists(path)) {
     const Reply reply = loadRig(path);
     if (reply.success)
       ROS_INFO_STREAM(path << ": " << reply.message);

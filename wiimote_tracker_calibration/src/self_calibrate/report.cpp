@@ -53,7 +53,7 @@ void printPoses(const bundle::Reconstruction& reconstruction, std::FILE* file) {
 
 void printComparison(const Report& report, std::FILE* file) {
   const Comparison& comparison = *report.comparison;
-  std::fprintf(file, "\nBeside the calibration that came with it: %s.\n", comparison.what.c_str());
+  std::fprintf(file, "\nCompared with the shipped calibration: %s.\n", comparison.what.c_str());
   if (comparison.own.empty())
     return;
   for (std::size_t i = 0; i < comparison.own.size(); ++i) {
@@ -66,13 +66,13 @@ void printComparison(const Report& report, std::FILE* file) {
                comparison.points, comparison.extent, comparison.similar.rms,
                comparison.similar.median, comparison.similar.p95);
   if (comparison.expected)
-    std::fprintf(file, "; own uncertainty lets expect RMS %.3g", *comparison.expected);
+    std::fprintf(file, "; expected from the stated uncertainty: RMS %.3g", *comparison.expected);
   std::fprintf(file, "\n  after a projective transformation: RMS %.3g, median %.3g, p95 %.3g\n",
                comparison.projective.rms, comparison.projective.median, comparison.projective.p95);
 }
 
 std::string json(double value) {
-  return std::isfinite(value) ? format("%.17g", value) : "null";
+  return std::isfinite(value) ? exactNumber(value) : "null";
 }
 
 std::string jsonList(const std::vector<double>& numbers) {

@@ -1,11 +1,12 @@
 #include "frame_lines.h"
 
-#include "number_text.h"
 #include "session/error.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
+#include <locale>
+#include <sstream>
 
 namespace wiimote_tracker::session {
 
@@ -15,19 +16,16 @@ constexpr const char* kIndent = "  ";
 
 /// The finite numbers of a line, separated by single spaces; empty when it is anything else.
 std::vector<double> numbersOf(const std::string& line) {
-  // strtod would also skip white space, and read inf, nan and hexadecimal numbers.
-  if (line.find_first_not_of("+-.0123456789e ") != std::string::npos)
-    return {};
+  std::istringstream stream(line);
+  stream.imbue(std::locale::classic());
+  stream >> std::noskipws;
   std::vector<double> numbers;
-  const char* place = line.c_str();
-  while (*place != ' ') {
-    char* after = nullptr;
-    numbers.push_back(std::strtod(place, &after));
-    if (after == place || !std::isfinite(numbers.back()))
-      return {};
-    if (*after == '\0')
+  for (double number = 0.0; stream >> number;) {
+    numbers.push_back(number);
+    if (stream.eof())
       return numbers;
-    place = after + 1;  // behind a space: strtod reads all else that can be there
+    if (stream.get() != ' ')
+      return {};
   }
   return {};
 }
@@ -37,13 +35,9 @@ std::vector<double> numbersOf(const std::string& line) {
 void appendFrames(const std::vector<wave::Frame>& frames, std::string* text) {
   for (const wave::Frame& frame : frames) {
     *text += kIndent;
-    appendNumber(frame.stamp, text);
-    for (const Eigen::Vector2d& spot : frame.spots) {
-      *text += ' ';
-      appendNumber(spot.x(), text);
-      *text += ' ';
-      appendNumber(spot.y(), text);
-    }
+    *text += exactNumber(frame.stamp);
+    for (const Eigen::Vector2d& spot : frame.spots)
+      *text += " " + exactNumber(spot.x()) + " " + exactNumber(spot.y());
     *text += '\n';
   }
 }

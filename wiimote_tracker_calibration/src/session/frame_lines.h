@@ -10,7 +10,6 @@
 namespace wiimote_tracker::session {
 
 /// Appends one line per frame, indented by two spaces: stamp [s], then x and y [px] of every spot.
-/// Needs a ClassicLocale.
 void appendFrames(const std::vector<wave::Frame>& frames, std::string* text);
 
 /// Reads a text line by line.
@@ -22,7 +21,7 @@ class Lines {
   /// @throws SessionError naming the line: the next line is different.
   void expect(const std::string& line);
 
-  /// Reads what appendFrames() wrote. Needs a ClassicLocale.
+  /// Reads what appendFrames() wrote.
   /// @throws SessionError naming the line: the next `count` lines are not frames.
   std::vector<wave::Frame> frames(std::size_t count);
 

@@ -1,7 +1,6 @@
 #include "session/session_file.h"
 
 #include "frame_lines.h"
-#include "number_text.h"
 #include "session/error.h"
 #include "session_yaml.h"
 
@@ -14,12 +13,14 @@ namespace wiimote_tracker::session {
 
 namespace {
 
+// Ten minutes of 64 cameras, of which each number has 17 digits [bytes].
+constexpr std::size_t kLargestFile = 300000000;
 // Between the two YAML documents of the file.
 constexpr const char* kFramesLine =
     "--- # Images of the wave, camera by camera: time [s], then x and y [px] of every spot.";
 // Before the frames of each camera.
 constexpr const char* kCameraLine = "- |";
-// A file cut off at any place lacks it.
+// The last line: a file that was cut off lacks it.
 constexpr const char* kEndLine = "...";
 
 void require(bool condition, const std::string& what) {
@@ -46,7 +47,7 @@ void checkCamera(const wave::CameraRecording& camera,
   }
 }
 
-/// What holds for every session that a file can bear.
+/// Checks what readSessionFile() requires.
 void check(const Session& session) {
   const wave::Recording& recording = session.recording;
   require(!session.world_frame.empty(), "the world frame has no name");
@@ -71,7 +72,6 @@ void check(const Session& session) {
 
 void writeSessionFile(const Session& session, const std::string& path) {
   check(session);
-  const ClassicLocale locale;
   std::string text = yamlFromSession(session);
   text += std::string("\n") + kFramesLine + "\n";
   for (const wave::CameraRecording& camera : session.recording.cameras) {
@@ -83,13 +83,12 @@ void writeSessionFile(const Session& session, const std::string& path) {
 }
 
 Session readSessionFile(const std::string& path) {
-  const std::string text = geometry::readFile(path);
+  const std::string text = geometry::readFile(path, kLargestFile);
   const std::size_t head_end = text.find(std::string("\n") + kFramesLine + "\n");
   if (head_end == std::string::npos)
     throw SessionError(path +
                        " is cut off, or holds no samples of a calibration; restore it from its "
                        "backup, or choose a file that save_samples wrote");
-  const ClassicLocale locale;
   SessionHead head = headFromYaml(text.substr(0, head_end + 1), path);
   Lines lines(text, head_end + 1, path);
   lines.expect(kFramesLine);

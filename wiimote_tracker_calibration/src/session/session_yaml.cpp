@@ -1,7 +1,6 @@
 #include "session_yaml.h"
 
-#include "number_text.h"
-
+#include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/yaml_map.h>
 
 #include <yaml-cpp/yaml.h>
@@ -20,17 +19,11 @@ using geometry::YamlMap;
 constexpr const char* kFormat = "wiimote_tracker_samples";
 constexpr int kVersion = 1;
 
-std::string textOf(double value) {
-  std::string text;
-  appendNumber(value, &text);
-  return text;
-}
-
 template <typename Numbers>
 void emitNumbers(const Numbers& numbers, YAML::Emitter& out) {
   out << YAML::Flow << YAML::BeginSeq;
   for (const double number : numbers)
-    out << textOf(number);
+    out << exactNumber(number);
   out << YAML::EndSeq;
 }
 
@@ -39,7 +32,7 @@ std::vector<double> valuesOf(const Eigen::VectorXd& vector) {
 }
 
 void emitKey(const std::string& key, double value, YAML::Emitter& out) {
-  out << YAML::Key << key << YAML::Value << textOf(value);
+  out << YAML::Key << key << YAML::Value << exactNumber(value);
 }
 
 void emitSquare(const std::optional<square::SquareLayout>& square, YAML::Emitter& out) {

@@ -15,7 +15,7 @@ struct SessionHead {
   std::vector<std::size_t> frames;  ///< How many, per camera.
 };
 
-/// YAML text of a session without its frames. Needs a ClassicLocale.
+/// YAML text of a session without its frames.
 std::string yamlFromSession(const Session& session);
 
 /// `where`: the file, for the messages. @throws geometry::FileError naming the key.

@@ -6,6 +6,9 @@
 #include <cstdarg>
 #include <cstddef>
 #include <cstdio>
+#include <limits>
+#include <locale>
+#include <sstream>
 #include <string>
 
 // Text for people: messages of errors, log lines, tables.
@@ -22,6 +25,24 @@ namespace wiimote_tracker {
   va_end(values);
   std::vsnprintf(text.data(), text.size() + 1, pattern, again);
   va_end(again);
+  return text;
+}
+
+/// The shortest decimal number that reads back as the same finite double, with a point in every
+/// locale.
+inline std::string exactNumber(double value) {
+  std::string text;
+  for (int digits = std::numeric_limits<double>::digits10;
+       digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+    std::stringstream stream;
+    stream.imbue(std::locale::classic());
+    stream.precision(digits);
+    stream << value;
+    text = stream.str();
+    double back = 0.0;
+    if (stream >> back && back == value)
+      break;
+  }
   return text;
 }
 

@@ -2,14 +2,18 @@
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <limits>
+#include <mutex>
 
 namespace wiimote_tracker::geometry {
 namespace {
@@ -52,7 +56,9 @@ void writeAndSync(const std::string& path, const std::string& content) {
 
 /// Replaces the file by a rename, which is atomic within a folder.
 void replace(const std::filesystem::path& path, const std::string& content) {
-  const std::string fresh = path.string() + ".new" + std::to_string(::getpid());
+  static std::atomic<unsigned> count{0};
+  const std::string fresh =
+      path.string() + ".new" + std::to_string(::getpid()) + "." + std::to_string(count++);
   try {
     writeAndSync(fresh, content);
     if (::rename(fresh.c_str(), path.c_str()) != 0)
@@ -72,28 +78,49 @@ void replace(const std::filesystem::path& path, const std::string& content) {
 
 void writeFileAtomically(const std::string& path, const std::string& content) {
   namespace fs = std::filesystem;
+  static std::mutex mutex;  // of the old file and its backup
+  const std::lock_guard<std::mutex> lock(mutex);
   try {
     fs::path target = fs::absolute(path);
     if (fs::is_symlink(target))
       target = fs::weakly_canonical(target);
     fs::create_directories(target.parent_path());
     if (fs::exists(target))
-      replace(target.string() + ".bak", readFile(target.string()));
+      replace(target.string() + ".bak",
+              readFile(target.string(), std::numeric_limits<std::size_t>::max()));
     replace(target, content);
   } catch (const fs::filesystem_error& e) {
     fail("write", path, e.code().value());
   }
 }
 
-std::string readFile(const std::string& path) {
-  if (std::filesystem::is_directory(path))
-    throw FileError("cannot read " + path + ", it is a folder; name a file");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream)
+std::string readFile(const std::string& path, std::size_t largest) {
+  // Opening a FIFO would wait for its writer.
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  struct stat status {};
+  if (file.get() < 0 || ::fstat(file.get(), &status) != 0)
     fail("read", path, errno);
-  std::string content((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (stream.bad())
-    fail("read", path, errno);
+  if (!S_ISREG(status.st_mode))
+    throw FileError("cannot read " + path + ", it is " +
+                    (S_ISDIR(status.st_mode) ? "a folder" : "a device or a pipe") +
+                    "; name a file");
+  const auto size = static_cast<std::size_t>(status.st_size);
+  if (size > largest)
+    throw FileError(format(
+        "cannot read %s, its %.0f MB are more than the %.0f MB of the largest "
+        "file of this kind; name another file",
+        path.c_str(), 1e-6 * static_cast<double>(size), 1e-6 * static_cast<double>(largest)));
+  std::string content(size, '\0');
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t n = ::read(file.get(), content.data() + done, size - done);
+    if (n < 0 && errno == EINTR)
+      continue;
+    if (n < 0)
+      fail("read", path, errno);
+    if (n == 0)
+      content.resize(done);  // became shorter
+    done = n == 0 ? size : done + static_cast<std::size_t>(n);
+  }
   return content;
 }
 

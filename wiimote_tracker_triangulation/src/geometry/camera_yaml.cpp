@@ -1,10 +1,10 @@
 #include "camera_yaml.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <locale>
-#include <sstream>
 
 namespace wiimote_tracker::geometry {
 
@@ -13,11 +13,7 @@ std::string yamlNumber(double value) {
     return ".nan";
   if (std::isinf(value))
     return value > 0.0 ? ".inf" : "-.inf";
-  std::ostringstream text;
-  text.imbue(std::locale::classic());  // a decimal point in every locale
-  text.precision(std::numeric_limits<double>::max_digits10);
-  text << value;
-  std::string number = text.str();
+  std::string number = exactNumber(value);
   // YAML 1.1, as in rosparam, reads 4 as an integer and 1e-09 as a string.
   if (number.find('.') == std::string::npos)
     number.insert(std::min(number.find('e'), number.size()), ".0");

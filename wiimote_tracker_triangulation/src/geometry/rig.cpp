@@ -72,7 +72,8 @@ Camera Rig::rayCamera(const RigCamera& rig_camera) const {
 void Rig::check() const {
   require(!cameras.empty(), "the rig has no camera; calibrate at least two");
   require(!world_frame.empty(), "the rig has no world frame; name one, e.g. world");
-  require(std::isfinite(solved_at), "the time at which the rig was solved is not finite");
+  require(solved_at >= 0.0 && solved_at < 4294967295.0,
+          "solved_at must be a time from 0 to 4294967295 s after 1970, as ROS can represent it");
   require(std::isnan(virtual_hfov) || (virtual_hfov > 0.0 && virtual_hfov < M_PI),
           "virtual_hfov must lie between 0 and pi rad");
   for (const double side : square_sides)

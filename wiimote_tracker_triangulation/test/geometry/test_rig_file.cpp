@@ -6,12 +6,14 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 namespace wiimote_tracker::geometry {
 namespace {
@@ -37,15 +39,19 @@ class RigFile : public testing::Test {
 
   void put(const std::string& content) { std::ofstream(path_, std::ios::binary) << content; }
 
-  /// The error of readRigFile for a content; empty when it is accepted.
-  std::string complaintAbout(const std::string& content) {
-    put(content);
+  /// The error of readRigFile; empty when the file is accepted.
+  static std::string complaint(const std::string& path) {
     try {
-      readRigFile(path_);
+      readRigFile(path);
     } catch (const Error& e) {
       return e.what();
     }
     return "";
+  }
+
+  std::string complaintAbout(const std::string& content) {
+    put(content);
+    return complaint(path_);
   }
 
   /// The file's content with one text replaced by another.
@@ -238,8 +244,8 @@ TEST_F(RigFile, NumbersAreFloatingPointForRosparamToo) {
   rig.cameras[0].camera.world_from_camera = Eigen::Isometry3d::Identity();
   rig.cameras[0].camera.world_from_camera.translation() << 4.0, -1e-9, 1e300;
   write(rig);
-  for (const std::string line : {"x: 4.0\n", "y: -1.0000000000000001e-09\n",
-                                 "z: 1.0000000000000001e+300\n", "x: 0.0\n", "w: 1.0\n"})
+  for (const std::string line :
+       {"x: 4.0\n", "y: -1.0e-09\n", "z: 1.0e+300\n", "x: 0.0\n", "w: 1.0\n"})
     EXPECT_NE(std::string::npos, written_.find(line)) << line;
   rig.cameras[0].camera.world_from_camera.translation() << 1e-20, -0.0, 1e22;
   write(rig);
@@ -340,17 +346,34 @@ TEST_F(RigFile, DamageNeverCrashes) {
 }
 
 TEST_F(RigFile, MissingOrUnreadableIsNamed) {
-  const auto complaint = [](const std::string& path) -> std::string {
-    try {
-      readRigFile(path);
-    } catch (const FileError& e) {
-      return e.what();
-    }
-    return "";
-  };
   EXPECT_NE(std::string::npos, complaint(path_).find(path_));
   EXPECT_NE(std::string::npos, complaint(path_).find("No such file"));
   EXPECT_NE(std::string::npos, complaint(folder_.string()).find("folder"));
+}
+
+TEST_F(RigFile, OnlyRegularFilesOfUsualSizeAreRead) {
+  ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
+  EXPECT_NE(std::string::npos, complaint(path_).find("a device or a pipe"));
+  EXPECT_NE(std::string::npos, complaint("/dev/zero").find("a device or a pipe"));
+  fs::remove(path_);
+  put("");
+  fs::resize_file(path_, 100000000);
+  EXPECT_NE(std::string::npos, complaint(path_).find("100 MB are more than the 32 MB"));
+}
+
+TEST_F(RigFile, ThreadsMayWriteAtTheSameTime) {
+  write(fullRig());
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] {
+      for (int n = 0; n < 10; ++n)
+        EXPECT_NO_THROW(writeRigFile(fullRig(), path_));
+    });
+  for (std::thread& thread : threads)
+    thread.join();
+  EXPECT_EQ(contentOf(path_), written_);
+  EXPECT_EQ(contentOf(path_ + ".bak"), written_);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2);
 }
 
 TEST_F(RigFile, ForeignFilesAreRefused) {
@@ -400,6 +423,8 @@ TEST_F(RigFile, FaultsAreNamedByKey) {
   names("inliers: 119", "inliers: -1", "inliers");
   names("inliers: 119", "inliers: 4294967296", "inliers");
   names("complete: true", "complete: false", "complete");
+  for (const char* time : {"-1.0", "5e9", "1e18", ".nan"})
+    names("solved_at: 1766188800.1234567", std::string("solved_at: ") + time + "  # ", "solved_at");
   names("        w: ", "        w: 7", "rotation");
 }
 

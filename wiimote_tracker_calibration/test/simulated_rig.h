@@ -24,6 +24,7 @@ struct RigErrors {
   double focal = 2.0;            // [px]
   double principal_point = 2.0;  // [px]
   double k1 = 0.003;
+  double k2 = 0.0;
   double time_offset = 0.0001;  // [s]
 };
 
@@ -49,6 +50,7 @@ inline geometry::Rig paperRigWith(const RigErrors& errors, std::size_t cameras =
   stddev.segment<2>(geometry::kLens).setConstant(errors.focal);
   stddev.segment<2>(geometry::kLens + 2).setConstant(errors.principal_point);
   stddev[geometry::kDistortion] = errors.k1;
+  stddev[geometry::kDistortion + 1] = errors.k2;
   stddev[geometry::kTimeOffset] = errors.time_offset;
   const auto n = static_cast<Eigen::Index>(cameras);
   rig.covariance.resize(n * size, n * size);

@@ -38,6 +38,9 @@ constexpr double kMinimumExtent = 0.1;
 // exact: RMS [px]. The camera's position alone says little: a longer lens further away sees the
 // same.
 constexpr double kLargestImageError = 2.0;
+// The distortion beyond k1, which is not estimated, in geometry/camera_parameters.h.
+constexpr Eigen::Index kHeld = kLens + adjust::kLensSize;
+constexpr Eigen::Index kHeldSize = adjust::kDistortionSize;
 // Number of matches for which the derivatives by the others' parameters are computed.
 constexpr std::size_t kDerivatives = 200;
 
@@ -121,7 +124,7 @@ void checkFit(const Fit& fit) {
                found, fit.expected, name.c_str()));
   if (fit.pixel_stddev > kLargestNoise)
     throw RecalibrateError("the images of " + name + " are " + format("%.1f px", fit.pixel_stddev) +
-                           " off what the others saw: its lens is not what it is taken for, or the "
+                           " off what the others saw: its starting intrinsics are wrong, or the "
                            "others were moved too; calibrate all of them again");
 
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -144,7 +147,8 @@ void checkFit(const Fit& fit) {
 }
 
 /// How the camera's estimate changes with each parameter of the rig: inverse of the information
-/// times the change of the normal equations' right-hand side.
+/// times the change of the normal equations' right-hand side. The distortion beyond k1 keeps the
+/// rig's value, and its error enters the other parameters (a "consider" parameter).
 Eigen::MatrixXd sensitivityToRig(const geometry::Rig& rig,
                                  std::size_t index,
                                  const Prior& prior,
@@ -164,6 +168,9 @@ Eigen::MatrixXd sensitivityToRig(const geometry::Rig& rig,
     // The prediction moves with the point.
     const geometry::ParameterJacobian own = match.whitening * expected->by_parameters;
     right -= own.transpose() * match.whitening * expected->by_point * *point_by_parameters;
+    if (prior.lens_covariance)
+      right.middleCols<kHeldSize>(firstParameter(index) + kHeld) -=
+          own.transpose() * own.middleCols<kHeldSize>(kHeld);
     used += 1.0;
   }
   right *= static_cast<double>(fit.matches.size()) / used;
@@ -171,7 +178,10 @@ Eigen::MatrixXd sensitivityToRig(const geometry::Rig& rig,
   if (prior.lens_covariance)
     right.block<adjust::kLensSize, adjust::kLensSize>(kLens, firstParameter(index) + kLens) +=
         prior.lensInformation();
-  return covariance * right;
+  Eigen::MatrixXd by_rig = covariance * right;
+  if (prior.lens_covariance)
+    by_rig.block<kHeldSize, kHeldSize>(kHeld, firstParameter(index) + kHeld).setIdentity();
+  return by_rig;
 }
 
 /// Variance of the mean of the stamps' errors over the wave, which are correlated over seconds

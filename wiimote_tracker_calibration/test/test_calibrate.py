@@ -291,6 +291,18 @@ def test_what_fails_is_not_pressed_upon_the_person():
     assert guide.advice().word == 'solve'
 
 
+@pytest.mark.parametrize('order, asks', [((0, 1, 2, 3), False), ((0, 3, 2, 1), True)])
+def test_clockwise_corners_are_questioned(order, asks):
+    places = [(100.0, 600.0), (900.0, 600.0), (900.0, 100.0), (100.0, 100.0)]
+    guide = Guide(0.0)
+    for number, place in enumerate((places[i] for i in order), 1):
+        step = CalibrationStatus.COMPLETE if number == 4 else CalibrationStatus.READY
+        guide.on_status(status(step, corners_captured=number,
+                               cameras=[camera(x=place[0], y=place[1])]), float(number))
+    assert ('z will point down' in guide.advice().sentence) == asks
+    assert guide.advice().word == 'wave'
+
+
 def test_a_bad_corner_is_to_be_taken_again():
     guide = guide_at(status(CalibrationStatus.SOLVED, rig_id='a'))
     guide.verdict = CalibrationVerdict(rig_id='a', grade=CalibrationVerdict.REDO, redo_corner=2)
@@ -427,11 +439,11 @@ def test_one_request_at_a_time_but_it_can_be_called_off():
     node.events.put(('feedback', 'wiimote_1 lacks 20', 0.6))
     dialogue.take_events(1.0)
     assert '[############--------] wiimote_1 lacks 20' in screen.render(dialogue.guide, 1.0)
-    node.events.put(('answer', 'capture', False, 'corner 1 was not captured: it was called off'))
+    node.events.put(('answer', 'capture', False, 'corner 1 was not captured: the request was cancelled'))
     dialogue.take_events(2.0)
-    assert screen.render(dialogue.guide, 2.0)[21] == 'corner 1 was not captured: it was called off'
+    assert screen.render(dialogue.guide, 2.0)[21] == 'corner 1 was not captured: the request was cancelled'
     dialogue.command('s')
-    dialogue.command('x')  # solving is called off by the service
+    dialogue.command('x')  # the service cancels solving
     assert [r.name for r in node.sent] == ['capture_corner', 'solve', 'cancel']
 
 

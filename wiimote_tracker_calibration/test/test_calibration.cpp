@@ -94,7 +94,7 @@ class Workflow : public ::testing::Test {
   double now_ = 100.0;
 };
 
-TEST_F(Workflow, four_corners_make_a_rig) {
+TEST_F(Workflow, FourCornersMakeARig) {
   captureAll();
   EXPECT_EQ(calibration_.step(), Step::kComplete);
   EXPECT_EQ(calibration_.progress(), 1.0);
@@ -115,7 +115,14 @@ TEST_F(Workflow, four_corners_make_a_rig) {
   EXPECT_EQ(calibration_.step(), Step::kSaved);
 }
 
-TEST_F(Workflow, requests_out_of_turn_are_refused_with_a_reason) {
+TEST_F(Workflow, ClockwiseCornersAreReported) {
+  ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
+  for (const std::size_t corner : {0U, 3U, 2U})
+    ASSERT_TRUE(capture(kCorners[corner]).success);
+  EXPECT_SAYS(capture(kCorners[1]).message, "clockwise seen from above, so that z will point down");
+}
+
+TEST_F(Workflow, RequestsInTheWrongStepAreRefusedWithAReason) {
   EXPECT_SAYS(calibration_.beginCapture(std::nullopt, 0.0).message, "start one first");
   EXPECT_SAYS(calibration_.undo().message, "no captured corner");
   EXPECT_SAYS(calibration_.begin(Step::kSolving, "solving").message, "only 0 of 4 corners");
@@ -136,7 +143,7 @@ TEST_F(Workflow, requests_out_of_turn_are_refused_with_a_reason) {
   EXPECT_EQ(calibration_.step(), Step::kReady);
 }
 
-TEST_F(Workflow, a_bad_start_keeps_the_run) {
+TEST_F(Workflow, ABadStartKeepsTheRun) {
   ASSERT_TRUE(calibration_.start(2.5, 2.0, names_).success);
   ASSERT_TRUE(capture(kCorners[0]).success);
   EXPECT_SAYS(calibration_.start(0.0, 0.0, names_).message, "greater than 0");
@@ -148,7 +155,7 @@ TEST_F(Workflow, a_bad_start_keeps_the_run) {
   EXPECT_EQ(calibration_.square().corners().size(), 0U);
 }
 
-TEST_F(Workflow, a_moved_led_loses_no_corner) {
+TEST_F(Workflow, AMovedLedLosesNoCorner) {
   ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
   ASSERT_TRUE(capture(kCorners[0]).success);
   const Reply moved = capture(kCorners[1], std::nullopt, 0.1);
@@ -160,7 +167,7 @@ TEST_F(Workflow, a_moved_led_loses_no_corner) {
   EXPECT_EQ(calibration_.square().corners().size(), 2U);
 }
 
-TEST_F(Workflow, an_led_that_was_not_carried_on_is_refused) {
+TEST_F(Workflow, AnLedStillOnTheLastCornerIsRefused) {
   ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
   ASSERT_TRUE(capture(kCorners[0]).success);
   EXPECT_SAYS(capture(kCorners[0]).message, "still where corner 1");
@@ -168,13 +175,13 @@ TEST_F(Workflow, an_led_that_was_not_carried_on_is_refused) {
   EXPECT_TRUE(capture(kCorners[0], 0).success);  // retaking is another matter
 }
 
-TEST_F(Workflow, undo_drops_the_last_corner_and_retake_replaces_one) {
+TEST_F(Workflow, UndoDropsTheLastCornerAndRetakeReplacesOne) {
   captureAll();
   EXPECT_SAYS(capture(kCorners[0]).message, "all four corners are captured");
   ASSERT_TRUE(calibration_.undo().success);
   EXPECT_EQ(calibration_.square().corners().size(), 3U);
   EXPECT_EQ(calibration_.step(), Step::kReady);
-  EXPECT_SAYS(capture(kCorners[3], 3).message, "cannot be taken again");
+  EXPECT_SAYS(capture(kCorners[3], 3).message, "cannot be captured again");
   ASSERT_TRUE(capture(kCorners[3]).success);
 
   const Eigen::Vector2d before = calibration_.square().corners()[1].at("camera_1").pixel;
@@ -188,7 +195,7 @@ TEST_F(Workflow, undo_drops_the_last_corner_and_retake_replaces_one) {
   EXPECT_EQ(calibration_.square().corners()[1].at("camera_1").pixel, kept);
 }
 
-TEST_F(Workflow, a_failed_solve_keeps_corners_and_rig) {
+TEST_F(Workflow, AFailedSolveKeepsCornersAndRig) {
   captureAll();
   ASSERT_TRUE(solve(1.0).success);
   const std::string id = calibration_.rig()->id();
@@ -203,7 +210,7 @@ TEST_F(Workflow, a_failed_solve_keeps_corners_and_rig) {
   EXPECT_EQ(calibration_.rig()->id(), id);
 }
 
-TEST_F(Workflow, cancel_stops_what_goes_on_and_a_second_one_drops_the_run) {
+TEST_F(Workflow, CancelStopsWhatGoesOnAndASecondOneDropsTheRun) {
   captureAll();
   ASSERT_TRUE(solve(1.0).success);
   ASSERT_TRUE(calibration_.start(1.0, 1.0, names_).success);
@@ -219,7 +226,7 @@ TEST_F(Workflow, cancel_stops_what_goes_on_and_a_second_one_drops_the_run) {
   EXPECT_FALSE(calibration_.beginCapture(std::nullopt, now_).success);
 }
 
-TEST_F(Workflow, a_cancelled_wave_is_dropped_and_the_square_stays) {
+TEST_F(Workflow, ACancelledWaveIsDroppedAndTheSquareStays) {
   captureAll();
   ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
   wave(1.0);
@@ -229,7 +236,7 @@ TEST_F(Workflow, a_cancelled_wave_is_dropped_and_the_square_stays) {
   EXPECT_EQ(calibration_.square().corners().size(), 4U);
 }
 
-TEST_F(Workflow, a_cancel_that_comes_too_late_for_the_solver_drops_nothing) {
+TEST_F(Workflow, ACancelAfterTheSolverEndedDropsNothing) {
   captureAll();
   ASSERT_TRUE(solve(1.0).success);
   EXPECT_SAYS(calibration_.cancel().message, "nothing was dropped");
@@ -251,7 +258,7 @@ TEST_F(Workflow, a_cancel_that_comes_too_late_for_the_solver_drops_nothing) {
   EXPECT_EQ(calibration_.step(), Step::kIdle);
 }
 
-TEST_F(Workflow, a_loaded_rig_does_not_disturb_a_run) {
+TEST_F(Workflow, ALoadedRigDoesNotDisturbARun) {
   captureAll();
   ASSERT_TRUE(solve(1.0).success);
   const geometry::Rig rig = *calibration_.rig();
@@ -266,7 +273,7 @@ TEST_F(Workflow, a_loaded_rig_does_not_disturb_a_run) {
   EXPECT_EQ(fresh.step(), Step::kSaved);
 }
 
-TEST_F(Workflow, a_rig_that_is_solved_again_keeps_the_zones) {
+TEST_F(Workflow, ARigThatIsSolvedAgainKeepsTheZones) {
   captureAll();
   ASSERT_TRUE(solve(1.0).success);
   geometry::Rig named = *calibration_.rig();
@@ -289,7 +296,7 @@ TEST_F(Workflow, a_rig_that_is_solved_again_keeps_the_zones) {
   EXPECT_TRUE(calibration_.rig()->zones.empty());
 }
 
-TEST_F(Workflow, masks_go_into_the_rig_and_void_no_correction) {
+TEST_F(Workflow, MasksGoIntoTheRigAndVoidNoCorrection) {
   EXPECT_FALSE(calibration_.setMasks({{names_[0], {{{1.0, 2.0}, 3.0}}}})) << "no rig yet";
   captureAll();
   ASSERT_TRUE(solve(1.0).success);
@@ -308,7 +315,7 @@ TEST_F(Workflow, masks_go_into_the_rig_and_void_no_correction) {
   EXPECT_EQ(calibration_.rig()->id(), corrected.id());
 }
 
-TEST_F(Workflow, a_wave_is_recorded_covered_and_kept_beside_the_square) {
+TEST_F(Workflow, AWaveIsRecordedCoveredAndKeptBesideTheSquare) {
   EXPECT_SAYS(calibration_.beginWave(cameras_, true, std::nullopt, now_).message,
               "start one first");
   EXPECT_SAYS(calibration_.endWave().message, "no wave is being recorded");
@@ -336,7 +343,7 @@ TEST_F(Workflow, a_wave_is_recorded_covered_and_kept_beside_the_square) {
   EXPECT_EQ(calibration_.square().corners().size(), 4U);
 }
 
-TEST_F(Workflow, frames_of_an_older_clock_epoch_are_dropped_and_that_is_told) {
+TEST_F(Workflow, FramesOfAnOlderClockEpochAreDroppedAndReported) {
   captureAll();
   ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
   wave(3.0, 6);
@@ -348,7 +355,7 @@ TEST_F(Workflow, frames_of_an_older_clock_epoch_are_dropped_and_that_is_told) {
   EXPECT_SAYS(calibration_.missing().back(), names_[0] + " reconnected");
 }
 
-TEST_F(Workflow, without_a_square_it_takes_a_wand) {
+TEST_F(Workflow, WithoutASquareItTakesAWand) {
   ASSERT_TRUE(calibration_.startWithoutSquare(names_).success);
   EXPECT_TRUE(calibration_.sides().empty());
   EXPECT_SAYS(calibration_.beginCapture(std::nullopt, now_).message, "without a square");
@@ -365,7 +372,7 @@ TEST_F(Workflow, without_a_square_it_takes_a_wand) {
   EXPECT_EQ(calibration_.session(facts_, {}).recording.wand->length, 0.5);
 }
 
-TEST_F(Workflow, corners_are_captured_hands_free) {
+TEST_F(Workflow, CornersAreCapturedHandsFree) {
   ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
   calibration_.setHandsFree(true);
   EXPECT_TRUE(calibration_.isHandsFree());
@@ -382,7 +389,7 @@ TEST_F(Workflow, corners_are_captured_hands_free) {
   EXPECT_TRUE(solve(1.0).success);
 }
 
-TEST_F(Workflow, cancel_stops_a_long_task_first) {
+TEST_F(Workflow, CancelStopsALongTaskFirst) {
   captureAll();
   ASSERT_TRUE(calibration_.begin(Step::kSolving, "solving").success);
   EXPECT_EQ(calibration_.step(), Step::kSolving);
@@ -406,7 +413,7 @@ TEST_F(Workflow, cancel_stops_a_long_task_first) {
   EXPECT_EQ(calibration_.step(), Step::kComplete);
 }
 
-TEST_F(Workflow, samples_that_are_restored_are_the_same_samples) {
+TEST_F(Workflow, SamplesThatAreRestoredAreTheSameSamples) {
   captureAll();
   ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
   wave(2.0);

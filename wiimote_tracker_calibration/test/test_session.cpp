@@ -222,7 +222,7 @@ TEST(SolveSession, AWandNeedsNoSquare) {
   EXPECT_SAYS(solution.verdict.text, "to one another");
 }
 
-TEST(SolveSession, WhatTheSolversRefuseComesThrough) {
+TEST(SolveSession, PassesOnTheRefusalsOfTheSolvers) {
   square::Random random(6);
   const square::SimulatedSquare scene = paperScene(2, random);
   Session session = sessionOf(paperSquare(), scene.sightings);
@@ -235,7 +235,7 @@ TEST(SolveSession, WhatTheSolversRefuseComesThrough) {
   EXPECT_SAYS(refusal(), "nothing was captured");
   session.recording.cameras[0].frames.resize(200);
   EXPECT_THROW(solveSession(session, SolveOptions()), wave::WaveError);
-  EXPECT_SAYS(refusal(), "nothing tells how large the room is");
+  EXPECT_SAYS(refusal(), "the scale is not determined");
   session.masks.pop_back();
   EXPECT_SAYS(refusal(), "masks for another number of cameras");
 }
@@ -357,6 +357,20 @@ TEST(Verdict, NamesACornerThatWasDisplaced) {
   }
   EXPECT_GE(named, 36);
   EXPECT_LE(second, 2);
+}
+
+TEST(Verdict, QuestionsAnImplausibleScale) {
+  square::Random random(12);
+  const square::SimulatedSquare scene = paperScene(4, random);
+  for (const double side : {250.0, 8.2, 0.025}) {  // cm, feet, 100 m for 1 m
+    Session session = sessionOf(paperSquare(), scene.sightings);
+    session.recording.square->side_x = session.recording.square->side_y = side;
+    SolveOptions options;
+    options.square.uncertainty.placement *= side / 2.5;
+    const Verdict verdict = solveSession(session, options).verdict;
+    EXPECT_NE(verdict.grade, Grade::kGood) << side;
+    EXPECT_SAYS(verdict.text, "from the LED, but a Wii Remote sees one at 0.3 to 12 m") << side;
+  }
 }
 
 TEST(Verdict, NamesACornerThatTheWaveContradicts) {

@@ -137,6 +137,17 @@ class Guide:
         return status is not None and status.step in (
             status.CAPTURING, status.WAVING, status.SOLVING, status.MASKING, status.MEASURING)
 
+    def is_clockwise(self) -> bool:
+        """Whether the captured corners go round clockwise, as most cameras see them."""
+        votes = 0
+        for name in self.corners[0] if len(self.corners) == 4 else ():
+            places = [corner[name] for corner in self.corners if name in corner]
+            if len(places) == 4:  # twice the area, positive clockwise, since y points down
+                area = sum(a[0] * b[1] - b[0] * a[1]
+                           for a, b in zip(places, places[1:] + places[:1]))
+                votes += 1 if area > 0.0 else -1
+        return votes > 0
+
     def has_done(self, word: str) -> bool:
         """Whether a command succeeded."""
         return (word, True) in self._tried
@@ -188,6 +199,9 @@ class Guide:
             return Advice('SPACE solves.', 'solve')
         if ('wave', False) in self._tried:
             return Advice('SPACE solves from the square alone; w waves.', 'solve')
+        if self.is_clockwise():
+            return Advice('The corners go clockwise, so z will point down. Do you want that? SPACE '
+                          'goes on with the wave; n starts again, for z up.', 'wave')
         return Advice('Take the LED in your hand. SPACE begins the wave (w: with a wand; s: solve '
                       'from the square alone).', 'wave')
 

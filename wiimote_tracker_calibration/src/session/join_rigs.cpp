@@ -147,7 +147,7 @@ void checkGravity(const geometry::RigCamera& first, const geometry::RigCamera& s
   if (angle > kTurned)
     throw SessionError(first.camera.name + " was turned by " +
                        format("%.1f degrees", angle * 180.0 / M_PI) +
-                       " between both calibrations, as its accelerometer tells: calibrate one of "
+                       " between both calibrations, by its accelerometer: calibrate one of "
                        "the rooms anew");
 }
 
@@ -166,10 +166,10 @@ JoinedRigs finish(const geometry::Rig& first,
                    over;
   if (motion.degrees_of_freedom > 0)
     result.message +=
-        format("; the rigs disagree %.1f times as much as their uncertainties let expect",
+        format("; the rigs disagree %.1f times as much as expected from their uncertainties",
                std::sqrt(motion.chi_squared / motion.degrees_of_freedom));
   else
-    result.message += "; nothing checks that it did not move in between, a second one would";
+    result.message += "; a second shared camera would check that it did not move in between";
   result.rig.method = first.method + " joined with " + second.method;
   result.rig.verdict = result.message + "; first: " + first.verdict + "; second: " + second.verdict;
   result.rig.check();

@@ -27,6 +27,10 @@ constexpr double kClearLead = 9.2;
 // Least share of inliers of a camera that is good.
 constexpr double kGoodInliers = 0.8;
 
+// Mean distances of an LED from a camera that a Wii Remote can see [m].
+constexpr double kNearest = 0.3;
+constexpr double kFarthest = 12.0;
+
 std::string millimetres(double value) {
   return format("%.0f mm", 1e3 * value);
 }
@@ -145,15 +149,44 @@ Accuracy accuracyOf(const Session& session,
   return accuracy;
 }
 
+/// Asks for the scale where a camera is too far from the LED, or too near; else empty.
+std::string scaleQuestion(const Session& session,
+                          const geometry::Rig& rig,
+                          const Findings& findings) {
+  for (const geometry::RigCamera& camera : rig.cameras) {
+    double distance = 0.0;
+    for (const Eigen::Vector3d& place : findings.led)
+      distance +=
+          (place - camera.camera.center()).norm() / static_cast<double>(findings.led.size());
+    if (findings.led.empty() || (distance >= kNearest && distance <= kFarthest))
+      continue;
+    const auto& square = session.recording.square;
+    const std::string stated =
+        square
+            ? format("the sides of the square really %g m and %g m", square->side_x, square->side_y)
+            : format("the wand really %g m long", session.recording.wand->length);
+    return camera.camera.name +
+           format(" would be %.3g m from the LED, but a Wii Remote sees one at %g to %g m: is ",
+                  distance, kNearest, kFarthest) +
+           stated + "? Give lengths in metres";
+  }
+  return "";
+}
+
 /// Why the rig is not good, or empty.
-std::vector<std::string> shortcomings(const Accuracy& accuracy,
+std::vector<std::string> shortcomings(const Session& session,
+                                      const geometry::Rig& rig,
+                                      const Accuracy& accuracy,
                                       const Findings& findings,
                                       const Verdict& verdict) {
   std::vector<std::string> reasons;
+  const std::string question = scaleQuestion(session, rig, findings);
+  if (!question.empty())
+    reasons.push_back(question);
   if (!(accuracy.share <= kGoodShare))
     reasons.push_back(
         std::isnan(accuracy.share)
-            ? "nothing says how accurate it is: point two cameras or more at the square"
+            ? "its accuracy is unknown: point two cameras or more at the square"
             : "it is not as accurate as it could be: wave an LED or a wand through the volume, or "
               "use a larger square");
   for (const CameraVerdict& camera : verdict.cameras) {
@@ -170,7 +203,7 @@ std::string redoCorner(const square::SuspectCorner& suspect) {
   std::string text = "redo corner " + std::to_string(suspect.corner + 1);
   if (suspect.runner_up && suspect.lead < kClearLead)
     text += " or " + std::to_string(*suspect.runner_up + 1);
-  return text + ": by all the rest the LED was " + millimetres(suspect.distance) +
+  return text + ": the other data put the LED " + millimetres(suspect.distance) +
          " beside it; put it there again, capture that corner again and solve";
 }
 
@@ -192,7 +225,7 @@ Verdict judge(const Session& session, const geometry::Rig& rig, const Findings& 
                                              : kNan);
   }
   const Accuracy accuracy = accuracyOf(session, rig, findings, verdict);
-  const std::vector<std::string> reasons = shortcomings(accuracy, findings, verdict);
+  const std::vector<std::string> reasons = shortcomings(session, rig, accuracy, findings, verdict);
   if (findings.suspect && square::isDisplaced(*findings.suspect)) {
     verdict.grade = Grade::kRedo;
     verdict.redo_corner = findings.suspect->corner;

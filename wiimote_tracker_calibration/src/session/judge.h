@@ -7,7 +7,10 @@
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
+#include <Eigen/Core>
+
 #include <optional>
+#include <vector>
 
 namespace wiimote_tracker::session {
 
@@ -15,7 +18,8 @@ namespace wiimote_tracker::session {
 struct Findings {
   bool z_up = true;
   std::optional<square::SuspectCorner> suspect;
-  bool doubts = false;  ///< The rig's verdict has warnings about the quality.
+  bool doubts = false;               ///< The solver warned about the quality.
+  std::vector<Eigen::Vector3d> led;  ///< Where it was seen, world [m].
   /// Expected RMS error of distances between points, without a square [m].
   std::optional<double> shape_error;
 };

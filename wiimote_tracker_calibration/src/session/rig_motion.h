@@ -11,7 +11,7 @@
 
 namespace wiimote_tracker::session {
 
-/// What two rigs share: a camera, of which both know the pose, or a place. Derivatives are by all
+/// A camera or a place that two rigs share. Derivatives are by all
 /// parameters of a rig; their rows are the rotation, of a camera only, then the position.
 struct Shared {
   Eigen::Isometry3d in_first;   ///< [m]
@@ -42,7 +42,7 @@ RigMotion fitMotion(const geometry::Rig& first,
                     const std::vector<Shared>& shared,
                     const Eigen::Isometry3d& start);
 
-/// Index of the shared thing without which the rest fits best.
+/// Index of the shared camera or place without which the rest fits best.
 std::size_t oddOneOut(const geometry::Rig& first,
                       const geometry::Rig& second,
                       const std::vector<Shared>& shared,

@@ -32,6 +32,11 @@ std::vector<square::CameraSightings> sightingsOf(const wave::Recording& recordin
   return cameras;
 }
 
+/// Whether a warning concerns the quality. The one that z points down does not.
+bool hasDoubts(const std::vector<std::string>& warnings, bool z_up) {
+  return warnings.size() > (z_up ? 0U : 1U);
+}
+
 Solved solveFromWave(const wave::Recording& recording,
                      const SolveOptions& options,
                      const wave::ProgressCallback& progress) {
@@ -42,7 +47,8 @@ Solved solveFromWave(const wave::Recording& recording,
   solved.rig = std::move(solution.rig);
   solved.findings.z_up = solution.z_up;
   solved.findings.suspect = solution.suspect;
-  solved.findings.doubts = !solution.warnings.empty();
+  solved.findings.doubts = hasDoubts(solution.warnings, solution.z_up);
+  solved.findings.led = std::move(solution.path);
   if (solution.gauge == wave::Gauge::kFirstCamera)
     solved.findings.shape_error = solution.expected_shape_error;
   if (options.correct_principal_points)
@@ -51,12 +57,7 @@ Solved solveFromWave(const wave::Recording& recording,
   return solved;
 }
 
-/// Whether a warning concerns the quality. The one that z points down does not.
-bool hasDoubts(const std::vector<std::string>& warnings, bool z_up) {
-  return warnings.size() > (z_up ? 0U : 1U);
-}
-
-/// By each camera's pose from the square; then with corrected principal points if asked for.
+/// Solves the square, with corrected principal points if the options ask for it.
 Solved solveFromSquare(const square::SquareLayout& layout,
                        const std::vector<square::CameraSightings>& cameras,
                        const SolveOptions& options,
@@ -66,6 +67,8 @@ Solved solveFromSquare(const square::SquareLayout& layout,
   const square::SquareSolution solution = square::solveSquare(layout, cameras, options.square);
   Solved solved;
   solved.findings.suspect = solution.suspect;
+  const square::Corners corners = layout.corners(solution.z_up);
+  solved.findings.led.assign(corners.begin(), corners.end());
   if (!options.correct_principal_points) {
     solved.rig = solution.rig;
     solved.findings.z_up = solution.z_up;

@@ -36,9 +36,8 @@ struct Solution {
   std::optional<principal_point::Trace> trace;  ///< Of the correction, if it was done.
 };
 
-/// Solves a session that has a wave or a wand with wave::solveWave(), and another one from its
-/// square with the method of the options. The same session and options give the same solution, bit
-/// for bit.
+/// Solves a session with wave::solveWave() if it has a wave or a wand, else from its square with
+/// the method of the options. The same session and options give the same solution, bit for bit.
 /// @throws square::SquareError, wave::WaveError, principal_point::CorrectionError as these solvers
 /// do; SessionError: neither square nor wave. wave::Cancelled: `progress` asked to stop.
 Solution solveSession(const Session& session,

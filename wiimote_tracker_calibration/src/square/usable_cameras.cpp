@@ -119,9 +119,7 @@ UsableCameras usableCameras(const std::vector<CameraSightings>& cameras) {
                       "LED; check these cameras and capture the corners again");
   usable.z_up = names.count(CornerOrder::kCounterClockwise) > 0;
   if (!usable.z_up)
-    usable.warnings.push_back(
-        "z points down, because the corners were taken clockwise seen from above; take them "
-        "counter-clockwise to get z up");
+    usable.warnings.emplace_back(kZDown);
   return usable;
 }
 

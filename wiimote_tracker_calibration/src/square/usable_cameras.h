@@ -8,7 +8,12 @@
 
 namespace wiimote_tracker::square {
 
-/// The cameras that saw enough of the corners, and which way round.
+/// The warning of clockwise corners.
+constexpr const char* kZDown =
+    "z points down, because the corners were captured clockwise seen from above; capture them "
+    "counter-clockwise to get z up";
+
+/// The cameras that saw enough of the corners, and the direction of the corners.
 struct UsableCameras {
   std::vector<CameraSightings> cameras;
   bool z_up = true;  ///< The corners go round counter-clockwise seen from above.
@@ -16,7 +21,7 @@ struct UsableCameras {
 };
 
 /// Leaves out cameras that miss corners (with a warning), unless they saw three of them and know
-/// gravity, and checks the order of the corners in every image, on the grounds that all cameras are
+/// gravity, and checks the order of the corners in every image, assuming that all cameras are
 /// above the floor.
 /// @throws SquareError as solveSquare().
 UsableCameras usableCameras(const std::vector<CameraSightings>& cameras);

@@ -1,6 +1,7 @@
 #include "checks.h"
 
 #include "square/lens_prior.h"
+#include "square/usable_cameras.h"
 #include "wave/error.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -15,10 +16,10 @@ namespace wiimote_tracker::wave {
 
 namespace {
 
-// Longer recordings are no better, and are more likely a clock that jumped [s].
+// Longer recordings are not better, and probably contain a jump of a clock [s].
 constexpr double kLongest = 900.0;
 constexpr double kShortest = 2.0;
-// Sightings of one camera below which nothing can be said of it.
+// Fewest sightings of one camera that determine it.
 constexpr std::size_t kLeastSightings = 100;
 // Share of a camera's sightings that must fit to the others'.
 constexpr double kLeastShare = 0.5;
@@ -27,7 +28,7 @@ constexpr double kLeastShare = 0.5;
 constexpr double kThinnest = 0.05;
 // Residuals this many times larger than stated are refused.
 constexpr double kRefuseRatio = 4.0;
-// Deviations from what was stated that are worth a word, or no chance [standard deviations].
+// Deviations from stated values that are reported, and refused [standard deviations].
 constexpr double kWarnDeviation = 4.0;
 constexpr double kRefuseDeviation = 10.0;
 constexpr double kLensLimit = 5.0;
@@ -83,10 +84,10 @@ void checkFrames(const CameraRecording& camera, bool wand) {
 void checkInput(const Recording& recording, const WaveOptions& options) {
   checkOptions(options);
   if (recording.cameras.size() < 2)
-    throw WaveError("one camera alone cannot tell depth: use two or more");
+    throw WaveError("one camera alone does not determine depth: use two or more");
   if (!recording.square && !recording.wand)
     throw WaveError(
-        "nothing tells how large the room is: capture the corners of a square, or wave a wand of "
+        "the scale is not determined: capture the corners of a square, or wave a wand of "
         "known length");
   if (recording.square)
     recording.square->check();
@@ -203,8 +204,11 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
                       ": wave faster than the " + format("%.1f m/s", solution->median_speed) +
                       " it was, and longer where it sees the LED");
   }
-  if (recording.square)
+  if (recording.square) {
+    if (!solution->z_up)
+      solution->warnings.emplace_back(square::kZDown);
     checkCorners(options.uncertainty.placement, solution);
+  }
   if (recording.wand) {
     const double off = solution->wand_length - recording.wand->length;
     if (recording.square && std::abs(off) > kWarnDeviation * recording.wand->stddev)

@@ -1,5 +1,7 @@
 #include "workflow/square_run.h"
 
+#include "square/corner_order.h"
+
 namespace wiimote_tracker::workflow {
 
 namespace {
@@ -15,7 +17,7 @@ std::string cornerName(std::size_t corner) {
 
 Reply SquareRun::begin(std::optional<std::size_t> retake, double now) {
   if (retake && *retake >= corners_.size())
-    return {false, cornerName(*retake) + " cannot be taken again, " +
+    return {false, cornerName(*retake) + " cannot be captured again, " +
                        std::to_string(corners_.size()) +
                        " are captured so far: take the next corner, or retake one of those"};
   if (!retake && isComplete())
@@ -77,8 +79,29 @@ Reply SquareRun::undo() {
 
 std::string SquareRun::next() const {
   if (isComplete())
-    return "all four corners are there: wave the LED through the volume, or solve";
+    return std::string("all four corners are there") +
+           (isClockwise()
+                ? ", clockwise seen from above, so that z will point down: start again and "
+                  "capture them counter-clockwise for z up, or go on; "
+                : ": ") +
+           "wave the LED through the volume, or solve";
   return "put the LED on " + cornerName(corners_.size()) + " and capture it";
+}
+
+bool SquareRun::isClockwise() const {
+  constexpr double kTolerance = 3.0;  // [px]
+  for (const std::string& camera : cameras_) {
+    std::vector<Eigen::Vector2d> pixels;
+    for (const capture::CapturedCorner& corner : corners_) {
+      const auto view = corner.find(camera);
+      if (view != corner.end())
+        pixels.push_back(view->second.pixel);
+    }
+    if (pixels.size() == kCorners &&
+        square::cornerOrder(pixels, kTolerance) == square::CornerOrder::kClockwise)
+      return true;
+  }
+  return false;
 }
 
 std::optional<std::size_t> SquareRun::cornerInSamePlace(

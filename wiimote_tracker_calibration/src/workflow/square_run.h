@@ -30,7 +30,7 @@ class SquareRun {
   /// Advances the time when no image does.
   void update(double now);
 
-  /// Gives up the capture that goes on, if there is one.
+  /// Ends the running capture, if any.
   void abandon(const std::string& why);
 
   /// Drops the corner that was captured last.
@@ -43,9 +43,9 @@ class SquareRun {
   const std::vector<capture::CapturedCorner>& corners() const { return corners_; }
   /// The corner that is being captured or was last, counted from 0.
   std::size_t currentCorner() const { return current_corner_; }
-  /// The capture that goes on, if there is one.
+  /// The running capture, if any.
   const std::optional<capture::CornerCapture>& capture() const { return capture_; }
-  /// How the last capture ended; nothing while it goes on, and before the first.
+  /// How the last capture ended; nothing while it is running, and before the first.
   const std::optional<Reply>& outcome() const { return outcome_; }
   /// What to do next, one sentence.
   std::string next() const;
@@ -53,6 +53,8 @@ class SquareRun {
  private:
   void finish();
   void end(const Reply& outcome);
+  /// Whether the corners go round clockwise in some camera's image.
+  bool isClockwise() const;
   std::optional<std::size_t> cornerInSamePlace(const capture::CapturedCorner& corner) const;
 
   std::vector<std::string> cameras_;

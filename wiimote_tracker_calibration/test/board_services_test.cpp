@@ -146,7 +146,7 @@ std::unique_ptr<Bench> g_bench;
 
 // In the order in which they stand: each continues where the one before ended.
 
-TEST(Board, a_person_without_a_start_is_told_to_start) {
+TEST(Board, RequestsBeforeStartAreRefusedWithAdvice) {
   for (const std::string service : {"undo", "cancel", "commit"}) {
     const auto response = g_bench->trigger(service);
     EXPECT_FALSE(response.success);
@@ -156,7 +156,7 @@ TEST(Board, a_person_without_a_start_is_told_to_start) {
   EXPECT_SAYS(g_bench->start("wiimote_9").message, "no image of wiimote_9 has come");
 }
 
-TEST(Board, views_are_taken_by_themselves) {
+TEST(Board, ViewsAreCapturedAutomatically) {
   ASSERT_TRUE(Bench::repeatUntil([] { return g_bench->start("wiimote_1").success; },
                                  [] { g_bench->hold(Eigen::Isometry3d::Identity()); }));
   EXPECT_FALSE(g_bench->start("wiimote_1", -0.1).success);
@@ -182,7 +182,7 @@ TEST(Board, views_are_taken_by_themselves) {
   EXPECT_FALSE(g_bench->trigger("undo").success);
 }
 
-TEST(Board, a_lens_comes_from_the_views_with_its_uncertainty) {
+TEST(Board, ALensComesFromTheViewsWithItsUncertainty) {
   ASSERT_TRUE(g_bench->showUntilEnough())
       << g_bench->status_.views << " views; " << g_bench->status_.message;
   for (const double bar :
@@ -209,7 +209,7 @@ TEST(Board, a_lens_comes_from_the_views_with_its_uncertainty) {
   EXPECT_SAYS(g_bench->solve(99).message, "no lens model 99");
 }
 
-TEST(Board, a_fisheye_is_had_for_the_asking) {
+TEST(Board, AFisheyeModelCanBeRequested) {
   const auto solved = g_bench->solve(SolveBoard::Request::EQUIDISTANT);
   ASSERT_TRUE(solved.success) << solved.message;
   EXPECT_EQ(solved.camera_info.distortion_model, "equidistant");
@@ -217,7 +217,7 @@ TEST(Board, a_fisheye_is_had_for_the_asking) {
   EXPECT_EQ(solved.stddev.size(), 8U);
 }
 
-TEST(Board, commit_gives_the_lens_to_the_driver) {
+TEST(Board, CommitGivesTheLensToTheDriver) {
   const auto solved = g_bench->solve(SolveBoard::Request::K1);
   ASSERT_TRUE(solved.success) << solved.message;
   const auto committed = g_bench->trigger("commit");

@@ -46,7 +46,7 @@ class Beyond : public Node {
   }
 };
 
-TEST_F(Beyond, a_wave_is_recorded_with_its_coverage_and_solved_with_the_square) {
+TEST_F(Beyond, AWaveIsRecordedWithItsCoverageAndSolvedWithTheSquare) {
   EXPECT_FALSE(call<StartWave>("calibration/start_wave").success);
   EXPECT_SAYS(call<std_srvs::Trigger>("calibration/stop_wave").message, "no wave");
   captureAll();
@@ -80,7 +80,7 @@ TEST_F(Beyond, a_wave_is_recorded_with_its_coverage_and_solved_with_the_square) 
   }
 }
 
-TEST_F(Beyond, lamps_are_learned_masked_and_go_into_the_rig) {
+TEST_F(Beyond, LampsAreLearnedMaskedAndStoredInTheRig) {
   const Eigen::Vector3d lamp(0.4, 1.9, 1.4);
   cameras_->setLamps({lamp});
   cameras_->switchLed(false);
@@ -137,12 +137,12 @@ TEST_F(Beyond, lamps_are_learned_masked_and_go_into_the_rig) {
   cameras_->switchLed(true);
 }
 
-TEST_F(Beyond, the_button_of_a_spare_remote_captures) {
+TEST_F(Beyond, TheButtonOfASpareRemoteCaptures) {
   wiimote_tracker_msgs::StartCalibration::Request request;
   request.side_x = 2.5;
   request.cameras = {"camera_1", "camera_2", "spare"};
   EXPECT_SAYS(call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request).message,
-              "pressing moves it");
+              "moves when its button is pressed");
   ASSERT_TRUE(start(2.5).success);
   putLed(kCorners[0]);
   ros::NodeHandle nh;
@@ -161,7 +161,7 @@ TEST_F(Beyond, the_button_of_a_spare_remote_captures) {
   EXPECT_SAYS(status_->get()->message, "corner 1 captured by 4 of 4");
 }
 
-TEST_F(Beyond, a_driver_that_does_not_answer_holds_up_no_saving) {
+TEST_F(Beyond, ADriverThatDoesNotAnswerDoesNotDelaySaving) {
   captureAll();
   ASSERT_TRUE(call<SolveCalibration>("calibration/solve").success);
   cameras_->hang("camera_3");
@@ -187,7 +187,7 @@ class BagWriter : public Recorder {
   rosbag::Bag bag_;
 };
 
-TEST_F(Beyond, a_bag_gives_the_same_rig_as_life) {
+TEST_F(Beyond, ABagGivesTheSameRigAsLiveImages) {
   // Live: hands-free, and recorded.
   const std::string path = folder_ + "/session.bag";
   cameras_->switchLed(false);

@@ -5,7 +5,7 @@
 namespace wiimote_tracker {
 namespace {
 
-TEST_F(Node, a_person_without_a_rig_is_told_what_to_do) {
+TEST_F(Node, RequestsWithoutARigAreRefusedWithAdvice) {
   EXPECT_TRUE(status_->get()->rig_id.empty());
   EXPECT_EQ(status_->get()->step, CalibrationStatus::IDLE);
   EXPECT_EQ(status_->get()->header.frame_id, "world");
@@ -19,7 +19,7 @@ TEST_F(Node, a_person_without_a_rig_is_told_what_to_do) {
   EXPECT_SAYS(call<std_srvs::Trigger>("calibration/undo").message, "no captured corner");
 }
 
-TEST_F(Node, the_connection_check_names_the_cameras_that_fail) {
+TEST_F(Node, TheConnectionCheckNamesTheCamerasThatFail) {
   putLed(kCorners[0]);
   wiimote_tracker_msgs::CheckConnection::Request request;
   request.duration = 0.3;
@@ -44,7 +44,7 @@ TEST_F(Node, the_connection_check_names_the_cameras_that_fail) {
       call<wiimote_tracker_msgs::CheckConnection>("calibration/check_connection", request).success);
 }
 
-TEST_F(Node, sides_must_be_lengths) {
+TEST_F(Node, SidesMustBeLengths) {
   const auto zero = start(0.0);
   EXPECT_FALSE(zero.success);
   EXPECT_SAYS(zero.message, "side_length");
@@ -60,7 +60,7 @@ TEST_F(Node, sides_must_be_lengths) {
               "there is no camera camera_9");
 }
 
-TEST_F(Node, bad_input_on_the_way_loses_nothing) {
+TEST_F(Node, BadInputBetweenStepsLosesNothing) {
   const auto started = start(2.5, 2.0);
   ASSERT_TRUE(started.success) << started.message;
   EXPECT_TRUE(waitForStep(CalibrationStatus::READY));
@@ -122,7 +122,7 @@ TEST_F(Node, bad_input_on_the_way_loses_nothing) {
   EXPECT_TRUE(waitForStep(CalibrationStatus::IDLE));
 }
 
-TEST_F(Node, a_capture_can_be_called_off_and_cancelled) {
+TEST_F(Node, ACaptureCanBePreemptedAndCancelled) {
   ASSERT_TRUE(start(2.5).success);
   cameras_->blind({"camera_1", "camera_2", "camera_3", "camera_4"});
   capture_->sendGoal(wiimote_tracker_msgs::CaptureCornerGoal());
@@ -143,7 +143,7 @@ TEST_F(Node, a_capture_can_be_called_off_and_cancelled) {
   EXPECT_TRUE(waitForStep(CalibrationStatus::IDLE));
 }
 
-TEST_F(Node, four_corners_are_solved_saved_and_loaded) {
+TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
   captureAll();
   EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));
   const auto solved = call<wiimote_tracker_msgs::SolveCalibration>("calibration/solve");
@@ -232,7 +232,7 @@ TEST_F(Node, four_corners_are_solved_saved_and_loaded) {
   EXPECT_SAYS(loaded.message, solved.rig.id);
 }
 
-TEST_F(Node, the_last_saved_rig_is_loaded_at_start) {
+TEST_F(Node, TheLastSavedRigIsLoadedAtStart) {
   ASSERT_TRUE(exists(folder_ + "/rig.yaml"));  // from the test before
   const Process process("/stored", {"_rig_file:=" + folder_ + "/rig.yaml"});
   Latest<RigCalibration> rig("/stored/calibration/rig");
@@ -242,7 +242,7 @@ TEST_F(Node, the_last_saved_rig_is_loaded_at_start) {
   EXPECT_EQ(status.get()->step, CalibrationStatus::SAVED);
 }
 
-TEST_F(Node, a_damaged_rig_at_start_does_not_stop_the_node) {
+TEST_F(Node, ADamagedRigAtStartDoesNotStopTheNode) {
   ASSERT_TRUE(exists(folder_ + "/half.yaml"));  // from the test before
   const Process process("/damaged", {"_rig_file:=" + folder_ + "/half.yaml"});
   Latest<CalibrationStatus> status("/damaged/calibration/status");
@@ -267,7 +267,7 @@ std::pair<int, std::string> outcomeOf(const std::string& environment,
   return {WEXITSTATUS(pclose(pipe)), output};
 }
 
-TEST_F(Node, bad_parameters_and_a_missing_master_end_it_with_a_sentence) {
+TEST_F(Node, BadParametersAndAMissingMasterEndItWithASentence) {
   auto outcome = outcomeOf("", "_side_lenght:=2.5");
   EXPECT_EQ(outcome.first, 1);
   EXPECT_SAYS(outcome.second, "/refused/calibration/side_lenght");

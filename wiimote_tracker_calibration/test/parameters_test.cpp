@@ -20,7 +20,7 @@ void expectSame(const geometry::Intrinsics& a, const geometry::Intrinsics& b) {
   EXPECT_EQ(a.distortion, b.distortion);
 }
 
-TEST(Parameters, the_file_says_what_the_defaults_are) {
+TEST(Parameters, TheFileSaysWhatTheDefaultsAre) {
   const Parameters file = readParameters(ParameterReader(ros::NodeHandle("~from_file")));
   const Parameters none = readParameters(ParameterReader(ros::NodeHandle("~nothing")));
   EXPECT_EQ(file.cameras, none.cameras);
@@ -85,7 +85,7 @@ TEST(Parameters, the_file_says_what_the_defaults_are) {
   EXPECT_EQ(a.world_frame, b.world_frame);
 }
 
-TEST(Parameters, single_cameras_can_have_their_own_intrinsics) {
+TEST(Parameters, SingleCamerasCanHaveTheirOwnIntrinsics) {
   const Parameters own = readParameters(ParameterReader(ros::NodeHandle("~own")));
   EXPECT_EQ(own.intrinsicsOf("wiimote_1").fx, 1298.0);
   EXPECT_EQ(own.intrinsicsOf("wiimote_1").width, 640);
@@ -98,7 +98,7 @@ TEST(Parameters, single_cameras_can_have_their_own_intrinsics) {
   EXPECT_EQ(fisheye.distortion[4], 0.0);
 }
 
-TEST(Parameters, what_the_paper_does_can_be_chosen) {
+TEST(Parameters, WhatThePaperDoesCanBeChosen) {
   const Parameters paper = readParameters(ParameterReader(ros::NodeHandle("~paper")));
   EXPECT_EQ(paper.solve.square.method, square::Method::kPerCamera);
   EXPECT_TRUE(paper.solve.correct_principal_points);
@@ -107,7 +107,7 @@ TEST(Parameters, what_the_paper_does_can_be_chosen) {
   EXPECT_EQ(paper.solve.virtual_hfov, 0.7156);
 }
 
-TEST(Parameters, bad_values_are_refused_by_name) {
+TEST(Parameters, BadValuesAreRefusedByName) {
   for (const std::string key : {"short", "word", "mounted", "fisheye"}) {
     try {
       readParameters(ParameterReader(ros::NodeHandle("~" + key)));

@@ -99,7 +99,7 @@ TEST_F(CalibratedNode, ChecksAKnownPlace) {
   EXPECT_SAYS(response.message, "camera_2 contradicts");
 }
 
-TEST_F(CalibratedNode, SaysWhyAPlaceIsNotMeasured) {
+TEST_F(CalibratedNode, RefusesAMeasurementWithTheReason) {
   load(trueRig());
   putLed({1.0, 0.8, 0.3});
   cameras_->blind({"camera_1", "camera_2", "camera_3"});

@@ -56,7 +56,7 @@ class Samples : public Node {
   }
 };
 
-TEST_F(Samples, without_any_there_is_nothing_to_save_and_a_failed_load_changes_nothing) {
+TEST_F(Samples, NothingToSaveIsRefusedAndAFailedLoadChangesNothing) {
   EXPECT_SAYS(save("").message, "nothing was captured");
   EXPECT_SAYS(load("", "").message, folder_ + "/samples.yaml");
   ASSERT_TRUE(start(2.5).success);
@@ -80,7 +80,7 @@ TEST_F(Samples, without_any_there_is_nothing_to_save_and_a_failed_load_changes_n
   EXPECT_EQ(captured.corner, 1U);
 }
 
-TEST_F(Samples, solved_again_they_give_the_identical_rig) {
+TEST_F(Samples, SolvedAgainTheyGiveTheIdenticalRig) {
   captureSquareAndWave();
   const auto live = call<SolveCalibration>("calibration/solve");
   ASSERT_TRUE(live.success) << live.message;
@@ -116,7 +116,7 @@ std::pair<int, std::string> solveSamples(const std::string& arguments) {
   return {WEXITSTATUS(pclose(pipe)), output};
 }
 
-TEST_F(Samples, are_solved_without_the_node_by_its_parameters) {
+TEST_F(Samples, AreSolvedWithoutTheNodeByItsParameters) {
   ASSERT_TRUE(load("", "").success);  // of the test before
   const auto live = call<SolveCalibration>("calibration/solve");
   ASSERT_TRUE(live.success) << live.message;
@@ -142,7 +142,7 @@ TEST_F(Samples, are_solved_without_the_node_by_its_parameters) {
   EXPECT_EQ(solveSamples(samples + "/absent.yaml'").first, 1);
 }
 
-TEST_F(Samples, a_cancelled_solver_stops_and_nothing_is_lost) {
+TEST_F(Samples, ACancelledSolverStopsAndNothingIsLost) {
   ASSERT_TRUE(load("", "").success);  // of the test before
   // Whoever is too late to stop the solver loses nothing either, and may try again.
   SolveCalibration::Response response;
@@ -230,7 +230,7 @@ class Rooms : public Node {
   }
 };
 
-TEST_F(Rooms, are_joined_over_the_cameras_that_they_share) {
+TEST_F(Rooms, AreJoinedOverTheCamerasThatTheyShare) {
   use(room({2, 3}, secondWorld()));
   geometry::writeRigFile(room({0, 1, 2}, Eigen::Isometry3d::Identity()), folder_ + "/first.yaml");
   EXPECT_SAYS(join("missing.yaml").message, "missing.yaml");
@@ -245,7 +245,7 @@ TEST_F(Rooms, are_joined_over_the_cameras_that_they_share) {
   EXPECT_TRUE(waitForStep(CalibrationStatus::SOLVED));  // and not saved yet
 }
 
-TEST_F(Rooms, without_a_shared_camera_are_joined_over_known_places) {
+TEST_F(Rooms, WithoutASharedCameraAreJoinedOverKnownPlaces) {
   geometry::writeRigFile(room({0, 1}, Eigen::Isometry3d::Identity()), folder_ + "/first.yaml");
   use(room({2, 3}, secondWorld()));
   EXPECT_SAYS(join("first.yaml").message, "share no camera");

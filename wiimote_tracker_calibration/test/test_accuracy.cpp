@@ -67,7 +67,7 @@ Eigen::Matrix<double, 6, 6> poseBound(const geometry::Camera& camera,
   return information.inverse();
 }
 
-TEST(Accuracy, one_camera_reaches_the_cramer_rao_bound_and_opencv) {
+TEST(Accuracy, OneCameraReachesTheCramerRaoBoundAndOpencv) {
   constexpr int kTrials = 1000;
   constexpr double kPixel = 0.5;
   const SquareLayout layout = paperSquare();
@@ -201,7 +201,7 @@ Nees neesOf(Method method, const Uncertainty& uncertainty, int rigs) {
 
 class Consistency : public ::testing::TestWithParam<Method> {};
 
-TEST_P(Consistency, joint_covariance_is_exact_for_small_errors) {
+TEST_P(Consistency, JointCovarianceIsExactForSmallErrors) {
   Uncertainty small;
   for (double* stddev : {&small.pixel, &small.placement, &small.focal, &small.aspect,
                          &small.principal_point, &small.k1, &small.gravity})
@@ -213,7 +213,7 @@ TEST_P(Consistency, joint_covariance_is_exact_for_small_errors) {
   EXPECT_NEAR(nees.pose, 1.0, 4.0 * nees.pose_stddev);
 }
 
-TEST_P(Consistency, covariance_of_the_pose_holds_for_errors_of_real_size) {
+TEST_P(Consistency, CovarianceOfThePoseHoldsForErrorsOfRealSize) {
   // Not so the covariance of everything at once: lenses that are off by 3 % and 15 px move the
   // narrowest directions (pixels of the corners, known to 0.2 px) beyond what is linear.
   const Nees nees = neesOf(GetParam(), Uncertainty(), 200);
@@ -285,7 +285,7 @@ void addErrors(const SimulatedSquare& simulated, const geometry::Rig& rig, Point
   errors->count += 10;
 }
 
-TEST(Accuracy, joint_beats_per_camera_and_both_know_their_error) {
+TEST(Accuracy, JointIsMoreAccurateThanPerCameraAndBothStateTheirError) {
   // The paper's rig, 2 and 4 cameras; 5 mm corners, and lenses as uncertain as assumed.
   for (const std::size_t count : {std::size_t{2}, std::size_t{4}}) {
     PointErrors errors[2];

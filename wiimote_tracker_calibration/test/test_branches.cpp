@@ -49,7 +49,7 @@ std::string solveOrRefusal(const SquareLayout& layout,
   }
 }
 
-TEST(Branches, both_are_found_and_the_other_is_the_mirror_image_at_the_line_of_sight) {
+TEST(Branches, BothAreFoundAndTheOtherIsTheMirrorImageAtTheLineOfSight) {
   Random random(1);
   const SquareLayout layout = squareOf(0.3);
   const Eigen::Isometry3d pose = poseFrom(layout, 5.0, 40.0 * kDegree, 0.3);
@@ -70,7 +70,7 @@ TEST(Branches, both_are_found_and_the_other_is_the_mirror_image_at_the_line_of_s
   EXPECT_LT(std::acos(std::min(1.0, mirrored.dot(other))), 3.0 * kDegree);
 }
 
-TEST(Branches, every_fit_is_a_stationary_point_of_the_reprojection_error) {
+TEST(Branches, EveryFitIsAStationaryPointOfTheReprojectionError) {
   Random random(2);
   const SquareLayout layout = squareOf(0.6);
   for (int trial = 0; trial < 50; ++trial) {
@@ -101,7 +101,7 @@ TEST(Branches, every_fit_is_a_stationary_point_of_the_reprojection_error) {
   }
 }
 
-TEST(Branches, ambiguous_cameras_without_gravity_are_refused_with_an_explanation) {
+TEST(Branches, AmbiguousCamerasWithoutGravityAreRefusedWithAnExplanation) {
   Random random(3);
   const SquareLayout layout = squareOf(0.2);
   Errors errors;
@@ -115,7 +115,7 @@ TEST(Branches, ambiguous_cameras_without_gravity_are_refused_with_an_explanation
   EXPECT_NE(text.find("accelerometer"), std::string::npos) << text;
 }
 
-TEST(Branches, gravity_resolves_what_the_square_cannot) {
+TEST(Branches, GravityResolvesWhatTheSquareCannot) {
   Random random(4);
   const SquareLayout layout = squareOf(0.3);
   Errors errors;
@@ -131,7 +131,7 @@ TEST(Branches, gravity_resolves_what_the_square_cannot) {
   }
 }
 
-TEST(Branches, the_other_cameras_resolve_a_camera_that_cannot_tell) {
+TEST(Branches, TheOtherCamerasResolveACameraThatCannotTell) {
   // The corners were put down badly, and just so that the far camera alone takes the wrong branch.
   // Cameras near by see the displacement, and with it the far camera's branch is clear.
   Random random(6);
@@ -165,7 +165,7 @@ TEST(Branches, the_other_cameras_resolve_a_camera_that_cannot_tell) {
   EXPECT_GE(misled_alone, 3);
 }
 
-TEST(Branches, a_wrong_branch_is_not_returned) {
+TEST(Branches, AWrongBranchIsNotReturned) {
   // All sorts of far and near, steep and flat cameras, with and without gravity: right or refused.
   // At odds of 100 a wrong choice among those that are close is possible, but rare.
   Random random(7);

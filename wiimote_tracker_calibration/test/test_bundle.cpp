@@ -53,7 +53,7 @@ std::string refusal(const std::vector<geometry::Camera>& cameras,
   return "was not refused";
 }
 
-TEST(Bundle, recoversARigFromExactPixels) {
+TEST(Bundle, RecoversARigFromExactPixels) {
   for (const std::size_t camera_count : {2u, 3u, 4u, 8u}) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
       SCOPED_TRACE(std::to_string(camera_count) + " cameras, seed " + std::to_string(seed));
@@ -77,7 +77,7 @@ TEST(Bundle, recoversARigFromExactPixels) {
   }
 }
 
-TEST(Bundle, solvesWithWideAngleLenses) {
+TEST(Bundle, SolvesWithWideAngleLenses) {
   SyntheticRig rig(3, 100, 4);
   for (geometry::Camera& camera : rig.cameras) {
     camera.intrinsics.distortion_model = geometry::DistortionModel::kEquidistant;
@@ -92,7 +92,7 @@ TEST(Bundle, solvesWithWideAngleLenses) {
         solution.cameras[i].world_from_camera.isApprox(rig.cameras[i].world_from_camera, 1e-7));
 }
 
-TEST(Bundle, residualsAreAsLargeAsTheNoise) {
+TEST(Bundle, ResidualsAreAsLargeAsTheNoise) {
   const double kNoise = 0.4;  // px
   const SyntheticRig exact(4, 400, 5);
   SyntheticRig rig = exact;
@@ -114,7 +114,7 @@ TEST(Bundle, residualsAreAsLargeAsTheNoise) {
   EXPECT_GT(all.inliers, all.observations * 99 / 100);
 }
 
-TEST(Bundle, grossErrorsAreFoundAndDoNoHarm) {
+TEST(Bundle, GrossErrorsAreFoundAndDoNoHarm) {
   SyntheticRig rig(4, 300, 6);
   rig.addNoise(0.2);
   std::vector<bool> spoiled(rig.observations.size(), false);
@@ -137,7 +137,7 @@ TEST(Bundle, grossErrorsAreFoundAndDoNoHarm) {
     EXPECT_LT((solution.cameras[i].center() - rig.cameras[i].center()).norm(), 0.01);
 }
 
-TEST(Bundle, isTheSameOnEveryRun) {
+TEST(Bundle, IsDeterministic) {
   SyntheticRig rig(3, 100, 7);
   rig.addNoise(0.3);
   const Reconstruction a =
@@ -148,7 +148,7 @@ TEST(Bundle, isTheSameOnEveryRun) {
     EXPECT_EQ(a.cameras[i].world_from_camera.matrix(), b.cameras[i].world_from_camera.matrix());
 }
 
-TEST(Bundle, aCameraNeedNotShareAnythingWithTheFirst) {
+TEST(Bundle, ACameraNeedNotShareAnythingWithTheFirst) {
   // A chain: the first and the last camera never see the same point.
   SyntheticRig rig(4, 400, 8);
   rig.addNoise(0.2);
@@ -167,7 +167,7 @@ TEST(Bundle, aCameraNeedNotShareAnythingWithTheFirst) {
     EXPECT_LT((solution.cameras[i].center() - rig.cameras[i].center()).norm(), 0.02);
 }
 
-TEST(Bundle, heldPositionsStayAndOrientationsAreFound) {
+TEST(Bundle, HeldPositionsStayAndOrientationsAreFound) {
   const SyntheticRig rig(4, 200, 9);
   Reconstruction start;
   start.cameras = rig.cameras;
@@ -192,7 +192,7 @@ TEST(Bundle, heldPositionsStayAndOrientationsAreFound) {
   }
 }
 
-TEST(Bundle, heldCamerasStayAndPointsAreFound) {
+TEST(Bundle, HeldCamerasStayAndPointsAreFound) {
   const SyntheticRig rig(3, 50, 18);
   Reconstruction start;
   start.cameras = rig.cameras;
@@ -217,7 +217,7 @@ TEST(Bundle, heldCamerasStayAndPointsAreFound) {
     EXPECT_LT((found[i] - truth[i]).norm(), 1e-8);
 }
 
-TEST(Bundle, refusesWhatCannotBeSolved) {
+TEST(Bundle, RefusesWhatCannotBeSolved) {
   const SyntheticRig rig(3, 60, 10);
   EXPECT_NE(refusal({rig.cameras[0]}, {}, 0).find("two cameras or more"), std::string::npos);
 
@@ -230,13 +230,13 @@ TEST(Bundle, refusesWhatCannotBeSolved) {
   EXPECT_NE(refusal(rig.cameras, rig.observations, 59).find("names point 59"), std::string::npos);
 }
 
-TEST(Bundle, refusesTooFewPoints) {
+TEST(Bundle, RefusesTooFewPoints) {
   const SyntheticRig rig(3, 7, 11);
   EXPECT_NE(refusal(rig.withoutPoses(), rig.observations, 7).find("10 or more points in common"),
             std::string::npos);
 }
 
-TEST(Bundle, refusesACameraWithoutTieAndNamesIt) {
+TEST(Bundle, RefusesACameraWithoutCommonPointsAndNamesIt) {
   const SyntheticRig rig(4, 200, 12);
   std::vector<Observation> split;
   for (const Observation& observation : rig.observations) {
@@ -248,7 +248,7 @@ TEST(Bundle, refusesACameraWithoutTieAndNamesIt) {
   EXPECT_NE(text.find("camera_3 shares 0 points"), std::string::npos) << text;
 }
 
-TEST(Bundle, refusesPointsOnALine) {
+TEST(Bundle, RefusesPointsOnALine) {
   SyntheticRig rig(3, 80, 13);
   for (std::size_t i = 0; i < rig.points.size(); ++i) {
     const double s = static_cast<double>(i) / static_cast<double>(rig.points.size());
@@ -259,7 +259,7 @@ TEST(Bundle, refusesPointsOnALine) {
   EXPECT_NE(text.find("spread over the room"), std::string::npos) << text;
 }
 
-TEST(Bundle, refusesCamerasInOnePlace) {
+TEST(Bundle, RefusesCamerasInOnePlace) {
   SyntheticRig rig(2, 100, 14);
   rig.cameras[1].world_from_camera = rig.cameras[0].world_from_camera;
   rig.cameras[1].world_from_camera.rotate(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY()));
@@ -268,7 +268,7 @@ TEST(Bundle, refusesCamerasInOnePlace) {
   EXPECT_NE(text.find("do not stand in one place"), std::string::npos) << text;
 }
 
-TEST(Bundle, refusesIntrinsicsThatCannotBe) {
+TEST(Bundle, RefusesIntrinsicsThatCannotBe) {
   const SyntheticRig rig(4, 200, 15);
   std::vector<geometry::Camera> cameras = rig.withoutPoses();
   cameras[2].intrinsics.fx = -400.0;
@@ -279,7 +279,7 @@ TEST(Bundle, refusesIntrinsicsThatCannotBe) {
   EXPECT_NE(refusal(cameras, rig.observations, 200).find("camera_3"), std::string::npos);
 }
 
-TEST(BundleSimilarity, recoversAKnownOne) {
+TEST(BundleSimilarity, RecoversAKnownOne) {
   Similarity truth;
   truth.scale = 2.5;
   truth.rotation =
@@ -296,7 +296,7 @@ TEST(BundleSimilarity, recoversAKnownOne) {
   EXPECT_TRUE(fitted.translation.isApprox(truth.translation, 1e-12));
 }
 
-TEST(BundleSimilarity, leavesReprojectionsAlone) {
+TEST(BundleSimilarity, LeavesReprojectionsAlone) {
   SyntheticRig rig(3, 50, 17);
   rig.addNoise(1.0);
   Reconstruction reconstruction;
@@ -315,7 +315,7 @@ TEST(BundleSimilarity, leavesReprojectionsAlone) {
                 *reprojectionError(moved, observation), 1e-9);
 }
 
-TEST(BundleSimilarity, refusesWhatDoesNotDetermineIt) {
+TEST(BundleSimilarity, RefusesWhatDoesNotDetermineIt) {
   const std::vector<Eigen::Vector3d> line = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   const std::vector<Eigen::Vector3d> plane = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   EXPECT_THROW(fitSimilarity(line, plane), BundleError);
@@ -323,7 +323,7 @@ TEST(BundleSimilarity, refusesWhatDoesNotDetermineIt) {
   EXPECT_NO_THROW(fitSimilarity(plane, plane));
 }
 
-TEST(BundleStatistics, areWhatTheDefinitionsSay) {
+TEST(BundleStatistics, AreWhatTheDefinitionsSay) {
   // One camera at the origin, f = 100 px, points 2 m ahead; errors of 3, 4, 5 and 100 px.
   Reconstruction reconstruction;
   geometry::Camera camera;

@@ -52,7 +52,7 @@ Source blind() {
 
 const std::vector<std::string> kThree = {"a", "b", "c"};
 
-TEST(CornerCapture, a_still_led_is_captured_by_all_cameras_that_see_it) {
+TEST(CornerCapture, AStillLedIsCapturedByAllCamerasThatSeeIt) {
   CornerCapture capture(kThree, CornerCaptureOptions(), 0.0);
   feed(&capture, {{"a", still(100, 200, 1)}, {"b", still(500.5, 300, 2)}, {"c", still(9, 9, 3)}},
        0.0, 9.0);
@@ -68,7 +68,7 @@ TEST(CornerCapture, a_still_led_is_captured_by_all_cameras_that_see_it) {
   EXPECT_GT(corner.at("a").spread, 0.0);
 }
 
-TEST(CornerCapture, mean_and_spread_are_those_of_the_samples) {
+TEST(CornerCapture, MeanAndSpreadAreThoseOfTheSamples) {
   CornerCaptureOptions options;
   options.minimum_cameras = 1;
   CornerCapture capture({"a"}, options, 0.0);
@@ -81,7 +81,7 @@ TEST(CornerCapture, mean_and_spread_are_those_of_the_samples) {
   EXPECT_EQ(capture.result().at("a").samples, 50U);
 }
 
-TEST(CornerCapture, a_blind_camera_is_left_out_and_named) {
+TEST(CornerCapture, ABlindCameraIsLeftOutAndNamed) {
   CornerCapture capture(kThree, CornerCaptureOptions(), 0.0);
   feed(&capture, {{"a", still(100, 200, 1)}, {"b", still(500, 300, 2)}, {"c", blind()}}, 0.0, 9.0);
   ASSERT_EQ(capture.state(), State::kDone);
@@ -90,7 +90,7 @@ TEST(CornerCapture, a_blind_camera_is_left_out_and_named) {
   EXPECT_SAYS(capture.message(), "c sees no spot");
 }
 
-TEST(CornerCapture, a_camera_with_two_spots_is_left_out_and_named) {
+TEST(CornerCapture, ACameraWithTwoSpotsIsLeftOutAndNamed) {
   CornerCapture capture(kThree, CornerCaptureOptions(), 0.0);
   const Source two = [](double) { return Blobs{Eigen::Vector2d(5, 5), Eigen::Vector2d(800, 90)}; };
   feed(&capture, {{"a", still(100, 200, 1)}, {"b", two}, {"c", still(3, 3, 3)}}, 0.0, 9.0);
@@ -99,7 +99,7 @@ TEST(CornerCapture, a_camera_with_two_spots_is_left_out_and_named) {
   EXPECT_SAYS(capture.message(), "b sees 2 spots");
 }
 
-TEST(CornerCapture, a_camera_that_is_slower_is_waited_for) {
+TEST(CornerCapture, WaitsForASlowerCamera) {
   CornerCapture capture({"a", "b"}, CornerCaptureOptions(), 0.0);
   const Source fast = still(100, 200, 1);
   const Source slow = still(300, 200, 2);
@@ -113,7 +113,7 @@ TEST(CornerCapture, a_camera_that_is_slower_is_waited_for) {
   EXPECT_EQ(capture.result().at("a").samples, 50U);
 }
 
-TEST(CornerCapture, a_moved_led_is_refused) {
+TEST(CornerCapture, AMovedLedIsRefused) {
   CornerCapture capture({"a", "b"}, CornerCaptureOptions(), 0.0);
   const Source jump = [](double t) { return t < 0.3 ? one(100, 100) : one(120, 100); };
   feed(&capture, {{"a", jump}, {"b", still(300, 200, 2)}}, 0.0, 9.0);
@@ -123,7 +123,7 @@ TEST(CornerCapture, a_moved_led_is_refused) {
   EXPECT_LT(capture.progress(), 1.0);
 }
 
-TEST(CornerCapture, a_slow_drift_within_the_spread_is_refused) {
+TEST(CornerCapture, ASlowDriftWithinTheSpreadIsRefused) {
   CornerCaptureOptions options;
   CornerCapture capture({"a", "b"}, options, 0.0);
   // 4 px/s: two pixels within the fifty samples, spread 0.6 px.
@@ -133,7 +133,7 @@ TEST(CornerCapture, a_slow_drift_within_the_spread_is_refused) {
   EXPECT_SAYS(capture.message(), "a: the LED moved slowly");
 }
 
-TEST(CornerCapture, noise_of_a_still_led_is_hardly_ever_taken_for_motion) {
+TEST(CornerCapture, NoiseOfAStillLedIsHardlyEverTakenForMotion) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     CornerCapture capture({"a", "b"}, CornerCaptureOptions(), 0.0);
     feed(&capture,
@@ -143,7 +143,7 @@ TEST(CornerCapture, noise_of_a_still_led_is_hardly_ever_taken_for_motion) {
   }
 }
 
-TEST(CornerCapture, too_few_samples_until_the_time_is_up_are_refused_with_the_reason) {
+TEST(CornerCapture, TooFewSamplesUntilTheTimeIsUpAreRefusedWithTheReason) {
   CornerCaptureOptions options;
   options.timeout = 2.0;
   CornerCapture capture({"a", "b", "c"}, options, 10.0);
@@ -159,7 +159,7 @@ TEST(CornerCapture, too_few_samples_until_the_time_is_up_are_refused_with_the_re
   EXPECT_SAYS(capture.message(), "c sends no images");
 }
 
-TEST(CornerCapture, nothing_is_made_of_the_silence_before_the_first_image) {
+TEST(CornerCapture, SilenceBeforeTheFirstImageIsNoProblem) {
   CornerCapture capture({"a", "b"}, CornerCaptureOptions(), 10.0);
   capture.update(10.0);
   EXPECT_SAYS(capture.problem("a"), "has 0 of 50 samples");
@@ -170,7 +170,7 @@ TEST(CornerCapture, nothing_is_made_of_the_silence_before_the_first_image) {
   EXPECT_SAYS(capture.problem("b"), "sends no images");
 }
 
-TEST(CornerCapture, one_camera_is_not_enough) {
+TEST(CornerCapture, OneCameraIsNotEnough) {
   CornerCaptureOptions options;
   options.timeout = 1.0;
   CornerCapture capture({"a", "b"}, options, 0.0);
@@ -179,7 +179,7 @@ TEST(CornerCapture, one_camera_is_not_enough) {
   EXPECT_SAYS(capture.message(), "1 of at least 2 cameras");
 }
 
-TEST(CornerCapture, progress_is_that_of_the_slowest_camera_that_sees_the_led) {
+TEST(CornerCapture, ProgressIsThatOfTheSlowestCameraThatSeesTheLed) {
   CornerCapture capture(kThree, CornerCaptureOptions(), 0.0);
   EXPECT_EQ(capture.progress(), 0.0);
   for (int i = 0; i < 20; ++i) {
@@ -191,7 +191,7 @@ TEST(CornerCapture, progress_is_that_of_the_slowest_camera_that_sees_the_led) {
   EXPECT_DOUBLE_EQ(capture.progress(), 0.2);
 }
 
-TEST(CornerCapture, images_before_the_start_and_of_other_cameras_are_ignored) {
+TEST(CornerCapture, ImagesBeforeTheStartAndOfOtherCamerasAreIgnored) {
   CornerCapture capture({"a", "b"}, CornerCaptureOptions(), 5.0);
   for (int i = 0; i < 100; ++i) {
     capture.add(image("a", 4.0, one(10, 10)));
@@ -201,7 +201,7 @@ TEST(CornerCapture, images_before_the_start_and_of_other_cameras_are_ignored) {
   EXPECT_EQ(capture.state(), State::kCollecting);
 }
 
-TEST(CameraMonitor, rate_and_spot_of_a_camera_that_sees_the_led) {
+TEST(CameraMonitor, RateAndSpotOfACameraThatSeesTheLed) {
   CameraMonitor monitor;
   EXPECT_FALSE(monitor.view(0.0).connected);
   EXPECT_SAYS(monitor.view(0.0).problem, "sends no images");
@@ -219,7 +219,7 @@ TEST(CameraMonitor, rate_and_spot_of_a_camera_that_sees_the_led) {
   EXPECT_FALSE(monitor.view(3.01).sees_led);
 }
 
-TEST(CameraMonitor, says_what_is_wrong) {
+TEST(CameraMonitor, SaysWhatIsWrong) {
   CameraMonitor two;
   two.add(0.0, {Eigen::Vector2d(1, 1), Eigen::Vector2d(2, 2)});
   EXPECT_EQ(two.view(0.0).blobs, 2U);
@@ -235,7 +235,7 @@ TEST(CameraMonitor, says_what_is_wrong) {
   EXPECT_TRUE(std::isnan(flicker.view(0.5).pixel.x()));
 }
 
-TEST(RestGravity, mean_of_a_camera_at_rest_only) {
+TEST(RestGravity, MeanOfACameraAtRestOnly) {
   RestGravity rest;
   for (int i = 0; i < 20; ++i) {
     EXPECT_FALSE(rest.mean());
@@ -258,17 +258,17 @@ TEST(RestGravity, mean_of_a_camera_at_rest_only) {
   EXPECT_TRUE(rest.mean());
 }
 
-TEST(CornerCapture, a_camera_that_sees_masked_lights_only_says_so) {
+TEST(CornerCapture, ACameraThatSeesMaskedLightsOnlySaysSo) {
   CornerCapture capture(kThree, CornerCaptureOptions(), 0.0);
   Image behind = image("a", 0.01, {});
   behind.masked = one(10, 10);
   capture.add(behind);
-  EXPECT_SAYS(capture.problem("a"), "masked only");
+  EXPECT_SAYS(capture.problem("a"), "sees only masked lights");
   capture.add(image("a", 0.02, {}));
   EXPECT_SAYS(capture.problem("a"), "sees no spot");
 }
 
-TEST(CornerCapture, what_is_captured_does_not_depend_on_the_time_that_others_take) {
+TEST(CornerCapture, WhatIsCapturedDoesNotDependOnTheTimeThatOthersTake) {
   std::vector<CapturedCorner> results;
   for (const double lag : {0.0, 0.25}) {
     CornerCapture capture({"a", "b"}, CornerCaptureOptions(), 0.0);

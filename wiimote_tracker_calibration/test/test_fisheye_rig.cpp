@@ -74,7 +74,7 @@ double measuredError(const square::SimulatedSquare& square,
   return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
-TEST(FisheyeRig, a_lens_from_the_board_measures_points_as_well_as_is_foretold) {
+TEST(FisheyeRig, ALensFromTheBoardMeasuresPointsAsWellAsPredicted) {
   intrinsics::SolverOptions lens_options;
   lens_options.model = intrinsics::LensModel::kEquidistant;
   const intrinsics::IntrinsicsSolution lens = intrinsics::solveIntrinsics(

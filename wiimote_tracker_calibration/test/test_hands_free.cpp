@@ -60,23 +60,23 @@ class Hands : public ::testing::Test {
   double now_ = 100.0;
 };
 
-TEST_F(Hands, an_led_put_down_is_noticed_once) {
+TEST_F(Hands, AnLedPutDownIsNoticedOnce) {
   EXPECT_EQ(rest(first_, options_.hold - 0.1), 0);
   EXPECT_EQ(rest(first_, 0.2), 1);
   EXPECT_EQ(rest(first_, 20.0), 0);  // the same place again is no corner
 }
 
-TEST_F(Hands, an_led_that_is_carried_past_is_not) {
+TEST_F(Hands, ACarriedLedIsNotStill) {
   EXPECT_EQ(rest(first_, 3.0), 1);
   EXPECT_EQ(carry(first_, second_, 8.0), 0);
   EXPECT_EQ(carry(second_, first_, 8.0), 0);
 }
 
-TEST_F(Hands, an_led_in_a_hand_is_not) {
+TEST_F(Hands, AnLedInAHandIsNotStill) {
   EXPECT_EQ(rest(first_, 30.0, 6.0), 0);
 }
 
-TEST_F(Hands, walking_away_and_coming_back_is_no_corner_but_the_next_place_is) {
+TEST_F(Hands, TheSamePlaceIsCapturedOnce) {
   EXPECT_EQ(rest(first_, 3.0), 1);
   EXPECT_EQ(carry(first_, second_, 2.0), 0);
   EXPECT_EQ(carry(second_, first_, 2.0), 0);
@@ -87,7 +87,7 @@ TEST_F(Hands, walking_away_and_coming_back_is_no_corner_but_the_next_place_is) {
   EXPECT_EQ(rest(second_, 5.0), 1);
 }
 
-TEST_F(Hands, a_drop_out_begins_the_wait_anew_and_nobody_is_not_still) {
+TEST_F(Hands, ADropoutRestartsTheWait) {
   EXPECT_EQ(rest(first_, 1.5), 0);
   EXPECT_EQ(hide(1.0), 0);
   EXPECT_EQ(rest(first_, 1.5), 0);
@@ -95,7 +95,7 @@ TEST_F(Hands, a_drop_out_begins_the_wait_anew_and_nobody_is_not_still) {
   EXPECT_EQ(hide(10.0), 0);
 }
 
-TEST_F(Hands, all_cameras_that_see_it_must_see_it_still_and_enough_of_them) {
+TEST_F(Hands, AllCamerasThatSeeItMustSeeItStillAndEnoughOfThem) {
   int noticed = 0;
   for (int i = 0; i < 500; ++i, now_ += kFramePeriod) {
     noticed += hands_free_.add({"a", now_, 0, {first_}, {}}, {});

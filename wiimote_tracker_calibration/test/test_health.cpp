@@ -117,7 +117,7 @@ double shareNoticed(double angle, double noise, double step, const TiltOptions& 
   return static_cast<double>(noticed) / kTrials;
 }
 
-TEST(TiltWatch, NoticesWhatItsAccelerometerCanTell) {
+TEST(TiltWatch, DetectsTiltsThatTheAccelerometerResolves) {
   // A Wii Remote's y and z count in steps of 0.18 m/s^2, with a noise of 0.03 m/s^2.
   const TiltOptions remote;
   EXPECT_EQ(shareNoticed(0.0, 0.03, 0.18, remote), 0.0);
@@ -221,7 +221,7 @@ TEST(DriftWatch, NamesTheCameraThatDriftedByOnePixel) {
   EXPECT_GE(named, kTrials / 2);
 }
 
-TEST(DriftWatch, NamesTheCameraThatWasBumped) {
+TEST(DriftWatch, NamesTheCameraThatWasTurned) {
   Random random(23);
   const geometry::Rig rig = paperRigWith(wellCalibrated());
   int named = 0;
@@ -262,7 +262,7 @@ TEST(DriftWatch, TwoCamerasAreNamedBoth) {
   EXPECT_NEAR(watch.drifts()[0]->bias.norm(), 3.0, 0.5);
 }
 
-TEST(DriftWatch, JudgesByMotionAndByKnownClocksOnly) {
+TEST(DriftWatch, UsesOnlyMotionAndKnownClocks) {
   Random random(25);
   const geometry::Rig rig = paperRigWith(wellCalibrated());
   // A still LED gives the same rounding again and again.

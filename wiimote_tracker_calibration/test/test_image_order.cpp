@@ -25,7 +25,7 @@ Image at(const std::string& camera, double stamp) {
   return image;
 }
 
-TEST(ImageOrder, any_order_of_arrival_gives_the_order_of_stamps) {
+TEST(ImageOrder, AnyOrderOfArrivalGivesTheOrderOfStamps) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> delay(0.0, 0.15);
   std::vector<std::pair<double, std::string>> first;
@@ -56,7 +56,7 @@ TEST(ImageOrder, any_order_of_arrival_gives_the_order_of_stamps) {
   }
 }
 
-TEST(ImageOrder, a_camera_that_falls_silent_holds_up_no_other) {
+TEST(ImageOrder, ASilentCameraDelaysNoOther) {
   std::vector<Image> images = {at("silent", 1.0)};
   for (int i = 0; i < 100; ++i)
     images.push_back(at("a", 1.0 + 0.01 * i));
@@ -65,7 +65,7 @@ TEST(ImageOrder, a_camera_that_falls_silent_holds_up_no_other) {
   EXPECT_EQ(result.size(), 100U);
 }
 
-TEST(ImageOrder, a_late_image_is_not_lost_and_one_from_a_clock_set_back_begins_anew) {
+TEST(ImageOrder, ALateImageIsNotLostAndOneFromAClockSetBackBeginsAnew) {
   EXPECT_EQ(ordered({at("a", 1.0), at("b", 1.0), at("a", 2.0), at("b", 0.5)}).size(), 3U);
   const auto result = ordered({at("a", 100.0), at("b", 100.0), at("a", 10.0), at("b", 10.0),
                                at("a", 10.01), at("b", 10.01)});

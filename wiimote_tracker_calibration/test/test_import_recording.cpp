@@ -43,7 +43,7 @@ class MultiCamSelfCal : public testing::Test {
   Folder folder;
 };
 
-TEST_F(MultiCamSelfCal, isReadAsWritten) {
+TEST_F(MultiCamSelfCal, IsReadAsWritten) {
   const Recording recording = readRecording(folder.path());
   ASSERT_EQ(recording.cameras.size(), 2u);
   EXPECT_EQ(recording.cameras[0].name, "left");
@@ -62,7 +62,7 @@ TEST_F(MultiCamSelfCal, isReadAsWritten) {
   EXPECT_TRUE(recording.points.empty());
 }
 
-TEST_F(MultiCamSelfCal, unseenIsNanOrZeroOrMarkedInIdMat) {
+TEST_F(MultiCamSelfCal, UnseenIsNanOrZeroOrMarkedInIdMat) {
   const Recording recording = readRecording(folder.path());
   ASSERT_EQ(recording.frames.size(), 4u);
   EXPECT_EQ(*recording.frames[0][0], Eigen::Vector2d(1.5, 11.5));
@@ -75,7 +75,7 @@ TEST_F(MultiCamSelfCal, unseenIsNanOrZeroOrMarkedInIdMat) {
   EXPECT_FALSE(recording.frames[3][1]);  // IdMat
 }
 
-TEST_F(MultiCamSelfCal, worksWithoutTheOptionalFiles) {
+TEST_F(MultiCamSelfCal, WorksWithoutTheOptionalFiles) {
   folder.remove("IdMat.dat");
   folder.remove("camera_order.txt");
   const Recording recording = readRecording(folder.path());
@@ -83,7 +83,7 @@ TEST_F(MultiCamSelfCal, worksWithoutTheOptionalFiles) {
   EXPECT_TRUE(recording.frames[3][1]);
 }
 
-TEST_F(MultiCamSelfCal, unitsScaleTheCentres) {
+TEST_F(MultiCamSelfCal, UnitsScaleTheCentres) {
   folder.write("original_cam_centers.dat", "100 200 300\n400 500 600\n");
   EXPECT_EQ(*readRecording(folder.path()).cameras[1].center, Eigen::Vector3d(400, 500, 600));
   folder.write("calibration_units.txt", "millimeters\n");
@@ -94,7 +94,7 @@ TEST_F(MultiCamSelfCal, unitsScaleTheCentres) {
   expectRefusal("calibration_units.txt must hold one word");
 }
 
-TEST_F(MultiCamSelfCal, aMissingFileIsNamed) {
+TEST_F(MultiCamSelfCal, AMissingFileIsNamed) {
   folder.remove("basename2.rad");
   expectRefusal("basename2.rad is missing");
   folder.remove("points.dat");
@@ -104,12 +104,12 @@ TEST_F(MultiCamSelfCal, aMissingFileIsNamed) {
   expectRefusal("Res.dat is missing");
 }
 
-TEST_F(MultiCamSelfCal, aMissingCameraIsNoticed) {
+TEST_F(MultiCamSelfCal, AMissingCameraIsNoticed) {
   folder.write("points.dat", "1 2 3 4\n1 2 3 4\n1 1 1 1\n");
   expectRefusal("points.dat has 3 rows, but must have 6");
 }
 
-TEST_F(MultiCamSelfCal, badNumbersAreNamedByLineAndColumn) {
+TEST_F(MultiCamSelfCal, BadNumbersAreNamedByLineAndColumn) {
   folder.remove("IdMat.dat");
   folder.write("points.dat", "1 2\n1 2\n1 1\n3 x4\n3 4\n1 1\n");
   expectRefusal("points.dat line 4 column 2: 'x4' is not a number");
@@ -123,7 +123,7 @@ TEST_F(MultiCamSelfCal, badNumbersAreNamedByLineAndColumn) {
   expectRefusal("points.dat is empty");
 }
 
-TEST_F(MultiCamSelfCal, filesMustAgreeOnTheirSizes) {
+TEST_F(MultiCamSelfCal, FilesMustAgreeOnTheirSizes) {
   folder.write("IdMat.dat", "1 1 0\n1 1 1\n");
   expectRefusal("IdMat.dat has 3 columns, but must have 4");
   folder.write("camera_order.txt", "only_one\n");
@@ -132,7 +132,7 @@ TEST_F(MultiCamSelfCal, filesMustAgreeOnTheirSizes) {
   expectRefusal("camera_order.txt names a camera twice");
 }
 
-TEST_F(MultiCamSelfCal, aBadLensIsNamed) {
+TEST_F(MultiCamSelfCal, ABadLensIsNamed) {
   folder.write("basename1.rad", "K11 = four\n");
   expectRefusal("basename1.rad K11: 'four' is not a number");
   folder.write("basename1.rad", "K11 400\n");
@@ -149,7 +149,7 @@ TEST_F(MultiCamSelfCal, aBadLensIsNamed) {
   expectRefusal("basename1.rad: ");
 }
 
-TEST_F(MultiCamSelfCal, imageSizesMustBeWholePixels) {
+TEST_F(MultiCamSelfCal, ImageSizesMustBeWholePixels) {
   folder.write("Res.dat", "640 480\n656 -1\n");
   expectRefusal("Res.dat line 2 must hold the width and height");
 }
@@ -168,7 +168,7 @@ class Flydra : public MultiCamSelfCal {
   }
 };
 
-TEST_F(Flydra, rowsOfOnePointMakeAFrame) {
+TEST_F(Flydra, RowsOfOnePointMakeAFrame) {
   const Recording recording = readRecording(folder.path());
   ASSERT_EQ(recording.frames.size(), 4u);
   ASSERT_EQ(recording.points.size(), 4u);
@@ -184,13 +184,13 @@ TEST_F(Flydra, rowsOfOnePointMakeAFrame) {
   EXPECT_EQ(*recording.frames[3][1], Eigen::Vector2d(32, 42));
 }
 
-TEST_F(Flydra, matricesBelongToTheirCameras) {
+TEST_F(Flydra, MatricesBelongToTheirCameras) {
   const Recording recording = readRecording(folder.path());
   EXPECT_EQ((*recording.cameras[0].projection)(1, 3), 8.0);
   EXPECT_EQ((*recording.cameras[1].projection)(2, 0), 29.0);
 }
 
-TEST_F(Flydra, badFilesAreNamed) {
+TEST_F(Flydra, BadFilesAreNamed) {
   folder.write("Pmatrices.dat", "1 2 3 4\n5 6 7 8\n9 10 11 12\n");
   expectRefusal("Pmatrices.dat has 3 rows, but must have 6");
   folder.remove("Pmatrices.dat");

@@ -108,7 +108,7 @@ int correctLeds(const Scene& scene, const BoardReading& reading) {
   return count;
 }
 
-TEST(BoardSequence, isThatOfTheTable) {
+TEST(BoardSequence, IsThatOfTheTable) {
   for (int ms = 0; ms < 2 * kCycleMs; ++ms) {
     const double time = 1e-3 * ms + 0.0005;
     const std::vector<int> lit = litAt(time);
@@ -118,7 +118,7 @@ TEST(BoardSequence, isThatOfTheTable) {
   }
 }
 
-TEST(BoardSequence, eachTimeBetweenTwoFlashesOccursOnce) {
+TEST(BoardSequence, EachTimeBetweenTwoFlashesOccursOnce) {
   std::set<int> delays;
   for (int led = 0; led < kBoardLeds; ++led) {
     std::vector<int> starts;
@@ -132,7 +132,7 @@ TEST(BoardSequence, eachTimeBetweenTwoFlashesOccursOnce) {
   }
 }
 
-TEST(BoardDecoder, readsTheBoardTurnedInAnyWay) {
+TEST(BoardDecoder, ReadsTheBoardTurnedInAnyWay) {
   int found = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
     Scene scene;
@@ -145,7 +145,7 @@ TEST(BoardDecoder, readsTheBoardTurnedInAnyWay) {
   EXPECT_GT(found, 200 * 16 * 0.995);
 }
 
-TEST(BoardDecoder, readsTheLedsThatAreInTheImage) {
+TEST(BoardDecoder, ReadsTheLedsThatAreInTheImage) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     for (const Eigen::Vector2d& center :
          {Eigen::Vector2d(60.0, 384.0), Eigen::Vector2d(512.0, 740.0),
@@ -167,7 +167,7 @@ TEST(BoardDecoder, readsTheLedsThatAreInTheImage) {
   }
 }
 
-TEST(BoardDecoder, toleratesTheBoardsClockAndTheCamerasStamps) {
+TEST(BoardDecoder, ToleratesTheBoardsClockAndTheCamerasStamps) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     Scene scene;
     scene.board_rate = seed % 2 ? 1.003 : 0.997;
@@ -178,7 +178,7 @@ TEST(BoardDecoder, toleratesTheBoardsClockAndTheCamerasStamps) {
   }
 }
 
-TEST(BoardDecoder, leavesOutALamp) {
+TEST(BoardDecoder, LeavesOutALamp) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     Scene scene;
     scene.lamp = Eigen::Vector2d(100.0, 100.0);
@@ -192,7 +192,7 @@ TEST(BoardDecoder, leavesOutALamp) {
   }
 }
 
-TEST(BoardDecoder, refusesABoardThatMoves) {
+TEST(BoardDecoder, RefusesABoardThatMoves) {
   for (const double speed : {4.0, 10.0, 30.0, 100.0}) {
     for (unsigned seed = 0; seed < 20; ++seed) {
       Scene scene;
@@ -204,7 +204,7 @@ TEST(BoardDecoder, refusesABoardThatMoves) {
   }
 }
 
-TEST(BoardDecoder, doesNotReadOtherLights) {
+TEST(BoardDecoder, DoesNotReadOtherLights) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform;
   for (int run = 0; run < 20; ++run) {
@@ -219,7 +219,7 @@ TEST(BoardDecoder, doesNotReadOtherLights) {
   }
 }
 
-TEST(BoardDecoder, saysWhatItWaitsFor) {
+TEST(BoardDecoder, SaysWhatItWaitsFor) {
   BoardDecoder decoder{DecoderOptions()};
   EXPECT_NE(decoder.read().message.find("no images"), std::string::npos);
   decoder.add(0.0, {});
@@ -246,7 +246,7 @@ TEST(BoardDecoder, saysWhatItWaitsFor) {
   EXPECT_NE(edge.read(1, whole).message.find("of 16 LEDs"), std::string::npos);
 }
 
-TEST(BoardDecoder, refusesOptionsOutOfRange) {
+TEST(BoardDecoder, RefusesOptionsOutOfRange) {
   DecoderOptions options;
   options.minimum_separation = options.radius;
   EXPECT_THROW(BoardDecoder{options}, IntrinsicsError);

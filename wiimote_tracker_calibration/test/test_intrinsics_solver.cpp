@@ -95,7 +95,7 @@ std::string refusal(const Samples& samples, const SolverOptions& options = Solve
 #define EXPECT_REFUSED(samples, words) \
   EXPECT_NE(refusal(samples).find(words), std::string::npos) << refusal(samples)
 
-TEST(SolveIntrinsics, exactPixelsGiveTheExactCamera) {
+TEST(SolveIntrinsics, ExactPixelsGiveTheExactCamera) {
   geometry::Intrinsics camera = paperCamera();
   camera.distortion = {-0.08, 0.05, 0.001, -0.002, 0.03};
   SolverOptions options;
@@ -120,7 +120,7 @@ TEST(SolveIntrinsics, exactPixelsGiveTheExactCamera) {
   }
 }
 
-TEST(SolveIntrinsics, twelveViewsReachTheBoundAndSaySo) {
+TEST(SolveIntrinsics, TwelveViewsReachTheStatedBound) {
   const geometry::Intrinsics camera = paperCamera();
   const double sigma = std::sqrt(0.25 + 1.0 / 12.0);  // 0.5 px and whole pixels
   constexpr int kLens = 5;
@@ -170,7 +170,7 @@ TEST(SolveIntrinsics, twelveViewsReachTheBoundAndSaySo) {
   EXPECT_NEAR(std::sqrt(variance), sigma, 0.01);
 }
 
-TEST(SolveIntrinsics, choosesTheLensModelThatTheDataAskFor) {
+TEST(SolveIntrinsics, ChoosesTheLensModelThatTheDataAskFor) {
   geometry::Intrinsics straight = paperCamera();
   straight.distortion = {};
   geometry::Intrinsics bent = paperCamera();
@@ -206,7 +206,7 @@ Samples wideSamples(const geometry::Intrinsics& camera) {
   return samples;
 }
 
-TEST(SolveIntrinsics, findsTheShortFocalLengthOfALensInFront) {
+TEST(SolveIntrinsics, FindsTheShortFocalLengthOfALensInFront) {
   geometry::Intrinsics wide = paperCamera();
   wide.fx = wide.fy = 420.0;
   wide.distortion = {-0.03, 0.0, 0.0, 0.0, 0.0};
@@ -215,7 +215,7 @@ TEST(SolveIntrinsics, findsTheShortFocalLengthOfALensInFront) {
       << solution.summary;
 }
 
-TEST(SolveIntrinsics, refusesALensWhoseModelFoldsWithinTheImage) {
+TEST(SolveIntrinsics, RefusesALensWhoseModelFoldsWithinTheImage) {
   geometry::Intrinsics wide = paperCamera();
   wide.fx = wide.fy = 420.0;  // with k1 = -0.08 nothing reaches the corners of the image
   EXPECT_REFUSED(wideSamples(wide), "does not hold over the whole image");
@@ -227,7 +227,7 @@ SolverOptions equidistant() {
   return options;
 }
 
-TEST(SolveIntrinsics, exactPixelsGiveTheExactFisheye) {
+TEST(SolveIntrinsics, ExactPixelsGiveTheExactFisheye) {
   const geometry::Intrinsics camera = fisheye();
   const Samples samples = fisheyeSamples(camera, 20, 0.0, 1);
   const IntrinsicsSolution solution = solveIntrinsics(samples, equidistant());
@@ -254,7 +254,7 @@ TEST(SolveIntrinsics, exactPixelsGiveTheExactFisheye) {
   }
 }
 
-TEST(SolveIntrinsics, aFisheyeReachesTheBoundAndSaysSo) {
+TEST(SolveIntrinsics, AFisheyeReachesTheStatedBound) {
   const geometry::Intrinsics camera = fisheye();
   const double sigma = std::sqrt(0.25 + 1.0 / 12.0);
   constexpr int kLens = 8;
@@ -291,7 +291,7 @@ TEST(SolveIntrinsics, aFisheyeReachesTheBoundAndSaysSo) {
   EXPECT_NEAR(nees / kLens, 1.0, 0.5);  // 10 runs: 16 %
 }
 
-TEST(SolveIntrinsics, aFisheyeIsRefusedForWhatPlumbBobIs) {
+TEST(SolveIntrinsics, AFisheyeIsRefusedForWhatPlumbBobIs) {
   Samples samples = fisheyeSamples(fisheye(), 11, 0.5, 1);
   EXPECT_NE(refusal(samples, equidistant()).find("11 views of the board, at least 12"),
             std::string::npos);
@@ -303,7 +303,7 @@ TEST(SolveIntrinsics, aFisheyeIsRefusedForWhatPlumbBobIs) {
   EXPECT_NE(refusal(samples).find("equidistant"), std::string::npos) << refusal(samples);
 }
 
-TEST(SolveIntrinsics, refusesTooFewViewsAndLeds) {
+TEST(SolveIntrinsics, RefusesTooFewViewsAndLeds) {
   Samples samples = simulatedSamples(paperCamera(), 11, 0.5, 1);
   EXPECT_REFUSED(samples, "11 views of the board, at least 12");
   samples = simulatedSamples(paperCamera(), 12, 0.5, 1);
@@ -318,7 +318,7 @@ TEST(SolveIntrinsics, refusesTooFewViewsAndLeds) {
   EXPECT_REFUSED(samples, "view 5 shows LEDs of one line only");
 }
 
-TEST(SolveIntrinsics, refusesViewsThatDoNotDiffer) {
+TEST(SolveIntrinsics, RefusesViewsThatDoNotDiffer) {
   std::mt19937 random(4);
   Samples front;
   Samples one_place;
@@ -346,7 +346,7 @@ TEST(SolveIntrinsics, refusesViewsThatDoNotDiffer) {
   EXPECT_REFUSED(one_place, "at one place");
 }
 
-TEST(SolveIntrinsics, refusesABoardThatIsNotAsStated) {
+TEST(SolveIntrinsics, RefusesABoardThatIsNotAsStated) {
   const Samples samples = simulatedSamples(paperCamera(), 14, 0.5, 6);
   Samples mirrored = samples;
   Samples exchanged = samples;

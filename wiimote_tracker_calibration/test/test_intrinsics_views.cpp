@@ -20,7 +20,7 @@ BoardView frontView(double left, double top, double side) {
   return view;
 }
 
-TEST(ViewCollector, barsAreThoseOfTheDefinition) {
+TEST(ViewCollector, BarsAreThoseOfTheDefinition) {
   ViewCollector collector(Board(), 1024, 768, CollectorOptions());
   EXPECT_FALSE(collector.coverage().enough());
   EXPECT_EQ(collector.add(frontView(0.0, 0.0, 200.0)), "");
@@ -33,7 +33,7 @@ TEST(ViewCollector, barsAreThoseOfTheDefinition) {
   EXPECT_EQ(coverage.missing.size(), 4u);  // views, x, size, skew
 }
 
-TEST(ViewCollector, keepsWhatDiffersAndSaysWhyNot) {
+TEST(ViewCollector, KeepsWhatDiffersAndSaysWhyNot) {
   ViewCollector collector(Board(), 1024, 768, CollectorOptions());
   EXPECT_EQ(collector.add(frontView(100.0, 100.0, 200.0)), "");
   EXPECT_NE(collector.add(frontView(110.0, 105.0, 200.0)).find("too much like"), std::string::npos);
@@ -45,7 +45,7 @@ TEST(ViewCollector, keepsWhatDiffersAndSaysWhyNot) {
   EXPECT_NE(collector.add(few).find("fewer than 6"), std::string::npos);
 }
 
-TEST(ViewCollector, enoughIsEnoughToSolve) {
+TEST(ViewCollector, CompleteCoverageSufficesToSolve) {
   std::mt19937 random(3);
   ViewCollector collector(Board(), 1024, 768, CollectorOptions());
   for (int i = 0; i < 2000 && !collector.coverage().enough(); ++i)

@@ -130,7 +130,7 @@ class JoinRigs : public ::testing::Test {
   geometry::Rig second_ = exactRig(2, 6, worldFromSecond(), random_);
 };
 
-TEST_F(JoinRigs, a_rig_is_not_joined_with_itself) {
+TEST_F(JoinRigs, ARigIsNotJoinedWithItself) {
   EXPECT_SAYS(joinRefusal([&] { joinRigs(first_, first_); }), "the same rig");
   geometry::Rig again = exactRig(0, 3, worldFromSecond(), random_);
   EXPECT_SAYS(joinRefusal([&] { joinRigs(first_, again); }), "nothing to join");
@@ -138,7 +138,7 @@ TEST_F(JoinRigs, a_rig_is_not_joined_with_itself) {
   EXPECT_EQ(joinRigs(again, first_).rig.cameras.size(), 4U);
 }
 
-TEST_F(JoinRigs, exact_rigs_make_an_exact_one) {
+TEST_F(JoinRigs, ExactRigsMakeAnExactOne) {
   const JoinedRigs joined = joinRigs(first_, second_);
   EXPECT_LT((joined.first_from_second.matrix() - worldFromSecond().matrix()).norm(), 1e-9);
   EXPECT_EQ(joined.shared, (std::vector<std::string>{"camera_3", "camera_4"}));
@@ -156,7 +156,7 @@ TEST_F(JoinRigs, exact_rigs_make_an_exact_one) {
   EXPECT_LT((joined.rig.covariance.topLeftCorner(64, 64) - first_.covariance).norm(), 1e-15);
 }
 
-TEST_F(JoinRigs, errors_are_as_large_as_stated) {
+TEST_F(JoinRigs, ErrorsAreAsLargeAsStated) {
   for (const int shared : {1, 2}) {
     const geometry::Rig second = exactRig(4 - shared, 6, worldFromSecond(), random_);
     const int kRuns = 200;
@@ -173,7 +173,7 @@ TEST_F(JoinRigs, errors_are_as_large_as_stated) {
   }
 }
 
-TEST_F(JoinRigs, a_camera_that_was_moved_is_named) {
+TEST_F(JoinRigs, ACameraThatWasMovedIsNamed) {
   second_.cameras[1].camera.world_from_camera.translation().x() += 0.2;
   EXPECT_SAYS(joinRefusal([&] { joinRigs(first_, second_); }),
               "camera_3 and camera_4 do not stand");
@@ -187,7 +187,7 @@ TEST_F(JoinRigs, a_camera_that_was_moved_is_named) {
               "camera_4 was turned by 5.3 degrees");
 }
 
-TEST_F(JoinRigs, what_cannot_be_joined_is_refused) {
+TEST_F(JoinRigs, WhatCannotBeJoinedIsRefused) {
   const auto refusal = [this] { return joinRefusal([this] { joinRigs(first_, second_); }); };
   first_.cameras[2].camera.identity = "00:19:1d:00:00:01";
   second_.cameras[0].camera.identity = "00:19:1d:00:00:02";
@@ -206,7 +206,7 @@ TEST_F(JoinRigs, what_cannot_be_joined_is_refused) {
   EXPECT_SAYS(refusal(), "the second rig does not say how certain");
 }
 
-TEST_F(JoinRigs, clocks_are_joined_where_a_shared_one_ran_on) {
+TEST_F(JoinRigs, ClocksAreJoinedWhereASharedOneRanOn) {
   for (geometry::Rig* rig : {&first_, &second_}) {
     for (geometry::RigCamera& camera : rig->cameras) {
       camera.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
@@ -249,7 +249,7 @@ std::vector<CommonPlace> places(const geometry::Rig& second,
   return result;
 }
 
-TEST_F(JoinRigs, places_join_rigs_without_a_common_camera) {
+TEST_F(JoinRigs, PlacesJoinRigsWithoutACommonCamera) {
   const geometry::Rig first = exactRig(0, 3, Eigen::Isometry3d::Identity(), random_);
   const geometry::Rig second = exactRig(3, 6, worldFromSecond(), random_);
   const int kRuns = 200;
@@ -266,7 +266,7 @@ TEST_F(JoinRigs, places_join_rigs_without_a_common_camera) {
   EXPECT_NEAR(disagreement, 6.0, 4.0 * std::sqrt(12.0 / kRuns));
 }
 
-TEST_F(JoinRigs, places_that_tell_too_little_or_contradict_are_refused) {
+TEST_F(JoinRigs, PlacesThatTellTooLittleOrContradictAreRefused) {
   const geometry::Rig first = exactRig(0, 3, Eigen::Isometry3d::Identity(), random_);
   const geometry::Rig second = exactRig(3, 6, worldFromSecond(), random_);
   std::vector<CommonPlace> common = places(second, 0.003, random_);

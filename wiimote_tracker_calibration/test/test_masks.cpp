@@ -14,7 +14,7 @@ Image image(const Blobs& spots) {
   return {"a", 0.0, 0, spots, {}};
 }
 
-TEST(MaskLearner, still_and_flickering_lamps_are_masked_with_all_their_places) {
+TEST(MaskLearner, StillAndFlickeringLampsAreMaskedWithAllTheirPlaces) {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0.0, 1.0);
   std::bernoulli_distribution flicker(0.1);
@@ -40,14 +40,14 @@ TEST(MaskLearner, still_and_flickering_lamps_are_masked_with_all_their_places) {
   EXPECT_SAYS(result.at("blind").problem, "sends no images");
 }
 
-TEST(MaskLearner, masks_from_before_do_not_hide_what_is_there) {
+TEST(MaskLearner, MasksFromBeforeDoNotHideWhatIsThere) {
   MaskLearner learner({"a"}, MaskOptions());
   for (int i = 0; i < 100; ++i)
     learner.add({"a", 0.0, 0, {}, {{100.0, 100.0}}});
   EXPECT_EQ(learner.result().at("a").masks.size(), 1U);
 }
 
-TEST(MaskLearner, a_flash_is_no_lamp) {
+TEST(MaskLearner, AFlashIsNoLamp) {
   MaskLearner learner({"a"}, MaskOptions());
   for (int i = 0; i < 400; ++i)
     learner.add(image(i % 200 == 7 ? Blobs{{300.0, 300.0}} : Blobs{}));
@@ -55,7 +55,7 @@ TEST(MaskLearner, a_flash_is_no_lamp) {
   EXPECT_TRUE(learner.result().at("a").problem.empty());
 }
 
-TEST(MaskLearner, an_led_that_is_carried_about_is_told_to_be_switched_off) {
+TEST(MaskLearner, AnLedThatIsCarriedAboutIsToldToBeSwitchedOff) {
   MaskLearner learner({"a"}, MaskOptions());
   for (int i = 0; i < 400; ++i)
     learner.add(image({{100.0 + 2.0 * i, 300.0}, {50.0, 50.0}}));
@@ -63,14 +63,14 @@ TEST(MaskLearner, an_led_that_is_carried_about_is_told_to_be_switched_off) {
   EXPECT_TRUE(learner.result().at("a").masks.empty());
 }
 
-TEST(MaskLearner, a_few_images_say_nothing) {
+TEST(MaskLearner, AFewImagesSayNothing) {
   MaskLearner learner({"a"}, MaskOptions());
   for (int i = 0; i < 10; ++i)
     learner.add(image({{100.0, 100.0}}));
   EXPECT_SAYS(learner.result().at("a").problem, "10 images only");
 }
 
-TEST(Masks, a_masked_spot_is_set_aside_in_its_own_camera_only) {
+TEST(Masks, AMaskedSpotIsSetAsideInItsOwnCameraOnly) {
   const Masks masks = {{"a", {{{100.0, 100.0}, 10.0}}}};
   Image own = image({{105.0, 105.0}, {300.0, 300.0}, {100.0, 110.5}});
   Image other = own;

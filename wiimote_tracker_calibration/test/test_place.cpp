@@ -82,7 +82,7 @@ TEST(CameraParameters, DerivativesAreThoseOfDisplacedCameras) {
   }
 }
 
-TEST(CameraParameters, WhatTheRayModelSetsIsNoErrorOfTheCalibration) {
+TEST(CameraParameters, ParametersSetByTheRayModelHaveNoUncertainty) {
   geometry::Rig rig = paperRigWith({});
   rig.ray_model = geometry::RayModel::kImageCenter;
   const Eigen::Vector3d point(1.0, 1.2, 1.0);
@@ -127,7 +127,7 @@ TEST(MeasurePlace, CamerasThatMoveTogetherMoveThePoint) {
 }
 
 // Of many checks with a right calibration, 1 % at most ought to find fault with it.
-TEST(CheckPlace, CoversWhatItSays) {
+TEST(CheckPlace, HasTheStatedCoverage) {
   Random random(4);
   const int kTrials = 3000;
   const double kPlacement = 0.003;
@@ -183,7 +183,7 @@ TEST(CheckPlace, NamesTheCameraThatWasMoved) {
   EXPECT_GE(alone, 150);
 }
 
-TEST(CheckPlace, SaysWhatItIs) {
+TEST(CheckPlace, StatesErrorAndExpectedError) {
   Random random(6);
   geometry::Rig rig = paperRigWith({});
   const Eigen::Vector3d led(1.0, 0.7, 0.4);

@@ -37,7 +37,7 @@ struct PoseSetup {
 
 class Lenses : public ::testing::TestWithParam<PoseSetup> {};
 
-TEST_P(Lenses, any_rectangle_without_noise_gives_the_exact_pose) {
+TEST_P(Lenses, AnyRectangleWithoutNoiseGivesTheExactPose) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int i = 0; i < 300; ++i) {
@@ -71,7 +71,7 @@ TEST_P(Lenses, any_rectangle_without_noise_gives_the_exact_pose) {
   }
 }
 
-TEST_P(Lenses, is_as_good_as_many_starts_and_reaches_the_bound) {
+TEST_P(Lenses, IsAsGoodAsManyStartsAndReachesTheBound) {
   for (int bin = 0; bin < 5; ++bin) {
     std::mt19937_64 random(static_cast<std::uint64_t>(bin + 1));
     PoseTally tally;
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(PinholeDistortedWide,
                                            PoseSetup{distortingLens(), 150},
                                            PoseSetup{wideLens(), 150}));
 
-TEST(PlanarPose, both_branches_are_found_best_first_and_their_costs_are_reprojection_errors) {
+TEST(PlanarPose, BothBranchesAreFoundBestFirstAndTheirCostsAreReprojectionErrors) {
   std::mt19937_64 random(5);
   int two = 0;
   for (int i = 0; i < 200; ++i) {
@@ -125,7 +125,7 @@ TEST(PlanarPose, both_branches_are_found_best_first_and_their_costs_are_reprojec
   EXPECT_GT(two, 150);
 }
 
-TEST(PlanarPose, pixels_that_no_rectangle_can_have_give_none) {
+TEST(PlanarPose, PixelsThatNoRectangleCanHaveGiveNone) {
   const Corners corners = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0),
                            Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(0, 1, 0)};
   const geometry::Intrinsics lens;

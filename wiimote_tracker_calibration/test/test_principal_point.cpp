@@ -70,7 +70,7 @@ square::SquareLayout layout() {
   return layout;
 }
 
-TEST(PrincipalPoint, consistent_model_is_good_to_two_centimetres_and_hardly_changes) {
+TEST(PrincipalPoint, ConsistentModelIsGoodToTwoCentimetresAndHardlyChanges) {
   for (const std::vector<std::size_t>& cameras :
        std::vector<std::vector<std::size_t>>{{0, 1}, {0, 1, 2, 3}}) {
     PaperSession session;
@@ -82,7 +82,7 @@ TEST(PrincipalPoint, consistent_model_is_good_to_two_centimetres_and_hardly_chan
   }
 }
 
-TEST(PrincipalPoint, image_center_with_two_adjacent_cameras_is_corrected) {
+TEST(PrincipalPoint, ImageCenterWithTwoAdjacentCamerasIsCorrected) {
   const Means means = meansOf(imageCenter({0, 1}));
   EXPECT_GT(means.before, 0.12);
   EXPECT_LT(means.before, 0.22);
@@ -92,7 +92,7 @@ TEST(PrincipalPoint, image_center_with_two_adjacent_cameras_is_corrected) {
 // The common sideways shift of four cameras is not visible in the origin alone: what remains is
 // far from the paper's 2.8 cm, and a little above 8 cm by the mean of closest points, to which
 // opposite cameras, whose rays are nearly parallel, contribute as much as the others.
-TEST(PrincipalPoint, image_center_with_four_cameras_is_corrected_in_part) {
+TEST(PrincipalPoint, ImageCenterWithFourCamerasIsCorrectedInPart) {
   PaperSession session = imageCenter({0, 1, 2, 3});
   const Means origin = meansOf(session);
   EXPECT_GT(origin.before, 0.08);
@@ -112,7 +112,7 @@ TEST(PrincipalPoint, image_center_with_four_cameras_is_corrected_in_part) {
   EXPECT_LT(least_squares.after, 0.08);
 }
 
-TEST(PrincipalPoint, the_opposite_sign_diverges) {
+TEST(PrincipalPoint, TheOppositeSignDiverges) {
   for (const std::vector<std::size_t>& cameras :
        std::vector<std::vector<std::size_t>>{{0, 1}, {0, 1, 2, 3}}) {
     PaperSession session = imageCenter(cameras);
@@ -131,7 +131,7 @@ TEST(PrincipalPoint, the_opposite_sign_diverges) {
 
 // The closed form of the docstring: without noise the gap closes by a quarter per round, as far as
 // the other camera lets it, and the rays' principal point is where it ends.
-TEST(PrincipalPoint, the_gap_closes_until_the_origin_is_where_it_should_be) {
+TEST(PrincipalPoint, TheGapClosesUntilTheOriginIsWhereItShouldBe) {
   geometry::Intrinsics lens;
   const auto cameras = exactSightings(lens, layout().corners(true));
   CorrectionOptions options;
@@ -149,7 +149,7 @@ TEST(PrincipalPoint, the_gap_closes_until_the_origin_is_where_it_should_be) {
     EXPECT_NEAR(result.trace.rounds.back().principal_points[i].x(), 512.0, 8.0);
 }
 
-TEST(PrincipalPoint, the_difference_is_taken_in_distorted_pixels) {
+TEST(PrincipalPoint, TheDifferenceIsTakenInDistortedPixels) {
   geometry::Intrinsics lens;
   lens.distortion = {-0.15, 0.0, 0.0, 0.0, 0.0};
   auto cameras = exactSightings(lens, layout().corners(true));
@@ -193,7 +193,7 @@ TEST(PrincipalPoint, the_difference_is_taken_in_distorted_pixels) {
   }
 }
 
-TEST(PrincipalPoint, image_center_with_distortion_is_warned_of) {
+TEST(PrincipalPoint, ImageCenterWithDistortionIsWarnedOf) {
   geometry::Intrinsics lens;
   lens.distortion = {-0.05, 0.0, 0.0, 0.0, 0.0};
   const auto cameras = exactSightings(lens, layout().corners(true));
@@ -206,7 +206,7 @@ TEST(PrincipalPoint, image_center_with_distortion_is_warned_of) {
   EXPECT_NE(result.rig.verdict.find("know no distortion"), std::string::npos);
 }
 
-TEST(PrincipalPoint, progress_sees_every_round_and_can_stop_it) {
+TEST(PrincipalPoint, ProgressSeesEveryRoundAndCanStopIt) {
   const auto cameras = exactSightings({}, layout().corners(true));
   CorrectionOptions options;
   options.ray_model = geometry::RayModel::kImageCenter;
@@ -225,7 +225,7 @@ TEST(PrincipalPoint, progress_sees_every_round_and_can_stop_it) {
                    result.trace.rounds[2].principal_points[1].x());
 }
 
-TEST(PrincipalPoint, the_table_names_the_cameras_and_has_a_line_per_round) {
+TEST(PrincipalPoint, TheTableNamesTheCamerasAndHasALinePerRound) {
   const auto cameras = exactSightings({}, layout().corners(true));
   CorrectionOptions options;
   options.rounds = 2;
@@ -235,7 +235,7 @@ TEST(PrincipalPoint, the_table_names_the_cameras_and_has_a_line_per_round) {
   EXPECT_NE(text.find("535.0,  401.7"), std::string::npos);
 }
 
-TEST(PrincipalPoint, what_cannot_be_done_is_refused) {
+TEST(PrincipalPoint, WhatCannotBeDoneIsRefused) {
   auto cameras = exactSightings({}, layout().corners(true));
   const auto refused = [&](const CorrectionOptions& options) {
     EXPECT_THROW(correctPrincipalPoints(layout(), cameras, options), CorrectionError);

@@ -75,7 +75,7 @@ Eigen::Vector3d wavy(const Eigen::Vector3d& p) {
                                     std::sin(1.2 * p.x() + 1.0));
 }
 
-TEST(Remap, each_model_recovers_its_own_deformation_exactly_and_is_chosen) {
+TEST(Remap, EachModelRecoversItsOwnDeformationExactlyAndIsChosen) {
   const std::vector<std::pair<Model, Deformation>> cases = {
       {Model::kAffine, affine}, {Model::kProjective, projective}, {Model::kTrilinear, trilinear}};
   for (const auto& [model, deformation] : cases) {
@@ -95,7 +95,7 @@ TEST(Remap, each_model_recovers_its_own_deformation_exactly_and_is_chosen) {
 }
 
 // The thin plate through given values at its own points is unique.
-TEST(Remap, a_thin_plate_recovers_its_own_deformation_exactly) {
+TEST(Remap, AThinPlateRecoversItsOwnDeformationExactly) {
   Random random(5);
   const std::vector<Eigen::Vector3d> measured = grid(random);
   FitOptions options;
@@ -112,7 +112,7 @@ TEST(Remap, a_thin_plate_recovers_its_own_deformation_exactly) {
   }
 }
 
-TEST(Remap, a_thin_plate_is_chosen_for_what_no_other_model_can) {
+TEST(Remap, AThinPlateIsChosenForWhatNoOtherModelCan) {
   Random random(6);
   const std::vector<Eigen::Vector3d> measured = grid(random);
   const std::vector<KnownPoint> points = deformed(measured, wavy);
@@ -135,7 +135,7 @@ TEST(Remap, a_thin_plate_is_chosen_for_what_no_other_model_can) {
 }
 
 // The closed form for left out points, against fitting without each point in turn.
-TEST(Remap, left_out_errors_of_a_thin_plate_are_those_of_fits_without_the_point) {
+TEST(Remap, LeftOutErrorsOfAThinPlateAreThoseOfFitsWithoutThePoint) {
   Random random(7);
   FitOptions options;
   options.models = {Model::kThinPlate};
@@ -153,7 +153,7 @@ TEST(Remap, left_out_errors_of_a_thin_plate_are_those_of_fits_without_the_point)
   }
 }
 
-TEST(Remap, with_noise_the_simplest_sufficient_model_is_chosen_nearly_always) {
+TEST(Remap, WithNoiseTheSimplestSufficientModelIsChosenNearlyAlways) {
   constexpr int kTrials = 20;
   int affine_chosen = 0;
   int trilinear_chosen = 0;
@@ -173,7 +173,7 @@ TEST(Remap, with_noise_the_simplest_sufficient_model_is_chosen_nearly_always) {
 }
 
 // What is promised for a point is what new points, measured with the same noise, are found to be.
-TEST(Remap, the_expected_error_is_honest) {
+TEST(Remap, TheExpectedErrorIsHonest) {
   constexpr int kTrials = 20;
   double promised = 0.0;
   double found = 0.0;
@@ -198,7 +198,7 @@ TEST(Remap, the_expected_error_is_honest) {
   EXPECT_LT(ratio, 1.5);
 }
 
-TEST(Remap, the_papers_ten_points_suffice_for_every_model) {
+TEST(Remap, ThePapersTenPointsSufficeForEveryModel) {
   std::vector<Eigen::Vector3d> measured;
   for (int i = 0; i < 8; ++i)
     measured.push_back(2.5 * Eigen::Vector3d(i & 1, i >> 1 & 1, i >> 2 & 1));
@@ -213,7 +213,7 @@ TEST(Remap, the_papers_ten_points_suffice_for_every_model) {
   EXPECT_NE(table(result).find("chosen"), std::string::npos);
 }
 
-TEST(Remap, points_on_the_outside_alone_are_warned_of) {
+TEST(Remap, PointsOnTheOutsideAloneAreWarnedOf) {
   Random random(17);
   std::vector<Eigen::Vector3d> measured;
   for (int i = 0; i < 8; ++i)
@@ -230,7 +230,7 @@ TEST(Remap, points_on_the_outside_alone_are_warned_of) {
   EXPECT_FALSE(warns());
 }
 
-TEST(Remap, covariance_follows_the_derivative_of_the_model) {
+TEST(Remap, CovarianceFollowsTheDerivativeOfTheModel) {
   Random random(8);
   const std::vector<Eigen::Vector3d> measured = grid(random);
   const std::vector<std::pair<Model, Deformation>> cases = {{Model::kAffine, affine},
@@ -261,7 +261,7 @@ TEST(Remap, covariance_follows_the_derivative_of_the_model) {
   }
 }
 
-TEST(Remap, outside_the_hull_is_said) {
+TEST(Remap, OutsideTheHullIsSaid) {
   Random random(9);
   const FitResult result = fitRemap(deformed(grid(random), trilinear), kRig);
   const Correction correction(result.remap, kRig);
@@ -274,7 +274,7 @@ TEST(Remap, outside_the_hull_is_said) {
   EXPECT_FALSE(correction.apply({NAN, 1.0, 1.0}, covariance).has_value());
 }
 
-TEST(Remap, another_calibration_and_damaged_values_are_refused) {
+TEST(Remap, AnotherCalibrationAndDamagedValuesAreRefused) {
   Random random(11);
   const Remap good = fitRemap(deformed(grid(random), affine), kRig).remap;
   EXPECT_NO_THROW(Correction(good, kRig));
@@ -310,7 +310,7 @@ void expectRefused(const std::vector<KnownPoint>& points, const std::string& par
   }
 }
 
-TEST(Remap, each_kind_of_useless_points_has_its_own_refusal) {
+TEST(Remap, EachKindOfUselessPointsHasItsOwnRefusal) {
   Random random(12);
   const std::vector<Eigen::Vector3d> measured = grid(random);
   const std::vector<KnownPoint> good = deformed(measured, affine);
@@ -347,7 +347,7 @@ TEST(Remap, each_kind_of_useless_points_has_its_own_refusal) {
   EXPECT_THROW(fitRemap(good, kRig, nothing), Error);
 }
 
-TEST(Remap, a_model_that_needs_more_points_says_so_and_the_others_are_used) {
+TEST(Remap, AModelThatNeedsMorePointsSaysSoAndTheOthersAreUsed) {
   Random random(13);
   const std::vector<Eigen::Vector3d> measured = {{0.0, 0.0, 0.0}, {2.5, 0.1, 0.0}, {0.0, 2.5, 0.1},
                                                  {2.4, 2.5, 0.0}, {0.1, 0.0, 2.5}, {2.5, 0.0, 2.4},
@@ -360,7 +360,7 @@ TEST(Remap, a_model_that_needs_more_points_says_so_and_the_others_are_used) {
   EXPECT_NE(table(result).find("needs 10 points"), std::string::npos);
 }
 
-TEST(Remap, a_wrong_point_is_named) {
+TEST(Remap, AWrongPointIsNamed) {
   Random random(14);
   std::vector<KnownPoint> points = deformed(grid(random), affine);
   for (KnownPoint& point : points)
@@ -371,7 +371,7 @@ TEST(Remap, a_wrong_point_is_named) {
   EXPECT_NE(result.warnings[0].find("known point 17"), std::string::npos);
 }
 
-TEST(Remap, progress_grows_and_can_stop_it) {
+TEST(Remap, ProgressGrowsAndCanStopIt) {
   Random random(15);
   const std::vector<KnownPoint> points = deformed(grid(random), affine);
   double last = 0.0;

@@ -61,7 +61,7 @@ double shapeError(const SyntheticRig& rig, const SelfCalibration& result) {
   return std::sqrt(squares / static_cast<double>(from.size()));
 }
 
-TEST(SelfCalibrate, findsLensesPosesAndPointsFromPixelsAlone) {
+TEST(SelfCalibrate, FindsLensesPosesAndPointsFromPixelsAlone) {
   for (const std::size_t camera_count : {3u, 4u}) {
     SCOPED_TRACE(std::to_string(camera_count) + " cameras");
     SyntheticRig rig = rigOf(camera_count, 120, 21);
@@ -80,7 +80,7 @@ TEST(SelfCalibrate, findsLensesPosesAndPointsFromPixelsAlone) {
   }
 }
 
-TEST(SelfCalibrate, grossErrorsAreFoundAndDoNoHarm) {
+TEST(SelfCalibrate, GrossErrorsAreFoundAndDoNoHarm) {
   SyntheticRig rig = rigOf(4, 100, 22);
   rig.addNoise(0.2);
   std::vector<bool> spoiled(rig.observations.size(), false);
@@ -102,7 +102,7 @@ TEST(SelfCalibrate, grossErrorsAreFoundAndDoNoHarm) {
   EXPECT_LT(shapeError(rig, result), 0.02);
 }
 
-TEST(SelfCalibrate, camerasWithOneLensAreSolvedWithOne) {
+TEST(SelfCalibrate, CamerasWithOneLensAreSolvedWithOne) {
   SyntheticRig rig = rigOf(4, 100, 23);
   for (geometry::Camera& camera : rig.cameras)
     camera.intrinsics = rig.cameras.front().intrinsics;
@@ -119,7 +119,7 @@ TEST(SelfCalibrate, camerasWithOneLensAreSolvedWithOne) {
   EXPECT_LT(result.lenses.front().focal_stddev, solved(rig).lenses.front().focal_stddev);
 }
 
-TEST(SelfCalibrate, saysThatParallelCamerasDoNotDetermineFocalLengths) {
+TEST(SelfCalibrate, SaysThatParallelCamerasDoNotDetermineFocalLengths) {
   SyntheticRig rig = rigOf(2, 120, 24);
   for (std::size_t i = 0; i < 2; ++i)
     rig.cameras[i].world_from_camera = geometry::lookAt(
@@ -138,7 +138,7 @@ TEST(SelfCalibrate, saysThatParallelCamerasDoNotDetermineFocalLengths) {
   EXPECT_LT(shapeError(rig, fixed), 0.02);
 }
 
-TEST(SelfCalibrate, isAsCertainAsItSays) {
+TEST(SelfCalibrate, HasTheStatedUncertainty) {
   // From the truth on, nothing else known, so that only the noise matters. Chi-square of 4 focal
   // lengths, 30 times: its mean is 1 with a standard deviation of 0.13 were they independent, at
   // most 0.26.
@@ -189,7 +189,7 @@ TEST(SelfCalibrate, isAsCertainAsItSays) {
   EXPECT_NEAR(std::sqrt(squares / expected), 1.0, 0.15);
 }
 
-TEST(SelfCalibrate, namesAMirroredImage) {
+TEST(SelfCalibrate, NamesAMirroredImage) {
   SyntheticRig rig = rigOf(3, 80, 26);
   rig.addNoise(0.2);
   for (Observation& observation : rig.observations) {
@@ -200,7 +200,7 @@ TEST(SelfCalibrate, namesAMirroredImage) {
   EXPECT_NE(text.find("the image of camera_2 is mirrored"), std::string::npos) << text;
 }
 
-TEST(SelfCalibrate, namesCrossedIntrinsics) {
+TEST(SelfCalibrate, NamesCrossedIntrinsics) {
   SyntheticRig rig = rigOf(3, 80, 27);
   rig.cameras[2].intrinsics.fx *= 2.5;
   rig.cameras[2].intrinsics.fy *= 2.5;
@@ -214,7 +214,7 @@ TEST(SelfCalibrate, namesCrossedIntrinsics) {
       << text;
 }
 
-TEST(SelfCalibrate, refusesWhatContradictsItself) {
+TEST(SelfCalibrate, RefusesWhatContradictsItself) {
   SyntheticRig rig = rigOf(3, 60, 28);
   for (Observation& observation : rig.observations) {
     if (observation.camera == 2)
@@ -224,7 +224,7 @@ TEST(SelfCalibrate, refusesWhatContradictsItself) {
   EXPECT_NE(text.find("camera_3"), std::string::npos) << text;
 }
 
-TEST(SelfCalibrate, refusesALine) {
+TEST(SelfCalibrate, RefusesALine) {
   SyntheticRig rig = rigOf(3, 80, 29);
   for (geometry::Camera& camera : rig.cameras)
     camera.intrinsics.distortion = {};
@@ -236,7 +236,7 @@ TEST(SelfCalibrate, refusesALine) {
   EXPECT_NE(text.find("moved on a line only"), std::string::npos) << text;
 }
 
-TEST(SelfCalibrate, refusesAPlane) {
+TEST(SelfCalibrate, RefusesAPlane) {
   SyntheticRig rig = rigOf(3, 100, 30);
   for (Eigen::Vector3d& point : rig.points)
     point.z() = 0.5 + 0.2 * point.x();
@@ -246,7 +246,7 @@ TEST(SelfCalibrate, refusesAPlane) {
   EXPECT_NE(text.find("in one plane only"), std::string::npos) << text;
 }
 
-TEST(SelfCalibrate, refusesTooFew) {
+TEST(SelfCalibrate, RefusesTooFew) {
   EXPECT_NE(refusal(rigOf(3, 8, 31)).find("10 points in common"), std::string::npos);
   SyntheticRig one = rigOf(3, 50, 31);
   one.cameras.resize(1);
@@ -254,7 +254,7 @@ TEST(SelfCalibrate, refusesTooFew) {
   EXPECT_NE(refusal(one).find("two cameras or more"), std::string::npos);
 }
 
-TEST(SelfCalibrate, stopsWhenAsked) {
+TEST(SelfCalibrate, StopsWhenAsked) {
   const SyntheticRig rig = rigOf(3, 60, 32);
   double last = 0.0;
   const auto stop = [&](const std::string&, double fraction) {

@@ -226,7 +226,7 @@ void expectSameSession(const Session& a, const Session& b) {
   }
 }
 
-TEST_F(SessionFile, is_what_the_documentation_shows) {
+TEST_F(SessionFile, IsWhatTheDocumentationShows) {
   write(kText);
   expectSameSession(readSessionFile(path_), expectedSession());
   std::filesystem::remove(path_);
@@ -234,7 +234,7 @@ TEST_F(SessionFile, is_what_the_documentation_shows) {
   EXPECT_EQ(geometry::readFile(path_), kText);
 }
 
-TEST_F(SessionFile, brings_any_number_and_name_back) {
+TEST_F(SessionFile, KeepsAnyNumberAndName) {
   std::mt19937_64 random(1);
   const auto any = [&random] {
     double value = 0.0;
@@ -258,7 +258,7 @@ TEST_F(SessionFile, brings_any_number_and_name_back) {
   expectSameSession(readSessionFile(path_), session);
 }
 
-TEST_F(SessionFile, has_a_decimal_point_where_people_write_a_comma) {
+TEST_F(SessionFile, HasADecimalPointInEveryLocale) {
   if (!std::setlocale(LC_NUMERIC, "de_DE.UTF-8"))
     GTEST_SKIP() << "no German locale here";
   writeSessionFile(expectedSession(), path_);
@@ -267,7 +267,7 @@ TEST_F(SessionFile, has_a_decimal_point_where_people_write_a_comma) {
   std::setlocale(LC_NUMERIC, "C");
 }
 
-TEST_F(SessionFile, keeps_what_was_there_before) {
+TEST_F(SessionFile, KeepsWhatWasThereBefore) {
   Session session = expectedSession();
   writeSessionFile(session, path_);
   session.recording.square->side_x = 3.0;
@@ -278,7 +278,7 @@ TEST_F(SessionFile, keeps_what_was_there_before) {
   EXPECT_EQ(readSessionFile(path_).recording.square->side_x, 3.0);
 }
 
-TEST_F(SessionFile, cut_off_anywhere_is_refused) {
+TEST_F(SessionFile, CutOffAnywhereIsRefused) {
   const std::string text = kText;
   for (std::size_t length = 0; length < text.size(); ++length) {
     write(text.substr(0, length));
@@ -286,7 +286,7 @@ TEST_F(SessionFile, cut_off_anywhere_is_refused) {
   }
 }
 
-TEST_F(SessionFile, damage_is_refused_or_harmless) {
+TEST_F(SessionFile, DamageIsRefusedOrHarmless) {
   const std::string text = kText;
   std::mt19937_64 random(2);
   int refused = 0;
@@ -309,7 +309,7 @@ TEST_F(SessionFile, damage_is_refused_or_harmless) {
   EXPECT_GT(refused, static_cast<int>(text.size()));
 }
 
-TEST_F(SessionFile, says_what_is_wrong_with_it) {
+TEST_F(SessionFile, SaysWhatIsWrongWithIt) {
   const auto with = [](const std::string& from, const std::string& to) {
     std::string text = kText;
     text.replace(text.find(from), from.size(), to);

@@ -53,7 +53,7 @@ struct Setup {
 
 class NoiseFree : public ::testing::TestWithParam<Setup> {};
 
-TEST_P(NoiseFree, random_rigs_are_solved_exactly) {
+TEST_P(NoiseFree, RandomRigsAreSolvedExactly) {
   Random random(17);
   SolveOptions options;
   options.method = GetParam().method;
@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(MethodsAndDirections,
                                            Setup{Method::kPerCamera, true},
                                            Setup{Method::kPerCamera, false}));
 
-TEST(Layout, corners_follow_height_offset_and_yaw) {
+TEST(Layout, CornersFollowHeightOffsetAndYaw) {
   SquareLayout layout = rectangle(2.0, 1.0);
   layout.led_height = 0.1;
   layout.origin = Eigen::Vector2d(2.0, 0.0);  // the second corner
@@ -98,7 +98,7 @@ TEST(Layout, corners_follow_height_offset_and_yaw) {
   EXPECT_LT((layout.corners(false)[2] - Eigen::Vector3d(1, 0, -0.1)).norm(), 1e-12);
 }
 
-TEST_F(FourCameras, clockwise_corners_put_z_down_with_one_warning) {
+TEST_F(FourCameras, ClockwiseCornersPutZDownWithOneWarning) {
   // Seen from above: first, fourth, third, second corner of the same square.
   for (CameraSightings& camera : simulated_.sightings)
     std::swap(camera.corners[1], camera.corners[3]);
@@ -116,7 +116,7 @@ TEST_F(FourCameras, clockwise_corners_put_z_down_with_one_warning) {
   }
 }
 
-TEST_F(FourCameras, a_camera_that_misses_a_corner_is_left_out_and_named) {
+TEST_F(FourCameras, ACameraThatMissesACornerIsLeftOutAndNamed) {
   simulated_.sightings[1].corners[2].reset();
   simulated_.sightings[3].corners = {};
   const SquareSolution solution = solveSquare(layout_, simulated_.sightings, SolveOptions());
@@ -130,7 +130,7 @@ TEST_F(FourCameras, a_camera_that_misses_a_corner_is_left_out_and_named) {
 
 class ThreeCorners : public ::testing::TestWithParam<Method> {};
 
-TEST_P(ThreeCorners, place_a_camera_that_has_an_accelerometer) {
+TEST_P(ThreeCorners, PlaceACameraThatHasAnAccelerometer) {
   Random random(31);
   SolveOptions options;
   options.method = GetParam();
@@ -171,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(Methods,
                          ThreeCorners,
                          ::testing::Values(Method::kJoint, Method::kPerCamera));
 
-TEST(ThreeCornersWithErrors, are_known_as_well_as_their_covariance_says) {
+TEST(ThreeCornersWithErrors, AreKnownAsWellAsTheirCovarianceSays) {
   Random random(37);
   const SquareLayout layout = rectangle(2.5, 2.0);
   const Uncertainty assumed;
@@ -207,7 +207,7 @@ TEST(ThreeCornersWithErrors, are_known_as_well_as_their_covariance_says) {
   EXPECT_NEAR(sum / (6.0 * count), 1.0, 4.0 * std::sqrt(2.0 / (6.0 * count)));
 }
 
-TEST_F(FourCameras, three_corners_whose_place_is_not_clear_are_left_out) {
+TEST_F(FourCameras, ThreeCornersWhosePlaceIsNotClearAreLeftOut) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Eigen::Vector3d up = simulated_.truth[i].world_from_camera.linear().row(2);
     simulated_.sightings[i].gravity = 9.81 * up;
@@ -222,7 +222,7 @@ TEST_F(FourCameras, three_corners_whose_place_is_not_clear_are_left_out) {
   EXPECT_SAYS(text, "does not tell which");
 }
 
-TEST(WideLens, is_solved_exactly) {
+TEST(WideLens, IsSolvedExactly) {
   Random random(41);
   const SquareLayout layout = rectangle(2.5, 2.0);
   SimulatedSquare simulated;
@@ -248,7 +248,7 @@ TEST(WideLens, is_solved_exactly) {
     EXPECT_LT((solution.rig.cameras[i].camera.center() - poses[i].translation()).norm(), 1e-6);
 }
 
-TEST_F(FourCameras, fewer_than_two_cameras_are_refused_by_name) {
+TEST_F(FourCameras, FewerThanTwoCamerasAreRefusedByName) {
   for (std::size_t i = 1; i < 4; ++i)
     simulated_.sightings[i].corners[i].reset();
   const std::string text = refusalOf(layout_, simulated_.sightings);
@@ -257,20 +257,20 @@ TEST_F(FourCameras, fewer_than_two_cameras_are_refused_by_name) {
   EXPECT_SAYS(refusalOf(layout_, {simulated_.sightings[0]}), "at least two cameras");
 }
 
-TEST_F(FourCameras, fewer_than_four_corners_are_refused) {
+TEST_F(FourCameras, FewerThanFourCornersAreRefused) {
   for (CameraSightings& camera : simulated_.sightings)
     camera.corners[3].reset();
   EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "only 3 of 4 corners");
   EXPECT_SAYS(refusalOf(layout_, {}), "only 0 of 4 corners");
 }
 
-TEST_F(FourCameras, crossing_corners_are_refused) {
+TEST_F(FourCameras, CrossingCornersAreRefused) {
   for (CameraSightings& camera : simulated_.sightings)
     std::swap(camera.corners[2], camera.corners[3]);
   EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "out of order");
 }
 
-TEST_F(FourCameras, corners_on_a_line_or_in_one_place_are_refused) {
+TEST_F(FourCameras, CornersOnALineOrInOnePlaceAreRefused) {
   std::vector<CameraSightings> line = simulated_.sightings;
   for (std::size_t i = 0; i < 4; ++i)
     line[i].corners[2] = simulated_.truth[i].project(Eigen::Vector3d(1.25, 0.0, 0.0)).value();
@@ -281,14 +281,14 @@ TEST_F(FourCameras, corners_on_a_line_or_in_one_place_are_refused) {
   EXPECT_SAYS(refusalOf(layout_, twice), "in one place");
 }
 
-TEST_F(FourCameras, a_corner_inside_the_others_is_refused) {
+TEST_F(FourCameras, ACornerInsideTheOthersIsRefused) {
   for (std::size_t i = 0; i < 4; ++i)
     simulated_.sightings[i].corners[2] =
         simulated_.truth[i].project(Eigen::Vector3d(0.6, 0.6, 0.0)).value();
   EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "do not look like a square");
 }
 
-TEST_F(FourCameras, bad_sides_and_heights_are_refused) {
+TEST_F(FourCameras, BadSidesAndHeightsAreRefused) {
   for (const double side : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                             std::numeric_limits<double>::infinity()}) {
     EXPECT_SAYS(refusalOf(rectangle(side, 1.0), simulated_.sightings), "first to the second");
@@ -298,7 +298,7 @@ TEST_F(FourCameras, bad_sides_and_heights_are_refused) {
   EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "height of the LED");
 }
 
-TEST_F(FourCameras, a_mirrored_image_is_refused_and_named) {
+TEST_F(FourCameras, AMirroredImageIsRefusedAndNamed) {
   // Raw pixels whose y axis grows upwards fit a square just as well.
   for (auto& corner : simulated_.sightings[2].corners)
     corner->y() = 767.0 - corner->y();
@@ -306,7 +306,7 @@ TEST_F(FourCameras, a_mirrored_image_is_refused_and_named) {
   EXPECT_SAYS(text, "clockwise for camera_3");
 }
 
-TEST_F(FourCameras, a_world_mirrored_in_all_cameras_is_refused_by_gravity) {
+TEST_F(FourCameras, AWorldMirroredInAllCamerasIsRefusedByGravity) {
   for (std::size_t i = 0; i < 4; ++i) {
     CameraSightings& camera = simulated_.sightings[i];
     const Eigen::Vector3d up = simulated_.truth[i].world_from_camera.linear().row(2);
@@ -317,7 +317,7 @@ TEST_F(FourCameras, a_world_mirrored_in_all_cameras_is_refused_by_gravity) {
   EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "against its accelerometer");
 }
 
-TEST_F(FourCameras, one_camera_that_contradicts_the_others_is_named) {
+TEST_F(FourCameras, OneCameraThatContradictsTheOthersIsNamed) {
   // The camera was bumped between the first and the second corner.
   for (const Eigen::Vector2d& bump :
        {Eigen::Vector2d(60.0, 25.0), Eigen::Vector2d(-60.0, 25.0), Eigen::Vector2d(25.0, 60.0),
@@ -329,11 +329,11 @@ TEST_F(FourCameras, one_camera_that_contradicts_the_others_is_named) {
   }
 }
 
-TEST_F(FourCameras, sides_that_are_not_those_of_the_square_are_refused) {
+TEST_F(FourCameras, SidesThatAreNotThoseOfTheSquareAreRefused) {
   EXPECT_SAYS(refusalOf(rectangle(2.5, 2.0), simulated_.sightings), "check the sides");
 }
 
-TEST_F(FourCameras, a_corner_put_down_far_off_is_named) {
+TEST_F(FourCameras, ACornerFarFromItsPlaceIsNamed) {
   for (std::size_t i = 0; i < 4; ++i)
     simulated_.sightings[i].corners[2] =
         simulated_.truth[i].project(Eigen::Vector3d(2.56, 2.56, 0.0)).value();
@@ -342,13 +342,13 @@ TEST_F(FourCameras, a_corner_put_down_far_off_is_named) {
   EXPECT_SAYS(solution.warnings[0], "most at corner 3");
 }
 
-TEST_F(FourCameras, the_same_sightings_give_the_same_rig) {
+TEST_F(FourCameras, IsDeterministic) {
   const auto once = solveSquare(layout_, simulated_.sightings, SolveOptions());
   const auto again = solveSquare(layout_, simulated_.sightings, SolveOptions());
   EXPECT_EQ(once.rig.id(), again.rig.id());
 }
 
-TEST_F(FourCameras, residuals_are_in_pixels_and_metres) {
+TEST_F(FourCameras, ResidualsAreInPixelsAndMetres) {
   SolveOptions options;
   options.method = Method::kPerCamera;
   Random random(3);

@@ -44,7 +44,7 @@ bool mentions(const CoverageReport& report, const std::string& text) {
   return all(report).find(text) != std::string::npos;
 }
 
-TEST(Coverage, NothingSeenYet) {
+TEST(Coverage, IsEmptyBeforeTheFirstFrame) {
   const SimulatedWave wave = simulateWave(WaveScene(), 1);
   const Coverage coverage(wave.cameras, true, 1, CoverageOptions());
   const CoverageReport report = coverage.report();
@@ -55,7 +55,7 @@ TEST(Coverage, NothingSeenYet) {
   EXPECT_FALSE(report.speed.has_value());
 }
 
-TEST(Coverage, GrowsToEnough) {
+TEST(Coverage, GrowsUntilComplete) {
   WaveScene scene;
   scene.duration = 40.0;
   for (const double length : {0.0, 0.5}) {

@@ -101,7 +101,7 @@ class ThrownErrors : public Node {
   }
 };
 
-TEST_F(ThrownErrors, become_refusals_and_the_next_request_works) {
+TEST_F(ThrownErrors, BecomeRefusalsAndTheNextRequestWorks) {
   captureAll();
   ASSERT_TRUE(call<SolveCalibration>("calibration/solve").success);
   StartBoard::Request board;
@@ -131,7 +131,7 @@ TEST_F(ThrownErrors, become_refusals_and_the_next_request_works) {
   }
 }
 
-TEST_F(ThrownErrors, end_no_thread_that_images_come_from) {
+TEST_F(ThrownErrors, EndNoThreadThatImagesComeFrom) {
   bool thrown = false;
   {
     const Lock lock(node->context().mutex());

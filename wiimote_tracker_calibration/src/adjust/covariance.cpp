@@ -12,8 +12,8 @@ namespace wiimote_tracker::adjust {
 
 namespace {
 
-// Least information of a parameter that the others do not take away, as a share of all that it has:
-// below it is rounding error.
+// Smallest ratio of a parameter's information given the other parameters to its own information;
+// below, it is rounding error.
 constexpr double kOpen = 1e-13;
 
 /// J^T J by the blocks that are estimated, the wanted ones first.

@@ -12,9 +12,9 @@ namespace wiimote_tracker::adjust {
 
 /// Joint covariance of some parameter blocks of a problem at its present values, in this order:
 /// the inverse of J^T J, with the whitened residuals' Jacobian J by all blocks of the problem.
-/// Blocks that are held have zero rows. Nothing when the residuals leave some parameter open.
-/// By a sparse Cholesky factor, of which only these blocks' columns are solved: ceres::Covariance
-/// factors J itself (QR), which takes more than a minute for the path of a long wave.
+/// Blocks that are held have zero rows. Nothing when the residuals do not determine some
+/// parameter. Uses a sparse Cholesky factor and solves only these blocks' columns:
+/// ceres::Covariance factors J itself (QR), which takes more than a minute for a long wave.
 std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
                                             const std::vector<double*>& blocks);
 

@@ -11,7 +11,7 @@ struct SplineWeights {
   Eigen::Vector4d rate;   ///< Of the velocity [1/s].
 };
 
-/// @param time since the first of the two knots [s]; beyond the interval its polynomial goes on.
+/// @param time since the first of the two knots [s]; beyond the interval it is extrapolated.
 /// @param spacing of the knots [s].
 inline SplineWeights splineWeights(double time, double spacing) {
   const double u = time / spacing;

@@ -14,7 +14,7 @@
 
 namespace wiimote_tracker::adjust {
 
-/// What is known of a lens beforehand, whitened. Block: lens (CameraBlocks).
+/// Prior of a lens, whitened. Block: lens (CameraBlocks).
 struct LensPrior {
   geometry::Intrinsics mean;
   double focal;            ///< Standard deviation of the focal length, relative [1].

@@ -5,8 +5,8 @@
 
 namespace wiimote_tracker::adjust {
 
-/// Acceleration of a uniform cubic B-spline at a knot, whitened: what bridges times in which nobody
-/// sees the point. Blocks: the three control points around the knot (3 each) [m].
+/// Acceleration of a uniform cubic B-spline at a knot, whitened: the prior that bridges times in
+/// which no camera sees the point. Blocks: the three control points around the knot (3 each) [m].
 struct PathAccelerationError {
   double spacing;  ///< Of the knots [s].
   double stddev;   ///< Of the acceleration, per axis [m/s^2].

@@ -24,13 +24,13 @@ class PathPixelError : public ceres::SizedCostFunction<2,
                                                        3,
                                                        3> {
  public:
-  /// @param since_knot the image's stamp after the first knot of its interval [s]. The interval
-  /// stays: a time offset that leaves it continues its polynomial.
+  /// @param since_knot the image's stamp after the first knot of its interval [s]. A time
+  /// offset that leaves this interval extrapolates its polynomial.
   /// @param spacing of the knots [s].
   PathPixelError(const PixelError& pixel, double since_knot, double spacing)
       : pixel_(pixel.cost()), since_knot_(since_knot), spacing_(spacing) {}
 
-  /// Differentiates the pixel by the point, and chains: 18 dual numbers instead of 28.
+  /// Chain rule over the point: 18 dual numbers instead of 28.
   bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override {
     constexpr int kOffset = 4;
     constexpr int kControls = 5;

@@ -8,8 +8,8 @@
 
 namespace wiimote_tracker::adjust {
 
-/// Independent values that are known beforehand, whitened: the place of a corner, the length of a
-/// wand, the offset of a clock, distortion coefficients. Block: the values.
+/// Gaussian prior of independent values, whitened: the place of a corner, the length of a wand, the
+/// offset of a clock, distortion coefficients. Block: the values.
 template <int Size>
 struct Prior {
   std::array<double, Size> mean;

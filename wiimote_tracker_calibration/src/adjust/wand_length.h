@@ -11,7 +11,7 @@ namespace wiimote_tracker::adjust {
 /// the three control points around the knot of the one LED, those of the other (3 each) [m], the
 /// length (1) [m].
 struct WandLengthError {
-  double stddev;  ///< How far the splines may bend the wand [m].
+  double stddev;  ///< Of the splines' distance from the length [m].
 
   ceres::CostFunction* cost() const {
     return new ceres::AutoDiffCostFunction<WandLengthError, 1, 3, 3, 3, 3, 3, 3, 1>(

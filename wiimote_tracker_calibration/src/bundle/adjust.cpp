@@ -139,7 +139,7 @@ class BundleProblem {
     solver.function_tolerance = options_.rough ? 1e-4 : 1e-7;
     solver.parameter_tolerance = 1e-12;
     solver.gradient_tolerance = 1e-14;
-    // The scale is free, so the normal equations are singular but for the damping: keep some of it.
+    // The scale is free, so only the damping keeps the normal equations regular: keep some of it.
     solver.max_trust_region_radius = 1e8;
     solver.num_threads = 1;  // the same bits on every run
     solver.logging_type = ceres::SILENT;
@@ -157,7 +157,7 @@ class BundleProblem {
 }  // namespace
 
 void adjust(Reconstruction* reconstruction, const Options& options, const Held& held) {
-  // A camera without any inlier stays where it is and is not asked about points.
+  // A camera without any inlier keeps its pose and takes no part in the triangulation.
   const int kMaximumRounds = 20;
   std::vector<bool> usable(reconstruction->cameras.size(), false);
   for (std::size_t i = 0; i < reconstruction->observations.size(); ++i) {

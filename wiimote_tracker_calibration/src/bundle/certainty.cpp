@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kPoseSize = 6;
 constexpr int kLensSize = 9;
-constexpr double kGiven = 1e12;  // information of a parameter that is given
+constexpr double kGiven = 1e12;  // information of a parameter that is held
 constexpr double kOpen = 1e-13;  // eigenvalues below this share of the largest are rounding errors
 
 /// Weight of a squared residual by the Huber loss.

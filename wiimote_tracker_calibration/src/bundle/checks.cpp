@@ -17,7 +17,7 @@ namespace wiimote_tracker::bundle {
 
 void checkObservations(const Reconstruction& reconstruction, const Options& options) {
   if (reconstruction.cameras.size() < 2)
-    throw BundleError("give two cameras or more: one alone cannot tell depth");
+    throw BundleError("give two cameras or more: one alone does not determine depth");
   if (!(options.maximum_error > 0.0) || !(options.loss_scale > 0.0) ||
       options.minimum_common_points < 8)
     throw BundleError(

@@ -66,7 +66,7 @@ bool agree(const Attempt& a, const Attempt& b, double tolerance) {
 // Observations of each camera that suffice to tell a good start from a bad one.
 constexpr std::size_t kFewPerCamera = 100;
 
-/// Follows the starts until the best of them is found.
+/// Continues the best starts until one solution is left.
 class Search {
  public:
   Search(const Reconstruction& all,

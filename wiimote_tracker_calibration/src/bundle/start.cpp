@@ -198,7 +198,7 @@ std::size_t place(const NormalizedViews& views,
   cv::Mat translation;
   std::vector<int> inliers;
   const double tolerance = kStartTolerance * options.maximum_error / focalLength(camera);
-  const int iterations = options.rough ? 150 : 1000;  // 150: one in two may be wrong
+  const int iterations = options.rough ? 150 : 1000;  // 150 suffice with 50 % outliers
   bool found = false;
   try {
     found = cv::solvePnPRansac(known.points, known.views, cv::Mat::eye(3, 3, CV_64F), cv::noArray(),

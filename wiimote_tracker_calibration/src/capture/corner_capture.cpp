@@ -9,10 +9,10 @@ namespace wiimote_tracker::capture {
 
 namespace {
 
-// The capture waits for a camera whose last sample is at most this old. So long after the start a
-// silent camera is no problem yet.
+// The capture waits for a camera whose last sample is at most this old, and as long after the start
+// for the first image of each camera.
 constexpr double kHold = 0.5;  // [s]
-// The LED's motion is judged from so many samples on.
+// Fewest samples from which motion of the LED is judged.
 constexpr std::size_t kSamplesToJudge = 10;
 
 std::string pixels(double value) {
@@ -110,7 +110,7 @@ std::string CornerCapture::problem(const std::string& name) const {
   if (!camera.seen && !just_begun)
     return "sends no images: check its battery, its connection and its driver";
   if (camera.blobs == 0 && camera.masked > 0)
-    return "sees lights that are masked only: if the LED stands in front of one of them, move that "
+    return "sees only masked lights: if the LED stands in front of one of them, move that "
            "lamp or the camera and learn the masks again";
   if (camera.seen && camera.blobs != 1)
     return spotCountProblem(camera.blobs);
@@ -143,7 +143,7 @@ std::string CornerCapture::movement(const StillSpot& spot) const {
   const double chance = spot.spread() * std::sqrt(6.0 / static_cast<double>(spot.samples()));
   if (spot.samples() >= static_cast<std::size_t>(options_.minimum_samples) &&
       spot.drift() > std::max(options_.drift_limit, 4.0 * chance))
-    return "the LED moved slowly, its spot went " + pixels(spot.drift()) + ", at most " +
+    return "the LED moved slowly, its spot drifted by " + pixels(spot.drift()) + ", at most " +
            pixels(options_.drift_limit) + " are allowed" + advice;
   return "";
 }

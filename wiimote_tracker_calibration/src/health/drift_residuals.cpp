@@ -15,7 +15,7 @@ namespace wiimote_tracker::health {
 namespace {
 
 constexpr std::size_t kLeastResiduals = 40;
-// The derivative is computed for so many residuals; their mean stands for that of all.
+// The derivative is computed for this many residuals; their mean is used for all.
 constexpr std::size_t kDerivatives = 40;
 // For Gaussian errors: standard deviation over median absolute deviation, and standard deviation of
 // the median over that of the mean.

@@ -10,7 +10,7 @@ namespace wiimote_tracker::health {
 namespace {
 
 constexpr double kSamplePeriod = 0.05;  // [s]
-// A sample waits for images for so long.
+// Longest wait of a sample for images.
 constexpr double kPatience = 0.1;  // [s]
 // The LED's position is not interpolated between images further apart.
 constexpr double kLongestGap = 0.05;  // [s]
@@ -157,8 +157,8 @@ void DriftWatch::judge() {
 
 std::vector<bool> DriftWatch::judgeAgainstOthers() {
   std::vector<bool> active(cameras_.size(), true);
-  // A camera that drifted pulls the others' points along, so that they seem to drift too. The one
-  // is taken out without which the rest fit best; the rest is judged without it.
+  // A camera that drifted moves the points of the others, so that they seem to drift too. Remove
+  // the camera without which the rest fit best, and judge the rest without it.
   while (true) {
     double least = 0.0;
     std::optional<std::size_t> culprit;

@@ -23,7 +23,7 @@ struct DriftOptions {
   double window = 60.0;  ///< Over which the mean is taken; judged twelve times in it [s, > 0].
 };
 
-/// The sights of the LED of two cameras or more at one time, with the cameras' indices in the rig,
+/// Pixels of the LED in two cameras or more at one time, with the cameras' indices in the rig,
 /// ascending.
 struct DriftSample {
   double time;  ///< [s]
@@ -70,7 +70,7 @@ class DriftWatch {
   void judge();
   std::optional<Drift> driftOf(std::size_t camera, const std::vector<bool>& active) const;
   std::optional<Drift> driftOfPair(std::size_t a, std::size_t b) const;
-  /// Takes out the cameras that drifted, one after the other. @returns which ones remain.
+  /// Removes the cameras that drifted, one after the other. @returns which ones remain.
   std::vector<bool> judgeAgainstOthers();
   void judgePairs(const std::vector<bool>& active);
   /// The largest ratio among these cameras.

@@ -17,7 +17,8 @@ struct TiltOptions {
   double resolution = 0.18;
 };
 
-/// How far a camera has turned since its calibration. Turns about the vertical are invisible.
+/// How far a camera has turned since its calibration. Rotations about the vertical are not
+/// observable.
 struct Tilt {
   double angle = 0.0;   ///< [rad]
   double stddev = 0.0;  ///< Of the angle, in each direction [rad].

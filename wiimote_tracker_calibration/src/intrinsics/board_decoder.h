@@ -24,7 +24,7 @@ struct DecoderOptions {
 /// Result of decoding the last cycle.
 struct BoardReading {
   std::optional<BoardView> view;  ///< Nothing: message says why.
-  std::string message;            ///< For people.
+  std::string message;            ///< In words.
   double motion = 0.0;            ///< Of the LEDs between their two flashes, RMS [px].
 };
 

@@ -33,7 +33,7 @@ std::string advice(const MeasuredPlace& measured, bool consistent) {
     return "the calibration holds";
   if (!measured.calibration_known)
     return "the rig does not say how certain its cameras are, so only the pixels' noise was "
-           "expected; judge the error yourself";
+           "expected: compare the error with what you need";
   return "more than that explains: check the place and its coordinates, and calibrate again if "
          "they are right";
 }

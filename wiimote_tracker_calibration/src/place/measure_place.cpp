@@ -95,7 +95,7 @@ double disagreement(const geometry::Rig& rig, const Measurement& measurement, do
   return squared / chiSquaredQuantile(static_cast<int>(rows) - 3, kThreeNines);
 }
 
-/// The cameras without one of which the others agree.
+/// The cameras whose removal makes the others agree.
 std::vector<std::string> suspectsOf(const geometry::Rig& rig,
                                     const std::vector<View>& views,
                                     double pixel_stddev) {

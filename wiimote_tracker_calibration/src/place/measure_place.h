@@ -28,7 +28,7 @@ struct MeasuredPlace {
 
   /// Whether pixels and calibration explain how far the rays miss each other (chi-squared, 99.9 %).
   bool rays_agree = true;
-  /// Cameras without one of which the others agree: one of them was moved, or sees another light.
+  /// Cameras whose removal makes the others agree: one of them was moved, or sees another light.
   /// Empty: all agree, there are only two cameras, or no single camera explains it.
   std::vector<std::string> suspects;
 };

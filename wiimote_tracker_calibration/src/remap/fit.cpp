@@ -142,7 +142,7 @@ std::vector<std::string> suspectPoints(const std::vector<double>& errors) {
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (errors[i] > kOutlier * median && errors[i] > 1e-6)
       warnings.push_back("known point " + std::to_string(i + 1) + " is " + millimetres(errors[i]) +
-                         " from where the others put it, of which half are within " +
+                         " from where the others predict it; half of the others are within " +
                          millimetres(median) + ": check its place, and measure it again");
   }
   return warnings;

@@ -17,7 +17,7 @@ using workflow::Reply;
 
 namespace {
 
-const char kNothingStarted[] = "no board is looked at: start with a camera first";
+const char kNothingStarted[] = "no lens is being calibrated: call board/start with a camera first";
 
 /// @throws intrinsics::IntrinsicsError: unknown number.
 std::optional<intrinsics::LensModel> lensModel(std::uint8_t model) {
@@ -90,8 +90,9 @@ Reply BoardServices::start(const wiimote_tracker_msgs::StartBoard::Request& requ
   run_ = std::move(run);
   camera_ = request.camera;
   lens_.reset();
-  const std::string message = "hold the board still in front of " + camera_ +
-                              " for two seconds, then elsewhere: each view is taken by itself";
+  const std::string message =
+      "hold the board still in front of " + camera_ +
+      " for two seconds, then elsewhere: each view is captured automatically";
   publish(message, lock);
   return {true, message};
 }
@@ -99,7 +100,7 @@ Reply BoardServices::start(const wiimote_tracker_msgs::StartBoard::Request& requ
 Reply BoardServices::undo() {
   const Lock lock(context_.mutex());
   if (run().samples().views.empty())
-    throw Refusal("there is no view to take back");
+    throw Refusal("there is no view to undo");
   run_->undo();
   lens_.reset();
   publish(run_->message(), lock);

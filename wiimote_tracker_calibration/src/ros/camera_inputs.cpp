@@ -85,6 +85,13 @@ void CameraInputs::watch(const std::string& name) {
       }));
 }
 
+std::vector<std::string> CameraInputs::names() const {
+  std::vector<std::string> names;
+  for (const auto& camera : cameras_)
+    names.push_back(camera.first);
+  return names;
+}
+
 void CameraInputs::restartGravity() {
   for (auto& camera : cameras_)
     camera.second.gravity = capture::RestGravity();

@@ -74,6 +74,8 @@ class CameraInputs {
   /// Lock the mutex while you use it.
   const std::map<std::string, CameraInput>& cameras() const { return cameras_; }
 
+  std::vector<std::string> names() const;
+
   /// Light in these regions is ignored from the next image on. Lock the mutex.
   void setMasks(const capture::Masks& masks) { masks_ = masks; }
   const capture::Masks& masks() const { return masks_; }

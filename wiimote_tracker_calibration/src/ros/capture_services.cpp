@@ -1,5 +1,7 @@
 #include "capture_services.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <limits>
 
 namespace wiimote_tracker {
@@ -68,14 +70,14 @@ Reply CaptureServices::checkConnection(
   response->cameras = context_.cameraStatus(now, duration, lock);
   if (response->cameras.empty())
     throw Refusal("no camera is there: start the drivers");
-  std::string problems;
+  std::vector<std::string> problems;
   for (const auto& [name, input] : context_.inputs().cameras()) {
     const std::string problem = input.monitor.view(now, duration).problem;
     if (!problem.empty())
-      addSentence(name + " " + problem, &problems);
+      problems.push_back(name + " " + problem);
   }
   if (!problems.empty())
-    return {false, problems};
+    return {false, joined(problems, "; ")};
   return {true,
           "all " + std::to_string(response->cameras.size()) + " cameras see exactly one spot"};
 }
@@ -107,20 +109,15 @@ Reply CaptureServices::start(const wiimote_tracker_msgs::StartCalibration::Reque
 
 std::vector<std::string> CaptureServices::chooseCameras(std::vector<std::string> names,
                                                         const Lock& lock) {
-  std::vector<std::string> known;
-  std::string list;
-  for (const auto& camera : context_.inputs().cameras()) {
-    known.push_back(camera.first);
-    list += (list.empty() ? "" : ", ") + camera.first;
-  }
+  const std::vector<std::string> known = context_.inputs().names();
   for (const std::string& name : names) {
     if (name == context_.parameters(lock).button_remote)
       throw Refusal(name +
-                    " is the remote whose button captures, and pressing moves it: calibrate the "
-                    "others, or take another remote into the hand");
+                    " is the button_remote, which moves when its button is pressed: calibrate the "
+                    "others, or set button_remote to another remote");
     if (context_.inputs().cameras().count(name) == 0)
-      throw Refusal("there is no camera " + name + ": name some of " +
-                    (list.empty() ? "none, start the drivers first" : list));
+      throw Refusal("there is no camera " + name + ": " +
+                    (known.empty() ? "start the drivers" : "name some of " + joined(known)));
   }
   return names.empty() ? known : names;
 }
@@ -130,7 +127,7 @@ Reply CaptureServices::handsFree(const std_srvs::SetBool::Request& request,
   const Lock lock(context_.mutex());
   context_.calibration(lock).setHandsFree(request.data);
   const char* message =
-      request.data ? "a corner is captured by itself when the LED is held still at a new place"
+      request.data ? "a corner is captured automatically when the LED is still at a new place"
                    : "corners are captured on request only";
   context_.show(message, lock);
   return {true, message};
@@ -206,7 +203,8 @@ Reply CaptureServices::waitForCapture(Lock* lock) {
     }
     return false;
   });
-  calibration.abandonCapture(over ? "it was called off" : "the clock stands still: no images come");
+  calibration.abandonCapture(over ? "the request was cancelled"
+                                  : "the clock stands still: no images come");
   return *calibration.square().outcome();
 }
 

@@ -38,7 +38,7 @@ class CaptureServices {
   /// The cameras to calibrate; all when none is named.
   /// @throws Refusal: one of them is not there, or is the hand-held remote.
   std::vector<std::string> chooseCameras(std::vector<std::string> names, const Lock& lock);
-  /// Until the capture is over, called off or cancelled.
+  /// Waits until the capture has ended, was preempted or cancelled.
   workflow::Reply waitForCapture(Lock* lock);
 
   NodeContext& context_;

@@ -74,11 +74,11 @@ void HealthMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) 
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, "no rig yet");
     return;
   }
-  std::string troubles;
+  std::vector<std::string> troubles;
   for (const auto& camera : watch_->cameras()) {
     const health::CameraHealth& health = camera.second;
     if (!health.text.empty())
-      addSentence(camera.first + " " + health.text, &troubles);
+      troubles.push_back(camera.first + " " + health.text);
     status.add(camera.first + " tilt [degrees]",
                health.tilt ? format("%.2f +- %.2f", health.tilt->angle * 180.0 / M_PI,
                                     health.tilt->stddev * 180.0 / M_PI)
@@ -89,11 +89,11 @@ void HealthMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) 
                    : std::string("not judged"));
   }
   for (const std::string& camera : unknown_cameras_)
-    addSentence(camera + " " + kUnknownCamera, &troubles);
+    troubles.push_back(camera + " " + kUnknownCamera);
   if (troubles.empty())
     status.summary(diagnostic_msgs::DiagnosticStatus::OK, "no camera seems to have moved");
   else
-    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, troubles);
+    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, joined(troubles, "; "));
 }
 
 }  // namespace wiimote_tracker

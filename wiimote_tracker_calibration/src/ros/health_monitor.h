@@ -13,8 +13,8 @@
 
 namespace wiimote_tracker {
 
-/// Reports cameras of the current rig that were moved, and cameras that are not in it: in the
-/// status, in /diagnostics, and once in the log. It never changes the rig.
+/// Reports cameras of the current rig that were moved, and cameras that it lacks: in the status, in
+/// /diagnostics, and once in the log. It never changes the rig.
 class HealthMonitor {
  public:
   explicit HealthMonitor(NodeContext* context);

@@ -1,5 +1,7 @@
 #include "mask_services.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 namespace wiimote_tracker {
 
 namespace {
@@ -32,10 +34,7 @@ workflow::Reply MaskServices::learn(const LearnMasks::Request& request,
                    "the masks are as they were"};
   const workflow::Reply reply = context_.run(job, &lock, [&] {
     const EmptyAtEnd<capture::MaskLearner> end{&learner_};
-    std::vector<std::string> names;
-    for (const auto& camera : context_.inputs().cameras())
-      names.push_back(camera.first);
-    learner_.emplace(names, context_.parameters(lock).masks);
+    learner_.emplace(context_.inputs().names(), context_.parameters(lock).masks);
     if (!context_.waitFor(duration, Step::kMasking, &lock))
       return workflow::Reply{false, ""};
     return useMasks(learner_->result(), lock);
@@ -52,31 +51,31 @@ workflow::Reply MaskServices::useMasks(const std::map<std::string, capture::Lear
   if (learned.empty())
     throw Refusal("no camera is there: start the drivers; the masks are as they were");
   capture::Masks masks = context_.inputs().masks();
-  std::string problems;
-  std::string counts;
+  std::vector<std::string> problems;
+  std::vector<std::string> counts;
   std::vector<std::string> warnings;
   bool one_each = learned.size() > 1;
   for (const auto& [name, camera] : learned) {
     if (!camera.problem.empty()) {
-      addSentence(name + " " + camera.problem, &problems);
+      problems.push_back(name + " " + camera.problem);
       continue;
     }
     const std::size_t count = camera.masks.size();
     masks[name] = camera.masks;
-    counts += (counts.empty() ? "" : ", ") + name + " " + std::to_string(count);
+    counts.push_back(name + " " + std::to_string(count));
     one_each = one_each && count == 1;
     const int most = context_.inputs().cameras().at(name).max_blobs;
     if (most > 0 && static_cast<int>(count) >= most)
       warnings.push_back(
           name + " reports " + std::to_string(most) +
-          " lights at most, so that the LED can be hidden: cover or switch off some");
+          " lights at most, and lamps may leave none for the LED: cover or switch off some");
   }
   if (!problems.empty())
-    throw Refusal(problems + "; the masks are as they were");
+    throw Refusal(joined(problems, "; ") + "; the masks are as they were");
   if (one_each)
     warnings.emplace_back(
         "every camera sees exactly one light: if that is the LED, switch it off and learn again");
-  return {true, "masked lights: " + counts + appendix(warnings) +
+  return {true, "masked lights: " + joined(counts) + appendix(warnings) +
                     (context_.setMasks(masks, lock) ? kToBeSaved : "")};
 }
 

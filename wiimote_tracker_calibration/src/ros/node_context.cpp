@@ -26,7 +26,7 @@ struct EndOfJob {
       context.calibration(lock).end(reply);
       context.publishStatus(lock);
     } catch (const std::exception&) {
-      // Out of memory. The step has ended all the same; the timer publishes the status.
+      // Out of memory. The step has ended nevertheless; the timer publishes the status.
     }
   }
 };
@@ -145,7 +145,7 @@ const geometry::Rig& NodeContext::existingRig(const std::string& purpose, const 
 
 void NodeContext::requireSameRig(const std::string& id, const Lock&) const {
   if (!calibration_.rig() || calibration_.rig()->id() != id)
-    throw Refusal("the rig was replaced in the meantime: ask once more");
+    throw Refusal("the rig was replaced meanwhile: send the request again");
 }
 
 void NodeContext::setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock) {

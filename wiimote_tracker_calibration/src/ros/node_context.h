@@ -62,7 +62,7 @@ class NodeContext {
   }
   void setProgress(double progress, const Lock&) { calibration_.setProgress(progress); }
 
-  /// Does what takes no time, or is no step of the calibration. A refusal is shown in the status.
+  /// Does short work, or work that is no step of the calibration. The status shows a refusal.
   workflow::Reply answer(Lock* lock, const std::function<workflow::Reply()>& work);
 
   /// Waits until done() is true (checked with the mutex locked at each image, and ten times a
@@ -90,7 +90,7 @@ class NodeContext {
   /// For tests: called while a request waits or computes. It may throw.
   std::function<void()> fault = [] {};
 
-  /// A copy may be taken; a unit may change what is its own, such as a camera's intrinsics.
+  /// A unit may copy them, and change its own, such as a camera's intrinsics.
   Parameters& parameters(const Lock&) { return parameters_; }
   workflow::Calibration& calibration(const Lock&) { return calibration_; }
   /// Measured with the current rig after useRig(); before that perhaps with another.
@@ -102,7 +102,7 @@ class NodeContext {
   /// All that was captured so far, to be solved or saved.
   /// @throws Refusal: starting intrinsics do not fit the size of a camera's images.
   session::Session session(const Lock& lock);
-  /// Goes on from what was captured before; its masks are in force from now on.
+  /// Continues from captured data, with its masks.
   workflow::Reply setSession(const session::Session& session, const Lock& lock);
 
   /// Nothing while there is none.
@@ -111,13 +111,13 @@ class NodeContext {
   const geometry::Rig& existingRig(const std::string& purpose, const Lock&) const;
   /// @throws Refusal: the rig in use has another id.
   void requireSameRig(const std::string& id, const Lock&) const;
-  /// Publishes a rig that was made of the one before and is not saved yet, such as with a camera
-  /// calibrated anew or with a correction of the volume.
+  /// Replaces the rig by a changed one, such as with a recalibrated camera or a correction of the
+  /// volume, and publishes it. It is not saved yet.
   void setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock);
   /// Publishes the current rig, and the transforms of its cameras.
   void publishRig(const Lock&);
 
-  /// Ignores other lights from now on, in the images and in the rig, which is then published.
+  /// Sets the masks of the images and of the rig, which is then published.
   /// @returns whether there is a rig and it changed.
   bool setMasks(const capture::Masks& masks, const Lock& lock);
 

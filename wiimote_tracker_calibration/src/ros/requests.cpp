@@ -33,10 +33,6 @@ void runCallback(const std::string& name, const std::function<void()>& callback)
     ROS_ERROR_STREAM_THROTTLE(10.0, name << " failed: " << reply.message);
 }
 
-void addSentence(const std::string& sentence, std::string* list) {
-  *list += (list->empty() ? "" : "; ") + sentence;
-}
-
 std::string appendix(const std::vector<std::string>& sentences) {
   std::string text;
   for (const std::string& sentence : sentences)

@@ -68,9 +68,6 @@ struct EmptyAtEnd {
   ~EmptyAtEnd() { value->reset(); }
 };
 
-/// Appends a sentence to a list of sentences.
-void addSentence(const std::string& sentence, std::string* list);
-
 /// "; first; second".
 std::string appendix(const std::vector<std::string>& sentences);
 

@@ -21,7 +21,7 @@ std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& pa
 sensor_msgs::CameraInfo cameraInfo(const geometry::Camera& camera);
 
 /// Calls set_camera_info of all these cameras at once, and waits for the answers for at most
-/// `timeout` [s], whatever the drivers do. Hold no mutex.
+/// `timeout` [s], even if a driver never answers. Hold no mutex.
 /// @returns warnings, one for each camera that did not accept it.
 std::vector<std::string> sendCameraInfo(const std::vector<geometry::Camera>& cameras,
                                         const ros::NodeHandle& nh,

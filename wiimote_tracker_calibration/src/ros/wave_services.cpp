@@ -4,8 +4,8 @@ namespace wiimote_tracker {
 
 namespace {
 
-/// The cameras of a session as they start; with poses if its square tells where they stand.
-/// @returns whether they have them.
+/// The cameras of a session with their starting intrinsics, and with poses if its square determines
+/// them. @returns whether they have poses.
 bool knownCameras(session::Session session,
                   const session::SolveOptions& options,
                   std::vector<geometry::Camera>* cameras) {

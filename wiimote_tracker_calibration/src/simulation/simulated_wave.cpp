@@ -21,7 +21,8 @@ bool inImage(const geometry::Intrinsics& lens, const Eigen::Vector2d& pixel) {
 
 constexpr double kClock = 1.7e9;  // Stamps are as large as those of the system's clock.
 
-/// What one more camera sees of the LED's way. `reference`: offset of the first camera's clock [s].
+/// What one more camera sees of the LED's path. `reference`: offset of the first camera's clock
+/// [s].
 void recordWave(const WaveScene& scene,
                 std::size_t index,
                 double offset,

@@ -93,7 +93,7 @@ class Information {
     }
   }
 
-  /// What is known of the cameras and the corners beforehand, and the corners' pixels.
+  /// Priors of the cameras and the corners, and the corners' pixels.
   void addSquareAndLenses() {
     const square::Uncertainty& u = scene_.uncertainty;
     for (std::size_t i = 0; i < wave_.cameras.size(); ++i) {

@@ -12,9 +12,10 @@ namespace wiimote_tracker::square {
 
 namespace {
 
-// Difference of costs of one camera alone beyond which nothing the others say can matter.
+// Difference of costs of one camera alone that the other cameras cannot reverse.
 constexpr double kClear = 60.0;
-// Up to so many ambiguous cameras all combinations are compared, 16; beyond, single changes.
+// Up to this many ambiguous cameras all 16 combinations are compared; of more, one is changed at a
+// time.
 constexpr std::size_t kExhaustive = 4;
 
 struct Combination {
@@ -64,7 +65,7 @@ std::vector<Combination> singleChanges(const RigModel& model,
     least = start->cost;
     combinations.push_back(std::move(*start));
   }
-  // Round the cameras until a whole round has brought nothing.
+  // Ends when no change of a camera helps.
   std::size_t without_gain = 0;
   for (std::size_t k = 0; without_gain < ambiguous.size(); k = (k + 1) % ambiguous.size()) {
     std::vector<std::size_t> changed = chosen;
@@ -125,7 +126,7 @@ BranchChoice chooseBranches(const RigModel& model,
   for (const std::size_t i : ambiguous) {
     double other = std::numeric_limits<double>::infinity();
     for (const Combination& combination : combinations) {
-      // Two branches may run into one when the intrinsics are free; then there is no choice.
+      // Two branches may converge to one when the intrinsics are free; then there is no choice.
       if (combination.chosen[i] != best.chosen[i] &&
           !isSamePose(combination.state.cameras[i].world_from_camera,
                       best.state.cameras[i].world_from_camera, model.nominalCorners()))

@@ -7,7 +7,7 @@
 
 namespace wiimote_tracker::square {
 
-/// What is known of a lens that starts from these values.
+/// Prior of a lens around its starting values.
 inline adjust::LensPrior lensPrior(const geometry::Intrinsics& start, const Uncertainty& stated) {
   return {start, stated.focal, stated.aspect, stated.principal_point, stated.k1};
 }

@@ -17,9 +17,9 @@ namespace {
 
 constexpr double kSameAngle = 3.5e-4;   // [rad]
 constexpr double kSameDistance = 2e-4;  // [1]
-// Displacement of one corner in the image plane of depth 1, where OpenCV's IPPE gives no number: it
-// takes the root of 1 - 1, give or take a rounding error, where the camera is tilted about an axis
-// of the square, or not at all.
+// Displacement of one corner in the image plane at depth 1 for a second try: OpenCV's IPPE returns
+// NaN, the root of a negative rounding error, where the camera is not tilted, or only about an axis
+// of the square.
 constexpr double kNudge = 1e-4;
 
 /// The corners that a camera saw.
@@ -61,7 +61,7 @@ std::vector<Eigen::Isometry3d> startPoses(const geometry::Intrinsics& intrinsics
       return {};
     normalized.push_back(undistorted->homogeneous());
     image.emplace_back(undistorted->x(), undistorted->y());
-    // OpenCV's IPPE is at fault where it has to turn the plane itself.
+    // Already in the plane z = 0: OpenCV's IPPE fails where it has to rotate the plane itself.
     plane.emplace_back(seen.places[i].x(), seen.places[i].y(), 0.0);
   }
   if (isDegenerate(normalized))

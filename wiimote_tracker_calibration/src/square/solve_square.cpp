@@ -20,7 +20,7 @@ namespace {
 // Residuals this many times larger than expected are reported, and refused.
 constexpr double kWarnRatio = 2.0;
 constexpr double kRefuseRatio = 4.0;
-// A lens that must be farther than this from where it started is no explanation [standard
+// A solution whose lens is farther than this from its starting value is implausible [standard
 // deviations].
 constexpr double kLensLimit = 5.0;
 // Gravity farther from the floor's normal than this is a contradiction [standard deviations].
@@ -34,9 +34,8 @@ struct Candidates {
   std::vector<std::vector<Branch>> branches;
 };
 
-/// The branches of all cameras. Of those that saw three corners only the most probable, which their
-/// accelerometers must tell: the others know nothing of it. Cameras of which it is not clear are
-/// left out.
+/// The branches of all cameras. A camera that saw three corners keeps only its most probable
+/// branch, which its own accelerometer must determine; otherwise it is left out.
 Candidates findCandidates(const RigModel& model, double odds, std::vector<std::string>* warnings) {
   Candidates result;
   for (std::size_t i = 0; i < model.sightings().size(); ++i) {
@@ -83,18 +82,19 @@ void refuseUndecided(const RigModel& model,
   throw SquareError(
       model.sightings()[i].name +
       format(" can stand in two places, %.2f m apart, that explain what it saw (to %.2f and %.2f "
-             "px), and nothing tells which: let it look at the square more from the side or from "
+             "px), and the data do not tell which: let it look at the square more from the side or "
+             "from "
              "nearer, use a larger square, or connect its accelerometer",
              apart, both[0].reprojection_error, both[1].reprojection_error));
 }
 
-/// Ratio of the residuals to what the uncertainties let expect; about 1 when all is well.
+/// Ratio of the residuals to those expected from the uncertainties; about 1 when all is well.
 double misfit(double cost, const RigModel& model) {
   return std::sqrt(cost / model.degreesOfFreedom());
 }
 
-/// Whether the best explanation is none: a lens far from any that was expected, or a corner in the
-/// camera's own place, where it can appear at every pixel.
+/// Whether the best solution is implausible: a lens far from its starting value, or a corner behind
+/// the camera or in its centre.
 bool isAbsurd(const RigModel& model, const RigState& state) {
   for (std::size_t i = 0; i < model.sightings().size(); ++i) {
     if (model.lensDeviation(state, i) > kLensLimit ||
@@ -104,7 +104,7 @@ bool isAbsurd(const RigModel& model, const RigState& state) {
   return false;
 }
 
-/// A reason why the cameras disagree, and how much they do without it.
+/// A possible cause of the disagreement, and the misfit without it.
 struct Explanation {
   double misfit = std::numeric_limits<double>::infinity();
   std::string text;
@@ -138,7 +138,7 @@ Explanation oddOneOut(const RigModel& model,
   return odd;
 }
 
-/// The corner whose place is best not believed.
+/// The corner without whose place the rest fits best.
 Explanation displacedCorner(const RigModel& model,
                             const BranchChoice& choice,
                             const std::optional<SuspectCorner>& suspect) {

@@ -22,7 +22,7 @@ namespace wiimote_tracker::wave {
 
 namespace {
 
-// How far a spline may bend a stick [m]: far less than any camera can tell.
+// Of the distance between the paths of a wand's LEDs [m]: far below what cameras resolve.
 constexpr double kStickStddev = 0.0002;
 
 /// Asks before each iteration whether to go on.
@@ -60,7 +60,7 @@ class WaveProblem {
     holdGauge();
   }
 
-  /// @param tolerance ends when a step makes less of a difference than this to the sum of squares.
+  /// @param tolerance relative change of the sum of squares at which it ends.
   /// @returns the number of iterations.
   int solve(double tolerance, const std::function<bool()>& keep_going) {
     KeepGoing callback(keep_going);
@@ -80,8 +80,8 @@ class WaveProblem {
       throw Cancelled("the calibration was cancelled: nothing was changed");
     if (!summary.IsSolutionUsable())
       throw WaveError(
-          "the wave cannot be seen from where the cameras seem to stand: check that nobody moved a "
-          "camera, and record again");
+          "the LED would be behind the cameras in the solution: check that nobody moved a camera, "
+          "and record again");
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       state_.cameras[i] = cameras_[i].cameraLike(state_.cameras[i]);
       state_.offsets[i] = cameras_[i].time_offset;
@@ -168,7 +168,7 @@ class WaveProblem {
         &state_.wand_length);
   }
 
-  /// What is known of a camera beforehand.
+  /// Priors of a camera.
   void addCamera(std::size_t i) {
     adjust::CameraBlocks& camera = cameras_[i];
     const geometry::Intrinsics& start = recording_.cameras[i].sightings.intrinsics;
@@ -225,7 +225,7 @@ Refinement refine(const Recording& recording,
                   const std::function<bool()>& keep_going,
                   State* state) {
   WaveProblem problem(recording, options, matches, loss_scale, state);
-  // A robust fit is but the start of a closer one.
+  // A robust fit is only the start of a tighter one.
   const int iterations = problem.solve(std::isfinite(loss_scale) ? 1e-4 : 1e-9, keep_going);
   return {iterations, problem.misfit()};
 }

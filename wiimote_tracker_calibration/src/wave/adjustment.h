@@ -21,12 +21,12 @@ struct Refinement {
   double misfit;
 };
 
-/// Least squares over the matches, the corners, the wand and what is known beforehand
+/// Least squares over the matches, the corners, the wand and the priors
 /// (Levenberg-Marquardt, in place).
 /// @param loss_scale the error beyond which a match counts less (Cauchy), in standard deviations;
 /// infinite: plain least squares.
 /// @param keep_going is asked before each iteration; false throws Cancelled.
-/// @throws WaveError when the state cannot have made the matches.
+/// @throws WaveError: the minimisation fails.
 Refinement refine(const Recording& recording,
                   const WaveOptions& options,
                   const std::vector<Match>& matches,
@@ -36,7 +36,7 @@ Refinement refine(const Recording& recording,
 
 /// Joint covariance at a solution of plain least squares: of the cameras, in the order of
 /// geometry::Rig::covariance, then of the corners (2 each), if there are any.
-/// @throws WaveError when the recording leaves some parameter open.
+/// @throws WaveError: the recording does not determine some parameter.
 Eigen::MatrixXd covarianceOf(const Recording& recording,
                              const WaveOptions& options,
                              const std::vector<Match>& matches,

@@ -10,16 +10,16 @@
 
 namespace wiimote_tracker::wave {
 
-/// @throws WaveError: values out of range; too little to start with; neither square nor wand.
+/// @throws WaveError: values out of range; too few data; neither square nor wand.
 void checkInput(const Recording& recording, const WaveOptions& options);
 
-/// @throws WaveError: a camera most of whose spots the others contradict, or with hardly any.
+/// @throws WaveError: a camera most of whose spots contradict the others, or with too few.
 void checkMatching(const Recording& recording, const Matching& matching);
 
-/// @throws WaveError: a solution that is worth nothing, and why. Adds warnings to it otherwise.
+/// Adds warnings to the solution. @throws WaveError: why it must not be used.
 void checkSolution(const Recording& recording, const WaveOptions& options, WaveSolution* solution);
 
-/// The result in words, for people.
+/// The result in words.
 std::string verdictOf(const Recording& recording, const WaveSolution& solution);
 
 }  // namespace wiimote_tracker::wave

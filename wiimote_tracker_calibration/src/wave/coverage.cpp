@@ -28,7 +28,7 @@ constexpr double kTimeStep = 0.1;
 constexpr double kCell = 0.25;
 // Images of two cameras this close are of one time [s].
 constexpr double kSameTime = 0.012;
-// Time a camera must share with others to be placed among them [s].
+// Time a camera must share with others to be solved [s].
 constexpr double kLeastTogether = 3.0;
 
 void checkRange(const char* name, double value, double low, double high) {
@@ -212,7 +212,7 @@ void Coverage::add(std::size_t camera, const Frame& frame) {
     locate(camera);
 }
 
-/// Where the LED, or the middle of the wand, is in the room.
+/// Position of the LED, or of the middle of the wand, in the world.
 void Coverage::locate(std::size_t camera) {
   const double now = views_[camera].time;
   std::vector<geometry::Observation> observations;

@@ -19,7 +19,7 @@
 
 namespace wiimote_tracker::wave {
 
-/// What is enough.
+/// When a wave is complete.
 struct CoverageOptions {
   double seconds = 15.0;  ///< In which two cameras or more see the LED move [s, > 0].
   /// Of the cells of each camera's image [0 to 1]. The paper's cube fills 0.38 of its images.
@@ -44,7 +44,7 @@ struct CameraCoverage {
   double distraction = 0.0;  ///< Share of its images with more spots than LEDs [0 to 1].
 };
 
-/// How far the wave is.
+/// Progress of a wave.
 struct CoverageReport {
   std::vector<CameraCoverage> cameras;
   double seconds = 0.0;              ///< In which two cameras or more saw the LED move [s].
@@ -54,7 +54,8 @@ struct CoverageReport {
   bool enough() const { return missing.empty(); }
 };
 
-/// Follows a wave while it is being recorded. Cheap: for every frame of every camera.
+/// Measures the coverage of a wave while it is recorded; fast enough for every frame of every
+/// camera.
 class Coverage {
  public:
   /// @param cameras names and image sizes; poses are used only when `posed`.

@@ -11,10 +11,10 @@ namespace wiimote_tracker::wave {
 
 namespace {
 
-// Spots of two LEDs closer than this run together into one between them [px].
+// Spots of two LEDs closer than this merge into one [px].
 constexpr double kRunTogether = 14.0;
 
-/// Where one LED should be in one frame.
+/// Predicted spot of one LED in one frame.
 struct Prediction {
   Eigen::Vector2d pixel;
   Eigen::Matrix2d whitening;
@@ -34,7 +34,7 @@ std::optional<Prediction> predict(const State& state,
   const Eigen::Vector2d motion =
       gate.stamp_stddev * (by_point * state.trajectory.velocity(place, led));
   if (motion.squaredNorm() > 0.0) {
-    // An error of the stamp moves the spot along its way only.
+    // An error of the stamp moves the spot along its path only.
     const Eigen::Vector2d along = motion.normalized();
     const double stddev = std::hypot(gate.pixel_stddev, motion.norm());
     prediction.whitening += (1.0 / stddev - 1.0 / gate.pixel_stddev) * along * along.transpose();
@@ -64,7 +64,8 @@ int bestSpot(const Frame& frame, const Prediction& prediction, double limit, int
   return best;
 }
 
-/// Spots for both LEDs: the better of giving the first its best spot or the second its own.
+/// Spots for both LEDs: the better of two assignments, which give the best spot to the first LED or
+/// to the second.
 std::array<int, 2> bestSpots(const Frame& frame,
                              const std::array<std::optional<Prediction>, 2>& predictions,
                              double limit) {

@@ -10,7 +10,7 @@
 
 namespace wiimote_tracker::wave {
 
-/// How far a spot may be from where the LED should be seen.
+/// Gate around the predicted spot of an LED.
 struct Gate {
   double pixel_stddev;  ///< Of a spot, per axis [px].
   double stamp_stddev;  ///< Of its time [s].
@@ -25,8 +25,8 @@ struct Matching {
   std::vector<std::size_t> found;  ///< Per camera: matches.
 };
 
-/// For each frame the spots that fit best to where the state has the LEDs, one per LED. Only at
-/// times at which two cameras or more see an LED: what one sees alone cannot contradict the path.
+/// For each frame the spots nearest to the predicted ones of the LEDs, one per LED. Only at times
+/// at which two cameras or more see an LED: a single camera cannot contradict the path.
 Matching matchSpots(const Recording& recording, const State& state, const Gate& gate);
 
 }  // namespace wiimote_tracker::wave

@@ -12,9 +12,9 @@ namespace {
 
 // A lamp's spot stays within this [px].
 constexpr double kImageCell = 8.0;
-// The LED, which moves, is at one place in far fewer of the frames than a lamp.
+// Smallest share of the frames in which a lamp is at one place; a moving LED is far below.
 constexpr double kLampShare = 0.25;
-// With fewer frames nothing can be said.
+// Fewest frames to find lamps in.
 constexpr std::size_t kLeastFrames = 100;
 
 using Cell = std::pair<int, int>;

@@ -7,8 +7,8 @@
 
 namespace wiimote_tracker::wave {
 
-/// The frames without the spots that stay where they are: lamps, reflections of lamps. A place
-/// counts as one when a large share of the frames has a spot there.
+/// The frames without spots that do not move (lamps and their reflections): places at which a large
+/// share of the frames has a spot.
 std::vector<Frame> movingSpots(const std::vector<Frame>& frames);
 
 }  // namespace wiimote_tracker::wave

@@ -17,9 +17,9 @@ namespace wiimote_tracker::wave {
 
 namespace {
 
-/// Slow errors of the clocks hardly average out over a wave, and the offsets are means over it:
-/// the variance of the mean of an error that settles with a time constant. The first camera's
-/// enters all offsets.
+/// Adds the slow errors of the clocks, which hardly average out over a wave, to the offsets: the
+/// variance of the mean of an exponentially correlated error. The first camera's error enters all
+/// offsets.
 void addWander(const WaveOptions& options, double seconds, Eigen::MatrixXd* covariance) {
   const double kSettling = 2.0;  // [s]
   const double share = std::min(1.0, 2.0 * kSettling / seconds);
@@ -32,7 +32,7 @@ void addWander(const WaveOptions& options, double seconds, Eigen::MatrixXd* cova
   }
 }
 
-/// Enough points to stand for the path.
+/// A sample of the path's points.
 std::vector<Eigen::Vector3d> thinned(const std::vector<Eigen::Vector3d>& path) {
   const std::size_t kEnough = 150;
   const std::size_t stride = std::max<std::size_t>(1, path.size() / kEnough);
@@ -109,7 +109,7 @@ void describeSquare(const Recording& recording,
   solution->suspect = square::suspectCorner(corners, options.uncertainty.placement);
 }
 
-/// What the path was like, where it was seen.
+/// Duration, speeds and extent of the path where it was seen.
 void describePath(const State& state, const Matching& matching, WaveSolution* solution) {
   const Trajectory& trajectory = state.trajectory;
   std::vector<bool> seen(static_cast<std::size_t>(trajectory.intervals()), false);

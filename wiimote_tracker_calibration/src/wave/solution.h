@@ -9,10 +9,9 @@
 
 namespace wiimote_tracker::wave {
 
-/// What an adjusted state says of the cameras, the corners, the wand and the path, and how certain
-/// it is: a solution but for noise, iterations, warnings and verdict.
-/// @param matching that the state was adjusted to. @throws WaveError when it leaves some parameter
-/// open.
+/// The solution of an adjusted state with its covariance; without noise, iterations, warnings and
+/// verdict. @param matching that the state was adjusted to.
+/// @throws WaveError: some parameter is not determined.
 WaveSolution solutionOf(const Recording& recording,
                         const WaveOptions& options,
                         const State& state,

@@ -23,13 +23,14 @@ namespace wiimote_tracker::wave {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Spots are matched more and more closely. At the start lenses, clocks and poses are off [px].
+// Gates and scales of the robust loss of the first rounds, while lenses, clocks and poses are
+// inaccurate [px].
 constexpr double kWideGates[] = {40.0, 12.0};
 constexpr double kWideLosses[] = {8.0, 3.0};
-// In the end a spot is the LED's within this, and all count alike [standard deviations].
+// Gate of the last rounds, without robust loss [standard deviations].
 constexpr double kGate = 5.0;
 constexpr int kFinalRounds = 8;
-// The estimated noise has settled when a round changes it by less.
+// The estimated noise has converged when a round changes it by less.
 constexpr double kNoiseSettled = 0.01;
 // Starts that are tried where no square gives one.
 constexpr int kAttempts = 5;
@@ -73,7 +74,7 @@ Recording prepared(const Recording& input) {
   return recording;
 }
 
-/// Without square the world stands upright in the first camera, if that knows where up is.
+/// Without square the world has its origin in the first camera, and z up by its accelerometer.
 void standInFirstCamera(const Recording& recording, std::vector<geometry::Camera>* cameras) {
   const std::optional<Eigen::Vector3d>& gravity = recording.cameras.front().sightings.gravity;
   Eigen::Isometry3d world_from_first = Eigen::Isometry3d::Identity();
@@ -96,7 +97,7 @@ bool sameSpots(const std::vector<Match>& a, const std::vector<Match>& b) {
          });
 }
 
-/// Matches spots and adjusts, in turns, until neither changes.
+/// Alternates matching and adjusting until neither changes.
 WaveSolution fit(const Recording& recording,
                  const WaveOptions& options,
                  State state,
@@ -110,7 +111,7 @@ WaveSolution fit(const Recording& recording,
   };
   int iterations = 0;
   Matching matching;
-  // One turn; returns the misfit.
+  // One round; returns the misfit.
   const auto turn = [&](const Gate& gate, double loss_scale) {
     matching = matchSpots(recording, state, gate);
     checkMatching(recording, matching);
@@ -180,7 +181,7 @@ WaveSolution solveWave(const Recording& input,
     } catch (const Cancelled&) {
       throw;
     } catch (const WaveError& error) {
-      // What the first attempt found wrong is most likely what is wrong.
+      // The refusal of the first attempt names the most likely cause.
       if (!refusal)
         refusal = error;
       if (final)

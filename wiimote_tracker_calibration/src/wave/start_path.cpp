@@ -22,15 +22,15 @@ constexpr double kMargin = 0.2;
 constexpr double kSameInstant = 0.008;
 // Start poses, time offsets and unequal instants put a spot off by up to this [px].
 constexpr double kTolerance = 25.0;
-// Pairs of spots are formed between this many of the cameras, the others only confirm.
+// Pairs of spots are formed among this many cameras; the others only confirm.
 constexpr std::size_t kPairedCameras = 6;
-// Two ways to match two LEDs that differ by less than this cannot be told apart [px].
+// Two assignments of two LEDs whose errors differ by less than this are ambiguous [px].
 constexpr double kTellApart = 6.0;
 // Share by which the distance of the LEDs may differ from the wand's length at the start.
 constexpr double kLengthTolerance = 0.2;
 // An LED that vanished for longer may come back as the other one [s].
 constexpr double kLongestGap = 0.3;
-// Places that are needed to go on.
+// Fewest places to start from.
 constexpr std::size_t kLeastPlaces = 40;
 
 struct Spot {
@@ -129,8 +129,8 @@ bool disjoint(const Place& a, const Place& b) {
   });
 }
 
-/// The two ends of the wand: the two places that explain most. Nothing when two ways to match the
-/// spots are as good. @param length NaN: not known yet.
+/// The two ends of the wand: the two places that explain most. Nothing when another assignment of
+/// the spots is as good. @param length NaN: not known yet.
 std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> wandEnds(
     const std::vector<Place>& places,
     double length) {
@@ -149,7 +149,7 @@ std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> wandEnds(
       const double error = places[i].error + places[j].error;
       const bool better =
           !best[0] || support > best_support || (support == best_support && error < best_error);
-      // The same two places found from other spots are no second way.
+      // The same two places found from other spots are the same assignment.
       const bool same =
           best[0] && std::min((places[i].position - best[0]->position).norm() +
                                   (places[j].position - best[1]->position).norm(),
@@ -207,7 +207,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Keeps the wand's LEDs apart from instant to instant.
+/// Tracks which of the wand's LEDs is which from instant to instant.
 void keepLabels(std::vector<Instant>* instants) {
   for (std::size_t i = 1; i < instants->size(); ++i) {
     const Instant& before = (*instants)[i - 1];
@@ -261,8 +261,7 @@ Eigen::MatrixX3d controlsThrough(const std::vector<Trajectory::Place>& places,
   return solver.solve(right);
 }
 
-/// Spline through places some of which are wrong: each weighted by how well the spline before
-/// explained it.
+/// Spline through places with outliers: each is reweighted by its distance from the last spline.
 void fit(const std::vector<Instant>& instants, double acceleration, Trajectory* trajectory) {
   // Errors of the places as the rounds go on [m].
   const double kErrors[] = {1.0, 0.3, 0.1, 0.05, 0.05};

@@ -9,9 +9,9 @@
 
 namespace wiimote_tracker::wave {
 
-/// The LEDs' path as cameras that stand roughly right see it (centimetres), without regard to time
-/// offsets. Where it starts not to be metric the wand makes it so, cameras included.
-/// The wand's LEDs look alike: which is the first of the two is arbitrary, but stays.
+/// The LEDs' path from cameras with rough poses (centimetres), ignoring time offsets. If the poses
+/// are known up to scale, the wand's length scales cameras and path. Which of the wand's LEDs is
+/// the first is arbitrary, but the same throughout.
 /// @param recording without spots that stay in one place (movingSpots()).
 /// @throws WaveError when there are too few places that two cameras saw.
 Trajectory startPath(const Recording& recording, const WaveOptions& options, StartPoses* poses);

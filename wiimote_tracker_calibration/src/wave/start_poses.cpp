@@ -25,22 +25,22 @@ constexpr std::size_t kInstants = 200;
 constexpr double kLongestFrameGap = 0.035;
 // Nor are spots that jump more than this from frame to frame [px].
 constexpr double kLongestFrameJump = 80.0;
-// Lenses are off by several per cent and clocks by milliseconds: so are the pixels [px]. Narrow and
-// wide in turns.
+// Errors of pixels due to lenses off by several per cent and clocks by milliseconds; attempts
+// alternate [px].
 constexpr double kTolerances[] = {6.0, 12.0};
-// Where between two instants the next attempt looks, in steps of their distance.
+// Shift of the instants of the next attempt, in intervals.
 constexpr double kShift = 0.29;
-// Times that two cameras must share to be placed to each other.
+// Times that two cameras must share for a relative pose.
 constexpr std::size_t kLeastCommon = 20;
 
-/// The one place that stands for what is waved: the spot, or the middle between the wand's.
+/// One point per frame: the LED's spot, or the middle between the wand's.
 std::optional<Eigen::Vector2d> middle(const Frame& frame, bool wand) {
   if (frame.spots.size() != (wand ? 2U : 1U))
     return std::nullopt;
   return wand ? Eigen::Vector2d(0.5 * (frame.spots[0] + frame.spots[1])) : frame.spots[0];
 }
 
-/// Where a camera sees it at any time, between two frames; nothing where it does not.
+/// The same, interpolated between two frames; nothing where the camera does not see it.
 std::optional<Eigen::Vector2d> middleAt(const std::vector<Frame>& frames, double time, bool wand) {
   const auto after = std::lower_bound(frames.begin(), frames.end(), time,
                                       [](const Frame& frame, double t) { return frame.stamp < t; });
@@ -92,7 +92,7 @@ std::vector<bundle::Observation> commonViews(const Recording& recording, int att
   return observations;
 }
 
-/// @throws WaveError when the cameras fall into groups that share nothing.
+/// @throws WaveError: the cameras form groups without common views.
 void refuseStrangers(const Recording& recording,
                      const std::vector<bundle::Observation>& observations,
                      const std::vector<bool>& tied_by_square) {
@@ -131,7 +131,7 @@ bool sawAllCorners(const square::CameraSightings& sightings) {
                      [](const auto& corner) { return corner.has_value(); });
 }
 
-/// A consistent sentence for what the reconstruction refuses.
+/// Words a refusal of the reconstruction for a wave.
 [[noreturn]] void refuse(const bundle::BundleError& error) {
   throw WaveError(std::string("the wave does not tell where the cameras stand: ") + error.what());
 }
@@ -148,7 +148,7 @@ void placeRest(const bundle::Options& options,
   }
 }
 
-/// Moves what is known up to a similarity on the corners that two cameras saw.
+/// Aligns a reconstruction, known up to a similarity, with the corners that two cameras saw.
 void moveOnSquare(const Recording& recording,
                   const bundle::Options& options,
                   bundle::Reconstruction* wave,
@@ -194,7 +194,7 @@ void moveOnSquare(const Recording& recording,
     double height = 0.0;
     for (const geometry::Camera& camera : wave->cameras)
       height += (similarity * camera.center()).z();
-    // The floor bears the cameras.
+    // All cameras are above the floor.
     if ((height > 0.0) == z_up) {
       bundle::transform(similarity, wave);
       result->z_up = z_up;

@@ -11,7 +11,7 @@
 
 namespace wiimote_tracker::wave {
 
-/// Where the cameras stand, roughly (centimetres).
+/// Rough poses of the cameras (centimetres).
 struct StartPoses {
   std::vector<geometry::Camera> cameras;  ///< In the order of the recording.
   bool metric = false;                    ///< In metres, in the square's world. Else up to scale.
@@ -21,10 +21,9 @@ struct StartPoses {
 
 /// From the square where two cameras or more saw all of it; the other cameras from common points
 /// of the wave by resection. Without such a square from the wave alone (essential matrix), then
-/// moved on the corners that two cameras saw.
+/// aligned with the corners that two cameras saw. A start from the wave alone uses a random sample
+/// of points and may be wrong; each `attempt` uses other points.
 /// @param recording without spots that stay in one place (movingSpots()).
-/// A start from the wave alone is found by trying few points at random, and may be a wrong one that
-/// only later proves to be: each attempt tries others.
 /// @throws WaveError, square::SquareError.
 StartPoses startPoses(const Recording& recording, const WaveOptions& options, int attempt);
 

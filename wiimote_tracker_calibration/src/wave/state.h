@@ -23,7 +23,7 @@ struct State {
   double wand_length = 0.0;                       ///< [m]
 };
 
-/// A spot that is taken for an LED.
+/// A spot associated with an LED.
 struct Match {
   std::size_t camera;
   Eigen::Index led;

@@ -41,7 +41,7 @@ class Trajectory {
   double* control(Eigen::Index index, Eigen::Index led) { return &controls_(3 * led, index); }
   const Eigen::MatrixXd& controls() const { return controls_; }
 
-  /// A time by the polynomial of a knot interval, which goes on beyond its two knots.
+  /// A time in a knot interval, whose polynomial is extrapolated beyond its two knots.
   Place in(Eigen::Index interval, double time) const {
     return {adjust::splineWeights(time - timeOf(interval), spacing_), interval};
   }

@@ -122,7 +122,7 @@ Reply Calibration::beginWave(const std::vector<geometry::Camera>& cameras,
   busy_ = Step::kWaving;
   just_solved_ = false;
   return accept(std::string("recording: wave the ") + (wand ? "wand" : "LED") +
-                " through the whole volume, at all heights, without haste");
+                " through the whole volume, at all heights, at 0.5 m/s or faster");
 }
 
 Reply Calibration::endWave() {
@@ -197,7 +197,7 @@ Reply Calibration::cancel() {
   if (just_solved_) {
     just_solved_ = false;
     return accept(
-        "the solver was done already, and nothing was dropped: cancel once more to drop all that "
+        "the solver had already finished, and nothing was dropped: cancel again to drop all that "
         "was captured");
   }
   // The outcome of the last capture stays: the action may still wait for it.

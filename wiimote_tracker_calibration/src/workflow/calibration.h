@@ -62,10 +62,10 @@ class Calibration {
   /// Begins to capture the next missing corner, or `retake` again (0..3).
   Reply beginCapture(std::optional<std::size_t> retake, double now);
 
-  /// Gives up the capture that goes on, if there is one; what was captured before stays.
+  /// Ends the running capture, if any; earlier captures stay.
   void abandonCapture(const std::string& why);
 
-  /// Whether a corner is captured by itself when the LED is held still at a new place.
+  /// Whether a corner is captured automatically when the LED is still at a new place.
   void setHandsFree(bool on);
   bool isHandsFree() const { return hands_free_on_; }
 
@@ -87,26 +87,26 @@ class Calibration {
   /// Drops what was captured last: the wave, else the last corner.
   Reply undo();
 
-  /// Stops what goes on; what was captured before stays. When nothing goes on, it drops the run,
-  /// except right after the solver ended: that cancel was meant for the solver. The rig stays.
+  /// Stops the running step; earlier captures stay. When none is running, it drops all that was
+  /// captured, except right after the solver ended: that cancel was meant for the solver. The rig
+  /// stays.
   Reply cancel();
 
-  /// Begins kSolving, kMasking or kMeasuring, which the caller does and then calls end(), also when
-  /// it failed. Refused while something else goes on, and for kSolving when there is not enough to
-  /// be solved.
+  /// Begins kSolving, kMasking or kMeasuring. The caller does the work and then calls end(), also
+  /// when it failed. Refused while another step is running, and kSolving without enough data.
   Reply begin(Step step, const std::string& message);
 
-  /// Whether it goes on and was not cancelled.
+  /// Whether the step is running and was not cancelled.
   bool isBusyWith(Step step) const { return busy_ == step && !stopping_; }
 
-  /// How far it is [0..1].
+  /// Progress of the running step [0..1].
   void setProgress(double progress) { progress_ = progress; }
 
-  /// Ends it, and shows the outcome.
+  /// Ends the running step, and shows the outcome.
   void end(const Reply& outcome);
 
-  /// Takes over the result of kSolving, with the zones of the rig before if its world has the same
-  /// name. @returns its verdict, for end().
+  /// Uses the result of kSolving, with the zones of the previous rig if the world frames have the
+  /// same name. @returns its verdict, for end().
   Reply takeSolution(const geometry::Rig& rig);
 
   /// All that was captured so far. @param facts, masks for every camera of the run that is known;
@@ -116,16 +116,16 @@ class Calibration {
     return toSession(captured_, facts, masks);
   }
 
-  /// Goes on from saved samples instead of the run so far; keeps the rig.
+  /// Replaces what was captured by saved samples; keeps the rig.
   Reply restore(const session::Session& session);
 
-  /// Whether the run comes from a samples file, which has its own facts.
+  /// Whether the data come from a samples file, which has its own facts.
   bool isRestored() const { return !captured_.restored_facts.empty(); }
 
-  /// Takes over a rig that was read from a file. Refused while something goes on.
+  /// Uses a rig that was read from a file. Refused while a step is running.
   Reply load(const geometry::Rig& rig);
 
-  /// Takes over a rig that was made of the one before, and is not saved yet.
+  /// Uses a changed rig that is not saved yet.
   void setRig(const geometry::Rig& rig, const std::string& message);
 
   /// Gives the rig these masks. They move no point: a correction of the volume stays valid.
@@ -154,7 +154,7 @@ class Calibration {
 
  private:
   Reply startWith(Captured captured);
-  /// Why nothing can be begun now.
+  /// Why no step can begin now.
   std::string occupied() const;
   Reply refuse(const std::string& message);
   Reply accept(const std::string& message);
@@ -164,10 +164,10 @@ class Calibration {
 
   CalibrationOptions options_;
   Step step_ = Step::kIdle;   // between two requests
-  std::optional<Step> busy_;  // what goes on
+  std::optional<Step> busy_;  // the running step
   bool stopping_ = false;     // it was cancelled, but has not ended yet
   bool just_solved_ = false;  // no request since the solver ended
-  double progress_ = 0.0;     // of what goes on, by setProgress()
+  double progress_ = 0.0;     // of the running step, by setProgress()
   std::string message_ = "nothing started: start a calibration, or load a rig";
   Captured captured_;
   bool hands_free_on_ = false;

@@ -19,7 +19,7 @@
 
 namespace wiimote_tracker::workflow {
 
-/// What is known of a camera besides where it saw the LED.
+/// Facts about a camera besides where it saw the LED.
 struct CameraFacts {
   std::string identity;                    ///< Empty if unknown.
   geometry::Intrinsics intrinsics;         ///< Starting values.

@@ -59,7 +59,7 @@ struct IntrinsicsSolution {
   double pixel_stddev = 0.0;                         ///< Of a pixel coordinate, as estimated [px].
   std::vector<double> view_errors;                   ///< Reprojection error of each view [px].
   std::vector<Eigen::Isometry3d> camera_from_board;  ///< Of each view [m].
-  std::string summary;                               ///< For people.
+  std::string summary;                               ///< In words.
 };
 
 /// Focal lengths, principal point and distortion from views of the board (Zhang 2000), by OpenCV

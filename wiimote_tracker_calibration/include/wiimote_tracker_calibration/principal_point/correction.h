@@ -48,7 +48,7 @@ struct CorrectionOptions {
 enum class Outcome {
   kLimitReached,  ///< The error of the points is below the limit.
   kRoundsDone,    ///< All rounds were done.
-  kLost,          ///< No rig can be solved with the principal points of the last step.
+  kLost,          ///< The square cannot be solved with the principal points of the last step.
   kCancelled,
 };
 

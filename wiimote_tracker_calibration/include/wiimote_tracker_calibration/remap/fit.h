@@ -39,7 +39,7 @@ struct FitResult {
   double uncorrected_error = 0.0;  ///< RMS distance from the known points before [m].
   /// Expected RMS error of a corrected point [m]: of points that took part neither in the fit nor
   /// in the choice of the model (nested cross-validation). It includes the errors of the known
-  /// places, and is rather too large, because a corner that is left out is extrapolated. It holds
+  /// places, and tends to be too large, because a corner that is left out is extrapolated. It holds
   /// for places like the measured ones: points at the corners say nothing about the inside.
   double expected_error = 0.0;
   std::vector<ModelReport> models;      ///< Those of the options, the simplest first.

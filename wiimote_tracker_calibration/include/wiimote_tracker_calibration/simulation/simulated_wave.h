@@ -52,7 +52,7 @@ struct WaveScene {
   bool lamp = false;          ///< Every image shows a lamp's spot, too.
   double offset = 0.010;      ///< Largest time offset to either side [s].
   double stamp = 0.0;         ///< Independent error of each stamp [s].
-  double wander = 0.0;        ///< Slow error of the stamps [s], settling within 2 s.
+  double wander = 0.0;        ///< Error of the stamps [s], correlated over 2 s.
   double rate = 100.0;        ///< Of the images [Hz].
   /// Errors of lenses and corners are drawn from this.
   square::Uncertainty uncertainty = wide();

@@ -29,9 +29,9 @@ Eigen::Matrix3Xd pointErrors(const std::vector<geometry::Camera>& truth,
 
 VolumeError volumeError(const Eigen::Matrix3Xd& errors, const std::vector<Eigen::Vector3d>& points);
 
-/// What the Fisher information of a simulated recording allows at best: the same model (a cubic
-/// B-spline of the same knots, the same prior knowledge), written down once more, at the truth: the
-/// solver's cost functions (adjust/) are no part of it, so that it can show their errors.
+/// Cramér-Rao bound of a simulated recording, at the truth. The model is the solver's (a cubic
+/// B-spline with the same knots, the same priors), implemented again without the solver's cost
+/// functions (adjust/), so that it can reveal their errors.
 struct WaveBound {
   /// Of 12 parameters per camera: rotation, position, fx, fy, cx, cy, k1, time offset.
   Eigen::MatrixXd covariance;

@@ -9,7 +9,7 @@
 
 namespace wiimote_tracker::square {
 
-/// One way of standing that explains what a camera saw.
+/// One pose that explains what a camera saw.
 struct Branch {
   Eigen::Isometry3d world_from_camera;  ///< Least reprojection error at the starting intrinsics.
   double reprojection_error;            ///< sqrt(mean(du^2 + dv^2)) there [px].
@@ -21,12 +21,12 @@ struct Branch {
 /// what it saw.
 std::vector<Branch> findBranches(const RigModel& model, std::size_t camera);
 
-/// Which branch each camera stands on, decided for all cameras together.
+/// The branch of each camera, chosen by all cameras together.
 struct BranchChoice {
   RigState state;                   ///< Most probable rig on the chosen branches.
   double cost;                      ///< RigModel::refineAll() of it.
   std::vector<std::size_t> chosen;  ///< Index into the branches, per camera.
-  /// Cameras for which another branch is nearly as probable.
+  /// Indices of cameras for which another branch is nearly as probable.
   std::vector<std::size_t> undecided;
 };
 

@@ -14,7 +14,7 @@
 
 namespace wiimote_tracker::square {
 
-/// How well things are known before the cameras are solved (standard deviations, all > 0).
+/// Prior standard deviations, all > 0.
 struct Uncertainty {
   double pixel = 0.2;             ///< Of a captured corner in an image, per axis [px].
   double placement = 0.005;       ///< Of the LED put on a corner, per horizontal axis [m].
@@ -55,7 +55,7 @@ class RigModel {
   /// Starting intrinsics, corners as laid out, and the given poses.
   RigState start(const std::vector<Eigen::Isometry3d>& world_from_camera) const;
 
-  /// How far to drive a minimisation: kCoarse suffices to compare costs, and is ten times faster.
+  /// Convergence of a minimisation: kCoarse suffices to compare costs, and is ten times faster.
   enum class Precision { kCoarse, kFine };
 
   /// Most probable poses, intrinsics and corners (Levenberg-Marquardt, in place).
@@ -63,7 +63,7 @@ class RigModel {
   /// start: a corner lies behind a camera.
   std::optional<double> refineAll(RigState* state, Precision precision = Precision::kFine) const;
 
-  /// Residuals beyond the number of parameters of refineAll(): what its cost is on average.
+  /// Residuals minus parameters of refineAll(): the mean of its cost if the model is right.
   int degreesOfFreedom() const;
 
   /// Covariance of refineAll(), order and units as in RigCalibration.msg.
@@ -90,7 +90,7 @@ class RigModel {
  private:
   class Problem;
 
-  /// Away from the floor, in the world.
+  /// Unit vector away from the floor, in the world.
   Eigen::Vector3d up() const { return Eigen::Vector3d(0.0, 0.0, z_up_ ? 1.0 : -1.0); }
 
   std::vector<CameraSightings> sightings_;

@@ -13,7 +13,7 @@
 
 namespace wiimote_tracker::square {
 
-/// What one camera saw of the square, and what is known of it before.
+/// Where one camera saw the corners, and its starting values.
 struct CameraSightings {
   std::string name;
   std::string identity;                                   ///< Empty if unknown.

@@ -32,13 +32,13 @@ struct SquareSolution {
   /// Poses, intrinsics, residuals, joint covariance, verdict; without solved_at and world_frame.
   geometry::Rig rig;
   bool z_up = true;
-  /// Per camera of the rig: every way of standing that explains what it saw alone, with its
-  /// likelihood, and which of them was chosen in view of all.
+  /// Per camera of the rig: the poses that explain what it alone saw, and the index of the one that
+  /// was chosen by all cameras together.
   std::vector<std::vector<Branch>> branches;
   std::vector<std::size_t> chosen;
   /// Displacement of the corners from the layout, as estimated [m]; zero with kPerCamera.
   Corners corner_offsets;
-  /// The corner that contradicts the rest most; nothing when that tells nothing.
+  /// The corner that contradicts the rest most; nothing when the data cannot tell.
   std::optional<SuspectCorner> suspect;
   /// expectedError() in the box over the square [m]. NaN when no two cameras look into it.
   double expected_error = 0.0;
@@ -46,12 +46,12 @@ struct SquareSolution {
   std::vector<std::string> warnings;
 };
 
-/// Solves where the cameras stand. A camera that saw three corners is placed by them and its
+/// Estimates the cameras' poses. A camera that saw three corners is placed by them and its
 /// accelerometer, with a warning; others that did not see all four are left out, with a warning
 /// that names them.
 /// @throws SquareError: fewer than two cameras saw all corners; corners not captured, in one place,
-/// on one line, in crossing order; order not the same for all cameras; a pose that can be on either
-/// branch of the planar ambiguity; cameras that contradict the square, gravity or one another.
+/// on one line, in crossing order; order not the same for all cameras; an unresolved planar
+/// ambiguity; cameras that contradict the square, gravity or one another.
 SquareSolution solveSquare(const SquareLayout& layout,
                            const std::vector<CameraSightings>& cameras,
                            const SolveOptions& options);

@@ -20,23 +20,22 @@ struct CornerEstimates {
 /// A corner that the LED was probably not put on.
 struct SuspectCorner {
   std::size_t corner = 0;  ///< 0..3.
-  double distance = 0.0;   ///< From where it should have been, by all the rest [m].
-  /// By how much the rest fits better without believing in this corner's place (chi-squared, two
-  /// degrees of freedom).
+  double distance = 0.0;   ///< From where it should have been, by the other data [m].
+  /// Decrease of chi-squared (two degrees of freedom) without the prior of this corner's place.
   double chi_squared = 0.0;
-  /// The other corner that explains most, and by how much less it does.
+  /// The second best corner, and how much smaller its decrease is.
   std::optional<std::size_t> runner_up;
   double lead = 0.0;
 };
 
-/// The corner whose disbelief explains most. What is left out is the prior knowledge that the LED
-/// was put there within `placement`; what is left then tells where it was: the statistics of
-/// deleting one observation (Cook and Weisberg, Residuals and Influence in Regression, 1982).
+/// The corner whose prior place contradicts the other data most. Without the prior that the LED was
+/// put there within `placement`, the other data determine where it was: deletion of one observation
+/// (Cook and Weisberg, Residuals and Influence in Regression, 1982).
 /// @param placement standard deviation of every corner, per axis [m, > 0].
-/// @returns nothing when the rest says nothing of any corner.
+/// @returns nothing when the other data determine no corner.
 std::optional<SuspectCorner> suspectCorner(const CornerEstimates& estimates, double placement);
 
-/// Whether it is no accident: one in 2500 calibrations has such a corner by chance.
+/// Whether it is significant: one in 2500 calibrations has such a corner by chance.
 bool isDisplaced(const SuspectCorner& suspect);
 
 }  // namespace wiimote_tracker::square

@@ -17,25 +17,25 @@
 namespace wiimote_tracker::wave {
 
 struct WaveOptions {
-  /// Starting intrinsics, corners: how well they are known. Its `pixel` is that of a corner.
+  /// Of starting intrinsics and corners. Its `pixel` is that of a corner.
   square::Uncertainty uncertainty;
   double pixel = 0.5;          ///< Of a moving spot, per axis [px, > 0]; estimated from here.
   double stamp = 0.0;          ///< Independent error of each stamp [s, >= 0].
-  double wander = 0.0003;      ///< Slow error of a camera's stamps, settling in 2 s [s, >= 0].
-  double offset = 0.05;        ///< Of a time offset before anything is known [s, > 0].
+  double wander = 0.0003;      ///< Error of a camera's stamps, correlated over 2 s [s, >= 0].
+  double offset = 0.05;        ///< Prior of a time offset [s, > 0].
   double knot_spacing = 0.05;  ///< Of the LED's path, a cubic spline [s, 0.005 to 0.05].
-  double acceleration = 20.0;  ///< Of the LED; bridges times in which nobody sees it [m/s^2, > 0].
+  double acceleration = 20.0;  ///< Of the LED; bridges times when no camera sees it [m/s^2, > 0].
   double maximum_offset_stddev = 0.0005;  ///< A result less certain of an offset is refused [s].
 };
 
-/// Where the world of the result is, and with it what its covariance leaves out.
+/// Definition of the world frame, relative to which the covariance is.
 enum class Gauge {
   kSquare,       ///< The square, as uncertain as its placement.
   kFirstCamera,  ///< The first camera, exact: origin in it; its accelerometer's up is z. Without
                  ///< accelerometer its optical frame is the world.
 };
 
-/// What one camera contributed, beside what its geometry::RigCamera says.
+/// Quality of one camera, beside its geometry::RigCamera.
 struct CameraReport {
   double inlier_share = 0.0;   ///< Inliers among its images with spots, while others saw the LED.
   double offset_stddev = 0.0;  ///< Of the time offset [s]; 0: the reference.
@@ -43,7 +43,7 @@ struct CameraReport {
   double principal_point_stddev = 0.0;  ///< The larger of both axes [px].
 };
 
-/// Cameras, solved from all that was recorded.
+/// A solved recording.
 struct WaveSolution {
   /// Poses, intrinsics, time offsets, residuals, joint covariance, verdict; in the order of the
   /// recording; without solved_at and world_frame. exposure time = stamp + time offset.
@@ -63,13 +63,13 @@ struct WaveSolution {
   std::vector<Eigen::Vector3d> path;                 ///< A point of it per knot that was seen [m].
   /// Expected RMS error of a point on the path as far as it comes from the calibration [m].
   double expected_error = 0.0;
-  /// Same after the best rigid motion: what is left when the place of the world does not matter.
+  /// Same after the best rigid motion: independent of the world frame.
   double expected_shape_error = 0.0;
   int iterations = 0;
   std::vector<std::string> warnings;  ///< One sentence each; part of rig.verdict too.
 };
 
-/// How far it is. Called a few times per second or more.
+/// Progress, reported a few times per second or more.
 struct Progress {
   std::string step;       ///< What is being done, for people.
   double fraction = 0.0;  ///< 0 to 1, growing.

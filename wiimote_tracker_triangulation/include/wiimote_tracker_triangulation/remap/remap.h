@@ -34,7 +34,7 @@ std::size_t parameterCount(Model model, std::size_t support);
 ///   (x, y, z), stored row by row [m]. b(q) is 1, qx, qy, qz; then, for trilinear, qx qy, qy qz,
 ///   qz qx, qx qy qz; for thin_plate, the distance of q from each support point's q, in the order
 ///   of the support;
-/// - projective: m + s P (1, q)' / (s + c q), with P (3x4) row by row, then c [m].
+/// - projective: m + P (1, q)' / (1 + c q / s), with P (3x4) row by row, then c [m].
 struct Remap {
   std::string rig_id;  ///< Of the calibration used to measure the points.
   Model model = Model::kAffine;

@@ -153,15 +153,15 @@ make_workspace() {
 
 # The same, but prints only how far it is; build.log has the rest.
 make_with_progress() {
-  local line percent shown=0 left
-  SECONDS=0
+  local line percent shown=0 first=
   make_workspace "$@" 2>&1 | tee "$workspace/build.log" | while IFS= read -r line; do
-    [[ $line =~ ^\[\ *([0-9]+)%\] ]] || continue
+    [[ $line =~ ^\[\ *([0-9]+)%\]\ (Building CXX)? ]] || continue
     percent=${BASH_REMATCH[1]}
-    (( percent >= shown + 5 )) || continue
+    # Before the first compiler run are many steps that take no time.
+    [[ -n $first || -z ${BASH_REMATCH[2]} ]] || { first=$percent; SECONDS=0; }
+    (( percent >= shown + 5 && percent > ${first:-100} )) || continue
     shown=$percent
-    left=$(( SECONDS * (100 - percent) / percent / 60 + 1 ))
-    (( percent == 100 )) && say "  built" || say "  $percent %, about $left min left"
+    say "  $percent %, about $(( SECONDS * (100 - percent) / (percent - first) / 60 + 1 )) min left"
   done
 }
 

@@ -11,8 +11,8 @@ import pytest
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
 
-from wiimote_tracker_evaluation import (alignment, bound, experiment, report, scene,  # noqa: E402
-                                        scoring)
+from wiimote_tracker_evaluation import (alignment, animation, bound, experiment,  # noqa: E402
+                                        report, scene, scoring)
 
 PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
 
@@ -328,6 +328,10 @@ def test_files_contain_the_figures(hand_made, tmp_path):
     report.draw_tracks(str(tmp_path / 'tracks.png'), hand_made.recording, hand_made.segments,
                        score)
     assert (tmp_path / 'tracks.png').read_bytes()[:4] == b'\x89PNG'
+
+    animation.draw(str(tmp_path / 'tracks.gif'), scene.read_scene(PAPER_RIG), hand_made.recording,
+                   hand_made.segments)
+    assert (tmp_path / 'tracks.gif').read_bytes()[:4] == b'GIF8'
 
     text = report.sentence('tracks', score)
     assert '\n' not in text and '%.1f mm absolute' % (1e3 * score.position_rms['absolute']) in text

@@ -60,7 +60,7 @@ def prepare_output(folder, cameras):
     try:
         os.makedirs(folder, exist_ok=True)
         for name in (['summary.json', 'rig.yaml', 'rig.yaml.bak', 'demo.bag', 'demo.bag.active',
-                      'points.csv', 'tracks.png', 'nodes.log']
+                      'points.csv', 'tracks.png', 'tracks.gif', 'nodes.log']
                      + [camera + ending for camera in cameras for ending in ('.yaml', '.yaml.bak')]):
             path = os.path.join(folder, name)
             if os.path.exists(path):
@@ -72,12 +72,8 @@ def prepare_output(folder, cameras):
                               'with --output')
 
 
-def has_display(progress):
-    if not os.environ.get('DISPLAY') and not os.environ.get('WAYLAND_DISPLAY'):
-        progress.line('No display: rviz is not started.')
-        return False
-    progress.line('Starting rviz.')
-    return True
+def has_display():
+    return bool(os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY'))
 
 
 class Demo:
@@ -109,7 +105,8 @@ class Demo:
         import rosgraph
         import rospy
         self._progress.step('Starting four virtual Wii Remotes, drivers, calibration, tracker')
-        rviz = has_display(self._progress)
+        self._progress.line('Starting rviz.' if has_display() else
+                            'No display: instead of rviz there will be a film, tracks.gif.')
         port = free_port()
         os.environ['ROS_MASTER_URI'] = f'http://localhost:{port}'
         os.environ['ROS_HOME'] = scratch
@@ -119,7 +116,7 @@ class Demo:
             'socket_directory:=' + os.path.join(scratch, 'remotes'),
             'camera_info_directory:=' + os.path.join(scratch, 'cameras'),
             'rig_file:=' + self._file('rig.yaml'), f'side_length:={experiment.SIDE:g}',
-            'labels:=' + LED, 'mode:=' + self._mode, 'rviz:=%s' % ('true' if rviz else 'false')], log)
+            'labels:=' + LED, 'mode:=' + self._mode, 'rviz:=%s' % ('true' if has_display() else 'false')], log)
         deadline = time.monotonic() + 30.0
         while not rosgraph.is_master_online():
             self._processes.check()
@@ -203,7 +200,7 @@ class Demo:
                                 f'{len(self._scene.cameras)} cameras')
 
     def _finish(self, segments, corner_samples):
-        from wiimote_tracker_evaluation import recording, report, scoring
+        from wiimote_tracker_evaluation import animation, recording, report, scoring
         self._progress.step('Closing the bag, computing the results')
         self._processes.stop(self._recorder)
         if not os.path.exists(self._file('demo.bag')):
@@ -222,12 +219,15 @@ class Demo:
         report.write_summary(self._file('summary.json'), self._mode, score, bounds)
         report.write_csv(self._file('points.csv'), recorded, segments)
         report.draw_tracks(self._file('tracks.png'), recorded, segments, score)
+        files = 'summary.json, rig.yaml, demo.bag, points.csv, tracks.png'
+        if not has_display():
+            animation.draw(self._file('tracks.gif'), self._scene, recorded, segments)
+            files += ', tracks.gif'
 
         self._progress.step('Results')
         for line in [''] + report.table(score, bounds) + ['']:
             self._progress.line(line)
-        self._progress.line(f'In {self._output}: summary.json, rig.yaml, demo.bag, points.csv, '
-                            'tracks.png')
+        self._progress.line(f'In {self._output}: {files}')
         self._sentence = report.sentence(self._mode, score)
 
     def last_line(self):

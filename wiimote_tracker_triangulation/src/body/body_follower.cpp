@@ -30,10 +30,11 @@ void BodyFollower::useTracker(const geometry::Rig& rig,
 
 void BodyFollower::take(std::size_t camera, tracking::CameraImage* image) {
   const geometry::RigCamera& calibration = rig_.cameras[camera];
-  const double time = image->stamp + geometry::timeOffset(calibration, image->clock_epoch);
+  const double offset = geometry::timeOffset(calibration, image->clock_epoch);
+  const double time = image->stamp + offset;
   if (!tracker_ || !std::isfinite(time) || !std::isfinite(image->arrival))
     return;
-  switch (time_watch_->check(camera, time, image->arrival)) {
+  switch (time_watch_->check(camera, image->arrival + offset)) {
     case tracking::TimeWatch::Result::kWrongClock:
       return;
     case tracking::TimeWatch::Result::kJumpedBack:

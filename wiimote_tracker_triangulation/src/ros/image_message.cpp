@@ -1,5 +1,7 @@
 #include "image_message.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <cmath>
 #include <limits>
 
@@ -9,20 +11,27 @@ namespace {
 using wiimote_tracker_msgs::IrBlob;
 using wiimote_tracker_msgs::IrBlobArray;
 
-// Longest possible time between exposure and arrival [s].
+// Longest possible time from exposure to arrival, and error of a stamp [s].
 constexpr double kLongestDelay = 10.0;
+constexpr double kStampError = 0.02;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::string sizeOf(std::int64_t width, std::int64_t height) {
   return std::to_string(width) + " x " + std::to_string(height) + " pixels";
 }
 
+/// From exposure to arrival [s]. (ros::Duration throws beyond 68 years.)
+double delayOf(const IrBlobArray& message) {
+  return message.arrival.isZero() ? 0.0 : message.arrival.toSec() - message.header.stamp.toSec();
+}
+
 ImageFault faultOf(const IrBlobArray& message, const geometry::Camera& calibrated) {
   if (message.header.stamp.isZero())
     return ImageFault::kNoTime;
-  if (!message.arrival.isZero() &&
-      std::fabs((message.arrival - message.header.stamp).toSec()) > kLongestDelay)
+  if (delayOf(message) > kLongestDelay)
     return ImageFault::kImpossibleTime;
+  if (delayOf(message) < -kStampError)
+    return ImageFault::kAfterArrival;
   if (!message.camera.empty() && message.camera != calibrated.name)
     return ImageFault::kOtherCamera;
   if (!message.identity.empty() && !calibrated.identity.empty() &&
@@ -87,7 +96,12 @@ std::string describe(ImageFault fault,
     case ImageFault::kImpossibleTime:
       return "images of " + calibrated.name + " are stamped more than " +
              std::to_string(static_cast<int>(kLongestDelay)) +
-             " s from their arrival and are ignored: let their driver take both from one clock";
+             " s before their arrival and are ignored: let their driver take both from one clock";
+    case ImageFault::kAfterArrival:
+      return format(
+          "images of %s are stamped %.3g s after their arrival and are ignored: let their "
+          "driver take both from one clock",
+          calibrated.name.c_str(), -delayOf(message));
     case ImageFault::kOtherCamera:
       return "images on the topic of " + calibrated.name + " are from " + message.camera +
              " and are ignored: let each driver publish under its own camera's name";

@@ -15,7 +15,8 @@ enum class ImageFault {
   kNone,
   kImpossibleSpots,  ///< Spots that are not finite or lie outside the image; the others are good.
   kNoTime,           ///< From here on the image must not be used.
-  kImpossibleTime,   ///< Exposed long before it arrived, or long after.
+  kImpossibleTime,   ///< Exposed long before it arrived.
+  kAfterArrival,     ///< Exposed after it arrived.
   kOtherCamera,
   kOtherDevice,
   kOtherSize,

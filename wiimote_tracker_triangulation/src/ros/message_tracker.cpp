@@ -5,6 +5,7 @@
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
+#include <wiimote_tracker_msgs/text.h>
 #include <boost/make_shared.hpp>
 
 #include <algorithm>
@@ -88,6 +89,7 @@ MessageTracker::RigChange MessageTracker::takeRig(
     for (std::size_t i = 0; i < rig.cameras.size(); ++i)
       camera_index_[rig.cameras[i].camera.name] = i;
     reported_faults_.clear();
+    reported_clocks_.clear();
     statistics_.setRig(rig);
   }
   rig_ = rig;
@@ -113,6 +115,7 @@ void MessageTracker::takeImage(const std::string& camera,
   publishBodies();
   publishTicksUntil(image_.arrival);
   estimator_->add(index, image_);
+  reportClock(index);
   if (estimator_->counters().resets != resets_)
     restart();
   while (const tracking::Snapshot* snapshot = estimator_->next())
@@ -146,6 +149,26 @@ void MessageTracker::reportFault(std::size_t camera,
   const std::string sentence = describe(fault, message, rig_.cameras[camera].camera);
   statistics_.addProblem(camera, sentence);
   if (reported_faults_.emplace(camera, fault).second)
+    sink_->onProblem(sentence);
+}
+
+void MessageTracker::reportClock(std::size_t camera) {
+  const std::optional<double> ahead = estimator_->clockAhead(camera);
+  if (!ahead)
+    return;
+  const char* name = rig_.cameras[camera].camera.name.c_str();
+  const std::string sentence =
+      std::isnan(*ahead)
+          ? format(
+                "the clocks of the cameras' computers disagree and no group of them is the "
+                "largest, so images of %s are ignored: run chrony on all computers",
+                name)
+          : format(
+                "the clock of the computer of %s is %.3g s %s most cameras' clocks, and its "
+                "images are ignored: run chrony on all computers",
+                name, std::fabs(*ahead), *ahead > 0.0 ? "ahead of" : "(or its network) behind");
+  statistics_.addProblem(camera, sentence);
+  if (reported_clocks_.insert(camera).second)
     sink_->onProblem(sentence);
 }
 

@@ -73,7 +73,7 @@ void TrackingDiagnostics::addArrival(const std::string& camera,
     return;
   const auto index = static_cast<std::size_t>(place - cameras_.begin());
   nodes_[index] = node;
-  clocks_.add(index, (ros::Time::now() - arrival).toSec());
+  clocks_.add(index, ros::Time::now().toSec() - arrival.toSec());
 }
 
 /// Runs before the reports of the cameras and begins a new period for all.

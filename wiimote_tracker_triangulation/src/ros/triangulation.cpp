@@ -115,7 +115,7 @@ void Triangulation::onPoints(const TrackedPointArrayConstPtr& points,
                              const std::vector<tracking::CameraView>& views) {
   leds_.publish(*points);
   points_publisher_.publish(points);
-  tracker_.statistics().addLatency((ros::Time::now() - points->latest_arrival).toSec());
+  tracker_.statistics().addLatency(ros::Time::now().toSec() - points->latest_arrival.toSec());
   learning_.addPoints(*points);
   if (markers_publisher_.getNumSubscribers() > 0 && markers_.isDue(points->header.stamp.toSec()))
     markers_publisher_.publish(markers_.build(*points, views));

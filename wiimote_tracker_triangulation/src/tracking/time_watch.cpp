@@ -1,64 +1,159 @@
 #include "tracking/time_watch.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace wiimote_tracker::tracking {
+namespace {
 
-TimeWatch::Result TimeWatch::check(std::size_t camera, double time, double arrival) {
-  in_a_row_ = camera == last_camera_ ? in_a_row_ + 1 : 1;
-  last_camera_ = camera;
-  Newest& newest = cameras_[camera];
-  // Per camera: the clocks of two computers may differ by more than kJump.
-  if (arrival < newest.arrival - kJump) {
-    newest = Newest();
-    newest.jumped = true;
-  }
-  newest.time = std::max(newest.time, time);
-  newest.arrival = std::max(newest.arrival, arrival);
-  const bool is_behind = time < used_until_ - kJump;
-  newest.jumped = newest.jumped && is_behind;
-  ++images_since_progress_;
-  // No camera continued from before the jump.
-  const bool all_jumped = newest.jumped && images_since_progress_ > 2 * cameras_.size();
-  if (all_jumped) {
-    for (Newest& other : cameras_) {
-      if (!other.jumped)
-        other = Newest();
-      other.jumped = false;
-    }
-    newest_arrival_ = arrival;
-  }
-  disordered_ = arrival < newest_arrival_;
-  newest_arrival_ = std::max(newest_arrival_, arrival);
-  const bool came_first = is_behind && countNear(time) >= 2 && countNear(used_until_) <= 1;
-  if (all_jumped || came_first) {
-    used_until_ = time;
-    images_since_progress_ = 0;
-    return Result::kJumpedBack;
-  }
-  if (newest.jumped)
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TimeWatch::TimeWatch(std::size_t cameras)
+    : cameras_(cameras), pairs_(cameras * cameras), votes_(cameras) {}
+
+TimeWatch::Result TimeWatch::check(std::size_t camera, double arrival) {
+  if (comparePairs(camera, arrival))
+    vote();
+  const bool is_outlier = isOutlier(camera, arrival);
+  note(arrival, &cameras_[camera]);
+  disordered_ = false;
+  if (!cameras_[camera].trusted || is_outlier)
     return Result::kWrongClock;
-  double others = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    if (i != camera)
-      others = std::max(others, cameras_[i].time);
+  cameras_[camera].used = arrival;
+  const bool jumped_back = hasJumpedBack(camera);
+  disordered_ = !jumped_back && arrival < newest_used_;
+  if (jumped_back || arrival >= newest_used_) {
+    newest_used_ = arrival;
+    newest_camera_ = camera;
   }
-  const bool others_known = others > -std::numeric_limits<double>::infinity();
-  if (others_known && time > others + kJump && in_a_row_ <= kSilence)
-    return Result::kWrongClock;
-  if (time > used_until_) {
-    used_until_ = time;
-    images_since_progress_ = 0;
-  }
-  return Result::kUsable;
+  return jumped_back ? Result::kJumpedBack : Result::kUsable;
 }
 
-/// Number of cameras whose newest image is within kJump of a time.
-std::size_t TimeWatch::countNear(double time) const {
-  return static_cast<std::size_t>(
-      std::count_if(cameras_.begin(), cameras_.end(),
-                    [&](const Newest& newest) { return std::fabs(newest.time - time) <= kJump; }));
+/// One image that is older than those before does not set the camera back; two in a row do.
+void TimeWatch::note(double arrival, Camera* camera) {
+  const bool is_behind = camera->newest && arrival < *camera->newest - kTolerance;
+  if (is_behind ? camera->was_behind : arrival > camera->newest.value_or(-kInfinity))
+    camera->newest = arrival;
+  camera->was_behind = is_behind;
+}
+
+void TimeWatch::Pair::add(double lead) {
+  if (images == kWindow) {
+    recent[1] = recent[0];
+    recent[0] = Range();
+    images = 0;
+  }
+  ++images;
+  ++total;
+  recent[0].least = std::min(recent[0].least, lead);
+  recent[0].most = std::max(recent[0].most, lead);
+}
+
+TimeWatch::Pair& TimeWatch::pairOf(std::size_t a, std::size_t b) {
+  return pairs_[std::min(a, b) * cameras_.size() + std::max(a, b)];
+}
+
+/// Nothing while one of the two is silent.
+const TimeWatch::Pair* TimeWatch::activePair(std::size_t a, std::size_t b) const {
+  const Pair& pair = pairs_[std::min(a, b) * cameras_.size() + std::max(a, b)];
+  return pair.total > 0 && pair.unanswered[0] <= kSilence && pair.unanswered[1] <= kSilence
+             ? &pair
+             : nullptr;
+}
+
+/// Compares the camera's new image with the others' newest. @returns whether anything changed that
+/// matters for vote().
+bool TimeWatch::comparePairs(std::size_t camera, double arrival) {
+  bool changed = false;
+  for (std::size_t other = 0; other < cameras_.size(); ++other) {
+    if (other == camera || !cameras_[other].newest)
+      continue;
+    Pair& pair = pairOf(camera, other);
+    const bool is_first = camera < other;
+    int& unanswered = pair.unanswered[is_first ? 0 : 1];
+    int& other_unanswered = pair.unanswered[is_first ? 1 : 0];
+    changed |= unanswered++ == kSilence || other_unanswered > kSilence;
+    if (unanswered > kSilence || other_unanswered > kSilence) {
+      const int kept = unanswered;
+      pair = Pair();
+      pair.unanswered[is_first ? 0 : 1] = kept;
+    }
+    other_unanswered = 0;
+    if (unanswered > kSilence)
+      continue;
+    const double lead = arrival - *cameras_[other].newest;
+    pair.add(is_first ? lead : -lead);
+    const bool agrees =
+        pair.total < kLeast || (pair.least() <= kTolerance && pair.most() >= -kTolerance);
+    changed |= agrees != pair.agrees;
+    pair.agrees = agrees;
+  }
+  return changed;
+}
+
+void TimeWatch::vote() {
+  const std::size_t n = cameras_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    votes_[i] = 1;
+    for (std::size_t j = 0; j < n; ++j) {
+      const Pair* pair = i == j ? nullptr : activePair(i, j);
+      votes_[i] += pair && pair->agrees;
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    cameras_[i].trusted = true;
+    for (std::size_t j = 0; j < n; ++j) {
+      const Pair* pair = i == j ? nullptr : activePair(i, j);
+      if (pair && !pair->agrees && votes_[j] >= votes_[i])
+        cameras_[i].trusted = false;
+    }
+  }
+}
+
+/// Whether a camera's image is ahead of most others' and also of its own last one. (If only the
+/// others are delayed, it is not.)
+bool TimeWatch::isOutlier(std::size_t camera, double arrival) const {
+  const std::optional<double>& used = cameras_[camera].used;
+  if (used && arrival <= *used + kTolerance)
+    return false;
+  int ahead_of = 0;
+  int compared = 0;
+  for (std::size_t other = 0; other < cameras_.size(); ++other) {
+    if (other == camera || !cameras_[other].trusted || !activePair(camera, other))
+      continue;
+    ++compared;
+    ahead_of += arrival > *cameras_[other].newest + kTolerance;
+  }
+  return 2 * ahead_of > compared;
+}
+
+/// Whether all trusted cameras that are not silent are back behind the newest image that was used,
+/// or that image came from a camera that is not trusted any more.
+bool TimeWatch::hasJumpedBack(std::size_t camera) const {
+  const double jump = cameras_[newest_camera_].trusted ? kJump : kTolerance;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    const bool counts = i == camera || (cameras_[i].trusted && activePair(camera, i));
+    if (counts && !(*cameras_[i].newest < newest_used_ - jump))
+      return false;
+  }
+  return true;
+}
+
+std::optional<double> TimeWatch::ahead(std::size_t camera) const {
+  if (cameras_[camera].trusted)
+    return std::nullopt;
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t other = 0; other < cameras_.size(); ++other) {
+    const Pair* pair = other == camera ? nullptr : activePair(camera, other);
+    if (!pair || !cameras_[other].trusted)
+      continue;
+    const double lead = 0.5 * (pair->least() + pair->most());
+    sum += camera < other ? lead : -lead;
+    ++count;
+  }
+  return sum / count;  // NaN: none
 }
 
 }  // namespace wiimote_tracker::tracking

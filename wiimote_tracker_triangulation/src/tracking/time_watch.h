@@ -1,52 +1,87 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TIME_WATCH_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TIME_WATCH_H
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
 
-/// Detects from the times of images that time jumped back for all cameras, as when a bag is played
-/// in a loop, or that one camera's clock is wrong: ahead of all others, or set back alone. If the
-/// first images came from a camera that is ahead, time jumps back to that of the others.
+/// Judges each camera's clock by the others', and detects that time jumped back for all, as when a
+/// bag is played in a loop.
+///
+/// No clock is read: images are checked as they come, so the newest images of two cameras have
+/// about the same arrival time if their computers' clocks agree. Delays make this true of some
+/// images only. So two clocks disagree if no recent image is within kTolerance, and the largest
+/// group of cameras that agree is trusted; none if two groups are equally large.
 class TimeWatch {
  public:
-  static constexpr double kJump = 1.0;  ///< [s]
+  static constexpr double kTolerance = 0.04;  ///< Between clocks that agree [s].
+  static constexpr double kJump = 1.0;        ///< Least jump back [s].
 
-  explicit TimeWatch(std::size_t cameras) : cameras_(cameras) {}
+  explicit TimeWatch(std::size_t cameras);
 
   enum class Result {
     kUsable,
-    kWrongClock,  ///< Do not use: its clock is far from all others.
+    kWrongClock,  ///< Do not use: its clock, or the time of this image, is not that of the others.
     kJumpedBack   ///< Usable, after a reset.
   };
 
-  /// @param time of the exposure [s] @param arrival [s]
-  Result check(std::size_t camera, double time, double arrival);
+  /// @param arrival of an image, by the clock of its camera's computer [s]
+  Result check(std::size_t camera, double arrival);
 
-  /// Whether the last image arrived before an earlier checked one.
+  /// How far the clock of a camera that is not trusted is ahead of those that are [s]; NaN when
+  /// none is trusted. Nothing for a trusted camera.
+  std::optional<double> ahead(std::size_t camera) const;
+
+  /// Whether the last image arrived before an earlier used one.
   bool isDisordered() const { return disordered_; }
 
  private:
-  std::size_t countNear(double time) const;
+  /// By how much the newest image of one camera is ahead of another's, over recent images [s].
+  struct Pair {
+    struct Range {
+      double least = std::numeric_limits<double>::infinity();
+      double most = -std::numeric_limits<double>::infinity();
+    };
+    void add(double lead);
+    double least() const { return std::min(recent[0].least, recent[1].least); }
+    double most() const { return std::max(recent[0].most, recent[1].most); }
 
-  struct Newest {
-    double time = -std::numeric_limits<double>::infinity();
-    double arrival = -std::numeric_limits<double>::infinity();
-    bool jumped = false;  // its time jumped back and is still behind the others
+    std::array<Range, 2> recent;  // of the present and of the former kWindow images
+    int images = 0;               // in recent[0]
+    int total = 0;
+    bool agrees = true;
+    std::array<int, 2> unanswered{};  // images of either one since the other's last
+  };
+  struct Camera {
+    std::optional<double> newest;  // arrival of its newest image [s]
+    std::optional<double> used;    // of the last one that was used [s]
+    bool was_behind = false;       // its last image was older than `newest`
+    bool trusted = true;
   };
 
-  /// After this many images in a row from one camera, the others are considered silent.
-  static constexpr int kSilence = 100;
+  static constexpr int kWindow = 50;   ///< Images of two cameras; there are two windows.
+  static constexpr int kLeast = 4;     ///< Images before two cameras may disagree.
+  static constexpr int kSilence = 25;  ///< Images of one camera after which another is silent.
 
-  std::vector<Newest> cameras_;
-  double used_until_ = -std::numeric_limits<double>::infinity();
-  std::size_t images_since_progress_ = 0;  // since used_until_ grew
-  double newest_arrival_ = -std::numeric_limits<double>::infinity();
+  Pair& pairOf(std::size_t a, std::size_t b);
+  const Pair* activePair(std::size_t a, std::size_t b) const;
+  static void note(double arrival, Camera* camera);
+  bool comparePairs(std::size_t camera, double arrival);
+  void vote();
+  bool isOutlier(std::size_t camera, double arrival) const;
+  bool hasJumpedBack(std::size_t camera) const;
+
+  std::vector<Camera> cameras_;
+  std::vector<Pair> pairs_;  // [a, b] with a < b: of a's newest image ahead of b's
+  std::vector<std::size_t> votes_;
+  double newest_used_ = -std::numeric_limits<double>::infinity();  // arrival [s]
+  std::size_t newest_camera_ = 0;                                  // whose it is
   bool disordered_ = false;
-  std::size_t last_camera_ = 0;
-  int in_a_row_ = 0;
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -81,13 +81,13 @@ void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& be
 }
 
 void Tracker::add(std::size_t camera, const CameraImage& image) {
-  const double time =
-      image.stamp + geometry::timeOffset(rig_.cameras.at(camera), image.clock_epoch);
+  const double offset = geometry::timeOffset(rig_.cameras.at(camera), image.clock_epoch);
+  const double time = image.stamp + offset;
   if (!std::isfinite(time) || !std::isfinite(image.arrival)) {
     ++counters_.dropped;
     return;
   }
-  const TimeWatch::Result result = time_watch_->check(camera, time, image.arrival);
+  const TimeWatch::Result result = time_watch_->check(camera, image.arrival + offset);
   counters_.disordered += time_watch_->isDisordered();
   if (result == TimeWatch::Result::kWrongClock) {
     ++counters_.dropped;
@@ -187,6 +187,10 @@ void Tracker::describeImages(Snapshot* snapshot) const {
 
 const Counters& Tracker::counters() const {
   return counters_;
+}
+
+std::optional<double> Tracker::clockAhead(std::size_t camera) const {
+  return time_watch_->ahead(camera);
 }
 
 }  // namespace wiimote_tracker::tracking

@@ -12,6 +12,8 @@
 #include <std_msgs/Header.h>
 #include <boost/make_shared.hpp>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -144,11 +146,15 @@ TEST(Trackers, EndWhileImagesComeWithoutADeadlock) {
   auto all = std::async(std::launch::async, [&] {
     std::atomic<bool> is_over{false};
     std::vector<std::thread> drivers;
-    for (const geometry::RigCamera& camera : rig.cameras) {
-      drivers.emplace_back([&nh, &is_over, camera = camera.camera] {
+    std::array<std::atomic<std::uint64_t>, 3> frames{};  // they keep step, as clocks do
+    for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+      drivers.emplace_back([&nh, &is_over, &frames, i, camera = rig.cameras[i].camera] {
         const ros::Publisher publisher =
             ros::NodeHandle(nh).advertise<IrBlobArray>(camera.name + "/ir_blobs", 100);
         for (std::uint64_t frame = 0; !is_over; ++frame) {
+          frames[i] = frame;
+          while (!is_over && *std::min_element(frames.begin(), frames.end()) < frame)
+            ros::WallDuration(0.0001).sleep();
           publisher.publish(boost::make_shared<IrBlobArray>(image(camera, frame)));
           ros::WallDuration(0.0005).sleep();
         }

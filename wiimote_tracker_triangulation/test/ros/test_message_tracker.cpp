@@ -409,6 +409,31 @@ bool isInEllipsoid(const Vector3d& error, const Covariance& row_major) {
   return error.dot(covariance.ldlt().solve(error)) < 7.815;
 }
 
+TEST(Clocks, ACameraWithAnotherClockIsNamedOnceAndLeftOut) {
+  Studio studio(parametersOf(Mode::kTracks));
+  studio.spoil = [&](std::size_t camera, IrBlobArray* image) {
+    const ros::Duration ahead(camera == 2 ? 0.5 : 0.0);
+    image->header.stamp += ahead;
+    image->arrival += ahead;
+  };
+  studio.film(1.0, {onCircle});
+  EXPECT_EQ(1, studio.heard.problemsWith("the clock of the computer of camera_2 is 0.5"));
+  EXPECT_NE(std::string::npos, studio.tracker.statistics().camera(2).problem.find("chrony"));
+  studio.expectNear("led", 1000.3, onCircle);
+  EXPECT_GT(studio.pointsOf("led", 1000.3).size(), 130u);
+}
+
+TEST(Clocks, AnImageFromAnotherCenturyChangesNothing) {
+  Studio studio(parametersOf(Mode::kTracks));
+  studio.film(0.5, {onCircle});
+  IrBlobArray image = studio.image(0, studio.now, {onCircle});
+  image.header.stamp = image.arrival = ros::TIME_MAX;
+  studio.tracker.takeImage("camera_0", image);
+  studio.film(0.5, {onCircle});
+  studio.expectNear("led", 1000.3, onCircle);
+  EXPECT_GT(studio.pointsOf("led", 1000.5).size(), 140u);
+}
+
 TEST(Identity, BlinkingLedsKeepTheirLabelsThroughDarkness) {
   constexpr double kChip = 0.023;
   const std::vector<std::string> words = {"01011111", "01010101"};

@@ -247,11 +247,16 @@ TEST(ImageMessage, UnusableImagesAreNamed) {
   IrBlobArray message = goodImage(camera);
   message.header.stamp = ros::Time();
   says(message, ImageFault::kNoTime, "carry no time");
-  for (const double delay : {-11.0, 11.0}) {
-    message = goodImage(camera);
-    message.header.stamp = message.arrival - ros::Duration(delay);
-    says(message, ImageFault::kImpossibleTime, "from their arrival");
-  }
+  message = goodImage(camera);
+  message.header.stamp = message.arrival - ros::Duration(11.0);
+  says(message, ImageFault::kImpossibleTime, "before their arrival");
+  message.header.stamp = message.arrival + ros::Duration(0.05);
+  says(message, ImageFault::kAfterArrival, "0.05 s after their arrival");
+  // Their difference is no ros::Duration.
+  message.header.stamp = ros::TIME_MAX;
+  says(message, ImageFault::kAfterArrival, "after their arrival");
+  std::swap(message.header.stamp, message.arrival);
+  says(message, ImageFault::kImpossibleTime, "before their arrival");
   message = goodImage(camera);
   message.camera = "stranger";
   says(message, ImageFault::kOtherCamera, "are from stranger");

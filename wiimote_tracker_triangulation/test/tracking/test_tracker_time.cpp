@@ -207,6 +207,7 @@ TEST(Tracker, AppliesTheTimeOffsetsOfTheRig) {
   for (SceneImage& image : images) {
     if (image.camera == 1 && image.image.stamp < 1001.0) {
       image.image.stamp -= 0.25;
+      image.image.arrival -= 0.25;
       image.image.clock_epoch = 7;  // later images are of another epoch and need no offset
     }
   }

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace wiimote_tracker::tracking {
 
@@ -38,6 +39,10 @@ class Estimator {
   virtual const Snapshot* next() = 0;
 
   virtual const Counters& counters() const = 0;
+
+  /// For a camera whose images are left out because its clock is wrong: how far it is ahead of the
+  /// clocks of most cameras [s]; NaN when no group of cameras that agree is the largest.
+  virtual std::optional<double> clockAhead(std::size_t /*camera*/) const { return std::nullopt; }
 
   /// Predicts all LEDs to a time [s] not before the newest image, for output at a fixed rate.
   /// False, and nothing is written, when the estimator cannot predict, has seen no image or is past

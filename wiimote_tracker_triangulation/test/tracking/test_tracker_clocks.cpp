@@ -1,0 +1,169 @@
+// Cameras whose clocks, or the stamps of some images, are wrong do not harm the others.
+#include "tracking/tracker_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::tracking::test {
+namespace {
+
+/// What a clock adds to the time of an image [s]; nothing: the image never comes.
+using Clock = std::function<std::optional<double>(std::size_t camera, std::size_t number)>;
+
+struct Rows {
+  std::size_t tracked = 0;  // LEDs in snapshots
+  std::size_t wrong = 0;    // of these, not near an LED
+  double rms = 0.0;         // [m]
+  std::uint64_t resets = 0;
+};
+
+/// Tracks four LEDs for 10 s; what the first second gives is not counted.
+Rows rowsWith(const geometry::Rig& rig, double speed, const Clock& clock) {
+  const Eigen::Vector3d middle =
+      rig.cameras.size() == 4 ? Eigen::Vector3d(1.25, 1.25, 1.0) : Eigen::Vector3d(0.0, 0.0, 1.0);
+  geometry::test::Random random(10);
+  std::vector<Path> leds;
+  for (const double x : {-0.45, 0.45}) {
+    for (const double y : {-0.45, 0.45})
+      leds.push_back(wandering(random, middle + Eigen::Vector3d(x, y, 0.0), 0.25, speed));
+  }
+  SceneOptions options;
+  options.delay_jitter = 0.002;
+  Scene scene(rig, leds, options, 1);
+  Tracker tracker(rig, exactOptions());
+  IdentityCheck check(leds);
+  Rows rows;
+  std::vector<std::size_t> numbers(rig.cameras.size());
+  for (std::size_t i = 0; i < 1000 * rig.cameras.size(); ++i) {
+    SceneImage image = scene.next();
+    const std::optional<double> ahead = clock(image.camera, numbers[image.camera]++);
+    if (!ahead)
+      continue;
+    image.image.stamp += *ahead;
+    image.image.arrival += *ahead;
+    tracker.add(image.camera, image.image);
+    while (const Snapshot* snapshot = tracker.next()) {
+      if (snapshot->time < options.start + 1.0)
+        continue;
+      rows.tracked += idsIn(*snapshot, TrackState::kTracked).size();
+      check.look(*snapshot);
+    }
+  }
+  rows.wrong = check.false_tracks;
+  rows.rms = check.rms();
+  rows.resets = tracker.counters().resets;
+  return rows;
+}
+
+std::optional<double> isRight(std::size_t, std::size_t) {
+  return 0.0;
+}
+
+void expectAsGoodAs(const Rows& without, const Rows& with, const std::string& what) {
+  EXPECT_GE(with.tracked, 0.98 * without.tracked) << what;
+  EXPECT_EQ(without.wrong, with.wrong) << what;
+  EXPECT_LE(with.rms, 1.1 * without.rms) << what;
+}
+
+TEST(TrackerClocks, OneCameraAheadOrBehindDoesNotHarmTheOthers) {
+  const Rows without = rowsWith(paperRig(), 1.0, [](std::size_t camera, std::size_t) {
+    return camera == 2 ? std::nullopt : std::optional<double>(0.0);
+  });
+  ASSERT_GT(without.tracked, 8500u);
+  for (const double ahead : {-10.0, -0.5, -0.1, 0.06, 0.1, 0.3, 0.5, 1.0, 5.0}) {
+    const Rows with = rowsWith(paperRig(), 1.0,
+                               [ahead](std::size_t camera, std::size_t) -> std::optional<double> {
+                                 return camera == 2 ? ahead : 0.0;
+                               });
+    expectAsGoodAs(without, with, std::to_string(ahead) + " s ahead");
+  }
+}
+
+TEST(TrackerClocks, AClockThatIsSetDoesNotHarmTheOthers) {
+  const Rows without = rowsWith(paperRig(), 1.0, isRight);
+  for (const double ahead : {-0.3, 0.1, 0.5}) {
+    const Rows with = rowsWith(
+        paperRig(), 1.0, [ahead](std::size_t camera, std::size_t number) -> std::optional<double> {
+          return camera == 2 && number > 300 && number < 700 ? ahead : 0.0;
+        });
+    EXPECT_EQ(0u, with.resets);
+    EXPECT_GE(with.tracked, 0.98 * 0.9 * without.tracked)
+        << "there are fewer snapshots without the camera's images";
+    EXPECT_EQ(0u, with.wrong);
+    EXPECT_LE(with.rms, 1.2 * without.rms);
+  }
+}
+
+TEST(TrackerClocks, SingleImagesAheadAreLeftOut) {
+  const Rows without = rowsWith(paperRig(), 1.0, isRight);
+  for (const std::size_t every : {25u, 10000u}) {
+    const Rows with = rowsWith(
+        paperRig(), 1.0, [every](std::size_t camera, std::size_t number) -> std::optional<double> {
+          return camera == 1 && number % every == 500 % every && number >= 500 ? 0.3 : 0.0;
+        });
+    expectAsGoodAs(without, with, "every " + std::to_string(every));
+  }
+}
+
+TEST(TrackerClocks, TheLargerGroupThatAgreesCounts) {
+  const geometry::Rig rig = roomsRig(1, 5);
+  const Rows without = rowsWith(rig, 1.0, [](std::size_t camera, std::size_t) {
+    return camera < 2 ? std::nullopt : std::optional<double>(0.0);
+  });
+  ASSERT_GT(without.tracked, 8000u);
+  for (const double ahead : {-0.5, 0.5}) {
+    const Rows with =
+        rowsWith(rig, 1.0, [ahead](std::size_t camera, std::size_t) -> std::optional<double> {
+          return camera < 2 ? ahead : 0.0;
+        });
+    expectAsGoodAs(without, with, std::to_string(ahead) + " s ahead");
+  }
+}
+
+TEST(TrackerClocks, NoGroupCountsIfTwoAreEquallyLarge) {
+  const Rows rows =
+      rowsWith(paperRig(), 1.0, [](std::size_t camera, std::size_t) -> std::optional<double> {
+        return camera < 2 ? 0.5 : 0.0;
+      });
+  EXPECT_EQ(0u, rows.tracked);
+}
+
+TEST(TrackerClocks, AWrongClockIsMeasured) {
+  std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(2, 10), {}, 400);
+  Tracker tracker(paperRig(), exactOptions());
+  for (SceneImage& image : images) {
+    image.image.stamp += image.camera == 3 ? 0.5 : 0.0;
+    image.image.arrival += image.camera == 3 ? 0.5 : 0.0;
+    tracker.add(image.camera, image.image);
+  }
+  ASSERT_TRUE(tracker.clockAhead(3));
+  EXPECT_NEAR(0.5, *tracker.clockAhead(3), 0.02);
+  EXPECT_FALSE(tracker.clockAhead(0));
+}
+
+TEST(TrackerClocks, DelayedImagesAreNoWrongClocks) {
+  // One computer's network is stopped for 0.2 s of each second: its two cameras' images come late.
+  std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(4, 6), {}, 4000);
+  for (SceneImage& image : images) {
+    const double since = std::fmod(image.image.arrival, 1.0);
+    if (image.camera < 2 && since > 0.5 && since < 0.7)
+      image.true_time = image.image.arrival + 0.7 - since;  // of delivery
+    else
+      image.true_time = image.image.arrival;
+  }
+  std::stable_sort(images.begin(), images.end(),
+                   [](auto& a, auto& b) { return a.true_time < b.true_time; });
+  Tracker tracker(paperRig(), exactOptions());
+  track(&tracker, images);
+  EXPECT_EQ(0u, tracker.counters().resets);
+  EXPECT_LT(tracker.counters().dropped, 80u);  // those older than the history
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::tracking::test

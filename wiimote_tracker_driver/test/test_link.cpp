@@ -1,0 +1,133 @@
+// How the driver keeps a connection, in fake time: remotes that are silent, absent or go away.
+#include "wiimote_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <new>
+#include <stdexcept>
+
+namespace wiimote_tracker::wiimote {
+namespace {
+
+using protocol::Report;
+
+TEST_F(WiimoteTest, ASilentRemoteIsReconnected) {
+  remote_.answers = false;
+  run(2.6);
+  EXPECT_EQ(5, remote_.count(kStatusRequest));
+  EXPECT_EQ(Link::State::kSearching, wiimote_.link().state);
+  EXPECT_NE(std::string::npos, wiimote_.link().error.find("does not answer report 0x15"));
+  remote_.answers = true;
+  runToImage();
+  EXPECT_TRUE(streaming());
+  EXPECT_EQ("", wiimote_.link().error);
+  EXPECT_EQ(2, remote_.opened);
+  EXPECT_EQ(0u, wiimote_.link().clock_epoch) << "the first stream is epoch 0";
+}
+
+TEST_F(WiimoteTest, AnyExceptionEndsTheConnectionAndNothingElse) {
+  int failures = 1;
+  Wiimote wiimote(
+      Options(),
+      [&]() -> std::unique_ptr<transport::Transport> {
+        if (failures-- > 0)
+          throw std::bad_alloc();
+        return remote_.open();
+      },
+      [&] { return remote_.now; });
+  EXPECT_NO_THROW(wiimote.step(0.1));
+  EXPECT_EQ(Link::State::kSearching, wiimote.link().state);
+  EXPECT_NE("", wiimote.link().error);
+  remote_.now += 1.0;
+  remote_.lose = [](const Report&) -> bool { throw std::logic_error("of the transport"); };
+  EXPECT_NO_THROW(wiimote.step(0.1));
+  EXPECT_EQ("of the transport", wiimote.link().error);
+  EXPECT_NO_THROW(wiimote.close());
+}
+
+TEST_F(WiimoteTest, DisconnectAndReconnect) {
+  runToImage();
+  remote_.present = false;
+  run(3.0);
+  EXPECT_EQ(Link::State::kSearching, wiimote_.link().state);
+  EXPECT_EQ("no fake remote is connected", wiimote_.link().error);
+  EXPECT_EQ(0u, wiimote_.link().clock_epoch);
+  remote_.powerCycle();
+  remote_.present = true;
+  const double then = remote_.now;
+  runToImage();
+  EXPECT_LT(remote_.now - then, 1.0) << "longest pause between attempts is 0.5 s";
+  EXPECT_EQ(1u, wiimote_.link().clock_epoch);
+  EXPECT_TRUE(streaming());
+}
+
+TEST_F(WiimoteTest, RemoteThatIsNotThereYetIsLookedForWithGrowingPauses) {
+  FakeRemote remote;
+  std::vector<double> attempts;
+  Wiimote wiimote(
+      Options(),
+      [&]() -> std::unique_ptr<transport::Transport> {
+        attempts.push_back(remote.now);
+        if (attempts.size() < 7)
+          throw transport::NoSuchDevice("none");
+        return remote.open();
+      },
+      [&] { return remote.now; });
+  bool image = false;
+  while (!image && remote.now < 160.0) {
+    remote.now += wiimote.idleTime();
+    image = wiimote.step(0.1).has_value();
+  }
+  EXPECT_TRUE(image);
+  const std::vector<double> pauses{0.25, 0.5, 0.5, 0.5, 0.5, 0.5};
+  ASSERT_EQ(pauses.size() + 1, attempts.size());
+  for (std::size_t i = 0; i < pauses.size(); ++i)
+    EXPECT_NEAR(pauses[i], attempts[i + 1] - attempts[i], 1e-9);
+}
+
+TEST_F(WiimoteTest, CloseSwitchesTheRemoteOff) {
+  runToImage();
+  wiimote_.close();
+  EXPECT_EQ(0x30, remote_.mode);
+  EXPECT_FALSE(remote_.camera);
+  EXPECT_EQ(0, remote_.leds);
+  EXPECT_EQ(Link::State::kSearching, wiimote_.link().state);
+  remote_.present = false;
+  EXPECT_NO_THROW(wiimote_.close());
+}
+
+TEST_F(WiimoteTest, CloseOfARemoteThatHasGoneIsHarmless) {
+  runToImage();
+  remote_.present = false;
+  EXPECT_NO_THROW(wiimote_.close());
+}
+
+TEST_F(WiimoteTest, RemoteThatAcknowledgesButSendsNoImagesIsGivenUp) {
+  runToImage();
+  remote_.lose = [&](const Report& report) {
+    if (report == kReport33)
+      remote_.say({0x22, 0, 0, 0x12, 0}, 0.005);
+    return report == kReport33;
+  };
+  remote_.mode = 0x30;
+  run(5.0);
+  EXPECT_EQ(2, remote_.opened);
+  EXPECT_NE(std::string::npos, wiimote_.link().error.find("sends no images"));
+}
+
+TEST_F(WiimoteTest, RestorationsAreCountedOverReconnects) {
+  for (std::uint64_t times = 1; times <= 2; ++times) {
+    runToImage();
+    remote_.camera = false;
+    run(1.0);
+    EXPECT_EQ(times, wiimote_.link().restorations);
+    remote_.present = false;
+    run(1.0);
+    remote_.powerCycle();
+    remote_.present = true;
+  }
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::wiimote

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,7 @@ class FakeRemote {
   std::array<std::uint8_t, 11> ir_block{
       {0x88, 0x85, 0x8b, 0x8b, 0x8a, 0x97, 0x3f, 0x30, 0x8c, 0x39, 0xcd}};
   std::array<std::uint8_t, 11> ir_copy = ir_block;
+  std::set<std::uint8_t> unacknowledged;  ///< Output reports that it obeys without a word.
   bool light = true;
   bool registers_readable = true;
   bool echoes = true;  ///< Sends its present data at once when a mode is set.
@@ -139,7 +141,7 @@ class FakeRemote {
       default:
         break;
     }
-    if (b[1] & 2)
+    if ((b[1] & 2) && unacknowledged.count(b[0]) == 0)
       say({0x22, 0, 0, b[0], 0}, kDelay);
     if (b[0] == 0x12 && sendsImages() && echoes)
       say(image(), kDelay);  // its present data, at once

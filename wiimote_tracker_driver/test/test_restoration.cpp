@@ -110,6 +110,46 @@ TEST_F(WiimoteTest, PowerCycleBehindAnOpenConnectionStartsAllOver) {
   EXPECT_EQ("the remote was switched off and on", wiimote_.link().last_restoration);
 }
 
+// The remote sends nothing by itself in a mode that reports changes only.
+TEST_F(WiimoteTest, FormatChangedInSilenceIsNoPowerCycle) {
+  runToImage();
+  remote_.registers[0x33] = 1;
+  remote_.mode = 0x30;
+  const double then = remote_.now;
+  while (wiimote_.link().restorations < 1 && remote_.now < then + 2.0)
+    run(0.01);
+  EXPECT_LT(remote_.now - then, 0.2);
+  EXPECT_EQ("the camera's format was changed", wiimote_.link().last_restoration);
+  EXPECT_EQ(0u, wiimote_.link().clock_epoch);
+  EXPECT_EQ(3, remote_.registers[0x33]);
+}
+
+TEST_F(WiimoteTest, CameraSwitchedOffInSilenceIsNoPowerCycle) {
+  runToImage();
+  remote_.camera = remote_.logic = false;
+  remote_.mode = 0x30;
+  run(0.4);
+  EXPECT_EQ("the camera was switched off", wiimote_.link().last_restoration);
+  EXPECT_TRUE(last_.spots[0].seen);
+  EXPECT_EQ(0u, wiimote_.link().clock_epoch);
+}
+
+TEST_F(WiimoteTest, RadioSilenceIsNoPowerCycle) {
+  runToImage();
+  for (const double silence : {0.3, 0.8, 3.0, 4.4}) {
+    remote_.answers = false;
+    remote_.mode = 0x30;
+    run(silence);
+    remote_.answers = true;
+    run(1.0);
+    EXPECT_TRUE(streaming()) << silence;
+    EXPECT_TRUE(last_.spots[0].seen);
+    EXPECT_EQ("the images stopped", wiimote_.link().last_restoration) << silence;
+  }
+  EXPECT_EQ(1, remote_.opened);
+  EXPECT_EQ(0u, wiimote_.link().clock_epoch);
+}
+
 TEST_F(WiimoteTest, ImagesThatNoCameraInThisFormatSendsCauseACheck) {
   runToImage();
   run(1.1);
@@ -244,6 +284,33 @@ TEST_F(WiimoteTest, DarknessIsNoFailureOfARemoteWithUnreadableRegisters) {
   }
   EXPECT_EQ(1, remote_.opened);
   EXPECT_TRUE(last_.spots[0].seen);
+}
+
+TEST_F(WiimoteTest, DarknessCostsFewImagesOfARemoteWithUnreadableRegisters) {
+  remote_.registers_readable = false;
+  runToImage();
+  run(1.0);
+  const std::uint64_t changes = wiimote_.linkChanges();
+  remote_.light = false;
+  EXPECT_GT(run(120.0), 11900);
+  EXPECT_EQ(changes + 1, wiimote_.linkChanges()) << "only the battery's state";
+  // The camera is still found when it was switched off in the dark.
+  remote_.camera = remote_.logic = false;
+  remote_.registers.clear();
+  remote_.light = true;
+  run(61.0);
+  EXPECT_TRUE(last_.spots[0].seen);
+  EXPECT_EQ(0u, wiimote_.link().clock_epoch);
+}
+
+TEST_F(WiimoteTest, LostModeOfARemoteWithUnreadableRegistersIsNoPowerCycle) {
+  remote_.registers_readable = false;
+  runToImage();
+  remote_.mode = 0x30;
+  const double then = remote_.now;
+  runToImage();
+  EXPECT_NEAR(0.1, remote_.now - then, 0.025);
+  EXPECT_EQ(0u, wiimote_.link().clock_epoch);
 }
 
 TEST_F(WiimoteTest, RegistersThatAreAlwaysBusyDoNotPreventStreaming) {

@@ -61,6 +61,24 @@ TEST_F(WiimoteTest, RefusedReportsAreGivenUpWithTheReason) {
                 "answers 'error 2, sent on the wrong Bluetooth channel' to report 0x11"));
 }
 
+TEST_F(WiimoteTest, RemoteThatDoesNotAcknowledgeCommandsStreams) {
+  for (const std::set<std::uint8_t>& silent :
+       {std::set<std::uint8_t>{0x11}, {0x12}, {0x13}, {0x1a}, {0x11, 0x12, 0x13, 0x1a}}) {
+    FakeRemote remote;
+    remote.unacknowledged = silent;
+    Wiimote wiimote(
+        Options(), [&] { return remote.open(); }, [&] { return remote.now; });
+    int images = 0;
+    while (remote.now < 230.0) {
+      remote.now += wiimote.idleTime();
+      images += wiimote.step(0.1).has_value();
+    }
+    EXPECT_EQ(1, remote.opened) << "first silent: " << int{*silent.begin()};
+    EXPECT_GT(images, 12500) << "in 130 s, of which the set-up may take 5";
+    EXPECT_EQ(1, remote.leds);
+  }
+}
+
 TEST_F(WiimoteTest, NothingIsPassedOnBeforeTheCameraIsSetUp) {
   remote_.mode = 0x33;  // left behind by another program
   remote_.lose = [](const Report& report) { return report == kRun; };

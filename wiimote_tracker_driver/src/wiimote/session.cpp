@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 namespace wiimote_tracker::wiimote {
@@ -12,14 +13,11 @@ using protocol::Report;
 constexpr std::uint8_t kErrorBusy = 4;
 // Pause before a read is repeated that the remote refused as busy [s]; doubles each time.
 constexpr double kBusyPause = 0.02;
-// Camera set-ups, and silences of the stream, that may fail in a row.
-constexpr int kMaximumFailures = 5;
-// Camera set-ups after which registers that were never read count as unreadable.
-constexpr int kReadAttempts = 3;
-// How often a running motor is told to run [s].
-constexpr double kRumbleInterval = 0.1;
+// Implausible images pass for this long after a check has found the camera as configured [s]: some
+// remote may always send such images.
+constexpr double kImplausibleAccepted = 10.0;
 
-constexpr std::uint8_t kButtonsReport = 0x30;
+constexpr double kForever = std::numeric_limits<double>::infinity();
 
 bool isDataReport(std::uint8_t id) {
   return id >= 0x30 && id <= 0x3f;
@@ -32,7 +30,8 @@ Session::Session(const SessionOptions& options, Write write, double now)
       write_(std::move(write)),
       camera_(options.sensitivity, options.ir_format),
       assembler_(options.ir_format),
-      watch_(options) {
+      watch_(options),
+      state_(AskStatus{}) {
   enter(AskStatus{}, now);
 }
 
@@ -57,8 +56,8 @@ Report Session::request() const {
 }
 
 void Session::answered(double now) {
-  if (in<AskStatus>()) {
-    enter(SetLeds{}, now);
+  if (const auto* ask = std::get_if<AskStatus>(&state_)) {
+    statusAnswered(*ask, now);
   } else if (in<SetLeds>()) {
     factory_ = FactoryCalibration();
     enter(ReadFactory{}, now);
@@ -78,6 +77,18 @@ void Session::answered(double now) {
     if (camera_changed)
       enter(WriteCamera{}, now);
   }
+}
+
+void Session::statusAnswered(AskStatus state, double now) {
+  if (state.after_silence && !showsPowerCycle(*status_)) {
+    enter(StartClock{}, now);
+    return;
+  }
+  if (state.after_silence) {
+    fault_ = "the remote was switched off and on";
+    ++restarts_;
+  }
+  enter(SetLeds{}, now);
 }
 
 void Session::cameraWritten(WriteCamera state, double now) {
@@ -105,6 +116,7 @@ void Session::cameraRead(ReadCamera state, double now) {
 void Session::enter(const State& state, double now) {
   state_ = state;
   attempts_ = 0;
+  mode_seen_ = false;
   if (!in<Streaming>()) {
     send(now);
     return;
@@ -112,7 +124,11 @@ void Session::enter(const State& state, double now) {
   if (!streaming_)
     watch_.start(now);
   streaming_ = true;
-  if (registers_ == Registers::kUnreadable)
+  withhold_ = watch_.checkDue();
+  const bool readable = registers_ != Registers::kUnreadable;
+  if (std::exchange(implausible_, false))
+    implausible_accepted_until_ = now + (readable ? kImplausibleAccepted : kForever);
+  if (!readable)
     set_ups_ = 0;
 }
 
@@ -130,11 +146,24 @@ void Session::transmit(Report report) {
   write_(report);
 }
 
+// Some remotes do not acknowledge all commands. That LEDs, clock and logic are on shows later.
+void Session::unanswered(double now) {
+  const bool command = in<SetLeds>() || in<StartClock>() || in<StartLogic>();
+  if (in<SetMode>() && mode_seen_) {
+    answered(now);
+  } else if (command && (!acknowledges_ || attempts_ >= options_.attempts)) {
+    acknowledges_ = false;
+    answered(now);
+  } else {
+    retry("does not answer", now);
+  }
+}
+
 void Session::retry(const std::string& why, double now) {
   if (attempts_ < options_.attempts) {
     send(now);
   } else if (in<ReadCamera>()) {
-    checkFailed(nullptr, now);
+    checkFailed(nullptr, false, now);
   } else if (in<ReadFactory>()) {
     factory_.skip();  // images come without it
     answered(now);
@@ -164,9 +193,16 @@ void Session::handleAcknowledgement(const protocol::Acknowledgement& acknowledge
   if (acknowledgement.report_id == protocol::kReportModeId)
     duplicates_.modeAcknowledged(now);
   const std::uint8_t id = request().id();
-  if (in<Streaming>() || acknowledgement.report_id != id)
-    return;
   const std::uint8_t error = acknowledgement.error;
+  if (in<Streaming>() || acknowledgement.report_id != id) {
+    // Another program has switched the camera, or has written registers; where these are rewritten
+    // instead of checked, it may be our own.
+    if (error == 0 && registers_ != Registers::kUnreadable &&
+        (acknowledgement.report_id == protocol::kIrClockId ||
+         acknowledgement.report_id == protocol::kWriteMemoryId))
+      doubtCamera(now);
+    return;
+  }
   if (error == kErrorBusy && id == protocol::kReadMemoryId)
     answer_due_ = std::min(answer_due_, now + kBusyPause * (1 << std::min(attempts_, 5)));
   else if (error == 0 && id != protocol::kReadMemoryId)
@@ -186,7 +222,7 @@ void Session::handleMemory(const protocol::MemoryPacket& packet, double now) {
     if (!camera_.answers(check->block, packet))
       return;
     if (const char* fault = camera_.fault(check->block, packet))
-      checkFailed(fault, now);
+      checkFailed(fault, packet.error != 0, now);
     else
       answered(now);
   }
@@ -196,6 +232,8 @@ void Session::handleStatus(const protocol::Status& status, double now) {
   status_ = status;
   if (in<AskStatus>()) {
     answered(now);
+  } else if (streaming_ && watch_.afterSilence(now) && showsPowerCycle(status)) {
+    askAfterSilence(now);
   } else if (streaming_) {
     // Reporting stops at an unsolicited status, and the kernel's driver resets the mode after every
     // status.
@@ -210,9 +248,11 @@ void Session::handleStatus(const protocol::Status& status, double now) {
 }
 
 std::optional<protocol::DataReport> Session::handleData(const Report& report, double now) {
+  const bool expected = assembler_.expects(report.id());
+  mode_seen_ = mode_seen_ || expected;
   if (!streaming_)
     return std::nullopt;
-  if (!assembler_.expects(report.id())) {
+  if (!expected) {
     handleOtherMode(report.id(), now);
     return std::nullopt;
   }
@@ -222,12 +262,13 @@ std::optional<protocol::DataReport> Session::handleData(const Report& report, do
   if (!image)
     return std::nullopt;
   silences_ = 0;
-  if (in<WriteCamera>()) {  // the camera is stopped
+  if (withholds(*image, now)) {
     watch_.alive(now);
     return std::nullopt;
   }
   if (watch_.image(*image, now) && fault_ == nullptr)
-    noteFault("the camera's logic was switched off");
+    noteFault(registers_ == Registers::kUnreadable ? "the camera was switched off"
+                                                   : "the camera's logic was switched off");
   if (fault_ != nullptr && in<Streaming>()) {
     ++restorations_;
     last_restoration_ = std::exchange(fault_, nullptr);
@@ -235,160 +276,29 @@ std::optional<protocol::DataReport> Session::handleData(const Report& report, do
   return image;
 }
 
+/// Whether the image may be of a camera that is stopped or in another format.
+bool Session::withholds(const protocol::DataReport& image, double now) {
+  if (!image.plausible && !withhold_ && now >= implausible_accepted_until_) {
+    implausible_ = true;
+    doubtCamera(now);
+  }
+  return withhold_ || in<WriteCamera>();
+}
+
 // Another program has changed the mode, and perhaps the camera as well.
 void Session::handleOtherMode(std::uint8_t id, double now) {
-  if (!in<Streaming>())
-    return;  // the request under way ends with SetMode or another check
-  sendReportMode();
-  if (id == kButtonsReport && watch_.justAfterStatus(now))
+  const bool due_to_status = id == protocol::kButtonsReportId && watch_.justAfterStatus(now);
+  if (!in<Streaming>()) {  // the request under way ends with SetMode, or the check follows it
+    if (!due_to_status)
+      doubtCamera(now);
     return;
+  }
+  sendReportMode();
+  if (due_to_status)
+    return;
+  withhold_ = true;
   noteFault("the report mode was changed");
   checkCamera({}, now);
-}
-
-// ---- The camera
-
-void Session::setUpCamera(double now) {
-  if (++set_ups_ > kMaximumFailures)
-    throw SessionError(
-        "the camera of the Wii Remote cannot be set up: stop other programs that use the remote");
-  streaming_ = false;
-  enter(StartClock{}, now);
-}
-
-void Session::checkCamera(const ReadCamera& check, double now) {
-  if (registers_ == Registers::kUnreadable)
-    setUpCamera(now);
-  else
-    enter(check, now);
-}
-
-// `fault`: what a register shows; null when the read had no answer.
-void Session::checkFailed(const char* fault, double now) {
-  const bool after_silence = std::get<ReadCamera>(state_).after_silence;
-  if (registers_ == Registers::kUnknown && set_ups_ + 1 >= kReadAttempts) {
-    registers_ = Registers::kUnreadable;
-    watch_.disableChecks();
-    enter(SetMode{}, now);
-  } else if (streaming_ && (after_silence || watch_.silent(now))) {
-    startOver(now);
-  } else if (streaming_ && fault == nullptr) {
-    enter(SetMode{}, now);  // images come all the same
-  } else {
-    noteFault(fault);
-    setUpCamera(now);
-  }
-}
-
-void Session::setSensitivity(const protocol::IrSensitivity& sensitivity, double now) {
-  camera_ = CameraConfiguration(sensitivity, options_.ir_format);
-  if (auto* mode = std::get_if<SetMode>(&state_))
-    mode->camera_changed = true;
-  else if (const auto* check = std::get_if<ReadCamera>(&state_))
-    enter(WriteCamera{0, check->after_silence}, now);
-  else if (const auto* write = std::get_if<WriteCamera>(&state_))
-    enter(WriteCamera{0, write->after_silence}, now);
-  else if (in<Streaming>())
-    enter(WriteCamera{}, now);
-}
-
-// ---- The stream
-
-double Session::deadline() const {
-  const double due = in<Streaming>() ? watch_.deadline() : answer_due_;
-  return std::min(due, rumble_due_.value_or(due));
-}
-
-void Session::tick(double now) {
-  if (rumble_due_ && now >= *rumble_due_)
-    setRumble(true, now);
-  if (in<Streaming>())
-    keepStreaming(now);
-  else if (now >= answer_due_)
-    retry("does not answer", now);
-}
-
-void Session::keepStreaming(double now) {
-  using Task = StreamWatch::Task;
-  const auto readOne = [](int block, bool after_silence) {
-    return ReadCamera{block, 1, false, after_silence};
-  };
-  switch (watch_.take(now)) {
-    case Task::kNothing:
-      break;
-    case Task::kRestart:
-      imagesStopped(now);
-      break;
-    case Task::kSetModeAndCheck:
-      sendReportMode();
-      checkCamera(readOne(0, true), now);
-      break;
-    case Task::kSetMode:
-      sendReportMode();
-      break;
-    case Task::kCheckInDark:
-      transmit(protocol::setIrLogic(true));  // cannot be read back, and may be repeated
-      checkCamera({}, now);
-      break;
-    case Task::kCheckControl:
-      checkCamera(readOne(0, false), now);
-      break;
-    case Task::kCheckNext:
-      if (watch_.dark() && next_check_ == 0)
-        transmit(protocol::setIrLogic(true));
-      checkCamera(readOne(next_check_, false), now);
-      next_check_ = (next_check_ + 1) % CameraConfiguration::kReads;
-      break;
-    case Task::kAskStatus:
-      transmit(protocol::requestStatus());
-      break;
-  }
-}
-
-void Session::imagesStopped(double now) {
-  if (++silences_ > kMaximumFailures)
-    throw SessionError(
-        "the Wii Remote answers but sends no images: take its batteries out and put them back");
-  noteFault("the images stopped");
-  if (silences_ > 1 || registers_ == Registers::kUnreadable) {
-    startOver(now);
-    return;
-  }
-  sendReportMode();
-  checkCamera({0, CameraConfiguration::kReads, true, true}, now);
-}
-
-void Session::startOver(double now) {
-  noteFault("the remote was switched off and on");
-  ++restarts_;
-  streaming_ = false;
-  set_ups_ = 0;
-  enter(AskStatus{}, now);
-}
-
-void Session::noteFault(const char* fault) {
-  if (streaming_)
-    fault_ = fault;
-}
-
-// ---- LEDs, motor, end
-
-void Session::setLeds(std::uint8_t leds) {
-  options_.leds = leds;
-  transmit(protocol::setLeds(leds));
-}
-
-void Session::setRumble(bool rumble, double now) {
-  rumble_due_ = rumble ? std::make_optional(now + kRumbleInterval) : std::nullopt;
-  write_(protocol::setRumble(rumble));
-}
-
-void Session::switchOff() {
-  rumble_due_.reset();
-  transmit(protocol::setReportMode(kButtonsReport, false));
-  transmit(protocol::setIrClock(false));
-  transmit(protocol::setIrLogic(false));
-  transmit(protocol::setLeds(0));
 }
 
 }  // namespace wiimote_tracker::wiimote

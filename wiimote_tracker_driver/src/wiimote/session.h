@@ -42,16 +42,21 @@ struct SessionError : Error {
 ///
 ///   event                                     next state
 ///   no answer in time                         the same, five times; then SessionError, but
-///                                             ReadFactory skips a block, ReadCamera has failed
+///                                             ReadFactory skips a block, ReadCamera has failed,
+///                                             and SetLeds, StartClock, StartLogic go on, as does
+///                                             SetMode when images come
 ///   a write is refused, or a register differs StartClock
 ///   the registers can never be read           SetMode, and they are not read again
 ///   Streaming: a status came                  SetMode
-///   Streaming: check due, other report mode   ReadCamera
-///   Streaming: no images                      ReadCamera; AskStatus if the camera is then off
+///   Streaming: check due, other report mode   ReadCamera; WriteCamera when it cannot be read
+///   Streaming: no images                      ReadCamera; AskStatus if that does not explain it,
+///                                             then SetLeds after a power cycle, else StartClock
 ///   another sensitivity while set up          WriteCamera
 ///
 /// Other programs may use the same remote (the kernel's driver does). So the session expects
-/// answers to requests that are not its own, and matches memory packets by address.
+/// answers to requests that are not its own, and matches memory packets by address. When an answer
+/// or an image shows that another program may have changed the camera, images are withheld until
+/// the registers have been checked.
 class Session {
  public:
   /// Sends a report; may throw, and the exception passes through the session.
@@ -103,20 +108,22 @@ class Session {
   void switchOff();
 
  private:
-  struct AskStatus {};
+  struct AskStatus {
+    bool after_silence = false;  ///< Images did not come: was the remote switched off?
+  };
   struct SetLeds {};
   struct ReadFactory {};
   struct StartClock {};
   struct StartLogic {};
   struct WriteCamera {
     int block = 0;               ///< Of CameraConfiguration::write().
-    bool after_silence = false;  ///< As in ReadCamera.
+    bool after_silence = false;  ///< As in AskStatus.
   };
   struct ReadCamera {
     int block = 0;                           ///< Of CameraConfiguration::read().
     int left = CameraConfiguration::kReads;  ///< Reads left, with this one.
     bool sets_mode = true;                   ///< Then SetMode, else Streaming.
-    bool after_silence = false;              ///< Images did not come: was the remote switched off?
+    bool after_silence = false;              ///< As in AskStatus.
   };
   struct SetMode {
     bool camera_changed = false;  ///< Another sensitivity waits to be written.
@@ -139,10 +146,12 @@ class Session {
   protocol::Report request() const;
   void enter(const State& state, double now);
   void answered(double now);
+  void statusAnswered(AskStatus state, double now);
   void cameraWritten(WriteCamera state, double now);
   void cameraRead(ReadCamera state, double now);
 
   void send(double now);
+  void unanswered(double now);
   void retry(const std::string& why, double now);
   void transmit(protocol::Report report);
   void sendReportMode() { transmit(protocol::setReportMode(assembler_.reportMode(), true)); }
@@ -152,13 +161,16 @@ class Session {
   void handleAcknowledgement(const protocol::Acknowledgement& acknowledgement, double now);
   std::optional<protocol::DataReport> handleData(const protocol::Report& report, double now);
   void handleOtherMode(std::uint8_t id, double now);
+  bool withholds(const protocol::DataReport& image, double now);
 
   void setUpCamera(double now);
   void checkCamera(const ReadCamera& check, double now);
-  void checkFailed(const char* fault, double now);
+  void checkFailed(const char* fault, bool camera_off, double now);
+  void doubtCamera(double now);
   void keepStreaming(double now);
   void imagesStopped(double now);
-  void startOver(double now);
+  void askAfterSilence(double now);
+  bool showsPowerCycle(const protocol::Status& status) const;
   void noteFault(const char* fault);
 
   /// Whether the camera's registers can be read back, as far as known.
@@ -183,6 +195,12 @@ class Session {
   int silences_ = 0;    ///< In a row, without an image between them.
   int next_check_ = 0;  ///< Block that the next periodic check reads.
   int restarts_ = 0;
+  bool acknowledges_ = true;  ///< Commands without another answer; false once one was not.
+  bool mode_seen_ = false;    ///< A data report of our mode has come since SetMode.
+
+  bool withhold_ = false;                    ///< Images, until the camera has been checked.
+  bool implausible_ = false;                 ///< The check is due to an implausible image.
+  double implausible_accepted_until_ = 0.0;  ///< [s] A check has found nothing.
 
   const char* fault_ = nullptr;  ///< What is being restored; null when nothing.
   const char* last_restoration_ = "";

@@ -8,15 +8,17 @@ namespace {
 // Time without an image after which the report mode is set again [s]. Of the intervals of real
 // remotes one in a thousand is longer than half of this.
 constexpr double kSilenceBeforeMode = 0.1;
+// A status within this time after that may explain the silence [s].
+constexpr double kSilenceEffect = 0.2;
 // The kernel's driver resets the mode some milliseconds after each status. The session sets its own
 // this long after the status [s].
 constexpr double kModeAfterStatus = 0.03;
 // A lost mode within this time after a status is due to the kernel's driver [s].
 constexpr double kStatusEffect = 0.2;
-// Shortest time between two checks of implausible images [s].
-constexpr double kControlPause = 1.0;
 // A light that appears within this time after a check in the dark is due to that check [s].
 constexpr double kDarkCheckEffect = 0.1;
+// Longest pause between two such checks [s].
+constexpr double kLongestDarkPause = 60.0;
 
 }  // namespace
 
@@ -24,10 +26,7 @@ void StreamWatch::start(double now) {
   last_image_ = now;
   mode_checked_ = false;
   mode_due_ = kNever;
-  dark_since_ = now;
-  dark_checked_ = false;
-  dark_check_due_ = kNever;
-  control_due_ = kNever;
+  lightSeen(now);
   check_due_ = now + options_.check_interval;
   status_due_ = now + options_.status_interval;
 }
@@ -37,20 +36,23 @@ void StreamWatch::alive(double now) {
   mode_checked_ = false;
 }
 
+void StreamWatch::lightSeen(double now) {
+  dark_pause_ = options_.dark_check;
+  dark_check_from_ = now + dark_pause_;
+  dark_checked_ = false;
+  dark_check_due_ = kNever;
+}
+
 bool StreamWatch::image(const protocol::DataReport& image, double now) {
   alive(now);
-  if (!image.plausible && control_due_ == kNever)
-    control_due_ = std::max(now, last_control_ + kControlPause);
   if (std::none_of(image.spots.begin(), image.spots.end(),
                    [](const protocol::IrSpot& spot) { return spot.seen; })) {
-    if (!dark_checked_ && now >= dark_since_ + options_.dark_check)
+    if (now >= dark_check_from_)
       dark_check_due_ = now;
     return false;
   }
   const bool due_to_check = dark_checked_ && now < last_dark_check_ + kDarkCheckEffect;
-  dark_since_ = now;
-  dark_checked_ = false;
-  dark_check_due_ = kNever;
+  lightSeen(now);
   return due_to_check;
 }
 
@@ -58,17 +60,19 @@ void StreamWatch::status(bool camera, double now) {
   last_status_ = now;
   mode_due_ = now + kModeAfterStatus;
   if (!camera)
-    control_due_ = now;
+    doubt(now);
 }
 
 bool StreamWatch::justAfterStatus(double now) const {
   return now < last_status_ + kStatusEffect;
 }
 
-// Without checks the mode is not set again: that would hide that the remote was switched off and
-// on.
+bool StreamWatch::afterSilence(double now) const {
+  return now < last_mode_check_ + kSilenceEffect;
+}
+
 double StreamWatch::modeCheckDue() const {
-  return mode_checked_ || !checks_ ? kNever : last_image_ + kSilenceBeforeMode;
+  return mode_checked_ ? kNever : last_image_ + kSilenceBeforeMode;
 }
 
 StreamWatch::Task StreamWatch::take(double now) {
@@ -80,17 +84,19 @@ StreamWatch::Task StreamWatch::take(double now) {
   }
   if (now >= modeCheckDue()) {
     mode_checked_ = true;
+    last_mode_check_ = now;
     return Task::kSetModeAndCheck;
   }
   if (now >= dark_check_due_) {
     dark_check_due_ = kNever;
     dark_checked_ = true;
     last_dark_check_ = now;
+    dark_pause_ = std::min(2.0 * dark_pause_, kLongestDarkPause);
+    dark_check_from_ = checks_ ? kNever : now + dark_pause_;
     return Task::kCheckInDark;
   }
-  if (checks_ && now >= control_due_) {
+  if (now >= control_due_) {
     control_due_ = kNever;
-    last_control_ = now;
     return Task::kCheckControl;
   }
   if (checks_ && now >= check_due_) {
@@ -105,9 +111,8 @@ StreamWatch::Task StreamWatch::take(double now) {
 }
 
 double StreamWatch::deadline() const {
-  const double check = checks_ ? std::min(check_due_, control_due_) : kNever;
   return std::min({last_image_ + options_.silence_timeout, mode_due_, modeCheckDue(),
-                   dark_check_due_, check, status_due_});
+                   dark_check_due_, control_due_, checks_ ? check_due_ : kNever, status_due_});
 }
 
 }  // namespace wiimote_tracker::wiimote

@@ -15,8 +15,9 @@ class StreamWatch {
     kRestart,          ///< No image for silence_timeout.
     kSetModeAndCheck,  ///< No image for 0.1 s: the report mode may be lost, or the camera off.
     kSetMode,          ///< A status came: the kernel's driver may have reset the report mode.
-    kCheckInDark,      ///< No light for dark_check: the camera may be off.
-    kCheckControl,     ///< An image is not plausible: the camera may be in another format.
+    kCheckInDark,      ///< No light for dark_check: the camera may be off. Without checks again
+                       ///< after pauses that double up to a minute.
+    kCheckControl,         ///< After doubt().
     kCheckNext,        ///< The next periodic check of the camera's registers is due.
     kAskStatus,        ///< The next request for the battery level is due.
   };
@@ -26,13 +27,22 @@ class StreamWatch {
   /// The camera is set up; images are expected from `now` [s] on.
   void start(double now);
 
-  /// The camera's registers cannot be read on this remote.
+  /// The camera's registers cannot be read on this remote: no periodic checks.
   void disableChecks() { checks_ = false; }
+
+  /// The camera may have been changed.
+  void doubt(double now) { control_due_ = now; }
+
+  /// The camera is being set up: no doubt is left.
+  void settle() { control_due_ = kNever; }
+
+  /// Whether kCheckControl is due.
+  bool checkDue() const { return control_due_ != kNever; }
 
   /// Counts the silence from `now` [s] on.
   void expectImage(double now) { last_image_ = now; }
 
-  /// An image has come while the camera was stopped.
+  /// An image has come that may not be of the camera as configured.
   void alive(double now);
 
   /// An image has come. @returns whether it shows the first light after darkness, within 0.1 s of
@@ -49,6 +59,9 @@ class StreamWatch {
   /// Whether no image has come for silence_timeout.
   bool silent(double now) const { return now >= last_image_ + options_.silence_timeout; }
 
+  /// Whether a status that comes now may explain why images did not come.
+  bool afterSilence(double now) const;
+
   /// Whether no light has been seen since kCheckInDark.
   bool dark() const { return dark_checked_; }
 
@@ -62,22 +75,24 @@ class StreamWatch {
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
   double modeCheckDue() const;
+  void lightSeen(double now);
 
   SessionOptions options_;
   bool checks_ = true;
 
   double last_image_ = 0.0;
   bool mode_checked_ = false;  ///< Since the last image.
+  double last_mode_check_ = -kNever;
   double last_status_ = -kNever;
   double mode_due_ = kNever;
 
-  double dark_since_ = 0.0;
+  double dark_pause_ = 0.0;       ///< [s] Before the next check in darkness,
+  double dark_check_from_ = 0.0;  ///< which is due with the first dark image from then on.
   double dark_check_due_ = kNever;
   bool dark_checked_ = false;  ///< Since the last light.
   double last_dark_check_ = -kNever;
 
   double control_due_ = kNever;
-  double last_control_ = -kNever;
   double check_due_ = kNever;
   double status_due_ = kNever;
 };

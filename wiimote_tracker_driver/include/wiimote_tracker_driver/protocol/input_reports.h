@@ -74,6 +74,9 @@ struct IrSpot {
   std::array<int, 4> box{};
 };
 
+/// The data report without camera and accelerometer; also the mode after switching on.
+constexpr std::uint8_t kButtonsReportId = 0x30;
+
 /// 0x30..0x37, or a pair of 0x3e and 0x3f.
 struct DataReport {
   std::uint8_t id = 0;

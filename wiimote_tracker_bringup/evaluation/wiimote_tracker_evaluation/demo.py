@@ -116,7 +116,8 @@ class Demo:
             'socket_directory:=' + os.path.join(scratch, 'remotes'),
             'camera_info_directory:=' + os.path.join(scratch, 'cameras'),
             'rig_file:=' + self._file('rig.yaml'), f'side_length:={experiment.SIDE:g}',
-            'labels:=' + LED, 'mode:=' + self._mode, 'rviz:=%s' % ('true' if has_display() else 'false')], log)
+            'labels:=' + LED, 'mode:=' + self._mode, 'hand:=false',
+            'rviz:=%s' % ('true' if has_display() else 'false')], log)
         deadline = time.monotonic() + 30.0
         while not rosgraph.is_master_online():
             self._processes.check()

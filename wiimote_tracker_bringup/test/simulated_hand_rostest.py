@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+"""The simulated hand calibrates the rig, walks about, and goes where a person's calibration wants."""
+
+import sys
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+from geometry_msgs.msg import PointStamped
+from wiimote_tracker_msgs.srv import StartCalibration
+
+DEADLINE = 60.0  # [s]
+
+
+def position(message):
+    return np.array([message.point.x, message.point.y, message.point.z])
+
+
+class SimulatedHand(unittest.TestCase):
+    def wait(self, condition, what):
+        deadline = rospy.get_time() + DEADLINE
+        while not condition():
+            self.assertLess(rospy.get_time(), deadline, 'waited too long for ' + what)
+            rospy.sleep(0.01)
+
+    def test_points_come_by_themselves_and_the_hand_follows_a_calibration(self):
+        truths = []
+        rospy.Subscriber('simulation/truth/led', PointStamped, truths.append)
+        points = []
+        rospy.Subscriber('led/point', PointStamped, points.append)
+        self.wait(lambda: len(points) > 50, 'tracked points')
+        self.wait(lambda: truths[-1].header.stamp > points[-1].header.stamp, 'the truth')
+        stamps = [truth.header.stamp.to_sec() for truth in truths]
+        at = points[49].header.stamp.to_sec()
+        truth = [np.interp(at, stamps, axis) for axis in np.transpose([position(t) for t in truths])]
+        # Simulated corners are exact; what is left is the lens' starting value and noise.
+        self.assertLess(np.linalg.norm(position(points[49]) - truth), 0.03)
+
+        rospy.wait_for_service('calibration/start', DEADLINE)
+        started = rospy.ServiceProxy('calibration/start', StartCalibration)(
+            side_x=2.5, side_y=0.0, cameras=[])
+        self.assertTrue(started.success, started.message)
+        self.wait(lambda: np.allclose(position(truths[-1]), 0.0), 'the LED at the first corner')
+
+
+if __name__ == '__main__':
+    rospy.init_node('simulated_hand_rostest')
+    sys.exit(rostest.rosrun('wiimote_tracker_bringup', 'simulated_hand_test', SimulatedHand))

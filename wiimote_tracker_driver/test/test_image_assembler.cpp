@@ -89,7 +89,7 @@ TEST_F(ImageHalves, HalvesOfDifferentImagesAreNeverPutTogether) {
 
 TEST_F(ImageHalves, LateSecondHalfStillCounts) {
   EXPECT_EQ(-1, add(first(1), 0.000));
-  EXPECT_EQ(1, add(second(1), 0.019));
+  EXPECT_EQ(1, add(second(1), 0.024));
 }
 
 TEST_F(ImageHalves, SecondHalfIsUsedOnce) {

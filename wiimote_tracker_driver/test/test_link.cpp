@@ -86,6 +86,26 @@ TEST_F(WiimoteTest, RemoteThatIsNotThereYetIsLookedForWithGrowingPauses) {
     EXPECT_NEAR(pauses[i], attempts[i + 1] - attempts[i], 1e-9);
 }
 
+// The kernel keeps the oldest 63 reports of a stall.
+TEST_F(WiimoteTest, BacklogOfAStallThatTheBufferCannotHoldIsDropped) {
+  runToImage();
+  run(0.5);
+  for (const double stall : {0.3, 0.65, 2.0}) {
+    const int waiting = std::min(63, static_cast<int>(100.0 * stall));
+    remote_.now += stall;
+    Report image{0x33, 0, 0, 0x80, 0x80, 0x80, 0x23, 0x45, 0x13};
+    image.size = 18;
+    for (std::size_t i = 9; i < image.size; ++i)
+      image.bytes[i] = 0xff;
+    for (int i = 0; i < waiting; ++i)
+      remote_.say(image);
+    const int images = run(0.5);
+    EXPECT_NEAR(stall < 0.6 ? waiting + 50 : 50, images, 2) << "stall of " << stall << " s";
+    EXPECT_TRUE(streaming());
+    EXPECT_EQ(0u, wiimote_.link().clock_epoch);
+  }
+}
+
 TEST_F(WiimoteTest, CloseSwitchesTheRemoteOff) {
   runToImage();
   wiimote_.close();

@@ -99,6 +99,9 @@ TEST(Battery, IsLowByItsChargeOrByItsFlag) {
   EXPECT_TRUE(batteryLow(status, 0.3));
   status.battery_low = true;
   EXPECT_TRUE(batteryLow(status, 0.0));
+  EXPECT_EQ("30 %", batteryText(status, 0.3));
+  status.battery = 160;
+  EXPECT_EQ("the remote says so, at the raw level 160", batteryText(status, 0.3));
 }
 
 TEST(Sensitivity, ByNameOrCustom) {

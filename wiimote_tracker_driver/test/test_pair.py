@@ -24,7 +24,8 @@ C = '00:1A:7D:DA:71:13'
 
 # Output of bluetoothctl at each step of a successful pairing.
 START = 'Waiting to connect to bluetoothd...\nAgent registered\n'
-POWER = '''> power on
+LIST = '> list\nController %s this computer [default]\n' % C
+POWER = LIST + '''> power on
 [CHG] Controller %s Powered: yes
 Changing power on succeeded
 > agent on
@@ -157,14 +158,14 @@ def test_another_remote_than_the_wanted_one_is_left_alone(computer):
 @pytest.mark.parametrize('dialogue, to_do', [
     ('Waiting to connect to bluetoothd...\n' + SILENCE, 'systemctl enable --now bluetooth'),
     ('Waiting to connect to bluetoothd...\n!\n', 'systemctl enable --now bluetooth'),
-    (START + '> power on\nNo default controller available\n' + SILENCE, 'plug one in'),
-    (START + '> power on\nFailed to set power: org.bluez.Error.Blocked\n' + SILENCE,
+    (START + LIST + '> power on\nNo default controller available\n' + SILENCE, 'plug one in'),
+    (START + LIST + '> power on\nFailed to set power: org.bluez.Error.Blocked\n' + SILENCE,
      'rfkill unblock'),
-    (START + '> power on\nFailed to set power on: org.bluez.Error.Busy\n' + SILENCE,
+    (START + LIST + '> power on\nFailed to set power on: org.bluez.Error.Busy\n' + SILENCE,
      'rfkill unblock'),
-    (START + '> power on\nFailed to set power: org.freedesktop.DBus.Error.AccessDenied\n' + SILENCE,
-     'with sudo'),
-    (START + '> power on\n' + SILENCE, 'unplug it'),
+    (START + LIST + '> power on\nFailed to set power: org.freedesktop.DBus.Error.AccessDenied\n'
+     + SILENCE, 'with sudo'),
+    (START + LIST + '> power on\n' + SILENCE, 'unplug it'),
     (START + POWER + '> devices\n> scan on\nFailed to start discovery: org.bluez.Error.NotReady\n'
      + SILENCE, 'cannot search (NotReady)'),
     (START + POWER + SCAN + STRANGERS + SILENCE, 'no Wii Remote was found'),
@@ -172,7 +173,8 @@ def test_another_remote_than_the_wanted_one_is_left_alone(computer):
      'refused to pair (AuthenticationFailed): run pair again and press the red SYNC'),
     (FOUND + PAIR + SILENCE, 'refused to pair (no answer)'),
     (FOUND + '> pair %s\nDevice %s not available\n' % (A, A) + SILENCE, 'gone to sleep'),
-    (FOUND + PAIR + 'Request PIN code\n? [agent] Enter PIN code:\n' + SILENCE, 'asks for a PIN'),
+    (FOUND + PAIR + 'Request PIN code\n? [agent] Enter PIN code:\n' + SILENCE,
+     'press the red SYNC button'),
     (FOUND + PAIR + PAIRED + '> scan off\n> trust %s\n' % A + SILENCE, 'bluetoothctl trust'),
     (FOUND + PAIR + PAIRED + TRUST + CONNECT
      + 'Failed to connect: org.bluez.Error.Failed br-connection-create-socket\n' + SILENCE,
@@ -189,6 +191,41 @@ def test_each_failure_gives_advice(computer, monkeypatch, dialogue, to_do):
     assert status == 1
     assert err.startswith('pair: ') and to_do in err, out
     assert not (computer.folder / 'calls').exists()
+
+
+def test_an_open_question_is_not_answered_with_quit(computer):
+    heard = computer.folder / 'heard'
+    computer.monkeypatch.setenv('FAKE_BLUETOOTHCTL_ANSWER', str(heard))
+    status, _, err = computer.pair(
+        FOUND + PAIR + 'Request PIN code\n? [agent] Enter PIN code:\n' + SILENCE)
+    assert status == 1 and '1 and 2' in err
+    assert not heard.exists()
+
+
+def test_the_adapter_is_named_and_chosen(computer):
+    other = '00:1A:7D:00:00:02'
+    two = LIST + 'Controller %s a stick\n' % other
+    status, out, _ = computer.pair(START + two + POWER[len(LIST):] + SCAN + NEW + TO_THE_END)
+    assert status == 0
+    assert 'adapter %s. --adapter chooses another: %s.' % (C, other) in out
+    select = two + '> select %s\nController %s a stick\n' % (other, other)
+    status, out, _ = computer.pair(START + select + POWER[len(LIST):] + SCAN + NEW + TO_THE_END,
+                                   '--adapter', other.lower())
+    assert status == 0
+    assert 'Uses the Bluetooth adapter %s.' % other in out
+    status, _, err = computer.pair(
+        START + two + '> select %s\nController %s not available\n' % (A, A) + SILENCE,
+        '--adapter', A)
+    assert status == 1
+    assert 'there is no Bluetooth adapter %s: choose one of %s, %s' % (A, C, other) in err
+
+
+def test_a_bluetoothctl_that_cannot_be_run_is_not_missing(computer):
+    os.remove(str(computer.folder / 'bluetoothctl'))
+    (computer.folder / 'bluetoothctl').write_text('no program')
+    (computer.folder / 'bluetoothctl').chmod(0o755)
+    _, _, err = computer.pair('')
+    assert 'cannot be run' in err and 'apt install' not in err
 
 
 def test_a_running_service_without_answer_is_a_permission_problem(computer, monkeypatch):

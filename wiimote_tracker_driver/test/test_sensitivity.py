@@ -11,8 +11,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..
 
 from sensitivity.scoring import Level, recommend, score, table  # noqa: E402
 
-LAMP = (100.0, 700.0)
-LED = (500.0, 300.0)
+LAMP = (100.0, 700.0, 2.0)
+LED = (500.0, 300.0, 3.0)
 
 
 def chosen(*levels):
@@ -23,13 +23,14 @@ def chosen(*levels):
 def test_the_led_is_the_light_that_was_not_there_before():
     level = score('wii_3', [[LAMP]] * 4, [[LAMP, LED], [LED], [LAMP], []])
     assert (level.name, level.foreign, level.seen) == ('wii_3', 1.0, 0.5)
+    assert level.size == 3.0
 
 
 def test_a_lamp_that_flickers_by_some_pixels_is_not_the_led():
     rng = random.Random(1)
 
     def lamp():
-        return [(LAMP[0] + rng.uniform(-5, 5), LAMP[1] + rng.uniform(-5, 5))]
+        return [(LAMP[0] + rng.uniform(-5, 5), LAMP[1] + rng.uniform(-5, 5), 2.0)]
 
     assert score('max', [lamp() for _ in range(200)], [lamp() for _ in range(200)]).seen == 0.0
     # A light that is on in some images only counts as foreign in those.
@@ -50,6 +51,14 @@ def test_the_fewest_foreign_lights_win_among_those_that_see_the_led():
 def test_among_equals_the_most_sensitive_wins():
     assert chosen(('wii_1', 0.0, 1.0), ('wii_2', 0.0, 1.0), ('wii_3', 0.01, 1.0),
                   ('wii_4', 1.0, 1.0)) == 'wii_3'
+
+
+def test_the_most_sensitive_is_the_one_that_shows_the_led_largest():
+    assert chosen(('wii_3', 0.0, 1.0, 2.0), ('wii_5', 0.0, 1.0, 5.0),
+                  ('max', 0.0, 1.0, 3.0)) == 'wii_5'
+    assert chosen(('wii_3', 0.0, 1.0, 2.0), ('wii_5', 0.1, 1.0, 5.0)) == 'wii_3'
+    nan = float('nan')
+    assert chosen(('wii_3', 0.0, 1.0, nan), ('wii_5', 0.0, 1.0, nan)) == 'wii_5'
 
 
 def test_a_level_that_flickers_is_not_steady():

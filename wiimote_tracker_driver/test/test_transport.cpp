@@ -56,6 +56,50 @@ TEST(DeviceNames, AllKinds) {
   EXPECT_THROW(open(recording), BadDeviceName);
 }
 
+TEST(DeviceNames, RemotesAreTriedInTurn) {
+  struct Device {
+    std::string path;
+  };
+  std::vector<Device> devices{{"/dev/hidraw0"}, {"/dev/hidraw1"}, {"/dev/hidraw2"}};
+  const auto first = [&](const std::string& last) {
+    beginAfter(last, &devices);
+    return devices.front().path;
+  };
+  EXPECT_EQ("/dev/hidraw0", first(""));
+  EXPECT_EQ("/dev/hidraw0", first("/dev/hidraw9"));
+  EXPECT_EQ("/dev/hidraw1", first("/dev/hidraw0"));
+  EXPECT_EQ("/dev/hidraw2", first("/dev/hidraw1"));
+  EXPECT_EQ("/dev/hidraw0", first("/dev/hidraw2"));
+}
+
+TEST(SocketTransport, RemoteThatReadsNoMoreDoesNotBlock) {
+  char name[] = "/tmp/test_transport_XXXXXX";
+  const std::string directory = ::mkdtemp(name);
+  const std::string path = directory + "/remote.sock";
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strcpy(address.sun_path, path.c_str());
+  const int listener = ::socket(AF_UNIX, SOCK_SEQPACKET, 0);
+  ASSERT_EQ(0, ::bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof(address)));
+  ASSERT_EQ(0, ::listen(listener, 1));
+  int remote = -1;
+  std::thread accepts([&] {
+    remote = ::accept(listener, nullptr, nullptr);
+    ::send(remote, "00:1f:32:00:00:01", 17, 0);
+  });
+  const auto transport = open(parseDeviceName("virtual:" + path));
+  accepts.join();
+  const auto fill = [&] {
+    for (int i = 0; i < 1000000; ++i)
+      transport->write({0x15, 0x00});
+  };
+  EXPECT_TRUE(contains(sentenceOf<Disconnected>(fill), "reads no reports any more"));
+  ::close(remote);
+  ::close(listener);
+  ::unlink(path.c_str());
+  ::rmdir(directory.c_str());
+}
+
 TEST(DeviceNames, MalformedOnesAreRefusedByName) {
   for (const char* text :
        {"00:1f:32:ab:cd", "00:1f:32:ab:cd:0g", "00-1f-32-ab-cd-09", "hidraw0", "/dev/hidraw",

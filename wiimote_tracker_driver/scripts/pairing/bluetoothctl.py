@@ -28,11 +28,13 @@ class Bluetoothctl:
     """Sends commands and returns the output line by line, without decoration."""
 
     def __init__(self, hear: Optional[Callable[[str], None]] = None):
-        """Starts bluetoothctl; raises OSError when it is missing. hear: called with each line."""
+        """Starts bluetoothctl; raises FileNotFoundError when it is missing, or another OSError.
+        hear: called with each line."""
         self._hear = hear or (lambda line: None)
         self._rest = b''
         self._lines = []
         self._ended = False
+        self._asked = False  # a question of the agent is open
         self._terminal, slave = pty.openpty()
         fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack('HHHH', 50, WIDTH, 0, 0))
         try:
@@ -46,7 +48,8 @@ class Bluetoothctl:
             os.close(slave)
 
     def send(self, command: str) -> None:
-        """Sends a command."""
+        """Sends a command, or the answer to a question."""
+        self._asked = False
         try:
             os.write(self._terminal, command.encode() + b'\n')
         except OSError:
@@ -67,8 +70,11 @@ class Bluetoothctl:
         return self._ended and not self._lines
 
     def close(self) -> None:
-        """Ends bluetoothctl."""
-        self.send('quit')
+        """Ends bluetoothctl. An open question is not answered: "quit" would be sent as a PIN."""
+        if self._asked:
+            self._process.terminate()
+        else:
+            self.send('quit')
         try:
             self._process.wait(timeout=2.0)
         except subprocess.TimeoutExpired:
@@ -94,6 +100,7 @@ class Bluetoothctl:
             self._add(_plain(piece))
         rest = _plain(self._rest)
         if PROMPT.fullmatch(rest) or QUESTION.fullmatch(rest):
+            self._asked = bool(QUESTION.fullmatch(rest))
             self._add(rest)
             self._rest = b''
 

@@ -14,6 +14,8 @@ SETTLE_INTERVAL = 0.5   # [s]
 
 NAMES = ('Nintendo RVL-CNT-01', 'Nintendo RVL-CNT-01-TR')
 PROMPT = r'\[[^\]]*\][#>]$'
+ADAPTER = re.compile(r'(?:\[NEW\] )?Controller ((?:[0-9A-F]{2}:){5}[0-9A-F]{2}) '
+                     r'(.*?)( \[default\])?$')
 DEVICE = re.compile(r'(?:\[(NEW|CHG|DEL)\] )?Device ((?:[0-9A-F]{2}:){5}[0-9A-F]{2}) (.*)')
 
 SYNC = ('press the red SYNC button in the battery compartment of the remote (not 1 and 2: such a '
@@ -38,20 +40,30 @@ class Pairing:
         self._ctl = bluetoothctl
         self._say = say
         self._names: Dict[str, str] = {}  # by address
+        self._adapters: Dict[str, str] = {}  # names by address
+        self._default = ''  # BlueZ's adapter
 
-    def prepare(self) -> None:
-        """Checks that the service runs and that there is an adapter, and switches it on."""
+    def prepare(self, adapter: Optional[str] = None) -> None:
+        """Checks that the service runs and that there is an adapter, and switches it on. adapter:
+        address of the one to use, or None for BlueZ's default."""
         if self._wait({'ready': PROMPT}, COMMAND_TIMEOUT)[0] is None:
             raise PairingError(NO_ACCESS if _service_runs() else NO_SERVICE)
+        self._ctl.send('list')
+        if adapter:
+            self._ctl.send('select ' + adapter)
         self._ctl.send('power on')
         what, line = self._wait({
             'on': r'Changing power on succeeded',
             'none': r'No default controller available',
+            'unknown': rf'Controller {adapter} not available',
             'failed': r'Failed to set power',
         }, COMMAND_TIMEOUT)
         if what == 'none':
             raise PairingError('there is no Bluetooth adapter: plug one in; if there is one, check '
                                'that  lsusb  shows it')
+        if what == 'unknown':
+            raise PairingError(f'there is no Bluetooth adapter {adapter}: choose one of '
+                               + ', '.join(self._adapters))
         if what == 'failed':
             self._refuse_access(line)
             raise PairingError('the Bluetooth adapter cannot be switched on: run  rfkill unblock '
@@ -60,7 +72,10 @@ class Pairing:
         if what is None:
             raise PairingError('the Bluetooth adapter does not answer: unplug it and plug it in '
                                'again')
-        self._say('The Bluetooth adapter is on.')
+        used = adapter or self._default
+        others = [address for address in self._adapters if address != used]
+        self._say(f'Uses the Bluetooth adapter {used}.' + (
+            f' --adapter chooses another: {", ".join(others)}.' if others else ''))
         self._ctl.send('agent on')
         self._wait({'agent': r'gent (is already )?registered|Failed to register'}, COMMAND_TIMEOUT)
         self._ctl.send('pairable on')
@@ -127,9 +142,10 @@ class Pairing:
             self._say('This computer had an old pairing, which is now removed.')
             return False
         if what == 'pin':
-            raise PairingError('BlueZ asks for a PIN, which its wiimote plugin should supply: '
-                               'install the Debian package bluez and run  sudo systemctl restart '
-                               'bluetooth')
+            raise PairingError('the remote refused the PIN, as it does when 1 and 2 were pressed: '
+                               'take its batteries out and put them back, run pair again and '
+                               f'{SYNC}. If it was SYNC, BlueZ lacks its wiimote plugin: install '
+                               'the Debian package bluez and run  sudo systemctl restart bluetooth')
         if what == 'gone':
             raise PairingError('the remote has gone to sleep: run pair again and press SYNC '
                                'when asked to')
@@ -208,6 +224,12 @@ class Pairing:
             match = DEVICE.match(line)
             if match:
                 self._note_name(*match.groups())
+            match = ADAPTER.match(line)
+            if match:
+                address, name, default = match.groups()
+                self._adapters[address] = name
+                if default:
+                    self._default = address
 
 
 def _service_runs() -> bool:

@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 #include <sensor_msgs/BatteryState.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <limits>
 
@@ -16,6 +17,12 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 bool batteryLow(const protocol::Status& status, double threshold) {
   return status.battery_low || protocol::batteryCharge(status.battery) < threshold;
+}
+
+std::string batteryText(const protocol::Status& status, double threshold) {
+  const double charge = protocol::batteryCharge(status.battery);
+  return charge < threshold ? format("%.0f %%", 100.0 * charge)
+                            : format("the remote says so, at the raw level %d", status.battery);
 }
 
 BatteryPublisher::BatteryPublisher(ros::NodeHandle& nh, const std::string& camera, double threshold)
@@ -48,8 +55,8 @@ void BatteryPublisher::publish(const protocol::Status& status,
   const bool low = batteryLow(status, threshold_);
   if (low && !warned_) {
     warned_ = true;
-    ROS_WARN("%s: the batteries are nearly empty (%.0f %%): change them soon", camera_.c_str(),
-             100.0 * charge);
+    ROS_WARN("%s: the batteries are nearly empty (%s): change them soon", camera_.c_str(),
+             batteryText(status, threshold_).c_str());
   } else if (!low && charge > threshold_ + kNewBatteries) {
     warned_ = false;
   }

@@ -13,6 +13,9 @@ namespace wiimote_tracker::driver {
 /// Whether the remote reports low batteries, or their charge is below `threshold` [0..1].
 bool batteryLow(const protocol::Status& status, double threshold);
 
+/// Why the batteries are low: their charge, or that only the remote says so.
+std::string batteryText(const protocol::Status& status, double threshold);
+
 /// Publishes the charge, latched, as `battery`, and warns once when it is low.
 class BatteryPublisher {
  public:

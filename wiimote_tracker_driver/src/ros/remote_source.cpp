@@ -13,7 +13,12 @@ class LiveRemote : public RemoteSource {
  public:
   explicit LiveRemote(const transport::DeviceName& name) : name_(name) {}
 
-  std::unique_ptr<transport::Transport> open() override { return transport::open(name_); }
+  // A remote that was given up is the last to be tried again.
+  std::unique_ptr<transport::Transport> open() override {
+    auto transport = transport::open(name_, last_);
+    last_ = transport->description();
+    return transport;
+  }
   double now() const override { return steadyNow(); }
   ClockReading readClocks() const override { return driver::readClocks(); }
   bool pass(double) override { return false; }
@@ -21,6 +26,7 @@ class LiveRemote : public RemoteSource {
 
  private:
   const transport::DeviceName name_;
+  std::string last_;
 };
 
 // Both clocks show the recording's time, so that stamps do not depend on replay and speed.

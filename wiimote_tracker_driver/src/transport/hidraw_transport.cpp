@@ -184,8 +184,8 @@ void throwOpenError(int error_number, const std::string& path) {
   }
 }
 
-std::unique_ptr<Transport> openHidraw(const DeviceName& name) {
-  const std::vector<Found> all = enumerate();
+std::unique_ptr<Transport> openHidraw(const DeviceName& name, const std::string& last) {
+  std::vector<Found> all = enumerate();
   switch (name.kind) {
     case DeviceName::Kind::kAddress:
       for (const Found& found : all) {
@@ -206,6 +206,7 @@ std::unique_ptr<Transport> openHidraw(const DeviceName& name) {
       if (all.empty())
         throw NoSuchDevice(
             "no Wii Remote is connected: press a button of a paired one, or pair one first");
+      beginAfter(last, &all);
       return openFirstFree(all);
   }
 }

@@ -55,8 +55,12 @@ class SocketTransport : public Transport {
   }
 
   void write(const protocol::Report& report) override {
-    if (::send(fd_.get(), report.bytes.data(), report.size, MSG_NOSIGNAL) < 0)
-      throwDisconnected();
+    if (::send(fd_.get(), report.bytes.data(), report.size, MSG_NOSIGNAL | MSG_DONTWAIT) >= 0)
+      return;
+    if (errno == EAGAIN || errno == EWOULDBLOCK)
+      throw Disconnected("the virtual Wii Remote at " + description_ +
+                         " reads no reports any more: start it again");
+    throwDisconnected();
   }
 
   std::string description() const override { return description_; }

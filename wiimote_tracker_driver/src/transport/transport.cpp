@@ -69,7 +69,7 @@ DeviceName parseDeviceName(const std::string& text) {
                       "replay:FILE");
 }
 
-std::unique_ptr<Transport> open(const DeviceName& name) {
+std::unique_ptr<Transport> open(const DeviceName& name, const std::string& last) {
   switch (name.kind) {
     case DeviceName::Kind::kVirtual:
       return openSocket(name.value);
@@ -77,7 +77,7 @@ std::unique_ptr<Transport> open(const DeviceName& name) {
       throw BadDeviceName("the recording " + name.value +
                           " is no remote for this program: give it to the driver's node");
     default:
-      return openHidraw(name);
+      return openHidraw(name, last);
   }
 }
 

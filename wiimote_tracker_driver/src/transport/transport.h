@@ -67,9 +67,10 @@ struct DeviceName {
 DeviceName parseDeviceName(const std::string& text);
 
 /// Opens the remote for this process alone. A recording (kReplay) has a time of its own and is
-/// opened by recording::Replay instead. @throws NoSuchDevice, PermissionDenied, DeviceTaken,
-/// TransportError.
-std::unique_ptr<Transport> open(const DeviceName& name);
+/// opened by recording::Replay instead. `last`: description() of the remote that kAny tries last,
+/// because it was opened before and did not work. @throws NoSuchDevice, PermissionDenied,
+/// DeviceTaken, TransportError.
+std::unique_ptr<Transport> open(const DeviceName& name, const std::string& last = "");
 
 }  // namespace wiimote_tracker::transport
 

@@ -13,9 +13,11 @@ namespace wiimote_tracker::wiimote {
 class ImageAssembler {
  public:
   /// Longest time between two halves of an image [s]. They are one period (10 ms) apart. If the two
-  /// reports between a first and a second half were lost, these are three periods apart; the middle
-  /// separates late reports from losses best. A loss within a burst cannot be detected.
-  static constexpr double kLongestGap = 0.020;
+  /// reports between a first and a second half were lost, these are three periods apart. Of 32,000
+  /// intervals of two recorded remotes 1.9 % were longer than 20 ms and 0.7 % than 25 ms; at most
+  /// 0.2 % were three periods long and shorter than 25 ms. A loss within a burst cannot be
+  /// detected.
+  static constexpr double kLongestGap = 0.025;
 
   /// @throws std::invalid_argument for kNone.
   explicit ImageAssembler(protocol::IrFormat format);

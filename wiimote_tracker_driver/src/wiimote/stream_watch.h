@@ -17,7 +17,7 @@ class StreamWatch {
     kSetMode,          ///< A status came: the kernel's driver may have reset the report mode.
     kCheckInDark,      ///< No light for dark_check: the camera may be off. Without checks again
                        ///< after pauses that double up to a minute.
-    kCheckControl,         ///< After doubt().
+    kCheckControl,     ///< After doubt().
     kCheckNext,        ///< The next periodic check of the camera's registers is due.
     kAskStatus,        ///< The next request for the battery level is due.
   };

@@ -8,6 +8,11 @@ namespace wiimote_tracker::wiimote {
 
 using protocol::DataReport;
 
+namespace {
+// The kernel's buffer of 63 reports holds this much of a stream [s].
+constexpr double kBufferedTime = 0.6;
+}  // namespace
+
 Wiimote::Wiimote(const Options& options, Open open, Clock clock)
     : options_(options),
       open_(std::move(open)),
@@ -54,6 +59,8 @@ void Wiimote::connect() {
   restarts_ = 0;
   restorations_ = 0;
   new_epoch_ = had_image_;
+  last_read_ = clock_();
+  backlog_ = false;
   session_.emplace(
       options_.session, [this](const protocol::Report& report) { transport_->write(report); },
       clock_());
@@ -62,11 +69,16 @@ void Wiimote::connect() {
 std::optional<DataReport> Wiimote::receive(double max_wait) {
   const double wait = std::clamp(session_->deadline() - clock_(), 0.0, max_wait);
   protocol::Report report;
-  const bool received = transport_->read(report, wait);
+  const bool received = transport_->read(report, backlog_ ? 0.0 : wait);
   const double now = clock_();
+  const bool stalled = now - last_read_ > std::max(kBufferedTime, 2.0 * wait);
+  backlog_ = received && (backlog_ || stalled);
+  last_read_ = now;
   std::optional<DataReport> image;
   if (received)
     image = session_->handle(report, now);
+  if (backlog_)
+    image.reset();
   session_->tick(now);
   if (session_->restarts() != restarts_) {
     restarts_ = session_->restarts();

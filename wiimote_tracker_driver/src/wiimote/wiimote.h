@@ -54,7 +54,9 @@ class Wiimote {
 
   /// Opens the remote if that is due, else waits up to `max_wait` [s] for one report and handles
   /// it.
-  /// @returns the report when it is an image. Never throws: an exception of transport or session
+  /// @returns the report when it is an image. After the caller has not read for 0.6 s, images that
+  /// waited are dropped: the kernel keeps the oldest 63 reports, so these are of an unknown time
+  /// before those that were lost. Never throws: an exception of transport or session
   /// ends the connection, and link() has its text.
   std::optional<protocol::DataReport> step(double max_wait);
 
@@ -104,6 +106,8 @@ class Wiimote {
   Link link_;
   std::uint64_t link_changes_ = 0;
   protocol::AccelerometerCalibration accelerometer_;
+  double last_read_ = 0.0;  ///< [s] When the last attempt to read returned.
+  bool backlog_ = false;    ///< Reports wait that the kernel kept during a long stall.
   bool had_image_ = false;
   bool new_epoch_ = false;          ///< The next image is the first of another epoch.
   int restarts_ = 0;                ///< Of the session, as far as seen.

@@ -87,7 +87,7 @@ void print(int number, const Row& row) {
     const protocol::Status& status = *row.check.status;
     std::printf("   free, battery %.0f %% (raw %d)%s\n",
                 100.0 * protocol::batteryCharge(status.battery), status.battery,
-                status.battery_low ? ": put new batteries in" : "");
+                status.battery_low ? ", low by its own sign: put new batteries in" : "");
   } else if (!row.check.sentence.empty()) {
     std::printf("   %s %s\n", isFine(row) ? "-" : "!", row.check.sentence.c_str());
   }

@@ -173,15 +173,13 @@ double squareAlone(const SimulatedWave& wave,
                    const Measurements& measurements) {
   if (!wave.recording.square)
     return std::numeric_limits<double>::quiet_NaN();
-  std::vector<square::CameraSightings> sightings;
-  for (const CameraRecording& camera : wave.recording.cameras)
-    sightings.push_back(camera.sightings);
   square::SolveOptions square_options;
   square_options.uncertainty = options.uncertainty;
   try {
     std::vector<geometry::Camera> cameras;
     for (const geometry::RigCamera& camera :
-         square::solveSquare(*wave.recording.square, sightings, square_options).rig.cameras)
+         square::solveSquare(*wave.recording.square, wave.recording.sightings(), square_options)
+             .rig.cameras)
       cameras.push_back(camera.camera);
     return measurements.rms(cameras);
   } catch (const geometry::Error&) {

@@ -4,6 +4,7 @@
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
 #include "session/error.h"
+#include "session/judge.h"
 #include "session/session_file.h"
 #include "session/solve_session.h"
 #include "square/error.h"
@@ -206,6 +207,10 @@ TEST(SolveSession, CamerasThatSawLittleOfTheSquareComeFromTheWave) {
     EXPECT_GT(camera.inlier_share, 0.85) << i;
     EXPECT_LT(camera.time_offset_stddev, 0.0005) << i;
   }
+  const Verdict read = verdictOf(solution.rig);  // as of a rig that was loaded
+  EXPECT_EQ(read.grade, solution.verdict.grade);
+  EXPECT_EQ(read.text, solution.verdict.text);
+  EXPECT_EQ(read.cameras[1].position_stddev, solution.verdict.cameras[1].position_stddev);
   expectSame(solution, solveSession(throughFile(session), options));
 }
 

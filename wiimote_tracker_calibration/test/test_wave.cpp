@@ -434,7 +434,8 @@ TEST(WaveRefuses, LensThatCannotBe) {
     camera.sightings.intrinsics.fx *= 1.08;
     camera.sightings.intrinsics.fy *= 1.08;
   }
-  expectContains(refusalOf(wave.recording, optionsFor(scene)), "no lens like the one stated");
+  expectContains(refusalOf(wave.recording, optionsFor(scene)),
+                 "no lens near its starting intrinsics");
 }
 
 TEST(WaveRefuses, ValuesOutOfRange) {

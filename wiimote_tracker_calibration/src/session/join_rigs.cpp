@@ -117,7 +117,7 @@ void checkRigs(const geometry::Rig& first, const geometry::Rig& second) {
   for (const geometry::Rig* rig : {&first, &second}) {
     if (!geometry::hasCovariance(*rig))
       throw SessionError(std::string("the ") + (rig == &first ? "first" : "second") +
-                         " rig does not say how certain its cameras are: calibrate it anew");
+                         " rig does not say how certain its cameras are: calibrate it again");
   }
   if (first.ray_model != second.ray_model)
     throw SessionError(
@@ -129,12 +129,12 @@ void checkRigs(const geometry::Rig& first, const geometry::Rig& second) {
         identity != same->camera.identity)
       throw SessionError(camera.camera.name + " is another device in the second rig (" + identity +
                          ") than in the first (" + same->camera.identity +
-                         "): give it another name, or calibrate anew with the same device");
+                         "): give it another name, or calibrate again with the same device");
     for (const geometry::RigCamera& other : first.cameras) {
       if (!same && !identity.empty() && identity == other.camera.identity)
         throw SessionError("the device " + identity + " is called " + camera.camera.name +
                            " in the second rig, but " + other.camera.name +
-                           " in the first: give it one name and calibrate anew");
+                           " in the first: give it one name and calibrate again");
     }
   }
 }
@@ -148,7 +148,7 @@ void checkGravity(const geometry::RigCamera& first, const geometry::RigCamera& s
     throw SessionError(first.camera.name + " was turned by " +
                        format("%.1f degrees", angle * 180.0 / M_PI) +
                        " between both calibrations, by its accelerometer: calibrate one of "
-                       "the rooms anew");
+                       "the rooms again");
 }
 
 JoinedRigs finish(const geometry::Rig& first,
@@ -186,9 +186,10 @@ Eigen::MatrixXd poseByParameters(const geometry::Rig& rig, std::size_t camera) {
 /// @throws SessionError: too few places, values out of range, or all on one line.
 void checkPlaces(const std::vector<CommonPlace>& places) {
   if (places.size() < 3)
-    throw SessionError(std::to_string(places.size()) +
-                       " common places do not tell how one rig lies in the other: measure three or "
-                       "more, not on one line");
+    throw SessionError(
+        std::to_string(places.size()) +
+        " common places do not determine the pose between the rigs: measure three or "
+        "more, not on one line");
   Eigen::Matrix3Xd points(3, places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     const CommonPlace& place = places[i];
@@ -249,7 +250,7 @@ JoinedRigs joinRigs(const geometry::Rig& first, const geometry::Rig& second) {
     throw SessionError(names[oddOneOut(first, second, shared, start)] +
                        " does not stand to the other shared cameras in the second rig as in the "
                        "first: it was moved in between, or was calibrated badly; calibrate one of "
-                       "the rooms anew");
+                       "the rooms again");
   }
   JoinedRigs result = finish(first, second, motion, square::listOf(names));
   result.shared = names;

@@ -149,30 +149,6 @@ Accuracy accuracyOf(const Session& session,
   return accuracy;
 }
 
-/// Asks for the scale where a camera is too far from the LED, or too near; else empty.
-std::string scaleQuestion(const Session& session,
-                          const geometry::Rig& rig,
-                          const Findings& findings) {
-  for (const geometry::RigCamera& camera : rig.cameras) {
-    double distance = 0.0;
-    for (const Eigen::Vector3d& place : findings.led)
-      distance +=
-          (place - camera.camera.center()).norm() / static_cast<double>(findings.led.size());
-    if (findings.led.empty() || (distance >= kNearest && distance <= kFarthest))
-      continue;
-    const auto& square = session.recording.square;
-    const std::string stated =
-        square
-            ? format("the sides of the square really %g m and %g m", square->side_x, square->side_y)
-            : format("the wand really %g m long", session.recording.wand->length);
-    return camera.camera.name +
-           format(" would be %.3g m from the LED, but a Wii Remote sees one at %g to %g m: is ",
-                  distance, kNearest, kFarthest) +
-           stated + "? Give lengths in metres";
-  }
-  return "";
-}
-
 /// Why the rig is not good, or empty.
 std::vector<std::string> shortcomings(const Session& session,
                                       const geometry::Rig& rig,
@@ -180,7 +156,7 @@ std::vector<std::string> shortcomings(const Session& session,
                                       const Findings& findings,
                                       const Verdict& verdict) {
   std::vector<std::string> reasons;
-  const std::string question = scaleQuestion(session, rig, findings);
+  const std::string question = scaleQuestion(session.recording, rig, findings.led);
   if (!question.empty())
     reasons.push_back(question);
   if (!(accuracy.share <= kGoodShare))
@@ -209,10 +185,38 @@ std::string redoCorner(const square::SuspectCorner& suspect) {
 
 }  // namespace
 
-Verdict judge(const Session& session, const geometry::Rig& rig, const Findings& findings) {
+std::string scaleQuestion(const wave::Recording& recording,
+                          const geometry::Rig& rig,
+                          const std::vector<Eigen::Vector3d>& led) {
+  for (const geometry::RigCamera& camera : rig.cameras) {
+    double distance = 0.0;
+    for (const Eigen::Vector3d& place : led)
+      distance += (place - camera.camera.center()).norm() / static_cast<double>(led.size());
+    if (led.empty() || (distance >= kNearest && distance <= kFarthest))
+      continue;
+    const auto& square = recording.square;
+    return camera.camera.name +
+           format(" would be %.3g m from the LED, but a Wii Remote sees one at %g to %g m: is ",
+                  distance, kNearest, kFarthest) +
+           (square ? format("the square really %g m by %g m", square->side_x, square->side_y)
+                   : format("the wand really %g m long", recording.wand->length)) +
+           "? Give lengths in metres";
+  }
+  return "";
+}
+
+Verdict verdictOf(const geometry::Rig& rig) {
   Verdict verdict;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
     verdict.cameras.push_back(judgeCamera(rig, i));
+  verdict.text = rig.verdict;
+  const auto begins = [&](const std::string& word) { return rig.verdict.rfind(word, 0) == 0; };
+  verdict.grade = begins("good") ? Grade::kGood : begins("redo") ? Grade::kRedo : Grade::kUsable;
+  return verdict;
+}
+
+Verdict judge(const Session& session, const geometry::Rig& rig, const Findings& findings) {
+  Verdict verdict = verdictOf(rig);
   if (session.recording.square) {
     const square::Corners corners = session.recording.square->corners(findings.z_up);
     const Eigen::Vector3d above(0.0, 0.0, findings.z_up ? kAbove : -kAbove);

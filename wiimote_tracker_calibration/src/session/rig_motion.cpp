@@ -112,7 +112,8 @@ RigMotion fitMotion(const geometry::Rig& first,
     motion.degrees_of_freedom = static_cast<int>(conditions.residual.size()) - 6;
     const Eigen::Matrix<double, 6, 1> step = gain * conditions.residual;
     if (!step.allFinite())
-      throw SessionError("what the rigs share does not tell how one lies in the other: share more");
+      throw SessionError(
+          "what the rigs share does not determine the pose between them: share more");
     if (step.norm() < 1e-10 || iteration == 20)
       return motion;
     motion.first_from_second.linear() =

@@ -1,7 +1,9 @@
 #include "session/solve_session.h"
 
+#include "diagnose.h"
 #include "judge.h"
 #include "session/error.h"
+#include "square/error.h"
 #include "wave/error.h"
 
 #include <algorithm>
@@ -20,18 +22,6 @@ struct Solved {
   std::optional<principal_point::Trace> trace;
 };
 
-bool hasFrames(const wave::Recording& recording) {
-  return std::any_of(recording.cameras.begin(), recording.cameras.end(),
-                     [](const wave::CameraRecording& camera) { return !camera.frames.empty(); });
-}
-
-std::vector<square::CameraSightings> sightingsOf(const wave::Recording& recording) {
-  std::vector<square::CameraSightings> cameras;
-  for (const wave::CameraRecording& camera : recording.cameras)
-    cameras.push_back(camera.sightings);
-  return cameras;
-}
-
 /// Whether a warning concerns the quality. The one that z points down does not.
 bool hasDoubts(const std::vector<std::string>& warnings, bool z_up) {
   return warnings.size() > (z_up ? 0U : 1U);
@@ -49,6 +39,7 @@ Solved solveFromWave(const wave::Recording& recording,
   solved.findings.suspect = solution.suspect;
   solved.findings.doubts = hasDoubts(solution.warnings, solution.z_up);
   solved.findings.led = std::move(solution.path);
+  solved.findings.contradicts = solution.contradicts;
   if (solution.gauge == wave::Gauge::kFirstCamera)
     solved.findings.shape_error = solution.expected_shape_error;
   if (options.correct_principal_points)
@@ -67,6 +58,7 @@ Solved solveFromSquare(const square::SquareLayout& layout,
   const square::SquareSolution solution = square::solveSquare(layout, cameras, options.square);
   Solved solved;
   solved.findings.suspect = solution.suspect;
+  solved.findings.contradicts = solution.contradicts;
   const square::Corners corners = layout.corners(solution.z_up);
   solved.findings.led.assign(corners.begin(), corners.end());
   if (!options.correct_principal_points) {
@@ -97,6 +89,43 @@ Solved solveFromSquare(const square::SquareLayout& layout,
   return solved;
 }
 
+Solved solve(const wave::Recording& recording,
+             const SolveOptions& options,
+             const wave::ProgressCallback& progress) {
+  return recording.hasFrames()
+             ? solveFromWave(recording, options, progress)
+             : solveFromSquare(*recording.square, recording.sightings(), options, progress);
+}
+
+/// The same; names the mistake where the data contradict one another.
+Solved solveOrDiagnose(const wave::Recording& recording,
+                       const SolveOptions& options,
+                       const wave::ProgressCallback& progress) {
+  const auto words = [&](const geometry::Error& error, bool contradicts) {
+    const auto mistake = diagnose(recording, options, contradicts, progress);
+    return mistake ? mistake->text : error.what();
+  };
+  try {
+    Solved solved = solve(recording, options, progress);
+    if (!solved.findings.contradicts)
+      return solved;
+    if (const auto mistake = diagnose(recording, options, true, progress)) {
+      solved.rig.verdict += "; warning: most likely " + mistake->text;
+      solved.findings.doubts = true;
+      if (!mistake->corner)
+        solved.findings.suspect.reset();
+    }
+    return solved;
+  } catch (const wave::Cancelled&) {
+    throw;
+  } catch (const square::SquareContradiction& error) {
+    throw square::SquareError(words(error, true));
+  } catch (const wave::WaveError& error) {
+    throw wave::WaveError(
+        words(error, dynamic_cast<const wave::WaveContradiction*>(&error) != nullptr));
+  }
+}
+
 }  // namespace
 
 Solution solveSession(const Session& session,
@@ -109,12 +138,10 @@ Solution solveSession(const Session& session,
     if (!options.use_gravity)
       camera.sightings.gravity.reset();
   }
-  if (!hasFrames(recording) && !recording.square)
+  if (!recording.hasFrames() && !recording.square)
     throw SessionError(
         "nothing was captured: capture the corners of a square, or wave a wand of known length");
-  Solved solved = hasFrames(recording) ? solveFromWave(recording, options, progress)
-                                       : solveFromSquare(*recording.square, sightingsOf(recording),
-                                                         options, progress);
+  Solved solved = solveOrDiagnose(recording, options, progress);
 
   geometry::Rig& rig = solved.rig;
   rig.world_frame = session.world_frame;

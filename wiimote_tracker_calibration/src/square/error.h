@@ -10,6 +10,11 @@ struct SquareError : geometry::Error {
   using Error::Error;
 };
 
+/// The data contradict one another, or their priors: one of them is wrong.
+struct SquareContradiction : SquareError {
+  using SquareError::SquareError;
+};
+
 }  // namespace wiimote_tracker::square
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_ERROR_H

@@ -26,7 +26,7 @@ using PlanarPoses = std::vector<PlanarPose>;
 /// its mirror image at the line of sight look nearly the same. They start from the derivative of
 /// the homography in the middle of the corners (Collins and Bartoli, Infinitesimal Plane-Based Pose
 /// Estimation, 2014). Three have up to four (Ke and Roumeliotis, An Efficient Algebraic Solution to
-/// the Perspective-Three-Point Problem, 2017), and nothing in the image tells which. All are then
+/// the Perspective-Three-Point Problem, 2017), and the image does not tell which. All are then
 /// refined by Levenberg-Marquardt with the lens as it is.
 /// @param pixels as observed, distorted [px].
 /// @param corners of the same z, no three on a line.

@@ -58,10 +58,11 @@ class RigModel::Problem {
     }
     for (std::size_t i = 0; i < cameras_.size(); ++i)
       addCamera(i);
-    const double stddev = model.uncertainty_.placement;
-    for (auto& corner : corners_)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double stddev = model.uncertainty_.placementOf(c);
       problem_.AddResidualBlock(adjust::Prior<2>{{0.0, 0.0}, {stddev, stddev}}.cost(), nullptr,
-                                corner.data());
+                                corners_[c].data());
+    }
   }
 
   /// @returns the cost (sum of squares) and the state there; nothing when the start is unusable.
@@ -203,7 +204,7 @@ std::optional<double> RigModel::refineAll(RigState* state, Precision precision) 
 }
 
 int RigModel::degreesOfFreedom() const {
-  int result = 0;
+  int result = uncertainty_.unknown_corner ? -2 : 0;
   // Pixel coordinates, and six parameters of the pose; every other parameter has its prior.
   for (const CameraSightings& sightings : sightings_)
     result += 2 * static_cast<int>(sightings.cornersSeen()) - 6 + (sightings.gravity ? 2 : 0);

@@ -1,5 +1,6 @@
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
+#include "place/chi_squared.h"
 #include "square/error.h"
 #include "square/expected_error.h"
 #include "wiimote_tracker_calibration/square/branches.h"
@@ -17,8 +18,7 @@ namespace wiimote_tracker::square {
 
 namespace {
 
-// Residuals this many times larger than expected are reported, and refused.
-constexpr double kWarnRatio = 2.0;
+// Residuals this many times larger than expected are refused.
 constexpr double kRefuseRatio = 4.0;
 // A solution whose lens is farther than this from its starting value is implausible [standard
 // deviations].
@@ -43,9 +43,10 @@ Candidates findCandidates(const RigModel& model, double odds, std::vector<std::s
     std::vector<Branch> branches = findBranches(model, i);
     if (camera.cornersSeen() == 4) {
       if (branches.empty())
-        throw SquareError("no place explains what " + camera.name +
-                          " saw of the square: check its starting intrinsics and the sides of the "
-                          "square, and capture the corners again");
+        throw SquareContradiction(
+            "no place explains what " + camera.name +
+            " saw of the square: check its starting intrinsics and the sides of the "
+            "square, and capture the corners again");
     } else if (branches.empty() || (branches.size() > 1 &&
                                     branches[1].cost - branches[0].cost < 2.0 * std::log(odds))) {
       warnings->push_back(
@@ -90,7 +91,13 @@ void refuseUndecided(const RigModel& model,
 
 /// Ratio of the residuals to those expected from the uncertainties; about 1 when all is well.
 double misfit(double cost, const RigModel& model) {
-  return std::sqrt(cost / model.degreesOfFreedom());
+  return std::sqrt(cost / std::max(1, model.degreesOfFreedom()));
+}
+
+/// Whether chance explains a larger chi-squared in fewer than one of 1000 calibrations.
+bool isSignificant(double chi_squared, int degrees_of_freedom) {
+  return degrees_of_freedom > 0 &&
+         chi_squared > place::chiSquaredQuantile(degrees_of_freedom, place::kThreeNines);
 }
 
 /// Whether the best solution is implausible: a lens far from its starting value, or a corner behind
@@ -104,93 +111,32 @@ bool isAbsurd(const RigModel& model, const RigState& state) {
   return false;
 }
 
-/// A possible cause of the disagreement, and the misfit without it.
-struct Explanation {
-  double misfit = std::numeric_limits<double>::infinity();
-  std::string text;
-};
-
-/// The camera without which the others agree.
-Explanation oddOneOut(const RigModel& model,
-                      const SquareLayout& layout,
-                      const BranchChoice& choice,
-                      const Uncertainty& uncertainty) {
-  Explanation odd;
-  if (model.sightings().size() < 3)
-    return odd;
-  for (std::size_t i = 0; i < model.sightings().size(); ++i) {
-    std::vector<CameraSightings> others = model.sightings();
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const RigModel without(others, layout, model.zUp(), uncertainty);
-    std::vector<Eigen::Isometry3d> poses;
-    for (const geometry::Camera& camera : choice.state.cameras) {
-      if (camera.name != model.sightings()[i].name)
-        poses.push_back(camera.world_from_camera);
-    }
-    RigState state = without.start(poses);
-    const std::optional<double> cost = without.refineAll(&state, RigModel::Precision::kCoarse);
-    if (cost && misfit(*cost, without) < odd.misfit)
-      odd = {misfit(*cost, without),
-             ", and " + model.sightings()[i].name +
-                 " alone contradicts the others: check that it did not move and that its spot was "
-                 "the LED"};
-  }
-  return odd;
-}
-
-/// The corner without whose place the rest fits best.
-Explanation displacedCorner(const RigModel& model,
-                            const BranchChoice& choice,
-                            const std::optional<SuspectCorner>& suspect) {
-  Explanation result;
-  if (!suspect)
-    return result;
-  const double freedom = std::max(1, model.degreesOfFreedom() - 2);
-  result.misfit = std::sqrt(std::max(0.0, choice.cost - suspect->chi_squared) / freedom);
-  result.text = format(
-      ", most at corner %zu (%.0f mm off): check the sides of the square and capture that corner "
-      "again, or state a larger placement error",
-      suspect->corner + 1, 1e3 * suspect->distance);
-  return result;
-}
-
 void checkGravity(const RigModel& model, const RigState& state, const Uncertainty& uncertainty) {
   for (std::size_t i = 0; i < model.sightings().size(); ++i) {
     const std::optional<double> tilt = model.tiltAgainstGravity(state, i);
     if (tilt && *tilt > kGravityLimit * uncertainty.gravity)
-      throw SquareError("the floor as " + model.sightings()[i].name + " sees it is tilted by " +
-                        format("%.0f degrees", *tilt * 180.0 / M_PI) +
-                        " against its accelerometer: it was moved between the corners, its image "
-                        "or its axes are turned, or the floor is not level; correct that, or do "
-                        "not use gravity");
+      throw SquareContradiction(
+          "the floor as " + model.sightings()[i].name + " sees it is tilted by " +
+          format("%.0f degrees", *tilt * 180.0 / M_PI) +
+          " against its accelerometer: it was moved between the corners, its image "
+          "or its axes are turned, or the floor is not level; correct that, or do "
+          "not use gravity");
   }
 }
 
-/// Warns about, or refuses, residuals that the uncertainties do not explain. Where a camera
-/// explains them, no corner is suspect.
-void checkMisfit(const RigModel& model,
-                 const SquareLayout& layout,
-                 const BranchChoice& choice,
-                 const Uncertainty& uncertainty,
-                 SquareSolution* solution) {
-  const double ratio = misfit(choice.cost, model);
+/// Warns about, or refuses, residuals that the uncertainties do not explain.
+void checkMisfit(const RigModel& model, const BranchChoice& choice, SquareSolution* solution) {
+  solution->misfit = misfit(choice.cost, model);
   const bool absurd = isAbsurd(model, choice.state);
-  if (ratio < kWarnRatio && !absurd)
+  solution->contradicts = absurd || isSignificant(choice.cost, model.degreesOfFreedom());
+  if (!solution->contradicts)
     return;
-  std::string reason = "the cameras disagree " + format("%.1f", ratio) +
-                       " times as much as the stated errors explain";
-  const Explanation odd = oddOneOut(model, layout, choice, uncertainty);
-  const Explanation displaced = displacedCorner(model, choice, solution->suspect);
-  if (odd.misfit < std::min(kWarnRatio, displaced.misfit)) {
-    reason += odd.text;
-    solution->suspect.reset();
-  } else if (solution->suspect) {
-    reason += displaced.text;
-  } else {
-    reason += ": check the sides of the square, the starting intrinsics and that no camera moved";
-  }
-  if (ratio > kRefuseRatio || absurd)
-    throw SquareError(reason);
+  const std::string reason =
+      "the cameras disagree " + format("%.1f", solution->misfit) +
+      " times as much as the stated errors explain: check the sides of the square, the starting "
+      "intrinsics and that no camera moved";
+  if (solution->misfit > kRefuseRatio || absurd)
+    throw SquareContradiction(reason);
   solution->warnings.push_back(reason);
 }
 
@@ -253,7 +199,7 @@ SquareSolution solveSquare(const SquareLayout& layout,
   if (!isAbsurd(model, choice.state))
     solution.suspect =
         suspectCorner(model.cornerEstimates(choice.state), options.uncertainty.placement);
-  checkMisfit(model, layout, choice, options.uncertainty, &solution);
+  checkMisfit(model, choice, &solution);
   refuseUndecided(model, branches, choice);
 
   RigState state = choice.state;

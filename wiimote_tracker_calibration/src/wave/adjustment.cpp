@@ -79,7 +79,7 @@ class WaveProblem {
     if (summary.termination_type == ceres::USER_FAILURE)
       throw Cancelled("the calibration was cancelled: nothing was changed");
     if (!summary.IsSolutionUsable())
-      throw WaveError(
+      throw WaveContradiction(
           "the LED would be behind the cameras in the solution: check that nobody moved a camera, "
           "and record again");
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
@@ -96,6 +96,21 @@ class WaveProblem {
     double half_sum = 0.0;
     problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
     return std::sqrt(2.0 * half_sum / std::max(1.0, freedom_));
+  }
+
+  /// Of the corners and the priors.
+  double chiSquared() {
+    ceres::Problem::EvaluateOptions options;
+    options.residual_blocks = priors_;
+    double half_sum = 0.0;
+    problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
+    return 2.0 * half_sum;
+  }
+
+  /// Of chiSquared(): the matches determine everything but the world frame and its scale.
+  int degreesOfFreedom() const {
+    return prior_residuals_ - (recording_.square ? 7 : 0) -
+           (options_.uncertainty.unknown_corner ? 2 : 0);
   }
 
   std::optional<Eigen::MatrixXd> covariance() {
@@ -163,19 +178,22 @@ class WaveProblem {
                                 &state_.wand_length);
       freedom_ += 1.0;
     }
-    problem_.AddResidualBlock(
-        adjust::Prior<1>{{recording_.wand->length}, {recording_.wand->stddev}}.cost(), nullptr,
-        &state_.wand_length);
+    addPrior(adjust::Prior<1>{{recording_.wand->length}, {recording_.wand->stddev}}.cost(),
+             &state_.wand_length);
+  }
+
+  template <typename... Blocks>
+  void addPrior(ceres::CostFunction* cost, Blocks*... blocks) {
+    prior_residuals_ += cost->num_residuals();
+    priors_.push_back(problem_.AddResidualBlock(cost, nullptr, blocks...));
   }
 
   /// Priors of a camera.
   void addCamera(std::size_t i) {
     adjust::CameraBlocks& camera = cameras_[i];
     const geometry::Intrinsics& start = recording_.cameras[i].sightings.intrinsics;
-    problem_.AddResidualBlock(square::lensPrior(start, options_.uncertainty).cost(), nullptr,
-                              camera.lens.data());
-    problem_.AddResidualBlock(adjust::Prior<1>{{0.0}, {options_.offset}}.cost(), nullptr,
-                              &camera.time_offset);
+    addPrior(square::lensPrior(start, options_.uncertainty).cost(), camera.lens.data());
+    addPrior(adjust::Prior<1>{{0.0}, {options_.offset}}.cost(), &camera.time_offset);
     problem_.SetParameterBlockConstant(camera.distortion.data());
   }
 
@@ -183,17 +201,16 @@ class WaveProblem {
     const square::Uncertainty& stated = options_.uncertainty;
     for (std::size_t c = 0; c < nominal.size(); ++c) {
       double* const offset = state_.corner_offsets[c].data();
-      const adjust::Prior<2> prior{{0.0, 0.0}, {stated.placement, stated.placement}};
-      problem_.AddResidualBlock(prior.cost(), nullptr, offset);
+      const double placement = stated.placementOf(c);
+      addPrior(adjust::Prior<2>{{0.0, 0.0}, {placement, placement}}.cost(), offset);
       for (std::size_t i = 0; i < cameras_.size(); ++i) {
         const auto& seen = recording_.cameras[i].sightings.corners[c];
         if (!seen)
           continue;
         adjust::CameraBlocks& camera = cameras_[i];
         const auto pixel = adjust::PixelError::of(state_.cameras[i], *seen, stated.pixel);
-        problem_.AddResidualBlock(adjust::CornerPixelError{pixel, nominal[c]}.cost(), nullptr,
-                                  camera.rotation.data(), camera.position.data(),
-                                  camera.lens.data(), camera.distortion.data(), offset);
+        addPrior(adjust::CornerPixelError{pixel, nominal[c]}.cost(), camera.rotation.data(),
+                 camera.position.data(), camera.lens.data(), camera.distortion.data(), offset);
       }
     }
   }
@@ -213,6 +230,8 @@ class WaveProblem {
   std::vector<adjust::CameraBlocks> cameras_;
   ceres::Problem problem_;
   std::vector<ceres::ResidualBlockId> matches_;
+  std::vector<ceres::ResidualBlockId> priors_;  // and corners
+  int prior_residuals_ = 0;
   double freedom_ = 0.0;  // residuals of the matches beyond the number of parameters
 };
 
@@ -227,7 +246,7 @@ Refinement refine(const Recording& recording,
   WaveProblem problem(recording, options, matches, loss_scale, state);
   // A robust fit is only the start of a tighter one.
   const int iterations = problem.solve(std::isfinite(loss_scale) ? 1e-4 : 1e-9, keep_going);
-  return {iterations, problem.misfit()};
+  return {iterations, problem.chiSquared(), problem.degreesOfFreedom(), problem.misfit()};
 }
 
 Eigen::MatrixXd covarianceOf(const Recording& recording,

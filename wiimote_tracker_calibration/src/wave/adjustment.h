@@ -16,6 +16,9 @@ namespace wiimote_tracker::wave {
 /// How a refinement went.
 struct Refinement {
   int iterations;
+  /// Chi-squared of the corners and of the priors, and its degrees of freedom.
+  double chi_squared;
+  int degrees_of_freedom;
   /// Square root of the mean whitened squared residual of the matches, corrected for the parameters
   /// that were fitted: 1 when the matches' standard deviations are right.
   double misfit;

@@ -127,10 +127,11 @@ void checkMatching(const Recording& recording, const Matching& matching) {
     const std::size_t found = matching.found[i];
     const std::size_t expected = matching.expected[i];
     if (static_cast<double>(found) < kLeastShare * static_cast<double>(expected))
-      throw WaveError("only " + std::to_string(found) + " of " + std::to_string(expected) +
-                      " spots of " + name +
-                      " fit to the other cameras: check that it was not moved, that its image is "
-                      "not mirrored, and its starting intrinsics");
+      throw WaveContradiction(
+          "only " + std::to_string(found) + " of " + std::to_string(expected) + " spots of " +
+          name +
+          " fit to the other cameras: check that it was not moved, that its image is "
+          "not mirrored, and its starting intrinsics");
     if (found < kLeastSightings)
       throw WaveError("only " + std::to_string(found) + " spots of " + name +
                       " belong to the LED while another camera saw it, but " +
@@ -141,20 +142,21 @@ void checkMatching(const Recording& recording, const Matching& matching) {
 
 namespace {
 
-void checkCorners(double placement, WaveSolution* solution) {
-  double farthest = 0.0;
-  for (const Eigen::Vector3d& offset : solution->corner_offsets)
-    farthest = std::max(farthest, offset.norm());
+void checkCorners(const square::Uncertainty& uncertainty, WaveSolution* solution) {
+  double farthest = 0.0;  // in standard deviations
+  for (std::size_t c = 0; c < solution->corner_offsets.size(); ++c)
+    farthest = std::max(farthest, solution->corner_offsets[c].norm() / uncertainty.placementOf(c));
   const std::optional<square::SuspectCorner>& suspect = solution->suspect;
   if (!suspect)
     return;
   const std::string corner = "corner " + std::to_string(suspect->corner + 1);
   const std::string off = format("%.0f mm", 1e3 * suspect->distance) + " beside its place";
-  if (farthest > kRefuseDeviation * placement)
-    throw WaveError("the wave contradicts the square, most of all " + corner +
-                    ", which would have been " + off +
-                    ": check the sides of the square and that no camera moved, and capture the "
-                    "corners again");
+  if (farthest > kRefuseDeviation)
+    throw WaveContradiction(
+        "the wave contradicts the square, most of all " + corner + ", which would have been " +
+        off +
+        ": check the sides of the square and that no camera moved, and capture the "
+        "corners again");
   if (square::isDisplaced(*suspect))
     solution->warnings.push_back(corner + " seems to have been " + off +
                                  ": check the sides of the square and capture that corner again");
@@ -170,18 +172,25 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
     throw WaveError("the LED was moved in a plane only, " + format("%.0f mm", 1e3 * extent.z()) +
                     " deep: wave it through the whole volume, also to the cameras and away");
   if (solution->pixel_stddev > kRefuseRatio * options.pixel)
-    throw WaveError("the cameras disagree by " + format("%.1f px", solution->pixel_stddev) +
-                    ", far more than the stated " + format("%.1f px", options.pixel) +
-                    ": check that no camera was moved and that their times are of one clock");
+    throw WaveContradiction(
+        "the cameras disagree by " + format("%.1f px", solution->pixel_stddev) +
+        ", far more than the stated " + format("%.1f px", options.pixel) +
+        ": check that no camera was moved and that their times are of one clock");
+  double worst = kLensLimit;
+  std::string worst_camera;
   for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
     const square::CameraSightings& start = recording.cameras[i].sightings;
     const double deviation = square::lensPrior(start.intrinsics, options.uncertainty)
                                  .deviation(solution->rig.cameras[i].camera.intrinsics);
-    if (deviation > kLensLimit)
-      throw WaveError("no lens like the one stated explains what " + start.name +
-                      " saw: check its starting intrinsics, that its image is not mirrored or "
-                      "turned, and that the spots were the LED");
+    if (deviation > worst) {
+      worst = deviation;
+      worst_camera = start.name;
+    }
   }
+  if (!worst_camera.empty())
+    throw WaveContradiction("no lens near its starting intrinsics explains what " + worst_camera +
+                            " saw: check them, that its image is not mirrored or turned, and that "
+                            "the spots were the LED");
   const Eigen::Vector3d up(0.0, 0.0, solution->z_up ? 1.0 : -1.0);
   for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
     const geometry::RigCamera& camera = solution->rig.cameras[i];
@@ -192,10 +201,11 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
           camera.camera.world_from_camera.linear() * camera.gravity->normalized();
       const double tilt = std::atan2(up.cross(measured).norm(), up.dot(measured));
       if (tilt > kGravityLimit * options.uncertainty.gravity)
-        throw WaveError("the world as " + name + " sees it is tilted by " +
-                        format("%.0f degrees", tilt * 180.0 / M_PI) +
-                        " against its accelerometer: its image is mirrored or turned, it was "
-                        "moved, or the floor is not level");
+        throw WaveContradiction(
+            "the world as " + name + " sees it is tilted by " +
+            format("%.0f degrees", tilt * 180.0 / M_PI) +
+            " against its accelerometer: its image is mirrored or turned, it was "
+            "moved, or the floor is not level");
     }
     const double stddev = solution->cameras[i].offset_stddev;
     if (stddev > options.maximum_offset_stddev)
@@ -207,7 +217,7 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
   if (recording.square) {
     if (!solution->z_up)
       solution->warnings.emplace_back(square::kZDown);
-    checkCorners(options.uncertainty.placement, solution);
+    checkCorners(options.uncertainty, solution);
   }
   if (recording.wand) {
     const double off = solution->wand_length - recording.wand->length;

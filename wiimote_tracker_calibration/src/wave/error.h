@@ -10,6 +10,11 @@ struct WaveError : geometry::Error {
   using Error::Error;
 };
 
+/// The data contradict one another, or their priors: one of them is wrong.
+struct WaveContradiction : WaveError {
+  using WaveError::WaveError;
+};
+
 /// The progress callback asked to stop.
 struct Cancelled : WaveError {
   using WaveError::WaveError;

@@ -9,12 +9,14 @@
 #include "start_poses.h"
 #include "state.h"
 
+#include "place/chi_squared.h"
 #include "wave/error.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <utility>
 
@@ -111,12 +113,12 @@ WaveSolution fit(const Recording& recording,
   };
   int iterations = 0;
   Matching matching;
+  Refinement refinement{};
   // One round; returns the misfit.
   const auto turn = [&](const Gate& gate, double loss_scale) {
     matching = matchSpots(recording, state, gate);
     checkMatching(recording, matching);
-    const Refinement refinement =
-        refine(recording, options, matching.matches, loss_scale, keep_going, &state);
+    refinement = refine(recording, options, matching.matches, loss_scale, keep_going, &state);
     iterations += refinement.iterations;
     return refinement.misfit;
   };
@@ -135,6 +137,11 @@ WaveSolution fit(const Recording& recording,
   WaveSolution solution = solutionOf(recording, options, state, matching);
   solution.pixel_stddev = pixel_stddev;
   solution.iterations = iterations;
+  solution.misfit = std::sqrt(refinement.chi_squared / std::max(1, refinement.degrees_of_freedom));
+  solution.contradicts =
+      refinement.degrees_of_freedom > 0 &&
+      refinement.chi_squared >
+          place::chiSquaredQuantile(refinement.degrees_of_freedom, place::kThreeNines);
   return solution;
 }
 
@@ -168,7 +175,7 @@ WaveSolution solveWave(const Recording& input,
   checkInput(input, options);
   Reporter reporter(progress);
   const Recording recording = prepared(input);
-  std::optional<WaveError> refusal;
+  std::exception_ptr refusal;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     reporter.report("finding where the cameras stand", 0.0);
     bool final = attempt + 1 == kAttempts;
@@ -180,15 +187,15 @@ WaveSolution solveWave(const Recording& input,
       return solution;
     } catch (const Cancelled&) {
       throw;
-    } catch (const WaveError& error) {
+    } catch (const WaveError&) {
       // The refusal of the first attempt names the most likely cause.
       if (!refusal)
-        refusal = error;
+        refusal = std::current_exception();
       if (final)
-        throw WaveError(*refusal);
+        std::rethrow_exception(refusal);
     }
   }
-  throw WaveError(*refusal);
+  std::rethrow_exception(refusal);
 }
 
 }  // namespace wiimote_tracker::wave

@@ -223,9 +223,10 @@ void keepLabels(std::vector<Instant>* instants) {
 
 void refuseFew(std::size_t places) {
   if (places < kLeastPlaces)
-    throw WaveError("the LED was found in " + std::to_string(places) +
-                    " places only that two cameras agree on: check that it is bright and that "
-                    "nobody moved a camera, and wave it where two cameras see it");
+    throw WaveContradiction(
+        "the LED was found in " + std::to_string(places) +
+        " places only that two cameras agree on: check that it is bright and that "
+        "nobody moved a camera, and wave it where two cameras see it");
 }
 
 /// Control points of one LED's path, one per row: least squares over places of it and the prior of
@@ -263,7 +264,7 @@ Eigen::MatrixX3d controlsThrough(const std::vector<Trajectory::Place>& places,
 
 /// Spline through places with outliers: each is reweighted by its distance from the last spline.
 void fit(const std::vector<Instant>& instants, double acceleration, Trajectory* trajectory) {
-  // Errors of the places as the rounds go on [m].
+  // Errors of the places, round by round [m].
   const double kErrors[] = {1.0, 0.3, 0.1, 0.05, 0.05};
   const double bend = trajectory->spacing() * trajectory->spacing() * acceleration;
   std::vector<Trajectory::Place> places;

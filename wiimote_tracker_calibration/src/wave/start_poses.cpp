@@ -133,7 +133,8 @@ bool sawAllCorners(const square::CameraSightings& sightings) {
 
 /// Words a refusal of the reconstruction for a wave.
 [[noreturn]] void refuse(const bundle::BundleError& error) {
-  throw WaveError(std::string("the wave does not tell where the cameras stand: ") + error.what());
+  throw WaveContradiction(std::string("the wave does not tell where the cameras stand: ") +
+                          error.what());
 }
 
 /// Poses of the cameras that the square did not place, from the others.
@@ -188,7 +189,7 @@ void moveOnSquare(const Recording& recording,
     }
     const double kLargestShare = 0.15;
     if (error > kLargestShare * side)
-      throw WaveError(
+      throw WaveContradiction(
           "the corners as the cameras saw them do not have the shape of the square: check its "
           "sides and the order of the corners, and capture them again");
     double height = 0.0;

@@ -24,6 +24,14 @@ struct Uncertainty {
   double k1 = 0.02;               ///< Of the first distortion coefficient [1].
   double gravity = 0.0524;        ///< Of the accelerometer's up against the floor's normal [rad].
 
+  /// A corner that may lie up to a metre from its place [0..3]: to test whether it does.
+  std::optional<std::size_t> unknown_corner;
+
+  /// Of the LED put on one corner [m].
+  double placementOf(std::size_t corner) const {
+    return corner == unknown_corner ? 1.0 : placement;
+  }
+
   /// @throws SquareError naming the value that is not greater than 0.
   void check() const;
 };
@@ -52,7 +60,7 @@ class RigModel {
   /// A model of one of the cameras alone.
   RigModel only(std::size_t camera) const;
 
-  /// Starting intrinsics, corners as laid out, and the given poses.
+  /// Starting intrinsics, nominal corners, and the given poses.
   RigState start(const std::vector<Eigen::Isometry3d>& world_from_camera) const;
 
   /// Convergence of a minimisation: kCoarse suffices to compare costs, and is ten times faster.

@@ -42,6 +42,9 @@ struct SquareSolution {
   std::optional<SuspectCorner> suspect;
   /// expectedError() in the box over the square [m]. NaN when no two cameras look into it.
   double expected_error = 0.0;
+  /// Ratio of the residuals to those expected, and whether that is significant (99.9 %).
+  double misfit = 0.0;
+  bool contradicts = false;
   /// One sentence each. They are part of rig.verdict too.
   std::vector<std::string> warnings;
 };

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -36,6 +37,19 @@ struct Recording {
   std::vector<CameraRecording> cameras;
   std::optional<square::SquareLayout> square;  ///< Nothing: no corners were captured.
   std::optional<Wand> wand;                    ///< Nothing: one LED was waved.
+
+  bool hasFrames() const {
+    return std::any_of(cameras.begin(), cameras.end(),
+                       [](const CameraRecording& camera) { return !camera.frames.empty(); });
+  }
+
+  /// Of all cameras.
+  std::vector<square::CameraSightings> sightings() const {
+    std::vector<square::CameraSightings> result;
+    for (const CameraRecording& camera : cameras)
+      result.push_back(camera.sightings);
+    return result;
+  }
 };
 
 }  // namespace wiimote_tracker::wave

@@ -66,12 +66,16 @@ struct WaveSolution {
   /// Same after the best rigid motion: independent of the world frame.
   double expected_shape_error = 0.0;
   int iterations = 0;
+  /// Ratio of the residuals of corners and priors to those expected, and whether that is
+  /// significant (99.9 %).
+  double misfit = 0.0;
+  bool contradicts = false;
   std::vector<std::string> warnings;  ///< One sentence each; part of rig.verdict too.
 };
 
 /// Progress, reported a few times per second or more.
 struct Progress {
-  std::string step;       ///< What is being done, for people.
+  std::string step;       ///< What is being done, in words.
   double fraction = 0.0;  ///< 0 to 1, growing.
 };
 

@@ -143,6 +143,16 @@ TEST_F(Workflow, RequestsInTheWrongStepAreRefusedWithAReason) {
   EXPECT_EQ(calibration_.step(), Step::kReady);
 }
 
+TEST_F(Workflow, AnExchangedDeviceIsNamed) {
+  captureAll();
+  ASSERT_TRUE(calibration_.beginWave(cameras_, false, std::nullopt, now_).success);
+  for (const char* device : {"00:00:00:00:00:01", "00:00:00:00:00:07"})
+    calibration_.addImage({names_[1], now_ += 0.01, 0, {{500.0, 400.0}}, {}, device});
+  ASSERT_TRUE(calibration_.endWave().success);
+  EXPECT_SAYS(calibration_.begin(Step::kSolving, "").message,
+              "camera_2 was first the device 00:00:00:00:00:01, then 00:00:00:00:00:07");
+}
+
 TEST_F(Workflow, ABadStartKeepsTheRun) {
   ASSERT_TRUE(calibration_.start(2.5, 2.0, names_).success);
   ASSERT_TRUE(capture(kCorners[0]).success);

@@ -235,6 +235,21 @@ TEST(CameraMonitor, SaysWhatIsWrong) {
   EXPECT_TRUE(std::isnan(flicker.view(0.5).pixel.x()));
 }
 
+TEST(CameraMonitor, NamesMissingStamps) {
+  CameraMonitor monitor;
+  monitor.add(0.0, {{100.0, 100.0}});
+  EXPECT_SAYS(monitor.view(1.7e9).problem, "without stamps");
+}
+
+TEST(Image, SpotsOutsideOfItAreRemoved) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  Blobs spots = {{nan, 1.0}, {5.0, 7.0}, {infinity, 1.0}, {1e9, 1.0}, {1.0, -50.0}};
+  removeImpossible(1024.0, 768.0, &spots);
+  ASSERT_EQ(spots.size(), 1U);
+  EXPECT_EQ(spots[0].y(), 7.0);
+}
+
 TEST(RestGravity, MeanOfACameraAtRestOnly) {
   RestGravity rest;
   for (int i = 0; i < 20; ++i) {

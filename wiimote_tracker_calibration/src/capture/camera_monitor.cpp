@@ -46,7 +46,9 @@ CameraView CameraMonitor::view(double now, double window) const {
     with_one_spot += image.blobs == 1;
   }
   if (count == 0) {
-    view.problem = "sends no images: check its battery, its connection and its driver";
+    view.problem = !images_.empty() && images_.back().time <= 0.0
+                       ? "sends images without stamps: correct its driver"
+                       : "sends no images: check its battery, its connection and its driver";
     return view;
   }
 

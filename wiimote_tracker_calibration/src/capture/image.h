@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,6 +13,16 @@ namespace wiimote_tracker::capture {
 /// Spots of one image [px], lens distortion still in them.
 using Blobs = std::vector<Eigen::Vector2d>;
 
+/// Removes spots that no image can have: not finite, or outside of `width` x `height` [px].
+inline void removeImpossible(double width, double height, Blobs* spots) {
+  spots->erase(std::remove_if(spots->begin(), spots->end(),
+                              [&](const Eigen::Vector2d& spot) {
+                                return !(spot.x() >= -1.0 && spot.x() <= width &&
+                                         spot.y() >= -1.0 && spot.y() <= height);
+                              }),
+               spots->end());
+}
+
 /// What one camera saw at one time.
 struct Image {
   std::string camera;
@@ -19,6 +30,7 @@ struct Image {
   std::uint32_t clock_epoch = 0;  ///< As in IrBlobArray.msg.
   Blobs spots;                    ///< Without the masked ones.
   Blobs masked;                   ///< Spots that lie in a masked region.
+  std::string identity{};         ///< Of the device; empty: unknown.
 };
 
 }  // namespace wiimote_tracker::capture

@@ -105,6 +105,11 @@ void CameraInputs::onBlobs(const std::string& name,
   image.clock_epoch = message.clock_epoch;
   for (const wiimote_tracker_msgs::IrBlob& blob : message.blobs)
     image.spots.emplace_back(blob.x, blob.y);
+  capture::removeImpossible(message.width, message.height, &image.spots);
+  if (image.spots.size() < message.blobs.size())
+    ROS_WARN_STREAM_THROTTLE(10.0, name << " reports spots outside of its image, which are "
+                                           "ignored: check its driver");
+  image.identity = message.identity;
   {
     const Lock lock(*mutex_);
     CameraInput& camera = cameras_[name];

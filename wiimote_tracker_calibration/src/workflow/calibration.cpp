@@ -77,7 +77,7 @@ Reply Calibration::beginCapture(std::optional<std::size_t> retake, double now) {
   if (captured_.cameras.empty())
     return refuse("no calibration is started: start one first");
   if (!captured_.layout)
-    return refuse("this calibration was started without a square: wave a wand, or start anew");
+    return refuse("this calibration was started without a square: wave a wand, or start again");
   const Reply reply = captured_.square.begin(retake, now);
   if (reply.success) {
     busy_ = Step::kCapturing;
@@ -141,6 +141,12 @@ Reply Calibration::endWave() {
 }
 
 void Calibration::addImage(const capture::Image& image) {
+  if ((isBusyWith(Step::kWaving) || isBusyWith(Step::kCapturing)) && !image.identity.empty()) {
+    const std::string& first =
+        captured_.devices.emplace(image.camera, image.identity).first->second;
+    if (first != image.identity)
+      captured_.other_devices[image.camera] = image.identity;
+  }
   if (isBusyWith(Step::kWaving))
     captured_.wave->add(image);
   captured_.square.add(image);
@@ -171,7 +177,7 @@ Reply Calibration::undo() {
   if (captured_.wave) {
     captured_.wave.reset();
     updateStep();
-    return accept("the wave was dropped: record it anew");
+    return accept("the wave was dropped: record it again");
   }
   const Reply reply = captured_.square.undo();
   if (reply.success)
@@ -220,6 +226,11 @@ Reply Calibration::begin(Step step, const std::string& message) {
                     " of 4 corners are captured: " +
                     (captured_.layout ? "capture the others first" : "start a calibration first"));
     return refuse("no wand was waved: record one first");
+  }
+  if (step == Step::kSolving && !captured_.other_devices.empty()) {
+    const auto& [name, device] = *captured_.other_devices.begin();
+    return refuse(name + " was first the device " + captured_.devices.at(name) + ", then " +
+                  device + ": check the addresses of the drivers, and start again");
   }
   busy_ = step;
   just_solved_ = false;

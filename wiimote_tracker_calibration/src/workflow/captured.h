@@ -33,6 +33,9 @@ struct Captured {
   SquareRun square;
   std::optional<WaveRecorder> wave;  ///< The wave that is being recorded, or was.
   std::string world_frame;
+  /// The device that took the data of a camera, and another one that took some, too.
+  std::map<std::string, std::string> devices;
+  std::map<std::string, std::string> other_devices;
   /// Facts from a samples file; empty: this run is captured live.
   std::map<std::string, CameraFacts> restored_facts;
 

@@ -53,7 +53,7 @@ wave::CoverageReport WaveRecorder::report() const {
     if (tracks_[i].reconnected)
       report.missing.push_back(cameras_[i].name +
                                " reconnected during the wave, so its earlier images do not "
-                               "count: go on waving where it looks");
+                               "count: continue waving where it looks");
   }
   return report;
 }

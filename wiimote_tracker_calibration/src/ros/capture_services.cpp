@@ -14,7 +14,7 @@ constexpr double kFeedbackPeriod = 0.1;  // [s]
 constexpr double kForEver = std::numeric_limits<double>::infinity();
 constexpr std::size_t kButtonA = 2;  // in the driver's joy messages
 
-/// Gives up a capture that still goes on at the end of a scope.
+/// Ends a running capture when it leaves scope.
 struct EndOfCapture {
   workflow::Calibration& calibration;
   ~EndOfCapture() { calibration.abandonCapture("an error occurred"); }

@@ -1,6 +1,7 @@
 #include "file_services.h"
 
 #include "rig_storage.h"
+#include "session/judge.h"
 #include "session/session_file.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
@@ -106,7 +107,7 @@ Reply FileServices::loadRig(const std::string& path) {
       for (const geometry::RigCamera& camera : rig.cameras)
         masks[camera.camera.name] = camera.masks;
       context_.inputs().setMasks(masks);
-      context_.publishRig(lock);
+      context_.publishRig(session::verdictOf(rig), lock);
     }
     context_.publishStatus(lock);
     return reply;

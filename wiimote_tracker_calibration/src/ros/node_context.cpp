@@ -1,6 +1,9 @@
 #include "node_context.h"
 
+#include "session/judge.h"
+
 #include "camera_status.h"
+#include "verdict_messages.h"
 
 #include <wiimote_tracker_msgs/CalibrationStatus.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
@@ -55,6 +58,8 @@ NodeContext::NodeContext(const ros::NodeHandle& nh, const Parameters& parameters
           nh_.advertise<wiimote_tracker_msgs::CalibrationStatus>("calibration/status", 1, true)),
       rig_publisher_(
           nh_.advertise<wiimote_tracker_msgs::RigCalibration>("calibration/rig", 1, true)),
+      verdict_publisher_(
+          nh_.advertise<wiimote_tracker_msgs::CalibrationVerdict>("calibration/verdict", 1, true)),
       inputs_(nh_, parameters.cameras, parameters.button_remote, &mutex_, &changed_) {}
 
 double NodeContext::now() {
@@ -150,21 +155,24 @@ void NodeContext::requireSameRig(const std::string& id, const Lock&) const {
 
 void NodeContext::setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock) {
   calibration_.setRig(rig, message);
-  publishRig(lock);
+  publishRig(session::verdictOf(rig), lock);
   publishStatus(lock);
 }
 
-void NodeContext::publishRig(const Lock&) {
+void NodeContext::publishRig(const session::Verdict& verdict, const Lock&) {
+  verdict_ = verdict;
+  const geometry::Rig& rig = *calibration_.rig();
   // The transforms first: whoever receives the rig finds them.
-  transforms_.sendTransform(staticTransforms(*calibration_.rig()));
-  rig_publisher_.publish(toMessage(*calibration_.rig()));
+  transforms_.sendTransform(staticTransforms(rig));
+  rig_publisher_.publish(toMessage(rig));
+  verdict_publisher_.publish(toMessage(verdict_, rig));
 }
 
 bool NodeContext::setMasks(const capture::Masks& masks, const Lock& lock) {
   inputs_.setMasks(masks);
   if (!calibration_.setMasks(masks))
     return false;
-  publishRig(lock);
+  publishRig(verdict_, lock);
   return true;
 }
 

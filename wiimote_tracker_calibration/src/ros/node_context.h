@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H
 
 #include "place/known_places.h"
+#include "session/verdict.h"
 #include "workflow/calibration.h"
 
 #include "camera_inputs.h"
@@ -114,8 +115,8 @@ class NodeContext {
   /// Replaces the rig by a changed one, such as with a recalibrated camera or a correction of the
   /// volume, and publishes it. It is not saved yet.
   void setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock);
-  /// Publishes the current rig, and the transforms of its cameras.
-  void publishRig(const Lock&);
+  /// Publishes the current rig, the transforms of its cameras, and its verdict.
+  void publishRig(const session::Verdict& verdict, const Lock&);
 
   /// Sets the masks of the images and of the rig, which is then published.
   /// @returns whether there is a rig and it changed.
@@ -138,9 +139,11 @@ class NodeContext {
   Parameters parameters_;
   workflow::Calibration calibration_;
   place::KnownPlaces known_places_;
+  session::Verdict verdict_;  // of the current rig
   std::map<std::string, std::string> health_;
   ros::Publisher status_publisher_;
   ros::Publisher rig_publisher_;
+  ros::Publisher verdict_publisher_;
   tf2_ros::StaticTransformBroadcaster transforms_;
   CameraInputs inputs_;
 };

@@ -13,7 +13,7 @@
 
 namespace wiimote_tracker {
 
-/// One camera solved anew against the others: recalibrate_camera.
+/// Solves one camera against the others: recalibrate_camera.
 class RecalibrateServices {
  public:
   explicit RecalibrateServices(NodeContext* context);

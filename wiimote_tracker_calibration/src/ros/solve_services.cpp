@@ -11,10 +11,6 @@ using workflow::Step;
 
 SolveServices::SolveServices(NodeContext* context)
     : context_(*context),
-      verdict_(
-          context_.nh().advertise<wiimote_tracker_msgs::CalibrationVerdict>("calibration/verdict",
-                                                                            1,
-                                                                            true)),
       trace_(context_.nh().advertise<wiimote_tracker_msgs::PrincipalPointTrace>(
           "calibration/principal_point_trace",
           1,
@@ -42,8 +38,7 @@ workflow::Reply SolveServices::solve(const SolveCalibration::Request&,
     const geometry::Rig& rig = *context_.rig(lock);
     response->rig = toMessage(rig);
     response->verdict = toMessage(solution.verdict, rig);
-    context_.publishRig(lock);
-    verdict_.publish(response->verdict);
+    context_.publishRig(solution.verdict, lock);
     if (solution.trace)
       trace_.publish(toMessage(*solution.trace, rig));
     ROS_INFO_STREAM(reply.message);

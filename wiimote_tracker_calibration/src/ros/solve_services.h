@@ -7,7 +7,7 @@
 
 namespace wiimote_tracker {
 
-/// From what was captured to a rig and its verdict: solve; topics verdict, principal_point_trace.
+/// From what was captured to a rig and its verdict: solve; topic principal_point_trace.
 class SolveServices {
  public:
   explicit SolveServices(NodeContext* context);
@@ -17,7 +17,6 @@ class SolveServices {
                         wiimote_tracker_msgs::SolveCalibration::Response* response);
 
   NodeContext& context_;
-  ros::Publisher verdict_;
   ros::Publisher trace_;
   ros::ServiceServer service_;
 };

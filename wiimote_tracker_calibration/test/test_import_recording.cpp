@@ -94,6 +94,13 @@ TEST_F(MultiCamSelfCal, UnitsScaleTheCentres) {
   expectRefusal("calibration_units.txt must hold one word");
 }
 
+TEST_F(MultiCamSelfCal, HeadersOfOctaveAreSkipped) {
+  folder.write("original_cam_centers.dat",
+               "# Created by Octave 3.2.4\n# name: centres\n# type: matrix\n# rows: 2\n"
+               "# columns: 3\n 100 200 300\n 400 500 600\n\n");
+  EXPECT_EQ(*readRecording(folder.path()).cameras[1].center, Eigen::Vector3d(400, 500, 600));
+}
+
 TEST_F(MultiCamSelfCal, AMissingFileIsNamed) {
   folder.remove("basename2.rad");
   expectRefusal("basename2.rad is missing");

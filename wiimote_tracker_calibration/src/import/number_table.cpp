@@ -39,7 +39,7 @@ NumberTable readNumberTable(const std::string& path, std::size_t rows, std::size
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {
     const std::string in_line = path + " line " + std::to_string(number);
-    std::istringstream words(line);
+    std::istringstream words(line.substr(0, line.find('#')));  // Octave's headers
     std::vector<double> row;
     for (std::string word; words >> word;)
       row.push_back(parseNumber(word, in_line + " column " + std::to_string(row.size() + 1)));

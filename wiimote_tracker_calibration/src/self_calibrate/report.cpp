@@ -34,7 +34,7 @@ void printLenses(const Report& report, std::FILE* file) {
         std::fprintf(file, " %s", solution.reconstruction.cameras[i].name.c_str());
     }
     std::fprintf(file,
-                 ".\nThe pixels are explained, but shapes in space are not to be trusted: turn the "
+                 ".\nThe pixels fit, but the shapes in space may be wrong: turn the "
                  "cameras so that they look from different sides, add a camera, or give the "
                  "intrinsics with --fix-intrinsics.\n");
   }

@@ -19,7 +19,7 @@ struct Report {
   std::optional<Comparison> comparison;
 };
 
-/// Tables for people. @param points also the 3D points, one per line.
+/// Text tables. @param points also the 3D points, one per line.
 void print(const Report& report, bool points, std::FILE* file);
 
 /// The same figures, all cameras and all points, as JSON.

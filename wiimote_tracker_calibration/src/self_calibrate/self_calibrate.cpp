@@ -8,6 +8,7 @@
 #include "wiimote_tracker_calibration/import/number_table.h"
 
 #include <wiimote_tracker_msgs/argument_parser.h>
+#include <wiimote_tracker_triangulation/geometry/rig_file.h>
 
 #include <chrono>
 #include <cstdio>
@@ -26,6 +27,7 @@ struct Arguments {
   std::string subset;      // names with commas; empty: all cameras
   std::string intrinsics;  // empty: to be estimated
   std::string json;        // empty: none
+  std::string rig;         // empty: none
   bool estimate = false;   // the intrinsics, as without --fix-intrinsics
   bool one_lens = false;
   bool points = false;
@@ -91,6 +93,26 @@ void writeJson(const Report& report, const std::string& path) {
     throw ImportError(path + " cannot be written");
 }
 
+/// The cameras as a rig, whose scale is arbitrary.
+geometry::Rig rigOf(const Report& report) {
+  const bundle::Reconstruction& reconstruction = report.solution.reconstruction;
+  const std::vector<bundle::Statistics> errors = errorsOf(reconstruction);
+  geometry::Rig rig;
+  rig.world_frame = "world";
+  rig.method = "self_calibrate";
+  rig.verdict = "usable: the scale is arbitrary, so that distances and speeds are not in metres";
+  for (std::size_t i = 0; i < reconstruction.cameras.size(); ++i) {
+    geometry::RigCamera camera;
+    camera.camera = reconstruction.cameras[i];
+    camera.residual_px = errors[i].rms;
+    camera.residual_m = errors[i].rms_m;
+    camera.observations = static_cast<std::uint32_t>(errors[i].observations);
+    camera.inliers = static_cast<std::uint32_t>(errors[i].inliers);
+    rig.cameras.push_back(camera);
+  }
+  return rig;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -106,12 +128,15 @@ int main(int argc, char** argv) {
   parser.flag("--one-lens", &arguments.one_lens, "all cameras have the same lens");
   parser.flag("--points", &arguments.points, "print the points too");
   parser.option("--json FILE", &arguments.json, "write all figures, cameras and points");
+  parser.option("--rig FILE", &arguments.rig, "write the rig; its scale is arbitrary");
   return parser.run(argc, argv, [&] {
     check(arguments);
     const Report report = solve(arguments);
     print(report, arguments.points, stdout);
     if (!arguments.json.empty())
       writeJson(report, arguments.json);
+    if (!arguments.rig.empty())
+      geometry::writeRigFile(rigOf(report), arguments.rig);
     return 0;
   });
 }

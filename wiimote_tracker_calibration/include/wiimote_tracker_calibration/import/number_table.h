@@ -16,7 +16,8 @@ struct ImportError : Error {
 
 using NumberTable = std::vector<std::vector<double>>;  ///< Rows of equal length.
 
-/// Numbers separated by blanks, one row per line; NaN is allowed, empty lines are skipped. The size
+/// Numbers separated by blanks, one row per line; NaN is allowed, empty lines and what
+/// follows a # (the headers of Octave) are skipped. The size
 /// must be rows x columns; 0 allows any.
 /// @throws ImportError: missing, empty, not a number, infinite, rows of different length, another
 /// size.

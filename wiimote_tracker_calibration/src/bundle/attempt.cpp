@@ -126,7 +126,7 @@ std::vector<std::pair<std::size_t, std::size_t>> likelyPairs(const Reconstructio
   return pairs;
 }
 
-void settle(const Options& options, double maximum_error, Attempt* attempt) {
+void adjustPlaced(const Options& options, double maximum_error, Attempt* attempt) {
   Options now = options;
   now.maximum_error = maximum_error;
   Held held;
@@ -150,7 +150,7 @@ Attempt attemptPair(const Reconstruction& observed,
   startFrom(*posed, &attempt.reconstruction, &attempt.placed);
   const Options rough = roughly(options);
   try {
-    settle(rough, kRough * options.maximum_error, &attempt);
+    adjustPlaced(rough, kRough * options.maximum_error, &attempt);
   } catch (const BundleError&) {
     attempt.cost = std::numeric_limits<double>::infinity();
   }
@@ -186,7 +186,7 @@ void grow(const SelfCalibrationOptions& options, std::size_t camera_count, Attem
       throw BundleError(reason);
     reconstruction.cameras[next] = best;
     attempt->placed[next] = true;
-    settle(rough, kRough * options.bundle.maximum_error, attempt);
+    adjustPlaced(rough, kRough * options.bundle.maximum_error, attempt);
   }
 }
 

@@ -38,7 +38,7 @@ void grow(const SelfCalibrationOptions& options, std::size_t camera_count, Attem
 
 /// Triangulates the points and adjusts them with the placed cameras; outliers are beyond
 /// maximum_error [px].
-void settle(const Options& options, double maximum_error, Attempt* attempt);
+void adjustPlaced(const Options& options, double maximum_error, Attempt* attempt);
 
 }  // namespace wiimote_tracker::bundle
 

@@ -63,7 +63,7 @@ bool agree(const Attempt& a, const Attempt& b, double tolerance) {
   return true;
 }
 
-// Observations of each camera that suffice to tell a good start from a bad one.
+// Observations of each camera that suffice to distinguish a good start from a bad one.
 constexpr std::size_t kFewPerCamera = 100;
 
 /// Continues the best starts until one solution is left.
@@ -86,7 +86,7 @@ class Search {
     followAll("all cameras", 0.5, 0.7,
               [&](Attempt* attempt) { growTo(all_.cameras.size(), attempt); });
     followAll("adjusting the best starts", 0.7, 0.8,
-              [&](Attempt* attempt) { settle(options_.bundle, maximumError(), attempt); });
+              [&](Attempt* attempt) { adjustPlaced(options_.bundle, maximumError(), attempt); });
     result->followed = attempts_.size();
     result->agreeing = static_cast<std::size_t>(std::count_if(
         attempts_.begin(), attempts_.end(),
@@ -111,7 +111,7 @@ class Search {
 
   double maximumError() const { return options_.bundle.maximum_error; }
 
-  void tell(const char* step, double fraction) const {
+  void report(const char* step, double fraction) const {
     if (progress_ && !progress_(step, fraction))
       throw Cancelled("stopped before the cameras were solved");
   }
@@ -128,9 +128,9 @@ class Search {
     for (const auto& pair : pairs) {
       for (std::size_t i = 0; i < options_.focal_lengths.size(); ++i) {
         const double focal_length = options_.focal_lengths[i];
-        tell("trying starts",
-             0.3 * static_cast<double>(tried++) /
-                 static_cast<double>(pairs.size() * options_.focal_lengths.size()));
+        report("trying starts",
+               0.3 * static_cast<double>(tried++) /
+                   static_cast<double>(pairs.size() * options_.focal_lengths.size()));
         for (const double k1 : options_.distortions) {
           if (k1 != 0.0 && !bendsCorners(focal_length, k1))
             continue;
@@ -167,8 +167,8 @@ class Search {
   template <typename Step>
   void followAll(const char* name, double from, double to, const Step& step) {
     for (std::size_t i = 0; i < attempts_.size(); ++i) {
-      tell(name,
-           from + (to - from) * static_cast<double>(i) / static_cast<double>(attempts_.size()));
+      report(name,
+             from + (to - from) * static_cast<double>(i) / static_cast<double>(attempts_.size()));
       try {
         step(&attempts_[i]);
       } catch (const BundleError& error) {
@@ -214,14 +214,14 @@ class Search {
 
   /// Adjusts a solution of few points with all of them, roughly: refine() follows.
   Attempt withAllPoints(const Attempt& solved) const {
-    tell("adjusting with all points", 0.8);
+    report("adjusting with all points", 0.8);
     Attempt attempt;
     attempt.reconstruction = all_;
     attempt.reconstruction.cameras = solved.reconstruction.cameras;
     attempt.placed.assign(all_.cameras.size(), true);
     Options rough = options_.bundle;
     rough.rough = true;
-    settle(rough, maximumError(), &attempt);
+    adjustPlaced(rough, maximumError(), &attempt);
     triangulatePoints(&attempt.reconstruction, attempt.placed, maximumError(), rough.minimum_angle);
     return attempt;
   }

@@ -23,7 +23,7 @@ struct Trace {
   std::vector<Round> rounds;
 };
 
-/// The trace as a table for people, one line per round.
+/// The trace as a text table, one line per round.
 std::string table(const Trace& trace);
 
 }  // namespace wiimote_tracker::principal_point

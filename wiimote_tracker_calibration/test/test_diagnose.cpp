@@ -179,6 +179,7 @@ TEST_F(WaveMistake, ClockThatIsWrong) {
 TEST_F(WaveMistake, LengthOfTheWand) {
   scene_.length = 0.5;
   scene_.camera_count = 2;
+  scene_.duration = 3.0;
   simulate();
   recording_.wand->length = 0.6;
   const std::string text = outcome();

@@ -2,334 +2,80 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <limits>
 
 namespace wiimote_tracker::exposure_clock {
-
 namespace {
-// Blur of an edge [s]: negligible, or a slot of 1.25 ms (standard deviation 1.25 ms / sqrt(12)).
-constexpr double kSharp = 10e-6;
-constexpr double kSlotted = 0.36e-3;
-// Wander after 1 s [s]: of a good clock (0.01 ms in 10 s), 0.3 ms and 1 ms in 10 s.
-constexpr double kSteady = 0.003e-3;
-constexpr double kWanders = 0.095e-3;
-constexpr double kWandersMuch = 0.32e-3;
 
-struct ModelPrior {
-  DelayModel model;
-  double prior;
-};
-constexpr double kPriorSteady = 0.14, kPriorWanders = 0.09, kPriorWandersMuch = 0.10;
-const ModelPrior kModelPriors[] = {
-    {{true, kSharp, kSteady}, kPriorSteady},
-    {{true, kSharp, kWanders}, kPriorWanders},
-    {{true, kSharp, kWandersMuch}, kPriorWandersMuch},
-    {{true, kSlotted, kSteady}, kPriorSteady},
-    {{true, kSlotted, kWanders}, kPriorWanders},
-    {{true, kSlotted, kWandersMuch}, kPriorWandersMuch},
-    {{false, 0.0, kSteady}, kPriorSteady},
-    {{false, 0.0, kWanders}, kPriorWanders},
-    {{false, 0.0, kWandersMuch}, kPriorWandersMuch},
-};
+// A challenger has this long [s], of which it learns without being compared for so long [s].
+constexpr double kTrial = 5.0;
+constexpr double kLearning = 2.0;
+// Logarithm of the likelihood ratio at which it becomes the leader: 1000 to 1.
+constexpr double kBetter = 6.9;
+// Shortest time between two exposures [s].
+constexpr double kShortestStep = 1e-6;
 
-// Index of the model whose posterior SteadyEdge computes, and its weight when SteadyEdge begins.
-constexpr std::size_t kSteadyEdge = 0;
-constexpr double kSteadyEdgeWeight = 0.5;
-// SteadyEdge uses a report whose smoothed number is this probable, and that is not this much too
-// early [s], which would mean a wrong number.
-constexpr double kCertain = 0.9;
-constexpr double kTooEarly = 1e-3;
-// A steady edge of negligible weight that is this far from the best model [s] has wrong numbers.
-constexpr double kMaxEdgeError = 0.5e-3;
-// Time over which the wander of a steady clock is added to its variance [s].
-constexpr double kEdgeMemory = 3.0;
-
-// Mean duration of a stall [s]; initial stall probability, the number of reports it counts as, the
-// number of latest reports it is estimated from, and its least value.
-constexpr double kStallLength = 0.060;
-constexpr double kInitialStallProbability = 0.003;
-constexpr double kStallPriorCount = 300.0;
-constexpr double kStallMemory = 6000.0;
-constexpr double kMinStallProbability = 0.0005;
-// With delays that spread more than this, in periods, a late report looks like a lost one, and the
-// loss probability is not updated.
-constexpr double kMaxSpreadForLosses = 0.6;
-// Mean time between reports that leave a queue [s].
-constexpr double kServiceTime = 0.0025;
-// Density of an arrival that no model explains [1/s].
-constexpr double kUnexplained = 1e-7;
-// Number of such arrivals in a row after which the clock restarts.
-constexpr int kMaxUnexplained = 8;
-// Number of reports in a row, one second, with an uncertain frame after which it restarts.
-constexpr int kMaxUncertain = 100;
-// Gap after which the phase is estimated anew [s]; largest ignored step back of the clock [s].
-constexpr double kLongGap = 5.0;
-constexpr double kStepBack = 1e-3;
-// Weight below which a model is reinitialised from the best one.
-constexpr double kMinWeight = 1.5e-4;
-constexpr double kNegligible = 1e-6;
-// Shortest time between two exposures, where a frame number was corrected downwards [s].
-constexpr double kMinStep = 1e-6;
 }  // namespace
 
-/// Densities of an arrival [1/s]: the report was on time, or waited for the one before, or was held
-/// up by a stall.
-struct ExposureClock::ArrivalDensity {
-  double on_time, queued, stalled;
-  double sum() const { return on_time + queued + stalled; }
-};
-
-ExposureClock::Bank ExposureClock::makeBank(const ExposureClockOptions& options) {
-  if (!(options.period > 0.0 && options.period_stddev > 0.0 && options.stale_age > 0.0))
-    throw std::invalid_argument(
-        "ExposureClockOptions: period, period_stddev and stale_age must be above 0.");
-  const auto make = [&](int i) {
-    return ClockFilter(kModelPriors[i].model, options.period,
-                       options.period * options.period_stddev);
-  };
-  return {make(0), make(1), make(2), make(3), make(4), make(5), make(6), make(7), make(8)};
-}
-
 ExposureClock::ExposureClock(const ExposureClockOptions& options)
-    : options_(options),
-      filters_(makeBank(options)),
-      edge_(options.period, 3.0 * options.period * options.period_stddev),
-      stall_probability_(kInitialStallProbability) {
-  static_assert(sizeof(kModelPriors) / sizeof(kModelPriors[0]) == kModels,
-                "one filter per candidate");
-  std::transform(std::begin(kModelPriors), std::end(kModelPriors), weights_.begin(),
-                 [](const ModelPrior& candidate) { return candidate.prior; });
-}
+    : leader_(options),
+      challenger_(options),
+      trial_begin_(-std::numeric_limits<double>::infinity()),
+      last_arrival_(-std::numeric_limits<double>::infinity()),
+      last_exposure_(last_arrival_) {}
 
 void ExposureClock::reset() {
-  *this = ExposureClock(options_);
-}
-
-const ClockFilter& ExposureClock::best() const {
-  return filters_[static_cast<std::size_t>(std::max_element(weights_.begin(), weights_.end()) -
-                                           weights_.begin())];
+  *this = ExposureClock(leader_.options());
 }
 
 Estimate ExposureClock::update(double arrival) {
-  if (!std::isfinite(arrival))
-    throw std::invalid_argument("ExposureClock: the arrival time is not a finite number.");
-  ++statistics_.reports;
-  if (!running_) {
-    running_ = true;
-    origin_ = arrival;
-    last_exposure_ = -options_.period;
-    return restart(0.0, 0);
-  }
-  const double gap = arrival - origin_ - last_arrival_;
-  if (gap < -kStepBack || gap > kLongGap) {
-    const double periods = gap / best().period();
-    Estimate e = restart(arrival - origin_,
-                         frame_ + std::max<std::int64_t>(1, std::llround(std::max(0.0, periods))));
+  Estimate e = leader_.update(arrival);
+  e.frame += frame_offset_;
+  if (e.restarted)
+    trial_begin_ = -std::numeric_limits<double>::infinity();
+  const Estimate other = challenge(arrival);
+  if (advantage_ > kBetter) {
+    const Statistics mine = statistics(), its = challenger_.statistics();
+    before_.dropped = mine.dropped - its.dropped;
+    before_.reports = mine.reports - its.reports;
+    before_.stale = mine.stale - its.stale;
+    before_.restarts = mine.restarts + 1 - its.restarts;
+    frame_offset_ = e.frame - other.frame;
+    leader_ = challenger_;
+    e.exposure = other.exposure;
+    e.stddev = other.stddev;
+    e.clock_stddev = other.clock_stddev;
     e.restarted = true;
-    return e;
+    trial_begin_ = -std::numeric_limits<double>::infinity();
   }
-  arrival = last_arrival_ + std::max(0.0, gap);
-  updateModels(arrival);
-  if (unexplained_ >= kMaxUnexplained || uncertain_ >= kMaxUncertain) {
-    filters_ = makeBank(options_);
-    Estimate e = restart(arrival, frame_ + 1);
-    e.restarted = true;
-    return e;
+  const double earliest = last_exposure_ + kShortestStep;
+  if (arrival >= last_arrival_ && e.exposure < earliest) {
+    e.stddev = std::hypot(e.stddev, earliest - e.exposure);
+    e.exposure = earliest;
   }
-  reinitialiseUnlikelyModels();
-  return estimate(arrival);
-}
-
-Estimate ExposureClock::restart(double arrival, std::int64_t frame) {
-  for (ClockFilter& filter : filters_)
-    filter.start(arrival);
-  history_.clear();
-  edge_.clear();
-  edge_used_ = false;
-  history_arrival_ = arrival;
-  history_frame_ = frame;
-  counter_.start(frame);
-  Estimate e;
-  e.frame = frame;
-  if (statistics_.reports > 1) {
-    ++statistics_.restarts;
-    e.dropped = static_cast<int>(std::min<std::int64_t>(frame - frame_ - 1, 1000000));
-    statistics_.dropped += e.dropped;
-  }
-  frame_ = frame;
-  unexplained_ = uncertain_ = 0;
-  // Exposures follow a clock that stepped back; otherwise they increase.
-  const double exposure =
-      arrival < last_arrival_ ? arrival : std::max(arrival, last_exposure_ + kMinStep);
   last_arrival_ = arrival;
-  last_exposure_ = exposure;
-  e.exposure = origin_ + exposure;
-  e.stddev = e.clock_stddev = options_.period + (exposure - arrival);
+  last_exposure_ = e.exposure;
   return e;
 }
 
-ExposureClock::ArrivalDensity ExposureClock::arrivalDensity(const ClockFilter& filter,
-                                                            double arrival,
-                                                            double arrival_before,
-                                                            double offset) const {
-  const double late = arrival - filter.time() - offset * filter.period();
-  const double served = std::exp(-(arrival - arrival_before) / kServiceTime) / kServiceTime;
-  ArrivalDensity ways;
-  ways.on_time = (1.0 - stall_probability_) * filter.likelihood(arrival, offset);
-  ways.queued = filter.readyBefore(arrival_before, offset) * served;
-  ways.stalled =
-      late > 0.0 ? stall_probability_ / kStallLength * std::exp(-late / kStallLength) : 0.0;
-  return ways;
-}
-
-// Bayes' rule for the frame number, the models, and each model's clock.
-void ExposureClock::updateModels(double arrival) {
-  const ClockFilter& leader = best();
-  counter_.predict(
-      frame_ + 1 +
-      static_cast<std::int64_t>(std::floor((arrival - leader.time()) / leader.period())));
-  std::array<double, FrameCounter::kCapacity> on_time;
-  std::array<double, FrameCounter::kCapacity> number{};
-  double sum = 0.0, on_steady_edge = 0.0;
-  for (std::size_t m = 0; m < kModels; ++m) {
-    ClockFilter& filter = filters_[m];
-    double evidence = 0.0;
-    for (int i = 0; i < counter_.size(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const double offset = static_cast<double>(counter_.frame(i) - frame_);
-      const ArrivalDensity ways = arrivalDensity(filter, arrival, last_arrival_, offset);
-      // Only reports that were on time are measurements of the clock.
-      on_time[at] = counter_[i] * ways.on_time;
-      const double all = counter_[i] * (ways.sum() + kUnexplained);
-      evidence += all;
-      number[at] += weights_[m] * all;
-    }
-    for (int i = 0; i < counter_.size(); ++i) {
-      const double probability = on_time[static_cast<std::size_t>(i)] / evidence;
-      if (probability > kNegligible)
-        filter.addHypothesis(arrival, static_cast<double>(counter_.frame(i) - frame_), probability);
-      if (m == kSteadyEdge)
-        on_steady_edge += probability;
-    }
-    filter.applyHypotheses();
-    weights_[m] *= evidence;
-    sum += weights_[m];
+Estimate ExposureClock::challenge(double arrival) {
+  if (arrival < last_arrival_ || arrival > trial_begin_ + kTrial) {
+    challenger_.reset();
+    trial_begin_ = arrival;
+    advantage_ = 0.0;
   }
-  unexplained_ = sum < 10.0 * kUnexplained ? unexplained_ + 1 : 0;
-  for (double& weight : weights_)
-    weight /= sum;
-  for (int i = 0; i < counter_.size(); ++i)
-    counter_[i] = number[static_cast<std::size_t>(i)];
-  counter_.normalise();
-  learnFromHistory(arrival, on_steady_edge);
-  applySteadyEdge();
-}
-
-/// Uses the smoothed frame numbers, as soon as they are certain.
-void ExposureClock::learnFromHistory(double arrival, double on_time) {
-  history_.add(counter_, arrival, on_time);
-  if (!history_.complete())
-    return;
-  const ClockFilter& edge = filters_[kSteadyEdge];
-  const int reports = history_.smooth(counter_);
-  for (int i = 0; i < reports; ++i) {
-    const FrameHistory::Report& report = history_.report(i);
-    if (report.probability > kCertain) {
-      const auto offset = static_cast<double>(report.frame - frame_);
-      if (report.arrival - edge.time() - offset * edge.period() > -kTooEarly)
-        edge_.add(report.frame, report.arrival, report.on_time, edge.period());
-      learnStallProbability(arrivalDensity(best(), report.arrival, history_arrival_, offset));
-      if (best().spread() < kMaxSpreadForLosses * best().period())
-        counter_.learn(report.frame - history_frame_);
-    }
-    history_arrival_ = report.arrival;
-    history_frame_ = report.frame;
-  }
-}
-
-/// A step of expectation maximisation.
-void ExposureClock::learnStallProbability(const ArrivalDensity& ways) {
-  sample_count_ = std::min(sample_count_ + 1.0, kStallMemory);
-  const double stalled = ways.stalled / (ways.sum() + kUnexplained);
-  stall_probability_ += (stalled - stall_probability_) / (sample_count_ + kStallPriorCount);
-  stall_probability_ = std::max(stall_probability_, kMinStallProbability);
-}
-
-void ExposureClock::applySteadyEdge() {
-  ClockFilter& filter = filters_[kSteadyEdge];
-  if (!edge_.ready())
-    return;
-  if (!edge_used_) {  // its weight was that of a normal approximation
-    edge_used_ = true;
-    weights_[kSteadyEdge] = std::max(weights_[kSteadyEdge], kSteadyEdgeWeight);
-  }
-  ClockState state = edge_.state(frame_, filter.spread());
-  state.p00 += kSteady * kSteady * kEdgeMemory;
-  filter.setState(state);
-}
-
-void ExposureClock::reinitialiseUnlikelyModels() {
-  const ClockFilter& leader = best();
-  double sum = 0.0;
-  for (std::size_t m = 0; m < kModels; ++m) {
-    if (weights_[m] < kMinWeight) {
-      weights_[m] = kMinWeight;
-      if (m != kSteadyEdge || !edge_.ready())
-        filters_[m].copyStateFrom(leader);
-      else if (std::abs(filters_[m].time() - leader.time()) > kMaxEdgeError)
-        edge_.clear();
-    }
-    sum += weights_[m];
-  }
-  for (double& weight : weights_)
-    weight /= sum;
-}
-
-Estimate ExposureClock::estimate(double arrival) {
-  const std::int64_t previous = frame_;
-  frame_ = counter_.mostProbable();
-  double time = 0.0, period = 0.0, variance = 0.0, spread = 0.0;
-  for (std::size_t m = 0; m < kModels; ++m) {
-    filters_[m].advance(static_cast<double>(frame_ - previous));
-    time += weights_[m] * filters_[m].time();
-    period += weights_[m] * filters_[m].period();
-    spread += weights_[m] * filters_[m].spread();
-  }
-  for (std::size_t m = 0; m < kModels; ++m)
-    variance += weights_[m] * (filters_[m].timeVariance() + std::pow(filters_[m].time() - time, 2));
-
-  // An exposure is not after its arrival, nor before that of the previous report.
-  const double exposure =
-      std::max(std::min(time, arrival + std::min(3.0 * spread, period)), last_exposure_ + kMinStep);
-  double number_variance = 0.0;
-  for (int i = 0; i < counter_.size(); ++i)
-    number_variance +=
-        counter_[i] *
-        std::pow(time + static_cast<double>(counter_.frame(i) - frame_) * period - exposure, 2);
-
-  Estimate e;
-  e.exposure = origin_ + exposure;
-  e.clock_stddev = std::sqrt(variance);
-  e.stddev = std::sqrt(variance + number_variance);
-  uncertain_ = e.stddev > options_.period ? uncertain_ + 1 : 0;
-  e.frame = frame_;
-  e.dropped = static_cast<int>(std::max<std::int64_t>(0, frame_ - previous - 1));
-  e.stale = arrival - time > options_.stale_age;
-  statistics_.dropped += frame_ - previous - 1;
-  statistics_.stale += e.stale ? 1 : 0;
-  last_arrival_ = arrival;
-  last_exposure_ = exposure;
-  return e;
+  const Estimate estimate = challenger_.update(arrival);
+  if (arrival > trial_begin_ + kLearning)
+    advantage_ += challenger_.logEvidence() - leader_.logEvidence();
+  return estimate;
 }
 
 Statistics ExposureClock::statistics() const {
-  Statistics s = statistics_;
-  s.period = best().period();
-  s.period_stddev = std::sqrt(best().periodVariance());
-  for (std::size_t m = 0; m < kModels; ++m) {
-    s.jitter += weights_[m] * filters_[m].spread();
-    s.hard_edge += filters_[m].model().hard_edge ? weights_[m] : 0.0;
-  }
+  Statistics s = leader_.statistics();
+  s.dropped += before_.dropped;
+  s.reports += before_.reports;
+  s.stale += before_.stale;
+  s.restarts += before_.restarts;
   return s;
 }
 

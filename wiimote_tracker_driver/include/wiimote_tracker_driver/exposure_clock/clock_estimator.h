@@ -1,0 +1,115 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_ESTIMATOR_H
+#define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_ESTIMATOR_H
+
+#include "wiimote_tracker_driver/exposure_clock/clock_filter.h"
+#include "wiimote_tracker_driver/exposure_clock/frame_counter.h"
+#include "wiimote_tracker_driver/exposure_clock/frame_history.h"
+#include "wiimote_tracker_driver/exposure_clock/steady_edge.h"
+
+#include <array>
+#include <cstdint>
+
+namespace wiimote_tracker::exposure_clock {
+
+struct ExposureClockOptions {
+  double period = 0.010035;  ///< nominal time between frames [s], > 0
+  double period_stddev =
+      2500e-6;  ///< its standard deviation, relative, > 0; three times this is the limit
+  double stale_age = 0.030;  ///< a report later than this is stale [s], > 0
+};
+
+/// Estimate from the arrivals up to one report. Exposure times are late by the constant part of the
+/// delay, which cannot be estimated.
+struct Estimate {
+  double exposure =
+      0.0;              ///< on the clock of the arrivals; later than that of the report before [s]
+  double stddev = 0.0;  ///< of exposure, including the uncertain frame number [s]
+  double clock_stddev = 0.0;  ///< of exposure, given the frame number [s]
+  std::int64_t frame = 0;  ///< most probable frame number; later reports may correct it downwards
+  int dropped = 0;         ///< frames lost between the previous report and this one, as known now
+  bool stale = false;      ///< arrived more than stale_age late, e.g. after a stall
+  bool restarted = false;  ///< the phase was lost, and is estimated anew from this report on
+};
+
+/// For diagnostics.
+struct Statistics {
+  double period = 0.0;         ///< [s]
+  double period_stddev = 0.0;  ///< [s]
+  double jitter = 0.0;         ///< standard deviation of the delays, without queues [s]
+  double hard_edge = 0.0;      ///< probability that the delays have a hard lower edge, 0..1
+  /// Frames lost since reset(), as far as known now, less reports of a frame that had one already.
+  std::int64_t dropped = 0;
+  std::uint64_t reports = 0, stale = 0, restarts = 0;  ///< since reset()
+};
+
+/// One attempt at the exposure times of a camera: if it begins with wrong frame numbers, it may
+/// keep a wrong period. ExposureClock leaves such an attempt.
+///
+/// A bank of ClockFilters, one per delay model, weighted by their likelihoods (multiple model
+/// estimation: Magill, IEEE Trans. Autom. Control 10, 1965). One FrameCounter for all estimates the
+/// frame numbers. With a sharp edge and a steady clock the posterior is far from normal; SteadyEdge
+/// computes it exactly after a few seconds.
+class ClockEstimator {
+ public:
+  /// @throws std::invalid_argument when an option is out of range.
+  explicit ClockEstimator(const ExposureClockOptions& options = {});
+
+  /// Takes a report's arrival [s], best on a steady clock. An arrival before the previous one by
+  /// more than a millisecond restarts the clock. @throws std::invalid_argument when it is not
+  /// finite.
+  Estimate update(double arrival);
+
+  /// Forgets everything: a new epoch.
+  void reset();
+
+  const ExposureClockOptions& options() const { return options_; }
+  Statistics statistics() const;
+
+  /// Logarithm of the density [1/s] that was predicted for the latest arrival.
+  double logEvidence() const { return log_evidence_; }
+
+ private:
+  static constexpr int kModels = 12;
+  using Bank = std::array<ClockFilter, kModels>;
+  static Bank makeBank(const ExposureClockOptions& options);
+
+  Estimate restart(double arrival, std::int64_t frame);
+  struct ArrivalDensity;
+  ArrivalDensity arrivalDensity(const ClockFilter& filter,
+                                double arrival,
+                                double arrival_before,
+                                double offset) const;
+  void updateModels(double arrival);
+  void learnFromHistory(double arrival, double on_time);
+  void learnStallProbability(const ArrivalDensity& ways);
+  void applySteadyEdge();
+  void reinitialiseUnlikelyModels();
+  Estimate estimate(double arrival);
+  const ClockFilter& best() const;
+
+  ExposureClockOptions options_;
+  Bank filters_;
+  FrameHistory history_;
+  SteadyEdge edge_;  // exact state of the filter for a sharp edge and a steady clock
+  bool edge_used_ = false;
+  // Of the latest report used by learnFromHistory():
+  double history_arrival_ = 0.0;
+  std::int64_t history_frame_ = 0;
+  double stall_probability_;   // that a report is held up,
+  double sample_count_ = 0.0;  // and number of reports used for it
+  std::array<double, kModels> weights_;
+  FrameCounter counter_;
+  // Internal times are relative to the first arrival, for precision.
+  double origin_ = 0.0;
+  double last_arrival_ = 0.0, last_exposure_ = 0.0;
+  std::int64_t frame_ = 0;  // of the filters' states: the latest report's most probable number
+  int unexplained_ = 0;     // reports in a row that no model expected
+  int uncertain_ = 0;       // reports in a row with a stddev above one period
+  double log_evidence_ = 0.0;
+  bool running_ = false;
+  Statistics statistics_;
+};
+
+}  // namespace wiimote_tracker::exposure_clock
+
+#endif

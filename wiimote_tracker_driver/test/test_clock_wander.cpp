@@ -1,0 +1,115 @@
+// Remotes like two recorded ones: the phase wanders by several ms in 10 s, and a program polls for
+// reports. Errors and claimed standard deviations; a wrong period is left.
+#include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
+#include "wiimote_tracker_driver/virtual_wiimote/frame_times.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace wiimote_tracker::exposure_clock {
+namespace {
+
+using virtual_wiimote::FrameTime;
+using virtual_wiimote::FrameTimes;
+using virtual_wiimote::FrameTimesModel;
+
+constexpr double kPoll = 0.0056;  // [s]
+
+FrameTimesModel recordedRemote(double period) {
+  FrameTimesModel model;
+  model.period = period;
+  model.core = FrameTimesModel::Core::kBell;
+  model.jitter = 0.0018;
+  model.wander = 0.004;
+  model.drops = 0.03;
+  model.burst = 0.2;
+  return model;
+}
+
+/// Reports as polled, in whole ms: of several since the poll before only the newest is seen.
+std::vector<FrameTime> polled(FrameTimes& times, double duration) {
+  std::vector<FrameTime> reports;
+  for (FrameTime frame = times.next(); frame.exposure < duration; frame = times.next()) {
+    if (frame.lost)
+      continue;
+    frame.arrival = 1e-3 * std::floor(1e3 * kPoll * std::ceil(frame.arrival / kPoll));
+    if (!reports.empty() && frame.arrival <= reports.back().arrival)
+      reports.pop_back();
+    reports.push_back(frame);
+  }
+  return reports;
+}
+
+/// Errors less their mean over all reports after 10 s.
+struct Score {
+  double mean_error = 0.0;  ///< Mean magnitude [s].
+  double inside = 0.0;      ///< Share within two standard deviations.
+};
+
+Score scoreOf(const std::vector<FrameTime>& reports) {
+  ExposureClock clock;
+  std::vector<double> errors, stddevs;
+  double mean = 0.0;
+  for (const FrameTime& report : reports) {
+    const Estimate estimate = clock.update(report.arrival);
+    if (report.exposure < 10.0)
+      continue;
+    errors.push_back(estimate.exposure - report.exposure);
+    stddevs.push_back(estimate.stddev);
+    mean += errors.back();
+  }
+  const auto count = static_cast<double>(errors.size());
+  mean /= count;
+  Score score;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    score.mean_error += std::abs(errors[i] - mean) / count;
+    score.inside += (std::abs(errors[i] - mean) < 2.0 * stddevs[i]) / count;
+  }
+  return score;
+}
+
+TEST(ClockWander, ExposuresOfRemotesThatWanderAsRecorded) {
+  Score mean;
+  constexpr int kSessions = 12;
+  for (std::uint64_t seed = 1; seed <= kSessions; ++seed) {
+    FrameTimes times(recordedRemote(0.010035), seed);
+    const Score score = scoreOf(polled(times, 60.0));
+    mean.mean_error += score.mean_error / kSessions;
+    mean.inside += score.inside / kSessions;
+  }
+  EXPECT_LT(mean.mean_error, 0.65e-3);
+  EXPECT_GT(mean.inside, 0.92);
+  EXPECT_LT(mean.inside, 0.98);
+}
+
+// As after a start with wrong frame numbers: the clock is certain of a period that is 0.5 % short.
+TEST(ClockWander, AWrongPeriodIsMostlyLeftWithinFiveSeconds) {
+  int in_time = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    FrameTimes wrong(recordedRemote(0.009985), seed);
+    FrameTimes right(recordedRemote(0.010035), seed + 100);
+    ExposureClock clock;
+    double end = 0.0;
+    for (const FrameTime& report : polled(wrong, 20.0)) {
+      clock.update(report.arrival);
+      end = report.arrival;
+    }
+    double worst = 0.0, left = 0.0;
+    for (const FrameTime& report : polled(right, 15.0)) {
+      clock.update(end + 0.02 + report.arrival);
+      const double error = std::abs(clock.statistics().period - 0.010035);
+      if (error > 20e-6)
+        left = report.exposure;
+      worst = std::max(worst, error);
+    }
+    EXPECT_GT(worst, 20e-6) << "it was wrong";
+    in_time += left < 5.0;
+  }
+  EXPECT_GE(in_time, 8) << "of 12";
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::exposure_clock

@@ -102,6 +102,20 @@ TEST_F(WiimoteTest, ForeignAnswersAreTolerated) {
   EXPECT_EQ(1, remote_.opened);
 }
 
+TEST_F(WiimoteTest, AcknowledgedStatusRequestHasNoStatusYet) {
+  int losses = 1;
+  remote_.lose = [&](const Report& report) {
+    if (report == kStatusRequest && losses-- > 0) {
+      remote_.say({0x22, 0, 0, 0x15, 0x00}, 0.001);
+      return true;
+    }
+    return false;
+  };
+  runToImage();
+  EXPECT_EQ(2, remote_.count(kStatusRequest));
+  EXPECT_EQ(1, remote_.opened);
+}
+
 TEST_F(WiimoteTest, ForeignWriteErrorInTheMiddleIsOvercome) {
   int errors = 1;
   remote_.lose = [&](const Report& report) {

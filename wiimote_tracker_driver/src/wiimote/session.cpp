@@ -193,6 +193,7 @@ void Session::handleAcknowledgement(const protocol::Acknowledgement& acknowledge
   if (acknowledgement.report_id == protocol::kReportModeId)
     duplicates_.modeAcknowledged(now);
   const std::uint8_t id = request().id();
+  const bool other_answer = id == protocol::kStatusRequestId || id == protocol::kReadMemoryId;
   const std::uint8_t error = acknowledgement.error;
   if (in<Streaming>() || acknowledgement.report_id != id) {
     // Another program has switched the camera, or has written registers; where these are rewritten
@@ -205,7 +206,7 @@ void Session::handleAcknowledgement(const protocol::Acknowledgement& acknowledge
   }
   if (error == kErrorBusy && id == protocol::kReadMemoryId)
     answer_due_ = std::min(answer_due_, now + kBusyPause * (1 << std::min(attempts_, 5)));
-  else if (error == 0 && id != protocol::kReadMemoryId)
+  else if (error == 0 && !other_answer)
     answered(now);
   else if (error != 0 && id == protocol::kWriteMemoryId)
     setUpCamera(now);  // the camera is off, or another program's write was refused

@@ -35,8 +35,10 @@ unsigned long long count(std::uint64_t n) {
 TrackingDiagnostics::TrackingDiagnostics(const ros::NodeHandle& nh,
                                          const ros::NodeHandle& private_nh,
                                          MessageTracker* tracker,
+                                         const LoadShedding* shedding,
                                          double clock_tolerance)
     : tracker_(tracker),
+      shedding_(shedding),
       clocks_(clock_tolerance),
       lenses_(nh),
       updater_(nh, private_nh),
@@ -99,6 +101,8 @@ void TrackingDiagnostics::report(Status& status) {
   const VolumeCorrection& correction = tracker_->correction();
   if (!correction.problem().empty())
     status.mergeSummary(DiagnosticStatus::WARN, correction.problem());
+  if (shedding_->overloaded(ros::Time::now().toSec()))
+    status.mergeSummary(DiagnosticStatus::WARN, LoadShedding::kAdvice);
   status.add("rig", tracker_->rigId());
   status.add("correction of the volume", correction.state());
   status.add("LEDs tracked", reported_.leds(TrackState::kTracked));
@@ -110,6 +114,7 @@ void TrackingDiagnostics::report(Status& status) {
   const tracking::Counters& counters = tracker_->counters();
   status.addf("images late", "%llu", count(counters.late));
   status.addf("images dropped as too late", "%llu", count(counters.dropped));
+  status.addf("images dropped because they waited", "%llu", count(shedding_->dropped()));
   status.addf("images repeated", "%llu", count(counters.repeated));
   status.addf("images out of the order of arrival", "%llu", count(counters.disordered));
   status.addf("restarts because time jumped back", "%llu", count(counters.resets));

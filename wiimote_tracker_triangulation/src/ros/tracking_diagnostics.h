@@ -3,6 +3,7 @@
 
 #include "clock_watch.h"
 #include "lens_check.h"
+#include "load_shedding.h"
 #include "message_tracker.h"
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -17,10 +18,11 @@ namespace wiimote_tracker {
 /// Publishes on /diagnostics: one status for the tracker and one for each camera.
 class TrackingDiagnostics {
  public:
-  /// `tracker` must live longer. `clock_tolerance`: see ClockWatch [s].
+  /// `tracker` and `shedding` must live longer. `clock_tolerance`: see ClockWatch [s].
   TrackingDiagnostics(const ros::NodeHandle& nh,
                       const ros::NodeHandle& private_nh,
                       MessageTracker* tracker,
+                      const LoadShedding* shedding,
                       double clock_tolerance);
 
   /// To be called after the tracker got a new rig.
@@ -40,6 +42,7 @@ class TrackingDiagnostics {
   std::string clockProblem(std::size_t camera) const;
 
   MessageTracker* tracker_;
+  const LoadShedding* shedding_;
   ClockWatch clocks_;
   LensCheck lenses_;
   std::vector<std::string> cameras_;

@@ -31,7 +31,7 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
       body_markers_(parameters_.markers.rate),
       body_diagnostics_(nh, private_nh),
       learning_(nh, parameters_.bodies.file, parameters_.bodies.known, parameters_.allLabels()),
-      diagnostics_(nh, private_nh, &tracker_, parameters_.clock_tolerance) {
+      diagnostics_(nh, private_nh, &tracker_, &shedding_, parameters_.clock_tolerance) {
   if (parameters_.identity.codes)
     ROS_INFO("%s.", describeIdentity(parameters_).c_str());
   useBodies(parameters_.bodies.known);
@@ -93,9 +93,22 @@ void Triangulation::onImage(const std::string& camera,
                             const ros::MessageEvent<const IrBlobArray>& event) {
   if (const auto bodies = learning_.change())
     useBodies(*bodies);
+  if (isShed(event.getReceiptTime()))
+    return;
   const IrBlobArray& image = *event.getConstMessage();
   diagnostics_.addArrival(camera, image.arrival, event.getPublisherName());
   tracker_.takeImage(camera, image);
+}
+
+/// Whether to drop an image because it waited too long. Simulated time is too coarse to tell.
+bool Triangulation::isShed(const ros::Time& receipt) {
+  if (ros::Time::isSimTime())
+    return false;
+  const ros::Time now = ros::Time::now();
+  if (!shedding_.drops((now - receipt).toSec(), now.toSec()))
+    return false;
+  ROS_WARN_THROTTLE(10.0, "%s.", LoadShedding::kAdvice);
+  return true;
 }
 
 void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {

@@ -6,6 +6,7 @@
 #include "bodies/body_markers.h"
 #include "bodies/body_publishers.h"
 #include "led_publishers.h"
+#include "load_shedding.h"
 #include "marker_builder.h"
 #include "message_tracker.h"
 #include "parameters.h"
@@ -34,6 +35,7 @@ class Triangulation : private MessageSink {
   void onRig(const wiimote_tracker_msgs::RigCalibration& message);
   void onImage(const std::string& camera,
                const ros::MessageEvent<const wiimote_tracker_msgs::IrBlobArray>& event);
+  bool isShed(const ros::Time& receipt);
   void onTimer();
   void subscribeToCameras();
   void useBodies(const std::vector<body::Constellation>& bodies);
@@ -54,6 +56,7 @@ class Triangulation : private MessageSink {
   BodyMarkers body_markers_;
   BodyDiagnostics body_diagnostics_;
   BodyLearning learning_;
+  LoadShedding shedding_;
   TrackingDiagnostics diagnostics_;
   std::set<std::string> warned_of_;  // bodies that may be confused: sentences
 

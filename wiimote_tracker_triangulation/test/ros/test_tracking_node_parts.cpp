@@ -4,11 +4,13 @@
 #include "ros/image_message.h"
 #include "ros/led_labels.h"
 #include "ros/lens_check.h"
+#include "ros/load_shedding.h"
 #include "ros/statistics.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -430,6 +432,55 @@ TEST(Statistics, CountsLostImagesByTheGapsInTheirNumbers) {
   statistics.addImage(0, image, 0);  // its driver was started again
   statistics.addImage(0, image, 0);  // or does not number its images
   EXPECT_EQ(1u, statistics.camera(0).lost);
+}
+
+// A camera gives an image each 10 ms; handling one takes `cost` [s], and nothing before `pause`
+// [s].
+struct Queue {
+  LoadShedding shedding;
+  double now = 0.0;
+  double longest_wait = 0.0;  // of handled images, in the last 2 s
+
+  void run(double cost, double pause, double duration) {
+    const double begin = now;
+    for (int i = 0; i < static_cast<int>(100 * duration); ++i) {
+      const double receipt = begin + 0.01 * i;
+      now = std::max({now, receipt, begin + pause});
+      if (shedding.drops(now - receipt, now))
+        continue;
+      if (i > 100 * (duration - 2.0))
+        longest_wait = std::max(longest_wait, now - receipt);
+      now += cost;
+    }
+  }
+};
+
+TEST(LoadShedding, WorksOffWhatWaitedDuringAPause) {
+  Queue queue;
+  queue.run(0.0005, 5.0, 20.0);
+  EXPECT_EQ(0u, queue.shedding.dropped());
+  EXPECT_LE(queue.longest_wait, 0.001);
+}
+
+TEST(LoadShedding, KeepsPointsRecentWhenOverloaded) {
+  for (const double cost : {0.011, 0.02, 0.1}) {
+    Queue queue;
+    queue.run(cost, 0.0, 20.0);
+    EXPECT_LE(queue.longest_wait, 0.05 + 1e-9) << cost;
+    EXPECT_TRUE(queue.shedding.overloaded(queue.now)) << cost;
+    const double handled = 2000.0 - static_cast<double>(queue.shedding.dropped());
+    EXPECT_GE(handled, 0.95 * 20.0 / cost) << cost << ": no more than needed";
+  }
+}
+
+TEST(LoadShedding, EndsWithTheLoad) {
+  Queue queue;
+  queue.run(0.02, 0.0, 10.0);
+  const std::uint64_t dropped = queue.shedding.dropped();
+  queue.now = 10.0;
+  queue.run(0.0005, 0.0, 10.0);
+  EXPECT_EQ(dropped, queue.shedding.dropped());
+  EXPECT_FALSE(queue.shedding.overloaded(queue.now));
 }
 
 }  // namespace

@@ -1,0 +1,36 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LOAD_SHEDDING_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LOAD_SHEDDING_H
+
+#include <cstdint>
+#include <optional>
+
+namespace wiimote_tracker {
+
+/// Decides which images to drop when they come faster than they can be handled. After a short
+/// pause of the program the images that wait are worked off, and none is lost. When images have
+/// been late for longer, those that waited too long are dropped, so that points stay recent.
+class LoadShedding {
+ public:
+  static constexpr char kAdvice[] =
+      "Images come faster than they can be tracked, and some are dropped: use a faster computer, "
+      "fewer cameras, or a build with optimisation";
+
+  /// @param wait from the image's receipt to now [s]
+  /// @param now any clock [s]
+  /// @returns whether to drop the image.
+  bool drops(double wait, double now);
+
+  /// Whether images were dropped in the last seconds.
+  bool overloaded(double now) const { return now < overloaded_until_; }
+
+  std::uint64_t dropped() const { return dropped_; }
+
+ private:
+  std::optional<double> late_since_;  ///< [s] Nothing while images are in time.
+  double overloaded_until_ = 0.0;     ///< [s]
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LOAD_SHEDDING_H

@@ -220,7 +220,7 @@ TEST(Markers, ShowWhereTheCamerasLook) {
   const MarkerArray array = draw(&builder, someSnapshot(rig), rig);
   for (int i = 0; i < 3; ++i) {
     const geometry::Camera& camera = rig.cameras[i].camera;
-    const Marker& plane = find(array, "image_plane", i);
+    const Marker plane = find(array, "image_plane", i);
     EXPECT_EQ(6u, plane.points.size());
     for (const auto& p : plane.points) {
       // On the plane, and at the image's edge.
@@ -242,7 +242,7 @@ TEST(Markers, RaysGoFromTheCameraThroughItsBlobToThePoint) {
   builder.setRig(rig);
   const MarkerArray array = draw(&builder, someSnapshot(rig), rig);
   for (int i = 0; i < 2; ++i) {
-    const Marker& ray = find(array, "ray", i);
+    const Marker ray = find(array, "ray", i);
     ASSERT_EQ(2u, ray.points.size());
     const Vector3d from = vectorOf(ray.points[0]);
     const Vector3d to = vectorOf(ray.points[1]);
@@ -339,7 +339,7 @@ TEST(Markers, ShowMaskedAndUnassignedSpots) {
   corrected.snapshot.views[0].spots.push_back({{310.0, 200.0}, tracking::SpotUse::kMasked, 0});
   corrected.snapshot.views[0].spots.push_back({{500.0, 300.0}, tracking::SpotUse::kUnassigned, 0});
   const MarkerArray array = draw(&builder, corrected, rig);
-  const Marker& mask = find(array, "mask", 0);
+  const Marker mask = find(array, "mask", 0);
   ASSERT_FALSE(mask.points.empty());
   for (const auto& p : mask.points) {
     const auto pixel = rig.cameras[0].camera.project(vectorOf(p));
@@ -347,7 +347,7 @@ TEST(Markers, ShowMaskedAndUnassignedSpots) {
     EXPECT_LT((*pixel - Eigen::Vector2d(300.0, 200.0)).norm(), 25.0 + 1e-6);
   }
   EXPECT_EQ(Marker::DELETE, find(array, "mask", 1).action);
-  const Marker& blobs = find(array, "blob", 0);
+  const Marker blobs = find(array, "blob", 0);
   ASSERT_EQ(3u, blobs.points.size());
   ASSERT_EQ(3u, blobs.colors.size());
   EXPECT_NE(blobs.colors[0], blobs.colors[1]);

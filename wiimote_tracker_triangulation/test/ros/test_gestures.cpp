@@ -88,6 +88,17 @@ class Bench {
     time_ += 0.01;
   }
 
+  /// A thousand other LEDs, at another time.
+  void publishStrangers(double seconds_ahead) {
+    TrackedPointArray array;
+    array.header.stamp.fromSec(time_ + seconds_ahead);
+    TrackedPoint point;
+    point.state = TrackedPoint::TRACKED;
+    for (point.id = 1000; point.id < 2000; ++point.id)
+      array.points.push_back(point);
+    points_.publish(array);
+  }
+
   /// The button is held for the next second; its release is published early.
   void holdButton() {
     sensor_msgs::Joy joy;
@@ -256,6 +267,22 @@ TEST_F(GesturesTest, GoOnAfterABagStartsOver) {
   EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
   bench_->time_ = 500.0;
   bench_->draw(circle, {0.0, 0.0, 1.0});
+  EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECOGNISED);
+  EXPECT_TRUE(bench_->remove("circle"));
+}
+
+TEST_F(GesturesTest, GoOnWhileAnotherProgramPublishesPoints) {
+  ASSERT_EQ(bench_->record("circle"), "");
+  bench_->draw(circle, {0.0, 0.0, 1.0});
+  EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
+  int drawn = 0;
+  bench_->draw(
+      [&](double s) {
+        if (++drawn % 20 == 0)
+          bench_->publishStrangers(drawn % 40 == 0 ? 1000.0 : -400.0);
+        return circle(s);
+      },
+      {0.0, 0.0, 1.0});
   EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECOGNISED);
   EXPECT_TRUE(bench_->remove("circle"));
 }

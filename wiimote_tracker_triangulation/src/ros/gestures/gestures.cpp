@@ -10,6 +10,7 @@
 #include <wiimote_tracker_msgs/GestureEvent.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace wiimote_tracker {
@@ -23,6 +24,9 @@ namespace {
 
 // Time jumps back when a bag is restarted; smaller steps back are ignored.
 constexpr double kJump = 1.0;  // [s]
+
+// LEDs that may draw at the same time; others are ignored.
+constexpr std::size_t kMostHands = 64;
 
 bool holds(const geometry::Zone& zone, const Eigen::Vector3d& p) {
   return (p.array() >= zone.minimum.array()).all() && (p.array() <= zone.maximum.array()).all();
@@ -76,6 +80,8 @@ void Gestures::onRig(const wiimote_tracker_msgs::RigCalibration& message) {
 
 void Gestures::onPoints(const wiimote_tracker_msgs::TrackedPointArray& message) {
   const double time = message.header.stamp.toSec();
+  if (isStray(time))
+    return;
   if (time < time_ - kJump) {
     hands_.clear();
     ROS_WARN_THROTTLE(10.0, "Time jumped back by more than %.0f s; all gestures are reset.", kJump);
@@ -104,6 +110,13 @@ void Gestures::onPoints(const wiimote_tracker_msgs::TrackedPointArray& message) 
   }
 }
 
+/// One message of quite another time may be another program's. Time has jumped when a second
+/// follows.
+bool Gestures::isStray(double time) {
+  stray_ = !stray_ && std::fabs(time - time_) > kJump;
+  return stray_;
+}
+
 void Gestures::onPoint(const TrackedPoint& point, double time) {
   // One camera suffices to see that the light is on.
   const bool is_on = point.state == TrackedPoint::TRACKED ||
@@ -112,6 +125,8 @@ void Gestures::onPoint(const TrackedPoint& point, double time) {
     return;
   if (!parameters_.labels.empty() && std::find(parameters_.labels.begin(), parameters_.labels.end(),
                                                point.label) == parameters_.labels.end())
+    return;
+  if (hands_.size() >= kMostHands && hands_.count(point.id) == 0)
     return;
   Hand& hand = hands_.try_emplace(point.id, parameters_, button_).first->second;
   hand.label = point.label;

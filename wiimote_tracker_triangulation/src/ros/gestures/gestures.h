@@ -47,6 +47,7 @@ class Gestures {
 
   void onRig(const wiimote_tracker_msgs::RigCalibration& message);
   void onPoints(const wiimote_tracker_msgs::TrackedPointArray& message);
+  bool isStray(double time);
   void onPoint(const wiimote_tracker_msgs::TrackedPoint& point, double time);
   void onJoy(const sensor_msgs::Joy& message);
   void onGesture(const gesture::Path& path, std::uint32_t id, const std::string& label);
@@ -73,7 +74,8 @@ class Gestures {
   std::vector<geometry::Zone> zones_;
   std::map<std::uint32_t, Hand> hands_;  // by the id of the LED
   std::string world_frame_;
-  double time_ = 0.0;  // of the newest points [s]
+  double time_ = 0.0;   // of the newest points [s]
+  bool stray_ = false;  // the last points were ignored because of their time
   ButtonNews button_;
   std::optional<gesture::Example> wanted_;  // to be recorded; its path is still empty
 

@@ -3,6 +3,7 @@
 #include "wiimote_tracker_calibration/import/number_table.h"
 
 #include "wiimote_tracker_triangulation/ros/conversions.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <rosbag/bag.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -105,9 +106,7 @@ wiimote_tracker_msgs::TrackedPointArray pointsOf(const std::optional<Eigen::Vect
     point.label = "led";
     point.label_confidence = std::numeric_limits<float>::quiet_NaN();
     point.state = wiimote_tracker_msgs::TrackedPoint::TRACKED;
-    point.position.x = position->x();
-    point.position.y = position->y();
-    point.position.z = position->z();
+    point.position = pointOf(*position);
     point.velocity.x = point.velocity.y = point.velocity.z = kNaN;
     point.position_covariance.fill(kNaN);
     point.velocity_covariance.fill(kNaN);

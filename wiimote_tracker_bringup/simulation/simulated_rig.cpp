@@ -1,5 +1,7 @@
 #include "simulated_rig.h"
 
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
+
 #include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
@@ -219,24 +221,16 @@ void SimulatedRig::publishTruth(std::size_t led, double time, const Eigen::Vecto
   geometry_msgs::PointStamped truth;
   truth.header.stamp = stamp(time);
   truth.header.frame_id = world_frame_;
-  truth.point.x = position.x();
-  truth.point.y = position.y();
-  truth.point.z = position.z();
+  truth.point = pointOf(position);
   truth_[led].publish(truth);
 }
 
 void SimulatedRig::publishBodyTruth(std::size_t body, double time, const Eigen::Isometry3d& pose) {
-  const Eigen::Quaterniond rotation(pose.linear());
   geometry_msgs::PoseStamped truth;
   truth.header.stamp = stamp(time);
   truth.header.frame_id = world_frame_;
-  truth.pose.position.x = pose.translation().x();
-  truth.pose.position.y = pose.translation().y();
-  truth.pose.position.z = pose.translation().z();
-  truth.pose.orientation.x = rotation.x();
-  truth.pose.orientation.y = rotation.y();
-  truth.pose.orientation.z = rotation.z();
-  truth.pose.orientation.w = rotation.w();
+  truth.pose.position = pointOf(pose.translation());
+  setRotation(Eigen::Quaterniond(pose.linear()), &truth.pose.orientation);
   body_truth_[body].publish(truth);
 }
 

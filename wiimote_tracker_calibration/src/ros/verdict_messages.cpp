@@ -1,6 +1,6 @@
 #include "verdict_messages.h"
 
-#include <geometry_msgs/Point.h>
+#include <wiimote_tracker_triangulation/ros/message_fields.h>
 
 namespace wiimote_tracker {
 
@@ -34,13 +34,8 @@ CalibrationVerdict toMessage(const session::Verdict& verdict, const geometry::Ri
     entry.time_offset_stddev = camera.time_offset_stddev;
     message.cameras.push_back(entry);
   }
-  for (const Eigen::Vector3d& place : verdict.predicted_at) {
-    geometry_msgs::Point point;
-    point.x = place.x();
-    point.y = place.y();
-    point.z = place.z();
-    message.predicted_at.push_back(point);
-  }
+  for (const Eigen::Vector3d& place : verdict.predicted_at)
+    message.predicted_at.push_back(pointOf(place));
   message.predicted_stddev = verdict.predicted_stddev;
   return message;
 }

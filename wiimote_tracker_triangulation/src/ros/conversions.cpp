@@ -1,8 +1,8 @@
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
 #include "geometry/rotation.h"
-#include "message_fields.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,18 +26,6 @@ static_assert(static_cast<int>(geometry::RayModel::kCalibrated) ==
                   static_cast<int>(geometry::TimeOffsetRule::kOneEpoch) ==
                       CameraCalibration::TIME_OFFSET_ONE_EPOCH,
               "enumerations of core and messages must agree");
-
-Eigen::Vector3d vectorOf(const geometry_msgs::Point& p) {
-  return {p.x, p.y, p.z};
-}
-
-void setRotation(const Eigen::Matrix3d& rotation, geometry_msgs::Quaternion* message) {
-  const Eigen::Quaterniond q = geometry::canonicalQuaternion(rotation);
-  message->w = q.w();
-  message->x = q.x();
-  message->y = q.y();
-  message->z = q.z();
-}
 
 Eigen::Isometry3d poseOf(const geometry_msgs::Pose& pose, const std::string& camera) {
   const geometry_msgs::Quaternion& o = pose.orientation;
@@ -70,7 +58,8 @@ CameraCalibration cameraToMessage(const geometry::RigCamera& rig_camera) {
       intrinsics.distortion.begin(),
       intrinsics.distortion.begin() + coefficientCount(intrinsics.distortion_model));
   setVector(camera.center(), &message.world_from_camera.position);
-  setRotation(camera.world_from_camera.linear(), &message.world_from_camera.orientation);
+  setRotation(geometry::canonicalQuaternion(camera.world_from_camera.linear()),
+              &message.world_from_camera.orientation);
   message.time_offset = rig_camera.time_offset;
   message.time_offset_rule = static_cast<std::uint8_t>(rig_camera.time_offset_rule);
   message.time_offset_epoch = rig_camera.time_offset_epoch;
@@ -186,10 +175,8 @@ wiimote_tracker_msgs::RigRemap remapToMessage(const remap::Remap& remap) {
   message.rig_id = remap.rig_id;
   message.model = nameOf(remap.model);
   message.parameters = remap.parameters;
-  for (const Eigen::Vector3d& point : remap.support) {
-    message.support.emplace_back();
-    setVector(point, &message.support.back());
-  }
+  for (const Eigen::Vector3d& point : remap.support)
+    message.support.push_back(pointOf(point));
   return message;
 }
 
@@ -274,7 +261,8 @@ std::vector<geometry_msgs::TransformStamped> staticTransforms(const geometry::Ri
     transform.header.stamp.fromSec(rig.solved_at);
     transform.child_frame_id = opticalFrame(camera.name);
     setVector(camera.center(), &transform.transform.translation);
-    setRotation(camera.world_from_camera.linear(), &transform.transform.rotation);
+    setRotation(geometry::canonicalQuaternion(camera.world_from_camera.linear()),
+                &transform.transform.rotation);
     transforms.push_back(transform);
   }
   return transforms;

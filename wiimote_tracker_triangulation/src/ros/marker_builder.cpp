@@ -19,7 +19,6 @@ using Eigen::Vector3d;
 using markers::color;
 using markers::kLineWidth;
 using markers::kTextHeight;
-using markers::pointOf;
 using visualization_msgs::Marker;
 using wiimote_tracker_msgs::TrackedPoint;
 
@@ -29,10 +28,6 @@ constexpr double kRayLength = 10.0;      // of rays without a point [m]
 constexpr double kOldView = 0.2;         // older views are not drawn [s]
 // Square root of the 95 % quantile of the chi-squared distribution with three degrees of freedom.
 constexpr double kSigmas95 = 2.7955;
-
-Vector3d vectorOf(const geometry_msgs::Point& p) {
-  return {p.x, p.y, p.z};
-}
 
 std_msgs::ColorRGBA colorOf(tracking::SpotUse use) {
   switch (use) {
@@ -57,9 +52,7 @@ std_msgs::ColorRGBA colorOfLed(std::uint32_t id, float alpha) {
 }
 
 void setScale(const Vector3d& scale, Marker* marker) {
-  marker->scale.x = scale.x();
-  marker->scale.y = scale.y();
-  marker->scale.z = scale.z();
+  setVector(scale, &marker->scale);
 }
 
 /// Where a pixel lies on the camera's image plane at a distance, in the world [m].
@@ -245,12 +238,8 @@ void MarkerBuilder::addLed(const TrackedPoint& led) {
   Eigen::Matrix3d rotation = axes.eigenvectors();
   if (rotation.determinant() < 0.0)
     rotation.col(0) = -rotation.col(0);
-  const Eigen::Quaterniond q(rotation);
   ellipsoid.pose.position = led.position;
-  ellipsoid.pose.orientation.w = q.w();
-  ellipsoid.pose.orientation.x = q.x();
-  ellipsoid.pose.orientation.y = q.y();
-  ellipsoid.pose.orientation.z = q.z();
+  setRotation(Eigen::Quaterniond(rotation), &ellipsoid.pose.orientation);
   // rviz warns about a scale of 0.
   setScale(2.0 * kSigmas95 * axes.eigenvalues().cwiseMax(1e-12).cwiseSqrt(), &ellipsoid);
   ellipsoid.color = color(1.0f, 0.2f, 1.0f, 0.4f * alpha);

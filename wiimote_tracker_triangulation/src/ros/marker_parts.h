@@ -1,12 +1,11 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_PARTS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_PARTS_H
 
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
+
 #include <std_msgs/ColorRGBA.h>
 #include <visualization_msgs/Marker.h>
 
-#include <Eigen/Core>
-
-#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -15,14 +14,6 @@ namespace wiimote_tracker::markers {
 
 constexpr double kLineWidth = 0.005;  // [m]
 constexpr double kTextHeight = 0.1;   // [m]
-
-inline geometry_msgs::Point pointOf(const Eigen::Vector3d& v) {
-  geometry_msgs::Point p;
-  p.x = v.x();
-  p.y = v.y();
-  p.z = v.z();
-  return p;
-}
 
 inline std_msgs::ColorRGBA color(float r, float g, float b, float a) {
   std_msgs::ColorRGBA color;
@@ -42,7 +33,7 @@ inline visualization_msgs::Marker marker(const std::string& frame,
                                          int type) {
   visualization_msgs::Marker marker;
   marker.header.frame_id = frame;
-  marker.header.stamp = ros::Time(std::max(0.0, time));
+  marker.header.stamp = timeOf(time);
   marker.ns = ns;
   marker.id = static_cast<int>(id);
   marker.type = type;

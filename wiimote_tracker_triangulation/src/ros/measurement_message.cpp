@@ -1,5 +1,7 @@
 #include "measurement_message.h"
 
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
+
 #include <string>
 
 namespace wiimote_tracker {
@@ -25,11 +27,6 @@ std::int64_t nanoseconds(const ros::Time& time) {
   return static_cast<std::int64_t>(time.toNSec());
 }
 
-template <typename Vector>  // Point, Vector3
-Eigen::Vector3d vector(const Vector& v) {
-  return {v.x, v.y, v.z};
-}
-
 template <typename Array>
 Eigen::Matrix3d matrix(const Array& row_major) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(row_major.data());
@@ -52,9 +49,9 @@ void writeMeasurements(const wiimote_tracker_msgs::TrackedPointArray& points,
     m.label_confidence = point.label_confidence;
     m.label_since = nanoseconds(point.label_since);
     m.state = wordOf(point.state);
-    m.position = vector(point.position);
+    m.position = vectorOf(point.position);
     m.position_covariance = matrix(point.position_covariance);
-    m.velocity = vector(point.velocity);
+    m.velocity = vectorOf(point.velocity);
     m.velocity_covariance = matrix(point.velocity_covariance);
     m.rays_used = point.rays_used;
     m.rays_possible = point.rays_possible;

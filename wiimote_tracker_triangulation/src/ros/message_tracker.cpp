@@ -219,9 +219,7 @@ void MessageTracker::publishZoneEvents(const tracking::Snapshot& snapshot) {
     event.label = labels_.of(crossing.led).name;
     event.event = crossing.entered ? wiimote_tracker_msgs::ZoneEvent::ENTERED
                                    : wiimote_tracker_msgs::ZoneEvent::LEFT;
-    event.position.x = crossing.position.x();
-    event.position.y = crossing.position.y();
-    event.position.z = crossing.position.z();
+    event.position = pointOf(crossing.position);
     sink_->onZoneEvent(event);
   }
 }

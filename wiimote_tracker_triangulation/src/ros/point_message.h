@@ -2,9 +2,9 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_POINT_MESSAGE_H
 
 #include "led_labels.h"
-#include "message_fields.h"
 #include "volume_correction.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/TransformStamped.h>

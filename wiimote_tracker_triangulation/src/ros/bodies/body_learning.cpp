@@ -3,6 +3,7 @@
 #include "body/bodies_file.h"
 #include "body_parameters.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <algorithm>
 #include <chrono>
@@ -173,13 +174,8 @@ void BodyLearning::learn(const LearnBody::Request& request, LearnBody::Response*
   const body::Symmetry symmetry = body::nearestSymmetry(learned.constellation);
   response->stddev = learned.stddev;
   response->symmetry = symmetry.residual;
-  for (const Eigen::Vector3d& led : learned.constellation.leds) {
-    geometry_msgs::Point point;
-    point.x = led.x();
-    point.y = led.y();
-    point.z = led.z();
-    response->leds.push_back(point);
-  }
+  for (const Eigen::Vector3d& led : learned.constellation.leds)
+    response->leds.push_back(pointOf(led));
   std::vector<Constellation> bodies = without(request.name, bodies_);
   bodies.push_back(learned.constellation);
   body::writeBodies(file_, bodies);

@@ -13,7 +13,6 @@ namespace {
 using markers::color;
 using markers::kLineWidth;
 using markers::kTextHeight;
-using markers::pointOf;
 using visualization_msgs::Marker;
 using wiimote_tracker_msgs::BodyLed;
 using wiimote_tracker_msgs::TrackedBody;

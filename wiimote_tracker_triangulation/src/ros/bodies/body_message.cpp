@@ -1,6 +1,6 @@
 #include "body_message.h"
 
-#include "../message_fields.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,11 +38,8 @@ TrackedBody bodyMessage(const body::BodyEstimate& estimate,
                   : estimate.tracked ? TrackedBody::TRACKED
                                      : TrackedBody::PREDICTED;
   setVector(estimate.world_from_body.translation(), &message.pose.pose.position);
-  const Eigen::Quaterniond rotation(estimate.world_from_body.linear());
-  message.pose.pose.orientation.x = rotation.x();
-  message.pose.pose.orientation.y = rotation.y();
-  message.pose.pose.orientation.z = rotation.z();
-  message.pose.pose.orientation.w = rotation.w();
+  setRotation(Eigen::Quaterniond(estimate.world_from_body.linear()),
+              &message.pose.pose.orientation);
   setMatrix(estimate.covariance.topLeftCorner<6, 6>(), &message.pose.covariance);
   setVector(estimate.velocity, &message.twist.twist.linear);
   setVector(estimate.angular_velocity, &message.twist.twist.angular);

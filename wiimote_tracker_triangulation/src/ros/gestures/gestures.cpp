@@ -15,7 +15,6 @@
 
 namespace wiimote_tracker {
 
-using markers::pointOf;
 using visualization_msgs::Marker;
 using wiimote_tracker_msgs::GestureEvent;
 using wiimote_tracker_msgs::TrackedPoint;

@@ -1,9 +1,11 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MESSAGE_FIELDS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MESSAGE_FIELDS_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_ROS_MESSAGE_FIELDS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_ROS_MESSAGE_FIELDS_H
 
+#include <geometry_msgs/Point.h>
+#include <geometry_msgs/Quaternion.h>
 #include <ros/time.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cstddef>
@@ -23,6 +25,25 @@ void setVector(const Eigen::Vector3d& v, Message* message) {
   message->z = v.z();
 }
 
+inline geometry_msgs::Point pointOf(const Eigen::Vector3d& v) {
+  geometry_msgs::Point point;
+  setVector(v, &point);
+  return point;
+}
+
+/// @param message with x, y and z: Point, Vector3.
+template <typename Message>
+Eigen::Vector3d vectorOf(const Message& message) {
+  return {message.x, message.y, message.z};
+}
+
+inline void setRotation(const Eigen::Quaterniond& q, geometry_msgs::Quaternion* message) {
+  message->w = q.w();
+  message->x = q.x();
+  message->y = q.y();
+  message->z = q.z();
+}
+
 /// @param row_major of as many elements as the matrix has.
 template <typename Matrix, typename Array>
 void setMatrix(const Matrix& m, Array* row_major) {
@@ -35,4 +56,4 @@ void setMatrix(const Matrix& m, Array* row_major) {
 
 }  // namespace wiimote_tracker
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MESSAGE_FIELDS_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_ROS_MESSAGE_FIELDS_H

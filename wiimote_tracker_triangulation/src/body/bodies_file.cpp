@@ -16,10 +16,6 @@ constexpr const char* kFormat = "wiimote_tracker_bodies";
 constexpr int kFormatVersion = 1;
 constexpr const char* kAdvice = "correct the file";
 
-std::string exact(double value) {
-  return format("%.17g", value);
-}
-
 Constellation readBody(geometry::YamlMap map) {
   Constellation body;
   body.name = map.get<std::string>("name");
@@ -75,8 +71,8 @@ void writeBodies(const std::string& file, const std::vector<Constellation>& bodi
     out << YAML::Key << "name" << YAML::Value << YAML::DoubleQuoted << body.name;
     out << YAML::Key << "leds" << YAML::Comment("x, y, z [m]") << YAML::Value << YAML::BeginSeq;
     for (const Eigen::Vector3d& led : body.leds)
-      out << YAML::Flow << YAML::BeginSeq << exact(led.x()) << exact(led.y()) << exact(led.z())
-          << YAML::EndSeq;
+      out << YAML::Flow << YAML::BeginSeq << exactNumber(led.x()) << exactNumber(led.y())
+          << exactNumber(led.z()) << YAML::EndSeq;
     out << YAML::EndSeq;
     if (!body.labels.empty()) {
       out << YAML::Key << "labels" << YAML::Value << YAML::Flow << YAML::BeginSeq;

@@ -14,10 +14,6 @@ constexpr const char* kFormat = "wiimote_tracker_gestures";
 constexpr int kFormatVersion = 1;
 constexpr const char* kAdvice = "restore the file from its backup or record the gestures again";
 
-std::string exact(double value) {
-  return format("%.17g", value);
-}
-
 Example readExample(geometry::YamlMap map) {
   Example example;
   example.gesture = map.get<std::string>("gesture");
@@ -53,8 +49,9 @@ void writeExamples(const std::string& file, const std::vector<Example>& examples
     out << YAML::Key << "path" << YAML::Comment("t [s], x, y, z [m]") << YAML::Value
         << YAML::BeginSeq;
     for (const PathPoint& point : example.path) {
-      out << YAML::Flow << YAML::BeginSeq << exact(point.time) << exact(point.position.x())
-          << exact(point.position.y()) << exact(point.position.z()) << YAML::EndSeq;
+      out << YAML::Flow << YAML::BeginSeq << exactNumber(point.time)
+          << exactNumber(point.position.x()) << exactNumber(point.position.y())
+          << exactNumber(point.position.z()) << YAML::EndSeq;
     }
     out << YAML::EndSeq << YAML::EndMap;
   }

@@ -1,22 +1,11 @@
 #include "triangulation.h"
 
-#include <wiimote_tracker_msgs/parameter_reader.h>
+#include <wiimote_tracker_msgs/run_node.h>
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "triangulation");
-  if (!ros::master::check()) {
-    ROS_FATAL("No ROS master at %s: start roscore, or use roslaunch.",
-              ros::master::getURI().c_str());
-    return 1;
-  }
-  // Lives longer than the catch block: with the last handle ROS shuts down and prints no more.
-  const ros::NodeHandle nh;
-  try {
-    wiimote_tracker::Triangulation triangulation(nh, ros::NodeHandle("~"));
-    ros::spin();
-  } catch (const wiimote_tracker::ParameterError& e) {
-    ROS_FATAL("%s", e.what());
-    return 1;
-  }
-  return 0;
+  return wiimote_tracker::runNode(argc, argv, "triangulation",
+                                  [](const auto& nh, const auto& private_nh) {
+                                    wiimote_tracker::Triangulation triangulation(nh, private_nh);
+                                    ros::spin();
+                                  });
 }

@@ -3,11 +3,10 @@
 #include "ros/measurement_message.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
-#include <ros/ros.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
+#include <wiimote_tracker_msgs/run_node.h>
 
-#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
@@ -70,21 +69,10 @@ class Recorder {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "record_points");
-  if (!ros::master::check()) {
-    ROS_FATAL("No ROS master at %s: start roscore, or use roslaunch.",
-              ros::master::getURI().c_str());
-    return 1;
-  }
-  // Lives longer than the catch block: with the last handle ROS shuts down and prints no more.
-  const ros::NodeHandle nh;
-  try {
-    Recorder recorder(nh, ros::NodeHandle("~"));
-    ros::spin();
-    recorder.finish();
-  } catch (const std::exception& e) {
-    ROS_FATAL("%s", e.what());
-    return 1;
-  }
-  return 0;
+  return wiimote_tracker::runNode(argc, argv, "record_points",
+                                  [](const auto& nh, const auto& private_nh) {
+                                    Recorder recorder(nh, private_nh);
+                                    ros::spin();
+                                    recorder.finish();
+                                  });
 }

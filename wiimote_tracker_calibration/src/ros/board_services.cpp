@@ -1,14 +1,19 @@
-#include "board_services.h"
+#include "units.h"
 
+#include "intrinsics/board_run.h"
 #include "intrinsics/error.h"
+#include "rig_storage.h"
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
 
-#include "rig_storage.h"
-
 #include <wiimote_tracker_msgs/BoardStatus.h>
+#include <wiimote_tracker_msgs/SolveBoard.h>
+#include <wiimote_tracker_msgs/StartBoard.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace wiimote_tracker {
 
@@ -48,138 +53,156 @@ geometry::Camera cameraOf(const std::string& name, const geometry::Intrinsics& l
   return camera;
 }
 
+class BoardServices {
+ public:
+  explicit BoardServices(NodeContext* context) : context_(*context) {
+    using Self = BoardServices;
+    ros::NodeHandle& nh = context_.nh();
+    publisher_ = nh.advertise<wiimote_tracker_msgs::BoardStatus>("calibration/board", 1, true);
+    services_ = {advertise(nh, "calibration/board/start", &Self::start, this),
+                 advertise(nh, "calibration/board/undo", &Self::undo, this),
+                 advertise(nh, "calibration/board/cancel", &Self::cancel, this),
+                 advertise(nh, "calibration/board/solve", &Self::solve, this),
+                 advertise(nh, "calibration/board/commit", &Self::commit, this)};
+    context_.inputs().subscribeImages(
+        [this](const capture::Image& image, const Lock& lock) { onImage(image, lock); });
+    const Lock lock(context_.mutex());
+    publish(kNothingStarted, lock);
+  }
+
+ private:
+  Reply start(const wiimote_tracker_msgs::StartBoard::Request& request,
+              wiimote_tracker_msgs::StartBoard::Response*) {
+    context_.inputs().discover();
+    const Lock lock(context_.mutex());
+    const auto input = context_.inputs().cameras().find(request.camera);
+    if (input == context_.inputs().cameras().end() || input->second.width == 0)
+      throw Refusal("no image of " + request.camera +
+                    " has come: check its name, start its driver");
+    const Parameters& parameters = context_.parameters(lock);
+    intrinsics::Board board = parameters.board;
+    if (request.column_spacing != 0.0)
+      board.column_spacing = board.row_spacing = request.column_spacing;
+    if (request.row_spacing != 0.0)
+      board.row_spacing = request.row_spacing;
+    intrinsics::CollectorOptions options;
+    options.minimum_views = parameters.board_views;
+    intrinsics::BoardRun run(board, input->second.width, input->second.height, options);
+    run_ = std::move(run);
+    camera_ = request.camera;
+    lens_.reset();
+    const std::string message =
+        "hold the board still in front of " + camera_ +
+        " for two seconds, then elsewhere: each view is captured automatically";
+    publish(message, lock);
+    return {true, message};
+  }
+
+  Reply undo() {
+    const Lock lock(context_.mutex());
+    if (run().samples().views.empty())
+      throw Refusal("there is no view to undo");
+    run_->undo();
+    lens_.reset();
+    publish(run_->message(), lock);
+    return {true, run_->message()};
+  }
+
+  Reply cancel() {
+    const Lock lock(context_.mutex());
+    run();
+    run_.reset();
+    lens_.reset();
+    camera_.clear();
+    publish("the views of the board are dropped", lock);
+    return {true, "the views of the board are dropped"};
+  }
+
+  Reply solve(const SolveBoard::Request& request, SolveBoard::Response* response) {
+    Lock lock(context_.mutex());
+    const std::string camera = camera_;
+    const intrinsics::Samples samples = run().samples();
+    intrinsics::SolverOptions options;
+    options.minimum_views = context_.parameters(lock).board_views;
+    options.start_focal_length = context_.parameters(lock).intrinsics.fx;
+    options.model = lensModel(request.model);
+    const intrinsics::IntrinsicsSolution solution =
+        context_.compute(&lock, [&] { return intrinsics::solveIntrinsics(samples, options); });
+    response->camera_info = cameraInfo(cameraOf(camera, solution.intrinsics));
+    response->reprojection_error = solution.reprojection_error;
+    const auto parameters = static_cast<Eigen::Index>(4 + response->camera_info.D.size());
+    for (Eigen::Index i = 0; i < parameters; ++i)
+      response->stddev.push_back(std::sqrt(solution.covariance(i, i)));
+    if (camera == camera_) {
+      lens_ = solution.intrinsics;
+      publish("solved: " + solution.summary, lock);
+    }
+    return {true, solution.summary};
+  }
+
+  Reply commit() {
+    Lock lock(context_.mutex());
+    run();
+    if (!lens_)
+      throw Refusal("the lens is not solved: solve it first");
+    const geometry::Camera camera = cameraOf(camera_, *lens_);
+    context_.parameters(lock).own_intrinsics[camera.name] = camera.intrinsics;
+    const double timeout = context_.parameters(lock).set_camera_info_timeout;
+    const std::vector<std::string> problems =
+        context_.compute(&lock, [&] { return sendCameraInfo({camera}, context_.nh(), timeout); });
+    const std::string message =
+        "the next calibration starts with this lens of " + camera.name +
+        (problems.empty() ? ", and its driver has it" : "; but " + problems.front());
+    publish(message, lock);
+    return {true, message};
+  }
+
+  /// @throws Refusal: nothing was started.
+  intrinsics::BoardRun& run() {
+    if (!run_)
+      throw Refusal(kNothingStarted);
+    return *run_;
+  }
+
+  void onImage(const capture::Image& image, const Lock& lock) {
+    if (run_ && image.camera == camera_ && run_->add(image.stamp, image.spots))
+      publish(run_->message(), lock);
+  }
+
+  void publish(const std::string& message, const Lock& lock) {
+    wiimote_tracker_msgs::BoardStatus status;
+    status.header.stamp = ros::Time::now();
+    status.camera = camera_;
+    status.views_needed = static_cast<std::uint32_t>(context_.parameters(lock).board_views);
+    status.message = message;
+    if (run_) {
+      const auto input = context_.inputs().cameras().find(camera_);
+      if (input != context_.inputs().cameras().end())
+        status.header.frame_id = input->second.optical_frame;
+      const intrinsics::Coverage coverage = run_->coverage();
+      status.views = static_cast<std::uint32_t>(run_->samples().views.size());
+      status.x = coverage.x;
+      status.y = coverage.y;
+      status.size = coverage.size;
+      status.skew = coverage.skew;
+      status.missing = coverage.missing;
+    }
+    publisher_.publish(status);
+  }
+
+  NodeContext& context_;
+  ros::Publisher publisher_;
+  std::vector<ros::ServiceServer> services_;
+  // All of the following with the mutex locked.
+  std::string camera_;  // that sees the board; empty: nothing started
+  std::optional<intrinsics::BoardRun> run_;
+  std::optional<geometry::Intrinsics> lens_;  // solved from these views
+};
+
 }  // namespace
 
-BoardServices::BoardServices(NodeContext* context) : context_(*context) {
-  using Unit = BoardServices;
-  ros::NodeHandle& nh = context_.nh();
-  publisher_ = nh.advertise<wiimote_tracker_msgs::BoardStatus>("calibration/board", 1, true);
-  services_ = {advertise(nh, "calibration/board/start", &Unit::start, this),
-               advertise(nh, "calibration/board/undo", &Unit::undo, this),
-               advertise(nh, "calibration/board/cancel", &Unit::cancel, this),
-               advertise(nh, "calibration/board/solve", &Unit::solve, this),
-               advertise(nh, "calibration/board/commit", &Unit::commit, this)};
-  context_.inputs().subscribeImages(
-      [this](const capture::Image& image, const Lock& lock) { onImage(image, lock); });
-  const Lock lock(context_.mutex());
-  publish(kNothingStarted, lock);
-}
-
-intrinsics::BoardRun& BoardServices::run() {
-  if (!run_)
-    throw Refusal(kNothingStarted);
-  return *run_;
-}
-
-Reply BoardServices::start(const wiimote_tracker_msgs::StartBoard::Request& request,
-                           wiimote_tracker_msgs::StartBoard::Response*) {
-  context_.inputs().discover();
-  const Lock lock(context_.mutex());
-  const auto input = context_.inputs().cameras().find(request.camera);
-  if (input == context_.inputs().cameras().end() || input->second.width == 0)
-    throw Refusal("no image of " + request.camera + " has come: check its name, start its driver");
-  const Parameters& parameters = context_.parameters(lock);
-  intrinsics::Board board = parameters.board;
-  if (request.column_spacing != 0.0)
-    board.column_spacing = board.row_spacing = request.column_spacing;
-  if (request.row_spacing != 0.0)
-    board.row_spacing = request.row_spacing;
-  intrinsics::CollectorOptions options;
-  options.minimum_views = parameters.board_views;
-  intrinsics::BoardRun run(board, input->second.width, input->second.height, options);
-  run_ = std::move(run);
-  camera_ = request.camera;
-  lens_.reset();
-  const std::string message =
-      "hold the board still in front of " + camera_ +
-      " for two seconds, then elsewhere: each view is captured automatically";
-  publish(message, lock);
-  return {true, message};
-}
-
-Reply BoardServices::undo() {
-  const Lock lock(context_.mutex());
-  if (run().samples().views.empty())
-    throw Refusal("there is no view to undo");
-  run_->undo();
-  lens_.reset();
-  publish(run_->message(), lock);
-  return {true, run_->message()};
-}
-
-Reply BoardServices::cancel() {
-  const Lock lock(context_.mutex());
-  run();
-  run_.reset();
-  lens_.reset();
-  camera_.clear();
-  publish("the views of the board are dropped", lock);
-  return {true, "the views of the board are dropped"};
-}
-
-Reply BoardServices::solve(const SolveBoard::Request& request, SolveBoard::Response* response) {
-  Lock lock(context_.mutex());
-  const std::string camera = camera_;
-  const intrinsics::Samples samples = run().samples();
-  intrinsics::SolverOptions options;
-  options.minimum_views = context_.parameters(lock).board_views;
-  options.start_focal_length = context_.parameters(lock).intrinsics.fx;
-  options.model = lensModel(request.model);
-  const intrinsics::IntrinsicsSolution solution =
-      context_.compute(&lock, [&] { return intrinsics::solveIntrinsics(samples, options); });
-  response->camera_info = cameraInfo(cameraOf(camera, solution.intrinsics));
-  response->reprojection_error = solution.reprojection_error;
-  const auto parameters = static_cast<Eigen::Index>(4 + response->camera_info.D.size());
-  for (Eigen::Index i = 0; i < parameters; ++i)
-    response->stddev.push_back(std::sqrt(solution.covariance(i, i)));
-  if (camera == camera_) {
-    lens_ = solution.intrinsics;
-    publish("solved: " + solution.summary, lock);
-  }
-  return {true, solution.summary};
-}
-
-Reply BoardServices::commit() {
-  Lock lock(context_.mutex());
-  run();
-  if (!lens_)
-    throw Refusal("the lens is not solved: solve it first");
-  const geometry::Camera camera = cameraOf(camera_, *lens_);
-  context_.parameters(lock).own_intrinsics[camera.name] = camera.intrinsics;
-  const double timeout = context_.parameters(lock).set_camera_info_timeout;
-  const std::vector<std::string> problems =
-      context_.compute(&lock, [&] { return sendCameraInfo({camera}, context_.nh(), timeout); });
-  const std::string message =
-      "the next calibration starts with this lens of " + camera.name +
-      (problems.empty() ? ", and its driver has it" : "; but " + problems.front());
-  publish(message, lock);
-  return {true, message};
-}
-
-void BoardServices::onImage(const capture::Image& image, const Lock& lock) {
-  if (run_ && image.camera == camera_ && run_->add(image.stamp, image.spots))
-    publish(run_->message(), lock);
-}
-
-void BoardServices::publish(const std::string& message, const Lock& lock) {
-  wiimote_tracker_msgs::BoardStatus status;
-  status.header.stamp = ros::Time::now();
-  status.camera = camera_;
-  status.views_needed = static_cast<std::uint32_t>(context_.parameters(lock).board_views);
-  status.message = message;
-  if (run_) {
-    const auto input = context_.inputs().cameras().find(camera_);
-    if (input != context_.inputs().cameras().end())
-      status.header.frame_id = input->second.optical_frame;
-    const intrinsics::Coverage coverage = run_->coverage();
-    status.views = static_cast<std::uint32_t>(run_->samples().views.size());
-    status.x = coverage.x;
-    status.y = coverage.y;
-    status.size = coverage.size;
-    status.skew = coverage.skew;
-    status.missing = coverage.missing;
-  }
-  publisher_.publish(status);
+Unit boardServices(NodeContext* context) {
+  return std::make_shared<BoardServices>(context);
 }
 
 }  // namespace wiimote_tracker

@@ -1,8 +1,16 @@
-#include "capture_services.h"
+#include "units.h"
 
+#include <actionlib/server/simple_action_server.h>
+#include <sensor_msgs/Joy.h>
+#include <std_srvs/SetBool.h>
+#include <wiimote_tracker_msgs/CaptureCornerAction.h>
+#include <wiimote_tracker_msgs/CheckConnection.h>
+#include <wiimote_tracker_msgs/StartCalibration.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace wiimote_tracker {
 
@@ -20,192 +28,210 @@ struct EndOfCapture {
   ~EndOfCapture() { calibration.abandonCapture("an error occurred"); }
 };
 
-}  // namespace
-
-CaptureServices::CaptureServices(NodeContext* context)
-    : context_(*context),
-      capture_server_(
-          context->nh(),
-          "calibration/capture_corner",
-          [this](const wiimote_tracker_msgs::CaptureCornerGoalConstPtr& goal) {
-            captureCorner(goal);
-          },
-          false) {
-  using Unit = CaptureServices;
-  ros::NodeHandle& nh = context_.nh();
-  services_ = {advertise(nh, "calibration/check_connection", &Unit::checkConnection, this),
-               advertise(nh, "calibration/start", &Unit::start, this),
-               advertise(nh, "calibration/hands_free", &Unit::handsFree, this),
-               advertise(nh, "calibration/undo", &Unit::undo, this),
-               advertise(nh, "calibration/cancel", &Unit::cancel, this)};
-  context_.inputs().subscribeImages([this](const capture::Image& image, const Lock& lock) {
-    workflow::Calibration& calibration = context_.calibration(lock);
-    const workflow::Step before = calibration.step();
-    calibration.addImage(image);
-    if (calibration.step() != before)
-      context_.publishStatus(lock);
-  });
-  const Lock lock(context_.mutex());
-  const Parameters& parameters = context_.parameters(lock);
-  context_.calibration(lock).setHandsFree(parameters.hands_free);
-  if (!parameters.button_remote.empty())
-    button_ = nh.subscribe<sensor_msgs::Joy>(
-        parameters.button_remote + "/joy", 10, [this](const sensor_msgs::JoyConstPtr& message) {
-          runCallback("capturing by the button", [&] { onJoy(*message); });
-        });
-  capture_server_.start();
-}
-
-Reply CaptureServices::checkConnection(
-    const wiimote_tracker_msgs::CheckConnection::Request& request,
-    wiimote_tracker_msgs::CheckConnection::Response* response) {
-  constexpr double kLongest = capture::CameraMonitor::kMemory;
-  const double duration = request.duration == 0.0 ? 1.0 : request.duration;
-  if (!(duration > 0.0 && duration <= kLongest))
-    throw Refusal("the duration must be within 0 and 10 s");
-  context_.inputs().discover();
-  Lock lock(context_.mutex());
-  context_.waitUntil(&lock, NodeContext::now() + duration, [] { return false; });
-  const double now = NodeContext::now();
-  response->cameras = context_.cameraStatus(now, duration, lock);
-  if (response->cameras.empty())
-    throw Refusal("no camera is there: start the drivers");
-  std::vector<std::string> problems;
-  for (const auto& [name, input] : context_.inputs().cameras()) {
-    const std::string problem = input.monitor.view(now, duration).problem;
-    if (!problem.empty())
-      problems.push_back(name + " " + problem);
-  }
-  if (!problems.empty())
-    return {false, joined(problems, "; ")};
-  return {true,
-          "all " + std::to_string(response->cameras.size()) + " cameras see exactly one spot"};
-}
-
-Reply CaptureServices::start(const wiimote_tracker_msgs::StartCalibration::Request& request,
-                             wiimote_tracker_msgs::StartCalibration::Response*) {
-  context_.inputs().discover();
-  Lock lock(context_.mutex());
-  return context_.answer(&lock, [&] {
-    const std::vector<std::string> cameras = chooseCameras(request.cameras, lock);
+class CaptureServices {
+ public:
+  explicit CaptureServices(NodeContext* context)
+      : context_(*context),
+        capture_server_(
+            context->nh(),
+            "calibration/capture_corner",
+            [this](const wiimote_tracker_msgs::CaptureCornerGoalConstPtr& goal) {
+              captureCorner(goal);
+            },
+            false) {
+    using Self = CaptureServices;
+    ros::NodeHandle& nh = context_.nh();
+    services_ = {advertise(nh, "calibration/check_connection", &Self::checkConnection, this),
+                 advertise(nh, "calibration/start", &Self::start, this),
+                 advertise(nh, "calibration/hands_free", &Self::handsFree, this),
+                 advertise(nh, "calibration/undo", &Self::undo, this),
+                 advertise(nh, "calibration/cancel", &Self::cancel, this)};
+    context_.inputs().subscribeImages([this](const capture::Image& image, const Lock& lock) {
+      workflow::Calibration& calibration = context_.calibration(lock);
+      const workflow::Step before = calibration.step();
+      calibration.addImage(image);
+      if (calibration.step() != before)
+        context_.publishStatus(lock);
+    });
+    const Lock lock(context_.mutex());
     const Parameters& parameters = context_.parameters(lock);
-    const bool given = request.side_x != 0.0 || request.side_y != 0.0;
-    const double side_x = given ? request.side_x : parameters.side_length;
-    const double second = given ? request.side_y : parameters.second_side_length;
-    const double side_y = second != 0.0 ? second : side_x;
-    if (!request.without_square && side_x == 0.0)
-      throw Refusal(
-          "the side of the square is 0: measure it, and give side_x in the request or set " +
-          ros::this_node::getName() + "/side_length, in metres");
-    workflow::Calibration& calibration = context_.calibration(lock);
-    const Reply reply = request.without_square ? calibration.startWithoutSquare(cameras)
-                                               : calibration.start(side_x, side_y, cameras);
-    if (reply.success)
-      context_.inputs().restartGravity();
+    context_.calibration(lock).setHandsFree(parameters.hands_free);
+    if (!parameters.button_remote.empty())
+      button_ = nh.subscribe<sensor_msgs::Joy>(
+          parameters.button_remote + "/joy", 10, [this](const sensor_msgs::JoyConstPtr& message) {
+            runCallback("capturing by the button", [&] { onJoy(*message); });
+          });
+    capture_server_.start();
+  }
+
+ private:
+  using Capture = actionlib::SimpleActionServer<wiimote_tracker_msgs::CaptureCornerAction>;
+
+  Reply checkConnection(const wiimote_tracker_msgs::CheckConnection::Request& request,
+                        wiimote_tracker_msgs::CheckConnection::Response* response) {
+    constexpr double kLongest = capture::CameraMonitor::kMemory;
+    const double duration = request.duration == 0.0 ? 1.0 : request.duration;
+    if (!(duration > 0.0 && duration <= kLongest))
+      throw Refusal("the duration must be within 0 and 10 s");
+    context_.inputs().discover();
+    Lock lock(context_.mutex());
+    context_.waitUntil(&lock, NodeContext::now() + duration, [] { return false; });
+    const double now = NodeContext::now();
+    response->cameras = context_.cameraStatus(now, duration, lock);
+    if (response->cameras.empty())
+      throw Refusal("no camera is there: start the drivers");
+    std::vector<std::string> problems;
+    for (const auto& [name, input] : context_.inputs().cameras()) {
+      const std::string problem = input.monitor.view(now, duration).problem;
+      if (!problem.empty())
+        problems.push_back(name + " " + problem);
+    }
+    if (!problems.empty())
+      return {false, joined(problems, "; ")};
+    return {true,
+            "all " + std::to_string(response->cameras.size()) + " cameras see exactly one spot"};
+  }
+
+  Reply start(const wiimote_tracker_msgs::StartCalibration::Request& request,
+              wiimote_tracker_msgs::StartCalibration::Response*) {
+    context_.inputs().discover();
+    Lock lock(context_.mutex());
+    return context_.answer(&lock, [&] {
+      const std::vector<std::string> cameras = chooseCameras(request.cameras, lock);
+      const Parameters& parameters = context_.parameters(lock);
+      const bool given = request.side_x != 0.0 || request.side_y != 0.0;
+      const double side_x = given ? request.side_x : parameters.side_length;
+      const double second = given ? request.side_y : parameters.second_side_length;
+      const double side_y = second != 0.0 ? second : side_x;
+      if (!request.without_square && side_x == 0.0)
+        throw Refusal(
+            "the side of the square is 0: measure it, and give side_x in the request or set " +
+            ros::this_node::getName() + "/side_length, in metres");
+      workflow::Calibration& calibration = context_.calibration(lock);
+      const Reply reply = request.without_square ? calibration.startWithoutSquare(cameras)
+                                                 : calibration.start(side_x, side_y, cameras);
+      if (reply.success)
+        context_.inputs().restartGravity();
+      context_.publishStatus(lock);
+      return reply;
+    });
+  }
+
+  Reply handsFree(const std_srvs::SetBool::Request& request, std_srvs::SetBool::Response*) {
+    const Lock lock(context_.mutex());
+    context_.calibration(lock).setHandsFree(request.data);
+    const char* message =
+        request.data ? "a corner is captured automatically when the LED is still at a new place"
+                     : "corners are captured on request only";
+    context_.show(message, lock);
+    return {true, message};
+  }
+
+  Reply undo() {
+    const Lock lock(context_.mutex());
+    const Reply reply = context_.calibration(lock).undo();
     context_.publishStatus(lock);
     return reply;
-  });
-}
-
-std::vector<std::string> CaptureServices::chooseCameras(std::vector<std::string> names,
-                                                        const Lock& lock) {
-  const std::vector<std::string> known = context_.inputs().names();
-  for (const std::string& name : names) {
-    if (name == context_.parameters(lock).button_remote)
-      throw Refusal(name +
-                    " is the button_remote, which moves when its button is pressed: calibrate the "
-                    "others, or set button_remote to another remote");
-    if (context_.inputs().cameras().count(name) == 0)
-      throw Refusal("there is no camera " + name + ": " +
-                    (known.empty() ? "start the drivers" : "name some of " + joined(known)));
   }
-  return names.empty() ? known : names;
-}
 
-Reply CaptureServices::handsFree(const std_srvs::SetBool::Request& request,
-                                 std_srvs::SetBool::Response*) {
-  const Lock lock(context_.mutex());
-  context_.calibration(lock).setHandsFree(request.data);
-  const char* message =
-      request.data ? "a corner is captured automatically when the LED is still at a new place"
-                   : "corners are captured on request only";
-  context_.show(message, lock);
-  return {true, message};
-}
-
-void CaptureServices::onJoy(const sensor_msgs::Joy& message) {
-  const bool pressed = message.buttons.size() > kButtonA && message.buttons[kButtonA] != 0;
-  if (pressed && !button_was_pressed_) {
+  Reply cancel() {
     const Lock lock(context_.mutex());
-    context_.calibration(lock).beginCapture(std::nullopt, NodeContext::now());
+    const Reply reply = context_.calibration(lock).cancel();
     context_.publishStatus(lock);
+    context_.notify();
+    return reply;
   }
-  button_was_pressed_ = pressed;
-}
 
-Reply CaptureServices::undo() {
-  const Lock lock(context_.mutex());
-  const Reply reply = context_.calibration(lock).undo();
-  context_.publishStatus(lock);
-  return reply;
-}
+  void captureCorner(const wiimote_tracker_msgs::CaptureCornerGoalConstPtr& goal) {
+    wiimote_tracker_msgs::CaptureCornerResult result;
+    const Reply reply = replyOf([&] {
+      Lock lock(context_.mutex());
+      workflow::Calibration& calibration = context_.calibration(lock);
+      const auto retake = goal->retake ? std::optional<std::size_t>(goal->corner) : std::nullopt;
+      Reply outcome = calibration.beginCapture(retake, NodeContext::now());
+      result.corner = static_cast<std::uint32_t>(calibration.square().currentCorner());
+      context_.publishStatus(lock);
+      if (outcome.success)
+        outcome = waitForCapture(&lock);
+      result.cameras = context_.cameraStatus(NodeContext::now(), 1.0, lock);
+      context_.publishStatus(lock);
+      return outcome;
+    });
+    result.success = reply.success;
+    result.message = reply.message;
+    if (result.success)
+      capture_server_.setSucceeded(result, result.message);
+    else if (capture_server_.isPreemptRequested())
+      capture_server_.setPreempted(result, result.message);
+    else
+      capture_server_.setAborted(result, result.message);
+  }
 
-Reply CaptureServices::cancel() {
-  const Lock lock(context_.mutex());
-  const Reply reply = context_.calibration(lock).cancel();
-  context_.publishStatus(lock);
-  context_.notify();
-  return reply;
-}
-
-void CaptureServices::captureCorner(const wiimote_tracker_msgs::CaptureCornerGoalConstPtr& goal) {
-  wiimote_tracker_msgs::CaptureCornerResult result;
-  const Reply reply = replyOf([&] {
-    Lock lock(context_.mutex());
-    workflow::Calibration& calibration = context_.calibration(lock);
-    const auto retake = goal->retake ? std::optional<std::size_t>(goal->corner) : std::nullopt;
-    Reply outcome = calibration.beginCapture(retake, NodeContext::now());
-    result.corner = static_cast<std::uint32_t>(calibration.square().currentCorner());
-    context_.publishStatus(lock);
-    if (outcome.success)
-      outcome = waitForCapture(&lock);
-    result.cameras = context_.cameraStatus(NodeContext::now(), 1.0, lock);
-    context_.publishStatus(lock);
-    return outcome;
-  });
-  result.success = reply.success;
-  result.message = reply.message;
-  if (result.success)
-    capture_server_.setSucceeded(result, result.message);
-  else if (capture_server_.isPreemptRequested())
-    capture_server_.setPreempted(result, result.message);
-  else
-    capture_server_.setAborted(result, result.message);
-}
-
-Reply CaptureServices::waitForCapture(Lock* lock) {
-  workflow::Calibration& calibration = context_.calibration(*lock);
-  const EndOfCapture end{calibration};
-  double next_feedback = 0.0;
-  const bool over = context_.waitUntil(lock, kForEver, [&] {
-    const double now = NodeContext::now();
-    calibration.update(now - NodeContext::kUnderWay);
-    if (calibration.square().outcome() || capture_server_.isPreemptRequested())
-      return true;
-    if (now >= next_feedback) {
-      next_feedback = now + kFeedbackPeriod;
-      wiimote_tracker_msgs::CaptureCornerFeedback feedback;
-      feedback.corner = static_cast<std::uint32_t>(calibration.square().currentCorner());
-      feedback.progress = calibration.progress();
-      feedback.message = calibration.square().capture()->message();
-      feedback.cameras = context_.cameraStatus(now, 1.0, *lock);
-      capture_server_.publishFeedback(feedback);
+  void onJoy(const sensor_msgs::Joy& message) {
+    const bool pressed = message.buttons.size() > kButtonA && message.buttons[kButtonA] != 0;
+    if (pressed && !button_was_pressed_) {
+      const Lock lock(context_.mutex());
+      context_.calibration(lock).beginCapture(std::nullopt, NodeContext::now());
+      context_.publishStatus(lock);
     }
-    return false;
-  });
-  calibration.abandonCapture(over ? "the request was cancelled"
-                                  : "the clock stands still: no images come");
-  return *calibration.square().outcome();
+    button_was_pressed_ = pressed;
+  }
+
+  /// The cameras to calibrate; all when none is named.
+  /// @throws Refusal: one of them is not there, or is the hand-held remote.
+  std::vector<std::string> chooseCameras(std::vector<std::string> names, const Lock& lock) {
+    const std::vector<std::string> known = context_.inputs().names();
+    for (const std::string& name : names) {
+      if (name == context_.parameters(lock).button_remote)
+        throw Refusal(
+            name +
+            " is the button_remote, which moves when its button is pressed: calibrate the "
+            "others, or set button_remote to another remote");
+      if (context_.inputs().cameras().count(name) == 0)
+        throw Refusal("there is no camera " + name + ": " +
+                      (known.empty() ? "start the drivers" : "name some of " + joined(known)));
+    }
+    return names.empty() ? known : names;
+  }
+
+  /// Waits until the capture has ended, was preempted or cancelled.
+  Reply waitForCapture(Lock* lock) {
+    workflow::Calibration& calibration = context_.calibration(*lock);
+    const EndOfCapture end{calibration};
+    double next_feedback = 0.0;
+    const bool over = context_.waitUntil(lock, kForEver, [&] {
+      const double now = NodeContext::now();
+      calibration.update(now - NodeContext::kUnderWay);
+      if (calibration.square().outcome() || capture_server_.isPreemptRequested())
+        return true;
+      if (now >= next_feedback) {
+        next_feedback = now + kFeedbackPeriod;
+        wiimote_tracker_msgs::CaptureCornerFeedback feedback;
+        feedback.corner = static_cast<std::uint32_t>(calibration.square().currentCorner());
+        feedback.progress = calibration.progress();
+        feedback.message = calibration.square().capture()->message();
+        feedback.cameras = context_.cameraStatus(now, 1.0, *lock);
+        capture_server_.publishFeedback(feedback);
+      }
+      return false;
+    });
+    calibration.abandonCapture(over ? "the request was cancelled"
+                                    : "the clock stands still: no images come");
+    return *calibration.square().outcome();
+  }
+
+  NodeContext& context_;
+  std::vector<ros::ServiceServer> services_;
+  Capture capture_server_;
+  // The first message is latched: a button that it shows was pressed earlier.
+  bool button_was_pressed_ = true;
+  ros::Subscriber button_;
+};
+
+}  // namespace
+
+Unit captureServices(NodeContext* context) {
+  return std::make_shared<CaptureServices>(context);
 }
 
 }  // namespace wiimote_tracker

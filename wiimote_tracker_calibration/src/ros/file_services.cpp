@@ -1,14 +1,22 @@
-#include "file_services.h"
+#include "units.h"
 
 #include "rig_storage.h"
+#include "session/join_rigs.h"
 #include "session/judge.h"
 #include "session/session_file.h"
 
+#include <wiimote_tracker_msgs/JoinRig.h>
+#include <wiimote_tracker_msgs/LoadRig.h>
+#include <wiimote_tracker_msgs/LoadSamples.h>
+#include <wiimote_tracker_msgs/SaveRig.h>
+#include <wiimote_tracker_msgs/SaveSamples.h>
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace wiimote_tracker {
 
@@ -42,128 +50,139 @@ session::JoinedRigs joinWith(const geometry::Rig& first,
                                          : session::joinRigs(first, second, places);
 }
 
+class FileServices {
+ public:
+  /// Loads and publishes the last saved rig, if there is one.
+  explicit FileServices(NodeContext* context) : context_(*context) {
+    std::string path;
+    {
+      const Lock lock(context_.mutex());
+      path = rigPath("", context_.parameters(lock));
+    }
+    if (std::filesystem::exists(path)) {
+      const Reply reply = loadRig(path);
+      if (reply.success)
+        ROS_INFO_STREAM(path << ": " << reply.message);
+      else
+        ROS_ERROR_STREAM(reply.message << "; the node goes on without a rig");
+    }
+    using Self = FileServices;
+    const ros::NodeHandle& nh = context_.nh();
+    services_ = {advertise(nh, "calibration/save", &Self::save, this),
+                 advertise(nh, "calibration/load", &Self::load, this),
+                 advertise(nh, "calibration/save_samples", &Self::saveSamples, this),
+                 advertise(nh, "calibration/load_samples", &Self::loadSamples, this),
+                 advertise(nh, "calibration/join", &Self::join, this)};
+  }
+
+ private:
+  Reply save(const SaveRig::Request& request, SaveRig::Response* response) {
+    Lock lock(context_.mutex());
+    const geometry::Rig rig = context_.existingRig("to save", lock);
+    const double timeout = context_.parameters(lock).set_camera_info_timeout;
+    const std::string path = response->path = rigPath(request.path, context_.parameters(lock));
+    const std::vector<std::string> warnings = context_.compute(&lock, [&] {
+      std::vector<std::string> all = saveRig(rig, path);
+      std::vector<geometry::Camera> cameras;
+      for (const geometry::RigCamera& camera : rig.cameras)
+        cameras.push_back(camera.camera);
+      for (const std::string& warning : sendCameraInfo(cameras, context_.nh(), timeout))
+        all.push_back(warning);
+      return all;
+    });
+    const std::string message = "saved to " + path + appendix(warnings);
+    if (!warnings.empty())
+      ROS_WARN_STREAM(message);
+    context_.calibration(lock).saved(message);
+    context_.publishStatus(lock);
+    return {true, message};
+  }
+
+  Reply load(const LoadRig::Request& request, LoadRig::Response* response) {
+    {
+      const Lock lock(context_.mutex());
+      response->path = rigPath(request.path, context_.parameters(lock));
+    }
+    return loadRig(response->path);
+  }
+
+  Reply saveSamples(const SaveSamples::Request& request, SaveSamples::Response* response) {
+    Lock lock(context_.mutex());
+    const std::string path = response->path = samplesPath(request.path, context_.parameters(lock));
+    return context_.answer(&lock, [&] {
+      const session::Session session = context_.session(lock);
+      if (session.recording.cameras.empty())
+        throw Refusal("nothing was captured that could be saved: start a calibration first");
+      context_.compute(&lock, [&] { session::writeSessionFile(session, path); });
+      context_.show("what was captured is saved to " + path, lock);
+      return Reply{true, "what was captured is saved to " + path};
+    });
+  }
+
+  Reply loadSamples(const LoadSamples::Request& request, LoadSamples::Response* response) {
+    Lock lock(context_.mutex());
+    const std::string path = response->path = samplesPath(request.path, context_.parameters(lock));
+    return context_.answer(&lock, [&] {
+      const session::Session session =
+          context_.compute(&lock, [&] { return session::readSessionFile(path); });
+      return context_.setSession(session, lock);
+    });
+  }
+
+  Reply join(const JoinRig::Request& request, JoinRig::Response* response) {
+    Lock lock(context_.mutex());
+    return context_.answer(&lock, [&] {
+      const geometry::Rig second = context_.existingRig("to join", lock);
+      const std::vector<session::CommonPlace> places = commonPlaces(second.id(), lock);
+      const std::string path = rigPath(request.path, context_.parameters(lock));
+      session::JoinedRigs joined = context_.compute(
+          &lock, [&] { return joinWith(geometry::readRigFile(path), second, places); });
+      context_.requireSameRig(second.id(), lock);
+      joined.rig.solved_at = NodeContext::now();
+      response->rig = toMessage(joined.rig);
+      context_.setRig(joined.rig, joined.message, lock);
+      return Reply{true, joined.message};
+    });
+  }
+
+  Reply loadRig(const std::string& path) {
+    Lock lock(context_.mutex());
+    return context_.answer(&lock, [&] {
+      const geometry::Rig rig =
+          context_.compute(&lock, [&] { return geometry::readRigFile(path); });
+      const Reply reply = context_.calibration(lock).load(rig);
+      if (reply.success) {
+        // The lamps of the room belong to the rig.
+        capture::Masks masks = context_.inputs().masks();
+        for (const geometry::RigCamera& camera : rig.cameras)
+          masks[camera.camera.name] = camera.masks;
+        context_.inputs().setMasks(masks);
+        context_.publishRig(session::verdictOf(rig), lock);
+      }
+      context_.publishStatus(lock);
+      return reply;
+    });
+  }
+
+  /// The known places that were measured with this rig.
+  std::vector<session::CommonPlace> commonPlaces(const std::string& rig_id, const Lock& lock) {
+    place::KnownPlaces& known = context_.knownPlaces(lock);
+    known.useRig(rig_id);
+    std::vector<session::CommonPlace> places;
+    for (const place::KnownPlace& place : known.places())
+      places.push_back({place.known, place.measured,
+                        context_.parameters(lock).solve.square.uncertainty.placement});
+    return places;
+  }
+
+  NodeContext& context_;
+  std::vector<ros::ServiceServer> services_;
+};
+
 }  // namespace
 
-FileServices::FileServices(NodeContext* context) : context_(*context) {
-  std::string path;
-  {
-    const Lock lock(context_.mutex());
-    path = rigPath("", context_.parameters(lock));
-  }
-  if (std::filesystem::exists(path)) {
-    const Reply reply = loadRig(path);
-    if (reply.success)
-      ROS_INFO_STREAM(path << ": " << reply.message);
-    else
-      ROS_ERROR_STREAM(reply.message << "; the node goes on without a rig");
-  }
-  using Unit = FileServices;
-  const ros::NodeHandle& nh = context_.nh();
-  services_ = {advertise(nh, "calibration/save", &Unit::save, this),
-               advertise(nh, "calibration/load", &Unit::load, this),
-               advertise(nh, "calibration/save_samples", &Unit::saveSamples, this),
-               advertise(nh, "calibration/load_samples", &Unit::loadSamples, this),
-               advertise(nh, "calibration/join", &Unit::join, this)};
-}
-
-Reply FileServices::save(const SaveRig::Request& request, SaveRig::Response* response) {
-  Lock lock(context_.mutex());
-  const geometry::Rig rig = context_.existingRig("to save", lock);
-  const double timeout = context_.parameters(lock).set_camera_info_timeout;
-  const std::string path = response->path = rigPath(request.path, context_.parameters(lock));
-  const std::vector<std::string> warnings = context_.compute(&lock, [&] {
-    std::vector<std::string> all = saveRig(rig, path);
-    std::vector<geometry::Camera> cameras;
-    for (const geometry::RigCamera& camera : rig.cameras)
-      cameras.push_back(camera.camera);
-    for (const std::string& warning : sendCameraInfo(cameras, context_.nh(), timeout))
-      all.push_back(warning);
-    return all;
-  });
-  const std::string message = "saved to " + path + appendix(warnings);
-  if (!warnings.empty())
-    ROS_WARN_STREAM(message);
-  context_.calibration(lock).saved(message);
-  context_.publishStatus(lock);
-  return {true, message};
-}
-
-Reply FileServices::load(const LoadRig::Request& request, LoadRig::Response* response) {
-  {
-    const Lock lock(context_.mutex());
-    response->path = rigPath(request.path, context_.parameters(lock));
-  }
-  return loadRig(response->path);
-}
-
-Reply FileServices::loadRig(const std::string& path) {
-  Lock lock(context_.mutex());
-  return context_.answer(&lock, [&] {
-    const geometry::Rig rig = context_.compute(&lock, [&] { return geometry::readRigFile(path); });
-    const Reply reply = context_.calibration(lock).load(rig);
-    if (reply.success) {
-      // The lamps of the room belong to the rig.
-      capture::Masks masks = context_.inputs().masks();
-      for (const geometry::RigCamera& camera : rig.cameras)
-        masks[camera.camera.name] = camera.masks;
-      context_.inputs().setMasks(masks);
-      context_.publishRig(session::verdictOf(rig), lock);
-    }
-    context_.publishStatus(lock);
-    return reply;
-  });
-}
-
-Reply FileServices::saveSamples(const SaveSamples::Request& request,
-                                SaveSamples::Response* response) {
-  Lock lock(context_.mutex());
-  const std::string path = response->path = samplesPath(request.path, context_.parameters(lock));
-  return context_.answer(&lock, [&] {
-    const session::Session session = context_.session(lock);
-    if (session.recording.cameras.empty())
-      throw Refusal("nothing was captured that could be saved: start a calibration first");
-    context_.compute(&lock, [&] { session::writeSessionFile(session, path); });
-    context_.show("what was captured is saved to " + path, lock);
-    return Reply{true, "what was captured is saved to " + path};
-  });
-}
-
-Reply FileServices::loadSamples(const LoadSamples::Request& request,
-                                LoadSamples::Response* response) {
-  Lock lock(context_.mutex());
-  const std::string path = response->path = samplesPath(request.path, context_.parameters(lock));
-  return context_.answer(&lock, [&] {
-    const session::Session session =
-        context_.compute(&lock, [&] { return session::readSessionFile(path); });
-    return context_.setSession(session, lock);
-  });
-}
-
-std::vector<session::CommonPlace> FileServices::commonPlaces(const std::string& rig_id,
-                                                             const Lock& lock) {
-  place::KnownPlaces& known = context_.knownPlaces(lock);
-  known.useRig(rig_id);
-  std::vector<session::CommonPlace> places;
-  for (const place::KnownPlace& place : known.places())
-    places.push_back({place.known, place.measured,
-                      context_.parameters(lock).solve.square.uncertainty.placement});
-  return places;
-}
-
-Reply FileServices::join(const JoinRig::Request& request, JoinRig::Response* response) {
-  Lock lock(context_.mutex());
-  return context_.answer(&lock, [&] {
-    const geometry::Rig second = context_.existingRig("to join", lock);
-    const std::vector<session::CommonPlace> places = commonPlaces(second.id(), lock);
-    const std::string path = rigPath(request.path, context_.parameters(lock));
-    session::JoinedRigs joined = context_.compute(
-        &lock, [&] { return joinWith(geometry::readRigFile(path), second, places); });
-    context_.requireSameRig(second.id(), lock);
-    joined.rig.solved_at = NodeContext::now();
-    response->rig = toMessage(joined.rig);
-    context_.setRig(joined.rig, joined.message, lock);
-    return Reply{true, joined.message};
-  });
+Unit fileServices(NodeContext* context) {
+  return std::make_shared<FileServices>(context);
 }
 
 }  // namespace wiimote_tracker

@@ -1,8 +1,14 @@
-#include "health_monitor.h"
+#include "units.h"
 
+#include "health/health_watch.h"
+
+#include <diagnostic_updater/diagnostic_updater.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <cmath>
+#include <optional>
+#include <set>
+#include <string>
 
 namespace wiimote_tracker {
 
@@ -12,88 +18,103 @@ constexpr double kPeriod = 0.5;  // [s]
 
 const char kUnknownCamera[] = "is not in the rig and makes no points: calibrate again with it";
 
-}  // namespace
+class HealthMonitor {
+ public:
+  explicit HealthMonitor(NodeContext* context) : context_(*context) {
+    context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
+      if (watch_)
+        watch_->addImage(image, context_.inputs().cameras().at(image.camera).identity);
+    });
+    context_.inputs().subscribeGravity([this](const std::string& camera, double stamp,
+                                              const Eigen::Vector3d& specific_force, const Lock&) {
+      if (watch_)
+        watch_->addAcceleration(camera, stamp, specific_force);
+    });
+    diagnostics_.setHardwareID("none");
+    diagnostics_.add("cameras", this, &HealthMonitor::report);
+    timer_ = context_.nh().createWallTimer(
+        ros::WallDuration(kPeriod), [this](const ros::WallTimerEvent&) {
+          runCallback("the health of the cameras", [this] { update(); });
+        });
+  }
 
-HealthMonitor::HealthMonitor(NodeContext* context) : context_(*context) {
-  context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
-    if (watch_)
-      watch_->addImage(image, context_.inputs().cameras().at(image.camera).identity);
-  });
-  context_.inputs().subscribeGravity([this](const std::string& camera, double stamp,
-                                            const Eigen::Vector3d& specific_force, const Lock&) {
-    if (watch_)
-      watch_->addAcceleration(camera, stamp, specific_force);
-  });
-  diagnostics_.setHardwareID("none");
-  diagnostics_.add("cameras", this, &HealthMonitor::report);
-  timer_ =
-      context_.nh().createWallTimer(ros::WallDuration(kPeriod), [this](const ros::WallTimerEvent&) {
-        runCallback("the health of the cameras", [this] { update(); });
-      });
-}
-
-void HealthMonitor::update() {
-  {
-    const Lock lock(context_.mutex());
-    const auto& rig = context_.rig(lock);
-    const std::string id = rig ? rig->id() : "";
-    if (id != rig_id_) {
-      rig_id_ = id;
+ private:
+  void update() {
+    {
+      const Lock lock(context_.mutex());
+      const auto& rig = context_.rig(lock);
+      const std::string id = rig ? rig->id() : "";
+      if (id != rig_id_) {
+        rig_id_ = id;
+        if (watch_) {
+          for (const auto& camera : watch_->cameras())
+            context_.setHealth(camera.first, "", lock);
+        }
+        watch_.reset();
+        unknown_cameras_.clear();
+        if (rig)
+          watch_.emplace(*rig, context_.parameters(lock).health);
+      }
       if (watch_) {
         for (const auto& camera : watch_->cameras())
-          context_.setHealth(camera.first, "", lock);
+          context_.setHealth(camera.first, camera.second.text, lock);
+        for (const std::string& news : watch_->takeNews())
+          ROS_WARN_STREAM(news);
+        warnOfUnknownCameras(*rig, lock);
       }
-      watch_.reset();
-      unknown_cameras_.clear();
-      if (rig)
-        watch_.emplace(*rig, context_.parameters(lock).health);
     }
-    if (watch_) {
-      for (const auto& camera : watch_->cameras())
-        context_.setHealth(camera.first, camera.second.text, lock);
-      for (const std::string& news : watch_->takeNews())
-        ROS_WARN_STREAM(news);
-      warnOfUnknownCameras(*rig, lock);
+    diagnostics_.update();
+  }
+
+  void warnOfUnknownCameras(const geometry::Rig& rig, const Lock&) {
+    for (const auto& camera : context_.inputs().cameras()) {
+      const bool sends_images = camera.second.width > 0;
+      if (sends_images && rig.find(camera.first) == nullptr &&
+          unknown_cameras_.insert(camera.first).second)
+        ROS_WARN("%s %s.", camera.first.c_str(), kUnknownCamera);
     }
   }
-  diagnostics_.update();
-}
 
-void HealthMonitor::warnOfUnknownCameras(const geometry::Rig& rig, const Lock&) {
-  for (const auto& camera : context_.inputs().cameras()) {
-    const bool sends_images = camera.second.width > 0;
-    if (sends_images && rig.find(camera.first) == nullptr &&
-        unknown_cameras_.insert(camera.first).second)
-      ROS_WARN("%s %s.", camera.first.c_str(), kUnknownCamera);
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    const Lock lock(context_.mutex());
+    if (!watch_) {
+      status.summary(diagnostic_msgs::DiagnosticStatus::OK, "no rig yet");
+      return;
+    }
+    std::vector<std::string> troubles;
+    for (const auto& camera : watch_->cameras()) {
+      const health::CameraHealth& health = camera.second;
+      if (!health.text.empty())
+        troubles.push_back(camera.first + " " + health.text);
+      status.add(camera.first + " tilt [degrees]",
+                 health.tilt ? format("%.2f +- %.2f", health.tilt->angle * 180.0 / M_PI,
+                                      health.tilt->stddev * 180.0 / M_PI)
+                             : std::string("not judged"));
+      status.add(camera.first + " drift [px]",
+                 health.drift
+                     ? format("%.2f +- %.2f", health.drift->bias.norm(), health.drift->stddev)
+                     : std::string("not judged"));
+    }
+    for (const std::string& camera : unknown_cameras_)
+      troubles.push_back(camera + " " + kUnknownCamera);
+    if (troubles.empty())
+      status.summary(diagnostic_msgs::DiagnosticStatus::OK, "no camera seems to have moved");
+    else
+      status.summary(diagnostic_msgs::DiagnosticStatus::WARN, joined(troubles, "; "));
   }
-}
 
-void HealthMonitor::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  const Lock lock(context_.mutex());
-  if (!watch_) {
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "no rig yet");
-    return;
-  }
-  std::vector<std::string> troubles;
-  for (const auto& camera : watch_->cameras()) {
-    const health::CameraHealth& health = camera.second;
-    if (!health.text.empty())
-      troubles.push_back(camera.first + " " + health.text);
-    status.add(camera.first + " tilt [degrees]",
-               health.tilt ? format("%.2f +- %.2f", health.tilt->angle * 180.0 / M_PI,
-                                    health.tilt->stddev * 180.0 / M_PI)
-                           : std::string("not judged"));
-    status.add(camera.first + " drift [px]",
-               health.drift
-                   ? format("%.2f +- %.2f", health.drift->bias.norm(), health.drift->stddev)
-                   : std::string("not judged"));
-  }
-  for (const std::string& camera : unknown_cameras_)
-    troubles.push_back(camera + " " + kUnknownCamera);
-  if (troubles.empty())
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK, "no camera seems to have moved");
-  else
-    status.summary(diagnostic_msgs::DiagnosticStatus::WARN, joined(troubles, "; "));
+  NodeContext& context_;
+  std::string rig_id_;
+  std::optional<health::HealthWatch> watch_;  // Nothing without a rig.
+  std::set<std::string> unknown_cameras_;     // Cameras that the rig does not have.
+  diagnostic_updater::Updater diagnostics_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace
+
+Unit healthMonitor(NodeContext* context) {
+  return std::make_shared<HealthMonitor>(context);
 }
 
 }  // namespace wiimote_tracker

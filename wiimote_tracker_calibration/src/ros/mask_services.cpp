@@ -1,90 +1,110 @@
-#include "mask_services.h"
+#include "units.h"
 
+#include "capture/mask_learner.h"
+
+#include <wiimote_tracker_msgs/LearnMasks.h>
 #include <wiimote_tracker_msgs/text.h>
 
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace wiimote_tracker {
+
+using wiimote_tracker_msgs::LearnMasks;
+using workflow::Step;
 
 namespace {
 
 const char kToBeSaved[] = "; the rig in use has the masks now: save it to keep that";
 
+class MaskServices {
+ public:
+  explicit MaskServices(NodeContext* context)
+      : context_(*context),
+        services_(
+            {advertise(context_.nh(), "calibration/learn_masks", &MaskServices::learn, this),
+             advertise(context_.nh(), "calibration/clear_masks", &MaskServices::clear, this)}) {
+    context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
+      if (learner_)
+        learner_->add(image);
+    });
+  }
+
+ private:
+  workflow::Reply learn(const LearnMasks::Request& request, LearnMasks::Response* response) {
+    const double duration = request.duration == 0.0 ? 2.0 : request.duration;
+    if (!(duration > 0.0 && duration <= 60.0))
+      throw Refusal("the duration must be within 0 and 60 s");
+    context_.inputs().discover();
+    Lock lock(context_.mutex());
+    const Job job = {Step::kMasking, "looking for other lights: keep the LED off",
+                     "the masks are as they were"};
+    const workflow::Reply reply = context_.run(job, &lock, [&] {
+      const EmptyAtEnd<capture::MaskLearner> end{&learner_};
+      learner_.emplace(context_.inputs().names(), context_.parameters(lock).masks);
+      if (!context_.waitFor(duration, Step::kMasking, &lock))
+        return workflow::Reply{false, ""};
+      return useMasks(learner_->result(), lock);
+    });
+    for (const auto& masks : context_.inputs().masks()) {
+      response->cameras.push_back(masks.first);
+      response->masks.push_back(static_cast<std::uint32_t>(masks.second.size()));
+    }
+    return reply;
+  }
+
+  workflow::Reply clear() {
+    const Lock lock(context_.mutex());
+    const std::string message = std::string("no light is masked any more") +
+                                (context_.setMasks({}, lock) ? kToBeSaved : "");
+    context_.show(message, lock);
+    return {true, message};
+  }
+
+  workflow::Reply useMasks(const std::map<std::string, capture::LearnedMasks>& learned,
+                           const Lock& lock) {
+    if (learned.empty())
+      throw Refusal("no camera is there: start the drivers; the masks are as they were");
+    capture::Masks masks = context_.inputs().masks();
+    std::vector<std::string> problems;
+    std::vector<std::string> counts;
+    std::vector<std::string> warnings;
+    bool one_each = learned.size() > 1;
+    for (const auto& [name, camera] : learned) {
+      if (!camera.problem.empty()) {
+        problems.push_back(name + " " + camera.problem);
+        continue;
+      }
+      const std::size_t count = camera.masks.size();
+      masks[name] = camera.masks;
+      counts.push_back(name + " " + std::to_string(count));
+      one_each = one_each && count == 1;
+      const int most = context_.inputs().cameras().at(name).max_blobs;
+      if (most > 0 && static_cast<int>(count) >= most)
+        warnings.push_back(
+            name + " reports " + std::to_string(most) +
+            " lights at most, and lamps may leave none for the LED: cover or switch off some");
+    }
+    if (!problems.empty())
+      throw Refusal(joined(problems, "; ") + "; the masks are as they were");
+    if (one_each)
+      warnings.emplace_back(
+          "every camera sees exactly one light: if that is the LED, switch it off and learn again");
+    return {true, "masked lights: " + joined(counts) + appendix(warnings) +
+                      (context_.setMasks(masks, lock) ? kToBeSaved : "")};
+  }
+
+  NodeContext& context_;
+  std::optional<capture::MaskLearner> learner_;  // while lights are being learned
+  std::vector<ros::ServiceServer> services_;
+};
+
 }  // namespace
 
-using wiimote_tracker_msgs::LearnMasks;
-using workflow::Step;
-
-MaskServices::MaskServices(NodeContext* context)
-    : context_(*context),
-      services_({advertise(context_.nh(), "calibration/learn_masks", &MaskServices::learn, this),
-                 advertise(context_.nh(), "calibration/clear_masks", &MaskServices::clear, this)}) {
-  context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
-    if (learner_)
-      learner_->add(image);
-  });
-}
-
-workflow::Reply MaskServices::learn(const LearnMasks::Request& request,
-                                    LearnMasks::Response* response) {
-  const double duration = request.duration == 0.0 ? 2.0 : request.duration;
-  if (!(duration > 0.0 && duration <= 60.0))
-    throw Refusal("the duration must be within 0 and 60 s");
-  context_.inputs().discover();
-  Lock lock(context_.mutex());
-  const Job job = {Step::kMasking, "looking for other lights: keep the LED off",
-                   "the masks are as they were"};
-  const workflow::Reply reply = context_.run(job, &lock, [&] {
-    const EmptyAtEnd<capture::MaskLearner> end{&learner_};
-    learner_.emplace(context_.inputs().names(), context_.parameters(lock).masks);
-    if (!context_.waitFor(duration, Step::kMasking, &lock))
-      return workflow::Reply{false, ""};
-    return useMasks(learner_->result(), lock);
-  });
-  for (const auto& masks : context_.inputs().masks()) {
-    response->cameras.push_back(masks.first);
-    response->masks.push_back(static_cast<std::uint32_t>(masks.second.size()));
-  }
-  return reply;
-}
-
-workflow::Reply MaskServices::useMasks(const std::map<std::string, capture::LearnedMasks>& learned,
-                                       const Lock& lock) {
-  if (learned.empty())
-    throw Refusal("no camera is there: start the drivers; the masks are as they were");
-  capture::Masks masks = context_.inputs().masks();
-  std::vector<std::string> problems;
-  std::vector<std::string> counts;
-  std::vector<std::string> warnings;
-  bool one_each = learned.size() > 1;
-  for (const auto& [name, camera] : learned) {
-    if (!camera.problem.empty()) {
-      problems.push_back(name + " " + camera.problem);
-      continue;
-    }
-    const std::size_t count = camera.masks.size();
-    masks[name] = camera.masks;
-    counts.push_back(name + " " + std::to_string(count));
-    one_each = one_each && count == 1;
-    const int most = context_.inputs().cameras().at(name).max_blobs;
-    if (most > 0 && static_cast<int>(count) >= most)
-      warnings.push_back(
-          name + " reports " + std::to_string(most) +
-          " lights at most, and lamps may leave none for the LED: cover or switch off some");
-  }
-  if (!problems.empty())
-    throw Refusal(joined(problems, "; ") + "; the masks are as they were");
-  if (one_each)
-    warnings.emplace_back(
-        "every camera sees exactly one light: if that is the LED, switch it off and learn again");
-  return {true, "masked lights: " + joined(counts) + appendix(warnings) +
-                    (context_.setMasks(masks, lock) ? kToBeSaved : "")};
-}
-
-workflow::Reply MaskServices::clear() {
-  const Lock lock(context_.mutex());
-  const std::string message =
-      std::string("no light is masked any more") + (context_.setMasks({}, lock) ? kToBeSaved : "");
-  context_.show(message, lock);
-  return {true, message};
+Unit maskServices(NodeContext* context) {
+  return std::make_shared<MaskServices>(context);
 }
 
 }  // namespace wiimote_tracker

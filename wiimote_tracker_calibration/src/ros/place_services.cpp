@@ -1,11 +1,22 @@
-#include "place_services.h"
+#include "units.h"
 
+#include "capture/corner_capture.h"
 #include "place/check_place.h"
+#include "place/known_places.h"
+#include "place/measure_place.h"
 #include "wiimote_tracker_calibration/remap/fit.h"
 
+#include <wiimote_tracker_msgs/AddKnownPlace.h>
+#include <wiimote_tracker_msgs/CheckPlace.h>
+#include <wiimote_tracker_msgs/FitRemap.h>
 #include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/ros/message_fields.h>
 
+#include <functional>
 #include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace wiimote_tracker {
 
@@ -20,18 +31,6 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLongest = 3600.0;  // [s]
 
-Eigen::Vector3d fromMessage(const geometry_msgs::Point& point) {
-  return {point.x, point.y, point.z};
-}
-
-geometry_msgs::Point toMessage(const Eigen::Vector3d& point) {
-  geometry_msgs::Point message;
-  message.x = point.x();
-  message.y = point.y();
-  message.z = point.z();
-  return message;
-}
-
 std::string metres(const Eigen::Vector3d& point) {
   return format("(%.3f, %.3f, %.3f) m", point.x(), point.y(), point.z());
 }
@@ -39,7 +38,7 @@ std::string metres(const Eigen::Vector3d& point) {
 void fill(const place::MeasuredPlace& place,
           const place::PlaceCheck& check,
           CheckPlace::Response* response) {
-  response->measured = toMessage(place.position);
+  response->measured = pointOf(place.position);
   Eigen::Map<Eigen::Matrix3d>(response->covariance.data()) = place.covariance;  // symmetric
   for (const place::PlaceView& view : place.views) {
     response->cameras.push_back(view.camera);
@@ -60,159 +59,181 @@ remap::FitOptions fitOptions(const std::vector<std::string>& models) {
   return options;
 }
 
+class PlaceServices {
+ public:
+  explicit PlaceServices(NodeContext* context) : context_(*context) {
+    using Self = PlaceServices;
+    const ros::NodeHandle& nh = context_.nh();
+    services_ = {advertise(nh, "calibration/check", &Self::check, this),
+                 advertise(nh, "calibration/known_places/add", &Self::add, this),
+                 advertise(nh, "calibration/known_places/undo", &Self::undo, this),
+                 advertise(nh, "calibration/known_places/clear", &Self::clear, this),
+                 advertise(nh, "calibration/known_places/fit", &Self::fit, this)};
+    context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
+      if (capture_)
+        capture_->add(image);
+    });
+  }
+
+ private:
+  Reply check(const CheckPlace::Request& request, CheckPlace::Response* response) {
+    response->measured = pointOf(Eigen::Vector3d::Constant(kUnknown));
+    response->covariance.fill(kUnknown);
+    response->error = kUnknown;
+    response->expected_stddev = kUnknown;
+    Lock lock(context_.mutex());
+    return context_.answer(&lock, [&] {
+      const double known_stddev =
+          request.known_stddev != 0.0
+              ? request.known_stddev
+              : context_.parameters(lock).solve.square.uncertainty.placement;
+      return measure(request.duration, &lock, [&](const auto& measured, const auto& rig) {
+        const place::MeasuredPlace place = place::corrected(rig, measured);
+        const place::PlaceCheck check =
+            place::checkPlace(place, vectorOf(request.known), known_stddev);
+        fill(place, check, response);
+        return Reply{true, check.message};
+      });
+    });
+  }
+
+  Reply add(const AddKnownPlace::Request& request, AddKnownPlace::Response* response) {
+    response->measured = pointOf(Eigen::Vector3d::Constant(kUnknown));
+    Lock lock(context_.mutex());
+    const std::string dropped = dropPlacesOfOtherRigs(lock);
+    place::KnownPlaces& places = context_.knownPlaces(lock);
+    Reply reply = context_.answer(&lock, [&] {
+      const Eigen::Vector3d known = vectorOf(request.known);
+      if (!known.allFinite())
+        throw Refusal("the known place is not finite: give x, y and z in metres");
+      return measure(request.duration, &lock, [&](const auto& place, const auto& rig) {
+        if (!place.rays_agree)
+          throw Refusal(place::checkPlace(place, known, 0.0).message);
+        context_.requireSameRig(rig.id(), lock);
+        // Without the present correction: the one that is fitted will replace it.
+        places.add({known, place.position});
+        response->measured = pointOf(place.position);
+        return Reply{true, "place " + std::to_string(places.places().size()) + " measured at " +
+                               metres(place.position)};
+      });
+    });
+    response->places = static_cast<std::uint32_t>(places.places().size());
+    reply.message += dropped;
+    return reply;
+  }
+
+  Reply undo() {
+    const Lock lock(context_.mutex());
+    const std::string dropped = dropPlacesOfOtherRigs(lock);
+    place::KnownPlaces& places = context_.knownPlaces(lock);
+    const bool success = places.undo();
+    const Reply reply = {success,
+                         (success ? "the latest place was dropped, " +
+                                        std::to_string(places.places().size()) + " are left"
+                                  : "there is no known place to drop") +
+                             dropped};
+    context_.show(reply.message, lock);
+    return reply;
+  }
+
+  Reply clear() {
+    const Lock lock(context_.mutex());
+    context_.knownPlaces(lock).clear();
+    context_.show("all known places were dropped", lock);
+    return {true, "all known places were dropped"};
+  }
+
+  Reply fit(const FitRemap::Request& request, FitRemap::Response* response) {
+    response->uncorrected_error = kUnknown;
+    response->expected_error = kUnknown;
+    Lock lock(context_.mutex());
+    const std::string dropped = dropPlacesOfOtherRigs(lock);
+    Reply reply = context_.answer(&lock, [&] {
+      const std::string rig_id = context_.existingRig("to correct", lock).id();
+      std::vector<remap::KnownPoint> points;
+      for (const place::KnownPlace& place : context_.knownPlaces(lock).places())
+        points.push_back({place.measured, place.known});
+      const remap::FitResult result = context_.compute(
+          &lock, [&] { return remap::fitRemap(points, rig_id, fitOptions(request.models)); });
+      context_.requireSameRig(rig_id, lock);
+      geometry::Rig rig = *context_.rig(lock);
+      rig.remap = result.remap;
+      response->model = remap::nameOf(result.remap.model);
+      response->uncorrected_error = result.uncorrected_error;
+      response->expected_error = result.expected_error;
+      response->table = remap::table(result);
+      const std::string message =
+          "the volume is corrected (" + response->model + ")" +
+          format(": known places were off by %.1f mm, expected now %.1f mm",
+                 1e3 * result.uncorrected_error, 1e3 * result.expected_error) +
+          appendix(result.warnings);
+      context_.setRig(rig, message, lock);
+      return Reply{true, message};
+    });
+    reply.message += dropped;
+    return reply;
+  }
+
+  /// What is done with a measured place and the rig that measured it.
+  using Use = std::function<workflow::Reply(const place::MeasuredPlace&, const geometry::Rig&)>;
+  /// Waits until the LED has lain still, measures where it is, and passes that on.
+  /// @param duration longest wait [s]; 0: the parameter.
+  Reply measure(double duration, Lock* lock, const Use& use) {
+    capture::CornerCaptureOptions options = context_.parameters(*lock).calibration.capture;
+    if (duration != 0.0)
+      options.timeout = duration;
+    if (!(options.timeout > 0.0 && options.timeout <= kLongest))
+      throw Refusal("the duration must be within 0 and 3600 s: correct it");
+    const geometry::Rig rig = context_.existingRig("to measure with", *lock);
+    const Job job = {Step::kMeasuring, "keep the LED still on the place", "nothing was measured"};
+    return context_.run(job, lock, [&] {
+      const capture::CapturedCorner seen = captureStillLed(rig, options, lock);
+      const double pixel_stddev = context_.parameters(*lock).solve.square.uncertainty.pixel;
+      return use(place::measurePlace(rig, seen, pixel_stddev), rig);
+    });
+  }
+
+  /// Captures the LED with all cameras of the rig.
+  /// @throws Refusal: it was not still or not seen for long enough, or the job was cancelled.
+  capture::CapturedCorner captureStillLed(const geometry::Rig& rig,
+                                          const capture::CornerCaptureOptions& options,
+                                          Lock* lock) {
+    using State = capture::CornerCapture::State;
+    const EmptyAtEnd<capture::CornerCapture> end{&capture_};
+    std::vector<std::string> names;
+    for (const geometry::RigCamera& camera : rig.cameras)
+      names.push_back(camera.camera.name);
+    const double start = NodeContext::now();
+    capture_.emplace(names, options, start);
+    context_.waitUntil(lock, start + options.timeout + 2.0 * NodeContext::kUnderWay, [&] {
+      capture_->update(NodeContext::now() - NodeContext::kUnderWay);
+      context_.setProgress(capture_->progress(), *lock);
+      return context_.isCancelled(Step::kMeasuring, *lock) ||
+             capture_->state() != State::kCollecting;
+    });
+    if (context_.isCancelled(Step::kMeasuring, *lock) || capture_->state() != State::kDone)
+      throw Refusal(capture_->message());
+    return capture_->result();
+  }
+
+  /// Drops places that another calibration measured. @returns what to say about that.
+  std::string dropPlacesOfOtherRigs(const Lock& lock) {
+    const auto& rig = context_.rig(lock);
+    const std::size_t dropped = context_.knownPlaces(lock).useRig(rig ? rig->id() : "");
+    return dropped == 0 ? ""
+                        : "; " + std::to_string(dropped) +
+                              " places that were measured with another calibration were dropped";
+  }
+
+  NodeContext& context_;
+  std::optional<capture::CornerCapture> capture_;  // while a place is being measured
+  std::vector<ros::ServiceServer> services_;
+};
+
 }  // namespace
 
-PlaceServices::PlaceServices(NodeContext* context) : context_(*context) {
-  using Unit = PlaceServices;
-  const ros::NodeHandle& nh = context_.nh();
-  services_ = {advertise(nh, "calibration/check", &Unit::check, this),
-               advertise(nh, "calibration/known_places/add", &Unit::add, this),
-               advertise(nh, "calibration/known_places/undo", &Unit::undo, this),
-               advertise(nh, "calibration/known_places/clear", &Unit::clear, this),
-               advertise(nh, "calibration/known_places/fit", &Unit::fit, this)};
-  context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
-    if (capture_)
-      capture_->add(image);
-  });
-}
-
-Reply PlaceServices::measure(double duration, Lock* lock, const Use& use) {
-  capture::CornerCaptureOptions options = context_.parameters(*lock).calibration.capture;
-  if (duration != 0.0)
-    options.timeout = duration;
-  if (!(options.timeout > 0.0 && options.timeout <= kLongest))
-    throw Refusal("the duration must be within 0 and 3600 s: correct it");
-  const geometry::Rig rig = context_.existingRig("to measure with", *lock);
-  const Job job = {Step::kMeasuring, "keep the LED still on the place", "nothing was measured"};
-  return context_.run(job, lock, [&] {
-    const capture::CapturedCorner seen = captureStillLed(rig, options, lock);
-    const double pixel_stddev = context_.parameters(*lock).solve.square.uncertainty.pixel;
-    return use(place::measurePlace(rig, seen, pixel_stddev), rig);
-  });
-}
-
-capture::CapturedCorner PlaceServices::captureStillLed(const geometry::Rig& rig,
-                                                       const capture::CornerCaptureOptions& options,
-                                                       Lock* lock) {
-  using State = capture::CornerCapture::State;
-  const EmptyAtEnd<capture::CornerCapture> end{&capture_};
-  std::vector<std::string> names;
-  for (const geometry::RigCamera& camera : rig.cameras)
-    names.push_back(camera.camera.name);
-  const double start = NodeContext::now();
-  capture_.emplace(names, options, start);
-  context_.waitUntil(lock, start + options.timeout + 2.0 * NodeContext::kUnderWay, [&] {
-    capture_->update(NodeContext::now() - NodeContext::kUnderWay);
-    context_.setProgress(capture_->progress(), *lock);
-    return context_.isCancelled(Step::kMeasuring, *lock) || capture_->state() != State::kCollecting;
-  });
-  if (context_.isCancelled(Step::kMeasuring, *lock) || capture_->state() != State::kDone)
-    throw Refusal(capture_->message());
-  return capture_->result();
-}
-
-Reply PlaceServices::check(const CheckPlace::Request& request, CheckPlace::Response* response) {
-  response->measured = toMessage(Eigen::Vector3d::Constant(kUnknown));
-  response->covariance.fill(kUnknown);
-  response->error = kUnknown;
-  response->expected_stddev = kUnknown;
-  Lock lock(context_.mutex());
-  return context_.answer(&lock, [&] {
-    const double known_stddev = request.known_stddev != 0.0
-                                    ? request.known_stddev
-                                    : context_.parameters(lock).solve.square.uncertainty.placement;
-    return measure(request.duration, &lock, [&](const auto& measured, const auto& rig) {
-      const place::MeasuredPlace place = place::corrected(rig, measured);
-      const place::PlaceCheck check =
-          place::checkPlace(place, fromMessage(request.known), known_stddev);
-      fill(place, check, response);
-      return Reply{true, check.message};
-    });
-  });
-}
-
-std::string PlaceServices::dropPlacesOfOtherRigs(const Lock& lock) {
-  const auto& rig = context_.rig(lock);
-  const std::size_t dropped = context_.knownPlaces(lock).useRig(rig ? rig->id() : "");
-  return dropped == 0 ? ""
-                      : "; " + std::to_string(dropped) +
-                            " places that were measured with another calibration were dropped";
-}
-
-Reply PlaceServices::add(const AddKnownPlace::Request& request, AddKnownPlace::Response* response) {
-  response->measured = toMessage(Eigen::Vector3d::Constant(kUnknown));
-  Lock lock(context_.mutex());
-  const std::string dropped = dropPlacesOfOtherRigs(lock);
-  place::KnownPlaces& places = context_.knownPlaces(lock);
-  Reply reply = context_.answer(&lock, [&] {
-    const Eigen::Vector3d known = fromMessage(request.known);
-    if (!known.allFinite())
-      throw Refusal("the known place is not finite: give x, y and z in metres");
-    return measure(request.duration, &lock, [&](const auto& place, const auto& rig) {
-      if (!place.rays_agree)
-        throw Refusal(place::checkPlace(place, known, 0.0).message);
-      context_.requireSameRig(rig.id(), lock);
-      // Without the present correction: the one that is fitted will replace it.
-      places.add({known, place.position});
-      response->measured = toMessage(place.position);
-      return Reply{true, "place " + std::to_string(places.places().size()) + " measured at " +
-                             metres(place.position)};
-    });
-  });
-  response->places = static_cast<std::uint32_t>(places.places().size());
-  reply.message += dropped;
-  return reply;
-}
-
-Reply PlaceServices::undo() {
-  const Lock lock(context_.mutex());
-  const std::string dropped = dropPlacesOfOtherRigs(lock);
-  place::KnownPlaces& places = context_.knownPlaces(lock);
-  const bool success = places.undo();
-  const Reply reply = {success, (success ? "the latest place was dropped, " +
-                                               std::to_string(places.places().size()) + " are left"
-                                         : "there is no known place to drop") +
-                                    dropped};
-  context_.show(reply.message, lock);
-  return reply;
-}
-
-Reply PlaceServices::clear() {
-  const Lock lock(context_.mutex());
-  context_.knownPlaces(lock).clear();
-  context_.show("all known places were dropped", lock);
-  return {true, "all known places were dropped"};
-}
-
-Reply PlaceServices::fit(const FitRemap::Request& request, FitRemap::Response* response) {
-  response->uncorrected_error = kUnknown;
-  response->expected_error = kUnknown;
-  Lock lock(context_.mutex());
-  const std::string dropped = dropPlacesOfOtherRigs(lock);
-  Reply reply = context_.answer(&lock, [&] {
-    const std::string rig_id = context_.existingRig("to correct", lock).id();
-    std::vector<remap::KnownPoint> points;
-    for (const place::KnownPlace& place : context_.knownPlaces(lock).places())
-      points.push_back({place.measured, place.known});
-    const remap::FitResult result = context_.compute(
-        &lock, [&] { return remap::fitRemap(points, rig_id, fitOptions(request.models)); });
-    context_.requireSameRig(rig_id, lock);
-    geometry::Rig rig = *context_.rig(lock);
-    rig.remap = result.remap;
-    response->model = remap::nameOf(result.remap.model);
-    response->uncorrected_error = result.uncorrected_error;
-    response->expected_error = result.expected_error;
-    response->table = remap::table(result);
-    const std::string message =
-        "the volume is corrected (" + response->model + ")" +
-        format(": known places were off by %.1f mm, expected now %.1f mm",
-               1e3 * result.uncorrected_error, 1e3 * result.expected_error) +
-        appendix(result.warnings);
-    context_.setRig(rig, message, lock);
-    return Reply{true, message};
-  });
-  reply.message += dropped;
-  return reply;
+Unit placeServices(NodeContext* context) {
+  return std::make_shared<PlaceServices>(context);
 }
 
 }  // namespace wiimote_tracker

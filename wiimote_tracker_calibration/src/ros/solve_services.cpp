@@ -1,7 +1,8 @@
-#include "solve_services.h"
+#include "units.h"
 
 #include "verdict_messages.h"
 
+#include <wiimote_tracker_msgs/SolveCalibration.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
 namespace wiimote_tracker {
@@ -9,41 +10,56 @@ namespace wiimote_tracker {
 using wiimote_tracker_msgs::SolveCalibration;
 using workflow::Step;
 
-SolveServices::SolveServices(NodeContext* context)
-    : context_(*context),
-      trace_(context_.nh().advertise<wiimote_tracker_msgs::PrincipalPointTrace>(
-          "calibration/principal_point_trace",
-          1,
-          true)),
-      service_(advertise(context_.nh(), "calibration/solve", &SolveServices::solve, this)) {}
+namespace {
 
-workflow::Reply SolveServices::solve(const SolveCalibration::Request&,
-                                     SolveCalibration::Response* response) {
-  Lock lock(context_.mutex());
-  const Job job = {Step::kSolving, "solving", "what was captured stays"};
-  return context_.run(job, &lock, [&] {
-    const session::Session session = context_.session(lock);
-    const session::SolveOptions options = context_.parameters(lock).solve;
-    session::Solution solution = context_.compute(&lock, [&] {
-      return session::solveSession(session, options, [this](const wave::Progress& progress) {
-        const Lock inner(context_.mutex());
-        context_.setProgress(progress.fraction, inner);
-        return !context_.isCancelled(Step::kSolving, inner) && ros::ok();
+class SolveServices {
+ public:
+  explicit SolveServices(NodeContext* context)
+      : context_(*context),
+        trace_(context_.nh().advertise<wiimote_tracker_msgs::PrincipalPointTrace>(
+            "calibration/principal_point_trace",
+            1,
+            true)),
+        service_(advertise(context_.nh(), "calibration/solve", &SolveServices::solve, this)) {}
+
+ private:
+  workflow::Reply solve(const SolveCalibration::Request&, SolveCalibration::Response* response) {
+    Lock lock(context_.mutex());
+    const Job job = {Step::kSolving, "solving", "what was captured stays"};
+    return context_.run(job, &lock, [&] {
+      const session::Session session = context_.session(lock);
+      const session::SolveOptions options = context_.parameters(lock).solve;
+      session::Solution solution = context_.compute(&lock, [&] {
+        return session::solveSession(session, options, [this](const wave::Progress& progress) {
+          const Lock inner(context_.mutex());
+          context_.setProgress(progress.fraction, inner);
+          return !context_.isCancelled(Step::kSolving, inner) && ros::ok();
+        });
       });
+      if (context_.isCancelled(Step::kSolving, lock))
+        return workflow::Reply{false, ""};
+      solution.rig.solved_at = NodeContext::now();
+      const workflow::Reply reply = context_.calibration(lock).takeSolution(solution.rig);
+      const geometry::Rig& rig = *context_.rig(lock);
+      response->rig = toMessage(rig);
+      response->verdict = toMessage(solution.verdict, rig);
+      context_.publishRig(solution.verdict, lock);
+      if (solution.trace)
+        trace_.publish(toMessage(*solution.trace, rig));
+      ROS_INFO_STREAM(reply.message);
+      return reply;
     });
-    if (context_.isCancelled(Step::kSolving, lock))
-      return workflow::Reply{false, ""};
-    solution.rig.solved_at = NodeContext::now();
-    const workflow::Reply reply = context_.calibration(lock).takeSolution(solution.rig);
-    const geometry::Rig& rig = *context_.rig(lock);
-    response->rig = toMessage(rig);
-    response->verdict = toMessage(solution.verdict, rig);
-    context_.publishRig(solution.verdict, lock);
-    if (solution.trace)
-      trace_.publish(toMessage(*solution.trace, rig));
-    ROS_INFO_STREAM(reply.message);
-    return reply;
-  });
+  }
+
+  NodeContext& context_;
+  ros::Publisher trace_;
+  ros::ServiceServer service_;
+};
+
+}  // namespace
+
+Unit solveServices(NodeContext* context) {
+  return std::make_shared<SolveServices>(context);
 }
 
 }  // namespace wiimote_tracker

@@ -1,4 +1,8 @@
-#include "wave_services.h"
+#include "units.h"
+
+#include <wiimote_tracker_msgs/StartWave.h>
+
+#include <vector>
 
 namespace wiimote_tracker {
 
@@ -44,35 +48,46 @@ std::optional<wave::Wand> wandOf(const wiimote_tracker_msgs::StartWave::Request&
   return wand;
 }
 
-}  // namespace
+class WaveServices {
+ public:
+  explicit WaveServices(NodeContext* context)
+      : context_(*context),
+        services_({advertise(context_.nh(), "calibration/start_wave", &WaveServices::start, this),
+                   advertise(context_.nh(), "calibration/stop_wave", &WaveServices::stop, this)}) {}
 
-WaveServices::WaveServices(NodeContext* context)
-    : context_(*context),
-      services_({advertise(context_.nh(), "calibration/start_wave", &WaveServices::start, this),
-                 advertise(context_.nh(), "calibration/stop_wave", &WaveServices::stop, this)}) {}
+ private:
+  workflow::Reply start(const wiimote_tracker_msgs::StartWave::Request& request,
+                        wiimote_tracker_msgs::StartWave::Response*) {
+    Lock lock(context_.mutex());
+    return context_.answer(&lock, [&] {
+      const session::Session captured = context_.session(lock);
+      session::SolveOptions options = context_.parameters(lock).solve;
+      options.correct_principal_points = false;
+      std::vector<geometry::Camera> cameras;
+      const bool posed =
+          context_.compute(&lock, [&] { return knownCameras(captured, options, &cameras); });
+      const workflow::Reply reply =
+          context_.calibration(lock).beginWave(cameras, posed, wandOf(request), NodeContext::now());
+      context_.publishStatus(lock);
+      return reply;
+    });
+  }
 
-workflow::Reply WaveServices::start(const wiimote_tracker_msgs::StartWave::Request& request,
-                                    wiimote_tracker_msgs::StartWave::Response*) {
-  Lock lock(context_.mutex());
-  return context_.answer(&lock, [&] {
-    const session::Session captured = context_.session(lock);
-    session::SolveOptions options = context_.parameters(lock).solve;
-    options.correct_principal_points = false;
-    std::vector<geometry::Camera> cameras;
-    const bool posed =
-        context_.compute(&lock, [&] { return knownCameras(captured, options, &cameras); });
-    const workflow::Reply reply =
-        context_.calibration(lock).beginWave(cameras, posed, wandOf(request), NodeContext::now());
+  workflow::Reply stop() {
+    const Lock lock(context_.mutex());
+    const workflow::Reply reply = context_.calibration(lock).endWave();
     context_.publishStatus(lock);
     return reply;
-  });
-}
+  }
 
-workflow::Reply WaveServices::stop() {
-  const Lock lock(context_.mutex());
-  const workflow::Reply reply = context_.calibration(lock).endWave();
-  context_.publishStatus(lock);
-  return reply;
+  NodeContext& context_;
+  std::vector<ros::ServiceServer> services_;
+};
+
+}  // namespace
+
+Unit waveServices(NodeContext* context) {
+  return std::make_shared<WaveServices>(context);
 }
 
 }  // namespace wiimote_tracker

@@ -1,0 +1,47 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_UNITS_H
+#define WIIMOTE_TRACKER_CALIBRATION_ROS_UNITS_H
+
+#include "node_context.h"
+
+#include <memory>
+
+namespace wiimote_tracker {
+
+/// A subject of the node: an object that advertises services and subscribes to the context's
+/// inputs. The context must outlive it.
+using Unit = std::shared_ptr<void>;
+
+/// Files: save and load (the rig), save_samples and load_samples (what was captured), and join (the
+/// rig with another room's).
+Unit fileServices(NodeContext* context);
+
+/// The square: check_connection, start, capture_corner, hands_free, undo, cancel; and button A of a
+/// hand-held remote, which captures.
+Unit captureServices(NodeContext* context);
+
+/// The wave: start_wave, stop_wave.
+Unit waveServices(NodeContext* context);
+
+/// Lights that are not the LED: learn_masks, clear_masks.
+Unit maskServices(NodeContext* context);
+
+/// From what was captured to a rig and its verdict: solve; topic principal_point_trace.
+Unit solveServices(NodeContext* context);
+
+/// A camera's lens from the 16-LED board: board/start, board/undo, board/cancel, board/solve,
+/// board/commit, and the topic board. Independent of the calibration's steps.
+Unit boardServices(NodeContext* context);
+
+/// A still LED on a known place: check, and known_places/add, undo, clear, fit.
+Unit placeServices(NodeContext* context);
+
+/// Solves one camera against the others: recalibrate_camera.
+Unit recalibrateServices(NodeContext* context);
+
+/// Reports cameras of the current rig that were moved, and cameras that it lacks: in the status, in
+/// /diagnostics, and once in the log. It never changes the rig.
+Unit healthMonitor(NodeContext* context);
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_UNITS_H

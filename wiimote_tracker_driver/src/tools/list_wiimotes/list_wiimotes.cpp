@@ -1,13 +1,16 @@
 // Lists the Wii Remotes of this computer, and keeps the list of a rig's cameras.
-#include "arguments.h"
 #include "camera_list.h"
 #include "host.h"
 #include "remote_check.h"
 #include "replacement.h"
-#include "row.h"
 #include "transport/transport.h"
+#include "transport/users.h"
+#include "wiimote_tracker_driver/protocol/input_reports.h"
+
+#include <wiimote_tracker_msgs/argument_parser.h>
 
 #include <time.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -17,10 +20,131 @@
 #include <thread>
 #include <vector>
 
+namespace wiimote_tracker::list_wiimotes {
 namespace {
 
-using namespace wiimote_tracker::list_wiimotes;
-namespace transport = wiimote_tracker::transport;
+/// Arguments of the program.
+struct Arguments {
+  bool identify = false;
+  std::string write;                 ///< A cameras.yaml, may be new; or empty.
+  std::string cameras;               ///< A cameras.yaml, or empty.
+  std::string device;                ///< Address or path of the only remote to list, or empty.
+  std::vector<std::string> sockets;  ///< Of virtual remotes.
+  std::vector<std::string> replace;  ///< A camera's name and its new address; empty: list.
+  std::string camera_info;           ///< A folder; empty: the default of camera_info_manager.
+};
+
+/// What the parser cannot know; `device` becomes what the driver calls it. @throws BadArguments.
+void check(Arguments* arguments) {
+  const bool replaces = !arguments->replace.empty();
+  if (replaces && (arguments->replace.size() != 2 || arguments->cameras.empty()))
+    throw BadArguments("--replace needs CAMERA ADDRESS, and --cameras FILE");
+  try {
+    if (!arguments->device.empty())
+      arguments->device = transport::parseDeviceName(arguments->device).value;
+  } catch (const transport::BadDeviceName& e) {
+    throw BadArguments(e.what());
+  }
+}
+
+/// A remote in the list.
+struct Row {
+  transport::DeviceName device;  ///< How to open it.
+  std::string text;              ///< Device in a cameras.yaml; empty: impossible.
+  std::string address;
+  std::string description;
+  bool can_be_opened = true;
+  std::vector<std::string> hints;
+  RemoteCheck check;
+  std::string camera;
+};
+
+constexpr double kAnswerTimeout = 1.0;  // [s]
+
+std::string permissionOf(const Row& row) {
+  if (row.device.kind != transport::DeviceName::Kind::kPath || row.device.value.empty())
+    return "";
+  const bool allowed = ::access(row.device.value.c_str(), R_OK | W_OK) == 0;
+  return allowed ? ", you may open it" : ", you may NOT open it";
+}
+
+/// The remotes known to the kernel, or only that with the address or path `wanted`.
+std::vector<Row> rowsOf(const Host& host, const std::string& wanted) {
+  std::vector<Row> rows;
+  for (const KernelRemote& remote : host.remotes) {
+    if (!wanted.empty() && wanted != remote.address && wanted != remote.path)
+      continue;
+    Row row;
+    row.device = {transport::DeviceName::Kind::kPath, remote.path};
+    row.text = remote.address;
+    row.address = remote.address;
+    row.description = modelOf(remote) + ", kernel driver " +
+                      (remote.kernel_driver.empty() ? "none" : remote.kernel_driver);
+    if (!remote.adapter.empty())
+      row.description += ", adapter " + remote.adapter;
+    row.can_be_opened = !remote.path.empty();
+    row.hints = problems(remote);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Virtual remotes at these sockets.
+std::vector<Row> rowsOf(const std::vector<std::string>& sockets) {
+  std::vector<Row> rows;
+  for (const std::string& path : sockets) {
+    Row row;
+    row.text = "virtual:" + path;
+    row.device = transport::parseDeviceName(row.text);
+    row.description = "virtual Wii Remote";
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Tries to talk to the remote, and looks up its name in the list.
+void check(const CameraList& list, Row* row) {
+  if (row->can_be_opened) {
+    row->check = checkRemote(row->device, kAnswerTimeout);
+    if (row->address.empty())
+      row->address = row->check.identity;
+    // If a driver uses it, the check has named it.
+    if (row->device.kind == transport::DeviceName::Kind::kPath &&
+        row->check.state == RemoteCheck::State::kFree) {
+      const std::string others = transport::sharedWith(row->device.value);
+      if (!others.empty())
+        row->hints.push_back(others);
+    }
+  }
+  if (!row->text.empty())
+    row->camera = list.nameOf(row->text);
+}
+
+/// Whether the remote is free or in use by a driver.
+bool isFine(const Row& row) {
+  return row.can_be_opened && row.check.state != RemoteCheck::State::kFailed;
+}
+
+void print(int number, const Row& row) {
+  const std::string where =
+      row.device.kind == transport::DeviceName::Kind::kVirtual ? row.text : row.device.value;
+  std::printf("%d  %s  %s%s%s\n", number,
+              row.address.empty() ? "(address unknown)" : row.address.c_str(),
+              where.empty() ? "(no hidraw node)" : where.c_str(), row.camera.empty() ? "" : "  ",
+              row.camera.c_str());
+  std::printf("   %s%s\n", row.description.c_str(), permissionOf(row).c_str());
+  if (row.check.state == RemoteCheck::State::kFree) {
+    const protocol::Status& status = *row.check.status;
+    std::printf("   free, battery %.0f %% (raw %d)%s\n",
+                100.0 * protocol::batteryCharge(status.battery), status.battery,
+                status.battery_low ? ", low by its own sign: put new batteries in" : "");
+  } else if (!row.check.sentence.empty()) {
+    std::printf("   %s %s\n", isFine(row) ? "-" : "!", row.check.sentence.c_str());
+  }
+  for (const std::string& hint : row.hints)
+    std::printf("   ! %s\n", hint.c_str());
+  std::fflush(stdout);
+}
 
 void identify(const std::vector<Row>& rows) {
   const auto wait = [](double seconds) {
@@ -124,10 +248,30 @@ std::string today() {
 }
 
 }  // namespace
+}  // namespace wiimote_tracker::list_wiimotes
 
 int main(int argc, char** argv) {
+  using namespace wiimote_tracker::list_wiimotes;
   Arguments arguments;
-  return parserOf(&arguments).run(argc, argv, [&] {
+  wiimote_tracker::ArgumentParser parser(
+      "list_wiimotes",
+      "Lists the Wii Remotes of this computer, and says for each problem what to do.\n"
+      "Exit status: 0 when there are remotes and all are free or in use by a driver, 1 when not,\n"
+      "2 for wrong arguments.");
+  parser.flag("--identify", &arguments.identify, "each free remote flashes its number in turn");
+  parser.option("--write FILE", &arguments.write,
+                "add new remotes to the cameras.yaml FILE as wiimote_1, ...; the names in it stay, "
+                "and the old file is kept as FILE.bak");
+  parser.option("--cameras FILE", &arguments.cameras, "show the names from this cameras.yaml");
+  parser.option("--device ADDRESS", &arguments.device, "list only this remote");
+  parser.option("--virtual PATH...", &arguments.sockets,
+                "list the virtual remotes at these sockets only");
+  parser.option("--replace CAMERA ADDRESS", &arguments.replace,
+                "CAMERA gets the remote with ADDRESS in the cameras.yaml; the calibration of its "
+                "lens is renamed");
+  parser.option("--camera-info FOLDER", &arguments.camera_info,
+                "where <camera>.yaml is (default: ~/.ros/camera_info)");
+  return parser.run(argc, argv, [&] {
     check(&arguments);
     if (arguments.replace.empty())
       return list(arguments);

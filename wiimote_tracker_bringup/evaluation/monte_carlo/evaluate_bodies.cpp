@@ -1,7 +1,6 @@
 // Errors of the pose of a moving rigid body with four LEDs.
-#include "arguments.h"
+#include "program.h"
 #include "room.h"
-#include "table.h"
 
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 
@@ -92,33 +91,25 @@ Score follow(const simulation::Description& description,
   return score;
 }
 
-void measure(const Arguments& arguments) {
-  const simulation::Description all = simulation::readDescription(arguments.rig);
-  Table table(
-      arguments.output,
-      {"session", "cameras", "led_size", "speed_m_per_s", "turning_rad_per_s", "known_share",
-       "position_rms_mm", "rotation_rms_deg", "predicted_position_mm", "predicted_rotation_deg"});
+void measure(const simulation::Description& all, const Session& session, Table* table) {
   const double degrees = 180.0 / M_PI;
-  for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
-    for (const std::size_t cameras : {std::size_t{2}, all.cameras.size()}) {
-      const simulation::Description description = withCameras(all, cameras);
-      // A small LED 6 m away covers one or two cells of the sensor. A bright one covers three and
-      // soon merges with its neighbour.
-      for (const double size : {1.5, 3.0}) {
-        for (const Motion& motion :
-             {Motion{0.0, 0.0}, Motion{0.5, 1.0}, Motion{1.0, 2.0}, Motion{2.0, 4.0}}) {
-          const Score score = follow(description, motion, size, sessionSeed(arguments, session));
-          const auto root_mean = [&](double sum) { return std::sqrt(sum / score.known); };
-          table << session << static_cast<int>(description.cameras.size()) << size << motion.speed
-                << motion.turning << static_cast<double>(score.known) / score.looked
-                << 1e3 * root_mean(score.position) << degrees * root_mean(score.rotation)
-                << 1e3 * root_mean(score.position_variance)
-                << degrees * root_mean(score.rotation_variance);
-        }
+  for (const std::size_t cameras : {std::size_t{2}, all.cameras.size()}) {
+    const simulation::Description description = withCameras(all, cameras);
+    // A small LED 6 m away covers one or two cells of the sensor. A bright one covers three and
+    // soon merges with its neighbour.
+    for (const double size : {1.5, 3.0}) {
+      for (const Motion& motion :
+           {Motion{0.0, 0.0}, Motion{0.5, 1.0}, Motion{1.0, 2.0}, Motion{2.0, 4.0}}) {
+        const Score score = follow(description, motion, size, session.seed);
+        const auto root_mean = [&](double sum) { return std::sqrt(sum / score.known); };
+        *table << session.number << static_cast<int>(description.cameras.size()) << size
+               << motion.speed << motion.turning << static_cast<double>(score.known) / score.looked
+               << 1e3 * root_mean(score.position) << degrees * root_mean(score.rotation)
+               << 1e3 * root_mean(score.position_variance)
+               << degrees * root_mean(score.rotation_variance);
       }
     }
   }
-  table.close();
 }
 
 }  // namespace
@@ -127,5 +118,7 @@ void measure(const Arguments& arguments) {
 int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
       argc, argv, "Position and rotation errors of a moving body with four LEDs.",
+      {"session", "cameras", "led_size", "speed_m_per_s", "turning_rad_per_s", "known_share",
+       "position_rms_mm", "rotation_rms_deg", "predicted_position_mm", "predicted_rotation_deg"},
       wiimote_tracker::monte_carlo::measure);
 }

@@ -1,7 +1,6 @@
 // Accuracy with two to eight exactly known cameras on a ring: single points, and a tracked LED.
-#include "arguments.h"
+#include "program.h"
 #include "room.h"
-#include "table.h"
 
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
@@ -110,20 +109,13 @@ void measureTrack(const simulation::Description& description,
          << 1e3 * std::sqrt(predicted / count);
 }
 
-void measure(const Arguments& arguments) {
-  const simulation::Description like = simulation::readDescription(arguments.rig);
-  Table table(arguments.output, {"session", "cameras", "method", "x_m", "y_m", "z_m", "rays",
-                                 "error_mm", "predicted_mm"});
-  for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
-    const std::uint32_t seed = sessionSeed(arguments, session);
-    for (int count = 2; count <= 8; ++count) {
-      const simulation::Description description = ring(like, count);
-      std::mt19937 random(seed);
-      measurePoints(description, session, &random, &table);
-      measureTrack(description, session, seed, &table);
-    }
+void measure(const simulation::Description& like, const Session& session, Table* table) {
+  for (int count = 2; count <= 8; ++count) {
+    const simulation::Description description = ring(like, count);
+    std::mt19937 random(session.seed);
+    measurePoints(description, session.number, &random, table);
+    measureTrack(description, session.number, session.seed, table);
   }
-  table.close();
 }
 
 }  // namespace
@@ -135,5 +127,6 @@ int main(int argc, char** argv) {
       "Errors of single points in the cube, by two methods, and of a tracked LED, with two to "
       "eight "
       "exactly known cameras on a ring, and the errors predicted by the covariance.",
+      {"session", "cameras", "method", "x_m", "y_m", "z_m", "rays", "error_mm", "predicted_mm"},
       wiimote_tracker::monte_carlo::measure);
 }

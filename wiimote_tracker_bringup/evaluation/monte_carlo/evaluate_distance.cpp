@@ -1,8 +1,7 @@
 // Greatest distance at which a light is seen: the paper's measurement with a virtual Wii Remote.
-#include "arguments.h"
 #include "description.h"
+#include "program.h"
 #include "remote_camera.h"
-#include "table.h"
 #include "virtual_camera.h"
 
 #include <cmath>
@@ -63,20 +62,15 @@ Carried carry(const simulation::Description& description,
   }
 }
 
-void measure(const Arguments& arguments) {
-  const simulation::Description description = simulation::readDescription(arguments.rig);
-  Table table(arguments.output,
-              {"session", "sensitivity", "brightness", "stopped_at_m", "last_seen_m"});
-  for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
-    std::mt19937 random(sessionSeed(arguments, session));
-    for (const char* sensitivity : {"wii_1", "wii_2", "wii_3", "wii_4", "wii_5", "max"}) {
-      for (const double brightness : {0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0}) {
-        const Carried carried = carry(description, sensitivity, brightness, &random);
-        table << session << sensitivity << brightness << carried.stopped_at << carried.last_seen;
-      }
+void measure(const simulation::Description& description, const Session& session, Table* table) {
+  std::mt19937 random(session.seed);
+  for (const char* sensitivity : {"wii_1", "wii_2", "wii_3", "wii_4", "wii_5", "max"}) {
+    for (const double brightness : {0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0}) {
+      const Carried carried = carry(description, sensitivity, brightness, &random);
+      *table << session.number << sensitivity << brightness << carried.stopped_at
+             << carried.last_seen;
     }
   }
-  table.close();
 }
 
 }  // namespace
@@ -87,5 +81,6 @@ int main(int argc, char** argv) {
       argc, argv,
       "Moves a virtual Wii Remote away from lights of several brightnesses (1: the Wii's sensor "
       "bar) until the reported position has not changed for 0.5 s.",
+      {"session", "sensitivity", "brightness", "stopped_at_m", "last_seen_m"},
       wiimote_tracker::monte_carlo::measure);
 }

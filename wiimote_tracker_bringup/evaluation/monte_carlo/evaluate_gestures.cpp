@@ -1,8 +1,7 @@
 // Gestures that simulated people draw with an LED, as tracked: a folder per person with a CSV per
 // gesture, for gesture_tool.
-#include "arguments.h"
+#include "program.h"
 #include "room.h"
-#include "table.h"
 
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
@@ -211,18 +210,19 @@ void writeTracked(const simulation::Description& description,
   table.close();
 }
 
-void measure(const Arguments& arguments) {
-  const simulation::Description description = simulation::readDescription(arguments.rig);
-  for (int person = arguments.first; person < arguments.first + arguments.sessions; ++person) {
-    const std::uint32_t seed = sessionSeed(arguments, person);
-    Hand hand(seed);
-    const std::string name = format("person_%03d", person + 1);
-    const std::filesystem::path folder = std::filesystem::path(arguments.output) / name;
+void measure(const simulation::Description& description,
+             const std::vector<Session>& people,
+             const std::string& output) {
+  for (const Session& person : people) {
+    Hand hand(person.seed);
+    const std::string name = format("person_%03d", person.number + 1);
+    const std::filesystem::path folder = std::filesystem::path(output) / name;
     std::filesystem::create_directories(folder);
     for (const auto& [gesture, line] : gestures()) {
       double duration = 0.0;
       const Path drawing = hand.draw(line, &duration);
-      writeTracked(description, drawing, duration, seed, (folder / (gesture + ".csv")).string());
+      writeTracked(description, drawing, duration, person.seed,
+                   (folder / (gesture + ".csv")).string());
     }
   }
 }

@@ -1,8 +1,7 @@
 // Identification of blinking LEDs and its duration, from the light on the sensor to the label: the
 // paper's scheme for several periods, and cyclic codes for several chip durations.
-#include "arguments.h"
+#include "program.h"
 #include "room.h"
-#include "table.h"
 
 #include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"
@@ -107,27 +106,21 @@ Outcome identify(const simulation::Description& description,
   return outcome;
 }
 
-void measure(const Arguments& arguments) {
-  const simulation::Description all = simulation::readDescription(arguments.rig);
+void measure(const simulation::Description& all, const Session& session, Table* table) {
   std::vector<Scheme> schemes;
   for (const double ms : {25, 30, 40, 50, 60, 70, 80, 100, 120, 150, 200, 300, 500})
     schemes.push_back(paperScheme(1e-3 * ms));
   for (const double ms : {3, 4, 6, 8, 10, 12, 15, 20, 23, 30, 40})
     schemes.push_back(cyclicScheme(1e-3 * ms));
-  Table table(arguments.output, {"session", "cameras", "scheme", "length_ms", "period_ms",
-                                 "labelled", "wrong", "ever_wrong", "seconds"});
-  for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
-    for (const std::size_t cameras : {std::size_t{2}, all.cameras.size()}) {
-      const simulation::Description description = withCameras(all, cameras);
-      for (const Scheme& scheme : schemes) {
-        const Outcome outcome = identify(description, scheme, sessionSeed(arguments, session));
-        table << session << static_cast<int>(description.cameras.size()) << scheme.name
-              << 1e3 * scheme.length << 1e3 * scheme.period << outcome.labelled << outcome.wrong
-              << static_cast<int>(outcome.ever_wrong) << outcome.seconds;
-      }
+  for (const std::size_t cameras : {std::size_t{2}, all.cameras.size()}) {
+    const simulation::Description description = withCameras(all, cameras);
+    for (const Scheme& scheme : schemes) {
+      const Outcome outcome = identify(description, scheme, session.seed);
+      *table << session.number << static_cast<int>(description.cameras.size()) << scheme.name
+             << 1e3 * scheme.length << 1e3 * scheme.period << outcome.labelled << outcome.wrong
+             << static_cast<int>(outcome.ever_wrong) << outcome.seconds;
     }
   }
-  table.close();
 }
 
 }  // namespace
@@ -138,5 +131,7 @@ int main(int argc, char** argv) {
       argc, argv,
       "Labels of four blinking LEDs and the time until all are right: the paper's scheme "
       "(90/60/40/20 %) over the period, cyclic codes over the chip.",
+      {"session", "cameras", "scheme", "length_ms", "period_ms", "labelled", "wrong", "ever_wrong",
+       "seconds"},
       wiimote_tracker::monte_carlo::measure);
 }

@@ -1,7 +1,6 @@
 // Tracking of an LED that is occluded from each camera at random times.
-#include "arguments.h"
+#include "program.h"
 #include "room.h"
-#include "table.h"
 
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
@@ -122,47 +121,38 @@ double shareOfTwoViews(const std::vector<Curtain>& curtains) {
   return static_cast<double>(seen) / all;
 }
 
-void measure(const Arguments& arguments) {
-  const simulation::Description all = simulation::readDescription(arguments.rig);
-  Table table(arguments.output,
-              {"session", "cameras", "hidden_share", "method", "covered_share", "two_views_share",
-               "astray_share", "inside_share", "rms_mm", "longest_gap_s", "ids"});
-  for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
-    const std::uint32_t seed = sessionSeed(arguments, session);
-    for (const std::size_t cameras : {std::size_t{2}, all.cameras.size()}) {
-      const simulation::Description description = withCameras(all, cameras);
-      const geometry::Rig rig = trueRig(description);
-      for (const double hidden_share : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6}) {
-        std::mt19937 random(seed);
-        std::vector<Curtain> curtains;
-        for (std::size_t i = 0; i < description.cameras.size(); ++i)
-          curtains.emplace_back(hidden_share, &random);
-        const double phase = 2.0 * M_PI * (random() / 4294967296.0);
-        const Path path = [=](double time) {  // the paper's upper circle, 1 m/s
-          const double angle = phase + time / 0.75;
-          return Eigen::Vector3d(1.25 + 0.75 * std::cos(angle), 1.25 + 0.75 * std::sin(angle),
-                                 0.95);
-        };
-        RoomOptions options;
-        options.hidden = [&](std::size_t camera, std::size_t, double time) {
-          return curtains[camera].isShut(time);
-        };
-        Room room(description, {path}, options, seed);
-        const std::vector<RoomImage> images = record(&room, kDuration);
-        const double lateness = medianLateness(images);
-        for (const Method& method : kMethods) {
-          const Score score = follow(rig, images, path, lateness, method);
-          const double points = score.astray + score.published;
-          table << session << static_cast<int>(description.cameras.size()) << hidden_share
-                << method.name << score.covered / (kDuration - kSettled)
-                << shareOfTwoViews(curtains) << score.astray / points << score.inside / points
-                << 1e3 * std::sqrt(score.squared / score.published) << score.longest_gap
-                << static_cast<int>(score.ids.size());
-        }
+void measure(const simulation::Description& all, const Session& session, Table* table) {
+  for (const std::size_t cameras : {std::size_t{2}, all.cameras.size()}) {
+    const simulation::Description description = withCameras(all, cameras);
+    const geometry::Rig rig = trueRig(description);
+    for (const double hidden_share : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6}) {
+      std::mt19937 random(session.seed);
+      std::vector<Curtain> curtains;
+      for (std::size_t i = 0; i < description.cameras.size(); ++i)
+        curtains.emplace_back(hidden_share, &random);
+      const double phase = 2.0 * M_PI * (random() / 4294967296.0);
+      const Path path = [=](double time) {  // the paper's upper circle, 1 m/s
+        const double angle = phase + time / 0.75;
+        return Eigen::Vector3d(1.25 + 0.75 * std::cos(angle), 1.25 + 0.75 * std::sin(angle), 0.95);
+      };
+      RoomOptions options;
+      options.hidden = [&](std::size_t camera, std::size_t, double time) {
+        return curtains[camera].isShut(time);
+      };
+      Room room(description, {path}, options, session.seed);
+      const std::vector<RoomImage> images = record(&room, kDuration);
+      const double lateness = medianLateness(images);
+      for (const Method& method : kMethods) {
+        const Score score = follow(rig, images, path, lateness, method);
+        const double points = score.astray + score.published;
+        *table << session.number << static_cast<int>(description.cameras.size()) << hidden_share
+               << method.name << score.covered / (kDuration - kSettled) << shareOfTwoViews(curtains)
+               << score.astray / points << score.inside / points
+               << 1e3 * std::sqrt(score.squared / score.published) << score.longest_gap
+               << static_cast<int>(score.ids.size());
       }
     }
   }
-  table.close();
 }
 
 }  // namespace
@@ -173,5 +163,7 @@ int main(int argc, char** argv) {
       argc, argv,
       "An LED on a circle, hidden from each camera at random for 0.25 s on average: share of the "
       "time with a position, its accuracy, and the number of ids.",
+      {"session", "cameras", "hidden_share", "method", "covered_share", "two_views_share",
+       "astray_share", "inside_share", "rms_mm", "longest_gap_s", "ids"},
       wiimote_tracker::monte_carlo::measure);
 }

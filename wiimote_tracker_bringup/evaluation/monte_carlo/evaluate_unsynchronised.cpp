@@ -1,7 +1,6 @@
 // Errors of a moving LED with unsynchronised cameras, and the benefit of estimated exposure times.
-#include "arguments.h"
+#include "program.h"
 #include "room.h"
-#include "table.h"
 
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
@@ -105,50 +104,46 @@ Score intersectLatest(const geometry::Rig& rig,
   return score;
 }
 
-void measure(const Arguments& arguments) {
-  const simulation::Description description = simulation::readDescription(arguments.rig);
+void measure(const simulation::Description& description, const Session& session, Table* table) {
   const geometry::Rig rig = trueRig(description);
-  Table table(arguments.output, {"session", "speed_m_per_s", "clocks", "stamps", "method", "rms_mm",
-                                 "seen_share", "lateness_ms", "instants"});
-  for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
-    const std::uint32_t seed = sessionSeed(arguments, session);
-    for (const double speed : {0.5, 1.0, 2.0, 3.0}) {
-      const Path path = circleOf(speed, 1e-3 * (seed % 6283));
-      for (const bool synchronised : {false, true}) {
-        for (const auto& [stamping, name] : {std::make_pair(Stamping::kExact, "exact"),
-                                             std::make_pair(Stamping::kEstimated, "estimated"),
-                                             std::make_pair(Stamping::kArrival, "arrival")}) {
-          const std::string stamps = name;
-          RoomOptions options;
-          options.synchronised = synchronised;
-          options.stamping = stamping;
-          Room room(description, {path}, options, seed);
-          const std::vector<RoomImage> images = record(&room, kDuration);
-          const double lateness = medianLateness(images);
-          const auto write = [&](const std::string& method, const Score& score) {
-            table << session << speed << (synchronised ? "synchronised" : "own") << stamps << method
-                  << 1e3 * std::sqrt(score.squared / score.seen)
-                  << static_cast<double>(score.seen) / score.instants << 1e3 * lateness
-                  << score.instants;
-          };
-          write("tracks", follow(rig, images, path, lateness, tracking::Mode::kTracks));
-          write("instants", follow(rig, images, path, lateness, tracking::Mode::kInstant));
-          if (stamping == Stamping::kExact)  // it does not use stamps
-            write("latest", intersectLatest(rig, images, path));
-        }
+  for (const double speed : {0.5, 1.0, 2.0, 3.0}) {
+    const Path path = circleOf(speed, 1e-3 * (session.seed % 6283));
+    for (const bool synchronised : {false, true}) {
+      for (const auto& [stamping, name] : {std::make_pair(Stamping::kExact, "exact"),
+                                           std::make_pair(Stamping::kEstimated, "estimated"),
+                                           std::make_pair(Stamping::kArrival, "arrival")}) {
+        const std::string stamps = name;
+        RoomOptions options;
+        options.synchronised = synchronised;
+        options.stamping = stamping;
+        Room room(description, {path}, options, session.seed);
+        const std::vector<RoomImage> images = record(&room, kDuration);
+        const double lateness = medianLateness(images);
+        const auto write = [&](const std::string& method, const Score& score) {
+          *table << session.number << speed << (synchronised ? "synchronised" : "own") << stamps
+                 << method << 1e3 * std::sqrt(score.squared / score.seen)
+                 << static_cast<double>(score.seen) / score.instants << 1e3 * lateness
+                 << score.instants;
+        };
+        write("tracks", follow(rig, images, path, lateness, tracking::Mode::kTracks));
+        write("instants", follow(rig, images, path, lateness, tracking::Mode::kInstant));
+        if (stamping == Stamping::kExact)  // it does not use stamps
+          write("latest", intersectLatest(rig, images, path));
       }
     }
   }
-  table.close();
 }
 
 }  // namespace
 }  // namespace wiimote_tracker::monte_carlo
 
 int main(int argc, char** argv) {
-  return wiimote_tracker::monte_carlo::runProgram(argc, argv,
-                                                  "RMS error of a moving LED with synchronised and "
-                                                  "unsynchronised cameras, and with stamps that "
-                                                  "are exact, estimated, or the arrivals.",
-                                                  wiimote_tracker::monte_carlo::measure);
+  return wiimote_tracker::monte_carlo::runProgram(
+      argc, argv,
+      "RMS error of a moving LED with synchronised and "
+      "unsynchronised cameras, and with stamps that "
+      "are exact, estimated, or the arrivals.",
+      {"session", "speed_m_per_s", "clocks", "stamps", "method", "rms_mm", "seen_share",
+       "lateness_ms", "instants"},
+      wiimote_tracker::monte_carlo::measure);
 }

@@ -1,11 +1,10 @@
 // The paper's three circles at several speeds, tracked by unsynchronised cameras after the paper's
 // calibration and after ours.
-#include "arguments.h"
 #include "calibrations.h"
 #include "experiment.h"
+#include "program.h"
 #include "room.h"
 #include "session.h"
-#include "table.h"
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
@@ -141,34 +140,26 @@ class LapWriter {
   Table* table_;
 };
 
-void measureAll(const Arguments& arguments) {
-  const simulation::Description description = simulation::readDescription(arguments.rig);
-  Table table(arguments.output,
-              {"session", "cameras", "method", "circle", "speed", "time", "true_x", "true_y",
-               "true_z", "measured_x", "measured_y", "measured_z", "radial_error", "height_error"});
-  for (int number = arguments.first; number < arguments.first + arguments.sessions; ++number) {
-    const std::uint32_t seed = sessionSeed(arguments, number);
-    for (const std::size_t count : {std::size_t(2), std::size_t(4)}) {
-      if (count > description.cameras.size())
-        continue;
-      std::vector<std::size_t> cameras(count);
-      std::iota(cameras.begin(), cameras.end(), std::size_t(0));
-      const PaperSession session = drawPaperSession(description, cameras, seed);
-      const simulation::Description described = describe(description, cameras, session);
-      const std::vector<Method> methods = methodsOf(described, session);
-      for (std::size_t circle = 0; circle < circleCenters().size(); ++circle) {
-        for (const double speed : {0.5, 1.0, 2.0}) {
-          const LapWriter lap(number, circle, speed, 1e-3 * (seed % 6283), &table);
-          Room room(described, {[&](double time) { return lap.position(time); }}, RoomOptions(),
-                    seed + static_cast<std::uint32_t>(circle));
-          const std::vector<RoomImage> images = record(&room, kSettling + lap.duration());
-          for (const Method& method : methods)
-            lap.follow(method, images);
-        }
+void measureAll(const simulation::Description& description, const Session& session, Table* table) {
+  for (const std::size_t count : {std::size_t(2), std::size_t(4)}) {
+    if (count > description.cameras.size())
+      continue;
+    std::vector<std::size_t> cameras(count);
+    std::iota(cameras.begin(), cameras.end(), std::size_t(0));
+    const PaperSession drawn = drawPaperSession(description, cameras, session.seed);
+    const simulation::Description described = describe(description, cameras, drawn);
+    const std::vector<Method> methods = methodsOf(described, drawn);
+    for (std::size_t circle = 0; circle < circleCenters().size(); ++circle) {
+      for (const double speed : {0.5, 1.0, 2.0}) {
+        const LapWriter lap(session.number, circle, speed, 1e-3 * (session.seed % 6283), table);
+        Room room(described, {[&](double time) { return lap.position(time); }}, RoomOptions(),
+                  session.seed + static_cast<std::uint32_t>(circle));
+        const std::vector<RoomImage> images = record(&room, kSettling + lap.duration());
+        for (const Method& method : methods)
+          lap.follow(method, images);
       }
     }
   }
-  table.close();
 }
 
 }  // namespace
@@ -179,5 +170,7 @@ int main(int argc, char** argv) {
       argc, argv,
       "The paper's three circles at 0.5, 1 and 2 m/s, tracked by two and by four cameras after the "
       "paper's calibration and after others: a row every 50 ms.",
+      {"session", "cameras", "method", "circle", "speed", "time", "true_x", "true_y", "true_z",
+       "measured_x", "measured_y", "measured_z", "radial_error", "height_error"},
       wiimote_tracker::monte_carlo::measureAll);
 }

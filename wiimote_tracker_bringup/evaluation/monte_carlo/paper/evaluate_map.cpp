@@ -1,7 +1,6 @@
 // Errors of positions in the whole cube after a calibration, and the errors that it predicts.
-#include "arguments.h"
 #include "calibrations.h"
-#include "table.h"
+#include "program.h"
 
 #include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 
@@ -52,30 +51,26 @@ void measurePlaces(const PaperSession& session,
   }
 }
 
-void measureMap(const Arguments& arguments) {
-  const simulation::Description description = simulation::readDescription(arguments.rig);
+void measureMap(const simulation::Description& description, const Session& session, Table* table) {
   std::vector<std::size_t> cameras;
   for (std::size_t i = 0; i < description.cameras.size(); ++i)
     cameras.push_back(i);
   const double pixel_stddev = stillPixelStddev(description);
-  Table table(arguments.output, {"session", "method", "x_m", "y_m", "z_m", "error_mm",
-                                 "predicted_mm", "normalised_squared_error"});
-  for (int session = arguments.first; session < arguments.first + arguments.sessions; ++session) {
-    const PaperSession drawn =
-        drawPaperSession(description, cameras, sessionSeed(arguments, session));
-    measurePlaces(drawn, solveJointSquare(drawn), pixel_stddev, session, "square", &table);
-    measurePlaces(drawn, solveWaved(drawn.wave), pixel_stddev, session, "wave", &table);
-  }
-  table.close();
+  const PaperSession drawn = drawPaperSession(description, cameras, session.seed);
+  measurePlaces(drawn, solveJointSquare(drawn), pixel_stddev, session.number, "square", table);
+  measurePlaces(drawn, solveWaved(drawn.wave), pixel_stddev, session.number, "wave", table);
 }
 
 }  // namespace
 }  // namespace wiimote_tracker::monte_carlo
 
 int main(int argc, char** argv) {
-  return wiimote_tracker::monte_carlo::runProgram(argc, argv,
-                                                  "Errors at 27 positions in the whole cube after "
-                                                  "a calibration by the square, and by square and "
-                                                  "waved LED, and the predicted errors.",
-                                                  wiimote_tracker::monte_carlo::measureMap);
+  return wiimote_tracker::monte_carlo::runProgram(
+      argc, argv,
+      "Errors at 27 positions in the whole cube after "
+      "a calibration by the square, and by square and "
+      "waved LED, and the predicted errors.",
+      {"session", "method", "x_m", "y_m", "z_m", "error_mm", "predicted_mm",
+       "normalised_squared_error"},
+      wiimote_tracker::monte_carlo::measureMap);
 }

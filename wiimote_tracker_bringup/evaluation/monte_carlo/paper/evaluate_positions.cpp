@@ -1,8 +1,7 @@
 // The paper's ten points, measured after the paper's calibrations and after ours, in each session.
-#include "arguments.h"
 #include "calibrations.h"
+#include "program.h"
 #include "session.h"
-#include "table.h"
 
 #include "wiimote_tracker_calibration/remap/error.h"
 #include "wiimote_tracker_calibration/remap/fit.h"
@@ -246,17 +245,17 @@ class SessionWriter {
   Table* traces_;
 };
 
-void measureAll(const Arguments& arguments) {
-  const simulation::Description description = simulation::readDescription(arguments.rig);
-  Table points(arguments.output + "/points.csv", kPointColumns);
-  Table traces(arguments.output + "/traces.csv", kTraceColumns);
-  for (int number = arguments.first; number < arguments.first + arguments.sessions; ++number) {
+void measureAll(const simulation::Description& description,
+                const std::vector<Session>& sessions,
+                const std::string& output) {
+  Table points(output + "/points.csv", kPointColumns);
+  Table traces(output + "/traces.csv", kTraceColumns);
+  for (const Session& one : sessions) {
     for (const CameraSet& set : kCameraSets) {
       if (set.cameras.back() >= description.cameras.size())
         continue;
-      const PaperSession session =
-          drawPaperSession(description, set.cameras, sessionSeed(arguments, number));
-      SessionWriter writer(number, set.name, session, stillPixelStddev(description), &points,
+      const PaperSession session = drawPaperSession(description, set.cameras, one.seed);
+      SessionWriter writer(one.number, set.name, session, stillPixelStddev(description), &points,
                            &traces);
       writer.writePaper();
       if (set.ours)

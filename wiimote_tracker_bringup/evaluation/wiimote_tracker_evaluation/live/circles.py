@@ -5,23 +5,14 @@ import time
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.live.dialogue import Dialogue
-from wiimote_tracker_evaluation.live.listener import Listener
+from wiimote_tracker_evaluation.live.listener import with_listener
 
 DURATION, QUICK = 15.0, 3.0  # of the measurement [s]
 BLOCKS = 10                  # independent parts of the measurement
 
 
-def live(run, dialogue=None):
-    listener, dialogue = Listener(), dialogue or Dialogue()
-    try:
-        run.simulated = listener.is_simulated()
-        measure(run, listener, dialogue)
-    finally:
-        listener.close()
-
-
-def measure(run, listener, dialogue):
+@with_listener
+def live(run, listener, dialogue):
     listener.wait_for_points()
     dialogue.tell('Move one LED on a horizontal circle at constant speed: on a turntable, or an '
                   'arm of a motor.')

@@ -6,8 +6,8 @@ import numpy as np
 import yaml
 
 from wiimote_tracker_evaluation import charts
-from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
-from wiimote_tracker_evaluation.live.listener import Listener
+from wiimote_tracker_evaluation.live.dialogue import SKIP
+from wiimote_tracker_evaluation.live.listener import with_listener
 
 TIME_LIMIT = 0.5  # the paper's: time without a new position [s]
 
@@ -35,16 +35,8 @@ class Watch:
         self._subscriber.unregister()
 
 
-def live(run, dialogue=None):
-    listener, dialogue = Listener(), dialogue or Dialogue()
-    try:
-        run.simulated = listener.is_simulated()
-        measure(run, dialogue)
-    finally:
-        listener.close()
-
-
-def measure(run, dialogue):
+@with_listener
+def live(run, _, dialogue):
     dialogue.tell('Take one remote; hold it towards the LED, in small circles all the time, and walk '
                   'slowly backwards until you hear a beep. Then measure the distance.')
     camera = dialogue.ask('Name of that camera, such as wiimote_1 (Enter: skip this):')

@@ -5,23 +5,15 @@ import time
 import numpy as np
 
 from wiimote_tracker_evaluation import statistics
-from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
-from wiimote_tracker_evaluation.live.listener import Listener
+from wiimote_tracker_evaluation.live.dialogue import SKIP
+from wiimote_tracker_evaluation.live.listener import with_listener
 
 TRIES, QUICK_TRIES = 10, 3
 LABEL_TIMEOUT = 10.0  # for labels, after the LEDs are seen [s]
 
 
-def live(run, dialogue=None):
-    listener, dialogue = Listener(), dialogue or Dialogue()
-    try:
-        run.simulated = listener.is_simulated()
-        measure(run, listener, dialogue)
-    finally:
-        listener.close()
-
-
-def measure(run, listener, dialogue):
+@with_listener
+def live(run, listener, dialogue):
     dialogue.tell('The tracker needs the codes of your LEDs (argument blink_codes of its launch '
                   'file).')
     names = dialogue.ask('Labels of the LEDs, separated by commas (Enter: skip this):')

@@ -1,12 +1,13 @@
 """Stores recent messages of a running tracker."""
 
 import collections
+import functools
 import time
 
 import numpy as np
 
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.live.dialogue import SKIP
+from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
 
 KEPT = 60.0         # [s]
 STILL_TIME = 1.5    # at rest, for a measurement [s]
@@ -133,3 +134,16 @@ class Listener:
             if time.monotonic() > deadline:
                 raise ExperimentError(otherwise)
             time.sleep(0.02)
+
+
+def with_listener(measure):
+    """Makes measure(run, listener, dialogue) the live(run) of a section."""
+    @functools.wraps(measure)
+    def live(run, dialogue=None):
+        listener = Listener()
+        try:
+            run.simulated = listener.is_simulated()
+            measure(run, listener, dialogue or Dialogue())
+        finally:
+            listener.close()
+    return live

@@ -3,20 +3,10 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, experiment, statistics
-from wiimote_tracker_evaluation.live.dialogue import Dialogue
-from wiimote_tracker_evaluation.live.listener import Listener
+from wiimote_tracker_evaluation.live.listener import with_listener
 
 FLOOR, AIR = 0.01, 0.03  # the paper's largest placement errors [m]
 PAPER_LIMIT = 3.0         # its accuracy [cm]
-
-
-def live(run, dialogue=None):
-    listener, dialogue = Listener(), dialogue or Dialogue()
-    try:
-        run.simulated = listener.is_simulated()
-        measure(run, listener, dialogue)
-    finally:
-        listener.close()
 
 
 def targets(side, up):
@@ -24,7 +14,8 @@ def targets(side, up):
     return experiment.TEST_POINTS / experiment.SIDE * side * [1.0, 1.0, up]
 
 
-def measure(run, listener, dialogue):
+@with_listener
+def live(run, listener, dialogue):
     points = targets(listener.side(), listener.up())
     listener.wait_for_points()
     dialogue.tell('Take one LED to ten places, one after the other, and hold it still until the next '

@@ -18,8 +18,10 @@
 #include <wiimote_tracker_msgs/StartWave.h>
 #include <opencv2/core.hpp>
 
+#include <memory>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 namespace wiimote_tracker {
 namespace {
@@ -132,19 +134,18 @@ TEST_F(ThrownErrors, BecomeRefusalsAndTheNextRequestWorks) {
 }
 
 TEST_F(ThrownErrors, EndNoThreadThatImagesComeFrom) {
-  bool thrown = false;
+  // Images come until the node ends, after this test.
+  const auto thrown = std::make_shared<bool>(false);
   {
     const Lock lock(node->context().mutex());
-    node->context().inputs().subscribeImages([&](const capture::Image&, const Lock&) {
-      if (!thrown) {
-        thrown = true;
+    node->context().inputs().subscribeImages([thrown](const capture::Image&, const Lock&) {
+      if (!std::exchange(*thrown, true))
         throw 7;
-      }
     });
   }
   EXPECT_TRUE(waitUntil([&] {
     const Lock lock(node->context().mutex());
-    return thrown;
+    return *thrown;
   }));
   const Reply reply = replyTo<CheckConnection>("calibration/check_connection");
   EXPECT_TRUE(reply.success) << reply.message;

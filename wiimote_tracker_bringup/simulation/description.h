@@ -1,12 +1,12 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
 #define WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
 
-#include "blink.h"
 #include "drawing.h"
 #include "led_motion.h"
 
 #include "wiimote_tracker_driver/virtual_wiimote/frame_times.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
+#include "wiimote_tracker_triangulation/identity/waveform.h"
 
 #include <Eigen/Core>
 
@@ -30,6 +30,21 @@ struct TurnDescription {
   std::string around;     ///< Name of the other LED.
   double distance = 0.0;  ///< Length of the wand [m].
   double rate = 0.0;      ///< About the vertical [rad/s], while nodding.
+};
+
+/// Periodic blinking of an LED.
+struct Blink {
+  identity::Waveform waveform;
+  double period = 1.0;  ///< [s, > 0]
+  double begin = 0.0;   ///< Start of one of its periods [s].
+
+  /// Share of the exposure around `time` [s] in which the LED is on [0..1], which scales its
+  /// brightness. An exposure lasts 1 ms here; that of a Wii Remote is unknown.
+  double light(double time) const {
+    constexpr double kExposure = 0.001;  // [s]
+    return identity::litShare(waveform, (time - 0.5 * kExposure - begin) / period,
+                              kExposure / period);
+  }
 };
 
 /// The initial state of an LED; simulation/set_led changes it.

@@ -5,8 +5,9 @@
 #include "led_board.h"
 #include "led_motion.h"
 #include "person.h"
-#include "rigid_body.h"
 #include "virtual_camera.h"
+
+#include <Eigen/Geometry>
 
 #include <cstddef>
 #include <functional>
@@ -20,6 +21,24 @@ namespace wiimote_tracker::simulation {
 /// Input of a camera's sensor for one image.
 struct Image : virtual_wiimote::Senses {
   double exposure;  ///< Time [s since the start].
+};
+
+/// A moving rigid body with LEDs. It occludes nothing.
+class RigidBody {
+ public:
+  explicit RigidBody(const RigidBodyDescription& description)
+      : motion(description.motion), present(description.present), description_(description) {}
+
+  const std::string& name() const { return description_.name; }
+
+  /// Its axes are parallel to the world's at time 0.
+  Eigen::Isometry3d worldFromBody(double time) const;
+
+  LedMotion motion;  ///< Of its origin.
+  bool present;      ///< If absent, its LEDs are not seen.
+
+ private:
+  RigidBodyDescription description_;
 };
 
 /// A queue of the events of a description: exposures, deliveries of reports, instants of truth.

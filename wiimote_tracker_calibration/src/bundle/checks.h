@@ -3,6 +3,10 @@
 
 #include "wiimote_tracker_calibration/bundle/solve.h"
 
+#include <functional>
+#include <optional>
+#include <string>
+
 namespace wiimote_tracker::bundle {
 
 /// @throws BundleError: invalid options or observations, fewer than two cameras.
@@ -18,6 +22,13 @@ bool isOnALine(const Reconstruction& reconstruction);
 /// stand in one place: a homography explains the views of any two cameras to 3 times the solution's
 /// error, or to `slack` [image widths].
 bool isFlat(const Reconstruction& solution, const Options& options, double slack);
+
+/// Looks for the cause if no solution fits: one camera's image is mirrored, or the given intrinsics
+/// of two cameras are exchanged. @param works whether a solution fits the changed observations.
+/// @returns a sentence, or nothing if neither helps.
+std::optional<std::string> suspicion(const Reconstruction& observed,
+                                     bool intrinsics_given,
+                                     const std::function<bool(const Reconstruction&)>& works);
 
 }  // namespace wiimote_tracker::bundle
 

@@ -3,7 +3,6 @@
 #include "attempt.h"
 #include "certainty.h"
 #include "checks.h"
-#include "suspicion.h"
 
 #include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/statistics.h"

@@ -20,12 +20,24 @@ class KnownPlaces {
  public:
   /// Sets the calibration in use (geometry::Rig::id()). @returns how many places of another one
   /// were dropped.
-  std::size_t useRig(const std::string& rig_id);
+  std::size_t useRig(const std::string& rig_id) {
+    if (rig_id == rig_id_)
+      return 0;
+    const std::size_t dropped = places_.size();
+    places_.clear();
+    rig_id_ = rig_id;
+    return dropped;
+  }
 
   void add(const KnownPlace& place) { places_.push_back(place); }
 
   /// Drops the latest. @returns false when there is none.
-  bool undo();
+  bool undo() {
+    if (places_.empty())
+      return false;
+    places_.pop_back();
+    return true;
+  }
 
   void clear() { places_.clear(); }
 

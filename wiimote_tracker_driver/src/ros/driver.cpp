@@ -1,16 +1,18 @@
 #include "driver.h"
 
-#include "realtime_priority.h"
 #include "transport/users.h"
 
 #include <wiimote_tracker_msgs/log_exceptions.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
 #include <pthread.h>
+#include <sched.h>
 #include <signal.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -54,6 +56,26 @@ std::shared_ptr<recording::Recorder> makeRecorder(const DriverParameters& p,
   } catch (const recording::BadRecording& e) {
     throw ParameterError(parameter + ": " + e.what());
   }
+}
+
+/// Gives the calling thread real-time priority (SCHED_FIFO, 1..99). @returns an empty string, or
+/// one sentence why that failed and what to do.
+std::string takeRealtimePriority(int priority) {
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+  if (error == 0)
+    return "";
+  const std::string wanted = std::to_string(priority);
+  if (error == EPERM)
+    return "no permission for real-time priority " + wanted +
+           ", so reports are read late when the computer is busy: put the line \"@input - "
+           "rtprio " +
+           wanted +
+           "\" into /etc/security/limits.conf and log in again as a member of the group input, or "
+           "set ~realtime_priority to 0";
+  return "real-time priority " + wanted + " is refused (" + std::strerror(error) +
+         "): set ~realtime_priority to 0";
 }
 
 /// A thread without signal handlers, so that none interrupts a read.

@@ -8,11 +8,8 @@
 
 #include <ceres/ceres.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace wiimote_tracker::bundle {

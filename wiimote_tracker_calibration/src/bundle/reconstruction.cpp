@@ -2,8 +2,6 @@
 
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
-#include <cmath>
-
 namespace wiimote_tracker::bundle {
 
 namespace {

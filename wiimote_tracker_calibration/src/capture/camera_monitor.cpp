@@ -1,7 +1,5 @@
 #include "capture/camera_monitor.h"
 
-#include <algorithm>
-
 namespace wiimote_tracker::capture {
 
 namespace {

@@ -5,8 +5,6 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include <algorithm>
-
 namespace wiimote_tracker::intrinsics {
 
 namespace {

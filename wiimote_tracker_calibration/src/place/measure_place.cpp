@@ -13,9 +13,7 @@
 #include <Eigen/QR>
 
 #include <cstddef>
-#include <limits>
 #include <optional>
-#include <utility>
 
 namespace wiimote_tracker::place {
 

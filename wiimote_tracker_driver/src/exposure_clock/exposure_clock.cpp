@@ -1,6 +1,5 @@
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -4,7 +4,6 @@
 #include "data_report.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 
 namespace wiimote_tracker::virtual_wiimote {

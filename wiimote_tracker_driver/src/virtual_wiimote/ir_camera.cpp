@@ -3,7 +3,6 @@
 #include "byte.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace wiimote_tracker::virtual_wiimote {
 namespace {

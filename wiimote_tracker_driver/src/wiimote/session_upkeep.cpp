@@ -2,7 +2,6 @@
 #include "wiimote/session.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace wiimote_tracker::wiimote {
 namespace {

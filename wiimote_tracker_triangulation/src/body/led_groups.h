@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <optional>
 
 namespace wiimote_tracker::body {

@@ -2,8 +2,6 @@
 
 #include "wiimote_tracker_triangulation/geometry/so3.h"
 
-#include <cmath>
-
 namespace wiimote_tracker::body {
 namespace {
 

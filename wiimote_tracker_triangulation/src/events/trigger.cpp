@@ -1,7 +1,6 @@
 #include "events/trigger.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace wiimote_tracker::events {

@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <vector>
 
 namespace wiimote_tracker::fusion {

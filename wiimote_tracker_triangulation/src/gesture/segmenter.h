@@ -3,7 +3,6 @@
 
 #include "wiimote_tracker_triangulation/gesture/shape.h"
 
-#include <cstddef>
 #include <optional>
 
 namespace wiimote_tracker::gesture {

@@ -4,8 +4,6 @@
 
 #include <wiimote_tracker_msgs/text.h>
 
-#include <algorithm>
-
 namespace wiimote_tracker::identity {
 namespace {
 

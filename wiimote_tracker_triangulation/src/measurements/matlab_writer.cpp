@@ -3,7 +3,6 @@
 
 #include <matio.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>

@@ -4,7 +4,6 @@
 
 #include <wiimote_tracker_msgs/text.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 

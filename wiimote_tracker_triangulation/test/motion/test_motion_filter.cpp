@@ -1,9 +1,7 @@
 #include "allocation_counter.h"
-#include "geometry/random_rigs.h"
+#include "motion/filter_scene.h"
 #include "motion/known_mode.h"
-#include "motion/motion_filter.h"
 #include "motion/textbook_imm.h"
-#include "motion/transition.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
@@ -21,76 +19,14 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using geometry::Camera;
 using geometry::test::Random;
-
-const MotionOptions kDefault;
-constexpr double kPixelStddev = 0.5;
-constexpr double kStep = 0.0025;  // from one camera's image to the next camera's [s]
-
-/// Four cameras about the origin, 4.2 m away.
-std::vector<Camera> ring() {
-  std::vector<Camera> cameras(4);
-  for (int i = 0; i < 4; ++i) {
-    const double angle = M_PI / 4.0 + i * M_PI / 2.0;
-    cameras[i].world_from_camera = geometry::lookAt(
-        {4.1 * std::cos(angle), 4.1 * std::sin(angle), 1.0}, Vector3d::Zero(), Vector3d::UnitZ());
-  }
-  return cameras;
-}
-
-Vector2d noisyPixel(const Camera& camera, const Vector3d& point, Random& random) {
-  const double u = random.gaussian();
-  return *camera.project(point) + kPixelStddev * Vector2d(u, random.gaussian());
-}
-
-/// Takes an image as a tracker does. False when the LED is not in front of the camera.
-bool takeIn(MotionFilter* filter, double time, const Camera& camera, const Vector2d& pixel) {
-  filter->predict(time);
-  const auto prediction = filter->predictPixel(camera, {kPixelStddev, 0.0});
-  return prediction && filter->update(camera, *prediction, pixel);
-}
-
-double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return (a - b).norm() / b.norm();
-}
-
-/// A path with rest, a sudden start, a curve and a sudden stop.
-Vector3d variedPath(double time) {
-  if (time < 0.5)
-    return {0.2, 0.1, 0.3};
-  if (time < 0.8)
-    return Vector3d(0.2, 0.1, 0.3) + (time - 0.5) * Vector3d(1.0, 0.5, -0.3);
-  const double angle = std::min(3.0 * (time - 0.8), 2.0);
-  return {0.5 + 0.4 * std::sin(angle), 0.25 + 0.4 * (1.0 - std::cos(angle)), 0.21};
-}
-
-TEST(Singer, IsTheSolutionOfItsStochasticDifferentialEquation) {
-  for (const double time : {0.2, 1.0, 100.0}) {
-    // The halves lie on both sides of where the series end.
-    for (const double share : {1e-5, 0.0025, 0.1, 0.4999, 0.5, 2.0, 10.0}) {
-      const double duration = share * time;
-      SCOPED_TRACE(testing::Message() << time << " s, " << duration << " s");
-      const test::Transition truth = test::singerTransition(1.0, time, duration);
-      const Transition transition = singer(1.0, time, duration);
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-          // The exponential of the matrix holds that of the share, which is rounded as a whole.
-          const auto near = [share](double expected, double actual) {
-            EXPECT_NEAR(expected, actual, 1e-10 * std::exp(share) * std::abs(expected));
-          };
-          near(truth.F(i, j), transition.F(i, j));
-          if (share > 0.001)  // else the exponential of the matrix is the less exact of the two
-            near(truth.Q(i, j), transition.Q(i, j));
-        }
-      }
-    }
-  }
-}
-
-TEST(Singer, OverNoTimeIsTheIdentity) {
-  const Transition transition = singer(2.0, 0.3, 0.0);
-  EXPECT_EQ(Matrix3d(Matrix3d::Identity()), transition.F);
-  EXPECT_EQ(Matrix3d(Matrix3d::Zero()), transition.Q);
-}
+using test::kDefault;
+using test::kPixelStddev;
+using test::kStep;
+using test::noisyPixel;
+using test::relative;
+using test::ring;
+using test::takeIn;
+using test::variedPath;
 
 TEST(MotionFilter, IsTheTextbooksFilter) {
   const std::vector<Camera> cameras = ring();
@@ -134,92 +70,6 @@ TEST(MotionFilter, IsTheTextbooksFilter) {
               1e-3);
     ASSERT_LT(relative(filter.velocityCovariance(), textbook.covariance().block<3, 3>(3, 3)), 1e-3);
   }
-}
-
-TEST(PixelPrediction, IsTheMixturesDensityAndMoments) {
-  const Camera camera = ring()[1];
-  MotionFilter filter(kDefault, 0.0, {0.1, 0.2, 0.3}, 1e-6 * Matrix3d::Identity());
-  Random random(3);
-  for (int i = 1; i < 200; ++i) {
-    const double time = kStep * i;
-    ASSERT_TRUE(
-        takeIn(&filter, time, ring()[i % 4], noisyPixel(ring()[i % 4], variedPath(time), random)));
-  }
-  filter.predict(filter.time() + 0.02);
-  const auto prediction = filter.predictPixel(camera, {kPixelStddev, 0.0});
-  ASSERT_TRUE(prediction);
-  // Integrated on a grid that reaches far enough.
-  constexpr double kCell = 0.1;
-  double sum = 0.0;
-  Vector2d mean = Vector2d::Zero();
-  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
-  for (double u = -40.0; u <= 40.0; u += kCell) {
-    for (double v = -40.0; v <= 40.0; v += kCell) {
-      const Vector2d d(u, v);
-      const double share =
-          std::exp(prediction->logLikelihood(prediction->pixel() + d)) * kCell * kCell;
-      sum += share;
-      mean += share * d;
-      second += share * d * d.transpose();
-    }
-  }
-  EXPECT_NEAR(1.0, sum, 1e-3);
-  EXPECT_LT(mean.norm(), 1e-3);
-  EXPECT_LT(relative(prediction->covariance(), second), 0.01);
-  EXPECT_EQ(*camera.project(filter.position()), prediction->pixel());
-  EXPECT_TRUE(std::isnan(prediction->squaredDistance({NAN, 0.0})));
-}
-
-TEST(PixelPrediction, AGateAcceptsExactlyThePixelsWithin) {
-  const Camera camera = ring()[1];
-  MotionFilter filter(kDefault, 0.0, {0.1, 0.2, 0.3}, 1e-6 * Matrix3d::Identity());
-  Random random(13);
-  int within = 0;
-  for (int i = 1; i < 400; ++i) {
-    const double time = kStep * i;
-    filter.predict(time);
-    const auto prediction = filter.predictPixel(camera, {kPixelStddev, 0.001});
-    ASSERT_TRUE(prediction);
-    for (const double gate : {1.0, 4.0, 25.0, 100.0}) {
-      for (int j = 0; j < 20; ++j) {
-        const double range = std::pow(10.0, random.uniform(-1.0, 3.0));  // [px]
-        const Vector2d pixel =
-            prediction->pixel() + range * Vector2d(random.gaussian(), random.gaussian());
-        const auto likelihood = prediction->logLikelihoodWithin(gate, pixel);
-        ASSERT_EQ(prediction->squaredDistance(pixel) <= gate, likelihood.has_value()) << gate;
-        if (likelihood) {
-          EXPECT_EQ(prediction->logLikelihood(pixel), *likelihood);
-        }
-        within += likelihood.has_value();
-      }
-    }
-    EXPECT_FALSE(prediction->logLikelihoodWithin(1e9, {NAN, 0.0}));
-    ASSERT_TRUE(filter.update(camera, *prediction, noisyPixel(camera, variedPath(time), random)));
-  }
-  EXPECT_GT(within, 3000);
-}
-
-TEST(PixelPrediction, AnUncertainStampAddsNoiseAlongTheMotion) {
-  const std::vector<Camera> cameras = ring();
-  MotionFilter filter(kDefault, 0.0, Vector3d(-0.2, 0.0, 0.1), 1e-6 * Matrix3d::Identity());
-  Random random(4);
-  const Vector3d velocity(1.0, 0.5, -0.2);
-  for (int i = 1; i < 100; ++i) {
-    const Vector3d truth = Vector3d(-0.2, 0.0, 0.1) + velocity * kStep * i;
-    ASSERT_TRUE(
-        takeIn(&filter, kStep * i, cameras[i % 4], noisyPixel(cameras[i % 4], truth, random)));
-  }
-  constexpr double kStampStddev = 0.003;
-  const auto exact = filter.predictPixel(cameras[0], {kPixelStddev, 0.0});
-  const auto smeared = filter.predictPixel(cameras[0], {kPixelStddev, kStampStddev});
-  ASSERT_TRUE(exact && smeared);
-  // By differences: how far the pixel goes in that time.
-  constexpr double kSmall = 1e-4;
-  const Vector2d speed = (*cameras[0].project(filter.position() + kSmall * filter.velocity()) -
-                          *cameras[0].project(filter.position() - kSmall * filter.velocity())) /
-                         (2.0 * kSmall);
-  const Eigen::Matrix2d expected = kStampStddev * kStampStddev * speed * speed.transpose();
-  EXPECT_LT(relative(smeared->covariance() - exact->covariance(), expected), 1e-4);
 }
 
 /// Errors relative to a bound, and the consistency of the covariance.

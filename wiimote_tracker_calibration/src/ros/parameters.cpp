@@ -20,42 +20,40 @@ std::string defaultRigFile() {
 }
 
 void readCapture(ParameterReader* reader, capture::CornerCaptureOptions* options) {
-  options->minimum_samples =
-      reader->bounded("minimum_samples", options->minimum_samples, 10, 100000);
-  options->minimum_cameras = reader->bounded("minimum_cameras", options->minimum_cameras, 1, 1000);
-  options->spread_limit = reader->bounded("spread_limit", options->spread_limit, 0.01, 1000.0);
-  options->drift_limit = reader->bounded("drift_limit", options->drift_limit, 0.01, 1000.0);
-  options->timeout = reader->bounded("capture_timeout", options->timeout, 0.1, 3600.0);
+  reader->read("minimum_samples", &options->minimum_samples, 10, 100000);
+  reader->read("minimum_cameras", &options->minimum_cameras, 1, 1000);
+  reader->read("spread_limit", &options->spread_limit, 0.01, 1000.0);
+  reader->read("drift_limit", &options->drift_limit, 0.01, 1000.0);
+  reader->read("capture_timeout", &options->timeout, 0.1, 3600.0);
 }
 
 void readHandsFree(ParameterReader* reader, capture::HandsFreeOptions* options) {
-  options->hold = reader->bounded("hands_free_hold", options->hold, 0.5, 60.0);
-  options->distance = reader->bounded("hands_free_distance", options->distance, 5.0, 10000.0);
+  reader->read("hands_free_hold", &options->hold, 0.5, 60.0);
+  reader->read("hands_free_distance", &options->distance, 5.0, 10000.0);
 }
 
 void readMasks(ParameterReader* reader, capture::MaskOptions* options) {
-  options->share = reader->bounded("mask_share", options->share, 0.001, 1.0);
-  options->margin = reader->bounded("mask_margin", options->margin, 0.0, 1000.0);
+  reader->read("mask_share", &options->share, 0.001, 1.0);
+  reader->read("mask_margin", &options->margin, 0.0, 1000.0);
 }
 
 void readCoverage(ParameterReader* reader, wave::CoverageOptions* options) {
-  options->seconds = reader->bounded("wave_seconds", options->seconds, 1.0, 600.0);
-  options->image_share = reader->bounded("wave_image_share", options->image_share, 0.0, 1.0);
-  options->image_speed = reader->bounded("wave_image_speed", options->image_speed, 0.0, 1e4);
-  options->volume = reader->bounded("wave_volume", options->volume, 0.0, 1e6);
-  options->speed = reader->bounded("wave_speed", options->speed, 0.0, 100.0);
-  options->distraction = reader->bounded("wave_distraction", options->distraction, 0.0, 1.0);
+  reader->read("wave_seconds", &options->seconds, 1.0, 600.0);
+  reader->read("wave_image_share", &options->image_share, 0.0, 1.0);
+  reader->read("wave_image_speed", &options->image_speed, 0.0, 1e4);
+  reader->read("wave_volume", &options->volume, 0.0, 1e6);
+  reader->read("wave_speed", &options->speed, 0.0, 100.0);
+  reader->read("wave_distraction", &options->distraction, 0.0, 1.0);
 }
 
 void readWave(ParameterReader* reader, wave::WaveOptions* options) {
-  options->pixel = reader->bounded("wave_pixel_stddev", options->pixel, 1e-3, 100.0);
-  options->stamp = reader->bounded("stamp_stddev", options->stamp, 0.0, 1.0);
-  options->wander = reader->bounded("stamp_wander", options->wander, 0.0, 1.0);
-  options->offset = reader->bounded("time_offset_stddev", options->offset, 1e-6, 10.0);
-  options->knot_spacing = reader->bounded("knot_spacing", options->knot_spacing, 0.005, 0.05);
-  options->acceleration = reader->bounded("wave_acceleration", options->acceleration, 0.1, 1e4);
-  options->maximum_offset_stddev =
-      reader->bounded("maximum_offset_stddev", options->maximum_offset_stddev, 1e-6, 10.0);
+  reader->read("wave_pixel_stddev", &options->pixel, 1e-3, 100.0);
+  reader->read("stamp_stddev", &options->stamp, 0.0, 1.0);
+  reader->read("stamp_wander", &options->wander, 0.0, 1.0);
+  reader->read("time_offset_stddev", &options->offset, 1e-6, 10.0);
+  reader->read("knot_spacing", &options->knot_spacing, 0.005, 0.05);
+  reader->read("wave_acceleration", &options->acceleration, 0.1, 1e4);
+  reader->read("maximum_offset_stddev", &options->maximum_offset_stddev, 1e-6, 10.0);
 }
 
 void readRays(ParameterReader* reader, session::SolveOptions* options) {
@@ -64,10 +62,8 @@ void readRays(ParameterReader* reader, session::SolveOptions* options) {
   options->correct_principal_points = correction != "none";
   options->correction.points = correction == "corners" ? principal_point::Points::kAllCorners
                                                        : principal_point::Points::kOrigin;
-  options->correction.rounds =
-      reader->bounded("correction_rounds", options->correction.rounds, 0, 1000);
-  options->correction.limit =
-      reader->bounded("correction_limit", options->correction.limit, 0.0, 1000.0);
+  reader->read("correction_rounds", &options->correction.rounds, 0, 1000);
+  reader->read("correction_limit", &options->correction.limit, 0.0, 1000.0);
   const std::string rays =
       reader->choice("ray_model", "calibrated", {"calibrated", "image_center"});
   options->ray_model =
@@ -81,36 +77,36 @@ void readSolve(ParameterReader* reader, square::SolveOptions* options) {
   const std::string method = reader->choice("method", "joint", {"joint", "per_camera"});
   options->method = method == "joint" ? square::Method::kJoint : square::Method::kPerCamera;
   square::Uncertainty& u = options->uncertainty;
-  u.pixel = reader->bounded("pixel_stddev", u.pixel, 1e-3, 100.0);
-  u.placement = reader->bounded("placement_stddev", u.placement, 1e-6, 10.0);
-  u.focal = reader->bounded("focal_stddev", u.focal, 1e-6, 1.0);
-  u.aspect = reader->bounded("aspect_stddev", u.aspect, 1e-6, 1.0);
-  u.principal_point = reader->bounded("principal_point_stddev", u.principal_point, 1e-3, 10000.0);
-  u.k1 = reader->bounded("k1_stddev", u.k1, 1e-6, 10.0);
-  u.gravity = reader->bounded("gravity_stddev", u.gravity, 1e-3, 3.2);
-  options->branch_odds = reader->bounded("branch_odds", options->branch_odds, 1.5, 1e9);
+  reader->read("pixel_stddev", &u.pixel, 1e-3, 100.0);
+  reader->read("placement_stddev", &u.placement, 1e-6, 10.0);
+  reader->read("focal_stddev", &u.focal, 1e-6, 1.0);
+  reader->read("aspect_stddev", &u.aspect, 1e-6, 1.0);
+  reader->read("principal_point_stddev", &u.principal_point, 1e-3, 10000.0);
+  reader->read("k1_stddev", &u.k1, 1e-6, 10.0);
+  reader->read("gravity_stddev", &u.gravity, 1e-3, 3.2);
+  reader->read("branch_odds", &options->branch_odds, 1.5, 1e9);
 }
 
 void readHealth(ParameterReader* reader, health::HealthOptions* options) {
   health::TiltOptions& tilt = options->tilt;
-  tilt.limit = reader->bounded("bump_limit", tilt.limit, 1e-4, 1.0);
-  tilt.window = reader->bounded("bump_window", tilt.window, 1.0, 3600.0);
-  tilt.resolution = reader->bounded("accelerometer_resolution", tilt.resolution, 0.0, 10.0);
+  reader->read("bump_limit", &tilt.limit, 1e-4, 1.0);
+  reader->read("bump_window", &tilt.window, 1.0, 3600.0);
+  reader->read("accelerometer_resolution", &tilt.resolution, 0.0, 10.0);
   health::DriftOptions& drift = options->drift;
-  drift.limit = reader->bounded("residual_drift_limit", drift.limit, 0.01, 1000.0);
-  drift.window = reader->bounded("residual_drift_window", drift.window, 5.0, 3600.0);
+  reader->read("residual_drift_limit", &drift.limit, 0.01, 1000.0);
+  reader->read("residual_drift_window", &drift.window, 5.0, 3600.0);
 }
 
 geometry::Intrinsics readIntrinsics(ParameterReader* reader,
                                     const std::string& key,
                                     geometry::Intrinsics lens) {
   const std::string prefix = key + "/";
-  lens.width = reader->bounded(prefix + "width", lens.width, 1, 100000);
-  lens.height = reader->bounded(prefix + "height", lens.height, 1, 100000);
-  lens.fx = reader->bounded(prefix + "fx", lens.fx, 1.0, 1e6);
-  lens.fy = reader->bounded(prefix + "fy", lens.fy, 1.0, 1e6);
-  lens.cx = reader->bounded(prefix + "cx", lens.cx, -1e5, 1e5);
-  lens.cy = reader->bounded(prefix + "cy", lens.cy, -1e5, 1e5);
+  reader->read(prefix + "width", &lens.width, 1, 100000);
+  reader->read(prefix + "height", &lens.height, 1, 100000);
+  reader->read(prefix + "fx", &lens.fx, 1.0, 1e6);
+  reader->read(prefix + "fy", &lens.fy, 1.0, 1e6);
+  reader->read(prefix + "cx", &lens.cx, -1e5, 1e5);
+  reader->read(prefix + "cy", &lens.cy, -1e5, 1e5);
   const std::string model =
       reader->choice(prefix + "distortion_model", geometry::nameOf(lens.distortion_model),
                      {geometry::nameOf(geometry::DistortionModel::kPlumbBob),
@@ -157,15 +153,15 @@ Parameters readParameters(ParameterReader reader) {
   parameters.rig_file = reader.optional<std::string>("rig_file", "");
   if (parameters.rig_file.empty())
     parameters.rig_file = defaultRigFile();
-  calibration.led_height = reader.bounded("led_height", calibration.led_height, 0.0, 1000.0);
-  calibration.world_frame = reader.optional("world_frame", calibration.world_frame);
+  reader.read("led_height", &calibration.led_height, 0.0, 1000.0);
+  reader.read("world_frame", &calibration.world_frame);
   if (calibration.world_frame.empty())
     throw ParameterError(reader.nameOf("world_frame") + " is empty: give the frame a name");
-  calibration.origin.x() = reader.bounded("origin_x", calibration.origin.x(), -1000.0, 1000.0);
-  calibration.origin.y() = reader.bounded("origin_y", calibration.origin.y(), -1000.0, 1000.0);
-  calibration.yaw = reader.bounded("yaw", calibration.yaw, -2.0 * M_PI, 2.0 * M_PI);
+  reader.read("origin_x", &calibration.origin.x(), -1000.0, 1000.0);
+  reader.read("origin_y", &calibration.origin.y(), -1000.0, 1000.0);
+  reader.read("yaw", &calibration.yaw, -2.0 * M_PI, 2.0 * M_PI);
   readCapture(&reader, &calibration.capture);
-  parameters.hands_free = reader.optional("hands_free", parameters.hands_free);
+  reader.read("hands_free", &parameters.hands_free);
   readHandsFree(&reader, &calibration.hands_free);
   calibration.hands_free.minimum_cameras = calibration.capture.minimum_cameras;
   parameters.button_remote = reader.optional<std::string>("button_remote", "");
@@ -181,14 +177,12 @@ Parameters readParameters(ParameterReader reader) {
   readRays(&reader, &parameters.solve);
   readHealth(&reader, &parameters.health);
   reader.allow("diagnostic_period");  // read by diagnostic_updater
-  parameters.solve.use_gravity = reader.optional("use_gravity", parameters.solve.use_gravity);
-  parameters.set_camera_info_timeout =
-      reader.bounded("set_camera_info_timeout", parameters.set_camera_info_timeout, 0.1, 60.0);
-  parameters.board.column_spacing =
-      reader.bounded("board_column_spacing", parameters.board.column_spacing, 0.001, 10.0);
+  reader.read("use_gravity", &parameters.solve.use_gravity);
+  reader.read("set_camera_info_timeout", &parameters.set_camera_info_timeout, 0.1, 60.0);
+  reader.read("board_column_spacing", &parameters.board.column_spacing, 0.001, 10.0);
   const double row_spacing = reader.bounded("board_row_spacing", 0.0, 0.0, 10.0);
   parameters.board.row_spacing = row_spacing > 0.0 ? row_spacing : parameters.board.column_spacing;
-  parameters.board_views = reader.bounded("board_views", parameters.board_views, 3, 1000);
+  reader.read("board_views", &parameters.board_views, 3, 1000);
   parameters.intrinsics = readIntrinsics(&reader, "intrinsics", parameters.intrinsics);
   for (const std::string& name : camerasWithOwnIntrinsics(reader))
     parameters.own_intrinsics[name] =

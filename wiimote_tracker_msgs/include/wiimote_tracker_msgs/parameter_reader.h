@@ -6,6 +6,7 @@
 
 #include <ros/node_handle.h>
 
+#include <cstddef>
 #include <map>
 #include <set>
 #include <sstream>
@@ -56,6 +57,25 @@ class ParameterReader {
   T bounded(const std::string& key, T default_value, T minimum, T maximum) {
     ranges_[key] = {static_cast<double>(minimum), static_cast<double>(maximum)};
     return checkRange(key, optional<T>(key, default_value), minimum, maximum);
+  }
+
+  /// A number within [minimum, maximum], into a variable that holds its default.
+  /// @throws ParameterError when it is not.
+  void read(const std::string& key, double* value, double minimum, double maximum) {
+    *value = bounded(key, *value, minimum, maximum);
+  }
+  void read(const std::string& key, int* value, int minimum, int maximum) {
+    *value = bounded(key, *value, minimum, maximum);
+  }
+  void read(const std::string& key, std::size_t* value, int minimum, int maximum) {
+    *value = static_cast<std::size_t>(bounded(key, static_cast<int>(*value), minimum, maximum));
+  }
+
+  /// A text, a boolean or a list, into a variable that holds its default.
+  /// @throws ParameterError when it is of another type.
+  template <typename T>
+  void read(const std::string& key, T* value) {
+    *value = optional<T>(key, *value);
   }
 
   /// A number within [minimum, maximum] that has no default. @throws ParameterError.

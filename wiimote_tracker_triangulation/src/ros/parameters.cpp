@@ -1,6 +1,5 @@
 #include "parameters.h"
 
-#include "parameter_group.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
 #include "wiimote_tracker_triangulation/identity/codes_file.h"
@@ -65,37 +64,36 @@ void readInstant(ParameterReader* reader, fusion::InstantFuserOptions* instant) 
       "instant/method", methodNames()[static_cast<std::size_t>(method)], methodNames());
   method = static_cast<geometry::TriangulationMethod>(
       std::find(methodNames().begin(), methodNames().end(), word) - methodNames().begin());
-  const ParameterGroup group(reader, "instant");
-  group.read("minimum_angle", &instant->triangulation.minimum_angle, 0.001, 1.0);
-  group.read("minimum_rays", &instant->minimum_rays, 2, 64);
-  group.read("maximum_reprojection_error", &instant->maximum_reprojection_error, 0.1, 1000.0);
-  group.read("camera_timeout", &instant->camera_timeout, 0.01, 10.0);
-  group.read("maximum_gap", &instant->maximum_gap, 0.001, instant->camera_timeout);
-  group.read("maximum_spot_speed", &instant->maximum_spot_speed, 1.0, 1e6);
-  group.read("maximum_range", &instant->maximum_range, 0.1, 1000.0);
-  group.read("maximum_leds", &instant->maximum_leds, 1, 64);
-  group.read("confirmations", &instant->confirmations, 1, 1000);
-  group.read("maximum_speed", &instant->maximum_speed, 0.01, 1000.0);
-  group.read("maximum_absence", &instant->maximum_absence, 0.0, 60.0);
+  reader->read("instant/minimum_angle", &instant->triangulation.minimum_angle, 0.001, 1.0);
+  reader->read("instant/minimum_rays", &instant->minimum_rays, 2, 64);
+  reader->read("instant/maximum_reprojection_error", &instant->maximum_reprojection_error, 0.1,
+               1000.0);
+  reader->read("instant/camera_timeout", &instant->camera_timeout, 0.01, 10.0);
+  reader->read("instant/maximum_gap", &instant->maximum_gap, 0.001, instant->camera_timeout);
+  reader->read("instant/maximum_spot_speed", &instant->maximum_spot_speed, 1.0, 1e6);
+  reader->read("instant/maximum_range", &instant->maximum_range, 0.1, 1000.0);
+  reader->read("instant/maximum_leds", &instant->maximum_leds, 1, 64);
+  reader->read("instant/confirmations", &instant->confirmations, 1, 1000);
+  reader->read("instant/maximum_speed", &instant->maximum_speed, 0.01, 1000.0);
+  reader->read("instant/maximum_absence", &instant->maximum_absence, 0.0, 60.0);
 }
 
 void readMotion(ParameterReader* reader, motion::MotionOptions* motion) {
-  const ParameterGroup group(reader, "motion");
-  group.read("fixed/drift", &motion->fixed.drift, 0.0, 1.0);
-  group.read("fixed/start_rate", &motion->fixed.start_rate, 0.0, 1000.0);
-  group.read("swaying/drift", &motion->swaying.drift, 0.0, 1.0);
-  group.read("swaying/start_rate", &motion->swaying.start_rate, 0.0, 1000.0);
-  group.read("smooth/stddev", &motion->smooth.stddev, 1e-4, 1000.0);
-  group.read("smooth/time", &motion->smooth.time, 0.001, 1000.0);
-  group.read("gentle/stddev", &motion->gentle.stddev, 1e-4, 1000.0);
-  group.read("gentle/time", &motion->gentle.time, 0.001, 1000.0);
-  group.read("brisk/stddev", &motion->brisk.stddev, 1e-4, 1000.0);
-  group.read("brisk/time", &motion->brisk.time, 0.001, 1000.0);
-  group.read("sudden_random_walk", &motion->sudden_random_walk, 0.0, 1000.0);
-  group.read("stop_rate", &motion->stop_rate, 0.0, 1000.0);
-  group.read("rise_rate", &motion->rise_rate, 0.0, 1000.0);
-  group.read("settle_rate", &motion->settle_rate, 0.0, 1000.0);
-  group.read("initial_speed", &motion->initial_speed, 0.001, 1000.0);
+  reader->read("motion/fixed/drift", &motion->fixed.drift, 0.0, 1.0);
+  reader->read("motion/fixed/start_rate", &motion->fixed.start_rate, 0.0, 1000.0);
+  reader->read("motion/swaying/drift", &motion->swaying.drift, 0.0, 1.0);
+  reader->read("motion/swaying/start_rate", &motion->swaying.start_rate, 0.0, 1000.0);
+  reader->read("motion/smooth/stddev", &motion->smooth.stddev, 1e-4, 1000.0);
+  reader->read("motion/smooth/time", &motion->smooth.time, 0.001, 1000.0);
+  reader->read("motion/gentle/stddev", &motion->gentle.stddev, 1e-4, 1000.0);
+  reader->read("motion/gentle/time", &motion->gentle.time, 0.001, 1000.0);
+  reader->read("motion/brisk/stddev", &motion->brisk.stddev, 1e-4, 1000.0);
+  reader->read("motion/brisk/time", &motion->brisk.time, 0.001, 1000.0);
+  reader->read("motion/sudden_random_walk", &motion->sudden_random_walk, 0.0, 1000.0);
+  reader->read("motion/stop_rate", &motion->stop_rate, 0.0, 1000.0);
+  reader->read("motion/rise_rate", &motion->rise_rate, 0.0, 1000.0);
+  reader->read("motion/settle_rate", &motion->settle_rate, 0.0, 1000.0);
+  reader->read("motion/initial_speed", &motion->initial_speed, 0.001, 1000.0);
 }
 
 Eigen::Vector3d readCorner(ParameterReader* reader,
@@ -109,40 +107,38 @@ Eigen::Vector3d readCorner(ParameterReader* reader,
 }
 
 void readTracks(ParameterReader* reader, tracking::TrackerOptions* tracks) {
-  const ParameterGroup group(reader, "tracks");
-  group.read("stamp_stddev", &tracks->stamp_stddev, 0.0, 0.1);
-  group.read("detection_probability", &tracks->detection_probability, 0.01, 0.999);
-  group.read("ghost_rate", &tracks->ghost_rate, 0.001, 16.0);
-  group.read("merging_distance", &tracks->merging_distance, 0.0, 100.0);
-  group.read("maximum_range", &tracks->maximum_range, 0.1, 1000.0);
-  group.read("gate", &tracks->gate, 4.0, 100.0);
-  group.read("birth_window", &tracks->birth_window, 0.001, 0.2);
-  group.read("birth_pixel_stddev", &tracks->birth_pixel_stddev, 0.1, 100.0);
-  group.read("minimum_angle", &tracks->minimum_angle, 0.001, 1.0);
-  group.read("confirmation_hits", &tracks->confirmation_hits, 1, 1000);
-  group.read("minimum_support", &tracks->minimum_support, 0.0, 1.0);
-  group.read("tracked_time", &tracks->tracked_time, 0.001, 1.0);
-  group.read("prediction_time", &tracks->prediction_time, 0.01, 10.0);
-  group.read("single_view_time", &tracks->single_view_time, 0.01, 60.0);
-  group.read("doubt_time", &tracks->doubt_time, 0.0, 5.0);
+  reader->read("tracks/stamp_stddev", &tracks->stamp_stddev, 0.0, 0.1);
+  reader->read("tracks/detection_probability", &tracks->detection_probability, 0.01, 0.999);
+  reader->read("tracks/ghost_rate", &tracks->ghost_rate, 0.001, 16.0);
+  reader->read("tracks/merging_distance", &tracks->merging_distance, 0.0, 100.0);
+  reader->read("tracks/maximum_range", &tracks->maximum_range, 0.1, 1000.0);
+  reader->read("tracks/gate", &tracks->gate, 4.0, 100.0);
+  reader->read("tracks/birth_window", &tracks->birth_window, 0.001, 0.2);
+  reader->read("tracks/birth_pixel_stddev", &tracks->birth_pixel_stddev, 0.1, 100.0);
+  reader->read("tracks/minimum_angle", &tracks->minimum_angle, 0.001, 1.0);
+  reader->read("tracks/confirmation_hits", &tracks->confirmation_hits, 1, 1000);
+  reader->read("tracks/minimum_support", &tracks->minimum_support, 0.0, 1.0);
+  reader->read("tracks/tracked_time", &tracks->tracked_time, 0.001, 1.0);
+  reader->read("tracks/prediction_time", &tracks->prediction_time, 0.01, 10.0);
+  reader->read("tracks/single_view_time", &tracks->single_view_time, 0.01, 60.0);
+  reader->read("tracks/doubt_time", &tracks->doubt_time, 0.0, 5.0);
   tracks->minimum_corner = readCorner(reader, "tracks/minimum_corner", tracks->minimum_corner);
   tracks->maximum_corner = readCorner(reader, "tracks/maximum_corner", tracks->maximum_corner);
   if ((tracks->minimum_corner.array() >= tracks->maximum_corner.array()).any())
     throw ParameterError(reader->nameOf("tracks/minimum_corner") + " must be below " +
                          reader->nameOf("tracks/maximum_corner") +
                          " in x, y and z: otherwise no LED would be found");
-  group.read("history", &tracks->history, 0.01, 2.0);
-  group.read("output_interval", &tracks->output_interval, 0.0, 1.0);
+  reader->read("tracks/history", &tracks->history, 0.01, 2.0);
+  reader->read("tracks/output_interval", &tracks->output_interval, 0.0, 1.0);
 }
 
 void readIdentity(ParameterReader* reader, TrackingParameters* p) {
   IdentityOptions& identity = p->identity;
   const std::string key = reader->nameOf("identity/codes");
   const std::string file = reader->optional<std::string>("identity/codes", "");
-  const ParameterGroup group(reader, "identity");
-  group.read("exposure", &identity.exposure, 0.0, 0.02);
-  group.read("decide_at", &identity.identifier.decide_at, 0.6, 0.999999);
-  group.read("steady", &identity.identifier.steady, 1e-9, 0.5);
+  reader->read("identity/exposure", &identity.exposure, 0.0, 0.02);
+  reader->read("identity/decide_at", &identity.identifier.decide_at, 0.6, 0.999999);
+  reader->read("identity/steady", &identity.identifier.steady, 1e-9, 0.5);
   if (file.empty())
     return;
   if (p->estimator.mode != tracking::Mode::kTracks)
@@ -158,11 +154,10 @@ void readIdentity(ParameterReader* reader, TrackingParameters* p) {
 }
 
 void readOutput(ParameterReader* reader, tracking::Mode mode, OutputOptions* output) {
-  const ParameterGroup group(reader, "output");
-  group.read("on_update", &output->on_update);
-  group.read("rate", &output->rate, 0.0, 1000.0);
-  group.read("predict_to_now", &output->predict_to_now);
-  group.read("publish_predicted", &output->publish_predicted);
+  reader->read("output/on_update", &output->on_update);
+  reader->read("output/rate", &output->rate, 0.0, 1000.0);
+  reader->read("output/predict_to_now", &output->predict_to_now);
+  reader->read("output/publish_predicted", &output->publish_predicted);
   if (!output->on_update && output->rate == 0.0)
     throw ParameterError(reader->nameOf("output/rate") + " is 0 while " +
                          reader->nameOf("output/on_update") +
@@ -208,15 +203,14 @@ TrackingParameters TrackingParameters::read(ParameterReader reader) {
 
 TrackingParameters TrackingParameters::read(ParameterReader* reader) {
   TrackingParameters p;
-  const ParameterGroup group(reader, "");
-  group.read("labels", &p.labels);
+  reader->read("labels", &p.labels);
   checkLabels(reader->nameOf("labels"), p.labels);
   tracking::EstimatorOptions& estimator = p.estimator;
   const bool tracks = estimator.mode == tracking::Mode::kTracks;
   const std::string mode =
       reader->choice("mode", tracks ? "tracks" : "instant", {"tracks", "instant"});
   estimator.mode = mode == "tracks" ? tracking::Mode::kTracks : tracking::Mode::kInstant;
-  group.read("pixel_stddev", &estimator.tracks.pixel_stddev, 0.001, 100.0);
+  reader->read("pixel_stddev", &estimator.tracks.pixel_stddev, 0.001, 100.0);
   estimator.instant.triangulation.pixel_stddev = estimator.tracks.pixel_stddev;
   readTracks(reader, &estimator.tracks);
   readMotion(reader, &estimator.tracks.motion);
@@ -224,14 +218,14 @@ TrackingParameters TrackingParameters::read(ParameterReader* reader) {
   readIdentity(reader, &p);
   p.bodies = BodyParameters::read(reader, estimator.tracks, p.allLabels());
   readOutput(reader, estimator.mode, &p.output);
-  group.read("zones/hysteresis", &p.zones.hysteresis, 0.0, 10.0);
-  group.read("zones/timeout", &p.zones.timeout, 0.01, 60.0);
-  group.read("trigger/maximum_gap", &p.trigger.maximum_gap, 0.001, 10.0);
-  group.read("trigger/history", &p.trigger.history, 0.01, 60.0);
-  group.read("markers/rate", &p.markers.rate, 0.1, 100.0);
-  group.read("markers/image_plane_distance", &p.markers.image_plane_distance, 0.01, 10.0);
-  group.read("markers/trail_duration", &p.markers.trail_duration, 0.0, 600.0);
-  group.read("clock_tolerance", &p.clock_tolerance, 0.001, 10.0);
+  reader->read("zones/hysteresis", &p.zones.hysteresis, 0.0, 10.0);
+  reader->read("zones/timeout", &p.zones.timeout, 0.01, 60.0);
+  reader->read("trigger/maximum_gap", &p.trigger.maximum_gap, 0.001, 10.0);
+  reader->read("trigger/history", &p.trigger.history, 0.01, 60.0);
+  reader->read("markers/rate", &p.markers.rate, 0.1, 100.0);
+  reader->read("markers/image_plane_distance", &p.markers.image_plane_distance, 0.01, 10.0);
+  reader->read("markers/trail_duration", &p.markers.trail_duration, 0.0, 600.0);
+  reader->read("clock_tolerance", &p.clock_tolerance, 0.001, 10.0);
   reader->bounded("diagnostic_period", 1.0, 0.1, 3600.0);  // used by diagnostic_updater
   reader->refuseUnknown();
   return p;

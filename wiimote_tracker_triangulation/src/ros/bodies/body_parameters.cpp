@@ -1,6 +1,5 @@
 #include "body_parameters.h"
 
-#include "../parameter_group.h"
 #include "body/bodies_file.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
@@ -29,8 +28,7 @@ BodyParameters BodyParameters::read(ParameterReader* reader,
                                     const tracking::TrackerOptions& tracks,
                                     const std::vector<std::string>& labels) {
   BodyParameters p;
-  const ParameterGroup group(reader, "bodies");
-  group.read("file", &p.file);
+  reader->read("bodies/file", &p.file);
   try {
     p.known = readKnown(p.file, labels);
   } catch (const geometry::Error& error) {
@@ -41,17 +39,18 @@ BodyParameters BodyParameters::read(ParameterReader* reader,
   o.merging_distance = tracks.merging_distance;
   o.history = tracks.history;
   o.maximum_range = tracks.maximum_range;
-  group.read("gate", &o.gate, 4.0, 100.0);
-  group.read("tracked_time", &o.tracked_time, 0.001, 1.0);
-  group.read("prediction_time", &o.prediction_time, 0.01, 10.0);
-  group.read("window", &o.window, 0.001, 0.2);
-  group.read("window_motion", &o.window_motion, 1e-5, 0.1);
-  group.read("minimum_margin", &o.minimum_margin, 0.0, 1000.0);
+  reader->read("bodies/gate", &o.gate, 4.0, 100.0);
+  reader->read("bodies/tracked_time", &o.tracked_time, 0.001, 1.0);
+  reader->read("bodies/prediction_time", &o.prediction_time, 0.01, 10.0);
+  reader->read("bodies/window", &o.window, 0.001, 0.2);
+  reader->read("bodies/window_motion", &o.window_motion, 1e-5, 0.1);
+  reader->read("bodies/minimum_margin", &o.minimum_margin, 0.0, 1000.0);
   body::PoseFilterOptions& motion = o.motion;
-  group.read("acceleration_density", &motion.acceleration_density, 0.0, 1000.0);
-  group.read("angular_acceleration_density", &motion.angular_acceleration_density, 0.0, 1000.0);
-  group.read("initial_speed", &motion.initial_speed, 0.001, 1000.0);
-  group.read("initial_angular_speed", &motion.initial_angular_speed, 0.001, 1000.0);
+  reader->read("bodies/acceleration_density", &motion.acceleration_density, 0.0, 1000.0);
+  reader->read("bodies/angular_acceleration_density", &motion.angular_acceleration_density, 0.0,
+               1000.0);
+  reader->read("bodies/initial_speed", &motion.initial_speed, 0.001, 1000.0);
+  reader->read("bodies/initial_angular_speed", &motion.initial_angular_speed, 0.001, 1000.0);
   return p;
 }
 

@@ -1,7 +1,5 @@
 #include "gesture_parameters.h"
 
-#include "../parameter_group.h"
-
 #include <cstdlib>
 
 namespace wiimote_tracker {
@@ -23,11 +21,10 @@ GestureParameters GestureParameters::read(ParameterReader reader) {
 
 GestureParameters GestureParameters::read(ParameterReader* reader) {
   GestureParameters p;
-  const ParameterGroup group(reader, "");
-  group.read("file", &p.file);
+  reader->read("file", &p.file);
   if (p.file.empty())
     p.file = defaultFile();
-  group.read("labels", &p.labels);
+  reader->read("labels", &p.labels);
 
   const std::string boundary =
       reader->choice("boundary", "rest", {"rest", "light", "button", "continuous"});
@@ -36,27 +33,27 @@ GestureParameters GestureParameters::read(ParameterReader* reader) {
     p.segmenter.boundary = gesture::Boundary::kLight;
   if (boundary == "button")
     p.segmenter.boundary = gesture::Boundary::kButton;
-  group.read("button", &p.button, 0, 31);
+  reader->read("button", &p.button, 0, 31);
 
   gesture::RecognizerOptions& recognizer = p.recognizer;
-  group.read("any_heading", &recognizer.any_heading);
-  group.read("rejection_distance", &recognizer.rejection_distance, 0.01, 10.0);
-  group.read("minimum_length", &recognizer.shape.minimum_length, 0.0, 10.0);
-  group.read("smoothing", &recognizer.shape.smoothing, 0.001, 0.5);
+  reader->read("any_heading", &recognizer.any_heading);
+  reader->read("rejection_distance", &recognizer.rejection_distance, 0.01, 10.0);
+  reader->read("minimum_length", &recognizer.shape.minimum_length, 0.0, 10.0);
+  reader->read("smoothing", &recognizer.shape.smoothing, 0.001, 0.5);
 
   gesture::SegmenterOptions& segmenter = p.segmenter;
-  group.read("dark_time", &segmenter.dark_time, 0.02, 5.0);
-  group.read("rest_time", &segmenter.rest_time, 0.05, 5.0);
-  group.read("rest_radius", &segmenter.rest_radius, 0.001, 0.5);
-  group.read("minimum_duration", &segmenter.minimum_duration, 0.05, 10.0);
-  group.read("maximum_duration", &segmenter.maximum_duration, segmenter.minimum_duration, 60.0);
+  reader->read("dark_time", &segmenter.dark_time, 0.02, 5.0);
+  reader->read("rest_time", &segmenter.rest_time, 0.05, 5.0);
+  reader->read("rest_radius", &segmenter.rest_radius, 0.001, 0.5);
+  reader->read("minimum_duration", &segmenter.minimum_duration, 0.05, 10.0);
+  reader->read("maximum_duration", &segmenter.maximum_duration, segmenter.minimum_duration, 60.0);
 
   gesture::SpotterOptions& spotter = p.spotter;
-  group.read("continuous/shortest", &spotter.shortest, 0.1, 10.0);
-  group.read("continuous/longest", &spotter.longest, spotter.shortest, 20.0);
-  group.read("continuous/interval", &spotter.interval, 0.01, 1.0);
-  group.read("continuous/minimum_score", &spotter.minimum_score, 0.5, 1.0);
-  group.read("continuous/straight", &spotter.straight, 0.0, 1.0);
+  reader->read("continuous/shortest", &spotter.shortest, 0.1, 10.0);
+  reader->read("continuous/longest", &spotter.longest, spotter.shortest, 20.0);
+  reader->read("continuous/interval", &spotter.interval, 0.01, 1.0);
+  reader->read("continuous/minimum_score", &spotter.minimum_score, 0.5, 1.0);
+  reader->read("continuous/straight", &spotter.straight, 0.0, 1.0);
   spotter.rest_time = segmenter.rest_time;
   spotter.rest_radius = segmenter.rest_radius;
   spotter.longest_hole = segmenter.dark_time;

@@ -65,7 +65,8 @@ void MotionFilter::predict(double time) {
 std::optional<PixelPrediction> MotionFilter::predictPixel(const geometry::Camera& camera,
                                                           const PixelNoise& noise) const {
   PixelPrediction prediction;
-  prediction.smear_ = noise.stamp_stddev * velocity();
+  prediction.velocity_ = velocity();
+  prediction.stamp_stddev_ = noise.stamp_stddev;
   prediction.pixel_variance_ = std::pow(noise.pixel_stddev, 2);
   if (!linearize(camera, position(), &prediction))
     return std::nullopt;
@@ -84,7 +85,7 @@ bool MotionFilter::linearize(const geometry::Camera& camera,
   const Matrix23& H = to.jacobian_;
   const Vector3d mean = position();
   to.pixel_ = *pixel + H * (mean - point);
-  const Vector2d smear = H * to.smear_;
+  const Vector2d smear = to.stamp_stddev_ * (H * to.velocity_);
   const Matrix2d noise = smear * smear.transpose() + to.pixel_variance_ * Matrix2d::Identity();
   for (int i = 0; i < kModes; ++i) {
     const KinematicState& state = modes_[i].state;

@@ -21,6 +21,9 @@ class PixelPrediction {
  public:
   const Eigen::Vector2d& pixel() const { return pixel_; }  ///< Mean [px].
 
+  /// Velocity of the mean [px/s].
+  Eigen::Vector2d velocity() const { return jacobian_ * velocity_; }
+
   /// Innovation covariance: of a measured pixel about the mean, with the measurement noise [px^2].
   Eigen::Matrix2d covariance() const;
 
@@ -58,7 +61,8 @@ class PixelPrediction {
 
   Eigen::Vector2d pixel_;
   Eigen::Matrix<double, 2, 3> jacobian_;  // d pixel / d position [px/m]
-  Eigen::Vector3d smear_;                 // displacement by one stamp_stddev [m]
+  Eigen::Vector3d velocity_;              // of the LED [m/s]
+  double stamp_stddev_;                   // [s]
   double pixel_variance_;                 // [px^2]
   std::array<ModePixel, kModes> modes_;
 };

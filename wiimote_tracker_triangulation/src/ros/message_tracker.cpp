@@ -40,6 +40,36 @@ void checkFrames(const geometry::Rig& rig, const std::vector<std::string>& label
     refuseLabel(geometry::opticalFrame(camera.camera.name));
 }
 
+/// One sentence that says what to do.
+std::string describe(const tracking::CameraFault& fault, const std::string& camera) {
+  const double seconds = std::fabs(fault.clock_ahead);
+  const char* name = camera.c_str();
+  switch (fault.kind) {
+    case tracking::CameraFault::Kind::kMisfit:
+      return format(
+          "the spots of %s are not where other cameras see LEDs, and its images are "
+          "ignored: if it was moved or exchanged, put it back or calibrate again; mask "
+          "lamps and reflections",
+          name);
+    case tracking::CameraFault::Kind::kCorrectedClock:
+      return format(
+          "the times of the images of %s are %.3g s too %s, by the motion of the LEDs, and "
+          "are corrected: run chrony on all computers, or calibrate again",
+          name, seconds, fault.clock_ahead > 0.0 ? "late" : "early");
+    case tracking::CameraFault::Kind::kWrongClock:
+      break;
+  }
+  if (std::isnan(seconds))
+    return format(
+        "the clocks of the cameras' computers disagree and no group of them is the "
+        "largest, so images of %s are ignored: run chrony on all computers",
+        name);
+  return format(
+      "the clock of the computer of %s is %.3g s %s most cameras' clocks, and its images "
+      "are ignored: run chrony on all computers",
+      name, seconds, fault.clock_ahead > 0.0 ? "ahead of" : "(or its network) behind");
+}
+
 /// Inserts points that the message does not have, in the order of their ids.
 void insertMissing(const std::vector<TrackedPoint>& points, TrackedPointArray* message) {
   for (const TrackedPoint& point : points) {
@@ -89,7 +119,7 @@ MessageTracker::RigChange MessageTracker::takeRig(
     for (std::size_t i = 0; i < rig.cameras.size(); ++i)
       camera_index_[rig.cameras[i].camera.name] = i;
     reported_faults_.clear();
-    reported_clocks_.clear();
+    reported_cameras_.clear();
     statistics_.setRig(rig);
   }
   rig_ = rig;
@@ -115,7 +145,7 @@ void MessageTracker::takeImage(const std::string& camera,
   publishBodies();
   publishTicksUntil(image_.arrival);
   estimator_->add(index, image_);
-  reportClock(index);
+  reportCamera(index);
   if (estimator_->counters().resets != resets_)
     restart();
   while (const tracking::Snapshot* snapshot = estimator_->next())
@@ -152,23 +182,13 @@ void MessageTracker::reportFault(std::size_t camera,
     sink_->onProblem(sentence);
 }
 
-void MessageTracker::reportClock(std::size_t camera) {
-  const std::optional<double> ahead = estimator_->clockAhead(camera);
-  if (!ahead)
+void MessageTracker::reportCamera(std::size_t camera) {
+  const std::optional<tracking::CameraFault> fault = estimator_->cameraFault(camera);
+  if (!fault)
     return;
-  const char* name = rig_.cameras[camera].camera.name.c_str();
-  const std::string sentence =
-      std::isnan(*ahead)
-          ? format(
-                "the clocks of the cameras' computers disagree and no group of them is the "
-                "largest, so images of %s are ignored: run chrony on all computers",
-                name)
-          : format(
-                "the clock of the computer of %s is %.3g s %s most cameras' clocks, and its "
-                "images are ignored: run chrony on all computers",
-                name, std::fabs(*ahead), *ahead > 0.0 ? "ahead of" : "(or its network) behind");
+  const std::string sentence = describe(*fault, rig_.cameras[camera].camera.name);
   statistics_.addProblem(camera, sentence);
-  if (reported_clocks_.insert(camera).second)
+  if (reported_cameras_.emplace(camera, fault->kind).second)
     sink_->onProblem(sentence);
 }
 

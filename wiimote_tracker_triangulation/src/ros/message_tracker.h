@@ -100,7 +100,7 @@ class MessageTracker {
   void reportFault(std::size_t camera,
                    ImageFault fault,
                    const wiimote_tracker_msgs::IrBlobArray& message);
-  void reportClock(std::size_t camera);
+  void reportCamera(std::size_t camera);
   void restart();
   void publishBodies();
   void findBodiesByLabels(const tracking::Snapshot& snapshot);
@@ -131,7 +131,7 @@ class MessageTracker {
   std::uint64_t next_trigger_ = 0;
   Statistics statistics_;
   std::set<std::pair<std::size_t, ImageFault>> reported_faults_;  // of this rig's cameras
-  std::set<std::size_t> reported_clocks_;                         // the same
+  std::set<std::pair<std::size_t, tracking::CameraFault::Kind>> reported_cameras_;  // the same
   std::uint64_t resets_ = 0;
 
   // Of the output.

@@ -1,6 +1,8 @@
 #include "camera_group.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace wiimote_tracker::tracking {
 namespace {
@@ -8,6 +10,8 @@ namespace {
 /// Number of images between kept states: a compromise between repeated steps for late images and
 /// copies for all images.
 constexpr std::size_t kKeepInterval = 2;
+
+constexpr std::size_t kMostClocks = 64;  // that are compared
 
 constexpr double kLeastInterval = 1e-4;  // between exposures of one camera [s]
 
@@ -48,6 +52,8 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
       history_(kKeepInterval) {
   for (const std::size_t member : members_)
     cameras_.emplace_back(rig, member);
+  fits_.resize(cameras_.size(), CameraFit(options.ghost_rate));
+  clock_errors_.resize(cameras_.size());
   state_.unassigned.resize(cameras_.size());
 }
 
@@ -77,6 +83,7 @@ CameraGroup::Outcome CameraGroup::add(const StoredImage& image,
     step(images.at(i), ids, views);
   }
   history_.forgetBefore(images.back().time - options_.history);
+  correctClocks();
   return is_late ? Outcome::kLate : Outcome::kAdded;
 }
 
@@ -99,16 +106,52 @@ std::optional<std::uint64_t> CameraGroup::mistimedBefore(std::uint64_t place,
 void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views) {
   const GroupCamera& camera = cameras_[image.camera];
   std::vector<Track>& tracks = state_.tracks;
-  update_.apply(camera, image, &tracks, &state_.pairs);
+  CameraFit& fit = fits_[image.camera];
+  update_.apply(camera, image, &fit, &tracks, &state_.pairs);
   removeMergedPairs(image.time);
   show(image, views);
   collectUnassigned(image);
+  if (fit.isMisfit())
+    state_.unassigned[image.camera].count = 0;
   initiation_.apply(cameras_, image.camera, state_.pairs, &state_.unassigned, &tracks, ids);
   for (Track& track : tracks)
     track.updateStatus(image.time, options_);
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
                               [](const Track& track) { return track.isFinished(); }),
                tracks.end());
+}
+
+/// Corrects the cameras whose times differ from those of most, by the median of all errors.
+void CameraGroup::correctClocks() {
+  constexpr double kNoticeable = 0.004;  // [s]
+  constexpr double kResolution = 0.001;  // of clocks that were corrected before [s]
+  constexpr double kLargest = 0.06;      // [s]; larger ones do not fit at all
+  std::array<double, kMostClocks> errors;
+  std::size_t count = 0;
+  const auto errorOf = [](const CameraFit& fit) {
+    return fit.isMisfit() ? std::nullopt : fit.clockError();
+  };
+  for (const CameraFit& fit : fits_) {
+    const auto error = errorOf(fit);
+    if (error && count < errors.size())
+      errors[count++] = *error;
+  }
+  if (count < 3)
+    return;
+  const auto middle = errors.begin() + (count - 1) / 2;
+  std::nth_element(errors.begin(), middle, errors.begin() + count);
+  bool corrected = false;
+  for (std::size_t i = 0; i < fits_.size(); ++i) {
+    const double error = errorOf(fits_[i]).value_or(*middle) - *middle;
+    if (std::abs(error) < (clock_errors_[i] != 0.0 ? kResolution : kNoticeable))
+      continue;
+    clock_errors_[i] = std::clamp(clock_errors_[i] + error, -kLargest, kLargest);
+    corrected = true;
+  }
+  for (CameraFit& fit : fits_) {
+    if (corrected)
+      fit.forgetClockError();
+  }
 }
 
 /// Removes pairs that are decided, and those whose tracks ended or were reacquired since.

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_GROUP_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_GROUP_H
 
+#include "camera_fit.h"
 #include "group_camera.h"
 #include "history.h"
 #include "ids.h"
@@ -38,6 +39,12 @@ class CameraGroup {
   /// @param views one per camera of the rig; the use of the image's spots is written to its view.
   Outcome add(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
 
+  /// Whether a camera's images are left out because they do not fit the others'.
+  bool isMisfit(std::size_t member) const { return fits_[member].isMisfit(); }
+
+  /// By how much the times of a camera's images are too late [s]; to be subtracted before add().
+  double clockError(std::size_t member) const { return clock_errors_[member]; }
+
   const GroupCamera& camera(std::size_t member) const { return cameras_[member]; }
   const std::vector<std::size_t>& members() const { return members_; }
   const std::vector<Track>& tracks() const { return state_.tracks; }
@@ -57,6 +64,7 @@ class CameraGroup {
 
   std::optional<std::uint64_t> mistimedBefore(std::uint64_t place, const StoredImage& image) const;
   void step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
+  void correctClocks();
   void removeMergedPairs(double time);
   void collectUnassigned(const StoredImage& image);
   void show(const StoredImage& image, std::vector<CameraView>* views) const;
@@ -66,6 +74,8 @@ class CameraGroup {
   std::vector<GroupCamera> cameras_;
   ImageUpdate update_;
   TrackInitiation initiation_;
+  std::vector<CameraFit> fits_;       // per camera
+  std::vector<double> clock_errors_;  // per camera [s]
   State state_;
   History<State> history_;
 };

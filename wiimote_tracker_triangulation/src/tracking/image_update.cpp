@@ -11,12 +11,18 @@ ImageUpdate::ImageUpdate(const TrackerOptions& options) : options_(options) {}
 
 void ImageUpdate::apply(const GroupCamera& camera,
                         const StoredImage& image,
+                        CameraFit* fit,
                         std::vector<Track>* tracks,
                         std::vector<MergedPair>* pairs) {
   noise_.pixel_stddev = options_.pixel_stddev;
   noise_.stamp_stddev = image.stamp_stddev;
   collectCandidates(camera, image, tracks);
   assign(camera, image, *tracks);
+  measureFit(image, *tracks, fit);
+  if (fit->isMisfit()) {
+    track_of_spot_.fill(association::kFalseDetection);
+    return;
+  }
   updateMergedPairs(camera, image, tracks, pairs);
   findMergedSpots(image, *tracks);
   addMergedPairs(*tracks, pairs);
@@ -26,13 +32,13 @@ void ImageUpdate::apply(const GroupCamera& camera,
     if (candidate.updated)
       continue;
     const Candidate* other = mergedWith(candidate, *tracks);
-    if (other && track.isConfirmed() && isSeenByOther(image, track))
+    // A merged spot is the other's if only this camera sees this LED.
+    const bool is_merged = other && track.isConfirmed();
+    if (is_merged && othersSeeing(image, track) > 0)
       updateMerged(camera, image, candidate, *other, tracks);
-    else if (other && track.isConfirmed())
-      track.miss(image.camera, image.time);  // only this camera sees it: give the spot to the other
-    else if (candidate.spot != kNone)
+    else if (!is_merged && candidate.spot != kNone)
       updateTrack(camera, image, candidate, other ? &(*tracks)[other->track] : nullptr, &track);
-    else if (candidate.expected)
+    else if (is_merged || candidate.expected)
       track.miss(image.camera, image.time);
   }
 }
@@ -55,8 +61,9 @@ void ImageUpdate::collectCandidates(const GroupCamera& camera,
     Candidate& candidate = candidates_[candidate_count_++];
     candidate.track = i;
     candidate.prediction = *prediction;
-    candidate.expected = !image.full && camera.isInImage(prediction->pixel(), 0.0) &&
-                         !camera.isMasked(prediction->pixel());
+    candidate.in_view =
+        camera.isInImage(prediction->pixel(), 0.0) && !camera.isMasked(prediction->pixel());
+    candidate.expected = candidate.in_view && !image.full;
     candidate.spot = kNone;
     candidate.updated = false;
   }
@@ -72,9 +79,52 @@ bool ImageUpdate::isTooUncertain(const Track& track,
          prediction.covariance().trace() > 2.0 * limit * limit;
 }
 
-/// Whether another camera saw the track's LED lately.
-bool ImageUpdate::isSeenByOther(const StoredImage& image, const Track& track) const {
-  return track.isSeenByOther(image.camera, image.time - options_.birth_window);
+/// Other cameras that saw the track's LED lately.
+std::size_t ImageUpdate::othersSeeing(const StoredImage& image, const Track& track) const {
+  return track.othersSeeing(image.camera, image.time - options_.birth_window);
+}
+
+/// Compares the image with the LEDs that other cameras see.
+void ImageUpdate::measureFit(const StoredImage& image,
+                             const std::vector<Track>& tracks,
+                             CameraFit* fit) const {
+  std::size_t shown = 0;
+  std::size_t missing = 0;
+  for (std::size_t i = 0; i < candidate_count_; ++i) {
+    const Candidate& candidate = candidates_[i];
+    const Track& track = tracks[candidate.track];
+    const std::size_t others = othersSeeing(image, track);
+    if (!candidate.in_view || !track.isConfirmed() || others == 0)
+      continue;
+    shown += candidate.spot != kNone;
+    missing += candidate.spot == kNone && others >= 2;
+    if (others < 2)
+      continue;
+    if (const auto residual = residualOf(image, candidate))
+      fit->addResidual(candidate.prediction.velocity(), *residual);
+  }
+  const auto unassigned = static_cast<std::size_t>(
+      std::count(track_of_spot_.begin(),
+                 track_of_spot_.begin() + static_cast<std::ptrdiff_t>(image.spot_count),
+                 association::kFalseDetection));
+  fit->add(shown, missing, unassigned);
+}
+
+/// Of the LED's spot or, since an image of a wrong time shows it outside the gate, the nearest spot
+/// that belongs to no LED.
+std::optional<Eigen::Vector2d> ImageUpdate::residualOf(const StoredImage& image,
+                                                       const Candidate& candidate) const {
+  constexpr double kFarthest = 30.0;  // [px]
+  if (candidate.spot != kNone)
+    return image.pixels[static_cast<std::size_t>(candidate.spot)] - candidate.prediction.pixel();
+  std::optional<Eigen::Vector2d> nearest;
+  for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
+    const Eigen::Vector2d residual = image.pixels[spot] - candidate.prediction.pixel();
+    if (track_of_spot_[spot] == association::kFalseDetection &&
+        residual.norm() < (nearest ? nearest->norm() : kFarthest))
+      nearest = residual;
+  }
+  return nearest;
 }
 
 /// Costs are negative log likelihoods. The density of a spot is that of its track's prediction, or
@@ -92,7 +142,7 @@ void ImageUpdate::assign(const GroupCamera& camera,
     if (!candidate.expected)
       costs_.miss[i] = detected;
     const Track& track = tracks[candidate.track];
-    const bool is_certain = track.isConfirmed() && isSeenByOther(image, track);
+    const bool is_certain = track.isConfirmed() && othersSeeing(image, track) > 0;
     const double extra = detected + (is_certain ? 0.0 : kUncertainTrackCost);
     for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
       if (const auto likelihood =

@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_UPDATE_H
 
 #include "association/assign_spots.h"
+#include "camera_fit.h"
 #include "group_camera.h"
 #include "merged_pair.h"
 #include "stored_image.h"
@@ -11,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
@@ -22,8 +24,10 @@ class ImageUpdate {
  public:
   explicit ImageUpdate(const TrackerOptions& options);
 
+  /// If the image does not fit, all its spots are false detections.
   void apply(const GroupCamera& camera,
              const StoredImage& image,
+             CameraFit* fit,
              std::vector<Track>* tracks,
              std::vector<MergedPair>* pairs);
 
@@ -35,6 +39,7 @@ class ImageUpdate {
   struct Candidate {
     std::size_t track;
     motion::PixelPrediction prediction;
+    bool in_view;
     bool expected;  // without a spot, it is a missed detection
     int spot;       // assigned to it, or kNone
     bool updated;   // by its MergedPair
@@ -47,7 +52,10 @@ class ImageUpdate {
   bool isTooUncertain(const Track& track,
                       const motion::PixelPrediction& prediction,
                       double time) const;
-  bool isSeenByOther(const StoredImage& image, const Track& track) const;
+  std::size_t othersSeeing(const StoredImage& image, const Track& track) const;
+  void measureFit(const StoredImage& image, const std::vector<Track>& tracks, CameraFit* fit) const;
+  std::optional<Eigen::Vector2d> residualOf(const StoredImage& image,
+                                            const Candidate& candidate) const;
   void assign(const GroupCamera& camera,
               const StoredImage& image,
               const std::vector<Track>& tracks);

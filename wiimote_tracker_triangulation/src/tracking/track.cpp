@@ -167,10 +167,10 @@ bool Track::isShownBy(std::size_t camera, double time) const {
       [&](const CameraRecord& record) { return record.camera == camera && record.own == time; });
 }
 
-bool Track::isSeenByOther(std::size_t camera, double since) const {
-  return std::any_of(
+std::size_t Track::othersSeeing(std::size_t camera, double since) const {
+  return static_cast<std::size_t>(std::count_if(
       records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
-      [&](const CameraRecord& record) { return record.camera != camera && record.hit >= since; });
+      [&](const CameraRecord& record) { return record.camera != camera && record.hit >= since; }));
 }
 
 std::size_t Track::camerasShowing(double since) const {

@@ -60,8 +60,8 @@ class Track {
   /// Whether the camera's image of that time [s] had a spot of this LED's own.
   bool isShownBy(std::size_t camera, double time) const;
 
-  /// Whether another camera detected it at a time [s] or later.
-  bool isSeenByOther(std::size_t camera, double since) const;
+  /// Other cameras that detected it at a time [s] or later.
+  std::size_t othersSeeing(std::size_t camera, double since) const;
 
   /// Cameras with a spot of this LED's own at a time [s] or later.
   std::size_t camerasShowing(double since) const;

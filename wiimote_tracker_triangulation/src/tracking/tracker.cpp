@@ -82,7 +82,9 @@ void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& be
 
 void Tracker::add(std::size_t camera, const CameraImage& image) {
   const double offset = geometry::timeOffset(rig_.cameras.at(camera), image.clock_epoch);
-  const double time = image.stamp + offset;
+  const Place& place = places_[camera];
+  CameraGroup& group = *groups_[place.group];
+  const double time = image.stamp + offset - group.clockError(place.member);
   if (!std::isfinite(time) || !std::isfinite(image.arrival)) {
     ++counters_.dropped;
     return;
@@ -95,13 +97,13 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
   }
   if (result == TimeWatch::Result::kJumpedBack) {
     ++counters_.resets;
-    for (const auto& group : groups_)
-      group->clear();
+    for (const auto& each : groups_)
+      each->clear();
     newest_time_ = newest_arrival_ = last_output_ = kNever;
   }
   store(camera, image);
   image_->time = time;
-  switch (groups_[places_[camera].group]->add(*image_, ids_.get(), &views_)) {
+  switch (group.add(*image_, ids_.get(), &views_)) {
     case CameraGroup::Outcome::kRepeated:
       ++counters_.repeated;
       return;
@@ -189,8 +191,18 @@ const Counters& Tracker::counters() const {
   return counters_;
 }
 
-std::optional<double> Tracker::clockAhead(std::size_t camera) const {
-  return time_watch_->ahead(camera);
+std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
+  if (const std::optional<double> ahead = time_watch_->ahead(camera))
+    return CameraFault{CameraFault::Kind::kWrongClock, *ahead};
+  const Place& place = places_[camera];
+  const CameraGroup& group = *groups_[place.group];
+  if (group.isMisfit(place.member))
+    return CameraFault{CameraFault::Kind::kMisfit, 0.0};
+  constexpr double kNoticeable = 0.002;  // [s]; what is left of a corrected clock is less
+  const double error = group.clockError(place.member);
+  if (std::abs(error) >= kNoticeable)
+    return CameraFault{CameraFault::Kind::kCorrectedClock, error};
+  return std::nullopt;
 }
 
 }  // namespace wiimote_tracker::tracking

@@ -20,6 +20,19 @@ struct Counters {
   std::uint64_t resets = 0;      ///< Resets because time jumped back.
 };
 
+/// What is wrong with a camera, by the images of all.
+struct CameraFault {
+  enum class Kind {
+    kWrongClock,      ///< Its images are left out.
+    kCorrectedClock,  ///< The times of its images are corrected.
+    kMisfit,          ///< Its spots are not where the others see LEDs; its images are left out.
+  };
+  Kind kind;
+
+  /// How far its clock is ahead of most cameras' [s]; NaN if no group of clocks is the largest.
+  double clock_ahead;
+};
+
 /// Estimates LEDs from the images of a rig's cameras: per instant (fusion::InstantFuser, the
 /// paper's method) or as tracks in continuous time (tracking::Tracker). The result is a function of
 /// the rig, the options and the sequence of images; no clock is read. Does not allocate once warm.
@@ -40,9 +53,10 @@ class Estimator {
 
   virtual const Counters& counters() const = 0;
 
-  /// For a camera whose images are left out because its clock is wrong: how far it is ahead of the
-  /// clocks of most cameras [s]; NaN when no group of cameras that agree is the largest.
-  virtual std::optional<double> clockAhead(std::size_t /*camera*/) const { return std::nullopt; }
+  /// What is wrong with a camera at present.
+  virtual std::optional<CameraFault> cameraFault(std::size_t /*camera*/) const {
+    return std::nullopt;
+  }
 
   /// Predicts all LEDs to a time [s] not before the newest image, for output at a fixed rate.
   /// False, and nothing is written, when the estimator cannot predict, has seen no image or is past

@@ -44,7 +44,7 @@ class Tracker : public Estimator {
   void add(std::size_t camera, const CameraImage& image) override;
   const Snapshot* next() override;
   const Counters& counters() const override;
-  std::optional<double> clockAhead(std::size_t camera) const override;
+  std::optional<CameraFault> cameraFault(std::size_t camera) const override;
 
   /// Without lost LEDs.
   bool predictTo(double time, Snapshot* snapshot) const override;

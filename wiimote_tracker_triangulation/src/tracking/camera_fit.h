@@ -1,0 +1,56 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_FIT_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_FIT_H
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+
+namespace wiimote_tracker::tracking {
+
+/// How a camera's images fit the LEDs that other cameras see.
+///
+/// A camera that was moved or exchanged shows spots where no LED is, and none where LEDs are. One
+/// whose images have wrong times shows each LED off along its motion.
+class CameraFit {
+ public:
+  /// @param ghost_rate expected false detections per image.
+  explicit CameraFit(double ghost_rate) : usual_(ghost_rate) {}
+
+  /// @param shown LEDs that have a spot in the image. @param missing LEDs that have none although
+  /// two other cameras see them.
+  /// @param unassigned spots of no LED.
+  void add(std::size_t shown, std::size_t missing, std::size_t unassigned);
+
+  /// Whether most LEDs are missing while more spots than usual are unassigned. (If an LED is only
+  /// hidden, there are no more of these.)
+  bool isMisfit() const { return misfit_; }
+
+  /// @param velocity of the LED in the image [px/s]. @param residual of its spot [px].
+  void addResidual(const Eigen::Vector2d& velocity, const Eigen::Vector2d& residual);
+
+  /// By how much the images' times are too late [s], from the regression of residuals on
+  /// velocities; nothing until it is accurate to about 0.5 ms.
+  std::optional<double> clockError() const;
+  void forgetClockError() { clock_ = Clock(); }
+
+ private:
+  struct Clock {
+    double count = 0.0;
+    Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // sums
+    Eigen::Vector2d residual = Eigen::Vector2d::Zero();
+    double squares = 0.0;   // velocity . velocity
+    double products = 0.0;  // velocity . residual
+  };
+
+  double fits_ = 0.0;              // of recent LEDs
+  double misfits_ = 0.0;           // the same
+  double usual_;                   // unassigned spots of a complete image: one that shows all LEDs
+  double complete_images_ = 10.0;  // the expected rate counts as ten
+  bool misfit_ = false;
+  Clock clock_;
+};
+
+}  // namespace wiimote_tracker::tracking
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_FIT_H

@@ -14,6 +14,9 @@
 namespace wiimote_tracker::body {
 namespace {
 
+// Longest distance of two LEDs of a body [m]: a larger one was not given in metres.
+constexpr double kLargest = 3.0;
+
 /// Depth-first search over permutations; prunes those whose distances differ too much.
 class SymmetrySearch {
  public:
@@ -111,6 +114,10 @@ void Constellation::check() const {
       if (side.norm() < 0.001)
         throw Error(who + " has LEDs " + std::to_string(k) + " and " + std::to_string(i) +
                     " at one place; positions are in metres");
+      if (side.norm() > kLargest)
+        throw Error(who + " would be " + format("%.3g m", side.norm()) +
+                    " large: give positions in metres, at most " + format("%g m", kLargest) +
+                    " apart");
       for (std::size_t m = 0; m < k; ++m) {
         const Eigen::Vector3d other = leds[m] - leds[k];
         const double longest = std::max({side.norm(), other.norm(), (side - other).norm()});

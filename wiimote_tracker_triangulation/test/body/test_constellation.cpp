@@ -41,6 +41,10 @@ TEST(Constellation, SaysWhatIsWrong) {
             std::string::npos);
   EXPECT_NE(messageOf({"a", {{0, 0, 0}, {0.1, 0, 0}, {0.1, NAN, 0}}}).find("finite"),
             std::string::npos);
+  std::vector<Vector3d> millimetres = fourLeds().leds;
+  for (Vector3d& led : millimetres)
+    led *= 1000.0;
+  EXPECT_NE(messageOf({"a", millimetres}).find("give positions in metres"), std::string::npos);
 }
 
 TEST(Constellation, SymmetriesAreFound) {

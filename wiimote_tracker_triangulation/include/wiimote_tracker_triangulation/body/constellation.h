@@ -23,9 +23,9 @@ struct Constellation {
   /// Label of an LED, or its number.
   std::string labelOf(std::size_t led) const;
 
-  /// @throws Error naming what is wrong: the name, the number of LEDs, two LEDs closer than 1 mm,
-  /// all LEDs on one line, positions that are not finite, labels that are not one per LED and
-  /// distinct, or a symmetric shape without labels.
+  /// @throws Error naming what is wrong: the name, the number of LEDs, two LEDs closer than 1 mm or
+  /// farther than 3 m apart, all LEDs on one line, positions that are not finite, labels that are
+  /// not one per LED and distinct, or a symmetric shape without labels.
   void check() const;
 };
 

@@ -1,0 +1,190 @@
+#include "hypotheses.h"
+
+#include "clock_lag.h"
+#include "square/planar_pose.h"
+
+#include <wiimote_tracker_msgs/text.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <utility>
+
+namespace wiimote_tracker::session {
+
+namespace {
+
+// Factor on the misfit without a camera, which leaves out much of the data.
+constexpr double kWithoutCamera = 1.3;
+// Smallest errors that are looked for: of a side, relative, and of a clock [s].
+constexpr double kLeastSide = 0.02;
+constexpr double kLeastLag = 0.05;
+// Of more cameras not all pairs are exchanged: there would be too many.
+constexpr std::size_t kMostForPairs = 6;
+
+const std::string& nameOf(const Hypothesis& as_is, std::size_t camera) {
+  return as_is.recording.cameras[camera].sightings.name;
+}
+
+/// Adds the recording as it is, to be changed.
+template <typename Describe>
+Hypothesis& add(const Hypothesis& as_is, Hypotheses* all, Describe describe) {
+  all->push_back(as_is);
+  all->back().describe = std::move(describe);
+  return all->back();
+}
+
+void addCorners(const Hypothesis& as_is, Hypotheses* all) {
+  for (std::size_t c = 0; c < 4; ++c)
+    add(as_is, all, [c](const Attempt& attempt) {
+      return format(
+          "corner %zu was captured %.0f mm from its place: put the LED there, capture "
+          "corner %zu again and solve",
+          c + 1, 1e3 * attempt.corner_offsets[c].norm(), c + 1);
+    }).uncertainty.unknown_corner = c;
+}
+
+/// The ratio of the sides by free corners, and the scale by the wand.
+void addLengths(const Hypothesis& as_is, const std::optional<Attempt>& free, Hypotheses* all) {
+  const square::SquareLayout layout = *as_is.recording.square;
+  square::Corners at = layout.corners(!free || free->z_up);
+  for (std::size_t c = 0; c < 4 && free; ++c)
+    at[c] += free->corner_offsets[c];
+  const double ratio = ((at[2] - at[1]).norm() + (at[3] - at[0]).norm()) /
+                       ((at[1] - at[0]).norm() + (at[3] - at[2]).norm());
+  const double side_y = layout.side_x * ratio;
+  if (std::abs(std::log(side_y / layout.side_y)) > kLeastSide)
+    add(as_is, all, [=](const Attempt&) {
+      return format(
+          "the sides of the square are not %.3g m and %.3g m: the second would be "
+          "%.3g m, or the first %.3g m; measure both, and start again with them",
+          layout.side_x, layout.side_y, side_y, layout.side_y / ratio);
+    }).recording.square->side_y = side_y;
+  if (!as_is.recording.wand)
+    return;
+  const double length = as_is.recording.wand->length;
+  add(as_is, all, [=](const Attempt& attempt) {
+    const double scale = length / attempt.wand_length;
+    return format(
+        "the wand and the square contradict each other: by the square the wand is %.4g m "
+        "long, not %.4g m, or by the wand the sides are %.3g m and %.3g m; measure them "
+        "again",
+        attempt.wand_length, length, scale * layout.side_x, scale * layout.side_y);
+  }).recording.wand->stddev = length;
+}
+
+void addGravity(const Hypothesis& as_is, std::size_t i, Hypotheses* all) {
+  if (!as_is.recording.cameras[i].sightings.gravity)
+    return;
+  add(as_is, all,
+      [seen = as_is.recording.cameras[i].sightings](const Attempt& attempt) {
+        const geometry::RigCamera* camera = attempt.rig.find(seen.name);
+        const Eigen::Vector3d up(0.0, 0.0, attempt.z_up ? 1.0 : -1.0);
+        const Eigen::Vector3d measured =
+            camera ? camera->camera.world_from_camera.linear() * seen.gravity->normalized() : up;
+        return format(
+            "the accelerometer of %s contradicts all images by %.0f degrees: its axes or its "
+            "image are turned; correct that, or do not use gravity",
+            seen.name.c_str(),
+            std::atan2(up.cross(measured).norm(), up.dot(measured)) * 180.0 / M_PI);
+      })
+      .recording.cameras[i]
+      .sightings.gravity.reset();
+}
+
+void addWaveMistakes(const Hypothesis& as_is, std::size_t i, Hypotheses* all) {
+  const wave::Recording& recording = as_is.recording;
+  const std::string& name = nameOf(as_is, i);
+  const double lag = clockLag(recording, i).value_or(0.0);
+  if (std::abs(lag) > kLeastLag) {
+    Hypothesis& clock = add(as_is, all, [=](const Attempt& attempt) {
+      const double ahead = lag - attempt.rig.find(name)->time_offset;
+      return format(
+          "the clock of %s is %.2f s %s the others: check the time of its computer and "
+          "its driver, and wave again",
+          name.c_str(), std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind");
+    });
+    for (wave::Frame& frame : clock.recording.cameras[i].frames)
+      frame.stamp -= lag;
+  }
+  Hypothesis& mirrored = add(as_is, all, [=](const Attempt&) {
+    return "the image of " + name +
+           " is mirrored: make its x run to the right and its y down, and wave again";
+  });
+  for (wave::Frame& frame : mirrored.recording.cameras[i].frames) {
+    for (Eigen::Vector2d& spot : frame.spots)
+      spot.x() = recording.cameras[i].sightings.intrinsics.width - 1.0 - spot.x();
+  }
+  const std::size_t count = recording.cameras.size();
+  for (std::size_t j = i + 1; j < count && count <= kMostForPairs && recording.square; ++j) {
+    auto& cameras = add(as_is, all, [=, other = nameOf(as_is, j)](const Attempt&) {
+                      return name + " and " + other +
+                             " were exchanged between the corners and the wave: check the "
+                             "addresses of their drivers, and start again";
+                    }).recording.cameras;
+    std::swap(cameras[i].frames, cameras[j].frames);
+  }
+}
+
+}  // namespace
+
+Hypotheses likelyMistakes(const Hypothesis& as_is, const std::optional<Attempt>& free) {
+  Hypotheses all;
+  if (as_is.recording.square) {
+    addCorners(as_is, &all);
+    addLengths(as_is, free, &all);
+  }
+  for (std::size_t i = 0; i < as_is.recording.cameras.size(); ++i) {
+    addGravity(as_is, i, &all);
+    if (as_is.recording.hasFrames())
+      addWaveMistakes(as_is, i, &all);
+  }
+  return all;
+}
+
+Hypotheses movedCameras(const Hypothesis& as_is) {
+  Hypotheses all;
+  if (!as_is.recording.square || !as_is.recording.hasFrames())
+    return all;
+  for (const wave::CameraRecording& camera : as_is.recording.cameras) {
+    const std::size_t i = all.size();
+    add(as_is, &all,
+        [seen = camera.sightings, &as_is](const Attempt& attempt) {
+          const geometry::Camera& solved = attempt.rig.find(seen.name)->camera;
+          const auto poses = square::cornerPoses(solved.intrinsics, seen.corners,
+                                                 as_is.recording.square->corners(attempt.z_up));
+          std::string how_far;
+          if (!poses.empty()) {
+            const Eigen::Isometry3d moved =
+                poses.front().world_from_camera.inverse() * solved.world_from_camera;
+            how_far = format(" by %.0f mm and %.1f degrees", 1e3 * moved.translation().norm(),
+                             Eigen::AngleAxisd(moved.linear()).angle() * 180.0 / M_PI);
+          }
+          return seen.name + " moved" + how_far +
+                 " between the corners and the wave, or its spots at the corners were not the LED: "
+                 "fix "
+                 "it, and start again";
+        })
+        .recording.cameras[i]
+        .sightings.corners = {};
+  }
+  return all;
+}
+
+Hypotheses wrongCameras(const Hypothesis& as_is) {
+  Hypotheses all;
+  const std::size_t count = as_is.recording.cameras.size();
+  for (std::size_t i = 0; i < count && count > 2; ++i) {
+    Hypothesis& without = add(as_is, &all, [name = nameOf(as_is, i)](const Attempt&) {
+      return name +
+             " alone contradicts the others: check that it did not move and that its spot "
+             "was the LED, and its starting intrinsics";
+    });
+    without.factor = kWithoutCamera;
+    without.recording.cameras.erase(without.recording.cameras.begin() +
+                                    static_cast<std::ptrdiff_t>(i));
+  }
+  return all;
+}
+
+}  // namespace wiimote_tracker::session

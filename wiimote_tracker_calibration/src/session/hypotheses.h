@@ -1,0 +1,48 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_HYPOTHESES_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_HYPOTHESES_H
+
+#include "wiimote_tracker_calibration/square/rig_model.h"
+#include "wiimote_tracker_calibration/wave/recording.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::session {
+
+/// A recording that could be solved.
+struct Attempt {
+  geometry::Rig rig;
+  double misfit = 0.0;
+  bool contradicts = false;
+  bool z_up = true;
+  square::Corners corner_offsets{};
+  double wand_length = 0.0;
+};
+
+/// A mistake that may have been made: the recording without it, or with the quantity free.
+struct Hypothesis {
+  wave::Recording recording;
+  square::Uncertainty uncertainty;
+  std::function<std::string(const Attempt&)> describe = nullptr;  ///< One sentence.
+  double factor = 1.0;                                            ///< On the misfit.
+};
+
+using Hypotheses = std::vector<Hypothesis>;
+
+/// A corner elsewhere, other sides, another wand; the accelerometer, clock or mirrored image of a
+/// camera; cameras exchanged. @param free solved with corners far from their places, if any.
+Hypotheses likelyMistakes(const Hypothesis& as_is, const std::optional<Attempt>& free);
+
+/// A camera that moved between the corners and the wave; none without both.
+Hypotheses movedCameras(const Hypothesis& as_is);
+
+/// A camera that contradicts all others.
+Hypotheses wrongCameras(const Hypothesis& as_is);
+
+}  // namespace wiimote_tracker::session
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_HYPOTHESES_H

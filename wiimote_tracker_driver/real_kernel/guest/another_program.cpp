@@ -66,7 +66,7 @@ std::vector<Word> words() {
 }  // namespace
 
 void anotherProgram(Checks& checks) {
-  Streaming streaming;
+  Streaming streaming(checks);
   const int fd = ::open(hidrawOf(kAddress).c_str(), O_RDWR | O_CLOEXEC);
   for (const Word& word : words()) {
     const auto say = [&] {

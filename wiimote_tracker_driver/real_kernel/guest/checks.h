@@ -31,6 +31,9 @@ class Checks {
   /// Checks that images are back within 1 s of a disturbance that began at `since` [s].
   void recoversFrom(const std::string& name, const RunningDriver& driver, double since);
 
+  /// All images that the drivers have published.
+  ImageTotals images;
+
   bool passed() const { return count_ > 0 && failed_ == 0; }
 
  private:

@@ -7,9 +7,9 @@
 
 namespace wiimote_tracker::real_kernel {
 
-PluggedRemote::PluggedRemote(const std::string& address, const Light& light, Model model)
+PluggedRemote::PluggedRemote(const std::string& address, Scene& scene, Model model)
     : address_(address),
-      light_(light),
+      scene_(scene),
       device_(address, options(model)),
       thread_([this] { run(); }) {}
 
@@ -31,11 +31,11 @@ PluggedRemote::~PluggedRemote() {
 
 void PluggedRemote::run() {
   virtual_wiimote::Senses senses;
-  senses.lights = {light_};
   auto next = std::chrono::steady_clock::now();
   while (!stop_) {
     next += std::chrono::milliseconds(10);
     std::this_thread::sleep_until(next);
+    senses.lights = scene_.next();
     device_.sample(senses);
   }
 }

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_PLUGGED_REMOTE_H
 #define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_PLUGGED_REMOTE_H
 
+#include "scene.h"
 #include "virtual_wiimote/uhid.h"
 
 #include <atomic>
@@ -11,12 +12,11 @@
 
 namespace wiimote_tracker::real_kernel {
 
-/// A virtual Wii Remote plugged into this kernel. It sees one light at rest, 100 times a second,
+/// A virtual Wii Remote plugged into this kernel. It looks at its scene 100 times a second
 /// and records output reports of the kernel and of drivers.
 class PluggedRemote {
  public:
   using Bytes = virtual_wiimote::Bytes;
-  using Light = virtual_wiimote::Light;
   using Model = virtual_wiimote::UhidDevice::Model;
 
   /// An output report and when it reached the remote [s].
@@ -26,7 +26,7 @@ class PluggedRemote {
   };
 
   /// Transit time of output reports is 12 ms.
-  PluggedRemote(const std::string& address, const Light& light, Model model = Model::kRemote);
+  PluggedRemote(const std::string& address, Scene& scene, Model model = Model::kRemote);
   ~PluggedRemote();
 
   void unplug() { device_.setPresent(false); }
@@ -34,7 +34,6 @@ class PluggedRemote {
   void setNunchuk(bool plugged) { device_.setNunchuk(plugged); }
 
   const std::string& address() const { return address_; }
-  const Light& light() const { return light_; }
   std::uint8_t leds() const { return device_.leds(); }
   bool rumble() const { return device_.rumble(); }
 
@@ -49,7 +48,7 @@ class PluggedRemote {
   void run();
 
   const std::string address_;
-  const Light light_;
+  Scene& scene_;
 
   mutable std::mutex mutex_;  // guards the next
   std::vector<Output> outputs_;

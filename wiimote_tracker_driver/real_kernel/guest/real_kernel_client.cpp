@@ -24,6 +24,8 @@ int main(int argc, char** argv) {
     } catch (const std::exception& e) {
       checks.check("runs to its end", false, e.what());
     }
+    checks.check("every image showed the lights of its frame", checks.images.right(),
+                 checks.images.text());
     return checks.passed() ? 0 : 1;
   }
   if (wanted == "--list")

@@ -5,7 +5,6 @@
 #include "transport/transport.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 
@@ -24,9 +23,11 @@ wiimote::Options withSession(const wiimote::SessionOptions& session) {
 }  // namespace
 
 RunningDriver::RunningDriver(const std::string& device,
-                             const virtual_wiimote::Light& light,
+                             const Scene& scene,
+                             ImageTotals& totals,
                              const wiimote::SessionOptions& options)
-    : light_(light),
+    : record_(scene),
+      totals_(totals),
       options_(options),
       wiimote_(
           withSession(options),
@@ -82,18 +83,12 @@ double RunningDriver::recoveryRate() const {
 }
 
 void RunningDriver::record(const protocol::DataReport& image) {
-  int lights = 0;
-  bool right = true;
-  for (const protocol::IrSpot& spot : image.spots) {
-    if (!spot.seen)
-      continue;
-    ++lights;
-    right = right && spot.x == std::lround(light_.x) && spot.y == std::lround(light_.y);
-  }
-  if (lights == 1 && right)
+  if (!ImageRecord::showsLights(image))
+    return;
+  const std::string problem = record_.problemOf(image);
+  totals_.add(problem);
+  if (problem.empty())
     images_.push_back(now());
-  else if (lights > 0)
-    ++wrong_images_;
 }
 
 wiimote::Link RunningDriver::link() const {
@@ -104,11 +99,6 @@ wiimote::Link RunningDriver::link() const {
 std::vector<double> RunningDriver::images() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return images_;
-}
-
-std::size_t RunningDriver::wrongImages() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return wrong_images_;
 }
 
 bool RunningDriver::waitForState(wiimote::Link::State state, double timeout) const {

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_STREAMING_H
 #define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_STREAMING_H
 
+#include "checks.h"
 #include "clock.h"
 #include "plugged_remote.h"
 #include "running_driver.h"
@@ -11,7 +12,6 @@
 namespace wiimote_tracker::real_kernel {
 
 constexpr char kAddress[] = "00:1f:32:00:00:01";
-constexpr PluggedRemote::Light kLight{300.0, 200.0, 3.0, 1.0};
 
 // Time after the kernel's request for the battery without further reports: setup is complete [s].
 constexpr double kSetUpTime = 1.0;
@@ -20,16 +20,14 @@ constexpr double kTimeout = 5.0;
 
 /// A remote that the kernel has set up, and a driver that streams from it.
 struct Streaming {
-  explicit Streaming(const std::string& address = kAddress,
-                     const PluggedRemote::Light& light = kLight,
-                     PluggedRemote::Model model = PluggedRemote::Model::kRemote,
-                     const wiimote::SessionOptions& options = {})
-      : remote(address, light, model), driver(address, light, options) {
+  explicit Streaming(Checks& checks, const wiimote::SessionOptions& options = {})
+      : remote(kAddress, scene), driver(kAddress, scene, checks.images, options) {
     if (!driver.waitForState(wiimote::Link::State::kStreaming, kTimeout))
       throw std::runtime_error("the driver does not stream: " + driver.link().error);
     sleepFor(kSetUpTime);
   }
 
+  Scene scene;
   PluggedRemote remote;
   RunningDriver driver;
 };

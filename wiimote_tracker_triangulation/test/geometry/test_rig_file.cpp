@@ -331,6 +331,11 @@ TEST_F(RigFile, IsRefusedWhenCutOffAnywhere) {
   EXPECT_EQ("", complaintAbout(written_.substr(0, written_.size() - 1)));
 }
 
+TEST_F(RigFile, ListThatEndsWithAColonIsRefused) {
+  write(fullRig());
+  EXPECT_NE("", complaintAbout(with("square_sides: [2.5,", "square_sides: [2.5:],")));
+}
+
 TEST_F(RigFile, DamageNeverCrashes) {
   Rig rig = fullRig();
   rig.covariance.resize(0, 0);

@@ -25,7 +25,7 @@ def value_of(text):
 def parameters_of_the_code():
     """Key -> (kind, last arguments) of every parameter that the code reads."""
     code = read('src/ros/parameters.cpp')
-    call = re.compile(r'reader(?:->|\.)(bounded|optional(?:<[^(]*>)?|choice)\(\s*'
+    call = re.compile(r'reader(?:->|\.)(read|bounded|optional(?:<[^(]*>)?|choice)\(\s*'
                       r'(prefix \+ )?"(\w+)",(.*?)\);', re.DOTALL)
     return {('intrinsics/' if prefix else '') + key: (kind.split('<')[0], rest)
             for kind, prefix, key, rest in call.findall(code)}
@@ -67,9 +67,11 @@ def test_every_range_is_that_of_the_code():
         if kind == 'choice' and 'nameOf' not in rest:
             words = re.findall(r'"(\w+)"', rest[rest.index('{'):])
             assert f'[{", ".join(words)}]' in comments[key], key
-        if kind != 'bounded':
+        arguments = rest.split(',')
+        if kind == 'bounded' or (kind == 'read' and len(arguments) == 3):
+            lower, upper = [value_of(text) for text in arguments[-2:]]
+        else:
             continue
-        lower, upper = [value_of(text) for text in rest.split(',')[-2:]]
         stated = re.search(r'\[(?:[^],]*, )?(\S[^],]*)\.\.([^],]+)\]', comments[key])
         assert stated, f'{key} has no range in: {comments[key]}'
         assert [value_of(text) for text in stated.groups()] == [lower, upper], key

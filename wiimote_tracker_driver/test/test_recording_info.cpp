@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <sstream>
 
 namespace wiimote_tracker::recording_info {
@@ -39,6 +40,16 @@ class Info : public testing::Test {
 
   std::vector<std::uint8_t> bytes_;
 };
+
+TEST(Recordings, OfVersion1AreRead) {
+  std::ifstream in(VERSION_1 "/wiimote_1.wrec", std::ios::binary);
+  recording::Reader reader(in);
+  const Summary read = summarize(reader);
+  EXPECT_EQ("", read.damage);
+  EXPECT_EQ("wiimote_tracker_driver 0.1.0", read.header.software);
+  EXPECT_EQ(1u, read.connections.size());
+  EXPECT_EQ(258u, read.received[0x33]);
+}
 
 TEST_F(Info, TwoConnections) {
   add(Kind::kConnected, 1.0);

@@ -128,6 +128,14 @@ def fetch_missing(parts: Parts, folder: str, kernel_package: str, apt: Apt) -> N
     shutil.rmtree(downloads, ignore_errors=True)
 
 
+def has_uhid(parts: Parts) -> bool:
+    """Whether the kernel can have virtual remotes; Debian 11's smallest cannot."""
+    for config in glob.glob(os.path.join(parts.kernel_folder, 'boot', 'config-*')):
+        with open(config, encoding='utf-8') as file:
+            return 'CONFIG_UHID=' in file.read()
+    return False
+
+
 def works(parts: Parts) -> bool:
     """Whether QEMU starts: it also uses libraries of the machine, which may have changed."""
     try:
@@ -174,6 +182,8 @@ def fetch(kernel_package: str = DEFAULT_KERNEL) -> Parts:
         raise Unavailable(f'{error} (cache folder {folder})')
     if not works(parts):
         raise Unavailable(f'QEMU does not start: {parts.qemu}')
+    if not has_uhid(parts):
+        raise Unavailable(f'the kernel of {kernel_package} has no uhid')
     return parts
 
 

@@ -168,7 +168,7 @@ make_with_progress() {
 
 use_workspace() {
   set +u
-  # shellcheck disable=SC1091
+  # shellcheck disable=SC1090,SC1091
   source "$workspace/devel/setup.bash"
   set -u
 }

@@ -113,6 +113,10 @@ def unpack(archives: Iterable[str], folder: str) -> None:
     shutil.rmtree(partial, ignore_errors=True)
     for archive in archives:
         subprocess.check_call(['dpkg-deb', '-x', archive, partial])
+    # Debian 13's packages have everything below usr, where installed systems have these links.
+    for name in ('bin', 'lib'):
+        if not os.path.isdir(os.path.join(partial, name)):
+            os.symlink(os.path.join('usr', name), os.path.join(partial, name))
     shutil.rmtree(folder, ignore_errors=True)
     os.rename(partial, folder)
 

@@ -124,7 +124,8 @@ Fit firstFit(const Points& points, bool equidistant, double focal_length) {
     start.camera_matrix =
         (cv::Mat_<double>(3, 3) << factor * focal_length, 0.0, (points.image_size.width - 1) / 2.0,
          0.0, factor * focal_length, (points.image_size.height - 1) / 2.0, 0.0, 0.0, 1.0);
-    start.distortion = cv::Mat::zeros(1, equidistant ? 4 : 5, CV_64F);
+    // A column: with a row OpenCV before 4.6 refuses to fit an equidistant lens.
+    start.distortion = cv::Mat::zeros(equidistant ? 4 : 5, 1, CV_64F);
     const Fit fit = fitFrom(start, LensModel::kNoDistortion, points, kRough);
     if (fit.error < best.error)
       best = fit;

@@ -28,7 +28,8 @@ class Unavailable(Exception):
 class Parts:
     """Paths of the parts of a guest."""
 
-    def __init__(self, folder: str, kernel_package: str):
+    def __init__(self, folder: str, kernel_package: str, packages: Iterable[str] = ()):
+        self.package_folders = {package: os.path.join(folder, package) for package in packages}
         self.tools = os.path.join(folder, 'tools')
         self.kernel_folder = os.path.join(folder, kernel_package)
         self.busybox = os.path.join(self.tools, 'bin', 'busybox')
@@ -129,6 +130,10 @@ def fetch_missing(parts: Parts, folder: str, kernel_package: str, apt: Apt) -> N
     if not os.path.isdir(parts.kernel_folder):
         kernel = apt.kernel_behind(kernel_package)
         unpack(apt.download([kernel], downloads), parts.kernel_folder)
+    for package, package_folder in parts.package_folders.items():
+        if not os.path.isdir(package_folder):
+            needed = set([package] + apt.missing_for(package))
+            unpack(apt.download(sorted(needed), downloads), package_folder)
     shutil.rmtree(downloads, ignore_errors=True)
 
 
@@ -157,8 +162,9 @@ def locked(folder: str) -> Iterator[None]:
         yield
 
 
-def fetch(kernel_package: str = DEFAULT_KERNEL) -> Parts:
-    """Downloads what the cache does not have. Raises Unavailable."""
+def fetch(kernel_package: str = DEFAULT_KERNEL, packages: Iterable[str] = ()) -> Parts:
+    """Downloads what the cache does not have; each of `packages`, for the guest, has a folder of
+    its own, with what it needs that this machine lacks. Raises Unavailable."""
     for program in ('apt-get', 'dpkg', 'dpkg-deb'):
         if not shutil.which(program):
             raise Unavailable(f'{program} is missing: the kernel comes from Debian')
@@ -167,7 +173,7 @@ def fetch(kernel_package: str = DEFAULT_KERNEL) -> Parts:
     if architecture != 'amd64':
         raise Unavailable(f'this is a {architecture} machine, the guest is amd64')
     folder = cache_folder()
-    parts = Parts(folder, kernel_package)
+    parts = Parts(folder, kernel_package, packages)
     try:
         os.makedirs(folder, exist_ok=True)
         with locked(folder):

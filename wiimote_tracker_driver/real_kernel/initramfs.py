@@ -6,6 +6,7 @@ import os
 import re
 import stat
 import subprocess
+import sys
 from typing import BinaryIO, Iterable, List, Tuple
 
 
@@ -82,12 +83,16 @@ def modules_in_order(kernel_folder: str, wanted: Iterable[str]) -> List[Tuple[st
     return ordered
 
 
-def libraries_of(program: str) -> List[Tuple[str, str]]:
+def libraries_of(program: str, folders: Iterable[str]) -> List[Tuple[str, str]]:
     """Path in the guest and path here of each shared library of a program, and of the loader. The
-    loader keeps its path; libraries go to /lib, because the guest has no LD_LIBRARY_PATH. Raises
-    OSError when one is missing."""
+    loader keeps its path; libraries go to /lib. They are looked for in `folders` of Debian packages
+    and on this machine. Raises OSError when one is missing."""
+    search = ':'.join(os.path.join(folder, 'usr/lib', multiarch)
+                      for folder in folders for multiarch in ('x86_64-linux-gnu', ''))
     output = subprocess.run(['ldd', program], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                            universal_newlines=True).stdout
+                            universal_newlines=True,
+                            env=dict(os.environ, LD_LIBRARY_PATH=search + ':' + os.environ.get(
+                                'LD_LIBRARY_PATH', ''))).stdout
     missing = re.findall(r'(\S+) => not found', output)
     if missing:
         raise OSError(f'{program} needs {", ".join(missing)}, which was not found')
@@ -98,21 +103,29 @@ def libraries_of(program: str) -> List[Tuple[str, str]]:
 
 
 def build(path: str, init: str, busybox: str, kernel_folder: str, modules: Iterable[str],
-          programs: Iterable[str]) -> None:
-    """Writes the archive, with `programs` in /bin."""
+          files: Iterable[Tuple[str, str]], folders: Iterable[str] = ()) -> None:
+    """Writes the archive. `files`: path in the guest and path here; the libraries of programs
+    among them are added, from `folders` of Debian packages or from this machine."""
     with open(path, 'wb') as file:
         archive = Archive(file)
-        for folder in ('dev', 'proc', 'run', 'sys', 'tmp'):
+        for folder in ('dev', 'etc/bluetooth', 'proc', 'run/dbus', 'sys', 'tmp', 'var/lib/bluetooth'):
             archive.folder(folder)
         archive.add('init', read(init))
         archive.add('bin/busybox', read(busybox))
         archive.link('bin/sh', 'busybox')
+        archive.link('usr/bin/env', '/bin/busybox')
+        archive.link('usr/bin/python3', os.path.realpath(sys.executable))
+        archive.add('etc/passwd', b'root:x:0:0::/tmp:/bin/sh\n')
+        archive.add('etc/group', b'root:x:0:\n')
+        archive.add('etc/dbus.conf', read(os.path.join(os.path.dirname(init), 'dbus.conf')))
         ordered = modules_in_order(kernel_folder, modules)
         for name, content in ordered:
             archive.add(f'modules/{name}.ko', content)
         archive.add('modules/order', ''.join(f'{name}\n' for name, _ in ordered).encode())
-        for program in programs:
-            archive.add('bin/' + os.path.basename(program), read(program))
-            for target, path in libraries_of(program):
-                archive.add(target, read(path))
+        for target, source in files:
+            content = read(source)
+            archive.add(target, content)
+            if content.startswith(b'\x7fELF'):
+                for library, path in libraries_of(source, folders):
+                    archive.add(library, read(path))
         archive.close()

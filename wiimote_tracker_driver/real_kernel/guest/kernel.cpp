@@ -72,6 +72,21 @@ std::string hidNameOf(const std::string& address) {
   return hidFolderOf(address).filename();
 }
 
+std::string sysfsPathOf(const std::string& address) {
+  std::error_code error;
+  return fs::canonical(hidFolderOf(address), error);
+}
+
+std::string adapterOf(const std::string& address) {
+  const std::string key = "HID_PHYS=";
+  std::ifstream properties(hidFolderOf(address) / "uevent");
+  for (std::string line; std::getline(properties, line);) {
+    if (line.compare(0, key.size(), key) == 0)
+      return line.substr(key.size());
+  }
+  return "";
+}
+
 std::string batteryFileOf(const std::string& address) {
   const fs::path entry = classEntry(address, "power_supply", [](const fs::path&) { return true; });
   return entry.empty() ? "" : (entry / "capacity").string();

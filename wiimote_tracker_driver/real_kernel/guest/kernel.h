@@ -16,6 +16,12 @@ std::string kernelDriverOf(const std::string& address);
 /// The kernel's name for it on the HID bus ("0005:057E:0306.0001").
 std::string hidNameOf(const std::string& address);
 
+/// Its folder in sysfs, which shows the path of its reports; empty when there is none.
+std::string sysfsPathOf(const std::string& address);
+
+/// The address of its Bluetooth adapter; empty when there is none.
+std::string adapterOf(const std::string& address);
+
 /// The file with its charge in percent, as a desktop reads it; empty when there is none.
 std::string batteryFileOf(const std::string& address);
 

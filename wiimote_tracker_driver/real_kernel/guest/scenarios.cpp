@@ -1,6 +1,7 @@
 #include "scenarios.h"
 
 #include "another_program.h"
+#include "bluetooth.h"
 #include "clock.h"
 #include "kernel.h"
 #include "recovery.h"
@@ -479,6 +480,11 @@ const std::vector<Scenario>& scenarios() {
       {"rebind", rebind},
       {"taken", taken},
       {"non_root", nonRoot},
+      {"pair", pairScenario, "bluetooth"},
+      {"pair_refused", pairRefused, "bluetooth"},
+      {"two_adapters", twoAdapters, "bluetooth"},
+      {"hidp", overHidp, "bluetooth"},
+      {"userspace_hid", overUserspaceHid, "bluetooth"},
   };
   return all;
 }

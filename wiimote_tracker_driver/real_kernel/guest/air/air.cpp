@@ -1,0 +1,93 @@
+#include "air.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace wiimote_tracker::real_kernel {
+namespace {
+
+// Longest wait for packets [s]: then new timers and adapters are looked at.
+constexpr double kTurn = 0.005;
+constexpr std::uint8_t kConnectionTimeout = 0x08;
+constexpr std::size_t kLongestPacket = 2048;
+
+}  // namespace
+
+Air::Air() : thread_([this] { run(); }) {}
+
+Air::~Air() {
+  stop_ = true;
+  thread_.join();
+}
+
+void Air::addAdapter(const std::string& address) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  adapters_.emplace_back(address, remotes_, timers_);
+}
+
+void Air::addRemote(const std::string& address, Scene& scene, bool plus) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  remotes_.emplace_back(address, plus, scene, timers_);
+}
+
+void Air::press(const std::string& address, Press press) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Remote& pressed = remote(address);
+  pressed.press(press);
+  const auto bond = pressed.bondedTo();
+  if (press != Press::kOther || !bond || pressed.connected())
+    return;
+  for (Adapter& adapter : adapters_) {
+    if (adapter.address() == *bond)
+      adapter.call(pressed);
+  }
+}
+
+void Air::cutPower(const std::string& address) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  remote(address).lose(kConnectionTimeout);
+}
+
+bool Air::connected(const std::string& address) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return remote(address).connected();
+}
+
+Remote& Air::remote(const std::string& address) {
+  const auto found = std::find_if(remotes_.begin(), remotes_.end(), [&](const Remote& remote) {
+    return remote.address() == addressFrom(address);
+  });
+  if (found == remotes_.end())
+    throw std::invalid_argument("no such remote: " + address);
+  return *found;
+}
+
+void Air::run() {
+  while (!stop_) {
+    double wait = 0.0;
+    std::vector<pollfd> fds;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      wait = timers_.run(kTurn);
+      for (const Adapter& adapter : adapters_)
+        fds.push_back({adapter.fd(), POLLIN, 0});
+    }
+    const timespec timeout{0, static_cast<long>(1e9 * wait)};
+    if (::ppoll(fds.data(), fds.size(), &timeout, nullptr) <= 0)
+      continue;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (std::size_t i = 0; i < fds.size(); ++i) {
+      Bytes packet(kLongestPacket);
+      const ssize_t size =
+          fds[i].revents & POLLIN ? ::read(fds[i].fd, packet.data(), packet.size()) : 0;
+      packet.resize(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+      if (!packet.empty())
+        adapters_[i].handle(packet);
+    }
+  }
+}
+
+}  // namespace wiimote_tracker::real_kernel

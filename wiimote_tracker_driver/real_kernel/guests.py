@@ -24,13 +24,15 @@ class Guest:
     packages: List[str] = field(default_factory=list)
     programs: List[str] = field(default_factory=list)  # of packages, this workspace or this machine
     scripts: List[str] = field(default_factory=list)   # of our package, in Python
+    settings: List[str] = field(default_factory=list)  # files of packages
 
 
 GUESTS: Dict[str, Guest] = {
     'hid': Guest(fetch.DEFAULT_KERNEL, HID_MODULES),
     # Debian's smallest kernel has no Bluetooth.
     'bluetooth': Guest('linux-image-amd64', HID_MODULES + ['hci_vhci', 'hidp'], ['bluez'],
-                       ['bluetoothctl', 'bluetoothd', 'dbus-daemon', 'list_wiimotes'], ['pair']),
+                       ['bluetoothctl', 'bluetoothd', 'dbus-daemon', 'list_wiimotes'], ['pair'],
+                       ['etc/bluetooth/main.conf']),
 }
 
 PROGRAM_FOLDERS = ['usr/bin', 'usr/sbin', 'usr/libexec/bluetooth', 'usr/lib/bluetooth']
@@ -88,6 +90,8 @@ def files_of(guest: Guest, parts: fetch.Parts, client: str, scripts_folder: str,
     folders = [os.path.dirname(client)] + list(parts.package_folders.values())
     files = [('bin/real_kernel_client', client)]
     files += [('bin/' + name, find_program(name, folders)) for name in guest.programs]
+    files += [(path, os.path.join(place, path)) for path in guest.settings for place in folders
+              if os.path.isfile(os.path.join(place, path))]
     for name in guest.scripts:
         files += script_files(os.path.join(scripts_folder, name), folder)
     return files

@@ -78,9 +78,10 @@ void Adapter::handle(const Bytes& packet) {
     handleData(packet);
 }
 
-void Adapter::call(Remote& remote) {
+bool Adapter::call(Remote& remote) {
   if (answers_calls_)
     event(kConnectionRequest, join(remote.address(), remote.classOfDevice(), Bytes{1}));
+  return answers_calls_;
 }
 
 void Adapter::drop(Remote& remote, std::uint8_t reason) {

@@ -27,8 +27,8 @@ class Adapter {
   /// Handles a packet of the kernel. @throws std::out_of_range if it is too short.
   void handle(const Bytes& packet);
 
-  /// A remote calls this computer.
-  void call(Remote& remote);
+  /// A remote calls this computer. @returns whether it listens.
+  bool call(Remote& remote);
 
   /// The remote's link is lost, or closed for another reason.
   void drop(Remote& remote, std::uint8_t reason);

@@ -13,6 +13,8 @@ namespace {
 constexpr double kTurn = 0.005;
 constexpr std::uint8_t kConnectionTimeout = 0x08;
 constexpr std::size_t kLongestPacket = 2048;
+constexpr double kCallInterval = 0.64;  // [s] Between two calls of a remote that nobody answers.
+constexpr double kCalls = 10.0;         // [s] For how long a remote calls after a button.
 
 }  // namespace
 
@@ -37,13 +39,20 @@ void Air::press(const std::string& address, Press press) {
   const std::lock_guard<std::mutex> lock(mutex_);
   Remote& pressed = remote(address);
   pressed.press(press);
-  const auto bond = pressed.bondedTo();
-  if (press != Press::kOther || !bond || pressed.connected())
+  if (press == Press::kOther)
+    call(pressed, now() + kCalls);
+}
+
+/// Calls the computer that the remote is paired with until it answers, at most until `end` [s].
+void Air::call(Remote& remote, double end) {
+  const auto bond = remote.bondedTo();
+  if (!bond || remote.connected() || now() > end)
     return;
   for (Adapter& adapter : adapters_) {
-    if (adapter.address() == *bond)
-      adapter.call(pressed);
+    if (adapter.address() == *bond && adapter.call(remote))
+      return;
   }
+  timers_.after(kCallInterval, [this, &remote, end] { call(remote, end); });
 }
 
 void Air::cutPower(const std::string& address) {

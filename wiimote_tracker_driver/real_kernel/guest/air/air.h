@@ -30,6 +30,7 @@ class Air {
 
  private:
   Remote& remote(const std::string& address);
+  void call(Remote& remote, double end);
   void run();
 
   std::mutex mutex_;  // guards all but the thread

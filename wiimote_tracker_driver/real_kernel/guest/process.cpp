@@ -23,6 +23,7 @@ std::string nextLog() {
 
 Process::Process(const std::vector<std::string>& command) : log_(nextLog()) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& argument : command)
     arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);

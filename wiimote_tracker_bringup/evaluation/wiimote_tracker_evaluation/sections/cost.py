@@ -136,8 +136,8 @@ def measure_rooms(run):
 def tell(run, measured, rooms, seconds):
     run.say(
         'Processor time of the nodes, from `/proc/<pid>/stat`, while the whole system runs on the '
-        'simulated rig for %.0f s per setting: one driver per camera, the tracker in its nodelet '
-        'manager, the calibration node. Simulation, recorder and this program are not counted, but '
+        'simulated rig for %.0f s per setting: one driver per camera, the tracker, '
+        'the calibration node. Simulation, recorder and this program are not counted, but '
         'run on the same %d processor cores and affect the latency. Every camera sends 100 '
         'images/s, less the lost ones; every LED moves at %.0f m/s. Further cameras are placed '
         'between those of the rig. *Own latency*: from a report on the virtual device to the point '

@@ -6,9 +6,41 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <chrono>
+#include <memory>
 #include <string>
+#include <system_error>
+#include <thread>
 
 namespace {
+
+using wiimote_tracker::simulation::Description;
+using wiimote_tracker::simulation::SimulatedRig;
+
+// For a simulation of the same name to end, as the master told it when this one registered.
+constexpr std::chrono::seconds kPatience(20);
+
+/// @throws std::system_error: another simulation keeps the sockets.
+std::unique_ptr<SimulatedRig> makeRig(const ros::NodeHandle& nh,
+                                      const Description& description,
+                                      const std::string& directory) {
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  for (;;) {
+    mkdir(directory.c_str(), 0700);  // if this fails, the first socket reports why
+    try {
+      return std::make_unique<SimulatedRig>(nh, description, directory);
+    } catch (const std::system_error& error) {
+      // The simulation before removes its folder at its end.
+      const bool passes = error.code().value() == EADDRINUSE || error.code().value() == ENOENT;
+      if (!passes || !ros::ok() || std::chrono::steady_clock::now() > deadline)
+        throw;
+      ROS_WARN_ONCE("The sockets in %s are in use: waiting for another simulation to end.",
+                    directory.c_str());
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
 
 void simulate(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh) {
   wiimote_tracker::ParameterReader parameters(private_nh);
@@ -19,14 +51,13 @@ void simulate(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh) {
   parameters.refuseUnknown();
   const auto description = wiimote_tracker::simulation::readDescription(path);
 
-  mkdir(directory.c_str(), 0700);  // if this fails, the first socket reports why
   {
-    wiimote_tracker::simulation::SimulatedRig rig(nh, description, directory);
+    const std::unique_ptr<SimulatedRig> rig = makeRig(nh, description, directory);
     ROS_INFO_STREAM("Simulating " << description.cameras.size() << " virtual Wii Remotes in "
                                   << directory);
     ros::AsyncSpinner spinner(1);
     spinner.start();
-    rig.run();
+    rig->run();
   }
   rmdir(directory.c_str());  // fails if it contains anything else
 }

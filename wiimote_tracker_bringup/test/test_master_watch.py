@@ -1,0 +1,90 @@
+"""master_watch tells of a master that is gone or was started again, and makes way for the next."""
+
+import os
+import subprocess
+import sys
+import time
+
+import pytest
+import rosgraph
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+sys.path.insert(0, os.path.join(HERE, '../evaluation'))
+
+from wiimote_tracker_evaluation.processes import free_port  # noqa: E402
+
+PATIENCE = 60.0  # on a busy computer [s]
+
+
+class Programs:
+    """Starts programs on a master of their own."""
+
+    def __init__(self, folder):
+        self.output = folder / 'output'
+        self._port = free_port()
+        self._uri = f'http://localhost:{self._port}'
+        self._environment = dict(os.environ, ROS_MASTER_URI=self._uri, ROS_HOSTNAME='localhost',
+                                 ROS_HOME=str(folder))
+        self._started = []
+
+    def start(self, command):
+        with open(self.output, 'ab') as file:
+            self._started.append(subprocess.Popen(command, stdout=file, stderr=file,
+                                                  env=self._environment))
+        return self._started[-1]
+
+    def master(self):
+        return self.start(['rosmaster', '--core', '-p', str(self._port)])
+
+    def watch(self):
+        return self.start([sys.executable, os.path.join(HERE, '../launch/master_watch')])
+
+    def wait(self, condition):
+        deadline = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < deadline, self.output.read_text()
+            time.sleep(0.05)
+
+    def wait_for_watch(self):
+        def known():
+            try:
+                return rosgraph.Master('/test', self._uri).lookupNode('/master_watch')
+            except (OSError, rosgraph.MasterException):
+                return None
+        self.wait(known)
+
+    def says(self, word):
+        return word in self.output.read_text()
+
+    def stop(self):
+        for process in self._started:
+            process.kill()
+            process.wait()
+
+
+@pytest.fixture
+def programs(tmp_path):
+    started = Programs(tmp_path)
+    yield started
+    started.stop()
+
+
+def test_a_master_that_ends_and_comes_back(programs):
+    master = programs.master()
+    programs.wait(lambda: rosgraph.is_master_online(programs._uri))
+    first = programs.watch()
+    programs.wait_for_watch()
+    assert not programs.says('master')
+
+    master.kill()
+    master.wait()
+    programs.wait(lambda: programs.says('There is no ROS master'))
+
+    programs.master()
+    programs.wait(lambda: programs.says('does not know the nodes'))
+    programs.wait_for_watch()  # so that the next one of that name ends it
+
+    second = programs.watch()
+    programs.wait(lambda: first.poll() is not None)
+    programs.wait_for_watch()
+    assert second.poll() is None

@@ -1,0 +1,26 @@
+"""The master or the launcher ends, and the same command is given again."""
+
+import os
+import signal
+
+from wiimote_tracker_evaluation.faults.row import fault
+
+GONE = 3.0  # without a master, or a launcher [s]
+
+
+@fault(ends=('*',), names_may_change=True, named='master', wounded=True)
+def restart_roscore(room):
+    """kill -9 of the master; it is started again, and so is roslaunch."""
+    os.kill(room.master.pid, signal.SIGKILL)
+    yield GONE
+    room.start_master()
+    room.start_nodes()
+    room.listen()
+
+
+@fault(ends=('*',), names_may_change=True, wounded=True)
+def kill_roslaunch(room):
+    """kill -9 of roslaunch; it is started again."""
+    os.kill(room.launch.pid, signal.SIGKILL)
+    yield GONE
+    room.start_nodes()

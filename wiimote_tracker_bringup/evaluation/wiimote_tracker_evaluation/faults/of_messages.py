@@ -1,0 +1,82 @@
+"""Messages that no driver sends, and receivers that do not read."""
+
+import os
+import signal
+import time
+
+from wiimote_tracker_evaluation.faults.helper import Helper
+from wiimote_tracker_evaluation.faults.row import fault
+
+CAMERA = 'wiimote_4'
+SENT = 10     # of each kind
+PERIOD = 0.05  # between them [s]
+SPOTS = 100000
+NAN = float('nan')
+
+
+def hostile_images():
+    """Images that cannot be used, each with one fault."""
+    from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
+
+    def image(blobs=1, x=500.0, **fields):
+        message = IrBlobArray(camera=CAMERA, width=1024, height=768, max_blobs=4,
+                              identity='00:1f:32:00:00:04', **fields)
+        message.blobs = [IrBlob(x=x, y=400.0, size=3.0, intensity=NAN)] * blobs
+        return message
+    return [image(x=NAN), image(x=1e300), image(x=-5.0), image(blobs=5), image(blobs=SPOTS),
+            image(stamp_stddev=NAN, x=float('inf')), image(stamp_stddev=-1.0)]
+
+
+def publish_hostile_images(pipe):
+    import rospy
+    from wiimote_tracker_msgs.msg import IrBlobArray
+    publisher = rospy.Publisher(CAMERA + '/ir_blobs', IrBlobArray, queue_size=100)
+    messages = hostile_images()
+    messages += [IrBlobArray(camera=CAMERA, width=7, height=0), IrBlobArray()]
+    time.sleep(1.0)  # until the nodes are connected
+    for _ in range(SENT):
+        for message in messages:
+            message.header.stamp = message.arrival = rospy.Time.now()
+            publisher.publish(message)
+            time.sleep(PERIOD / 2.0)
+    early, late = IrBlobArray(camera=CAMERA), IrBlobArray(camera=CAMERA)
+    late.header.stamp = late.arrival = rospy.Time(2 ** 32 - 1)
+    for message in (early, late):
+        publisher.publish(message)
+    time.sleep(PERIOD)
+    pipe.send('done')
+    signal.pause()
+
+
+@fault(quick=True, named=CAMERA)
+def hostile_images_of_a_camera(room):
+    """A second publisher of a camera's images: NaN, wrong sizes, 100,000 spots, years 1970 and 2106."""
+    with Helper(publish_hostile_images) as helper:
+        helper.answer(60.0)
+        yield 0.0
+
+
+def subscribe_slowly(pipe):
+    import rospy
+    from wiimote_tracker_msgs.msg import IrBlobArray, TrackedPointArray
+    for topic, kind in (('points', TrackedPointArray), (CAMERA + '/ir_blobs', IrBlobArray)):
+        rospy.Subscriber(topic, kind, lambda _: time.sleep(1.0))
+    time.sleep(1.0)
+    pipe.send('there')
+    signal.pause()
+
+
+@fault()
+def slow_subscribers(room):
+    """Five subscribers that take 1 s a message, and then do not read at all for 5 s."""
+    helpers = [Helper(subscribe_slowly) for _ in range(5)]
+    try:
+        for helper in helpers:
+            helper.answer()
+        time.sleep(2.0)
+        for helper in helpers:
+            os.kill(helper.pid, signal.SIGSTOP)
+        yield 5.0
+    finally:
+        for helper in helpers:
+            helper.stop()

@@ -1,0 +1,47 @@
+"""A camera whose images pass a relay, which can change them."""
+
+import random
+
+from wiimote_tracker_evaluation.faults.helper import Helper
+
+LATENCY = 0.0094  # as in simulated_rig.launch [s]
+
+
+class Relay:
+    """Starts the camera's driver and the relay."""
+
+    def __init__(self, room, camera):
+        room.start(['wiimote_tracker_driver/driver_node', '__name:=driver', f'__ns:=/{camera}',
+                    'ir_blobs:=ir_blobs_true', f'_camera_name:={camera}',
+                    f"_device:=virtual:{room.file('remotes')}/{camera}.sock",
+                    f"_camera_info_url:=file://{room.file('cameras')}/{camera}.yaml",
+                    f'_latency:={LATENCY}', '_realtime_priority:=0'])
+        self._helper = Helper(_pass_on, camera)
+
+    def change(self, clock_ahead=0.0, ghosts=0):
+        """clock_ahead: error of the camera's clock from now on [s]. ghosts: spots at random places
+        that each image gets."""
+        self._helper.pipe.send((clock_ahead, ghosts))
+
+    def stop(self):
+        self._helper.stop()
+
+
+def _pass_on(pipe, camera):
+    import rospy
+    from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
+    publisher = rospy.Publisher(camera + '/ir_blobs', IrBlobArray, queue_size=100, tcp_nodelay=True)
+    state = [0.0, 0]
+    randomness = random.Random(1)
+
+    def pass_on(image):
+        clock_ahead, ghosts = state
+        image.header.stamp += rospy.Duration.from_sec(clock_ahead)
+        image.arrival += rospy.Duration.from_sec(clock_ahead)
+        image.blobs += [IrBlob(x=randomness.uniform(0.0, 1023.0), y=randomness.uniform(0.0, 767.0),
+                               size=3.0, intensity=float('nan')) for _ in range(ghosts)]
+        image.max_blobs += ghosts
+        publisher.publish(image)
+    rospy.Subscriber(camera + '/ir_blobs_true', IrBlobArray, pass_on, tcp_nodelay=True)
+    while True:
+        state[:] = pipe.recv()

@@ -1,0 +1,153 @@
+"""A simulated room with a running tracker, whose parts can be disturbed."""
+
+import contextlib
+import os
+import shutil
+import signal
+import tempfile
+import time
+
+from wiimote_tracker_evaluation import rigs, scene, true_rig
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.faults import figures
+from wiimote_tracker_evaluation.faults.listener import Listener
+from wiimote_tracker_evaluation.faults.relay import Relay
+from wiimote_tracker_evaluation.faults.rig_file import write_rig
+from wiimote_tracker_evaluation.processes import descendants, free_port
+from wiimote_tracker_evaluation.programs import find_program, package_file
+
+START = 90.0   # longest time until all LEDs are tracked, on a busy computer [s]
+SETTLED = 2.0  # that the LEDs must be tracked at the start [s]
+
+# Each LED waves through its own part of the room; any two stay apart.
+LEDS = {name: {'position': [x, y, 1.0], 'size': 3.0,
+               'wave': {'middle': [x, y, 1.0], 'box': [0.5, 0.5, 0.8], 'speed': 0.4, 'path': path}}
+        for name, x, y, path in (('one', 0.4, 0.4, 11), ('two', 2.1, 0.6, 12),
+                                 ('three', 1.2, 2.1, 13))}
+LABELS = ('a', 'b', 'c')
+
+
+class Room:
+    """A master, virtual remotes with three waving LEDs, and the whole tracker with the true rig."""
+
+    def __init__(self, processes, cameras=4, relayed=(), one_manager=False):
+        """relayed: cameras whose images pass a relay. processes: starts and ends everything."""
+        self._processes = processes
+        self._one_manager = one_manager
+        self.folder = tempfile.mkdtemp(prefix='wiimote_tracker_faults_')
+        self.log = os.path.join(self.folder, 'nodes.log')
+        description = rigs.with_cameras(rigs.read(package_file('simulation/paper_rig.yaml')), cameras)
+        description = dict(rigs.with_leds(description, []), leds=LEDS, truth_rate=50.0)
+        rigs.write(self.file('room.yaml'), description)
+        rigs.write(self.file('cameras.yaml'), {'cameras': {
+            name: camera['identity'] for name, camera in description['cameras'].items()
+            if name not in relayed}})
+        write_rig(self.file('rig.yaml'), true_rig.true_rig(
+            scene.read_scene(self.file('room.yaml')), rigs.identities(description)))
+        self._port = free_port()
+        os.environ['ROS_MASTER_URI'] = f'http://localhost:{self._port}'
+        os.environ['ROS_HOSTNAME'] = 'localhost'
+        os.environ['ROS_HOME'] = self.folder
+        self.listeners = []
+        self.start_master()
+        self.start_nodes()
+        self.relays = [Relay(self, camera) for camera in relayed]
+        self.listen()
+
+    def file(self, name):
+        return os.path.join(self.folder, name)
+
+    def start_master(self):
+        import rosgraph
+        self.master = self._processes.start(
+            'rosmaster', ['rosmaster', '--core', '-p', str(self._port)], self.log)
+        deadline = time.monotonic() + START
+        while not rosgraph.is_master_online():
+            if time.monotonic() > deadline:
+                raise ExperimentError(f'no ROS master within {START:.0f} s; see {self.log}')
+            time.sleep(0.05)
+
+    def start_nodes(self):
+        """Starts all nodes, as a user does."""
+        self.launch = self._processes.start('roslaunch', [
+            'roslaunch', package_file('evaluation/fault_room.launch'), f'folder:={self.folder}',
+            'labels:=' + ','.join(LABELS),
+            'one_manager:=' + str(self._one_manager).lower()], self.log)
+
+    def listen(self):
+        """Starts one more listener: those before do not hear the nodes of a new master."""
+        self.listeners.append(Listener(list(LEDS)))
+
+    def stop(self):
+        for helper in self.listeners + self.relays:
+            helper.stop()
+        self._processes.stop_all()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    # --- What is measured
+
+    def window(self, start, end):
+        """Of the newest listener."""
+        return self.listeners[-1].window(start, end)
+
+    def figures(self, start, end):
+        return figures.figures(self.window(start, end), end - start)
+
+    def wait_until_tracked(self):
+        """Waits until all LEDs are tracked."""
+        deadline = time.monotonic() + START
+        seen = None
+        while not seen or len(seen.names) < len(LEDS) or seen.rate < 20.0 or seen.wrong:
+            if time.monotonic() > deadline:
+                raise ExperimentError(f'the LEDs are not tracked within {START:.0f} s; see '
+                                      f'{self.log}')
+            time.sleep(SETTLED / 2.0)
+            now = time.time()
+            seen = self.figures(now - SETTLED, now)
+
+    # --- Processes
+
+    def nodes(self):
+        """Process ids by the nodes' names."""
+        found = {}
+        for process in sorted(descendants()):
+            try:
+                with open(f'/proc/{process}/cmdline') as file:
+                    words = file.read().split('\0')
+                with open(f'/proc/{process}/environ') as file:
+                    space = dict(word.partition('=')[::2] for word in file.read().split('\0'))
+            except OSError:
+                continue  # it has ended
+            for word in words:
+                if word.startswith('__name:='):
+                    name = space.get('ROS_NAMESPACE', '').strip('/') + '/' + word[len('__name:='):]
+                    found['/' + name.strip('/')] = process
+        return found
+
+    def pid(self, node):
+        """@raise ExperimentError: the node does not run."""
+        try:
+            return self.nodes()[node]
+        except KeyError:
+            raise ExperimentError(f'the node {node} does not run; see {self.log}')
+
+    def kill(self, node):
+        os.kill(self.pid(node), signal.SIGKILL)
+
+    @contextlib.contextmanager
+    def stopped(self, node):
+        """Stops a node by SIGSTOP for a while."""
+        process = self.pid(node)
+        os.kill(process, signal.SIGSTOP)
+        try:
+            yield
+        finally:
+            os.kill(process, signal.SIGCONT)
+
+    def start(self, command):
+        """Starts a program beside the nodes; it ends with the room. command: as find_program()
+        wants it, and arguments."""
+        return self._processes.start(command[0], [find_program(command[0])] + command[1:], self.log)
+
+    def end(self, process):
+        self._processes.stop(process)

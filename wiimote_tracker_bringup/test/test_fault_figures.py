@@ -1,0 +1,53 @@
+"""What the fault matrix calls wrong, and since when all is normal."""
+
+import os
+import sys
+
+import numpy as np
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+sys.path.insert(0, os.path.join(HERE, '../evaluation'))
+
+from wiimote_tracker_evaluation.faults.figures import figures, normal_since  # noqa: E402
+from wiimote_tracker_evaluation.faults.listener import Window  # noqa: E402
+
+RATE = 100.0  # of the points [Hz]
+
+
+def window(seconds=10.0, error=lambda time: 0.001, present=lambda time: True, stddev=0.001):
+    """One LED that moves along x at 1 m/s, with points that lie this much beside it [m]."""
+    times = np.arange(0.0, seconds, 1.0 / RATE)
+    rows = np.array([(t + 0.01, t, t, error(t), 0.0, stddev) for t in times if present(t)])
+    truth = np.array([(t, t, 0.0, 0.0) for t in np.arange(-1.0, seconds + 1.0, 0.02)])
+    return Window(rows, np.array(['a'] * len(rows)), np.array(['left right'] * len(rows)),
+                  {'one': truth}, [])
+
+
+def test_rate_error_age_names_and_cameras():
+    found = figures(window(), 10.0)
+    assert abs(found.rate - RATE) < 1.0
+    assert abs(found.error - 0.001) < 1e-6 and abs(found.age - 0.01) < 1e-6
+    assert found.names == {'one': 'a'} and found.cameras == ['left', 'right']
+    assert found.wrong == 0
+
+
+def test_a_point_is_wrong_beyond_its_own_claim_only():
+    far = window(error=lambda time: 0.2 if time > 9.0 else 0.0)
+    assert figures(far, 10.0).wrong == 99 and abs(figures(far, 10.0).worst - 0.2) < 1e-6
+    assert figures(window(error=lambda time: 0.2, stddev=0.1), 10.0).wrong == 0
+
+
+def test_points_without_truth_do_not_count():
+    found = window()
+    truth = found.truth['one']
+    found.truth['one'] = truth[(truth[:, 0] < 4.0) | (truth[:, 0] > 6.0)]
+    assert abs(figures(found, 10.0).number - 800) < 5
+
+
+def test_normal_since_the_end_of_the_last_disturbance():
+    before = figures(window(), 10.0)
+    gap = window(present=lambda time: not 2.0 < time < 5.0)
+    assert abs(normal_since(gap, 0.0, 10.0, before) - 5.0) < 0.3
+    off = window(error=lambda time: 0.1 if 3.0 < time < 4.0 else 0.0, stddev=1.0)
+    assert abs(normal_since(off, 0.0, 10.0, before) - 4.0) < 0.3
+    assert normal_since(window(seconds=8.0), 0.0, 10.0, before) is None

@@ -113,9 +113,17 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
   collectUnassigned(image);
   if (fit.isMisfit())
     state_.unassigned[image.camera].count = 0;
-  initiation_.apply(cameras_, image.camera, state_.pairs, &state_.unassigned, &tracks, ids);
-  for (Track& track : tracks)
+  initiation_.apply(cameras_, image.camera, &state_.unassigned, &tracks, ids);
+  for (Track& track : tracks) {
+    const bool was_confirmed = track.isConfirmed();
     track.updateStatus(image.time, options_);
+    if (was_confirmed || !track.mayContinue())
+      continue;
+    if (Track* former = initiation_.formerTrackOf(track, state_.pairs, &tracks)) {
+      former->continueAs(track);
+      track.finish();
+    }
+  }
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
                               [](const Track& track) { return track.isFinished(); }),
                tracks.end());
@@ -171,6 +179,8 @@ void CameraGroup::removeMergedPairs(double time) {
 
 void CameraGroup::collectUnassigned(const StoredImage& image) {
   UnassignedSpots& rest = state_.unassigned[image.camera];
+  if (rest.count == 0)
+    rest.since = image.time;
   rest.time = image.time;
   rest.full = image.full;
   rest.count = 0;

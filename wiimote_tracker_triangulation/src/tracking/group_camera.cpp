@@ -42,6 +42,20 @@ bool GroupCamera::mayShow(const Eigen::Vector3d& point) const {
   return depth > 0.0 && depth * depth >= squared_cosine_ * sight.squaredNorm();
 }
 
+RayOffset GroupCamera::rayOffset(const Eigen::Vector3d& led,
+                                 const Eigen::Vector2d& residual) const {
+  const Eigen::Vector3d sight = led - for_rays_.center();
+  const geometry::Intrinsics& lens = for_rays_.intrinsics;
+  const Eigen::Matrix3d& axes = for_rays_.world_from_camera.linear();
+  const double depth = axes.col(2).dot(sight);
+  RayOffset result;
+  result.direction = sight.normalized();
+  result.offset =
+      depth * (residual.x() / lens.fx * axes.col(0) + residual.y() / lens.fy * axes.col(1));
+  result.scale = depth / lens.fx;
+  return result;
+}
+
 bool GroupCamera::isInImage(const Eigen::Vector2d& pixel, double margin) const {
   const geometry::Intrinsics& lens = for_rays_.intrinsics;
   return pixel.x() >= -margin && pixel.x() <= lens.width - 1 + margin && pixel.y() >= -margin &&

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H
 
+#include "ray_agreement.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
 #include <Eigen/Core>
@@ -21,6 +22,9 @@ class GroupCamera {
 
   /// A cheap test: whether a point [m] is within the cone that encloses the view.
   bool mayShow(const Eigen::Vector3d& point) const;
+
+  /// The ray of a spot. @param led [m] @param residual of its spot [px]
+  RayOffset rayOffset(const Eigen::Vector3d& led, const Eigen::Vector2d& residual) const;
 
   bool isInImage(const Eigen::Vector2d& pixel, double margin) const;
   bool isMasked(const Eigen::Vector2d& pixel) const;

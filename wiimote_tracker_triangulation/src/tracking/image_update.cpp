@@ -46,6 +46,7 @@ void ImageUpdate::apply(const GroupCamera& camera,
 void ImageUpdate::collectCandidates(const GroupCamera& camera,
                                     const StoredImage& image,
                                     std::vector<Track>* tracks) {
+  constexpr double kEdge = 8.0;  // where a spot may be cut off, or just outside [px]
   candidate_count_ = 0;
   for (std::size_t i = 0; i < tracks->size(); ++i) {
     Track& track = (*tracks)[i];
@@ -63,7 +64,8 @@ void ImageUpdate::collectCandidates(const GroupCamera& camera,
     candidate.prediction = *prediction;
     candidate.in_view =
         camera.isInImage(prediction->pixel(), 0.0) && !camera.isMasked(prediction->pixel());
-    candidate.expected = candidate.in_view && !image.full;
+    candidate.expected =
+        candidate.in_view && !image.full && camera.isInImage(prediction->pixel(), -kEdge);
     candidate.spot = kNone;
     candidate.updated = false;
   }
@@ -167,7 +169,9 @@ void ImageUpdate::updateTrack(const GroupCamera& camera,
   const Eigen::Vector2d& pixel = image.pixels[static_cast<std::size_t>(candidate.spot)];
   if (!track->filter.update(camera.forRays(), candidate.prediction, pixel))
     return;
-  track->hit(image.camera, pixel - candidate.prediction.pixel(), true);
+  const Eigen::Vector2d residual = pixel - candidate.prediction.pixel();
+  track->hit(image.camera, residual, true);
+  track->noteRay(image.camera, camera.rayOffset(track->filter.position(), residual));
   if (other)
     track->noteSharedSpot(other->id, true);
   else

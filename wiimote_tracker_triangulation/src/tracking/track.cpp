@@ -15,6 +15,10 @@ constexpr double kLongMemory = 256.0;
 constexpr double kLeastUnmerged = 0.15;
 constexpr double kMostlyOwn = 0.7;
 
+// Detections of a lost LED before its track goes on. Two or three false detections may form a
+// point; a fourth hardly ever is near it.
+constexpr std::size_t kReacquisitionSpots = 4;
+
 int bits(unsigned x) {
   int count = 0;
   for (; x; x &= x - 1)
@@ -66,6 +70,8 @@ void Track::miss(std::size_t camera, double time) {
 void Track::hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own) {
   const double time = filter.time();
   CameraRecord& record = recordOf(camera, time);
+  if (!record.recent)
+    record.ray = RayOffset();
   record.time = time;
   record.hit = time;
   if (is_own)
@@ -77,6 +83,10 @@ void Track::hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own
   position_ = filter.position();
   velocity_ = filter.velocity();
   position_time_ = time;
+}
+
+void Track::noteRay(std::size_t camera, const RayOffset& ray) {
+  recordOf(camera, filter.time()).ray.add(ray);
 }
 
 void Track::noteOwnSpot() {
@@ -99,31 +109,39 @@ bool Track::isDuplicate() const {
          (own_share_ < 1.0 - kMostlyOwn || (own_share_ < kMostlyOwn && shared_with_ < id));
 }
 
-void Track::addInitialSpot(std::size_t camera, double residual) {
-  CameraRecord& record = recordOf(camera, filter.time());
-  record.time = record.hit = record.own = filter.time();
+void Track::addInitialSpot(std::size_t camera, double time, double residual) {
+  CameraRecord& record = recordOf(camera, time);
+  record.time = record.hit = record.own = time;
+  started_ = std::min(started_, time);
+  ++initial_spots_;
   record.squared_residual = residual * residual;
   record.recent = 1;
 }
 
-void Track::restart(const motion::MotionFilter& start) {
-  filter = start;
-  started_ = last_observed_ = last_located_ = position_time_ = start.time();
-  position_ = start.position();
-  velocity_.setZero();
-  misses_in_a_row_ = 0;
-  record_count_ = 0;
+void Track::continueAs(const Track& found) {
+  const std::uint32_t own_id = id;
+  const double initiated = initiated_;
+  *this = found;
+  id = own_id;
+  confirmed_ = true;
+  initiated_ = initiated;
+  agreement_.reacquire();
 }
 
 void Track::updateStatus(double time, const TrackerOptions& options) {
   std::size_t seen_by = 0;
   std::size_t possible = 0;
+  double squares = 0.0;  // residuals [px^2]
   for (std::size_t i = 0; i < record_count_; ++i) {
     possible += records_[i].time >= time - options.tracked_time;
-    seen_by += records_[i].hit >= time - options.tracked_time;
+    if (records_[i].hit < time - options.tracked_time)
+      continue;
+    ++seen_by;
+    squares += records_[i].squared_residual;
   }
   if (seen_by >= 2)
     last_located_ = time;
+  weighRays(time, options);
   if (!position_.allFinite()) {
     finished_ = true;
     return;
@@ -134,18 +152,48 @@ void Track::updateStatus(double time, const TrackerOptions& options) {
     return;
   }
   const std::size_t supporting = supportingCameras(time, options);
-  if (hits_ >= options.confirmation_hits && supporting >= 2 &&
-      static_cast<double>(supporting) >= options.minimum_support * static_cast<double>(possible)) {
-    confirmed_ = true;
+  const bool is_supported =
+      supporting >= 2 &&
+      static_cast<double>(supporting) >= options.minimum_support * static_cast<double>(possible);
+  const double limit = options.birth_pixel_stddev;
+  may_continue_ = initial_spots_ + hits_ >= kReacquisitionSpots &&
+                  squares <= static_cast<double>(seen_by) * limit * limit &&
+                  (seen_by >= 3 || (is_supported && agreement_.areNowOne()));
+  confirmed_ =
+      is_supported && hits_ >= options.confirmation_hits && !isDoubtful(supporting, possible);
+  if (confirmed_)
     return;
-  }
   constexpr double kMaximumTentativeTime = 0.5;  // [s]
   const double unseen = time - last_observed_;
   const double patience = options.tracked_time + options.dark_time;
   finished_ =
       unseen > patience || time - last_located_ > patience ||
       (unseen >= options.dark_time && misses_in_a_row_ >= 2 * std::max<std::size_t>(possible, 2)) ||
-      time - initiated_ > kMaximumTentativeTime + options.dark_time;
+      (time - initiated_ > kMaximumTentativeTime + options.dark_time &&
+       !isDoubtful(supporting, possible));
+}
+
+/// Whether only two cameras see it where others should, and these two may see different lights.
+bool Track::isDoubtful(std::size_t seen_by, std::size_t possible) const {
+  return seen_by == 2 && possible > 2 && !agreement_.areLikelyOne();
+}
+
+void Track::weighRays(double time, const TrackerOptions& options) {
+  std::array<const RayOffset*, 2> rays;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < record_count_; ++i) {
+    if (records_[i].hit < time - options.tracked_time)
+      continue;
+    if (count < 2)
+      rays[count] = &records_[i].ray;
+    ++count;
+  }
+  if (count == 2 && rays[0]->count > 0.0 && rays[1]->count > 0.0)
+    agreement_.weigh(*rays[0], *rays[1], options.pixel_stddev, time);
+  else if (count > 2)
+    agreement_.support(options.pixel_stddev, time);
+  else
+    agreement_.wait(time);
 }
 
 /// Cameras that detected it in two of their last four images.
@@ -161,10 +209,16 @@ Eigen::Vector3d Track::approximatePosition(double time) const {
   return position_ + (time - position_time_) * velocity_;
 }
 
-bool Track::isShownBy(std::size_t camera, double time) const {
-  return std::any_of(
-      records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
-      [&](const CameraRecord& record) { return record.camera == camera && record.own == time; });
+bool Track::isShownBeside(const Track& other) const {
+  for (std::size_t i = 0; i < record_count_; ++i) {
+    for (std::size_t j = 0; j < other.record_count_; ++j) {
+      const CameraRecord& record = records_[i];
+      if (record.camera == other.records_[j].camera && record.own == other.records_[j].own &&
+          std::isfinite(record.own))
+        return true;
+    }
+  }
+  return false;
 }
 
 std::size_t Track::othersSeeing(std::size_t camera, double since) const {
@@ -213,11 +267,15 @@ void Track::report(double time,
     squares += record.squared_residual;
   }
   std::sort(led->cameras.begin(), led->cameras.end());
-  // One camera alone does not measure the distance: predicted.
-  led->state = !confirmed_                ? TrackState::kTentative
-               : led->cameras.size() >= 2 ? TrackState::kTracked
-                                          : TrackState::kPredicted;
   led->residual = std::sqrt(squares / static_cast<double>(led->cameras.size()));  // NaN: none
+  // Predicted: one camera alone does not measure the distance; the two cameras that see it may see
+  // different lights; or no spot is near its prediction, as of a track that follows another light.
+  const bool is_located = led->cameras.size() >= 2 &&
+                          !isDoubtful(led->cameras.size(), led->rays_possible) &&
+                          led->residual <= 2.0 * options.birth_pixel_stddev;
+  led->state = !confirmed_  ? TrackState::kTentative
+               : is_located ? TrackState::kTracked
+                            : TrackState::kPredicted;
 }
 
 }  // namespace wiimote_tracker::tracking

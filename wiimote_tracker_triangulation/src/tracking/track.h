@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_H
 
 #include "motion/motion_filter.h"
+#include "ray_agreement.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
@@ -20,6 +21,7 @@ struct CameraRecord {
   double hit = 0.0;               // last image with a spot of the LED [s]
   double own = 0.0;               // last image with a spot that was not assigned to another LED [s]
   double squared_residual = 0.0;  // of the last spot [px^2]
+  RayOffset ray;                  // of recent spots of its own
   unsigned recent = 0;            // one bit per image, the newest lowest: detected or missed
 };
 
@@ -41,15 +43,20 @@ class Track {
   /// The last spot belongs to this LED alone.
   void noteOwnSpot();
 
+  /// How far the ray of a camera's last spot was from the prediction.
+  void noteRay(std::size_t camera, const RayOffset& ray);
+
   /// The last spot may be merged with another LED's.
   void noteSharedSpot(std::uint32_t other, bool is_own);
 
-  /// The filter was initialised with a camera's spot, among others. @param residual [px]
-  void addInitialSpot(std::size_t camera, double residual);
+  /// The filter was initialised with a camera's spot, among others.
+  /// @param time of its image [s] @param residual [px]
+  void addInitialSpot(std::size_t camera, double time, double residual);
 
-  /// Restarts the motion filter after reacquisition.
-  void restart(const motion::MotionFilter& start);
-  double startedAt() const { return started_; }  // initiation or last restart [s]
+  /// Continues as a track that turned out to be of the same LED, under this track's id.
+  void continueAs(const Track& found);
+  void finish() { finished_ = true; }
+  double startedAt() const { return started_; }  // first image, or first since continueAs() [s]
 
   /// Forgets the cameras' records, after a change of the rig.
   void forgetCameras() { record_count_ = 0; }
@@ -57,8 +64,8 @@ class Track {
   /// Confirms or finishes the track given the detections up to a time [s].
   void updateStatus(double time, const TrackerOptions& options);
 
-  /// Whether the camera's image of that time [s] had a spot of this LED's own.
-  bool isShownBy(std::size_t camera, double time) const;
+  /// Whether the newest image of some camera has a spot of each of the two.
+  bool isShownBeside(const Track& other) const;
 
   /// Other cameras that detected it at a time [s] or later.
   std::size_t othersSeeing(std::size_t camera, double since) const;
@@ -68,6 +75,10 @@ class Track {
 
   bool isFinished() const { return finished_; }
   bool isConfirmed() const { return confirmed_; }
+
+  /// Whether a tentative track may continue that of a lost LED. This takes less than to confirm a
+  /// new LED.
+  bool mayContinue() const { return may_continue_; }
 
   /// A cheap linear prediction of the position [m], to select cameras that may see it.
   Eigen::Vector3d approximatePosition(double time) const;
@@ -87,6 +98,8 @@ class Track {
  private:
   CameraRecord& recordOf(std::size_t camera, double time);
   bool isDuplicate() const;
+  bool isDoubtful(std::size_t seen_by, std::size_t possible) const;
+  void weighRays(double time, const TrackerOptions& options);
   std::size_t supportingCameras(double time, const TrackerOptions& options) const;
 
   double initiated_;             // [s]
@@ -96,8 +109,11 @@ class Track {
   double unmerged_share_ = 1.0;  // share of recent spots that are this LED's alone
   double own_share_ = 0.5;       // share of recent merged spots assigned to this LED
   std::uint32_t shared_with_ = 0;
-  std::size_t hits_ = 0;  // spots of this LED alone
+  std::size_t initial_spots_ = 0;
+  std::size_t hits_ = 0;  // further spots of this LED alone
   std::size_t misses_in_a_row_ = 0;
+  RayAgreement agreement_;
+  bool may_continue_ = false;
   bool confirmed_ = false;
   bool finished_ = false;
   std::size_t record_count_ = 0;

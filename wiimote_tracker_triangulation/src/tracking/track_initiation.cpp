@@ -41,7 +41,6 @@ TrackInitiation::TrackInitiation(const geometry::Rig& rig,
 
 void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
                             std::size_t newest,
-                            const std::vector<MergedPair>& pairs,
                             std::vector<UnassignedSpots>* unassigned,
                             std::vector<Track>* tracks,
                             Ids* ids) {
@@ -54,21 +53,24 @@ void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
     const auto* first = found.spots.data() + point.first_spot;
     const auto* last = first + point.spot_count;
     if (std::none_of(first, last, [&](auto& spot) { return spot.view == newest; }) ||
-        !isAllowed(point))
+        !isAllowed(point) || mayShowInAnother(point, first, cameras, *unassigned))
       continue;
     initial_spots_.clear();
-    initial_images_.clear();
     for (const auto* spot = first; spot != last; ++spot) {
       const UnassignedSpots& image = (*unassigned)[spot->view];
       used_.push_back({spot->view, spots_[spot->view][spot->spot]});
       initial_spots_.push_back(image.keys[used_.back().spot]);
-      initial_images_.push_back({spot->view, image.time});
     }
-    Track* track = startOrRestart(
-        motion::MotionFilter(*motion_, time, point.point.position, point.point.covariance), pairs,
-        tracks, ids);
-    for (const auto* spot = first; spot != last; ++spot)
-      track->addInitialSpot(spot->view, point.point.reprojection_error);
+    const std::uint32_t id = ids->idFor(initial_spots_, time, [&](std::uint32_t candidate) {
+      return std::any_of(tracks->begin(), tracks->end(),
+                         [&](const Track& track) { return track.id == candidate; });
+    });
+    tracks->emplace_back(
+        motion::MotionFilter(*motion_, time, point.point.position, point.point.covariance), id);
+    for (const auto* spot = first; spot != last; ++spot) {
+      tracks->back().addInitialSpot(spot->view, (*unassigned)[spot->view].time,
+                                    point.point.reprojection_error);
+    }
   }
   // In descending order, so that the remaining indices stay valid.
   std::sort(used_.begin(), used_.end(), [](auto& a, auto& b) { return a.spot > b.spot; });
@@ -76,55 +78,33 @@ void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
     (*unassigned)[spot.view].remove(spot.spot);
 }
 
-/// Restarts the track that is reacquired, or starts a new one.
-Track* TrackInitiation::startOrRestart(const motion::MotionFilter& start,
-                                       const std::vector<MergedPair>& pairs,
-                                       std::vector<Track>* tracks,
-                                       Ids* ids) const {
-  if (Track* reacquired = findReacquiredTrack(start, pairs, tracks)) {
-    reacquired->restart(start);
-    return reacquired;
-  }
-  const std::uint32_t id = ids->idFor(initial_spots_, start.time(), [&](std::uint32_t candidate) {
-    return std::any_of(tracks->begin(), tracks->end(),
-                       [&](const Track& track) { return track.id == candidate; });
-  });
-  tracks->emplace_back(start, id);
-  return &tracks->back();
-}
-
-/// The most likely track whose LED may be at the new point. Not eligible is a track whose LED is
-/// elsewhere according to the new point's images or more cameras since; one that a MergedPair is
-/// about to decide; or one of a blinking LED that may be dark, since the next spot continues it
-/// better than two new rays. The LED may have moved as no mode describes, as when it is caught, or
-/// its track may have followed a false detection: initial_speed allows for that.
-Track* TrackInitiation::findReacquiredTrack(const motion::MotionFilter& start,
-                                            const std::vector<MergedPair>& pairs,
-                                            std::vector<Track>* tracks) const {
-  double since = start.time();
-  for (const InitialImage& image : initial_images_)
-    since = std::min(since, image.time);
+/// Not eligible is a track that has been seen beside the new one or by more cameras since; one that
+/// a MergedPair is about to decide; or one of a blinking LED that may be dark. The LED may have
+/// moved as no mode describes, as when it is caught, or its track may have followed a false
+/// detection: initial_speed allows for that.
+Track* TrackInitiation::formerTrackOf(const Track& found,
+                                      const std::vector<MergedPair>& pairs,
+                                      std::vector<Track>* tracks) const {
+  const double time = found.filter.time();
+  const double since = found.startedAt();
   Track* result = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (Track& track : *tracks) {
-    const auto showsIt = [&](const InitialImage& image) {
-      return track.isShownBy(image.camera, image.time);
-    };
     const auto decidesIt = [&](const MergedPair& pair) {
-      return pair.areSeparate(start.time()) && pair.has(track.id);
+      return pair.areSeparate(time) && pair.has(track.id);
     };
-    const bool may_be_dark = start.time() - track.lastObserved() < options_.dark_time;
-    if (!track.isConfirmed() || may_be_dark ||
-        track.camerasShowing(since) > initial_images_.size() ||
-        std::any_of(initial_images_.begin(), initial_images_.end(), showsIt) ||
+    if (&track == &found || !track.isConfirmed() ||
+        time - track.lastObserved() < options_.dark_time ||
+        track.camerasShowing(since) > found.camerasShowing(since) || track.isShownBeside(found) ||
         std::any_of(pairs.begin(), pairs.end(), decidesIt))
       continue;
     motion::MotionFilter expected = track.filter;
-    expected.predict(start.time());
-    const double slack = motion_->initial_speed * (start.time() - track.lastObserved());
-    const Eigen::Matrix3d covariance = expected.positionCovariance() + start.positionCovariance() +
+    expected.predict(time);
+    const double slack = motion_->initial_speed * (time - track.lastObserved());
+    const Eigen::Matrix3d covariance = expected.positionCovariance() +
+                                       found.filter.positionCovariance() +
                                        slack * slack * Eigen::Matrix3d::Identity();
-    const Eigen::Vector3d offset = start.position() - expected.position();
+    const Eigen::Vector3d offset = found.filter.position() - expected.position();
     const double distance = offset.dot(covariance.inverse() * offset);
     const double cost = distance + std::log(covariance.determinant());  // -2 log likelihood
     if (distance <= options_.gate && cost < least) {
@@ -182,6 +162,22 @@ const std::optional<geometry::Sight>& TrackInitiation::sightOf(const GroupCamera
     known.sight = geometry::sightFromPixel(camera.forRays(), unassigned.pixels[spot]);
   }
   return known.sight;
+}
+
+/// Whether a camera that has not looked yet may show the point too.
+bool TrackInitiation::mayShowInAnother(const association::AssociatedPoint& point,
+                                       const association::SpotReference* spots,
+                                       const std::vector<GroupCamera>& cameras,
+                                       const std::vector<UnassignedSpots>& unassigned) const {
+  double since = std::numeric_limits<double>::infinity();
+  for (const auto* spot = spots; spot != spots + point.spot_count; ++spot)
+    since = std::min(since, unassigned[spot->view].since);
+  for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
+    if (views_[camera].watching && unassigned[camera].time < since &&
+        cameras[camera].forRays().sees(point.point.position))
+      return true;
+  }
+  return false;
 }
 
 bool TrackInitiation::isAllowed(const association::AssociatedPoint& point) const {

@@ -22,6 +22,7 @@ namespace wiimote_tracker::tracking {
 /// The spots of a camera's newest image that are assigned to no track.
 struct UnassignedSpots {
   double time = -1e300;  // [s]
+  double since = 0.0;    // first image of the latest ones that all have some [s]
   bool full = false;     // StoredImage::full
   std::size_t count = 0;
   std::array<Eigen::Vector2d, association::kMaximumSpots> pixels;
@@ -30,8 +31,8 @@ struct UnassignedSpots {
   void remove(std::size_t spot);
 };
 
-/// Track initiation: where unassigned spots of several cameras form a point, reacquires a track
-/// that lost its LED, or else starts a new one.
+/// Track initiation: starts a track where unassigned spots of several cameras form a point. Once it
+/// is ready, it may turn out to continue a track that lost its LED.
 class TrackInitiation {
  public:
   /// @param rig the group's cameras only. @param partners see association::sharedViews.
@@ -44,10 +45,14 @@ class TrackInitiation {
   /// `unassigned`.
   void apply(const std::vector<GroupCamera>& cameras,
              std::size_t newest,
-             const std::vector<MergedPair>& pairs,
              std::vector<UnassignedSpots>* unassigned,
              std::vector<Track>* tracks,
              Ids* ids);
+
+  /// The most likely track of the LED of a track that is ready; null: it is a new LED.
+  Track* formerTrackOf(const Track& found,
+                       const std::vector<MergedPair>& pairs,
+                       std::vector<Track>* tracks) const;
 
  private:
   bool collectViews(const std::vector<GroupCamera>& cameras,
@@ -57,19 +62,11 @@ class TrackInitiation {
                                                 std::size_t index,
                                                 const UnassignedSpots& unassigned,
                                                 std::size_t spot);
+  bool mayShowInAnother(const association::AssociatedPoint& point,
+                        const association::SpotReference* spots,
+                        const std::vector<GroupCamera>& cameras,
+                        const std::vector<UnassignedSpots>& unassigned) const;
   bool isAllowed(const association::AssociatedPoint& point) const;
-  Track* startOrRestart(const motion::MotionFilter& start,
-                        const std::vector<MergedPair>& pairs,
-                        std::vector<Track>* tracks,
-                        Ids* ids) const;
-  Track* findReacquiredTrack(const motion::MotionFilter& start,
-                             const std::vector<MergedPair>& pairs,
-                             std::vector<Track>* tracks) const;
-
-  struct InitialImage {
-    std::size_t camera;
-    double time;  // [s]
-  };
 
   /// The ray of a spot, kept because spots are searched again with every image of the other
   /// cameras.
@@ -86,8 +83,7 @@ class TrackInitiation {
   std::vector<std::array<geometry::Sight, association::kMaximumSpots>> sights_;
   std::vector<std::array<std::size_t, association::kMaximumSpots>> spots_;  // of the sights
   std::vector<association::View> views_;
-  std::vector<SpotKey> initial_spots_;        // of one point
-  std::vector<InitialImage> initial_images_;  // of one point
+  std::vector<SpotKey> initial_spots_;  // of one point
   std::vector<association::SpotReference> used_;
 };
 

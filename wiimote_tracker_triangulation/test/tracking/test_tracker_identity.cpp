@@ -168,7 +168,9 @@ TEST(Tracker, ABlinkingLedKeepsItsMotionWhileItIsDark) {
     EXPECT_GT(count, 3000);
     return std::sqrt(squares / count);
   };
-  EXPECT_LT(rmsWith(0.3), 0.6 * rmsWith(0.0));
+  const double known = rmsWith(0.3);
+  EXPECT_LT(known, 0.0013);
+  EXPECT_LT(known, 0.7 * rmsWith(0.0));
 }
 
 TEST(Tracker, AnLedThatJumpsIsNeverTrackedAtTheWrongPlace) {

@@ -1,0 +1,66 @@
+#include "ray_agreement.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::tracking {
+namespace {
+
+constexpr double kMemory = 3.0;  // spots of one camera
+
+// Distances of two lights are uniform over what the gate of track initiation allows [px].
+constexpr double kRange = 44.0;
+
+constexpr double kCorrelationTime = 0.2;  // of distances [s]
+
+// Bounds of the log odds, so that a track can change its mind within a second.
+constexpr double kLeast = -20.0;
+constexpr double kMost = 10.0;
+
+double evidenceOf(double distance, double stddev) {
+  const double normalized = distance / stddev;
+  return std::log(kRange / (stddev * std::sqrt(2.0 * M_PI))) - 0.5 * normalized * normalized;
+}
+
+}  // namespace
+
+void RayOffset::add(const RayOffset& spot) {
+  count = std::min(count + 1.0, kMemory);
+  offset += (spot.offset - offset) / count;
+  direction = spot.direction;
+  scale = spot.scale;
+}
+
+double distanceOf(const RayOffset& a, const RayOffset& b) {
+  constexpr double kLeastSine = 0.05;  // of rays with a common normal
+  const Eigen::Vector3d difference = a.offset - b.offset;
+  const Eigen::Vector3d normal = a.direction.cross(b.direction);
+  const double sine = normal.norm();
+  const double distance = sine < kLeastSine ? difference.norm() : normal.dot(difference) / sine;
+  return distance / std::hypot(a.scale, b.scale);
+}
+
+void RayAgreement::weigh(const RayOffset& a, const RayOffset& b, double stddev, double time) {
+  latest_ = evidenceOf(distanceOf(a, b), stddev);
+  add(latest_, time);
+}
+
+void RayAgreement::support(double stddev, double time) {
+  latest_ = evidenceOf(0.0, stddev);
+  add(latest_, time);
+}
+
+void RayAgreement::reacquire() {
+  constexpr double kReacquired = 3.0;  // 20 to 1
+  log_odds_ = std::max(log_odds_, kReacquired);
+}
+
+void RayAgreement::add(double evidence, double time) {
+  const double elapsed = std::max(time - time_, 0.0);
+  log_odds_ = std::clamp(log_odds_ + evidence * elapsed / kCorrelationTime, kLeast, kMost);
+  time_ = time;
+}
+
+}  // namespace wiimote_tracker::tracking

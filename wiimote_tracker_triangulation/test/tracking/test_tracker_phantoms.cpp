@@ -1,0 +1,91 @@
+// False detections and reflections never become LEDs.
+#include "tracking/tracker_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace wiimote_tracker::tracking::test {
+namespace {
+
+struct Rows {
+  std::size_t tracked = 0;
+  std::size_t wrong = 0;
+};
+
+/// @param seen as LEDs by the cameras, some of them phantoms
+Rows rowsOf(const geometry::Rig& rig,
+            const std::vector<Path>& seen,
+            const std::vector<Path>& leds,
+            const SceneOptions& options,
+            int images,
+            unsigned seed) {
+  Tracker tracker(rig, exactOptions());
+  IdentityCheck check(leds);
+  Rows rows;
+  for (const Snapshot& snapshot : track(&tracker, imagesOf(rig, seen, options, images, seed))) {
+    rows.tracked += idsIn(snapshot, TrackState::kTracked).size();
+    check.look(snapshot);
+  }
+  rows.wrong = check.false_tracks;
+  return rows;
+}
+
+TEST(TrackerPhantoms, TwoReflectionsMakeNoLedWhereOtherCamerasSeeNone) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const std::vector<Path> leds = wanderers(2, seed);
+    const Path phantom = circle({0.9, 1.6, 1.2}, 0.3, 0.6);
+    // In mirrors, of which one camera sees each: their rays miss each other by up to 3 px.
+    const Path other = [phantom](double t) {
+      return Eigen::Vector3d(phantom(t) + Eigen::Vector3d(0.0, 0.0, 0.015 * std::sin(1.3 * t)));
+    };
+    SceneOptions options;
+    options.hidden = [](std::size_t camera, std::size_t led, double) {
+      return (led == 2 && camera != 0) || (led == 3 && camera != 1);
+    };
+    const Rows rows =
+        rowsOf(paperRig(), {leds[0], leds[1], phantom, other}, leds, options, 8000, seed);
+    EXPECT_GT(rows.tracked, 14000u);
+    EXPECT_EQ(0u, rows.wrong) << "seed " << seed;
+  }
+}
+
+// A phantom of rays that meet exactly cannot be told from it.
+TEST(TrackerPhantoms, AnLedThatIsHiddenFromTheOtherCamerasIsConfirmedLater) {
+  for (const double speed : {0.3, 3.0}) {
+    const std::vector<Path> leds = wanderers(2, 4, speed);
+    SceneOptions options;
+    options.hidden = [](std::size_t camera, std::size_t, double) { return camera >= 2; };
+    const Rows rows = rowsOf(paperRig(), leds, leds, options, 4000, 4);
+    EXPECT_GE(rows.tracked, 2u * 4000 * 93 / 100) << speed;  // all but the first 0.7 s of 10 s
+    EXPECT_EQ(0u, rows.wrong) << speed;
+  }
+}
+
+TEST(TrackerPhantoms, AnLedThatTheOtherCamerasCannotSeeIsConfirmedAtOnce) {
+  const Eigen::Vector3d place(1.25, 1.25, 1.0);
+  geometry::Rig rig = paperRig();
+  for (std::size_t i = 2; i < 4; ++i)
+    rig.cameras[i].masks.push_back({*rig.cameras[i].camera.project(place), 30.0});
+  const Rows rows = rowsOf(rig, {still(place)}, {still(place)}, SceneOptions(), 4000, 1);
+  EXPECT_GE(rows.tracked, 4000u * 99 / 100);
+}
+
+TEST(TrackerPhantoms, AHiddenLedIsNotFoundOnGhosts) {
+  Rows all;
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const std::vector<Path> leds = wanderers(2, seed);
+    SceneOptions options;
+    options.ghosts = 0.5;
+    options.hidden = [](std::size_t, std::size_t, double t) { return std::fmod(t, 0.8) < 0.4; };
+    const Rows rows = rowsOf(paperRig(), leds, leds, options, 8000, seed);
+    all.tracked += rows.tracked;
+    all.wrong += rows.wrong;
+  }
+  EXPECT_GT(all.tracked, 15000u);
+  EXPECT_LE(all.wrong, 1e-4 * all.tracked);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::tracking::test

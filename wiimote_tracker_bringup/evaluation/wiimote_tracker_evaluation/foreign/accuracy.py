@@ -1,0 +1,120 @@
+"""Errors of a tracked path against a truth in another frame and by another clock.
+
+The path is aligned on one half of the recording, every other tenth of it, and scored on the other
+half, both ways round: in time (offset and rate of the truth's clock) and in space (similarity, or
+rigid motion). The truth is of another place on the body than the middle of its lights. The
+alignment takes up this offset as far as the body does not turn; the rest counts as an error.
+"""
+
+import dataclasses
+
+import numpy as np
+
+from wiimote_tracker_evaluation import alignment, bound
+from wiimote_tracker_evaluation.errors import ExperimentError
+
+# Longest time between two samples of the truth to interpolate between [s].
+LONGEST_GAP = 0.02
+# Fewest points of a half.
+LEAST_POINTS = 50
+STEP = 0.01  # of the search for the clock's offset [s]
+ROUNDS = 10  # of its refinement
+# Points farther off than this many medians do not take part in a fit.
+OUTLIER = 4.0
+# Equal parts of a recording that are fitted and scored in turn.
+PARTS = 10
+CHI_SQUARED_95 = 7.814727903251178  # of three degrees of freedom
+
+
+class Clock:
+    """From the cameras' time to the truth's."""
+
+    def __init__(self, rate, offset):
+        self.rate, self.offset = rate, offset
+
+    def __call__(self, times):
+        return self.rate * times + self.offset
+
+
+def truth_at(truth, times):
+    """Positions n x 3 and velocities n x 3 of the truth; NaN in its gaps."""
+    after = np.clip(np.searchsorted(truth.times, times), 1, len(truth.times) - 1)
+    step = truth.times[after] - truth.times[after - 1]
+    inside = ((step < LONGEST_GAP) & (truth.times[after - 1] <= times) &
+              (times <= truth.times[after]))[:, None]
+    velocity = (truth.positions[after] - truth.positions[after - 1]) / step[:, None]
+    position = truth.positions[after - 1] + velocity * (times - truth.times[after - 1])[:, None]
+    return np.where(inside, position, np.nan), np.where(inside, velocity, np.nan)
+
+
+def fit_space(points, true, kind):
+    """Alignment that leaves out what is far off, and the mask of what it was fitted to."""
+    used = np.isfinite(true).all(axis=1)
+    for _ in range(ROUNDS):
+        if used.sum() < LEAST_POINTS:
+            raise ExperimentError('the truth and the tracked path have too few common times')
+        fitted = alignment.fit_kind(kind, points[used], true[used])
+        errors = np.linalg.norm(fitted.apply(points) - true, axis=1)
+        used = errors < OUTLIER * np.median(errors[used])
+    return fitted, used
+
+
+def fit(times, points, truth, kind):
+    """Clock and alignment of a path."""
+    def misfit(clock):
+        true, _ = truth_at(truth, clock(times))
+        fitted, _ = fit_space(points, true, kind)
+        return np.nanmedian(np.linalg.norm(fitted.apply(points) - true, axis=1))
+    steps = np.arange(-truth.tolerance, truth.tolerance + STEP, STEP)
+    clock = min((Clock(truth.rate, truth.offset + step) for step in steps), key=misfit)
+    middle = times.mean()
+    for _ in range(ROUNDS):
+        true, velocity = truth_at(truth, clock(times))
+        fitted, used = fit_space(points, true, kind)
+        error = (true - fitted.apply(points))[used]
+        speed = velocity[used]
+        design = np.concatenate(
+            [bound.alignment_basis(fitted.apply(points[used]) - true[used].mean(axis=0), kind),
+             -speed.reshape(-1, 1),
+             -(speed * (times[used] - middle)[:, None]).reshape(-1, 1)], axis=1)
+        shift, rate = np.linalg.lstsq(design, error.reshape(-1), rcond=None)[0][-2:]
+        clock = Clock(clock.rate + rate, clock.offset + shift - rate * middle)
+    true, _ = truth_at(truth, clock(times))
+    return clock, fit_space(points, true, kind)[0]
+
+
+
+@dataclasses.dataclass(eq=False)
+class Path:
+    """What was tracked: times n [s], positions n x 3 [m], covariances n x 3 x 3 [m^2]."""
+
+    times: np.ndarray
+    positions: np.ndarray
+    covariances: np.ndarray
+
+
+def score(path, truth, kind):
+    """Figures in mm and 1; times and errors of the scored points [s, m]. The parts of the recording
+    are fitted and scored in turn."""
+    part = np.arange(len(path.times)) * PARTS // len(path.times) % 2
+    times, errors, distances, scales = [], [], [], []
+    for turn in (0, 1):
+        fitted_to, scored = part == turn, part != turn
+        clock, fitted = fit(path.times[fitted_to], path.positions[fitted_to], truth, kind)
+        true, _ = truth_at(truth, clock(path.times[scored]))
+        known = np.isfinite(true).all(axis=1)
+        error = fitted.apply(path.positions[scored][known]) - true[known]
+        inside = (error @ fitted.rotation / fitted.scale)[:, :, None]  # in the rig's world
+        covariances = path.covariances[scored][known]
+        distances.append((inside * np.linalg.solve(covariances, inside)).sum(axis=(1, 2)))
+        times.append(path.times[scored][known])
+        errors.append(np.linalg.norm(error, axis=1))
+        scales.append(fitted.scale)
+    times, errors = np.concatenate(times), np.concatenate(errors)
+    distances = np.concatenate(distances)
+    figures = {'mean_mm': 1e3 * errors.mean(), 'rms_mm': 1e3 * alignment.rms(errors[:, None]),
+               'median_mm': 1e3 * np.median(errors), 'p95_mm': 1e3 * np.percentile(errors, 95),
+               'largest_mm': 1e3 * errors.max(), 'coverage_95': np.mean(distances < CHI_SQUARED_95),
+               'nees': distances.mean(), 'scale': np.mean(scales)}
+    figures = {name: float(value) for name, value in figures.items()}
+    return dict(figures, points=len(errors)), times, errors

@@ -1,0 +1,140 @@
+"""Bearings from two laser base stations (SteamVR tracking, version 1) as images of two cameras.
+
+A station sweeps the room with a horizontal and a vertical plane of light in turn. A sensor measures
+the angle of each plane when it passes. Both angles of a station are one pixel of a virtual camera,
+at the time of one sweep, to which the other is moved by its rate of change. A folder holds
+bearings.csv.gz (time_ms, station, sensor, sweep, angle_rad), mocap.csv.gz (time_s, position [m]) and
+markers_on_off.csv (time_ms of the truth's begin and end).
+"""
+
+import gzip
+import itertools
+import os
+
+import numpy as np
+
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.foreign.views import Camera, LONGEST_GAP, Truth, Views
+
+# Of the sensors on the deck: x forward, y to the left [m].
+SHAPE = np.array([[-0.015, 0.0075, 0.0], [-0.015, -0.0075, 0.0],
+                  [0.015, 0.0075, 0.0], [0.015, -0.0075, 0.0]])
+SWEEP = 1.0 / 120.0  # from a station's first sweep to its second [s]
+TURN = 1.0 / 60.0  # of a rotor [s]
+# Angles of one station within this were logged together [s].
+TOGETHER = 0.002
+# Delays of the log vary by less [s]; beyond that the angles are of another turn.
+JITTER = 0.003
+# Of the virtual cameras [px]. Farther than 22 degrees from the axis the angles of stations are off
+# by several mrad.
+FOCAL, SIZE = 1000.0, 801
+# Of the correction of an angle; with noise and truth it is 0.5 to 0.7 mrad [rad].
+ACCURACY = 0.0005
+# Error of the truth's start, as the switching of its markers tells it [s].
+CLOCK_TOLERANCE = 0.1
+
+
+def read(folder: str) -> Views:
+    """@raise ExperimentError: a file is missing or has another format."""
+    bearings = read_table(os.path.join(folder, 'bearings.csv.gz'), 5)
+    mocap = read_table(os.path.join(folder, 'mocap.csv.gz'), 4)
+    switched = read_table(os.path.join(folder, 'markers_on_off.csv'), 1)[:, 0] * 1e-3
+    mocap = mocap[np.isfinite(mocap).all(axis=1)]
+    if len(mocap) < 2 or len(switched) != 2:
+        raise ExperimentError(f'{folder} has no truth: mocap.csv.gz and markers_on_off.csv need two '
+                              'lines or more')
+    stations = [sweeps_of(bearings[bearings[:, 1] == station]) for station in (0, 1)]
+    if any(len(times) < 3 for times, _ in stations):
+        raise ExperimentError(f'{folder} has hardly any angles of one of the stations 0 and 1: at '
+                              'least three pairs of sweeps must show all sensors')
+    cameras = [Camera(f'station_{number}', SIZE, FOCAL, *images_of(*stations[number], sweep))
+               for number, sweep in enumerate(nearest_sweeps(stations))]
+    rate = (mocap[-1, 0] - mocap[0, 0]) / (switched[1] - switched[0])
+    truth = Truth(mocap[:, 0], mocap[:, 1:], rate, mocap[0, 0] - rate * switched[0],
+                  CLOCK_TOLERANCE)
+    return Views(cameras, SHAPE, FOCAL * ACCURACY, truth)
+
+
+def read_table(path, columns):
+    try:
+        with (gzip.open if path.endswith('.gz') else open)(path, 'rt') as file:
+            table = np.genfromtxt(file, delimiter=',', skip_header=1, ndmin=2)
+    except (OSError, ValueError) as error:
+        raise ExperimentError(f'{path} cannot be read: {error}')
+    table = table.reshape(-1, columns) if columns == 1 or not table.size else table
+    if table.shape[1] != columns:
+        raise ExperimentError(f'{path} has {table.shape[1]} columns, but must have {columns}')
+    return table
+
+
+def sweeps_of(rows):
+    """Times n x 2 [s] and tangents n x sensors x 2 of one station's pairs of sweeps that all
+    sensors saw. An angle that is logged again is left out."""
+    logged = rows[:, 0] * 1e-3
+    first = np.flatnonzero(np.diff(logged, prepend=-np.inf) > TOGETHER)
+    pair = np.searchsorted(first, np.arange(len(rows)), side='right') - 1
+    angles = np.full((len(first), len(SHAPE), 2), np.nan)
+    for sensor, sweep in itertools.product(range(len(SHAPE)), (0, 1)):
+        chosen = np.flatnonzero((rows[:, 2] == sensor) & (rows[:, 3] == sweep))
+        new = chosen[np.diff(rows[chosen, 4], prepend=np.nan) != 0.0]
+        angles[pair[new], sensor, sweep] = rows[new, 4]
+    complete = np.isfinite(angles).all(axis=(1, 2))
+    turns, regular = turns_of(logged[first[complete]])
+    angles = angles[complete][regular]
+    times = turns[:, None] + np.array([0.0, SWEEP]) + angles.mean(axis=1) / (2.0 * np.pi) * TURN
+    return times, np.tan(angles)
+
+
+def turns_of(logged):
+    """Times of the rotor's turns, which are regular, without the varying delays of the log; and
+    which entries are of such a turn, the first of each."""
+    if len(logged) < 3:
+        return logged, np.ones(len(logged), dtype=bool)
+    middle, duration = np.median(np.diff(logged)), logged[-1] - logged[0]
+    # Close enough to each other that the turns of a whole recording stay in step with one.
+    periods = middle * np.linspace(0.995, 1.005, 10 + int(0.1 * duration / middle))
+    steps = [np.exp(2j * np.pi * logged / period).sum() for period in periods]
+    best = np.argmax(np.abs(steps))
+    period = periods[best]
+    start = period * np.angle(steps[best]) / (2.0 * np.pi)
+    for _ in range(5):
+        turn = np.round((logged - start) / period)
+        near = np.abs(start + period * turn - logged) < JITTER
+        period, start = np.polyfit(turn[near], logged[near], 1)
+    times = start + period * turn
+    regular = np.flatnonzero(np.abs(times - logged) < JITTER)
+    regular = regular[np.diff(turn[regular], prepend=-np.inf) > 0.0]
+    return times[regular], regular
+
+
+def nearest_sweeps(stations):
+    """The sweep of each station at which its images are taken: those nearest in time."""
+    def distance(sweeps):
+        one, other = (times[:, sweep] for (times, _), sweep in zip(stations, sweeps))
+        after = np.clip(np.searchsorted(other, one), 1, len(other) - 1)
+        nearest = np.minimum(np.abs(one - other[after - 1]), np.abs(other[after] - one))
+        return np.median(nearest[nearest < LONGEST_GAP]) if nearest.min() < LONGEST_GAP else np.inf
+    return min(itertools.product((0, 1), repeat=2), key=distance)
+
+
+def images_of(times, tangents, sweep):
+    """Times n and pixels n x sensors x 2 at one of both sweeps."""
+    other = 1 - sweep
+    wait = times[:, sweep] - times[:, other]
+    moved = tangents.copy()
+    moved[:, :, other] += wait[:, None] * rates(times[:, other], tangents[:, :, other])
+    # The station looks along x, y to the left, z up; a camera along z, x to the right, y down.
+    pixels = 0.5 * (SIZE - 1) - FOCAL * moved
+    inside = ((pixels >= 0.0) & (pixels <= SIZE - 1)).all(axis=(1, 2))
+    return times[inside, sweep], pixels[inside]
+
+
+def rates(times, values):
+    """Rate of change at each time: the mean of those before and after; NaN without neighbours."""
+    step = np.diff(times)
+    step = np.where(step < LONGEST_GAP, step, np.nan)
+    rate = np.diff(values, axis=0) / step[:, None]
+    missing = np.full((1, values.shape[1]), np.nan)
+    before, after = np.concatenate([missing, rate]), np.concatenate([rate, missing])
+    return 0.5 * (np.where(np.isnan(before), after, before) +
+                  np.where(np.isnan(after), before, after))

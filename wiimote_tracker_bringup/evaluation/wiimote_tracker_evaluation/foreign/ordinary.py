@@ -1,0 +1,177 @@
+"""The ordinary programs on a recording in files: self_calibrate, solve_samples with the path as a
+wave, and track_bag.
+
+A wave leaves scale and world open, and the solver asks for a square. It gets one that is made up:
+four corners as the cameras of self_calibrate would see them, with so little weight that they only
+fix what is open.
+"""
+
+import os
+import subprocess
+
+import numpy as np
+import rosbag
+import rospy
+import yaml
+from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
+
+from wiimote_tracker_evaluation import programs
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.foreign.rig import Rig
+from wiimote_tracker_evaluation.foreign.views import LONGEST_GAP
+
+# The first poses come from this many instants at most.
+INSTANTS = 400
+# Of a corner of the made-up square in an image [px].
+CORNER = 20.0
+# The lenses are known, and held: the smallest deviations that the solver takes [1, px].
+HELD = {'focal_stddev': 1e-6, 'aspect_stddev': 1e-6, 'principal_point_stddev': 1e-3,
+        'k1_stddev': 1e-6}
+# A camera's parameters in a rig's covariance, and those of its principal point.
+PER_CAMERA, PRINCIPAL_POINT = 16, [8, 9]
+BIRTH_WINDOW = 0.03  # of the tracker's default parameters [s]
+
+
+def run(program, *arguments):
+    """@raise ExperimentError with the program's own words."""
+    done = subprocess.run([programs.find_program(program)] + [str(word) for word in arguments],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+    if done.returncode != 0:
+        raise ExperimentError(done.stderr.strip() or f'{program} failed')
+
+
+def calibrate(views, folder):
+    """The rig; files go to the folder."""
+    samples, parameters, rig = (os.path.join(folder, name)
+                                for name in ('samples.yaml', 'solve.yaml', 'rig.yaml'))
+    write_samples(views, *made_up_square(*first_poses(views, folder)), samples)
+    with open(parameters, 'w') as file:
+        yaml.safe_dump(dict(HELD, pixel_stddev=CORNER), file)
+    run('wiimote_tracker_calibration/solve_samples', samples, '--params', parameters, '--rig', rig)
+    return Rig(rig)
+
+
+def first_poses(views, folder):
+    """Rotations and positions of the cameras as if their clocks agreed, by self_calibrate, and the
+    body's path. The scale is that of the body."""
+    times = views.cameras[0].times
+    common = [camera.pixels_at(times).mean(axis=1) for camera in views.cameras]
+    both = np.flatnonzero(np.isfinite(common).all(axis=(0, 2)))
+    if len(both) < 2:
+        raise ExperimentError('the cameras never saw the lights at the same time')
+    chosen = both[::max(1, len(both) // INSTANTS)]
+    source, path = os.path.join(folder, 'instants'), os.path.join(folder, 'first.yaml')
+    os.makedirs(source, exist_ok=True)
+    write_instants(views, [pixels[chosen] for pixels in common], source)
+    run('wiimote_tracker_calibration/self_calibrate', source, '--fix-intrinsics', source, '--rig',
+        path)
+    rig = Rig(path)
+    scale = rig.scale(views, times[chosen])
+    points = rig.intersections(views, times[chosen]).mean(axis=1)
+    return rig.rotations, scale * rig.positions, scale * points[np.isfinite(points[:, 0])]
+
+
+def write_instants(views, pixels, folder):
+    """A recording of synchronised cameras in the layout of MultiCamSelfCal. pixels: n x 2 of each
+    camera."""
+    ones = np.ones(len(pixels[0]))
+    np.savetxt(os.path.join(folder, 'points.dat'),
+               np.concatenate([np.vstack([own.T, ones]) for own in pixels]))
+    np.savetxt(os.path.join(folder, 'Res.dat'), [2 * [camera.size] for camera in views.cameras],
+               '%d')
+    np.savetxt(os.path.join(folder, 'camera_order.txt'), [camera.name for camera in views.cameras],
+               '%s')
+    for number, camera in enumerate(views.cameras):
+        matrix = np.array([[camera.focal, 0.0, camera.middle],
+                           [0.0, camera.focal, camera.middle], [0.0, 0.0, 1.0]])
+        with open(os.path.join(folder, f'basename{number + 1}.rad'), 'w') as file:
+            file.write(''.join(f'K{row + 1}{column + 1} = {value!r}\n'
+                               for (row, column), value in np.ndenumerate(matrix)))
+            file.write(''.join(f'kc{k} = 0\n' for k in range(1, 5)))
+
+
+def made_up_square(rotations, positions, path):
+    """Side [m] of a square around the path's middle, open to all cameras, and its corners in the
+    coordinates of each camera, k x 4 x 3 [m]."""
+    middle = np.median(path, axis=0)
+    half = np.median(np.linalg.norm(path - middle, axis=1))
+    up = positions - middle
+    up = (up / np.linalg.norm(up, axis=1)[:, None]).sum(axis=0)
+    x = np.cross(up, np.eye(3)[np.argmin(np.abs(up))])
+    y = np.cross(up, x)
+    x, y = half * x / np.linalg.norm(x), half * y / np.linalg.norm(y)
+    corners = middle + np.array([-x - y, x - y, x + y, y - x])
+    return 2.0 * half, np.array([(corners - position) @ rotation
+                                 for rotation, position in zip(rotations, positions)])
+
+
+def write_samples(views, side, corners, path):
+    """A file as calibration/save_samples writes it: the middle of the lights as a wave."""
+    cameras, frames = [], ''
+    for camera, seen in zip(views.cameras, corners):
+        pixels = camera.middle + camera.focal * seen[:, :2] / seen[:, 2:]
+        cameras.append({
+            'name': camera.name, 'identity': '', 'gravity': None, 'clock_epoch': 0, 'masks': [],
+            'corners': pixels.tolist(), 'frames': len(camera.times),
+            'lens': {'width': camera.size, 'height': camera.size, 'fx': camera.focal,
+                     'fy': camera.focal, 'cx': camera.middle, 'cy': camera.middle,
+                     'distortion_model': 'plumb_bob', 'distortion': 5 * [0.0]}})
+        frames += '- |\n' + ''.join(f'  {time!r} {x!r} {y!r}\n' for time, (x, y) in zip(
+            camera.times.tolist(), camera.centers.tolist()))
+    head = {'format': 'wiimote_tracker_samples', 'version': 1, 'world_frame': 'world', 'wand': None,
+            'square': {'side_x': float(side), 'side_y': float(side), 'led_height': 0.0,
+                       'origin': [0.0, 0.0], 'yaw': 0.0}, 'cameras': cameras}
+    with open(path, 'w') as file:
+        file.write(yaml.safe_dump(head) + '--- # Images of the wave, camera by camera: time [s], '
+                   'then x and y [px] of every spot.\n' + frames + '...\n')
+
+
+def track(views, rig, folder):
+    """What track_bag makes of the middle of the lights: the columns of its table. The covariance of
+    the rig is that of its lenses, whose principal points are off by views.accuracy: poses are
+    aligned later."""
+    source, target, table, lenses, parameters = (
+        os.path.join(folder, name)
+        for name in ('blobs.bag', 'tracked.bag', 'points.csv', 'lenses.yaml', 'track.yaml'))
+    write_bag(views, source)
+    with open(rig.path) as file:
+        content = yaml.safe_load(file)
+    variances = np.zeros((len(views.cameras), PER_CAMERA))
+    variances[:, PRINCIPAL_POINT] = views.accuracy ** 2
+    content['covariance'].update(data=np.diag(variances.reshape(-1)).reshape(-1).tolist())
+    with open(lenses, 'w') as file:
+        yaml.safe_dump(content, file, sort_keys=False)
+    with open(parameters, 'w') as file:  # each spot is known to be the body's
+        yaml.safe_dump({'pixel_stddev': float(np.sqrt(0.5 * np.mean(rig.residuals ** 2))),
+                        'tracks': {'birth_pixel_stddev': BIRTH_WINDOW * spot_speed(views),
+                                   'confirmation_hits': 1}}, file)
+    run('wiimote_tracker_triangulation/track_bag', source, target, '--rig', lenses, '--params',
+        parameters, '--csv', table, '--results-only')
+    return programs.read_csv(table)
+
+
+def spot_speed(views):
+    """RMS [px/s]."""
+    speeds = []
+    for camera in views.cameras:
+        step = np.diff(camera.times)
+        ways = np.linalg.norm(np.diff(camera.centers, axis=0), axis=1)
+        speeds.append((ways / step)[step < LONGEST_GAP])
+    return float(np.sqrt(np.mean(np.square(np.concatenate(speeds)))))
+
+
+def write_bag(views, path):
+    """Blobs of the middle of the lights, in the order of their times."""
+    images = sorted((time, number, i) for number, camera in enumerate(views.cameras)
+                    for i, time in enumerate(camera.times))
+    nan = float('nan')
+    with rosbag.Bag(path, 'w') as bag:
+        for time, number, i in images:
+            camera = views.cameras[number]
+            x, y = camera.centers[i]
+            image = IrBlobArray(camera=camera.name, frame=i, width=camera.size, height=camera.size,
+                                max_blobs=1, stamp_stddev=nan,
+                                blobs=[IrBlob(x=x, y=y, size=nan, intensity=nan)])
+            image.header.stamp = image.arrival = rospy.Time.from_sec(time)
+            image.header.frame_id = camera.name + '_optical_frame'
+            bag.write(f'/{camera.name}/ir_blobs', image, image.arrival)

@@ -1,0 +1,65 @@
+"""What the cameras of a recording saw, and where the body truly was."""
+
+import dataclasses
+from typing import List
+
+import numpy as np
+
+# Longest time between two images to interpolate between [s].
+LONGEST_GAP = 0.05
+
+
+@dataclasses.dataclass(eq=False)
+class Camera:
+    """A pinhole whose principal point is the middle of its square image.
+
+    size: width and height [px]. times: n, increasing, by its own clock [s]. pixels: n x lights x 2,
+    of the images that show all lights [px].
+    """
+
+    name: str
+    size: int
+    focal: float  # [px]
+    times: np.ndarray
+    pixels: np.ndarray
+
+    @property
+    def middle(self) -> float:
+        """Both coordinates of the principal point [px]."""
+        return 0.5 * (self.size - 1)
+
+    @property
+    def centers(self) -> np.ndarray:
+        """Of the lights, n x 2 [px]: the point that is tracked."""
+        return self.pixels.mean(axis=1)
+
+    def pixels_at(self, times) -> np.ndarray:
+        """m x lights x 2, interpolated; NaN in gaps."""
+        after = np.clip(np.searchsorted(self.times, times), 1, len(self.times) - 1)
+        start, end = self.times[after - 1], self.times[after]
+        inside = (end - start < LONGEST_GAP) & (start <= times) & (times <= end)
+        share = np.where(inside, (times - start) / (end - start), np.nan)[:, None, None]
+        return (1.0 - share) * self.pixels[after - 1] + share * self.pixels[after]
+
+
+@dataclasses.dataclass(eq=False)
+class Truth:
+    """times m, increasing, by a clock of its own [s]; positions m x 3 [m]. Its time is about rate
+    times the cameras' plus offset; tolerance: of that [s]."""
+
+    times: np.ndarray
+    positions: np.ndarray
+    rate: float
+    offset: float
+    tolerance: float
+
+
+@dataclasses.dataclass(eq=False)
+class Views:
+    """A recording. shape: lights x 3, where the lights are on the body; gives the scale [m].
+    accuracy: standard deviation of the errors of a lens, which vary slowly over its image [px]."""
+
+    cameras: List[Camera]
+    shape: np.ndarray
+    accuracy: float
+    truth: Truth

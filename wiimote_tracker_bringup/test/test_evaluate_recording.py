@@ -1,0 +1,206 @@
+"""evaluate_recording on simulated flights in the format of the lighthouse recordings: two stations
+whose sweeps hit four sensors at their own times, a log with its delays, a truth elsewhere on the body
+by another clock. The errors are compared with the simulation's own."""
+
+import gzip
+import json
+import os
+import sys
+
+import numpy as np
+import pytest
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
+
+from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
+from wiimote_tracker_evaluation.foreign import accuracy, lighthouse, program  # noqa: E402
+from wiimote_tracker_evaluation.foreign.views import Truth  # noqa: E402
+
+NOISE = 1e-4  # [rad]
+DELAYS = (0.0007, 0.0022)  # of the stations' logs beyond the end of both sweeps [s]
+RATE, START = 1.011, 3.0  # of the truth's clock, and the cameras' time of its zero
+DURATION = 20.0  # [s]
+PLACE = np.array([0.01, -0.005, 0.02])  # of the truth on the body [m]
+
+
+def looking(position, target):
+    """Rotation of a station: x to the target, y left, z up as far as possible."""
+    x = (target - position) / np.linalg.norm(target - position)
+    y = np.cross([0.0, 0.0, 1.0], x)
+    y /= np.linalg.norm(y)
+    return np.stack([x, y, np.cross(x, y)], axis=1)
+
+
+class Flight:
+    """Through a 1.4 m cube, about 0.7 m/s, tilting by some degrees; seen from two corners."""
+
+    stations = [np.array([-1.8, 1.9, 2.7]), np.array([2.0, -1.7, 2.6])]
+
+    def __init__(self):
+        self.target = np.array([0.0, 0.0, 0.9])
+        self.rotations = [looking(place, self.target) for place in self.stations]
+
+    def center(self, times):
+        times = np.asarray(times)[..., None]
+        return self.target + 0.7 * np.sin(times * [0.97, 0.73, 1.21] + [0.0, 1.1, 2.0])
+
+    def places(self, times, on_body):
+        """n x m x 3 of m places on the body."""
+        roll, pitch = 0.05 * np.sin(1.3 * times), 0.06 * np.cos(0.9 * times)
+        turn = np.zeros((len(times), 3, 3))
+        turn[:] = np.eye(3)
+        turn[:, 0, 2], turn[:, 2, 0] = pitch, -pitch
+        turn[:, 2, 1], turn[:, 1, 2] = roll, -roll
+        return self.center(times)[:, None] + (turn @ on_body.T).transpose(0, 2, 1)
+
+    def angles(self, station, times):
+        """Exact, n x sensors x 2 [rad]."""
+        seen = ((self.places(times, lighthouse.SHAPE) - self.stations[station])
+                @ self.rotations[station])
+        return np.arctan(seen[..., 1:] / seen[..., :1])
+
+    def bearings(self, random):
+        """Rows of the log: a cycle of 30 Hz has two sweeps of station 0, then two of station 1.
+        Station 0 is logged again after those of station 1."""
+        rows = []
+        cycles = 5.0 + np.arange(0.0, DURATION, 4 * lighthouse.SWEEP)
+        logs = []
+        for station in (0, 1):
+            begin = cycles + 2 * station * lighthouse.SWEEP
+            measured = []
+            for sweep in (0, 1):
+                times = begin + sweep * lighthouse.SWEEP
+                angle = self.angles(station, times)[..., sweep].mean(axis=1)
+                for _ in range(3):  # the plane reaches the body later, the greater the angle
+                    at = times + angle / (2.0 * np.pi) * lighthouse.TURN
+                    angle = self.angles(station, at)[..., sweep].mean(axis=1)
+                measured.append(self.angles(station, at)[..., sweep])
+            angles = np.stack(measured, axis=2) + NOISE * random.randn(len(cycles), 4, 2)
+            logged = begin + 2 * lighthouse.SWEEP + DELAYS[station] + random.uniform(
+                -0.0008, 0.0008, len(cycles))
+            logs.append((logged, angles))
+        for cycle in range(len(cycles)):
+            for time, own in ((logs[0][0][cycle], [0]), (logs[1][0][cycle], [0, 1])):
+                rows += [(1e3 * time + 0.01 * i, station, sensor, sweep,
+                          logs[station][1][cycle, sensor, sweep])
+                         for i, (sensor, station, sweep) in enumerate(np.ndindex(4, 2, 2))
+                         if station in own]
+        return np.array(rows)
+
+    def write(self, folder, random):
+        own = np.arange(0.0, RATE * DURATION, 1.0 / 300.0)
+        truth = self.places(own / RATE + 5.0, PLACE[None])[:, 0]
+        truth[1000:1040] = np.nan
+        turned = looking(np.zeros(3), np.array([1.0, 2.0, 0.3]))
+        save(os.path.join(folder, 'mocap.csv.gz'), 'time_s,x_m,y_m,z_m',
+             np.column_stack([own, truth @ turned.T + [3.0, -2.0, 0.5]]))
+        save(os.path.join(folder, 'bearings.csv.gz'), 'time_ms,station,sensor,sweep,angle_rad',
+             self.bearings(random))
+        with open(os.path.join(folder, 'markers_on_off.csv'), 'w') as file:
+            file.write('time_ms\n%r\n%r\n' % (5030.0, 4990.0 + 1e3 * DURATION))
+
+    def bound(self):
+        """RMS error of single intersections of both stations' rays, middle of four sensors [m]."""
+        variances = []
+        for time in np.arange(5.0, 5.0 + DURATION, 0.1):
+            rows = []
+            for axis in 1e-6 * np.eye(3):
+                rows.append([])
+                for place, rotation in zip(self.stations, self.rotations):
+                    ends = [(self.center(time) + sign * axis - place) @ rotation
+                            for sign in (1.0, -1.0)]
+                    rows[-1] += list(np.subtract(*[np.arctan(end[1:] / end[0]) for end in ends])
+                                     / 2e-6)
+            design = np.array(rows).T
+            variances.append(np.trace(np.linalg.inv(design.T @ design)) * NOISE ** 2 / 4.0)
+        return np.sqrt(np.mean(variances))
+
+
+def save(path, head, table):
+    with gzip.open(path, 'wt') as file:
+        np.savetxt(file, table, '%.9g', ',', header=head, comments='')
+
+
+@pytest.fixture(scope='module')
+def flight(tmp_path_factory):
+    folder = tmp_path_factory.mktemp('flight')
+    Flight().write(str(folder), np.random.RandomState(3))
+    return folder
+
+
+def test_a_simulated_flight_is_as_accurate_as_its_bound(flight, tmp_path, capsys, monkeypatch):
+    output = tmp_path / 'figures.json'
+    monkeypatch.setattr(sys, 'argv', ['evaluate_recording', 'lighthouse', str(flight), '--json',
+                                      str(output)])
+    program.main()
+    assert 'tracked while in sight' in capsys.readouterr().out
+    figures = json.loads(output.read_text())
+    # The truth lies 23 mm beside the middle and moves against it as the body tilts.
+    times = np.arange(5.0, 5.0 + DURATION, 0.1)
+    lever = Flight().places(times, PLACE[None])[:, 0] - Flight().center(times)
+    expected = np.hypot(Flight().bound(),
+                        np.sqrt(((lever - lever.mean(axis=0)) ** 2).sum(axis=1).mean()))
+    assert figures['rms_mm'] < 1e3 * expected
+    assert figures['mean_mm'] < figures['rms_mm'] < figures['p95_mm'] < figures['largest_mm']
+    assert figures['coverage_95'] > 0.95, 'the stations are better than they are taken for'
+    assert figures['tracked'] > 0.99
+    assert figures['scale'] == pytest.approx(1.0, abs=0.01)
+    assert figures['rigid']['mean_mm'] < 1.0 + figures['mean_mm']
+    # By the log, station 1 is later by the difference of the delays than it swept.
+    assert figures['clock_offset_ms']['station_1'] == pytest.approx(
+        -1e3 * (DELAYS[1] - DELAYS[0]), abs=0.2)
+
+
+def test_the_images_are_of_the_sweeps_own_times(flight):
+    views = lighthouse.read(str(flight))
+    simulated = Flight()
+    for station, camera in enumerate(views.cameras):
+        assert len(camera.times) > 0.95 * DURATION * 30.0
+        # What the log says is later than the sweep by two sweeps and the delay.
+        times = camera.times - 2 * lighthouse.SWEEP - DELAYS[station]
+        expected = camera.middle - camera.focal * np.tan(simulated.angles(station, times))
+        error = camera.pixels - expected
+        assert np.abs(error.mean(axis=(0, 1))).max() < 0.02
+        assert error.std() < 1.2 * NOISE * camera.focal
+
+
+def test_coverage_and_nees_of_errors_as_stated():
+    random = np.random.RandomState(5)
+    times = np.arange(0.0, 40.0, 0.02)
+    true = Flight().center(times)
+    stddev = np.array([0.001, 0.002, 0.004])
+    path = accuracy.Path(times, true + stddev * random.randn(len(times), 3),
+                         np.tile(np.diag(stddev ** 2), (len(times), 1, 1)))
+    own = np.arange(-1.0, 42.0, 1.0 / 300.0)
+    truth = Truth(own, Flight().center((own - 0.5) / RATE), RATE + 1e-4, 0.45, 0.1)
+    figures, scored, errors = accuracy.score(path, truth, 'rigid')
+    assert len(scored) == len(errors) == len(times)
+    assert figures['rms_mm'] == pytest.approx(1e3 * np.linalg.norm(stddev), rel=0.03)
+    assert figures['nees'] == pytest.approx(3.0, rel=0.06)
+    assert figures['coverage_95'] == pytest.approx(0.95, abs=0.012)
+
+
+def test_gaps_are_counted_while_in_sight_only():
+    times = np.array([0.0, 0.02, 0.04, 0.06, 5.0, 5.02, 5.04])
+    tracked = np.array([True, False, False, True, False, False, True])
+    assert program.gaps_of(times, tracked) == pytest.approx([0.02, 0.02])
+
+
+def test_the_rotors_turns_survive_delays_gaps_and_repeated_logs():
+    random = np.random.RandomState(2)
+    turn = np.flatnonzero(np.sin(0.05 * np.arange(4000)) > 0.3)  # in sight by turns
+    exact = 11.0 + turn * 0.0329697
+    logged = exact + random.uniform(-0.0008, 0.0008, len(turn))
+    logged[::50] += 0.016
+    times, regular = lighthouse.turns_of(logged)
+    assert len(times) > 0.95 * len(turn)
+    assert np.abs(times - exact[regular] - np.mean(times - exact[regular])).max() < 1e-4
+
+
+def test_refusals_say_which_file(tmp_path):
+    with pytest.raises(ExperimentError, match='bearings.csv.gz cannot be read'):
+        lighthouse.read(str(tmp_path))
+    save(str(tmp_path / 'bearings.csv.gz'), 'a,b', np.ones((4, 2)))
+    with pytest.raises(ExperimentError, match='has 2 columns, but must have 5'):
+        lighthouse.read(str(tmp_path))

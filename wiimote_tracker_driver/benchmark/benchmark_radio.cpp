@@ -1,0 +1,106 @@
+// What arrives from remotes that share one Bluetooth adapter, and how well exposure times are
+// estimated from it.
+#include "shared_radio.h"
+#include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
+
+#include <wiimote_tracker_msgs/argument_parser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+using namespace wiimote_tracker::exposure_clock;
+
+namespace {
+
+constexpr double kSettling = 10.0;  // [s] Not judged: the clock learns the period.
+
+struct Row {
+  double rate = 0.0;           ///< images/s of the remote that has the fewest
+  double lost = 0.0;           ///< share of the images of all remotes
+  double mean_delay = 0.0;     ///< [s] From exposure to arrival.
+  double longest_delay = 0.0;  ///< [s] 99 % are shorter.
+  double error = 0.0;          ///< [s] RMS error of the exposure times less its mean.
+  double covered = 0.0;        ///< share of errors within two stated standard deviations
+};
+
+Row judge(const RadioModel& model, double duration) {
+  Row row;
+  row.rate = 1e9;
+  std::vector<double> delays, errors, stddevs;
+  double sum = 0.0, frames = 0.0;
+  for (const std::vector<RadioReport>& reports : simulateRadio(model, duration, 1)) {
+    ExposureClock clock;
+    std::size_t judged = 0;
+    std::int64_t first_frame = 0;
+    for (const RadioReport& report : reports) {
+      const Estimate estimate = clock.update(report.arrival);
+      if (report.arrival < kSettling)
+        continue;
+      if (judged++ == 0)
+        first_frame = report.frame;
+      delays.push_back(report.arrival - report.exposure);
+      errors.push_back(estimate.exposure - report.exposure);
+      stddevs.push_back(estimate.stddev);
+      sum += errors.back();
+    }
+    row.rate = std::min(row.rate, static_cast<double>(judged) / (duration - kSettling));
+    if (!reports.empty())
+      frames += static_cast<double>(reports.back().frame - first_frame + 1);
+  }
+  const auto count = static_cast<double>(errors.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const double error = errors[i] - sum / count;
+    row.mean_delay += delays[i] / count;
+    row.error += error * error / count;
+    row.covered += (std::abs(error) < 2.0 * stddevs[i]) / count;
+  }
+  row.error = std::sqrt(row.error);
+  row.lost = 1.0 - count / frames;
+  const auto nth = delays.begin() + static_cast<std::ptrdiff_t>(0.99 * count);
+  std::nth_element(delays.begin(), nth, delays.end());
+  row.longest_delay = *nth;
+  return row;
+}
+
+int run(double duration) {
+  std::printf(
+      "Simulated: %.0f s, without the first %.0f s.\n\n"
+      "| remotes | polled | packets lost [%%] | images/s | images lost [%%] | delay [ms] | 99 %% "
+      "[ms] | exposure time: error [ms] | in 2 sd [%%] |\n|---|---|---|---|---|---|---|---|---|\n",
+      duration, kSettling);
+  using Polling = RadioModel::Polling;
+  const std::vector<std::pair<Polling, const char*>> kPollings{{Polling::kAtRandom, "at random"},
+                                                               {Polling::kInTurn, "in turn"},
+                                                               {Polling::kSniff, "sniff, 10 ms"}};
+  for (const auto& [polling, name] : kPollings) {
+    for (const int remotes : {1, 4, 7}) {
+      if (polling == Polling::kSniff && remotes > 1)
+        continue;  // each has its own time
+      for (const double loss : {0.0, 0.05, 0.15}) {
+        RadioModel model;
+        model.remotes = remotes;
+        model.loss = loss;
+        model.polling = polling;
+        const Row row = judge(model, duration);
+        std::printf("| %s | %s | %.0f | %.1f | %.1f | %.1f | %.1f | %.2f | %.1f |\n",
+                    polling == Polling::kSniff ? "1 to 7" : std::to_string(remotes).c_str(), name,
+                    100.0 * loss, row.rate, 100.0 * row.lost, 1e3 * row.mean_delay,
+                    1e3 * row.longest_delay, 1e3 * row.error, 100.0 * row.covered);
+      }
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  double duration = 130.0;
+  wiimote_tracker::ArgumentParser parser(
+      "benchmark_radio", "Rates, delays and exposure times of remotes at one Bluetooth adapter.");
+  parser.option("--seconds S", &duration, 2.0 * kSettling, 1e5, "simulated time per row [s]");
+  return parser.run(argc, argv, [&] { return run(duration); });
+}

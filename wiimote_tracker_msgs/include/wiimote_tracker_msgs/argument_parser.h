@@ -68,7 +68,7 @@ class ArgumentParser {
               const std::string& description) {
     const auto check = [=](const std::string& given) {
       if (std::find(allowed.begin(), allowed.end(), given) == allowed.end())
-        throw BadArguments(nameOf(words) + " must be " + joined(allowed, " or "));
+        refusal_ = nameOf(words) + " must be " + joined(allowed, " or ");
     };
     add(words, boost::program_options::value(value)->notifier(check),
         description + " (" + joined(allowed) + ")");
@@ -86,9 +86,10 @@ class ArgumentParser {
     std::ostringstream range;
     range << low << " to " << high;
     const auto take = [=, allowed = range.str()](Wide given) {
-      if (!(given >= static_cast<Wide>(low) && given <= static_cast<Wide>(high)))
-        throw BadArguments(nameOf(words) + " must be from " + allowed);
-      *value = static_cast<Number>(given);
+      if (given >= static_cast<Wide>(low) && given <= static_cast<Wide>(high))
+        *value = static_cast<Number>(given);
+      else
+        refusal_ = nameOf(words) + " must be from " + allowed;
     };
     if (*value >= low && *value <= high)
       range << ", default " << *value;
@@ -155,6 +156,8 @@ class ArgumentParser {
       po::variables_map values;
       po::store(parsed, values);
       po::notify(values);
+      if (!refusal_.empty())
+        throw BadArguments(refusal_);
     } catch (const po::error_with_option_name& e) {
       const std::string name = e.get_option_name();  // with its dashes
       const po::option_description* known =
@@ -175,6 +178,7 @@ class ArgumentParser {
   }
 
   std::string program_, usage_, purpose_;
+  std::string refusal_;  // of a value outside its range
   boost::program_options::options_description options_{"Options", 100};
   std::vector<std::pair<std::string, std::function<void(Words*)>>> positionals_;
 };

@@ -141,10 +141,11 @@ def track(views, rig, folder):
     content['covariance'].update(data=np.diag(variances.reshape(-1)).reshape(-1).tolist())
     with open(lenses, 'w') as file:
         yaml.safe_dump(content, file, sort_keys=False)
-    with open(parameters, 'w') as file:  # each spot is known to be the body's
+    # Each spot is known to be the body's: two of each camera, which tell its speed, confirm it.
+    with open(parameters, 'w') as file:
         yaml.safe_dump({'pixel_stddev': float(np.sqrt(0.5 * np.mean(rig.residuals ** 2))),
                         'tracks': {'birth_pixel_stddev': BIRTH_WINDOW * spot_speed(views),
-                                   'confirmation_hits': 1}}, file)
+                                   'confirmation_hits': 2 * len(views.cameras)}}, file)
     run('wiimote_tracker_triangulation/track_bag', source, target, '--rig', lenses, '--params',
         parameters, '--csv', table, '--results-only')
     return programs.read_csv(table)

@@ -27,6 +27,8 @@ CORNER = 20.0
 # The lenses are known, and held: the smallest deviations that the solver takes [1, px].
 HELD = {'focal_stddev': 1e-6, 'aspect_stddev': 1e-6, 'principal_point_stddev': 1e-3,
         'k1_stddev': 1e-6}
+# From an exposure to the image's arrival, more than clocks may differ [s].
+LATENCY = 0.1
 # A camera's parameters in a rig's covariance, and those of its principal point.
 PER_CAMERA, PRINCIPAL_POINT = 16, [8, 9]
 BIRTH_WINDOW = 0.03  # of the tracker's default parameters [s]
@@ -133,7 +135,7 @@ def track(views, rig, folder):
     source, target, table, lenses, parameters = (
         os.path.join(folder, name)
         for name in ('blobs.bag', 'tracked.bag', 'points.csv', 'lenses.yaml', 'track.yaml'))
-    write_bag(views, source)
+    write_bag(views, rig.offsets, source)
     with open(rig.path) as file:
         content = yaml.safe_load(file)
     variances = np.zeros((len(views.cameras), PER_CAMERA))
@@ -161,18 +163,21 @@ def spot_speed(views):
     return float(np.sqrt(np.mean(np.square(np.concatenate(speeds)))))
 
 
-def write_bag(views, path):
-    """Blobs of the middle of the lights, in the order of their times."""
-    images = sorted((time, number, i) for number, camera in enumerate(views.cameras)
+def write_bag(views, offsets, path):
+    """Blobs of the middle of the lights, in the order of their exposure times: each image arrives
+    LATENCY after it. offsets: exposure time minus stamp of each camera [s]."""
+    images = sorted((time + offset, number, i)
+                    for number, (camera, offset) in enumerate(zip(views.cameras, offsets))
                     for i, time in enumerate(camera.times))
-    nan = float('nan')
+    centers, nan = [camera.centers for camera in views.cameras], float('nan')
     with rosbag.Bag(path, 'w') as bag:
-        for time, number, i in images:
+        for exposure, number, i in images:
             camera = views.cameras[number]
-            x, y = camera.centers[i]
+            x, y = centers[number][i]
             image = IrBlobArray(camera=camera.name, frame=i, width=camera.size, height=camera.size,
                                 max_blobs=1, stamp_stddev=nan,
                                 blobs=[IrBlob(x=x, y=y, size=nan, intensity=nan)])
-            image.header.stamp = image.arrival = rospy.Time.from_sec(time)
+            image.header.stamp = rospy.Time.from_sec(camera.times[i])
             image.header.frame_id = camera.name + '_optical_frame'
+            image.arrival = rospy.Time.from_sec(exposure + LATENCY)
             bag.write(f'/{camera.name}/ir_blobs', image, image.arrival)

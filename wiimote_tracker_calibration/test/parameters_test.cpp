@@ -77,6 +77,7 @@ TEST(Parameters, TheFileSaysWhatTheDefaultsAre) {
   EXPECT_EQ(u.focal, v.focal);
   EXPECT_EQ(u.aspect, v.aspect);
   EXPECT_EQ(u.principal_point, v.principal_point);
+  EXPECT_EQ(u.shared_principal_point, v.shared_principal_point);
   EXPECT_EQ(u.k1, v.k1);
   EXPECT_EQ(u.gravity, v.gravity);
   EXPECT_EQ(a.led_height, b.led_height);

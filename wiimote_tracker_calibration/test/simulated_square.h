@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_SQUARE_H
 #define WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_SQUARE_H
 
+#include "wiimote_tracker_calibration/square/rig_model.h"
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
 
@@ -17,14 +18,29 @@ namespace wiimote_tracker::square {
 
 /// How far the truth is from what the solver starts from (standard deviations).
 struct Errors {
-  double pixel = 0.0;            // [px]
-  double placement = 0.0;        // [m] per horizontal axis
-  double focal = 0.0;            // relative
-  double aspect = 0.0;           // relative
-  double principal_point = 0.0;  // [px]
+  double pixel = 0.0;                   // [px]
+  double placement = 0.0;               // [m] per horizontal axis
+  double focal = 0.0;                   // relative
+  double aspect = 0.0;                  // relative
+  double principal_point = 0.0;         // of each camera by itself [px]
+  double shared_principal_point = 0.0;  // of all cameras alike [px]
   double k1 = 0.0;
   double gravity = 0.0;  // [rad] per axis
 };
+
+/// As large as the solver assumes.
+inline Errors errorsOf(const Uncertainty& assumed) {
+  Errors errors;
+  errors.pixel = assumed.pixel;
+  errors.placement = assumed.placement;
+  errors.focal = assumed.focal;
+  errors.aspect = assumed.aspect;
+  errors.principal_point = assumed.principal_point;
+  errors.shared_principal_point = assumed.shared_principal_point;
+  errors.k1 = assumed.k1;
+  errors.gravity = assumed.gravity;
+  return errors;
+}
 
 /// True cameras and what they saw of a square.
 struct SimulatedSquare {
@@ -54,6 +70,8 @@ inline SimulatedSquare simulateSquare(const std::vector<Eigen::Isometry3d>& worl
   for (Eigen::Vector3d& corner : corners)
     corner +=
         Eigen::Vector3d(normal(random, errors.placement), normal(random, errors.placement), 0);
+  const double shared_x = normal(random, errors.shared_principal_point);
+  const double shared_y = normal(random, errors.shared_principal_point);
   for (std::size_t i = 0; i < world_from_camera.size(); ++i) {
     geometry::Camera camera;
     camera.name = "camera_" + std::to_string(i + 1);
@@ -62,8 +80,8 @@ inline SimulatedSquare simulateSquare(const std::vector<Eigen::Isometry3d>& worl
     const double aspect = std::exp(0.5 * normal(random, errors.aspect));
     camera.intrinsics.fx *= scale * aspect;
     camera.intrinsics.fy *= scale / aspect;
-    camera.intrinsics.cx += normal(random, errors.principal_point);
-    camera.intrinsics.cy += normal(random, errors.principal_point);
+    camera.intrinsics.cx += shared_x + normal(random, errors.principal_point);
+    camera.intrinsics.cy += shared_y + normal(random, errors.principal_point);
     camera.intrinsics.distortion[0] += normal(random, errors.k1);
     result.truth.push_back(camera);
 

@@ -25,19 +25,6 @@ SquareLayout paperSquare() {
   return layout;
 }
 
-/// What the solver assumes, as the truth.
-Errors errorsOf(const Uncertainty& assumed) {
-  Errors errors;
-  errors.pixel = assumed.pixel;
-  errors.placement = assumed.placement;
-  errors.focal = assumed.focal;
-  errors.aspect = assumed.aspect;
-  errors.principal_point = assumed.principal_point;
-  errors.k1 = assumed.k1;
-  errors.gravity = assumed.gravity;
-  return errors;
-}
-
 /// Cramer-Rao bound of a pose with known lens and corners (6x6: position, rotation), by numerical
 /// differentiation of the projection.
 Eigen::Matrix<double, 6, 6> poseBound(const geometry::Camera& camera,
@@ -203,8 +190,9 @@ class Consistency : public ::testing::TestWithParam<Method> {};
 
 TEST_P(Consistency, JointCovarianceIsExactForSmallErrors) {
   Uncertainty small;
-  for (double* stddev : {&small.pixel, &small.placement, &small.focal, &small.aspect,
-                         &small.principal_point, &small.k1, &small.gravity})
+  for (double* stddev :
+       {&small.pixel, &small.placement, &small.focal, &small.aspect, &small.principal_point,
+        &small.shared_principal_point, &small.k1, &small.gravity})
     *stddev *= 0.1;
   const Nees nees = neesOf(GetParam(), small, 200);
   std::cout << "NEES per dimension, a tenth of the errors: all " << nees.all << ", one pose "

@@ -151,6 +151,7 @@ TEST(Branches, TheOtherCamerasResolveACameraThatCannotTell) {
     options.uncertainty.focal = 0.002;
     options.uncertainty.aspect = 0.0005;
     options.uncertainty.principal_point = 1.0;
+    options.uncertainty.shared_principal_point = 0.0;
     options.uncertainty.k1 = 0.001;
     const RigModel model(simulated.sightings, layout, true, options.uncertainty);
     const std::vector<Branch> alone = findBranches(model, 0);

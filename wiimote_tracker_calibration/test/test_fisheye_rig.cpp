@@ -38,6 +38,7 @@ square::SolveOptions optionsFor(const square::Errors& errors) {
   options.uncertainty.focal = errors.focal;
   options.uncertainty.aspect = errors.aspect;
   options.uncertainty.principal_point = errors.principal_point;
+  options.uncertainty.shared_principal_point = 0.0;
   options.uncertainty.k1 = errors.k1;
   return options;
 }

@@ -146,8 +146,10 @@ TEST(Recalibrate, HasTheStatedUncertainty) {
         const double aspect = std::exp(0.5 * normal(random, options.uncertainty.aspect));
         lens.fx *= scale * aspect;
         lens.fy *= scale / aspect;
-        lens.cx += normal(random, options.uncertainty.principal_point);
-        lens.cy += normal(random, options.uncertainty.principal_point);
+        const double center = std::hypot(options.uncertainty.principal_point,
+                                         options.uncertainty.shared_principal_point);
+        lens.cx += normal(random, center);
+        lens.cy += normal(random, center);
         lens.distortion[0] += normal(random, options.uncertainty.k1);
       }
       WavedLed led(truth, 1000 + static_cast<std::uint64_t>(trial));

@@ -75,26 +75,13 @@ square::SquareLayout paperSquare() {
   return layout;
 }
 
-/// As far off as the solver is told to expect.
-square::Errors expectedErrors(const square::Uncertainty& u) {
-  square::Errors errors;
-  errors.pixel = u.pixel;
-  errors.placement = u.placement;
-  errors.focal = u.focal;
-  errors.aspect = u.aspect;
-  errors.principal_point = u.principal_point;
-  errors.k1 = u.k1;
-  errors.gravity = u.gravity;
-  return errors;
-}
-
 /// The paper's four cameras, or the first two, before the square.
 square::SimulatedSquare paperScene(std::size_t cameras,
                                    square::Random& random,
                                    const square::Uncertainty& uncertainty = {}) {
   std::vector<Eigen::Isometry3d> poses = square::paperRig();
   poses.resize(cameras);
-  return square::simulateSquare(poses, paperSquare(), true, expectedErrors(uncertainty), true,
+  return square::simulateSquare(poses, paperSquare(), true, square::errorsOf(uncertainty), true,
                                 random);
 }
 
@@ -327,6 +314,7 @@ TEST(Verdict, NamesACornerThatWasDisplaced) {
   options.square.uncertainty.focal = 0.003;
   options.square.uncertainty.aspect = 0.001;
   options.square.uncertainty.principal_point = 2.0;
+  options.square.uncertainty.shared_principal_point = 0.0;
   options.square.uncertainty.k1 = 0.005;
   square::Random random(9);
   int named = 0;

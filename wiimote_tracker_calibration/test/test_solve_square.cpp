@@ -183,6 +183,7 @@ TEST(ThreeCornersWithErrors, AreKnownAsWellAsTheirCovarianceSays) {
   options.uncertainty.focal = 1e-4;
   options.uncertainty.aspect = 1e-5;
   options.uncertainty.principal_point = 0.01;
+  options.uncertainty.shared_principal_point = 0.0;
   options.uncertainty.k1 = 1e-5;
   double sum = 0.0;
   int count = 0;

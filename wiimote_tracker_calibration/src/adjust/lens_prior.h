@@ -52,6 +52,24 @@ struct LensPrior {
   }
 };
 
+/// The same where the principal points of several cameras share an offset from the mean. Blocks:
+/// lens (CameraBlocks), the shared offset (2) [px], which has a prior of its own.
+struct SharedLensPrior {
+  LensPrior own;  ///< Around the shifted mean.
+
+  ceres::CostFunction* cost() const {
+    return new ceres::AutoDiffCostFunction<SharedLensPrior, kLensSize, kLensSize, 2>(
+        new SharedLensPrior(*this));
+  }
+
+  template <typename T>
+  bool operator()(const T* lens, const T* shared, T* residual) const {
+    const T shifted[kLensSize] = {lens[0], lens[1], lens[2] - shared[0], lens[3] - shared[1],
+                                  lens[4]};
+    return own(shifted, residual);
+  }
+};
+
 }  // namespace wiimote_tracker::adjust
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_LENS_PRIOR_H

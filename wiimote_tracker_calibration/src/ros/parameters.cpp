@@ -82,6 +82,7 @@ void readSolve(ParameterReader* reader, square::SolveOptions* options) {
   reader->read("focal_stddev", &u.focal, 1e-6, 1.0);
   reader->read("aspect_stddev", &u.aspect, 1e-6, 1.0);
   reader->read("principal_point_stddev", &u.principal_point, 1e-3, 10000.0);
+  reader->read("shared_principal_point_stddev", &u.shared_principal_point, 0.0, 10000.0);
   reader->read("k1_stddev", &u.k1, 1e-6, 10.0);
   reader->read("gravity_stddev", &u.gravity, 1e-3, 3.2);
   reader->read("branch_odds", &options->branch_odds, 1.5, 1e9);

@@ -109,6 +109,7 @@ square::Uncertainty WaveScene::wide() {
   square::Uncertainty uncertainty;
   uncertainty.focal = 0.04;
   uncertainty.principal_point = 20.0;
+  uncertainty.shared_principal_point = 0.0;
   return uncertainty;
 }
 
@@ -151,6 +152,9 @@ SimulatedWave simulateWave(const WaveScene& scene, SimulatedPath path, std::mt19
   if (scene.length > 0.0)
     result.recording.wand = Wand{scene.length};
 
+  const double offset_stddev = scene.uncertainty.shared_principal_point;
+  const double shared_x = normal(random, offset_stddev);
+  const double shared_y = normal(random, offset_stddev);
   double reference = 0.0;
   for (const Eigen::Isometry3d& pose : scene.poses()) {
     const std::size_t index = result.cameras.size();
@@ -165,8 +169,8 @@ SimulatedWave simulateWave(const WaveScene& scene, SimulatedPath path, std::mt19
     const double aspect = std::exp(0.5 * normal(random, u.aspect));
     camera.intrinsics.fx *= scale * aspect;
     camera.intrinsics.fy *= scale / aspect;
-    camera.intrinsics.cx += normal(random, u.principal_point);
-    camera.intrinsics.cy += normal(random, u.principal_point);
+    camera.intrinsics.cx += shared_x + normal(random, u.principal_point);
+    camera.intrinsics.cy += shared_y + normal(random, u.principal_point);
     camera.intrinsics.distortion[0] += normal(random, u.k1);
     for (std::size_t c = 0; scene.square && c < 4; ++c)
       recording.sightings.corners[c] =

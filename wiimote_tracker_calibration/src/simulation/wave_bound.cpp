@@ -101,8 +101,8 @@ class Information {
       const Eigen::Index at = cameraColumn(i);
       add({{at + 6, 0.5 / lens.fx}, {at + 7, 0.5 / lens.fy}}, u.focal);
       add({{at + 6, 1.0 / lens.fx}, {at + 7, -1.0 / lens.fy}}, u.aspect);
-      add({{at + 8, 1.0}}, u.principal_point);
-      add({{at + 9, 1.0}}, u.principal_point);
+      add(principalPoint(i, 8), u.principal_point);
+      add(principalPoint(i, 9), u.principal_point);
       add({{at + 10, 1.0}}, u.k1);
       add({{at + kTimeOffset, 1.0}}, i == 0 ? kGiven : 0.05);
       // Without square the first camera is the world.
@@ -120,6 +120,19 @@ class Information {
     }
     for (Eigen::Index k = 0; k < 8; ++k)
       add({{cornerColumn(0) + k, 1.0}}, u.placement);
+  }
+
+  /// A principal point less the part of the mean of all that makes errors with a shared offset
+  /// independent: the inverse square root of their joint covariance is I - share * ones.
+  Row principalPoint(std::size_t camera, Eigen::Index coordinate) const {
+    const auto count = static_cast<double>(wave_.cameras.size());
+    const square::Uncertainty& u = scene_.uncertainty;
+    const double all = std::hypot(u.principal_point, std::sqrt(count) * u.shared_principal_point);
+    const double share = (1.0 - u.principal_point / all) / count;
+    Row row;
+    for (std::size_t i = 0; i < wave_.cameras.size(); ++i)
+      row.emplace_back(cameraColumn(i) + coordinate, (i == camera ? 1.0 : 0.0) - share);
+    return row;
   }
 
   void addWand(double wand_stddev) {

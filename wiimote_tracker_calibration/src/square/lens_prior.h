@@ -2,14 +2,56 @@
 #define WIIMOTE_TRACKER_CALIBRATION_SQUARE_LENS_PRIOR_H
 
 #include "adjust/lens_prior.h"
+#include "adjust/prior.h"
 
 #include "wiimote_tracker_calibration/square/rig_model.h"
 
+#include <ceres/problem.h>
+
+#include <cmath>
+#include <optional>
+
 namespace wiimote_tracker::square {
 
-/// Prior of a lens around its starting values.
+/// Whether a camera starts from the default principal point, whose error such cameras share.
+inline bool sharesOffset(const geometry::Intrinsics& start) {
+  const geometry::Intrinsics common;
+  return start.cx == common.cx && start.cy == common.cy;
+}
+
+/// Prior of a lens around its starting values, nothing being known of the other cameras' lenses.
 inline adjust::LensPrior lensPrior(const geometry::Intrinsics& start, const Uncertainty& stated) {
-  return {start, stated.focal, stated.aspect, stated.principal_point, stated.k1};
+  const double shared = sharesOffset(start) ? stated.shared_principal_point : 0.0;
+  return {start, stated.focal, stated.aspect, std::hypot(stated.principal_point, shared),
+          stated.k1};
+}
+
+/// Adds the offset that principal points share, with its prior, to a problem.
+/// @param offset block (2) [px]. @returns the prior, unless the offset is held.
+inline std::optional<ceres::ResidualBlockId> addSharedOffset(const Uncertainty& stated,
+                                                             double* offset,
+                                                             ceres::Problem* problem) {
+  const double shared = stated.shared_principal_point;
+  if (shared > 0.0)
+    return problem->AddResidualBlock(adjust::Prior<2>{{0.0, 0.0}, {shared, shared}}.cost(), nullptr,
+                                     offset);
+  problem->AddParameterBlock(offset, 2);
+  problem->SetParameterBlockConstant(offset);
+  return std::nullopt;
+}
+
+/// Adds lensPrior() to a problem that has the shared offset.
+/// @param lens block of CameraBlocks.
+inline ceres::ResidualBlockId addLensPrior(const geometry::Intrinsics& start,
+                                           const Uncertainty& stated,
+                                           double* lens,
+                                           double* offset,
+                                           ceres::Problem* problem) {
+  adjust::LensPrior own = lensPrior(start, stated);
+  own.principal_point = stated.principal_point;
+  return sharesOffset(start)
+             ? problem->AddResidualBlock(adjust::SharedLensPrior{own}.cost(), nullptr, lens, offset)
+             : problem->AddResidualBlock(own.cost(), nullptr, lens);
 }
 
 }  // namespace wiimote_tracker::square

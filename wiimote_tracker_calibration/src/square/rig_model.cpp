@@ -42,6 +42,10 @@ void Uncertainty::check() const {
   checkStddev("focal length", focal);
   checkStddev("aspect ratio", aspect);
   checkStddev("principal point", principal_point);
+  if (!std::isfinite(shared_principal_point) || shared_principal_point < 0.0)
+    throw SquareError("the standard deviation of the principal points' shared offset is " +
+                      std::to_string(shared_principal_point) +
+                      ", but must be 0 or greater: correct it");
   checkStddev("distortion coefficient k1", k1);
   checkStddev("gravity direction", gravity);
 }
@@ -56,6 +60,7 @@ class RigModel::Problem {
       const Eigen::Vector3d offset = state.corners[c] - model.nominal_corners_[c];
       corners_[c] = {offset.x(), offset.y()};
     }
+    addSharedOffset(model.uncertainty_, shared_offset_.data(), &problem_);
     for (std::size_t i = 0; i < cameras_.size(); ++i)
       addCamera(i);
     for (std::size_t c = 0; c < 4; ++c) {
@@ -101,8 +106,12 @@ class RigModel::Problem {
     return known(adjust::covarianceOf(&problem_, blocks));
   }
 
-  Eigen::Matrix2d cornerCovariance(std::size_t corner) {
-    return known(adjust::covarianceOf(&problem_, {corners_[corner].data()}));
+  /// Joint covariance of the corners' displacements (8x8).
+  Eigen::MatrixXd cornerCovariance() {
+    std::vector<double*> blocks;
+    for (auto& corner : corners_)
+      blocks.push_back(corner.data());
+    return known(adjust::covarianceOf(&problem_, blocks));
   }
 
   /// Derivatives of the whitened pixels of a camera, one row per coordinate, and of its lens prior.
@@ -144,8 +153,8 @@ class RigModel::Problem {
     problem_.SetParameterBlockConstant(blocks.distortion.data());
     problem_.AddParameterBlock(&blocks.time_offset, 1);
     problem_.SetParameterBlockConstant(&blocks.time_offset);
-    lens_priors_.push_back(problem_.AddResidualBlock(
-        lensPrior(sightings.intrinsics, uncertainty).cost(), nullptr, blocks.lens.data()));
+    lens_priors_.push_back(addLensPrior(sightings.intrinsics, uncertainty, blocks.lens.data(),
+                                        shared_offset_.data(), &problem_));
     if (sightings.gravity)
       problem_.AddResidualBlock(
           adjust::GravityError{sightings.gravity->normalized(), model_.up(),
@@ -166,6 +175,7 @@ class RigModel::Problem {
   const RigState state_;
   ceres::Problem problem_;
   std::vector<adjust::CameraBlocks> cameras_;
+  std::array<double, 2> shared_offset_{};                    // of the principal points [px]
   std::array<std::array<double, 2>, 4> corners_;             // displacements [m]
   std::vector<std::vector<ceres::ResidualBlockId>> pixels_;  // per camera
   std::vector<ceres::ResidualBlockId> lens_priors_;
@@ -216,11 +226,12 @@ Eigen::MatrixXd RigModel::covarianceOfAll(const RigState& state) const {
 }
 
 CornerEstimates RigModel::cornerEstimates(const RigState& state) const {
-  Problem problem(*this, state);
+  const Eigen::MatrixXd covariance = Problem(*this, state).cornerCovariance();
   CornerEstimates estimates;
   for (std::size_t c = 0; c < 4; ++c) {
+    const auto at = 2 * static_cast<Eigen::Index>(c);
     estimates.offsets[c] = state.corners[c] - nominal_corners_[c];
-    estimates.covariances[c] = problem.cornerCovariance(c);
+    estimates.covariances[c] = covariance.block<2, 2>(at, at);
   }
   return estimates;
 }
@@ -231,17 +242,18 @@ Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
   constexpr Eigen::Index kPose = adjust::kRotationSize + adjust::kPositionSize;
   constexpr Eigen::Index kLens = adjust::kLensSize;
   constexpr Eigen::Index kCorners = 8;
+  constexpr Eigen::Index kShared = 2;
   constexpr Eigen::Index kPixels = 8;
-  // Estimated parameters as a linear function of independent unit errors: of all corners, then of
-  // the lens and the pixels camera by camera.
-  const Eigen::Index errors = kCorners + (kLens + kPixels) * cameras;
+  // Estimated parameters as a linear function of independent unit errors: of all corners, of the
+  // principal points' shared offset, then of the lens and the pixels camera by camera.
+  const Eigen::Index errors = kCorners + kShared + (kLens + kPixels) * cameras;
   Eigen::MatrixXd by_errors = Eigen::MatrixXd::Zero(geometry::kParameters * cameras, errors);
   for (Eigen::Index i = 0; i < cameras; ++i) {
     const auto derivatives = problem.derivatives(static_cast<std::size_t>(i));
     const Eigen::MatrixXd pose_by_pixels =
         derivatives.pixels_by_pose.completeOrthogonalDecomposition().pseudoInverse();
     const Eigen::MatrixXd lens_by_error = derivatives.prior_by_lens.inverse();
-    const Eigen::Index lens = kCorners + (kLens + kPixels) * i;
+    const Eigen::Index lens = kCorners + kShared + (kLens + kPixels) * i;
     auto rows = by_errors.middleRows(geometry::kParameters * i, geometry::kParameters);
     rows.block(0, 0, kPose, kCorners) =
         -pose_by_pixels * derivatives.pixels_by_corners * uncertainty_.placement;
@@ -249,6 +261,12 @@ Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
         -pose_by_pixels * derivatives.pixels_by_lens * lens_by_error;
     rows.block(0, lens + kLens, kPose, pose_by_pixels.cols()) = -pose_by_pixels;
     rows.block(geometry::kLens, lens, kLens, kLens) = lens_by_error;
+    if (sharesOffset(sightings_[static_cast<std::size_t>(i)].intrinsics)) {
+      const double shared = uncertainty_.shared_principal_point;
+      rows.block(0, kCorners, kPose, kShared) =
+          -shared * pose_by_pixels * derivatives.pixels_by_lens.middleCols(2, kShared);
+      rows.block(geometry::kLens + 2, kCorners, kShared, kShared).diagonal().setConstant(shared);
+    }
   }
   return by_errors * by_errors.transpose();
 }

@@ -13,6 +13,7 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -53,6 +54,9 @@ class WaveProblem {
     addPath();
     if (recording.wand)
       addWand(matches);
+    if (const auto prior =
+            square::addSharedOffset(options.uncertainty, shared_offset_.data(), &problem_))
+      priors_.push_back(*prior);
     for (std::size_t i = 0; i < cameras_.size(); ++i)
       addCamera(i);
     if (recording.square)
@@ -107,7 +111,8 @@ class WaveProblem {
     return 2.0 * half_sum;
   }
 
-  /// Of chiSquared(): the matches determine everything but the world frame and its scale.
+  /// Of chiSquared(): the matches determine everything but the world frame, its scale, and the
+  /// shared offset, which has as many residuals of its own.
   int degreesOfFreedom() const {
     return prior_residuals_ - (recording_.square ? 7 : 0) -
            (options_.uncertainty.unknown_corner ? 2 : 0);
@@ -192,7 +197,9 @@ class WaveProblem {
   void addCamera(std::size_t i) {
     adjust::CameraBlocks& camera = cameras_[i];
     const geometry::Intrinsics& start = recording_.cameras[i].sightings.intrinsics;
-    addPrior(square::lensPrior(start, options_.uncertainty).cost(), camera.lens.data());
+    priors_.push_back(square::addLensPrior(start, options_.uncertainty, camera.lens.data(),
+                                           shared_offset_.data(), &problem_));
+    prior_residuals_ += adjust::kLensSize;
     addPrior(adjust::Prior<1>{{0.0}, {options_.offset}}.cost(), &camera.time_offset);
     problem_.SetParameterBlockConstant(camera.distortion.data());
   }
@@ -228,6 +235,7 @@ class WaveProblem {
   const WaveOptions& options_;
   State& state_;
   std::vector<adjust::CameraBlocks> cameras_;
+  std::array<double, 2> shared_offset_{};  // of the principal points [px]
   ceres::Problem problem_;
   std::vector<ceres::ResidualBlockId> matches_;
   std::vector<ceres::ResidualBlockId> priors_;  // and corners

@@ -101,6 +101,8 @@ PaperSession drawPaperSession(const simulation::Description& description,
   std::mt19937_64 random(seed);
   wave::WaveScene scene;
   scene.uncertainty = square::Uncertainty();
+  scene.uncertainty.principal_point = 15.0;
+  scene.uncertainty.shared_principal_point = 0.0;
   scene.pixel = description.pixel_noise;
   scene.wander = kStampWander;
   for (const std::size_t i : cameras)

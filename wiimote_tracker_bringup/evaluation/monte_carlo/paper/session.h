@@ -26,7 +26,8 @@ struct StillLed {
 
 /// A measurement session of the paper (section V.B) with the cameras of a description, and all that
 /// this project could have recorded in it. Deviations of the lenses from the paper's K (2), and of
-/// the corners from their nominal positions, are those of square::Uncertainty.
+/// the corners from their nominal positions, are those of square::Uncertainty, but each principal
+/// point is off by 15 px by itself.
 struct PaperSession {
   wave::WaveScene wave_scene;
   wave::SimulatedWave wave;  ///< True cameras, the corners' sightings, a waved LED.

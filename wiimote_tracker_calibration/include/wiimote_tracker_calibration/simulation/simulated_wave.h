@@ -57,7 +57,7 @@ struct WaveScene {
   /// Errors of lenses and corners are drawn from this.
   square::Uncertainty uncertainty = wide();
 
-  /// Focal length off by 4 %, principal point by 20 px.
+  /// Focal length off by 4 %, principal point of each camera by itself by 20 px.
   static square::Uncertainty wide();
   std::vector<Eigen::Isometry3d> poses() const;
 };

@@ -1,5 +1,6 @@
 #include "bundle_synthetic_rig.h"
 
+#include "../src/bundle/birge_ratio.h"
 #include "../src/bundle/certainty.h"
 
 #include "wiimote_tracker_calibration/bundle/error.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <string>
 #include <utility>
@@ -147,6 +149,7 @@ TEST(SelfCalibrate, HasTheStatedUncertainty) {
   double sum = 0.0;
   double squares = 0.0;
   double expected = 0.0;
+  double ratio = 0.0;
   for (int run = 0; run < kRuns; ++run) {
     SyntheticRig rig = exact;
     rig.random.seed(static_cast<unsigned>(100 + run));
@@ -184,9 +187,37 @@ TEST(SelfCalibrate, HasTheStatedUncertainty) {
     }
     squares += std::pow(shapeError(exact, result), 2);
     expected += std::pow(certainty.expectedShapeError().value(), 2);
+    ratio += birgeRatio(solution, options) / kRuns;
   }
   EXPECT_NEAR(sum / (4.0 * kRuns), 1.0, 0.4);
   EXPECT_NEAR(std::sqrt(squares / expected), 1.0, 0.15);
+  // It is never below 1.
+  EXPECT_LT(ratio, 1.1);
+}
+
+TEST(SelfCalibrate, StatesErrorsThatTheLensModelDoesNotExplain) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    SyntheticRig rig = rigOf(4, 120, seed);
+    rig.addNoise(0.2);
+    for (Observation& observation : rig.observations) {
+      const Eigen::Vector2d at = 0.02 * observation.pixel;
+      const auto camera = static_cast<double>(observation.camera);
+      observation.pixel += 0.4 * Eigen::Vector2d(std::sin(at.x() + 0.65 * at.y() + camera),
+                                                 std::cos(at.y() - 0.55 * at.x() + 2.0 * camera));
+    }
+    const SelfCalibration result = solved(rig);
+    for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+      const double error =
+          result.reconstruction.cameras[i].intrinsics.fx - rig.cameras[i].intrinsics.fx;
+      sum += std::pow(error / result.lenses[i].focal_stddev, 2);
+      count += 1.0;
+    }
+  }
+  std::cout << "lenses with unmodelled terms: chi-squared " << sum / count << " per focal length\n";
+  EXPECT_GT(sum / count, 0.5);
+  EXPECT_LT(sum / count, 2.0);
 }
 
 TEST(SelfCalibrate, NamesAMirroredImage) {

@@ -68,6 +68,7 @@ Certainty::Certainty(const Reconstruction& reconstruction,
     : one_lens_(options.one_lens), camera_count_(reconstruction.cameras.size()) {
   const Eigen::Index size = poseColumn(camera_count_);
   information_ = Eigen::MatrixXd::Zero(size, size);
+  gradient_ = Eigen::VectorXd::Zero(size);
   addObservations(reconstruction, options);
   if (fixed_lenses)
     information_.diagonal().head(poseColumn(0)).array() += kGiven;
@@ -104,25 +105,28 @@ void Certainty::addObservations(const Reconstruction& reconstruction, const Opti
     const auto rows = static_cast<Eigen::Index>(2 * views[i].size());
     Eigen::MatrixXd by_parameters = Eigen::MatrixXd::Zero(rows, information_.cols());
     Eigen::MatrixX3d by_point = Eigen::MatrixX3d::Zero(rows, 3);
+    Eigen::VectorXd residual = Eigen::VectorXd::Zero(rows);
     Eigen::Index row = 0;
     for (const Observation* view : views[i]) {
       const auto projection =
           geometry::projectionOf(reconstruction.cameras[view->camera], position);
       if (!projection)
         continue;
-      const double error = (projection->pixel - view->pixel).norm();
-      const double weight = std::sqrt(huberWeight(error, options.loss_scale)) / stddev;
+      const Eigen::Vector2d error = view->pixel - projection->pixel;
+      const double weight = std::sqrt(huberWeight(error.norm(), options.loss_scale)) / stddev;
       by_parameters.block<2, kPoseSize>(row, poseColumn(view->camera)) =
           weight * projection->by_parameters.leftCols<kPoseSize>();
       by_parameters.block<2, kLensSize>(row, lensColumn(view->camera)) =
           weight * projection->by_parameters.middleCols<kLensSize>(geometry::kLens);
       by_point.middleRows<2>(row) = weight * projection->by_point;
+      residual.segment<2>(row) = weight * error;
       row += 2;
     }
     const Eigen::Matrix3d covariance = (by_point.transpose() * by_point).inverse();
     points_.push_back({position, covariance, -covariance * by_point.transpose() * by_parameters});
-    information_ +=
-        by_parameters.transpose() * (by_parameters + by_point * points_.back().by_parameters);
+    const Eigen::MatrixXd eliminated = by_parameters + by_point * points_.back().by_parameters;
+    information_ += by_parameters.transpose() * eliminated;
+    gradient_ += eliminated.transpose() * residual;
   }
 }
 
@@ -131,15 +135,22 @@ void Certainty::addLensPrior(const Reconstruction& reconstruction, const Options
   const LensPrior& prior = options.lens;
   for (std::size_t camera = 0; camera < (one_lens_ ? 1 : camera_count_); ++camera) {
     const geometry::Intrinsics& lens = reconstruction.cameras[camera].intrinsics;
-    auto information =
-        information_.block<kLensSize, kLensSize>(lensColumn(camera), lensColumn(camera));
-    const Eigen::Vector2d by_aspect(1.0 / (lens.fx * prior.aspect),
-                                    -1.0 / (lens.fy * prior.aspect));
-    information.topLeftCorner<2, 2>() += by_aspect * by_aspect.transpose();
+    const Eigen::Index first = lensColumn(camera);
+    using Lens = Eigen::Matrix<double, kLensSize, 1>;
+    const auto add = [&](const Lens& by_lens, double residual) {
+      information_.block<kLensSize, kLensSize>(first, first) += by_lens * by_lens.transpose();
+      gradient_.segment<kLensSize>(first) -= by_lens * residual;
+    };
+    Lens by_aspect = Lens::Zero();
+    by_aspect[0] = 1.0 / (lens.fx * prior.aspect);
+    by_aspect[1] = -1.0 / (lens.fy * prior.aspect);
+    add(by_aspect, std::log(lens.fx / lens.fy) / prior.aspect);
     const double center = prior.principal_point * lens.width;
-    information.diagonal().segment<2>(2).array() += 1.0 / (center * center);
-    for (Eigen::Index k = 0; k < 5; ++k)
-      information(4 + k, 4 + k) += std::pow(prior.distortion[static_cast<std::size_t>(k)], -2);
+    add(Lens::Unit(2) / center, (lens.cx - 0.5 * (lens.width - 1)) / center);
+    add(Lens::Unit(3) / center, (lens.cy - 0.5 * (lens.height - 1)) / center);
+    for (std::size_t k = 0; k < prior.distortion.size(); ++k)
+      add(Lens::Unit(4 + static_cast<Eigen::Index>(k)) / prior.distortion[k],
+          lens.distortion[k] / prior.distortion[k]);
   }
 }
 
@@ -184,6 +195,10 @@ std::optional<Eigen::MatrixXd> Certainty::lensCovariance(std::size_t camera) con
     return std::nullopt;
   const Eigen::Index first = lensColumn(camera);
   return Eigen::MatrixXd(covariance_->block(first, first, kLensSize, kLensSize));
+}
+
+Eigen::VectorXd Certainty::lensStep(std::size_t camera) const {
+  return covariance_->middleRows(lensColumn(camera), kLensSize) * gradient_;
 }
 
 /// The points' covariance is P + D C D^T: P of each point for exact cameras, C of the cameras, and

@@ -28,6 +28,10 @@ class Certainty {
   /// observations leave some parameter open.
   std::optional<Eigen::MatrixXd> lensCovariance(std::size_t camera) const;
 
+  /// How far a lens is from the optimum of these observations, to first order, in the same order:
+  /// zero for those that were adjusted, and for others a Gauss-Newton step.
+  Eigen::VectorXd lensStep(std::size_t camera) const;
+
   /// Expected RMS distance of the points from the truth after the best similarity [m], from the
   /// errors of cameras, lenses and pixels together. Nothing when some parameter is open.
   std::optional<double> expectedShapeError() const;
@@ -50,6 +54,7 @@ class Certainty {
   const std::size_t camera_count_;
   std::vector<Point> points_;                  // with two views or more
   Eigen::MatrixXd information_;                // of lenses, then poses
+  Eigen::VectorXd gradient_;                   // of the same: covariance times this is the step
   std::optional<Eigen::MatrixXd> covariance_;  // of the same
 };
 

@@ -1,6 +1,7 @@
 #include "wiimote_tracker_calibration/bundle/self_calibrate.h"
 
 #include "attempt.h"
+#include "birge_ratio.h"
 #include "certainty.h"
 #include "checks.h"
 
@@ -236,14 +237,18 @@ class Search {
 void judgeLenses(const SelfCalibrationOptions& options, bool ambiguous, SelfCalibration* result) {
   const Certainty certainty(result->reconstruction, options.bundle, options.fixed_lenses);
   result->pixel_stddev = pixelStddev(result->reconstruction, options.bundle);
+  const double ratio =
+      options.fixed_lenses ? 1.0 : birgeRatio(result->reconstruction, options.bundle);
   result->expected_shape_error = certainty.expectedShapeError();
+  if (result->expected_shape_error)
+    *result->expected_shape_error *= ratio;
   for (std::size_t i = 0; i < result->reconstruction.cameras.size(); ++i) {
     LensCertainty lens;
     const auto covariance = certainty.lensCovariance(i);
     if (options.fixed_lenses) {
       lens.focal_determined = true;
     } else if (covariance) {
-      lens.focal_stddev = std::sqrt((*covariance)(0, 0));
+      lens.focal_stddev = ratio * std::sqrt((*covariance)(0, 0));
       lens.focal_determined =
           !ambiguous && lens.focal_stddev < options.maximum_focal_uncertainty *
                                                 result->reconstruction.cameras[i].intrinsics.fx;

@@ -176,6 +176,14 @@ TEST_F(WaveMistake, ClockThatIsWrong) {
   EXPECT_SAYS(text, "s ahead of the others");
 }
 
+TEST_F(WaveMistake, ClockThatJumps) {
+  for (wave::Frame& frame : recording_.cameras[1].frames)
+    frame.stamp += frame.stamp > recording_.cameras[1].frames.front().stamp + 2.0 ? 0.02 : 0.0;
+  const std::string text = outcome();
+  EXPECT_SAYS(text, "the clock of camera_2 jumped by about ");
+  EXPECT_NEAR(std::atof(text.substr(text.find("about ") + 6).c_str()), 20.0, 5.0) << text;
+}
+
 TEST_F(WaveMistake, LengthOfTheWand) {
   scene_.length = 0.5;
   scene_.camera_count = 2;

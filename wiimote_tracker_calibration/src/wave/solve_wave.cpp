@@ -2,6 +2,7 @@
 
 #include "adjustment.h"
 #include "checks.h"
+#include "clock_step.h"
 #include "matching.h"
 #include "moving_spots.h"
 #include "solution.h"
@@ -12,12 +13,15 @@
 #include "place/chi_squared.h"
 #include "wave/error.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace wiimote_tracker::wave {
@@ -34,6 +38,13 @@ constexpr double kGate = 5.0;
 constexpr int kFinalRounds = 8;
 // The estimated noise has converged when a round changes it by less.
 constexpr double kNoiseSettled = 0.01;
+// A jump of a clock: the least size, which is more than clocks wander during a wave [s]; the least
+// share of the squared residuals that it explains, and the largest that may be left without it;
+// rounds in which its size is found.
+constexpr double kLeastJump = 0.004;
+constexpr double kLeastExplained = 0.1;
+constexpr double kMostLeft = 0.9;
+constexpr int kJumpRounds = 4;
 // Starts that are tried where no square gives one.
 constexpr int kAttempts = 5;
 // Shares of the work.
@@ -99,6 +110,57 @@ bool sameSpots(const std::vector<Match>& a, const std::vector<Match>& b) {
          });
 }
 
+bool contradicts(const Refinement& refinement) {
+  return refinement.degrees_of_freedom > 0 &&
+         refinement.chi_squared >
+             place::chiSquaredQuantile(refinement.degrees_of_freedom, place::kThreeNines);
+}
+
+/// @throws WaveError: a clock jumped, and without the jump everything fits better.
+void checkClocks(const Recording& recording,
+                 const WaveOptions& options,
+                 const Gate& gate,
+                 const std::function<bool()>& keep_going,
+                 State state) {
+  // Images before or after a jump may be far off.
+  Gate wide = gate;
+  wide.limit = kWideGates[0] / gate.pixel_stddev;
+  const auto stepsOf = [&](const Recording& waved) {
+    return clockSteps(state, matchSpots(waved, state, wide).matches);
+  };
+  const auto squared = [](const std::vector<ClockStep>& steps) {
+    return std::accumulate(steps.begin(), steps.end(), 0.0,
+                           [](double sum, const ClockStep& step) { return sum + step.squared; });
+  };
+  std::vector<ClockStep> steps = stepsOf(recording);
+  const double before = squared(steps);
+  const auto worst = std::max_element(
+      steps.begin(), steps.end(),
+      [](const ClockStep& a, const ClockStep& b) { return a.explained < b.explained; });
+  const auto camera = static_cast<std::size_t>(worst - steps.begin());
+  if (worst->explained < kLeastExplained * before || std::abs(worst->size) < kLeastJump)
+    return;
+  // The path follows the jump in part; without it, the path shows all of it.
+  Recording corrected;
+  Refinement refinement{};
+  for (int round = 0; round < kJumpRounds; ++round) {
+    corrected = recording;
+    for (Frame& frame : corrected.cameras[camera].frames)
+      frame.stamp -= frame.stamp > steps[camera].after ? steps[camera].size : 0.0;
+    refinement = refine(corrected, options, matchSpots(corrected, state, gate).matches, kInfinity,
+                        keep_going, &state);
+    steps = stepsOf(recording);
+  }
+  if (contradicts(refinement) || squared(stepsOf(corrected)) > kMostLeft * before)
+    return;
+  const bool two = recording.cameras.size() == 2;
+  throw WaveError("the clock of " + recording.cameras[two ? 0 : camera].sightings.name +
+                  (two ? " or " + recording.cameras[1].sightings.name : "") +
+                  format(" jumped by about %.0f ms during the wave: check the time of its computer "
+                         "and its driver, and wave again",
+                         1e3 * std::abs(steps[camera].size)));
+}
+
 /// Alternates matching and adjusting until neither changes.
 WaveSolution fit(const Recording& recording,
                  const WaveOptions& options,
@@ -134,14 +196,12 @@ WaveSolution fit(const Recording& recording,
       break;
     pixel_stddev *= misfit;
   }
+  checkClocks(recording, options, {pixel_stddev, stamp, kGate}, keep_going, state);
   WaveSolution solution = solutionOf(recording, options, state, matching);
   solution.pixel_stddev = pixel_stddev;
   solution.iterations = iterations;
   solution.misfit = std::sqrt(refinement.chi_squared / std::max(1, refinement.degrees_of_freedom));
-  solution.contradicts =
-      refinement.degrees_of_freedom > 0 &&
-      refinement.chi_squared >
-          place::chiSquaredQuantile(refinement.degrees_of_freedom, place::kThreeNines);
+  solution.contradicts = contradicts(refinement);
   return solution;
 }
 

@@ -8,6 +8,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -70,6 +71,14 @@ TEST(DeviceNames, RemotesAreTriedInTurn) {
   EXPECT_EQ("/dev/hidraw1", first("/dev/hidraw0"));
   EXPECT_EQ("/dev/hidraw2", first("/dev/hidraw1"));
   EXPECT_EQ("/dev/hidraw0", first("/dev/hidraw2"));
+}
+
+TEST(SocketTransport, OnlyTheOwnerMayConnect) {
+  const std::string path = "/tmp/wiimote_tracker_owner_" + std::to_string(getpid()) + ".sock";
+  const Server server(path, "00:1f:32:00:00:01", {});
+  struct stat info {};
+  ASSERT_EQ(0, stat(path.c_str(), &info));
+  EXPECT_EQ(0600U, info.st_mode & 0777U);
 }
 
 TEST(SocketTransport, RemoteThatReadsNoMoreDoesNotBlock) {

@@ -57,8 +57,9 @@ int listenAt(const std::string& path) {
   FileDescriptor fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!fd.open())
     fail("socket");
+  // Only the owner may connect; nobody can before listen().
   if (::bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
-      ::listen(fd.get(), 4) != 0)
+      ::chmod(path.c_str(), S_IRUSR | S_IWUSR) != 0 || ::listen(fd.get(), 4) != 0)
     fail("a virtual Wii Remote cannot listen at '" + path +
          "': choose a path in a directory that exists, where no other one listens");
   return fd.release();

@@ -227,6 +227,18 @@ TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
   elsewhere.path = folder_ + "/rig.yaml/below_a_file.yaml";
   EXPECT_FALSE(call<wiimote_tracker_msgs::SaveRig>("calibration/save", elsewhere).success);
 
+  // So are files outside of the folder, also behind a link.
+  EXPECT_EQ(std::system(("ln -s /tmp '" + folder_ + "/link'").c_str()), 0);
+  for (const std::string& path : {folder_ + "x.yaml", folder_ + "/../x.yaml",
+                                  folder_ + "/link/x.yaml", std::string("/etc/hostname")}) {
+    elsewhere.path = request.path = path;
+    EXPECT_SAYS(call<wiimote_tracker_msgs::SaveRig>("calibration/save", elsewhere).message,
+                "file_folder");
+    EXPECT_SAYS(call<wiimote_tracker_msgs::LoadRig>("calibration/load", request).message,
+                "file_folder");
+  }
+  EXPECT_FALSE(exists("/tmp/x.yaml"));
+
   const auto loaded = call<wiimote_tracker_msgs::LoadRig>("calibration/load");
   EXPECT_TRUE(loaded.success) << loaded.message;
   EXPECT_SAYS(loaded.message, solved.rig.id);

@@ -1,5 +1,6 @@
 #include "units.h"
 
+#include "file_paths.h"
 #include "rig_storage.h"
 #include "session/join_rigs.h"
 #include "session/judge.h"
@@ -24,19 +25,6 @@ using namespace wiimote_tracker_msgs;
 using workflow::Reply;
 
 namespace {
-
-/// The path of the request, or else that of the parameter rig_file.
-std::string rigPath(const std::string& path, const Parameters& parameters) {
-  return path.empty() ? parameters.rig_file : path;
-}
-
-/// The path of the request, or else samples.yaml beside the rig file.
-std::string samplesPath(const std::string& path, const Parameters& parameters) {
-  if (!path.empty())
-    return path;
-  const std::string& rig_file = parameters.rig_file;
-  return rig_file.substr(0, rig_file.rfind('/') + 1) + "samples.yaml";
-}
 
 /// Over the cameras that both rigs have; without any, over the known places.
 session::JoinedRigs joinWith(const geometry::Rig& first,

@@ -154,6 +154,7 @@ Parameters readParameters(ParameterReader reader) {
   parameters.rig_file = reader.optional<std::string>("rig_file", "");
   if (parameters.rig_file.empty())
     parameters.rig_file = defaultRigFile();
+  parameters.file_folder = reader.optional<std::string>("file_folder", "");
   reader.read("led_height", &calibration.led_height, 0.0, 1000.0);
   reader.read("world_frame", &calibration.world_frame);
   if (calibration.world_frame.empty())

@@ -23,6 +23,7 @@ struct Parameters {
   double side_length = 0.0;          ///< First to second corner [m]; 0: not given.
   double second_side_length = 0.0;   ///< Second to third corner [m]; 0: the same.
   std::string rig_file;
+  std::string file_folder;               ///< Of files that requests name; empty: that of rig_file.
   double set_camera_info_timeout = 3.0;  ///< [s]
   bool hands_free = false;
   std::string button_remote;  ///< Namespace of a spare remote; empty: none.

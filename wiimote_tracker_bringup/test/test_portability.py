@@ -33,6 +33,7 @@ PYTHON = {
     r'\.remove(prefix|suffix)\(': 'Python 3.9',
     r'(:|->)\s*(list|dict|tuple|set)\[': 'Python 3.9',
     r'->.*\w \| \w|^\s*def .*:\s*\w+ \| \w': 'Python 3.10',
+    r'\byaml\.(unsafe_|full_)?load(_all)?\(|\bpickle\.': 'unsafe: a file must not become objects',
     r'\bmath\.lcm\b|\bzoneinfo\b|\btomllib\b': 'Python 3.9 or later',
 }
 # Floating point only: from_chars of integers exists.

@@ -1,6 +1,7 @@
 """master_watch tells of a master that is gone or was started again, and makes way for the next."""
 
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -16,10 +17,16 @@ from wiimote_tracker_evaluation.processes import free_port  # noqa: E402
 PATIENCE = 60.0  # on a busy computer [s]
 
 
+# Stands in for roslaunch, which its master_watch ends.
+LAUNCHER = 'import subprocess, sys; subprocess.call([sys.executable] + sys.argv[1:])'
+
+
 class Programs:
     """Starts programs on a master of their own."""
 
     def __init__(self, folder):
+        self._launcher = folder / 'roslaunch'
+        self._launcher.write_text(LAUNCHER)
         self.output = folder / 'output'
         self._port = free_port()
         self._uri = f'http://localhost:{self._port}'
@@ -30,14 +37,15 @@ class Programs:
     def start(self, command):
         with open(self.output, 'ab') as file:
             self._started.append(subprocess.Popen(command, stdout=file, stderr=file,
-                                                  env=self._environment))
+                                                  env=self._environment, start_new_session=True))
         return self._started[-1]
 
     def master(self):
         return self.start(['rosmaster', '--core', '-p', str(self._port)])
 
     def watch(self):
-        return self.start([sys.executable, os.path.join(HERE, '../launch/master_watch')])
+        return self.start([sys.executable, str(self._launcher),
+                           os.path.join(HERE, '../launch/master_watch')])
 
     def wait(self, condition):
         deadline = time.monotonic() + PATIENCE
@@ -45,20 +53,24 @@ class Programs:
             assert time.monotonic() < deadline, self.output.read_text()
             time.sleep(0.05)
 
-    def wait_for_watch(self):
-        def known():
-            try:
-                return rosgraph.Master('/test', self._uri).lookupNode('/master_watch')
-            except (OSError, rosgraph.MasterException):
-                return None
-        self.wait(known)
+    def address(self):
+        """Of the watch that the master knows and that has started; None: of none."""
+        master = rosgraph.Master('/test', self._uri)
+        try:
+            publishers = dict(master.getSystemState()[0]).get('/diagnostics', [])
+            return master.lookupNode('/master_watch') if publishers else None
+        except (OSError, rosgraph.MasterException):
+            return None
 
     def says(self, word):
         return word in self.output.read_text()
 
     def stop(self):
         for process in self._started:
-            process.kill()
+            try:
+                os.killpg(process.pid, signal.SIGKILL)  # with a launcher's child
+            except ProcessLookupError:
+                pass
             process.wait()
 
 
@@ -73,7 +85,7 @@ def test_a_master_that_ends_and_comes_back(programs):
     master = programs.master()
     programs.wait(lambda: rosgraph.is_master_online(programs._uri))
     first = programs.watch()
-    programs.wait_for_watch()
+    programs.wait(programs.address)
     assert not programs.says('master')
 
     master.kill()
@@ -82,9 +94,10 @@ def test_a_master_that_ends_and_comes_back(programs):
 
     programs.master()
     programs.wait(lambda: programs.says('does not know the nodes'))
-    programs.wait_for_watch()  # so that the next one of that name ends it
+    assert first.poll() is None
 
-    second = programs.watch()
+    programs.watch()
+    programs.wait(programs.address)
+    second = programs.address()
     programs.wait(lambda: first.poll() is not None)
-    programs.wait_for_watch()
-    assert second.poll() is None
+    assert programs.address() == second

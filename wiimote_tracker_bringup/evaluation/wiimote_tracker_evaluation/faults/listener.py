@@ -28,6 +28,18 @@ class Window:
     said: List
 
 
+def joined(windows) -> Window:
+    """What several listeners received; none of them hears the others' nodes."""
+    truth = {led: np.concatenate([window.truth[led] for window in windows])
+             for led in windows[0].truth}
+    return Window(
+        np.concatenate([window.points for window in windows]),
+        np.concatenate([window.labels for window in windows]),
+        np.concatenate([window.cameras for window in windows]),
+        {led: rows[np.argsort(rows[:, 0])] for led, rows in truth.items()},
+        sorted(sentence for window in windows for sentence in window.said))
+
+
 class Listener:
     def __init__(self, leds):
         self._helper = Helper(_record, leds)

@@ -5,6 +5,7 @@ import signal
 
 from wiimote_tracker_evaluation.faults.row import fault
 
+PATIENCE = 60.0  # for nodes to end [s]
 GONE = 3.0  # without a master, or a launcher [s]
 
 
@@ -24,3 +25,14 @@ def kill_roslaunch(room):
     os.kill(room.launch.pid, signal.SIGKILL)
     yield GONE
     room.start_nodes()
+
+
+@fault(ends=('*',), names_may_change=True, wounded=True)
+def kill_drivers(room):
+    """kill -9 of the node that starts the drivers, which ends all; roslaunch is started again."""
+    room.kill('/drivers')
+    room.launch.wait(PATIENCE)
+    yield 0.0
+    left = sorted(room.nodes())
+    room.start_nodes()
+    return [f"left behind: {', '.join(left)}"] if left else []

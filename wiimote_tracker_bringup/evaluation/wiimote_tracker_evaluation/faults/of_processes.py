@@ -3,7 +3,7 @@
 from wiimote_tracker_evaluation.faults.row import fault
 
 DRIVER, TRACKER, MANAGER = '/wiimote_4/driver', '/triangulation', '/manager'
-CALIBRATION, GESTURES = '/calibration', '/gestures'
+CALIBRATION, GESTURES, WATCH = '/calibration', '/gestures', '/master_watch'
 STOPPED = 5.0  # [s]
 
 
@@ -61,6 +61,13 @@ def stop_gestures(room):
     """SIGSTOP of the gestures node for 5 s."""
     with room.stopped(GESTURES):
         yield STOPPED
+
+
+@fault(ends=(WATCH,))
+def kill_master_watch(room):
+    """kill -9 of the node that watches the master."""
+    room.kill(WATCH)
+    yield 3.0
 
 
 IN_ONE = {'one_manager': True}

@@ -10,7 +10,7 @@ import time
 from wiimote_tracker_evaluation import rigs, scene, true_rig
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.faults import figures
-from wiimote_tracker_evaluation.faults.listener import Listener
+from wiimote_tracker_evaluation.faults.listener import Listener, joined
 from wiimote_tracker_evaluation.faults.relay import Relay
 from wiimote_tracker_evaluation.faults.rig_file import write_rig
 from wiimote_tracker_evaluation.processes import descendants, free_port
@@ -87,8 +87,7 @@ class Room:
     # --- What is measured
 
     def window(self, start, end):
-        """Of the newest listener."""
-        return self.listeners[-1].window(start, end)
+        return joined([listener.window(start, end) for listener in self.listeners])
 
     def figures(self, start, end):
         return figures.figures(self.window(start, end), end - start)

@@ -79,7 +79,7 @@ def carry_out(chosen: Fault, room) -> Result:
     except StopIteration as ended:
         result.problems += ended.value or []
     gone = time.time()
-    since = wait_until_normal(room, gone, result.before, nodes)
+    since = wait_until_normal(room, gone, result.before, lambda: is_complete(chosen, room, nodes))
     end = time.time()
     result.during = room.figures(start, max(gone, since or end))
     if since is not None:
@@ -89,13 +89,20 @@ def carry_out(chosen: Fault, room) -> Result:
     return result
 
 
-def wait_until_normal(room, gone, before, nodes):
-    """Waits until all nodes run and points are normal for AFTER seconds. Returns since when; None:
-    never."""
+def is_complete(chosen, room, nodes):
+    """Whether all nodes run; and, if all may end, none is still the one of before."""
+    now = room.nodes()
+    return set(nodes) <= set(now) and (
+        chosen.ends != ('*',) or all(now[name] != nodes[name] for name in nodes))
+
+
+def wait_until_normal(room, gone, before, complete):
+    """Waits until all nodes run (complete() says so) and points are normal for AFTER seconds.
+    Returns since when; None: never."""
     while time.time() < gone + PATIENCE:
         time.sleep(0.5)
         end = time.time()
-        if end - gone < AFTER or not set(nodes) <= set(room.nodes()):
+        if end - gone < AFTER or not complete():
             continue
         if not is_normal(room.window(end - AFTER, end), AFTER, before):
             continue

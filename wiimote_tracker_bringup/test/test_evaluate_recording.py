@@ -13,8 +13,10 @@ import pytest
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
 
+from wiimote_tracker_evaluation import reprojection  # noqa: E402
 from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.foreign import accuracy, lighthouse, program  # noqa: E402
+from wiimote_tracker_evaluation.foreign import (accuracy, flight as flights, lighthouse,  # noqa: E402
+                                                multicamselfcal, program)
 from wiimote_tracker_evaluation.foreign.views import Truth  # noqa: E402
 
 NOISE = 1e-4  # [rad]
@@ -181,10 +183,43 @@ def test_coverage_and_nees_of_errors_as_stated():
     assert figures['coverage_95'] == pytest.approx(0.95, abs=0.012)
 
 
+def camera_at(name, position, target):
+    x, y, z = looking(np.array(position), np.array(target)).T
+    matrix = np.stack([-y, -z, x], axis=1)  # x to the right, y down, z ahead
+    w = 0.5 * np.sqrt(1.0 + np.trace(matrix))
+    turn = [matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]]
+    return ('  %s: {distortion_model: plumb_bob, camera_matrix: {data: [500, 0, 320, 0, 510, 240, 0, '
+            '0, 1]}, distortion_coefficients: {data: [-0.2, 0.05, 0.001, 0.002, 0]}, extrinsics: '
+            '{transform: {translation: {x: %r, y: %r, z: %r}, rotation: {x: %r, y: %r, z: %r, '
+            'w: %r}}}}\n' % ((name,) + tuple(position) + tuple(np.array(turn) / (4.0 * w)) + (w,)))
+
+
+def test_a_pixel_is_predicted_from_the_other_cameras(tmp_path):
+    (tmp_path / 'rig.yaml').write_text('cameras:\n' + ''.join(
+        camera_at(name, place, [0.1, 0.0, 0.2])
+        for name, place in (('a', (2.0, 0.3, 1.0)), ('b', (0.2, 2.0, 1.5)), ('c', (1.5, 1.5, 0.4)))))
+    cameras = multicamselfcal.cameras_of(str(tmp_path / 'rig.yaml'))
+    point = [0.3, -0.2, 0.4]
+    pixels = {name: reprojection.project(camera, point) for name, camera in cameras.items()}
+    assert multicamselfcal.prediction_error(cameras, pixels, 'a') == pytest.approx(0.0, abs=1e-6)
+    pixels['a'] = pixels['a'] + [3.0, -4.0]
+    assert multicamselfcal.prediction_error(cameras, pixels, 'a') == pytest.approx(5.0)
+    del pixels['b']
+    assert multicamselfcal.prediction_error(cameras, pixels, 'a') is None
+
+
+def test_real_pixels_that_were_held_out(tmp_path):
+    source = os.path.join(HERE, 'data', 'flydra_excerpt')
+    figures, errors = multicamselfcal.evaluate(source, str(tmp_path))
+    assert figures['all']['observations'] == figures['all']['inliers'] == len(errors) == 429
+    assert figures['all']['median'] < 0.35, 'noise of the pixels: 0.2 px'
+    assert figures['all']['p95'] < 1.2
+
+
 def test_gaps_are_counted_while_in_sight_only():
     times = np.array([0.0, 0.02, 0.04, 0.06, 5.0, 5.02, 5.04])
     tracked = np.array([True, False, False, True, False, False, True])
-    assert program.gaps_of(times, tracked) == pytest.approx([0.02, 0.02])
+    assert flights.gaps_of(times, tracked) == pytest.approx([0.02, 0.02])
 
 
 def test_the_rotors_turns_survive_delays_gaps_and_repeated_logs():

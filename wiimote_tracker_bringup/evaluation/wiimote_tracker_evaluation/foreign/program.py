@@ -1,6 +1,8 @@
-"""evaluate_recording: metric accuracy on recordings that others made."""
+"""evaluate_recording: accuracy on recordings that others made."""
 
 import argparse
+import html
+import io
 import json
 import os
 import sys
@@ -9,140 +11,81 @@ import tempfile
 import numpy as np
 
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.foreign import accuracy, lighthouse, ordinary
-
-READERS = {'lighthouse': lighthouse.read}
-METHOD = ('The middle of the lights as one point: poses and clock offsets by self_calibrate and '
-          'solve_samples, path by track_bag; aligned on every other tenth of the recording and '
-          'scored on the rest, both ways round')
-# Title, key, factor and unit.
-FIGURES = (('mean error', 'mean_mm', 1.0, 'mm'), ('RMS error', 'rms_mm', 1.0, 'mm'),
-           ('median error', 'median_mm', 1.0, 'mm'), ('95th percentile', 'p95_mm', 1.0, 'mm'),
-           ('largest error', 'largest_mm', 1.0, 'mm'),
-           ('in the 95 % ellipsoid', 'coverage_95', 100.0, '%'), ('NEES', 'nees', 1.0, ''))
-# Both cameras must have seen the body within this, for it to be in sight [s]: tracked_time of the
-# tracker.
-SIGHT = 0.05
-SAME_TIME = 1e-4  # of an image and its point [s]
+from wiimote_tracker_evaluation.foreign import flight, lighthouse, multicamselfcal
 
 
-def path_of(views, rig, table):
-    """The tracked points, at the body's scale."""
-    tracked = table['state'] == 'tracked'
-    column = {name.split(' ')[0]: values for name, values in table.items()}
+class Outcome:
+    """result: for the file. rows: name and value, as text. errors: of single points, at places on
+    an axis."""
 
-    def columns(*names):
-        return np.stack([column[name][tracked].astype(float) for name in names], axis=1)
-
-    times, positions = columns('time')[:, 0], columns('x', 'y', 'z')
-    upper = columns('cov_xx', 'cov_xy', 'cov_xz', 'cov_yy', 'cov_yz', 'cov_zz')
-    covariances = upper[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3)
-    scale = rig.scale(views, times)
-    return accuracy.Path(times, scale * positions, scale ** 2 * covariances)
+    def __init__(self, method, result, rows, axis, places, unit, errors):
+        self.method, self.result, self.rows = method, dict(result, method=method), list(rows)
+        self.axis, self.places, self.unit, self.errors = axis, places, unit, errors
 
 
-def sight_of(views, rig, tracked):
-    """Times of the images while all cameras saw the body, and which of them have a tracked point."""
-    times = [camera.times + offset for camera, offset in zip(views.cameras, rig.offsets)]
-    images = np.sort(np.concatenate(times))
-    for own in times:
-        last = np.searchsorted(own, images, side='right') - 1
-        images = images[(last >= 0) & (images - own[last] <= SIGHT)]
-    after = np.clip(np.searchsorted(tracked, images), 1, len(tracked) - 1)
-    nearest = np.minimum(np.abs(tracked[after - 1] - images), np.abs(tracked[after] - images))
-    return images, nearest < SAME_TIME
+def lighthouse_outcome(source, folder):
+    result, times, errors = flight.evaluate(lighthouse.read(source), folder)
+    return Outcome(flight.METHOD, result, flight.rows_of(result), 'time [s]', times - times.min(),
+                   'mm', 1e3 * errors)
 
 
-def gaps_of(times, tracked):
-    """Durations of the gaps in sight [s]."""
-    gaps = []
-    for before, time, good in zip(np.append(-np.inf, times), times, tracked):
-        if good:
-            start = None
-        elif time - before > SIGHT or start is None:
-            start = time
-            gaps.append(0.0)
-        else:
-            gaps[-1] = time - start
-    return gaps
+def multicamselfcal_outcome(source, folder):
+    result, errors = multicamselfcal.evaluate(source, folder)
+    rows = ((name, 'median {median:.3f}, mean {mean:.3f}, RMS {rms:.3f}, p95 {p95:.3f} px, '
+             '{inliers} of {observations} within 5 px'.format(**figures))
+            for name, figures in result.items())
+    return Outcome(multicamselfcal.METHOD, {'held_out': result}, rows, 'frame',
+                   np.array([frame for frame, _ in errors]), 'px', np.array(list(errors.values())))
 
 
-def evaluate(views, folder):
-    """Figures, times and errors of the scored points [s, m]."""
-    rig = ordinary.calibrate(views, folder)
-    path = path_of(views, rig, ordinary.track(views, rig, folder))
-    if len(path.times) < 2:
-        raise ExperimentError('the body was never tracked: two cameras must see it together for '
-                              'longer')
-    images, tracked = sight_of(views, rig, path.times)
-    gaps = gaps_of(images, tracked)
-    result, times, errors = accuracy.score(path, views.truth, 'similarity')
-    names = [camera.name for camera in views.cameras]
-    result.update(
-        tracked=float(tracked.mean()), gaps=len(gaps), longest_gap_s=max(gaps, default=0.0),
-        residual_px=dict(zip(names, rig.residuals.tolist())),
-        clock_offset_ms=dict(zip(names, (1e3 * rig.offsets).tolist())),
-        rigid=accuracy.score(path, views.truth, 'rigid')[0], method=METHOD)
-    return result, times, errors
+FORMATS = {'lighthouse': lighthouse_outcome, 'multicamselfcal': multicamselfcal_outcome}
 
 
-def rows_of(result):
-    """What is printed and reported: name, value."""
-    yield from ((f'{kind}: {name}', f'{figures[key] * factor:.2f} {unit}'.strip())
-                for kind, figures in (('similarity', result), ('rigid motion', result['rigid']))
-                for name, key, factor, unit in FIGURES)
-    yield 'scored points', str(result['points'])
-    yield 'scale of the similarity', f'{result["scale"]:.4f}'
-    yield 'tracked while in sight', f'{100.0 * result["tracked"]:.1f} %'
-    yield 'gaps in sight', f'{result["gaps"]}, longest {result["longest_gap_s"]:.2f} s'
-    for name, residual in result['residual_px'].items():
-        yield name, (f'residual {residual:.3f} px, clock offset '
-                     f'{result["clock_offset_ms"][name]:.2f} ms')
-
-
-def write_report(title, result, times, errors, folder):
-    """report.html: the figures, and the errors over time and as a distribution."""
-    import html
-    import io
-    from wiimote_tracker_evaluation import charts
+def write_report(title, outcome, folder):
+    """report.html: the figures, and the errors one by one and as a distribution."""
+    from wiimote_tracker_evaluation import charts  # the Debian package does without matplotlib
     figure, (left, right) = charts.figure(1, 2, height=2.8)
-    left.plot(times - times.min(), 1e3 * errors, '.', markersize=2.0, color=charts.BLUE)
-    left.set(xlabel='time [s]', ylabel='error [mm]')
-    charts.cumulative(right, 1e3 * errors, charts.BLUE)
-    right.set(xlabel='error [mm]', ylabel='share of points')
+    left.plot(outcome.places, outcome.errors, '.', markersize=2.0, color=charts.BLUE)
+    left.set(xlabel=outcome.axis, ylabel=f'error [{outcome.unit}]')
+    charts.cumulative(right, outcome.errors, charts.BLUE)
+    right.set(xlabel=f'error [{outcome.unit}]', ylabel='share of points')
     svg = io.StringIO()
     figure.savefig(svg, format='svg')
     rows = ''.join(f'<tr><td>{html.escape(name)}</td><td>{html.escape(value)}</td></tr>'
-                   for name, value in rows_of(result))
+                   for name, value in outcome.rows)
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, 'report.html'), 'w') as file:
         file.write(f'<!DOCTYPE html><meta charset="utf-8"><title>{html.escape(title)}</title>'
-                   f'<h1>{html.escape(title)}</h1><p>A real recording. {html.escape(METHOD)}.</p>'
-                   f'<table>{rows}</table>{svg.getvalue()[svg.getvalue().index("<svg"):]}\n')
+                   f'<h1>{html.escape(title)}</h1>'
+                   f'<p>A real recording. {html.escape(outcome.method)}.</p><table>{rows}</table>'
+                   f'{svg.getvalue()[svg.getvalue().index("<svg"):]}\n')
 
 
 def main():
     parser = argparse.ArgumentParser(
         prog='evaluate_recording', description='Calibrates the cameras of a recording that others '
-        'made from what they saw alone, tracks, and compares with the recorded truth.')
-    parser.add_argument('format', choices=sorted(READERS))
+        'made from what they saw alone, and measures the accuracy: lighthouse: of the path, against '
+        'motion capture; multicamselfcal: of predicted pixels.')
+    parser.add_argument('format', choices=sorted(FORMATS))
     parser.add_argument('folder', metavar='DIR', help='the recording')
     parser.add_argument('--json', metavar='FILE', help='write the figures')
     parser.add_argument('--report', metavar='DIR', help='write a page with plots')
     arguments = parser.parse_args()
     try:
-        views = READERS[arguments.format](arguments.folder)
         with tempfile.TemporaryDirectory() as folder:
-            result, times, errors = evaluate(views, folder)
-        for name, value in rows_of(result):
-            print(f'{name:32} {value}')
+            outcome = FORMATS[arguments.format](arguments.folder, folder)
+        for name, value in outcome.rows:
+            print(f'{name:35} {value}')
         if arguments.json:
             with open(arguments.json, 'w') as file:
-                json.dump(result, file, indent=1)
+                json.dump(outcome.result, file, indent=1)
         if arguments.report:
             title = f'{arguments.format} {os.path.basename(os.path.abspath(arguments.folder))}'
-            write_report(title, result, times, errors, arguments.report)
+            write_report(title, outcome, arguments.report)
     except KeyboardInterrupt:
         sys.exit('evaluate_recording: interrupted')
+    except ImportError as error:
+        sys.exit(f'evaluate_recording: {error}; a report needs matplotlib: apt install '
+                 'python3-matplotlib')
     except (ExperimentError, OSError) as error:
         sys.exit(f'evaluate_recording: {error}')

@@ -1,0 +1,93 @@
+"""A flight with a truth: calibrated, tracked and scored."""
+
+import numpy as np
+
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.foreign import accuracy, ordinary
+
+METHOD = ('The middle of the lights as one point: poses and clock offsets by self_calibrate and '
+          'solve_samples, path by track_bag; aligned on every other tenth of the recording and '
+          'scored on the rest, both ways round')
+# Title, key, factor and unit.
+FIGURES = (('mean error', 'mean_mm', 1.0, 'mm'), ('RMS error', 'rms_mm', 1.0, 'mm'),
+           ('median error', 'median_mm', 1.0, 'mm'), ('95th percentile', 'p95_mm', 1.0, 'mm'),
+           ('largest error', 'largest_mm', 1.0, 'mm'),
+           ('in the 95 % ellipsoid', 'coverage_95', 100.0, '%'), ('NEES', 'nees', 1.0, ''))
+# Both cameras must have seen the body within this, for it to be in sight [s]: tracked_time of the
+# tracker.
+SIGHT = 0.05
+SAME_TIME = 1e-4  # of an image and its point [s]
+
+
+def path_of(views, rig, table):
+    """The tracked points, at the body's scale."""
+    tracked = table['state'] == 'tracked'
+    column = {name.split(' ')[0]: values for name, values in table.items()}
+
+    def columns(*names):
+        return np.stack([column[name][tracked].astype(float) for name in names], axis=1)
+
+    times, positions = columns('time')[:, 0], columns('x', 'y', 'z')
+    upper = columns('cov_xx', 'cov_xy', 'cov_xz', 'cov_yy', 'cov_yz', 'cov_zz')
+    covariances = upper[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3)
+    scale = rig.scale(views, times)
+    return accuracy.Path(times, scale * positions, scale ** 2 * covariances)
+
+
+def sight_of(views, rig, tracked):
+    """Times of the images while all cameras saw the body, and which of them have a tracked point."""
+    times = [camera.times + offset for camera, offset in zip(views.cameras, rig.offsets)]
+    images = np.sort(np.concatenate(times))
+    for own in times:
+        last = np.searchsorted(own, images, side='right') - 1
+        images = images[(last >= 0) & (images - own[last] <= SIGHT)]
+    after = np.clip(np.searchsorted(tracked, images), 1, len(tracked) - 1)
+    nearest = np.minimum(np.abs(tracked[after - 1] - images), np.abs(tracked[after] - images))
+    return images, nearest < SAME_TIME
+
+
+def gaps_of(times, tracked):
+    """Durations of the gaps in sight [s]."""
+    gaps = []
+    for before, time, good in zip(np.append(-np.inf, times), times, tracked):
+        if good:
+            start = None
+        elif time - before > SIGHT or start is None:
+            start = time
+            gaps.append(0.0)
+        else:
+            gaps[-1] = time - start
+    return gaps
+
+
+def evaluate(views, folder):
+    """Figures, times and errors of the scored points [s, m]."""
+    rig = ordinary.calibrate(views, folder)
+    path = path_of(views, rig, ordinary.track(views, rig, folder))
+    if len(path.times) < 2:
+        raise ExperimentError('the body was never tracked: two cameras must see it together for '
+                              'longer')
+    images, tracked = sight_of(views, rig, path.times)
+    gaps = gaps_of(images, tracked)
+    result, times, errors = accuracy.score(path, views.truth, 'similarity')
+    names = [camera.name for camera in views.cameras]
+    result.update(
+        tracked=float(tracked.mean()), gaps=len(gaps), longest_gap_s=max(gaps, default=0.0),
+        residual_px=dict(zip(names, rig.residuals.tolist())),
+        clock_offset_ms=dict(zip(names, (1e3 * rig.offsets).tolist())),
+        rigid=accuracy.score(path, views.truth, 'rigid')[0])
+    return result, times, errors
+
+
+def rows_of(result):
+    """What is printed and reported: name, value."""
+    yield from ((f'{kind}: {name}', f'{figures[key] * factor:.2f} {unit}'.strip())
+                for kind, figures in (('similarity', result), ('rigid motion', result['rigid']))
+                for name, key, factor, unit in FIGURES)
+    yield 'scored points', str(result['points'])
+    yield 'scale of the similarity', f'{result["scale"]:.4f}'
+    yield 'tracked while in sight', f'{100.0 * result["tracked"]:.1f} %'
+    yield 'gaps in sight', f'{result["gaps"]}, longest {result["longest_gap_s"]:.2f} s'
+    for name, residual in result['residual_px'].items():
+        yield name, (f'residual {residual:.3f} px, clock offset '
+                     f'{result["clock_offset_ms"][name]:.2f} ms')

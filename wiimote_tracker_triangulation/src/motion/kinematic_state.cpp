@@ -31,17 +31,6 @@ void KinematicState::predict(const Transition& transition) {
   covariance.triangularView<Eigen::StrictlyLower>() = covariance.transpose();
 }
 
-void KinematicState::update(const Eigen::Matrix<double, 2, 3>& jacobian,
-                            const Eigen::Matrix2d& whitening,
-                            const Eigen::Vector2d& innovation) {
-  // With the innovation covariance S = L L^T and W = P H^T L^-T: the gain is W L^-1, and the
-  // covariance becomes P - W W^T.
-  const Eigen::Matrix<double, 3, 2> whitened = jacobian.transpose() * whitening.transpose();
-  const Eigen::Matrix<double, 9, 2> W = covariance.leftCols<3>() * whitened;
-  mean += W * (whitening * innovation);
-  covariance -= W.lazyProduct(W.transpose());
-}
-
 void KinematicState::decay(const Eigen::Vector3d& direction,
                            double kept,
                            double velocity_variance,

@@ -21,12 +21,21 @@ struct KinematicState {
   /// The same transition in each axis: x' = (F (x) I) x + noise of the covariance Q (x) I.
   void predict(const Transition& transition);
 
-  /// Kalman update by a pixel. @param jacobian d pixel / d position [px/m]
+  /// Kalman update by a pixel, of the first N components; the others are exactly known.
+  /// @param jacobian d pixel / d position [px/m]
   /// @param whitening L^-1 of the innovation covariance L L^T, lower triangular [1/px]
   /// @param innovation [px]
+  template <int N = 9>
   void update(const Eigen::Matrix<double, 2, 3>& jacobian,
               const Eigen::Matrix2d& whitening,
-              const Eigen::Vector2d& innovation);
+              const Eigen::Vector2d& innovation) {
+    // With the innovation covariance S = L L^T and W = P H^T L^-T: the gain is W L^-1, and the
+    // covariance becomes P - W W^T.
+    const Eigen::Matrix<double, 3, 2> whitened = jacobian.transpose() * whitening.transpose();
+    const Eigen::Matrix<double, N, 2> W = covariance.topLeftCorner<N, 3>() * whitened;
+    mean.head<N>() += W * (whitening * innovation);
+    covariance.topLeftCorner<N, N>() -= W.lazyProduct(W.transpose());
+  }
 
   /// Along a direction, velocity and acceleration are multiplied by `kept` and get noise, so that
   /// with kept = 0 they have these variances. @param direction of length 1  @param kept [0..1]

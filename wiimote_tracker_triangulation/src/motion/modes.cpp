@@ -1,5 +1,7 @@
 #include "motion/modes.h"
 
+#include "motion/transition.h"
+
 namespace wiimote_tracker::motion {
 namespace {
 
@@ -10,6 +12,22 @@ double square(double x) {
 /// One past the last mode: the sudden one may be left out.
 int endOf(const MotionOptions& options) {
   return options.sudden_random_walk > 0.0 ? kModes : kSudden;
+}
+
+/// Null for the other modes.
+const SingerMode* singerMode(const MotionOptions& options, int mode) {
+  switch (mode) {
+    case kSmooth:
+      return &options.smooth;
+    case kGentle:
+      return &options.gentle;
+    case kBrisk:
+      return &options.brisk;
+    case kHard:
+      return &options.hard;
+    default:
+      return nullptr;
+  }
 }
 
 /// Probabilities over a duration h from rates r [1/s]: r h / (1 + sum(r) h) for each change, the
@@ -71,34 +89,20 @@ Modes initialModes(const MotionOptions& options,
   return modes;
 }
 
-Transition transitionOf(const MotionOptions& options, int mode, double duration) {
-  switch (mode) {
-    case kFixed:
-      return randomWalkOfPosition(options.fixed.drift, duration);
-    case kSwaying:
-      return randomWalkOfPosition(options.swaying.drift, duration);
-    case kSmooth:
-      return singer(options.smooth.stddev, options.smooth.time, duration);
-    case kGentle:
-      return singer(options.gentle.stddev, options.gentle.time, duration);
-    case kBrisk:
-      return singer(options.brisk.stddev, options.brisk.time, duration);
-    default:
-      return randomWalkOfVelocity(options.sudden_random_walk, duration);
+void predict(const MotionOptions& options, int mode, double duration, KinematicState* state) {
+  if (isAtRest(mode)) {  // velocity and acceleration are zero
+    const RestMode& rest = mode == kFixed ? options.fixed : options.swaying;
+    state->covariance.diagonal().head<3>().array() += square(rest.drift) * duration;
+  } else if (const SingerMode* moving = singerMode(options, mode)) {
+    state->predict(singer(moving->stddev, moving->time, duration));
+  } else {
+    state->predict(randomWalkOfVelocity(options.sudden_random_walk, duration));
   }
 }
 
 double accelerationVariance(const MotionOptions& options, int mode) {
-  switch (mode) {
-    case kSmooth:
-      return square(options.smooth.stddev);
-    case kGentle:
-      return square(options.gentle.stddev);
-    case kBrisk:
-      return square(options.brisk.stddev);
-    default:
-      return 0.0;
-  }
+  const SingerMode* moving = singerMode(options, mode);
+  return moving ? square(moving->stddev) : 0.0;
 }
 
 ModeTransitions stopProbabilities(const MotionOptions& options, double duration) {

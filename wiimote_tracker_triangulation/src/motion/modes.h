@@ -2,7 +2,6 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_MOTION_MODES_H
 
 #include "motion/kinematic_state.h"
-#include "motion/transition.h"
 #include "wiimote_tracker_triangulation/motion/motion_options.h"
 
 #include <Eigen/Core>
@@ -12,8 +11,8 @@
 namespace wiimote_tracker::motion {
 
 /// The modes of MotionOptions: two at rest, then the moving ones by their agility.
-enum ModeIndex { kFixed, kSwaying, kSmooth, kGentle, kBrisk, kSudden };
-constexpr int kModes = 6;
+enum ModeIndex { kFixed, kSwaying, kSmooth, kGentle, kBrisk, kHard, kSudden };
+constexpr int kModes = 7;
 constexpr int kRestModes = 2;
 
 inline bool isAtRest(int mode) {
@@ -33,8 +32,8 @@ Modes initialModes(const MotionOptions& options,
                    const Eigen::Vector3d& position,
                    const Eigen::Matrix3d& covariance);
 
-/// How a mode's state changes over a duration [s, >= 0].
-Transition transitionOf(const MotionOptions& options, int mode, double duration);
+/// Predicts a mode's state over a duration [s, >= 0].
+void predict(const MotionOptions& options, int mode, double duration, KinematicState* state);
 
 /// Variance of the acceleration with which a mode begins, per axis [m^2/s^4].
 double accelerationVariance(const MotionOptions& options, int mode);

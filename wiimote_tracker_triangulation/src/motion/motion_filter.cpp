@@ -49,7 +49,7 @@ void MotionFilter::predict(double time) {
     return;
   for (int i = 0; i < kModes; ++i) {
     if (modes_[i].probability > 0.0)
-      modes_[i].state.predict(transitionOf(*options_, i, time - time_));
+      motion::predict(*options_, i, time - time_, &modes_[i].state);
   }
   time_ = time;
   if (time - last_stop_ >= kStopInterval) {
@@ -151,8 +151,11 @@ void MotionFilter::apply(const PixelPrediction& prediction, const Vector2d& pixe
     if (!(mode.probability > 0.0))
       continue;
     const PixelPrediction::ModePixel& predicted = prediction.modes_[i];
-    mode.state.update(prediction.jacobian_, predicted.whitening,
-                      pixel - prediction.pixel_ - predicted.offset);
+    const Vector2d innovation = pixel - prediction.pixel_ - predicted.offset;
+    if (isAtRest(i))
+      mode.state.update<3>(prediction.jacobian_, predicted.whitening, innovation);
+    else
+      mode.state.update<9>(prediction.jacobian_, predicted.whitening, innovation);
     mode.probability *= prediction.scaledDensity(i, distances);
     sum += mode.probability;
   }

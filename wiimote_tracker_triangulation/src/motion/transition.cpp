@@ -82,11 +82,4 @@ Transition randomWalkOfVelocity(double density, double duration) {
   return result;
 }
 
-Transition randomWalkOfPosition(double density, double duration) {
-  Transition result;
-  result.F = Eigen::Vector3d::UnitX().asDiagonal();
-  result.Q = symmetric(density * density * duration, 0.0, 0.0, 0.0, 0.0, 0.0);
-  return result;
-}
-
 }  // namespace wiimote_tracker::motion

@@ -22,9 +22,6 @@ Transition singer(double stddev, double time, double duration);
 /// section 6.2.2). The acceleration becomes zero. @param density [m/s/sqrt(s)]
 Transition randomWalkOfVelocity(double density, double duration);
 
-/// The position is a random walk. Velocity and acceleration become zero. @param density [m/sqrt(s)]
-Transition randomWalkOfPosition(double density, double duration);
-
 }  // namespace wiimote_tracker::motion
 
 #endif  // WIIMOTE_TRACKER_TRIANGULATION_MOTION_TRANSITION_H

@@ -89,6 +89,8 @@ void readMotion(ParameterReader* reader, motion::MotionOptions* motion) {
   reader->read("motion/gentle/time", &motion->gentle.time, 0.001, 1000.0);
   reader->read("motion/brisk/stddev", &motion->brisk.stddev, 1e-4, 1000.0);
   reader->read("motion/brisk/time", &motion->brisk.time, 0.001, 1000.0);
+  reader->read("motion/hard/stddev", &motion->hard.stddev, 1e-4, 1000.0);
+  reader->read("motion/hard/time", &motion->hard.time, 0.001, 1000.0);
   reader->read("motion/sudden_random_walk", &motion->sudden_random_walk, 0.0, 1000.0);
   reader->read("motion/stop_rate", &motion->stop_rate, 0.0, 1000.0);
   reader->read("motion/rise_rate", &motion->rise_rate, 0.0, 1000.0);

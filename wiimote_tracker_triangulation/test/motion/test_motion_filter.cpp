@@ -2,6 +2,7 @@
 #include "motion/filter_scene.h"
 #include "motion/known_mode.h"
 #include "motion/textbook_imm.h"
+#include "tracking/paths.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
@@ -93,7 +94,7 @@ TEST(MotionFilter, ReachesThePosteriorCramerRaoBoundOfItsOwnModel) {
   constexpr int kRuns = 60;
   constexpr double kStddev = 2.0, kTime = 0.2;
   MotionOptions options;  // a single mode
-  options.smooth = options.gentle = options.brisk = {kStddev, kTime};
+  options.smooth = options.gentle = options.brisk = options.hard = {kStddev, kTime};
   options.sudden_random_walk = options.stop_rate = 0.0;
   options.initial_speed = 0.3;
   const Matrix3d covariance = 4e-6 * Matrix3d::Identity();
@@ -201,6 +202,37 @@ TEST(MotionFilter, FollowsASuddenStartAtThreeMetresPerSecond) {
     }
   }
   EXPECT_LT((filter.velocity() - Vector3d(3.0, 0.0, 0.0)).norm(), 0.3);
+}
+
+TEST(MotionFilter, KeepsUpWithHardMotion) {
+  constexpr double kSpeed = 3.0, kAcceleration = 38.0;
+  MotionOptions single;  // the best single mode for this motion
+  single.smooth = single.gentle = single.brisk = single.hard = {22.0, 0.16};
+  single.sudden_random_walk = single.stop_rate = 0.0;
+  const std::vector<Camera> cameras = ring();
+  Random random(16);
+  double squared = 0.0, best = 0.0;
+  int inside = 0, count = 0;
+  for (int run = 0; run < 4; ++run) {
+    const auto path = tracking::test::shaken(random, Vector3d::Zero(), kSpeed, kAcceleration);
+    MotionFilter filter(kDefault, 0.0, path(0.0), 4e-6 * Matrix3d::Identity());
+    MotionFilter ideal(single, 0.0, path(0.0), 4e-6 * Matrix3d::Identity());
+    for (int i = 1; i <= 1200; ++i) {
+      const Vector3d truth = path(kStep * i);
+      const Vector2d pixel = noisyPixel(cameras[i % 4], truth, random);
+      ASSERT_TRUE(takeIn(&filter, kStep * i, cameras[i % 4], pixel));
+      ASSERT_TRUE(takeIn(&ideal, kStep * i, cameras[i % 4], pixel));
+      if (i <= 200)
+        continue;
+      const Vector3d error = filter.position() - truth;
+      squared += error.squaredNorm();
+      best += (ideal.position() - truth).squaredNorm();
+      inside += error.dot(filter.positionCovariance().llt().solve(error)) < 7.815;
+      ++count;
+    }
+  }
+  EXPECT_LT(std::sqrt(squared / best), 1.05);
+  EXPECT_NEAR(0.95, static_cast<double>(inside) / count, 0.02);
 }
 
 TEST(MotionFilter, GrowsUncertainInAGapAndFindsBack) {

@@ -12,7 +12,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kResting = 2;  // fixed, swaying; then the moving modes
-constexpr int kMoving = 4;
+constexpr int kMoving = 5;
 constexpr int kModes = kResting + kMoving;
 
 MatrixXd blocks(double pp, double vv, double aa) {
@@ -30,6 +30,8 @@ double acceleration(const MotionOptions& options, int model) {
       return options.gentle.stddev;
     case 4:
       return options.brisk.stddev;
+    case 5:
+      return options.hard.stddev;
     default:
       return 0.0;
   }
@@ -52,6 +54,8 @@ Transition transition(const MotionOptions& options, int model, double duration) 
       return singerTransition(options.gentle.stddev, options.gentle.time, duration);
     case 4:
       return singerTransition(options.brisk.stddev, options.brisk.time, duration);
+    case 5:
+      return singerTransition(options.hard.stddev, options.hard.time, duration);
     default: {
       MatrixXd A = zero, density = zero;
       A(0, 1) = 1.0;
@@ -134,7 +138,7 @@ TextbookImm::TextbookImm(const MotionOptions& options,
                          const Eigen::Matrix3d& covariance)
     : options_(options), time_(time), models_(kModes) {
   for (int i = 0; i < kModes; ++i) {
-    models_[i].probability = i < kResting ? 0.1 : 0.2;
+    models_[i].probability = 1.0 / (i < kResting ? 12.0 : 6.0);
     models_[i].mean = VectorXd::Zero(9);
     models_[i].mean.head<3>() = position;
     const double a = acceleration(options, i);

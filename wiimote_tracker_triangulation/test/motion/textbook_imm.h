@@ -57,11 +57,11 @@ class TextbookImm {
 
   Eigen::VectorXd mean() const;
   Eigen::MatrixXd covariance() const;
-  /// Fixed, swaying, smooth, gentle, brisk, sudden.
+  /// Fixed, swaying, smooth, gentle, brisk, hard, sudden.
   const std::vector<Model>& models() const { return models_; }
 
  private:
-  using Rates = Eigen::Matrix<double, 6, 6>;  // from row to column [1/s]
+  using Rates = Eigen::Matrix<double, 7, 7>;  // from row to column [1/s]
   void interact(const Rates& rates, double duration);
 
   MotionOptions options_;

@@ -64,6 +64,33 @@ Path wandering(geometry::test::Random& random,
   };
 }
 
+Path shaken(geometry::test::Random& random,
+            const Eigen::Vector3d& center,
+            double speed,
+            double acceleration) {
+  constexpr int kWaves = 5;
+  std::array<std::array<Wave, kWaves>, 3> waves;
+  double speed2 = 0.0, acceleration2 = 0.0;  // mean squares
+  for (auto& axis : waves) {
+    for (Wave& wave : axis) {
+      wave = {0.0, random.uniform(0.4, 1.6), random.uniform(-M_PI, M_PI)};
+      wave.amplitude = random.uniform(0.5, 1.0) / wave.rate;
+      speed2 += 0.5 * std::pow(wave.amplitude * wave.rate, 2);
+      acceleration2 += 0.5 * std::pow(wave.amplitude * wave.rate * wave.rate, 2);
+    }
+  }
+  const double rate = acceleration / speed * std::sqrt(speed2 / acceleration2);
+  const double amplitude = speed / (rate * std::sqrt(speed2));
+  return [=](double t) {
+    Eigen::Vector3d place = center;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const Wave& wave : waves[static_cast<std::size_t>(axis)])
+        place[axis] += amplitude * wave.amplitude * std::sin(rate * wave.rate * t + wave.phase);
+    }
+    return place;
+  };
+}
+
 Path sampled(const std::vector<Eigen::Vector3d>& samples, double interval) {
   return [=](double t) {
     const double place = std::fmod(std::fmod(t / interval, samples.size()) + samples.size(),

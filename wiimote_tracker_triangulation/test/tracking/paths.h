@@ -30,6 +30,13 @@ Path wandering(geometry::test::Random& random,
                double half_side,
                double speed);
 
+/// Random motion of this RMS speed [m/s, > 0] and RMS acceleration [m/s^2, > 0]: five sine waves
+/// per axis, within a factor of 4 in frequency.
+Path shaken(geometry::test::Random& random,
+            const Eigen::Vector3d& center,
+            double speed,
+            double acceleration);
+
 /// Linearly interpolated between samples `interval` [s] apart, and again from the start at the end.
 Path sampled(const std::vector<Eigen::Vector3d>& samples, double interval);
 

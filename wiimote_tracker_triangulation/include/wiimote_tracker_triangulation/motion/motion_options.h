@@ -16,13 +16,15 @@ struct SingerMode {
 };
 
 /// The modes of the filter and the rates at which an LED changes between them. The moving modes are
-/// in the order of their agility: smooth, gentle, brisk, sudden.
+/// in the order of their agility: smooth, gentle, brisk, hard,
+/// sudden.
 struct MotionOptions {
   RestMode fixed{5e-5, 0.2};        ///< An LED that lies or stands on something.
   RestMode swaying{4e-3, 1.2};      ///< An LED that a person holds still, or on a foot that stands.
   SingerMode smooth{0.0003, 20.0};  ///< Nearly constant acceleration: turning or swinging freely.
   SingerMode gentle{0.5, 8.0};      ///< A hand that is moved with care.
   SingerMode brisk{4.0, 0.2};       ///< A hand that gestures.
+  SingerMode hard{20.0, 0.15};      ///< A hand that strikes or shakes.
 
   /// Mode of nearly constant velocity, for LEDs that are thrown or bump into something: density of
   /// the random walk of the velocity [m/s/sqrt(s), >= 0]; 0: without this mode.

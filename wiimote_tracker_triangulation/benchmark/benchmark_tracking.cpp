@@ -3,8 +3,9 @@
 
 int main(int argc, char** argv) {
   using namespace wiimote_tracker;
-  return runBenchmark("benchmark_tracking",
-                      {filterSection(), unsynchronisedSection(), associationSection(),
-                       identitySection(), throughputSection(), scaleSection()},
-                      argc, argv, true);
+  return runBenchmark(
+      "benchmark_tracking",
+      {filterSection(), hardSection(), unsynchronisedSection(), associationSection(),
+       identitySection(), throughputSection(), scaleSection()},
+      argc, argv, true);
 }

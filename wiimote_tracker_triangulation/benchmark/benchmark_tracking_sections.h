@@ -47,6 +47,9 @@ BenchmarkSection associationSection();
 /// The motion filter of one LED, compared with the bounds.
 BenchmarkSection filterSection();
 
+/// Random motion from slow to hard.
+BenchmarkSection hardSection();
+
 /// Unsynchronised cameras and uncertain stamps.
 BenchmarkSection unsynchronisedSection();
 

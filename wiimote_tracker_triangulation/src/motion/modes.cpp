@@ -105,6 +105,13 @@ double accelerationVariance(const MotionOptions& options, int mode) {
   return moving ? square(moving->stddev) : 0.0;
 }
 
+KinematicState momentsOf(const Modes& modes) {
+  Eigen::Matrix<double, kModes, 1> weights;
+  for (int i = 0; i < kModes; ++i)
+    weights[i] = modes[i].probability;
+  return mixture<9>(weights, modes);
+}
+
 ModeTransitions stopProbabilities(const MotionOptions& options, double duration) {
   ModeTransitions rates = ModeTransitions::Zero();
   for (int i = kRestModes; i < endOf(options); ++i)

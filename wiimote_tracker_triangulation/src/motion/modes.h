@@ -41,6 +41,9 @@ double accelerationVariance(const MotionOptions& options, int mode);
 /// Probabilities that a mode (row) changes to another (column).
 using ModeTransitions = Eigen::Matrix<double, kModes, kModes>;
 
+/// Mean and covariance of the mixture of all modes.
+KinematicState momentsOf(const Modes& modes);
+
 /// From moving modes to those at rest. @param duration [s]
 ModeTransitions stopProbabilities(const MotionOptions& options, double duration);
 

@@ -56,6 +56,8 @@ class MotionFilter {
   Eigen::Vector3d velocity() const;            ///< World [m/s].
   Eigen::Matrix3d velocityCovariance() const;  ///< [m^2/s^2]
 
+  const Modes& modes() const { return modes_; }
+
   /// Probability of the modes at rest [0..1].
   double restProbability() const;
 

@@ -125,6 +125,7 @@ MessageTracker::RigChange MessageTracker::takeRig(
   rig_ = rig;
   zones_.setZones(rig_.zones);
   change.correction = correction_.take(rig_);
+  sink_->onRig(rig_);
   return change;
 }
 
@@ -206,13 +207,14 @@ void MessageTracker::restart() {
       "of the computers");
 }
 
-void MessageTracker::takeSnapshot(const tracking::Snapshot& snapshot) {
-  statistics_.addSnapshot(snapshot);
+void MessageTracker::takeSnapshot(const tracking::Snapshot& tracked) {
+  statistics_.addSnapshot(tracked);
   if (identifier_)
-    sightings_.add(rig_, snapshot, identifier_.get());
-  labels_.update(snapshot.leds, identifier_.get());
+    sightings_.add(rig_, tracked, identifier_.get());
+  labels_.update(tracked.leds, identifier_.get());
   if (identifier_)
-    findBodiesByLabels(snapshot);
+    findBodiesByLabels(tracked);
+  const tracking::Snapshot& snapshot = sink_->onSnapshot(tracked);
   correction_.apply(snapshot, &newest_);
   for (std::size_t i = 0; i < snapshot.leds.size(); ++i) {
     if (snapshot.leds[i].state == tracking::TrackState::kLost)

@@ -38,6 +38,15 @@ class MessageSink {
  public:
   virtual ~MessageSink() = default;
 
+  /// The rig of all that follows.
+  virtual void onRig(const geometry::Rig& /*rig*/) {}
+
+  /// What the tracker found, before anything is made of it but labels. @returns the snapshot to use
+  /// instead, with the same LEDs; valid until the next call
+  virtual const tracking::Snapshot& onSnapshot(const tracking::Snapshot& snapshot) {
+    return snapshot;
+  }
+
   /// The LEDs at one time; times increase strictly until time jumps back. `views`: what the cameras
   /// saw. The message must not be changed.
   virtual void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
@@ -104,7 +113,7 @@ class MessageTracker {
   void restart();
   void publishBodies();
   void findBodiesByLabels(const tracking::Snapshot& snapshot);
-  void takeSnapshot(const tracking::Snapshot& snapshot);
+  void takeSnapshot(const tracking::Snapshot& tracked);
   void publishZoneEvents(const tracking::Snapshot& snapshot);
   void answerTriggers();
   void publishTicksUntil(double now);

@@ -195,6 +195,7 @@ void CameraGroup::collectUnassigned(const StoredImage& image) {
 void CameraGroup::show(const StoredImage& image, std::vector<CameraView>* views) const {
   CameraView& view = (*views)[members_[image.camera]];
   view.time = image.time;
+  view.stamp_stddev = image.stamp_stddev;
   view.full = image.full;
   view.spots.resize(image.total_count);
   for (std::size_t spot = 0; spot < image.total_count; ++spot) {

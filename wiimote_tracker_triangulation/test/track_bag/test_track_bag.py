@@ -2,6 +2,7 @@
 programs, and equal input gives equal bytes."""
 
 import csv
+import math
 import os
 import resource
 import signal
@@ -140,6 +141,59 @@ def test_two_leds_keep_their_identities(tmp_path):
                 assert np.linalg.norm(way(t) - p) < 0.01
                 ways.setdefault(point.id, set()).add(way)
     assert sorted(len(w) for w in ways.values()) == [1, 1]
+
+
+def fast(t):
+    """3 m/s, 23 m/s^2."""
+    return np.array([0.4 * math.cos(7.5 * t), 0.4 * math.sin(7.5 * t), 1.1 + 0.05 * math.sin(2 * t)])
+
+
+def test_smoothing_changes_positions_and_velocities_only(tmp_path):
+    write(tmp_path / 'in.bag', recorded((fast, recording.other), 4.0) +
+          [('/trigger', trigger(1.0), 1.01)])
+    (tmp_path / 'p.yaml').write_text(
+        'pixel_stddev: 0.2\nlabels: [hand, foot]\ntracks: {stamp_stddev: 0.0}\n')
+    for name, options in (('plain', []), ('smooth', ['--smooth'])):
+        track(tmp_path / 'in.bag', tmp_path / (name + '.bag'), '--params', tmp_path / 'p.yaml',
+              '--csv', tmp_path / (name + '.csv'), *options)
+    squares = {}
+    distances = []
+    for plain, smooth in zip(arrays(tmp_path / 'plain.bag'), arrays(tmp_path / 'smooth.bag')):
+        assert len(plain.points) == len(smooth.points)
+        t = seconds_of(plain.header.stamp)
+        for a, b in zip(plain.points, smooth.points):
+            if a.state == TrackedPoint.TRACKED and 0.5 < t < 3.5:
+                way = min((fast, recording.other),
+                          key=lambda w: np.linalg.norm(w(t) - position(a.position)))
+                error = position(b.position) - way(t)
+                covariance = np.array(b.position_covariance).reshape(3, 3)
+                distances.append(error @ np.linalg.solve(covariance, error))
+                sums = squares.setdefault(way, np.zeros(2))
+                sums += [np.sum((position(a.position) - way(t)) ** 2), error @ error]
+            for field in ('position', 'position_covariance', 'velocity', 'velocity_covariance'):
+                setattr(b, field, getattr(a, field))
+        assert bytes_of(plain) == bytes_of(smooth)  # in all else
+    assert len(squares) == 2
+    for before, after in squares.values():
+        assert after < 0.8 ** 2 * before
+    assert 0.93 < np.mean(np.array(distances) < 7.815) < 0.985
+    expected = [(a.header.stamp, position(p.position).tolist())
+                for a in arrays(tmp_path / 'smooth.bag')
+                for p in a.points if p.state == TrackedPoint.TRACKED and p.label == 'hand']
+    assert expected == [(p.header.stamp, position(p.point).tolist())
+                        for p in arrays(tmp_path / 'smooth.bag', '/hand/point')]
+    answer, = arrays(tmp_path / 'smooth.bag', '/triggered_points')
+    assert min(np.linalg.norm(fast(1.0) - position(p.position)) for p in answer.points) < 0.001
+    rows = list(csv.DictReader(open(str(tmp_path / 'smooth.csv'), newline='')))
+    assert len(rows) == len(list(open(str(tmp_path / 'plain.csv')))) - 1
+
+
+def test_only_tracks_at_the_times_of_images_are_smoothed(bag, tmp_path):
+    for parameters in ('mode: instant', 'output: {predict_to_now: true}'):
+        (tmp_path / 'p.yaml').write_text(parameters + '\n')
+        errors = refused(tmp_path, bag, tmp_path / 'out.bag', '--smooth', '--params',
+                         tmp_path / 'p.yaml')
+        assert '--smooth' in errors
 
 
 def test_the_same_bag_gives_the_same_bytes_with_any_number_of_threads(tmp_path):

@@ -43,6 +43,7 @@ struct SeenSpot {
 /// A camera's newest image.
 struct CameraView {
   std::optional<double> time;  ///< Exposure of its newest image [s]; nothing before the first.
+  double stamp_stddev = 0.0;   ///< Of that time [s].
   bool full = false;           ///< As many spots as it can report: more LEDs may be visible.
   std::vector<SeenSpot> spots;
 };

@@ -20,10 +20,14 @@ using wiimote_tracker_msgs::RigCalibration;
 using wiimote_tracker_msgs::TrackedPoint;
 using wiimote_tracker_msgs::TrackedPointArray;
 
-Output::Output(const OutputFiles& files, const Topics& topics, bool publish_predicted)
+Output::Output(const OutputFiles& files,
+               const Topics& topics,
+               bool publish_predicted,
+               SmoothedTracks* smoothed)
     : path_(files.bag),
       topics_(topics),
       publish_predicted_(publish_predicted),
+      smoothed_(smoothed),
       bag_(std::make_unique<rosbag::Bag>()) {
   if (!files.csv.empty())
     tables_.push_back(measurements::makeCsvWriter(files.csv));
@@ -84,6 +88,15 @@ void Output::writeRig(const RigCalibration& rig, const ros::Time& time) {
   (*header)["latching"] = "1";
   (*header)["callerid"] = "/track_bag";
   write(topics_.rig(), time, rig, header);
+}
+
+void Output::onRig(const geometry::Rig& rig) {
+  if (smoothed_)
+    smoothed_->setRig(rig);
+}
+
+const tracking::Snapshot& Output::onSnapshot(const tracking::Snapshot& snapshot) {
+  return smoothed_ ? smoothed_->apply(snapshot) : snapshot;
 }
 
 void Output::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,

@@ -3,6 +3,7 @@
 
 #include "measurements/writer.h"
 #include "ros/message_tracker.h"
+#include "smoothed_tracks.h"
 #include "topics.h"
 
 #include <rosbag/bag.h>
@@ -29,7 +30,11 @@ struct OutputFiles {
 class Output : public MessageSink {
  public:
   /// @param publish_predicted publish the point or pose topics of predicted LEDs and bodies too.
-  Output(const OutputFiles& files, const Topics& topics, bool publish_predicted);
+  /// @param smoothed of the same recording, or null; not owned
+  Output(const OutputFiles& files,
+         const Topics& topics,
+         bool publish_predicted,
+         SmoothedTracks* smoothed);
   ~Output() override;
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -54,6 +59,8 @@ class Output : public MessageSink {
   std::uint64_t triggersAnswered() const { return triggers_answered_; }
   std::uint64_t zoneEvents() const { return zone_events_; }
 
+  void onRig(const geometry::Rig& rig) override;
+  const tracking::Snapshot& onSnapshot(const tracking::Snapshot& snapshot) override;
   void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
                 const std::vector<tracking::CameraView>& views) override;
   void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) override;
@@ -73,6 +80,7 @@ class Output : public MessageSink {
   std::string path_;
   Topics topics_;
   bool publish_predicted_;
+  SmoothedTracks* smoothed_;          // null: points are not smoothed
   std::unique_ptr<rosbag::Bag> bag_;  // null when finished
   std::vector<std::unique_ptr<measurements::Writer>> tables_;
   std::set<std::string> earlier_topics_;

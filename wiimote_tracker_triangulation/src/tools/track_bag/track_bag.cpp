@@ -3,6 +3,7 @@
 #include "output.h"
 #include "recording.h"
 #include "ros/message_tracker.h"
+#include "smoothed_tracks.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 #include "wiimote_tracker_triangulation/ros/parameter_file.h"
@@ -13,7 +14,9 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
 
 namespace {
 
@@ -29,13 +32,14 @@ struct Arguments {
   std::string rig;         // file; empty: as recorded
   std::string name_space;  // empty: that of the rig
   bool results_only = false;
+  bool smooth = false;
 };
 
 /// Feeds recorded rigs, triggers and images to the tracker.
 class Player {
  public:
-  Player(const TrackingParameters& parameters, const Topics& topics, Output* output)
-      : tracker_(parameters, output), topics_(topics), output_(output) {}
+  Player(const TrackingParameters& parameters, const Topics& topics, MessageSink* sink)
+      : tracker_(parameters, sink), topics_(topics), sink_(sink) {}
 
   /// Reports a rig that cannot be used; the previous one stays.
   void play(const RigCalibration& rig) {
@@ -44,7 +48,7 @@ class Player {
     } catch (const geometry::Error& e) {
       refusal_ = e.what();
       const std::string rest = tracker_.hasRig() ? ", the one before stays in use: " : ": ";
-      output_->onProblem("a rig is refused" + rest + refusal_);
+      sink_->onProblem("a rig is refused" + rest + refusal_);
       return;
     }
     cameras_.clear();
@@ -53,7 +57,6 @@ class Player {
   }
 
   void play(const rosbag::MessageInstance& message) {
-    output_->setTime(message.getTime());
     const std::string& topic = message.getTopic();
     if (topic == topics_.rig()) {
       if (const auto rig = read<RigCalibration>(message))
@@ -86,7 +89,7 @@ class Player {
  private:
   MessageTracker tracker_;
   Topics topics_;
-  Output* output_;
+  MessageSink* sink_;
   std::map<std::string, std::string> cameras_;  // by image topic
   std::size_t images_used_ = 0;
   std::string refusal_;  // of the last rig that was refused
@@ -113,6 +116,35 @@ void leaveOutEarlierResults(const Recording& recording,
   output->leaveOut(labels, bodies);
 }
 
+/// The tracker, where a rig is given with that one instead of the recorded ones.
+tracking::Counters play(const Recording& recording,
+                        const Topics& topics,
+                        const TrackingParameters& parameters,
+                        const std::optional<RigCalibration>& own_rig,
+                        const std::function<void(const rosbag::MessageInstance&)>& before,
+                        MessageSink* sink) {
+  Player player(parameters, topics, sink);
+  if (own_rig)
+    player.play(*own_rig);
+  for (std::size_t i = 0; i < recording.size(); ++i) {
+    const rosbag::MessageInstance& message = recording[i];
+    if (own_rig && message.getTopic() == topics.rig())
+      continue;
+    before(message);
+    player.play(message);
+  }
+  player.finish();
+  return player.counters();
+}
+
+/// @throws BagError: the outputs are not of the images' times.
+void checkForSmoothing(const TrackingParameters& parameters) {
+  if (parameters.estimator.mode != tracking::Mode::kTracks)
+    throw BagError("--smooth needs tracks: set mode to tracks");
+  if (parameters.output.predict_to_now)
+    throw BagError("--smooth cannot predict: set output/predict_to_now to false");
+}
+
 void printSummary(const Recording& recording,
                   const Output& output,
                   const tracking::Counters& counters,
@@ -135,6 +167,8 @@ void run(const Arguments& arguments) {
       std::filesystem::equivalent(arguments.input, arguments.output.bag, ignored))
     throw BagError("both bags are " + arguments.input + ": write to another one");
   const TrackingParameters parameters = parametersOf(arguments);
+  if (arguments.smooth)
+    checkForSmoothing(parameters);
   if (parameters.identity.codes)
     std::printf("%s.\n", describeIdentity(parameters).c_str());
   const Recording recording(arguments.input);
@@ -146,27 +180,34 @@ void run(const Arguments& arguments) {
   if (!has_own_rig && !recording.holdsRig())
     throw BagError(arguments.input + " holds no rig: name a saved one with --rig");
 
-  Output output(arguments.output, topics, parameters.output.publish_predicted);
+  std::optional<RigCalibration> own_rig;
+  if (has_own_rig)
+    own_rig = toMessage(geometry::readRigFile(arguments.rig));
+
+  SmoothedTracks smoothed(parameters.estimator.tracks);
+  Output output(arguments.output, topics, parameters.output.publish_predicted,
+                arguments.smooth ? &smoothed : nullptr);
   leaveOutEarlierResults(recording, topics, parameters, &output);
-  Player player(parameters, topics, &output);
-  if (has_own_rig) {
-    const RigCalibration rig = toMessage(geometry::readRigFile(arguments.rig));
-    output.setTime(recording.justBefore());
-    output.writeRig(rig, recording.justBefore());
-    player.play(rig);
+  if (arguments.smooth) {
+    TrackingParameters all_images = parameters;
+    all_images.estimator.tracks.output_interval = 0.0;
+    play(
+        recording, topics, all_images, own_rig, [](const auto&) {}, &smoothed);
+    smoothed.smooth();
   }
-  for (std::size_t i = 0; i < recording.size(); ++i) {
-    const rosbag::MessageInstance& message = recording[i];
-    if (has_own_rig && message.getTopic() == topics.rig())
-      continue;
+  if (own_rig) {
+    output.setTime(recording.justBefore());
+    output.writeRig(*own_rig, recording.justBefore());
+  }
+  const auto copy = [&](const rosbag::MessageInstance& message) {
     if (!arguments.results_only)
       output.copy(message);
-    player.play(message);
-  }
-  player.finish();
+    output.setTime(message.getTime());
+  };
+  const tracking::Counters counters = play(recording, topics, parameters, own_rig, copy, &output);
   output.finish();
   const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
-  printSummary(recording, output, player.counters(), duration.count());
+  printSummary(recording, output, counters, duration.count());
 }
 
 }  // namespace
@@ -191,6 +232,7 @@ int main(int argc, char** argv) {
                 "of the tracker's topics; default: that of the rig in the bag");
   parser.flag("--results-only", &arguments.results_only,
               "leave the recording itself out of OUT.bag");
+  parser.flag("--smooth", &arguments.smooth, "smooth the points with what was seen later");
   int threads = 1;
   parser.option("--threads N", &threads, 1, 999, "has no effect: one thread does all the work");
   return parser.run(argc, argv, [&] {

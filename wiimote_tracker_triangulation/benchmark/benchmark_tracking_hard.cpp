@@ -1,0 +1,180 @@
+// The accuracy of random motion, from slow to hard, with unsynchronised cameras.
+#include "benchmark_tracking_sections.h"
+#include "motion/smoother.h"
+#include "tracking/paths.h"
+#include "tracking/scene.h"
+#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
+
+#include <wiimote_tracker_msgs/text.h>
+
+#include <Eigen/Cholesky>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+namespace wiimote_tracker {
+namespace {
+
+using tracking::Mode;
+using tracking::test::Path;
+using tracking::test::SceneImage;
+
+constexpr double kDuration = 8.0;  // of a run [s]
+constexpr double kWarmUp = 0.5;    // errors before are not scored [s]
+
+/// Errors of the tracked LED.
+struct Errors {
+  double squared = 0.0;
+  double nees = 0.0;
+  int inside = 0;
+  int count = 0;
+
+  void add(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance) {
+    const double distance = error.dot(covariance.llt().solve(error));
+    squared += error.squaredNorm();
+    nees += distance;
+    inside += distance < 7.814727903;  // quantile of chi square with three degrees of freedom
+    ++count;
+  }
+
+  double rms() const { return std::sqrt(squared / count); }
+};
+
+std::vector<SceneImage> film(const geometry::Rig& rig, const Path& path, unsigned seed) {
+  tracking::test::SceneOptions options;
+  options.clock_skew = 0.0005;
+  options.pixel_noise = 0.5;
+  tracking::test::Scene scene(rig, {path}, options, seed);
+  std::vector<SceneImage> images;
+  while (images.empty() || images.back().true_time < options.start + kDuration)
+    images.push_back(scene.next());
+  return images;
+}
+
+void track(const geometry::Rig& rig,
+           const std::vector<SceneImage>& images,
+           const Path& path,
+           const tracking::EstimatorOptions& options,
+           Errors* errors) {
+  const auto estimator = tracking::makeEstimator(rig, options);
+  for (const SceneImage& image : images) {
+    estimator->add(image.camera, image.image);
+    while (const tracking::Snapshot* snapshot = estimator->next()) {
+      if (snapshot->time < images.front().true_time + kWarmUp)
+        continue;
+      for (const tracking::TrackedLed& led : snapshot->leds) {
+        if (led.state == tracking::TrackState::kTracked)
+          errors->add(led.position - path(snapshot->time), led.position_covariance);
+      }
+    }
+  }
+}
+
+/// The tracks, smoothed.
+void smooth(const geometry::Rig& rig,
+            const std::vector<SceneImage>& images,
+            const Path& path,
+            Errors* errors) {
+  struct Track {
+    std::vector<motion::Observation> observations;
+    std::vector<motion::Place> places;
+  };
+  std::map<std::uint32_t, Track> tracks;  // by id
+  const tracking::EstimatorOptions options;
+  const auto estimator = tracking::makeEstimator(rig, options);
+  for (const SceneImage& image : images) {
+    estimator->add(image.camera, image.image);
+    while (const tracking::Snapshot* snapshot = estimator->next()) {
+      for (const tracking::SeenSpot& spot : snapshot->views[image.camera].spots) {
+        if (spot.use == tracking::SpotUse::kAssigned)
+          tracks[spot.led].observations.push_back({snapshot->time,
+                                                   &rig.cameras[image.camera].camera,
+                                                   spot.pixel,
+                                                   {options.tracks.pixel_stddev, 0.0}});
+      }
+      for (const tracking::TrackedLed& led : snapshot->leds) {
+        if (led.state == tracking::TrackState::kTracked)
+          tracks[led.id].places.push_back({snapshot->time, led.position});
+      }
+    }
+  }
+  const double start = images.front().true_time + kWarmUp;
+  const double end = images.back().true_time - kWarmUp;
+  for (const auto& [id, track] : tracks) {
+    const auto states = motion::smooth(options.tracks.motion, track.observations, track.places);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const double time = track.places[i].time;
+      if (time > start && time < end)
+        errors->add(states[i].position() - path(time), states[i].positionCovariance());
+    }
+  }
+}
+
+/// One Singer mode that suits the motion: with its acceleration per axis, and the autocorrelation
+/// time that was found best by a scan.
+motion::MotionOptions singleMode(double speed, double acceleration) {
+  motion::MotionOptions options;
+  options.smooth = {acceleration / std::sqrt(3.0), 2.0 * speed / acceleration};
+  options.gentle = options.brisk = options.hard = options.smooth;
+  options.sudden_random_walk = options.stop_rate = 0.0;
+  return options;
+}
+
+void runHard(const BenchmarkSettings& settings, const RowCallback& row) {
+  constexpr std::array<std::pair<double, double>, 10> kMotions{{{0.05, 0.1},
+                                                                {0.2, 0.5},
+                                                                {0.5, 2.0},
+                                                                {1.0, 6.0},
+                                                                {1.5, 10.0},
+                                                                {2.0, 8.0},
+                                                                {2.0, 17.0},
+                                                                {3.0, 12.0},
+                                                                {3.0, 25.0},
+                                                                {3.0, 38.0}}};
+  for (const std::size_t cameras : {4, 2}) {
+    geometry::Rig rig = tracking::test::paperRig();
+    rig.cameras.resize(cameras);
+    for (const auto& [speed, acceleration] : kMotions) {
+      Errors tracks, smoothed, singles, instants;
+      tracking::EstimatorOptions default_options, single, instant;
+      single.tracks.motion = singleMode(speed, acceleration);
+      instant.mode = Mode::kInstant;
+      for (int i = 0; i < settings.runs; ++i) {
+        geometry::test::Random random(settings.seed + i);
+        const Path path = tracking::test::shaken(random, {1.25, 1.25, 1.2}, speed, acceleration);
+        const std::vector<SceneImage> images = film(rig, path, settings.seed + i);
+        track(rig, images, path, default_options, &tracks);
+        smooth(rig, images, path, &smoothed);
+        track(rig, images, path, single, &singles);
+        track(rig, images, path, instant, &instants);
+      }
+      row({format("%zu cameras, %.2f m/s, %.1f m/s^2", cameras, speed, acceleration),
+           {{"RMS mm", 1e3 * tracks.rms()},
+            {"NEES", tracks.nees / tracks.count},
+            {"in 95 %", 100.0 * tracks.inside / tracks.count},
+            {"single mm", 1e3 * singles.rms()},
+            {"instant mm", 1e3 * instants.rms()},
+            {"ratio", tracks.rms() / instants.rms()},
+            {"smooth mm", 1e3 * smoothed.rms()},
+            {"NEES ", smoothed.nees / smoothed.count},
+            {"in 95 % ", 100.0 * smoothed.inside / smoothed.count}}});
+    }
+  }
+}
+
+}  // namespace
+
+BenchmarkSection hardSection() {
+  return {"hard",
+          "an LED in random motion (five sine waves per axis) of this RMS speed and acceleration, "
+          "seen by cameras at phases of their own (period 10 ms), 0.5 px of noise: tracks; "
+          "tracks with one mode that suits the row; the paper's method, whose points are up to "
+          "10 ms older. Ratio: RMS of the tracks over "
+          "that of the paper's method. Then the tracks, smoothed.",
+          runHard};
+}
+
+}  // namespace wiimote_tracker

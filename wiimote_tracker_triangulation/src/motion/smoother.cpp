@@ -1,0 +1,232 @@
+#include "motion/smoother.h"
+
+#include "motion/modes.h"
+#include "motion/motion_filter.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+namespace wiimote_tracker::motion {
+namespace {
+
+constexpr double kStartStddev = 0.2;  // of the position at which a filter starts [m]
+constexpr double kMisfit = 100.0;     // squared Mahalanobis distance of an observation
+constexpr std::size_t kChunk = 256;   // places
+
+/// Updates with an observation at `time` in the filter's time. False if it does not fit.
+bool update(const Observation& observation, double time, MotionFilter* filter) {
+  filter->predict(time);
+  const auto prediction = filter->predictPixel(*observation.camera, observation.noise);
+  return prediction && prediction->squaredDistance(observation.pixel) < kMisfit &&
+         filter->update(*observation.camera, *prediction, observation.pixel);
+}
+
+KinematicState reversed(KinematicState state) {
+  state.mean.segment<3>(3) *= -1.0;
+  state.covariance.middleRows<3>(3) *= -1.0;
+  state.covariance.middleCols<3>(3) *= -1.0;
+  return state;
+}
+
+/// The product of two normal distributions of the first N components, divided by the prior of the
+/// acceleration, which both contain: normal about 0.
+/// @param prior variance of the acceleration; 0: it is no component
+/// @returns logarithm of the overlap of the two, without factors that all modes share; nothing when
+/// the product is not normal
+template <int N>
+std::optional<double> multiply(const KinematicState& a,
+                               const KinematicState& b,
+                               double prior,
+                               KinematicState* product) {
+  using Matrix = Eigen::Matrix<double, N, N>;
+  using Vector = Eigen::Matrix<double, N, 1>;
+  const Matrix of_a = a.covariance.template topLeftCorner<N, N>();
+  const Matrix of_b = b.covariance.template topLeftCorner<N, N>();
+  const Eigen::LLT<Matrix> factors_a(of_a), factors_b(of_b), sum(of_a + of_b);
+  const Vector difference = b.mean.template head<N>() - a.mean.template head<N>();
+  Matrix information = factors_a.solve(Matrix::Identity()) + factors_b.solve(Matrix::Identity());
+  Vector right = factors_b.solve(difference);  // information times the product's mean from a's
+  if constexpr (N == 9) {
+    information.diagonal().template tail<3>().array() -= 1.0 / prior;
+    right.template tail<3>() += a.mean.template tail<3>() / prior;
+  }
+  const Eigen::LLT<Matrix> factors(information);
+  if (factors_a.info() != Eigen::Success || factors_b.info() != Eigen::Success ||
+      factors.info() != Eigen::Success)
+    return std::nullopt;
+  product->mean.setZero();
+  product->covariance.setZero();
+  product->mean.template head<N>() = a.mean.template head<N>() + factors.solve(right);
+  product->covariance.template topLeftCorner<N, N>() = factors.solve(Matrix::Identity());
+  return -0.5 * difference.dot(sum.solve(difference)) -
+         Matrix(sum.matrixL()).diagonal().array().log().sum();
+}
+
+/// What two filters of opposite directions in time know together of the LED at one time.
+KinematicState combine(const MotionOptions& options,
+                       const Modes& forwards,
+                       const Modes& backwards) {
+  const Modes initial = initialModes(options, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity());
+  std::array<double, kModes> log_weights;
+  Modes products;
+  double greatest = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kModes; ++i) {
+    log_weights[i] = -std::numeric_limits<double>::infinity();
+    if (!(forwards[i].probability > 0.0 && backwards[i].probability > 0.0))
+      continue;
+    const KinematicState& a = forwards[i].state;
+    const KinematicState b = reversed(backwards[i].state);
+    const double variance = accelerationVariance(options, i);
+    // What came from a more agile mode may know less of the acceleration than the mode's prior.
+    const double known = b.covariance.diagonal().tail<3>().maxCoeff();
+    const double prior = known < 1.01 * variance ? variance : 2.0 * known;
+    KinematicState* product = &products[i].state;
+    const auto overlap = isAtRest(i)      ? multiply<3>(a, b, prior, product)
+                         : variance > 0.0 ? multiply<9>(a, b, prior, product)
+                                          : multiply<6>(a, b, prior, product);
+    if (!overlap)
+      continue;
+    // Divided by the densities of the priors, which both filters contain: of the mode, and of the
+    // velocity and acceleration, if it has them, at 0.
+    log_weights[i] =
+        *overlap + (isAtRest(i) ? 0.0 : 3.0 * std::log(options.initial_speed)) +
+        (variance > 0.0 ? 1.5 * std::log(variance) : 0.0) +
+        std::log(forwards[i].probability * backwards[i].probability / initial[i].probability);
+    greatest = std::max(greatest, log_weights[i]);
+  }
+  if (!std::isfinite(greatest))
+    return momentsOf(forwards);
+  double sum = 0.0;
+  for (int i = 0; i < kModes; ++i)
+    sum += products[i].probability = std::exp(log_weights[i] - greatest);
+  for (Mode& mode : products)
+    mode.probability /= sum;
+  return momentsOf(products);
+}
+
+/// The forward filters of all places would take 5 kB each. So only those at the beginnings of
+/// chunks of places are kept, and each chunk is filtered again.
+class Smoother {
+ public:
+  Smoother(const MotionOptions& options,
+           const std::vector<Observation>& observations,
+           const std::vector<Place>& places)
+      : options_(options),
+        observations_(observations),
+        places_(places),
+        backwards_(startBackwards(static_cast<Number>(observations.size()) - 1)) {}
+
+  std::vector<KinematicState> run() {
+    std::vector<KinematicState> states(places_.size());
+    filterForwards();
+    std::size_t end = places_.size();
+    for (auto chunk = chunks_.rbegin(); chunk != chunks_.rend(); ++chunk) {
+      smooth(*chunk, end, &states);
+      end = chunk->first;
+      if (chunk->is_new)  // without the observation that did not fit
+        backwards_ = startBackwards(chunk->forwards.next - 2);
+    }
+    return states;
+  }
+
+ private:
+  using Number = std::ptrdiff_t;
+
+  /// A filter and the number of its next observation.
+  struct Run {
+    MotionFilter filter;
+    Number next;
+  };
+  struct Chunk {
+    std::size_t first;  // place
+    Run forwards;       // before that place
+    bool is_new;        // the filter has just been started
+  };
+
+  Run startAt(double time, const Eigen::Vector3d& position, Number next) const {
+    return {MotionFilter(options_, time, position,
+                         kStartStddev * kStartStddev * Eigen::Matrix3d::Identity()),
+            next};
+  }
+
+  Run startBackwards(Number next) {
+    last_ = next;
+    const double time = next < 0 ? places_.front().time : observations_[next].time;
+    const auto place =
+        std::find_if(places_.begin(), places_.end() - 1, [&](auto& p) { return p.time >= time; });
+    return startAt(-time, place->position, next);
+  }
+
+  /// Filters up to a time. False at an observation that does not fit, which is then the next one.
+  bool advance(double time, Run* run) const {
+    for (; run->next < static_cast<Number>(observations_.size()); ++run->next) {
+      const Observation& observation = observations_[run->next];
+      if (observation.time > time)
+        break;
+      if (!update(observation, observation.time, &run->filter))
+        return false;
+    }
+    run->filter.predict(time);
+    return true;
+  }
+
+  void filterForwards() {
+    double start = places_.front().time;
+    if (!observations_.empty())
+      start = std::min(start, observations_.front().time);
+    Run run = startAt(start, places_.front().position, 0);
+    chunks_.push_back({0, run, true});
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (i == chunks_.back().first + kChunk)
+        chunks_.push_back({i, run, false});
+      while (!advance(places_[i].time, &run)) {
+        run = startAt(observations_[run.next].time, places_[i].position, run.next + 1);
+        chunks_.push_back({i, run, true});
+      }
+    }
+  }
+
+  void smooth(const Chunk& chunk, std::size_t end, std::vector<KinematicState>* states) {
+    Run run = chunk.forwards;
+    std::vector<MotionFilter> forwards;
+    for (std::size_t i = chunk.first; i < end; ++i) {
+      advance(places_[i].time, &run);
+      forwards.push_back(run.filter);
+    }
+    for (std::size_t i = end; i-- > chunk.first;) {
+      const double time = places_[i].time;
+      for (; backwards_.next >= 0 && observations_[backwards_.next].time > time; --backwards_.next)
+        update(observations_[backwards_.next], -observations_[backwards_.next].time,
+               &backwards_.filter);
+      backwards_.filter.predict(-time);
+      const Modes& before = forwards[i - chunk.first].modes();
+      (*states)[i] = backwards_.next < last_ ? combine(options_, before, backwards_.filter.modes())
+                                             : momentsOf(before);
+    }
+  }
+
+  const MotionOptions& options_;
+  const std::vector<Observation>& observations_;
+  const std::vector<Place>& places_;
+  std::vector<Chunk> chunks_;
+  Number last_;    // first observation of the backward filter
+  Run backwards_;  // in negative time
+};
+
+}  // namespace
+
+std::vector<KinematicState> smooth(const MotionOptions& options,
+                                   const std::vector<Observation>& observations,
+                                   const std::vector<Place>& places) {
+  if (places.empty())
+    return {};
+  return Smoother(options, observations, places).run();
+}
+
+}  // namespace wiimote_tracker::motion

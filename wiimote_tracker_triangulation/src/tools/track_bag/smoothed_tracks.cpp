@@ -1,0 +1,101 @@
+#include "smoothed_tracks.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace wiimote_tracker {
+
+using tracking::Snapshot;
+using tracking::TrackedLed;
+using tracking::TrackState;
+
+void SmoothedTracks::onRig(const geometry::Rig& rig) {
+  cameras_.emplace_back();
+  for (const geometry::RigCamera& camera : rig.cameras)
+    cameras_.back().push_back(rig.rayCamera(camera));
+  newest_.resize(rig.cameras.size(), -std::numeric_limits<double>::infinity());
+}
+
+const Snapshot& SmoothedTracks::onSnapshot(const Snapshot& snapshot) {
+  for (std::size_t camera = 0; camera < snapshot.views.size(); ++camera) {
+    const std::optional<double>& time = snapshot.views[camera].time;
+    if (time && *time != newest_[camera]) {
+      newest_[camera] = *time;
+      collect(camera, snapshot);
+    }
+  }
+  for (const TrackedLed& led : snapshot.leds) {
+    if (led.state != TrackState::kLost)
+      tracks_[led.id].places.push_back({snapshot.time, led.position});
+  }
+  return snapshot;
+}
+
+/// Adds the spots of a camera's newest image to their LEDs.
+void SmoothedTracks::collect(std::size_t camera, const Snapshot& snapshot) {
+  const tracking::CameraView& view = snapshot.views[camera];
+  for (const tracking::SeenSpot& spot : view.spots) {
+    if (spot.use != tracking::SpotUse::kAssigned || mayBeMerged(spot, camera, snapshot))
+      continue;
+    tracks_[spot.led].observations.push_back({*view.time,
+                                              &cameras_.back()[camera],
+                                              spot.pixel,
+                                              {options_.pixel_stddev, view.stamp_stddev}});
+  }
+}
+
+/// Whether another LED without a spot is so close that the spot may be of both.
+bool SmoothedTracks::mayBeMerged(const tracking::SeenSpot& spot,
+                                 std::size_t camera,
+                                 const Snapshot& snapshot) const {
+  const auto& spots = snapshot.views[camera].spots;
+  return std::any_of(snapshot.leds.begin(), snapshot.leds.end(), [&](const TrackedLed& led) {
+    if (led.id == spot.led || led.state == TrackState::kLost || led.state == TrackState::kTentative)
+      return false;
+    const auto pixel = cameras_.back()[camera].project(led.position);
+    return pixel && (*pixel - spot.pixel).norm() < options_.merging_distance &&
+           std::none_of(spots.begin(), spots.end(), [&](const tracking::SeenSpot& other) {
+             return other.use == tracking::SpotUse::kAssigned && other.led == led.id;
+           });
+  });
+}
+
+void SmoothedTracks::smooth() {
+  for (auto& [id, track] : tracks_) {
+    std::stable_sort(track.observations.begin(), track.observations.end(),
+                     [](auto& a, auto& b) { return a.time < b.time; });
+    track.states = motion::smooth(options_.motion, track.observations, track.places);
+    track.observations = {};
+  }
+}
+
+void SmoothedTracks::setRig(const geometry::Rig& rig) {
+  uncertainty_.emplace(rig);
+}
+
+const Snapshot& SmoothedTracks::apply(const Snapshot& snapshot) {
+  smoothed_ = snapshot;
+  for (TrackedLed& led : smoothed_.leds) {
+    Track& track = tracks_.at(led.id);
+    if (led.state != TrackState::kLost) {  // a lost LED stays where it was last
+      const auto place =
+          std::lower_bound(track.places.begin(), track.places.end(), snapshot.time,
+                           [](const motion::Place& p, double time) { return p.time < time; });
+      const motion::KinematicState& state = track.states.at(place - track.places.begin());
+      track.last.position = state.position();
+      track.last.position_covariance = state.positionCovariance();
+      track.last.velocity = state.velocity();
+      track.last.velocity_covariance = state.velocityCovariance();
+      if (const auto calibration =
+              uncertainty_->covarianceNear(led.position, led.cameras.data(), led.cameras.size()))
+        track.last.position_covariance += *calibration;
+    }
+    led.position = track.last.position;
+    led.position_covariance = track.last.position_covariance;
+    led.velocity = track.last.velocity;
+    led.velocity_covariance = track.last.velocity_covariance;
+  }
+  return smoothed_;
+}
+
+}  // namespace wiimote_tracker

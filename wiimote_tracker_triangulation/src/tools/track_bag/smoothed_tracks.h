@@ -1,0 +1,66 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_SMOOTHED_TRACKS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_SMOOTHED_TRACKS_H
+
+#include "motion/smoother.h"
+#include "ros/message_tracker.h"
+#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
+#include "wiimote_tracker_triangulation/tracking/tracker_options.h"
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// Collects the spots of each LED while a recording is tracked, then smooths each LED's motion. The
+/// same recording, tracked again, gets the smoothed states.
+class SmoothedTracks : public MessageSink {
+ public:
+  explicit SmoothedTracks(const tracking::TrackerOptions& options) : options_(options) {}
+
+  // The first time.
+  void onRig(const geometry::Rig& rig) override;
+  const tracking::Snapshot& onSnapshot(const tracking::Snapshot& snapshot) override;
+  void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr&,
+                const std::vector<tracking::CameraView>&) override {}
+  void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent&) override {}
+  void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray&) override {}
+  void onProblem(const std::string&) override {}
+
+  /// Between the two.
+  void smooth();
+
+  /// The rig of the snapshots that follow.
+  void setRig(const geometry::Rig& rig);
+
+  /// The snapshot with smoothed positions, velocities and their covariances; all else stays. Valid
+  /// until the next call. Needs smooth() and setRig().
+  const tracking::Snapshot& apply(const tracking::Snapshot& snapshot);
+
+ private:
+  struct Track {
+    std::vector<motion::Observation> observations;
+    std::vector<motion::Place> places;
+    std::vector<motion::KinematicState> states;  // one per place
+    tracking::TrackedLed last;                   // that was smoothed
+  };
+
+  void collect(std::size_t camera, const tracking::Snapshot& snapshot);
+  bool mayBeMerged(const tracking::SeenSpot& spot,
+                   std::size_t camera,
+                   const tracking::Snapshot& snapshot) const;
+
+  tracking::TrackerOptions options_;
+  std::deque<std::vector<geometry::Camera>> cameras_;  // of each rig; observations refer to them
+  std::vector<double> newest_;             // image of each camera that was collected [s]
+  std::map<std::uint32_t, Track> tracks_;  // by id
+  std::optional<geometry::CalibrationUncertainty> uncertainty_;
+  tracking::Snapshot smoothed_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_SMOOTHED_TRACKS_H

@@ -25,6 +25,8 @@ class Guest:
     programs: List[str] = field(default_factory=list)  # of packages, this workspace or this machine
     scripts: List[str] = field(default_factory=list)   # of our package, in Python
     settings: List[str] = field(default_factory=list)  # files of packages
+    libraries: List[str] = field(default_factory=list)  # that scripts load
+    clients: List[str] = field(default_factory=list)   # our scripts in the folder clients
 
 
 GUESTS: Dict[str, Guest] = {
@@ -33,8 +35,15 @@ GUESTS: Dict[str, Guest] = {
     'bluetooth': Guest('linux-image-amd64', HID_MODULES + ['hci_vhci', 'hidp'], ['bluez'],
                        ['bluetoothctl', 'bluetoothd', 'dbus-daemon', 'list_wiimotes'], ['pair'],
                        ['etc/bluetooth/main.conf']),
+    # Libraries for Wii Remotes that others wrote.
+    'clients': Guest('linux-image-amd64', HID_MODULES + ['hci_vhci', 'hidp'],
+                     ['bluez', 'libxwiimote2', 'libcwiid1'], ['bluetoothd', 'dbus-daemon'],
+                     settings=['etc/bluetooth/main.conf'],
+                     libraries=['libxwiimote.so.2', 'libcwiid.so.1'],
+                     clients=['xwiimote_client', 'cwiid_client']),
 }
 
+LIBRARY_FOLDERS = ['usr/lib/x86_64-linux-gnu', 'usr/lib']
 PROGRAM_FOLDERS = ['usr/bin', 'usr/sbin', 'usr/libexec/bluetooth', 'usr/lib/bluetooth']
 
 # Prints the files of all modules that a script has imported when it has shown its help.
@@ -46,6 +55,16 @@ with contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(SystemExit):
 for module in list(sys.modules.values()):
     print(getattr(module, '__file__', None) or '')
 """
+
+
+def find_library(name: str, folders: Iterable[str]) -> str:
+    """A shared library of the packages in `folders`. Raises fetch.Unavailable."""
+    for folder in folders:
+        for place in LIBRARY_FOLDERS:
+            path = os.path.join(folder, place, name)
+            if os.path.isfile(path):
+                return os.path.realpath(path)
+    raise fetch.Unavailable(f'there is no library {name}')
 
 
 def find_program(name: str, folders: Iterable[str]) -> str:
@@ -92,6 +111,9 @@ def files_of(guest: Guest, parts: fetch.Parts, client: str, scripts_folder: str,
     files += [('bin/' + name, find_program(name, folders)) for name in guest.programs]
     files += [(path, os.path.join(place, path)) for path in guest.settings for place in folders
               if os.path.isfile(os.path.join(place, path))]
-    for name in guest.scripts:
-        files += script_files(os.path.join(scripts_folder, name), folder)
+    files += [('lib/' + name, find_library(name, folders)) for name in guest.libraries]
+    clients_folder = os.path.join(os.path.dirname(os.path.realpath(__file__)), 'clients')
+    for script in ([os.path.join(scripts_folder, name) for name in guest.scripts] +
+                   [os.path.join(clients_folder, name) for name in guest.clients]):
+        files += script_files(script, folder)
     return files

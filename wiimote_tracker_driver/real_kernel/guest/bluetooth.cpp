@@ -1,6 +1,7 @@
 #include "bluetooth.h"
 
 #include "air/air.h"
+#include "bluez.h"
 #include "clock.h"
 #include "kernel.h"
 #include "process.h"
@@ -9,8 +10,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -21,7 +20,7 @@ using State = wiimote::Link::State;
 
 constexpr char kAdapter[] = "00:1a:7d:00:00:01";
 constexpr char kSecondAdapter[] = "00:1a:7d:00:00:02";
-constexpr double kStart = 20.0;        // [s] For services to start.
+constexpr double kStart = 20.0;        // [s] For list_wiimotes to end.
 constexpr double kPairing = 120.0;     // [s]
 constexpr double kLookInterval = 0.3;  // [s] Between looks at the output of `pair`.
 constexpr double kConnection = 5.0;    // [s]
@@ -30,31 +29,6 @@ constexpr char kRefusedPin[] = "the remote refused the PIN, as it does when 1 an
 std::string airAddress(int number) {
   return "00:1f:32:00:00:0" + std::to_string(number);
 }
-
-/// bluetoothd and the message bus it needs.
-class Bluez {
- public:
-  Bluez() : bus_({"dbus-daemon", "--config-file=/etc/dbus.conf", "--nofork"}) {
-    if (!waitFor(
-            [] {
-              return Process({"test", "-S", "/run/dbus/system_bus_socket"}).wait(1) == 0;
-            },
-            kStart))
-      throw std::runtime_error("dbus-daemon does not start: " + bus_.output());
-    restart();
-  }
-
-  void restart() {
-    daemon_.reset();
-    daemon_ = std::make_unique<Process>(std::vector<std::string>{"bluetoothd", "-n"});
-    if (!daemon_->says("management interface", kStart))
-      throw std::runtime_error("bluetoothd does not start: " + daemon_->output() + bus_.output());
-  }
-
- private:
-  Process bus_;
-  std::unique_ptr<Process> daemon_;
-};
 
 /// A computer with one adapter, and remotes 1 to `count` in the air; the fourth is a -TR.
 struct Room {

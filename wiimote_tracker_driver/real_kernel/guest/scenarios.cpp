@@ -2,6 +2,7 @@
 
 #include "another_program.h"
 #include "bluetooth.h"
+#include "clients.h"
 #include "clock.h"
 #include "kernel.h"
 #include "recovery.h"
@@ -485,6 +486,8 @@ const std::vector<Scenario>& scenarios() {
       {"two_adapters", twoAdapters, "bluetooth"},
       {"hidp", overHidp, "bluetooth"},
       {"userspace_hid", overUserspaceHid, "bluetooth"},
+      {"xwiimote_client", xwiimoteClient, "clients"},
+      {"cwiid_client", cwiidClient, "clients"},
   };
   return all;
 }

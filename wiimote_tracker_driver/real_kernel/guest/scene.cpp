@@ -14,9 +14,10 @@ int along(int step) {
   return std::clamp(std::abs((step + kPeriod) % kPeriod - 2 * kSide) - kSide / 2, 0, kSide);
 }
 
-bool shows(const protocol::DataReport& image, const virtual_wiimote::Light& light) {
+bool shows(const protocol::DataReport& image, const virtual_wiimote::Light& light, int tolerance) {
   return std::any_of(image.spots.begin(), image.spots.end(), [&](const protocol::IrSpot& spot) {
-    return spot.seen && spot.x == std::lround(light.x) && spot.y == std::lround(light.y) &&
+    return spot.seen && std::abs(spot.x - std::lround(light.x)) <= tolerance &&
+           std::abs(spot.y - std::lround(light.y)) <= tolerance &&
            (image.ir_format == protocol::IrFormat::kBasic || spot.size == std::lround(*light.size));
   });
 }
@@ -36,12 +37,12 @@ std::vector<virtual_wiimote::Light> Scene::next() {
   return lightsAt(++frame_);
 }
 
-std::optional<long> Scene::frameOf(const protocol::DataReport& image) const {
+std::optional<long> Scene::frameOf(const protocol::DataReport& image, int tolerance) const {
   const long last = frame_;
   for (long frame = last; frame > 0 && frame > last - kPeriod; --frame) {
     const std::vector<virtual_wiimote::Light> lights = lightsAt(frame);
     if (std::all_of(lights.begin(), lights.end(),
-                    [&](const auto& light) { return shows(image, light); }))
+                    [&](const auto& light) { return shows(image, light, tolerance); }))
       return frame;
   }
   return std::nullopt;

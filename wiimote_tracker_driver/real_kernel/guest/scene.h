@@ -24,8 +24,9 @@ class Scene {
   long frame() const { return frame_; }
 
   /// The last frame at which exactly these lights were in front of the camera; nothing if there is
-  /// none among the last 256 frames. In the basic format sizes are unknown.
-  std::optional<long> frameOf(const protocol::DataReport& image) const;
+  /// none among the last 256 frames. In the basic format sizes are unknown. `tolerance`: in each
+  /// direction [px].
+  std::optional<long> frameOf(const protocol::DataReport& image, int tolerance = 0) const;
 
  private:
   std::vector<virtual_wiimote::Light> lightsAt(long frame) const;

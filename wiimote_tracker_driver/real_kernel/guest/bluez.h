@@ -1,0 +1,25 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_BLUEZ_H
+#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_BLUEZ_H
+
+#include "process.h"
+
+#include <memory>
+
+namespace wiimote_tracker::real_kernel {
+
+/// bluetoothd and the message bus it needs.
+class Bluez {
+ public:
+  /// @throws std::runtime_error if one does not start.
+  Bluez();
+
+  void restart();
+
+ private:
+  Process bus_;
+  std::unique_ptr<Process> daemon_;
+};
+
+}  // namespace wiimote_tracker::real_kernel
+
+#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_BLUEZ_H

@@ -1,0 +1,84 @@
+#include "clients.h"
+
+#include "air/air.h"
+#include "bluez.h"
+#include "clock.h"
+#include "kernel.h"
+#include "plugged_remote.h"
+#include "process.h"
+#include "streaming.h"
+
+#include <cstddef>
+#include <cstdio>
+#include <sstream>
+#include <string>
+
+namespace wiimote_tracker::real_kernel {
+namespace {
+
+constexpr double kStart = 20.0;    // [s] For Python and the library.
+constexpr double kDuration = 3.0;  // [s]
+constexpr int kImages = 270;       // In that time: 90 a second.
+
+/// "x,y x,y ..." as an image without sizes.
+protocol::DataReport imageFrom(const std::string& line) {
+  protocol::DataReport image;
+  image.ir_format = protocol::IrFormat::kBasic;
+  std::istringstream words(line);
+  for (protocol::IrSpot& spot : image.spots) {
+    std::string word;
+    words >> word;
+    int x = 0, y = 0;
+    spot.seen = std::sscanf(word.c_str(), "%d,%d", &x, &y) == 2;
+    spot.x = static_cast<decltype(spot.x)>(x);
+    spot.y = static_cast<decltype(spot.y)>(y);
+  }
+  return image;
+}
+
+/// Checks the images that a client prints once it has begun. `tolerance`: of the lights [px].
+void checkImages(Checks& checks, const Process& client, const Scene& scene, int tolerance) {
+  waitFor([&] { return client.output().find(',') != std::string::npos; }, kStart);
+  const std::size_t begin = client.output().size();
+  sleepFor(kDuration);
+  std::istringstream lines(client.output().substr(begin));
+  int images = 0, wrong = 0;
+  std::string first_wrong;
+  std::string line;
+  std::getline(lines, line);  // may be cut off
+  while (std::getline(lines, line) && !lines.eof()) {
+    ++images;
+    if (!scene.frameOf(imageFrom(line), tolerance) && wrong++ == 0)
+      first_wrong = line;
+  }
+  checks.check("3 s at 90 Hz or more", images >= kImages,
+               std::to_string(images) + " images" + (images == 0 ? ": " + client.output() : ""));
+  checks.check("each shows the lights of a frame", images > 0 && wrong == 0,
+               std::to_string(wrong) + " wrong" + (wrong > 0 ? ": " + first_wrong : ""));
+}
+
+}  // namespace
+
+void xwiimoteClient(Checks& checks) {
+  Scene scene;
+  const PluggedRemote remote(kAddress, scene);
+  waitFor([] { return !hidrawOf(kAddress).empty(); }, kTimeout);
+  sleepFor(kSetUpTime);
+  const Process client({"xwiimote_client", sysfsPathOf(kAddress)});
+  constexpr int kFuzz = 2;  // [px] The kernel smooths this input device's axes by so much.
+  checkImages(checks, client, scene, kFuzz);
+}
+
+void cwiidClient(Checks& checks) {
+  Scene scene;
+  Air air;
+  air.addRemote(kAddress, scene);
+  air.addAdapter("00:1a:7d:00:00:01");
+  const Bluez bluez;  // switches the adapter on
+  sleepFor(kSetUpTime);
+  air.press(kAddress, Press::kOneAndTwo);
+  const Process client({"cwiid_client", kAddress});
+  checkImages(checks, client, scene, 0);
+}
+
+}  // namespace wiimote_tracker::real_kernel

@@ -27,6 +27,7 @@ bool shows(const protocol::DataReport& image, const virtual_wiimote::Light& ligh
 std::vector<virtual_wiimote::Light> Scene::lightsAt(long frame) const {
   const int step = static_cast<int>(frame % kPeriod);
   std::vector<virtual_wiimote::Light> lights;
+  lights.reserve(4);
   for (int i = 0; i < 4; ++i)
     lights.push_back({60.0 + 240.0 * i + along(step), 95.0 * number_ - 65.0 + along(step - kSide),
                       2.0 + i, 1.0});

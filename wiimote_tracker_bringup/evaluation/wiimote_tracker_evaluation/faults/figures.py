@@ -13,7 +13,7 @@ CLAIMED = 5.0  # its own standard deviations
 PIECE = 0.25       # over which normality is judged [s]
 MOST_ERROR = 0.02  # of the middle point of a normal piece [m]
 MOST_AGE = 0.1     # more than before the fault [s]
-LEAST_RATE = 0.7   # share of the rate before
+LEAST_RATE = 0.5   # share of the rate before
 LONGEST_GAP = 0.3  # between two true positions [s]
 LEAST_SHARE = 0.1  # of the points, which a camera must have seen
 

@@ -8,7 +8,7 @@ from wiimote_tracker_evaluation.faults.row import fault
 STEP = 5         # of truncation [%]
 FLIPS = 100      # files with a few changed bytes
 SEED = 1
-PATIENCE = 10.0  # for the answer about one file [s]
+PATIENCE = 30.0  # for the answer about one file [s]
 
 
 def answer_loads(pipe):

@@ -28,8 +28,7 @@ def kill_tracker(room):
     yield 0.0
 
 
-# The waiting images of one camera come before those of the next, so time jumps back, and tracks begin
-# anew.
+# The tracker then says that time jumped back, and tracks begin anew.
 @fault(quick=True, names_may_change=True)
 def stop_tracker(room):
     """SIGSTOP of the tracker for 5 s."""

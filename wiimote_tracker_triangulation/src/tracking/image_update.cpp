@@ -1,5 +1,7 @@
 #include "image_update.h"
 
+#include "merged_spot.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,13 +27,13 @@ void ImageUpdate::apply(const GroupCamera& camera,
   }
   updateMergedPairs(camera, image, tracks, pairs);
   findMergedSpots(image, *tracks);
-  addMergedPairs(*tracks, pairs);
+  addMergedPairs(image, *tracks, pairs);
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const Candidate& candidate = candidates_[i];
     Track& track = (*tracks)[candidate.track];
     if (candidate.updated)
       continue;
-    const Candidate* other = mergedWith(candidate, *tracks);
+    const Candidate* other = mergedWith(image, candidate, *tracks);
     // A merged spot is the other's if only this camera sees this LED.
     const bool is_merged = other && track.isConfirmed();
     if (is_merged && othersSeeing(image, track) > 0)
@@ -99,7 +101,9 @@ void ImageUpdate::measureFit(const StoredImage& image,
     if (!candidate.in_view || !track.isConfirmed() || others == 0)
       continue;
     shown += candidate.spot != kNone;
-    missing += candidate.spot == kNone && others >= 2;
+    // Beside an LED that has a spot it may be merged.
+    missing += candidate.spot == kNone && others >= 2 &&
+               !isBeside(candidate, options_.merging_distance, true);
     if (others < 2)
       continue;
     if (const auto residual = residualOf(image, candidate))
@@ -112,11 +116,24 @@ void ImageUpdate::measureFit(const StoredImage& image,
   fit->add(shown, missing, unassigned);
 }
 
+/// Whether another LED is within a distance [px]. @param has_spot only such LEDs count
+bool ImageUpdate::isBeside(const Candidate& candidate, double distance, bool has_spot) const {
+  return std::any_of(
+      candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(candidate_count_),
+      [&](const Candidate& other) {
+        return other.track != candidate.track && !(has_spot && other.spot == kNone) &&
+               (other.prediction.pixel() - candidate.prediction.pixel()).norm() < distance;
+      });
+}
+
 /// Of the LED's spot or, since an image of a wrong time shows it outside the gate, the nearest spot
-/// that belongs to no LED.
+/// that belongs to no LED. Nothing near other LEDs, whose spots might be taken for its own or
+/// merged with it.
 std::optional<Eigen::Vector2d> ImageUpdate::residualOf(const StoredImage& image,
                                                        const Candidate& candidate) const {
   constexpr double kFarthest = 30.0;  // [px]
+  if (isBeside(candidate, std::max(kFarthest, options_.merging_distance), false))
+    return std::nullopt;
   if (candidate.spot != kNone)
     return image.pixels[static_cast<std::size_t>(candidate.spot)] - candidate.prediction.pixel();
   std::optional<Eigen::Vector2d> nearest;
@@ -178,24 +195,33 @@ void ImageUpdate::updateTrack(const GroupCamera& camera,
     track->noteOwnSpot();
 }
 
-/// The other LED of a merged spot: one of the two has a spot, the other has none, and their
-/// predictions are closer than the merging distance. The nearest such LED.
-const ImageUpdate::Candidate* ImageUpdate::mergedWith(const Candidate& candidate,
+/// The LED that a candidate is most probably merged with in one spot, of which one of the two has
+/// none.
+const ImageUpdate::Candidate* ImageUpdate::mergedWith(const StoredImage& image,
+                                                      const Candidate& candidate,
                                                       const std::vector<Track>& tracks) const {
-  const Candidate* nearest = nullptr;
-  double least = options_.merging_distance;
+  const Candidate* result = nullptr;
+  double greatest = 0.5;
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const Candidate& other = candidates_[i];
     if (other.track == candidate.track || (other.spot == kNone) == (candidate.spot == kNone) ||
         !tracks[other.track].isConfirmed())
       continue;
-    const double distance = (other.prediction.pixel() - candidate.prediction.pixel()).norm();
-    if (distance < least) {
-      least = distance;
-      nearest = &other;
+    const Candidate& visible = other.spot == kNone ? candidate : other;
+    const Candidate& absent = other.spot == kNone ? other : candidate;
+    // An LED that was hidden from this camera mostly stays hidden.
+    const double hidden = tracks[absent.track].wasMissedBy(image.camera)
+                              ? options_.detection_probability
+                              : 1.0 - options_.detection_probability;
+    const double probability = mergedProbability(
+        image.pixels[static_cast<std::size_t>(visible.spot)], visible.prediction, absent.prediction,
+        hidden, noise_.pixel_stddev, options_.merging_distance);
+    if (probability > greatest) {
+      greatest = probability;
+      result = &other;
     }
   }
-  return nearest;
+  return result;
 }
 
 /// An unassigned spot between two LEDs that have none and may merge is the merged spot of both. It
@@ -229,11 +255,13 @@ void ImageUpdate::findMergedSpots(const StoredImage& image, const std::vector<Tr
   }
 }
 
-void ImageUpdate::addMergedPairs(const std::vector<Track>& tracks,
+void ImageUpdate::addMergedPairs(const StoredImage& image,
+                                 const std::vector<Track>& tracks,
                                  std::vector<MergedPair>* pairs) const {
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const Candidate& candidate = candidates_[i];
-    const Candidate* other = candidate.spot == kNone ? nullptr : mergedWith(candidate, tracks);
+    const Candidate* other =
+        candidate.spot == kNone ? nullptr : mergedWith(image, candidate, tracks);
     if (!other || !tracks[candidate.track].isConfirmed())
       continue;
     const Track& a = tracks[candidate.track];
@@ -241,7 +269,7 @@ void ImageUpdate::addMergedPairs(const std::vector<Track>& tracks,
     const bool is_known = std::any_of(pairs->begin(), pairs->end(), [&](const MergedPair& pair) {
       return pair.has(a.id) || pair.has(b.id);
     });
-    if (!is_known)
+    if (!is_known && !a.isShownBeside(b, image.time - options_.birth_window))
       pairs->emplace_back(a.id, b.id, MergedPair::Filters{a.filter, b.filter});
   }
 }

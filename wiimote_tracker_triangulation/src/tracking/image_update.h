@@ -54,6 +54,7 @@ class ImageUpdate {
                       double time) const;
   std::size_t othersSeeing(const StoredImage& image, const Track& track) const;
   void measureFit(const StoredImage& image, const std::vector<Track>& tracks, CameraFit* fit) const;
+  bool isBeside(const Candidate& candidate, double distance, bool has_spot) const;
   std::optional<Eigen::Vector2d> residualOf(const StoredImage& image,
                                             const Candidate& candidate) const;
   void assign(const GroupCamera& camera,
@@ -64,7 +65,9 @@ class ImageUpdate {
                    const Candidate& candidate,
                    const Track* other,
                    Track* track) const;
-  const Candidate* mergedWith(const Candidate& candidate, const std::vector<Track>& tracks) const;
+  const Candidate* mergedWith(const StoredImage& image,
+                              const Candidate& candidate,
+                              const std::vector<Track>& tracks) const;
   void updateMerged(const GroupCamera& camera,
                     const StoredImage& image,
                     const Candidate& candidate,
@@ -72,7 +75,9 @@ class ImageUpdate {
                     std::vector<Track>* tracks) const;
 
   void findMergedSpots(const StoredImage& image, const std::vector<Track>& tracks);
-  void addMergedPairs(const std::vector<Track>& tracks, std::vector<MergedPair>* pairs) const;
+  void addMergedPairs(const StoredImage& image,
+                      const std::vector<Track>& tracks,
+                      std::vector<MergedPair>* pairs) const;
   void updateMergedPairs(const GroupCamera& camera,
                          const StoredImage& image,
                          std::vector<Track>* tracks,

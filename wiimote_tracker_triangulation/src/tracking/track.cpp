@@ -209,16 +209,22 @@ Eigen::Vector3d Track::approximatePosition(double time) const {
   return position_ + (time - position_time_) * velocity_;
 }
 
-bool Track::isShownBeside(const Track& other) const {
+bool Track::isShownBeside(const Track& other, double since) const {
   for (std::size_t i = 0; i < record_count_; ++i) {
     for (std::size_t j = 0; j < other.record_count_; ++j) {
       const CameraRecord& record = records_[i];
       if (record.camera == other.records_[j].camera && record.own == other.records_[j].own &&
-          std::isfinite(record.own))
+          record.own >= since && std::isfinite(record.own))
         return true;
     }
   }
   return false;
+}
+
+bool Track::wasMissedBy(std::size_t camera) const {
+  return std::any_of(
+      records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
+      [&](const CameraRecord& record) { return record.camera == camera && !(record.recent & 1); });
 }
 
 std::size_t Track::othersSeeing(std::size_t camera, double since) const {

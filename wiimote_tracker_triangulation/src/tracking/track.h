@@ -64,8 +64,12 @@ class Track {
   /// Confirms or finishes the track given the detections up to a time [s].
   void updateStatus(double time, const TrackerOptions& options);
 
-  /// Whether the newest image of some camera has a spot of each of the two.
-  bool isShownBeside(const Track& other) const;
+  /// Whether the newest image of some camera with a spot of one of the two, at a time [s] or later,
+  /// has one of the other too.
+  bool isShownBeside(const Track& other, double since) const;
+
+  /// Whether the camera's last image should have shown it and did not.
+  bool wasMissedBy(std::size_t camera) const;
 
   /// Other cameras that detected it at a time [s] or later.
   std::size_t othersSeeing(std::size_t camera, double since) const;

@@ -95,7 +95,8 @@ Track* TrackInitiation::formerTrackOf(const Track& found,
     };
     if (&track == &found || !track.isConfirmed() ||
         time - track.lastObserved() < options_.dark_time ||
-        track.camerasShowing(since) > found.camerasShowing(since) || track.isShownBeside(found) ||
+        track.camerasShowing(since) > found.camerasShowing(since) ||
+        track.isShownBeside(found, -std::numeric_limits<double>::infinity()) ||
         std::any_of(pairs.begin(), pairs.end(), decidesIt))
       continue;
     motion::MotionFilter expected = track.filter;

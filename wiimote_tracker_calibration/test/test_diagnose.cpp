@@ -176,6 +176,17 @@ TEST_F(WaveMistake, ClockThatIsWrong) {
   EXPECT_SAYS(text, "s ahead of the others");
 }
 
+TEST_F(WaveMistake, ClockOfAFourthCamera) {
+  // Where few images coincide, they correlate by chance.
+  scene_.camera_count = 4;
+  scene_.duration = 6.0;
+  scene_.uncertainty = square::Uncertainty();
+  simulate();
+  for (wave::Frame& frame : recording_.cameras[2].frames)
+    frame.stamp += 1.0;
+  EXPECT_NEAR(clockLag(recording_, 2).value_or(0.0), 1.0, 0.05);
+}
+
 TEST_F(WaveMistake, ClockThatJumps) {
   for (wave::Frame& frame : recording_.cameras[1].frames)
     frame.stamp += frame.stamp > recording_.cameras[1].frames.front().stamp + 2.0 ? 0.02 : 0.0;

@@ -13,7 +13,7 @@ constexpr double kStep = 0.02;         // [s]
 constexpr int kLongestLag = 150;       // [kStep]
 constexpr double kLongestGap = 0.05;   // between images whose spots give a speed [s]
 constexpr double kLongestJump = 80.0;  // [px]
-constexpr double kLeastCorrelation = 0.3;
+constexpr double kLeastCorrelation = 0.2;
 constexpr std::size_t kLeastCommon = 100;  // steps
 
 /// Logarithm of the spot's speed, less its mean, in steps of time; NaN where unknown or where the
@@ -43,7 +43,8 @@ std::vector<double> speeds(const wave::CameraRecording& camera, double start, st
   return result;
 }
 
-/// Correlation of two signals, the first moved to earlier times by `lag` steps.
+/// Correlation of two signals, the first moved to earlier times by `lag` steps, times the
+/// root of their common share: few common steps correlate by chance.
 double correlation(const std::vector<double>& late, const std::vector<double>& other, int lag) {
   double product = 0.0;
   double squares = 0.0;
@@ -60,7 +61,10 @@ double correlation(const std::vector<double>& late, const std::vector<double>& o
     other_squares += b * b;
     ++common;
   }
-  return common < kLeastCommon ? 0.0 : product / std::sqrt(squares * other_squares);
+  return common < kLeastCommon
+             ? 0.0
+             : product / std::sqrt(squares * other_squares) *
+                   std::sqrt(static_cast<double>(common) / static_cast<double>(size));
 }
 
 }  // namespace

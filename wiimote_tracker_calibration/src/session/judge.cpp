@@ -167,8 +167,9 @@ std::vector<std::string> shortcomings(const Session& session,
               "use a larger square");
   for (const CameraVerdict& camera : verdict.cameras) {
     if (camera.inlier_share < kGoodInliers)
-      reasons.push_back(format("%.0f %%", 100.0 * (1.0 - camera.inlier_share)) + " of what " +
-                        camera.name + " saw was not the LED: cover lamps and reflections");
+      reasons.push_back(
+          format("%.0f %%", 100.0 * (1.0 - camera.inlier_share)) + " of what " + camera.name +
+          " saw was not the LED: cover lamps and reflections, and see whether its clock jumped");
   }
   if (findings.doubts)
     reasons.emplace_back("read the warnings");

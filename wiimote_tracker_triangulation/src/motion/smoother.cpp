@@ -15,7 +15,7 @@
 namespace wiimote_tracker::motion {
 namespace {
 
-constexpr double kStartStddev = 0.2;  // of the position at which a filter starts [m]
+constexpr double kStartStddev = 0.5;  // of the position at which a filter starts [m]
 constexpr double kMisfit = 100.0;     // squared Mahalanobis distance of an observation
 constexpr std::size_t kChunk = 256;   // places
 
@@ -201,9 +201,13 @@ class Smoother {
     }
     for (std::size_t i = end; i-- > chunk.first;) {
       const double time = places_[i].time;
-      for (; backwards_.next >= 0 && observations_[backwards_.next].time > time; --backwards_.next)
-        update(observations_[backwards_.next], -observations_[backwards_.next].time,
-               &backwards_.filter);
+      while (backwards_.next >= 0 && observations_[backwards_.next].time > time) {
+        const Observation& observation = observations_[backwards_.next--];
+        if (update(observation, -observation.time, &backwards_.filter))
+          continue;
+        last_ = backwards_.next;
+        backwards_ = startAt(-observation.time, places_[i].position, last_);
+      }
       backwards_.filter.predict(-time);
       const Modes& before = forwards[i - chunk.first].modes();
       (*states)[i] = backwards_.next < last_ ? combine(options_, before, backwards_.filter.modes())

@@ -62,7 +62,7 @@ std::vector<KinematicState> batch(double stddev,
   const test::Transition step = test::singerTransition(stddev, time, kStep).inThreeAxes();
   MatrixXd joint(9 * n, 9 * n);
   VectorXd prior(9);
-  prior << Vector3d::Constant(0.04), Vector3d::Constant(speed * speed),
+  prior << Vector3d::Constant(0.25), Vector3d::Constant(speed * speed),
       Vector3d::Constant(stddev * stddev);
   MatrixXd covariance = prior.asDiagonal();
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -16,9 +16,9 @@
 namespace wiimote_tracker::real_kernel {
 namespace {
 
-constexpr double kStart = 20.0;    // [s] For Python and the library.
-constexpr double kDuration = 3.0;  // [s]
-constexpr int kImages = 270;       // In that time: 90 a second.
+constexpr double kClientStart = 20.0;    // [s] For Python and the library.
+constexpr double kClientDuration = 3.0;  // [s]
+constexpr int kImages = 270;             // In that time: 90 a second.
 
 /// "x,y x,y ..." as an image without sizes.
 protocol::DataReport imageFrom(const std::string& line) {
@@ -38,9 +38,9 @@ protocol::DataReport imageFrom(const std::string& line) {
 
 /// Checks the images that a client prints once it has begun. `tolerance`: of the lights [px].
 void checkImages(Checks& checks, const Process& client, const Scene& scene, int tolerance) {
-  waitFor([&] { return client.output().find(',') != std::string::npos; }, kStart);
+  waitFor([&] { return client.output().find(',') != std::string::npos; }, kClientStart);
   const std::size_t begin = client.output().size();
-  sleepFor(kDuration);
+  sleepFor(kClientDuration);
   std::istringstream lines(client.output().substr(begin));
   int images = 0, wrong = 0;
   std::string first_wrong;

@@ -22,11 +22,11 @@ using tracking::Mode;
 using tracking::test::Path;
 using tracking::test::SceneImage;
 
-constexpr double kDuration = 8.0;  // of a run [s]
-constexpr double kWarmUp = 0.5;    // errors before are not scored [s]
+constexpr double kRun = 8.0;         // [s]
+constexpr double kStartOfRun = 0.5;  // errors before are not scored [s]
 
-/// Errors of the tracked LED.
-struct Errors {
+/// HardErrors of the tracked LED.
+struct HardErrors {
   double squared = 0.0;
   double nees = 0.0;
   int inside = 0;
@@ -43,27 +43,27 @@ struct Errors {
   double rms() const { return std::sqrt(squared / count); }
 };
 
-std::vector<SceneImage> film(const geometry::Rig& rig, const Path& path, unsigned seed) {
+std::vector<SceneImage> filmHard(const geometry::Rig& rig, const Path& path, unsigned seed) {
   tracking::test::SceneOptions options;
   options.clock_skew = 0.0005;
   options.pixel_noise = 0.5;
   tracking::test::Scene scene(rig, {path}, options, seed);
   std::vector<SceneImage> images;
-  while (images.empty() || images.back().true_time < options.start + kDuration)
+  while (images.empty() || images.back().true_time < options.start + kRun)
     images.push_back(scene.next());
   return images;
 }
 
-void track(const geometry::Rig& rig,
-           const std::vector<SceneImage>& images,
-           const Path& path,
-           const tracking::EstimatorOptions& options,
-           Errors* errors) {
+void trackHard(const geometry::Rig& rig,
+               const std::vector<SceneImage>& images,
+               const Path& path,
+               const tracking::EstimatorOptions& options,
+               HardErrors* errors) {
   const auto estimator = tracking::makeEstimator(rig, options);
   for (const SceneImage& image : images) {
     estimator->add(image.camera, image.image);
     while (const tracking::Snapshot* snapshot = estimator->next()) {
-      if (snapshot->time < images.front().true_time + kWarmUp)
+      if (snapshot->time < images.front().true_time + kStartOfRun)
         continue;
       for (const tracking::TrackedLed& led : snapshot->leds) {
         if (led.state == tracking::TrackState::kTracked)
@@ -77,7 +77,7 @@ void track(const geometry::Rig& rig,
 void smooth(const geometry::Rig& rig,
             const std::vector<SceneImage>& images,
             const Path& path,
-            Errors* errors) {
+            HardErrors* errors) {
   struct Track {
     std::vector<motion::Observation> observations;
     std::vector<motion::Place> places;
@@ -101,8 +101,8 @@ void smooth(const geometry::Rig& rig,
       }
     }
   }
-  const double start = images.front().true_time + kWarmUp;
-  const double end = images.back().true_time - kWarmUp;
+  const double start = images.front().true_time + kStartOfRun;
+  const double end = images.back().true_time - kStartOfRun;
   for (const auto& [id, track] : tracks) {
     const auto states = motion::smooth(options.tracks.motion, track.observations, track.places);
     for (std::size_t i = 0; i < states.size(); ++i) {
@@ -138,18 +138,18 @@ void runHard(const BenchmarkSettings& settings, const RowCallback& row) {
     geometry::Rig rig = tracking::test::paperRig();
     rig.cameras.resize(cameras);
     for (const auto& [speed, acceleration] : kMotions) {
-      Errors tracks, smoothed, singles, instants;
+      HardErrors tracks, smoothed, singles, instants;
       tracking::EstimatorOptions default_options, single, instant;
       single.tracks.motion = singleMode(speed, acceleration);
       instant.mode = Mode::kInstant;
       for (int i = 0; i < settings.runs; ++i) {
         geometry::test::Random random(settings.seed + i);
         const Path path = tracking::test::shaken(random, {1.25, 1.25, 1.2}, speed, acceleration);
-        const std::vector<SceneImage> images = film(rig, path, settings.seed + i);
-        track(rig, images, path, default_options, &tracks);
+        const std::vector<SceneImage> images = filmHard(rig, path, settings.seed + i);
+        trackHard(rig, images, path, default_options, &tracks);
         smooth(rig, images, path, &smoothed);
-        track(rig, images, path, single, &singles);
-        track(rig, images, path, instant, &instants);
+        trackHard(rig, images, path, single, &singles);
+        trackHard(rig, images, path, instant, &instants);
       }
       row({format("%zu cameras, %.2f m/s, %.1f m/s^2", cameras, speed, acceleration),
            {{"RMS mm", 1e3 * tracks.rms()},

@@ -25,7 +25,7 @@ using tracking::test::SceneImage;
 constexpr double kRun = 8.0;         // [s]
 constexpr double kStartOfRun = 0.5;  // errors before are not scored [s]
 
-/// HardErrors of the tracked LED.
+/// Errors of the tracked LED.
 struct HardErrors {
   double squared = 0.0;
   double nees = 0.0;

@@ -9,21 +9,21 @@
 namespace wiimote_tracker::tracking::test {
 namespace {
 
-struct Rows {
+struct PhantomRows {
   std::size_t tracked = 0;
   std::size_t wrong = 0;
 };
 
 /// @param seen as LEDs by the cameras, some of them phantoms
-Rows rowsOf(const geometry::Rig& rig,
-            const std::vector<Path>& seen,
-            const std::vector<Path>& leds,
-            const SceneOptions& options,
-            int images,
-            unsigned seed) {
+PhantomRows rowsOf(const geometry::Rig& rig,
+                   const std::vector<Path>& seen,
+                   const std::vector<Path>& leds,
+                   const SceneOptions& options,
+                   int images,
+                   unsigned seed) {
   Tracker tracker(rig, exactOptions());
   IdentityCheck check(leds);
-  Rows rows;
+  PhantomRows rows;
   for (const Snapshot& snapshot : track(&tracker, imagesOf(rig, seen, options, images, seed))) {
     rows.tracked += idsIn(snapshot, TrackState::kTracked).size();
     check.look(snapshot);
@@ -44,7 +44,7 @@ TEST(TrackerPhantoms, TwoReflectionsMakeNoLedWhereOtherCamerasSeeNone) {
     options.hidden = [](std::size_t camera, std::size_t led, double) {
       return (led == 2 && camera != 0) || (led == 3 && camera != 1);
     };
-    const Rows rows =
+    const PhantomRows rows =
         rowsOf(paperRig(), {leds[0], leds[1], phantom, other}, leds, options, 8000, seed);
     EXPECT_GT(rows.tracked, 14000u);
     EXPECT_EQ(0u, rows.wrong) << "seed " << seed;
@@ -57,7 +57,7 @@ TEST(TrackerPhantoms, AnLedThatIsHiddenFromTheOtherCamerasIsConfirmedLater) {
     const std::vector<Path> leds = wanderers(2, 4, speed);
     SceneOptions options;
     options.hidden = [](std::size_t camera, std::size_t, double) { return camera >= 2; };
-    const Rows rows = rowsOf(paperRig(), leds, leds, options, 4000, 4);
+    const PhantomRows rows = rowsOf(paperRig(), leds, leds, options, 4000, 4);
     EXPECT_GE(rows.tracked, 2u * 4000 * 93 / 100) << speed;  // all but the first 0.7 s of 10 s
     EXPECT_EQ(0u, rows.wrong) << speed;
   }
@@ -68,18 +68,18 @@ TEST(TrackerPhantoms, AnLedThatTheOtherCamerasCannotSeeIsConfirmedAtOnce) {
   geometry::Rig rig = paperRig();
   for (std::size_t i = 2; i < 4; ++i)
     rig.cameras[i].masks.push_back({*rig.cameras[i].camera.project(place), 30.0});
-  const Rows rows = rowsOf(rig, {still(place)}, {still(place)}, SceneOptions(), 4000, 1);
+  const PhantomRows rows = rowsOf(rig, {still(place)}, {still(place)}, SceneOptions(), 4000, 1);
   EXPECT_GE(rows.tracked, 4000u * 99 / 100);
 }
 
 TEST(TrackerPhantoms, AHiddenLedIsNotFoundOnGhosts) {
-  Rows all;
+  PhantomRows all;
   for (const unsigned seed : {1u, 2u, 3u}) {
     const std::vector<Path> leds = wanderers(2, seed);
     SceneOptions options;
     options.ghosts = 0.5;
     options.hidden = [](std::size_t, std::size_t, double t) { return std::fmod(t, 0.8) < 0.4; };
-    const Rows rows = rowsOf(paperRig(), leds, leds, options, 8000, seed);
+    const PhantomRows rows = rowsOf(paperRig(), leds, leds, options, 8000, seed);
     all.tracked += rows.tracked;
     all.wrong += rows.wrong;
   }

@@ -93,7 +93,7 @@ class FullStack:
         self._rig = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
         self._rig.publish(true_rig.true_rig(scene.read_scene(path), rigs.identities(description)))
         self._processes = {node: load.process_of(node) for node in [
-            '/manager', '/calibration'] + [f'/{camera}/driver' for camera in self._cameras]}
+            '/triangulation', '/calibration'] + [f'/{camera}/driver' for camera in self._cameras]}
 
     def measure(self, leds, busy, seconds):
         """Load of the nodes while LEDs move, beside busy processes."""
@@ -148,7 +148,7 @@ def tell(run, measured, rooms, seconds):
         ('driver_per_camera', '%'), ('tracker', '%'), ('calibration', '%'), ('all', '%'),
         ('latency_median', 'ms'), ('latency_p99', 'ms')], [
             (s.cameras, s.leds, s.busy, round(s.images, 1), round(s.points, 1),
-             100 * s.drivers().mean(), 100 * s.shares['/manager'].mean(),
+             100 * s.drivers().mean(), 100 * s.shares['/triangulation'].mean(),
              100 * s.shares['/calibration'].mean(), 100 * s.whole().mean(),
              1e3 * np.median(s.own), 1e3 * np.quantile(s.own, 0.99)) for s in measured],
         'Full stack; % of one processor core. Points: messages on `/points`, each with all '
@@ -169,7 +169,7 @@ def figures_of(run, setting):
     run.figure(name + '_driver', 100 * setting.drivers().mean(), '% of a core', setting.cameras,
                widened(run, 100 * setting.drivers(), setting.drivers().shape[1]),
                f'processor time of one driver, {words}', end_to_end=True, headline=headline)
-    for key, shares, what in (('tracker', setting.shares['/manager'], 'the tracker'),
+    for key, shares, what in (('tracker', setting.shares['/triangulation'], 'the tracker'),
                               ('all', setting.whole(), 'all nodes')):
         run.figure(f'{name}_{key}', 100 * shares.mean(), '% of a core', len(shares),
                    widened(run, 100 * shares, len(shares)),
@@ -197,7 +197,7 @@ def plot(run, measured):
             (by_cameras, [(s.cameras, s) for s in idle if s.leds == 1], 'cameras', 'one LED'),
             (by_leds, [(s.leds, s) for s in idle if s.cameras == 4], 'LEDs', 'four cameras')):
         for part, color, text in ((lambda s: s.whole(), charts.INK, 'all nodes'),
-                                  (lambda s: s.shares['/manager'], charts.BLUE, 'tracker')):
+                                  (lambda s: s.shares['/triangulation'], charts.BLUE, 'tracker')):
             axes.plot([n for n, _ in values], [100 * part(s).mean() for _, s in values], 'o-',
                       markersize=5, color=color, label=text)
         axes.set_xlabel(word)

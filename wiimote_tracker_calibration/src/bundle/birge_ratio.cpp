@@ -57,9 +57,9 @@ Eigen::Matrix3Xd alongPrincipalAxes(const Reconstruction& all) {
   }
   points.colwise() -= mean / count;
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const auto& point : points.colwise()) {
-    if (point.allFinite())
-      scatter += point * point.transpose();
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    if (points.col(i).allFinite())
+      scatter += points.col(i) * points.col(i).transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter);
   return axes.eigenvectors().transpose() * points;

@@ -21,6 +21,7 @@ CPP = {
     r'\bbus_type\b': 'hidapi 0.13',
     r'\bSOLVEPNP_SQPNP\b': 'OpenCV 4.5',
     r'\bEigen::(seq|seqN|lastN|last|all|placeholders)\b|\.reshaped\(': 'Eigen 3.4',
+    r'\bfor \([^;]*: .*\b(col|row)wise\(\)': 'Eigen 3.4',
     r'\bstd::(format|span|numbers|bit_cast|source_location|ranges)\b': 'C++20',
     r'^\s*(concept|co_await|co_yield|co_return)\b|\brequires\s*\(|\bconsteval\b': 'C++20',
     r'#include <(concepts|format|span|numbers|ranges|bit|coroutine|source_location)>': 'C++20',
@@ -81,8 +82,8 @@ def test_the_rules_find_examples(tmp_path):
     bad = tmp_path / 'bad.cpp'
     bad.write_text('auto i = hid_get_device_info(d);\nx = m.reshaped();\ncv::SOLVEPNP_SQPNP;\n'
                    'auto s = std::format("{}", 1);\nParameters p{.a = 1};\nEigen::seq(0, 2);\n'
-                   'problem.SetManifold(q, m);\n')
-    assert len({v.split(':')[1] for v in violations([str(bad)], CPP)}) == 7
+                   'problem.SetManifold(q, m);\nfor (auto c : m.colwise()) {\n')
+    assert len({v.split(':')[1] for v in violations([str(bad)], CPP)}) == 8
     guard = tmp_path / 'guard.cpp'
     guard.write_text('#if CV_VERSION_MAJOR > 4\ncv::SOLVEPNP_SQPNP;\n#endif\ncv::SOLVEPNP_SQPNP;\n')
     assert [v.split(':')[1].split()[0] for v in violations([str(guard)], CPP)] == ['4']

@@ -192,7 +192,7 @@ class Bodies(unittest.TestCase):
         self.assertEqual(sorted(self.order), [0, 1, 2])
         error = distances(self.learned) - distances(LEDS[self.order])
         worst = np.add.outer(np.square(self.learned_stddev), np.square(self.learned_stddev))
-        # The deviations are estimated from eight parts: Student's t with 7 degrees of freedom, 0.01 %.
+        # Deviations estimated from eight parts: Student's t, 7 degrees of freedom, 0.01 %.
         self.assertTrue(np.all(abs(error) < 7.9 * np.sqrt(worst) + 1e-12), (error, worst))
         self.assertLess(abs(error).max(), 0.0005)
         with open(self.file) as file:

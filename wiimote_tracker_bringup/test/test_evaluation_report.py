@@ -265,6 +265,28 @@ def test_the_users_files_reach_the_sections(evaluate, tmp_path):
     assert seen == [(led, people)]
 
 
+def test_recordings_by_others_are_marked_as_measured(tmp_path):
+    run = ['--rig', PAPER_RIG, '--output', str(tmp_path / 'out'), '--recordings']
+    assert evaluation.parse(run + [HERE]).sections[-1] == 'recordings'
+    assert 'recordings' not in evaluation.parse(run[:-1]).sections
+    chosen = ['--sections', 'recordings']
+    for wrong in (run[:-1] + chosen, run + ['/nowhere'] + chosen):
+        with pytest.raises(SystemExit):
+            evaluation.parse(wrong)
+    real = os.path.join(HERE, 'data', 'flydra_excerpt')
+    assert evaluation.evaluate(evaluation.parse(run + [real] + chosen)) == 0
+    content = figures(tmp_path)
+    assert not content['simulated'] and not any(each['simulated'] for each in content['figures'])
+    page = (tmp_path / 'out/report.md').read_text(encoding='utf-8')
+    assert 'Measured on recordings by others' in page and 'Simulated' not in page
+    table = results_table.written(README, content)
+    assert '| median error of predicted pixels, ' in table and '| measured |' in table
+    assert 'evaluate --sections recordings' in table
+    # A folder without recordings is a failure that says so.
+    assert evaluation.evaluate(evaluation.parse(run + [str(tmp_path)] + chosen)) == 1
+    assert 'has no recording' in (tmp_path / 'out/report.md').read_text(encoding='utf-8')
+
+
 def test_a_second_run_removes_the_results_of_the_first(evaluate, tmp_path):
     assert evaluate([a_section('first', a_good_run)]) == 0
     stale = tmp_path / 'out/first/stale.csv'

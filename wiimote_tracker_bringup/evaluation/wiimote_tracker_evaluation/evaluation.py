@@ -36,7 +36,10 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     parser.add_argument('--gestures', metavar='DIR',
                         help='recordings of your own gestures, for the section ours: a folder per '
                              'person with a CSV per gesture')
-    parser.add_argument('--sections', metavar='A,B', default=','.join(names),
+    parser.add_argument('--recordings', metavar='DIR',
+                        help='recordings that others made, a folder each, for the section '
+                             'recordings')
+    parser.add_argument('--sections', metavar='A,B',
                         help=f"only these of: {', '.join(names)}")
     parser.add_argument('--quick', action='store_true', help='fewer repetitions; takes minutes')
     parser.add_argument('--live', action='store_true',
@@ -46,7 +49,8 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     parser.add_argument('--seed', type=int, default=1, help='of all random numbers (default: 1)')
     options = parser.parse_args(arguments)
     options.rig = options.rig or package_file('simulation/paper_rig.yaml')
-    chosen = options.sections.split(',')
+    chosen = options.sections.split(',') if options.sections else [
+        name for name in names if name != 'recordings' or options.recordings]
     for name in chosen:
         if name not in names:
             parser.error(f"there is no section {name!r}; choose from {', '.join(names)}")
@@ -58,6 +62,10 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     if options.gestures and len(folders_in(options.gestures)) < 2:
         parser.error(f'{options.gestures} needs folders of at least two people: each person is '
                      "recognised by the others' drawings")
+    if 'recordings' in chosen and not options.recordings:
+        parser.error('the section recordings needs --recordings DIR')
+    if options.recordings and not os.path.isdir(options.recordings):
+        parser.error(f'there is no folder {options.recordings}')
     if not 0 <= options.seed < 2 ** 31:
         parser.error('--seed must be between 0 and 2^31 - 1')
     options.rig, options.output = os.path.abspath(options.rig), os.path.abspath(options.output)
@@ -109,7 +117,8 @@ def evaluate(options: argparse.Namespace) -> int:
         for module in modules:
             run = Run(module.NAME, module.TITLE, options.rig,
                       os.path.join(options.output, module.NAME), options.quick, options.seed,
-                      not options.live, progress.within, options.led, options.gestures)
+                      not options.live, progress.within, options.led, options.gestures,
+                      options.recordings)
             runs.append(run)
             run.failure = 'It was interrupted.'
             progress.begin(module.NAME, module.TITLE)

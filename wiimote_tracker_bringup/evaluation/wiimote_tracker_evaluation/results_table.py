@@ -38,14 +38,21 @@ def headlines(content: Dict) -> List[Dict]:
     return entries
 
 
+def origin(content: Dict) -> str:
+    """How to get the table."""
+    if not any(entry['simulated'] for entry in headlines(content)):
+        return 'By `rosrun wiimote_tracker_bringup evaluate --sections recordings --recordings DIR`.'
+    return 'By `rosrun wiimote_tracker_bringup evaluate%s --seed %d`, rig `%s`.' % (
+        ' --quick' if content['quick'] else '', content['seed'], content['rig']) + (
+        ' *Full stack* runs in real time: these numbers depend on the machine and on what else it '
+        'does, and their intervals are of that run alone.')
+
+
 def lines(content: Dict) -> List[str]:
     """The table in Markdown."""
     return (['| | value | 95 % interval | how |', '|---|---|---|---|'] + [
         '| ' + ' | '.join(cells(entry)) + ' |' for entry in headlines(content)] + [
-        '', 'By `rosrun wiimote_tracker_bringup evaluate%s --seed %d`, rig `%s`.' % (
-            ' --quick' if content['quick'] else '', content['seed'], content['rig'])
-        + ' *Full stack* runs in real time: these numbers depend on the machine and on what else it '
-        'does, and their intervals are of that run alone.'])
+        '', origin(content)])
 
 
 def split(text: str) -> Tuple[str, str, str]:

@@ -6,51 +6,26 @@ import io
 import json
 import os
 import sys
-import tempfile
-
-import numpy as np
 
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.foreign import flight, lighthouse, multicamselfcal
+from wiimote_tracker_evaluation.foreign import formats
 
 
-class Outcome:
-    """result: for the file. rows: name and value, as text. errors: of single points, at places on
-    an axis."""
-
-    def __init__(self, method, result, rows, axis, places, unit, errors):
-        self.method, self.result, self.rows = method, dict(result, method=method), list(rows)
-        self.axis, self.places, self.unit, self.errors = axis, places, unit, errors
-
-
-def lighthouse_outcome(source, folder):
-    result, times, errors = flight.evaluate(lighthouse.read(source), folder)
-    return Outcome(flight.METHOD, result, flight.rows_of(result), 'time [s]', times - times.min(),
-                   'mm', 1e3 * errors)
-
-
-def multicamselfcal_outcome(source, folder):
-    result, errors = multicamselfcal.evaluate(source, folder)
-    rows = ((name, 'median {median:.3f}, mean {mean:.3f}, RMS {rms:.3f}, p95 {p95:.3f} px, '
-             '{inliers} of {observations} within 5 px'.format(**figures))
-            for name, figures in result.items())
-    return Outcome(multicamselfcal.METHOD, {'held_out': result}, rows, 'frame',
-                   np.array([frame for frame, _ in errors]), 'px', np.array(list(errors.values())))
-
-
-FORMATS = {'lighthouse': lighthouse_outcome, 'multicamselfcal': multicamselfcal_outcome}
-
-
-def write_report(title, outcome, folder):
-    """report.html: the figures, and the errors one by one and as a distribution."""
+def drawing(outcome):
+    """The errors one by one and as a distribution."""
     from wiimote_tracker_evaluation import charts  # the Debian package does without matplotlib
     figure, (left, right) = charts.figure(1, 2, height=2.8)
     left.plot(outcome.places, outcome.errors, '.', markersize=2.0, color=charts.BLUE)
     left.set(xlabel=outcome.axis, ylabel=f'error [{outcome.unit}]')
     charts.cumulative(right, outcome.errors, charts.BLUE)
     right.set(xlabel=f'error [{outcome.unit}]', ylabel='share of points')
+    return figure
+
+
+def write_report(title, outcome, folder):
+    """report.html: the figures and a drawing()."""
     svg = io.StringIO()
-    figure.savefig(svg, format='svg')
+    drawing(outcome).savefig(svg, format='svg')
     rows = ''.join(f'<tr><td>{html.escape(name)}</td><td>{html.escape(value)}</td></tr>'
                    for name, value in outcome.rows)
     os.makedirs(folder, exist_ok=True)
@@ -66,14 +41,13 @@ def main():
         prog='evaluate_recording', description='Calibrates the cameras of a recording that others '
         'made from what they saw alone, and measures the accuracy: lighthouse: of the path, against '
         'motion capture; multicamselfcal: of predicted pixels.')
-    parser.add_argument('format', choices=sorted(FORMATS))
+    parser.add_argument('format', choices=sorted(formats.FORMATS))
     parser.add_argument('folder', metavar='DIR', help='the recording')
     parser.add_argument('--json', metavar='FILE', help='write the figures')
     parser.add_argument('--report', metavar='DIR', help='write a page with plots')
     arguments = parser.parse_args()
     try:
-        with tempfile.TemporaryDirectory() as folder:
-            outcome = FORMATS[arguments.format](arguments.folder, folder)
+        outcome = formats.measure(arguments.format, arguments.folder)
         for name, value in outcome.rows:
             print(f'{name:35} {value}')
         if arguments.json:

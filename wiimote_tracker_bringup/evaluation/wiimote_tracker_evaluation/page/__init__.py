@@ -14,7 +14,7 @@ class Report:
         self.quick, self.live, self.seed = options.quick, options.live, options.seed
         self.runs = runs
         # --live can be rehearsed on virtual remotes.
-        self.simulated = not options.live or any(run.simulated for run in runs)
+        self.simulated = any(run.simulated for run in runs)
         self.seconds = seconds
 
 

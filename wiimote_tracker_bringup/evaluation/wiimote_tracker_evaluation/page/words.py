@@ -57,6 +57,8 @@ def about(report):
     if report.live:
         how = ('Rehearsed on a simulated rig, with prompts' if report.simulated else
                'Measured on a real rig')
+    elif not report.simulated:
+        how = 'Measured on recordings by others'
     else:
         how = f'Simulated, rig `{report.rig}`'
     return '%s, seed %d, %s; took %s.' % (

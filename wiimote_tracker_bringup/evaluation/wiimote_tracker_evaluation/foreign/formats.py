@@ -1,0 +1,79 @@
+"""The formats of recordings that others made, and what is measured on one."""
+
+import dataclasses
+import os
+import tempfile
+from typing import Callable, Dict, List, Tuple
+
+import numpy as np
+
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.foreign import flight, lighthouse, multicamselfcal
+
+
+@dataclasses.dataclass(eq=False)
+class Outcome:
+    """result: for a file. rows: name and value, as text. scores: by what was tracked or predicted,
+    the figures of the recording. errors: of single points, at places on an axis."""
+
+    method: str
+    result: Dict
+    rows: List[Tuple[str, str]]
+    scores: Dict[str, Dict]
+    axis: str
+    places: np.ndarray
+    unit: str
+    errors: np.ndarray
+
+
+def of_flight(views, folder):
+    result, times, errors = flight.evaluate(views, folder)
+    return Outcome(flight.METHOD, result, list(flight.rows_of(result)),
+                   {'one point': result}, 'time [s]', times - times.min(), 'mm', 1e3 * errors)
+
+
+def of_synchronised(source, folder):
+    result, errors = multicamselfcal.evaluate(source, folder)
+    rows = [(name, 'median {median:.3f}, mean {mean:.3f}, RMS {rms:.3f}, p95 {p95:.3f} px, '
+             '{inliers} of {observations} within 5 px'.format(**figures))
+            for name, figures in result.items()]
+    return Outcome(multicamselfcal.METHOD, {'held_out': result}, rows, {'pixels': result['all']},
+                   'frame', np.array([frame for frame, _ in errors]), 'px',
+                   np.array(list(errors.values())))
+
+
+@dataclasses.dataclass(eq=False)
+class Format:
+    """sign: a file that only recordings of this format have. measure: of a recording, with a folder
+    for files of its own, to an Outcome."""
+
+    sign: str
+    measure: Callable[[str, str], Outcome]
+
+
+FORMATS = {
+    'lighthouse': Format('bearings.csv.gz', lambda source, folder: of_flight(
+        lighthouse.read(source), folder)),
+    'multicamselfcal': Format('Res.dat', of_synchronised)}
+
+
+def measure(name: str, source: str) -> Outcome:
+    """@raise ExperimentError: the recording is damaged, or does not suffice."""
+    with tempfile.TemporaryDirectory() as folder:
+        outcome = FORMATS[name].measure(source, folder)
+    outcome.result['method'] = outcome.method
+    return outcome
+
+
+def found_in(folder: str) -> Dict[str, str]:
+    """Formats of the recordings in a folder and below it, by their paths in order.
+    @raise ExperimentError: there is none."""
+    found = {}
+    for path, _, files in os.walk(folder):
+        for name, each in FORMATS.items():
+            if each.sign in files:
+                found[path] = name
+    if not found:
+        signs = ' or '.join(sorted(each.sign for each in FORMATS.values()))
+        raise ExperimentError(f'{folder} has no recording: a folder with {signs} is one')
+    return dict(sorted(found.items()))

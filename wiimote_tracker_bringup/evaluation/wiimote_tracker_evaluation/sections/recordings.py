@@ -1,0 +1,66 @@
+"""Recordings that others made: errors against their truth, or of pixels that were held out."""
+
+import os
+import re
+
+import numpy as np
+
+from wiimote_tracker_evaluation import statistics
+from wiimote_tracker_evaluation.foreign import formats, program
+
+NAME = 'recordings'
+TITLE = 'Recordings by others'
+
+PARTS = 10  # of a recording, taken as independent
+# Columns of the figures of a path, and of predicted pixels: name, unit, key, factor.
+PATHS = (('mean', 'mm', 'mean_mm', 1.0), ('rms', 'mm', 'rms_mm', 1.0), ('p95', 'mm', 'p95_mm', 1.0),
+         ('largest', 'mm', 'largest_mm', 1.0), ('coverage', '%', 'coverage_95', 100.0),
+         ('nees', '', 'nees', 1.0), ('tracked', '%', 'tracked', 100.0), ('gaps', '', 'gaps', 1.0))
+PIXELS = (('median', 'px', 'median', 1.0), ('mean', 'px', 'mean', 1.0), ('rms', 'px', 'rms', 1.0),
+          ('p95', 'px', 'p95', 1.0), ('within_5_px', '', 'inliers', 1.0),
+          ('observations', '', 'observations', 1.0))
+
+
+def run(run):
+    run.simulated = False
+    own = os.path.abspath(run.recordings)
+    found, outcomes = formats.found_in(own), {}
+    for number, (path, name) in enumerate(found.items()):
+        title = os.path.relpath(path, own) if path != own else os.path.basename(own)
+        run.progress(number, len(found), title)
+        outcomes[title] = formats.measure(name, path)
+    run.say('Nothing here is simulated. Neither a truth nor shipped poses enter the path: the '
+            'cameras are calibrated from what they saw alone.')
+    for kind, unit, columns, caption in (
+            ('paths', 'mm', PATHS, 'Error of a tracked path after a similarity, fitted on other '
+             'parts of the recording. Coverage: of the 95 % ellipsoids; the ideal NEES is 3.'),
+            ('pixels', 'px', PIXELS, 'Pixels of frames that took no part in the calibration, '
+             'predicted from what the other cameras saw.')):
+        chosen = {title: each for title, each in outcomes.items() if each.unit == unit}
+        if chosen:
+            run.table(kind, [('recording', ''), ('of', '')] + [
+                (name, its) for name, its, _, _ in columns], [
+                [title, what] + [factor * figures[key] for _, _, key, factor in columns]
+                for title, each in chosen.items() for what, figures in each.scores.items()], caption)
+    for title, outcome in outcomes.items():
+        tell(run, title, outcome)
+    means = [each.result['mean_mm'] for each in outcomes.values() if each.unit == 'mm']
+    if means:
+        run.summary(f'**Recordings by others**, real: mean error of {len(means)} paths with a truth '
+                    f'{min(means):.1f} to {max(means):.1f} mm.')
+
+
+def tell(run, title, outcome):
+    name = re.sub(r'\W+', '_', title)
+    run.say(f'### {title}\n\n{outcome.method}.\n\n' + '\n'.join(
+        f'- {row}: {value}' for row, value in outcome.rows))
+    run.plot('errors_of_' + name, program.drawing(outcome), f'Errors of {title}.')
+    statistic, word = (np.mean, 'mean') if outcome.unit == 'mm' else (np.median, 'median')
+    in_order = outcome.errors[np.argsort(outcome.places, kind='stable')]
+    run.figure(f'{name}_{word}', statistic(in_order), outcome.unit, len(in_order),
+               statistics.bootstrap(statistics.blocks(in_order, PARTS), statistic, run.seed),
+               f'{word} error of {"the path" if outcome.unit == "mm" else "predicted pixels"}, '
+               f'{title}', headline=True)
+    if 'tracked' in outcome.result:
+        run.figure(f'{name}_tracked', 100.0 * outcome.result['tracked'], '%', len(in_order),
+                   note=f'tracked while in sight, {title}', headline=True)

@@ -4,7 +4,13 @@
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
 #include "wiimote_tracker_driver/virtual_wiimote/faults.h"
 
-#include <memory>
+#include "second_master.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <random>
 #include <vector>
 
 namespace wiimote_tracker::virtual_wiimote {
@@ -13,7 +19,6 @@ namespace wiimote_tracker::virtual_wiimote {
 class FaultyDevice {
  public:
   explicit FaultyDevice(const Device::Options& options, const Faults& faults = Faults());
-  ~FaultyDevice();
 
   /// Sets the faults; delayed reports still arrive.
   void setFaults(const Faults& faults);
@@ -32,15 +37,41 @@ class FaultyDevice {
 
   /// Whether the remote is out of range because of Faults::unplug_every. Then it receives and sends
   /// nothing.
-  bool away() const;
+  bool away() const { return away_; }
 
   /// Access without the link.
-  Device& device();
-  const Device& device() const;
+  Device& device() { return device_; }
+  const Device& device() const { return device_; }
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Late {
+    std::uint64_t due;  // [samples]
+    Bytes report;
+  };
+
+  bool chance(double probability);
+  std::size_t below(std::size_t limit) { return random_() % limit; }
+  bool stalled() const { return samples_ < stall_end_; }
+  void say(const Bytes& report);
+  void send(Bytes report);
+  void arrive(const Bytes& report);
+  void releaseHeldBack();
+  void releaseLate();
+  Bytes garbage();
+  void goAwayOrComeBack();
+
+  Device device_;
+  Faults faults_;
+  std::mt19937 random_;
+  std::optional<SecondMaster> second_master_;
+
+  std::uint64_t samples_ = 0;
+  std::uint64_t stall_end_ = 0;
+  bool away_ = false;
+  std::uint64_t came_or_went_ = 0;
+  std::vector<Late> late_;
+  std::deque<Bytes> held_back_;
+  std::vector<Bytes> arrived_;  // not yet handed to the host
 };
 
 }  // namespace wiimote_tracker::virtual_wiimote

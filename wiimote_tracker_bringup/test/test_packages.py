@@ -7,7 +7,8 @@ import subprocess
 import pytest
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', 'scripts')
-LISTS = ['debian_packages.txt', 'debian_test_packages.txt', 'debian_packaging_packages.txt']
+LISTS = ['debian_packages.txt', 'debian_panel_packages.txt', 'debian_test_packages.txt',
+         'debian_packaging_packages.txt']
 
 
 def lines_of(name):

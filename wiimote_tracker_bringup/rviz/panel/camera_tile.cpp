@@ -1,0 +1,171 @@
+#include "camera_tile.h"
+
+#include <QFontMetrics>
+#include <QPainter>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::panel {
+namespace {
+
+constexpr int kMargin = 6;                         // [px of the screen]
+constexpr int kCellColumns = 8, kCellRows = 6;     // as CalibrationCameraStatus.image_cells
+constexpr double kWiimoteAspect = 1024.0 / 768.0;  // until the first image tells its size
+const QColor kGround(30, 33, 40), kPicture(12, 13, 17), kText(232, 235, 240), kFaint(150, 156, 168);
+const QColor kSpot(255, 244, 214), kMask(90, 94, 104), kCell(60, 130, 200, 70);
+
+}  // namespace
+
+QColor colorOf(CameraState state) {
+  switch (state) {
+    case CameraState::kFrozen:
+      return QColor(150, 156, 168);
+    case CameraState::kKnocked:
+      return QColor(255, 92, 92);
+    case CameraState::kLate:
+      return QColor(255, 176, 46);
+    case CameraState::kNotCalibrated:
+      return QColor(96, 165, 250);
+    case CameraState::kBlind:
+      return QColor(240, 222, 90);
+    case CameraState::kFine:
+      break;
+  }
+  return QColor(74, 205, 120);
+}
+
+void CameraTile::show(const CameraView& camera,
+                      CameraState state,
+                      const std::string& words,
+                      double now) {
+  words_ = QString::fromStdString(words);
+  setToolTip(words_ + QString::fromStdString(
+                          camera.status.problem.empty() ? "" : "\n" + camera.status.problem));
+  if (visibleRegion().isEmpty())
+    return;
+  camera_ = camera;
+  state_ = state;
+  now_ = now;
+  update();
+}
+
+int CameraTile::lineHeight() const {
+  return fontMetrics().height() + 2;
+}
+
+int CameraTile::heightForWidth(int width) const {
+  const bool has_size = camera_ && camera_->image && camera_->image->width > 0;
+  const double aspect = has_size
+                            ? static_cast<double>(camera_->image->height) / camera_->image->width
+                            : 1.0 / kWiimoteAspect;
+  return static_cast<int>((width - 2 * kMargin) * aspect) + 2 * lineHeight() + 2 * kMargin;
+}
+
+QRectF CameraTile::pictureArea() const {
+  return QRectF(kMargin, kMargin + lineHeight(), width() - 2 * kMargin,
+                height() - 2 * kMargin - 2 * lineHeight());
+}
+
+void CameraTile::paintEvent(QPaintEvent*) {
+  if (!camera_)
+    return;
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const QColor color = colorOf(state_);
+  painter.setPen(QPen(color, 2));
+  painter.setBrush(kGround);
+  painter.drawRoundedRect(rect().adjusted(1, 1, -1, -1), 5, 5);
+  paintHeader(&painter);
+  paintPicture(&painter);
+  painter.setPen(color);
+  const QRect line(kMargin, height() - kMargin - lineHeight(), width() - 2 * kMargin, lineHeight());
+  painter.drawText(line, Qt::AlignVCenter | Qt::AlignLeft,
+                   painter.fontMetrics().elidedText(words_, Qt::ElideRight, line.width()));
+}
+
+/// Name on the left, rate and battery on the right.
+void CameraTile::paintHeader(QPainter* painter) const {
+  const QRect line(kMargin, kMargin - 2, width() - 2 * kMargin, lineHeight());
+  QString numbers;
+  const double rate = camera_->rate(now_);
+  if (std::isfinite(rate))
+    numbers = QString("%1 Hz").arg(rate, 0, 'f', 0);
+  if (std::isfinite(camera_->battery))
+    numbers += QString("%1%2 %")
+                   .arg(numbers.isEmpty() ? "" : "   ")
+                   .arg(100.0 * camera_->battery, 0, 'f', 0);
+  const bool is_low = camera_->battery < 0.15;
+  painter->setPen(is_low ? colorOf(CameraState::kLate) : kFaint);
+  painter->drawText(line, Qt::AlignVCenter | Qt::AlignRight, numbers);
+  const QFont normal = painter->font();
+  QFont bold = normal;
+  bold.setBold(true);
+  painter->setFont(bold);
+  painter->setPen(kText);
+  const int room = line.width() - painter->fontMetrics().horizontalAdvance(numbers) - kMargin;
+  painter->drawText(line, Qt::AlignVCenter | Qt::AlignLeft,
+                    painter->fontMetrics().elidedText(QString::fromStdString(camera_->name),
+                                                      Qt::ElideRight, room));
+  painter->setFont(normal);
+}
+
+void CameraTile::paintPicture(QPainter* painter) const {
+  const QRectF area = pictureArea();
+  painter->save();
+  painter->setClipRect(area);
+  painter->fillRect(area, kPicture);
+  paintCells(painter, area);
+  if (camera_->image && camera_->image->width > 0 && camera_->image->height > 0)
+    paintSpots(painter, area);
+  if (!camera_->hasImages(now_)) {
+    painter->fillRect(area, QColor(60, 63, 70, 190));
+    painter->setPen(kText);
+    painter->drawText(area, Qt::AlignCenter, "no images");
+  }
+  painter->restore();
+}
+
+void CameraTile::paintCells(QPainter* painter, const QRectF& area) const {
+  const auto& cells = camera_->status.image_cells;
+  if (cells.size() != kCellColumns * kCellRows)
+    return;
+  const double width = area.width() / kCellColumns;
+  const double height = area.height() / kCellRows;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto column = static_cast<double>(i % kCellColumns);
+    const auto row = static_cast<double>(i - i % kCellColumns) / kCellColumns;
+    if (cells[i])
+      painter->fillRect(QRectF(area.left() + column * width, area.top() + row * height, width - 1.0,
+                               height - 1.0),
+                        kCell);
+  }
+}
+
+/// Masks, trails, and the newest spots with the sizes that the camera reports.
+void CameraTile::paintSpots(QPainter* painter, const QRectF& area) const {
+  const double scale = area.width() / camera_->image->width;
+  const auto at = [&](double x, double y) {
+    return QPointF(area.left() + (x + 0.5) * scale, area.top() + (y + 0.5) * scale);
+  };
+  if (camera_->calibration) {
+    painter->setPen(QPen(kMask.lighter(), 1, Qt::DashLine));
+    painter->setBrush(kMask);
+    for (const auto& mask : camera_->calibration->masks)
+      painter->drawEllipse(at(mask.x, mask.y), mask.radius * scale, mask.radius * scale);
+  }
+  painter->setPen(Qt::NoPen);
+  for (const CameraView::Trace& trace : camera_->trail) {
+    QColor color = colorOf(state_);
+    color.setAlphaF(std::clamp(0.6 * (1.0 - (now_ - trace.time) / CameraView::kTrail), 0.0, 0.6));
+    painter->setBrush(color);
+    painter->drawEllipse(at(trace.x, trace.y), 1.5, 1.5);
+  }
+  for (const auto& spot : camera_->image->blobs) {
+    const double radius = 2.5 + 0.4 * (std::isfinite(spot.size) ? spot.size : 2.0);
+    painter->setBrush(camera_->isMasked(spot) ? kFaint : kSpot);
+    painter->drawEllipse(at(spot.x, spot.y), radius, radius);
+  }
+}
+
+}  // namespace wiimote_tracker::panel

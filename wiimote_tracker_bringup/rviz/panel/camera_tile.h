@@ -1,0 +1,49 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CAMERA_TILE_H
+#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CAMERA_TILE_H
+
+#include "camera_view.h"
+
+#include <QColor>
+#include <QString>
+#include <QWidget>
+
+#include <optional>
+
+class QPainter;
+
+namespace wiimote_tracker::panel {
+
+/// For the state's border and words; legible on the tiles' dark ground.
+QColor colorOf(CameraState state);
+
+/// One camera: its picture with spots, trails, masks and the cells that a wave has filled; name,
+/// rate, battery, and its state by colour and in words.
+class CameraTile : public QWidget {
+ public:
+  explicit CameraTile(QWidget* parent) : QWidget(parent) {}
+
+  void show(const CameraView& camera, CameraState state, const std::string& words, double now);
+
+  int heightForWidth(int width) const override;
+  QString words() const { return words_; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  int lineHeight() const;
+  QRectF pictureArea() const;
+  void paintHeader(QPainter* painter) const;
+  void paintPicture(QPainter* painter) const;
+  void paintCells(QPainter* painter, const QRectF& area) const;
+  void paintSpots(QPainter* painter, const QRectF& area) const;
+
+  std::optional<CameraView> camera_;
+  CameraState state_ = CameraState::kFrozen;
+  QString words_;
+  double now_ = 0.0;
+};
+
+}  // namespace wiimote_tracker::panel
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CAMERA_TILE_H

@@ -1,0 +1,116 @@
+#include "link.h"
+
+#include <sensor_msgs/BatteryState.h>
+
+#include <chrono>
+#include <utility>
+
+namespace wiimote_tracker::panel {
+namespace {
+
+const std::string kImages = "/ir_blobs";
+constexpr auto kSearchPeriod = std::chrono::seconds(1);
+
+}  // namespace
+
+Link::Link(TrackerView* view) : view_(view) {
+  nh_.setCallbackQueue(&queue_);
+  thread_ = std::thread([this] { run(); });
+}
+
+Link::~Link() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    must_end_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+double Link::now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void Link::poll() {
+  std::optional<std::set<std::string>> cameras;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    cameras.swap(cameras_);
+  }
+  if (cameras)
+    view_->onTopics(*cameras, now());
+  queue_.callAvailable();
+}
+
+void Link::run() {
+  subscribeTracker();
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!must_end_) {
+    lock.unlock();
+    const auto cameras = findCameras();
+    if (cameras) {
+      for (const std::string& name : *cameras)
+        subscribeCamera(name);
+    }
+    lock.lock();
+    if (cameras)
+      cameras_ = cameras;
+    changed_.wait_for(lock, kSearchPeriod, [this] { return must_end_; });
+  }
+}
+
+/// Names of the cameras below our namespace that have an image topic; none when the master does not
+/// answer.
+std::optional<std::set<std::string>> Link::findCameras() const {
+  XmlRpc::XmlRpcValue arguments, result, topics;
+  arguments[0] = ros::this_node::getName();
+  arguments[1] = "";
+  if (!ros::master::execute("getPublishedTopics", arguments, result, topics, false))
+    return std::nullopt;
+  const std::string own = nh_.getNamespace() == "/" ? "/" : nh_.getNamespace() + "/";
+  std::set<std::string> cameras;
+  for (int i = 0; i < topics.size(); ++i) {
+    const std::string name = topics[i][0];
+    const std::string type = topics[i][1];
+    const std::size_t end = name.size() - std::min(name.size(), kImages.size());
+    if (type == "wiimote_tracker_msgs/IrBlobArray" && end > own.size() &&
+        name.compare(end, kImages.size(), kImages) == 0 && name.compare(0, own.size(), own) == 0)
+      cameras.insert(name.substr(own.size(), end - own.size()));
+  }
+  return cameras;
+}
+
+template <class Message>
+void Link::subscribe(const std::string& topic,
+                     std::uint32_t queue_size,
+                     std::function<void(const ros::MessageEvent<const Message>&)> callback) {
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const ros::MessageEvent<const Message>&>(topic, queue_size,
+                                                                          std::move(callback));
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  subscribers_.push_back(nh_.subscribe(options));
+}
+
+void Link::subscribeTracker() {
+  subscribe<wiimote_tracker_msgs::CalibrationStatus>(
+      "calibration/status", 1,
+      [this](const auto& event) { view_->onStatus(*event.getMessage(), now()); });
+  subscribe<wiimote_tracker_msgs::RigCalibration>("calibration/rig", 1, [this](const auto& event) {
+    view_->onRig(*event.getMessage(), now());
+  });
+}
+
+/// Of the images, the newest is enough: nothing older is drawn, and none waits.
+void Link::subscribeCamera(const std::string& name) {
+  if (!watched_.insert(name).second)
+    return;
+  subscribe<wiimote_tracker_msgs::IrBlobArray>(name + kImages, 1, [this, name](const auto& event) {
+    const auto& message = *event.getMessage();
+    view_->onImage(name, message, (event.getReceiptTime() - message.header.stamp).toSec(), now());
+  });
+  subscribe<sensor_msgs::BatteryState>(name + "/battery", 1, [this, name](const auto& event) {
+    view_->onBattery(name, event.getMessage()->percentage, now());
+  });
+}
+
+}  // namespace wiimote_tracker::panel

@@ -1,0 +1,60 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_LINK_H
+#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_LINK_H
+
+#include "tracker_view.h"
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace wiimote_tracker::panel {
+
+/// Feeds a TrackerView from ROS. A thread of its own asks the master for cameras and subscribes,
+/// since that may wait; messages are handed over by poll(), which never waits.
+class Link {
+ public:
+  explicit Link(TrackerView* view);
+  ~Link();
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+
+  /// Hands over the newest messages. Called by the thread that owns the view.
+  void poll();
+
+  /// The time that the view is told [s].
+  static double now();
+
+ private:
+  void run();
+  void subscribeTracker();
+  void subscribeCamera(const std::string& name);
+  std::optional<std::set<std::string>> findCameras() const;
+
+  template <class Message>
+  void subscribe(const std::string& topic,
+                 std::uint32_t queue_size,
+                 std::function<void(const ros::MessageEvent<const Message>&)> callback);
+
+  TrackerView* view_;
+  ros::CallbackQueue queue_;
+  ros::NodeHandle nh_;
+  std::vector<ros::Subscriber> subscribers_;  // of the thread
+  std::set<std::string> watched_;             // of the thread
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<std::set<std::string>> cameras_;  // found, not handed over yet
+  bool must_end_ = false;
+  std::thread thread_;
+};
+
+}  // namespace wiimote_tracker::panel
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_LINK_H

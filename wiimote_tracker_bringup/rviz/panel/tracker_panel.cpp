@@ -1,0 +1,40 @@
+#include "tracker_widget.h"
+
+#include <QTabWidget>
+#include <QVBoxLayout>
+
+#include <rviz/panel.h>
+#include <pluginlib/class_list_macros.hpp>
+
+namespace wiimote_tracker::panel {
+
+/// The panel in rviz. The .rviz file keeps which page is in front.
+class TrackerPanel : public rviz::Panel {
+ public:
+  TrackerPanel() : widget_(new TrackerWidget(this)) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(widget_);
+    connect(widget_->pages(), &QTabWidget::currentChanged, this,
+            [this] { Q_EMIT configChanged(); });
+  }
+
+  void load(const rviz::Config& config) override {
+    rviz::Panel::load(config);
+    int page = 0;
+    if (config.mapGetInt("Page", &page))
+      widget_->pages()->setCurrentIndex(page);
+  }
+
+  void save(rviz::Config config) const override {
+    rviz::Panel::save(config);
+    config.mapSetValue("Page", widget_->pages()->currentIndex());
+  }
+
+ private:
+  TrackerWidget* widget_;
+};
+
+}  // namespace wiimote_tracker::panel
+
+PLUGINLIB_EXPORT_CLASS(wiimote_tracker::panel::TrackerPanel, rviz::Panel)

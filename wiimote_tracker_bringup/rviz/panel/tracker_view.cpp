@@ -1,0 +1,111 @@
+#include "tracker_view.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <tuple>
+
+namespace wiimote_tracker::panel {
+namespace {
+
+/// wiimote_2 before wiimote_10: the name without the digits at its end, and their number.
+auto sortKey(const std::string& name) {
+  std::size_t digits = name.size();
+  while (digits > 0 && std::isdigit(static_cast<unsigned char>(name[digits - 1])))
+    --digits;
+  return std::make_tuple(name.substr(0, digits), name.size(), name);
+}
+
+const char* count(CameraState state) {
+  switch (state) {
+    case CameraState::kFrozen:
+      return "without images";
+    case CameraState::kKnocked:
+      return "changed since the calibration";
+    case CameraState::kLate:
+      return "late";
+    case CameraState::kNotCalibrated:
+      return "not calibrated";
+    case CameraState::kBlind:
+      return "see no spot";
+    case CameraState::kFine:
+      break;
+  }
+  return "fine";
+}
+
+}  // namespace
+
+CameraView& TrackerView::camera(const std::string& name, double now) {
+  const auto place = std::lower_bound(cameras_.begin(), cameras_.end(), name,
+                                      [](const CameraView& camera, const std::string& name) {
+                                        return sortKey(camera.name) < sortKey(name);
+                                      });
+  if (place != cameras_.end() && place->name == name)
+    return *place;
+  return *cameras_.insert(place, CameraView(name, now));
+}
+
+bool TrackerView::isNamed(const std::string& name) const {
+  if (topics_.count(name) > 0)
+    return true;
+  return rig_ && std::any_of(rig_->cameras.begin(), rig_->cameras.end(),
+                             [&](const auto& camera) { return camera.name == name; });
+}
+
+void TrackerView::onTopics(const std::set<std::string>& cameras, double now) {
+  topics_ = cameras;
+  for (const std::string& name : cameras)
+    camera(name, now);
+  cameras_.erase(std::remove_if(cameras_.begin(), cameras_.end(),
+                                [&](const CameraView& camera) {
+                                  return !isNamed(camera.name) &&
+                                         camera.silence(now) > kForgetAfter;
+                                }),
+                 cameras_.end());
+}
+
+void TrackerView::onImage(const std::string& name,
+                          const wiimote_tracker_msgs::IrBlobArray& message,
+                          double delay,
+                          double now) {
+  camera(name, now).onImage(message, delay, now);
+}
+
+void TrackerView::onBattery(const std::string& name, double charge, double now) {
+  camera(name, now).battery = charge;
+}
+
+void TrackerView::onStatus(const wiimote_tracker_msgs::CalibrationStatus& message, double now) {
+  for (const auto& status : message.cameras)
+    camera(status.name, now).status = status;
+}
+
+void TrackerView::onRig(const wiimote_tracker_msgs::RigCalibration& message, double now) {
+  rig_ = message;
+  for (CameraView& camera : cameras_)
+    camera.calibration.reset();
+  for (const auto& calibration : message.cameras)
+    camera(calibration.name, now).calibration = calibration;
+}
+
+bool TrackerView::othersSee(const CameraView& camera, double now) const {
+  return std::any_of(cameras_.begin(), cameras_.end(), [&](const CameraView& other) {
+    return other.name != camera.name && other.seesSpot(now);
+  });
+}
+
+std::string TrackerView::summary(double now) const {
+  if (cameras_.empty())
+    return "No camera is there: start the drivers.";
+  std::map<CameraState, int> counts;
+  for (const CameraView& camera : cameras_)
+    ++counts[stateOf(camera, now)];
+  std::string text;
+  for (const auto& [state, number] : counts)
+    text += (text.empty() ? "" : ", ") + std::to_string(number) + " " + count(state);
+  return std::to_string(cameras_.size()) + (cameras_.size() == 1 ? " camera: " : " cameras: ") +
+         text;
+}
+
+}  // namespace wiimote_tracker::panel

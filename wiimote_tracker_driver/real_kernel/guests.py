@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import sys
 from dataclasses import dataclass, field
-from typing import Dict, Iterable, List, Tuple
+from typing import Dict, Iterable, List, Optional, Tuple
 
 import fetch
 
@@ -25,8 +25,8 @@ class Guest:
     programs: List[str] = field(default_factory=list)  # of packages, this workspace or this machine
     scripts: List[str] = field(default_factory=list)   # of our package, in Python
     settings: List[str] = field(default_factory=list)  # files of packages
-    libraries: List[str] = field(default_factory=list)  # that scripts load
-    clients: List[str] = field(default_factory=list)   # our scripts in the folder clients
+    libraries: List[str] = field(default_factory=list)  # of packages, which clients load
+    clients: List[str] = field(default_factory=list)   # in the folder clients, in Python
 
 
 GUESTS: Dict[str, Guest] = {
@@ -57,24 +57,27 @@ for module in list(sys.modules.values()):
 """
 
 
-def find_library(name: str, folders: Iterable[str]) -> str:
-    """A shared library of the packages in `folders`. Raises fetch.Unavailable."""
+def find_file(name: str, folders: Iterable[str], places: Iterable[str]) -> Optional[str]:
+    """A file in one of the `places` in one of the `folders`."""
     for folder in folders:
-        for place in LIBRARY_FOLDERS:
+        for place in places:
             path = os.path.join(folder, place, name)
             if os.path.isfile(path):
                 return os.path.realpath(path)
-    raise fetch.Unavailable(f'there is no library {name}')
+    return None
+
+
+def find_library(name: str, folders: Iterable[str]) -> str:
+    """A shared library of the packages in `folders`. Raises fetch.Unavailable."""
+    path = find_file(name, folders, LIBRARY_FOLDERS)
+    if not path:
+        raise fetch.Unavailable(f'there is no library {name}')
+    return path
 
 
 def find_program(name: str, folders: Iterable[str]) -> str:
     """A program in `folders` or on this machine. Raises fetch.Unavailable."""
-    for folder in folders:
-        for place in [''] + PROGRAM_FOLDERS:
-            path = os.path.join(folder, place, name)
-            if os.path.isfile(path):
-                return os.path.realpath(path)
-    path = shutil.which(name)
+    path = find_file(name, folders, [''] + PROGRAM_FOLDERS) or shutil.which(name)
     if not path:
         raise fetch.Unavailable(f'there is no program {name}')
     return path

@@ -12,7 +12,6 @@ struct Scenario {
   const char* name;
   void (*run)(Checks& checks);
   const char* guest = "hid";  ///< What the kernel and the file system must have: see guests.py.
-  bool by_name_only = false;  ///< No part of a run of all scenarios.
 };
 
 const std::vector<Scenario>& scenarios();

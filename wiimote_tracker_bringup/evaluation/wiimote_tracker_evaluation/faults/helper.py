@@ -6,6 +6,7 @@ The program itself is no node: it must outlive the master, and a process can be 
 import multiprocessing
 import os
 import signal
+import time
 
 _FORK = multiprocessing.get_context('fork')
 
@@ -42,6 +43,18 @@ class Helper:
 
     def __exit__(self, *_):
         self.stop()
+
+
+def wait_for_subscribers(publisher):
+    """Waits until all nodes that subscribe to the publisher's topic are connected to it."""
+    import rosgraph
+    import rospy
+    master = rosgraph.Master(rospy.get_name())
+    while True:
+        subscribers = dict(master.getSystemState()[1]).get(publisher.resolved_name, [])
+        if publisher.get_num_connections() >= len(subscribers) > 0:
+            return
+        time.sleep(0.02)
 
 
 def _be_node(function, pipe, *arguments):

@@ -17,8 +17,9 @@ class Window:
     """What was received in a time span. Times in seconds since 1970.
 
     points: a row per TRACKED point: time of receipt, stamp, x, y, z [m], standard deviation [m];
-    labels: their names; cameras: the names of those that saw it. truth: per LED rows of stamp, x, y, z. said: (time, name, sentence) of
-    warnings and errors on the console and in the diagnostics.
+    labels: their names; cameras: the names of those that saw it. truth: per LED rows of stamp,
+    x, y, z. said: (time, name, sentence) of warnings and errors on the console and in the
+    diagnostics.
     """
 
     points: np.ndarray

@@ -36,8 +36,8 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
         if name not in names:
             parser.error(f"there is no fault {name!r}; choose from {', '.join(names)}")
     options.chosen = [fault for fault in FAULTS if fault.name in chosen]
-    # Those that can share a room run one after the other, and the ones that wound it last.
-    options.chosen.sort(key=lambda fault: (str(fault.room), fault.wounded))
+    # Faults of one kind of room run one after the other, and those that spend it last.
+    options.chosen.sort(key=lambda fault: (str(fault.room), fault.spends_room))
     return options
 
 
@@ -58,7 +58,7 @@ class Matrix:
             result = carry_out(fault, self._room)
         except (ExperimentError, TimeoutError, EOFError) as error:
             result = Result(fault.name, fault.what, problems=[str(error) or type(error).__name__])
-        if result.problems or fault.wounded:
+        if result.problems or fault.spends_room:
             self._close()
         return result
 

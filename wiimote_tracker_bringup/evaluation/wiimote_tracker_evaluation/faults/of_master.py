@@ -6,10 +6,10 @@ import signal
 from wiimote_tracker_evaluation.faults.row import fault
 
 PATIENCE = 60.0  # for nodes to end [s]
-GONE = 3.0  # without a master, or a launcher [s]
+GONE = 3.0       # without a master, or a launcher [s]
 
 
-@fault(ends=('*',), names_may_change=True, named='master', wounded=True)
+@fault(ends=('*',), names_may_change=True, named='master', spends_room=True)
 def restart_roscore(room):
     """kill -9 of the master; it is started again, and so is roslaunch."""
     os.kill(room.master.pid, signal.SIGKILL)
@@ -19,7 +19,7 @@ def restart_roscore(room):
     room.listen()
 
 
-@fault(ends=('*',), names_may_change=True, wounded=True)
+@fault(ends=('*',), names_may_change=True, spends_room=True)
 def kill_roslaunch(room):
     """kill -9 of roslaunch; it is started again."""
     os.kill(room.launch.pid, signal.SIGKILL)
@@ -27,7 +27,7 @@ def kill_roslaunch(room):
     room.start_nodes()
 
 
-@fault(ends=('*',), names_may_change=True, wounded=True)
+@fault(ends=('*',), names_may_change=True, spends_room=True)
 def kill_drivers(room):
     """kill -9 of the node that starts the drivers, which ends all; roslaunch is started again."""
     room.kill('/drivers')

@@ -2,15 +2,17 @@
 
 import os
 import signal
+import threading
 import time
 
-from wiimote_tracker_evaluation.faults.helper import Helper
+from wiimote_tracker_evaluation.faults.helper import Helper, wait_for_subscribers
 from wiimote_tracker_evaluation.faults.row import fault
 
 CAMERA = 'wiimote_4'
-SENT = 10     # of each kind
-PERIOD = 0.05  # between them [s]
+SENT = 10         # of each kind
+INTERVAL = 0.025  # between two of them [s]
 SPOTS = 100000
+SLOW, STOPPED = 2.0, 5.0  # for how long subscribers are slow, and then do not read [s]
 NAN = float('nan')
 
 
@@ -33,24 +35,24 @@ def publish_hostile_images(pipe):
     publisher = rospy.Publisher(CAMERA + '/ir_blobs', IrBlobArray, queue_size=100)
     messages = hostile_images()
     messages += [IrBlobArray(camera=CAMERA, width=7, height=0), IrBlobArray()]
-    time.sleep(1.0)  # until the nodes are connected
+    wait_for_subscribers(publisher)
     for _ in range(SENT):
         for message in messages:
             message.header.stamp = message.arrival = rospy.Time.now()
             publisher.publish(message)
-            time.sleep(PERIOD / 2.0)
+            time.sleep(INTERVAL)
     early, late = IrBlobArray(camera=CAMERA), IrBlobArray(camera=CAMERA)
     late.header.stamp = late.arrival = rospy.Time(2 ** 32 - 1)
     for message in (early, late):
         publisher.publish(message)
-    time.sleep(PERIOD)
+    time.sleep(2.0 * INTERVAL)
     pipe.send('done')
     signal.pause()
 
 
 @fault(quick=True, named=CAMERA)
 def hostile_images_of_a_camera(room):
-    """A second publisher of a camera's images: NaN, wrong sizes, 100,000 spots, years 1970 and 2106."""
+    """A second publisher of a camera: NaN, wrong sizes, 100,000 spots, years 1970 and 2106."""
     with Helper(publish_hostile_images) as helper:
         helper.answer(60.0)
         yield 0.0
@@ -59,9 +61,13 @@ def hostile_images_of_a_camera(room):
 def subscribe_slowly(pipe):
     import rospy
     from wiimote_tracker_msgs.msg import IrBlobArray, TrackedPointArray
+    heard = []
     for topic, kind in (('points', TrackedPointArray), (CAMERA + '/ir_blobs', IrBlobArray)):
-        rospy.Subscriber(topic, kind, lambda _: time.sleep(1.0))
-    time.sleep(1.0)
+        hears = threading.Event()
+        heard.append(hears)
+        rospy.Subscriber(topic, kind, lambda _, hears=hears: (hears.set(), time.sleep(1.0)))
+    for hears in heard:
+        hears.wait()
     pipe.send('there')
     signal.pause()
 
@@ -73,10 +79,10 @@ def slow_subscribers(room):
     try:
         for helper in helpers:
             helper.answer()
-        time.sleep(2.0)
+        time.sleep(SLOW)
         for helper in helpers:
             os.kill(helper.pid, signal.SIGSTOP)
-        yield 5.0
+        yield STOPPED
     finally:
         for helper in helpers:
             helper.stop()

@@ -147,6 +147,3 @@ class Room:
         """Starts a program beside the nodes; it ends with the room. command: as find_program()
         wants it, and arguments."""
         return self._processes.start(command[0], [find_program(command[0])] + command[1:], self.log)
-
-    def end(self, process):
-        self._processes.stop(process)

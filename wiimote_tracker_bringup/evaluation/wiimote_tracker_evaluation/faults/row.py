@@ -20,7 +20,7 @@ class Fault:
     quick: also in the quick form. room: how the room differs (arguments of Room). ends: nodes that
     may end and start again; '*' for all. named: what some warning or error must contain; empty:
     none is needed. names_may_change: whether LEDs may get other names. wrong_allowed: wrong points
-    cannot be avoided. wounded: the room cannot be used afterwards.
+    cannot be avoided. spends_room: no other fault can be tried in this room afterwards.
     """
 
     cause: Callable
@@ -30,7 +30,7 @@ class Fault:
     named: str = ''
     names_may_change: bool = False
     wrong_allowed: bool = False
-    wounded: bool = False
+    spends_room: bool = False
 
     @property
     def name(self):
@@ -43,9 +43,9 @@ class Fault:
 
 @dataclasses.dataclass(eq=False)
 class Result:
-    """during: until all was normal again. recovery: from the end of the cause until all was normal [s]; None: never. ended: nodes that
-    ended or were started again. renamed: LEDs with another label than before. said: the first
-    sentence that names the cause. problems: what must not be."""
+    """during: until all was normal again. recovery: from the end of the cause until all was normal
+    [s]; None: never. ended: nodes that ended or were started again. renamed: LEDs with another label
+    than before. said: the first sentence that names the cause. problems: what must not be."""
 
     name: str
     what: str

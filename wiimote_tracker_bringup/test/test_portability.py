@@ -35,6 +35,7 @@ PYTHON = {
     r'(:|->)\s*(list|dict|tuple|set)\[': 'Python 3.9',
     r'->.*\w \| \w|^\s*def .*:\s*\w+ \| \w': 'Python 3.10',
     r'\byaml\.(unsafe_|full_)?load(_all)?\(|\bpickle\.': 'unsafe: a file must not become objects',
+    r'\bgenfromtxt\(.*\bndmin\b': 'NumPy 1.23',
     r'\bmath\.lcm\b|\bzoneinfo\b|\btomllib\b': 'Python 3.9 or later',
 }
 # Floating point only: from_chars of integers exists.
@@ -88,8 +89,9 @@ def test_the_rules_find_examples(tmp_path):
     guard.write_text('#if CV_VERSION_MAJOR > 4\ncv::SOLVEPNP_SQPNP;\n#endif\ncv::SOLVEPNP_SQPNP;\n')
     assert [v.split(':')[1].split()[0] for v in violations([str(guard)], CPP)] == ['4']
     bad = tmp_path / 'bad.py'
-    bad.write_text('match value:\ns.removeprefix("a")\ndef f(a: list[int]):\n')
-    assert len(list(violations([str(bad)], PYTHON))) == 3
+    bad.write_text('match value:\ns.removeprefix("a")\ndef f(a: list[int]):\n'
+                   'np.genfromtxt(file, ndmin=2)\n')
+    assert len(list(violations([str(bad)], PYTHON))) == 4
     good = tmp_path / 'good.py'
     good.write_text('if re.match(a, b):\nfound = re.match(a)\nd: typing.List[int] = []\n')
     assert not list(violations([str(good)], PYTHON))

@@ -58,7 +58,7 @@ def read(folder: str) -> Views:
 def read_table(path, columns):
     try:
         with (gzip.open if path.endswith('.gz') else open)(path, 'rt') as file:
-            table = np.genfromtxt(file, delimiter=',', skip_header=1, ndmin=2)
+            table = np.atleast_2d(np.genfromtxt(file, delimiter=',', skip_header=1))
     except (OSError, ValueError) as error:
         raise ExperimentError(f'{path} cannot be read: {error}')
     table = table.reshape(-1, columns) if columns == 1 or not table.size else table

@@ -155,9 +155,7 @@ struct ThinPlate {
 std::optional<ThinPlate> fitThinPlate(const std::vector<KnownPoint>& points) {
   const auto n = static_cast<Eigen::Index>(points.size());
   ThinPlate best;
-  best.remap.model = Model::kThinPlate;
-  for (const KnownPoint& point : points)
-    best.remap.support.push_back(point.measured);
+  best.remap = emptyRemap(Model::kThinPlate, points);
   const Frame frame = frameOf(best.remap.support);
 
   const Eigen::Index size = n + kAffineTerms;

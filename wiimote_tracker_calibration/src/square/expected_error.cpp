@@ -1,6 +1,9 @@
 #include "square/expected_error.h"
 
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
+
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -9,20 +12,54 @@
 
 namespace wiimote_tracker::square {
 
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// How a point moves with the rig's parameters; nothing when it does not count.
+std::optional<Eigen::MatrixXd> sensitivityOf(const geometry::Rig& rig,
+                                             const Eigen::Vector3d& point) {
+  if (!geometry::hasCovariance(rig))
+    return std::nullopt;
+  return geometry::pointByParameters(rig, point, geometry::camerasSeeing(rig, point));
+}
+
+}  // namespace
+
 double expectedError(const geometry::Rig& rig, const std::vector<Eigen::Vector3d>& points) {
   double sum = 0.0;
   int count = 0;
   for (const Eigen::Vector3d& point : points) {
-    const auto by_parameters =
-        geometry::hasCovariance(rig)
-            ? geometry::pointByParameters(rig, point, geometry::camerasSeeing(rig, point))
-            : std::nullopt;
+    const auto by_parameters = sensitivityOf(rig, point);
     if (!by_parameters)
       continue;
     ++count;
     sum += (*by_parameters * rig.covariance * by_parameters->transpose()).trace();
   }
-  return count > 0 ? std::sqrt(sum / count) : std::numeric_limits<double>::quiet_NaN();
+  return count > 0 ? std::sqrt(sum / count) : kNan;
+}
+
+double expectedShapeError(const geometry::Rig& rig, const std::vector<Eigen::Vector3d>& points) {
+  Eigen::MatrixXd errors(3 * static_cast<Eigen::Index>(points.size()), rig.covariance.cols());
+  Eigen::MatrixXd motions(errors.rows(), 6);
+  Eigen::Index rows = 0;
+  for (const Eigen::Vector3d& point : points) {
+    const auto by_parameters = sensitivityOf(rig, point);
+    if (!by_parameters)
+      continue;
+    errors.middleRows<3>(rows) = *by_parameters;
+    motions.block<3, 3>(rows, 0).setIdentity();
+    motions.block<3, 3>(rows, 3) = geometry::so3::skew(point - points.front());
+    rows += 3;
+  }
+  if (rows < 9)
+    return kNan;
+  const Eigen::MatrixXd all = errors.topRows(rows);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(motions.topRows(rows));
+  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(rows, 6);
+  const Eigen::MatrixXd shape = all - basis * (basis.transpose() * all);
+  return std::sqrt((shape * rig.covariance).cwiseProduct(shape).sum() /
+                   (static_cast<double>(rows) / 3.0));
 }
 
 std::vector<Eigen::Vector3d> boxOver(const std::array<Eigen::Vector3d, 4>& corners, bool z_up) {

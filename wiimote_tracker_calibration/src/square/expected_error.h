@@ -15,6 +15,10 @@ namespace wiimote_tracker::square {
 /// all from one place, do not count. NaN when the rig has no covariance, or no point counts.
 double expectedError(const geometry::Rig& rig, const std::vector<Eigen::Vector3d>& points);
 
+/// The same after the best rigid motion of the points: independent of where the world is. NaN when
+/// fewer than three points count.
+double expectedShapeError(const geometry::Rig& rig, const std::vector<Eigen::Vector3d>& points);
+
 /// Corners and middle of the box over the square that is as high as its shorter side [m].
 std::vector<Eigen::Vector3d> boxOver(const std::array<Eigen::Vector3d, 4>& corners, bool z_up);
 

@@ -1,7 +1,8 @@
 #include "solution.h"
 
 #include "adjustment.h"
-#include "predicted_error.h"
+
+#include "square/expected_error.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 
@@ -166,9 +167,9 @@ WaveSolution solutionOf(const Recording& recording,
   }
   if (recording.square)
     describeSquare(recording, options, state, joint.bottomRightCorner(8, 8), &solution);
-  const PredictedError predicted = predictedError(rig, thinned(solution.path));
-  solution.expected_error = predicted.absolute;
-  solution.expected_shape_error = predicted.shape;
+  const std::vector<Eigen::Vector3d> points = thinned(solution.path);
+  solution.expected_error = square::expectedError(rig, points);
+  solution.expected_shape_error = square::expectedShapeError(rig, points);
   return solution;
 }
 

@@ -3,6 +3,8 @@
 #include "transport/hidraw_transport.h"
 #include "transport/socket_transport.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <sys/un.h>
 
 #include <algorithm>
@@ -16,12 +18,6 @@ constexpr char kReplayPrefix[] = "replay:";
 
 bool startsWith(const std::string& text, const std::string& prefix) {
   return text.compare(0, prefix.size(), prefix) == 0;
-}
-
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 bool isAddress(const std::string& text) {

@@ -4,6 +4,7 @@
 #include "association/shared_views.h"
 #include "led_groups.h"
 #include "pose_from_labels.h"
+#include "pose_uncertainty.h"
 
 #include <algorithm>
 #include <cmath>
@@ -290,6 +291,8 @@ void BodyTracker::estimate() {
     estimate.first_seen = body.first_seen;
     estimate.last_observed = body.last_observed;
     estimateLeds(b, &estimate);
+    if (const auto calibration = calibrationCovariance(rig_, constellations_[b], estimate))
+      estimate.covariance.topLeftCorner<6, 6>() += *calibration;
   }
 }
 

@@ -57,8 +57,10 @@ std::optional<Projection> rayProjection(const Rig& rig,
                                         std::size_t index,
                                         const Eigen::Vector3d& point) {
   const RigCamera& camera = rig.cameras[index];
+  if (rig.ray_model == RayModel::kCalibrated)
+    return projectionOf(camera.camera, point);
   auto projection = projectionOf(rig.rayCamera(camera), point);
-  if (projection && rig.ray_model == RayModel::kImageCenter) {
+  if (projection) {
     // The virtual model keeps at most the focal length of the calibrated one.
     const Eigen::Index first = std::isnan(rig.virtual_hfov) ? kLens + 2 : kLens;
     projection->by_parameters.middleCols(first, kTimeOffset - first).setZero();

@@ -1,4 +1,5 @@
 #include "geometry/random_rigs.h"
+#include "geometry/uncertain_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
@@ -13,50 +14,15 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
-using Eigen::VectorXd;
 using test::Random;
 
 constexpr Eigen::Index kPerCamera = 16;
 constexpr std::size_t kAll[] = {0, 1, 2, 3};
 
-/// Four cameras whose parameters are uncertain, and correlated between cameras.
 Rig uncertainRig(Random& random) {
   Rig rig = test::randomRig(random, 4);
-  const Eigen::Index n = kPerCamera * 4;
-  VectorXd scale(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Index k = i % kPerCamera;
-    scale[i] = k < 3 ? 1e-3 : k < 6 ? 3e-3 : k < 10 ? 2.0 : k < 15 ? 1e-3 : 0.0;
-  }
-  MatrixXd root = 0.3 * MatrixXd::Identity(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j)
-      root(i, j) += 0.15 * random.gaussian();
-  }
-  root = (scale.asDiagonal() * root).eval();
-  rig.covariance = root * root.transpose();
+  rig.covariance = test::randomCovariance(random, 4);
   return rig;
-}
-
-/// The rig with errors added to its parameters, as RigCalibration.msg defines them.
-Rig shifted(const Rig& rig, const VectorXd& by) {
-  Rig result = rig;
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    const auto d = by.segment<kPerCamera>(kPerCamera * static_cast<Eigen::Index>(i));
-    Camera& camera = result.cameras[i].camera;
-    const Vector3d w = d.head<3>();
-    if (w.norm() > 0.0)
-      camera.world_from_camera.linear() =
-          Eigen::AngleAxisd(w.norm(), w.normalized()) * camera.world_from_camera.linear();
-    camera.world_from_camera.translation() += d.segment<3>(3);
-    camera.intrinsics.fx += d[6];
-    camera.intrinsics.fy += d[7];
-    camera.intrinsics.cx += d[8];
-    camera.intrinsics.cy += d[9];
-    for (int k = 0; k < 5; ++k)
-      camera.intrinsics.distortion[static_cast<std::size_t>(k)] += d[10 + k];
-  }
-  return result;
 }
 
 /// The point that the rig triangulates from the pixels of the true cameras.
@@ -78,16 +44,11 @@ TEST(CalibrationUncertainty, IsTheSpreadOfPointsOverRigsDrawnFromTheCovariance) 
   // Small errors keep it linear; the spread is scaled back.
   constexpr double kSmall = 0.05;
   constexpr int kDraws = 4000;
-  MatrixXd root = rig.covariance;
-  root.diagonal().array() += 1e-15;
-  root = MatrixXd(root.llt().matrixL());
+  const test::ParameterErrors errors(rig.covariance);
   Matrix3d spread = Matrix3d::Zero();
   for (int draw = 0; draw < kDraws; ++draw) {
-    VectorXd z(rig.covariance.rows());
-    for (Eigen::Index i = 0; i < z.size(); ++i)
-      z[i] = random.gaussian();
-    const Vector3d error =
-        (measured(rig, shifted(rig, kSmall * (root * z)), point) - point) / kSmall;
+    const Rig truth = test::shifted(rig, kSmall * errors.draw(random));
+    const Vector3d error = (measured(rig, truth, point) - point) / kSmall;
     spread += error * error.transpose() / kDraws;
   }
   // Whitened, it is the identity, each element within four standard errors.

@@ -69,7 +69,8 @@ struct BodyEstimate {
   Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();  ///< [m]
 
   /// Order: position [m^2], rotation about the world axes [rad^2], velocity [m^2/s^2], angular
-  /// velocity [rad^2/s^2]. Neglects the errors of the calibration.
+  /// velocity [rad^2/s^2]. The pose's block includes the errors of the calibration where the rig
+  /// has their covariance; on velocities their effect is negligible.
   MotionCovariance covariance = MotionCovariance::Zero();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< World [m/s].
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< World [rad/s].

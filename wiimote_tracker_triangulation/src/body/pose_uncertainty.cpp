@@ -1,0 +1,109 @@
+#include "body/pose_uncertainty.h"
+
+#include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
+#include "wiimote_tracker_triangulation/geometry/so3.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace wiimote_tracker::body {
+namespace {
+
+using geometry::kParameters;
+
+constexpr std::size_t kMaximumCameras = 16;  // more are left out
+
+/// J^T A of one camera's pixels.
+struct CameraPart {
+  std::size_t camera;
+  Eigen::Matrix<double, 6, kParameters> by_parameters;
+};
+
+struct Sums {
+  PoseCovariance information = PoseCovariance::Zero();  // J^T J of all cameras
+  std::array<CameraPart, kMaximumCameras> parts;
+  std::size_t count = 0;
+};
+
+enum class Pixels { kSeen, kInView };
+
+bool isUsed(Pixels pixels, const LedEstimate& led, const geometry::Rig& rig, std::size_t camera) {
+  return pixels == Pixels::kInView
+             ? rig.cameras[camera].camera.sees(led.position)
+             : std::find(led.cameras.begin(), led.cameras.end(), camera) != led.cameras.end();
+}
+
+Sums sumsOf(const geometry::Rig& rig,
+            const Constellation& constellation,
+            const BodyEstimate& estimate,
+            Pixels pixels) {
+  Sums sums;
+  for (std::size_t c = 0; c < rig.cameras.size() && sums.count < kMaximumCameras; ++c) {
+    CameraPart& part = sums.parts[sums.count];
+    part.camera = c;
+    part.by_parameters.setZero();
+    bool has_pixels = false;
+    for (std::size_t i = 0; i < constellation.leds.size(); ++i) {
+      const LedEstimate& led = estimate.leds[i];
+      if (!isUsed(pixels, led, rig, c))
+        continue;
+      auto projection = geometry::rayProjection(rig, c, led.position);
+      if (!projection)
+        continue;
+      has_pixels = true;
+      const Eigen::Vector3d arm = estimate.world_from_body.linear() * constellation.leds[i];
+      projection->by_parameters.col(geometry::kTimeOffset).noalias() =
+          projection->by_point * (estimate.velocity + estimate.angular_velocity.cross(arm));
+      Eigen::Matrix<double, 2, 6> by_pose;
+      by_pose << projection->by_point, -projection->by_point * geometry::so3::skew(arm);
+      sums.information.noalias() += by_pose.transpose() * by_pose;
+      part.by_parameters.noalias() += by_pose.transpose() * projection->by_parameters;
+    }
+    sums.count += has_pixels ? 1 : 0;
+  }
+  return sums;
+}
+
+std::optional<PoseCovariance> covarianceOf(const Eigen::MatrixXd& rig_covariance,
+                                           const Sums& sums) {
+  // One camera and four LEDs 0.1 m apart have about 1e-6.
+  constexpr double kSingular = 1e-9;
+  const Eigen::LLT<PoseCovariance> factor(sums.information);
+  if (sums.count == 0 || factor.info() != Eigen::Success || !(factor.rcond() > kSingular))
+    return std::nullopt;
+  PoseCovariance sum = PoseCovariance::Zero();
+  for (std::size_t i = 0; i < sums.count; ++i) {
+    for (std::size_t j = 0; j < sums.count; ++j) {
+      const auto block = rig_covariance.block<kParameters, kParameters>(
+          geometry::firstParameter(sums.parts[i].camera),
+          geometry::firstParameter(sums.parts[j].camera));
+      const Eigen::Matrix<double, 6, kParameters> left =
+          sums.parts[i].by_parameters.lazyProduct(block);
+      sum.noalias() += left * sums.parts[j].by_parameters.transpose();
+    }
+  }
+  const PoseCovariance half = factor.solve(sum);
+  const PoseCovariance covariance = factor.solve(half.transpose());
+  if (!covariance.allFinite())
+    return std::nullopt;
+  return PoseCovariance(0.5 * (covariance + covariance.transpose()));
+}
+
+}  // namespace
+
+std::optional<PoseCovariance> calibrationCovariance(const geometry::Rig& rig,
+                                                    const Constellation& constellation,
+                                                    const BodyEstimate& estimate) {
+  if (!geometry::hasCovariance(rig))
+    return std::nullopt;
+  const auto seen =
+      covarianceOf(rig.covariance, sumsOf(rig, constellation, estimate, Pixels::kSeen));
+  return seen ? seen
+              : covarianceOf(rig.covariance, sumsOf(rig, constellation, estimate, Pixels::kInView));
+}
+
+}  // namespace wiimote_tracker::body

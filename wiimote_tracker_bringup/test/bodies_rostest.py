@@ -8,14 +8,17 @@ import sys
 import numpy as np
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped
 from live_rig import DEADLINE, LiveRigTest
+from nav_msgs.msg import Odometry
 from wiimote_tracker_msgs.msg import TrackedBody, TrackedBodyArray
 from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
 
 JUDGED = 3.0     # [s]
 HIDDEN = 0.8     # longer than a body is predicted [s]
 RECOVERY = 0.2   # [s]
+SILENT_AFTER = 0.05  # the last sight [s]
 LEDS = [f'wand_{i}' for i in range(4)]
 CHI_SQUARED_999 = 22.46  # 99.9 % quantile, six degrees of freedom
 
@@ -49,6 +52,10 @@ class Bodies(LiveRigTest):
         rospy.Subscriber('simulation/truth/wand', PoseStamped, cls.poses.append)
         rospy.Subscriber('bodies', TrackedBodyArray, cls.bodies.append, queue_size=1000,
                          tcp_nodelay=True)
+        cls.odometries, cls.statuses = [], []
+        rospy.Subscriber('wand/odometry', Odometry, cls.odometries.append, queue_size=1000)
+        rospy.Subscriber('/diagnostics', DiagnosticArray, lambda m: cls.statuses.extend(
+            s for s in m.status if s.name.endswith('body wand')))
         rospy.wait_for_service('simulation/set_led', DEADLINE)
         cls.set_led = rospy.ServiceProxy('simulation/set_led', SetLed)
 
@@ -112,7 +119,9 @@ class Bodies(LiveRigTest):
         self.assertTrue(any(not b.leds[2].cameras for _, b in seen))
 
         dark = self.switch(LEDS, False)
+        self.wait(lambda: any('not seen for' in s.message for s in self.statuses), 'a warning')
         self.reach(dark + HIDDEN)
+        self.assertLess(self.odometries[-1].header.stamp.to_sec(), dark + SILENT_AFTER)
         self.assertIsNone(self.seen_between(dark, dark + HIDDEN)[-1][1], 'it was lost')
         states = collections.Counter(b.state for _, b in self.seen_between(dark, dark + HIDDEN) if b)
         self.assertEqual(states[TrackedBody.LOST], 1)

@@ -1,5 +1,6 @@
 #include "led_publishers.h"
 
+#include "odometry.h"
 #include "point_message.h"
 
 #include <boost/make_shared.hpp>
@@ -13,24 +14,30 @@ using wiimote_tracker_msgs::TrackedPoint;
 
 LedPublishers::LedPublishers(const ros::NodeHandle& nh,
                              const std::vector<std::string>& labels,
-                             bool publish_predicted)
-    : nh_(nh), listed_(labels.begin(), labels.end()), publish_predicted_(publish_predicted) {
+                             const OutputOptions& options)
+    : nh_(nh), listed_(labels.begin(), labels.end()), options_(options) {
   for (const std::string& label : listed_)
     advertise(label);
 }
 
 void LedPublishers::advertise(const std::string& label) {
-  publishers_[label] = nh_.advertise<PointStamped>(label + "/point", 100);
+  Topics& topics = topics_[label];
+  topics.point = nh_.advertise<PointStamped>(label + "/point", 100);
+  if (options_.led_odometry)
+    topics.odometry = nh_.advertise<nav_msgs::Odometry>(label + "/odometry", 100);
 }
 
 void LedPublishers::publish(const wiimote_tracker_msgs::TrackedPointArray& points) {
   transforms_.clear();
   for (const TrackedPoint& point : points.points) {
-    if (!isPosition(point, publish_predicted_))
+    if (!isPosition(point, options_.publish_predicted))
       continue;
-    if (publishers_.count(point.label) == 0)
+    if (topics_.count(point.label) == 0)
       advertise(point.label);
-    publishers_[point.label].publish(boost::make_shared<PointStamped>(pointStamped(points, point)));
+    const Topics& topics = topics_[point.label];
+    topics.point.publish(boost::make_shared<PointStamped>(pointStamped(points, point)));
+    if (options_.led_odometry)
+      topics.odometry.publish(boost::make_shared<nav_msgs::Odometry>(odometry(points, point)));
     transforms_.push_back(transform(points, point));
   }
   if (!transforms_.empty())
@@ -39,16 +46,16 @@ void LedPublishers::publish(const wiimote_tracker_msgs::TrackedPointArray& point
 }
 
 void LedPublishers::removeUnused(const wiimote_tracker_msgs::TrackedPointArray& points) {
-  if (publishers_.size() == listed_.size())
+  if (topics_.size() == listed_.size())
     return;
-  for (auto publisher = publishers_.begin(); publisher != publishers_.end();) {
-    const std::string& label = publisher->first;
+  for (auto topics = topics_.begin(); topics != topics_.end();) {
+    const std::string& label = topics->first;
     const bool is_used =
         listed_.count(label) > 0 ||
         std::any_of(points.points.begin(), points.points.end(), [&](const TrackedPoint& point) {
           return point.label == label && point.state != TrackedPoint::LOST;
         });
-    publisher = is_used ? std::next(publisher) : publishers_.erase(publisher);
+    topics = is_used ? std::next(topics) : topics_.erase(topics);
   }
 }
 

@@ -1,7 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LED_PUBLISHERS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LED_PUBLISHERS_H
 
-#include <geometry_msgs/PointStamped.h>
+#include "parameters.h"
+
 #include <ros/node_handle.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
@@ -13,26 +14,30 @@
 
 namespace wiimote_tracker {
 
-/// Publishes each LED by itself: its point on <label>/point, and the transform world -> label. The
-/// topics of listed labels exist from the start, those of other LEDs from their first point until
-/// they are lost or get a listed label.
+/// Publishes each LED by itself: its point on <label>/point, the transform world -> label, and,
+/// where asked, <label>/odometry. The topics of listed labels exist from the start, those of other
+/// LEDs from their first point until they are lost or get a listed label.
 class LedPublishers {
  public:
-  /// @param publish_predicted publish predicted LEDs too, not only tracked ones.
   LedPublishers(const ros::NodeHandle& nh,
                 const std::vector<std::string>& labels,
-                bool publish_predicted);
+                const OutputOptions& options);
 
   void publish(const wiimote_tracker_msgs::TrackedPointArray& points);
 
  private:
+  struct Topics {
+    ros::Publisher point;
+    ros::Publisher odometry;  // none: not asked for
+  };
+
   void advertise(const std::string& label);
   void removeUnused(const wiimote_tracker_msgs::TrackedPointArray& points);
 
   ros::NodeHandle nh_;
   std::set<std::string> listed_;
-  bool publish_predicted_;
-  std::map<std::string, ros::Publisher> publishers_;  // by label
+  OutputOptions options_;
+  std::map<std::string, Topics> topics_;  // by label
   tf2_ros::TransformBroadcaster broadcaster_;
   std::vector<geometry_msgs::TransformStamped> transforms_;  // reused
 };

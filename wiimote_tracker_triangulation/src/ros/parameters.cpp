@@ -160,6 +160,8 @@ void readOutput(ParameterReader* reader, tracking::Mode mode, OutputOptions* out
   reader->read("output/rate", &output->rate, 0.0, 1000.0);
   reader->read("output/predict_to_now", &output->predict_to_now);
   reader->read("output/publish_predicted", &output->publish_predicted);
+  reader->read("output/led_odometry", &output->led_odometry);
+  reader->read("output/body_transforms", &output->body_transforms);
   if (!output->on_update && output->rate == 0.0)
     throw ParameterError(reader->nameOf("output/rate") + " is 0 while " +
                          reader->nameOf("output/on_update") +

@@ -21,7 +21,9 @@ struct OutputOptions {
   bool on_update = true;           ///< For every image that adds information.
   double rate = 0.0;               ///< At this rate [Hz]; 0: not at a fixed rate.
   bool predict_to_now = false;     ///< Predict to the newest image's arrival, not its exposure.
-  bool publish_predicted = false;  ///< Point topic and transform of predicted LEDs too.
+  bool publish_predicted = false;  ///< Topics and transforms of predicted LEDs and bodies too.
+  bool led_odometry = false;       ///< Publish <label>/odometry.
+  bool body_transforms = true;     ///< Publish the transforms of bodies.
 };
 
 /// How LEDs that blink are identified.

@@ -19,7 +19,8 @@ import rosbag
 import roslib.packages
 import rospy
 import yaml
-from geometry_msgs.msg import PoseWithCovarianceStamped
+from geometry_msgs.msg import PoseWithCovarianceStamped, TwistWithCovarianceStamped
+from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 from wiimote_tracker_msgs.msg import (IrBlobArray, RigCalibration, TrackedBody, TrackedBodyArray,
@@ -40,6 +41,7 @@ FREE_LED = 3.0       # from here on it shines
 ONE_HIDDEN = (4.0, 4.5)
 ALL_HIDDEN = (5.0, 5.8)
 RECOVERY = 0.2
+SILENT_AFTER = 0.05  # the last sight
 END = 6.8
 
 
@@ -145,7 +147,10 @@ class Bodies(unittest.TestCase):
         # Learning ends at an unknown image; the recording starts after it.
         rest = [i for i in self.images
                 if recording.seconds_of(i.arrival) >= LEARNED_AT]
-        self.hear('/wand/pose', PoseWithCovarianceStamped)
+        for topic, kind in (('/wand/pose', PoseWithCovarianceStamped),
+                            ('/wand/twist', TwistWithCovarianceStamped),
+                            ('/wand/odometry', Odometry)):
+            self.hear(topic, kind)
         self.show(rest)
         last = rest[-1].header.stamp
         wait_for(lambda: self.heard['/bodies'] and
@@ -155,6 +160,7 @@ class Bodies(unittest.TestCase):
         self.with_an_led_hidden()
         self.lost_and_found()
         self.transforms()
+        self.odometry()
         namespaces = {m.ns for a in self.heard['/markers'] for m in a.markers}
         self.assertTrue({'body_axes', 'body_led', 'body_label', 'body_led_label', 'body_ray'} <=
                         namespaces)
@@ -244,6 +250,39 @@ class Bodies(unittest.TestCase):
         wait_for(lambda: [p.header.stamp for p in self.heard['/wand/pose']] == tracked,
                  'the poses of all images in which it was tracked')
 
+    def odometry(self):
+        """Pose, twist and both together tell the same, and nothing while the body is hidden."""
+        heard = [self.heard['/wand/' + name] for name in ('pose', 'twist', 'odometry')]
+        wait_for(lambda: len({len(h) for h in heard}) == 1, 'as many odometries as poses')
+        for pose_, twist, both in zip(*heard):
+            self.assertEqual((both.header.stamp, both.header.frame_id, both.child_frame_id),
+                             (pose_.header.stamp, 'world', 'wand'))
+            self.assertEqual(twist.header.frame_id, 'wand')
+            self.assertEqual(bytes_of(both.pose), bytes_of(pose_.pose))
+            self.assertEqual(bytes_of(both.twist), bytes_of(twist.twist))
+        stamps = np.array([recording.seconds_of(m.header.stamp) for m in heard[2]])
+        while_hidden = stamps[(stamps > ALL_HIDDEN[0] + SILENT_AFTER) & (stamps < ALL_HIDDEN[1])]
+        self.assertEqual(len(while_hidden), 0, while_hidden)
+        for message, t in zip(heard[2], stamps):
+            if FREE_LED + 0.5 < t < ONE_HIDDEN[0]:
+                self.check_twist(message, t)
+
+    def check_twist(self, message, t):
+        """It is that of the true motion, within five standard deviations."""
+        (before, start), (_, position), (after, end) = pose(t - 1e-4), pose(t), pose(t + 1e-4)
+        turn = after @ before.T
+        angular = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0],
+                            turn[1, 0] - turn[0, 1]]) / 4e-4
+        # The learned body's origin and axes are not the true ones.
+        rotation = matrix(message.pose.pose.orientation)
+        linear = (end - start) / 2e-4 + np.cross(
+            angular, vector(message.pose.pose.position) - position)
+        variances = np.diag(np.array(message.twist.covariance).reshape(6, 6))
+        for found, true, variance in ((message.twist.twist.linear, linear, variances[:3]),
+                                      (message.twist.twist.angular, angular, variances[3:])):
+            error = np.linalg.norm(rotation @ vector(found) - true)
+            self.assertLess(error, 5 * math.sqrt(variance.sum()), t)
+
     def offline(self):
         """A recording gives the same poses, once both know the body."""
         bag_path, out_path = (os.path.join(self.folder, name) for name in ('in.bag', 'out.bag'))
@@ -260,13 +299,14 @@ class Bodies(unittest.TestCase):
         # After all LEDs were hidden, the earlier state does not matter.
         begin = recording.time_of(ALL_HIDDEN[1])
         with rosbag.Bag(out_path) as bag:
-            offline = [bytes_of(m) for _, m, _ in bag.read_messages('/wand/pose')
-                       if m.header.stamp >= begin]
+            offline = [[bytes_of(m) for _, m, _ in bag.read_messages('/wand/' + name)
+                        if m.header.stamp >= begin] for name in ('pose', 'twist', 'odometry')]
             transforms = [t.child_frame_id for _, m, _ in bag.read_messages('/tf')
                           for t in m.transforms]
-        live = [bytes_of(m) for m in self.heard['/wand/pose'] if m.header.stamp >= begin]
-        self.assertGreater(len(offline), 200)
-        self.assertEqual(live, offline[:len(live)])
+        for name, computed in zip(('pose', 'twist', 'odometry'), offline):
+            live = [bytes_of(m) for m in self.heard['/wand/' + name] if m.header.stamp >= begin]
+            self.assertGreater(len(computed), 200)
+            self.assertEqual(live, computed[:len(live)])
         self.assertIn('wand', transforms)
 
 

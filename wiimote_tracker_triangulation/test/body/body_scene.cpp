@@ -120,6 +120,17 @@ void FollowedBody::track() {
   tracker_.add(image_->camera, image_->image.stamp, pixels_);
 }
 
+Vector3d FollowedBody::trueVelocity() const {
+  constexpr double kStep = 1e-4;  // [s]
+  return (motion_(time() + kStep).translation() - motion_(time() - kStep).translation()) /
+         (2.0 * kStep);
+}
+
+Vector3d FollowedBody::trueAngularVelocity() const {
+  constexpr double kStep = 1e-4;  // [s]
+  return rotationError(motion_(time() - kStep), motion_(time() + kStep)) / (2.0 * kStep);
+}
+
 void BodyScore::add(const FollowedBody& followed) {
   constexpr double kWrong = 0.35;  // [rad]
   images_ += 1.0;
@@ -139,6 +150,9 @@ void BodyScore::add(const FollowedBody& followed) {
   rotation_ += turn * turn;
   position_bound_ += bound.topLeftCorner<3, 3>().trace();
   rotation_bound_ += bound.bottomRightCorner<3, 3>().trace();
+  velocity_ += (followed.estimate()->velocity - followed.trueVelocity()).squaredNorm();
+  angular_velocity_ +=
+      (followed.estimate()->angular_velocity - followed.trueAngularVelocity()).squaredNorm();
   nees_ += normalisedError(truth, found, followed.estimate()->covariance.topLeftCorner<6, 6>());
 }
 
@@ -156,6 +170,14 @@ double BodyScore::rotation() const {
 
 double BodyScore::rotationRatio() const {
   return std::sqrt(rotation_ / rotation_bound_);
+}
+
+double BodyScore::velocity() const {
+  return std::sqrt(velocity_ / judged_);
+}
+
+double BodyScore::angularVelocity() const {
+  return std::sqrt(angular_velocity_ / judged_);
 }
 
 double BodyScore::nees() const {

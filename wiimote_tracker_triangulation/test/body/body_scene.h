@@ -70,6 +70,8 @@ class FollowedBody {
   double time() const { return tracker_.time(); }
   const std::optional<BodyEstimate>& estimate() const { return tracker_.bodies()[0]; }
   Eigen::Isometry3d truth() const { return motion_(time()); }
+  Eigen::Vector3d trueVelocity() const;         ///< World [m/s].
+  Eigen::Vector3d trueAngularVelocity() const;  ///< World [rad/s].
 
   const geometry::Rig& rig() const { return rig_; }
   const Constellation& body() const { return tracker_.constellations()[0]; }
@@ -95,6 +97,8 @@ class BodyScore {
   double positionRatio() const;  ///< Over the bound [1].
   double rotation() const;       ///< RMS error [rad].
   double rotationRatio() const;
+  double velocity() const;         ///< RMS error [m/s].
+  double angularVelocity() const;  ///< RMS error [rad/s].
   double nees() const;   ///< Normalised error per coordinate: 1 when the covariance is consistent.
   double known() const;  ///< Share of images after which there was a pose.
   double wrong() const;  ///< Share of those more than 20 degrees off: a wrong assignment.
@@ -102,6 +106,7 @@ class BodyScore {
  private:
   double images_ = 0.0, known_ = 0.0, wrong_ = 0.0, judged_ = 0.0;
   double position_ = 0.0, rotation_ = 0.0, nees_ = 0.0;  // sums of squares
+  double velocity_ = 0.0, angular_velocity_ = 0.0;
   double position_bound_ = 0.0, rotation_bound_ = 0.0;
 };
 

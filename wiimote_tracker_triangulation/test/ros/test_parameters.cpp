@@ -62,6 +62,8 @@ TEST(Parameters, SetValuesAreRead) {
   nh.setParam("output/on_update", false);
   nh.setParam("output/rate", 30);
   nh.setParam("output/publish_predicted", true);
+  nh.setParam("output/led_odometry", true);
+  nh.setParam("output/body_transforms", false);
   const TrackingParameters p = read(nh);
   EXPECT_EQ((std::vector<std::string>{"left", "right_hand"}), p.labels);
   EXPECT_EQ(tracking::Mode::kInstant, p.estimator.mode);
@@ -73,6 +75,8 @@ TEST(Parameters, SetValuesAreRead) {
   EXPECT_FALSE(p.output.on_update);
   EXPECT_EQ(30.0, p.output.rate);
   EXPECT_TRUE(p.output.publish_predicted);
+  EXPECT_TRUE(p.output.led_odometry);
+  EXPECT_FALSE(p.output.body_transforms);
 }
 
 TEST(Parameters, BlinkCodesSetTheTrackersOptions) {

@@ -50,6 +50,7 @@ void BodyDiagnostics::addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bo
     Seen& seen = seen_[body.name];
     seen.tracked += body.state == TrackedBody::TRACKED;
     seen.lost += body.state == TrackedBody::LOST;
+    seen.last_observed = body.last_observed;
     for (std::size_t i = 0; i < body.leds.size() && i < seen.leds.size(); ++i) {
       seen.leds[i].add(body.leds[i].deviation);
       seen.residual.add(body.leds[i].residual);
@@ -61,7 +62,14 @@ void BodyDiagnostics::report(const body::Constellation& body,
                              const std::string& warning,
                              diagnostic_updater::DiagnosticStatusWrapper& status) {
   Seen& seen = seen_[body.name];
-  status.summary(DiagnosticStatus::OK, seen.tracked > 0 ? "tracked" : "not seen");
+  if (seen.tracked > 0)
+    status.summary(DiagnosticStatus::OK, "tracked");
+  else if (seen.last_observed.isZero())
+    status.summary(DiagnosticStatus::OK, "not seen yet");
+  else
+    status.summaryf(DiagnosticStatus::WARN,
+                    "not seen for %.1f s, its topics are silent: uncover it, or switch on its LEDs",
+                    (ros::Time::now() - seen.last_observed).toSec());
   if (!warning.empty())
     status.mergeSummary(DiagnosticStatus::WARN, warning);
   status.addf("share of images in which it is tracked [%]", "%.1f",
@@ -72,8 +80,10 @@ void BodyDiagnostics::report(const body::Constellation& body,
     status.addf("deviation of LED " + body.labelOf(i) + " [mm]", "%.2f",
                 1e3 * seen.leds[i].value());
   const std::size_t leds = seen.leds.size();
+  const ros::Time last_observed = seen.last_observed;
   seen = Seen();
   seen.leds.resize(leds);
+  seen.last_observed = last_observed;
 }
 
 }  // namespace wiimote_tracker

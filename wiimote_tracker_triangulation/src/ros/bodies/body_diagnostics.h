@@ -5,6 +5,7 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
+#include <ros/time.h>
 #include <wiimote_tracker_msgs/TrackedBodyArray.h>
 
 #include <cstddef>
@@ -39,6 +40,7 @@ class BodyDiagnostics {
     std::size_t images = 0;
     std::size_t tracked = 0;  // of the images
     std::size_t lost = 0;     // times
+    ros::Time last_observed;  // 0: never; kept from report to report
     Rms residual;             // [px]
     std::vector<Rms> leds;    // deviations [m]
   };

@@ -1,38 +1,47 @@
 #include "body_publishers.h"
 
+#include "../odometry.h"
 #include "body_message.h"
 
 #include <boost/make_shared.hpp>
 
 namespace wiimote_tracker {
 
-BodyPublishers::BodyPublishers(const ros::NodeHandle& nh, bool publish_predicted)
+BodyPublishers::BodyPublishers(const ros::NodeHandle& nh, const OutputOptions& options)
     : nh_(nh),
-      publish_predicted_(publish_predicted),
+      options_(options),
       all_(nh_.advertise<wiimote_tracker_msgs::TrackedBodyArray>("bodies", 100)) {}
 
 void BodyPublishers::setBodies(const std::vector<body::Constellation>& bodies) {
-  std::map<std::string, ros::Publisher> publishers;
+  std::map<std::string, Topics> topics;
   for (const body::Constellation& body : bodies) {
-    const auto old = publishers_.find(body.name);
-    publishers[body.name] =
-        old != publishers_.end()
+    const auto old = topics_.find(body.name);
+    topics[body.name] =
+        old != topics_.end()
             ? old->second
-            : nh_.advertise<geometry_msgs::PoseWithCovarianceStamped>(body.name + "/pose", 100);
+            : Topics{
+                  nh_.advertise<geometry_msgs::PoseWithCovarianceStamped>(body.name + "/pose", 100),
+                  nh_.advertise<geometry_msgs::TwistWithCovarianceStamped>(body.name + "/twist",
+                                                                           100),
+                  nh_.advertise<nav_msgs::Odometry>(body.name + "/odometry", 100)};
   }
-  publishers_ = std::move(publishers);
+  topics_ = std::move(topics);
 }
 
 void BodyPublishers::publish(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
   all_.publish(bodies);
   transforms_.clear();
   for (const wiimote_tracker_msgs::TrackedBody& body : bodies.bodies) {
-    const auto publisher = publishers_.find(body.name);
-    if (publisher == publishers_.end() || !isPose(body, publish_predicted_))
+    const auto topics = topics_.find(body.name);
+    if (topics == topics_.end() || !isPose(body, options_.publish_predicted))
       continue;
-    publisher->second.publish(
+    topics->second.pose.publish(
         boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>(poseStamped(bodies, body)));
-    transforms_.push_back(transform(bodies, body));
+    topics->second.twist.publish(
+        boost::make_shared<geometry_msgs::TwistWithCovarianceStamped>(twistStamped(bodies, body)));
+    topics->second.odometry.publish(boost::make_shared<nav_msgs::Odometry>(odometry(bodies, body)));
+    if (options_.body_transforms)
+      transforms_.push_back(transform(bodies, body));
   }
   if (!transforms_.empty())
     broadcaster_.sendTransform(transforms_);

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PUBLISHERS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PUBLISHERS_H
 
+#include "../parameters.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
 
 #include <ros/node_handle.h>
@@ -13,12 +14,11 @@
 
 namespace wiimote_tracker {
 
-/// Publishes all bodies on `bodies`, and for each one its pose on <body>/pose and the transform
-/// world -> body.
+/// Publishes all bodies on `bodies`, and for each one its pose on <body>/pose, its twist on
+/// <body>/twist, both on <body>/odometry, and, where asked, the transform world -> body.
 class BodyPublishers {
  public:
-  /// `publish_predicted`: pose and transform of predicted bodies too.
-  BodyPublishers(const ros::NodeHandle& nh, bool publish_predicted);
+  BodyPublishers(const ros::NodeHandle& nh, const OutputOptions& options);
 
   /// Advertises the topics of these bodies.
   void setBodies(const std::vector<body::Constellation>& bodies);
@@ -26,10 +26,16 @@ class BodyPublishers {
   void publish(const wiimote_tracker_msgs::TrackedBodyArray& bodies);
 
  private:
+  struct Topics {
+    ros::Publisher pose;
+    ros::Publisher twist;
+    ros::Publisher odometry;
+  };
+
   ros::NodeHandle nh_;
-  bool publish_predicted_;
+  OutputOptions options_;
   ros::Publisher all_;
-  std::map<std::string, ros::Publisher> publishers_;  // by name
+  std::map<std::string, Topics> topics_;  // by name
   tf2_ros::TransformBroadcaster broadcaster_;
   std::vector<geometry_msgs::TransformStamped> transforms_;  // reused
 };

@@ -4,6 +4,7 @@
 #include "recording.h"
 #include "ros/bodies/body_message.h"
 #include "ros/measurement_message.h"
+#include "ros/odometry.h"
 #include "ros/point_message.h"
 
 #include <tf2_msgs/TFMessage.h>
@@ -22,11 +23,11 @@ using wiimote_tracker_msgs::TrackedPointArray;
 
 Output::Output(const OutputFiles& files,
                const Topics& topics,
-               bool publish_predicted,
+               const OutputOptions& options,
                SmoothedTracks* smoothed)
     : path_(files.bag),
       topics_(topics),
-      publish_predicted_(publish_predicted),
+      options_(options),
       smoothed_(smoothed),
       bag_(std::make_unique<rosbag::Bag>()) {
   if (!files.csv.empty())
@@ -55,9 +56,9 @@ void Output::leaveOut(const std::set<std::string>& labels, const std::set<std::s
   earlier_topics_ = {topics_.points(), topics_.triggeredPoints(), topics_.zoneEvents(),
                      topics_.bodies(), topics_.markers()};
   for (const std::string& label : labels)
-    earlier_topics_.insert(topics_.point(label));
+    earlier_topics_.insert({topics_.point(label), topics_.odometry(label)});
   for (const std::string& body : bodies)
-    earlier_topics_.insert(topics_.pose(body));
+    earlier_topics_.insert({topics_.pose(body), topics_.twist(body), topics_.odometry(body)});
   earlier_frames_ = labels;
   earlier_frames_.insert(bodies.begin(), bodies.end());
 }
@@ -106,9 +107,11 @@ void Output::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& poi
   TFMessage transforms;
   for (const TrackedPoint& point : points->points) {
     ids_.insert(point.id);
-    if (!isPosition(point, publish_predicted_))
+    if (!isPosition(point, options_.publish_predicted))
       continue;
     write(topics_.point(point.label), now_, pointStamped(*points, point));
+    if (options_.led_odometry)
+      write(topics_.odometry(point.label), now_, odometry(*points, point));
     transforms.transforms.push_back(transform(*points, point));
   }
   if (!transforms.transforms.empty())
@@ -120,10 +123,13 @@ void Output::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
   write(topics_.bodies(), now_, bodies);
   TFMessage transforms;
   for (const wiimote_tracker_msgs::TrackedBody& body : bodies.bodies) {
-    if (!isPose(body, publish_predicted_))
+    if (!isPose(body, options_.publish_predicted))
       continue;
     write(topics_.pose(body.name), now_, poseStamped(bodies, body));
-    transforms.transforms.push_back(transform(bodies, body));
+    write(topics_.twist(body.name), now_, twistStamped(bodies, body));
+    write(topics_.odometry(body.name), now_, odometry(bodies, body));
+    if (options_.body_transforms)
+      transforms.transforms.push_back(transform(bodies, body));
   }
   if (!transforms.transforms.empty())
     write(Topics::transforms(), now_, transforms);

@@ -29,11 +29,11 @@ struct OutputFiles {
 /// functions throw BagError or Error.
 class Output : public MessageSink {
  public:
-  /// @param publish_predicted publish the point or pose topics of predicted LEDs and bodies too.
+  /// @param options which topics of single LEDs and bodies to write.
   /// @param smoothed of the same recording, or null; not owned
   Output(const OutputFiles& files,
          const Topics& topics,
-         bool publish_predicted,
+         const OutputOptions& options,
          SmoothedTracks* smoothed);
   ~Output() override;
   Output(const Output&) = delete;
@@ -79,7 +79,7 @@ class Output : public MessageSink {
 
   std::string path_;
   Topics topics_;
-  bool publish_predicted_;
+  OutputOptions options_;
   SmoothedTracks* smoothed_;          // null: points are not smoothed
   std::unique_ptr<rosbag::Bag> bag_;  // null when finished
   std::vector<std::unique_ptr<measurements::Writer>> tables_;

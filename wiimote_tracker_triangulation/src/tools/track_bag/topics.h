@@ -23,6 +23,9 @@ class Topics {
   std::string zoneEvents() const { return resolve("zone_events"); }
   std::string bodies() const { return resolve("bodies"); }
   std::string pose(const std::string& body) const { return resolve(body + "/pose"); }
+  std::string twist(const std::string& body) const { return resolve(body + "/twist"); }
+  /// Of a body or an LED.
+  std::string odometry(const std::string& name) const { return resolve(name + "/odometry"); }
   std::string markers() const { return resolve("markers"); }
   std::string blobs(const std::string& camera) const { return resolve(camera + "/ir_blobs"); }
   std::string point(const std::string& label) const { return resolve(label + "/point"); }

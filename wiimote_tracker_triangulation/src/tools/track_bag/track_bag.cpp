@@ -185,7 +185,7 @@ void run(const Arguments& arguments) {
     own_rig = toMessage(geometry::readRigFile(arguments.rig));
 
   SmoothedTracks smoothed(parameters.estimator.tracks);
-  Output output(arguments.output, topics, parameters.output.publish_predicted,
+  Output output(arguments.output, topics, parameters.output,
                 arguments.smooth ? &smoothed : nullptr);
   leaveOutEarlierResults(recording, topics, parameters, &output);
   if (arguments.smooth) {

@@ -1,11 +1,9 @@
-#include "measurements/part_file.h"
+#include "measurements/output_file.h"
 #include "measurements/writer.h"
 
 #include <wiimote_tracker_msgs/text.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <locale>
@@ -106,13 +104,7 @@ class Row {
 
 class CsvWriter : public Writer {
  public:
-  explicit CsvWriter(const std::string& path) : path_(path) {
-    createPart(path_);
-    file_.reset(std::fopen(partOf(path_).c_str(), "wb"));
-    if (!file_)
-      failToWrite(path_, errno);
-    write(kHeader);
-  }
+  explicit CsvWriter(const std::string& path) : file_(path) { file_.write(kHeader); }
 
   void add(const Measurement& m) override {
     row_.clear();
@@ -136,33 +128,14 @@ class CsvWriter : public Writer {
     row_.add(m.frame);
     row_.add(m.rig_id);
     row_.add(m.method);
-    write(row_.line());
+    file_.write(row_.line());
   }
 
-  void flush() override {
-    if (std::fflush(file_.get()) != 0)
-      failToWrite(path_, errno);
-  }
-
-  void finish() override {
-    flush();
-    if (std::fclose(file_.release()) != 0)
-      failToWrite(path_, errno);
-    finishPart(path_);
-  }
+  void flush() override { file_.flush(); }
+  void finish() override { file_.finish(); }
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-
-  void write(const std::string& text) {
-    if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size())
-      failToWrite(path_, errno);
-  }
-
-  std::string path_;
-  std::unique_ptr<std::FILE, Close> file_;
+  OutputFile file_;
   Row row_;
 };
 

@@ -56,6 +56,15 @@ class Writer {
 /// @throws Error: the file cannot be created.
 std::unique_ptr<Writer> makeCsvWriter(const std::string& path);
 
+/// C3D of version 1 in the format of Intel with floating-point numbers, as biomechanics programs
+/// read it (the C3D File Format User Guide, Motion Lab Systems): the tracked LEDs as points in
+/// millimetres, interpolated to one rate [Hz] (SampleTable), in gaps invalid; no analog channels.
+/// Stays in memory until finish(). @throws Error: the file cannot be created.
+std::unique_ptr<Writer> makeC3dWriter(const std::string& path, double rate);
+
+/// The same as TRC text for OpenSim, as its guide describes it; coordinates in gaps are empty.
+std::unique_ptr<Writer> makeTrcWriter(const std::string& path, double rate);
+
 /// Whether this program was built with matio.
 bool hasMatlab();
 

@@ -33,6 +33,7 @@ from live import bytes_of, wait_for  # noqa: E402
 
 PACKAGE = 'wiimote_tracker_triangulation'
 LEDS = np.array([[0.10, 0.0, 0.03], [-0.06, 0.09, 0.0], [0.02, -0.03, 0.02]])
+MOTION = ('/wand/pose', '/wand/twist', '/wand/odometry')
 NOWHERE = np.array([0.0, 0.0, -50.0])  # below the floor, where no camera looks
 
 # What happens when [s].
@@ -119,6 +120,9 @@ class Bodies(unittest.TestCase):
             self.publishers[image.camera].publish(image)
             wait_for(lambda: points and abs(
                 (points[-1].latest_arrival - image.arrival).to_sec()) < 1e-6, 'points')
+            # No queue overflows while this computer is busy.
+            wait_for(lambda: len({self.heard[topic][-1].header.stamp for topic in MOTION
+                                  if self.heard.get(topic)}) <= 1, 'pose, twist and odometry')
 
     def poses_between(self, begin, end):
         return [(a, b) for a in self.heard['/bodies'] for b in a.bodies
@@ -147,9 +151,8 @@ class Bodies(unittest.TestCase):
         # Learning ends at an unknown image; the recording starts after it.
         rest = [i for i in self.images
                 if recording.seconds_of(i.arrival) >= LEARNED_AT]
-        for topic, kind in (('/wand/pose', PoseWithCovarianceStamped),
-                            ('/wand/twist', TwistWithCovarianceStamped),
-                            ('/wand/odometry', Odometry)):
+        for topic, kind in zip(MOTION, (PoseWithCovarianceStamped, TwistWithCovarianceStamped,
+                                        Odometry)):
             self.hear(topic, kind)
         self.show(rest)
         last = rest[-1].header.stamp
@@ -252,8 +255,9 @@ class Bodies(unittest.TestCase):
 
     def odometry(self):
         """Pose, twist and both together tell the same, and nothing while the body is hidden."""
-        heard = [self.heard['/wand/' + name] for name in ('pose', 'twist', 'odometry')]
-        wait_for(lambda: len({len(h) for h in heard}) == 1, 'as many odometries as poses')
+        first = max(self.heard[topic][0].header.stamp for topic in MOTION)
+        heard = [[m for m in self.heard[topic] if m.header.stamp >= first] for topic in MOTION]
+        self.assertEqual(len({len(h) for h in heard}), 1)
         for pose_, twist, both in zip(*heard):
             self.assertEqual((both.header.stamp, both.header.frame_id, both.child_frame_id),
                              (pose_.header.stamp, 'world', 'wand'))
@@ -294,17 +298,23 @@ class Bodies(unittest.TestCase):
             for image in self.images:
                 bag.write('/%s/ir_blobs' % image.camera, image, image.arrival)
         program = roslib.packages.find_node(PACKAGE, 'track_bag')[0]
-        subprocess.check_call([program, bag_path, out_path, '--params', parameters],
-                              stdout=subprocess.DEVNULL)
+        subprocess.check_call([program, bag_path, out_path, '--params', parameters, '--tum',
+                               self.folder], stdout=subprocess.DEVNULL)
         # After all LEDs were hidden, the earlier state does not matter.
         begin = recording.time_of(ALL_HIDDEN[1])
         with rosbag.Bag(out_path) as bag:
-            offline = [[bytes_of(m) for _, m, _ in bag.read_messages('/wand/' + name)
-                        if m.header.stamp >= begin] for name in ('pose', 'twist', 'odometry')]
+            offline = [[bytes_of(m) for _, m, _ in bag.read_messages(topic)
+                        if m.header.stamp >= begin] for topic in MOTION]
+            poses = [(m.header.stamp.to_sec(), m.pose.pose) for _, m, _ in
+                     bag.read_messages('/wand/pose')]
             transforms = [t.child_frame_id for _, m, _ in bag.read_messages('/tf')
                           for t in m.transforms]
-        for name, computed in zip(('pose', 'twist', 'odometry'), offline):
-            live = [bytes_of(m) for m in self.heard['/wand/' + name] if m.header.stamp >= begin]
+        trajectory = np.loadtxt(os.path.join(self.folder, 'wand.tum'))
+        expected = [(t, *vector(p.position), *vector(p.orientation), p.orientation.w)
+                    for t, p in poses]
+        self.assertLess(abs(trajectory - expected).max(), 1e-6)
+        for topic, computed in zip(MOTION, offline):
+            live = [bytes_of(m) for m in self.heard[topic] if m.header.stamp >= begin]
             self.assertGreater(len(computed), 200)
             self.assertEqual(live, computed[:len(live)])
         self.assertIn('wand', transforms)

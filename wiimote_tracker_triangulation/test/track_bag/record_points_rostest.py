@@ -13,9 +13,10 @@ import unittest
 import genpy
 import roslib.packages
 import rospy
-from wiimote_tracker_msgs.msg import TrackedPoint, TrackedPointArray
+from wiimote_tracker_msgs.msg import TrackedBody, TrackedBodyArray, TrackedPoint, TrackedPointArray
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+import c3d  # noqa: E402
 from live import wait_for  # noqa: E402
 
 PACKAGE = 'wiimote_tracker_triangulation'
@@ -75,6 +76,33 @@ class RecordPoints(unittest.TestCase):
                     for n in range(50) for i in (3, 7)]
         self.assertEqual(self.rows(self.path), expected + [
             ('1600000000.000000077', '1', '3', '0.25', '1500000000.000000003', 77 / 3.0)])
+
+    def test_c3d_trc_and_tum(self):
+        points = rospy.Publisher('/points', TrackedPointArray, queue_size=1000)
+        bodies = rospy.Publisher('/bodies', TrackedBodyArray, queue_size=1000)
+        paths = {kind: os.path.join(self.folder, 'out.' + kind) for kind in ('c3d', 'trc')}
+        process = self.start('__name:=recorder_of_trajectories', '_tum:=' + self.folder,
+                             '_csv:=' + self.path, '_flush_period:=0.05', '_rate:=50',
+                             *('_%s:=%s' % item for item in paths.items()))
+        for publisher in (points, bodies):
+            wait_for(lambda: publisher.get_num_connections() > 0, publisher.resolved_name)
+        for number in range(20):
+            points.publish(array(20000000 * number, 3))
+        for state in (TrackedBody.TRACKED, TrackedBody.LOST):
+            message = TrackedBodyArray(bodies=[TrackedBody(name='wand', state=state)])
+            message.header.stamp = genpy.Time(1600000000, 5)
+            message.bodies[0].pose.pose.orientation.w = 1.0
+            bodies.publish(message)
+        part = os.path.join(self.folder, 'wand.tum.part')
+        wait_for(lambda: os.path.exists(part) and os.path.getsize(part) > 0, 'a pose on the disk')
+        wait_for(lambda: self.lines(self.path + '.part') == 20, 'the points on the disk')
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(60), 0)
+        with open(part[:-5]) as file:
+            self.assertEqual(file.read(), '1600000000.000000005 0 0 0 0 0 0 1\n')
+        found = c3d.read(paths['c3d'])
+        self.assertEqual((found.labels, found.rate, len(found.positions)), (['led'], 50.0, 20))
+        self.assertTrue(os.path.exists(paths['trc']))
 
     def test_says_what_is_missing_or_wrong(self):
         for arguments, words in [((), 'csv or'), (('_csv:=' + self.path, '_cvs:=x'), 'unknown'),

@@ -1,5 +1,7 @@
 // Writes the tracker's points to tables while it runs.
 
+#include "measurements/table_files.h"
+#include "ros/bodies/trajectory_files.h"
 #include "ros/measurement_message.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
@@ -21,18 +23,24 @@ class Recorder {
   /// @throws ParameterError, Error.
   Recorder(ros::NodeHandle nh, const ros::NodeHandle& private_nh) {
     ParameterReader reader(private_nh);
-    const auto csv = reader.optional<std::string>("csv", "");
-    const auto matlab = reader.optional<std::string>("matlab", "");
+    measurements::TableFiles files;
+    std::string tum;
+    reader.read("csv", &files.csv);
+    reader.read("matlab", &files.matlab);
+    reader.read("c3d", &files.c3d);
+    reader.read("trc", &files.trc);
+    reader.read("tum", &tum);
+    reader.read("rate", &files.rate, 1.0, 1000.0);
     const double flush_period = reader.bounded("flush_period", 1.0, 0.01, 3600.0);
-    if (csv.empty() && matlab.empty())
-      throw ParameterError("set " + reader.nameOf("csv") + " or " + reader.nameOf("matlab") +
-                           ": the file to write");
     reader.refuseUnknown();
-    if (!csv.empty())
-      tables_.push_back(measurements::makeCsvWriter(csv));
-    if (!matlab.empty())
-      tables_.push_back(measurements::makeMatlabWriter(matlab));
+    tables_ = measurements::makeWriters(files);
+    if (tables_.empty() && tum.empty())
+      throw ParameterError("set " + reader.nameOf("csv") + " or " + reader.nameOf("matlab") +
+                           ", c3d, trc or tum: the file to write");
+    trajectories_ = TrajectoryFiles(tum);
     subscribers_ = {subscribe(&nh, "points", false), subscribe(&nh, "triggered_points", true)};
+    if (!tum.empty())
+      subscribers_.push_back(nh.subscribe("bodies", 10000, &TrajectoryFiles::add, &trajectories_));
     timer_ = nh.createWallTimer(ros::WallDuration(flush_period), &Recorder::onTimer, this);
   }
 
@@ -40,6 +48,7 @@ class Recorder {
   void finish() {
     for (const std::unique_ptr<measurements::Writer>& table : tables_)
       table->finish();
+    trajectories_.finish();
     ROS_INFO("%zu messages written.", messages_);
   }
 
@@ -58,9 +67,11 @@ class Recorder {
   void onTimer(const ros::WallTimerEvent&) {
     for (const std::unique_ptr<measurements::Writer>& table : tables_)
       table->flush();
+    trajectories_.flush();
   }
 
   std::vector<std::unique_ptr<measurements::Writer>> tables_;
+  TrajectoryFiles trajectories_{""};
   std::size_t messages_ = 0;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;

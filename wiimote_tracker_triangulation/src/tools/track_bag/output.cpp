@@ -29,11 +29,9 @@ Output::Output(const OutputFiles& files,
       topics_(topics),
       options_(options),
       smoothed_(smoothed),
-      bag_(std::make_unique<rosbag::Bag>()) {
-  if (!files.csv.empty())
-    tables_.push_back(measurements::makeCsvWriter(files.csv));
-  if (!files.matlab.empty())
-    tables_.push_back(measurements::makeMatlabWriter(files.matlab));
+      bag_(std::make_unique<rosbag::Bag>()),
+      tables_(measurements::makeWriters(files.tables)),
+      trajectories_(files.trajectories) {
   measurements::createPart(path_);
   try {
     bag_->open(measurements::partOf(path_), rosbag::bagmode::Write);
@@ -121,6 +119,7 @@ void Output::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& poi
 
 void Output::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
   write(topics_.bodies(), now_, bodies);
+  trajectories_.add(bodies);
   TFMessage transforms;
   for (const wiimote_tracker_msgs::TrackedBody& body : bodies.bodies) {
     if (!isPose(body, options_.publish_predicted))
@@ -153,6 +152,7 @@ void Output::onProblem(const std::string& sentence) {
 void Output::finish() {
   for (const std::unique_ptr<measurements::Writer>& table : tables_)
     table->finish();
+  trajectories_.finish();
   try {
     bag_->close();
   } catch (const rosbag::BagException& e) {

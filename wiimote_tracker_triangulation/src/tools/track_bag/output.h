@@ -1,7 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_OUTPUT_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_OUTPUT_H
 
-#include "measurements/writer.h"
+#include "measurements/table_files.h"
+#include "ros/bodies/trajectory_files.h"
 #include "ros/message_tracker.h"
 #include "smoothed_tracks.h"
 #include "topics.h"
@@ -20,8 +21,8 @@ namespace wiimote_tracker {
 /// Files that track_bag writes.
 struct OutputFiles {
   std::string bag;
-  std::string csv;     ///< Empty: none.
-  std::string matlab;  ///< Empty: none.
+  measurements::TableFiles tables;
+  std::string trajectories;  ///< Folder of the bodies' trajectories; empty: none.
 };
 
 /// Writes the tracker's results and recorded messages to a new bag, and results to tables. The
@@ -83,6 +84,7 @@ class Output : public MessageSink {
   SmoothedTracks* smoothed_;          // null: points are not smoothed
   std::unique_ptr<rosbag::Bag> bag_;  // null when finished
   std::vector<std::unique_ptr<measurements::Writer>> tables_;
+  TrajectoryFiles trajectories_;
   std::set<std::string> earlier_topics_;
   std::set<std::string> earlier_frames_;
   ros::Time now_;

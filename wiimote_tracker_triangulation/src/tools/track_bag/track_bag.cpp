@@ -226,8 +226,14 @@ int main(int argc, char** argv) {
   parser.option("--params FILE", &arguments.parameters,
                 "YAML with the node's parameters; default: those of config/triangulation.yaml");
   parser.option("--rig FILE", &arguments.rig, "rig.yaml to use instead of the rigs in the bag");
-  parser.option("--csv FILE", &arguments.output.csv, "also write the points as CSV");
-  parser.option("--mat FILE", &arguments.output.matlab, "also write the points as a MATLAB file");
+  measurements::TableFiles& tables = arguments.output.tables;
+  parser.option("--csv FILE", &tables.csv, "also write the points as CSV");
+  parser.option("--mat FILE", &tables.matlab, "also write the points as a MATLAB file");
+  parser.option("--c3d FILE", &tables.c3d, "also write the tracked LEDs as C3D");
+  parser.option("--trc FILE", &tables.trc, "also write the tracked LEDs as TRC");
+  parser.option("--rate HZ", &tables.rate, 1.0, 1000.0, "of C3D and TRC [Hz]");
+  parser.option("--tum FOLDER", &arguments.output.trajectories,
+                "also write the poses of bodies as FOLDER/<body>.tum, for evo");
   parser.option("--namespace NAME", &arguments.name_space,
                 "of the tracker's topics; default: that of the rig in the bag");
   parser.flag("--results-only", &arguments.results_only,

@@ -1,0 +1,68 @@
+#include "measurements/sample_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wiimote_tracker::measurements {
+namespace {
+
+constexpr double kLongestGap = 0.05;      // [s]
+constexpr double kLongestInFrames = 1.5;  // at low rates
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+double seconds(std::int64_t nanoseconds) {
+  return 1e-9 * static_cast<double>(nanoseconds);
+}
+
+}  // namespace
+
+void SampleTable::add(const Measurement& measurement) {
+  if (measurement.state == "tracked" && !measurement.triggered)
+    samples_[measurement.label].push_back({measurement.stamp, measurement.position});
+}
+
+Samples SampleTable::resample(double rate) const {
+  const double longest = std::max(kLongestGap, kLongestInFrames / rate);
+  const auto isEarlier = [](const Sample& a, const Sample& b) { return a.stamp < b.stamp; };
+  std::int64_t first = std::numeric_limits<std::int64_t>::max();
+  std::int64_t last = 0;
+  for (const auto& [label, samples] : samples_) {
+    const auto ends = std::minmax_element(samples.begin(), samples.end(), isEarlier);
+    first = std::min(first, ends.first->stamp);
+    last = std::max(last, ends.second->stamp);
+  }
+  Samples result;
+  result.rate = rate;
+  if (samples_.empty())
+    return result;
+  result.start = first;
+  result.frames = static_cast<std::size_t>(std::floor(seconds(last - first) * rate + 1e-6)) + 1;
+  for (const auto& [label, recorded] : samples_) {
+    std::vector<Sample> samples = recorded;
+    std::stable_sort(samples.begin(), samples.end(), isEarlier);
+    std::vector<Eigen::Vector3d> positions(result.frames, Eigen::Vector3d::Constant(kNaN));
+    std::size_t next = 0;  // the first sample at or after the frame
+    for (std::size_t frame = 0; frame < result.frames; ++frame) {
+      const auto time =
+          first + static_cast<std::int64_t>(std::llround(1e9 * static_cast<double>(frame) / rate));
+      while (next < samples.size() && samples[next].stamp < time)
+        ++next;
+      if (next == samples.size())
+        break;
+      const Sample& after = samples[next];
+      if (after.stamp == time) {
+        positions[frame] = after.position;
+      } else if (next > 0 && seconds(after.stamp - samples[next - 1].stamp) <= longest) {
+        const Sample& before = samples[next - 1];
+        const double share = seconds(time - before.stamp) / seconds(after.stamp - before.stamp);
+        positions[frame] = before.position + share * (after.position - before.position);
+      }
+    }
+    result.labels.push_back(label);
+    result.positions.push_back(std::move(positions));
+  }
+  return result;
+}
+
+}  // namespace wiimote_tracker::measurements

@@ -1,0 +1,73 @@
+#include "measurements/output_file.h"
+#include "measurements/sample_table.h"
+#include "measurements/writer.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <locale>
+#include <sstream>
+
+namespace wiimote_tracker::measurements {
+namespace {
+
+std::string headerOf(const std::string& path, const Samples& samples) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(9);
+  text << "PathFileType\t4\t(X/Y/Z)\t" << std::filesystem::path(path).filename().string() << "\n"
+       << "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
+          "OrigNumFrames\n"
+       << samples.rate << "\t" << samples.rate << "\t" << samples.frames << "\t"
+       << samples.labels.size() << "\tm\t" << samples.rate << "\t1\t" << samples.frames << "\n"
+       << "Frame#\tTime";
+  for (const std::string& label : samples.labels)
+    text << "\t" << label << "\t\t";
+  text << "\n\t";
+  for (std::size_t i = 1; i <= samples.labels.size(); ++i)
+    text << "\tX" << i << "\tY" << i << "\tZ" << i;
+  text << "\n\n";
+  return text.str();
+}
+
+class TrcWriter : public Writer {
+ public:
+  TrcWriter(const std::string& path, double rate) : path_(path), file_(path), rate_(rate) {}
+
+  void add(const Measurement& measurement) override { table_.add(measurement); }
+
+  void finish() override {
+    const Samples samples = table_.resample(rate_);
+    file_.write(headerOf(path_, samples));
+    std::ostringstream row;
+    row.imbue(std::locale::classic());
+    row.precision(9);
+    for (std::size_t frame = 0; frame < samples.frames; ++frame) {
+      row.str("");
+      row << frame + 1 << "\t" << static_cast<double>(frame) / rate_;
+      for (const auto& positions : samples.positions) {
+        const Eigen::Vector3d& p = positions[frame];
+        if (p.allFinite())
+          row << "\t" << p.x() << "\t" << p.y() << "\t" << p.z();
+        else
+          row << "\t\t\t";
+      }
+      row << "\n";
+      file_.write(row.str());
+    }
+    file_.finish();
+  }
+
+ private:
+  std::string path_;
+  OutputFile file_;
+  double rate_;
+  SampleTable table_;
+};
+
+}  // namespace
+
+std::unique_ptr<Writer> makeTrcWriter(const std::string& path, double rate) {
+  return std::make_unique<TrcWriter>(path, rate);
+}
+
+}  // namespace wiimote_tracker::measurements

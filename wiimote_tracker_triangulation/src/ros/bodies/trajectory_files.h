@@ -1,0 +1,30 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_TRAJECTORY_FILES_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_TRAJECTORY_FILES_H
+
+#include "measurements/tum_writer.h"
+
+#include <wiimote_tracker_msgs/TrackedBodyArray.h>
+
+#include <map>
+#include <string>
+
+namespace wiimote_tracker {
+
+/// The poses of each tracked body in a file <folder>/<body>.tum. All throw Error.
+class TrajectoryFiles {
+ public:
+  /// @param folder empty: nothing is written.
+  explicit TrajectoryFiles(const std::string& folder) : folder_(folder) {}
+
+  void add(const wiimote_tracker_msgs::TrackedBodyArray& bodies);
+  void flush();
+  void finish();
+
+ private:
+  std::string folder_;
+  std::map<std::string, measurements::TumWriter> files_;  // by body
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_TRAJECTORY_FILES_H

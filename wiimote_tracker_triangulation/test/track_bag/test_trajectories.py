@@ -1,0 +1,106 @@
+"""C3D, TRC and TUM files of track_bag on simulated recordings, read by readers of their own."""
+
+import os
+import subprocess
+
+import numpy as np
+import pytest
+import rosbag
+import yaml
+
+import c3d
+import recording
+from recording import images, rig, seconds_of, time_of
+
+PROGRAM = os.environ['TRACK_BAG']
+RATE = 60.0
+HIDDEN = (1.0, 1.3)
+NOWHERE = np.array([0.0, 0.0, -50.0])  # below the floor, where no camera looks
+
+
+def hidden_for_a_while(t):
+    return NOWHERE if HIDDEN[0] <= t < HIDDEN[1] else recording.other(t)
+
+
+@pytest.fixture(scope='module')
+def files(tmp_path_factory):
+    """The folder with in.bag and what track_bag made of it."""
+    folder = tmp_path_factory.mktemp('trajectories')
+    with rosbag.Bag(str(folder / 'in.bag'), 'w') as bag:
+        bag.write('/calibration/rig', rig(), time_of(-0.1))
+        for image in images(2.0, (recording.walk, hidden_for_a_while)):
+            bag.write('/%s/ir_blobs' % image.camera, image, image.arrival)
+    (folder / 'parameters.yaml').write_text(yaml.safe_dump({'labels': ['left', 'right']}))
+    subprocess.check_call([PROGRAM, 'in.bag', 'out.bag', '--params', 'parameters.yaml', '--c3d',
+                           'out.c3d', '--trc', 'out.trc', '--rate', str(RATE)], cwd=str(folder),
+                          stdout=subprocess.DEVNULL)
+    return folder
+
+
+def start_of(files):
+    """Time of the first frame: of the first tracked LED [s after START]."""
+    with rosbag.Bag(str(files / 'out.bag')) as bag:
+        return next(seconds_of(m.header.stamp) for _, m, _ in bag.read_messages('/points')
+                    if any(p.state == p.TRACKED for p in m.points))
+
+
+def check(labels, positions, start):
+    """Positions [m], frames x LEDs x 3: those of the truth, and gaps where an LED was hidden."""
+    assert sorted(labels) == ['left', 'right']
+    times = start + np.arange(len(positions)) / RATE
+    assert times[-1] == pytest.approx(2.0, abs=0.05)
+    truths = [np.array([way(t) for t in times]) for way in (recording.walk, recording.other)]
+    ways = []
+    for column in positions.transpose(1, 0, 2):
+        errors = [np.linalg.norm(column - truth, axis=1) for truth in truths]
+        way = int(np.nanmedian(errors[0]) > np.nanmedian(errors[1]))
+        assert np.nanmax(errors[way]) < 0.01
+        known = np.isfinite(column).all(axis=1)
+        assert not np.isnan(column[known]).any()
+        was_hidden = (times > HIDDEN[0] + 0.06) & (times < HIDDEN[1])
+        if way == 0:
+            assert known[times > 0.2].all()
+        else:
+            assert not known[was_hidden].any()
+            assert known[(times > 0.2) & (times < HIDDEN[0] - 0.02)].all()
+            assert known[times > HIDDEN[1] + 0.3].all()
+        ways.append(way)
+    assert sorted(ways) == [0, 1]
+
+
+def test_c3d(files):
+    found = c3d.read(files / 'out.c3d')
+    assert (found.rate, found.units, found.analog) == (RATE, 'mm', 0)
+    check(found.labels, found.positions / 1000.0, start_of(files))
+
+
+def test_trc(files):
+    """By OpenSim's description: three lines of header, names, axes, an empty line, rows."""
+    lines = (files / 'out.trc').read_text().split('\n')
+    assert lines[0].split('\t') == ['PathFileType', '4', '(X/Y/Z)', 'out.trc']
+    header = dict(zip(lines[1].split('\t'), lines[2].split('\t')))
+    assert header['Units'] == 'm'
+    assert float(header['DataRate']) == float(header['CameraRate']) == RATE
+    names = lines[3].split('\t')
+    assert names[:2] == ['Frame#', 'Time']
+    labels = [name for name in names[2:] if name]
+    assert lines[4].split('\t')[2:] == [f'{axis}{i + 1}' for i in range(len(labels)) for axis in 'XYZ']
+    assert lines[5] == '' and lines[-1] == ''
+    rows = [line.split('\t') for line in lines[6:-1]]
+    assert len(rows) == int(header['NumFrames']) and len(labels) == int(header['NumMarkers'])
+    assert [int(row[0]) for row in rows] == list(range(1, len(rows) + 1))
+    assert np.allclose([float(row[1]) for row in rows], np.arange(len(rows)) / RATE, atol=1e-6)
+    positions = np.array([[float(cell) if cell else np.nan for cell in row[2:]] for row in rows])
+    check(labels, positions.reshape(len(rows), -1, 3), start_of(files))
+
+
+def test_an_empty_recording_gives_empty_files(tmp_path):
+    with rosbag.Bag(str(tmp_path / 'in.bag'), 'w') as bag:
+        bag.write('/calibration/rig', rig(), time_of(-0.1))
+        for image in images(0.1, (lambda t: NOWHERE,)):
+            bag.write('/%s/ir_blobs' % image.camera, image, image.arrival)
+    subprocess.check_call([PROGRAM, 'in.bag', 'out.bag', '--c3d', 'out.c3d', '--trc', 'out.trc',
+                           '--tum', 'poses'], cwd=str(tmp_path), stdout=subprocess.DEVNULL)
+    assert c3d.read(tmp_path / 'out.c3d').labels == []
+    assert '\t0\t0\tm\t' in (tmp_path / 'out.trc').read_text()
+    assert not (tmp_path / 'poses').exists()

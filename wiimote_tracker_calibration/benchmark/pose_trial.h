@@ -14,6 +14,17 @@
 
 namespace wiimote_tracker {
 
+namespace square {
+
+/// cornerPoses() of a camera that saw all four.
+inline PlanarPoses planarPoses(const geometry::Intrinsics& intrinsics,
+                               const std::array<Eigen::Vector2d, 4>& pixels,
+                               const Corners& corners) {
+  return cornerPoses(intrinsics, {pixels[0], pixels[1], pixels[2], pixels[3]}, corners);
+}
+
+}  // namespace square
+
 /// A camera in front of a square, and what it saw.
 struct PoseTrial {
   geometry::Camera truth;

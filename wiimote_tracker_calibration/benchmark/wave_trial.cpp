@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -188,6 +189,40 @@ double squareAlone(const SimulatedWave& wave,
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector3d> cubePoints(const std::vector<geometry::Camera>& truth) {
+  std::vector<Eigen::Vector3d> points;
+  const int kSteps = 6;
+  for (int x = 0; x < kSteps; ++x) {
+    for (int y = 0; y < kSteps; ++y) {
+      for (int z = 0; z < kSteps; ++z) {
+        const Eigen::Vector3d point = 2.5 / (kSteps - 1) * Eigen::Vector3d(x, y, z);
+        if (std::all_of(truth.begin(), truth.end(),
+                        [&](const geometry::Camera& camera) { return camera.sees(point); }))
+          points.push_back(point);
+      }
+    }
+  }
+  return points;
+}
+
+Eigen::Matrix3Xd pointErrors(const std::vector<geometry::Camera>& truth,
+                             const std::vector<geometry::Camera>& estimate,
+                             const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Matrix3Xd errors(3, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    std::vector<geometry::Observation> observations;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      if (truth[i].sees(points[p]))
+        observations.push_back({&estimate[i], *truth[i].project(points[p])});
+    }
+    const auto point = geometry::triangulate(observations, geometry::TriangulationOptions());
+    errors.col(static_cast<Eigen::Index>(p)) =
+        point ? Eigen::Vector3d(point->position - points[p])
+              : Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  }
+  return errors;
+}
 
 WaveOptions optionsFor(const WaveScene& scene) {
   WaveOptions options;

@@ -46,6 +46,14 @@ struct WaveTrial {
 /// @param with_positions fills `position`, too.
 WaveTrial runWaveTrial(const WaveScene& scene, std::uint64_t seed, bool with_positions);
 
+/// Points of the cube [0, 2.5]^3 m that all true cameras see.
+std::vector<Eigen::Vector3d> cubePoints(const std::vector<geometry::Camera>& truth);
+
+/// Errors of the points as triangulated from their true pixels with the estimated cameras [m].
+Eigen::Matrix3Xd pointErrors(const std::vector<geometry::Camera>& truth,
+                             const std::vector<geometry::Camera>& estimate,
+                             const std::vector<Eigen::Vector3d>& points);
+
 /// The options that fit to a scene.
 WaveOptions optionsFor(const WaveScene& scene);
 

@@ -1,7 +1,7 @@
 // A person with a board before a camera that this test plays: from the first view to the lens that
 // the node and the driver use from then on. Images come faster than real ones; all times are
 // theirs.
-#include "wiimote_tracker_calibration/simulation/simulated_board.h"
+#include "board_lenses.h"
 
 #include "intrinsics/board_sequence.h"
 

@@ -1,9 +1,9 @@
 // From the views of the board to points: a rig of which one camera has a wide-angle lens.
 
+#include "board_lenses.h"
 #include "simulated_square.h"
 #include "square/expected_error.h"
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
-#include "wiimote_tracker_calibration/simulation/simulated_board.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>

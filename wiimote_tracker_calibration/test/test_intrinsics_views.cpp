@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/simulation/simulated_board.h"
+#include "board_lenses.h"
 
 #include "intrinsics/error.h"
 #include "intrinsics/view_collector.h"

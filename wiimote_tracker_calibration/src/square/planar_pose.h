@@ -35,13 +35,6 @@ PlanarPoses cornerPoses(const geometry::Intrinsics& intrinsics,
                         const std::array<std::optional<Eigen::Vector2d>, 4>& pixels,
                         const Corners& corners);
 
-/// The same of a camera that saw all four.
-inline PlanarPoses planarPoses(const geometry::Intrinsics& intrinsics,
-                               const std::array<Eigen::Vector2d, 4>& pixels,
-                               const Corners& corners) {
-  return cornerPoses(intrinsics, {pixels[0], pixels[1], pixels[2], pixels[3]}, corners);
-}
-
 /// Whether two poses are the same to within 0.02 degrees and 0.02 % of the distance to the square.
 bool isSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const Corners& corners);
 

@@ -19,14 +19,7 @@ struct VolumeError {
   double similarity = 0.0;  ///< After the best similarity.
 };
 
-/// Points of the cube [0, 2.5]^3 m that all true cameras see.
-std::vector<Eigen::Vector3d> cubePoints(const std::vector<geometry::Camera>& truth);
-
-/// Errors of the points as triangulated from their true pixels with the estimated cameras [m].
-Eigen::Matrix3Xd pointErrors(const std::vector<geometry::Camera>& truth,
-                             const std::vector<geometry::Camera>& estimate,
-                             const std::vector<Eigen::Vector3d>& points);
-
+/// @param errors of the points, one column each [m].
 VolumeError volumeError(const Eigen::Matrix3Xd& errors, const std::vector<Eigen::Vector3d>& points);
 
 /// Cramér-Rao bound of a simulated recording, at the truth. The model is the solver's (a cubic

@@ -14,9 +14,11 @@ namespace {
 /// The board as a rectangle in the image, LED 0 at its top left.
 BoardView frontView(double left, double top, double side) {
   BoardView view;
-  for (int led = 0; led < kBoardLeds; ++led)
+  for (int led = 0; led < kBoardLeds; ++led) {
+    const int row = led / 4;
     view.pixels[static_cast<std::size_t>(led)] =
-        Eigen::Vector2d(left + side * (led % 4) / 3.0, top + side * (led / 4) / 3.0);
+        Eigen::Vector2d(left + side * (led % 4) / 3.0, top + side * row / 3.0);
+  }
   return view;
 }
 

@@ -1,4 +1,6 @@
-// Cost and reliability of the driver: 32 remotes at once, a week of reports, timing.
+// Cost and reliability of the driver: processor time, 32 remotes at once, a week of reports,
+// timing.
+#include "cost_trial.h"
 #include "load_trial.h"
 #include "soak_trial.h"
 
@@ -72,13 +74,20 @@ int run(const Options& options) {
     text += (text.empty() ? "{\n\"" : ",\n\"") + std::string(section) + "\": " + content;
   };
   bool good = true;
-  // First, since it forks while this process has one thread.
+  if (asked(options, "load") && asked(options, "cost"))
+    throw BadArguments("--sections: load and cost each need a run of their own");
+  // These first, since they fork while this process has one thread.
   if (asked(options, "load")) {
     const Results results = runLoad(options.remotes, options.seconds);
     print("Load (virtual remotes in another process, nodelets and subscriber in this one)",
           results);
     add("load", json(results));
     good = good && value(results, "dropped") == 0.0;
+  }
+  if (asked(options, "cost")) {
+    const Results results = runCost(options.seconds);
+    print("Cost (driver_node and a node that only publishes the same message)", results);
+    add("cost", json(results));
   }
   if (asked(options, "soak")) {
     const Results results = runSoak(options.reports);
@@ -90,7 +99,7 @@ int run(const Options& options) {
     add("timing", "{\"unit\": \"s; wrong_*, error_over_stddev, within_2_stddev: 1\",\n\"rows\": " +
                       runTimingProgram() + "}");
   if (text.empty())
-    throw BadArguments("--sections must name load, soak or timing");
+    throw BadArguments("--sections must name load, cost, soak or timing");
   if (!options.json.empty()) {
     std::ofstream file(options.json);
     file << text << "\n}\n";
@@ -110,12 +119,13 @@ int main(int argc, char** argv) {
       "benchmark_driver",
       "load    virtual remotes at 100 Hz into driver nodelets in this process; brings its own ROS\n"
       "        master\n"
+      "cost    processor time of driver_node, beside that of a node that only publishes\n"
       "soak    reports through decoder and state machine in fake time\n"
       "timing  the table of benchmark_timing");
   parser.option("--sections A,B,...", &options.sections, "what to run");
   parser.option("--json FILE", &options.json, "write the results to this file, too");
   parser.option("--remotes N", &options.remotes, 1, 256, "of the load");
-  parser.option("--seconds S", &options.seconds, 1.0, 500.0, "of the load [s]");
+  parser.option("--seconds S", &options.seconds, 1.0, 500.0, "of load and cost [s]");
   // At least more than a day's worth, so that what grows has time to.
   parser.option("--reports N", &options.reports, 10000000, 1000000000000, "of the soak");
   return parser.run(argc, argv, [&] { return run(options); });

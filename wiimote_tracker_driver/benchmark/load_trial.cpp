@@ -1,5 +1,6 @@
 #include "load_trial.h"
 
+#include "folder.h"
 #include "own_master.h"
 #include "virtual_remotes.h"
 
@@ -13,8 +14,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -33,28 +32,6 @@ constexpr double kUnderWay = 0.5;
 void wait(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
-
-/// A folder for sockets, removed with its content at the end.
-class Folder {
- public:
-  Folder() {
-    char name[] = "/tmp/benchmark_driver_XXXXXX";
-    if (!::mkdtemp(name))
-      throw std::runtime_error("no folder can be made in /tmp: make room there");
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 /// Arrival time of each sample of a remote [s]; 0: none. Written by one thread.
 class Arrivals {
@@ -90,19 +67,6 @@ double processorTime() {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-void startRos(OwnMaster& master) {
-  ros::init(ros::M_string(), "benchmark_driver", ros::init_options::NoRosout);
-  for (double waited = 0.0; !ros::master::check(); waited += 0.1) {
-    if (master.ended() || waited > kStartLimit)
-      throw std::runtime_error(
-          "no ROS master could be started: source ROS's setup.bash, so that rosmaster is found");
-    wait(0.1);
-  }
-  // 32 nodelets log much about missing files.
-  if (ros::console::set_logger_level("ros", ros::console::levels::Error))
-    ros::console::notifyLoggerLevelsChanged();
 }
 
 std::string nameOf(int remote) {
@@ -170,7 +134,7 @@ Results runLoad(int count, double duration) {
   const Folder folder;
   const VirtualRemotes remotes(count, folder.path());
   OwnMaster master;
-  startRos(master);
+  master.connect();
 
   ros::NodeHandle nh;
   std::vector<std::unique_ptr<Arrivals>> arrivals;

@@ -10,7 +10,6 @@ namespace wiimote_tracker {
 /// this process, time from the remote's sample to the subscriber's callback, and lost data reports.
 /// Starts its own ROS master. Call it while this process has one thread. @throws std::runtime_error
 /// when it cannot be measured; what() says what to do.
-/// to do.
 Results runLoad(int remotes, double duration);
 
 }  // namespace wiimote_tracker

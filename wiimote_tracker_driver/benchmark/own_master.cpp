@@ -1,5 +1,7 @@
 #include "own_master.h"
 
+#include <ros/ros.h>
+
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <signal.h>
@@ -8,12 +10,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace wiimote_tracker {
 namespace {
+
+constexpr double kStartLimit = 60.0;  // [s]
 
 int freePort() {
   const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -51,10 +57,19 @@ OwnMaster::~OwnMaster() {
   ::waitpid(process_, nullptr, 0);
 }
 
-bool OwnMaster::ended() {
-  if (process_ > 0 && ::waitpid(process_, nullptr, WNOHANG) == process_)
-    process_ = 0;
-  return process_ <= 0;
+void OwnMaster::connect() {
+  ros::init(ros::M_string(), "benchmark_driver", ros::init_options::NoRosout);
+  for (double waited = 0.0; !ros::master::check(); waited += 0.1) {
+    if (process_ > 0 && ::waitpid(process_, nullptr, WNOHANG) == process_)
+      process_ = 0;
+    if (process_ <= 0 || waited > kStartLimit)
+      throw std::runtime_error(
+          "no ROS master could be started: source ROS's setup.bash, so that rosmaster is found");
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  // 32 nodelets log much about missing files.
+  if (ros::console::set_logger_level("ros", ros::console::levels::Error))
+    ros::console::notifyLoggerLevelsChanged();
 }
 
 }  // namespace wiimote_tracker

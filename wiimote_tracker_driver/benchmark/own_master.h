@@ -15,8 +15,9 @@ class OwnMaster {
   OwnMaster(const OwnMaster&) = delete;
   OwnMaster& operator=(const OwnMaster&) = delete;
 
-  /// Whether it has ended, as when there is no program rosmaster.
-  bool ended();
+  /// Initialises ROS in this process and waits for the master; no thread is started.
+  /// @throws std::runtime_error when there is no program rosmaster.
+  void connect();
 
  private:
   pid_t process_;

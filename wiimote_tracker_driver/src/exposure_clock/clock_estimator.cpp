@@ -11,7 +11,7 @@ namespace {
 constexpr double kSharp = 10e-6;
 constexpr double kSlotted = 0.36e-3;
 // Wander after 1 s [s]: of a good clock (0.01 ms in 10 s), 0.3 ms and 1 ms in 10 s, and 5 ms in
-// 10 s, the most of recordings of two remotes (2.5 to 5 ms).
+// 10 s, the most of recordings of two remotes (2.5 to 5 ms). Only sharp edges tell 0.3 from 1 ms.
 constexpr double kSteady = 0.003e-3;
 constexpr double kWanders = 0.095e-3;
 constexpr double kWandersMuch = 0.32e-3;
@@ -29,11 +29,9 @@ const ModelPrior kModelPriors[] = {
     {{true, kSharp, kWandersMuch}, kPriorWandersMuch},
     {{true, kSharp, kWandersAsRecorded}, kPriorWandersAsRecorded},
     {{true, kSlotted, kSteady}, kPriorSteady},
-    {{true, kSlotted, kWanders}, kPriorWanders},
     {{true, kSlotted, kWandersMuch}, kPriorWandersMuch},
     {{true, kSlotted, kWandersAsRecorded}, kPriorWandersAsRecorded},
     {{false, 0.0, kSteady}, kPriorSteady},
-    {{false, 0.0, kWanders}, kPriorWanders},
     {{false, 0.0, kWandersMuch}, kPriorWandersMuch},
     {{false, 0.0, kWandersAsRecorded}, kPriorWandersAsRecorded},
 };
@@ -85,6 +83,16 @@ struct ClockEstimator::ArrivalDensity {
   double sum() const { return on_time + queued + stalled; }
 };
 
+/// A report's arrival and the one before [s], and the density of the time between them if it waited
+/// for that one [1/s].
+struct ClockEstimator::Arrival {
+  double time, before, served;
+};
+
+ClockEstimator::Arrival ClockEstimator::arrivalAfter(double before, double time) {
+  return {time, before, std::exp(-(time - before) / kServiceTime) / kServiceTime};
+}
+
 ClockEstimator::Bank ClockEstimator::makeBank(const ExposureClockOptions& options) {
   if (!(options.period > 0.0 && options.period_stddev > 0.0 && options.stale_age > 0.0))
     throw std::invalid_argument(
@@ -93,8 +101,7 @@ ClockEstimator::Bank ClockEstimator::makeBank(const ExposureClockOptions& option
     return ClockFilter(kModelPriors[i].model, options.period,
                        options.period * options.period_stddev);
   };
-  return {make(0), make(1), make(2), make(3), make(4),  make(5),
-          make(6), make(7), make(8), make(9), make(10), make(11)};
+  return {make(0), make(1), make(2), make(3), make(4), make(5), make(6), make(7), make(8), make(9)};
 }
 
 ClockEstimator::ClockEstimator(const ExposureClockOptions& options)
@@ -177,14 +184,13 @@ Estimate ClockEstimator::restart(double arrival, std::int64_t frame) {
 }
 
 ClockEstimator::ArrivalDensity ClockEstimator::arrivalDensity(const ClockFilter& filter,
-                                                              double arrival,
-                                                              double arrival_before,
+                                                              const Arrival& arrival,
                                                               double offset) const {
-  const double late = arrival - filter.time() - offset * filter.period();
-  const double served = std::exp(-(arrival - arrival_before) / kServiceTime) / kServiceTime;
+  const double late = arrival.time - filter.time() - offset * filter.period();
+  const ClockFilter::Prediction frame = filter.predict(offset);
   ArrivalDensity ways;
-  ways.on_time = (1.0 - stall_probability_) * filter.likelihood(arrival, offset);
-  ways.queued = filter.readyBefore(arrival_before, offset) * served;
+  ways.on_time = (1.0 - stall_probability_) * filter.likelihood(frame, arrival.time);
+  ways.queued = filter.readyBefore(frame, arrival.before) * arrival.served;
   ways.stalled =
       late > 0.0 ? stall_probability_ / kStallLength * std::exp(-late / kStallLength) : 0.0;
   return ways;
@@ -192,6 +198,7 @@ ClockEstimator::ArrivalDensity ClockEstimator::arrivalDensity(const ClockFilter&
 
 // Bayes' rule for the frame number, the models, and each model's clock.
 void ClockEstimator::updateModels(double arrival) {
+  const Arrival now = arrivalAfter(last_arrival_, arrival);
   const ClockFilter& leader = best();
   counter_.predict(
       frame_ + 1 +
@@ -205,7 +212,7 @@ void ClockEstimator::updateModels(double arrival) {
     for (int i = 0; i < counter_.size(); ++i) {
       const auto at = static_cast<std::size_t>(i);
       const double offset = static_cast<double>(counter_.frame(i) - frame_);
-      const ArrivalDensity ways = arrivalDensity(filter, arrival, last_arrival_, offset);
+      const ArrivalDensity ways = arrivalDensity(filter, now, offset);
       // Only reports that were on time are measurements of the clock.
       on_time[at] = counter_[i] * ways.on_time;
       const double all = counter_[i] * (ways.sum() + kUnexplained);
@@ -215,7 +222,8 @@ void ClockEstimator::updateModels(double arrival) {
     for (int i = 0; i < counter_.size(); ++i) {
       const double probability = on_time[static_cast<std::size_t>(i)] / evidence;
       if (probability > kNegligible)
-        filter.addHypothesis(arrival, static_cast<double>(counter_.frame(i) - frame_), probability);
+        filter.addHypothesis(filter.predict(static_cast<double>(counter_.frame(i) - frame_)),
+                             arrival, probability);
       if (m == kSteadyEdge)
         on_steady_edge += probability;
     }
@@ -247,7 +255,8 @@ void ClockEstimator::learnFromHistory(double arrival, double on_time) {
       const auto offset = static_cast<double>(report.frame - frame_);
       if (report.arrival - edge.time() - offset * edge.period() > -kTooEarly)
         edge_.add(report.frame, report.arrival, report.on_time, edge.period());
-      learnStallProbability(arrivalDensity(best(), report.arrival, history_arrival_, offset));
+      learnStallProbability(
+          arrivalDensity(best(), arrivalAfter(history_arrival_, report.arrival), offset));
       if (best().spread() < kMaxSpreadForLosses * best().period())
         counter_.learn(report.frame - history_frame_);
     }

@@ -22,6 +22,8 @@ constexpr double kMinVarianceRatio = 0.5;
 // Exponentials of smaller mean, relative to the uncertainty, are negligible.
 constexpr double kMinRelativeSpread = 0.05;
 
+// Standard deviations below the mean that have no probability.
+constexpr double kImpossible = -6.0;
 constexpr double kInvSqrt2 = 0.70710678118654752;
 constexpr double kInvSqrt2Pi = 0.39894228040143268;
 
@@ -82,8 +84,7 @@ bool ClockFilter::hasExponential(const Prediction& z) const {
   return model_.hard_edge && spread_ > kMinRelativeSpread * z.stddev;
 }
 
-double ClockFilter::likelihood(double arrival, double offset) const {
-  const Prediction z = predict(offset);
+double ClockFilter::likelihood(const Prediction& z, double arrival) const {
   const double late = arrival - z.mean;
   if (!hasExponential(z))
     return normalDensity(late / z.stddev) / z.stddev;
@@ -94,14 +95,15 @@ double ClockFilter::likelihood(double arrival, double offset) const {
   return normalDensity(late / z.stddev) / (inverseMills(b) * spread_);
 }
 
-double ClockFilter::readyBefore(double time, double offset) const {
-  const Prediction z = predict(offset);
-  const double normal = normalCdf((time - z.mean) / z.stddev);
-  return hasExponential(z) ? std::max(0.0, normal - spread_ * likelihood(time, offset)) : normal;
+double ClockFilter::readyBefore(const Prediction& z, double time) const {
+  const double early = (time - z.mean) / z.stddev;
+  if (early < kImpossible)
+    return 0.0;
+  const double normal = normalCdf(early);
+  return hasExponential(z) ? std::max(0.0, normal - spread_ * likelihood(z, time)) : normal;
 }
 
-void ClockFilter::addHypothesis(double arrival, double offset, double weight) {
-  const Prediction z = predict(offset);
+void ClockFilter::addHypothesis(const Prediction& z, double arrival, double weight) {
   double innovation = arrival - z.mean;
   double left = 0.0;  // variance of z, given the arrival
   if (hasExponential(z)) {

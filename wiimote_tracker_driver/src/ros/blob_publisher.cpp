@@ -57,6 +57,8 @@ BlobPublisher::BlobPublisher(ros::NodeHandle& nh,
 void BlobPublisher::publish(const protocol::DataReport& image,
                             const ImageTime& time,
                             const std::string& identity) {
+  if (publisher_.getNumSubscribers() == 0)
+    return;
   // Nodelets share the message, so each image needs its own.
   const auto message = boost::make_shared<IrBlobArray>();
   message->header.stamp = time.stamp;

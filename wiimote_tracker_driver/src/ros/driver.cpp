@@ -21,8 +21,7 @@ namespace {
 
 // Longest wait for a report [s], which bounds the delay of callbacks' requests and of shutdown.
 constexpr double kReadWait = 0.1;
-constexpr double kDiagnosticsCheck = 0.2;  // [s]
-constexpr double kUsersCheck = 10.0;       // [s]; takes milliseconds
+constexpr double kUsersCheck = 10.0;  // [s]; takes milliseconds
 
 wiimote::Options wiimoteOptions(const DriverParameters& p, protocol::IrFormat ir_format) {
   wiimote::Options options;
@@ -134,8 +133,8 @@ Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
   updater_.setHardwareID("none");
   updater_.add("Wii Remote " + parameters_.camera_name, this, &Driver::diagnose);
   diagnostics_timer_ = nh.createSteadyTimer(
-      ros::WallDuration(kDiagnosticsCheck), [this](const ros::SteadyTimerEvent&) {
-        logExceptions(parameters_.camera_name, [this] { updater_.update(); });
+      ros::WallDuration(updater_.getPeriod()), [this](const ros::SteadyTimerEvent&) {
+        logExceptions(parameters_.camera_name, [this] { updater_.force_update(); });
       });
   reader_ = threadWithoutSignals([this] { run(); });
 }

@@ -26,6 +26,8 @@ ImuPublisher::ImuPublisher(ros::NodeHandle& nh,
 void ImuPublisher::publish(const std::array<int, 3>& raw,
                            const protocol::AccelerometerCalibration& calibration,
                            const ros::Time& stamp) {
+  if (publisher_.getNumSubscribers() == 0)
+    return;
   const std::array<double, 3> g = calibration.toG(raw);
   const auto message = boost::make_shared<sensor_msgs::Imu>();
   message->header.stamp = stamp;

@@ -69,15 +69,16 @@ class ClockEstimator {
   double logEvidence() const { return log_evidence_; }
 
  private:
-  static constexpr int kModels = 12;
+  static constexpr int kModels = 10;
   using Bank = std::array<ClockFilter, kModels>;
   static Bank makeBank(const ExposureClockOptions& options);
 
   Estimate restart(double arrival, std::int64_t frame);
+  struct Arrival;
+  static Arrival arrivalAfter(double before, double time);
   struct ArrivalDensity;
   ArrivalDensity arrivalDensity(const ClockFilter& filter,
-                                double arrival,
-                                double arrival_before,
+                                const Arrival& arrival,
                                 double offset) const;
   void updateModels(double arrival);
   void learnFromHistory(double arrival, double on_time);

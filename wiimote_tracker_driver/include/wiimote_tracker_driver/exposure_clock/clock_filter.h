@@ -47,15 +47,22 @@ class ClockFilter {
   double spread() const { return spread_; }
   const DelayModel& model() const { return model_; }
 
-  /// Density [1/s] of an arrival at `arrival` of the frame `offset` frames after the state's.
-  double likelihood(double arrival, double offset) const;
+  /// Of z [s], and how the state follows it.
+  struct Prediction {
+    double mean, variance, stddev;
+    double time_gain, period_gain;
+  };
+  /// Of the frame `offset` frames after the state's.
+  Prediction predict(double offset) const;
+  /// Density [1/s] of an arrival of this frame at `arrival`.
+  double likelihood(const Prediction& frame, double arrival) const;
   /// Probability that this frame was ready to arrive before `time`.
-  double readyBefore(double time, double offset) const;
+  double readyBefore(const Prediction& frame, double time) const;
 
   /// Probabilistic data association (Bar-Shalom, Tse, Automatica 11, 1975): adds the hypothesis, of
-  /// probability `weight`, that `arrival` belongs to the frame `offset` frames after the state's.
-  /// applyHypotheses() then updates the state with all hypotheses of the arrival.
-  void addHypothesis(double arrival, double offset, double weight);
+  /// probability `weight`, that `arrival` is that of this frame. applyHypotheses() then updates the
+  /// state with all hypotheses of the arrival.
+  void addHypothesis(const Prediction& frame, double arrival, double weight);
   void applyHypotheses();
 
   /// Replaces phase and period of the state's frame by those of a better method.
@@ -64,11 +71,6 @@ class ClockFilter {
   void copyStateFrom(const ClockFilter& better);
 
  private:
-  struct Prediction {
-    double mean, variance, stddev;  // of z
-    double time_gain, period_gain;
-  };
-  Prediction predict(double offset) const;
   /// False also where the exponential is negligible beside the uncertainty.
   bool hasExponential(const Prediction& z) const;
   void learnSpread();

@@ -1,0 +1,159 @@
+#include "cost_trial.h"
+
+#include "folder.h"
+#include "own_master.h"
+#include "virtual_remotes.h"
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <wiimote_tracker_msgs/IrBlobArray.h>
+
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace wiimote_tracker {
+namespace {
+
+using wiimote_tracker_msgs::IrBlobArray;
+
+constexpr int kTurns = 4;           // without and with a subscriber
+constexpr double kSettling = 2.0;   // [s] After the subscription has changed.
+constexpr double kWarmUp = 30.0;    // [s] Until the exposure clock has learned.
+constexpr double kStartLimit = 60;  // [s]
+
+/// A child process, ended with this object.
+class Process {
+ public:
+  explicit Process(const std::function<void()>& run) : id_(::fork()) {
+    if (id_ != 0)
+      return;
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+    run();
+    ::_exit(127);
+  }
+  ~Process() {
+    ::kill(id_, SIGTERM);
+    ::waitpid(id_, nullptr, 0);
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  /// Of all its threads [s].
+  double processorTime() const {
+    clockid_t clock{};
+    timespec time{};
+    if (::clock_getcpuclockid(id_, &clock) != 0 || ::clock_gettime(clock, &time) != 0)
+      throw std::runtime_error("a node under test has ended: see its messages above");
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+
+ private:
+  pid_t id_;
+};
+
+/// As in the tutorials of ROS.
+void publishOnly() {
+  ros::init(ros::M_string(), "publisher_only");
+  ros::NodeHandle nh;
+  const ros::Publisher publisher = nh.advertise<IrBlobArray>("publisher_only/ir_blobs", 20);
+  ros::WallRate rate(1.0 / VirtualRemotes::kPeriod);
+  for (std::uint64_t frame = 0; ros::ok(); ++frame) {
+    const auto message = boost::make_shared<IrBlobArray>();
+    message->header.stamp = message->arrival = ros::Time::now();
+    message->header.frame_id = "wiimote_1_optical_frame";
+    message->camera = "wiimote_1";
+    message->identity = "00:1f:32:00:00:00";
+    message->frame = frame;
+    message->blobs.resize(1);
+    publisher.publish(message);
+    ros::spinOnce();
+    rate.sleep();
+  }
+}
+
+void runDriver(const std::string& socket) {
+  char self[4096];
+  const ssize_t size = ::readlink("/proc/self/exe", self, sizeof(self) - 1);
+  const std::string here(self, size > 0 ? static_cast<std::size_t>(size) : 0);
+  const std::string program = here.substr(0, here.rfind('/') + 1) + "driver_node";
+  ::execl(program.c_str(), program.c_str(), "__ns:=/wiimote_1",
+          ("_device:=virtual:" + socket).c_str(), nullptr);
+}
+
+/// Counts what both nodes publish while it subscribes.
+class Listener {
+ public:
+  void subscribe() {
+    for (std::size_t i = 0; i < kTopics.size(); ++i)
+      subscribers_[i] = nh_.subscribe<IrBlobArray>(
+          kTopics[i], 100, [this, i](const IrBlobArray::ConstPtr&) { ++received_[i]; });
+  }
+  void unsubscribe() { subscribers_ = {}; }
+  /// Spins for so long [s]. @returns what came of each.
+  std::array<int, 2> spin(double duration) {
+    received_ = {};
+    for (const double end = steadyNow() + duration; steadyNow() < end;)
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
+    return received_;
+  }
+
+ private:
+  const std::array<const char*, 2> kTopics{"/wiimote_1/ir_blobs", "/publisher_only/ir_blobs"};
+  ros::NodeHandle nh_;
+  std::array<ros::Subscriber, 2> subscribers_;
+  std::array<int, 2> received_{};
+};
+
+}  // namespace
+
+Results runCost(double duration) {
+  const Folder folder;
+  const VirtualRemotes remotes(1, folder.path());
+  OwnMaster master;
+  const Process publisher(publishOnly);
+  master.connect();
+  const Process driver([&] { runDriver(remotes.socket(0)); });
+
+  Listener listener;
+  listener.subscribe();
+  for (double waited = 0.0; listener.spin(1.0)[0] < 50; waited += 1.0)
+    if (waited > kStartLimit)
+      throw std::runtime_error("no image came: stop what keeps this computer busy");
+  listener.spin(kWarmUp);
+
+  std::array<double, 2> with{}, without{};
+  for (int turn = 0; turn < 2 * kTurns; ++turn) {
+    const bool subscribed = turn % 2 == 1;
+    if (subscribed)
+      listener.subscribe();
+    else
+      listener.unsubscribe();
+    listener.spin(kSettling);
+    const double begin = steadyNow();
+    const std::array<double, 2> before{driver.processorTime(), publisher.processorTime()};
+    listener.spin(duration / kTurns);
+    const std::array<double, 2> after{driver.processorTime(), publisher.processorTime()};
+    for (std::size_t i = 0; i < 2; ++i)
+      (subscribed ? with : without)[i] +=
+          100.0 / kTurns * (after[i] - before[i]) / (steadyNow() - begin);
+  }
+  ros::shutdown();
+  const char* percent = "% of a core";
+  return {{"driver", without[0], percent},
+          {"publisher", without[1], percent},
+          {"ratio", without[0] / without[1], "1"},
+          {"driver_with_subscriber", with[0], percent},
+          {"publisher_with_subscriber", with[1], percent},
+          {"ratio_with_subscriber", with[0] / with[1], "1"}};
+}
+
+}  // namespace wiimote_tracker

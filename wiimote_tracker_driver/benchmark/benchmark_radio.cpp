@@ -22,15 +22,22 @@ struct Row {
   double lost = 0.0;           ///< share of the images of all remotes
   double mean_delay = 0.0;     ///< [s] From exposure to arrival.
   double longest_delay = 0.0;  ///< [s] 99 % are shorter.
-  double error = 0.0;          ///< [s] RMS error of the exposure times less its mean.
+  double error = 0.0;          ///< [s] RMS error of the exposure times less its median.
   double covered = 0.0;        ///< share of errors within two stated standard deviations
 };
+
+double quantile(std::vector<double> values, double q) {
+  const auto nth =
+      values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
 
 Row judge(const RadioModel& model, double duration) {
   Row row;
   row.rate = 1e9;
   std::vector<double> delays, errors, stddevs;
-  double sum = 0.0, frames = 0.0;
+  double frames = 0.0;
   for (const std::vector<RadioReport>& reports : simulateRadio(model, duration, 1)) {
     ExposureClock clock;
     std::size_t judged = 0;
@@ -44,24 +51,23 @@ Row judge(const RadioModel& model, double duration) {
       delays.push_back(report.arrival - report.exposure);
       errors.push_back(estimate.exposure - report.exposure);
       stddevs.push_back(estimate.stddev);
-      sum += errors.back();
     }
     row.rate = std::min(row.rate, static_cast<double>(judged) / (duration - kSettling));
     if (!reports.empty())
       frames += static_cast<double>(reports.back().frame - first_frame + 1);
   }
   const auto count = static_cast<double>(errors.size());
+  // The constant part of the delay. Wrong frame numbers, all of them too high, would move a mean.
+  const double constant = quantile(errors, 0.5);
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    const double error = errors[i] - sum / count;
+    const double error = errors[i] - constant;
     row.mean_delay += delays[i] / count;
     row.error += error * error / count;
     row.covered += (std::abs(error) < 2.0 * stddevs[i]) / count;
   }
   row.error = std::sqrt(row.error);
   row.lost = 1.0 - count / frames;
-  const auto nth = delays.begin() + static_cast<std::ptrdiff_t>(0.99 * count);
-  std::nth_element(delays.begin(), nth, delays.end());
-  row.longest_delay = *nth;
+  row.longest_delay = quantile(delays, 0.99);
   return row;
 }
 

@@ -89,6 +89,8 @@ void runDriver(const std::string& socket) {
           ("_device:=virtual:" + socket).c_str(), nullptr);
 }
 
+constexpr std::array<const char*, 2> kTopics{"/wiimote_1/ir_blobs", "/publisher_only/ir_blobs"};
+
 /// Counts what both nodes publish while it subscribes.
 class Listener {
  public:
@@ -107,7 +109,6 @@ class Listener {
   }
 
  private:
-  const std::array<const char*, 2> kTopics{"/wiimote_1/ir_blobs", "/publisher_only/ir_blobs"};
   ros::NodeHandle nh_;
   std::array<ros::Subscriber, 2> subscribers_;
   std::array<int, 2> received_{};

@@ -39,7 +39,7 @@ const std::string kDisconnected = text({4, 4, 0x00, 0xf2, 0x05, 0x2a, 1, 0, 0, 0
 const std::string kAll = kHeader + kConnected + kSent + kReceived + kDisconnected;
 
 struct Contents {
-  Header header;
+  FileHeader header;
   std::vector<Record> records;
   std::string damage;
 };
@@ -255,7 +255,7 @@ TEST_F(Recording, KeepsEarlierOnes) {
 TEST_F(Recording, RefusesAFolderThatCannotBeWritten) {
   const std::string path = directory_ + "/none/a.wiirec";
   try {
-    Recorder(path, 0.0, 0.0);
+    const Recorder recorder(path, 0.0, 0.0);
     ADD_FAILURE() << "not refused";
   } catch (const BadRecording& e) {
     EXPECT_TRUE(contains(e.what(), path)) << e.what();

@@ -16,7 +16,7 @@ using Kind = Record::Kind;
 class Info : public testing::Test {
  protected:
   Info() {
-    recording::Header header;
+    recording::FileHeader header;
     header.wall_time = 1.7e9;
     header.software = "test 1";
     append(header, bytes_);

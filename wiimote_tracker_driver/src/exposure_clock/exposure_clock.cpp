@@ -1,5 +1,6 @@
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,8 @@ constexpr double kTrial = 5.0;
 constexpr double kLearning = 2.0;
 // Logarithm of the likelihood ratio at which it becomes the leader: 1000 to 1.
 constexpr double kBetter = 6.9;
+// Time over which the errors of replaced leaders are averaged [s].
+constexpr double kErrorMemory = 30.0;
 // Shortest time between two exposures [s].
 constexpr double kShortestStep = 1e-6;
 
@@ -20,6 +23,7 @@ ExposureClock::ExposureClock(const ExposureClockOptions& options)
     : leader_(options),
       challenger_(options),
       trial_begin_(-std::numeric_limits<double>::infinity()),
+      leader_begin_(std::numeric_limits<double>::infinity()),
       last_arrival_(-std::numeric_limits<double>::infinity()),
       last_exposure_(last_arrival_) {}
 
@@ -29,6 +33,9 @@ void ExposureClock::reset() {
 
 Estimate ExposureClock::update(double arrival) {
   Estimate e = leader_.update(arrival);
+  leader_begin_ = std::min(leader_begin_, arrival);
+  if (arrival > last_arrival_)
+    error_variance_ *= std::exp((last_arrival_ - arrival) / kErrorMemory);
   e.frame += frame_offset_;
   if (e.restarted)
     trial_begin_ = -std::numeric_limits<double>::infinity();
@@ -40,6 +47,7 @@ Estimate ExposureClock::update(double arrival) {
     before_.stale = mine.stale - its.stale;
     before_.restarts = mine.restarts + 1 - its.restarts;
     frame_offset_ = e.frame - other.frame;
+    learnError(other.exposure - e.exposure, arrival);
     leader_ = challenger_;
     e.exposure = other.exposure;
     e.stddev = other.stddev;
@@ -47,6 +55,8 @@ Estimate ExposureClock::update(double arrival) {
     e.restarted = true;
     trial_begin_ = -std::numeric_limits<double>::infinity();
   }
+  e.stddev = std::hypot(e.stddev, std::sqrt(error_variance_));
+  e.clock_stddev = std::hypot(e.clock_stddev, std::sqrt(error_variance_));
   const double earliest = last_exposure_ + kShortestStep;
   if (arrival >= last_arrival_ && e.exposure < earliest) {
     e.stddev = std::hypot(e.stddev, earliest - e.exposure);
@@ -55,6 +65,12 @@ Estimate ExposureClock::update(double arrival) {
   last_arrival_ = arrival;
   last_exposure_ = e.exposure;
   return e;
+}
+
+void ExposureClock::learnError(double error, double arrival) {
+  const double share = 1.0 - std::exp((leader_begin_ - arrival) / kErrorMemory);
+  error_variance_ += share * error * error / 3.0;
+  leader_begin_ = arrival;
 }
 
 Estimate ExposureClock::challenge(double arrival) {

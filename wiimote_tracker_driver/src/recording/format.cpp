@@ -33,7 +33,7 @@ void appendRecordHeader(const Record& record,
 
 }  // namespace
 
-void append(const Header& header, std::vector<std::uint8_t>& bytes) {
+void append(const FileHeader& header, std::vector<std::uint8_t>& bytes) {
   bytes.insert(bytes.end(), std::begin(kMagic), std::end(kMagic));
   appendLittleEndian(kVersion, 4, bytes);
   appendLittleEndian(nanoseconds(header.wall_time), 8, bytes);

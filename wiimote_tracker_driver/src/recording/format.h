@@ -18,7 +18,7 @@ struct BadRecording : transport::TransportError {
 };
 
 /// Header of the file.
-struct Header {
+struct FileHeader {
   double wall_time = 0.0;  ///< At time 0 of the recording [s since 1970].
   std::string software;    ///< Name and version of the writer.
 };
@@ -55,7 +55,7 @@ constexpr std::size_t kRecordHeaderSize = 1 + 1 + 8;              ///< Then the 
 constexpr std::size_t kLongestPayload = 255;
 
 /// Appends to the file's bytes. Does not allocate if `bytes` has capacity.
-void append(const Header& header, std::vector<std::uint8_t>& bytes);
+void append(const FileHeader& header, std::vector<std::uint8_t>& bytes);
 void append(const Record& record, std::vector<std::uint8_t>& bytes);
 
 }  // namespace wiimote_tracker::recording

@@ -20,7 +20,7 @@ class Reader {
   /// @throws BadRecording if it is not a recording, or of an unknown version.
   explicit Reader(std::istream& in);
 
-  const Header& header() const { return header_; }
+  const FileHeader& header() const { return header_; }
 
   /// @returns false at the end, or where the file is cut off or damaged (see damage()).
   bool next(Record& record);
@@ -32,7 +32,7 @@ class Reader {
   bool end(const char* why);
 
   std::istream& in_;
-  Header header_;
+  FileHeader header_;
   std::uint64_t position_ = 0;  ///< Of the present record [byte].
   std::int64_t time_ = 0;       ///< Of the last record [ns].
   std::string payload_;

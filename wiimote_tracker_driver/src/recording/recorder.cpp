@@ -48,7 +48,7 @@ Recorder::Recorder(const std::string& path, double now, double wall_time)
     : path_(path), begin_(now), fd_(create(path_)) {
   filling_.reserve(kCapacity);
   writing_.reserve(kCapacity);
-  append(Header{wall_time, "wiimote_tracker_driver " WIIMOTE_TRACKER_DRIVER_VERSION}, filling_);
+  append(FileHeader{wall_time, "wiimote_tracker_driver " WIIMOTE_TRACKER_DRIVER_VERSION}, filling_);
   thread_ = std::thread([this] { run(); });
 }
 

@@ -12,7 +12,10 @@ namespace wiimote_tracker::exposure_clock {
 /// report.
 ///
 /// A second estimator begins anew every few seconds. It replaces the first when it predicts the
-/// arrivals better, which means that the first has a wrong period.
+/// arrivals better, which means that the first has a wrong period, or that it took slow changes of
+/// the delays (as where polls beat with the camera) for the camera's own. A replaced estimator's
+/// error grew from none to its distance from the new one, so its mean square is a third of the
+/// distance's; the average of that over the last half minute is added to the stated variances.
 class ExposureClock {
  public:
   /// @throws std::invalid_argument when an option is out of range.
@@ -30,10 +33,13 @@ class ExposureClock {
 
  private:
   Estimate challenge(double arrival);
+  void learnError(double error, double arrival);
 
   ClockEstimator leader_, challenger_;
-  double trial_begin_;      ///< Of the challenger [s].
-  double advantage_ = 0.0;  ///< Of the challenger: logarithm of a ratio of likelihoods.
+  double trial_begin_;           ///< Of the challenger [s].
+  double advantage_ = 0.0;       ///< Of the challenger: logarithm of a ratio of likelihoods.
+  double leader_begin_;          ///< Arrival when it became the leader [s].
+  double error_variance_ = 0.0;  ///< Average over replaced leaders and time since [s^2].
   double last_arrival_, last_exposure_;
   std::int64_t frame_offset_ = 0;  ///< Our frame number less the leader's.
   Statistics before_;              ///< Sums of earlier leaders, less those of challengers.

@@ -42,7 +42,7 @@ struct Connection {
 };
 
 struct Summary {
-  recording::Header header;
+  recording::FileHeader header;
   double duration = 0.0;  ///< Up to the last record [s].
   std::vector<Connection> connections;
   std::array<std::uint64_t, 256> received{};  ///< Reports per id.

@@ -149,6 +149,10 @@ def test_a_simulated_flight_is_as_accurate_as_its_bound(flight, tmp_path, capsys
     assert figures['tracked'] > 0.99
     assert figures['scale'] == pytest.approx(1.0, abs=0.01)
     assert figures['rigid']['mean_mm'] < 1.0 + figures['mean_mm']
+    # Its four lights tell the same place, by a filter that expects the motion of a hand.
+    assert figures['body']['rms_mm'] < 2.0 * 1e3 * expected
+    assert figures['body']['nees'] < 3.0
+    assert figures['body']['tracked'] > 0.95
     # By the log, station 1 is later by the difference of the delays than it swept.
     assert figures['clock_offset_ms']['station_1'] == pytest.approx(
         -1e3 * (DELAYS[1] - DELAYS[0]), abs=0.2)

@@ -3,11 +3,12 @@
 import numpy as np
 
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.foreign import accuracy, ordinary
+from wiimote_tracker_evaluation.foreign import accuracy, body, ordinary
 
 METHOD = ('The middle of the lights as one point: poses and clock offsets by self_calibrate and '
           'solve_samples, path by track_bag; aligned on every other tenth of the recording and '
-          'scored on the rest, both ways round')
+          'scored on the rest, both ways round. As a body: three lights or more are told apart, and '
+          'the pose of the body is tracked by track_labelled_body')
 # Title, key, factor and unit.
 FIGURES = (('mean error', 'mean_mm', 1.0, 'mm'), ('RMS error', 'rms_mm', 1.0, 'mm'),
            ('median error', 'median_mm', 1.0, 'mm'), ('95th percentile', 'p95_mm', 1.0, 'mm'),
@@ -60,34 +61,48 @@ def gaps_of(times, tracked):
     return gaps
 
 
-def evaluate(views, folder):
-    """Figures, times and errors of the scored points [s, m]."""
-    rig = ordinary.calibrate(views, folder)
-    path = path_of(views, rig, ordinary.track(views, rig, folder))
+def score(views, rig, table):
+    """Figures of what was tracked; times and errors of the scored points [s, m]."""
+    path = path_of(views, rig, table)
     if len(path.times) < 2:
         raise ExperimentError('the body was never tracked: two cameras must see it together for '
                               'longer')
     images, tracked = sight_of(views, rig, path.times)
     gaps = gaps_of(images, tracked)
     result, times, errors = accuracy.score(path, views.truth, 'similarity')
+    result.update(tracked=float(tracked.mean()), gaps=len(gaps),
+                  longest_gap_s=max(gaps, default=0.0))
+    if len(views.shape) > 1:  # which tells the scale
+        result['rigid'] = accuracy.score(path, views.truth, 'rigid')[0]
+    return result, times, errors
+
+
+def evaluate(views, folder):
+    """Figures; times and errors of the scored points [s, m] of the middle of the lights."""
+    rig = ordinary.calibrate(views, folder)
+    result, times, errors = score(views, rig, ordinary.track(views, rig, folder))
+    if len(views.shape) > 2:
+        result['body'] = score(views, rig, body.track(views, rig, folder))[0]
     names = [camera.name for camera in views.cameras]
-    result.update(
-        tracked=float(tracked.mean()), gaps=len(gaps), longest_gap_s=max(gaps, default=0.0),
-        residual_px=dict(zip(names, rig.residuals.tolist())),
-        clock_offset_ms=dict(zip(names, (1e3 * rig.offsets).tolist())),
-        rigid=accuracy.score(path, views.truth, 'rigid')[0])
+    result.update(residual_px=dict(zip(names, rig.residuals.tolist())),
+                  clock_offset_ms=dict(zip(names, (1e3 * rig.offsets).tolist())))
     return result, times, errors
 
 
 def rows_of(result):
     """What is printed and reported: name, value."""
-    yield from ((f'{kind}: {name}', f'{figures[key] * factor:.2f} {unit}'.strip())
-                for kind, figures in (('similarity', result), ('rigid motion', result['rigid']))
-                for name, key, factor, unit in FIGURES)
-    yield 'scored points', str(result['points'])
-    yield 'scale of the similarity', f'{result["scale"]:.4f}'
-    yield 'tracked while in sight', f'{100.0 * result["tracked"]:.1f} %'
-    yield 'gaps in sight', f'{result["gaps"]}, longest {result["longest_gap_s"]:.2f} s'
+    for way, figures in (('', result), ('as a body, ', result.get('body'))):
+        if not figures:
+            continue
+        yield from ((f'{way}{kind}: {name}', f'{own[key] * factor:.2f} {unit}'.strip())
+                    for kind, own in (('similarity', figures), ('rigid motion',
+                                                                figures.get('rigid')))
+                    if own for name, key, factor, unit in FIGURES)
+        yield f'{way}scored points', str(figures['points'])
+        yield f'{way}scale of the similarity', f'{figures["scale"]:.4f}'
+        yield f'{way}tracked while in sight', f'{100.0 * figures["tracked"]:.1f} %'
+        yield (f'{way}gaps in sight', f'{figures["gaps"]}, longest '
+               f'{figures["longest_gap_s"]:.2f} s')
     for name, residual in result['residual_px'].items():
         yield name, (f'residual {residual:.3f} px, clock offset '
                      f'{result["clock_offset_ms"][name]:.2f} ms')

@@ -28,8 +28,10 @@ class Outcome:
 
 def of_flight(views, folder):
     result, times, errors = flight.evaluate(views, folder)
+    scores = {'one point': result, 'body': result.get('body')}
     return Outcome(flight.METHOD, result, list(flight.rows_of(result)),
-                   {'one point': result}, 'time [s]', times - times.min(), 'mm', 1e3 * errors)
+                   {what: figures for what, figures in scores.items() if figures},
+                   'time [s]', times - times.min(), 'mm', 1e3 * errors)
 
 
 def of_synchronised(source, folder):

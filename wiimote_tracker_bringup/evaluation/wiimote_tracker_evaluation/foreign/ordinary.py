@@ -22,15 +22,14 @@ from wiimote_tracker_evaluation.foreign.views import LONGEST_GAP
 
 # The first poses come from this many instants at most.
 INSTANTS = 400
-# Of a corner of the made-up square in an image [px].
-CORNER = 20.0
 # The lenses are known, and held: the smallest deviations that the solver takes [1, px].
 HELD = {'focal_stddev': 1e-6, 'aspect_stddev': 1e-6, 'principal_point_stddev': 1e-3,
-        'k1_stddev': 1e-6}
+        'k1_stddev': 1e-6, 'maximum_offset_stddev': 0.01}
 # From an exposure to the image's arrival, more than clocks may differ [s].
 LATENCY = 0.1
 # A camera's parameters in a rig's covariance, and those of its principal point.
 PER_CAMERA, PRINCIPAL_POINT = 16, [8, 9]
+ROUNDS = 200  # of the search for the made-up square
 BIRTH_WINDOW = 0.03  # of the tracker's default parameters [s]
 
 
@@ -42,13 +41,17 @@ def run(program, *arguments):
         raise ExperimentError(done.stderr.strip() or f'{program} failed')
 
 
-def calibrate(views, folder):
-    """The rig; files go to the folder."""
+def calibrate(views, folder, parts=None):
+    """The rig; files go to the folder. parts: the cameras to solve with the number of the camera
+    where each stands, if they are not those of the views."""
     samples, parameters, rig = (os.path.join(folder, name)
                                 for name in ('samples.yaml', 'solve.yaml', 'rig.yaml'))
-    write_samples(views, *made_up_square(*first_poses(views, folder)), samples)
+    numbers, cameras = zip(*(parts or enumerate(views.cameras)))
+    rotations, positions, path = first_poses(views, folder)
+    side, corners = made_up_square(rotations[list(numbers)], positions[list(numbers)], path)
+    write_samples(cameras, side, corners, samples)
     with open(parameters, 'w') as file:
-        yaml.safe_dump(dict(HELD, pixel_stddev=CORNER), file)
+        yaml.safe_dump(dict(HELD, pixel_stddev=views.corner), file)
     run('wiimote_tracker_calibration/solve_samples', samples, '--params', parameters, '--rig', rig)
     return Rig(rig)
 
@@ -97,8 +100,11 @@ def made_up_square(rotations, positions, path):
     coordinates of each camera, k x 4 x 3 [m]."""
     middle = np.median(path, axis=0)
     half = np.median(np.linalg.norm(path - middle, axis=1))
-    up = positions - middle
-    up = (up / np.linalg.norm(up, axis=1)[:, None]).sum(axis=0)
+    sights = positions - middle
+    sights /= np.linalg.norm(sights, axis=1)[:, None]
+    up = sights.sum(axis=0)
+    for _ in range(ROUNDS):  # all cameras must see the same side of it
+        up += sights[np.argmin(sights @ up)]
     x = np.cross(up, np.eye(3)[np.argmin(np.abs(up))])
     y = np.cross(up, x)
     x, y = half * x / np.linalg.norm(x), half * y / np.linalg.norm(y)
@@ -107,10 +113,10 @@ def made_up_square(rotations, positions, path):
                                  for rotation, position in zip(rotations, positions)])
 
 
-def write_samples(views, side, corners, path):
+def write_samples(seen_by, side, corners, path):
     """A file as calibration/save_samples writes it: the middle of the lights as a wave."""
     cameras, frames = [], ''
-    for camera, seen in zip(views.cameras, corners):
+    for camera, seen in zip(seen_by, corners):
         pixels = camera.middle + camera.focal * seen[:, :2] / seen[:, 2:]
         cameras.append({
             'name': camera.name, 'identity': '', 'gravity': None, 'clock_epoch': 0, 'masks': [],
@@ -128,28 +134,32 @@ def write_samples(views, side, corners, path):
                    'then x and y [px] of every spot.\n' + frames + '...\n')
 
 
-def track(views, rig, folder):
-    """What track_bag makes of the middle of the lights: the columns of its table. The covariance of
-    the rig is that of its lenses, whose principal points are off by views.accuracy: poses are
-    aligned later."""
-    source, target, table, lenses, parameters = (
-        os.path.join(folder, name)
-        for name in ('blobs.bag', 'tracked.bag', 'points.csv', 'lenses.yaml', 'track.yaml'))
-    write_bag(views, rig.offsets, source)
+def lenses_of(views, rig, folder):
+    """A file of the rig whose covariance is that of its lenses, whose principal points are off by
+    views.accuracy: poses are aligned later."""
+    path = os.path.join(folder, 'lenses.yaml')
     with open(rig.path) as file:
         content = yaml.safe_load(file)
     variances = np.zeros((len(views.cameras), PER_CAMERA))
     variances[:, PRINCIPAL_POINT] = views.accuracy ** 2
     content['covariance'].update(data=np.diag(variances.reshape(-1)).reshape(-1).tolist())
-    with open(lenses, 'w') as file:
+    with open(path, 'w') as file:
         yaml.safe_dump(content, file, sort_keys=False)
+    return path
+
+
+def track(views, rig, folder):
+    """What track_bag makes of the middle of the lights: the columns of its table."""
+    source, target, table, parameters = (os.path.join(folder, name) for name in (
+        'blobs.bag', 'tracked.bag', 'points.csv', 'track.yaml'))
+    write_bag(views, rig.offsets, source)
     # Each spot is known to be the body's: two of each camera, which tell its speed, confirm it.
     with open(parameters, 'w') as file:
-        yaml.safe_dump({'pixel_stddev': float(np.sqrt(0.5 * np.mean(rig.residuals ** 2))),
+        yaml.safe_dump({'pixel_stddev': rig.pixel_stddev(),
                         'tracks': {'birth_pixel_stddev': BIRTH_WINDOW * spot_speed(views),
                                    'confirmation_hits': 2 * len(views.cameras)}}, file)
-    run('wiimote_tracker_triangulation/track_bag', source, target, '--rig', lenses, '--params',
-        parameters, '--csv', table, '--results-only')
+    run('wiimote_tracker_triangulation/track_bag', source, target, '--rig', lenses_of(views, rig, folder),
+        '--params', parameters, '--csv', table, '--results-only')
     return programs.read_csv(table)
 
 

@@ -19,6 +19,10 @@ class Rig:
         self.offsets = np.nan_to_num([camera['time_offset'] for camera in cameras])
         self.residuals = np.array([camera['residual_px'] for camera in cameras])
 
+    def pixel_stddev(self):
+        """Of a coordinate [px]."""
+        return float(np.sqrt(0.5 * np.mean(self.residuals ** 2)))
+
     def intersections(self, views, times):
         """Points nearest to the rays of the first two cameras, m x lights x 3 [m]."""
         planes, right = 0.0, 0.0
@@ -35,7 +39,10 @@ class Rig:
         return points
 
     def scale(self, views, times):
-        """By which lengths are too short, by the distances between the lights of the body."""
+        """By which lengths are too short, by the distances between the lights of the body; 1 for
+        one light."""
+        if len(views.shape) == 1:
+            return 1.0
         points = self.intersections(views, times)
         pairs = [(i, j) for j in range(len(views.shape)) for i in range(j)]
         ratios = [np.linalg.norm(views.shape[i] - views.shape[j]) /

@@ -1,7 +1,7 @@
 """What the cameras of a recording saw, and where the body truly was."""
 
 import dataclasses
-from typing import List
+from typing import List, Optional
 
 import numpy as np
 
@@ -14,7 +14,8 @@ class Camera:
     """A pinhole whose principal point is the middle of its square image.
 
     size: width and height [px]. times: n, increasing, by its own clock [s]. pixels: n x lights x 2,
-    of the images that show all lights [px].
+    of the images that show all lights [px]. lines: n, where each image shows the light, from -0.5
+    (top) to 0.5; None if all lines are exposed at once.
     """
 
     name: str
@@ -22,6 +23,7 @@ class Camera:
     focal: float  # [px]
     times: np.ndarray
     pixels: np.ndarray
+    lines: Optional[np.ndarray] = None
 
     @property
     def middle(self) -> float:
@@ -56,10 +58,12 @@ class Truth:
 
 @dataclasses.dataclass(eq=False)
 class Views:
-    """A recording. shape: lights x 3, where the lights are on the body; gives the scale [m].
+    """A recording. shape: lights x 3, where the lights are on the body; gives the scale, if there
+    are several [m].
     accuracy: standard deviation of the errors of a lens, which vary slowly over its image [px]."""
 
     cameras: List[Camera]
     shape: np.ndarray
     accuracy: float
     truth: Truth
+    corner: float = 20.0  # of a corner of the square that ordinary.calibrate() makes up [px]

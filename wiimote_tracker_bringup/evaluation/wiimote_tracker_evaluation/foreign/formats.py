@@ -8,7 +8,8 @@ from typing import Callable, Dict, List, Tuple
 import numpy as np
 
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.foreign import flight, lighthouse, multicamselfcal
+from wiimote_tracker_evaluation.foreign import (cameras, flight, lighthouse, multicamselfcal,
+                                                time_maps)
 
 
 @dataclasses.dataclass(eq=False)
@@ -34,6 +35,22 @@ def of_flight(views, folder):
                    'time [s]', times - times.min(), 'mm', 1e3 * errors)
 
 
+def of_cameras(source, folder):
+    views = cameras.read(source)
+    maps = time_maps.solve(views, folder)
+    outcome = of_flight(time_maps.mapped(views, maps), folder)
+    outcome.result['time_maps'] = {}
+    for camera, each in zip(views.cameras, maps):
+        offset = 1e3 * each.offset + outcome.result['clock_offset_ms'][camera.name]
+        outcome.result['time_maps'][camera.name] = {
+            'middle_s': each.middle, 'offset_ms': offset, 'drift': each.drift,
+            'read_out_ms': 1e3 * each.read_out}
+        outcome.rows.append((f'{camera.name}, time map', f'offset {offset:.2f} ms at '
+                             f'{each.middle:.1f} s, drift {1e6 * each.drift:.0f} ppm, read-out '
+                             f'{1e3 * each.read_out:.2f} ms'))
+    return outcome
+
+
 def of_synchronised(source, folder):
     result, errors = multicamselfcal.evaluate(source, folder)
     rows = [(name, 'median {median:.3f}, mean {mean:.3f}, RMS {rms:.3f}, p95 {p95:.3f} px, '
@@ -54,6 +71,7 @@ class Format:
 
 
 FORMATS = {
+    'cameras': Format('detections.csv', of_cameras),
     'lighthouse': Format('bearings.csv.gz', lambda source, folder: of_flight(
         lighthouse.read(source), folder)),
     'multicamselfcal': Format('Res.dat', of_synchronised)}

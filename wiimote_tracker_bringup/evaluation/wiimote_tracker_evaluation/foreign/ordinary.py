@@ -158,7 +158,8 @@ def track(views, rig, folder):
         yaml.safe_dump({'pixel_stddev': rig.pixel_stddev(),
                         'tracks': {'birth_pixel_stddev': BIRTH_WINDOW * spot_speed(views),
                                    'confirmation_hits': 2 * len(views.cameras)}}, file)
-    run('wiimote_tracker_triangulation/track_bag', source, target, '--rig', lenses_of(views, rig, folder),
+    run('wiimote_tracker_triangulation/track_bag', source, target,
+        '--rig', lenses_of(views, rig, folder),
         '--params', parameters, '--csv', table, '--results-only')
     return programs.read_csv(table)
 

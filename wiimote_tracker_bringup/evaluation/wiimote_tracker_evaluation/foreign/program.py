@@ -40,7 +40,8 @@ def main():
     parser = argparse.ArgumentParser(
         prog='evaluate_recording', description='Calibrates the cameras of a recording that others '
         'made from what they saw alone, and measures the accuracy: lighthouse: of the path, against '
-        'motion capture; multicamselfcal: of predicted pixels.')
+        'motion capture; cameras: of the path, with rates, offsets and read-out times of '
+        'unsynchronised cameras; multicamselfcal: of predicted pixels.')
     parser.add_argument('format', choices=sorted(formats.FORMATS))
     parser.add_argument('folder', metavar='DIR', help='the recording')
     parser.add_argument('--json', metavar='FILE', help='write the figures')

@@ -169,7 +169,7 @@ TEST(BodyRates, AreAtTheBoundOfTheSameScene) {
       ASSERT_TRUE(found) << "run " << run;
       const Vector12 error =
           minus({found->world_from_body, found->velocity, found->angular_velocity}, truth);
-      for (int k = 0; k < 4; ++k) {
+      for (Eigen::Index k = 0; k < 4; ++k) {
         squares[k] += error.segment<3>(3 * k).squaredNorm();
         bounds[k] += bound.covariance().diagonal().segment<3>(3 * k).sum();
       }

@@ -17,6 +17,8 @@ export PYTHONDONTWRITEBYTECODE=1
 export ROS_HOSTNAME=localhost
 # Message code in a language that nothing here speaks.
 export ROS_LANG_DISABLE=genlisp
+# CMake 4 would refuse catkin's own toplevel.cmake.
+export CMAKE_POLICY_VERSION_MINIMUM=3.5
 
 bringup=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 clone=$(dirname "$bringup")

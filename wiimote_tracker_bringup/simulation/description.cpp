@@ -121,8 +121,12 @@ Blink readBlink(YamlMap section, const std::filesystem::path& folder) {
   const auto text = section.get<std::string>(key);
   const double chip = key == "word" ? section.bounded("chip", 0.001, 1.0) : 0.0;
   try {
-    codes = key == "word" ? identity::cyclicCodes({{label, text}}, chip, 0.0)
-                          : identity::readBlinkCodes((folder / text).string());
+    if (key == "word") {
+      const std::vector<identity::CyclicLed> word = {{label, text}};
+      codes = identity::cyclicCodes(word, chip, 0.0);
+    } else {
+      codes = identity::readBlinkCodes((folder / text).string());
+    }
   } catch (const Error& error) {
     throw section.error(key, std::string("cannot be used: ") + error.what());
   }

@@ -97,6 +97,10 @@ def libraries_of(program: str, folders: Iterable[str]) -> List[Tuple[str, str]]:
     if missing:
         raise OSError(f'{program} needs {", ".join(missing)}, which was not found')
     libraries = re.findall(r'=> (/\S+) \(0x', output)
+    # Before version 2.34, libc itself loads this one, to look up users.
+    users = [os.path.join(os.path.dirname(path), 'libnss_files.so.2') for path in libraries
+             if os.path.basename(path) == 'libc.so.6']
+    libraries += filter(os.path.exists, users)
     loaders = re.findall(r'^\s*(/\S+) \(0x', output, re.MULTILINE)
     return ([('lib/' + os.path.basename(path), path) for path in libraries] +
             [(path, path) for path in loaders])

@@ -53,7 +53,7 @@ double distance(const Shape& a,
                 double limit = std::numeric_limits<double>::infinity());
 
 /// Greatest shift between the points of two shapes in distance().
-constexpr int kBand = 3;
+constexpr int kBand = 8;
 
 }  // namespace wiimote_tracker::gesture
 

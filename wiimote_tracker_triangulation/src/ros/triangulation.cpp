@@ -40,7 +40,7 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
   zone_publisher_ = nh_.advertise<wiimote_tracker_msgs::ZoneEvent>("zone_events", 100);
   triggered_publisher_ = nh_.advertise<TrackedPointArray>("triggered_points", 100);
   rig_subscriber_ = subscribe<RigCalibration>(
-      nh_, "calibration/rig", 5, [this](const auto& event) { onRig(*event.getConstMessage()); });
+      nh_, "calibration/rig", 5, [this](const auto& event) { takeRig(*event.getConstMessage()); });
   trigger_subscriber_ = subscribe<std_msgs::Header>(nh_, "trigger", 100, [this](const auto& event) {
     tracker_.takeTrigger(*event.getConstMessage());
   });
@@ -49,7 +49,7 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
   });
 }
 
-void Triangulation::onRig(const RigCalibration& message) {
+void Triangulation::takeRig(const RigCalibration& message) {
   const bool had_rig = tracker_.hasRig();
   MessageTracker::RigChange change;
   try {

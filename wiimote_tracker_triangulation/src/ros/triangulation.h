@@ -32,7 +32,7 @@ class Triangulation : private MessageSink {
   Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
 
  private:
-  void onRig(const wiimote_tracker_msgs::RigCalibration& message);
+  void takeRig(const wiimote_tracker_msgs::RigCalibration& message);
   void onImage(const std::string& camera,
                const ros::MessageEvent<const wiimote_tracker_msgs::IrBlobArray>& event);
   bool isShed(const ros::Time& receipt);

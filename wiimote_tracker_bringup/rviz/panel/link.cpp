@@ -13,7 +13,7 @@ constexpr auto kSearchPeriod = std::chrono::seconds(1);
 
 }  // namespace
 
-Link::Link(TrackerView* view) : view_(view) {
+Link::Link(TrackerView* view, Guide* guide) : view_(view), guide_(guide) {
   nh_.setCallbackQueue(&queue_);
   thread_ = std::thread([this] { run(); });
 }
@@ -92,9 +92,14 @@ void Link::subscribe(const std::string& topic,
 }
 
 void Link::subscribeTracker() {
-  subscribe<wiimote_tracker_msgs::CalibrationStatus>(
-      "calibration/status", 1,
-      [this](const auto& event) { view_->onStatus(*event.getMessage(), now()); });
+  subscribe<wiimote_tracker_msgs::CalibrationStatus>("calibration/status", 1,
+                                                     [this](const auto& event) {
+                                                       view_->onStatus(*event.getMessage(), now());
+                                                       guide_->onStatus(*event.getMessage(), now());
+                                                     });
+  subscribe<wiimote_tracker_msgs::CalibrationVerdict>(
+      "calibration/verdict", 1,
+      [this](const auto& event) { guide_->onVerdict(*event.getMessage()); });
   subscribe<wiimote_tracker_msgs::RigCalibration>("calibration/rig", 1, [this](const auto& event) {
     view_->onRig(*event.getMessage(), now());
   });

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_LINK_H
 #define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_LINK_H
 
+#include "guide.h"
 #include "tracker_view.h"
 
 #include <ros/callback_queue.h>
@@ -17,16 +18,16 @@
 
 namespace wiimote_tracker::panel {
 
-/// Feeds a TrackerView from ROS. A thread of its own asks the master for cameras and subscribes,
-/// since that may wait; messages are handed over by poll(), which never waits.
+/// Feeds a TrackerView and a Guide from ROS. A thread of its own asks the master for cameras and
+/// subscribes, since that may wait; messages are handed over by poll(), which never waits.
 class Link {
  public:
-  explicit Link(TrackerView* view);
+  Link(TrackerView* view, Guide* guide);
   ~Link();
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
 
-  /// Hands over the newest messages. Called by the thread that owns the view.
+  /// Hands over the newest messages. Called by the thread that owns view and guide.
   void poll();
 
   /// The time that the view is told [s].
@@ -44,6 +45,7 @@ class Link {
                  std::function<void(const ros::MessageEvent<const Message>&)> callback);
 
   TrackerView* view_;
+  Guide* guide_;
   ros::CallbackQueue queue_;
   ros::NodeHandle nh_;
   std::vector<ros::Subscriber> subscribers_;  // of the thread

@@ -1,3 +1,4 @@
+#include "calibrate_page.h"
 #include "tracker_widget.h"
 
 #include <QTabWidget>
@@ -8,7 +9,7 @@
 
 namespace wiimote_tracker::panel {
 
-/// The panel in rviz. The .rviz file keeps which page is in front.
+/// The panel in rviz. The .rviz file keeps which page is in front, and what was typed.
 class TrackerPanel : public rviz::Panel {
  public:
   TrackerPanel() : widget_(new TrackerWidget(this)) {
@@ -24,11 +25,21 @@ class TrackerPanel : public rviz::Panel {
     int page = 0;
     if (config.mapGetInt("Page", &page))
       widget_->pages()->setCurrentIndex(page);
+    float side = 0.0f, wand_length = 0.0f;
+    QString rig_file;
+    config.mapGetFloat("Side of Square", &side);
+    config.mapGetFloat("Length of Wand", &wand_length);
+    config.mapGetString("Rig File", &rig_file);
+    widget_->calibratePage()->restore(side, wand_length, rig_file);
   }
 
   void save(rviz::Config config) const override {
     rviz::Panel::save(config);
     config.mapSetValue("Page", widget_->pages()->currentIndex());
+    const CalibratePage* calibrate = widget_->calibratePage();
+    config.mapSetValue("Side of Square", calibrate->side());
+    config.mapSetValue("Length of Wand", calibrate->wandLength());
+    config.mapSetValue("Rig File", calibrate->path());
   }
 
  private:

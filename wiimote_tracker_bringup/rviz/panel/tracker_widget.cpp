@@ -1,5 +1,6 @@
 #include "tracker_widget.h"
 
+#include "calibrate_page.h"
 #include "cameras_page.h"
 
 #include <QTabWidget>
@@ -14,8 +15,12 @@ constexpr int kRefreshPeriod = 66;  // [ms]
 }  // namespace
 
 TrackerWidget::TrackerWidget(QWidget* parent)
-    : QWidget(parent), pages_(new QTabWidget(this)), cameras_(new CamerasPage(pages_)) {
+    : QWidget(parent),
+      pages_(new QTabWidget(this)),
+      cameras_(new CamerasPage(pages_)),
+      calibrate_(new CalibratePage(pages_, [this](const Request& r) { requests_.send(r); })) {
   pages_->addTab(cameras_, "Cameras");
+  pages_->addTab(calibrate_, "Calibrate");
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(pages_);
@@ -26,9 +31,12 @@ TrackerWidget::TrackerWidget(QWidget* parent)
 
 void TrackerWidget::refresh() {
   link_.poll();
+  requests_.poll();
   const double now = Link::now();
   if (cameras_->isVisible())
     cameras_->show(view_, now);
+  if (calibrate_->isVisible())
+    calibrate_->show(guide_, now);
 }
 
 }  // namespace wiimote_tracker::panel

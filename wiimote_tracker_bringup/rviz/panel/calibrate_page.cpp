@@ -1,0 +1,264 @@
+#include "calibrate_page.h"
+
+#include "big_words.h"
+#include "square_drawing.h"
+
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QGridLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace wiimote_tracker::panel {
+namespace {
+
+constexpr int kMostRemarks = 6;
+constexpr double kLongestSide = 20.0;  // [m]
+
+QString text(const std::string& words) {
+  return QString::fromStdString(words);
+}
+
+QString figure(double value, int decimals) {
+  return std::isfinite(value) ? QString::number(value, 'f', decimals) : "-";
+}
+
+QLabel* wrappedLabel(const QString& name, QWidget* parent) {
+  auto* label = new QLabel(parent);
+  label->setObjectName(name);
+  label->setWordWrap(true);
+  label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  return label;
+}
+
+/// @param none what 0 stands for
+QDoubleSpinBox* lengthBox(const QString& name, const QString& none, QWidget* parent) {
+  auto* box = new QDoubleSpinBox(parent);
+  box->setObjectName(name);
+  box->setRange(0.0, kLongestSide);
+  box->setDecimals(3);
+  box->setMinimumWidth(60);
+  box->setSingleStep(0.1);
+  box->setSuffix(" m");
+  box->setSpecialValueText(none);
+  return box;
+}
+
+}  // namespace
+
+CalibratePage::CalibratePage(QWidget* parent, std::function<void(const Request&)> send)
+    : QWidget(parent), send_(std::move(send)) {
+  auto* content = new QWidget;
+  auto* layout = new QVBoxLayout(content);
+  layout->addWidget(title_ = new BigWords(content));
+  title_->setObjectName("title");
+  layout->addWidget(sentence_ = wrappedLabel("sentence", content));
+  QFont larger = font();
+  larger.setPointSizeF(1.25 * larger.pointSizeF());
+  sentence_->setFont(larger);
+  layout->addWidget(next_ = new QPushButton(content));
+  next_->setObjectName("next");
+  next_->setFont(larger);
+  next_->setMinimumHeight(44);
+  connect(next_, &QPushButton::clicked, this, [this] { sendFilled(advice_.request); });
+  layout->addWidget(progress_ = new QProgressBar(content));
+  progress_->setRange(0, 100);
+  layout->addWidget(answer_ = wrappedLabel("answer", content));
+  layout->addWidget(square_ = new SquareDrawing(content));
+  layout->addWidget(remarks_ = wrappedLabel("remarks", content));
+  layout->addWidget(verdict_ = wrappedLabel("verdict", content));
+  layout->addWidget(table_ = new QTableWidget(0, 6, content));
+  table_->setObjectName("table");
+  table_->setHorizontalHeaderLabels({"camera", "px", "mm", "fits %", "± mm", "± °"});
+  table_->verticalHeader()->hide();
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  addLengths(layout);
+  addButtons(layout);
+  addFileAndCheck(layout);
+  layout->addStretch();
+
+  auto* scroll = new QScrollArea(this);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(content);
+  auto* outer = new QVBoxLayout(this);
+  outer->setContentsMargins(0, 0, 0, 0);
+  outer->addWidget(scroll);
+}
+
+QPushButton* CalibratePage::addButton(const QString& words, Command command) {
+  auto* button = new QPushButton(words, this);
+  button->setObjectName(words);
+  connect(button, &QPushButton::clicked, this, [this, command] { sendCommand(command); });
+  if (command != Command::kCancel)
+    buttons_.push_back(button);
+  return button;
+}
+
+void CalibratePage::addLengths(QVBoxLayout* layout) {
+  auto* row = new QGridLayout;
+  row->addWidget(new QLabel("Side of the square", this), 0, 0);
+  row->addWidget(side_ = lengthBox("side", "the node's parameter", this), 0, 1);
+  row->addWidget(new QLabel("Wand", this), 1, 0);
+  row->addWidget(wand_length_ = lengthBox("wand", "none, one LED", this), 1, 1);
+  row->setColumnStretch(1, 1);
+  layout->addLayout(row);
+}
+
+void CalibratePage::addButtons(QVBoxLayout* layout) {
+  auto* rows = new QGridLayout;
+  rows->addWidget(addButton("Start again", Command::kStart), 0, 0);
+  rows->addWidget(addButton("Drop the last corner", Command::kUndo), 0, 1);
+  rows->addWidget(addButton("Solve now", Command::kSolve), 1, 0);
+  rows->addWidget(cancel_ = addButton("Stop", Command::kCancel), 1, 1);
+  hands_free_ = new QCheckBox("Capture a corner when the LED is held still", this);
+  hands_free_->setObjectName("hands_free");
+  connect(hands_free_, &QCheckBox::clicked, this, [this](bool on) {
+    Request request;
+    request.command = Command::kHandsFree;
+    request.on = on;
+    send_(request);
+  });
+  rows->addWidget(hands_free_, 2, 0, 1, 2);
+  layout->addLayout(rows);
+}
+
+void CalibratePage::addFileAndCheck(QVBoxLayout* layout) {
+  auto* file = new QHBoxLayout;
+  file->addWidget(path_ = new QLineEdit(this), 1);
+  path_->setPlaceholderText("rig file: that of the node");
+  file->addWidget(addButton("Save", Command::kSave));
+  file->addWidget(addButton("Load", Command::kLoad));
+  layout->addLayout(file);
+  auto* check = new QHBoxLayout;
+  for (int i = 0; i < 3; ++i) {
+    known_[i] = new QDoubleSpinBox(this);
+    known_[i]->setRange(-100.0, 100.0);
+    known_[i]->setDecimals(3);
+    known_[i]->setPrefix(QStringList({"x ", "y ", "z "})[i]);
+    known_[i]->setToolTip("a place that you know, in the world [m]");
+    known_[i]->setMinimumWidth(60);
+    check->addWidget(known_[i], 1);
+  }
+  check->addWidget(addButton("Check the LED there", Command::kCheck));
+  layout->addLayout(check);
+}
+
+void CalibratePage::sendCommand(Command command) {
+  Request request;
+  request.command = command;
+  sendFilled(request);
+}
+
+/// Adds what was typed.
+void CalibratePage::sendFilled(Request request) {
+  request.side = side();
+  if (request.command == Command::kStartWave)
+    request.wand_length = wandLength();
+  request.path = path().toStdString();
+  for (std::size_t i = 0; i < 3; ++i)
+    request.known[i] = known_[i]->value();
+  send_(request);
+}
+
+double CalibratePage::side() const {
+  return side_->value();
+}
+double CalibratePage::wandLength() const {
+  return wand_length_->value();
+}
+QString CalibratePage::path() const {
+  return path_->text();
+}
+
+void CalibratePage::restore(double side, double wand_length, const QString& path) {
+  side_->setValue(side);
+  wand_length_->setValue(wand_length);
+  path_->setText(path);
+}
+
+void CalibratePage::show(const Guide& guide, double now) {
+  advice_ = guide.advice(now);
+  showWords(guide, advice_);
+  const bool is_there = !guide.isSilent(now);
+  const bool is_free = is_there && !guide.isWaiting();
+  next_->setVisible(!advice_.button.empty());
+  next_->setText(text(advice_.button));
+  next_->setEnabled(is_free);
+  for (QPushButton* button : buttons_)
+    button->setEnabled(is_free && !guide.isBusy());
+  cancel_->setEnabled(is_there && (guide.isBusy() || guide.running() != Command::kNone));
+  hands_free_->setEnabled(is_free);
+  if (guide.status()) {
+    const std::uint8_t step = guide.status()->step;
+    square_->setVisible(step != guide.status()->SAVED &&
+                        (step != guide.status()->SOLVED || advice_.request.corner >= 0));
+    square_->show(*guide.status(), advice_.request.corner);
+    if (!guide.isWaiting())
+      hands_free_->setChecked(guide.status()->hands_free != 0);
+  }
+  showVerdict(guide.verdict());
+}
+
+void CalibratePage::showWords(const Guide& guide, const Advice& advice) {
+  title_->setText(text(advice.title));
+  sentence_->setText(text(advice.sentence));
+  const std::string answer = guide.answer();
+  // The verdict stands below, too.
+  answer_->setText(guide.verdict() && answer == guide.verdict()->text ? "" : text(answer));
+  progress_->setValue(static_cast<int>(100.0 * guide.progress()));
+  QString list;
+  const std::vector<std::string> remarks = guide.remarks();
+  for (int i = 0; i < std::min<int>(kMostRemarks, static_cast<int>(remarks.size())); ++i)
+    list += "• " + text(remarks[static_cast<std::size_t>(i)]) + "\n";
+  if (remarks.size() > kMostRemarks)
+    list += QString("• and %1 more").arg(remarks.size() - kMostRemarks);
+  remarks_->setText(list.trimmed());
+  remarks_->setVisible(!list.isEmpty());
+}
+
+void CalibratePage::showVerdict(const wiimote_tracker_msgs::CalibrationVerdict* verdict) {
+  const std::string rig = verdict ? verdict->rig_id : "";
+  verdict_->setVisible(verdict != nullptr);
+  table_->setVisible(verdict != nullptr);
+  if (rig == shown_rig_)
+    return;
+  shown_rig_ = rig;
+  if (!verdict)
+    return;
+  verdict_->setText(text(verdict->text));
+  table_->setRowCount(static_cast<int>(verdict->cameras.size()));
+  for (int row = 0; row < table_->rowCount(); ++row) {
+    const auto& camera = verdict->cameras[static_cast<std::size_t>(row)];
+    const std::array<QString, 6> cells = {text(camera.name),
+                                          figure(camera.residual_px, 2),
+                                          figure(1e3 * camera.residual_m, 1),
+                                          figure(1e2 * camera.inlier_share, 0),
+                                          figure(1e3 * camera.position_stddev, 1),
+                                          figure(camera.rotation_stddev * 180.0 / M_PI, 3)};
+    for (int column = 0; column < 6; ++column)
+      table_->setItem(row, column, new QTableWidgetItem(cells[static_cast<std::size_t>(column)]));
+  }
+  table_->resizeRowsToContents();
+  int height = table_->horizontalHeader()->sizeHint().height() + 2 * table_->frameWidth();
+  for (int row = 0; row < table_->rowCount(); ++row)
+    height += table_->rowHeight(row);
+  table_->setFixedHeight(height);
+}
+
+}  // namespace wiimote_tracker::panel

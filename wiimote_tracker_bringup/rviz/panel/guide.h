@@ -1,0 +1,110 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_GUIDE_H
+#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_GUIDE_H
+
+#include <wiimote_tracker_msgs/CalibrationStatus.h>
+#include <wiimote_tracker_msgs/CalibrationVerdict.h>
+
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wiimote_tracker::panel {
+
+/// What a person can ask of the calibration node.
+enum class Command {
+  kNone,
+  kMasks,
+  kConnection,
+  kStart,
+  kCapture,
+  kUndo,
+  kHandsFree,
+  kStartWave,
+  kStopWave,
+  kSolve,
+  kSave,
+  kLoad,
+  kCheck,
+  kCancel
+};
+
+/// A command and its arguments; unused ones keep their defaults, which stand for the node's own.
+struct Request {
+  Command command = Command::kNone;
+  double side = 0.0;                        ///< Of the square [m].
+  double wand_length = 0.0;                 ///< 0: one LED is waved [m].
+  int corner = -1;                          ///< To take again, 0..3; -1: the next one.
+  bool on = false;                          ///< For kHandsFree.
+  std::string path;                         ///< To save to or to load from.
+  std::array<double, 3> known = {0, 0, 0};  ///< For kCheck: where the LED is, in the world [m].
+};
+
+/// The one thing to do next.
+struct Advice {
+  std::string title;     ///< In one or two words, to be read from afar.
+  std::string sentence;  ///< The same in full.
+  std::string button;    ///< What the button says that does it; empty: nothing to press.
+  Request request;       ///< What the button asks for.
+};
+
+/// Where a person stands in the calibration, and what to do next; the program `calibrate` says the
+/// same in a terminal. Times are of one steady clock [s].
+class Guide {
+ public:
+  static constexpr double kSilentAfter = 3.0;  ///< The node's status comes twice a second [s].
+
+  void onStatus(const wiimote_tracker_msgs::CalibrationStatus& status, double now);
+  void onVerdict(const wiimote_tracker_msgs::CalibrationVerdict& verdict) { verdict_ = verdict; }
+  void onRequest(Command command);
+  void onProgress(const std::string& text, double share);
+  void onAnswer(Command command, bool good, const std::string& text);
+
+  Advice advice(double now) const;
+
+  /// What the node last said: an answer, or how far it is.
+  std::string answer() const;
+  /// Of the running step [0..1].
+  double progress() const;
+  /// What is missing and what is wrong, the most urgent first, one sentence each.
+  std::vector<std::string> remarks() const;
+
+  bool isSilent(double now) const { return !status_ || now - status_at_ > kSilentAfter; }
+  /// Whether a request has not been answered, or its effect is not known yet.
+  bool isWaiting() const { return running_ != Command::kNone || !is_known_; }
+  Command running() const { return running_; }
+  /// Whether something goes on that kCancel would end.
+  bool isBusy() const;
+  const std::optional<wiimote_tracker_msgs::CalibrationStatus>& status() const { return status_; }
+  /// Of the current rig; null when there is none.
+  const wiimote_tracker_msgs::CalibrationVerdict* verdict() const;
+
+ private:
+  using Status = wiimote_tracker_msgs::CalibrationStatus;
+  using Places = std::map<std::string, std::pair<double, double>>;  // camera -> LED [px]
+
+  Advice beforeStart() const;
+  Advice nextCorner() const;
+  Advice waving() const;
+  Advice complete() const;
+  Advice solved() const;
+  bool tried(Command command, bool good) const { return tried_.count({command, good}) > 0; }
+  bool isClockwise() const;
+
+  std::optional<Status> status_;
+  std::optional<wiimote_tracker_msgs::CalibrationVerdict> verdict_;
+  double status_at_ = 0.0;
+  bool is_known_ = true;
+  Command running_ = Command::kNone;
+  std::string answer_, progress_text_;
+  double progress_ = 0.0;
+  std::set<std::pair<Command, bool>> tried_;
+  std::vector<Places> corners_;  // as captured
+};
+
+}  // namespace wiimote_tracker::panel
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_GUIDE_H

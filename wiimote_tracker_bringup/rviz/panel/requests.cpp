@@ -1,0 +1,177 @@
+#include "requests.h"
+
+#include <actionlib/client/simple_action_client.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+#include <wiimote_tracker_msgs/CaptureCornerAction.h>
+#include <wiimote_tracker_msgs/CheckConnection.h>
+#include <wiimote_tracker_msgs/CheckPlace.h>
+#include <wiimote_tracker_msgs/LearnMasks.h>
+#include <wiimote_tracker_msgs/LoadRig.h>
+#include <wiimote_tracker_msgs/SaveRig.h>
+#include <wiimote_tracker_msgs/SolveCalibration.h>
+#include <wiimote_tracker_msgs/StartCalibration.h>
+#include <wiimote_tracker_msgs/StartWave.h>
+
+#include <exception>
+#include <iterator>
+
+namespace wiimote_tracker::panel {
+namespace {
+
+using CaptureClient = actionlib::SimpleActionClient<wiimote_tracker_msgs::CaptureCornerAction>;
+
+constexpr double kActionTimeout = 5.0;  // longest search for the action's server [s]
+constexpr double kEndPeriod = 0.1;      // between looks whether a capture was called off [s]
+const std::string kNoAnswer = " does not answer: check that the calibration node runs";
+
+}  // namespace
+
+Requests::~Requests() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    must_end_ = true;
+    for (ros::ServiceClient& client : clients_)
+      client.shutdown();
+  }
+  for (std::thread& thread : threads_)
+    thread.join();
+}
+
+void Requests::send(const Request& request) {
+  const Command running = guide_->running();
+  if (running == Command::kCapture && request.command == Command::kCancel) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_called_off_ = true;
+    return;
+  }
+  if (running != Command::kNone && request.command != Command::kCancel)
+    return;
+  is_called_off_ = false;
+  guide_->onRequest(request.command);
+  threads_.emplace_back([this, request] {
+    Answer answer;
+    try {
+      answer = perform(request);
+    } catch (const std::exception& error) {
+      answer = {false, error.what()};
+    }
+    report({true, request.command, answer.first, answer.second, 0.0});
+  });
+}
+
+void Requests::poll() {
+  std::vector<Event> events;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    events.swap(events_);
+  }
+  for (const Event& event : events) {
+    if (event.is_answer)
+      guide_->onAnswer(event.command, event.good, event.text);
+    else
+      guide_->onProgress(event.text, event.progress);
+  }
+}
+
+void Requests::report(const Event& event) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  events_.push_back(event);
+}
+
+template <class Service>
+Requests::Answer Requests::call(const std::string& name, Service service) {
+  const std::string full_name = "calibration/" + name;
+  // A persistent client, since only such a one can be interrupted.
+  ros::ServiceClient client = ros::NodeHandle().serviceClient<Service>(full_name, true);
+  std::list<ros::ServiceClient>::iterator place;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (must_end_)
+      return {false, ""};
+    place = clients_.insert(clients_.end(), client);
+  }
+  const bool is_answered = client.call(service);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  clients_.erase(place);
+  if (!is_answered)
+    return {false, full_name + kNoAnswer};
+  return {service.response.success, service.response.message};
+}
+
+Requests::Answer Requests::perform(const Request& request) {
+  switch (request.command) {
+    case Command::kMasks:
+      return call("learn_masks", wiimote_tracker_msgs::LearnMasks());
+    case Command::kConnection:
+      return call("check_connection", wiimote_tracker_msgs::CheckConnection());
+    case Command::kStart: {
+      wiimote_tracker_msgs::StartCalibration start;
+      start.request.side_x = request.side;
+      return call("start", start);
+    }
+    case Command::kCapture:
+      return captureCorner(request);
+    case Command::kUndo:
+      return call("undo", std_srvs::Trigger());
+    case Command::kHandsFree: {
+      std_srvs::SetBool hands_free;
+      hands_free.request.data = static_cast<std::uint8_t>(request.on);
+      return call("hands_free", hands_free);
+    }
+    case Command::kStartWave: {
+      wiimote_tracker_msgs::StartWave wave;
+      wave.request.wand_length = request.wand_length;
+      return call("start_wave", wave);
+    }
+    case Command::kStopWave:
+      return call("stop_wave", std_srvs::Trigger());
+    case Command::kSolve:
+      return call("solve", wiimote_tracker_msgs::SolveCalibration());
+    case Command::kSave: {
+      wiimote_tracker_msgs::SaveRig save;
+      save.request.path = request.path;
+      return call("save", save);
+    }
+    case Command::kLoad: {
+      wiimote_tracker_msgs::LoadRig load;
+      load.request.path = request.path;
+      return call("load", load);
+    }
+    case Command::kCheck: {
+      wiimote_tracker_msgs::CheckPlace check;
+      check.request.known.x = request.known[0];
+      check.request.known.y = request.known[1];
+      check.request.known.z = request.known[2];
+      return call("check", check);
+    }
+    case Command::kCancel:
+      return call("cancel", std_srvs::Trigger());
+    case Command::kNone:
+      break;
+  }
+  return {false, ""};
+}
+
+Requests::Answer Requests::captureCorner(const Request& request) {
+  CaptureClient client("calibration/capture_corner", true);
+  if (!client.waitForServer(ros::Duration(kActionTimeout)))
+    return {false, "calibration/capture_corner" + kNoAnswer};
+  wiimote_tracker_msgs::CaptureCornerGoal goal;
+  goal.retake = static_cast<std::uint8_t>(request.corner >= 0);
+  goal.corner = static_cast<std::uint32_t>(std::max(request.corner, 0));
+  client.sendGoal(goal, {}, {}, [this](const auto& feedback) {
+    report({false, Command::kCapture, true, feedback->message, feedback->progress});
+  });
+  while (!client.waitForResult(ros::Duration(kEndPeriod))) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (is_called_off_ || must_end_)
+      client.cancelGoal();
+    if (must_end_ || !client.isServerConnected())
+      return {false, "calibration/capture_corner" + kNoAnswer};
+  }
+  const auto result = client.getResult();
+  return {result->success, result->message};
+}
+
+}  // namespace wiimote_tracker::panel

@@ -1,0 +1,141 @@
+// Clicks through the Tracker panel while a simulated hand carries the LED. Where
+// WIIMOTE_TRACKER_SCREENSHOTS names a folder, the pages are drawn into it.
+
+#include "big_words.h"
+#include "calibrate_page.h"
+#include "camera_tile.h"
+#include "tracker_widget.h"
+
+#include <QApplication>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QTabWidget>
+#include <QTableWidget>
+#include <QThread>
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <rviz/panel.h>
+#include <pluginlib/class_loader.hpp>
+
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+
+namespace wiimote_tracker::panel {
+namespace {
+
+constexpr auto kDeadline = std::chrono::seconds(90);
+
+/// Lets the panel live until the condition holds. @return false: it did not in time
+bool waitFor(const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + kDeadline;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end)
+      return false;
+    QApplication::processEvents();
+    QThread::msleep(5);
+  }
+  return true;
+}
+
+class Panel : public testing::Test {
+ protected:
+  void SetUp() override {
+    widget_ = std::make_unique<TrackerWidget>(nullptr);
+    widget_->resize(440, 740);
+    widget_->show();
+  }
+
+  template <class Widget>
+  Widget* find(const char* name) const {
+    return widget_->findChild<Widget*>(name);
+  }
+  QString label(const char* name) const { return find<QLabel>(name)->text(); }
+  QString title() const { return static_cast<BigWords*>(find<QWidget>("title"))->text(); }
+  void open(int page) { widget_->pages()->setCurrentIndex(page); }
+  bool camerasAre(const QString& summary) const { return label("summary") == summary; }
+
+  void screenshot(const QString& name) const {
+    const char* folder = std::getenv("WIIMOTE_TRACKER_SCREENSHOTS");
+    for (int i = 0; folder && i < 5; ++i)
+      QApplication::processEvents();  // lays out the new words
+    if (folder)
+      widget_->grab().save(QString(folder) + "/" + name + ".png");
+  }
+
+  std::unique_ptr<TrackerWidget> widget_;
+};
+
+TEST_F(Panel, CalibratesByPressingTheButtonThatItOffers) {
+  ASSERT_TRUE(waitFor([this] { return camerasAre("4 cameras: 4 not calibrated"); }))
+      << label("summary").toStdString();
+  screenshot("cameras_before");
+  open(1);
+  find<QDoubleSpinBox>("side")->setValue(2.5);
+  // A person's hand: presses the button whenever it can be pressed. What is refused, since the LED
+  // still moves, is asked for again.
+  auto* next = find<QPushButton>("next");
+  std::set<QString> titles;
+  EXPECT_TRUE(waitFor([&] {
+    if (titles.insert(title()).second)
+      screenshot("calibrate_" + title().toLower().replace(' ', '_'));
+    if (next->isVisible() && next->isEnabled())
+      next->click();
+    return title() == "Ready";
+  })) << title().toStdString()
+      << ": " << label("answer").toStdString();
+  for (const char* step : {"LED off", "LED on", "Square", "Corner 1", "Corner 2", "Corner 3",
+                           "Corner 4", "Wave", "Enough", "Solve"})
+    EXPECT_EQ(titles.count(step), 1u) << step;
+  EXPECT_EQ(find<QTableWidget>("table")->rowCount(), 4);
+  EXPECT_FALSE(label("verdict").isEmpty());
+  screenshot("calibrate_ready");
+  open(0);
+  EXPECT_TRUE(waitFor([this] { return camerasAre("4 cameras: 4 fine"); }))
+      << label("summary").toStdString();
+  screenshot("cameras_after");
+}
+
+TEST_F(Panel, EndsWhileARequestRuns) {
+  open(1);
+  auto* connection = find<QPushButton>("Check the LED there");
+  ASSERT_TRUE(waitFor([&] { return connection->isEnabled(); }));
+  TrackerWidget second(nullptr);
+  second.pages()->setCurrentIndex(1);
+  connection->click();
+  widget_.reset();
+}
+
+TEST(Plugin, KeepsItsSettingsInTheRvizFile) {
+  pluginlib::ClassLoader<rviz::Panel> loader("rviz", "rviz::Panel");
+  rviz::Config config;
+  {
+    const std::unique_ptr<rviz::Panel> panel(
+        loader.createUnmanagedInstance("wiimote_tracker/Tracker"));
+    panel->findChild<QTabWidget*>()->setCurrentIndex(1);
+    panel->findChild<QDoubleSpinBox*>("side")->setValue(3.2);
+    panel->save(config);
+  }
+  const std::unique_ptr<rviz::Panel> panel(
+      loader.createUnmanagedInstance("wiimote_tracker/Tracker"));
+  panel->load(config);
+  EXPECT_EQ(panel->findChild<QTabWidget*>()->currentIndex(), 1);
+  EXPECT_NEAR(panel->findChild<QDoubleSpinBox*>("side")->value(), 3.2, 1e-6);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::panel
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "panel_test");
+  const ros::NodeHandle keeps_ros_running;
+  qputenv("QT_QPA_PLATFORM", "offscreen");
+  const QApplication application(argc, argv);
+  return RUN_ALL_TESTS();
+}

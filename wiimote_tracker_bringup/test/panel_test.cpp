@@ -13,6 +13,7 @@
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QThread>
+#include <QTreeWidget>
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -99,6 +100,15 @@ TEST_F(Panel, CalibratesByPressingTheButtonThatItOffers) {
   EXPECT_TRUE(waitFor([this] { return camerasAre("4 cameras: 4 fine"); }))
       << label("summary").toStdString();
   screenshot("cameras_after");
+  open(2);
+  EXPECT_TRUE(waitFor([this] { return find<QTableWidget>("leds")->rowCount() == 1; }))
+      << label("tracked").toStdString();
+  EXPECT_TRUE(waitFor([this] { return label("tracked").endsWith("points/s"); }))
+      << label("tracked").toStdString();
+  screenshot("track");
+  open(3);
+  EXPECT_TRUE(waitFor([this] { return find<QTreeWidget>("health")->topLevelItemCount() > 4; }));
+  screenshot("health");
 }
 
 TEST_F(Panel, EndsWhileARequestRuns) {

@@ -10,10 +10,11 @@ namespace {
 
 const std::string kImages = "/ir_blobs";
 constexpr auto kSearchPeriod = std::chrono::seconds(1);
+constexpr std::uint32_t kEvents = 100;  // that wait for the next poll() at most
 
 }  // namespace
 
-Link::Link(TrackerView* view, Guide* guide) : view_(view), guide_(guide) {
+Link::Link(Views* views) : views_(views) {
   nh_.setCallbackQueue(&queue_);
   thread_ = std::thread([this] { run(); });
 }
@@ -38,7 +39,7 @@ void Link::poll() {
     cameras.swap(cameras_);
   }
   if (cameras)
-    view_->onTopics(*cameras, now());
+    views_->cameras.onTopics(*cameras, now());
   queue_.callAvailable();
 }
 
@@ -92,16 +93,32 @@ void Link::subscribe(const std::string& topic,
 }
 
 void Link::subscribeTracker() {
-  subscribe<wiimote_tracker_msgs::CalibrationStatus>("calibration/status", 1,
-                                                     [this](const auto& event) {
-                                                       view_->onStatus(*event.getMessage(), now());
-                                                       guide_->onStatus(*event.getMessage(), now());
-                                                     });
+  subscribe<wiimote_tracker_msgs::CalibrationStatus>(
+      "calibration/status", 1, [this](const auto& event) {
+        views_->cameras.onStatus(*event.getMessage(), now());
+        views_->guide.onStatus(*event.getMessage(), now());
+      });
   subscribe<wiimote_tracker_msgs::CalibrationVerdict>(
       "calibration/verdict", 1,
-      [this](const auto& event) { guide_->onVerdict(*event.getMessage()); });
+      [this](const auto& event) { views_->guide.onVerdict(*event.getMessage()); });
   subscribe<wiimote_tracker_msgs::RigCalibration>("calibration/rig", 1, [this](const auto& event) {
-    view_->onRig(*event.getMessage(), now());
+    views_->cameras.onRig(*event.getMessage(), now());
+  });
+  subscribe<wiimote_tracker_msgs::TrackedPointArray>("points", 1, [this](const auto& event) {
+    views_->tracks.onPoints(*event.getMessage(), now());
+  });
+  subscribe<wiimote_tracker_msgs::TrackedBodyArray>("bodies", 1, [this](const auto& event) {
+    views_->tracks.onBodies(*event.getMessage(), now());
+  });
+  subscribe<wiimote_tracker_msgs::GestureEvent>("gestures", kEvents, [this](const auto& event) {
+    views_->tracks.onGesture(*event.getMessage());
+  });
+  subscribe<wiimote_tracker_msgs::ZoneEvent>("zone_events", kEvents, [this](const auto& event) {
+    views_->tracks.onZone(*event.getMessage());
+  });
+  // Every part sends messages of its own.
+  subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", kEvents, [this](const auto& event) {
+    views_->health.onDiagnostics(*event.getMessage(), now());
   });
 }
 
@@ -111,10 +128,11 @@ void Link::subscribeCamera(const std::string& name) {
     return;
   subscribe<wiimote_tracker_msgs::IrBlobArray>(name + kImages, 1, [this, name](const auto& event) {
     const auto& message = *event.getMessage();
-    view_->onImage(name, message, (event.getReceiptTime() - message.header.stamp).toSec(), now());
+    views_->cameras.onImage(name, message, (event.getReceiptTime() - message.header.stamp).toSec(),
+                            now());
   });
   subscribe<sensor_msgs::BatteryState>(name + "/battery", 1, [this, name](const auto& event) {
-    view_->onBattery(name, event.getMessage()->percentage, now());
+    views_->cameras.onBattery(name, event.getMessage()->percentage, now());
   });
 }
 

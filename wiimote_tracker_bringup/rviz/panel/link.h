@@ -1,8 +1,7 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_LINK_H
 #define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_LINK_H
 
-#include "guide.h"
-#include "tracker_view.h"
+#include "views.h"
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
@@ -18,19 +17,19 @@
 
 namespace wiimote_tracker::panel {
 
-/// Feeds a TrackerView and a Guide from ROS. A thread of its own asks the master for cameras and
+/// Feeds views from ROS. A thread of its own asks the master for cameras and
 /// subscribes, since that may wait; messages are handed over by poll(), which never waits.
 class Link {
  public:
-  Link(TrackerView* view, Guide* guide);
+  explicit Link(Views* views);
   ~Link();
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
 
-  /// Hands over the newest messages. Called by the thread that owns view and guide.
+  /// Hands over the newest messages. Called by the thread that owns the views.
   void poll();
 
-  /// The time that the view is told [s].
+  /// The time that the views are told [s].
   static double now();
 
  private:
@@ -44,8 +43,7 @@ class Link {
                  std::uint32_t queue_size,
                  std::function<void(const ros::MessageEvent<const Message>&)> callback);
 
-  TrackerView* view_;
-  Guide* guide_;
+  Views* views_;
   ros::CallbackQueue queue_;
   ros::NodeHandle nh_;
   std::vector<ros::Subscriber> subscribers_;  // of the thread

@@ -1,4 +1,5 @@
 #include "calibrate_page.h"
+#include "track_page.h"
 #include "tracker_widget.h"
 
 #include <QTabWidget>
@@ -31,6 +32,9 @@ class TrackerPanel : public rviz::Panel {
     config.mapGetFloat("Length of Wand", &wand_length);
     config.mapGetString("Rig File", &rig_file);
     widget_->calibratePage()->restore(side, wand_length, rig_file);
+    QString record_path;
+    if (config.mapGetString("Record To", &record_path))
+      widget_->trackPage()->setRecordPath(record_path);
   }
 
   void save(rviz::Config config) const override {
@@ -40,6 +44,7 @@ class TrackerPanel : public rviz::Panel {
     config.mapSetValue("Side of Square", calibrate->side());
     config.mapSetValue("Length of Wand", calibrate->wandLength());
     config.mapSetValue("Rig File", calibrate->path());
+    config.mapSetValue("Record To", widget_->trackPage()->recordPath());
   }
 
  private:

@@ -2,6 +2,8 @@
 
 #include "calibrate_page.h"
 #include "cameras_page.h"
+#include "health_page.h"
+#include "track_page.h"
 
 #include <QTabWidget>
 #include <QTimer>
@@ -18,9 +20,13 @@ TrackerWidget::TrackerWidget(QWidget* parent)
     : QWidget(parent),
       pages_(new QTabWidget(this)),
       cameras_(new CamerasPage(pages_)),
-      calibrate_(new CalibratePage(pages_, [this](const Request& r) { requests_.send(r); })) {
+      calibrate_(new CalibratePage(pages_, [this](const Request& r) { requests_.send(r); })),
+      track_(new TrackPage(pages_)),
+      health_(new HealthPage(pages_)) {
   pages_->addTab(cameras_, "Cameras");
   pages_->addTab(calibrate_, "Calibrate");
+  pages_->addTab(track_, "Track");
+  pages_->addTab(health_, "Health");
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(pages_);
@@ -34,9 +40,13 @@ void TrackerWidget::refresh() {
   requests_.poll();
   const double now = Link::now();
   if (cameras_->isVisible())
-    cameras_->show(view_, now);
+    cameras_->show(views_.cameras, now);
   if (calibrate_->isVisible())
-    calibrate_->show(guide_, now);
+    calibrate_->show(views_.guide, now);
+  if (track_->isVisible())
+    track_->show(views_.tracks, now);
+  if (health_->isVisible())
+    health_->show(views_.health, now);
 }
 
 }  // namespace wiimote_tracker::panel

@@ -1,10 +1,9 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACKER_WIDGET_H
 #define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACKER_WIDGET_H
 
-#include "guide.h"
 #include "link.h"
 #include "requests.h"
-#include "tracker_view.h"
+#include "views.h"
 
 #include <QWidget>
 
@@ -14,6 +13,8 @@ namespace wiimote_tracker::panel {
 
 class CalibratePage;
 class CamerasPage;
+class HealthPage;
+class TrackPage;
 
 /// The panel without rviz: pages, and a timer that draws the one in front.
 class TrackerWidget : public QWidget {
@@ -22,17 +23,19 @@ class TrackerWidget : public QWidget {
 
   QTabWidget* pages() const { return pages_; }
   CalibratePage* calibratePage() const { return calibrate_; }
+  TrackPage* trackPage() const { return track_; }
 
  private:
   void refresh();
 
-  TrackerView view_;
-  Guide guide_;
-  Link link_{&view_, &guide_};
-  Requests requests_{&guide_};
+  Views views_;
+  Link link_{&views_};
+  Requests requests_{&views_.guide};
   QTabWidget* pages_;
   CamerasPage* cameras_;
   CalibratePage* calibrate_;
+  TrackPage* track_;
+  HealthPage* health_;
 };
 
 }  // namespace wiimote_tracker::panel

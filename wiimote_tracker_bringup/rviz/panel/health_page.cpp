@@ -1,0 +1,69 @@
+#include "health_page.h"
+
+#include <QHeaderView>
+#include <QPainter>
+#include <QPixmap>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+namespace wiimote_tracker::panel {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr double kShowPeriod = 1.0;  // as often as parts report [s]
+
+/// A disc, legible on light and dark ground.
+QIcon iconOf(std::uint8_t level) {
+  const QColor color = level == DiagnosticStatus::OK      ? QColor(46, 158, 79)
+                       : level == DiagnosticStatus::WARN  ? QColor(230, 140, 0)
+                       : level == DiagnosticStatus::ERROR ? QColor(211, 60, 60)
+                                                          : QColor(140, 145, 155);
+  QPixmap pixmap(16, 16);
+  pixmap.fill(Qt::transparent);
+  QPainter painter(&pixmap);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(color);
+  painter.drawEllipse(3, 3, 10, 10);
+  return QIcon(pixmap);
+}
+
+}  // namespace
+
+HealthPage::HealthPage(QWidget* parent) : QWidget(parent), tree_(new QTreeWidget(this)) {
+  tree_->setObjectName("health");
+  tree_->setHeaderLabels({"part", "state"});
+  tree_->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(tree_);
+}
+
+void HealthPage::show(const HealthView& health, double now) {
+  if (now - shown_at_ < kShowPeriod)
+    return;
+  shown_at_ = now;
+  std::set<QString> unfolded;
+  for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+    if (tree_->topLevelItem(i)->isExpanded())
+      unfolded.insert(tree_->topLevelItem(i)->text(0));
+  }
+  tree_->clear();
+  for (const DiagnosticStatus& part : health.parts(now)) {
+    auto* item = new QTreeWidgetItem(
+        tree_, {QString::fromStdString(part.name), QString::fromStdString(part.message)});
+    item->setIcon(0, iconOf(part.level));
+    item->setToolTip(1, item->text(1));
+    for (const auto& value : part.values)
+      new QTreeWidgetItem(item,
+                          {QString::fromStdString(value.key), QString::fromStdString(value.value)});
+    item->setExpanded(unfolded.count(item->text(0)) > 0);
+  }
+}
+
+}  // namespace wiimote_tracker::panel

@@ -1,0 +1,26 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_HEALTH_PAGE_H
+#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_HEALTH_PAGE_H
+
+#include "health_view.h"
+
+#include <QWidget>
+
+class QTreeWidget;
+
+namespace wiimote_tracker::panel {
+
+/// The diagnostics, the worst first; a part unfolds to its numbers.
+class HealthPage : public QWidget {
+ public:
+  explicit HealthPage(QWidget* parent);
+
+  void show(const HealthView& health, double now);
+
+ private:
+  QTreeWidget* tree_;
+  double shown_at_ = 0.0;
+};
+
+}  // namespace wiimote_tracker::panel
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_HEALTH_PAGE_H

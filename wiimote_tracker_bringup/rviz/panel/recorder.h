@@ -1,0 +1,31 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_RECORDER_H
+#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_RECORDER_H
+
+#include <QProcess>
+#include <QString>
+
+namespace wiimote_tracker::panel {
+
+/// Runs record.launch.
+class Recorder {
+ public:
+  /// Ends the recording.
+  ~Recorder();
+
+  /// @param prefix path and prefix of the bag's name
+  void start(const QString& prefix);
+  void stop();
+  bool isRunning() const { return process_.state() != QProcess::NotRunning; }
+
+  /// Where it records to, or how it ended.
+  QString words();
+
+ private:
+  QProcess process_;
+  QString words_;
+  bool is_wanted_ = false;
+};
+
+}  // namespace wiimote_tracker::panel
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_RECORDER_H

@@ -1,0 +1,92 @@
+// What the Tracker panel says about LEDs, bodies and diagnostics, from messages and times.
+
+#include "health_view.h"
+#include "tracks_view.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace wiimote_tracker::panel {
+namespace {
+
+using diagnostic_msgs::DiagnosticArray;
+using diagnostic_msgs::DiagnosticStatus;
+using wiimote_tracker_msgs::TrackedPoint;
+using wiimote_tracker_msgs::TrackedPointArray;
+
+TrackedPointArray points(std::uint32_t number, std::uint8_t state) {
+  TrackedPointArray message;
+  message.header.seq = number;
+  message.points.resize(1);
+  TrackedPoint& led = message.points[0];
+  led.label = "led";
+  led.state = state;
+  led.position.z = 1.5;
+  led.position_covariance[0] = led.position_covariance[4] = 1e-6;
+  led.position_covariance[8] = 2e-6;
+  led.velocity.x = 3.0;
+  led.velocity.y = 4.0;
+  led.rays_used = 3;
+  led.rays_possible = 4;
+  return message;
+}
+
+TEST(Tracks, ShowAnLedUntilHalfASecondAfterTheLastMessage) {
+  TracksView view;
+  EXPECT_EQ(view.summary(10.0), "Nothing is tracked: calibrate, or check that the tracker runs.");
+  view.onPoints(points(1, TrackedPoint::TRACKED), 10.0);
+  const auto rows = view.leds(10.4);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].state, "tracked");
+  EXPECT_EQ(rows[0].seen_by, "3 of 4");
+  EXPECT_DOUBLE_EQ(rows[0].stddev, 0.002);
+  EXPECT_DOUBLE_EQ(rows[0].speed, 5.0);
+  EXPECT_TRUE(view.leds(10.5).empty());
+}
+
+TEST(Tracks, AnLedThatWasGivenUpIsNotShown) {
+  TracksView view;
+  view.onPoints(points(1, TrackedPoint::LOST), 10.0);
+  EXPECT_TRUE(view.leds(10.0).empty());
+  EXPECT_EQ(view.summary(10.0), "No LED is seen by two cameras");
+}
+
+TEST(Tracks, CountMessagesThatWereNotHandedOver) {
+  TracksView view;
+  for (std::uint32_t i = 0; i <= 30; ++i)
+    view.onPoints(points(27 * i, TrackedPoint::TRACKED), 10.0 + 0.1 * i);
+  EXPECT_EQ(view.summary(13.0), "1 LED, 270 points/s");
+}
+
+TEST(Tracks, KeepTheLatestEvents) {
+  TracksView view;
+  wiimote_tracker_msgs::ZoneEvent zone;
+  zone.label = "led";
+  for (int i = 0; i < 7; ++i) {
+    zone.zone = "room " + std::to_string(i);
+    view.onZone(zone);
+  }
+  ASSERT_EQ(view.events().size(), TracksView::kMostEvents);
+  EXPECT_EQ(view.events().front(), "led entered room 6");
+}
+
+TEST(Health, ShowsTheWorstFirstAndSaysWhoIsSilent) {
+  HealthView view;
+  DiagnosticArray message;
+  message.status.resize(2);
+  message.status[0].name = "a";
+  message.status[1].name = "b";
+  message.status[1].level = DiagnosticStatus::WARN;
+  view.onDiagnostics(message, 10.0);
+  EXPECT_EQ(view.parts(11.0).front().name, "b");
+  message.status.resize(1);
+  view.onDiagnostics(message, 17.0);
+  const auto parts = view.parts(18.0);
+  EXPECT_EQ(parts.front().level, DiagnosticStatus::STALE);
+  EXPECT_EQ(parts.front().message, "says nothing for 8 s");
+  EXPECT_EQ(view.parts(75.0).size(), 1u);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::panel

@@ -22,33 +22,27 @@ using markers::kTextHeight;
 using visualization_msgs::Marker;
 using wiimote_tracker_msgs::TrackedPoint;
 
-constexpr double kPointDiameter = 0.03;  // [m]
-constexpr double kBlobDiameter = 0.02;   // [m]
-constexpr double kRayLength = 10.0;      // of rays without a point [m]
-constexpr double kOldView = 0.2;         // older views are not drawn [s]
+constexpr double kPointDiameter = 0.06;    // [m]
+constexpr double kBlobDiameter = 0.03;     // [m]
+constexpr double kRayLength = 10.0;        // of rays without a point [m]
+constexpr double kOldView = 0.2;           // older views are not drawn [s]
+constexpr double kNoImages = 0.7;          // without a newer view, a camera counts as silent [s]
+constexpr double kLedLifetime = 0.5;       // when the tracker stops [s]
+constexpr double kCameraLifetime = 1.0;    // when the tracker stops [s]
+constexpr std::size_t kMostLabels = 1000;  // whose colours are kept
 // Square root of the 95 % quantile of the chi-squared distribution with three degrees of freedom.
 constexpr double kSigmas95 = 2.7955;
 
 std_msgs::ColorRGBA colorOf(tracking::SpotUse use) {
   switch (use) {
     case tracking::SpotUse::kAssigned:
-      return color(0.2f, 1.0f, 0.2f, 0.6f);
+      return color(0.2f, 1.0f, 0.2f, 0.4f);
     case tracking::SpotUse::kMasked:
-      return color(0.5f, 0.5f, 0.5f, 0.6f);
+      return color(0.5f, 0.5f, 0.5f, 0.4f);
     case tracking::SpotUse::kUnassigned:
       break;
   }
-  return color(1.0f, 0.5f, 0.0f, 0.6f);
-}
-
-/// Successive ids have different colours.
-std_msgs::ColorRGBA colorOfLed(std::uint32_t id, float alpha) {
-  static const std::array<std_msgs::ColorRGBA, 6> colors = {
-      color(1.0f, 0.2f, 0.2f, 1.0f), color(0.3f, 0.6f, 1.0f, 1.0f), color(1.0f, 0.9f, 0.2f, 1.0f),
-      color(0.9f, 0.4f, 1.0f, 1.0f), color(0.2f, 0.9f, 0.8f, 1.0f), color(1.0f, 0.6f, 0.5f, 1.0f)};
-  std_msgs::ColorRGBA result = colors[id % colors.size()];
-  result.a = alpha;
-  return result;
+  return color(1.0f, 0.5f, 0.0f, 0.4f);
 }
 
 void setScale(const Vector3d& scale, Marker* marker) {
@@ -101,10 +95,12 @@ visualization_msgs::MarkerArray MarkerBuilder::build(
     array_.markers.push_back(clear);
     must_clear_ = false;
   }
+  addSquare();
   for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
-    addCamera(i);
+    const tracking::CameraView view = i < views.size() ? views[i] : tracking::CameraView();
+    addCamera(i, view.time && time - *view.time < kNoImages);
     addMasks(i);
-    addView(i, i < views.size() ? views[i] : tracking::CameraView(), points);
+    addView(i, view, points);
   }
   std::set<std::uint32_t> gone;
   gone.swap(drawn_);
@@ -122,25 +118,26 @@ visualization_msgs::MarkerArray MarkerBuilder::build(
 }
 
 Marker MarkerBuilder::marker(const std::string& ns, std::size_t id, int type) const {
-  // So that markers disappear when the tracker stops.
-  const double lifetime = std::max(1.0, 3.0 / options_.rate);
+  const bool is_camera =
+      ns == "camera" || ns == "frustum" || ns == "image_plane" || ns == "mask" || ns == "square";
+  const double lifetime = std::max(is_camera ? kCameraLifetime : kLedLifetime, 3.0 / options_.rate);
   return markers::marker(rig_.world_frame, time_, lifetime, ns, id, type);
 }
 
-void MarkerBuilder::addCamera(std::size_t index) {
+void MarkerBuilder::addCamera(std::size_t index, bool has_images) {
   const geometry::Camera& camera = rig_.cameras[index].camera;
   const std::array<Vector3d, 4> corners = imageCorners(camera, options_.image_plane_distance);
 
   Marker name = marker("camera", index, Marker::TEXT_VIEW_FACING);
   name.pose.position = pointOf(camera.center() + kTextHeight * Vector3d::UnitZ());
-  name.text = camera.name;
+  name.text = camera.name + (has_images ? "" : ": no images");
   name.scale.z = kTextHeight;
-  name.color = color(1.0f, 1.0f, 1.0f, 1.0f);
+  name.color = has_images ? color(1.0f, 1.0f, 1.0f, 1.0f) : color(0.55f, 0.55f, 0.55f, 1.0f);
   array_.markers.push_back(name);
 
   Marker frustum = marker("frustum", index, Marker::LINE_LIST);
   frustum.scale.x = kLineWidth;
-  frustum.color = color(0.6f, 0.6f, 0.6f, 1.0f);
+  frustum.color = has_images ? color(0.6f, 0.75f, 1.0f, 1.0f) : color(0.4f, 0.4f, 0.4f, 1.0f);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     frustum.points.push_back(pointOf(camera.center()));
     frustum.points.push_back(pointOf(corners[i]));
@@ -151,10 +148,29 @@ void MarkerBuilder::addCamera(std::size_t index) {
 
   Marker plane = marker("image_plane", index, Marker::TRIANGLE_LIST);
   setScale(Vector3d::Ones(), &plane);
-  plane.color = color(0.4f, 0.6f, 1.0f, 0.3f);
+  plane.color = has_images ? color(0.4f, 0.6f, 1.0f, 0.3f) : color(0.4f, 0.4f, 0.4f, 0.5f);
   for (const std::size_t i : {0, 1, 2, 0, 2, 3})
     plane.points.push_back(pointOf(corners[i]));
   array_.markers.push_back(plane);
+}
+
+/// Whether z = 0 is the plane of a calibration square.
+bool MarkerBuilder::hasFloor() const {
+  return rig_.square_sides.size() == 2;
+}
+
+/// The square of the calibration.
+void MarkerBuilder::addSquare() {
+  Marker square = marker("square", 0, Marker::LINE_STRIP);
+  square.scale.x = 2.0 * kLineWidth;
+  square.color = color(0.9f, 0.6f, 0.2f, 0.7f);
+  if (hasFloor()) {
+    const double x = rig_.square_sides[0], y = rig_.square_sides[1];
+    for (const Vector3d& corner : {Vector3d(0, 0, 0), Vector3d(x, 0, 0), Vector3d(x, y, 0),
+                                   Vector3d(0, y, 0), Vector3d(0, 0, 0)})
+      square.points.push_back(pointOf(corner));
+  }
+  add(square);
 }
 
 /// Discs on the image plane.
@@ -228,7 +244,7 @@ void MarkerBuilder::addLed(const TrackedPoint& led) {
   Marker point = marker("point", led.id, Marker::SPHERE);
   point.pose.position = led.position;
   setScale(Vector3d::Constant(kPointDiameter), &point);
-  point.color = colorOfLed(led.id, alpha);
+  point.color = colorOfLed(led.label, alpha);
   array_.markers.push_back(point);
 
   Marker ellipsoid = marker("covariance", led.id, Marker::SPHERE);
@@ -249,15 +265,41 @@ void MarkerBuilder::addLed(const TrackedPoint& led) {
   label.pose.position = pointOf(vectorOf(led.position) + kTextHeight * Vector3d::UnitZ());
   label.text = led.label;
   label.scale.z = kTextHeight;
-  label.color = colorOfLed(led.id, alpha);
+  label.color = colorOfLed(led.label, alpha);
   array_.markers.push_back(label);
 
-  if (led.state != TrackedPoint::TENTATIVE)
-    trails_[led.id].push_back({time_, led.position});
+  Marker height = marker("height", led.id, Marker::LINE_LIST);
+  height.scale.x = kLineWidth;
+  height.color = colorOfLed(led.label, 0.3f * alpha);
+  if (hasFloor()) {
+    height.points.resize(2, led.position);
+    height.points[1].z = 0.0;
+  }
+  add(height);
+
+  if (led.state != TrackedPoint::TENTATIVE) {
+    Trail& trail = trails_[led.id];
+    trail.color = colorOfLed(led.label, 0.8f);
+    trail.places.push_back({time_, led.position});
+  }
+}
+
+/// Labels that come after each other have different colours.
+std_msgs::ColorRGBA MarkerBuilder::colorOfLed(const std::string& label, float alpha) {
+  static const std::array<std_msgs::ColorRGBA, 6> colors = {
+      color(1.0f, 0.35f, 0.3f, 1.0f), color(0.3f, 0.65f, 1.0f, 1.0f),
+      color(1.0f, 0.9f, 0.2f, 1.0f),  color(0.9f, 0.45f, 1.0f, 1.0f),
+      color(0.2f, 0.9f, 0.8f, 1.0f),  color(1.0f, 0.65f, 0.5f, 1.0f)};
+  if (labels_.size() > kMostLabels)
+    labels_.clear();
+  std_msgs::ColorRGBA result =
+      colors[labels_.emplace(label, labels_.size()).first->second % colors.size()];
+  result.a = alpha;
+  return result;
 }
 
 void MarkerBuilder::removeLed(std::uint32_t id) {
-  for (const char* ns : {"point", "covariance", "label"}) {
+  for (const char* ns : {"point", "covariance", "height", "label"}) {
     array_.markers.push_back(marker(ns, id, Marker::SPHERE));
     array_.markers.back().action = Marker::DELETE;
   }
@@ -265,12 +307,12 @@ void MarkerBuilder::removeLed(std::uint32_t id) {
 
 void MarkerBuilder::addTrails() {
   for (auto trail = trails_.begin(); trail != trails_.end();) {
-    std::deque<Place>& places = trail->second;
+    std::deque<Place>& places = trail->second.places;
     while (!places.empty() && places.front().time < time_ - options_.trail_duration)
       places.pop_front();
     Marker line = marker("trail", trail->first, Marker::LINE_STRIP);
     line.scale.x = kLineWidth;
-    line.color = colorOfLed(trail->first, 0.8f);
+    line.color = trail->second.color;
     for (const Place& place : places)
       line.points.push_back(place.position);
     if (line.points.size() < 2)

@@ -24,9 +24,11 @@ struct MarkerOptions {
 };
 
 /// Markers for rviz of a rig, its cameras' spots, and the LEDs, in the world frame. Namespaces:
-/// camera, frustum, image_plane, mask, blob, ray (one id per camera, in the order of the rig);
-/// point, covariance (95 % ellipsoid), label, trail (one per LED, with its id). Spots and rays are
-/// green when they belong to an LED, orange when they do not, and grey when masked.
+/// square (of the calibration); camera, frustum, image_plane, mask, blob, ray (one id per camera,
+/// in the order of the rig); point, covariance (95 % ellipsoid), height (a line to the floor),
+/// label, trail (one per LED, with its id). Spots and rays are green when they belong to an LED,
+/// orange when they do not, and grey when masked. A camera without images is grey and says so. A
+/// label keeps its colour.
 class MarkerBuilder {
  public:
   explicit MarkerBuilder(const MarkerOptions& options) : options_(options) {}
@@ -48,11 +50,18 @@ class MarkerBuilder {
     double time;  // [s]
     geometry_msgs::Point position;
   };
+  struct Trail {
+    std_msgs::ColorRGBA color;
+    std::deque<Place> places;
+  };
 
   visualization_msgs::Marker marker(const std::string& ns, std::size_t id, int type) const;
   void add(visualization_msgs::Marker marker);
-  void addCamera(std::size_t index);
+  bool hasFloor() const;
+  void addSquare();
+  void addCamera(std::size_t index, bool has_images);
   void addMasks(std::size_t index);
+  std_msgs::ColorRGBA colorOfLed(const std::string& label, float alpha);
   void addView(std::size_t index,
                const tracking::CameraView& view,
                const wiimote_tracker_msgs::TrackedPointArray& points);
@@ -64,8 +73,9 @@ class MarkerBuilder {
   geometry::Rig rig_;
   bool must_clear_ = false;
   double time_ = -std::numeric_limits<double>::infinity();
-  std::set<std::uint32_t> drawn_;                      // ids of LEDs
-  std::map<std::uint32_t, std::deque<Place>> trails_;  // by id
+  std::set<std::uint32_t> drawn_;              // ids of LEDs
+  std::map<std::uint32_t, Trail> trails_;      // by id
+  std::map<std::string, std::size_t> labels_;  // in the order in which they came
   visualization_msgs::MarkerArray array_;
 };
 

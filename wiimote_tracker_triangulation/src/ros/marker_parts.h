@@ -12,8 +12,8 @@
 /// Shared by the markers of LEDs and of bodies.
 namespace wiimote_tracker::markers {
 
-constexpr double kLineWidth = 0.005;  // [m]
-constexpr double kTextHeight = 0.1;   // [m]
+constexpr double kLineWidth = 0.01;   // [m]
+constexpr double kTextHeight = 0.18;  // [m]
 
 inline std_msgs::ColorRGBA color(float r, float g, float b, float a) {
   std_msgs::ColorRGBA color;

@@ -295,7 +295,7 @@ TEST(Markers, ALostPointIsRemovedAndTheTrailFades) {
   for (tracking::CameraView& view : lost.snapshot.views)
     view.spots.clear();
   array = draw(&builder, lost, rig);
-  for (const std::string ns : {"point", "covariance", "label"})
+  for (const std::string ns : {"point", "covariance", "height", "label"})
     EXPECT_EQ(Marker::DELETE, find(array, ns, 0).action) << ns;
   for (int i = 0; i < 3; ++i)
     EXPECT_EQ(Marker::DELETE, find(array, "ray", i).action);
@@ -365,6 +365,48 @@ TEST(Markers, OldSpotsAreNotDrawn) {
   const MarkerArray array = draw(&builder, corrected, rig);
   EXPECT_EQ(Marker::ADD, find(array, "ray", 0).action);
   EXPECT_EQ(Marker::DELETE, find(array, "ray", 1).action);
+}
+
+TEST(Markers, ACameraWithoutImagesIsGreyAndSaysSo) {
+  const Rig rig = threeCameras();
+  MarkerBuilder builder({});
+  builder.setRig(rig);
+  CorrectedSnapshot corrected = someSnapshot(rig);
+  corrected.snapshot.views[1].time = 99.2;
+  corrected.snapshot.views[2].time.reset();
+  const MarkerArray array = draw(&builder, corrected, rig);
+  EXPECT_EQ("camera_0", find(array, "camera", 0).text);
+  for (int i = 1; i < 3; ++i) {
+    EXPECT_EQ(rig.cameras[i].camera.name + ": no images", find(array, "camera", i).text);
+    const auto& color = find(array, "frustum", i).color;
+    EXPECT_EQ(color.r, color.b) << "grey";
+  }
+}
+
+TEST(Markers, ALabelKeepsItsColourOnAnotherTrack) {
+  const Rig rig = threeCameras();
+  MarkerBuilder builder({});
+  builder.setRig(rig);
+  auto points = messageOf(someSnapshot(rig), rig);
+  const MarkerArray before = builder.build(points, {});
+  points.points[0].id = 7;
+  const MarkerArray after = builder.build(points, {});
+  EXPECT_EQ(find(before, "point", 0).color, find(after, "point", 7).color);
+}
+
+TEST(Markers, DrawTheSquareAndTheHeightAboveIt) {
+  Rig rig = threeCameras();
+  rig.square_sides.clear();
+  MarkerBuilder builder({});
+  builder.setRig(rig);
+  EXPECT_EQ(Marker::DELETE, find(draw(&builder, someSnapshot(rig), rig), "height", 0).action);
+  rig.square_sides = {2.0, 3.0};
+  builder.setRig(rig);
+  const MarkerArray array = draw(&builder, someSnapshot(rig), rig);
+  EXPECT_EQ(Vector3d(2.0, 3.0, 0.0), vectorOf(find(array, "square", 0).points.at(2)));
+  const Marker height = find(array, "height", 0);
+  EXPECT_EQ(kLed, vectorOf(height.points.at(0)));
+  EXPECT_EQ(Vector3d(kLed.x(), kLed.y(), 0.0), vectorOf(height.points.at(1)));
 }
 
 TEST(Markers, ComeAtTheirRateAndStartOverWithTime) {

@@ -122,7 +122,7 @@ TEST_F(Panel, EndsWhileARequestRuns) {
 }
 
 TEST(Plugin, KeepsItsSettingsInTheRvizFile) {
-  pluginlib::ClassLoader<rviz::Panel> loader("rviz", "rviz::Panel");
+  static pluginlib::ClassLoader<rviz::Panel> loader("rviz", "rviz::Panel");  // outlives the panels
   rviz::Config config;
   {
     const std::unique_ptr<rviz::Panel> panel(

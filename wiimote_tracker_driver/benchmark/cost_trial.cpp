@@ -25,10 +25,10 @@ namespace {
 
 using wiimote_tracker_msgs::IrBlobArray;
 
-constexpr int kTurns = 4;           // without and with a subscriber
-constexpr double kSettling = 2.0;   // [s] After the subscription has changed.
-constexpr double kWarmUp = 30.0;    // [s] Until the exposure clock has learned.
-constexpr double kStartLimit = 60;  // [s]
+constexpr int kTurns = 4;             // without and with a subscriber
+constexpr double kSettling = 2.0;     // [s] After the subscription has changed.
+constexpr double kLearning = 30.0;    // [s] Until the exposure clock has learned.
+constexpr double kStartsWithin = 60;  // [s]
 
 /// A child process, ended with this object.
 class Process {
@@ -127,9 +127,9 @@ Results runCost(double duration) {
   Listener listener;
   listener.subscribe();
   for (double waited = 0.0; listener.spin(1.0)[0] < 50; waited += 1.0)
-    if (waited > kStartLimit)
+    if (waited > kStartsWithin)
       throw std::runtime_error("no image came: stop what keeps this computer busy");
-  listener.spin(kWarmUp);
+  listener.spin(kLearning);
 
   std::array<double, 2> with{}, without{};
   for (int turn = 0; turn < 2 * kTurns; ++turn) {

@@ -19,7 +19,7 @@
 namespace wiimote_tracker {
 namespace {
 
-constexpr double kStartLimit = 60.0;  // [s]
+constexpr double kMasterLimit = 60.0;  // [s]
 
 int freePort() {
   const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -62,7 +62,7 @@ void OwnMaster::connect() {
   for (double waited = 0.0; !ros::master::check(); waited += 0.1) {
     if (process_ > 0 && ::waitpid(process_, nullptr, WNOHANG) == process_)
       process_ = 0;
-    if (process_ <= 0 || waited > kStartLimit)
+    if (process_ <= 0 || waited > kMasterLimit)
       throw std::runtime_error(
           "no ROS master could be started: source ROS's setup.bash, so that rosmaster is found");
     std::this_thread::sleep_for(std::chrono::milliseconds(100));

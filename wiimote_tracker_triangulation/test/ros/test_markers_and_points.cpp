@@ -2,6 +2,7 @@
 #include "geometry/random_rigs.h"
 #include "ros/marker_builder.h"
 #include "ros/point_message.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>
 
@@ -70,10 +71,6 @@ TrackedPointArray messageOf(const CorrectedSnapshot& corrected, const Rig& rig) 
 
 MarkerArray draw(MarkerBuilder* builder, const CorrectedSnapshot& corrected, const Rig& rig) {
   return builder->build(messageOf(corrected, rig), corrected.snapshot.views);
-}
-
-Vector3d vectorOf(const geometry_msgs::Point& p) {
-  return {p.x, p.y, p.z};
 }
 
 const Marker& find(const MarkerArray& array, const std::string& ns, int id) {

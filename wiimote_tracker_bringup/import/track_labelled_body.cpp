@@ -1,7 +1,6 @@
 // Tracks a rigid body whose lights are labelled in every image.
 
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
-#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
@@ -12,7 +11,6 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -94,16 +92,9 @@ bool isOwn(const body::BodyEstimate& body,
   return true;
 }
 
-void print(const body::BodyEstimate& body,
-           double time,
-           bool tracked,
-           const geometry::CalibrationUncertainty& calibration,
-           const std::vector<std::size_t>& cameras,
-           std::FILE* file) {
+void print(const body::BodyEstimate& body, double time, bool tracked, std::FILE* file) {
   const Eigen::Vector3d place = body.world_from_body.translation();
-  Eigen::Matrix3d covariance = body.covariance.topLeftCorner<3, 3>();
-  if (const auto systematic = calibration.covarianceOf(place, cameras.data(), cameras.size()))
-    covariance += *systematic;
+  const Eigen::Matrix3d covariance = body.covariance.topLeftCorner<3, 3>();
   std::fprintf(file, "%.9f,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", time,
                tracked ? "tracked" : "predicted", place.x(), place.y(), place.z(), covariance(0, 0),
                covariance(0, 1), covariance(0, 2), covariance(1, 1), covariance(1, 2),
@@ -129,9 +120,6 @@ int run(const std::string& rig_file,
         const std::string& table,
         const body::BodyTrackerOptions& options) {
   const geometry::Rig rig = geometry::readRigFile(rig_file);
-  const geometry::CalibrationUncertainty calibration(rig);
-  std::vector<std::size_t> all(rig.cameras.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
   std::ifstream input(images_file);
   const body::Constellation body = readBody(&input);
   body::BodyTracker tracker(rig, {body}, options);
@@ -165,7 +153,7 @@ int run(const std::string& rig_file,
                            return view.last.time >= time - options.tracked_time && !view.misses;
                          }) >= 2;
     if (tracker.bodies()[0])
-      print(*tracker.bodies()[0], time, tracked, calibration, all, output);
+      print(*tracker.bodies()[0], time, tracked, output);
   }
   std::fclose(output);
   if (!input.eof())

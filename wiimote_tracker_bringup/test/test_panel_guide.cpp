@@ -136,5 +136,15 @@ TEST_F(NextStep, ABadCornerIsTakenAgainAndAGoodRigSaved) {
   EXPECT_EQ(guide_.verdict(), nullptr);
 }
 
+TEST_F(NextStep, WhatIsCancelledRunsUntilItsOwnAnswer) {
+  at(CalibrationStatus::READY);
+  guide_.onRequest(Command::kSolve);
+  answered(Command::kCancel);
+  EXPECT_EQ(guide_.running(), Command::kSolve);
+  guide_.onAnswer(Command::kSolve, false, "cancelled");
+  EXPECT_EQ(guide_.running(), Command::kNone);
+  EXPECT_EQ(guide_.answer(), "cancelled");
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::panel

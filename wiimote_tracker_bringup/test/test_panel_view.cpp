@@ -152,6 +152,20 @@ TEST_F(View, AKnockedCameraSaysWhatTheHealthWatchSays) {
   EXPECT_EQ(words("a"), status.cameras[0].health);
 }
 
+TEST_F(View, ACameraOfTheCalibrationNodeStays) {
+  wiimote_tracker_msgs::CalibrationStatus status;
+  status.cameras.emplace_back();
+  status.cameras[0].name = "a";
+  view_.onStatus(status, now_);
+  now_ += TrackerView::kForgetAfter + 1.0;
+  view_.onTopics({}, now_);
+  EXPECT_EQ(view_.cameras().size(), 1u);
+  status.cameras.clear();
+  view_.onStatus(status, now_);
+  view_.onTopics({}, now_);
+  EXPECT_TRUE(view_.cameras().empty());
+}
+
 TEST_F(View, TheRateSurvivesARestartOfTheDriver) {
   run(3.0, {"a"}, {});
   frame_ = 0;

@@ -34,6 +34,8 @@ constexpr double kStartsWithin = 60;  // [s]
 class Process {
  public:
   explicit Process(const std::function<void()>& run) : id_(::fork()) {
+    if (id_ < 0)
+      throw std::runtime_error("no process can be started: end others, and try again");
     if (id_ != 0)
       return;
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);

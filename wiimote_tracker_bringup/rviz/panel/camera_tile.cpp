@@ -95,7 +95,7 @@ void CameraTile::paintHeader(QPainter* painter) const {
     numbers += QString("%1%2 %")
                    .arg(numbers.isEmpty() ? "" : "   ")
                    .arg(100.0 * camera_->battery, 0, 'f', 0);
-  const bool is_low = camera_->battery < 0.15;
+  const bool is_low = camera_->battery < 0.2;  // as the driver warns
   painter->setPen(is_low ? colorOf(CameraState::kLate) : kFaint);
   painter->drawText(line, Qt::AlignVCenter | Qt::AlignRight, numbers);
   const QFont normal = painter->font();

@@ -38,7 +38,8 @@ void Guide::onStatus(const Status& status, double now) {
 }
 
 void Guide::onRequest(Command command) {
-  running_ = command;
+  if (command != Command::kCancel)  // What is cancelled still runs.
+    running_ = command;
   answer_.clear();
   progress_text_.clear();
   progress_ = 0.0;
@@ -50,7 +51,8 @@ void Guide::onProgress(const std::string& text, double share) {
 }
 
 void Guide::onAnswer(Command command, bool good, const std::string& text) {
-  running_ = Command::kNone;
+  if (command != Command::kCancel)
+    running_ = Command::kNone;
   is_known_ = false;
   answer_ = text;
   if (command == Command::kStart && good) {

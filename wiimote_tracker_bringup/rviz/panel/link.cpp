@@ -89,7 +89,12 @@ void Link::subscribe(const std::string& topic,
   options.initByFullCallbackType<const ros::MessageEvent<const Message>&>(topic, queue_size,
                                                                           std::move(callback));
   options.transport_hints = ros::TransportHints().tcpNoDelay();
-  subscribers_.push_back(nh_.subscribe(options));
+  try {
+    subscribers_.push_back(nh_.subscribe(options));
+  } catch (const ros::Exception& error) {
+    // A display of this rviz subscribes to it as another type.
+    ROS_WARN("Tracker panel: %s is not shown: %s", topic.c_str(), error.what());
+  }
 }
 
 void Link::subscribeTracker() {

@@ -13,6 +13,7 @@
 #include <wiimote_tracker_msgs/StartCalibration.h>
 #include <wiimote_tracker_msgs/StartWave.h>
 
+#include <chrono>
 #include <exception>
 #include <iterator>
 
@@ -21,8 +22,8 @@ namespace {
 
 using CaptureClient = actionlib::SimpleActionClient<wiimote_tracker_msgs::CaptureCornerAction>;
 
-constexpr double kActionTimeout = 5.0;  // longest search for the action's server [s]
-constexpr double kEndPeriod = 0.1;      // between looks whether a capture was called off [s]
+constexpr auto kLookPeriod = std::chrono::milliseconds(100);
+constexpr int kLooksForServer = 50;  // for the action's server, at most
 const std::string kNoAnswer = " does not answer: check that the calibration node runs";
 
 }  // namespace
@@ -41,7 +42,6 @@ Requests::~Requests() {
 void Requests::send(const Request& request) {
   const Command running = guide_->running();
   if (running == Command::kCapture && request.command == Command::kCancel) {
-    const std::lock_guard<std::mutex> lock(mutex_);
     is_called_off_ = true;
     return;
   }
@@ -49,14 +49,16 @@ void Requests::send(const Request& request) {
     return;
   is_called_off_ = false;
   guide_->onRequest(request.command);
-  threads_.emplace_back([this, request] {
+  threads_.emplace_back();
+  const auto own = std::prev(threads_.end());
+  *own = std::thread([this, request, own] {
     Answer answer;
     try {
       answer = perform(request);
     } catch (const std::exception& error) {
       answer = {false, error.what()};
     }
-    report({true, request.command, answer.first, answer.second, 0.0});
+    report({own, request.command, answer.first, answer.second, 0.0});
   });
 }
 
@@ -67,11 +69,19 @@ void Requests::poll() {
     events.swap(events_);
   }
   for (const Event& event : events) {
-    if (event.is_answer)
-      guide_->onAnswer(event.command, event.good, event.text);
-    else
+    if (event.thread == threads_.end()) {
       guide_->onProgress(event.text, event.progress);
+      continue;
+    }
+    event.thread->join();
+    threads_.erase(event.thread);
+    guide_->onAnswer(event.command, event.good, event.text);
   }
+}
+
+bool Requests::mustEnd() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return must_end_;
 }
 
 void Requests::report(const Event& event) {
@@ -154,21 +164,28 @@ Requests::Answer Requests::perform(const Request& request) {
 }
 
 Requests::Answer Requests::captureCorner(const Request& request) {
+  // The client's own waits follow ROS time, which may stand still.
+  const Answer no_answer(false, "calibration/capture_corner" + kNoAnswer);
   CaptureClient client("calibration/capture_corner", true);
-  if (!client.waitForServer(ros::Duration(kActionTimeout)))
-    return {false, "calibration/capture_corner" + kNoAnswer};
+  for (int looks = 0; !client.isServerConnected(); ++looks) {
+    if (looks == kLooksForServer || mustEnd())
+      return no_answer;
+    std::this_thread::sleep_for(kLookPeriod);
+  }
   wiimote_tracker_msgs::CaptureCornerGoal goal;
   goal.retake = static_cast<std::uint8_t>(request.corner >= 0);
   goal.corner = static_cast<std::uint32_t>(std::max(request.corner, 0));
   client.sendGoal(goal, {}, {}, [this](const auto& feedback) {
-    report({false, Command::kCapture, true, feedback->message, feedback->progress});
+    report({threads_.end(), Command::kCapture, true, feedback->message, feedback->progress});
   });
-  while (!client.waitForResult(ros::Duration(kEndPeriod))) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (is_called_off_ || must_end_)
+  while (!client.getState().isDone()) {
+    std::this_thread::sleep_for(kLookPeriod);
+    const bool must_end = mustEnd();
+    // Without our lock: the client's own is held while it calls report().
+    if (is_called_off_ || must_end)
       client.cancelGoal();
-    if (must_end_ || !client.isServerConnected())
-      return {false, "calibration/capture_corner" + kNoAnswer};
+    if (must_end || !client.isServerConnected())
+      return no_answer;
   }
   const auto result = client.getResult();
   return {result->success, result->message};

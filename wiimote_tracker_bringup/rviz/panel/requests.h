@@ -5,6 +5,7 @@
 
 #include <ros/ros.h>
 
+#include <atomic>
 #include <list>
 #include <mutex>
 #include <string>
@@ -30,7 +31,7 @@ class Requests {
 
  private:
   struct Event {
-    bool is_answer;
+    std::list<std::thread>::iterator thread;  // that has answered; end(): none
     Command command;
     bool good;
     std::string text;
@@ -42,14 +43,15 @@ class Requests {
   template <class Service>
   Answer call(const std::string& name, Service service);
   Answer captureCorner(const Request& request);
+  bool mustEnd();
   void report(const Event& event);
 
   Guide* guide_;
   std::list<std::thread> threads_;
   std::mutex mutex_;
   std::vector<Event> events_;
-  std::list<ros::ServiceClient> clients_;  // that wait for an answer
-  bool is_called_off_ = false;             // the corner that is captured
+  std::list<ros::ServiceClient> clients_;   // that wait for an answer
+  std::atomic<bool> is_called_off_{false};  // the corner that is captured
   bool must_end_ = false;
 };
 

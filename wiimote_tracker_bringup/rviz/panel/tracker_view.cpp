@@ -47,7 +47,7 @@ CameraView& TrackerView::camera(const std::string& name, double now) {
 }
 
 bool TrackerView::isNamed(const std::string& name) const {
-  if (topics_.count(name) > 0)
+  if (topics_.count(name) > 0 || calibration_names_.count(name) > 0)
     return true;
   return rig_ && std::any_of(rig_->cameras.begin(), rig_->cameras.end(),
                              [&](const auto& camera) { return camera.name == name; });
@@ -77,8 +77,11 @@ void TrackerView::onBattery(const std::string& name, double charge, double now) 
 }
 
 void TrackerView::onStatus(const wiimote_tracker_msgs::CalibrationStatus& message, double now) {
-  for (const auto& status : message.cameras)
+  calibration_names_.clear();
+  for (const auto& status : message.cameras) {
+    calibration_names_.insert(status.name);
     camera(status.name, now).status = status;
+  }
 }
 
 void TrackerView::onRig(const wiimote_tracker_msgs::RigCalibration& message, double now) {

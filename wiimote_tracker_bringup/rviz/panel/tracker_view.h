@@ -52,7 +52,7 @@ class TrackerView {
   bool isNamed(const std::string& camera) const;
 
   std::vector<CameraView> cameras_;
-  std::set<std::string> topics_;
+  std::set<std::string> topics_, calibration_names_;  // cameras with images; of the last status
   std::optional<wiimote_tracker_msgs::RigCalibration> rig_;
 };
 

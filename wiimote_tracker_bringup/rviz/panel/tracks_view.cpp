@@ -19,7 +19,7 @@ constexpr double kCountWindow = 2.0;  // [s]
 std::string stateOf(const TrackedPoint& led) {
   switch (led.state) {
     case TrackedPoint::TENTATIVE:
-      return "new";
+      return "tentative";
     case TrackedPoint::TRACKED:
       return "tracked";
     case TrackedPoint::PREDICTED:

@@ -62,7 +62,7 @@ DriverParameters readDriverParameters(const ros::NodeHandle& nh,
   ParameterReader reader(private_nh);
   DriverParameters p;
   declareParameters(reader, p);
-  reader.allow("diagnostic_period");  // diagnostic_updater's own
+  reader.bounded("diagnostic_period", 1.0, 0.1, 3600.0);  // used by diagnostic_updater
   reader.refuseUnknown();
   if (p.camera_name.empty())
     p.camera_name = lastPart(nh.getNamespace());

@@ -86,19 +86,19 @@ def start(first, camera, each):
 
 
 def epipolar_misfit(first, camera, times):
-    """How far the pairs of rays depart from one epipolar geometry: the ratio of the two least
-    singular values of the equations of the essential matrix."""
+    """How far the pairs of rays depart from one epipolar geometry: the ratio of the squares
+    of the two least singular values of the equations of the fundamental matrix."""
     pixels = first.pixels_at(times)[:, 0]
     common = np.isfinite(pixels[:, 0])
     if common.sum() < 20:
         return np.inf
-    one, other = homogeneous(first, pixels[common]), homogeneous(camera, camera.centers[common])
+    one, other = homogeneous(pixels[common]), homogeneous(camera.centers[common])
     equations = (one[:, :, None] * other[:, None, :]).reshape(-1, 9)
     values = np.linalg.eigvalsh(equations.T @ equations)
     return values[0] / values[1]
 
 
-def homogeneous(camera, pixels):
+def homogeneous(pixels):
     """Normalised as R. Hartley does (PAMI 19, 1997), n x 3."""
     about = pixels - pixels.mean(axis=0)
     return np.column_stack([about / about.std(), np.ones(len(about))])

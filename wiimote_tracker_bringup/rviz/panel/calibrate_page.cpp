@@ -1,6 +1,7 @@
 #include "calibrate_page.h"
 
 #include "big_words.h"
+#include "figure.h"
 #include "square_drawing.h"
 
 #include <QCheckBox>
@@ -28,10 +29,6 @@ constexpr double kLongestSide = 20.0;  // [m]
 
 QString text(const std::string& words) {
   return QString::fromStdString(words);
-}
-
-QString figure(double value, int decimals) {
-  return std::isfinite(value) ? QString::number(value, 'f', decimals) : "-";
 }
 
 QLabel* wrappedLabel(const QString& name, QWidget* parent) {

@@ -92,8 +92,9 @@ void Link::subscribe(const std::string& topic,
   try {
     subscribers_.push_back(nh_.subscribe(options));
   } catch (const ros::Exception& error) {
-    // A display of this rviz subscribes to it as another type.
-    ROS_WARN("Tracker panel: %s is not shown: %s", topic.c_str(), error.what());
+    ROS_WARN(
+        "The Tracker panel cannot show %s: close the display that reads it as another type (%s)",
+        topic.c_str(), error.what());
   }
 }
 

@@ -17,8 +17,8 @@
 
 namespace wiimote_tracker::panel {
 
-/// Feeds views from ROS. A thread of its own asks the master for cameras and
-/// subscribes, since that may wait; messages are handed over by poll(), which never waits.
+/// Feeds views from ROS. A thread of its own asks the master for cameras and subscribes, since that
+/// may wait. poll() hands the messages over, and never waits.
 class Link {
  public:
   explicit Link(Views* views);

@@ -1,5 +1,7 @@
 #include "track_page.h"
 
+#include "figure.h"
+
 #include <QDir>
 #include <QHeaderView>
 #include <QLabel>
@@ -9,16 +11,8 @@
 #include <QVBoxLayout>
 
 #include <array>
-#include <cmath>
 
 namespace wiimote_tracker::panel {
-namespace {
-
-QString decimal(double value, int decimals) {
-  return std::isfinite(value) ? QString::number(value, 'f', decimals) : "-";
-}
-
-}  // namespace
 
 TrackPage::TrackPage(QWidget* parent)
     : QWidget(parent),
@@ -72,11 +66,11 @@ void TrackPage::fill(QTableWidget* table, const std::vector<TracksView::Row>& ro
     const TracksView::Row& row = rows[static_cast<std::size_t>(i)];
     const std::array<QString, 8> cells = {QString::fromStdString(row.name),
                                           QString::fromStdString(row.state),
-                                          decimal(row.x, 3),
-                                          decimal(row.y, 3),
-                                          decimal(row.z, 3),
-                                          decimal(1e3 * row.stddev, 1),
-                                          decimal(row.speed, 2),
+                                          figure(row.x, 3),
+                                          figure(row.y, 3),
+                                          figure(row.z, 3),
+                                          figure(1e3 * row.stddev, 1),
+                                          figure(row.speed, 2),
                                           QString::fromStdString(row.seen_by)};
     for (int column = 0; column < table->columnCount(); ++column) {
       if (!table->item(i, column))

@@ -47,14 +47,14 @@ CameraView& TrackerView::camera(const std::string& name, double now) {
 }
 
 bool TrackerView::isNamed(const std::string& name) const {
-  if (topics_.count(name) > 0 || calibration_names_.count(name) > 0)
+  if (with_topic_.count(name) > 0 || in_status_.count(name) > 0)
     return true;
   return rig_ && std::any_of(rig_->cameras.begin(), rig_->cameras.end(),
                              [&](const auto& camera) { return camera.name == name; });
 }
 
 void TrackerView::onTopics(const std::set<std::string>& cameras, double now) {
-  topics_ = cameras;
+  with_topic_ = cameras;
   for (const std::string& name : cameras)
     camera(name, now);
   cameras_.erase(std::remove_if(cameras_.begin(), cameras_.end(),
@@ -77,9 +77,9 @@ void TrackerView::onBattery(const std::string& name, double charge, double now) 
 }
 
 void TrackerView::onStatus(const wiimote_tracker_msgs::CalibrationStatus& message, double now) {
-  calibration_names_.clear();
+  in_status_.clear();
   for (const auto& status : message.cameras) {
-    calibration_names_.insert(status.name);
+    in_status_.insert(status.name);
     camera(status.name, now).status = status;
   }
 }

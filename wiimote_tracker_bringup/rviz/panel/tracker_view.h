@@ -13,8 +13,8 @@
 
 namespace wiimote_tracker::panel {
 
-/// All that the panel shows, from messages and times of one steady clock [s]. Uses no node, no
-/// clock and no widget.
+/// All cameras, from messages and times of one steady clock [s]. Uses no node, no clock and no
+/// widget.
 class TrackerView {
  public:
   static constexpr double kForgetAfter = 10.0;  ///< A camera that nobody names is dropped [s].
@@ -52,7 +52,7 @@ class TrackerView {
   bool isNamed(const std::string& camera) const;
 
   std::vector<CameraView> cameras_;
-  std::set<std::string> topics_, calibration_names_;  // cameras with images; of the last status
+  std::set<std::string> with_topic_, in_status_;  // names of cameras
   std::optional<wiimote_tracker_msgs::RigCalibration> rig_;
 };
 

@@ -88,8 +88,7 @@ std::vector<TracksView::Row> TracksView::leds(double now) const {
     const auto& c = led.position_covariance;
     rows.push_back({led.label, stateOf(led), p.x, p.y, p.z, std::sqrt(c[0] + c[4] + c[8]),
                     length(led.velocity.x, led.velocity.y, led.velocity.z),
-                    std::to_string(led.rays_used) + " of " + std::to_string(led.rays_possible),
-                    led.residual});
+                    std::to_string(led.rays_used) + " of " + std::to_string(led.rays_possible)});
   }
   std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.name < b.name; });
   return rows;
@@ -109,8 +108,7 @@ std::vector<TracksView::Row> TracksView::bodies(double now) const {
                                     [](const BodyLed& led) { return !led.cameras.empty(); });
     rows.push_back({body.name, stateOf(body), p.x, p.y, p.z, std::sqrt(c[0] + c[7] + c[14]),
                     length(v.x, v.y, v.z),
-                    std::to_string(seen) + " of " + std::to_string(body.leds.size()),
-                    body.residual});
+                    std::to_string(seen) + " of " + std::to_string(body.leds.size())});
   }
   return rows;
 }

@@ -26,7 +26,6 @@ class TracksView {
     double stddev;        ///< Root of the position covariance's trace [m]; NaN: unknown.
     double speed;         ///< [m/s]; NaN: unknown.
     std::string seen_by;  ///< Cameras of an LED, LEDs of a body: "3 of 4".
-    double residual;      ///< [px]; NaN: unknown.
   };
 
   void onPoints(const wiimote_tracker_msgs::TrackedPointArray& message, double now);

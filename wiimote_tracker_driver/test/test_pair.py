@@ -126,6 +126,15 @@ def test_a_remote_is_paired_and_tried(computer, dialogue):
     assert computer.calls() == ['wiimote_tracker_driver list_wiimotes --device ' + A]
 
 
+def test_bluetooth_is_checked_without_pairing(computer):
+    status, out, err = computer.pair(
+        START + POWER[:POWER.index('> agent')] + '> devices\nDevice %s Nintendo RVL-CNT-01\n' % A
+        + STRANGERS + '> agent on\nAgent is already registered\n' + SILENCE, '--check')
+    assert (status, err) == (0, '')
+    assert out.endswith('Paired remotes: %s.\n' % A)
+    assert not (computer.folder / 'calls').exists()
+
+
 def test_an_old_pairing_is_replaced(computer):
     again = SCAN.replace('Discovery started',
                          'Failed to start discovery: org.bluez.Error.InProgress')

@@ -3,7 +3,7 @@
 import re
 import subprocess
 import time
-from typing import Callable, Dict, Optional, Tuple
+from typing import Callable, Dict, List, Optional, Tuple
 
 from .bluetoothctl import Bluetoothctl
 
@@ -17,6 +17,8 @@ PROMPT = r'\[[^\]]*\][#>]$'
 ADAPTER = re.compile(r'(?:\[NEW\] )?Controller ((?:[0-9A-F]{2}:){5}[0-9A-F]{2}) '
                      r'(.*?)( \[default\])?$')
 DEVICE = re.compile(r'(?:\[(NEW|CHG|DEL)\] )?Device ((?:[0-9A-F]{2}:){5}[0-9A-F]{2}) (.*)')
+
+AGENT = r'gent (is already )?registered|Failed to register'
 
 SYNC = ('press the red SYNC button in the battery compartment of the remote (not 1 and 2: such a '
         'pairing does not last, and a -TR switches off)')
@@ -76,8 +78,18 @@ class Pairing:
         others = [address for address in self._adapters if address != used]
         self._say(f'Uses the Bluetooth adapter {used}.' + (
             f' --adapter chooses another: {", ".join(others)}.' if others else ''))
+
+    def known_remotes(self) -> List[str]:
+        """Addresses of the remotes that this computer knows, connected or not."""
+        self._ctl.send('devices')
+        self._ctl.send('agent on')  # its answer ends the list
+        self._wait({'agent': AGENT}, COMMAND_TIMEOUT)
+        return [address for address, name in self._names.items() if name in NAMES]
+
+    def accept_pairing(self) -> None:
+        """Lets this computer pair."""
         self._ctl.send('agent on')
-        self._wait({'agent': r'gent (is already )?registered|Failed to register'}, COMMAND_TIMEOUT)
+        self._wait({'agent': AGENT}, COMMAND_TIMEOUT)
         self._ctl.send('pairable on')
         self._wait({'done': r'Changing pairable on succeeded|Failed to set pairable'},
                    COMMAND_TIMEOUT)

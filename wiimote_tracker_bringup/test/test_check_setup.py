@@ -1,0 +1,133 @@
+"""check_setup, with fakes of the driver's programs and of the ROS master."""
+
+import importlib.machinery
+import importlib.util
+import os
+import sys
+
+import pytest
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+loader = importlib.machinery.SourceFileLoader(
+    'check_setup', os.path.join(HERE, '../launch/check_setup'))
+check_setup = importlib.util.module_from_spec(importlib.util.spec_from_loader(
+    'check_setup', loader))
+loader.exec_module(check_setup)
+
+A, B = '00:1f:32:00:00:01', '00:1f:32:00:00:02'
+BLUETOOTH = 'Uses the Bluetooth adapter 00:1A:7D:DA:71:13.\nPaired remotes: %s.\n' % A.upper()
+REMOTE = '''1  %s  /dev/hidraw3
+   Wii Remote (RVL-CNT-01), kernel driver wiimote, you may open it
+   free, battery 100 %% (raw 105)
+   ! the kernel's driver hid-wiimote shares this remote
+''' % A
+REFUSED = '''1  %s  /dev/hidraw3
+   Wii Remote (RVL-CNT-01), kernel driver wiimote, you may NOT open it
+   ! permission denied on /dev/hidraw3: install the rule
+''' % A
+NO_REMOTE = 'No Wii Remote is connected: press a button of a paired one\n'
+NO_RULE = '! no udev rule lets users open Wii Remotes: run  sudo cp\n'
+CAMERAS = 'cameras:\n  door: "%s"\n'
+RIG = 'cameras:\n  door:\n    identity: "%s"\ncomplete: true\n'
+
+
+class Master:
+    """A ROS master with these parameters and publishers; None: it does not run."""
+    parameters, publishers = {}, None
+
+    def __init__(self, name):
+        pass
+
+    def getSystemState(self):
+        if self.publishers is None:
+            raise ConnectionRefusedError()
+        return self.publishers, [], []
+
+    def hasParam(self, name):
+        return name in self.parameters
+
+    def getParam(self, name):
+        return self.parameters[name]
+
+
+@pytest.fixture
+def check(tmp_path, monkeypatch, capsys):
+    """Runs check_setup on a computer where all is well but for what the arguments say."""
+    monkeypatch.setenv('PATH', '%s:%s' % (tmp_path, os.environ['PATH']))
+    monkeypatch.setenv('ROS_MASTER_URI', 'http://localhost:11311')
+    monkeypatch.setattr(check_setup.rosgraph, 'Master', Master)
+    monkeypatch.setattr(check_setup, 'BLUETOOTHD', [str(tmp_path / 'bluetoothd')])
+    rosrun = tmp_path / 'rosrun'
+    rosrun.write_text('#!/bin/sh\ncat {0}/$2 && ! grep -q ^pair: {0}/$2\n'.format(tmp_path))
+    rosrun.chmod(0o755)
+
+    def run(bluetooth=BLUETOOTH, remotes=REMOTE, cameras=CAMERAS % A, rig=RIG % A,
+            plugin='wiimote', master=None, parameters={}):
+        monkeypatch.setattr(Master, 'publishers', master)
+        monkeypatch.setattr(Master, 'parameters', parameters)
+        for name, text in [('pair', bluetooth), ('list_wiimotes', remotes), ('rig.yaml', rig),
+                           ('cameras.yaml', cameras), ('bluetoothd', plugin)]:
+            if text is not None:
+                (tmp_path / name).write_text(text)
+        arguments = ['--rig', str(tmp_path / 'rig.yaml')]
+        arguments += [] if cameras is None else [str(tmp_path / 'cameras.yaml')]
+        monkeypatch.setattr(sys, 'argv', ['check_setup'] + arguments)
+        status = check_setup.main()
+        lines = capsys.readouterr().out.splitlines()
+        assert lines[-1].startswith('Next: ')
+        assert status == int(any(line.startswith('DO ') for line in lines))
+        return status, lines
+
+    return run
+
+
+def test_all_is_well(check):
+    status, lines = check()
+    assert status == 0
+    assert [line.split(':')[0] for line in lines[:-2]] == [
+        'ok Bluetooth', 'ok computer', 'ok remote 00', 'ok cameras', 'ok ROS master',
+        'ok calibration']
+    assert 'tracker.launch cameras:=/' in lines[-1]
+
+
+@pytest.mark.parametrize('situation, advice', [
+    ({'bluetooth': 'pair: the Bluetooth service does not run: run  sudo systemctl'},
+     'Next: Bluetooth: the Bluetooth service does not run'),
+    ({'plugin': 'nothing'}, 'lacks its wiimote plugin'),
+    ({'remotes': NO_REMOTE + NO_RULE}, 'Next: computer: no udev rule'),
+    ({'remotes': NO_REMOTE}, 'Next: remotes: No Wii Remote is connected'),
+    ({'remotes': REFUSED}, 'permission denied on /dev/hidraw3'),
+    ({'cameras': CAMERAS % B, 'rig': RIG % B}, f'Next: camera door: {B} is not connected'),
+    ({'cameras': None}, 'list_wiimotes --write cameras.yaml'),
+    ({'cameras': 'cameras: {a: [1'}, 'not valid YAML'),
+    ({'cameras': CAMERAS % A + '  window: "%s"\n' % A}, 'so has another one'),
+    ({'rig': None}, 'rig.yaml yet: start the tracker, then run'),
+    ({'rig': 'cameras:\n'}, 'no complete rig file'),
+    ({'rig': (RIG % A).replace('door', 'window')}, 'lacks door'),
+    ({'rig': RIG % B}, f'door was {B}, but now is {A}'),
+    ({'master': [], 'parameters': {'/use_sim_time': True}}, 'a replay has left its simulated time'),
+    ({'master': [['/clock', ['/play']]], 'parameters': {'/use_sim_time': True}}, '/play sets'),
+], ids=lambda value: '' if isinstance(value, dict) else value.split(':')[-1][:30])
+def test_each_problem_gives_advice(check, situation, advice):
+    status, lines = check(**situation)
+    assert status == 1
+    assert advice in lines[-1], lines
+
+
+def test_a_running_tracker_is_named(check):
+    status, lines = check(master=[['/diagnostics', ['/door/driver', '/master_watch']]],
+                          parameters={'/use_sim_time': False})
+    assert status == 0
+    assert any('/door/driver run already' in line for line in lines)
+
+
+def test_a_master_elsewhere_must_answer(check, monkeypatch):
+    monkeypatch.setenv('ROS_MASTER_URI', 'http://192.0.2.1:11311')
+    assert 'http://192.0.2.1:11311 does not answer' in check()[1][-1]
+
+
+def test_a_computer_without_ros(check, monkeypatch, tmp_path):
+    check()
+    os.remove(str(tmp_path / 'rosrun'))
+    monkeypatch.setenv('PATH', str(tmp_path))
+    assert 'source the setup.bash' in check()[1][-1]

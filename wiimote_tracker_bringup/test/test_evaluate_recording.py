@@ -192,10 +192,11 @@ def camera_at(name, position, target):
     matrix = np.stack([-y, -z, x], axis=1)  # x to the right, y down, z ahead
     w = 0.5 * np.sqrt(1.0 + np.trace(matrix))
     turn = [matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]]
+    numbers = np.concatenate([position, np.array(turn) / (4.0 * w), [w]]).tolist()
     return ('  %s: {distortion_model: plumb_bob, camera_matrix: {data: [500, 0, 320, 0, 510, 240, 0, '
             '0, 1]}, distortion_coefficients: {data: [-0.2, 0.05, 0.001, 0.002, 0]}, extrinsics: '
             '{transform: {translation: {x: %r, y: %r, z: %r}, rotation: {x: %r, y: %r, z: %r, '
-            'w: %r}}}}\n' % ((name,) + tuple(position) + tuple(np.array(turn) / (4.0 * w)) + (w,)))
+            'w: %r}}}}\n' % (name, *numbers))
 
 
 def test_a_pixel_is_predicted_from_the_other_cameras(tmp_path):

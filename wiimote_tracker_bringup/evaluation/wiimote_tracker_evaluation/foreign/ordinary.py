@@ -90,7 +90,7 @@ def write_instants(views, pixels, folder):
         matrix = np.array([[camera.focal, 0.0, camera.middle],
                            [0.0, camera.focal, camera.middle], [0.0, 0.0, 1.0]])
         with open(os.path.join(folder, f'basename{number + 1}.rad'), 'w') as file:
-            file.write(''.join(f'K{row + 1}{column + 1} = {value!r}\n'
+            file.write(''.join(f'K{row + 1}{column + 1} = {float(value)!r}\n'
                                for (row, column), value in np.ndenumerate(matrix)))
             file.write(''.join(f'kc{k} = 0\n' for k in range(1, 5)))
 

@@ -184,6 +184,8 @@ void twoAdapters(Checks& checks) {
 }
 
 void overHidp(Checks& checks) {
+  // The default depends on the version of BlueZ.
+  writeText("/etc/bluetooth/input.conf", "[General]\nUserspaceHID=false\n");
   fourInTheAir(checks, "/bluetooth/");
 }
 

@@ -5,18 +5,19 @@
 namespace wiimote_tracker::tracking {
 
 void CameraFit::add(std::size_t shown, std::size_t missing, std::size_t unassigned) {
-  constexpr double kMemory = 150.0;  // LEDs in images, or images
-  constexpr double kLeast = 30.0;    // misfits, of kMemory
+  constexpr double kMemoryOfUsual = 150.0;  // images
   constexpr double kRatio = 1.5;
+  unassigned_ = unassigned;
   const double surplus = static_cast<double>(unassigned) - usual_;
   if (shown > 0 && missing == 0) {
-    complete_images_ = std::min(complete_images_ + 1.0, kMemory);
+    complete_images_ = std::min(complete_images_ + 1.0, kMemoryOfUsual);
     usual_ += surplus / complete_images_;
   }
-  const double kept = 1.0 - static_cast<double>(shown + missing) / kMemory;
+  const double kept = 1.0 - static_cast<double>(shown + missing) / limits_.memory;
   fits_ = kept * fits_ + static_cast<double>(shown);
   misfits_ = std::max(0.0, kept * misfits_ + std::min(static_cast<double>(missing), surplus));
-  misfit_ = misfits_ >= kLeast && misfits_ > (misfit_ ? 1.0 / kRatio : kRatio) * fits_;
+  misfit_ = misfit_ ? misfits_ > limits_.tolerated * fits_
+                    : misfits_ >= limits_.least * limits_.memory && misfits_ > kRatio * fits_;
 }
 
 void CameraFit::addResidual(const Eigen::Vector2d& velocity, const Eigen::Vector2d& residual) {

@@ -14,17 +14,26 @@ namespace wiimote_tracker::tracking {
 /// whose images have wrong times shows each LED off along its motion.
 class CameraFit {
  public:
+  struct Limits {
+    double memory;     ///< Recent LEDs in images that count.
+    double least;      ///< Share of misfits in the memory of a camera that does not fit.
+    double tolerated;  ///< Misfits per fit of one that fits again.
+  };
+
   /// @param ghost_rate expected false detections per image.
-  explicit CameraFit(double ghost_rate) : usual_(ghost_rate) {}
+  CameraFit(double ghost_rate, const Limits& limits) : limits_(limits), usual_(ghost_rate) {}
 
   /// @param shown LEDs that have a spot in the image. @param missing LEDs that have none although
-  /// two other cameras see them.
+  /// others see them: two, or the only other one.
   /// @param unassigned spots of no LED.
   void add(std::size_t shown, std::size_t missing, std::size_t unassigned);
 
   /// Whether most LEDs are missing while more spots than usual are unassigned. (If an LED is only
   /// hidden, there are no more of these.)
   bool isMisfit() const { return misfit_; }
+
+  /// Of the newest image.
+  std::size_t unassigned() const { return unassigned_; }
 
   /// @param velocity of the LED in the image [px/s]. @param residual of its spot [px].
   void addResidual(const Eigen::Vector2d& velocity, const Eigen::Vector2d& residual);
@@ -43,10 +52,12 @@ class CameraFit {
     double products = 0.0;  // velocity . residual
   };
 
+  Limits limits_;
   double fits_ = 0.0;              // of recent LEDs
   double misfits_ = 0.0;           // the same
   double usual_;                   // unassigned spots of a complete image: one that shows all LEDs
   double complete_images_ = 10.0;  // the expected rate counts as ten
+  std::size_t unassigned_ = 0;     // of the newest image
   bool misfit_ = false;
   Clock clock_;
 };

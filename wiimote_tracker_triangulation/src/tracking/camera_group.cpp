@@ -11,6 +11,12 @@ namespace {
 /// copies for all images.
 constexpr std::size_t kKeepInterval = 2;
 
+constexpr CameraFit::Limits kFitOfMany{40.0, 0.4, 0.7};
+
+// Doubted sooner, as tracks may follow wrong spots, and longer; but LEDs that each camera alone
+// sees look like a misfit.
+constexpr CameraFit::Limits kFitOfTwo{30.0, 0.55, 0.1};
+
 constexpr std::size_t kMostClocks = 64;  // that are compared
 
 constexpr double kLeastInterval = 1e-4;  // between exposures of one camera [s]
@@ -52,9 +58,14 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
       history_(kKeepInterval) {
   for (const std::size_t member : members_)
     cameras_.emplace_back(rig, member);
-  fits_.resize(cameras_.size(), CameraFit(options.ghost_rate));
+  fits_.resize(cameras_.size(),
+               CameraFit(options.ghost_rate, cameras_.size() > 2 ? kFitOfMany : kFitOfTwo));
   clock_errors_.resize(cameras_.size());
   state_.unassigned.resize(cameras_.size());
+}
+
+bool CameraGroup::isDoubtful() const {
+  return fits_.size() == 2 && (fits_[0].isMisfit() || fits_[1].isMisfit());
 }
 
 CameraGroup::Outcome CameraGroup::add(const StoredImage& image,
@@ -106,12 +117,11 @@ std::optional<std::uint64_t> CameraGroup::mistimedBefore(std::uint64_t place,
 void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views) {
   const GroupCamera& camera = cameras_[image.camera];
   std::vector<Track>& tracks = state_.tracks;
-  CameraFit& fit = fits_[image.camera];
-  update_.apply(camera, image, &fit, &tracks, &state_.pairs);
+  update_.apply(camera, image, &fits_, &tracks, &state_.pairs);
   removeMergedPairs(image.time);
   show(image, views);
   collectUnassigned(image);
-  if (fit.isMisfit())
+  if (fits_[image.camera].isMisfit() && fits_.size() > 2)
     state_.unassigned[image.camera].count = 0;
   initiation_.apply(cameras_, image.camera, &state_.unassigned, &tracks, ids);
   for (Track& track : tracks) {

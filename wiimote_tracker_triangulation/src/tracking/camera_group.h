@@ -42,6 +42,9 @@ class CameraGroup {
   /// Whether a camera's images are left out because they do not fit the others'.
   bool isMisfit(std::size_t member) const { return fits_[member].isMisfit(); }
 
+  /// Whether there are only two cameras, which do not fit each other: then no LED is located.
+  bool isDoubtful() const;
+
   /// By how much the times of a camera's images are too late [s]; to be subtracted before add().
   double clockError(std::size_t member) const { return clock_errors_[member]; }
 

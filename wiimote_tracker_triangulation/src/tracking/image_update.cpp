@@ -13,15 +13,15 @@ ImageUpdate::ImageUpdate(const TrackerOptions& options) : options_(options) {}
 
 void ImageUpdate::apply(const GroupCamera& camera,
                         const StoredImage& image,
-                        CameraFit* fit,
+                        std::vector<CameraFit>* fits,
                         std::vector<Track>* tracks,
                         std::vector<MergedPair>* pairs) {
   noise_.pixel_stddev = options_.pixel_stddev;
   noise_.stamp_stddev = image.stamp_stddev;
   collectCandidates(camera, image, tracks);
   assign(camera, image, *tracks);
-  measureFit(image, *tracks, fit);
-  if (fit->isMisfit()) {
+  measureFit(image, *tracks, fits);
+  if ((*fits)[image.camera].isMisfit() && fits->size() > 2) {
     track_of_spot_.fill(association::kFalseDetection);
     return;
   }
@@ -88,32 +88,41 @@ std::size_t ImageUpdate::othersSeeing(const StoredImage& image, const Track& tra
   return track.othersSeeing(image.camera, image.time - options_.birth_window);
 }
 
-/// Compares the image with the LEDs that other cameras see.
+/// Compares the image with the LEDs that other cameras see. Two cameras that did not fit each other
+/// have to show that the rays of each LED meet; of spots that both have and that form no LED, there
+/// ought to be none.
 void ImageUpdate::measureFit(const StoredImage& image,
                              const std::vector<Track>& tracks,
-                             CameraFit* fit) const {
+                             std::vector<CameraFit>* fits) const {
+  const bool is_pair = fits->size() == 2;
+  CameraFit& fit = (*fits)[image.camera];
+  const bool is_tested = is_pair && fit.isMisfit();
+  const auto end = track_of_spot_.begin() + static_cast<std::ptrdiff_t>(image.spot_count);
+  auto unassigned = static_cast<std::size_t>(
+      std::count(track_of_spot_.begin(), end, association::kFalseDetection));
   std::size_t shown = 0;
-  std::size_t missing = 0;
+  std::size_t missing =
+      is_tested ? std::min(unassigned, (*fits)[1 - image.camera].unassigned()) : 0;
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const Candidate& candidate = candidates_[i];
     const Track& track = tracks[candidate.track];
     const std::size_t others = othersSeeing(image, track);
     if (!candidate.in_view || !track.isConfirmed() || others == 0)
       continue;
-    shown += candidate.spot != kNone;
+    const bool has_spot = candidate.spot != kNone;
+    const bool is_astray = has_spot && is_tested && !track.raysMeet();
     // Beside an LED that has a spot it may be merged.
-    missing += candidate.spot == kNone && others >= 2 &&
-               !isBeside(candidate, options_.merging_distance, true);
+    const bool is_absent = !has_spot && others >= (is_pair ? 1 : 2) &&
+                           !isBeside(candidate, options_.merging_distance, true);
+    shown += has_spot && !is_astray;
+    missing += is_astray || is_absent;
+    unassigned += is_astray;
     if (others < 2)
       continue;
     if (const auto residual = residualOf(image, candidate))
-      fit->addResidual(candidate.prediction.velocity(), *residual);
+      fit.addResidual(candidate.prediction.velocity(), *residual);
   }
-  const auto unassigned = static_cast<std::size_t>(
-      std::count(track_of_spot_.begin(),
-                 track_of_spot_.begin() + static_cast<std::ptrdiff_t>(image.spot_count),
-                 association::kFalseDetection));
-  fit->add(shown, missing, unassigned);
+  fit.add(shown, missing, unassigned);
 }
 
 /// Whether another LED is within a distance [px]. @param has_spot only such LEDs count

@@ -24,10 +24,12 @@ class ImageUpdate {
  public:
   explicit ImageUpdate(const TrackerOptions& options);
 
-  /// If the image does not fit, all its spots are false detections.
+  /// If the image does not fit, all its spots are false detections; but those of one of only two
+  /// cameras are used, or it would never be known to fit again.
+  /// @param fits one per camera of the group; that of the image's is updated
   void apply(const GroupCamera& camera,
              const StoredImage& image,
-             CameraFit* fit,
+             std::vector<CameraFit>* fits,
              std::vector<Track>* tracks,
              std::vector<MergedPair>* pairs);
 
@@ -53,7 +55,9 @@ class ImageUpdate {
                       const motion::PixelPrediction& prediction,
                       double time) const;
   std::size_t othersSeeing(const StoredImage& image, const Track& track) const;
-  void measureFit(const StoredImage& image, const std::vector<Track>& tracks, CameraFit* fit) const;
+  void measureFit(const StoredImage& image,
+                  const std::vector<Track>& tracks,
+                  std::vector<CameraFit>* fits) const;
   bool isBeside(const Candidate& candidate, double distance, bool has_spot) const;
   std::optional<Eigen::Vector2d> residualOf(const StoredImage& image,
                                             const Candidate& candidate) const;

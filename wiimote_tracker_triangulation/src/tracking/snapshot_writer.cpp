@@ -26,8 +26,12 @@ void writeLeds(const std::vector<std::unique_ptr<CameraGroup>>& groups,
   snapshot->time = time;
   auto led = snapshot->leds.begin();
   for (const auto& group : groups) {
-    for (const Track& track : group->tracks())
-      track.report(time, options, group->members(), &*led++);
+    for (const Track& track : group->tracks()) {
+      track.report(time, options, group->members(), &*led);
+      if (led->state == TrackState::kTracked && group->isDoubtful())
+        led->state = TrackState::kPredicted;
+      ++led;
+    }
   }
   std::sort(snapshot->leds.begin(), led, hasSmallerId);
 }

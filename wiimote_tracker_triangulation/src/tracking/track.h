@@ -68,6 +68,9 @@ class Track {
   /// has one of the other too.
   bool isShownBeside(const Track& other, double since) const;
 
+  /// Whether the rays of the cameras that see it have met for long.
+  bool raysMeet() const { return agreement_.areLikelyOne(); }
+
   /// Whether the camera's last image should have shown it and did not.
   bool wasMissedBy(std::size_t camera) const;
 

@@ -1,0 +1,130 @@
+// A camera that is turned while LEDs are tracked.
+#include "tracking/tracker_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::tracking::test {
+namespace {
+
+constexpr std::size_t kKnocked = 1;
+constexpr double kKnock = 4.0;  // since the start [s]
+constexpr double kBack = 8.0;   // turned back [s]
+constexpr double kEnd = 11.0;   // [s]
+
+struct Knock {
+  std::optional<double> out;   // after the knock the camera is a misfit [s]
+  std::optional<double> used;  // after it is turned back it is none [s]
+  std::size_t alarms = 0;      // snapshots in which another camera is one, or this before
+  std::size_t leds = 0;        // in snapshots while the camera is turned, and after
+  std::size_t tracked = 0;
+  double worst = 0.0;  // distance of a tracked point from the nearest LED while turned [m]
+};
+
+bool isMisfit(const Tracker& tracker, std::size_t camera) {
+  const auto fault = tracker.cameraFault(camera);
+  return fault && fault->kind == CameraFault::Kind::kMisfit;
+}
+
+double distanceToNearest(const std::vector<Path>& leds, const TrackedLed& led, double time) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Path& path : leds)
+    least = std::min(least, (path(time) - led.position).norm());
+  return least;
+}
+
+/// Turns a camera and back. @param direction in its image plane, about which it turns [rad]
+Knock knock(std::size_t cameras,
+            const std::vector<Path>& leds,
+            double degrees,
+            double direction,
+            unsigned seed) {
+  geometry::Rig rig = paperRig();
+  rig.cameras.resize(cameras);
+  geometry::Rig turned = rig;
+  const Eigen::Vector3d axis(std::cos(direction), std::sin(direction), 0.0);
+  turned.cameras[kKnocked].camera.world_from_camera.rotate(
+      Eigen::AngleAxisd(degrees * M_PI / 180.0, axis));
+  SceneOptions options;
+  options.dropout = 0.02;
+  options.ghosts = 0.1;
+  options.merging_distance = 8.0;
+  Scene before(rig, leds, options, seed);
+  Scene during(turned, leds, options, seed);  // exposes at the same times
+  Tracker tracker(rig, exactOptions());
+  Knock result;
+  for (double time = 0.0; time < kEnd;) {
+    const SceneImage& right = before.next();
+    const SceneImage& wrong = during.next();
+    time = right.true_time - options.start;
+    const bool is_turned = time >= kKnock && time < kBack;
+    tracker.add(right.camera, is_turned ? wrong.image : right.image);
+    const bool is_misfit = isMisfit(tracker, kKnocked);
+    if (is_turned && is_misfit && !result.out)
+      result.out = time - kKnock;
+    if (time >= kBack && !is_misfit && !result.used)
+      result.used = time - kBack;
+    for (std::size_t camera = 0; camera < cameras; ++camera)
+      result.alarms += (camera != kKnocked || time < kKnock) && isMisfit(tracker, camera);
+    while (const Snapshot* snapshot = tracker.next()) {
+      if (time < kKnock)
+        continue;
+      result.leds += leds.size();
+      for (const TrackedLed& led : snapshot->leds) {
+        if (led.state != TrackState::kTracked)
+          continue;
+        ++result.tracked;
+        if (is_turned)
+          result.worst = std::max(result.worst, distanceToNearest(leds, led, snapshot->time));
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<Path> oneWanderer(unsigned seed) {
+  geometry::test::Random random(seed);
+  return {wandering(random, {1.25, 1.25, 1.0}, 0.6, 1.0)};
+}
+
+TEST(TrackerKnocks, AKnockedCameraIsLeftOutWithinASecondAndTheOthersGoOn) {
+  for (const std::size_t cameras : {3u, 4u}) {
+    for (const double degrees : {1.0, 2.0, 3.0}) {
+      for (const std::vector<Path>& leds :
+           {oneWanderer(1), wanderers(4, 1), {still({1.0, 1.4, 1.2})}}) {
+        const std::string what = std::to_string(cameras) + " cameras, " +
+                                 std::to_string(leds.size()) + " LEDs, " + std::to_string(degrees);
+        const Knock result = knock(cameras, leds, degrees, degrees, 2);
+        ASSERT_TRUE(result.out && result.used) << what;
+        EXPECT_LE(*result.out, 1.0) << what;
+        EXPECT_LE(*result.used, 1.0) << what;
+        EXPECT_EQ(0u, result.alarms) << what;
+        EXPECT_GE(result.tracked, 0.999 * result.leds) << what;
+        EXPECT_LT(result.worst, 0.025) << what;
+      }
+    }
+  }
+}
+
+/// The other direction moves spots along the rays of the other camera, so that they still meet.
+TEST(TrackerKnocks, OfTwoCamerasNoWrongPointsAreTracked) {
+  for (const double degrees : {1.0, 2.0, 3.0}) {
+    for (const unsigned seed : {1u, 2u, 3u}) {
+      const Knock result = knock(2, wanderers(4, seed), degrees, 0.0, seed);
+      ASSERT_TRUE(result.out && result.used) << degrees;
+      EXPECT_LE(*result.out, 0.5) << degrees;
+      EXPECT_LE(*result.used, 2.0) << degrees;
+      EXPECT_LT(result.worst, 0.05) << degrees << " degrees, seed " << seed;
+      EXPECT_GT(result.tracked, 0.2 * result.leds) << "tracked again";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::tracking::test

@@ -2,6 +2,8 @@
 
 #include "node_fixture.h"
 
+#include <geometry_msgs/PolygonStamped.h>
+
 namespace wiimote_tracker {
 namespace {
 
@@ -17,6 +19,16 @@ TEST_F(Node, RequestsWithoutARigAreRefusedWithAdvice) {
   EXPECT_SAYS(loaded.message, folder_);
   EXPECT_SAYS(capture().message, "start one first");
   EXPECT_SAYS(call<std_srvs::Trigger>("calibration/undo").message, "no captured corner");
+}
+
+TEST_F(Node, TheWorldAndTheSquareAreShownBeforeACalibration) {
+  tf2_ros::Buffer buffer;
+  const tf2_ros::TransformListener listener(buffer);
+  EXPECT_TRUE(
+      waitUntil([&] { return buffer.canTransform("world", "world_square", ros::Time(0)); }));
+  EXPECT_TRUE(start(2.5, 2.0).success);
+  Latest<geometry_msgs::PolygonStamped> square("calibration/square");
+  EXPECT_TRUE(waitUntil([&] { return square.get() && square.get()->polygon.points.size() == 4; }));
 }
 
 TEST_F(Node, TheConnectionCheckNamesTheCamerasThatFail) {

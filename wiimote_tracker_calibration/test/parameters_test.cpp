@@ -1,5 +1,7 @@
 #include "../src/ros/parameters.h"
+#include "../src/ros/square_frame.h"
 
+#include <tf2_eigen/tf2_eigen.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
 #include <gtest/gtest.h>
@@ -106,6 +108,28 @@ TEST(Parameters, WhatThePaperDoesCanBeChosen) {
   EXPECT_EQ(paper.solve.correction.points, principal_point::Points::kAllCorners);
   EXPECT_EQ(paper.solve.ray_model, geometry::RayModel::kImageCenter);
   EXPECT_EQ(paper.solve.virtual_hfov, 0.7156);
+}
+
+TEST(Parameters, TheSquareIsWhereTheSolverPutsIt) {
+  workflow::CalibrationOptions options;
+  options.origin = {1.0, 0.5};
+  options.yaw = 0.3;
+  square::SquareLayout layout;
+  layout.side_x = 2.5;
+  layout.side_y = 2.0;
+  layout.origin = options.origin;
+  layout.yaw = options.yaw;
+  const Eigen::Isometry3d world_from_square = tf2::transformToEigen(squareTransform(options));
+  const auto outline = squareOutline(options, {2.5, 2.0});
+  EXPECT_EQ(outline.header.frame_id, squareTransform(options).child_frame_id);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const geometry_msgs::Point32& corner = outline.polygon.points.at(i);
+    EXPECT_LT((world_from_square * Eigen::Vector3d(corner.x, corner.y, corner.z) -
+               layout.corners(true)[i])
+                  .norm(),
+              1e-9);
+  }
+  EXPECT_TRUE(squareOutline(options, {}).polygon.points.empty());
 }
 
 TEST(Parameters, BadValuesAreRefusedByName) {

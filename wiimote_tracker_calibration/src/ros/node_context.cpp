@@ -3,6 +3,7 @@
 #include "session/judge.h"
 
 #include "camera_status.h"
+#include "square_frame.h"
 #include "verdict_messages.h"
 
 #include <wiimote_tracker_msgs/CalibrationStatus.h>
@@ -60,7 +61,12 @@ NodeContext::NodeContext(const ros::NodeHandle& nh, const Parameters& parameters
           nh_.advertise<wiimote_tracker_msgs::RigCalibration>("calibration/rig", 1, true)),
       verdict_publisher_(
           nh_.advertise<wiimote_tracker_msgs::CalibrationVerdict>("calibration/verdict", 1, true)),
-      inputs_(nh_, parameters.cameras, parameters.button_remote, &mutex_, &changed_) {}
+      square_publisher_(
+          nh_.advertise<geometry_msgs::PolygonStamped>("calibration/square", 1, true)),
+      inputs_(nh_, parameters.cameras, parameters.button_remote, &mutex_, &changed_) {
+  // Before a calibration, too, so that the world is a frame that others can show.
+  transforms_.sendTransform(squareTransform(parameters.calibration));
+}
 
 double NodeContext::now() {
   return ros::Time::now().toSec();
@@ -201,6 +207,17 @@ void NodeContext::publishStatus(const Lock& lock) {
   status.header.frame_id = parameters_.calibration.world_frame;
   status.cameras = cameraStatus(now(), 1.0, lock);
   status_publisher_.publish(status);
+  publishSquare(lock);
+}
+
+void NodeContext::publishSquare(const Lock&) {
+  std::vector<double> sides = calibration_.sides();
+  if (sides.empty() && calibration_.rig())
+    sides = calibration_.rig()->square_sides;
+  if (sides == square_sides_)
+    return;
+  square_sides_ = sides;
+  square_publisher_.publish(squareOutline(parameters_.calibration, sides));
 }
 
 }  // namespace wiimote_tracker

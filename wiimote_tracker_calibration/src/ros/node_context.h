@@ -133,6 +133,9 @@ class NodeContext {
   void publishStatus(const Lock& lock);
 
  private:
+  /// Publishes the square, when its sides have changed.
+  void publishSquare(const Lock&);
+
   ros::NodeHandle nh_;
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -144,6 +147,8 @@ class NodeContext {
   ros::Publisher status_publisher_;
   ros::Publisher rig_publisher_;
   ros::Publisher verdict_publisher_;
+  ros::Publisher square_publisher_;
+  std::vector<double> square_sides_;  // as published
   tf2_ros::StaticTransformBroadcaster transforms_;
   CameraInputs inputs_;
 };

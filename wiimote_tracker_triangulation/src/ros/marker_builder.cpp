@@ -95,7 +95,6 @@ visualization_msgs::MarkerArray MarkerBuilder::build(
     array_.markers.push_back(clear);
     must_clear_ = false;
   }
-  addSquare();
   for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
     const tracking::CameraView view = i < views.size() ? views[i] : tracking::CameraView();
     addCamera(i, view.time && time - *view.time < kNoImages);
@@ -118,8 +117,7 @@ visualization_msgs::MarkerArray MarkerBuilder::build(
 }
 
 Marker MarkerBuilder::marker(const std::string& ns, std::size_t id, int type) const {
-  const bool is_camera =
-      ns == "camera" || ns == "frustum" || ns == "image_plane" || ns == "mask" || ns == "square";
+  const bool is_camera = ns == "camera" || ns == "frustum" || ns == "image_plane" || ns == "mask";
   const double lifetime = std::max(is_camera ? kCameraLifetime : kLedLifetime, 3.0 / options_.rate);
   return markers::marker(rig_.world_frame, time_, lifetime, ns, id, type);
 }
@@ -157,20 +155,6 @@ void MarkerBuilder::addCamera(std::size_t index, bool has_images) {
 /// Whether z = 0 is the plane of a calibration square.
 bool MarkerBuilder::hasFloor() const {
   return rig_.square_sides.size() == 2;
-}
-
-/// The square of the calibration.
-void MarkerBuilder::addSquare() {
-  Marker square = marker("square", 0, Marker::LINE_STRIP);
-  square.scale.x = 2.0 * kLineWidth;
-  square.color = color(0.9f, 0.6f, 0.2f, 0.7f);
-  if (hasFloor()) {
-    const double x = rig_.square_sides[0], y = rig_.square_sides[1];
-    for (const Vector3d& corner : {Vector3d(0, 0, 0), Vector3d(x, 0, 0), Vector3d(x, y, 0),
-                                   Vector3d(0, y, 0), Vector3d(0, 0, 0)})
-      square.points.push_back(pointOf(corner));
-  }
-  add(square);
 }
 
 /// Discs on the image plane.

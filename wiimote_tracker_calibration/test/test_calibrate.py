@@ -125,15 +125,26 @@ def test_a_verdict_is_a_table():
         predicted_stddev=[0.0031, NAN],
         cameras=[CameraVerdict('wiimote_1', 0.31, 0.0012, 0.994, 0.0003, 0.002, 1.2, 2.1, NAN,
                                0.0001)])
-    assert [line for line in screen.render(guide, 1.0, 'verdict')[3:] if line][:8] == [
+    assert [line for line in screen.render(guide, 1.0, 'verdict')[3:] if line][:7] == [
         'USABLE   (rig 01234567)',
         'Usable: corner 3 is 8 mm off.',
         '                 residual   fits   known to within (standard deviation)',
         'camera            px    mm     %      mm    deg   f px   c px     k1     ms',
         'wiimote_1       0.31   1.2    99     2.0  0.017    1.2    2.1      -   0.10',
-        'A point will be right to within (standard deviation):',
-        '  at (0.00, 2.50, 0.00) m: 3.1 mm',
-        '  at (0.00, 2.50, 2.50) m: - mm']
+        'A point will be right to within (standard deviation), at x, y, z in metres:',
+        '(0.00, 2.50, 0.00) 3.1 mm (0.00, 2.50, 2.50) - mm']
+    guide.verdict.text = 'Usable. ' * 30
+    guide.verdict.cameras *= 4
+    guide.verdict.predicted_at = [Point(0, 0, z) for z in range(9)]
+    guide.verdict.predicted_stddev = [0.01] * 9
+    text = '\n'.join(screen.render(guide, 1.0, 'verdict'))
+    assert '(0.00, 0.00, 8.00) 10.0 mm' in text  # the highest are the worst
+
+
+def test_the_keys_are_explained_in_a_high_window():
+    guide = guide_at(status(CalibrationStatus.READY))
+    lines = screen.render(guide, 1.0, 'keys', rows=40, command_list=commands.RIG)
+    assert 'u   undo          drop the last corner' in lines
 
 
 def test_the_correction_of_the_principal_points_is_a_table():
@@ -282,7 +293,7 @@ def test_space_leads_through_a_whole_calibration():
 def test_what_fails_is_not_pressed_upon_the_person():
     guide = guide_at(status(CalibrationStatus.IDLE))
     guide.on_answer('masks', False, 'is not there', 1.0)
-    assert guide.advice().word == 'connection'  # without masks there are fewer lights to ignore
+    assert guide.advice().word == 'masks' and 'k goes on' in guide.advice().sentence
     guide.on_answer('connection', False, 'wiimote_2 sees nothing', 2.0)
     assert guide.advice().word == 'connection'
     assert 'n goes on' in guide.advice().sentence
@@ -327,6 +338,8 @@ def test_the_bell_rings_for_what_was_achieved():
 def test_it_says_how_long_it_took():
     guide = Guide(100.0)
     assert guide.took(160.4) == 'Nothing was calibrated and saved; this took 1 min 0 s.'
+    guide.on_status(status(CalibrationStatus.READY, corners_captured=3), 160.4)
+    assert guide.took(160.4).endswith('The node keeps 3 corners: calibrate goes on with them.')
     guide.on_answer('start', True, '', 110.0)
     guide.on_status(status(CalibrationStatus.READY, corners_captured=3), 120.0)
     guide.on_status(status(CalibrationStatus.COMPLETE, corners_captured=4), 150.0)

@@ -154,10 +154,11 @@ TEST_F(Workflow, AnExchangedDeviceIsNamed) {
 }
 
 TEST_F(Workflow, ABadStartKeepsTheRun) {
-  ASSERT_TRUE(calibration_.start(2.5, 2.0, names_).success);
+  EXPECT_SAYS(calibration_.start(2.5, 2.0, names_).message, "and a square of 2.5 m x 2 m");
   ASSERT_TRUE(capture(kCorners[0]).success);
   EXPECT_SAYS(calibration_.start(0.0, 0.0, names_).message, "greater than 0");
   EXPECT_SAYS(calibration_.start(2.5, std::nan(""), names_).message, "greater than 0");
+  EXPECT_SAYS(calibration_.start(250.0, 250.0, names_).message, "in metres");
   EXPECT_SAYS(calibration_.start(2.5, 2.5, {"a", "a"}).message, "at least two cameras");
   EXPECT_EQ(calibration_.square().corners().size(), 1U);
   EXPECT_EQ(calibration_.sides(), std::vector<double>({2.5, 2.0}));

@@ -160,7 +160,9 @@ class Guide:
     def took(self, now: float) -> str:
         """The last sentence: how long it took."""
         if self._started_at is None or self._saved_at is None:
-            return f'Nothing was calibrated and saved; this took {spoken(now - self.began)}.'
+            kept = self.status.corners_captured if self.status is not None else 0
+            return f'Nothing was calibrated and saved; this took {spoken(now - self.began)}.' + (
+                f' The node keeps {kept} corners: calibrate goes on with them.' if kept else '')
         text = f'Calibrated and saved in {spoken(self._saved_at - self._started_at)}'
         if self._square_at is not None:
             text += f', {spoken(self._square_at - self._started_at)} of it for the square'
@@ -169,9 +171,11 @@ class Guide:
     # --- Steps
 
     def _before_start(self) -> Advice:
-        if not {('masks', True), ('masks', False)} & self._tried:
+        tried = {word for word, _ in self._tried}
+        if not self.has_done('masks') and 'connection' not in tried:
             return Advice('Switch the LED off or take it away. SPACE learns which lights the room '
-                          'has, to ignore them.', 'masks')
+                          'has, to ignore them' + (
+                              ' (k goes on without).' if 'masks' in tried else '.'), 'masks')
         if not self.has_done('connection'):
             return Advice('Switch the LED on and hold it up where all cameras see it. SPACE checks '
                           'that they do (n goes on without).', 'connection')

@@ -2,7 +2,7 @@
 
 import math
 import textwrap
-from typing import List
+from typing import List, Sequence
 
 
 def wrapped(text: str, width: int, lines: int) -> List[str]:
@@ -37,6 +37,13 @@ def duration(seconds: float) -> str:
 def fitted(line: str, width: int) -> str:
     """Printable ASCII of at most this width: a device's name may hold anything."""
     return ''.join(c if ' ' <= c <= '~' else '?' for c in line)[:width].rstrip()
+
+
+def in_columns(texts: Sequence[str], count: int, width: int) -> List[str]:
+    """So many columns, each filled from top to bottom."""
+    rows = -(-len(texts) // count)
+    return [''.join(text.ljust(width) for text in texts[row::rows]).rstrip()
+            for row in range(rows)]
 
 
 def padded(lines: List[str], count: int) -> List[str]:

@@ -4,7 +4,7 @@ import math
 from typing import List, Optional, Sequence, Tuple
 
 from .guide import Guide
-from .layout import bar, duration, figure, fitted, padded, wrapped
+from .layout import bar, duration, figure, fitted, in_columns, padded, wrapped
 
 ROWS, COLUMNS = 24, 80          # the smallest window
 PANEL = 20                      # width of a camera's panel with its gap
@@ -39,7 +39,7 @@ def render(guide: Guide, now: float, view: str = 'cameras', page: int = 0, rows:
     room = rows - len(lines) - len(KEYS)
     said = saying(guide, columns)
     if view == 'keys':
-        lines += padded(key_lines(command_list), room)
+        lines += padded(key_lines(command_list, room), room)
     elif view == 'verdict':
         lines += padded(verdict_lines(guide.verdict, columns), room - len(said)) + said
     elif view == 'trace':
@@ -187,9 +187,10 @@ def verdict_lines(verdict, columns: int) -> List[str]:
             figure(camera.principal_point_stddev, 1), figure(camera.k1_stddev, 4),
             figure(1e3 * camera.time_offset_stddev, 2)))
     if verdict.predicted_at:
-        lines += ['', 'A point will be right to within (standard deviation):']
-        lines += [f'  at ({at.x:.2f}, {at.y:.2f}, {at.z:.2f}) m: {figure(1e3 * sigma, 1)} mm'
-                  for at, sigma in zip(verdict.predicted_at, verdict.predicted_stddev)]
+        lines.append('A point will be right to within (standard deviation), at x, y, z in metres:')
+        lines += in_columns([
+            f'({at.x:.2f}, {at.y:.2f}, {at.z:.2f}) {figure(1e3 * sigma, 1)} mm'
+            for at, sigma in zip(verdict.predicted_at, verdict.predicted_stddev)], 3, 26)
     return lines
 
 
@@ -208,9 +209,11 @@ def trace_lines(trace) -> List[str]:
     return lines
 
 
-def key_lines(command_list: Sequence) -> List[str]:
-    """Two columns: keys, and the words that stand for them with --plain."""
-    rows = [f'{command.key:<3} {command.word} {command.arguments}' for command in command_list]
-    half = (len(rows) + 1) // 2
-    return ['?   back       y   how the principal points were corrected', ''] + [
-        left.ljust(COLUMNS // 2) + right for left, right in zip(rows[:half], rows[half:] + [''])]
+def key_lines(command_list: Sequence, room: int) -> List[str]:
+    """Keys, the words that stand for them with --plain, and what they do, if there is room."""
+    lines = ['?   back       y   how the principal points were corrected', '']
+    if room >= len(lines) + len(command_list):
+        return lines + [f'{command.key:<3} {command.word:<13} {command.label}'
+                        for command in command_list]
+    return lines + in_columns([f'{command.key:<3} {command.word} {command.arguments}'
+                               for command in command_list], 2, COLUMNS // 2)

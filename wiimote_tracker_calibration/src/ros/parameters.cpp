@@ -149,8 +149,8 @@ Parameters readParameters(ParameterReader reader) {
   Parameters parameters;
   workflow::CalibrationOptions& calibration = parameters.calibration;
   parameters.cameras = reader.optional<std::vector<std::string>>("cameras", {});
-  parameters.side_length = reader.bounded("side_length", 0.0, 0.0, 1000.0);
-  parameters.second_side_length = reader.bounded("second_side_length", 0.0, 0.0, 1000.0);
+  parameters.side_length = reader.bounded("side_length", 0.0, 0.0, 20.0);
+  parameters.second_side_length = reader.bounded("second_side_length", 0.0, 0.0, 20.0);
   parameters.rig_file = reader.optional<std::string>("rig_file", "");
   if (parameters.rig_file.empty())
     parameters.rig_file = defaultRigFile();

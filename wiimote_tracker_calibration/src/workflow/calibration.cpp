@@ -14,6 +14,8 @@ namespace wiimote_tracker::workflow {
 
 namespace {
 
+constexpr double kLongestSide = 20.0;  // of a square that Wii Remotes see [m]
+
 std::string seconds(double value) {
   return format("%.1f s", value);
 }
@@ -48,6 +50,9 @@ Reply Calibration::start(double side_x, double side_y, const std::vector<std::st
   } catch (const square::SquareError& error) {
     return refuse(error.what());
   }
+  if (std::max(side_x, side_y) > kLongestSide)
+    return refuse(format("a square of %g m x %g m is larger than %g m: give its sides in metres",
+                         side_x, side_y, kLongestSide));
   return startWith(newRun(cameras, layout, options_));
 }
 
@@ -66,9 +71,13 @@ Reply Calibration::startWith(Captured captured) {
   just_solved_ = false;
   setHandsFree(hands_free_on_);
   step_ = Step::kReady;
+  const std::string started = "started with " + std::to_string(count) + " cameras";
+  if (!captured_.layout)
+    return accept(started + ": wave a wand of known length");
   return accept(
-      "started with " + std::to_string(count) + " cameras: " +
-      (captured_.layout ? captured_.square.next() : std::string("wave a wand of known length")));
+      started +
+      format(" and a square of %g m x %g m: ", captured_.layout->side_x, captured_.layout->side_y) +
+      captured_.square.next());
 }
 
 Reply Calibration::beginCapture(std::optional<std::size_t> retake, double now) {

@@ -56,6 +56,7 @@ def test_a_camera_may_have_parameters_of_its_own(tmp_path):
     ('cameras: {a: ""}', 'as a text in quotes'),
     ('cameras: {a: {}}', 'as a text in quotes'),
     ('cameras: {a: 11:22:33:44:55:06}', 'as a text in quotes'),
+    ('cameras: {a: "00:1f:32:00:00"}', 'camera a has the device 00:1f:32:00:00:'),
     ('cameras: {"a b": "00:1f:32:00:00:01"}', "camera name 'a b'"),
     ('cameras: {1: "00:1f:32:00:00:01"}', 'camera name 1'),
     ('cameras: {a: "00:1F:32:00:00:01", b: "00:1f:32:00:00:01"}', 'so has another one'),

@@ -1,0 +1,53 @@
+"""Launch files take paths from the user's folder, with spaces, and leave no simulated time."""
+
+import os
+import re
+import shlex
+
+import pytest
+import roslaunch.config
+
+LAUNCH = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../launch')
+
+
+@pytest.fixture
+def load(monkeypatch):
+    monkeypatch.setenv('PWD', '/home/my lab')
+
+    def load(name, *arguments):
+        """Nodes by name, and parameters."""
+        config = roslaunch.config.load_config_default(
+            [(os.path.join(LAUNCH, name), list(arguments))], 11311, verbose=False)
+        return ({node.name: node for node in config.nodes},
+                {name: parameter.value for name, parameter in config.params.items()})
+    return load
+
+
+@pytest.mark.parametrize('given, found', [
+    ('cameras.yaml', '/home/my lab/cameras.yaml'), ('/etc/cameras.yaml', '/etc/cameras.yaml'),
+    ('', '')])
+def test_cameras_are_where_the_user_says(load, given, found):
+    assert load('tracker.launch', 'cameras:=' + given)[1]['/drivers/file'] == found
+
+
+@pytest.mark.parametrize('given, found', [
+    ('rec 1.bag', '/home/my lab/rec 1.bag'), ('/data/rec.bag', '/data/rec.bag')])
+def test_a_bag_is_replayed_from_where_the_user_says(load, given, found):
+    nodes, _ = load('replay.launch', 'bag:=' + given)
+    assert shlex.split(nodes['play'].args)[-1] == found
+
+
+def test_a_live_start_ends_the_simulated_time_of_a_replay(load):
+    assert load('replay.launch', 'bag:=x')[1]['/use_sim_time'] is True
+    assert load('tracker.launch')[1]['/use_sim_time'] is False
+    assert '/use_sim_time' not in load('calibrate.launch', 'drivers:=false')[1]
+
+
+def test_a_recording_has_all_results_and_is_written_where_the_user_stands(load):
+    nodes, _ = load('record.launch')
+    arguments = shlex.split(next(iter(nodes.values())).args)
+    assert '--output-prefix=/home/my lab/tracker' in arguments
+    for topic in ('/wiimote_1/ir_blobs', '/room/wiimote_1/joy', '/calibration/rig', '/points',
+                  '/bodies', '/wand/pose', '/gestures', '/tf', '/tf_static', '/diagnostics'):
+        assert re.fullmatch(arguments[-1], topic), topic
+    assert not re.fullmatch(arguments[-1], '/markers')

@@ -16,6 +16,11 @@ double timeOffset(const RigCamera& camera, std::uint32_t clock_epoch) {
   return 0.0;
 }
 
+bool isTimeOffsetKnown(const RigCamera& camera, std::uint32_t clock_epoch) {
+  return camera.time_offset_rule != TimeOffsetRule::kOneEpoch ||
+         clock_epoch == camera.time_offset_epoch;
+}
+
 bool isMasked(const RigCamera& camera, const Eigen::Vector2d& pixel) {
   return std::any_of(camera.masks.begin(), camera.masks.end(), [&](const ImageMask& mask) {
     return (pixel - mask.center).norm() <= mask.radius;

@@ -13,6 +13,9 @@ namespace wiimote_tracker::geometry {
 /// rig's offset does not hold.
 double timeOffset(const RigCamera& camera, std::uint32_t clock_epoch);
 
+/// False in a clock epoch that the camera's offset was not calibrated for.
+bool isTimeOffsetKnown(const RigCamera& camera, std::uint32_t clock_epoch);
+
 /// Whether light at this pixel is to be ignored.
 bool isMasked(const RigCamera& camera, const Eigen::Vector2d& pixel);
 

@@ -1,10 +1,10 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_FIT_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_FIT_H
 
-#include <Eigen/Core>
+#include "clock_offset.h"
 
 #include <cstddef>
-#include <optional>
+#include <cstdint>
 
 namespace wiimote_tracker::tracking {
 
@@ -35,23 +35,16 @@ class CameraFit {
   /// Of the newest image.
   std::size_t unassigned() const { return unassigned_; }
 
-  /// @param velocity of the LED in the image [px/s]. @param residual of its spot [px].
-  void addResidual(const Eigen::Vector2d& velocity, const Eigen::Vector2d& residual);
+  /// @param epoch of the newest image's clock. @param is_known whether the rig's time offset holds
+  /// in it. @param correction of a known one [s].
+  /// @returns whether any is another than before, so that the clock starts anew.
+  bool noteEpoch(std::uint32_t epoch, bool is_known, double correction);
+  std::uint32_t epoch() const { return epoch_; }
+  bool isOffsetKnown() const { return offset_known_; }
 
-  /// By how much the images' times are too late [s], from the regression of residuals on
-  /// velocities; nothing until it is accurate to about 0.5 ms.
-  std::optional<double> clockError() const;
-  void forgetClockError() { clock_ = Clock(); }
+  ClockOffset clock;  ///< In this epoch.
 
  private:
-  struct Clock {
-    double count = 0.0;
-    Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // sums
-    Eigen::Vector2d residual = Eigen::Vector2d::Zero();
-    double squares = 0.0;   // velocity . velocity
-    double products = 0.0;  // velocity . residual
-  };
-
   Limits limits_;
   double fits_ = 0.0;              // of recent LEDs
   double misfits_ = 0.0;           // the same
@@ -59,7 +52,9 @@ class CameraFit {
   double complete_images_ = 10.0;  // the expected rate counts as ten
   std::size_t unassigned_ = 0;     // of the newest image
   bool misfit_ = false;
-  Clock clock_;
+  std::uint32_t epoch_ = 0;
+  bool offset_known_ = true;
+  double correction_ = 0.0;  // [s]
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace wiimote_tracker::tracking {
 namespace {
@@ -16,6 +17,8 @@ constexpr CameraFit::Limits kFitOfMany{40.0, 0.4, 0.7};
 // Doubted sooner, as tracks may follow wrong spots, and longer; but LEDs that each camera alone
 // sees look like a misfit.
 constexpr CameraFit::Limits kFitOfTwo{30.0, 0.55, 0.1};
+
+constexpr double kOffsetStddev = 0.005;  // of a clock in an epoch that was not calibrated [s]
 
 constexpr std::size_t kMostClocks = 64;  // that are compared
 
@@ -58,14 +61,14 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
       history_(kKeepInterval) {
   for (const std::size_t member : members_)
     cameras_.emplace_back(rig, member);
-  fits_.resize(cameras_.size(),
-               CameraFit(options.ghost_rate, cameras_.size() > 2 ? kFitOfMany : kFitOfTwo));
+  state_.fits.resize(cameras_.size(),
+                     CameraFit(options.ghost_rate, cameras_.size() > 2 ? kFitOfMany : kFitOfTwo));
   clock_errors_.resize(cameras_.size());
   state_.unassigned.resize(cameras_.size());
 }
 
 bool CameraGroup::isDoubtful() const {
-  return fits_.size() == 2 && (fits_[0].isMisfit() || fits_[1].isMisfit());
+  return state_.fits.size() == 2 && (isMisfit(0) || isMisfit(1));
 }
 
 CameraGroup::Outcome CameraGroup::add(const StoredImage& image,
@@ -117,11 +120,11 @@ std::optional<std::uint64_t> CameraGroup::mistimedBefore(std::uint64_t place,
 void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views) {
   const GroupCamera& camera = cameras_[image.camera];
   std::vector<Track>& tracks = state_.tracks;
-  update_.apply(camera, image, &fits_, &tracks, &state_.pairs);
+  update_.apply(camera, image, &state_.fits, &tracks, &state_.pairs);
   removeMergedPairs(image.time);
   show(image, views);
   collectUnassigned(image);
-  if (fits_[image.camera].isMisfit() && fits_.size() > 2)
+  if (isMisfit(image.camera) && state_.fits.size() > 2)
     state_.unassigned[image.camera].count = 0;
   initiation_.apply(cameras_, image.camera, &state_.unassigned, &tracks, ids);
   for (Track& track : tracks) {
@@ -139,17 +142,61 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
                tracks.end());
 }
 
+ClockOffset::Estimate CameraGroup::clock(std::size_t member,
+                                         std::uint32_t epoch,
+                                         bool offset_known) const {
+  if (offset_known)
+    return {clock_errors_[member], 0.0};
+  const CameraFit& fit = state_.fits[member];
+  if (fit.epoch() != epoch || fit.isOffsetKnown())
+    return {0.0, kOffsetStddev * kOffsetStddev};
+  ClockOffset::Estimate clock = fit.clock.estimate(kOffsetStddev, predictionLag());
+  clock.offset -= clockReference();
+  return clock;
+}
+
+/// How far the predictions lag behind the LEDs, as the cameras with known offsets see it [m]: less
+/// than a millimetre, because the modes at rest take part, but like an offset of a millisecond.
+double CameraGroup::predictionLag() const {
+  double products = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    const CameraFit& fit = state_.fits[i];
+    if (!fit.isOffsetKnown() || fit.isMisfit() || clock_errors_[i] != 0.0)
+      continue;
+    products += fit.clock.forwardResidual();
+    squares += fit.clock.forwardSquared();
+  }
+  return squares > 0.0 ? products / squares : 0.0;
+}
+
+/// What the unknown offsets are relative to: the known ones, or the mean of all [s].
+double CameraGroup::clockReference() const {
+  double sum = 0.0;
+  for (const CameraFit& fit : state_.fits) {
+    if (fit.isOffsetKnown())
+      return 0.0;
+    sum += fit.clock.estimate(kOffsetStddev, 0.0).offset;
+  }
+  return sum / static_cast<double>(state_.fits.size());
+}
+
 /// Corrects the cameras whose times differ from those of most, by the median of all errors.
 void CameraGroup::correctClocks() {
   constexpr double kNoticeable = 0.004;  // [s]
   constexpr double kResolution = 0.001;  // of clocks that were corrected before [s]
+  constexpr double kAccurate = 0.0005;   // standard deviation [s]
   constexpr double kLargest = 0.06;      // [s]; larger ones do not fit at all
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
   std::array<double, kMostClocks> errors;
   std::size_t count = 0;
-  const auto errorOf = [](const CameraFit& fit) {
-    return fit.isMisfit() ? std::nullopt : fit.clockError();
+  const auto errorOf = [](const CameraFit& fit) -> std::optional<double> {
+    const ClockOffset::Estimate error = fit.clock.estimate(kUnknown, 0.0);
+    if (fit.isMisfit() || !fit.isOffsetKnown() || !(error.variance <= kAccurate * kAccurate))
+      return std::nullopt;
+    return error.offset;
   };
-  for (const CameraFit& fit : fits_) {
+  for (const CameraFit& fit : state_.fits) {
     const auto error = errorOf(fit);
     if (error && count < errors.size())
       errors[count++] = *error;
@@ -158,17 +205,11 @@ void CameraGroup::correctClocks() {
     return;
   const auto middle = errors.begin() + (count - 1) / 2;
   std::nth_element(errors.begin(), middle, errors.begin() + count);
-  bool corrected = false;
-  for (std::size_t i = 0; i < fits_.size(); ++i) {
-    const double error = errorOf(fits_[i]).value_or(*middle) - *middle;
-    if (std::abs(error) < (clock_errors_[i] != 0.0 ? kResolution : kNoticeable))
-      continue;
-    clock_errors_[i] = std::clamp(clock_errors_[i] + error, -kLargest, kLargest);
-    corrected = true;
-  }
-  for (CameraFit& fit : fits_) {
-    if (corrected)
-      fit.forgetClockError();
+  for (std::size_t i = 0; i < clock_errors_.size(); ++i) {
+    const auto error = errorOf(state_.fits[i]);
+    if (error && std::abs(*error - *middle - clock_errors_[i]) >=
+                     (clock_errors_[i] != 0.0 ? kResolution : kNoticeable))
+      clock_errors_[i] = std::clamp(*error - *middle, -kLargest, kLargest);
   }
 }
 

@@ -40,12 +40,17 @@ class CameraGroup {
   Outcome add(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
 
   /// Whether a camera's images are left out because they do not fit the others'.
-  bool isMisfit(std::size_t member) const { return fits_[member].isMisfit(); }
+  bool isMisfit(std::size_t member) const { return state_.fits[member].isMisfit(); }
 
   /// Whether there are only two cameras, which do not fit each other: then no LED is located.
   bool isDoubtful() const;
 
-  /// By how much the times of a camera's images are too late [s]; to be subtracted before add().
+  /// By how much the times of a camera's images are too late; to be subtracted before add().
+  /// @param offset_known whether the rig's time offset holds in this epoch
+  ClockOffset::Estimate clock(std::size_t member, std::uint32_t epoch, bool offset_known) const;
+
+  /// By how much the times of a camera whose offset should be known are too late [s]; 0 unless it
+  /// is much.
   double clockError(std::size_t member) const { return clock_errors_[member]; }
 
   const GroupCamera& camera(std::size_t member) const { return cameras_[member]; }
@@ -63,10 +68,13 @@ class CameraGroup {
     std::vector<Track> tracks;
     std::vector<MergedPair> pairs;
     std::vector<UnassignedSpots> unassigned;  // per camera
+    std::vector<CameraFit> fits;              // per camera
   };
 
   std::optional<std::uint64_t> mistimedBefore(std::uint64_t place, const StoredImage& image) const;
   void step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
+  double predictionLag() const;
+  double clockReference() const;
   void correctClocks();
   void removeMergedPairs(double time);
   void collectUnassigned(const StoredImage& image);
@@ -77,7 +85,6 @@ class CameraGroup {
   std::vector<GroupCamera> cameras_;
   ImageUpdate update_;
   TrackInitiation initiation_;
-  std::vector<CameraFit> fits_;       // per camera
   std::vector<double> clock_errors_;  // per camera [s]
   State state_;
   History<State> history_;

@@ -21,6 +21,7 @@ void ImageUpdate::apply(const GroupCamera& camera,
   collectCandidates(camera, image, tracks);
   assign(camera, image, *tracks);
   measureFit(image, *tracks, fits);
+  measureClock(image, *tracks, fits);
   if ((*fits)[image.camera].isMisfit() && fits->size() > 2) {
     track_of_spot_.fill(association::kFalseDetection);
     return;
@@ -117,12 +118,39 @@ void ImageUpdate::measureFit(const StoredImage& image,
     shown += has_spot && !is_astray;
     missing += is_astray || is_absent;
     unassigned += is_astray;
-    if (others < 2)
-      continue;
-    if (const auto residual = residualOf(image, candidate))
-      fit.addResidual(candidate.prediction.velocity(), *residual);
   }
   fit.add(shown, missing, unassigned);
+}
+
+/// Compares the image with the motion of LEDs that two other cameras see.
+void ImageUpdate::measureClock(const StoredImage& image,
+                               const std::vector<Track>& tracks,
+                               std::vector<CameraFit>* fits) const {
+  constexpr double kLeastSpeed = 0.1;  // of an LED that tells about time [m/s]
+  CameraFit& fit = (*fits)[image.camera];
+  if (fit.noteEpoch(image.clock_epoch, image.offset_known,
+                    image.offset_known ? image.clock_correction : 0.0)) {
+    for (CameraFit& each : *fits)
+      each.clock = ClockOffset();
+  }
+  for (std::size_t i = 0; i < candidate_count_; ++i) {
+    const Candidate& candidate = candidates_[i];
+    const Track& track = tracks[candidate.track];
+    if (!candidate.in_view || !track.isConfirmed() || othersSeeing(image, track) < 2)
+      continue;
+    const Eigen::Vector3d velocity = track.filter.velocity();
+    const auto residual = residualOf(image, candidate);
+    if (!residual || !(velocity.norm() >= kLeastSpeed))
+      continue;
+    const auto& jacobian = candidate.prediction.jacobian();
+    Eigen::Vector2d visible = candidate.prediction.velocity();
+    // The track follows the camera's own spots, too, and hides a part of the offset. (The error of
+    // an offset that should be known is corrected step by step.)
+    if (!image.offset_known)
+      visible -= jacobian *
+                 (track.leverageOf(image.camera, image.time - options_.birth_window) * velocity);
+    fit.clock.add(visible, jacobian * velocity.normalized(), *residual, image.clock_correction);
+  }
 }
 
 /// Whether another LED is within a distance [px]. @param has_spot only such LEDs count

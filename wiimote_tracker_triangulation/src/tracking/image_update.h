@@ -58,6 +58,9 @@ class ImageUpdate {
   void measureFit(const StoredImage& image,
                   const std::vector<Track>& tracks,
                   std::vector<CameraFit>* fits) const;
+  void measureClock(const StoredImage& image,
+                    const std::vector<Track>& tracks,
+                    std::vector<CameraFit>* fits) const;
   bool isBeside(const Candidate& candidate, double distance, bool has_spot) const;
   std::optional<Eigen::Vector2d> residualOf(const StoredImage& image,
                                             const Candidate& candidate) const;

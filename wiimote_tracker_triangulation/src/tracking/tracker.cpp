@@ -84,7 +84,9 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
   const double offset = geometry::timeOffset(rig_.cameras.at(camera), image.clock_epoch);
   const Place& place = places_[camera];
   CameraGroup& group = *groups_[place.group];
-  const double time = image.stamp + offset - group.clockError(place.member);
+  const bool offset_known = geometry::isTimeOffsetKnown(rig_.cameras[camera], image.clock_epoch);
+  const ClockOffset::Estimate clock = group.clock(place.member, image.clock_epoch, offset_known);
+  const double time = image.stamp + offset - clock.offset;
   if (!std::isfinite(time) || !std::isfinite(image.arrival)) {
     ++counters_.dropped;
     return;
@@ -103,6 +105,10 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
   }
   store(camera, image);
   image_->time = time;
+  image_->stamp_stddev = std::hypot(image_->stamp_stddev, std::sqrt(clock.variance));
+  image_->clock_epoch = image.clock_epoch;
+  image_->offset_known = offset_known;
+  image_->clock_correction = clock.offset;
   switch (group.add(*image_, ids_.get(), &views_)) {
     case CameraGroup::Outcome::kRepeated:
       ++counters_.repeated;

@@ -78,7 +78,8 @@ TEST(Tracker, OnlyTheLastImageOfABurstOfOneStampCounts) {
   std::vector<SceneImage> images = imagesOf(paperRig(), leds, {}, 1600);
   for (std::size_t i = 0; i < images.size(); ++i) {
     CameraImage& image = images[i].image;
-    // Twice a second all cameras' images are held up until there are three of each.
+    // Twice a second all cameras' images are held up until there are three of
+    // each.
     const double since = std::fmod(image.stamp, 0.5);
     const int rank = since < 0.4 ? -1 : static_cast<int>((since - 0.4) / 0.01);
     if (rank >= 0 && rank < 3) {
@@ -198,18 +199,18 @@ TEST(Tracker, InvalidInputNeverReachesAState) {
 TEST(Tracker, AppliesTheTimeOffsetsOfTheRig) {
   const std::vector<Path> leds = wanderers(2, 14);
   std::vector<SceneImage> images = imagesOf(paperRig(), leds, {}, 800);
-  Tracker plain(paperRig(), exactOptions());
-  track(&plain, images);
   geometry::Rig rig = paperRig();
-  rig.cameras[1].time_offset = 0.25;
+  rig.cameras[1].time_offset = 0.0;
   rig.cameras[1].time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
   rig.cameras[1].time_offset_epoch = 7;
+  for (SceneImage& image : images)  // later images are of another epoch
+    image.image.clock_epoch = image.camera == 1 && image.image.stamp < 1001.0 ? 7 : 0;
+  Tracker plain(rig, exactOptions());
+  track(&plain, images);
+  rig.cameras[1].time_offset = 0.25;
   for (SceneImage& image : images) {
-    if (image.camera == 1 && image.image.stamp < 1001.0) {
-      image.image.stamp -= 0.25;
-      image.image.arrival -= 0.25;
-      image.image.clock_epoch = 7;  // later images are of another epoch and need no offset
-    }
+    image.image.stamp -= image.image.clock_epoch == 7 ? 0.25 : 0.0;
+    image.image.arrival -= image.image.clock_epoch == 7 ? 0.25 : 0.0;
   }
   Tracker tracker(rig, exactOptions());
   track(&tracker, images);
@@ -217,7 +218,8 @@ TEST(Tracker, AppliesTheTimeOffsetsOfTheRig) {
   const Snapshot b = stateAt(tracker, 1002.0);
   ASSERT_EQ(a.leds.size(), b.leds.size());
   for (std::size_t i = 0; i < a.leds.size(); ++i)
-    EXPECT_LT((a.leds[i].position - b.leds[i].position).norm(), 1e-6);  // stamps are rounded
+    EXPECT_LT((a.leds[i].position - b.leds[i].position).norm(),
+              1e-6);  // stamps are rounded
 }
 
 TEST(Tracker, PredictsToAnyLaterTime) {

@@ -1,0 +1,51 @@
+#include "clock_offset.h"
+
+#include <algorithm>
+
+namespace wiimote_tracker::tracking {
+
+void ClockOffset::add(const Eigen::Vector2d& velocity,
+                      const Eigen::Vector2d& forward,
+                      const Eigen::Vector2d& residual,
+                      double correction) {
+  constexpr double kMost = 4000.0;  // spots, of which half are then forgotten
+  if (count_ >= kMost) {
+    for (double* sum : {&count_, &squared_velocity_, &squared_forward_, &squared_residual_,
+                        &velocity_forward_, &velocity_residual_, &forward_residual_})
+      *sum *= 0.5;
+    for (Eigen::Vector2d* sum : {&velocity_, &forward_, &residual_})
+      *sum *= 0.5;
+  }
+  const Eigen::Vector2d uncorrected = residual - correction * velocity;
+  count_ += 1.0;
+  velocity_ += velocity;
+  forward_ += forward;
+  residual_ += uncorrected;
+  squared_velocity_ += velocity.squaredNorm();
+  squared_forward_ += forward.squaredNorm();
+  squared_residual_ += uncorrected.squaredNorm();
+  velocity_forward_ += velocity.dot(forward);
+  velocity_residual_ += velocity.dot(uncorrected);
+  forward_residual_ += forward.dot(uncorrected);
+}
+
+ClockOffset::Estimate ClockOffset::estimate(double prior_stddev, double lag) const {
+  // What is assumed of the residuals until there are more: 1 px.
+  constexpr double kAssumed = 10.0;  // spots
+  const double prior = prior_stddev * prior_stddev;
+  if (!(count_ > 0.0 && prior > 0.0))
+    return {0.0, prior};
+  const Eigen::Vector2d sum = residual_ - lag * forward_;
+  const double velocities = squared_velocity_ - velocity_.squaredNorm() / count_;
+  const double products =
+      velocity_residual_ - lag * velocity_forward_ - velocity_.dot(sum) / count_;
+  const double residuals = squared_residual_ - 2.0 * lag * forward_residual_ +
+                           lag * lag * squared_forward_ - sum.squaredNorm() / count_;
+  const double explained = velocities > 0.0 ? products * products / velocities : 0.0;
+  const double noise =
+      (std::max(residuals - explained, 0.0) + 2.0 * kAssumed) / (2.0 * (count_ + kAssumed));
+  const double information = velocities / noise + 1.0 / prior;
+  return {-products / noise / information, 1.0 / information};
+}
+
+}  // namespace wiimote_tracker::tracking

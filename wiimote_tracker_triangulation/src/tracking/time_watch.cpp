@@ -1,6 +1,7 @@
 #include "tracking/time_watch.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wiimote_tracker::tracking {
 namespace {
@@ -39,15 +40,16 @@ void TimeWatch::note(double arrival, Camera* camera) {
 }
 
 void TimeWatch::Pair::add(double lead) {
-  if (images == kWindow) {
+  if (recent[0].count == kWindow) {
     recent[1] = recent[0];
-    recent[0] = Range();
-    images = 0;
+    recent[0] = Leads();
   }
-  ++images;
-  ++total;
-  recent[0].least = std::min(recent[0].least, lead);
-  recent[0].most = std::max(recent[0].most, lead);
+  ++recent[0].count;
+  recent[0].near += std::abs(lead) <= kTolerance;
+  recent[0].sum += lead;
+  const int total = recent[0].count + recent[1].count;
+  if (total >= kLeast)
+    agrees = 4 * (recent[0].near + recent[1].near) > total;
 }
 
 TimeWatch::Pair& TimeWatch::pairOf(std::size_t a, std::size_t b) {
@@ -57,7 +59,8 @@ TimeWatch::Pair& TimeWatch::pairOf(std::size_t a, std::size_t b) {
 /// Nothing while one of the two is silent.
 const TimeWatch::Pair* TimeWatch::activePair(std::size_t a, std::size_t b) const {
   const Pair& pair = pairs_[std::min(a, b) * cameras_.size() + std::max(a, b)];
-  return pair.total > 0 && pair.unanswered[0] <= kSilence && pair.unanswered[1] <= kSilence
+  return pair.recent[0].count > 0 && pair.unanswered[0] <= kSilence &&
+                 pair.unanswered[1] <= kSilence
              ? &pair
              : nullptr;
 }
@@ -73,21 +76,18 @@ bool TimeWatch::comparePairs(std::size_t camera, double arrival) {
     const bool is_first = camera < other;
     int& unanswered = pair.unanswered[is_first ? 0 : 1];
     int& other_unanswered = pair.unanswered[is_first ? 1 : 0];
-    changed |= unanswered++ == kSilence || other_unanswered > kSilence;
-    if (unanswered > kSilence || other_unanswered > kSilence) {
-      const int kept = unanswered;
-      pair = Pair();
-      pair.unanswered[is_first ? 0 : 1] = kept;
-    }
+    const bool was_silent = other_unanswered > kSilence;
+    ++unanswered;
+    changed |= was_silent || unanswered == kSilence + 1;
+    if (was_silent)
+      pair.recent = {};
     other_unanswered = 0;
-    if (unanswered > kSilence)
+    if (unanswered > 1)
       continue;
     const double lead = arrival - *cameras_[other].newest;
+    const bool agreed = pair.agrees;
     pair.add(is_first ? lead : -lead);
-    const bool agrees =
-        pair.total < kLeast || (pair.least() <= kTolerance && pair.most() >= -kTolerance);
-    changed |= agrees != pair.agrees;
-    pair.agrees = agrees;
+    changed |= agreed != pair.agrees;
   }
   return changed;
 }
@@ -149,7 +149,7 @@ std::optional<double> TimeWatch::ahead(std::size_t camera) const {
     const Pair* pair = other == camera ? nullptr : activePair(camera, other);
     if (!pair || !cameras_[other].trusted)
       continue;
-    const double lead = 0.5 * (pair->least() + pair->most());
+    const double lead = pair->meanLead();
     sum += camera < other ? lead : -lead;
     ++count;
   }

@@ -1,7 +1,6 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TIME_WATCH_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TIME_WATCH_H
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -15,8 +14,10 @@ namespace wiimote_tracker::tracking {
 ///
 /// No clock is read: images are checked as they come, so the newest images of two cameras have
 /// about the same arrival time if their computers' clocks agree. Delays make this true of some
-/// images only. So two clocks disagree if no recent image is within kTolerance, and the largest
-/// group of cameras that agree is trusted; none if two groups are equally large.
+/// images only, and of a few whose clocks disagree. So two clocks agree if more than a quarter of
+/// the recent comparisons are within kTolerance. Images of a camera that come together after a
+/// pause count as one. The largest group of cameras that agree is trusted; none if two groups are
+/// equally large.
 class TimeWatch {
  public:
   static constexpr double kTolerance = 0.04;  ///< Between clocks that agree [s].
@@ -41,19 +42,19 @@ class TimeWatch {
   bool isDisordered() const { return disordered_; }
 
  private:
-  /// By how much the newest image of one camera is ahead of another's, over recent images [s].
+  /// Recent leads of one camera over another: by how much its newest image is ahead [s].
   struct Pair {
-    struct Range {
-      double least = std::numeric_limits<double>::infinity();
-      double most = -std::numeric_limits<double>::infinity();
+    struct Leads {
+      int count = 0;
+      int near = 0;  // within kTolerance
+      double sum = 0.0;
     };
     void add(double lead);
-    double least() const { return std::min(recent[0].least, recent[1].least); }
-    double most() const { return std::max(recent[0].most, recent[1].most); }
+    double meanLead() const {
+      return (recent[0].sum + recent[1].sum) / (recent[0].count + recent[1].count);
+    }
 
-    std::array<Range, 2> recent;  // of the present and of the former kWindow images
-    int images = 0;               // in recent[0]
-    int total = 0;
+    std::array<Leads, 2> recent;  // the present and the former kWindow
     bool agrees = true;
     std::array<int, 2> unanswered{};  // images of either one since the other's last
   };
@@ -64,9 +65,10 @@ class TimeWatch {
     bool trusted = true;
   };
 
-  static constexpr int kWindow = 50;   ///< Images of two cameras; there are two windows.
-  static constexpr int kLeast = 4;     ///< Images before two cameras may disagree.
-  static constexpr int kSilence = 25;  ///< Images of one camera after which another is silent.
+  static constexpr int kWindow = 25;  ///< Comparisons of two cameras; there are two windows.
+  static constexpr int kLeast = 8;    ///< Comparisons before they may change whether two agree.
+  /// Images of one camera after which another is silent; more than come together after a pause.
+  static constexpr int kSilence = 100;
 
   Pair& pairOf(std::size_t a, std::size_t b);
   const Pair* activePair(std::size_t a, std::size_t b) const;

@@ -262,5 +262,37 @@ TEST(TrackerClocks, DelayedImagesAreNoWrongClocks) {
   EXPECT_LT(tracker.counters().dropped, 80u);  // those older than the history
 }
 
+/// Two of four cameras' clocks are wrong for 4 s, and their processes pause now and then: images
+/// that waited come all at once.
+IdentityCheck withWrongClocksAndPauses(const std::vector<Path>& leds, double ahead, double pause) {
+  std::vector<SceneImage> images = imagesOf(paperRig(), leds, {}, 4000);
+  for (SceneImage& image : images) {
+    const double arrival = image.image.arrival;
+    const double since = std::fmod(arrival, 1.3);
+    const bool waits = image.camera >= 2 && since < pause;
+    image.true_time = arrival + (waits ? pause - since : 0.0);  // of delivery
+    const bool wrong = image.camera >= 2 && arrival > 1003.2 && arrival < 1007.4;
+    image.image.stamp += wrong ? ahead : 0.0;
+    image.image.arrival += wrong ? ahead : 0.0;
+  }
+  std::stable_sort(images.begin(), images.end(),
+                   [](auto& a, auto& b) { return a.true_time < b.true_time; });
+  Tracker tracker(paperRig(), exactOptions());
+  IdentityCheck check(leds);
+  for (const Snapshot& snapshot : track(&tracker, images))
+    check.look(snapshot);
+  return check;
+}
+
+TEST(TrackerClocks, PausesDoNotMakeWrongClocksLookRight) {
+  for (const double ahead : {-0.5, 0.5}) {
+    for (const double pause : {0.47, 0.8}) {
+      const IdentityCheck check = withWrongClocksAndPauses(wanderers(3, 6), ahead, pause);
+      EXPECT_EQ(0u, check.false_tracks) << ahead << ", " << pause;
+      EXPECT_GT(check.near, 4000u) << ahead << ", " << pause;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::tracking::test

@@ -1,5 +1,7 @@
 #include "statistics.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,6 +28,18 @@ double CameraStatistics::meanDelay() const {
 
 double CameraStatistics::residual() const {
   return std::sqrt(quotient(squares_sum, assigned));
+}
+
+std::string describeLights(const CameraStatistics& statistics, const std::string& camera) {
+  constexpr double kMost = 3.0;  // per image; a Wii Remote reports at most four spots
+  const double others =
+      quotient(static_cast<double>(statistics.spots - statistics.assigned), statistics.views);
+  if (!(others > kMost && statistics.inlierRatio() < 0.5))
+    return "";
+  return format(
+      "%.0f spots in each image of %s belong to no LED that another camera sees: mask lamps and "
+      "reflections",
+      others, camera.c_str());
 }
 
 void Statistics::setRig(const geometry::Rig& rig) {
@@ -66,6 +80,7 @@ void Statistics::addSnapshot(const tracking::Snapshot& snapshot) {
     const tracking::CameraView& view = snapshot.views[i];
     if (!view.time || std::abs(*view.time - snapshot.time) > kSameTime)
       continue;
+    ++cameras_[i].views;
     for (const tracking::SeenSpot& spot : view.spots)
       addSpot(i, spot, snapshot.leds);
   }

@@ -18,7 +18,8 @@ namespace wiimote_tracker {
 struct CameraStatistics {
   std::size_t images = 0;
   std::uint64_t lost = 0;    ///< Images that the camera counted but that never came.
-  std::size_t spots = 0;     ///< In used images, without masked ones.
+  std::size_t views = 0;     ///< Images whose spots are counted.
+  std::size_t spots = 0;     ///< In these, without masked ones.
   std::size_t masked = 0;    ///< Spots.
   std::size_t assigned = 0;  ///< Spots that belong to an LED.
   double delay_sum = 0.0;    ///< From exposure to arrival [s].
@@ -29,6 +30,9 @@ struct CameraStatistics {
   double meanDelay() const;    ///< [s]
   double residual() const;     ///< sqrt(mean(du^2 + dv^2)) [px]
 };
+
+/// Names a camera that sees many lights, of which few are LEDs; empty for others.
+std::string describeLights(const CameraStatistics& statistics, const std::string& camera);
 
 /// Counts for diagnostics.
 class Statistics {

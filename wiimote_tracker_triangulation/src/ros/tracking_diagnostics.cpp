@@ -126,7 +126,8 @@ void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
   if (statistics.images == 0)
     status.summary(DiagnosticStatus::WARN, "no images");
   for (const std::string& problem :
-       {statistics.problem, lenses_.problemOf(cameras_[camera]), clockProblem(camera)}) {
+       {statistics.problem, describeLights(statistics, cameras_[camera]),
+        lenses_.problemOf(cameras_[camera]), clockProblem(camera)}) {
     if (!problem.empty())
       status.mergeSummary(DiagnosticStatus::WARN, problem);
   }

@@ -393,6 +393,23 @@ TEST(Statistics, CountsEachViewOnceWithoutMaskedSpots) {
   EXPECT_TRUE(std::isnan(statistics.camera(1).residual()));
 }
 
+TEST(Statistics, NameACameraThatSeesManyLights) {
+  const auto lights = [](std::size_t spots, std::size_t assigned) {
+    CameraStatistics statistics;
+    statistics.views = 100;
+    statistics.spots = spots;
+    statistics.assigned = assigned;
+    return describeLights(statistics, "cam");
+  };
+  EXPECT_EQ(
+      "5 spots in each image of cam belong to no LED that another camera sees: mask lamps and "
+      "reflections",
+      lights(800, 300));
+  EXPECT_EQ("", lights(300, 0)) << "three LEDs that only this camera sees";
+  EXPECT_EQ("", lights(800, 450)) << "most are LEDs";
+  EXPECT_EQ("", describeLights(CameraStatistics(), "cam"));
+}
+
 TEST(Statistics, DelaysLatenciesAndProblemsLastUntilTheyAreCleared) {
   Statistics statistics;
   statistics.setRig(someRig(1));

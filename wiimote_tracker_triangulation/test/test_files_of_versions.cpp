@@ -11,7 +11,9 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <random>
 #include <sstream>
+#include <string>
 
 namespace wiimote_tracker {
 namespace {
@@ -31,27 +33,63 @@ TEST(FilesOfVersion1, AreRead) {
   EXPECT_FALSE(identity::readBlinkCodes(kVersion1 / "blink_codes.yaml").codes.empty());
 }
 
+struct Reader {
+  const char* file;
+  std::function<void(const std::string&)> read;
+};
+
+const Reader kReaders[] = {
+    {"rig.yaml", [](const std::string& file) { geometry::readRigFile(file); }},
+    {"bodies.yaml", [](const std::string& file) { body::readBodies(file); }},
+    {"gestures.yaml", [](const std::string& file) { gesture::readExamples(file); }},
+    {"blink_codes.yaml", [](const std::string& file) { identity::readBlinkCodes(file); }}};
+
+std::string contentOf(const char* name) {
+  std::ostringstream text;
+  text << std::ifstream(kVersion1 / name).rdbuf();
+  return text.str();
+}
+
+/// Reads a file with this content. @returns why it is refused; empty if it is not.
+std::string refusalOf(const Reader& reader, const std::string& content) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / (std::to_string(::getpid()) + reader.file);
+  std::ofstream(file) << content;
+  std::string refusal;
+  try {
+    reader.read(file);
+  } catch (const geometry::Error& error) {
+    refusal = error.what();
+  }
+  std::filesystem::remove(file);
+  return refusal;
+}
+
 TEST(FilesOfALaterVersion, AreRefusedInWords) {
-  const std::pair<const char*, std::function<void(const std::string&)>> readers[] = {
-      {"rig.yaml", [](const std::string& file) { geometry::readRigFile(file); }},
-      {"bodies.yaml", [](const std::string& file) { body::readBodies(file); }},
-      {"gestures.yaml", [](const std::string& file) { gesture::readExamples(file); }},
-      {"blink_codes.yaml", [](const std::string& file) { identity::readBlinkCodes(file); }}};
-  for (const auto& [name, read] : readers) {
-    std::ostringstream text;
-    text << std::ifstream(kVersion1 / name).rdbuf();
-    std::string later = text.str();
+  for (const Reader& reader : kReaders) {
+    std::string later = contentOf(reader.file);
     later.replace(later.find("version: 1"), 10, "version: 2");
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / (std::to_string(::getpid()) + name);
-    std::ofstream(file) << later;
-    try {
-      read(file);
-      ADD_FAILURE() << name << " was read";
-    } catch (const geometry::Error& error) {
-      EXPECT_NE(std::string::npos, std::string(error.what()).find("version")) << error.what();
+    EXPECT_NE(std::string::npos, refusalOf(reader, later).find("version is 2")) << reader.file;
+  }
+}
+
+TEST(DamagedFiles, AreReadOrRefusedInWords) {  // rig.yaml: see test_rig_file.cpp
+  constexpr int kChanges = 300;
+  std::mt19937_64 random(1);
+  for (const Reader& reader : kReaders) {
+    if (reader.file == std::string("rig.yaml"))
+      continue;
+    const std::string whole = contentOf(reader.file);
+    int refused = 0;
+    for (int i = 0; i < kChanges; ++i) {
+      std::string damaged = whole;
+      for (auto bytes = 1 + random() % 8; bytes > 0; --bytes)
+        damaged[random() % damaged.size()] = static_cast<char>(random());
+      const std::string refusal = refusalOf(reader, damaged);
+      refused += !refusal.empty();
+      EXPECT_TRUE(refusal.empty() || refusal.size() > 20) << refusal;
     }
-    std::filesystem::remove(file);
+    EXPECT_GT(refused, kChanges / 2) << reader.file;
   }
 }
 

@@ -42,8 +42,9 @@ def joined(windows) -> Window:
 
 
 class Listener:
-    def __init__(self, leds):
-        self._helper = Helper(_record, leds)
+    def __init__(self, leds, points='points'):
+        """points: topic of the tracker."""
+        self._helper = Helper(_record, leds, points)
 
     def window(self, start, end) -> Window:
         return self._helper.ask((start, end), 120.0)
@@ -52,7 +53,7 @@ class Listener:
         self._helper.stop()
 
 
-def _record(pipe, leds):
+def _record(pipe, leds, points):
     import rospy
     from diagnostic_msgs.msg import DiagnosticArray
     from geometry_msgs.msg import PointStamped
@@ -63,7 +64,7 @@ def _record(pipe, leds):
         # Messages are read when they are asked for: receiving shall cost little.
         rospy.Subscriber(topic, kind, lambda message: received[topic].append(
             (time.time(), message._buff if kind is rospy.AnyMsg else message)), tcp_nodelay=True)
-    keep('points', rospy.AnyMsg)
+    keep(points, rospy.AnyMsg)
     keep('/diagnostics', DiagnosticArray)
     keep('/rosout', Log)
     for led in leds:
@@ -77,7 +78,7 @@ def _record(pipe, leds):
                                 for at, m in list(received['simulation/truth/' + led])
                                 if start - 12.0 <= at < end + 1.0]).reshape(-1, 4)
                  for led in leds}
-        pipe.send(Window(*_points(chosen.get('points', [])), truth, _said(chosen)))
+        pipe.send(Window(*_points(chosen.get(points, [])), truth, _said(chosen)))
 
 
 def _points(messages):

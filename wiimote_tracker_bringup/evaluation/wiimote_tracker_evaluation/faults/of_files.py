@@ -1,6 +1,9 @@
-"""Damaged files, through the service that loads them."""
+"""Damaged files, through the service that loads them; a full disk, through the one that saves."""
 
+import contextlib
+import os
 import random
+import subprocess
 
 from wiimote_tracker_evaluation.faults.helper import Helper
 from wiimote_tracker_evaluation.faults.row import fault
@@ -70,3 +73,56 @@ def changed_rig_files(room):
             content[randomness.randrange(len(content))] = randomness.randrange(256)
         return bytes(content)
     return load_all(room, ((f'change {number}', changed()) for number in range(FLIPS)))[1]
+
+
+def answer_saves(pipe):
+    """Saves the rig to each path that comes; answers whether it was saved, and the sentence."""
+    import rospy
+    from wiimote_tracker_msgs.srv import SaveRig
+    rospy.wait_for_service('calibration/save', 30.0)
+    save = rospy.ServiceProxy('calibration/save', SaveRig)
+    while True:
+        response = save(pipe.recv())
+        pipe.send((response.success, response.message))
+
+
+@contextlib.contextmanager
+def small_disk(folder):
+    os.mkdir(folder)
+    subprocess.run(['mount', '-t', 'tmpfs', '-o', 'size=256k', 'tmpfs', folder], check=True)
+    try:
+        yield
+    finally:
+        subprocess.run(['umount', folder], check=True)
+
+
+def fill(path):
+    with contextlib.suppress(OSError), open(path, 'wb', buffering=0) as file:
+        while True:
+            file.write(bytes(1024))
+
+
+@fault(needs_root=True)
+def full_disk(room):
+    """The rig is saved to a full disk, over an older file."""
+    yield 0.0
+    folder = room.file('disk')
+    path, filler = folder + '/rig.yaml', folder + '/filler'
+    problems = []
+    with small_disk(folder), Helper(answer_saves) as helper:
+        if not helper.ask(path, PATIENCE)[0]:
+            problems.append('not saved before')
+        with open(path, 'rb') as file:
+            before = file.read()
+        fill(filler)
+        success, sentence = helper.ask(path, PATIENCE)
+        if success or 'space' not in sentence:
+            problems.append(f'on a full disk: {sentence!r}')
+        with open(path, 'rb') as file:
+            if file.read() != before:
+                problems.append('the older file was lost')
+        problems += [f'left behind: {name}' for name in os.listdir(folder) if '.new' in name]
+        os.remove(filler)
+        if not helper.ask(path, PATIENCE)[0]:
+            problems.append('not saved afterwards')
+    return problems

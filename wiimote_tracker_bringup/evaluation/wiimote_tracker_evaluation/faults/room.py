@@ -38,6 +38,7 @@ class Room:
         self.log = os.path.join(self.folder, 'nodes.log')
         description = rigs.with_cameras(rigs.read(package_file('simulation/paper_rig.yaml')), cameras)
         description = dict(rigs.with_leds(description, []), leds=LEDS, truth_rate=50.0)
+        self.cameras = list(description['cameras'])
         rigs.write(self.file('room.yaml'), description)
         rigs.write(self.file('cameras.yaml'), {'cameras': {
             name: camera['identity'] for name, camera in description['cameras'].items()
@@ -147,3 +148,7 @@ class Room:
         """Starts a program beside the nodes; it ends with the room. command: as find_program()
         wants it, and arguments."""
         return self._processes.start(command[0], [find_program(command[0])] + command[1:], self.log)
+
+    def end(self, process):
+        """Ends a program before the room ends."""
+        self._processes.stop(process)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wiimote_tracker {
 
@@ -9,8 +10,10 @@ using identity::Identity;
 
 void LedLabels::update(const std::vector<tracking::TrackedLed>& leds,
                        const identity::Identifier* identifier) {
-  for (const std::uint32_t id : forgotten_)
+  for (const std::uint32_t id : forgotten_) {
+    places_.erase(of(id).name);
     given_.erase(id);
+  }
   forgotten_.swap(lost_);
   lost_.clear();
   for (const tracking::TrackedLed& led : leds) {
@@ -23,7 +26,10 @@ void LedLabels::update(const std::vector<tracking::TrackedLed>& leds,
     const Identity* identity = identifier ? identifier->identityOf(led.id) : nullptr;
     const bool may_be_listed = !identifier || (identity && identity->steady);
     if (may_be_listed && led.state == tracking::TrackState::kTracked && given_.count(led.id) == 0)
-      giveFreeLabel(led.id);
+      giveFreeLabel(led);
+    const auto given = given_.find(led.id);
+    if (given != given_.end() && std::isnan(given->second.confidence))
+      places_[given->second.name] = led.position;
   }
 }
 
@@ -37,11 +43,24 @@ void LedLabels::takeIdentity(std::uint32_t id, const identity::Identifier& ident
     given_.erase(given);
 }
 
-void LedLabels::giveFreeLabel(std::uint32_t id) {
-  const auto label = std::find_if(listed_.begin(), listed_.end(),
-                                  [&](const std::string& l) { return !isTaken(l); });
-  if (label != listed_.end())
-    given_[id].name = *label;
+void LedLabels::giveFreeLabel(const tracking::TrackedLed& led) {
+  const std::string* best = nullptr;
+  double least = 0.0;
+  for (const std::string& label : listed_) {
+    if (isTaken(label))
+      continue;
+    const auto place = expected_.find(label);
+    const double distance = place != expected_.end() ? (place->second - led.position).norm()
+                                                     : std::numeric_limits<double>::infinity();
+    if (!best || distance < least) {
+      best = &label;
+      least = distance;
+    }
+  }
+  if (!best)
+    return;
+  given_[led.id].name = *best;
+  expected_.erase(*best);
 }
 
 bool LedLabels::isTaken(const std::string& label) const {
@@ -64,6 +83,8 @@ void LedLabels::clear() {
   lost_.clear();
   for (const auto& given : given_)
     lost_.push_back(given.first);
+  expected_.swap(places_);
+  places_.clear();
 }
 
 }  // namespace wiimote_tracker

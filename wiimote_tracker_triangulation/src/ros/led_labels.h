@@ -4,6 +4,8 @@
 #include "wiimote_tracker_triangulation/identity/identifier.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
 
+#include <Eigen/Core>
+
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -24,7 +26,8 @@ struct LedLabel {
 /// Gives labels to tracks. A track that blinks gets the label of its code once it is identified.
 /// Any other confirmed track takes the first free label of a list and keeps it until it is lost;
 /// then the label goes to the oldest track without one, or to the next confirmed track. So the only
-/// LED of a room always has the first label. A track without a label is called led_<id>.
+/// LED of a room always has the first label. Only after a restart, LEDs get their former labels by
+/// place. A track without a label is called led_<id>.
 class LedLabels {
  public:
   explicit LedLabels(const std::vector<std::string>& labels) : listed_(labels) {}
@@ -38,21 +41,30 @@ class LedLabels {
   /// The label of an LED of the last snapshot, or of one that was lost there or by clear().
   LedLabel of(std::uint32_t id) const;
 
-  /// All tracks are lost, and all labels free.
+  /// All tracks are lost, and all labels free; each returns to the LED that comes nearest.
   void clear();
+
+  /// Where the LEDs with labels of the list are [m], by label.
+  using Places = std::map<std::string, Eigen::Vector3d>;
+  const Places& places() const { return places_; }
+
+  /// Each label returns to the LED that comes nearest.
+  void expect(const Places& places) { expected_ = places; }
 
   /// The name of a track without a label.
   static std::string unlisted(std::uint32_t id) { return "led_" + std::to_string(id); }
 
  private:
   void takeIdentity(std::uint32_t id, const identity::Identifier& identifier);
-  void giveFreeLabel(std::uint32_t id);
+  void giveFreeLabel(const tracking::TrackedLed& led);
   bool isTaken(const std::string& label) const;
 
   std::vector<std::string> listed_;
   std::map<std::uint32_t, LedLabel> given_;  // by the track's id
   std::vector<std::uint32_t> lost_;          // since the last update began
   std::vector<std::uint32_t> forgotten_;     // lost before that; their labels are free
+  Places places_;
+  Places expected_;  // of labels that were not given since a restart
 };
 
 }  // namespace wiimote_tracker

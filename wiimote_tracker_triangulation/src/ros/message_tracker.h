@@ -104,6 +104,7 @@ class MessageTracker {
 
   const tracking::Counters& counters() const { return estimator_->counters(); }  ///< With a rig.
   Statistics& statistics() { return statistics_; }
+  LedLabels& labels() { return labels_; }
 
  private:
   void reportFault(std::size_t camera,

@@ -32,15 +32,19 @@ bool isNumbered(const std::string& label) {
          label.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
 }
 
+[[noreturn]] void refuseLabelOf(const std::string& key, const std::string& label, const char* why) {
+  throw ParameterError(key + " has '" + label + "'" + why);
+}
+
 void checkLabels(const std::string& key, const std::vector<std::string>& labels) {
   std::set<std::string> known;
   for (const std::string& label : labels) {
     if (!isWord(label) || isNumbered(label))
-      throw ParameterError(key + " has '" + label +
-                           "', but each must be a letter, then letters, digits and underscores, "
-                           "and not led_ with a number, the name of LEDs without a label");
+      refuseLabelOf(key, label,
+                    ", but each must be a letter, then letters, digits and underscores, and not "
+                    "led_ with a number, the name of LEDs without a label");
     if (!known.insert(label).second)
-      throw ParameterError(key + " has '" + label + "' twice");
+      refuseLabelOf(key, label, " twice");
   }
 }
 
@@ -209,6 +213,7 @@ TrackingParameters TrackingParameters::read(ParameterReader* reader) {
   TrackingParameters p;
   reader->read("labels", &p.labels);
   checkLabels(reader->nameOf("labels"), p.labels);
+  reader->read("label_places", &p.label_places);
   tracking::EstimatorOptions& estimator = p.estimator;
   const bool tracks = estimator.mode == tracking::Mode::kTracks;
   const std::string mode =

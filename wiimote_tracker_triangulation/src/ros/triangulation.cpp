@@ -1,10 +1,12 @@
 #include "triangulation.h"
 
 #include "callbacks.h"
+#include "label_places.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <visualization_msgs/MarkerArray.h>
 
+#include <chrono>
 #include <utility>
 
 namespace wiimote_tracker {
@@ -18,6 +20,9 @@ namespace {
 
 // Images of one camera that may wait: ten seconds of a Wii Remote.
 constexpr std::uint32_t kImageQueue = 1000;
+
+// After a longer time LEDs may have gone anywhere.
+constexpr std::chrono::seconds kLongestRestart{10};
 
 }  // namespace
 
@@ -35,6 +40,7 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
   if (parameters_.identity.codes)
     ROS_INFO("%s.", describeIdentity(parameters_).c_str());
   useBodies(parameters_.bodies.known);
+  tracker_.labels().expect(readPlaces(parameters_.label_places, kLongestRestart));
   points_publisher_ = nh_.advertise<TrackedPointArray>("points", 100);
   markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 5);
   zone_publisher_ = nh_.advertise<wiimote_tracker_msgs::ZoneEvent>("zone_events", 100);
@@ -163,8 +169,19 @@ void Triangulation::onTimer() {
   }
   if (const auto bodies = learning_.change())  // while no image comes
     useBodies(*bodies);
+  keepPlaces();
   diagnostics_.update();
   body_diagnostics_.update();
+}
+
+void Triangulation::keepPlaces() {
+  const std::string& file = parameters_.label_places;
+  const LedLabels::Places& places = tracker_.labels().places();
+  if (!file.empty() && !places.empty() && !writePlaces(file, places))
+    ROS_WARN_ONCE(
+        "Cannot write %s, so LEDs may change their labels if this node is killed: name "
+        "another file in label_places.",
+        file.c_str());
 }
 
 }  // namespace wiimote_tracker

@@ -37,6 +37,7 @@ class Triangulation : private MessageSink {
                const ros::MessageEvent<const wiimote_tracker_msgs::IrBlobArray>& event);
   bool isShed(const ros::Time& receipt);
   void onTimer();
+  void keepPlaces();
   void subscribeToCameras();
   void useBodies(const std::vector<body::Constellation>& bodies);
 

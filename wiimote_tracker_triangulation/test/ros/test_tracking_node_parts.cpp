@@ -2,6 +2,7 @@
 #include "geometry/random_rigs.h"
 #include "ros/clock_watch.h"
 #include "ros/image_message.h"
+#include "ros/label_places.h"
 #include "ros/led_labels.h"
 #include "ros/lens_check.h"
 #include "ros/load_shedding.h"
@@ -10,9 +11,15 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <limits>
+#include <string>
 
 namespace wiimote_tracker {
 namespace {
@@ -89,6 +96,33 @@ TEST(LedLabels, AreAllFreeWhenTimeStartsAnew) {
   EXPECT_EQ("a", labels.of(0).name);
   labels.update({led(2, TrackState::kTracked)});
   EXPECT_EQ("a", labels.of(2).name);
+}
+
+TEST(LedLabels, ReturnByPlaceAfterARestart) {
+  const auto at = [](std::uint32_t id, double x) {
+    TrackedLed result = led(id, TrackState::kTracked);
+    result.position = {x, 0.0, 0.0};
+    return result;
+  };
+  LedLabels labels({"a", "b", "c", "d"});
+  labels.update({at(0, 0.0), at(1, 1.0), at(2, 2.0)});
+  const std::string file = testing::TempDir() + "label_places_" + std::to_string(::getpid());
+  ASSERT_TRUE(writePlaces(file, labels.places()));
+  labels.clear();
+  LedLabels of_another_process({"a", "b", "c", "d"});
+  of_another_process.expect(readPlaces(file, std::chrono::seconds(60)));
+  for (LedLabels* restarted : {&labels, &of_another_process}) {
+    restarted->update({at(3, 2.3)});
+    restarted->update({at(3, 2.2), at(4, 1.3), at(5, 0.3), at(6, 0.3)});
+    EXPECT_EQ("c", restarted->of(3).name);
+    EXPECT_EQ("b", restarted->of(4).name);
+    EXPECT_EQ("a", restarted->of(5).name);
+    EXPECT_EQ("d", restarted->of(6).name) << "the first that was not in use";
+  }
+  EXPECT_TRUE(readPlaces(file, std::chrono::seconds(-1)).empty()) << "too old";
+  std::ofstream(file, std::ios::app) << "e 1.0 x";
+  EXPECT_TRUE(readPlaces(file, std::chrono::seconds(60)).empty()) << "damaged";
+  std::remove(file.c_str());
 }
 
 /// One camera sees LED `id` for 2 s from `start` on: blinking as word 0 of two, or steady.

@@ -21,7 +21,7 @@ def stop_driver(room):
         yield STOPPED
 
 
-@fault(quick=True, ends=(TRACKER,), names_may_change=True)
+@fault(quick=True, ends=(TRACKER,))
 def kill_tracker(room):
     """kill -9 of the tracker."""
     room.kill(TRACKER)
@@ -29,7 +29,7 @@ def kill_tracker(room):
 
 
 # The tracker then says that time jumped back, and tracks begin anew.
-@fault(quick=True, names_may_change=True)
+@fault(quick=True)
 def stop_tracker(room):
     """SIGSTOP of the tracker for 5 s."""
     with room.stopped(TRACKER):

@@ -19,8 +19,10 @@ using body::test::BodyScore;
 using body::test::FollowedBody;
 using body::test::fourLeds;
 using body::test::handheld;
+using body::test::held;
 using body::test::Motion;
 using body::test::rotationError;
+using body::test::shaken;
 using body::test::tumbling;
 using tracking::test::SceneOptions;
 
@@ -104,6 +106,7 @@ BenchmarkRow measure(const std::string& name,
            {"velocity m/s", score.velocity()},
            {"rate deg/s", 180.0 / M_PI * score.angularVelocity()},
            {"NEES / 6", score.nees()},
+           {"of rates", score.ratesNees()},
            {"known %", 100.0 * score.known()},
            {"right %", 100.0 * (1.0 - score.wrong())},
            {"us per image", 1e6 * median}}};
@@ -115,7 +118,9 @@ void runAccuracy(const BenchmarkSettings& settings, const RowCallback& row) {
   for (const Constellation& body : bodies) {
     for (const std::size_t cameras : {4, 2}) {
       const std::string where = body.name + ", " + std::to_string(cameras) + " cameras, ";
+      row(measure(where + "held still", cameras, body, held, sceneOptions(), settings));
       row(measure(where + "hand-held", cameras, body, handheld, sceneOptions(), settings));
+      row(measure(where + "shaken", cameras, body, shaken, sceneOptions(), settings));
       row(measure(where + "360 deg/s", cameras, body, tumbling, sceneOptions(), settings));
     }
   }

@@ -181,7 +181,7 @@ void BodyTracker::update(std::size_t index,
 void BodyTracker::dropLost(double time) {
   for (std::optional<Body>& body : bodies_) {
     if (body && (time - body->last_observed > options_.prediction_time ||
-                 !body->filter.poseCovariance().allFinite()))
+                 !body->filter.state().poseCovariance().allFinite()))
       body.reset();
   }
 }
@@ -278,16 +278,17 @@ void BodyTracker::estimate() {
       continue;
     }
     const Body& body = *bodies_[b];
-    PoseFilter now = body.filter;
-    now.predict(time_);
+    PoseFilter filter = body.filter;
+    filter.predict(time_);
+    const PoseState& now = filter.state();
     if (!estimates_[b])
       estimates_[b].emplace();
     BodyEstimate& estimate = *estimates_[b];
     estimate.tracked = time_ - body.last_observed <= options_.tracked_time;
     estimate.world_from_body = now.worldFromBody();
-    estimate.covariance = now.covariance();
-    estimate.velocity = now.velocity();
-    estimate.angular_velocity = now.angularVelocity();
+    estimate.covariance = now.covariance;
+    estimate.velocity = now.velocity;
+    estimate.angular_velocity = now.angular_velocity;
     estimate.first_seen = body.first_seen;
     estimate.last_observed = body.last_observed;
     estimateLeds(b, &estimate);

@@ -85,8 +85,7 @@ void LedGroups::add(const PoseFilter& filter,
   for (std::size_t i = 0; i < count; ++i)
     farthest = std::max(farthest, (singles_[leds[i]]->pixel - mean.pixel).norm());
   group.pixel_stddev = std::hypot(pixel_stddev_, kPlaceBetween * 2.0 * farthest);
-  mean.covariance =
-      mean.jacobian * filter.covariance().topLeftCorner<6, 6>() * mean.jacobian.transpose();
+  mean.covariance = mean.jacobian * filter.state().poseCovariance() * mean.jacobian.transpose();
   mean.covariance.diagonal().array() += group.pixel_stddev * group.pixel_stddev;
 }
 

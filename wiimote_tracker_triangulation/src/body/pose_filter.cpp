@@ -2,81 +2,75 @@
 
 #include "wiimote_tracker_triangulation/geometry/so3.h"
 
+#include <cmath>
+
 namespace wiimote_tracker::body {
-namespace {
-
-namespace so3 = geometry::so3;
-
-/// Process noise of white acceleration over dt, one axis: variances of value and rate, covariance.
-void addWalk(double density, double dt, double* value, double* both, double* rate) {
-  const double q = density * density;
-  *value = q * dt * dt * dt / 3.0;
-  *both = q * dt * dt / 2.0;
-  *rate = q * dt;
-}
-
-}  // namespace
 
 PoseFilter::PoseFilter(const PoseFilterOptions& options,
                        double time,
                        const Eigen::Isometry3d& world_from_body,
                        const PoseCovariance& covariance)
-    : options_(&options),
-      time_(time),
-      position_(world_from_body.translation()),
-      rotation_(world_from_body.linear()) {
-  covariance_.setZero();
-  covariance_.topLeftCorner<6, 6>() = covariance;
-  covariance_.diagonal().segment<3>(6).setConstant(options.initial_speed * options.initial_speed);
-  covariance_.diagonal().tail<3>().setConstant(options.initial_angular_speed *
-                                               options.initial_angular_speed);
+    : options_(&options), time_(time), probabilities_(Weights::Constant(1.0 / kPoseModes)) {
+  mean_.position = world_from_body.translation();
+  mean_.rotation = world_from_body.linear();
+  mean_.covariance.topLeftCorner<6, 6>() = covariance;
+  mean_.covariance.diagonal().segment<3>(6).setConstant(std::pow(options.initial_speed, 2));
+  mean_.covariance.diagonal().tail<3>().setConstant(std::pow(options.initial_angular_speed, 2));
+  states_.fill(mean_);
 }
 
 void PoseFilter::predict(double time) {
-  const double dt = time - time_;
-  if (!(dt > 0.0))
+  const double duration = time - time_;
+  if (!(duration > 0.0))
     return;
   time_ = time;
-  position_ += dt * velocity_;
-  const Eigen::Quaterniond turned(so3::exp(dt * turning_));
-  rotation_ = (turned * rotation_).normalized();
-
-  // F = [1 0 dt 0; 0 T 0 dt (half the turn); 0 0 1 0; 0 0 0 1] by blocks, and P <- F P F'.
-  const Eigen::Matrix3d turn = turned.toRotationMatrix();
-  const Eigen::Matrix3d by_turning = dt * so3::exp(0.5 * dt * turning_).toRotationMatrix();
-  covariance_.topRows<3>() += dt * covariance_.middleRows<3>(6);
-  Eigen::Matrix<double, 3, 12> rows =
-      turn * covariance_.middleRows<3>(3) + by_turning * covariance_.bottomRows<3>();
-  covariance_.middleRows<3>(3) = rows;
-  covariance_.leftCols<3>() += dt * covariance_.middleCols<3>(6);
-  Eigen::Matrix<double, 12, 3> columns = covariance_.middleCols<3>(3) * turn.transpose() +
-                                         covariance_.rightCols<3>() * by_turning.transpose();
-  covariance_.middleCols<3>(3) = columns;
-
-  double value = 0.0;
-  double both = 0.0;
-  double rate = 0.0;
-  addWalk(options_->acceleration_density, dt, &value, &both, &rate);
-  for (int i = 0; i < 3; ++i) {
-    covariance_(i, i) += value;
-    covariance_(i, i + 6) += both;
-    covariance_(i + 6, i) += both;
-    covariance_(i + 6, i + 6) += rate;
+  for (int i = 0; i < kPoseModes; ++i) {
+    const PoseMode& mode = options_->modes[i];
+    states_[i].predict(mode.acceleration_density, mode.angular_acceleration_density, duration);
   }
-  addWalk(options_->angular_acceleration_density, dt, &value, &both, &rate);
-  for (int i = 3; i < 6; ++i) {
-    covariance_(i, i) += value;
-    covariance_(i, i + 6) += both;
-    covariance_(i + 6, i) += both;
-    covariance_(i + 6, i + 6) += rate;
+  mix(duration);
+  mean_ = mixture(probabilities_);
+}
+
+/// The interaction step: each mode's state becomes the mixture of all, weighted by the
+/// probabilities that the body came from their modes.
+void PoseFilter::mix(double duration) {
+  Eigen::Matrix<double, kPoseModes, kPoseModes> joint;  // probability of (before, now)
+  for (int i = 0; i < kPoseModes; ++i) {
+    for (int j = 0; j < kPoseModes; ++j)
+      joint(i, j) = i == j ? 1.0 : options_->change_rate * duration;
+    joint.row(i) *= probabilities_[i] / joint.row(i).sum();
   }
+  std::array<PoseState, kPoseModes> mixed;
+  for (int j = 0; j < kPoseModes; ++j) {
+    probabilities_[j] = joint.col(j).sum();
+    mixed[j] = mixture(joint.col(j) / probabilities_[j]);
+  }
+  states_ = mixed;
+}
+
+/// Mean and covariance of the mixture of all states. @param weights add up to 1
+PoseState PoseFilter::mixture(const Weights& weights) const {
+  Eigen::Index likeliest;
+  weights.maxCoeff(&likeliest);
+  PoseState result = states_[likeliest];
+  MotionVector step = MotionVector::Zero();
+  for (int i = 0; i < kPoseModes; ++i)
+    step += weights[i] * states_[i].minus(result);
+  result.move(step);
+  result.covariance.setZero();
+  for (int i = 0; i < kPoseModes; ++i) {
+    const MotionVector d = states_[i].minus(result);
+    result.covariance += weights[i] * (states_[i].covariance + d * d.transpose());
+  }
+  return result;
 }
 
 std::optional<LedPrediction> PoseFilter::predictLed(const geometry::Camera& camera,
                                                     const Eigen::Vector3d& led,
                                                     double pixel_stddev) const {
-  const Eigen::Vector3d arm = rotation_ * led;
-  const Eigen::Vector3d point = position_ + arm;
+  const Eigen::Vector3d arm = mean_.rotation * led;
+  const Eigen::Vector3d point = mean_.position + arm;
   LedPrediction prediction;
   Eigen::Matrix<double, 2, 3> by_point;
   const std::optional<Eigen::Vector2d> pixel = camera.project(point, &by_point);
@@ -84,9 +78,9 @@ std::optional<LedPrediction> PoseFilter::predictLed(const geometry::Camera& came
     return std::nullopt;
   prediction.pixel = *pixel;
   prediction.jacobian.leftCols<3>() = by_point;
-  prediction.jacobian.rightCols<3>() = -by_point * so3::skew(arm);
+  prediction.jacobian.rightCols<3>() = -by_point * geometry::so3::skew(arm);
   prediction.covariance =
-      prediction.jacobian * covariance_.topLeftCorner<6, 6>() * prediction.jacobian.transpose();
+      prediction.jacobian * mean_.poseCovariance() * prediction.jacobian.transpose();
   prediction.covariance.diagonal().array() += pixel_stddev * pixel_stddev;
   prediction.depth = camera.world_from_camera.linear().col(2).dot(point - camera.center());
   return prediction;
@@ -95,31 +89,15 @@ std::optional<LedPrediction> PoseFilter::predictLed(const geometry::Camera& came
 void PoseFilter::update(const LedPrediction& prediction,
                         const Eigen::Vector2d& pixel,
                         double pixel_stddev) {
-  const Eigen::Matrix<double, 12, 2> to_pixel =
-      covariance_.leftCols<6>() * prediction.jacobian.transpose();
-  const Eigen::Matrix<double, 12, 2> gain = to_pixel * prediction.covariance.inverse();
-  const State step = gain * (pixel - prediction.pixel);
-  position_ += step.head<3>();
-  rotation_ = (so3::exp(step.segment<3>(3)) * rotation_).normalized();
-  velocity_ += step.segment<3>(6);
-  turning_ += step.tail<3>();
-
-  // Joseph's form keeps the covariance positive definite: (I - K H) P (I - K H)' + K R K'.
-  Eigen::Matrix<double, 12, 12> reduced = covariance_;
-  reduced.noalias() -= gain * to_pixel.transpose();
-  const Eigen::Matrix<double, 12, 2> left = reduced.leftCols<6>() * prediction.jacobian.transpose();
-  covariance_ = reduced;
-  covariance_.noalias() -= left * gain.transpose();
-  covariance_.noalias() += (pixel_stddev * pixel_stddev) * gain * gain.transpose();
-  const MotionCovariance symmetric = 0.5 * (covariance_ + covariance_.transpose());
-  covariance_ = symmetric;
-}
-
-Eigen::Isometry3d PoseFilter::worldFromBody() const {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = rotation_.toRotationMatrix();
-  pose.translation() = position_;
-  return pose;
+  Weights costs;  // -2 log likelihood
+  for (int i = 0; i < kPoseModes; ++i) {
+    const Eigen::Matrix<double, 6, 1> offset = states_[i].minus(mean_).head<6>();
+    const Eigen::Vector2d innovation = pixel - prediction.pixel - prediction.jacobian * offset;
+    costs[i] = states_[i].update(prediction.jacobian, innovation, pixel_stddev);
+  }
+  probabilities_.array() *= (-0.5 * (costs.array() - costs.minCoeff())).exp();
+  probabilities_ /= probabilities_.sum();
+  mean_ = mixture(probabilities_);
 }
 
 }  // namespace wiimote_tracker::body

@@ -40,6 +40,29 @@ Isometry3d handheld(double time) {
   return pose;
 }
 
+Isometry3d held(double time) {
+  constexpr double kTremor = 2.0 * M_PI * 9.0;  // [rad/s]
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation() =
+      Vector3d(1.25 + 0.006 * std::sin(1.3 * time), 1.25 + 0.006 * std::cos(1.1 * time),
+               1.1 + 0.004 * std::sin(0.7 * time) + 5e-5 * std::sin(kTremor * time));
+  pose.linear() = (Eigen::AngleAxisd(0.08 * std::sin(1.1 * time), Vector3d::UnitZ()) *
+                   Eigen::AngleAxisd(0.05 * std::sin(1.9 * time) + 5e-4 * std::sin(kTremor * time),
+                                     Vector3d::UnitX()))
+                      .toRotationMatrix();
+  return pose;
+}
+
+Isometry3d shaken(double time) {
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation() =
+      Vector3d(1.25 + 0.1 * std::sin(12.0 * time), 1.25 + 0.08 * std::cos(11.0 * time), 1.1);
+  pose.linear() = (Eigen::AngleAxisd(0.4 * std::sin(17.0 * time), Vector3d::UnitZ()) *
+                   Eigen::AngleAxisd(0.4 * std::sin(14.0 * time), Vector3d::UnitX()))
+                      .toRotationMatrix();
+  return pose;
+}
+
 Isometry3d tumbling(double time) {
   Isometry3d pose = Isometry3d::Identity();
   pose.translation() = Vector3d(1.25, 1.25, 1.1);
@@ -150,10 +173,14 @@ void BodyScore::add(const FollowedBody& followed) {
   rotation_ += turn * turn;
   position_bound_ += bound.topLeftCorner<3, 3>().trace();
   rotation_bound_ += bound.bottomRightCorner<3, 3>().trace();
-  velocity_ += (followed.estimate()->velocity - followed.trueVelocity()).squaredNorm();
-  angular_velocity_ +=
-      (followed.estimate()->angular_velocity - followed.trueAngularVelocity()).squaredNorm();
+  Eigen::Matrix<double, 6, 1> rates;
+  rates << followed.estimate()->velocity - followed.trueVelocity(),
+      followed.estimate()->angular_velocity - followed.trueAngularVelocity();
+  velocity_ += rates.head<3>().squaredNorm();
+  angular_velocity_ += rates.tail<3>().squaredNorm();
   nees_ += normalisedError(truth, found, followed.estimate()->covariance.topLeftCorner<6, 6>());
+  rates_nees_ +=
+      rates.dot(followed.estimate()->covariance.bottomRightCorner<6, 6>().ldlt().solve(rates));
 }
 
 double BodyScore::position() const {
@@ -182,6 +209,10 @@ double BodyScore::angularVelocity() const {
 
 double BodyScore::nees() const {
   return nees_ / (6.0 * judged_);
+}
+
+double BodyScore::ratesNees() const {
+  return rates_nees_ / (6.0 * judged_);
 }
 
 double BodyScore::known() const {

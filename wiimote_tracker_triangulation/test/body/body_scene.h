@@ -29,6 +29,12 @@ Eigen::Vector3d noise(geometry::test::Random& random, double stddev);
 /// As in a hand: up to 0.6 m/s.
 Eigen::Isometry3d handheld(double time);
 
+/// Held in a hand that keeps still: up to 13 mm/s and 0.2 rad/s, with tremor.
+Eigen::Isometry3d held(double time);
+
+/// Shaken: up to 1.5 m/s and 9 rad/s.
+Eigen::Isometry3d shaken(double time);
+
 /// 360 degrees per second.
 Eigen::Isometry3d tumbling(double time);
 
@@ -99,13 +105,14 @@ class BodyScore {
   double rotationRatio() const;
   double velocity() const;         ///< RMS error [m/s].
   double angularVelocity() const;  ///< RMS error [rad/s].
-  double nees() const;   ///< Normalised error per coordinate: 1 when the covariance is consistent.
-  double known() const;  ///< Share of images after which there was a pose.
-  double wrong() const;  ///< Share of those more than 20 degrees off: a wrong assignment.
+  double nees() const;  ///< Normalised error per coordinate: 1 when the covariance is consistent.
+  double ratesNees() const;  ///< Of velocity and angular velocity.
+  double known() const;      ///< Share of images after which there was a pose.
+  double wrong() const;      ///< Share of those more than 20 degrees off: a wrong assignment.
 
  private:
   double images_ = 0.0, known_ = 0.0, wrong_ = 0.0, judged_ = 0.0;
-  double position_ = 0.0, rotation_ = 0.0, nees_ = 0.0;  // sums of squares
+  double position_ = 0.0, rotation_ = 0.0, nees_ = 0.0, rates_nees_ = 0.0;  // sums of squares
   double velocity_ = 0.0, angular_velocity_ = 0.0;
   double position_bound_ = 0.0, rotation_bound_ = 0.0;
 };

@@ -57,11 +57,10 @@ BodyState moved(const BodyState& state, double dt) {
 }
 
 /// Of white acceleration and angular acceleration over an interval.
-MotionCovariance motionNoise(const PoseFilterOptions& options, double dt) {
+MotionCovariance motionNoise(const PoseMode& mode, double dt) {
   MotionCovariance noise = MotionCovariance::Zero();
   for (int i = 0; i < 6; ++i) {
-    const double density =
-        i < 3 ? options.acceleration_density : options.angular_acceleration_density;
+    const double density = i < 3 ? mode.acceleration_density : mode.angular_acceleration_density;
     const double q = density * density;
     noise(i, i) = q * dt * dt * dt / 3.0;
     noise(i, i + 6) = noise(i + 6, i) = q * dt * dt / 2.0;
@@ -84,19 +83,18 @@ MotionCovariance differences(const Function& function) {
 /// filtering", 1998, along the true motion; derivatives by differences.
 class PosteriorBound {
  public:
-  PosteriorBound(const PoseFilterOptions& motion, double pixel_stddev)
-      : motion_(motion), pixel_stddev_(pixel_stddev) {
+  PosteriorBound(const PoseMode& mode, const PoseFilterOptions& start, double pixel_stddev)
+      : mode_(mode), pixel_stddev_(pixel_stddev) {
     covariance_.diagonal().segment<6>(0).setConstant(1.0);
-    covariance_.diagonal().segment<3>(6).setConstant(std::pow(motion.initial_speed, 2));
-    covariance_.diagonal().segment<3>(9).setConstant(std::pow(motion.initial_angular_speed, 2));
+    covariance_.diagonal().segment<3>(6).setConstant(std::pow(start.initial_speed, 2));
+    covariance_.diagonal().segment<3>(9).setConstant(std::pow(start.initial_angular_speed, 2));
   }
 
   void predict(const BodyState& before) {
     const BodyState after = moved(before, kInterval);
     const MotionCovariance transition = differences(
         [&](const Vector12& d) { return minus(moved(plus(before, d), kInterval), after); });
-    covariance_ =
-        transition * covariance_ * transition.transpose() + motionNoise(motion_, kInterval);
+    covariance_ = transition * covariance_ * transition.transpose() + motionNoise(mode_, kInterval);
   }
 
   /// All LEDs of the body that the camera sees.
@@ -120,17 +118,20 @@ class PosteriorBound {
   const MotionCovariance& covariance() const { return covariance_; }
 
  private:
-  PoseFilterOptions motion_;
+  PoseMode mode_;
   double pixel_stddev_;
   MotionCovariance covariance_ = MotionCovariance::Zero();
 };
 
-TEST(BodyRates, AreAtTheBoundOfTheSameScene) {
+/// Motion drawn from a mode.
+class BodyRates : public testing::TestWithParam<PoseMode> {};
+
+TEST_P(BodyRates, AreAtTheBoundOfTheSameScene) {
   const geometry::Rig rig = paperRig();
   const Constellation body = fourLeds();
   const BodyTrackerOptions options;
   const MotionCovariance noise_root =
-      MotionCovariance(motionNoise(options.motion, kInterval).llt().matrixL());
+      MotionCovariance(motionNoise(GetParam(), kInterval).llt().matrixL());
   Random random(71);
   const auto gaussians = [&] {
     Vector12 z;
@@ -143,7 +144,7 @@ TEST(BodyRates, AreAtTheBoundOfTheSameScene) {
   double nees = 0.0, judged = 0.0;
   for (int run = 0; run < 40; ++run) {
     BodyTracker tracker(rig, {body}, options);
-    PosteriorBound bound(options.motion, options.pixel_stddev);
+    PosteriorBound bound(GetParam(), options.motion, options.pixel_stddev);
     BodyState truth;
     truth.pose = test::randomPose(random, {1.25, 1.25, 1.1});
     truth.velocity = 0.3 * gaussians().head<3>();
@@ -190,7 +191,12 @@ TEST(BodyRates, AreAtTheBoundOfTheSameScene) {
   RecordProperty("nees", std::to_string(nees));
 }
 
-TEST(BodyRates, AreThoseOfTheMotion) {
+INSTANTIATE_TEST_SUITE_P(CalmAndAgile,
+                         BodyRates,
+                         testing::Values(PoseFilterOptions().modes[kCalm],
+                                         PoseFilterOptions().modes[kAgile]));
+
+TEST(TurningBody, HasTheAngularVelocityOfTheMotion) {
   // A steady turn: mean errors are far below the turn itself.
   tracking::test::SceneOptions options;
   options.pixel_noise = 0.5;

@@ -35,7 +35,7 @@ TEST(GestureParameters, ShippedFileHoldsTheDefaults) {
 TEST(Parameters, EveryNumberIsReadAndBounded) {
   ParameterReader defaults(readParameterTree(""));
   TrackingParameters::read(&defaults);
-  EXPECT_EQ(69u, defaults.ranges().size());
+  EXPECT_EQ(72u, defaults.ranges().size());
   for (const auto& [key, range] : defaults.ranges()) {
     ros::NodeHandle nh("~bounded");
     // Below every range, and an integer, as some parameters require.

@@ -1,28 +1,35 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_FILTER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_FILTER_H
 
+#include "wiimote_tracker_triangulation/body/pose_state.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <array>
 #include <optional>
 
 namespace wiimote_tracker::body {
 
-struct PoseFilterOptions {
-  /// Process noise: white acceleration [m/s^2 / sqrt(Hz), >= 0].
-  double acceleration_density = 0.7;
+/// A mode of motion: white noise accelerates the body.
+struct PoseMode {
+  double acceleration_density;          ///< [m/s^2 / sqrt(Hz), >= 0]
+  double angular_acceleration_density;  ///< [rad/s^2 / sqrt(Hz), >= 0]
+};
 
-  /// Process noise: white angular acceleration [rad/s^2 / sqrt(Hz), >= 0].
-  double angular_acceleration_density = 7.0;
+enum PoseModeIndex { kCalm, kAgile };
+constexpr int kPoseModes = 2;
+
+struct PoseFilterOptions {
+  /// kCalm: held or carried with care; kAgile: any other motion.
+  std::array<PoseMode, kPoseModes> modes{{{0.2, 0.6}, {0.7, 7.0}}};
+
+  double change_rate = 0.3;  ///< Transition rate between the modes, both ways [1/s, > 0].
 
   double initial_speed = 2.0;          ///< Initial standard deviation per axis [m/s, > 0].
   double initial_angular_speed = 6.0;  ///< Initial standard deviation per axis [rad/s, > 0].
 };
-
-using PoseCovariance = Eigen::Matrix<double, 6, 6>;
-using MotionCovariance = Eigen::Matrix<double, 12, 12>;
 
 /// Predicted measurement of an LED of a body.
 struct LedPrediction {
@@ -32,9 +39,10 @@ struct LedPrediction {
   double depth;                          ///< Along the optical axis [m].
 };
 
-/// Extended Kalman filter of a rigid body's pose, velocity and angular velocity, in continuous
-/// time; each camera's spots update it at the time of their image. The rotation's error is a small
-/// rotation about the world axes: R_true = exp([w]x) R. A value type; never allocates.
+/// A rigid body's pose, velocity and angular velocity in continuous time; each camera's spots
+/// update it at the time of their image. An interacting multiple model filter (Blom and Bar-Shalom
+/// 1988; Bar-Shalom, Li and Kirubarajan 2001, section 11.6.6) of extended Kalman filters, one for
+/// each of PoseFilterOptions::modes. A value type; never allocates.
 class PoseFilter {
  public:
   /// @param options not owned. @param covariance position [m^2], then rotation about the world axes
@@ -58,24 +66,20 @@ class PoseFilter {
   /// state: every update changes it.
   void update(const LedPrediction& prediction, const Eigen::Vector2d& pixel, double pixel_stddev);
 
-  Eigen::Isometry3d worldFromBody() const;
-  PoseCovariance poseCovariance() const { return covariance_.topLeftCorner<6, 6>(); }
-
-  /// Order: position, rotation, velocity, angular velocity.
-  const MotionCovariance& covariance() const { return covariance_; }
-  const Eigen::Vector3d& velocity() const { return velocity_; }        ///< World [m/s].
-  const Eigen::Vector3d& angularVelocity() const { return turning_; }  ///< World [rad/s].
+  /// Mean and covariance of the mixture of all modes.
+  const PoseState& state() const { return mean_; }
 
  private:
-  using State = Eigen::Matrix<double, 12, 1>;
+  using Weights = Eigen::Matrix<double, kPoseModes, 1>;
+
+  PoseState mixture(const Weights& weights) const;
+  void mix(double duration);
 
   const PoseFilterOptions* options_;
   double time_;
-  Eigen::Vector3d position_;
-  Eigen::Quaterniond rotation_;
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d turning_ = Eigen::Vector3d::Zero();
-  MotionCovariance covariance_;
+  Weights probabilities_;
+  std::array<PoseState, kPoseModes> states_;  // of the body if it is in that mode
+  PoseState mean_;
 };
 
 }  // namespace wiimote_tracker::body

@@ -46,9 +46,15 @@ BodyParameters BodyParameters::read(ParameterReader* reader,
   reader->read("bodies/window_motion", &o.window_motion, 1e-5, 0.1);
   reader->read("bodies/minimum_margin", &o.minimum_margin, 0.0, 1000.0);
   body::PoseFilterOptions& motion = o.motion;
-  reader->read("bodies/acceleration_density", &motion.acceleration_density, 0.0, 1000.0);
-  reader->read("bodies/angular_acceleration_density", &motion.angular_acceleration_density, 0.0,
+  body::PoseMode& calm = motion.modes[body::kCalm];
+  body::PoseMode& agile = motion.modes[body::kAgile];
+  reader->read("bodies/calm_acceleration_density", &calm.acceleration_density, 0.0, 1000.0);
+  reader->read("bodies/calm_angular_acceleration_density", &calm.angular_acceleration_density, 0.0,
                1000.0);
+  reader->read("bodies/acceleration_density", &agile.acceleration_density, 0.0, 1000.0);
+  reader->read("bodies/angular_acceleration_density", &agile.angular_acceleration_density, 0.0,
+               1000.0);
+  reader->read("bodies/change_rate", &motion.change_rate, 0.001, 1000.0);
   reader->read("bodies/initial_speed", &motion.initial_speed, 0.001, 1000.0);
   reader->read("bodies/initial_angular_speed", &motion.initial_angular_speed, 0.001, 1000.0);
   return p;

@@ -1,0 +1,47 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_STATE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_STATE_H
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace wiimote_tracker::body {
+
+using PoseCovariance = Eigen::Matrix<double, 6, 6>;
+
+/// Position, rotation, velocity, angular velocity; in the world [m, rad, s].
+using MotionVector = Eigen::Matrix<double, 12, 1>;
+using MotionCovariance = Eigen::Matrix<double, 12, 12>;
+
+/// Normal distribution of a rigid body's pose and velocities. The rotation's error is a small
+/// rotation about the world axes: R_true = exp([w]x) R.
+struct PoseState {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< [m/s]
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< In the world [rad/s].
+  MotionCovariance covariance = MotionCovariance::Zero();
+
+  void move(const MotionVector& step);
+
+  /// The step that moves the other state here.
+  MotionVector minus(const PoseState& other) const;
+
+  /// Constant velocities with white acceleration over a duration [s].
+  /// @param acceleration_density [m/s^2 / sqrt(Hz)]
+  /// @param angular_acceleration_density [rad/s^2 / sqrt(Hz)]
+  void predict(double acceleration_density, double angular_acceleration_density, double duration);
+
+  /// Kalman update by a pixel. @param jacobian d pixel / d (position, rotation) [px/m, px/rad]
+  /// @param innovation [px]
+  /// @returns -2 log likelihood of the innovation, without its constant
+  double update(const Eigen::Matrix<double, 2, 6>& jacobian,
+                const Eigen::Vector2d& innovation,
+                double pixel_stddev);
+
+  Eigen::Isometry3d worldFromBody() const;
+  PoseCovariance poseCovariance() const { return covariance.topLeftCorner<6, 6>(); }
+};
+
+}  // namespace wiimote_tracker::body
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_STATE_H

@@ -1,0 +1,97 @@
+#include "wiimote_tracker_triangulation/body/pose_state.h"
+
+#include "wiimote_tracker_triangulation/geometry/so3.h"
+
+#include <Eigen/LU>
+
+#include <cmath>
+
+namespace wiimote_tracker::body {
+namespace {
+
+namespace so3 = geometry::so3;
+
+/// Adds white acceleration over a duration to the covariance of three values and their rates.
+void addWhiteAcceleration(double density,
+                          double duration,
+                          int first,
+                          MotionCovariance* covariance) {
+  const double rate = density * density * duration;
+  const double both = rate * duration / 2.0;
+  covariance->block<3, 3>(first, first).diagonal().array() += rate * duration * duration / 3.0;
+  covariance->block<3, 3>(first, first + 6).diagonal().array() += both;
+  covariance->block<3, 3>(first + 6, first).diagonal().array() += both;
+  covariance->block<3, 3>(first + 6, first + 6).diagonal().array() += rate;
+}
+
+}  // namespace
+
+void PoseState::move(const MotionVector& step) {
+  position += step.head<3>();
+  rotation = (so3::exp(step.segment<3>(3)) * rotation).normalized();
+  velocity += step.segment<3>(6);
+  angular_velocity += step.tail<3>();
+}
+
+MotionVector PoseState::minus(const PoseState& other) const {
+  MotionVector step;
+  step << position - other.position,
+      so3::log((rotation * other.rotation.conjugate()).toRotationMatrix()),
+      velocity - other.velocity, angular_velocity - other.angular_velocity;
+  return step;
+}
+
+void PoseState::predict(double acceleration_density,
+                        double angular_acceleration_density,
+                        double duration) {
+  position += duration * velocity;
+  const Eigen::Quaterniond turned(so3::exp(duration * angular_velocity));
+  rotation = (turned * rotation).normalized();
+
+  // F = [1 0 dt 0; 0 T 0 dt (half the turn); 0 0 1 0; 0 0 0 1] by blocks, and P <- F P F'.
+  const Eigen::Matrix3d turn = turned.toRotationMatrix();
+  const Eigen::Matrix3d by_turning =
+      duration * so3::exp(0.5 * duration * angular_velocity).toRotationMatrix();
+  covariance.topRows<3>() += duration * covariance.middleRows<3>(6);
+  const Eigen::Matrix<double, 3, 12> rows =
+      turn * covariance.middleRows<3>(3) + by_turning * covariance.bottomRows<3>();
+  covariance.middleRows<3>(3) = rows;
+  covariance.leftCols<3>() += duration * covariance.middleCols<3>(6);
+  const Eigen::Matrix<double, 12, 3> columns = covariance.middleCols<3>(3) * turn.transpose() +
+                                               covariance.rightCols<3>() * by_turning.transpose();
+  covariance.middleCols<3>(3) = columns;
+  addWhiteAcceleration(acceleration_density, duration, 0, &covariance);
+  addWhiteAcceleration(angular_acceleration_density, duration, 3, &covariance);
+}
+
+double PoseState::update(const Eigen::Matrix<double, 2, 6>& jacobian,
+                         const Eigen::Vector2d& innovation,
+                         double pixel_stddev) {
+  const double variance = pixel_stddev * pixel_stddev;
+  const Eigen::Matrix<double, 12, 2> to_pixel = covariance.leftCols<6>() * jacobian.transpose();
+  Eigen::Matrix2d of_pixel = jacobian * to_pixel.topRows<6>();
+  of_pixel.diagonal().array() += variance;
+  const Eigen::Matrix2d information = of_pixel.inverse();
+  const Eigen::Matrix<double, 12, 2> gain = to_pixel * information;
+  move(gain * innovation);
+
+  // Joseph's form keeps the covariance positive definite: (I - K H) P (I - K H)' + K R K'.
+  MotionCovariance reduced = covariance;
+  reduced.noalias() -= gain * to_pixel.transpose();
+  const Eigen::Matrix<double, 12, 2> left = reduced.leftCols<6>() * jacobian.transpose();
+  covariance = reduced;
+  covariance.noalias() -= left * gain.transpose();
+  covariance.noalias() += variance * gain * gain.transpose();
+  const MotionCovariance symmetric = 0.5 * (covariance + covariance.transpose());
+  covariance = symmetric;
+  return innovation.dot(information * innovation) + std::log(of_pixel.determinant());
+}
+
+Eigen::Isometry3d PoseState::worldFromBody() const {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = rotation.toRotationMatrix();
+  pose.translation() = position;
+  return pose;
+}
+
+}  // namespace wiimote_tracker::body

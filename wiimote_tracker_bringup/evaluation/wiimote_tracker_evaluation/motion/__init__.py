@@ -1,0 +1,1 @@
+"""Motions in bags: comparing two of them, and where a tracked body sits on a robot."""

@@ -1,0 +1,46 @@
+"""body_to_base: where a tracked body sits on a robot, and how their clocks differ."""
+
+import argparse
+import sys
+
+import numpy as np
+
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.motion import hand_eye, mount, poses
+
+
+def describe(found):
+    """Lines of text."""
+    stddev = found.stddev()
+    values = [('translation', found.translation, stddev[3:6], 1e3, 'mm'),
+              ('roll, pitch, yaw', found.rotation.as_euler('xyz'), stddev[:3], 180.0 / np.pi, 'deg'),
+              ('clock offset', [found.offset], stddev[6:], 1e3, 'ms')]
+    for name, numbers, errors, factor, unit in values:
+        text = ', '.join(f'{factor * number:.2f}' for number in numbers)
+        yield f'{name:17} {text} {unit}, +- ' + ', '.join(f'{factor * e:.2f}' for e in errors)
+    yield f'rosrun tf2_ros static_transform_publisher {found.transform()}'
+
+
+def main(argv=None):
+    parser = argparse.ArgumentParser(
+        prog='body_to_base', description='Finds where the base of a robot sits on a tracked body, '
+        'and what to add to its stamps, from a bag of a minute in which it turns about two axes '
+        'or more.')
+    parser.add_argument('bag')
+    parser.add_argument('--body', required=True, metavar='TOPIC', help='/<body>/odometry')
+    parser.add_argument('--odom', required=True, metavar='TOPIC', help='poses of the base')
+    parser.add_argument('--segment', type=float, default=5.0, metavar='S',
+                        help='time in which the odometry hardly drifts [s] (default: 5)')
+    parser.add_argument('--largest-offset', type=float, default=2.0, metavar='S',
+                        help='of the clocks [s] (default: 2)')
+    parser.add_argument('--output', metavar='FILE', default='mount.yaml',
+                        help='default: mount.yaml')
+    arguments = parser.parse_args(argv)
+    try:
+        found = hand_eye.solve(poses.read(arguments.bag, arguments.body),
+                               poses.read(arguments.bag, arguments.odom),
+                               arguments.segment, arguments.largest_offset)
+        print('\n'.join(describe(found)))
+        mount.write(found, arguments.output)
+    except (ExperimentError, OSError) as error:
+        sys.exit(f'body_to_base: {error}')

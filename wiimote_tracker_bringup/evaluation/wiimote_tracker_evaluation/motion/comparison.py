@@ -1,0 +1,81 @@
+"""Errors of an estimated trajectory against a true one.
+
+ATE and RPE: J. Sturm, N. Engelhard, F. Endres, W. Burgard and D. Cremers, "A benchmark for the
+evaluation of RGB-D SLAM systems", IROS 2012, as the TUM tools and evo compute them, except that the
+truth is interpolated at the times of the estimate instead of taken at the nearest time.
+"""
+
+import dataclasses
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from wiimote_tracker_evaluation import alignment
+from wiimote_tracker_evaluation.errors import ExperimentError
+
+STATISTICS = (('rmse', lambda e: np.sqrt((e ** 2).mean())), ('mean', np.mean),
+              ('median', np.median), ('p95', lambda e: np.quantile(e, 0.95)), ('max', np.max))
+
+
+@dataclasses.dataclass
+class Comparison:
+    """truth, estimate: Poses at the same times, the estimate aligned. errors: names, with units, to
+    arrays; scale: of the alignment; rpe_times: of the beginnings of the intervals [s]."""
+
+    truth: object
+    estimate: object
+    scale: float
+    errors: dict
+    rpe_times: np.ndarray
+
+    def figures(self):
+        return {'poses': len(self.truth.times), 'scale': self.scale,
+                **{name: {statistic: float(of(values)) for statistic, of in STATISTICS}
+                   for name, values in self.errors.items()}}
+
+
+def compare(estimate, truth, kind='rigid', interval=1.0, longest_gap=0.05):
+    """kind: of alignment.KINDS. interval: of the RPE [s]. longest_gap: greatest time between two
+    true poses to interpolate between [s]."""
+    estimate = estimate.chosen(truth.covers(estimate.times, longest_gap))
+    if len(estimate.times) < 3:
+        raise ExperimentError('fewer than three estimated poses lie between true poses; check the '
+                              'clocks, --offset and --gap')
+    truth = truth.at(estimate.times)
+    try:
+        fitted = alignment.fit_kind(kind, estimate.positions, truth.positions)
+    except ValueError as error:
+        raise ExperimentError(f'{error}; use --alignment absolute') from error
+    aligned = dataclasses.replace(estimate, positions=fitted.apply(estimate.positions),
+                                  rotations=Rotation.from_matrix(fitted.rotation)
+                                  * estimate.rotations)
+    first, last = intervals(estimate.times, interval, longest_gap)
+    shift, turn = relative_errors(aligned, truth, first, last)
+    errors = {'ATE [m]': np.linalg.norm(aligned.positions - truth.positions, axis=1),
+              'ATE [deg]': degrees(truth.rotations.inv() * aligned.rotations),
+              f'RPE of {interval:g} s [m]': shift, f'RPE of {interval:g} s [deg]': turn}
+    return Comparison(truth, aligned, fitted.scale, errors, estimate.times[first])
+
+
+def intervals(times, interval, tolerance):
+    """Indices of all pairs of poses that are this far apart, to the tolerance [s]."""
+    ends = times + interval
+    last = np.clip(np.searchsorted(times, ends), 1, len(times) - 1)
+    last -= ends - times[last - 1] < times[last] - ends
+    first = np.flatnonzero((np.abs(times[last] - ends) <= min(tolerance, interval / 2.0))
+                           & (ends <= times[-1] + 1e-6))
+    if not len(first):
+        raise ExperimentError(f'no two poses are {interval:g} s apart; use a smaller --interval')
+    return first, last[first]
+
+
+def relative_errors(estimate, truth, first, last):
+    """Lengths [m] and angles [deg] of (Q_i^-1 Q_j)^-1 (P_i^-1 P_j), P: estimate, Q: truth."""
+    moved = [poses.rotations[first].inv().apply(poses.positions[last] - poses.positions[first])
+             for poses in (estimate, truth)]
+    turned = [poses.rotations[first].inv() * poses.rotations[last] for poses in (estimate, truth)]
+    return np.linalg.norm(moved[0] - moved[1], axis=1), degrees(turned[1].inv() * turned[0])
+
+
+def degrees(rotations):
+    return np.degrees(rotations.magnitude())

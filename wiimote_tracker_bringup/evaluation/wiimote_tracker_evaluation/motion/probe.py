@@ -1,0 +1,138 @@
+"""probe: a tracked body with a tip that measures points."""
+
+import collections
+import copy
+import os
+
+import numpy as np
+import rospy
+from geometry_msgs.msg import PointStamped, PoseWithCovarianceStamped
+from nav_msgs.msg import Odometry
+from scipy.spatial.transform import Rotation
+from std_srvs.srv import Trigger, TriggerResponse
+
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.motion import pivot
+
+INTERVAL = 0.05  # of the poses of a pivot, whose errors are then nearly independent [s]
+REST = 0.5  # of which a saved point is the mean [s]
+HEADER = 'time [s],x [m],y [m],z [m],stddev_x [m],stddev_y [m],stddev_z [m]\n'
+
+
+def arrays(messages):
+    """Times, positions, rotations and covariances (n x 6 x 6) of nav_msgs/Odometry."""
+    poses = [message.pose.pose for message in messages]
+    turns = [pose.orientation for pose in poses]
+    return (np.array([message.header.stamp.to_sec() for message in messages]),
+            np.array([[pose.position.x, pose.position.y, pose.position.z] for pose in poses]),
+            Rotation.from_quat([[turn.x, turn.y, turn.z, turn.w] for turn in turns]),
+            np.array([message.pose.covariance for message in messages]).reshape(-1, 6, 6))
+
+
+class Probe:
+    """The tip, and where it was. tip: position in the body's frame [m] and its covariance."""
+
+    def __init__(self, tip, duration, file):
+        self.tip, self.tip_covariance = np.array(tip, dtype=float), np.zeros((3, 3))
+        self.duration, self.file = duration, os.path.expanduser(file)
+        self.messages = collections.deque()  # of the newest `duration`
+
+    def add(self, message):
+        self.messages.append(message)
+        while message.header.stamp - self.messages[0].header.stamp > rospy.Duration(self.duration):
+            self.messages.popleft()
+
+    def newest(self, duration):
+        """The messages of the last duration [s]."""
+        messages = list(self.messages)
+        if not messages:
+            raise ExperimentError('the probe was never seen')
+        start = messages[-1].header.stamp - rospy.Duration(duration)
+        return [message for message in messages if message.header.stamp >= start]
+
+    def points(self, messages):
+        """In the world: n x 3 [m], and covariances, n x 3 x 3."""
+        _, positions, rotations, covariances = arrays(messages)
+        turned = rotations.as_matrix()
+        return (positions + rotations.apply(self.tip),
+                pivot.covariance_at(self.tip, rotations, covariances)
+                + turned @ self.tip_covariance @ turned.transpose(0, 2, 1))
+
+    def tip_pose(self, message):
+        """The body's orientation, at the tip."""
+        (point,), (of_point,) = self.points([message])
+        pose = PoseWithCovarianceStamped(header=message.header, pose=copy.deepcopy(message.pose))
+        place = pose.pose.pose.position
+        arm = point - [place.x, place.y, place.z]
+        place.x, place.y, place.z = point
+        covariance = np.array(message.pose.covariance).reshape(6, 6)
+        covariance[:3, 3:] -= pivot.skew(arm[None])[0] @ covariance[3:, 3:]
+        covariance[3:, :3] = covariance[:3, 3:].T
+        covariance[:3, :3] = of_point
+        pose.pose.covariance = covariance.reshape(-1).tolist()
+        return pose
+
+    def pivot(self):
+        """Solves for the tip. @returns a sentence."""
+        messages = self.newest(self.duration)
+        times, positions, rotations, covariances = arrays(messages)
+        which = np.unique(np.floor(times / INTERVAL), return_index=True)[1]
+        found = pivot.solve(positions[which], rotations[which], covariances[which])
+        self.tip, self.tip_covariance = found.position, found.covariance
+        numbers = ', '.join(f'{value:.4f}' for value in found.position)
+        return (f'tip: [{numbers}] +- {1e3 * np.sqrt(np.trace(found.covariance)):.2f} mm, '
+                f'residual {1e3 * found.residual:.1f} mm')
+
+    def save_point(self):
+        """Appends where the tip is to the file. @returns a sentence."""
+        messages = self.newest(REST)
+        points, covariances = self.points(messages)
+        spread = np.sqrt(points.var(axis=0).sum())
+        stddevs = np.sqrt(np.diagonal(covariances.mean(axis=0)))
+        if spread > 3.0 * np.linalg.norm(stddevs):
+            raise ExperimentError(f'the tip moved by {1e3 * spread:.0f} mm (RMS) in the last '
+                                  f'{REST:g} s; hold it still')
+        row = [messages[-1].header.stamp.to_sec(), *points.mean(axis=0), *stddevs]
+        is_new = not os.path.exists(self.file)
+        with open(self.file, 'a') as file:
+            file.write((HEADER if is_new else '') + ','.join(f'{value:.6f}' for value in row) + '\n')
+        return f'{self.file}: ' + ', '.join(f'{value:.4f}' for value in row[1:4])
+
+
+class Node:
+    """Publishes <body>/tip and <body>/tip_pose. Services: ~pivot, ~save_point."""
+
+    def __init__(self):
+        body = rospy.get_param('~body')
+        self.probe = Probe(rospy.get_param('~tip', [0.0, 0.0, 0.0]),
+                           rospy.get_param('~duration', 10.0),
+                           rospy.get_param('~file', '~/probe_points.csv'))
+        self.point = rospy.Publisher(f'{body}/tip', PointStamped, queue_size=10)
+        self.pose = rospy.Publisher(f'{body}/tip_pose', PoseWithCovarianceStamped, queue_size=10)
+        rospy.Subscriber(f'{body}/odometry', Odometry, self.on_odometry, queue_size=100,
+                         tcp_nodelay=True)
+        rospy.Service('~pivot', Trigger, self.on_pivot)
+        rospy.Service('~save_point', Trigger, lambda request: self.answer(self.probe.save_point))
+
+    def on_odometry(self, message):
+        self.probe.add(message)
+        pose = self.probe.tip_pose(message)
+        self.point.publish(PointStamped(header=message.header, point=pose.pose.pose.position))
+        self.pose.publish(pose)
+
+    def on_pivot(self, _):
+        rospy.sleep(self.probe.duration)
+        return self.answer(self.probe.pivot)
+
+    @staticmethod
+    def answer(action):
+        try:
+            return TriggerResponse(success=True, message=action())
+        except (ExperimentError, OSError) as error:
+            return TriggerResponse(success=False, message=str(error))
+
+
+def main():
+    rospy.init_node('probe')
+    Node()
+    rospy.spin()

@@ -1,0 +1,130 @@
+"""The tip of a probe from a pivot: errors against the Cramer-Rao bound."""
+
+import os
+import sys
+
+import numpy as np
+import pytest
+import rospy
+from nav_msgs.msg import Odometry
+from scipy.spatial.transform import Rotation
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
+
+from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
+from wiimote_tracker_evaluation.motion import pivot, probe  # noqa: E402
+
+TIP, PLACE = np.array([0.02, -0.01, -0.3]), np.array([1.0, 0.5, 0.0])  # [m]
+STDDEVS = np.array([0.001, 0.001, 0.002, 0.015, 0.015, 0.01])  # of a pose [m, rad]
+
+
+def poses(tilt=0.5, number=200):
+    """Exact: the probe goes round, tilted to all sides."""
+    phase = np.linspace(0.0, 4.0 * np.pi, number)
+    rotations = Rotation.from_rotvec(np.stack([tilt * np.cos(phase), tilt * np.sin(1.5 * phase),
+                                               0.3 * np.sin(phase)], axis=1))
+    return PLACE - rotations.apply(TIP), rotations
+
+
+def noisy(random, **motion):
+    positions, rotations = poses(**motion)
+    noise = STDDEVS * random.normal(size=(len(positions), 6))
+    covariances = np.broadcast_to(np.diag(STDDEVS ** 2), (len(positions), 6, 6))
+    return positions + noise[:, :3], Rotation.from_rotvec(noise[:, 3:]) * rotations, covariances
+
+
+def bound():
+    """Covariance of tip and place, for exact derivatives at the truth."""
+    rotations = poses()[1]
+    weights = []
+    for rotation in rotations.as_matrix():
+        x, y, z = rotation @ TIP
+        by_pose = np.hstack([np.eye(3), [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]])
+        by_tip = np.hstack([rotation, -np.eye(3)])
+        weights.append(by_tip.T @ np.linalg.inv(by_pose * STDDEVS ** 2 @ by_pose.T) @ by_tip)
+    return np.linalg.inv(sum(weights))[:3, :3]
+
+
+def test_reaches_the_bound():
+    random, errors, normalised = np.random.default_rng(3), [], []
+    for _ in range(60):
+        tip = pivot.solve(*noisy(random))
+        errors.append(tip.position - TIP)
+        normalised.append(errors[-1] @ np.linalg.solve(tip.covariance, errors[-1]) / 3.0)
+    ratio = np.sqrt((np.array(errors) ** 2).sum(axis=1).mean() / np.trace(bound()))
+    print(ratio, np.mean(normalised), np.sqrt(np.trace(bound())), np.mean(errors, axis=0))
+    assert ratio < 1.1
+    assert 0.8 < np.mean(normalised) < 1.2
+
+
+def test_exact_poses():
+    positions, rotations = poses()
+    covariances = np.broadcast_to(np.diag(STDDEVS ** 2), (len(positions), 6, 6))
+    tip = pivot.solve(positions, rotations, covariances)
+    assert np.allclose(tip.position, TIP, atol=1e-6) and np.allclose(tip.place, PLACE, atol=1e-6)
+    assert tip.residual < 1e-6
+
+
+def test_refusals():
+    random = np.random.default_rng(4)
+    with pytest.raises(ExperimentError, match='tilt the probe further'):
+        pivot.solve(*noisy(random, tilt=0.005))
+    with pytest.raises(ExperimentError, match='20 poses, 30 are needed'):
+        pivot.solve(*noisy(random, number=20))
+    positions, rotations, covariances = noisy(random)
+    positions[100:] += [0.04, 0.0, 0.0]
+    with pytest.raises(ExperimentError, match='did not rest'):
+        pivot.solve(positions, rotations, covariances)
+
+
+def messages(positions, rotations, covariances, start=1000.0):
+    for number, (position, turn) in enumerate(zip(positions, rotations.as_quat())):
+        message = Odometry()
+        message.header.stamp = rospy.Time.from_sec(start + 0.05 * number + 0.01)
+        pose = message.pose.pose
+        pose.position.x, pose.position.y, pose.position.z = position
+        turned = pose.orientation
+        turned.x, turned.y, turned.z, turned.w = turn
+        message.pose.covariance = covariances[number].reshape(-1).tolist()
+        yield message
+
+
+def test_probe_saves_points(tmp_path):
+    random, file = np.random.default_rng(5), tmp_path / 'points.csv'
+    measuring = probe.Probe([0.0, 0.0, 0.0], 10.0, str(file))
+    with pytest.raises(ExperimentError, match='never seen'):
+        measuring.pivot()
+    for message in messages(*noisy(random)):
+        measuring.add(message)
+    assert 'tip: [' in measuring.pivot()
+    assert np.linalg.norm(measuring.tip - TIP) < 0.003
+    with pytest.raises(ExperimentError, match='hold it still'):
+        moving, rotations, covariances = noisy(random, number=20)
+        for message in messages(moving + np.linspace(0.0, 0.5, 20)[:, None], rotations, covariances,
+                                1020.0):
+            measuring.add(message)
+        measuring.save_point()
+    for message in messages(*noisy(random, tilt=0.001, number=20), start=1030.0):
+        measuring.add(message)
+    measuring.save_point()
+    time, *row = np.loadtxt(file, delimiter=',', skiprows=1)
+    assert time == pytest.approx(1030.96)
+    assert np.linalg.norm(row[:3] - PLACE) < 0.006 and 0.001 < row[3] < 0.01
+    assert file.read_text().startswith('time [s],x [m]')
+
+
+def test_pose_of_the_tip():
+    measuring = probe.Probe(TIP, 10.0, '')
+    positions, rotations = poses(number=1)
+    root = np.random.default_rng(6).normal(size=(6, 6)) * 1e-3
+    message, = messages(positions, rotations, [root @ root.T])
+    pose = measuring.tip_pose(message)
+    place = pose.pose.pose.position
+    assert np.allclose([place.x, place.y, place.z], PLACE)
+    assert message.pose.pose.position.x == positions[0, 0], 'the message was changed'
+    x, y, z = rotations[0].apply(TIP)
+    moved = np.eye(6)
+    moved[:3, 3:] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
+    assert np.allclose(np.reshape(pose.pose.covariance, (6, 6)), moved @ root @ root.T @ moved.T,
+                       atol=1e-15)

@@ -83,6 +83,7 @@ void LedLabels::clear() {
   lost_.clear();
   for (const auto& given : given_)
     lost_.push_back(given.first);
+  places_.merge(expected_);  // of labels that did not return before this restart
   expected_.swap(places_);
   places_.clear();
 }

@@ -109,6 +109,7 @@ TEST(LedLabels, ReturnByPlaceAfterARestart) {
   const std::string file = testing::TempDir() + "label_places_" + std::to_string(::getpid());
   ASSERT_TRUE(writePlaces(file, labels.places()));
   labels.clear();
+  labels.clear();
   LedLabels of_another_process({"a", "b", "c", "d"});
   of_another_process.expect(readPlaces(file, std::chrono::seconds(60)));
   for (LedLabels* restarted : {&labels, &of_another_process}) {

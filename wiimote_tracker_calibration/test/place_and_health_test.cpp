@@ -9,6 +9,7 @@
 #include <wiimote_tracker_msgs/FitRemap.h>
 #include <wiimote_tracker_msgs/RecalibrateCamera.h>
 
+#include <filesystem>
 #include <future>
 
 namespace wiimote_tracker {
@@ -47,11 +48,11 @@ class CalibratedNode : public Node {
     return rig;
   }
 
-  static void load(const geometry::Rig& rig) {
+  static void load(const geometry::Rig& rig, const std::string& service = "calibration/load") {
     wiimote_tracker_msgs::LoadRig::Request request;
     request.path = folder_ + "/loaded.yaml";
     geometry::writeRigFile(rig, request.path);
-    const auto response = call<wiimote_tracker_msgs::LoadRig>("calibration/load", request);
+    const auto response = call<wiimote_tracker_msgs::LoadRig>(service, request);
     ASSERT_TRUE(response.success) << response.message;
   }
 
@@ -269,6 +270,54 @@ TEST_F(CalibratedNode, RecalibratesOneCamera) {
   const geometry::Rig result = fromMessage(*published.get());
   EXPECT_LT((result.cameras[1].camera.center() - cameras_->truth[1].center()).norm(), 0.01);
   EXPECT_TRUE(waitUntil([&] { return status_->get()->message == response.message; }));
+}
+
+TEST_F(CalibratedNode, BringsBackAKnockedCamera) {
+  EXPECT_SAYS(call<std_srvs::Trigger>("calibration/continuous/apply").message, "no");
+  geometry::Rig rig = trueRig();
+  Eigen::Isometry3d& pose = rig.cameras[1].camera.world_from_camera;
+  pose.linear() = pose.linear() * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY());
+  load(rig);
+  // A node that applies what it finds, with the cameras' full names.
+  geometry::Rig other = rig;
+  for (geometry::RigCamera& camera : other.cameras)
+    camera.camera.name = "/" + camera.camera.name;
+  load(other, "knocked/calibration/load");
+  Latest<RigCalibration> applied("knocked/calibration/rig");
+  ASSERT_TRUE(waitUntil([&] { return applied.get() != nullptr; }));
+  EXPECT_EQ(applied.get()->id, other.id());
+
+  // Proposed, and not applied.
+  cameras_->waveLed(true);
+  ASSERT_TRUE(
+      waitUntil([] { return health("camera_2").find("continuous/apply") != std::string::npos; }));
+  EXPECT_EQ(status_->get()->rig_id, rig.id());
+  const auto reply = call<std_srvs::Trigger>("calibration/continuous/apply");
+  ASSERT_TRUE(reply.success) << reply.message;
+  EXPECT_SAYS(reply.message, "camera_2 was turned by 2.8");
+  EXPECT_SAYS(reply.message, folder_ + "/versions/");
+  EXPECT_SAYS(call<std_srvs::Trigger>("calibration/continuous/apply").message, "nothing");
+  Latest<RigCalibration> published("calibration/rig");
+  ASSERT_TRUE(waitUntil([&] { return published.get() && published.get()->id != rig.id(); }));
+  const geometry::Rig result = fromMessage(*published.get());
+  EXPECT_LT((result.cameras[1].camera.center() - cameras_->truth[1].center()).norm(), 0.01);
+  EXPECT_TRUE(waitUntil([] { return health("camera_2").empty(); }));
+  // Back, once.
+  ASSERT_TRUE(call<std_srvs::Trigger>("calibration/continuous/revert").success);
+  EXPECT_TRUE(waitUntil([&] { return published.get()->id == rig.id(); }));
+  EXPECT_FALSE(call<std_srvs::Trigger>("calibration/continuous/revert").success);
+
+  EXPECT_TRUE(waitUntil([&] { return applied.get()->id != other.id(); }));
+  EXPECT_LT(
+      (fromMessage(*applied.get()).cameras[1].camera.center() - cameras_->truth[1].center()).norm(),
+      0.01);
+  std::string rig_file;
+  ASSERT_TRUE(ros::param::get("/knocked/calibration/rig_file", rig_file));
+  const std::string folder = rig_file.substr(0, rig_file.rfind('/'));
+  EXPECT_TRUE(waitUntil([&] { return exists(folder + "/versions"); }));
+  EXPECT_FALSE(exists(rig_file));
+  ASSERT_EQ(folder.compare(0, 5, "/tmp/"), 0);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -50,6 +50,9 @@ class DriftWatch {
   /// @returns true when a new judgement is there.
   bool add(const capture::Image& image);
 
+  /// Those of the window, in the order of their times.
+  const std::deque<DriftSample>& samples() const { return samples_; }
+
   /// Per camera of the rig, at the time of the latest judgement. Nothing for cameras that shared
   /// too little motion with others in the window.
   const std::vector<std::optional<Drift>>& drifts() const { return drifts_; }

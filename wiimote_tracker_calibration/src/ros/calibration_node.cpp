@@ -6,7 +6,8 @@ CalibrationNode::CalibrationNode(const ros::NodeHandle& nh, const Parameters& pa
     : context_(nh, parameters),
       units_({fileServices(&context_), captureServices(&context_), waveServices(&context_),
               maskServices(&context_), solveServices(&context_), boardServices(&context_),
-              placeServices(&context_), recalibrateServices(&context_), healthMonitor(&context_)}) {
+              placeServices(&context_), recalibrateServices(&context_),
+              continuousServices(&context_), healthMonitor(&context_)}) {
   context_.inputs().start();
   status_timer_ =
       context_.nh().createWallTimer(ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) {

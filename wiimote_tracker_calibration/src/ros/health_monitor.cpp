@@ -84,8 +84,9 @@ class HealthMonitor {
     std::vector<std::string> troubles;
     for (const auto& camera : watch_->cameras()) {
       const health::CameraHealth& health = camera.second;
-      if (!health.text.empty())
-        troubles.push_back(camera.first + " " + health.text);
+      const std::string text = context_.health(camera.first, lock);
+      if (!text.empty())
+        troubles.push_back(camera.first + " " + text);
       status.add(camera.first + " tilt [degrees]",
                  health.tilt ? format("%.2f +- %.2f", health.tilt->angle * 180.0 / M_PI,
                                       health.tilt->stddev * 180.0 / M_PI)

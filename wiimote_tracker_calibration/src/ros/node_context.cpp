@@ -186,17 +186,23 @@ void NodeContext::setHealth(const std::string& camera, const std::string& text, 
   health_[camera] = text;
 }
 
+std::string NodeContext::health(const std::string& camera, const Lock&) const {
+  const auto found = health_.find(camera);
+  const std::string finding = found != health_.end() ? found->second : "";
+  if (proposal_.first != camera || proposal_.second.empty())
+    return finding;
+  return finding + (finding.empty() ? "" : "; ") + proposal_.second;
+}
+
 std::vector<wiimote_tracker_msgs::CalibrationCameraStatus>
-NodeContext::cameraStatus(double now, double window, const Lock&) const {
+NodeContext::cameraStatus(double now, double window, const Lock& lock) const {
   std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> cameras =
       wiimote_tracker::cameraStatus(calibration_, inputs_.cameras(), now, window);
   for (wiimote_tracker_msgs::CalibrationCameraStatus& camera : cameras) {
     const auto masks = inputs_.masks().find(camera.name);
     if (masks != inputs_.masks().end())
       camera.masks = static_cast<std::uint32_t>(masks->second.size());
-    const auto health = health_.find(camera.name);
-    if (health != health_.end())
-      camera.health = health->second;
+    camera.health = health(camera.name, lock);
   }
   return cameras;
 }

@@ -19,6 +19,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -122,8 +123,16 @@ class NodeContext {
   /// @returns whether there is a rig and it changed.
   bool setMasks(const capture::Masks& masks, const Lock& lock);
 
-  /// CalibrationCameraStatus.health of a camera from now on; empty: all is well.
+  /// What is found of a camera's health from now on; empty: all is well.
   void setHealth(const std::string& camera, const std::string& text, const Lock&);
+
+  /// What continuous calibration proposes to change, shown with the camera's health; no text:
+  /// nothing.
+  void setProposal(const std::string& camera, const std::string& text, const Lock&) {
+    proposal_ = {camera, text};
+  }
+  /// CalibrationCameraStatus.health of a camera.
+  std::string health(const std::string& camera, const Lock&) const;
 
   /// What each camera shows over the last `window` seconds, and what it has contributed so far.
   std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> cameraStatus(double now,
@@ -144,6 +153,7 @@ class NodeContext {
   place::KnownPlaces known_places_;
   session::Verdict verdict_;  // of the current rig
   std::map<std::string, std::string> health_;
+  std::pair<std::string, std::string> proposal_;  // Camera and text.
   ros::Publisher status_publisher_;
   ros::Publisher rig_publisher_;
   ros::Publisher verdict_publisher_;

@@ -98,6 +98,16 @@ void readHealth(ParameterReader* reader, health::HealthOptions* options) {
   reader->read("residual_drift_window", &drift.window, 5.0, 3600.0);
 }
 
+ContinuousPolicy readContinuousPolicy(ParameterReader* reader) {
+  const std::string policy =
+      reader->choice("continuous_policy", "propose", {"off", "propose", "knocked", "all"});
+  if (policy == "off")
+    return ContinuousPolicy::kOff;
+  if (policy == "propose")
+    return ContinuousPolicy::kPropose;
+  return policy == "knocked" ? ContinuousPolicy::kKnocked : ContinuousPolicy::kAll;
+}
+
 geometry::Intrinsics readIntrinsics(ParameterReader* reader,
                                     const std::string& key,
                                     geometry::Intrinsics lens) {
@@ -178,6 +188,7 @@ Parameters readParameters(ParameterReader reader) {
   readWave(&reader, &parameters.solve.wave);
   readRays(&reader, &parameters.solve);
   readHealth(&reader, &parameters.health);
+  parameters.continuous_policy = readContinuousPolicy(&reader);
   reader.allow("diagnostic_period");  // read by diagnostic_updater
   reader.read("use_gravity", &parameters.solve.use_gravity);
   reader.read("set_camera_info_timeout", &parameters.set_camera_info_timeout, 0.1, 60.0);

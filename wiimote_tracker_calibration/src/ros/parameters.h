@@ -17,6 +17,14 @@
 
 namespace wiimote_tracker {
 
+/// Which proposals of continuous calibration are applied without being asked.
+enum class ContinuousPolicy {
+  kOff,      ///< There are no proposals.
+  kPropose,  ///< None.
+  kKnocked,  ///< A camera that was knocked.
+  kAll,      ///< A camera that drifted, too.
+};
+
 /// Parameters of the calibration node; config/calibration.yaml describes each.
 struct Parameters {
   std::vector<std::string> cameras;  ///< Empty: discover them.
@@ -31,6 +39,7 @@ struct Parameters {
   workflow::CalibrationOptions calibration;
   session::SolveOptions solve;
   health::HealthOptions health;
+  ContinuousPolicy continuous_policy = ContinuousPolicy::kPropose;
   intrinsics::Board board;          ///< The 16-LED board.
   int board_views = 12;             ///< Least number to solve a lens.
   geometry::Intrinsics intrinsics;  ///< Of all cameras but those in own_intrinsics.

@@ -38,6 +38,9 @@ Unit placeServices(NodeContext* context);
 /// Solves one camera against the others: recalibrate_camera.
 Unit recalibrateServices(NodeContext* context);
 
+/// A rig that corrects itself from ordinary tracking: continuous/apply, continuous/revert.
+Unit continuousServices(NodeContext* context);
+
 /// Reports cameras of the current rig that were moved, and cameras that it lacks: in the status, in
 /// /diagnostics, and once in the log. It never changes the rig.
 Unit healthMonitor(NodeContext* context);

@@ -1,0 +1,209 @@
+#include "units.h"
+
+#include "continuous/continuous_calibration.h"
+
+#include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/geometry/rig_file.h>
+
+#include <ctime>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wiimote_tracker {
+
+using workflow::Reply;
+using workflow::Step;
+
+namespace {
+
+constexpr double kUpdatePeriod = 0.5;  // [s]
+const char kApply[] = "; call calibration/continuous/apply to use it";
+
+/// A date as part of a file's name.
+std::string dateOf(double time) {
+  const auto seconds = static_cast<std::time_t>(time);
+  std::tm date{};
+  gmtime_r(&seconds, &date);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y%m%d_%H%M%S", &date);
+  return text;
+}
+
+class ContinuousServices {
+ public:
+  explicit ContinuousServices(NodeContext* context)
+      : context_(*context),
+        services_({advertise(context_.nh(),
+                             "calibration/continuous/apply",
+                             &ContinuousServices::apply,
+                             this),
+                   advertise(context_.nh(),
+                             "calibration/continuous/revert",
+                             &ContinuousServices::revert,
+                             this)}) {
+    const Lock lock(context_.mutex());
+    policy_ = context_.parameters(lock).continuous_policy;
+    options_.recalibrate.uncertainty = context_.parameters(lock).solve.square.uncertainty;
+    if (policy_ == ContinuousPolicy::kOff)
+      return;
+    context_.inputs().subscribeImages([this](const capture::Image& image, const Lock& inner) {
+      if (isCalibrated(inner))
+        inputs_.push_back({image, std::nullopt});
+    });
+    context_.inputs().subscribeGravity([this](const std::string& camera, double,
+                                              const Eigen::Vector3d& specific_force,
+                                              const Lock& inner) {
+      if (!isCalibrated(inner))
+        return;
+      inputs_.push_back({{}, specific_force});
+      inputs_.back().image.camera = camera;
+    });
+    timer_ = context_.nh().createWallTimer(
+        ros::WallDuration(kUpdatePeriod), [this](const ros::WallTimerEvent&) {
+          runCallback("continuous calibration", [this] { update(); });
+        });
+  }
+
+ private:
+  /// An image, or a reading of a camera's accelerometer in its optical frame [m/s^2].
+  struct Input {
+    capture::Image image;
+    std::optional<Eigen::Vector3d> specific_force;
+  };
+  /// A rig that was changed: its id now, and as it was.
+  struct Change {
+    std::string id;
+    geometry::Rig before;
+  };
+
+  /// Whether a rig is in use and no calibration is going on.
+  bool isCalibrated(const Lock& lock) const {
+    const Step step = context_.calibration(lock).step();
+    return step == Step::kSolved || step == Step::kSaved;
+  }
+
+  /// Only the timer calls it, once at a time.
+  void update() {
+    Lock lock(context_.mutex());
+    std::vector<Input> inputs;
+    inputs.swap(inputs_);
+    useRig(lock);
+    if (!continuous_)
+      return;
+    const auto proposal = context_.compute(&lock, [&] { return newestProposal(inputs); });
+    const auto& rig = context_.rig(lock);
+    if (!proposal || !rig || rig->id() != rig_id_ || !isCalibrated(lock))
+      return;
+    const bool is_news = !proposal_ || proposal_->camera != proposal->camera;
+    proposal_ = proposal;
+    context_.setProposal(proposal->camera, proposal->message + kApply, lock);
+    const bool applies =
+        policy_ == ContinuousPolicy::kAll ||
+        (policy_ == ContinuousPolicy::kKnocked && proposal->cause == continuous::Cause::kKnock);
+    if (applies && rig_id_ != reverted_to_)
+      ROS_WARN_STREAM(applyProposal(&lock).message);
+    else if (is_news)
+      ROS_WARN_STREAM(proposal->message + kApply);
+  }
+
+  /// Watches the rig in use from now on.
+  void useRig(const Lock& lock) {
+    const auto& rig = context_.rig(lock);
+    const std::string id = rig ? rig->id() : "";
+    if (id == rig_id_)
+      return;
+    rig_id_ = id;
+    continuous_.reset();
+    forgetProposal(lock);
+    if (rig)
+      continuous_.emplace(*rig, options_);
+  }
+
+  void forgetProposal(const Lock& lock) {
+    proposal_.reset();
+    context_.setProposal("", "", lock);
+  }
+
+  std::optional<continuous::Proposal> newestProposal(const std::vector<Input>& inputs) {
+    std::optional<continuous::Proposal> newest;
+    for (const Input& input : inputs) {
+      if (input.specific_force)
+        continuous_->addAcceleration(input.image.camera, *input.specific_force);
+      else if (auto proposal = continuous_->add(input.image))
+        newest = std::move(proposal);
+    }
+    return newest;
+  }
+
+  Reply apply() {
+    Lock lock(context_.mutex());
+    return context_.answer(&lock, [&] { return applyProposal(&lock); });
+  }
+
+  /// The rig before is kept for revert(), the new one in a file beside the rig file.
+  Reply applyProposal(Lock* lock) {
+    requireCalibrated(*lock);
+    if (!proposal_)
+      throw Refusal(
+          "nothing is proposed: a camera that no longer fits the others is solved while "
+          "one LED moves where it and two others see it");
+    const geometry::Rig before = context_.existingRig("to change", *lock);
+    context_.requireSameRig(rig_id_, *lock);
+    const continuous::Proposal proposal = *proposal_;
+    forgetProposal(*lock);
+    changes_.push_back({proposal.rig.id(), before});
+    context_.setRig(proposal.rig, proposal.message, *lock);
+    const std::string& rig_file = context_.parameters(*lock).rig_file;
+    const std::string path = rig_file.substr(0, rig_file.rfind('/') + 1) + "versions/" +
+                             dateOf(NodeContext::now()) + "_" + proposal.rig.id() + ".yaml";
+    context_.compute(lock, [&] { geometry::writeRigFile(proposal.rig, path); });
+    return {true, "in use: " + proposal.message + "; kept in " + path +
+                      "; calibration/continuous/revert goes back, and save keeps it"};
+  }
+
+  Reply revert() {
+    Lock lock(context_.mutex());
+    return context_.answer(&lock, [&] {
+      requireCalibrated(lock);
+      if (changes_.empty() || context_.existingRig("to change", lock).id() != changes_.back().id)
+        throw Refusal(
+            "the rig in use is not one that continuous calibration has changed: load the "
+            "one that you want");
+      const geometry::Rig before = changes_.back().before;
+      changes_.pop_back();
+      reverted_to_ = before.id();
+      const std::string message = "rig " + before.id() +
+                                  " from before the last change is in use again; until there is "
+                                  "another one, changes are only proposed";
+      context_.setRig(before, message, lock);
+      return Reply{true, message};
+    });
+  }
+
+  void requireCalibrated(const Lock& lock) const {
+    if (!isCalibrated(lock))
+      throw Refusal("a calibration is going on, or there is no rig: solve or load one first");
+  }
+
+  NodeContext& context_;
+  ContinuousPolicy policy_;
+  continuous::Options options_;
+  std::vector<Input> inputs_;                                    // Since the last update.
+  std::string rig_id_;                                           // Of the rig that is watched.
+  std::optional<continuous::ContinuousCalibration> continuous_;  // Nothing without a rig.
+  std::optional<continuous::Proposal> proposal_;                 // For the rig that is watched.
+  std::vector<Change> changes_;
+  std::string reverted_to_;  // Id of a rig that is not changed without being asked.
+  std::vector<ros::ServiceServer> services_;
+  ros::WallTimer timer_;
+};
+
+}  // namespace
+
+Unit continuousServices(NodeContext* context) {
+  return std::make_shared<ContinuousServices>(context);
+}
+
+}  // namespace wiimote_tracker

@@ -1,0 +1,201 @@
+// A rig that corrects itself: a camera that was knocked or drifted comes back, and nothing else
+// moves it.
+
+#include "waved_led.h"
+
+#include "continuous/continuous_calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::continuous {
+namespace {
+
+using square::normal;
+using square::Random;
+using square::uniform;
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+constexpr double kDegree = M_PI / 180.0;
+
+/// A rig whose images fit together to about 0.2 px.
+geometry::Rig calibratedRig() {
+  RigErrors errors;
+  errors.rotation = 1e-4;
+  errors.position = 5e-4;
+  errors.focal = 0.5;
+  errors.principal_point = 0.1;
+  errors.k1 = 1e-3;
+  return paperRigWith(errors);
+}
+
+/// The camera after it was turned about any axis [rad].
+geometry::RigCamera turned(const geometry::RigCamera& camera, double angle, Random& random) {
+  geometry::RigCamera result = camera;
+  const Eigen::Vector3d axis(normal(random, 1.0), normal(random, 1.0), normal(random, 1.0));
+  result.camera.world_from_camera.linear() =
+      camera.camera.world_from_camera.linear() *
+      Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+  return result;
+}
+
+/// RMS distance of two cameras' pixels of points in the volume [px].
+double pixelDistance(const geometry::Camera& a, const geometry::Camera& b) {
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 0; i < 27; ++i) {
+    const Eigen::Vector3d point = Eigen::Vector3d::Constant(0.5) +
+                                  0.75 * Eigen::Vector3i(i % 3, i / 3 % 3, i / 9).cast<double>();
+    const auto pixel_a = a.project(point);
+    const auto pixel_b = b.project(point);
+    if (!pixel_a || !pixel_b)
+      continue;
+    sum += (*pixel_a - *pixel_b).squaredNorm();
+    ++count;
+  }
+  return std::sqrt(sum / count);
+}
+
+/// The first proposal until a time [s].
+std::optional<Proposal> proposalUntil(double time, WavedLed* led, ContinuousCalibration* watch) {
+  std::optional<Proposal> first;
+  led->runUntil(time, [&](const capture::Image& image) {
+    if (!first)
+      first = watch->add(image);
+  });
+  return first;
+}
+
+TEST(Continuous, BringsBackAKnockedCamera) {
+  Random random(1);
+  for (std::size_t index = 0; index < 4; ++index) {
+    geometry::Rig rig = calibratedRig();
+    rig.verdict = "good; since then something else";
+    WavedLed led(drawTruth(rig, random), 100 + index);
+    ContinuousCalibration watch(rig, {});
+    EXPECT_FALSE(proposalUntil(20.0, &led, &watch));
+    led.truth[index] = turned(led.truth[index], uniform(random, 1.0, 3.0) * kDegree, random);
+    const geometry::Camera& truth = led.truth[index].camera;
+    const auto proposal = proposalUntil(40.0, &led, &watch);
+    ASSERT_TRUE(proposal) << index;
+    EXPECT_EQ(proposal->cause, Cause::kKnock);
+    EXPECT_EQ(proposal->camera, truth.name);
+    EXPECT_SAYS(proposal->message, truth.name + " was turned by");
+    EXPECT_EQ(proposal->rig.verdict, "good; since then " + proposal->message);
+    EXPECT_GT(proposal->before, 3.0);
+    EXPECT_LT(proposal->after, 0.7);
+    EXPECT_LT(pixelDistance(proposal->rig.cameras[index].camera, truth), 1.0);
+    // The others hold the world.
+    for (std::size_t i = 0; i < 4; ++i) {
+      const geometry::Camera& before = rig.cameras[i].camera;
+      const geometry::Camera& now = proposal->rig.cameras[i].camera;
+      EXPECT_EQ(before.world_from_camera.matrix() == now.world_from_camera.matrix(), i != index);
+    }
+  }
+}
+
+TEST(Continuous, FindsSlowDrift) {
+  Random random(2);
+  const geometry::Rig rig = calibratedRig();
+  WavedLed led(drawTruth(rig, random), 200);
+  led.truth[2] = turned(led.truth[2], 0.1 * kDegree, random);
+  const geometry::Camera& truth = led.truth[2].camera;
+  ContinuousCalibration watch(rig, {});
+  const auto proposal = proposalUntil(120.0, &led, &watch);
+  ASSERT_TRUE(proposal);
+  EXPECT_EQ(proposal->cause, Cause::kDrift);
+  EXPECT_EQ(proposal->camera, truth.name);
+  EXPECT_LT(pixelDistance(proposal->rig.cameras[2].camera, truth),
+            0.5 * pixelDistance(rig.cameras[2].camera, truth));
+}
+
+TEST(Continuous, IsAFunctionOfTheImages) {
+  const auto run = [] {
+    Random random(3);
+    const geometry::Rig rig = calibratedRig();
+    WavedLed led(drawTruth(rig, random), 300);
+    led.truth[0] = turned(led.truth[0], 2.0 * kDegree, random);
+    ContinuousCalibration watch(rig, {});
+    return proposalUntil(20.0, &led, &watch).value();
+  };
+  const Proposal first = run();
+  const Proposal second = run();
+  EXPECT_EQ(first.rig.id(), second.rig.id());
+  EXPECT_EQ(first.rig.covariance, second.rig.covariance);
+  EXPECT_EQ(first.rig.solved_at, second.rig.solved_at);
+  EXPECT_EQ(first.message, second.message);
+}
+
+TEST(Continuous, ProposesNothingWithoutMotion) {
+  Random random(4);
+  const geometry::Rig rig = calibratedRig();
+  WavedLed led(drawTruth(rig, random), 400);
+  ContinuousCalibration watch(rig, {});
+  // Knocked while the LED rests.
+  led.still = Eigen::Vector3d(1.0, 1.1, 0.9);
+  led.wrong_share = 0.0;
+  led.truth[1] = turned(led.truth[1], 2.0 * kDegree, random);
+  EXPECT_FALSE(proposalUntil(600.0, &led, &watch));
+  // Moved for five seconds only, then at rest again.
+  led.still.reset();
+  EXPECT_FALSE(proposalUntil(605.0, &led, &watch));
+  led.still = Eigen::Vector3d(1.0, 1.1, 0.9);
+  EXPECT_FALSE(proposalUntil(900.0, &led, &watch));
+  // The motion of both times counts.
+  led.still.reset();
+  EXPECT_TRUE(proposalUntil(915.0, &led, &watch));
+}
+
+/// Another light than the LED, where it is at this time [s].
+using Light = Eigen::Vector3d (*)(const wave::SimulatedPath& path, double time);
+
+TEST(Continuous, IsNotMisledByAnotherLight) {
+  const std::vector<Light> lights = {
+      // Mirror images: in the floor, in a window.
+      [](const auto& path, double time) -> Eigen::Vector3d {
+        return path.position(time, 0).cwiseProduct(Eigen::Vector3d(1.0, 1.0, -1.0));
+      },
+      [](const auto& path, double time) -> Eigen::Vector3d {
+        const Eigen::Vector3d led = path.position(time, 0);
+        return {4.0 - led.x(), led.y(), led.z()};
+      },
+      // Another LED: on its own way, and carried with the first.
+      [](const auto& path, double time) -> Eigen::Vector3d { return path.position(time + 7.0, 0); },
+      [](const auto& path, double time) -> Eigen::Vector3d {
+        return path.position(time, 0) + Eigen::Vector3d(0.2, 0.1, -0.1);
+      },
+      // A lamp.
+      [](const auto&, double) -> Eigen::Vector3d {
+        return {1.2, 1.0, 0.5};
+      }};
+  Random random(5);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const geometry::Rig rig = calibratedRig();
+    WavedLed led(drawTruth(rig, random), 500 + i);
+    const geometry::RigCamera& misled = led.truth[i % 4];
+    ContinuousCalibration watch(rig, {});
+    std::optional<Proposal> proposal;
+    led.runUntil(40.0, [&](capture::Image image) {
+      if (image.camera == misled.camera.name) {
+        const double time = image.stamp - WavedLed::kClock + misled.time_offset;
+        const auto pixel = misled.camera.project(lights[i](led.path, time));
+        image.spots.clear();
+        if (pixel)
+          image.spots.emplace_back(pixel->array().round());
+      }
+      if (!proposal)
+        proposal = watch.add(image);
+    });
+    EXPECT_FALSE(proposal) << i << ": " << proposal->message;
+  }
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::continuous

@@ -1,5 +1,6 @@
 // The shipped YAML equals the defaults in the code; wrong values are refused by name.
 #include "documented_parameters.h"
+#include "ros/coverage/coverage_display.h"
 #include "ros/gestures/gesture_parameters.h"
 #include "ros/parameters.h"
 #include "wiimote_tracker_triangulation/ros/parameter_file.h"
@@ -30,6 +31,12 @@ TEST(GestureParameters, ShippedFileHoldsTheDefaults) {
   ParameterReader reader(readParameterTree(""));
   GestureParameters::read(&reader);
   expectDocumented(reader, CONFIG_FOLDER "/gestures.yaml");
+}
+
+TEST(CoverageParameters, ShippedFileHoldsTheDefaults) {
+  ParameterReader reader(readParameterTree(""));
+  EXPECT_FALSE(CoverageParameters::read(&reader).volume);
+  expectDocumented(reader, CONFIG_FOLDER "/coverage.yaml");
 }
 
 TEST(Parameters, EveryNumberIsReadAndBounded) {

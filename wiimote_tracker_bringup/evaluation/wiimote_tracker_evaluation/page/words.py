@@ -1,5 +1,11 @@
 """Numbers and names for readers; the same in all pages."""
 
+import time
+
+PAPER = ('"The paper" is P. Peltola, M. Valtonen and J. Vanhala, A Portable and Low-Cost 3D Tracking '
+         'System Using Four-Point Planar Square Calibration, IPIN 2012, doi '
+         '10.1109/IPIN.2012.6418918.')
+
 
 def number(value, digits: int = 3) -> str:
     """A number with significant digits; strings unchanged, empty for None."""
@@ -53,7 +59,7 @@ def duration(seconds: float) -> str:
 
 
 def about(report):
-    """One line about the whole run."""
+    """What was run, when, and which paper it is compared with."""
     if report.live:
         how = ('Rehearsed on a simulated rig, with prompts' if report.simulated else
                'Measured on a real rig')
@@ -61,6 +67,6 @@ def about(report):
         how = 'Measured on recordings by others'
     else:
         how = f'Simulated, rig `{report.rig}`'
-    return '%s, seed %d, %s; took %s.' % (
-        how, report.seed,
-        'quick run' if report.quick else 'full run', duration(report.seconds))
+    return '%s, seed %d, %s of %s; took %s. %s' % (
+        how, report.seed, 'quick run' if report.quick else 'full run',
+        time.strftime('%Y-%m-%d'), duration(report.seconds), PAPER)

@@ -1,0 +1,57 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_DISPLAY_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_DISPLAY_H
+
+#include "wiimote_tracker_triangulation/geometry/coverage.h"
+
+#include <wiimote_tracker_msgs/parameter_reader.h>
+
+#include <ros/node_handle.h>
+#include <visualization_msgs/MarkerArray.h>
+#include <wiimote_tracker_msgs/RigCalibration.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// config/coverage.yaml describes them.
+struct CoverageParameters {
+  std::optional<Eigen::AlignedBox3d> volume;  ///< World [m]; nothing: volumeOf() the rig.
+  double cell_size = 0.5;                     ///< [m]
+  double pixel_stddev = 0.5;                  ///< [px]
+
+  /// @throws ParameterError
+  static CoverageParameters read(ParameterReader* reader);
+};
+
+/// The box from the floor to the cameras [m].
+Eigen::AlignedBox3d volumeOf(const geometry::Rig& rig);
+
+/// Such as "86 % of the volume is seen by two cameras or more; points are known to 12 mm there
+/// (median)."
+std::string sentenceOf(const std::vector<geometry::CoverageCell>& cells);
+
+/// A small cube in each cell: red where fewer than two cameras see it, else from green (points are
+/// known to 5 mm or better) to yellow (50 mm or worse); and the sentence above them.
+visualization_msgs::MarkerArray coverageMarkers(const std::string& world_frame,
+                                                const std::vector<geometry::CoverageCell>& cells,
+                                                double cell_size);
+
+/// Publishes the coverage of each new rig, latched.
+class CoverageDisplay {
+ public:
+  CoverageDisplay(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
+
+ private:
+  void onRig(const wiimote_tracker_msgs::RigCalibration& message);
+
+  ros::NodeHandle nh_;
+  CoverageParameters parameters_;
+  ros::Publisher publisher_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_DISPLAY_H

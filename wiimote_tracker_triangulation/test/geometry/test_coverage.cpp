@@ -1,0 +1,69 @@
+#include "geometry/random_rigs.h"
+#include "geometry/uncertain_rigs.h"
+#include "wiimote_tracker_triangulation/geometry/coverage.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/geometry/point_sensitivity.h"
+#include "wiimote_tracker_triangulation/geometry/triangulate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace wiimote_tracker::geometry {
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+using test::Random;
+
+AlignedBox3d boxAround(const Vector3d& center, const Vector3d& sides) {
+  return {center - 0.5 * sides, center + 0.5 * sides};
+}
+
+TEST(Coverage, DividesTheWholeBoxAndCountsTheCameras) {
+  Random random(5);
+  const Rig rig = test::randomRig(random, 4);
+  const auto cells = coverageOf(rig, boxAround(Vector3d::Zero(), {8.0, 8.0, 5.2}), 0.5, 0.5);
+  ASSERT_EQ(cells.size(), 16U * 16U * 11U);
+  EXPECT_EQ(cells.front().center, Vector3d(-3.75, -3.75, -2.35));
+  double covered = 0.0;
+  for (const CoverageCell& cell : cells) {
+    EXPECT_EQ(cell.cameras, camerasSeeing(rig, cell.center).size());
+    EXPECT_TRUE(cell.cameras >= 2 || std::isnan(cell.stddev));
+    covered += cell.cameras >= 2 ? 1.0 / static_cast<double>(cells.size()) : 0.0;
+  }
+  EXPECT_GT(covered, 0.1);
+  EXPECT_LT(covered, 0.9);
+  EXPECT_NEAR(coveredShare(cells), covered, 1e-9);
+  EXPECT_EQ(coveredShare({}), 0.0);
+}
+
+TEST(Coverage, RefusesTooManyCells) {
+  Random random(5);
+  const Rig rig = test::randomRig(random, 2);
+  EXPECT_THROW(coverageOf(rig, boxAround(Vector3d::Zero(), {1e6, 1e6, 1e6}), 0.5, 0.5), Error);
+}
+
+TEST(Coverage, PredictsTheErrorOfPoints) {
+  Random random(6);
+  Rig rig = test::randomRig(random, 4);
+  const auto cells = coverageOf(rig, boxAround({0.3, 0.1, -0.2}, {0.1, 0.1, 0.1}), 0.1, 0.8);
+  ASSERT_EQ(cells.size(), 1U);
+  constexpr int kDraws = 2000;
+  double squares = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    std::vector<Observation> seen;
+    for (const RigCamera& camera : rig.cameras)
+      seen.push_back(
+          {&camera.camera, *camera.camera.project(cells[0].center) +
+                               0.8 * Eigen::Vector2d(random.gaussian(), random.gaussian())});
+    squares += (triangulate(seen, {})->position - cells[0].center).squaredNorm() / kDraws;
+  }
+  EXPECT_NEAR(cells[0].stddev / std::sqrt(squares), 1.0, 0.05);
+  rig.covariance = test::randomCovariance(random, 4);
+  EXPECT_GT(coverageOf(rig, boxAround(cells[0].center, {0.1, 0.1, 0.1}), 0.1, 0.8)[0].stddev,
+            cells[0].stddev);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::geometry

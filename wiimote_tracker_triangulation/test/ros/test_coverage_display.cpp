@@ -1,0 +1,55 @@
+#include "geometry/random_rigs.h"
+#include "ros/coverage/coverage_display.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace wiimote_tracker {
+namespace {
+
+using Eigen::Vector3d;
+using geometry::CoverageCell;
+
+const std::vector<CoverageCell> kCells = {
+    {Vector3d(0.5, 0.5, 0.5), 3, 0.004},
+    {Vector3d(0.5, 0.5, 1.5), 2, 0.050},
+    {Vector3d(0.5, 0.5, 2.5), 2, 0.012},
+    {Vector3d(0.5, 0.5, 3.5), 1, std::numeric_limits<double>::quiet_NaN()}};
+
+TEST(CoverageDisplay, SaysWhatIsSeen) {
+  EXPECT_EQ(sentenceOf(kCells),
+            "75 % of the volume is seen by two cameras or more; points are known to 12 mm there "
+            "(median).");
+  EXPECT_EQ(sentenceOf({kCells[3]}), "0 % of the volume is seen by two cameras or more.");
+}
+
+TEST(CoverageDisplay, ColoursCellsByAccuracy) {
+  const auto array = coverageMarkers("hall", kCells, 1.0);
+  ASSERT_EQ(array.markers.size(), 2U);
+  const visualization_msgs::Marker& cubes = array.markers[0];
+  EXPECT_EQ(cubes.header.frame_id, "hall");
+  ASSERT_EQ(cubes.points.size(), kCells.size());
+  ASSERT_EQ(cubes.colors.size(), kCells.size());
+  EXPECT_EQ(cubes.colors[0].r, 0.0f);  // green
+  EXPECT_EQ(cubes.colors[1].r, 1.0f);  // yellow
+  EXPECT_LT(cubes.colors[3].g, 0.3f);  // red
+  EXPECT_GT(array.markers[1].pose.position.z, 3.5);
+  EXPECT_EQ(array.markers[1].text, sentenceOf(kCells));
+}
+
+TEST(CoverageDisplay, TheVolumeIsBetweenTheFloorAndTheCameras) {
+  geometry::test::Random random(3);
+  geometry::Rig rig = geometry::test::randomRig(random, 3);
+  for (geometry::RigCamera& camera : rig.cameras)
+    camera.camera.world_from_camera.translation().z() = -2.0;  // of a world with z down
+  const Eigen::AlignedBox3d box = volumeOf(rig);
+  EXPECT_EQ(box.min().z(), -2.0);
+  EXPECT_EQ(box.max().z(), 0.0);
+  for (const geometry::RigCamera& camera : rig.cameras)
+    EXPECT_EQ(box.squaredExteriorDistance(camera.camera.center()), 0.0);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker

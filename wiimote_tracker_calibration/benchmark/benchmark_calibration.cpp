@@ -84,9 +84,9 @@ int run(const std::vector<BenchmarkSection>& sections,
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<BenchmarkSection> sections = {poseSection(),  poseMethodsSection(),
-                                                  waveSection(),  waveTimeSection(),
-                                                  paperSection(), remapSection()};
+  const std::vector<BenchmarkSection> sections = {
+      poseSection(),    poseMethodsSection(), waveSection(), waveTimeSection(),
+      measureSection(), paperSection(),       remapSection()};
   std::vector<std::string> names;
   for (const BenchmarkSection& section : sections)
     names.push_back(section.name);

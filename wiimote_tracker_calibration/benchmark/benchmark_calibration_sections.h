@@ -37,6 +37,9 @@ BenchmarkSection poseSection();
 /// The same beside OpenCV's methods.
 BenchmarkSection poseMethodsSection();
 
+/// What following the verdict's advice to measure gains.
+BenchmarkSection measureSection();
+
 /// The paper's procedure, with its principal point correction.
 BenchmarkSection paperSection();
 

@@ -3,6 +3,8 @@
 #include "node_fixture.h"
 
 #include <geometry_msgs/PolygonStamped.h>
+#include <wiimote_tracker_msgs/CheckPlace.h>
+#include <wiimote_tracker_msgs/MeasureLength.h>
 
 namespace wiimote_tracker {
 namespace {
@@ -158,6 +160,15 @@ TEST_F(Node, ACaptureCanBePreemptedAndCancelled) {
 TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
   captureAll();
   EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));
+  wiimote_tracker_msgs::MeasureLength::Request length;
+  length.to_corner = 2;
+  length.length = 2.5;
+  EXPECT_SAYS(
+      call<wiimote_tracker_msgs::MeasureLength>("calibration/measure_length", length).message,
+      "corner 1 to corner 3 is 3.536 m by the sides");
+  length.length = 3.5355;
+  EXPECT_TRUE(
+      call<wiimote_tracker_msgs::MeasureLength>("calibration/measure_length", length).success);
   const auto solved = call<wiimote_tracker_msgs::SolveCalibration>("calibration/solve");
   ASSERT_TRUE(solved.success) << solved.message;
   ASSERT_EQ(solved.rig.cameras.size(), 4U);
@@ -254,6 +265,23 @@ TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
   const auto loaded = call<wiimote_tracker_msgs::LoadRig>("calibration/load");
   EXPECT_TRUE(loaded.success) << loaded.message;
   EXPECT_SAYS(loaded.message, solved.rig.id);
+
+  // A known place makes the next solution more accurate, as its verdict promised.
+  const Eigen::Vector3d place(1.0, 0.8, 1.5);
+  putLed(place);
+  wiimote_tracker_msgs::CheckPlace::Request known;
+  known.known.x = place.x();
+  known.known.y = place.y();
+  known.known.z = place.z();
+  const auto placed = call<wiimote_tracker_msgs::CheckPlace>("calibration/measure_place", known);
+  ASSERT_TRUE(placed.success) << placed.message;
+  EXPECT_SAYS(placed.message, "place 1 at (1.000, 0.800, 1.500) m is captured by 4 cameras");
+  EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));
+  const auto again = call<wiimote_tracker_msgs::SolveCalibration>("calibration/solve");
+  ASSERT_TRUE(again.success) << again.message;
+  EXPECT_SAYS(solved.verdict.next_measurement, "put the LED on a place you know");
+  EXPECT_LT(solved.verdict.next_expected_error, 0.95 * solved.verdict.expected_error);
+  EXPECT_LT(again.verdict.expected_error, 0.95 * solved.verdict.expected_error);
 }
 
 TEST_F(Node, TheLastSavedRigIsLoadedAtStart) {

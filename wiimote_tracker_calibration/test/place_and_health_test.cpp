@@ -87,6 +87,14 @@ TEST_F(CalibratedNode, ChecksAKnownPlace) {
   EXPECT_SAYS(response.message, "holds");
   EXPECT_TRUE(waitUntil([&] { return status_->get()->message == response.message; }));
 
+  CheckPlace::Request to_solve;
+  to_solve.known = pointMessage(place);
+  EXPECT_SAYS(call<CheckPlace>("calibration/measure_place", to_solve).message,
+              "capture its four corners first");
+  to_solve.known.x += 0.2;
+  EXPECT_SAYS(call<CheckPlace>("calibration/measure_place", to_solve).message,
+              "from the known place");
+
   response = check(place + Eigen::Vector3d(0.05, 0.0, 0.0));
   ASSERT_TRUE(response.success) << response.message;
   EXPECT_FALSE(response.consistent);

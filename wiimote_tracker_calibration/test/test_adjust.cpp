@@ -2,11 +2,13 @@
 #include "adjust/covariance.h"
 #include "adjust/path_pixel.h"
 #include "adjust/prior.h"
+#include "adjust/taped_length.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace wiimote_tracker::adjust {
@@ -59,6 +61,20 @@ TEST(PathPixel, DerivativesAreThoseOfFiniteDifferencesForEveryLens) {
       }
     }
   }
+}
+
+TEST(TapedLength, IsTheDistanceOfTheDisplacedCornersLessTheTape) {
+  const TapedLengthError error{{2.5, 2.5}, 5.0, 0.01};
+  const std::array<double, 2> from = {-0.5, 0.0};
+  std::array<double, 2> to = {0.0, 1.5};
+  double residual = 0.0;
+  ASSERT_TRUE(error(from.data(), to.data(), &residual));
+  EXPECT_NEAR(residual, 0.0, 1e-9);
+  to[1] = 0.0;  // now 3 and 2.5
+  ASSERT_TRUE(error(from.data(), to.data(), &residual));
+  EXPECT_NEAR(residual, (std::hypot(3.0, 2.5) - 5.0) / 0.01, 1e-9);
+  to = {-3.0, -2.5};
+  EXPECT_FALSE(error(from.data(), to.data(), &residual));
 }
 
 /// a + 2 b + c, with standard deviation 1.

@@ -147,6 +147,27 @@ def test_the_keys_are_explained_in_a_high_window():
     assert 'u   undo          drop the last corner' in lines
 
 
+def test_the_verdict_says_what_to_measure_next_and_a_length_is_solved_at_once():
+    node = FakeNode({'length': (True, 'corner 1 to corner 3 is 3.5395 m by tape'), 'undo': (True, '')})
+    dialogue = dialogue_with(node, status(CalibrationStatus.COMPLETE))
+    dialogue.command('d', ['1', '3', '3.5395'])
+    dialogue.take_events(1.0)
+    assert [r.name for r in node.sent] == ['measure_length']  # nothing was solved before
+    dialogue.command('s')
+    dialogue.take_events(2.0)
+    node.events.put(('verdict', CalibrationVerdict(
+        text='good', expected_error=0.0087,
+        next_measurement='measure from corner 2 to corner 4 by tape: 8.7 -> 6.1 mm')))
+    dialogue.command('length', ['2', '4', '3.5'])
+    dialogue.take_events(3.0)
+    assert [r.name for r in node.sent][1:] == ['solve', 'measure_length', 'solve']
+    lines = screen.render(dialogue.guide, 3.0, 'verdict')
+    assert lines[4:8] == [
+        'good', 'corner 1 to corner 3 is 3.5395 m by tape',
+        'Points are right to within 8.7 mm (RMS).',
+        'Next (keys d, a): measure from corner 2 to corner 4 by tape: 8.7 -> 6.1 mm']
+
+
 def test_the_correction_of_the_principal_points_is_a_table():
     guide = guide_at(status(CalibrationStatus.SOLVED))
     assert 'not corrected' in screen.render(guide, 1.0, 'trace')[3]
@@ -368,8 +389,12 @@ def test_words_become_requests():
             ('wave', Request('stop_wave', 'Trigger')),
             ('wave 0.5 0.001', Request('start_wave', 'StartWave', wand_length=0.5,
                                        wand_stddev=0.001)),
+            ('length 1 3 3.536', Request('measure_length', 'MeasureLength', from_corner=0,
+                                         to_corner=2, length=3.536, stddev=0.0)),
             ('check 0 1.5 -2', Request('check', 'CheckPlace', known=[0.0, 1.5, -2.0],
                                        known_stddev=0.0)),
+            ('known 0 0 2', Request('measure_place', 'CheckPlace', known=[0.0, 0.0, 2.0],
+                                    known_stddev=0.0)),
             ('save /tmp/a b.yaml', Request('save', 'SaveRig', path='/tmp/a b.yaml')),
             ('recalibrate wiimote_2', Request('recalibrate_camera', 'RecalibrateCamera',
                                               camera='wiimote_2', duration=0.0)),
@@ -388,7 +413,8 @@ def test_words_become_requests():
 @pytest.mark.parametrize('line', [
     'check', 'check 1 2', 'check 1 2 x', 'check nan 0 0', 'check 1 2 3 4 5', 'capture 0',
     'capture 5', 'capture 1 2', 'start a', 'start 1 2 3', 'wave x', 'hands_free maybe', 'undo 1',
-    'recalibrate', 'recalibrate a b', 'masks soon', 'solve now', 'place 1 2'])
+    'recalibrate', 'recalibrate a b', 'masks soon', 'solve now', 'place 1 2', 'length 1 3',
+    'length 1 13 2.5', 'length 0 1 2.5', 'length 1 2 x', 'length 1 2 2.5 0.001 9'])
 def test_words_that_make_no_sense_are_refused_with_what_would(line):
     words = line.split()
     with pytest.raises(commands.UsageError) as refusal:
@@ -399,7 +425,8 @@ def test_words_that_make_no_sense_are_refused_with_what_would(line):
 def test_every_request_has_the_fields_of_its_service():
     for command_list in (commands.RIG, commands.board_commands('wiimote_1')):
         for command in command_list:
-            words = {'check': ['1', '2', '3'], 'place': ['1', '2', '3'],
+            words = {'check': ['1', '2', '3'], 'place': ['1', '2', '3'], 'length': ['1', '3', '2'],
+                     'known': ['1', '2', '3'],
                      'recalibrate': ['wiimote_1']}.get(command.word, [])
             request = command.build(status(CalibrationStatus.READY), words)
             if request.type in ('Trigger', 'SetBool'):

@@ -206,6 +206,74 @@ TEST_F(Workflow, UndoDropsTheLastCornerAndRetakeReplacesOne) {
   EXPECT_EQ(calibration_.square().corners()[1].at("camera_1").pixel, kept);
 }
 
+TEST_F(Workflow, LengthsAreTakenReplacedAndDropped) {
+  constexpr double kPlacement = 0.005;
+  const double diagonal = 2.5 * M_SQRT2;
+  const auto measure = [&](std::size_t from, std::size_t to, double length) {
+    return calibration_.measureLength({from, to, length, 0.001}, kPlacement);
+  };
+  const auto lengths = [&] { return calibration_.session(facts_, {}).recording.square->lengths; };
+  EXPECT_SAYS(measure(0, 2, diagonal).message, "start one first");
+  ASSERT_TRUE(calibration_.startWithoutSquare(names_).success);
+  EXPECT_SAYS(measure(0, 2, diagonal).message, "no square to measure");
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+
+  EXPECT_SAYS(measure(0, 0, diagonal).message, "between two captured corners");
+  EXPECT_SAYS(measure(0, 4, diagonal).message, "between two captured corners");
+  EXPECT_SAYS(measure(0, 2, -diagonal).message, "must be above 0");
+  EXPECT_SAYS(measure(0, 2, std::nan("")).message, "must be above 0");
+  EXPECT_SAYS(measure(0, 2, 3.2).message,
+              "corner 1 to corner 3 is 3.536 m by the sides, at most 71 mm more or less, but the "
+              "tape says 3.200 m");
+  EXPECT_SAYS(measure(0, 2, 0.0).message, "there is no length");
+  EXPECT_EQ(calibration_.step(), Step::kSolved);
+  const Reply taken = measure(0, 2, diagonal + 0.004);
+  EXPECT_TRUE(taken.success);
+  EXPECT_SAYS(taken.message, "corner 1 to corner 3 is 3.5395 m by tape, +4.0 mm");
+  EXPECT_EQ(calibration_.step(), Step::kComplete);
+  ASSERT_TRUE(solve(2.0).success);
+
+  EXPECT_TRUE(measure(2, 0, diagonal).success);
+  ASSERT_EQ(lengths().size(), 1U);
+  EXPECT_EQ(lengths()[0].length, diagonal);
+  EXPECT_TRUE(measure(1, 2, 2.5).success);
+  EXPECT_TRUE(measure(0, 2, 0.0).success);
+  ASSERT_EQ(lengths().size(), 1U);
+  EXPECT_TRUE(measure(0, 3, 2.5).success);
+  EXPECT_FALSE(capture(kCorners[1], 1, 0.1).success);
+  EXPECT_EQ(lengths().size(), 2U);
+  ASSERT_TRUE(capture(kCorners[1], 1).success);  // it lies elsewhere now
+  ASSERT_EQ(lengths().size(), 1U);
+  EXPECT_EQ(lengths()[0].to, 3U);
+  ASSERT_TRUE(calibration_.undo().success);
+  EXPECT_TRUE(lengths().empty());
+}
+
+TEST_F(Workflow, KnownPlacesAreTakenSolvedAndDropped) {
+  const square::KnownPlace known{{0.0, 2.5, 2.0}, 0.001};
+  capture::CapturedCorner seen;
+  for (const geometry::Camera& camera : cameras_)
+    seen[camera.name] = {*camera.project(known.position), 0.1, 20};
+  EXPECT_SAYS(calibration_.addPlace(known, seen).message, "capture its four corners first");
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  const Reply taken = calibration_.addPlace(known, seen);
+  EXPECT_TRUE(taken.success);
+  EXPECT_SAYS(taken.message, "place 1 at (0.000, 2.500, 2.000) m is captured by 4 cameras");
+  EXPECT_EQ(calibration_.step(), Step::kComplete);
+  ASSERT_TRUE(solve(2.0).success);
+  const session::Session session = calibration_.session(facts_, {});
+  EXPECT_EQ(session.recording.square->places.size(), 1U);
+  ASSERT_EQ(session.recording.cameras[2].sightings.places.size(), 1U);
+  ASSERT_TRUE(calibration_.restore(session).success);
+  EXPECT_EQ(*calibration_.session(facts_, {}).recording.cameras[2].sightings.places[0],
+            seen.at("camera_3").pixel);
+  EXPECT_SAYS(calibration_.undo().message, "the last known place was dropped");
+  EXPECT_TRUE(calibration_.session(facts_, {}).recording.cameras[0].sightings.places.empty());
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+}
+
 TEST_F(Workflow, AFailedSolveKeepsCornersAndRig) {
   captureAll();
   ASSERT_TRUE(solve(1.0).success);

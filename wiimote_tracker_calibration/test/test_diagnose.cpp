@@ -206,6 +206,14 @@ TEST_F(WaveMistake, LengthOfTheWand) {
   EXPECT_NEAR(std::atof(text.substr(text.find("the wand is ") + 12).c_str()), 0.5, 0.005) << text;
 }
 
+TEST_F(WaveMistake, LengthByTape) {
+  const double length = (corners_[2] - corners_[0]).norm();
+  recording_.square->lengths = {{0, 1, (corners_[1] - corners_[0]).norm()}, {0, 2, length + 0.06}};
+  const std::string text = outcome();
+  EXPECT_SAYS(text, "the length from corner 1 to corner 3 is ");
+  EXPECT_NEAR(std::atof(text.substr(text.find("corner 3 is ") + 12).c_str()), length, 0.01) << text;
+}
+
 TEST_F(WaveMistake, ExchangedDrivers) {
   std::swap(recording_.cameras[0].frames, recording_.cameras[2].frames);
   EXPECT_SAYS(outcome(), "camera_1 and camera_3 were exchanged");

@@ -9,6 +9,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <clocale>
 #include <cstring>
 #include <filesystem>
@@ -232,6 +233,47 @@ TEST_F(SessionFile, IsWhatTheDocumentationShows) {
   std::filesystem::remove(path_);
   writeSessionFile(expectedSession(), path_);
   EXPECT_EQ(geometry::readFile(path_), kText);
+}
+
+TEST_F(SessionFile, KeepsKnownPlaces) {
+  Session session = expectedSession();
+  session.recording.square->places = {{{0.25, -1.0, 2.0}, 0.001}, {{1.0, 1.0, 1e-7}, 0.002}};
+  session.recording.cameras[0].sightings.places = {std::nullopt, Eigen::Vector2d(5.0, 6.25)};
+  session.recording.cameras[1].sightings.places = {Eigen::Vector2d(1.0, 2.0), std::nullopt};
+  writeSessionFile(session, path_);
+  const wave::Recording read = readSessionFile(path_).recording;
+  const std::vector<square::KnownPlace> places = read.square.value().places;
+  ASSERT_EQ(places.size(), 2U);
+  expectSameVector(places[1].position, Eigen::Vector3d(1.0, 1.0, 1e-7));
+  expectSameSession(places[1].stddev, 0.002);
+  ASSERT_EQ(read.cameras[0].sightings.places.size(), 2U);
+  EXPECT_FALSE(read.cameras[0].sightings.places[0]);
+  expectSameVector(*read.cameras[0].sightings.places[1], Eigen::Vector2d(5.0, 6.25));
+  session.recording.square->places.pop_back();
+  EXPECT_THROW(writeSessionFile(session, path_), SessionError);
+}
+
+TEST_F(SessionFile, KeepsLengthsByTape) {
+  Session session = expectedSession();
+  session.recording.square->lengths = {{0, 2, 3.2015621187164243, 0.001}, {3, 1, 3.2, 0.002}};
+  writeSessionFile(session, path_);
+  const auto lengths = readSessionFile(path_).recording.square->lengths;
+  ASSERT_EQ(lengths.size(), 2U);
+  EXPECT_EQ(lengths[0].from, 0U);
+  EXPECT_EQ(lengths[0].to, 2U);
+  expectSameSession(lengths[0].length, 3.2015621187164243);
+  expectSameSession(lengths[0].stddev, 0.001);
+  EXPECT_EQ(lengths[1].from, 3U);
+  const std::string text = geometry::readFile(path_);
+  for (const auto& [from, to, part] :
+       {std::array<const char*, 3>{"from: 1", "from: 5", "lengths[0]/from is 5"},
+        {"from: 1", "from: 3", "two different corners"},
+        {"stddev: 0.001", "stddev: 0", "not above 0"}}) {
+    std::string changed = text;
+    changed.replace(changed.find(from), std::strlen(from), to);
+    write(changed);
+    EXPECT_SAYS(refusal(), part);
+  }
 }
 
 TEST_F(SessionFile, KeepsAnyNumberAndName) {

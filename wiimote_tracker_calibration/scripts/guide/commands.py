@@ -120,10 +120,23 @@ def wave(status, arguments):
                    wand_stddev=optional_number(arguments, 1, 'its standard deviation'))
 
 
+def length(status, arguments):
+    at_most(arguments, 4, 'two corners, the length and, if you like, its standard deviation')
+    if len(arguments) < 3 or not {*arguments[:2]} <= {*'1234'}:
+        raise UsageError('give two corners, 1 to 4, and the length between them in metres')
+    return request('measure_length', 'MeasureLength', from_corner=int(arguments[0]) - 1,
+                   to_corner=int(arguments[1]) - 1, length=number(arguments[2], 'the length'),
+                   stddev=optional_number(arguments, 3, 'the standard deviation'))
+
+
 def check(status, arguments):
     at_most(arguments, 4, 'x y z and, if you like, the standard deviation of the place')
     return request('check', 'CheckPlace', known=point(arguments),
                    known_stddev=optional_number(arguments, 3, 'the standard deviation'))
+
+
+def measure_place(status, arguments):
+    return request('measure_place', 'CheckPlace', **check(status, arguments).fields)
 
 
 def add_place(status, arguments):
@@ -176,6 +189,11 @@ RIG = [
     Command('wave', 'w', 'begin to record a wave, or end it', wave, '[WAND_LENGTH [STDDEV]]',
             'Length of the wand in metres; Enter: one LED'),
     Command('solve', 's', 'solve all cameras', trigger('solve', 'SolveCalibration')),
+    Command('length', 'd', 'take a length between two corners, by tape', length,
+            'CORNER CORNER METRES [STDDEV]', 'Two corners and the length between them by tape, '
+            'like 1 3 3.536 (0: drop it)'),
+    Command('known', 'a', 'take a known place of the LED, to solve with', measure_place,
+            'X Y Z [STDDEV]', 'Known place of the LED, to solve with: x y z in metres'),
     Command('save', 'v', 'save the rig', with_path('save', 'SaveRig'), '[FILE]'),
     Command('check', 'c', 'measure the LED at a known place', check, 'X Y Z [STDDEV]',
             'Where is the LED? x y z in metres'),

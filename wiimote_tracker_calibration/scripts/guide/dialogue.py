@@ -71,7 +71,10 @@ class Dialogue:
         if event == 'feedback':
             return guide.on_feedback(*values)
         if event == 'answer':
-            return guide.on_answer(*values, now)
+            guide.on_answer(*values, now)
+            if values[0] in ('length', 'known') and values[1] and guide.has_done('solve'):
+                self.command('solve')  # to show what it gained
+            return False
         if event == 'image_size':
             guide.image_sizes[values[0]] = values[1]
         else:

@@ -36,6 +36,7 @@ class Guide:
         self.image_sizes = {}   # name of a camera -> (width, height) [px]
         self.answer = ''
         self.answers = []       # (good, text) of all answers
+        self.measured = ''      # the answer to the last length or known place
         self.running = []       # words of the commands that have not been answered
         self.feedback = ''
         self.progress = 0.0
@@ -88,6 +89,9 @@ class Guide:
             self._tried -= {('wave', False), ('solve', True), ('commit', True)}
             self._started_at = now
             self._square_at = self._saved_at = None
+            self.measured = ''
+        if word in ('length', 'known') and good:
+            self.measured = text
         if word == 'save' and good:
             self._saved_at = now
         self._tried.add((word, good))

@@ -41,7 +41,7 @@ def render(guide: Guide, now: float, view: str = 'cameras', page: int = 0, rows:
     if view == 'keys':
         lines += padded(key_lines(command_list, room), room)
     elif view == 'verdict':
-        lines += padded(verdict_lines(guide.verdict, columns), room - len(said)) + said
+        lines += padded(verdict_lines(guide, columns), room - len(said)) + said
     elif view == 'trace':
         lines += padded(trace_lines(guide.trace), room - len(said)) + said
     else:
@@ -171,12 +171,14 @@ def remarks(status, columns: int, room: int) -> List[str]:
 
 # --- Verdict, trace, keys
 
-def verdict_lines(verdict, columns: int) -> List[str]:
+def verdict_lines(guide: Guide, columns: int) -> List[str]:
+    verdict = guide.verdict
     if verdict is None:
         return ['There is no verdict yet: solve first.']
     grade = {verdict.GOOD: 'GOOD', verdict.USABLE: 'USABLE', verdict.REDO: 'DO IT AGAIN'}.get(
         verdict.grade, '?')
-    lines = [f'{grade}   (rig {verdict.rig_id[:8]})', *wrapped(verdict.text, columns, 8), '',
+    lines = [f'{grade}   (rig {verdict.rig_id[:8]})', *wrapped(verdict.text, columns, 5),
+             *measurement_lines(guide, columns), '',
              '                 residual   fits   known to within (standard deviation)',
              VERDICT_ROW.format('camera', 'px', 'mm', '%', 'mm', 'deg', 'f px', 'c px', 'k1', 'ms')]
     for camera in verdict.cameras:
@@ -192,6 +194,16 @@ def verdict_lines(verdict, columns: int) -> List[str]:
             f'({at.x:.2f}, {at.y:.2f}, {at.z:.2f}) {figure(1e3 * sigma, 1)} mm'
             for at, sigma in zip(verdict.predicted_at, verdict.predicted_stddev)], 3, 26)
     return lines
+
+
+def measurement_lines(guide: Guide, columns: int) -> List[str]:
+    """What was measured last, and what to measure next."""
+    lines = [guide.measured] if guide.measured else []
+    if guide.verdict.expected_error > 0.0:
+        lines.append(f'Points are right to within {1e3 * guide.verdict.expected_error:.1f} mm (RMS).')
+    if guide.verdict.next_measurement:
+        lines.append(f'Next (keys d, a): {guide.verdict.next_measurement}')
+    return [line for text in lines for line in wrapped(text, columns, 2)]
 
 
 def trace_lines(trace) -> List[str]:

@@ -30,6 +30,8 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLongest = 3600.0;  // [s]
+// A known place that is measured farther off is a mistake [expected standard deviations].
+constexpr double kMostError = 5.0;
 
 std::string metres(const Eigen::Vector3d& point) {
   return format("(%.3f, %.3f, %.3f) m", point.x(), point.y(), point.z());
@@ -49,6 +51,13 @@ void fill(const place::MeasuredPlace& place,
   response->consistent = check.consistent;
 }
 
+void setUnknown(CheckPlace::Response* response) {
+  response->measured = pointOf(Eigen::Vector3d::Constant(kUnknown));
+  response->covariance.fill(kUnknown);
+  response->error = kUnknown;
+  response->expected_stddev = kUnknown;
+}
+
 remap::FitOptions fitOptions(const std::vector<std::string>& models) {
   remap::FitOptions options;
   if (models.empty())
@@ -65,6 +74,7 @@ class PlaceServices {
     using Self = PlaceServices;
     const ros::NodeHandle& nh = context_.nh();
     services_ = {advertise(nh, "calibration/check", &Self::check, this),
+                 advertise(nh, "calibration/measure_place", &Self::measurePlace, this),
                  advertise(nh, "calibration/known_places/add", &Self::add, this),
                  advertise(nh, "calibration/known_places/undo", &Self::undo, this),
                  advertise(nh, "calibration/known_places/clear", &Self::clear, this),
@@ -77,23 +87,40 @@ class PlaceServices {
 
  private:
   Reply check(const CheckPlace::Request& request, CheckPlace::Response* response) {
-    response->measured = pointOf(Eigen::Vector3d::Constant(kUnknown));
-    response->covariance.fill(kUnknown);
-    response->error = kUnknown;
-    response->expected_stddev = kUnknown;
+    setUnknown(response);
     Lock lock(context_.mutex());
     return context_.answer(&lock, [&] {
       const double known_stddev =
           request.known_stddev != 0.0
               ? request.known_stddev
               : context_.parameters(lock).solve.square.uncertainty.placement;
-      return measure(request.duration, &lock, [&](const auto& measured, const auto& rig) {
-        const place::MeasuredPlace place = place::corrected(rig, measured);
-        const place::PlaceCheck check =
-            place::checkPlace(place, vectorOf(request.known), known_stddev);
-        fill(place, check, response);
-        return Reply{true, check.message};
-      });
+      return measure(request.duration, &lock,
+                     [&](const auto& measured, const auto& rig, const auto&) {
+                       const place::MeasuredPlace place = place::corrected(rig, measured);
+                       const place::PlaceCheck check =
+                           place::checkPlace(place, vectorOf(request.known), known_stddev);
+                       fill(place, check, response);
+                       return Reply{true, check.message};
+                     });
+    });
+  }
+
+  Reply measurePlace(const CheckPlace::Request& request, CheckPlace::Response* response) {
+    setUnknown(response);
+    Lock lock(context_.mutex());
+    return context_.answer(&lock, [&] {
+      square::KnownPlace known;
+      known.position = vectorOf(request.known);
+      if (request.known_stddev != 0.0)
+        known.stddev = request.known_stddev;
+      return measure(
+          request.duration, &lock, [&](const auto& place, const auto&, const auto& seen) {
+            const place::PlaceCheck check = place::checkPlace(place, known.position, known.stddev);
+            fill(place, check, response);
+            if (!place.rays_agree || check.error > kMostError * check.expected_stddev)
+              throw Refusal(check.message);
+            return context_.calibration(lock).addPlace(known, seen);
+          });
     });
   }
 
@@ -106,7 +133,7 @@ class PlaceServices {
       const Eigen::Vector3d known = vectorOf(request.known);
       if (!known.allFinite())
         throw Refusal("the known place is not finite: give x, y and z in metres");
-      return measure(request.duration, &lock, [&](const auto& place, const auto& rig) {
+      return measure(request.duration, &lock, [&](const auto& place, const auto& rig, const auto&) {
         if (!place.rays_agree)
           throw Refusal(place::checkPlace(place, known, 0.0).message);
         context_.requireSameRig(rig.id(), lock);
@@ -175,7 +202,9 @@ class PlaceServices {
   }
 
   /// What is done with a measured place and the rig that measured it.
-  using Use = std::function<workflow::Reply(const place::MeasuredPlace&, const geometry::Rig&)>;
+  using Use = std::function<workflow::Reply(const place::MeasuredPlace&,
+                                            const geometry::Rig&,
+                                            const capture::CapturedCorner&)>;
   /// Waits until the LED has lain still, measures where it is, and passes that on.
   /// @param duration longest wait [s]; 0: the parameter.
   Reply measure(double duration, Lock* lock, const Use& use) {
@@ -189,7 +218,7 @@ class PlaceServices {
     return context_.run(job, lock, [&] {
       const capture::CapturedCorner seen = captureStillLed(rig, options, lock);
       const double pixel_stddev = context_.parameters(*lock).solve.square.uncertainty.pixel;
-      return use(place::measurePlace(rig, seen, pixel_stddev), rig);
+      return use(place::measurePlace(rig, seen, pixel_stddev), rig, seen);
     });
   }
 

@@ -25,6 +25,9 @@ Unit waveServices(NodeContext* context);
 /// Lights that are not the LED: learn_masks, clear_masks.
 Unit maskServices(NodeContext* context);
 
+/// What a person measures for the solver: measure_length.
+Unit measureServices(NodeContext* context);
+
 /// From what was captured to a rig and its verdict: solve; topic principal_point_trace.
 Unit solveServices(NodeContext* context);
 
@@ -32,7 +35,7 @@ Unit solveServices(NodeContext* context);
 /// board/commit, and the topic board. Independent of the calibration's steps.
 Unit boardServices(NodeContext* context);
 
-/// A still LED on a known place: check, and known_places/add, undo, clear, fit.
+/// A still LED on a known place: check, measure_place, and known_places/add, undo, clear, fit.
 Unit placeServices(NodeContext* context);
 
 /// Solves one camera against the others: recalibrate_camera.

@@ -37,6 +37,12 @@ CalibrationVerdict toMessage(const session::Verdict& verdict, const geometry::Ri
   for (const Eigen::Vector3d& place : verdict.predicted_at)
     message.predicted_at.push_back(pointOf(place));
   message.predicted_stddev = verdict.predicted_stddev;
+  message.expected_error = verdict.expected_error;
+  message.next_expected_error = session::Verdict::kUnknown;
+  if (verdict.next) {
+    message.next_measurement = verdict.next->text;
+    message.next_expected_error = verdict.next->expected_error;
+  }
   return message;
 }
 

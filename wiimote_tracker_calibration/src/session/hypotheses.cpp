@@ -44,6 +44,26 @@ void addCorners(const Hypothesis& as_is, Hypotheses* all) {
     }).uncertainty.unknown_corner = c;
 }
 
+/// Each of the lengths that were taped is wrong.
+void addTapedLengths(const Hypothesis& as_is, Hypotheses* all) {
+  const square::SquareLayout& layout = *as_is.recording.square;
+  for (std::size_t i = 0; i < layout.lengths.size(); ++i) {
+    auto& lengths = add(as_is, all, [layout, i](const Attempt& attempt) {
+                      const square::TapedLength& taped = layout.lengths[i];
+                      const square::Corners places = layout.corners(attempt.z_up);
+                      const double length =
+                          (places[taped.to] + attempt.corner_offsets[taped.to] -
+                           places[taped.from] - attempt.corner_offsets[taped.from])
+                              .norm();
+                      return format(
+                          "the length from corner %zu to corner %zu is %.3f m by all else, not "
+                          "%.3f m: measure it again",
+                          taped.from + 1, taped.to + 1, length, taped.length);
+                    }).recording.square->lengths;
+    lengths.erase(lengths.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
 /// The ratio of the sides by free corners, and the scale by the wand.
 void addLengths(const Hypothesis& as_is, const std::optional<Attempt>& free, Hypotheses* all) {
   const square::SquareLayout layout = *as_is.recording.square;
@@ -132,6 +152,7 @@ Hypotheses likelyMistakes(const Hypothesis& as_is, const std::optional<Attempt>&
   Hypotheses all;
   if (as_is.recording.square) {
     addCorners(as_is, &all);
+    addTapedLengths(as_is, &all);
     addLengths(as_is, free, &all);
   }
   for (std::size_t i = 0; i < as_is.recording.cameras.size(); ++i) {

@@ -33,8 +33,9 @@ struct Hypothesis {
 
 using Hypotheses = std::vector<Hypothesis>;
 
-/// A corner elsewhere, other sides, another wand; the accelerometer, clock or mirrored image of a
-/// camera; cameras exchanged. @param free solved with corners far from their places, if any.
+/// A corner elsewhere, other sides, a wrong length by tape, another wand; the accelerometer, clock
+/// or mirrored image of a camera; cameras exchanged. @param free solved with corners far from their
+/// places, if any.
 Hypotheses likelyMistakes(const Hypothesis& as_is, const std::optional<Attempt>& free);
 
 /// A camera that moved between the corners and the wave; none without both.

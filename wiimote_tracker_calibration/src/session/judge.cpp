@@ -216,19 +216,35 @@ Verdict verdictOf(const geometry::Rig& rig) {
   return verdict;
 }
 
+namespace {
+
+/// Fills predicted_at and what follows. @param rig with the square's world.
+void predict(const square::SquareLayout& layout,
+             const geometry::Rig& rig,
+             const Findings& findings,
+             Verdict* verdict) {
+  const square::Corners corners = layout.corners(findings.z_up);
+  const Eigen::Vector3d above(0.0, 0.0, findings.z_up ? kAbove : -kAbove);
+  verdict->predicted_at.assign(corners.begin(), corners.end());
+  for (const Eigen::Vector3d& corner : corners)
+    verdict->predicted_at.push_back(corner + above);
+  verdict->predicted_stddev.assign(verdict->predicted_at.size(), kNan);
+  if (rig.ray_model != geometry::RayModel::kCalibrated)
+    return;
+  for (std::size_t i = 0; i < verdict->predicted_at.size(); ++i)
+    verdict->predicted_stddev[i] = square::expectedError(rig, {verdict->predicted_at[i]});
+  verdict->expected_error = square::expectedError(rig, verdict->predicted_at);
+  if (findings.joint.covariance.size() > 0)  // else the corners were taken as exact
+    verdict->next =
+        nextMeasurement(rig, layout, findings.z_up, verdict->predicted_at, findings.joint);
+}
+
+}  // namespace
+
 Verdict judge(const Session& session, const geometry::Rig& rig, const Findings& findings) {
   Verdict verdict = verdictOf(rig);
-  if (session.recording.square) {
-    const square::Corners corners = session.recording.square->corners(findings.z_up);
-    const Eigen::Vector3d above(0.0, 0.0, findings.z_up ? kAbove : -kAbove);
-    verdict.predicted_at.assign(corners.begin(), corners.end());
-    for (const Eigen::Vector3d& corner : corners)
-      verdict.predicted_at.push_back(corner + above);
-    for (const Eigen::Vector3d& place : verdict.predicted_at)
-      verdict.predicted_stddev.push_back(rig.ray_model == geometry::RayModel::kCalibrated
-                                             ? square::expectedError(rig, {place})
-                                             : kNan);
-  }
+  if (session.recording.square)
+    predict(*session.recording.square, rig, findings, &verdict);
   const Accuracy accuracy = accuracyOf(session, rig, findings, verdict);
   const std::vector<std::string> reasons = shortcomings(session, rig, accuracy, findings, verdict);
   if (findings.suspect && square::isDisplaced(*findings.suspect)) {

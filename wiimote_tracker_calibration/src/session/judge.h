@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_JUDGE_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_JUDGE_H
 
+#include "next_measurement.h"
 #include "session/session.h"
 #include "session/verdict.h"
 #include "wiimote_tracker_calibration/square/suspect_corner.h"
@@ -24,6 +25,7 @@ struct Findings {
   std::vector<Eigen::Vector3d> led;  ///< Where it was seen, world [m].
   /// Expected RMS error of distances between points, without a square [m].
   std::optional<double> shape_error;
+  JointError joint;  ///< Empty covariance: unknown.
 };
 
 /// Asks whether the lengths are in metres, if a camera is too far from the LED for a Wii Remote, or

@@ -35,6 +35,8 @@ void checkCamera(const wave::CameraRecording& camera,
   sightings.intrinsics.check();
   for (const auto& corner : sightings.corners)
     require(!corner || corner->allFinite(), "a corner that " + name + " saw is not finite");
+  for (const auto& place : sightings.places)
+    require(!place || place->allFinite(), "a place that " + name + " saw is not finite");
   require(!sightings.gravity || sightings.gravity->allFinite(),
           "the gravity of " + name + " is not finite");
   for (const geometry::ImageMask& mask : masks)
@@ -65,6 +67,9 @@ void check(const Session& session) {
     require(!name.empty(), "a camera has no name");
     require(names.insert(name).second, "two cameras are called " + name);
     checkCamera(recording.cameras[i], session.masks[i]);
+    require(recording.cameras[i].sightings.places.size() ==
+                (recording.square ? recording.square->places.size() : 0),
+            "the known places are not as many as " + name + " has pixels for");
   }
 }
 

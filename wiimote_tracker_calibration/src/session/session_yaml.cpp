@@ -35,6 +35,30 @@ void emitKey(const std::string& key, double value, YAML::Emitter& out) {
   out << YAML::Key << key << YAML::Value << exactNumber(value);
 }
 
+void emitLengths(const std::vector<square::TapedLength>& lengths, YAML::Emitter& out) {
+  out << YAML::Key << "lengths" << YAML::Value << YAML::BeginSeq;
+  for (const square::TapedLength& taped : lengths) {
+    out << YAML::Flow << YAML::BeginMap;
+    out << YAML::Key << "from" << YAML::Value << taped.from + 1;
+    out << YAML::Key << "to" << YAML::Value << taped.to + 1;
+    emitKey("length", taped.length, out);
+    emitKey("stddev", taped.stddev, out);
+    out << YAML::EndMap;
+  }
+  out << YAML::EndSeq;
+}
+
+void emitPlaces(const std::vector<square::KnownPlace>& places, YAML::Emitter& out) {
+  out << YAML::Key << "places" << YAML::Value << YAML::BeginSeq;
+  for (const square::KnownPlace& place : places) {
+    out << YAML::Flow << YAML::BeginMap << YAML::Key << "position" << YAML::Value;
+    emitNumbers(valuesOf(place.position), out);
+    emitKey("stddev", place.stddev, out);
+    out << YAML::EndMap;
+  }
+  out << YAML::EndSeq;
+}
+
 void emitSquare(const std::optional<square::SquareLayout>& square, YAML::Emitter& out) {
   out << YAML::Key << "square" << YAML::Value;
   if (!square) {
@@ -48,6 +72,11 @@ void emitSquare(const std::optional<square::SquareLayout>& square, YAML::Emitter
   out << YAML::Key << "origin" << YAML::Value;
   emitNumbers(valuesOf(square->origin), out);
   emitKey("yaw", square->yaw, out);
+  // Older programs refuse these keys.
+  if (!square->lengths.empty())
+    emitLengths(square->lengths, out);
+  if (!square->places.empty())
+    emitPlaces(square->places, out);
   out << YAML::EndMap;
 }
 
@@ -81,6 +110,18 @@ void emitLens(const geometry::Intrinsics& lens, YAML::Emitter& out) {
   out << YAML::EndMap;
 }
 
+template <typename Pixels>
+void emitPixels(const char* key, const Pixels& pixels, YAML::Emitter& out) {
+  out << YAML::Key << key << YAML::Value << YAML::BeginSeq;
+  for (const auto& pixel : pixels) {
+    if (pixel)
+      emitNumbers(valuesOf(*pixel), out);
+    else
+      out << YAML::Null;
+  }
+  out << YAML::EndSeq;
+}
+
 void emitCamera(const wave::CameraRecording& camera,
                 const std::vector<geometry::ImageMask>& masks,
                 YAML::Emitter& out) {
@@ -95,14 +136,9 @@ void emitCamera(const wave::CameraRecording& camera,
   else
     out << YAML::Null;
   out << YAML::Key << "clock_epoch" << YAML::Value << camera.clock_epoch;
-  out << YAML::Key << "corners" << YAML::Value << YAML::BeginSeq;
-  for (const auto& corner : sightings.corners) {
-    if (corner)
-      emitNumbers(valuesOf(*corner), out);
-    else
-      out << YAML::Null;
-  }
-  out << YAML::EndSeq;
+  emitPixels("corners", sightings.corners, out);
+  if (!sightings.places.empty())
+    emitPixels("places", sightings.places, out);
   out << YAML::Key << "masks" << YAML::Value << YAML::BeginSeq;
   for (const geometry::ImageMask& mask : masks) {
     out << YAML::Flow << YAML::BeginMap << YAML::Key << "center" << YAML::Value;
@@ -127,6 +163,21 @@ square::SquareLayout readSquare(YamlMap map) {
   square.led_height = map.get<double>("led_height");
   square.origin = readVector(map, "origin", 2);
   square.yaw = map.get<double>("yaw");
+  if (map.has("lengths")) {
+    for (YamlMap& taped : map.maps("lengths")) {
+      const auto from = taped.bounded<std::size_t>("from", 1, 4) - 1;
+      const auto to = taped.bounded<std::size_t>("to", 1, 4) - 1;
+      square.lengths.push_back(
+          {from, to, taped.get<double>("length"), taped.get<double>("stddev")});
+      taped.refuseUnknown();
+    }
+  }
+  if (map.has("places")) {
+    for (YamlMap& place : map.maps("places")) {
+      square.places.push_back({place.vector("position"), place.get<double>("stddev")});
+      place.refuseUnknown();
+    }
+  }
   map.refuseUnknown();
   return square;
 }
@@ -159,11 +210,12 @@ geometry::Intrinsics readLens(YamlMap map) {
   return lens;
 }
 
-std::array<std::optional<Eigen::Vector2d>, 4> readCorners(YamlMap& map) {
-  std::array<std::optional<Eigen::Vector2d>, 4> corners;
-  const auto list = map.get<std::vector<YAML::Node>>("corners");
-  bool good = list.size() == corners.size();
-  for (std::size_t c = 0; good && c < corners.size(); ++c) {
+/// @param pixels as many as the list must have.
+template <typename Pixels>
+void readPixels(YamlMap& map, const std::string& key, const std::string& count, Pixels* pixels) {
+  const auto list = map.get<std::vector<YAML::Node>>(key);
+  bool good = list.size() == pixels->size();
+  for (std::size_t c = 0; good && c < list.size(); ++c) {
     if (list[c].IsNull())
       continue;
     good = list[c].IsSequence() && list[c].size() == 2;
@@ -171,11 +223,10 @@ std::array<std::optional<Eigen::Vector2d>, 4> readCorners(YamlMap& map) {
     double y = 0.0;
     good = good && YAML::convert<double>::decode(list[c][0], x) &&
            YAML::convert<double>::decode(list[c][1], y);
-    corners[c] = Eigen::Vector2d(x, y);
+    (*pixels)[c] = Eigen::Vector2d(x, y);
   }
   if (!good)
-    throw map.error("corners", "is not a list of four places, each two numbers or null");
-  return corners;
+    throw map.error(key, "is not a list of " + count + " places, each two numbers or null");
 }
 
 void readCamera(YamlMap map, SessionHead* head) {
@@ -188,7 +239,12 @@ void readCamera(YamlMap map, SessionHead* head) {
     sightings.gravity = Eigen::Vector3d(readVector(map, "gravity", 3));
   camera.clock_epoch =
       map.bounded<std::uint32_t>("clock_epoch", 0, std::numeric_limits<std::uint32_t>::max());
-  sightings.corners = readCorners(map);
+  readPixels(map, "corners", "four", &sightings.corners);
+  if (map.has("places")) {
+    sightings.places.resize(
+        head->session.recording.square ? head->session.recording.square->places.size() : 0);
+    readPixels(map, "places", "the square's", &sightings.places);
+  }
   head->session.masks.emplace_back();
   for (YamlMap& mask : map.maps("masks")) {
     const Eigen::Vector2d center = readVector(mask, "center", 2);

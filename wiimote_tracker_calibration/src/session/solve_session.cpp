@@ -40,6 +40,9 @@ Solved solveFromWave(const wave::Recording& recording,
   solved.findings.doubts = hasDoubts(solution.warnings, solution.z_up);
   solved.findings.led = std::move(solution.path);
   solved.findings.contradicts = solution.contradicts;
+  if (recording.square)
+    solved.findings.joint = {std::move(solution.joint_covariance),
+                             options.square.uncertainty.pixel};
   if (solution.gauge == wave::Gauge::kFirstCamera)
     solved.findings.shape_error = solution.expected_shape_error;
   if (options.correct_principal_points)
@@ -65,6 +68,7 @@ Solved solveFromSquare(const square::SquareLayout& layout,
     solved.rig = solution.rig;
     solved.findings.z_up = solution.z_up;
     solved.findings.doubts = hasDoubts(solution.warnings, solution.z_up);
+    solved.findings.joint = {solution.joint_covariance, options.square.uncertainty.pixel};
     return solved;
   }
   // The suspect corner stays that of the first solution: the correction moves the error of a corner

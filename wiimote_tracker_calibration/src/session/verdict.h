@@ -3,6 +3,9 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +30,16 @@ struct CameraVerdict {
   double time_offset_stddev = 0.0;      ///< [s]
 };
 
+/// A further measurement.
+struct NextMeasurement {
+  /// Between which a length is to be taken by tape, 0..3.
+  std::optional<std::array<std::size_t, 2>> corners;
+  /// Near which the LED is to be put on a known place, world [m].
+  std::optional<Eigen::Vector3d> place;
+  double expected_error = 0.0;  ///< After it, as Verdict::expected_error [m].
+  std::string text;             ///< What to do and what it gains, one sentence.
+};
+
 /// How good a rig is, in numbers and in words. Fields as in CalibrationVerdict.msg.
 struct Verdict {
   Grade grade = Grade::kRedo;
@@ -39,6 +52,10 @@ struct Verdict {
   /// it, from the joint covariance of the rig [m]. NaN where fewer than two cameras see it, or the
   /// rays are not those of the calibration.
   std::vector<double> predicted_stddev;
+  double expected_error = kUnknown;     ///< RMS of those that are known [m].
+  std::optional<NextMeasurement> next;  ///< That would lower it most.
+
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace wiimote_tracker::session

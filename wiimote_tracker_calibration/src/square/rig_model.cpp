@@ -8,7 +8,9 @@
 #include "adjust/gravity.h"
 #include "adjust/jacobian.h"
 #include "adjust/prior.h"
+#include "adjust/taped_length.h"
 #include "square/lens_prior.h"
+#include "square/place_sightings.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 
@@ -68,6 +70,15 @@ class RigModel::Problem {
       problem_.AddResidualBlock(adjust::Prior<2>{{0.0, 0.0}, {stddev, stddev}}.cost(), nullptr,
                                 corners_[c].data());
     }
+    addPlaces(model.layout_, model.sightings_, model.uncertainty_.pixel, &cameras_, &places_,
+              &problem_);
+    for (const TapedLength& taped : model.layout_.lengths) {
+      const Eigen::Vector3d nominal =
+          model.nominal_corners_[taped.to] - model.nominal_corners_[taped.from];
+      problem_.AddResidualBlock(
+          adjust::TapedLengthError{nominal.head<2>(), taped.length, taped.stddev}.cost(), nullptr,
+          corners_[taped.from].data(), corners_[taped.to].data());
+    }
   }
 
   /// @returns the cost (sum of squares) and the state there; nothing when the start is unusable.
@@ -96,22 +107,21 @@ class RigModel::Problem {
     return 2.0 * summary.final_cost;
   }
 
-  /// Joint covariance of the cameras, in the order of geometry::Rig::covariance.
-  Eigen::MatrixXd cameraCovariance() {
+  /// As RigModel::covarianceOfAll().
+  Eigen::MatrixXd covariance() {
     std::vector<double*> blocks;
     for (adjust::CameraBlocks& camera : cameras_) {
       for (double* block : camera.all())
         blocks.push_back(block);
     }
-    return known(adjust::covarianceOf(&problem_, blocks));
-  }
-
-  /// Joint covariance of the corners' displacements (8x8).
-  Eigen::MatrixXd cornerCovariance() {
-    std::vector<double*> blocks;
     for (auto& corner : corners_)
       blocks.push_back(corner.data());
-    return known(adjust::covarianceOf(&problem_, blocks));
+    const auto covariance = adjust::covarianceOf(&problem_, blocks);
+    if (!covariance)
+      throw SquareError(
+          "the corners do not determine where the cameras are: let the cameras look at the square "
+          "from different sides");
+    return *covariance;
   }
 
   /// Derivatives of the whitened pixels of a camera, one row per coordinate, and of its lens prior.
@@ -163,20 +173,13 @@ class RigModel::Problem {
           nullptr, blocks.rotation.data());
   }
 
-  static Eigen::MatrixXd known(const std::optional<Eigen::MatrixXd>& covariance) {
-    if (!covariance)
-      throw SquareError(
-          "the corners do not determine where the cameras are: let the cameras look at the square "
-          "from different sides");
-    return *covariance;
-  }
-
   const RigModel& model_;
   const RigState state_;
   ceres::Problem problem_;
   std::vector<adjust::CameraBlocks> cameras_;
-  std::array<double, 2> shared_offset_{};                    // of the principal points [px]
-  std::array<std::array<double, 2>, 4> corners_;             // displacements [m]
+  std::array<double, 2> shared_offset_{};         // of the principal points [px]
+  std::array<std::array<double, 2>, 4> corners_;  // displacements [m]
+  PlaceBlocks places_;
   std::vector<std::vector<ceres::ResidualBlockId>> pixels_;  // per camera
   std::vector<ceres::ResidualBlockId> lens_priors_;
 };
@@ -214,7 +217,8 @@ std::optional<double> RigModel::refineAll(RigState* state, Precision precision) 
 }
 
 int RigModel::degreesOfFreedom() const {
-  int result = uncertainty_.unknown_corner ? -2 : 0;
+  int result = static_cast<int>(layout_.lengths.size()) - (uncertainty_.unknown_corner ? 2 : 0);
+  result += 2 * placeSightings(sightings_);
   // Pixel coordinates, and six parameters of the pose; every other parameter has its prior.
   for (const CameraSightings& sightings : sightings_)
     result += 2 * static_cast<int>(sightings.cornersSeen()) - 6 + (sightings.gravity ? 2 : 0);
@@ -222,11 +226,11 @@ int RigModel::degreesOfFreedom() const {
 }
 
 Eigen::MatrixXd RigModel::covarianceOfAll(const RigState& state) const {
-  return Problem(*this, state).cameraCovariance();
+  return Problem(*this, state).covariance();
 }
 
 CornerEstimates RigModel::cornerEstimates(const RigState& state) const {
-  const Eigen::MatrixXd covariance = Problem(*this, state).cornerCovariance();
+  const Eigen::MatrixXd covariance = covarianceOfAll(state).bottomRightCorner(8, 8);
   CornerEstimates estimates;
   for (std::size_t c = 0; c < 4; ++c) {
     const auto at = 2 * static_cast<Eigen::Index>(c);

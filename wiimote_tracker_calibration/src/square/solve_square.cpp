@@ -206,7 +206,9 @@ SquareSolution solveSquare(const SquareLayout& layout,
   geometry::Rig& rig = solution.rig;
   if (options.method == Method::kJoint) {
     rig.method = "square";
-    rig.covariance = model.covarianceOfAll(state);
+    solution.joint_covariance = model.covarianceOfAll(state);
+    const Eigen::Index cameras = solution.joint_covariance.rows() - 8;
+    rig.covariance = solution.joint_covariance.topLeftCorner(cameras, cameras);
   } else {
     std::vector<Eigen::Isometry3d> poses;
     for (std::size_t i = 0; i < branches.size(); ++i)

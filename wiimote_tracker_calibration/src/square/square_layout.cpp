@@ -18,6 +18,16 @@ void checkSide(const std::string& which, double length) {
                       " m, but must be greater than 0: measure it and give it in metres");
 }
 
+void checkLength(const TapedLength& taped) {
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  if (taped.from > 3 || taped.to > 3 || taped.from == taped.to)
+    throw SquareError("a length is between two different corners out of four: correct the corners");
+  if (!positive(taped.length) || !positive(taped.stddev))
+    throw SquareError("the length between corner " + std::to_string(taped.from + 1) +
+                      " and corner " + std::to_string(taped.to + 1) +
+                      ", or its standard deviation, is not above 0: give it in metres");
+}
+
 }  // namespace
 
 void SquareLayout::check() const {
@@ -28,6 +38,13 @@ void SquareLayout::check() const {
                       " m, but must be 0 or greater: measure it and give it in metres");
   if (!origin.allFinite() || !std::isfinite(yaw))
     throw SquareError("the offset of the world to the square is not a number: correct the offset");
+  for (const TapedLength& taped : lengths)
+    checkLength(taped);
+  for (const KnownPlace& place : places) {
+    if (!place.position.allFinite() || !std::isfinite(place.stddev) || place.stddev <= 0.0)
+      throw SquareError(
+          "a known place is not finite, or its standard deviation not above 0: give metres");
+  }
 }
 
 Corners SquareLayout::corners(bool z_up) const {

@@ -61,6 +61,8 @@ void print(const session::Solution& solution) {
     std::printf("%8.3f %8.3f %8.3f   %8.1f\n", verdict.predicted_at[i].x(),
                 verdict.predicted_at[i].y(), verdict.predicted_at[i].z(),
                 1e3 * verdict.predicted_stddev[i]);
+  if (verdict.next)
+    std::printf("next: %s\n", verdict.next->text.c_str());
   if (solution.trace)
     std::printf("\n%s", principal_point::table(*solution.trace).c_str());
   std::printf("\nrig %s\n", solution.rig.id().c_str());

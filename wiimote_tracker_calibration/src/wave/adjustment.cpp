@@ -6,8 +6,10 @@
 #include "adjust/path_acceleration.h"
 #include "adjust/path_pixel.h"
 #include "adjust/prior.h"
+#include "adjust/taped_length.h"
 #include "adjust/wand_length.h"
 #include "square/lens_prior.h"
+#include "square/place_sightings.h"
 #include "wave/error.h"
 
 #include <ceres/ceres.h>
@@ -220,6 +222,16 @@ class WaveProblem {
                  camera.position.data(), camera.lens.data(), camera.distortion.data(), offset);
       }
     }
+    const std::vector<square::CameraSightings> sightings = recording_.sightings();
+    for (const ceres::ResidualBlockId residual : square::addPlaces(
+             *recording_.square, sightings, stated.pixel, &cameras_, &places_, &problem_))
+      priors_.push_back(residual);
+    prior_residuals_ += 2 * square::placeSightings(sightings);
+    for (const square::TapedLength& taped : recording_.square->lengths)
+      addPrior(adjust::TapedLengthError{(nominal[taped.to] - nominal[taped.from]).head<2>(),
+                                        taped.length, taped.stddev}
+                   .cost(),
+               state_.corner_offsets[taped.from].data(), state_.corner_offsets[taped.to].data());
   }
 
   /// All clocks could be shifted together with the path, and without square all cameras moved.
@@ -236,9 +248,10 @@ class WaveProblem {
   State& state_;
   std::vector<adjust::CameraBlocks> cameras_;
   std::array<double, 2> shared_offset_{};  // of the principal points [px]
+  square::PlaceBlocks places_;
   ceres::Problem problem_;
   std::vector<ceres::ResidualBlockId> matches_;
-  std::vector<ceres::ResidualBlockId> priors_;  // and corners
+  std::vector<ceres::ResidualBlockId> priors_;  // and corners and places
   int prior_residuals_ = 0;
   double freedom_ = 0.0;  // residuals of the matches beyond the number of parameters
 };

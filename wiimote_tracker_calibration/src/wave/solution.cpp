@@ -161,6 +161,7 @@ WaveSolution solutionOf(const Recording& recording,
   rig.method = recording.wand ? "wand" : "wave";
   rig.covariance = joint.topLeftCorner(cameras, cameras);
   addWander(options, solution.seconds_seen, &rig.covariance);
+  solution.joint_covariance = joint;
   for (std::size_t i = 0; i < state.cameras.size(); ++i) {
     rig.cameras.push_back(rigCamera(recording.cameras[i], state, i, matching));
     solution.cameras.push_back(cameraReport(rig.covariance, i, matching));

@@ -2,6 +2,7 @@
 
 #include "square/error.h"
 #include "wave/error.h"
+#include "workflow/taped_lengths.h"
 
 #include <wiimote_tracker_msgs/text.h>
 
@@ -176,6 +177,8 @@ void Calibration::update(double now) {
     return;
   busy_.reset();
   updateStep();
+  if (captured_.square.outcome()->success)
+    dropLengthsTo(captured_.square.currentCorner(), &captured_);
   shown(*captured_.square.outcome());
 }
 
@@ -183,15 +186,16 @@ Reply Calibration::undo() {
   if (busy_)
     return refuse(occupied());
   just_solved_ = false;
+  if (dropLastPlace(&captured_))
+    return changed({true, "the last known place was dropped: solve again"});
   if (captured_.wave) {
     captured_.wave.reset();
-    updateStep();
-    return accept("the wave was dropped: record it again");
+    return changed({true, "the wave was dropped: record it again"});
   }
   const Reply reply = captured_.square.undo();
   if (reply.success)
-    updateStep();
-  return shown(reply);
+    dropLengthsTo(captured_.square.corners().size(), &captured_);
+  return changed(reply);
 }
 
 Reply Calibration::cancel() {
@@ -370,6 +374,12 @@ std::string Calibration::occupied() const {
     default:
       return "the place of an LED is being measured: wait until that is over, or cancel";
   }
+}
+
+Reply Calibration::changed(const Reply& reply) {
+  if (reply.success)
+    updateStep();
+  return shown(reply);
 }
 
 Reply Calibration::refuse(const std::string& message) {

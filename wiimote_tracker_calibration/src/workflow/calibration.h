@@ -84,7 +84,13 @@ class Calibration {
   /// Advances the time when no image does.
   void update(double now);
 
-  /// Drops what was captured last: the wave, else the last corner.
+  /// Takes a length by tape; see takeLength(). A corner that is captured again loses its lengths.
+  Reply measureLength(const square::TapedLength& taped, double placement);
+
+  /// Takes a known place, while kMeasuring; see takePlace().
+  Reply addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen);
+
+  /// Drops the last known place, else the wave, else the last corner.
   Reply undo();
 
   /// Stops the running step; earlier captures stay. When none is running, it drops all that was
@@ -156,6 +162,8 @@ class Calibration {
   Reply startWith(Captured captured);
   /// Why no step can begin now.
   std::string occupied() const;
+  /// Shows a reply to what changes the captured data.
+  Reply changed(const Reply& reply);
   Reply refuse(const std::string& message);
   Reply accept(const std::string& message);
   Reply shown(const Reply& reply);

@@ -23,6 +23,11 @@ wave::CameraRecording recordingOf(const Captured& captured,
     if (view != captured.square.corners()[c].end())
       camera.sightings.corners[c] = view->second.pixel;
   }
+  for (const capture::CapturedCorner& place : captured.places) {
+    const auto view = place.find(name);
+    camera.sightings.places.push_back(
+        view != place.end() ? std::optional<Eigen::Vector2d>(view->second.pixel) : std::nullopt);
+  }
   const WaveRecorder::Track* track = captured.wave ? captured.wave->track(name) : nullptr;
   if (track != nullptr) {
     camera.clock_epoch = track->clock_epoch;
@@ -80,6 +85,12 @@ Captured fromSession(const session::Session& session,
   captured.world_frame = session.world_frame;
   captured.wave = waveOf(session.recording, coverage);
   std::vector<capture::CapturedCorner> corners;
+  if (captured.layout)
+    captured.places.resize(captured.layout->places.size());
+  // The file does not hold the number of samples and their spread.
+  const auto view = [](const Eigen::Vector2d& pixel) {
+    return capture::CornerView{pixel, std::numeric_limits<double>::quiet_NaN(), 1};
+  };
   for (const wave::CameraRecording& camera : session.recording.cameras) {
     const square::CameraSightings& seen = camera.sightings;
     captured.cameras.push_back(seen.name);
@@ -88,8 +99,11 @@ Captured fromSession(const session::Session& session,
       if (!seen.corners[c])
         continue;
       corners.resize(std::max(corners.size(), c + 1));
-      // The file does not hold the number of samples and their spread.
-      corners[c][seen.name] = {*seen.corners[c], std::numeric_limits<double>::quiet_NaN(), 1};
+      corners[c][seen.name] = view(*seen.corners[c]);
+    }
+    for (std::size_t p = 0; p < seen.places.size(); ++p) {
+      if (seen.places[p])
+        captured.places.at(p)[seen.name] = view(*seen.places[p]);
     }
   }
   captured.square = SquareRun(captured.cameras, capture);

@@ -31,7 +31,8 @@ struct Captured {
   std::vector<std::string> cameras;            ///< Empty: nothing is started.
   std::optional<square::SquareLayout> layout;  ///< Nothing: a run without a square.
   SquareRun square;
-  std::optional<WaveRecorder> wave;  ///< The wave that is being recorded, or was.
+  std::vector<capture::CapturedCorner> places;  ///< Of layout->places.
+  std::optional<WaveRecorder> wave;             ///< The wave that is being recorded, or was.
   std::string world_frame;
   /// The device that took the data of a camera, and another one that took some, too.
   std::map<std::string, std::string> devices;

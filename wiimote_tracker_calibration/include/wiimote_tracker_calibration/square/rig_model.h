@@ -79,7 +79,8 @@ class RigModel {
   /// Residuals minus parameters of refineAll(): the mean of its cost if the model is right.
   int degreesOfFreedom() const;
 
-  /// Covariance of refineAll(), order and units as in RigCalibration.msg.
+  /// Covariance of refineAll(): of the cameras, order and units as in RigCalibration.msg, then of
+  /// the corners' horizontal displacements (2 each) [m].
   Eigen::MatrixXd covarianceOfAll(const RigState& state) const;
 
   /// Where the corners are by refineAll().

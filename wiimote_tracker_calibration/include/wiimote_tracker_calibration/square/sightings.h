@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker::square {
 
@@ -19,6 +20,7 @@ struct CameraSightings {
   std::string identity;                                   ///< Empty if unknown.
   geometry::Intrinsics intrinsics;                        ///< Starting values.
   std::array<std::optional<Eigen::Vector2d>, 4> corners;  ///< Distorted [px]; nothing: not seen.
+  std::vector<std::optional<Eigen::Vector2d>> places;     ///< The same of SquareLayout::places.
   std::optional<Eigen::Vector3d> gravity;  ///< Specific force at rest, optical frame [m/s^2].
 
   /// How many of the corners it saw.

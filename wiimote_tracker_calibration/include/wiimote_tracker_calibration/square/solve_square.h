@@ -38,6 +38,8 @@ struct SquareSolution {
   std::vector<std::size_t> chosen;
   /// Displacement of the corners from the layout, as estimated [m]; zero with kPerCamera.
   Corners corner_offsets;
+  /// Of the rig's parameters, then of the corners' offsets (2 each); empty with kPerCamera.
+  Eigen::MatrixXd joint_covariance;
   /// The corner that contradicts the rest most; nothing when the data cannot tell.
   std::optional<SuspectCorner> suspect;
   /// expectedError() in the box over the square [m]. NaN when no two cameras look into it.

@@ -4,11 +4,32 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
+#include <vector>
 
 namespace wiimote_tracker::square {
 
 /// World points of the four corners, in the order of capture [m].
 using Corners = std::array<Eigen::Vector3d, 4>;
+
+/// A length between two corners, by tape, from where the LED lay to where it lay.
+struct TapedLength {
+  std::size_t from = 0;   ///< Corner, 0..3.
+  std::size_t to = 0;     ///< Another corner.
+  double length = 0.0;    ///< [m, > 0]
+  double stddev = 0.001;  ///< [m, > 0]
+
+  /// Whether both are between the same corners.
+  bool hasCornersOf(const TapedLength& other) const {
+    return (from == other.from && to == other.to) || (from == other.to && to == other.from);
+  }
+};
+
+/// A place that the LED was put on, known in the world by other means.
+struct KnownPlace {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< World [m].
+  double stddev = 0.001;                               ///< Per axis [m, > 0].
+};
 
 /// The calibration rectangle and where the world lies in it. The rectangle's own axes: origin at
 /// the first corner, x towards the second, y towards the fourth.
@@ -19,9 +40,17 @@ struct SquareLayout {
   Eigen::Vector2d origin =
       Eigen::Vector2d::Zero();  ///< World's origin in the rectangle's axes [m].
   double yaw = 0.0;  ///< From the rectangle's x axis to the world's x axis, about z [rad].
+  std::vector<TapedLength> lengths = {};
+  std::vector<KnownPlace> places = {};
 
   /// @throws SquareError naming the value that is not finite or out of range.
   void check() const;
+
+  /// Length between two corners by the sides [m].
+  double lengthBetween(std::size_t from, std::size_t to) const {
+    const Corners all = corners(true);
+    return (all[to] - all[from]).norm();
+  }
 
   /// @param z_up the corners go round counter-clockwise seen from above. Otherwise z points down
   /// and the LED, still above the floor, has negative z.

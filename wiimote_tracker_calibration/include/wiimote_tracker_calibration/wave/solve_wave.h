@@ -54,6 +54,9 @@ struct WaveSolution {
   std::size_t reference = 0;          ///< The camera whose time offset was set to 0.
   double pixel_stddev = 0.0;          ///< Of a moving spot, per axis, as estimated [px].
   square::Corners corner_offsets{};   ///< Displacement from the layout, as estimated [m].
+  /// Of the rig's parameters, without the slow errors of the clocks, then of the corners' offsets
+  /// (2 each), if there is a square.
+  Eigen::MatrixXd joint_covariance;
   /// The corner that contradicts the rest most; nothing without square.
   std::optional<square::SuspectCorner> suspect;
   double wand_length = 0.0;                          ///< As estimated [m]; 0 without wand.

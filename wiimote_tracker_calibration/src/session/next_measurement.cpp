@@ -1,0 +1,153 @@
+#include "next_measurement.h"
+
+#include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+#include <string>
+
+namespace wiimote_tracker::session {
+
+namespace {
+
+// A measurement that gains less is not worth the walk.
+constexpr double kLeastGain = 0.05;
+
+/// How the places move with the parameters of the covariance: three rows for each that two cameras
+/// see.
+Eigen::MatrixXd placesByParameters(const geometry::Rig& rig,
+                                   const std::vector<Eigen::Vector3d>& places,
+                                   Eigen::Index parameters) {
+  Eigen::MatrixXd result =
+      Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(places.size()), parameters);
+  Eigen::Index rows = 0;
+  for (const Eigen::Vector3d& place : places) {
+    const auto slope = geometry::pointByParameters(rig, place, geometry::camerasSeeing(rig, place));
+    if (!slope)
+      continue;
+    result.block(rows, 0, 3, slope->cols()) = *slope;
+    rows += 3;
+  }
+  return result.topRows(rows);
+}
+
+/// An observation: derivatives by the parameters, one row each, and covariance.
+struct Observation {
+  Eigen::MatrixXd slopes;
+  Eigen::MatrixXd covariance;
+};
+
+/// The length between two corners.
+Observation lengthBetween(const square::Corners& corners,
+                          std::size_t from,
+                          std::size_t to,
+                          Eigen::Index parameters) {
+  const Eigen::RowVector2d direction =
+      (corners[to] - corners[from]).normalized().head<2>().transpose();
+  const auto at = [&](std::size_t corner) {
+    return parameters - 8 + 2 * static_cast<Eigen::Index>(corner);
+  };
+  Observation length{Eigen::MatrixXd::Zero(1, parameters),
+                     Eigen::MatrixXd::Constant(1, 1, std::pow(square::TapedLength().stddev, 2))};
+  length.slopes.block<1, 2>(0, at(from)) = -direction;
+  length.slopes.block<1, 2>(0, at(to)) = direction;
+  return length;
+}
+
+/// The pixels of the LED on a known place, in the cameras that see it.
+Observation pixelsOf(const geometry::Rig& rig,
+                     const Eigen::Vector3d& place,
+                     double pixel,
+                     Eigen::Index parameters) {
+  const std::vector<std::size_t> cameras = geometry::camerasSeeing(rig, place);
+  const auto rows = 2 * static_cast<Eigen::Index>(cameras.size());
+  Eigen::MatrixXd by_place(rows, 3);
+  Observation pixels{Eigen::MatrixXd::Zero(rows, parameters),
+                     pixel * pixel * Eigen::MatrixXd::Identity(rows, rows)};
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const auto row = 2 * static_cast<Eigen::Index>(i);
+    const auto projection = geometry::rayProjection(rig, cameras[i], place);
+    by_place.middleRows<2>(row) = projection->by_point;
+    pixels.slopes.block<2, geometry::kParameters>(row, geometry::firstParameter(cameras[i])) =
+        projection->by_parameters;
+  }
+  pixels.covariance += std::pow(square::KnownPlace().stddev, 2) * by_place * by_place.transpose();
+  return pixels;
+}
+
+/// Places over the square, to which a person can carry the LED: its corners, the middles of its
+/// sides, and its middle, on the floor, 1 m and 2 m high.
+std::vector<Eigen::Vector3d> placesOver(const square::Corners& corners, bool z_up) {
+  std::vector<Eigen::Vector3d> places;
+  for (const double height : {0.0, 1.0, 2.0}) {
+    for (int k = 0; k < 9; ++k) {
+      const Eigen::Vector3d along_x = 0.5 * (k % 3) * (corners[1] - corners[0]);
+      const Eigen::Vector3d along_y = 0.5 * (k / 3) * (corners[3] - corners[0]);
+      places.push_back(corners[0] + along_x + along_y +
+                       Eigen::Vector3d(0.0, 0.0, z_up ? height : -height));
+    }
+  }
+  return places;
+}
+
+std::string textOf(const NextMeasurement& next) {
+  if (next.corners)
+    return format("measure from corner %zu to corner %zu by tape", (*next.corners)[0] + 1,
+                  (*next.corners)[1] + 1);
+  return format("put the LED on a place you know, near (%.1f, %.1f, %.1f) m", next.place->x(),
+                next.place->y(), next.place->z());
+}
+
+}  // namespace
+
+std::optional<NextMeasurement> nextMeasurement(const geometry::Rig& rig,
+                                               const square::SquareLayout& layout,
+                                               bool z_up,
+                                               const std::vector<Eigen::Vector3d>& places,
+                                               const JointError& joint) {
+  const Eigen::Index parameters = joint.covariance.rows();
+  const Eigen::MatrixXd slopes = placesByParameters(rig, places, parameters);
+  const double count = static_cast<double>(slopes.rows()) / 3.0;
+  const double now = (slopes * joint.covariance).cwiseProduct(slopes).sum() / count;
+  // Kalman update.
+  const auto after = [&](const Observation& observation) {
+    const Eigen::MatrixXd gain = joint.covariance * observation.slopes.transpose();
+    const Eigen::MatrixXd innovation = observation.slopes * gain + observation.covariance;
+    const Eigen::MatrixXd moved = slopes * gain;
+    return now -
+           innovation.ldlt().solve(moved.transpose()).cwiseProduct(moved.transpose()).sum() / count;
+  };
+  NextMeasurement best;
+  double least = now;
+  const square::Corners corners = layout.corners(z_up);
+  for (std::size_t from = 0; from < corners.size(); ++from) {
+    for (std::size_t to = from + 1; to < corners.size(); ++to) {
+      const double squared = after(lengthBetween(corners, from, to, parameters));
+      if (squared >= least)
+        continue;
+      least = squared;
+      best.corners = {from, to};
+    }
+  }
+  for (const Eigen::Vector3d& place : placesOver(corners, z_up)) {
+    if (geometry::camerasSeeing(rig, place).size() < 2)
+      continue;
+    const double squared = after(pixelsOf(rig, place, joint.pixel, parameters));
+    if (squared >= least)
+      continue;
+    least = squared;
+    best.corners.reset();
+    best.place = place;
+  }
+  best.expected_error = std::sqrt(least);
+  if (!(best.expected_error < (1.0 - kLeastGain) * std::sqrt(now)))
+    return std::nullopt;
+  best.text =
+      textOf(best) + format(": %.1f -> %.1f mm", 1e3 * std::sqrt(now), 1e3 * best.expected_error);
+  return best;
+}
+
+}  // namespace wiimote_tracker::session

@@ -65,6 +65,8 @@ void ContinuousCalibration::addAcceleration(const std::string& camera,
 }
 
 std::optional<Proposal> ContinuousCalibration::solve(Cause cause, const Evidence& evidence) const {
+  if (evidence.to_check.empty())
+    return std::nullopt;
   recalibrate::Request request;
   request.camera = evidence.camera;
   request.images = evidence.to_solve;
@@ -99,9 +101,6 @@ std::optional<Proposal> ContinuousCalibration::solve(Cause cause, const Evidence
   geometry::Rig& rig = proposal.rig;
   rig.solved_at = evidence.to_check.back().stamp;
   rig.verdict = verdictWith(rig_.verdict, proposal.message);
-  // The correction belongs to the world, which the other cameras hold.
-  if (rig.remap && rig.remap->rig_id == rig_.id())
-    rig.remap->rig_id = rig.id();
   return proposal;
 }
 

@@ -53,6 +53,11 @@ class ContinuousCalibration {
   /// than was calibrated take no part. It may take some seconds when there is enough motion.
   std::optional<Proposal> add(const capture::Image& image);
 
+  /// Whether this camera alone is off. A proposal for another one is out of date.
+  bool isSuspect(const std::string& camera) const {
+    return knock_.isSuspect(camera) || drift_.isSuspect(camera);
+  }
+
   /// A reading of a camera's accelerometer, optical frame [m/s^2].
   void addAcceleration(const std::string& camera, const Eigen::Vector3d& specific_force);
 

@@ -1,6 +1,7 @@
 #include "continuous/suspect_watch.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wiimote_tracker::continuous {
 
@@ -34,7 +35,7 @@ std::optional<Evidence> SuspectWatch::add(const capture::Image& image) {
 
 void SuspectWatch::addAcceleration(const std::string& camera,
                                    const Eigen::Vector3d& specific_force) {
-  if (suspect_ && names_[*suspect_] == camera)
+  if (isSuspect(camera))
     gravity_.add(specific_force);
 }
 
@@ -66,6 +67,8 @@ bool SuspectWatch::movesAt(double time) {
   if (watch_.samples().empty())
     return false;
   const health::DriftSample& newest = watch_.samples().back();
+  if (!motion_.empty() && newest.time < motion_.back())
+    collectFor(suspect_);  // time jumped back
   const bool takes_part = std::any_of(newest.sights.begin(), newest.sights.end(),
                                       [&](const auto& sight) { return sight.first == *suspect_; });
   if (takes_part && newest.sights.size() >= kLeastViews &&
@@ -73,13 +76,13 @@ bool SuspectWatch::movesAt(double time) {
     motion_.push_back(newest.time);
     ++unused_;
   }
-  return time - newest.time < kPause;
+  return !motion_.empty() && std::abs(time - motion_.back()) < kPause;
 }
 
 void SuspectWatch::forgetSurplus() {
   while (motion_.size() > options_.to_solve + options_.to_check)
     motion_.pop_front();
-  while (images_.front().stamp < motion_.front())
+  while (!images_.empty() && images_.front().stamp < motion_.front())
     images_.pop_front();
 }
 

@@ -44,6 +44,11 @@ class SuspectWatch {
   /// @returns evidence, once there is enough, and again after more motion while the camera is off.
   std::optional<Evidence> add(const capture::Image& image);
 
+  /// Whether this camera alone is off.
+  bool isSuspect(const std::string& camera) const {
+    return suspect_ && names_[*suspect_] == camera;
+  }
+
   /// A reading of a camera's accelerometer, optical frame [m/s^2].
   void addAcceleration(const std::string& camera, const Eigen::Vector3d& specific_force);
 
@@ -51,7 +56,7 @@ class SuspectWatch {
   void judge();
   /// Forgets what was collected, and begins to collect for this camera.
   void collectFor(std::optional<std::size_t> suspect);
-  /// Counts the newest sample. @returns whether the LED has moved just before this time.
+  /// Counts the newest sample. @returns whether the LED has just moved before the suspect.
   bool movesAt(double time);
   void forgetSurplus();
   Evidence evidence() const;

@@ -18,7 +18,9 @@ using workflow::Step;
 
 namespace {
 
-constexpr double kUpdatePeriod = 0.5;  // [s]
+constexpr double kUpdatePeriod = 0.5;       // [s]
+constexpr std::size_t kMostInputs = 20000;  // that wait: a minute of four cameras
+constexpr std::size_t kMostChanges = 100;   // that can be reverted
 const char kApply[] = "; call calibration/continuous/apply to use it";
 
 /// A date as part of a file's name.
@@ -29,6 +31,17 @@ std::string dateOf(double time) {
   char text[32];
   std::strftime(text, sizeof(text), "%Y%m%d_%H%M%S", &date);
   return text;
+}
+
+/// The proposed rig with what has no part in its id, and may have changed meanwhile. A correction
+/// of the volume belongs to the world, which the other cameras hold.
+geometry::Rig proposedRig(const geometry::Rig& proposed, const geometry::Rig& before) {
+  geometry::Rig rig = proposed;
+  rig.zones = before.zones;
+  rig.remap = before.remap;
+  if (rig.remap && rig.remap->rig_id == before.id())
+    rig.remap->rig_id = rig.id();
+  return rig;
 }
 
 class ContinuousServices {
@@ -49,13 +62,13 @@ class ContinuousServices {
     if (policy_ == ContinuousPolicy::kOff)
       return;
     context_.inputs().subscribeImages([this](const capture::Image& image, const Lock& inner) {
-      if (isCalibrated(inner))
+      if (takesInputs(inner))
         inputs_.push_back({image, std::nullopt});
     });
     context_.inputs().subscribeGravity([this](const std::string& camera, double,
                                               const Eigen::Vector3d& specific_force,
                                               const Lock& inner) {
-      if (!isCalibrated(inner))
+      if (!takesInputs(inner))
         return;
       inputs_.push_back({{}, specific_force});
       inputs_.back().image.camera = camera;
@@ -81,7 +94,13 @@ class ContinuousServices {
   /// Whether a rig is in use and no calibration is going on.
   bool isCalibrated(const Lock& lock) const {
     const Step step = context_.calibration(lock).step();
-    return step == Step::kSolved || step == Step::kSaved;
+    return context_.rig(lock) &&
+           (step == Step::kIdle || step == Step::kSolved || step == Step::kSaved);
+  }
+
+  /// What a slow computer cannot take in time is left out.
+  bool takesInputs(const Lock& lock) const {
+    return isCalibrated(lock) && inputs_.size() < kMostInputs;
   }
 
   /// Only the timer calls it, once at a time.
@@ -90,9 +109,11 @@ class ContinuousServices {
     std::vector<Input> inputs;
     inputs.swap(inputs_);
     useRig(lock);
-    if (!continuous_)
+    if (!continuous_ || inputs.empty())
       return;
     const auto proposal = context_.compute(&lock, [&] { return newestProposal(inputs); });
+    if (proposal_ && !continuous_->isSuspect(proposal_->camera))
+      forgetProposal(lock);
     const auto& rig = context_.rig(lock);
     if (!proposal || !rig || rig->id() != rig_id_ || !isCalibrated(lock))
       return;
@@ -102,10 +123,12 @@ class ContinuousServices {
     const bool applies =
         policy_ == ContinuousPolicy::kAll ||
         (policy_ == ContinuousPolicy::kKnocked && proposal->cause == continuous::Cause::kKnock);
-    if (applies && rig_id_ != reverted_to_)
-      ROS_WARN_STREAM(applyProposal(&lock).message);
-    else if (is_news)
+    if (applies && rig_id_ != reverted_to_) {
+      const Reply applied = applyProposal(&lock);
+      ROS_WARN_STREAM(applied.message);
+    } else if (is_news) {
       ROS_WARN_STREAM(proposal->message + kApply);
+    }
   }
 
   /// Watches the rig in use from now on.
@@ -151,16 +174,28 @@ class ContinuousServices {
           "one LED moves where it and two others see it");
     const geometry::Rig before = context_.existingRig("to change", *lock);
     context_.requireSameRig(rig_id_, *lock);
-    const continuous::Proposal proposal = *proposal_;
+    const std::string message = proposal_->message;
+    const geometry::Rig rig = proposedRig(proposal_->rig, before);
     forgetProposal(*lock);
-    changes_.push_back({proposal.rig.id(), before});
-    context_.setRig(proposal.rig, proposal.message, *lock);
+    changes_.push_back({rig.id(), before});
+    if (changes_.size() > kMostChanges)
+      changes_.erase(changes_.begin());
+    context_.setRig(rig, message, *lock);
+    return {true, "in use: " + message + "; " + keepVersion(rig, lock) +
+                      "; calibration/continuous/revert goes back, and save keeps it"};
+  }
+
+  /// Writes the rig beside the rig file. @returns where, or why not.
+  std::string keepVersion(const geometry::Rig& rig, Lock* lock) {
     const std::string& rig_file = context_.parameters(*lock).rig_file;
     const std::string path = rig_file.substr(0, rig_file.rfind('/') + 1) + "versions/" +
-                             dateOf(NodeContext::now()) + "_" + proposal.rig.id() + ".yaml";
-    context_.compute(lock, [&] { geometry::writeRigFile(proposal.rig, path); });
-    return {true, "in use: " + proposal.message + "; kept in " + path +
-                      "; calibration/continuous/revert goes back, and save keeps it"};
+                             dateOf(NodeContext::now()) + "_" + rig.id() + ".yaml";
+    try {
+      context_.compute(lock, [&] { geometry::writeRigFile(rig, path); });
+    } catch (const geometry::Error& error) {
+      return std::string("there is no file of it: ") + error.what();
+    }
+    return "kept in " + path;
   }
 
   Reply revert() {
@@ -169,8 +204,8 @@ class ContinuousServices {
       requireCalibrated(lock);
       if (changes_.empty() || context_.existingRig("to change", lock).id() != changes_.back().id)
         throw Refusal(
-            "the rig in use is not one that continuous calibration has changed: load the "
-            "one that you want");
+            "the rig in use is not one that continuous calibration has made: load the one that "
+            "you want");
       const geometry::Rig before = changes_.back().before;
       changes_.pop_back();
       reverted_to_ = before.id();

@@ -83,9 +83,10 @@ class NodeContext {
       Lock* lock;
       ~Relock() { lock->lock(); }
     };
+    const std::function<void()> fault_now = fault;
     lock->unlock();
     const Relock relock{lock};
-    fault();
+    fault_now();
     return compute();
   }
 

@@ -85,8 +85,9 @@ int run(const std::vector<BenchmarkSection>& sections,
 
 int main(int argc, char** argv) {
   const std::vector<BenchmarkSection> sections = {
-      poseSection(),    poseMethodsSection(), waveSection(), waveTimeSection(),
-      measureSection(), paperSection(),       remapSection()};
+      poseSection(),     poseMethodsSection(), waveSection(),
+      waveTimeSection(), measureSection(),     paperSection(),
+      remapSection(),    continuousSection(),  knockSection()};
   std::vector<std::string> names;
   for (const BenchmarkSection& section : sections)
     names.push_back(section.name);

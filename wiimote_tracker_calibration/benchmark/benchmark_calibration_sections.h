@@ -46,6 +46,12 @@ BenchmarkSection paperSection();
 /// Corrections of a deformed volume.
 BenchmarkSection remapSection();
 
+/// Eight hours with a rig that corrects itself.
+BenchmarkSection continuousSection();
+
+/// How soon it brings back a camera that was knocked.
+BenchmarkSection knockSection();
+
 }  // namespace wiimote_tracker
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_BENCHMARK_CALIBRATION_SECTIONS_H

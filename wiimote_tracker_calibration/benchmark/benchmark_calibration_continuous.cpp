@@ -1,0 +1,202 @@
+// A rig that corrects itself: eight hours of drift, knocks and reconnects, compressed to the
+// motion.
+#include "benchmark_calibration_sections.h"
+#include "wave_trial.h"
+#include "waved_led.h"
+
+#include "continuous/continuous_calibration.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+namespace {
+
+using continuous::ContinuousCalibration;
+using continuous::Proposal;
+
+constexpr double kOneDegree = M_PI / 180.0;
+constexpr int kHours = 8;
+constexpr int kStepsPerHour = 6;                // Of the drift.
+constexpr double kMotion = 60.0;                // After each step [s].
+constexpr double kDriftPerHour = 0.5 / 1300.0;  // 0.5 px [rad].
+constexpr double kChiSquared = 12.592;          // 95 %, six degrees of freedom.
+
+/// A rig whose images fit together to about 0.2 px.
+geometry::Rig freshRig() {
+  RigErrors errors;
+  errors.rotation = 1e-4;
+  errors.position = 5e-4;
+  errors.focal = 0.5;
+  errors.principal_point = 0.1;
+  errors.k1 = 1e-3;
+  return paperRigWith(errors);
+}
+
+void turn(geometry::RigCamera* camera, double angle, square::Random& random) {
+  const Eigen::Vector3d axis(square::normal(random, 1.0), square::normal(random, 1.0),
+                             square::normal(random, 1.0));
+  camera->camera.world_from_camera.linear() =
+      camera->camera.world_from_camera.linear() *
+      Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
+
+std::vector<geometry::Camera> camerasOf(const std::vector<geometry::RigCamera>& cameras) {
+  std::vector<geometry::Camera> result;
+  for (const geometry::RigCamera& camera : cameras)
+    result.push_back(camera.camera);
+  return result;
+}
+
+/// Mean squared error of the points of the volume [m^2].
+double volumeError(const std::vector<geometry::RigCamera>& truth, const geometry::Rig& rig) {
+  const std::vector<geometry::Camera> cameras = camerasOf(truth);
+  const std::vector<Eigen::Vector3d> points = wave::cubePoints(cameras);
+  const Eigen::Matrix3Xd errors = wave::pointErrors(cameras, camerasOf(rig.cameras), points);
+  return errors.colwise().squaredNorm().mean();
+}
+
+/// Cameras whose true pose lies in the 95 % region.
+void countCovered(const std::vector<geometry::RigCamera>& truth,
+                  const geometry::Rig& rig,
+                  wave::Share* covered) {
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const geometry::Camera& estimate = rig.cameras[i].camera;
+    const Eigen::AngleAxisd turned(truth[i].camera.world_from_camera.linear() *
+                                   estimate.world_from_camera.linear().transpose());
+    Eigen::Matrix<double, 6, 1> error;
+    error << turned.angle() * turned.axis(), truth[i].camera.center() - estimate.center();
+    const Eigen::Index first = geometry::firstParameter(i);
+    const Eigen::Matrix<double, 6, 6> covariance = rig.covariance.block<6, 6>(first, first);
+    covered->count(error.dot(covariance.ldlt().solve(error)) < kChiSquared);
+  }
+}
+
+/// What is known after an hour, over all runs.
+struct Hour {
+  double kept = 0.0;       // Mean squared error of the volume with the first rig [m^2].
+  double corrected = 0.0;  // With the rig that corrects itself [m^2].
+  wave::Share covered;
+  int changes = 0;
+};
+
+/// One day: `hours` has the state before it, then after each hour.
+void addDay(std::uint64_t seed, std::array<Hour, kHours + 1>* hours) {
+  square::Random random(seed);
+  const geometry::Rig first = freshRig();
+  geometry::Rig rig = first;
+  WavedLed led(drawTruth(rig, random), seed + 1000);
+  std::array<std::uint32_t, 4> epochs = {7, 7, 7, 7};
+  std::optional<ContinuousCalibration> watch;
+  watch.emplace(rig, continuous::Options{});
+  double time = 0.0;
+  for (int hour = 0; hour <= kHours; ++hour) {
+    Hour& at = (*hours)[static_cast<std::size_t>(hour)];
+    for (int step = 0; hour > 0 && step < kStepsPerHour; ++step) {
+      for (geometry::RigCamera& camera : led.truth)
+        turn(&camera, kDriftPerHour / kStepsPerHour, random);
+      const auto any = static_cast<std::size_t>(square::uniform(random, 0.0, 3.999));
+      if (step == 0 && (hour == 2 || hour == 4 || hour == 6))
+        turn(&led.truth[any], square::uniform(random, 1.0, 3.0) * kOneDegree, random);
+      if (step == 0 && (hour == 3 || hour == 5)) {
+        led.truth[any].time_offset = square::uniform(random, -0.02, 0.02);
+        ++epochs[any];
+      }
+      time += kMotion;
+      led.runUntil(time, [&](capture::Image image) {
+        image.clock_epoch = epochs[static_cast<std::size_t>(image.camera.back() - '1')];
+        const auto proposal = watch->add(image);
+        if (!proposal)
+          return;
+        rig = proposal->rig;
+        watch.emplace(rig, continuous::Options{});
+        ++at.changes;
+      });
+    }
+    at.kept += volumeError(led.truth, first);
+    at.corrected += volumeError(led.truth, rig);
+    countCovered(led.truth, rig, &at.covered);
+  }
+}
+
+void runDays(int runs, const RowCallback& row) {
+  std::array<Hour, kHours + 1> hours;
+  for (int run = 0; run < runs; ++run)
+    addDay(static_cast<std::uint64_t>(run) + 1, &hours);
+  const double fresh = hours[0].corrected;
+  for (std::size_t hour = 0; hour < hours.size(); ++hour) {
+    const Hour& at = hours[hour];
+    row({"after " + std::to_string(hour) + " hours",
+         {{"kept_mm", 1000.0 * std::sqrt(at.kept / runs)},
+          {"all_mm", 1000.0 * std::sqrt(at.corrected / runs)},
+          {"/ fresh", std::sqrt(at.corrected / fresh)},
+          {"95%", 100.0 * at.covered.inside / at.covered.all},
+          {"changes", static_cast<double>(at.changes) / runs}}});
+  }
+}
+
+/// Seconds of motion until a camera that was knocked is solved; its error then [px].
+void runKnocks(int runs, const RowCallback& row) {
+  for (const double degrees : {0.5, 1.0, 2.0, 3.0}) {
+    int found = 0;
+    int wrong = 0;
+    double sum = 0.0;
+    double longest = 0.0;
+    for (int run = 0; run < runs; ++run) {
+      square::Random random(static_cast<std::uint64_t>(run) + 5000);
+      const geometry::Rig rig = freshRig();
+      WavedLed led(drawTruth(rig, random), static_cast<std::uint64_t>(run) + 6000);
+      ContinuousCalibration watch(rig, {});
+      led.runUntil(20.0, [&](const capture::Image& image) { wrong += watch.add(image) ? 1 : 0; });
+      geometry::RigCamera& camera = led.truth[static_cast<std::size_t>(run) % 4];
+      turn(&camera, degrees * kOneDegree, random);
+      std::optional<Proposal> proposal;
+      led.runUntil(60.0, [&](const capture::Image& image) {
+        if (proposal || !(proposal = watch.add(image)))
+          return;
+        const double seconds = image.stamp - WavedLed::kClock - 20.0;
+        sum += seconds;
+        longest = std::max(longest, seconds);
+      });
+      found += proposal && proposal->camera == camera.camera.name ? 1 : 0;
+      wrong += proposal && proposal->camera != camera.camera.name ? 1 : 0;
+    }
+    row({"turned by " + std::to_string(degrees).substr(0, 3) + " degrees",
+         {{"found", found},
+          {"others", wrong},
+          {"mean_s", sum / std::max(1, found)},
+          {"longest_s", longest}}});
+  }
+}
+
+}  // namespace
+
+BenchmarkSection continuousSection() {
+  return {"continuous",
+          "eight hours, 0.5 px of drift an hour in each camera, three knocks, two reconnects; RMS "
+          "error of the volume with the first rig and with the one that corrects itself, the "
+          "latter over that of a fresh calibration; poses in their 95 % region; changes per hour",
+          runDays};
+}
+
+BenchmarkSection knockSection() {
+  return {"knock",
+          "a camera that is turned while one LED moves: proposals for it and for others, time "
+          "until then",
+          runKnocks};
+}
+
+}  // namespace wiimote_tracker

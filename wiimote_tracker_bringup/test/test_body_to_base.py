@@ -143,6 +143,14 @@ def test_a_bag(tmp_path):
     assert (found.body, found.base) == ('robot', 'base_link')
 
 
+def test_no_solution_is_said_in_words(monkeypatch):
+    def fail(*_):
+        raise np.linalg.LinAlgError('Singular matrix')
+    monkeypatch.setattr(body_to_base.poses, 'read', fail)
+    with pytest.raises(SystemExit, match=r'no solution was found \(Singular matrix\)'):
+        body_to_base.main(['run.bag', '--body', '/robot/odometry', '--odom', '/odom'])
+
+
 def test_files_and_words(tmp_path):
     found = mount.Mount(TURN, ARM, OFFSET, np.diag(np.arange(1.0, 8.0)) * 1e-6, 'robot', 'base_link')
     path = str(tmp_path / 'mount.yaml')

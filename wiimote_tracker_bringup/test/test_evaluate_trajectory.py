@@ -129,3 +129,18 @@ def test_a_bag_with_a_mount(tmp_path, capsys):
     assert '<svg' in picture.read_text()
     with pytest.raises(SystemExit, match='Topics with poses: /odom, /wand/odometry'):
         evaluate_trajectory.main([path, '--estimate', '/imu', '--truth', '/wand/odometry'])
+
+
+def test_bags_that_cannot_be_read(tmp_path, monkeypatch):
+    path = tmp_path / 'run.bag'
+    with rosbag.Bag(str(path), 'w') as bag:
+        write(bag, '/odom', around(duration=1.0))
+    arguments = ['--estimate', '/odom', '--truth', '/odom']
+    broken = tmp_path / 'broken.bag'
+    for content in (path.read_bytes()[:-4000], b'no bag', b''):
+        broken.write_bytes(content)
+        with pytest.raises(SystemExit, match='broken.bag cannot be read'):
+            evaluate_trajectory.main([str(broken), *arguments])
+    monkeypatch.setattr(rosbag.Bag, 'read_messages', lambda *_, **__: iter(()))
+    with pytest.raises(SystemExit, match='fewer than two poses'):
+        evaluate_trajectory.main([str(path), *arguments])

@@ -128,3 +128,28 @@ def test_pose_of_the_tip():
     moved[:3, 3:] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
     assert np.allclose(np.reshape(pose.pose.covariance, (6, 6)), moved @ root @ root.T @ moved.T,
                        atol=1e-15)
+
+
+def test_probe_forgets_when_time_jumps_back():
+    measuring = probe.Probe(TIP, 10.0, '')
+    for seconds in (100.0, 100.1, 50.0, 50.1):
+        message = Odometry()
+        message.header.stamp = rospy.Time.from_sec(seconds)
+        measuring.add(message)
+    assert [message.header.stamp.to_sec() for message in measuring.newest(10.0)] == [50.0, 50.1]
+
+
+@pytest.mark.parametrize('error', [np.linalg.LinAlgError('Singular matrix'), ValueError('zero norm')])
+def test_probe_answers_in_words(error):
+    def fail():
+        raise error
+    reply = probe.Node.answer(fail)
+    assert not reply.success and f'({error})' in reply.message
+
+
+@pytest.mark.parametrize('tip', [[1.0, 2.0], [0.0, 0.0, float('nan')], ['a', 0, 0], 'tip', [None] * 3])
+def test_probe_refuses_a_tip(tip, monkeypatch):
+    monkeypatch.setattr(rospy, 'get_param', lambda name, default: tip)
+    monkeypatch.setattr(rospy, 'resolve_name', lambda name: '/probe/tip')
+    with pytest.raises(ExperimentError, match='/probe/tip'):
+        probe.read_tip()

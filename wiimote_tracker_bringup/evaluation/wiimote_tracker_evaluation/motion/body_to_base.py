@@ -42,5 +42,8 @@ def main(argv=None):
                                arguments.segment, arguments.largest_offset)
         print('\n'.join(describe(found)))
         mount.write(found, arguments.output)
+    except (ValueError, np.linalg.LinAlgError) as error:
+        sys.exit(f'body_to_base: no solution was found ({error}); record a minute with turns about '
+                 'two axes')
     except (ExperimentError, OSError) as error:
         sys.exit(f'body_to_base: {error}')

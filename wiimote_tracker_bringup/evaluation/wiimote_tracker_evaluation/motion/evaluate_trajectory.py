@@ -4,6 +4,8 @@ import argparse
 import json
 import sys
 
+import numpy as np
+
 from wiimote_tracker_evaluation import alignment
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.motion import comparison, mount, poses
@@ -82,5 +84,5 @@ def main(argv=None):
     except ImportError as error:
         sys.exit(f'evaluate_trajectory: {error}; a plot needs matplotlib: apt install '
                  'python3-matplotlib')
-    except (ExperimentError, OSError, ValueError) as error:
+    except (ExperimentError, OSError, ValueError, np.linalg.LinAlgError) as error:
         sys.exit(f'evaluate_trajectory: {error}')

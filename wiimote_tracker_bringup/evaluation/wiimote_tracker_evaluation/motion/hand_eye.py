@@ -141,7 +141,7 @@ class Problem:
     def start(self, rotation, offset):
         base, body = self.base_at(offset), self.body
         turned = body.rotations * rotation * base.rotations.inv()
-        worlds = Rotation.concatenate([turned[each].mean() for each in self.segments])
+        worlds = Rotation.from_quat([turned[each].mean().as_quat() for each in self.segments])
         moved = worlds[self.segment].apply(base.positions - self.middles[self.segment])
         arms, rests = body.rotations.as_matrix(), moved - body.positions
         mean = [[values[each].mean(axis=0) for each in self.segments] for values in (arms, rests)]

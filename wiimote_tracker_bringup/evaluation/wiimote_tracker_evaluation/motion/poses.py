@@ -80,7 +80,24 @@ def smoothed(poses, neighbours=9):
 
 
 def read(path, topic):
-    """The poses of a topic. Throws ExperimentError if it has none."""
+    """The poses of a topic. Throws ExperimentError if it has none, or if the bag cannot be read."""
+    try:
+        rows, message = read_rows(path, topic)
+    except rosbag.ROSBagException as error:
+        raise ExperimentError(f'{path} cannot be read ({error}); if it was not closed, repair it '
+                              'with rosbag reindex') from error
+    rows = np.array(rows).reshape(-1, 8)
+    rows = rows[np.isfinite(rows).all(axis=1) & (np.linalg.norm(rows[:, 4:], axis=1) > 0.5)]
+    rows = rows[np.unique(rows[:, 0], return_index=True)[1]]
+    if len(rows) < 2:
+        raise ExperimentError(f'{topic} in {path} has fewer than two poses at different times; '
+                              'record it while the body is tracked')
+    return Poses(rows[:, 0], rows[:, 1:4], Rotation.from_quat(rows[:, 4:]),
+                 message.header.frame_id, getattr(message, 'child_frame_id', '') or topic.strip('/'))
+
+
+def read_rows(path, topic):
+    """Stamps, positions and quaternions of a topic, and its last message."""
     rows, message = [], None
     with rosbag.Bag(path) as bag:
         types = {name: info.msg_type for name, info in bag.get_type_and_topic_info().topics.items()}
@@ -92,10 +109,4 @@ def read(path, topic):
             position, turn = pose.position, pose.orientation
             rows.append((message.header.stamp.to_sec(), position.x, position.y, position.z,
                          turn.x, turn.y, turn.z, turn.w))
-    rows = np.array(rows)
-    rows = rows[np.isfinite(rows).all(axis=1) & (np.linalg.norm(rows[:, 4:], axis=1) > 0.5)]
-    rows = rows[np.unique(rows[:, 0], return_index=True)[1]]
-    if len(rows) < 2:
-        raise ExperimentError(f'{topic} in {path} has fewer than two poses at different times')
-    return Poses(rows[:, 0], rows[:, 1:4], Rotation.from_quat(rows[:, 4:]),
-                 message.header.frame_id, getattr(message, 'child_frame_id', '') or topic.strip('/'))
+    return rows, message

@@ -3,6 +3,7 @@
 import collections
 import copy
 import os
+import sys
 
 import numpy as np
 import rospy
@@ -38,6 +39,8 @@ class Probe:
         self.messages = collections.deque()  # of the newest `duration`
 
     def add(self, message):
+        if self.messages and message.header.stamp < self.messages[-1].header.stamp:
+            self.messages.clear()  # time jumped back, as when a bag starts again
         self.messages.append(message)
         while message.header.stamp - self.messages[0].header.stamp > rospy.Duration(self.duration):
             self.messages.popleft()
@@ -99,13 +102,25 @@ class Probe:
         return f'{self.file}: ' + ', '.join(f'{value:.4f}' for value in row[1:4])
 
 
+def read_tip():
+    """The parameter ~tip, 3 [m]. Throws ExperimentError if it is none."""
+    value = rospy.get_param('~tip', [0.0, 0.0, 0.0])
+    try:
+        tip = np.array(value, dtype=float)
+    except (TypeError, ValueError):
+        tip = np.empty(0)
+    if tip.shape != (3,) or not np.isfinite(tip).all():
+        raise ExperimentError(f'{rospy.resolve_name("~tip")} is {value}: give three finite numbers '
+                              '[m]')
+    return tip
+
+
 class Node:
     """Publishes <body>/tip and <body>/tip_pose. Services: ~pivot, ~save_point."""
 
     def __init__(self):
         body = rospy.get_param('~body')
-        self.probe = Probe(rospy.get_param('~tip', [0.0, 0.0, 0.0]),
-                           rospy.get_param('~duration', 10.0),
+        self.probe = Probe(read_tip(), rospy.get_param('~duration', 10.0),
                            rospy.get_param('~file', '~/probe_points.csv'))
         self.point = rospy.Publisher(f'{body}/tip', PointStamped, queue_size=10)
         self.pose = rospy.Publisher(f'{body}/tip_pose', PoseWithCovarianceStamped, queue_size=10)
@@ -128,11 +143,17 @@ class Node:
     def answer(action):
         try:
             return TriggerResponse(success=True, message=action())
+        except (ValueError, np.linalg.LinAlgError) as error:
+            return TriggerResponse(success=False, message='the poses of the probe cannot be used '
+                                   f'({error}); turn it to other sides and try again')
         except (ExperimentError, OSError) as error:
             return TriggerResponse(success=False, message=str(error))
 
 
 def main():
     rospy.init_node('probe')
-    Node()
+    try:
+        Node()
+    except ExperimentError as error:
+        sys.exit(f'probe: {error}')
     rospy.spin()

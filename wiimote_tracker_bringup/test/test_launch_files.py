@@ -25,22 +25,45 @@ def load(monkeypatch):
 
 @pytest.mark.parametrize('given, found', [
     ('cameras.yaml', '/home/my lab/cameras.yaml'), ('/etc/cameras.yaml', '/etc/cameras.yaml'),
-    ('', '')])
+    ('5', '/home/my lab/5'), ('', '')])
 def test_cameras_are_where_the_user_says(load, given, found):
     assert load('tracker.launch', 'cameras:=' + given)[1]['/drivers/file'] == found
 
 
 @pytest.mark.parametrize('given, found', [
-    ('rec 1.bag', '/home/my lab/rec 1.bag'), ('/data/rec.bag', '/data/rec.bag')])
+    ('rec 1.bag', '/home/my lab/rec 1.bag'), ('/data/rec.bag', '/data/rec.bag'),
+    ('5', '/home/my lab/5')])
 def test_a_bag_is_replayed_from_where_the_user_says(load, given, found):
     nodes, _ = load('replay.launch', 'bag:=' + given)
     assert shlex.split(nodes['play'].args)[-1] == found
+
+
+def test_a_replay_keeps_the_recorded_results_apart(load):
+    nodes, parameters = load('replay.launch', 'bag:=x')
+    remapped = dict(nodes['play'].remap_args)
+    for topic in ('points', 'bodies', 'gestures', 'zone_events'):
+        assert remapped[topic] == 'recorded/' + topic
+    assert parameters['/triangulation/label_places'] == ''
+
+
+def test_each_namespace_has_its_own_label_places(load, monkeypatch):
+    files = []
+    for namespace in ('', 'first', '/second'):
+        monkeypatch.setenv('ROS_NAMESPACE', namespace)
+        files += [value for name, value in load('triangulation.launch')[1].items()
+                  if name.endswith('/label_places')]
+    assert len({os.path.normpath(file) for file in files}) == 3
 
 
 def test_a_live_start_ends_the_simulated_time_of_a_replay(load):
     assert load('replay.launch', 'bag:=x')[1]['/use_sim_time'] is True
     assert load('tracker.launch')[1]['/use_sim_time'] is False
     assert '/use_sim_time' not in load('calibrate.launch', 'drivers:=false')[1]
+
+
+def test_a_recording_may_have_a_number_as_its_name(load):
+    nodes, _ = load('record.launch', 'output:=20261123')
+    assert "'--output-prefix=/home/my lab/20261123'" in next(iter(nodes.values())).args
 
 
 def test_a_recording_has_all_results_and_is_written_where_the_user_stands(load):

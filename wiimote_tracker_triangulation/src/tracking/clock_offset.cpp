@@ -36,7 +36,7 @@ ClockOffset::Estimate ClockOffset::estimate(double prior_stddev, double lag) con
   if (!(count_ > 0.0 && prior > 0.0))
     return {0.0, prior};
   const Eigen::Vector2d sum = residual_ - lag * forward_;
-  const double velocities = squared_velocity_ - velocity_.squaredNorm() / count_;
+  const double velocities = std::max(squared_velocity_ - velocity_.squaredNorm() / count_, 0.0);
   const double products =
       velocity_residual_ - lag * velocity_forward_ - velocity_.dot(sum) / count_;
   const double residuals = squared_residual_ - 2.0 * lag * forward_residual_ +

@@ -266,6 +266,12 @@ TEST_F(Workflow, KnownPlacesAreTakenSolvedAndDropped) {
   const session::Session session = calibration_.session(facts_, {});
   EXPECT_EQ(session.recording.square->places.size(), 1U);
   ASSERT_EQ(session.recording.cameras[2].sightings.places.size(), 1U);
+  ASSERT_TRUE(calibration_.setMasks({{"camera_1", {{Eigen::Vector2d(100.0, 200.0), 12.0}}}}));
+  EXPECT_TRUE(calibration_.addPlace(known, seen).success);
+  geometry::Rig rig = *calibration_.rig();
+  rig.cameras[1].camera.world_from_camera.translation().x() += 0.1;
+  calibration_.setRig(rig, "camera_2 is calibrated again");
+  EXPECT_SAYS(calibration_.addPlace(known, seen).message, "a camera was changed");
   ASSERT_TRUE(calibration_.restore(session).success);
   EXPECT_EQ(*calibration_.session(facts_, {}).recording.cameras[2].sightings.places[0],
             seen.at("camera_3").pixel);

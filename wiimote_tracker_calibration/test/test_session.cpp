@@ -142,6 +142,20 @@ TEST(SolveSession, TheSquareAloneIsSolvedByTheChosenMethod) {
   }
 }
 
+TEST(SolveSession, WhatOnlyTheJointMethodUsesIsRefusedOtherwise) {
+  square::Random random(1);
+  Session session = sessionOf(paperSquare(), paperScene(4, random).sightings);
+  session.recording.square->lengths = {{0, 2, paperSquare().lengthBetween(0, 2), 0.001}};
+  SolveOptions options;
+  const auto solve = [&] { solveSession(session, options); };
+  EXPECT_NO_THROW(solve());
+  options.square.method = square::Method::kPerCamera;
+  EXPECT_SAYS(refusalOf(solve), "need the method joint");
+  options.square.method = square::Method::kJoint;
+  options.correct_principal_points = true;
+  EXPECT_SAYS(refusalOf(solve), "need the method joint");
+}
+
 TEST(SolveSession, GravityIsKeptAlsoWhereItIsNotUsed) {
   square::Random random(2);
   Session session = sessionOf(paperSquare(), paperScene(4, random).sightings);

@@ -58,6 +58,12 @@ Solved solveFromSquare(const square::SquareLayout& layout,
                        const wave::ProgressCallback& progress) {
   if (progress && !progress({"solving the square", 0.0}))
     throw wave::Cancelled(kCancelled);
+  const bool exact =
+      options.square.method == square::Method::kPerCamera || options.correct_principal_points;
+  if (exact && !(layout.lengths.empty() && layout.places.empty()))
+    throw square::SquareError(
+        "lengths and known places need the method joint without principal_point_correction: set "
+        "these, record a wave, or drop the lengths and places");
   const square::SquareSolution solution = square::solveSquare(layout, cameras, options.square);
   Solved solved;
   solved.findings.suspect = solution.suspect;

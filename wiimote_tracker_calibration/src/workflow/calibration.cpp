@@ -260,15 +260,14 @@ void Calibration::end(const Reply& outcome) {
 
 Reply Calibration::takeSolution(const geometry::Rig& rig) {
   Reply reply = {true, rig.verdict};
-  std::vector<geometry::Zone> zones = rig.zones;
-  if (rig_ && rig_->world_frame == rig.world_frame && !rig_->zones.empty()) {
-    zones = rig_->zones;
+  const std::optional<geometry::Rig> before = std::exchange(rig_, rig);
+  if (before && before->world_frame == rig.world_frame && !before->zones.empty()) {
+    rig_->zones = before->zones;
     reply.message +=
         "; the zones of the rig before are kept, and are right only if the square lies where it "
         "lay";
   }
-  rig_ = rig;
-  rig_->zones = zones;
+  captured_.solved_to = rig_->id();
   step_ = Step::kSolved;
   return reply;
 }
@@ -311,6 +310,8 @@ bool Calibration::setMasks(const capture::Masks& masks) {
   }
   if (rig_->remap && rig_->remap->rig_id == id)
     rig_->remap->rig_id = rig_->id();
+  if (captured_.solved_to == id)
+    captured_.solved_to = rig_->id();
   return rig_->id() != id;
 }
 

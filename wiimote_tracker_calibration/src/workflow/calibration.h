@@ -87,7 +87,8 @@ class Calibration {
   /// Takes a length by tape; see takeLength(). A corner that is captured again loses its lengths.
   Reply measureLength(const square::TapedLength& taped, double placement);
 
-  /// Takes a known place, while kMeasuring; see takePlace().
+  /// Takes a known place, while kMeasuring; see takePlace(). Refused while the rig in use is not
+  /// the solution of what was captured: a camera may have moved since the corners were.
   Reply addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen);
 
   /// Drops the last known place, else the wave, else the last corner.

@@ -34,6 +34,7 @@ struct Captured {
   std::vector<capture::CapturedCorner> places;  ///< Of layout->places.
   std::optional<WaveRecorder> wave;             ///< The wave that is being recorded, or was.
   std::string world_frame;
+  std::string solved_to;  ///< The rig's id; empty: not solved yet.
   /// The device that took the data of a camera, and another one that took some, too.
   std::map<std::string, std::string> devices;
   std::map<std::string, std::string> other_devices;

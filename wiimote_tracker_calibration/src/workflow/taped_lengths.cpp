@@ -95,6 +95,10 @@ Reply Calibration::measureLength(const square::TapedLength& taped, double placem
 }
 
 Reply Calibration::addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen) {
+  if (captured_.square.isComplete() && (!rig_ || rig_->id() != captured_.solved_to))
+    return refuse(
+        "the rig in use is not the solution of the captured corners: solve first or, if a camera "
+        "was changed since they were captured, calibrate again to use known places");
   return changed(takePlace(known, seen, &captured_));
 }
 

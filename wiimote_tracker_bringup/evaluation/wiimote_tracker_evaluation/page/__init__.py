@@ -2,6 +2,7 @@
 for each section."""
 
 import os
+import time
 
 from wiimote_tracker_evaluation.page import data, html, markdown
 
@@ -15,7 +16,7 @@ class Report:
         self.runs = runs
         # --live can be rehearsed on virtual remotes.
         self.simulated = any(run.simulated for run in runs)
-        self.seconds = seconds
+        self.seconds, self.date = seconds, time.strftime('%Y-%m-%d')
 
 
 def write_report(options, runs, seconds):

@@ -1,7 +1,5 @@
 """Numbers and names for readers; the same in all pages."""
 
-import time
-
 PAPER = ('"The paper" is P. Peltola, M. Valtonen and J. Vanhala, A Portable and Low-Cost 3D Tracking '
          'System Using Four-Point Planar Square Calibration, IPIN 2012, doi '
          '10.1109/IPIN.2012.6418918.')
@@ -69,4 +67,4 @@ def about(report):
         how = f'Simulated, rig `{report.rig}`'
     return '%s, seed %d, %s of %s; took %s. %s' % (
         how, report.seed, 'quick run' if report.quick else 'full run',
-        time.strftime('%Y-%m-%d'), duration(report.seconds), PAPER)
+        report.date, duration(report.seconds), PAPER)

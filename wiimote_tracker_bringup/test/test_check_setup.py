@@ -97,6 +97,7 @@ def test_all_is_well(check):
     ({'remotes': NO_REMOTE + NO_RULE}, 'Next: computer: no udev rule'),
     ({'remotes': NO_REMOTE}, 'Next: remotes: No Wii Remote is connected'),
     ({'remotes': REFUSED}, 'permission denied on /dev/hidraw3'),
+    ({'remotes': REFUSED.replace(A, '(address unknown)')}, 'Next: remote (address unknown): permiss'),
     ({'cameras': CAMERAS % B, 'rig': RIG % B}, f'Next: camera door: {B} is not connected'),
     ({'cameras': None}, 'list_wiimotes --write cameras.yaml'),
     ({'cameras': 'cameras: {a: [1'}, 'not valid YAML'),

@@ -15,8 +15,9 @@
 namespace wiimote_tracker::continuous {
 
 struct Options {
-  SuspectOptions knock = {{3.0, 6.0}, 140, 60};    ///< Seconds of motion.
-  SuspectOptions drift = {{0.7, 60.0}, 600, 200};  ///< A minute of motion.
+  // {{limit [px], window [s]}, samples to solve, samples to check}; there are 20 samples a second.
+  SuspectOptions knock = {{3.0, 6.0}, 140, 60};    ///< Noticed in 6 s; 7 s solve it, 3 s check it.
+  SuspectOptions drift = {{0.7, 60.0}, 600, 200};  ///< Noticed in 60 s; 30 s and 10 s.
   /// A new pose is proposed only if the camera's mean residual then is below this [px, > 0].
   double accepted = 0.7;
   /// A camera that seems farther from where it was is left alone: it was put elsewhere, or it sees

@@ -8,7 +8,7 @@ namespace wiimote_tracker::continuous {
 namespace {
 
 // Images are collected as long as the last sample is not older than this [s].
-constexpr double kPause = 1.0;
+constexpr double kLongestPause = 1.0;
 // The camera and two others.
 constexpr std::size_t kLeastViews = 3;
 
@@ -23,7 +23,7 @@ SuspectWatch::SuspectWatch(const geometry::Rig& rig, const SuspectOptions& optio
 std::optional<Evidence> SuspectWatch::add(const capture::Image& image) {
   if (watch_.add(image))
     judge();
-  if (!suspect_ || !movesAt(image.stamp))
+  if (!suspect_ || !countMotion(image.stamp))
     return std::nullopt;
   images_.push_back(image);
   if (motion_.size() < options_.to_solve + options_.to_check || unused_ < options_.to_check)
@@ -43,6 +43,7 @@ void SuspectWatch::judge() {
   std::optional<std::size_t> only;
   int count = 0;
   for (std::size_t i = 0; i < alarms_.size(); ++i) {
+    // Of two cameras that contradict each other neither is known to be the one.
     if (const auto& drift = watch_.drifts()[i])
       alarms_[i].judge(drift->together.empty() ? drift->ratio : 0.0);
     if (!alarms_[i].on())
@@ -63,7 +64,7 @@ void SuspectWatch::collectFor(std::optional<std::size_t> suspect) {
   gravity_ = capture::RestGravity();
 }
 
-bool SuspectWatch::movesAt(double time) {
+bool SuspectWatch::countMotion(double time) {
   if (watch_.samples().empty())
     return false;
   const health::DriftSample& newest = watch_.samples().back();
@@ -76,7 +77,7 @@ bool SuspectWatch::movesAt(double time) {
     motion_.push_back(newest.time);
     ++unused_;
   }
-  return !motion_.empty() && std::abs(time - motion_.back()) < kPause;
+  return !motion_.empty() && std::abs(time - motion_.back()) < kLongestPause;
 }
 
 void SuspectWatch::forgetSurplus() {

@@ -23,7 +23,9 @@ namespace wiimote_tracker::continuous {
 struct SuspectOptions {
   health::DriftOptions drift;
   std::size_t to_solve = 0;  ///< Samples [> 0].
-  std::size_t to_check = 0;  ///< Later samples, which the solution does not use [>= 40].
+  /// Later samples, which the solution does not use [>= 40: fewer are not judged, see meanOf() in
+  /// health/drift_residuals.h].
+  std::size_t to_check = 0;
 };
 
 /// What was seen since a camera is off.
@@ -56,8 +58,9 @@ class SuspectWatch {
   void judge();
   /// Forgets what was collected, and begins to collect for this camera.
   void collectFor(std::optional<std::size_t> suspect);
-  /// Counts the newest sample. @returns whether the LED has just moved before the suspect.
-  bool movesAt(double time);
+  /// Counts the newest sample, if the suspect takes part in it; begins again if time jumped back.
+  /// @returns whether there was such a sample shortly before this time [s].
+  bool countMotion(double time);
   void forgetSurplus();
   Evidence evidence() const;
 

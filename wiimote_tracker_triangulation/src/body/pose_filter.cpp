@@ -28,6 +28,7 @@ void PoseFilter::predict(double time) {
     const PoseMode& mode = options_->modes[i];
     states_[i].predict(mode.acceleration_density, mode.angular_acceleration_density, duration);
   }
+  // After the prediction: the mode is taken to change at its end, as in motion::MotionFilter.
   mix(duration);
   mean_ = mixture(probabilities_);
 }
@@ -49,7 +50,8 @@ void PoseFilter::mix(double duration) {
   states_ = mixed;
 }
 
-/// Mean and covariance of the mixture of all states. @param weights add up to 1
+/// Mean and covariance of the mixture of all states. The mean is one step from the likeliest state,
+/// because rotations cannot be averaged directly. @param weights add up to 1
 PoseState PoseFilter::mixture(const Weights& weights) const {
   Eigen::Index likeliest;
   weights.maxCoeff(&likeliest);
@@ -89,8 +91,9 @@ std::optional<LedPrediction> PoseFilter::predictLed(const geometry::Camera& came
 void PoseFilter::update(const LedPrediction& prediction,
                         const Eigen::Vector2d& pixel,
                         double pixel_stddev) {
-  Weights costs;  // -2 log likelihood
+  Weights costs;  // -2 log likelihood, less what all modes have in common
   for (int i = 0; i < kPoseModes; ++i) {
+    // The prediction is that of the mean.
     const Eigen::Matrix<double, 6, 1> offset = states_[i].minus(mean_).head<6>();
     const Eigen::Vector2d innovation = pixel - prediction.pixel - prediction.jacobian * offset;
     costs[i] = states_[i].update(prediction.jacobian, innovation, pixel_stddev);

@@ -12,10 +12,12 @@ namespace {
 /// copies for all images.
 constexpr std::size_t kKeepInterval = 2;
 
+// Memory, least and tolerated, chosen by simulated knocks such as those of test_tracker_knocks.cpp.
 constexpr CameraFit::Limits kFitOfMany{40.0, 0.4, 0.7};
 
-// Doubted sooner, as tracks may follow wrong spots, and longer; but LEDs that each camera alone
-// sees look like a misfit.
+// Tracks of two cameras may follow wrong spots. So a misfit is found sooner (shorter memory) and
+// ends only when nearly all LEDs fit. It takes a larger share, because LEDs that only one of both
+// cameras sees look like misfits, too.
 constexpr CameraFit::Limits kFitOfTwo{30.0, 0.55, 0.1};
 
 constexpr double kOffsetStddev = 0.005;  // of a clock in an epoch that was not calibrated [s]

@@ -39,7 +39,8 @@ class CameraGroup {
   /// @param views one per camera of the rig; the use of the image's spots is written to its view.
   Outcome add(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
 
-  /// Whether a camera's images are left out because they do not fit the others'.
+  /// Whether a camera's images do not fit the others'. With more than two cameras they are left
+  /// out.
   bool isMisfit(std::size_t member) const { return state_.fits[member].isMisfit(); }
 
   /// Whether there are only two cameras, which do not fit each other: then no LED is located.

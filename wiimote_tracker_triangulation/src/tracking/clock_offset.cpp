@@ -8,7 +8,8 @@ void ClockOffset::add(const Eigen::Vector2d& velocity,
                       const Eigen::Vector2d& forward,
                       const Eigen::Vector2d& residual,
                       double correction) {
-  constexpr double kMost = 4000.0;  // spots, of which half are then forgotten
+  constexpr double kMost =
+      4000.0;  // spots; then all sums are halved, so that older ones count less
   if (count_ >= kMost) {
     for (double* sum : {&count_, &squared_velocity_, &squared_forward_, &squared_residual_,
                         &velocity_forward_, &velocity_residual_, &forward_residual_})
@@ -30,22 +31,26 @@ void ClockOffset::add(const Eigen::Vector2d& velocity,
 }
 
 ClockOffset::Estimate ClockOffset::estimate(double prior_stddev, double lag) const {
-  // What is assumed of the residuals until there are more: 1 px.
-  constexpr double kAssumed = 10.0;  // spots
+  // The noise is as if so many further spots were off by 1 px per axis.
+  constexpr double kAssumed = 10.0;
   const double prior = prior_stddev * prior_stddev;
   if (!(count_ > 0.0 && prior > 0.0))
     return {0.0, prior};
+  // residual = -offset * velocity + lag * forward + constant + noise, since a time that is too late
+  // predicts the LED too far along its motion: regression on the velocity, both less their means.
   const Eigen::Vector2d sum = residual_ - lag * forward_;
-  const double velocities = std::max(squared_velocity_ - velocity_.squaredNorm() / count_, 0.0);
-  const double products =
+  const double velocity_scatter =
+      std::max(squared_velocity_ - velocity_.squaredNorm() / count_, 0.0);
+  const double covariation =
       velocity_residual_ - lag * velocity_forward_ - velocity_.dot(sum) / count_;
-  const double residuals = squared_residual_ - 2.0 * lag * forward_residual_ +
-                           lag * lag * squared_forward_ - sum.squaredNorm() / count_;
-  const double explained = velocities > 0.0 ? products * products / velocities : 0.0;
+  const double residual_scatter = squared_residual_ - 2.0 * lag * forward_residual_ +
+                                  lag * lag * squared_forward_ - sum.squaredNorm() / count_;
+  const double explained =
+      velocity_scatter > 0.0 ? covariation * covariation / velocity_scatter : 0.0;
   const double noise =
-      (std::max(residuals - explained, 0.0) + 2.0 * kAssumed) / (2.0 * (count_ + kAssumed));
-  const double information = velocities / noise + 1.0 / prior;
-  return {-products / noise / information, 1.0 / information};
+      (std::max(residual_scatter - explained, 0.0) + 2.0 * kAssumed) / (2.0 * (count_ + kAssumed));
+  const double information = velocity_scatter / noise + 1.0 / prior;
+  return {-covariation / noise / information, 1.0 / information};
 }
 
 }  // namespace wiimote_tracker::tracking

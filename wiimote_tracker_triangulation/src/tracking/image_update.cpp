@@ -128,6 +128,7 @@ void ImageUpdate::measureClock(const StoredImage& image,
                                std::vector<CameraFit>* fits) const {
   constexpr double kLeastSpeed = 0.1;  // of an LED that tells about time [m/s]
   CameraFit& fit = (*fits)[image.camera];
+  // The tracks follow the spots of all cameras, so that the estimate of each clock depends on all.
   if (fit.noteEpoch(image.clock_epoch, image.offset_known,
                     image.offset_known ? image.clock_correction : 0.0)) {
     for (CameraFit& each : *fits)
@@ -189,17 +190,17 @@ void ImageUpdate::assign(const GroupCamera& camera,
                          const StoredImage& image,
                          const std::vector<Track>& tracks) {
   constexpr double kUncertainTrackCost = 3.0;  // tentative, or seen by this camera only
-  const double detected = -std::log(options_.detection_probability);
-  const double missed = -std::log(1.0 - options_.detection_probability);
+  const double detection_cost = -std::log(options_.detection_probability);
+  const double miss_cost = -std::log(1.0 - options_.detection_probability);
   costs_.reset(image.spot_count, candidate_count_,
-               -std::log(options_.ghost_rate / camera.imageArea()), missed);
+               -std::log(options_.ghost_rate / camera.imageArea()), miss_cost);
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const Candidate& candidate = candidates_[i];
-    if (!candidate.expected)
-      costs_.miss[i] = detected;
+    if (!candidate.expected)  // a missed detection costs no more than a detection
+      costs_.miss[i] = detection_cost;
     const Track& track = tracks[candidate.track];
     const bool is_certain = track.isConfirmed() && othersSeeing(image, track) > 0;
-    const double extra = detected + (is_certain ? 0.0 : kUncertainTrackCost);
+    const double extra = detection_cost + (is_certain ? 0.0 : kUncertainTrackCost);
     for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
       if (const auto likelihood =
               candidate.prediction.logLikelihoodWithin(options_.gate, image.pixels[spot]))

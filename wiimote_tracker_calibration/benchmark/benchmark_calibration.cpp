@@ -89,6 +89,7 @@ int main(int argc, char** argv) {
       waveTimeSection(), measureSection(),     paperSection(),
       remapSection(),    continuousSection(),  knockSection()};
   std::vector<std::string> names;
+  names.reserve(sections.size());
   for (const BenchmarkSection& section : sections)
     names.push_back(section.name);
   std::string path;

@@ -56,6 +56,7 @@ void turn(geometry::RigCamera* camera, double angle, square::Random& random) {
 
 std::vector<geometry::Camera> camerasOf(const std::vector<geometry::RigCamera>& cameras) {
   std::vector<geometry::Camera> result;
+  result.reserve(cameras.size());
   for (const geometry::RigCamera& camera : cameras)
     result.push_back(camera.camera);
   return result;

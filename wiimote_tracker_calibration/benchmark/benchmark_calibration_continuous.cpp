@@ -35,25 +35,6 @@ constexpr double kMotion = 60.0;                // After each step [s].
 constexpr double kDriftPerHour = 0.5 / 1300.0;  // 0.5 px [rad].
 constexpr double kChiSquared = 12.592;          // 95 %, six degrees of freedom.
 
-/// A rig whose images fit together to about 0.2 px.
-geometry::Rig freshRig() {
-  RigErrors errors;
-  errors.rotation = 1e-4;
-  errors.position = 5e-4;
-  errors.focal = 0.5;
-  errors.principal_point = 0.1;
-  errors.k1 = 1e-3;
-  return paperRigWith(errors);
-}
-
-void turn(geometry::RigCamera* camera, double angle, square::Random& random) {
-  const Eigen::Vector3d axis(square::normal(random, 1.0), square::normal(random, 1.0),
-                             square::normal(random, 1.0));
-  camera->camera.world_from_camera.linear() =
-      camera->camera.world_from_camera.linear() *
-      Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-}
-
 std::vector<geometry::Camera> camerasOf(const std::vector<geometry::RigCamera>& cameras) {
   std::vector<geometry::Camera> result;
   result.reserve(cameras.size());
@@ -97,7 +78,7 @@ struct Hour {
 /// One day: `hours` has the state before it, then after each hour.
 void addDay(std::uint64_t seed, std::array<Hour, kHours + 1>* hours) {
   square::Random random(seed);
-  const geometry::Rig first = freshRig();
+  const geometry::Rig first = paperRigWith(wellCalibrated());
   geometry::Rig rig = first;
   WavedLed led(drawTruth(rig, random), seed + 1000);
   std::array<std::uint32_t, 4> epochs = {7, 7, 7, 7};
@@ -108,10 +89,11 @@ void addDay(std::uint64_t seed, std::array<Hour, kHours + 1>* hours) {
     Hour& at = (*hours)[static_cast<std::size_t>(hour)];
     for (int step = 0; hour > 0 && step < kStepsPerHour; ++step) {
       for (geometry::RigCamera& camera : led.truth)
-        turn(&camera, kDriftPerHour / kStepsPerHour, random);
+        camera = turned(camera, kDriftPerHour / kStepsPerHour, random);
       const auto any = static_cast<std::size_t>(square::uniform(random, 0.0, 3.999));
       if (step == 0 && (hour == 2 || hour == 4 || hour == 6))
-        turn(&led.truth[any], square::uniform(random, 1.0, 3.0) * kOneDegree, random);
+        led.truth[any] =
+            turned(led.truth[any], square::uniform(random, 1.0, 3.0) * kOneDegree, random);
       if (step == 0 && (hour == 3 || hour == 5)) {
         led.truth[any].time_offset = square::uniform(random, -0.02, 0.02);
         ++epochs[any];
@@ -158,12 +140,12 @@ void runKnocks(int runs, const RowCallback& row) {
     double longest = 0.0;
     for (int run = 0; run < runs; ++run) {
       square::Random random(static_cast<std::uint64_t>(run) + 5000);
-      const geometry::Rig rig = freshRig();
+      const geometry::Rig rig = paperRigWith(wellCalibrated());
       WavedLed led(drawTruth(rig, random), static_cast<std::uint64_t>(run) + 6000);
       ContinuousCalibration watch(rig, {});
       led.runUntil(20.0, [&](const capture::Image& image) { wrong += watch.add(image) ? 1 : 0; });
       geometry::RigCamera& camera = led.truth[static_cast<std::size_t>(run) % 4];
-      turn(&camera, degrees * kOneDegree, random);
+      camera = turned(camera, degrees * kOneDegree, random);
       std::optional<Proposal> proposal;
       led.runUntil(60.0, [&](const capture::Image& image) {
         if (proposal || !(proposal = watch.add(image)))

@@ -28,6 +28,17 @@ struct RigErrors {
   double time_offset = 0.0001;  // [s]
 };
 
+/// Of a rig whose images fit together to about 0.2 px.
+inline RigErrors wellCalibrated() {
+  RigErrors errors;
+  errors.rotation = 1e-4;
+  errors.position = 5e-4;
+  errors.focal = 0.5;
+  errors.principal_point = 0.1;
+  errors.k1 = 1e-3;
+  return errors;
+}
+
 /// The paper's cameras, known with these errors.
 inline geometry::Rig paperRigWith(const RigErrors& errors, std::size_t cameras = 4) {
   geometry::Rig rig;
@@ -77,6 +88,18 @@ inline geometry::RigCamera displaced(geometry::RigCamera camera, const Eigen::Ve
   for (Eigen::Index k = geometry::kDistortion; k < geometry::kTimeOffset; ++k)
     c.intrinsics.distortion[static_cast<std::size_t>(k - geometry::kDistortion)] += delta[k];
   camera.time_offset += delta[geometry::kTimeOffset];
+  return camera;
+}
+
+/// The camera after it was turned about any axis [rad].
+inline geometry::RigCamera turned(geometry::RigCamera camera,
+                                  double angle,
+                                  square::Random& random) {
+  const Eigen::Vector3d axis(square::normal(random, 1.0), square::normal(random, 1.0),
+                             square::normal(random, 1.0));
+  camera.camera.world_from_camera.linear() =
+      camera.camera.world_from_camera.linear() *
+      Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
   return camera;
 }
 

@@ -17,34 +17,12 @@
 namespace wiimote_tracker::continuous {
 namespace {
 
-using square::normal;
 using square::Random;
 using square::uniform;
 
 #define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 constexpr double kDegree = M_PI / 180.0;
-
-/// A rig whose images fit together to about 0.2 px.
-geometry::Rig calibratedRig() {
-  RigErrors errors;
-  errors.rotation = 1e-4;
-  errors.position = 5e-4;
-  errors.focal = 0.5;
-  errors.principal_point = 0.1;
-  errors.k1 = 1e-3;
-  return paperRigWith(errors);
-}
-
-/// The camera after it was turned about any axis [rad].
-geometry::RigCamera turned(const geometry::RigCamera& camera, double angle, Random& random) {
-  geometry::RigCamera result = camera;
-  const Eigen::Vector3d axis(normal(random, 1.0), normal(random, 1.0), normal(random, 1.0));
-  result.camera.world_from_camera.linear() =
-      camera.camera.world_from_camera.linear() *
-      Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-  return result;
-}
 
 /// RMS distance of two cameras' pixels of points in the volume [px].
 double pixelDistance(const geometry::Camera& a, const geometry::Camera& b) {
@@ -76,7 +54,7 @@ std::optional<Proposal> proposalUntil(double time, WavedLed* led, ContinuousCali
 TEST(Continuous, BringsBackAKnockedCamera) {
   Random random(1);
   for (std::size_t index = 0; index < 4; ++index) {
-    geometry::Rig rig = calibratedRig();
+    geometry::Rig rig = paperRigWith(wellCalibrated());
     rig.verdict = "good; since then something else";
     WavedLed led(drawTruth(rig, random), 100 + index);
     ContinuousCalibration watch(rig, {});
@@ -103,7 +81,7 @@ TEST(Continuous, BringsBackAKnockedCamera) {
 
 TEST(Continuous, FindsSlowDrift) {
   Random random(2);
-  const geometry::Rig rig = calibratedRig();
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
   WavedLed led(drawTruth(rig, random), 200);
   led.truth[2] = turned(led.truth[2], 0.1 * kDegree, random);
   const geometry::Camera& truth = led.truth[2].camera;
@@ -119,7 +97,7 @@ TEST(Continuous, FindsSlowDrift) {
 TEST(Continuous, IsAFunctionOfTheImages) {
   const auto run = [] {
     Random random(3);
-    const geometry::Rig rig = calibratedRig();
+    const geometry::Rig rig = paperRigWith(wellCalibrated());
     WavedLed led(drawTruth(rig, random), 300);
     led.truth[0] = turned(led.truth[0], 2.0 * kDegree, random);
     ContinuousCalibration watch(rig, {});
@@ -135,7 +113,7 @@ TEST(Continuous, IsAFunctionOfTheImages) {
 
 TEST(Continuous, ProposesNothingWithoutMotion) {
   Random random(4);
-  const geometry::Rig rig = calibratedRig();
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
   WavedLed led(drawTruth(rig, random), 400);
   ContinuousCalibration watch(rig, {});
   // Knocked while the LED rests.
@@ -177,7 +155,7 @@ TEST(Continuous, IsNotMisledByAnotherLight) {
       }};
   Random random(5);
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const geometry::Rig rig = calibratedRig();
+    const geometry::Rig rig = paperRigWith(wellCalibrated());
     WavedLed led(drawTruth(rig, random), 500 + i);
     const geometry::RigCamera& misled = led.truth[i % 4];
     ContinuousCalibration watch(rig, {});

@@ -27,8 +27,8 @@ using square::uniform;
 
 constexpr double kDegree = M_PI / 180.0;
 
-/// A rig whose images fit together to about 0.1 px, as a wave makes it.
-RigErrors wellCalibrated() {
+/// Of a rig whose images fit together to about 0.1 px.
+RigErrors calibratedByWave() {
   RigErrors errors;
   errors.rotation = 4e-5;
   errors.position = 2e-4;
@@ -177,7 +177,8 @@ TEST(DriftWatch, RaisesNoFalseAlarm) {
   for (int trial = 0; trial < 10; ++trial) {
     const std::size_t cameras = trial % 2 == 0 ? 4 : 2;
     // Half of the rigs are calibrated well, half by a square alone.
-    const geometry::Rig rig = paperRigWith(trial % 4 < 2 ? wellCalibrated() : RigErrors(), cameras);
+    const geometry::Rig rig =
+        paperRigWith(trial % 4 < 2 ? calibratedByWave() : RigErrors(), cameras);
     WavedLed scene(drawTruth(rig, random), 100 + static_cast<std::uint64_t>(trial));
     DriftWatch watch(rig, {});
     scene.runUntil(240.0, [&](const capture::Image& image) {
@@ -197,7 +198,7 @@ TEST(DriftWatch, RaisesNoFalseAlarm) {
 
 TEST(DriftWatch, NamesTheCameraThatDriftedByOnePixel) {
   Random random(22);
-  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  const geometry::Rig rig = paperRigWith(calibratedByWave());
   int noticed = 0;
   int named = 0;
   const int kTrials = 24;
@@ -223,7 +224,7 @@ TEST(DriftWatch, NamesTheCameraThatDriftedByOnePixel) {
 
 TEST(DriftWatch, NamesTheCameraThatWasTurned) {
   Random random(23);
-  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  const geometry::Rig rig = paperRigWith(calibratedByWave());
   int named = 0;
   int alone = 0;
   const int kTrials = 24;
@@ -247,7 +248,7 @@ TEST(DriftWatch, NamesTheCameraThatWasTurned) {
 
 TEST(DriftWatch, TwoCamerasAreNamedBoth) {
   Random random(24);
-  const geometry::Rig rig = paperRigWith(wellCalibrated(), 2);
+  const geometry::Rig rig = paperRigWith(calibratedByWave(), 2);
   auto truth = drawTruth(rig, random);
   truth[1].camera.intrinsics.cy += 3.0;
   WavedLed scene(truth, 400);
@@ -264,7 +265,7 @@ TEST(DriftWatch, TwoCamerasAreNamedBoth) {
 
 TEST(DriftWatch, UsesOnlyMotionAndKnownClocks) {
   Random random(25);
-  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  const geometry::Rig rig = paperRigWith(calibratedByWave());
   // A still LED gives the same rounding again and again.
   WavedLed still(rig.cameras, 500);
   still.still = Eigen::Vector3d(1.0, 1.1, 0.9);
@@ -292,7 +293,7 @@ TEST(DriftWatch, UsesOnlyMotionAndKnownClocks) {
 
 TEST(DriftWatch, StartsAnewWhenTheClockIsSetBack) {
   Random random(26);
-  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  const geometry::Rig rig = paperRigWith(calibratedByWave());
   DriftWatch watch(rig, {});
   WavedLed scene(rig.cameras, 600);
   scene.runUntil(30.0, [&](const capture::Image& image) { watch.add(image); });
@@ -327,7 +328,7 @@ void track(WavedLed* scene, double from, double until, HealthWatch* watch, Rando
 
 TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
   Random random(31);
-  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  const geometry::Rig rig = paperRigWith(calibratedByWave());
   HealthWatch watch(rig, {});
   WavedLed scene(drawTruth(rig, random), 700);
   track(&scene, 0.0, 90.0, &watch, &random);
@@ -357,7 +358,7 @@ TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
 
 TEST(HealthWatch, NoticesAnotherDevice) {
   Random random(32);
-  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  const geometry::Rig rig = paperRigWith(calibratedByWave());
   HealthWatch watch(rig, {});
   capture::Image image;
   image.camera = "camera_2";

@@ -28,17 +28,6 @@ using square::uniform;
 
 constexpr double kDegree = M_PI / 180.0;
 
-/// A rig whose images fit together to about 0.2 px.
-RigErrors wellCalibrated() {
-  RigErrors errors;
-  errors.rotation = 1e-4;
-  errors.position = 5e-4;
-  errors.focal = 0.5;
-  errors.principal_point = 0.1;
-  errors.k1 = 1e-3;
-  return errors;
-}
-
 Request record(WavedLed* led, const std::string& camera, double duration = 15.0) {
   Request request;
   request.camera = camera;

@@ -6,123 +6,108 @@ import sys
 import numpy as np
 import pytest
 import rosbag
-from scipy.spatial.transform import Rotation
+import rospy
+from geometry_msgs.msg import Vector3
+from sensor_msgs.msg import Imu
+from std_msgs.msg import Header
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
 
 from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.motion import body_to_base, hand_eye, mount  # noqa: E402
-from wiimote_tracker_evaluation.motion.poses import Poses  # noqa: E402
+from wiimote_tracker_evaluation.motion import (  # noqa: E402
+    body_to_base, hand_eye, inertial, mount)
 
+import mount_scene  # noqa: E402
+from mount_scene import ARM, OFFSET, TURN, error_of  # noqa: E402
 from test_evaluate_trajectory import write  # noqa: E402
 
-TURN = Rotation.from_euler('zyx', [0.5, -0.2, 0.1])
-ARM = np.array([0.12, -0.05, -0.2])  # [m]
-OFFSET = 0.0373  # [s]
-ODOM = Rotation.from_euler('z', 1.1), np.array([3.0, 2.0, 0.0])  # world_from_odom
-NOISE = 0.01, 0.002  # of the tracker [rad, m]
-SEGMENT = 5.0  # [s]
+
+def simulate(random, duration=30.0, **motion):
+    """Poses of the body and of the base."""
+    return (mount_scene.tracked(random, duration, **motion),
+            mount_scene.odometry(random, duration, **motion))
 
 
-def body_at(times, tilt=1.0, turn=1.0):
-    """Positions and rotations of the body in the world."""
-    t = times - 1e9
-    positions = np.stack([0.8 * np.sin(0.9 * t), 0.6 * np.cos(0.7 * t), 0.2 * np.sin(1.1 * t)], 1)
-    angles = np.stack([turn * 1.2 * np.sin(0.8 * t), tilt * 0.4 * np.sin(1.3 * t + 1.0),
-                       tilt * 0.35 * np.sin(1.7 * t)], axis=1)
-    return positions, Rotation.from_euler('zyx', angles)
+def with_imu(random, duration=15.0, interval=0.02, **motion):
+    """Poses of the body and samples of the IMU."""
+    return (mount_scene.tracked(random, duration, **motion),
+            mount_scene.imu_samples(random, duration, interval, **motion))
 
 
-def simulate(random, duration=30.0, odom_noise=2e-4, **motion):
-    """Poses of the body and of the base, by its own clock."""
-    times = 1e9 + np.arange(0.0, duration, 0.02)
-    positions, rotations = body_at(times, **motion)
-    body = Poses(times, positions + random.normal(0.0, NOISE[1], positions.shape),
-                 Rotation.from_rotvec(random.normal(0.0, NOISE[0], positions.shape)) * rotations,
-                 'world', 'robot')
-    times = 1e9 + np.arange(0.3, duration - 0.3, 0.025)
-    positions, rotations = body_at(times, **motion)
-    world_from_odom, place = ODOM
-    base = Poses(times - OFFSET,
-                 world_from_odom.inv().apply(positions + rotations.apply(ARM) - place)
-                 + random.normal(0.0, odom_noise, positions.shape),
-                 world_from_odom.inv() * rotations * TURN
-                 * Rotation.from_rotvec(random.normal(0.0, odom_noise, positions.shape)),
-                 'odom', 'base_link')
-    return body, base
-
-
-def bound(duration=30.0):
-    """Least standard deviations: of rotation about the body's axes, translation and offset. The pose
-    of the body is predicted from the exact odometry, which has its own frame in each segment."""
-    times = 1e9 + np.arange(0.35, duration - 0.35, 0.02)
-
-    def predicted(step):
-        there, rotations = body_at(times + step[6])
-        there = there + rotations.apply(ARM)
-        turn = Rotation.from_rotvec(step[:3])
-        rotations = Rotation.from_rotvec(step[7:10]) * rotations * turn.inv()
-        there = Rotation.from_rotvec(step[7:10]).apply(there) + step[10:]
-        return rotations, there - rotations.apply(ARM + step[3:6])
-
-    information = np.zeros((7, 7))
-    columns = []
-    for step in 1e-5 * np.eye(13):
-        (turned, moved), (back, reached) = predicted(step), predicted(-step)
-        columns.append(np.hstack([(turned * back.inv()).as_rotvec() / NOISE[0],
-                                  (moved - reached) / NOISE[1]]) / 2e-5)
-    derivatives = np.stack(columns, axis=2)
-    for number in range(int(duration / SEGMENT)):
-        inside = (times - times[0]) // SEGMENT == number
-        part = derivatives[inside].reshape(-1, 13)
-        whole = part.T @ part
-        information += whole[:7, :7] - whole[:7, 7:] @ np.linalg.solve(whole[7:, 7:], whole[7:, :7])
-    return np.sqrt(np.diag(np.linalg.inv(information)))
-
-
-def error_of(found):
-    return np.r_[(found.rotation * TURN.inv()).as_rotvec(), found.translation - ARM,
-                 found.offset - OFFSET]
-
-
-def test_reaches_the_bound():
-    random, errors, normalised = np.random.default_rng(5), [], []
-    for _ in range(6):
-        found = hand_eye.solve(*simulate(random), segment=SEGMENT)
+def check(solve, scene, bound, runs):
+    """Errors reach the bound; the covariance is right."""
+    errors, normalised = [], []
+    for _ in range(runs):
+        found = solve(*scene())
         errors.append(error_of(found))
         normalised.append(errors[-1] @ np.linalg.solve(found.covariance, errors[-1]) / 7.0)
-    ratios = np.array(errors) / bound()
-    print(np.sqrt((ratios ** 2).mean(axis=0)), np.mean(normalised))
-    assert np.sqrt((ratios ** 2).mean()) < 1.1
+    ratios = np.array(errors) / bound
+    print(np.sqrt((ratios ** 2).mean(axis=0)), np.sqrt((ratios ** 2).mean()), np.mean(normalised),
+          np.sqrt((np.array(errors) ** 2).mean(axis=0)))
+    return np.sqrt((ratios ** 2).mean()), np.array(errors), np.mean(normalised)
+
+
+def test_odometry_reaches_the_bound():
+    random = np.random.default_rng(5)
+    ratio, errors, normalised = check(hand_eye.solve, lambda: simulate(random),
+                                      mount_scene.odometry_bound(30.0), 5)
+    assert ratio < 1.1
     assert np.abs(errors)[:, 6].max() < 0.0005  # [s]
-    assert 0.7 < np.mean(normalised) < 1.5
+    assert 0.7 < normalised < 1.5
 
 
 def test_odometry_that_drifts():
-    """A random walk: the covariance takes it into account."""
-    random, normalised = np.random.default_rng(6), []
-    for _ in range(3):
-        body, base = simulate(random)
-        noise = np.sqrt(0.025) * random.normal(size=(2, *base.positions.shape))
-        turned = Rotation.from_rotvec(0.001 * noise[0].cumsum(axis=0))
-        steps = np.diff(base.positions, axis=0, prepend=0.0)
-        base.positions = (turned.apply(steps) + 0.001 * noise[1]).cumsum(axis=0)
-        base.rotations = turned * base.rotations
-        found = hand_eye.solve(body, base, segment=SEGMENT)
-        error = error_of(found)
-        normalised.append(error @ np.linalg.solve(found.covariance, error) / 7.0)
-        assert np.abs(error[3:6]).max() < 0.01
-    print(normalised)
-    assert 0.3 < np.mean(normalised) < 3.0
+    """A random walk, which is estimated: stated errors are real ones."""
+    random = np.random.default_rng(6)
+    _, errors, normalised = check(  # errors, not ratios: the bound is 1
+        hand_eye.solve, lambda: (mount_scene.tracked(random, 30.0),
+                                 mount_scene.odometry(random, 30.0, drift=0.001)), 1.0, 5)
+    assert np.abs(errors[:, 3:6]).max() < 0.002
+    assert 0.7 < normalised < 1.5
 
 
-@pytest.mark.parametrize('motion, reason', [
-    ({'tilt': 0.02}, 'about one axis only'), ({'tilt': 0.02, 'turn': 0.01}, 'turn it more'),
-    ({'duration': 8.0}, 'less than 10 s')])
-def test_refuses_what_does_not_tell(motion, reason):
+def test_imu_reaches_the_bound():
+    random = np.random.default_rng(5)
+    ratio, errors, normalised = check(inertial.solve, lambda: with_imu(random),
+                                      mount_scene.imu_bound(15.0), 4)
+    assert ratio < 1.1
+    assert 0.6 < normalised < 1.6
+
+
+def test_imu_of_a_minute():
+    found = inertial.solve(*with_imu(np.random.default_rng(6), 60.0))
+    print(found.stddev())
+    assert found.stddev()[6] < 0.0005  # [s]
+    assert found.stddev()[3:6].max() < 0.001
+    assert (np.abs(error_of(found)) < 3.0 * found.stddev()).all()
+
+
+def test_poses_whose_errors_are_correlated(monkeypatch):
+    """As those of the tracker, which has a filter: at 125 Hz, interpolated."""
+    monkeypatch.setattr(mount_scene, 'POSE_INTERVAL', 0.024)
+    body, imu = with_imu(np.random.default_rng(7))
+    often = np.arange(body.times[0], body.times[-1], 0.008)
+    error = error_of(inertial.solve(body.at(often), imu))
+    assert np.abs(error[3:6]).max() < 0.006 and abs(error[6]) < 0.002
+
+
+REFUSED = [({'tilt': 0.02}, 'about one axis only'), ({'tilt': 0.02, 'turn': 0.01}, 'turn it more'),
+           ({'duration': 8.0}, 'less than 10 s')]
+
+
+@pytest.mark.parametrize('motion, reason', REFUSED)
+@pytest.mark.parametrize('solve, scene', [(hand_eye.solve, simulate), (inertial.solve, with_imu)])
+def test_refuses_what_does_not_tell(solve, scene, motion, reason):
     with pytest.raises(ExperimentError, match=reason):
-        hand_eye.solve(*simulate(np.random.default_rng(7), **motion))
+        solve(*scene(np.random.default_rng(7), **motion))
+
+
+def test_refuses_an_imu_that_pauses():
+    body, imu = with_imu(np.random.default_rng(7))
+    imu = imu.chosen(np.abs(imu.times - imu.times[400]) > 0.2)
+    with pytest.raises(ExperimentError, match=r'the IMU says nothing for 0\.4\d s'):
+        inertial.solve(body, imu)
 
 
 def test_refuses_clocks_too_far_apart():
@@ -141,6 +126,23 @@ def test_a_bag(tmp_path):
     found = mount.read(output)
     assert np.abs(error_of(found)).max() < 0.002
     assert (found.body, found.base) == ('robot', 'base_link')
+
+
+def test_a_bag_with_an_imu(tmp_path):
+    body, imu = with_imu(np.random.default_rng(8), interval=0.004)  # 250 Hz
+    path, output = str(tmp_path / 'run.bag'), str(tmp_path / 'mount.yaml')
+    with rosbag.Bag(path, 'w') as bag:
+        write(bag, '/robot/odometry', body)
+        for stamp, rate, force in zip(imu.times, imu.rates, imu.forces):
+            message = Imu(header=Header(stamp=rospy.Time.from_sec(stamp), frame_id='imu_link'),
+                          angular_velocity=Vector3(*rate), linear_acceleration=Vector3(*force))
+            bag.write('/imu/data', message, message.header.stamp)
+    body_to_base.main([path, '--body', '/robot/odometry', '--imu', '/imu/data', '--output', output])
+    found = mount.read(output)
+    assert np.abs(error_of(found)).max() < 0.005
+    assert (found.body, found.base) == ('robot', 'imu_link')
+    with pytest.raises(SystemExit, match='has no IMU samples on /imu'):
+        body_to_base.main([path, '--body', '/robot/odometry', '--imu', '/imu'])
 
 
 def test_no_solution_is_said_in_words(monkeypatch):

@@ -6,7 +6,7 @@ import sys
 import numpy as np
 
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.motion import hand_eye, mount, poses
+from wiimote_tracker_evaluation.motion import hand_eye, inertial, mount, poses
 
 
 def describe(found):
@@ -23,23 +23,24 @@ def describe(found):
 
 def main(argv=None):
     parser = argparse.ArgumentParser(
-        prog='body_to_base', description='Finds where the base of a robot sits on a tracked body, '
-        'and what to add to its stamps, from a bag of a minute in which it turns about two axes '
-        'or more.')
+        prog='body_to_base', description='Finds where the base of a robot, or an IMU, sits on a '
+        'tracked body, and what to add to its stamps, from a bag of a minute in which it turns '
+        'about two axes or more.')
     parser.add_argument('bag')
     parser.add_argument('--body', required=True, metavar='TOPIC', help='/<body>/odometry')
-    parser.add_argument('--odom', required=True, metavar='TOPIC', help='poses of the base')
-    parser.add_argument('--segment', type=float, default=5.0, metavar='S',
-                        help='time in which the odometry hardly drifts [s] (default: 5)')
+    base = parser.add_mutually_exclusive_group(required=True)
+    base.add_argument('--odom', metavar='TOPIC', help='poses of the base')
+    base.add_argument('--imu', metavar='TOPIC', help='sensor_msgs/Imu; z of the world points up')
     parser.add_argument('--largest-offset', type=float, default=2.0, metavar='S',
                         help='of the clocks [s] (default: 2)')
     parser.add_argument('--output', metavar='FILE', default='mount.yaml',
                         help='default: mount.yaml')
     arguments = parser.parse_args(argv)
     try:
-        found = hand_eye.solve(poses.read(arguments.bag, arguments.body),
-                               poses.read(arguments.bag, arguments.odom),
-                               arguments.segment, arguments.largest_offset)
+        solver, source, topic = ((hand_eye, poses, arguments.odom) if arguments.odom else
+                                 (inertial, inertial, arguments.imu))
+        found = solver.solve(poses.read(arguments.bag, arguments.body),
+                             source.read(arguments.bag, topic), arguments.largest_offset)
         print('\n'.join(describe(found)))
         mount.write(found, arguments.output)
     except (ValueError, np.linalg.LinAlgError) as error:

@@ -9,9 +9,17 @@ from scipy.spatial.transform import Rotation, Slerp
 
 from wiimote_tracker_evaluation.errors import ExperimentError
 
-POSE_OF = {'nav_msgs/Odometry': lambda message: message.pose.pose,
-           'geometry_msgs/PoseWithCovarianceStamped': lambda message: message.pose.pose,
-           'geometry_msgs/PoseStamped': lambda message: message.pose}
+
+
+def numbers(pose):
+    """Position and quaternion."""
+    position, turn = pose.position, pose.orientation
+    return position.x, position.y, position.z, turn.x, turn.y, turn.z, turn.w
+
+
+POSE_OF = {'nav_msgs/Odometry': lambda message: numbers(message.pose.pose),
+           'geometry_msgs/PoseWithCovarianceStamped': lambda message: numbers(message.pose.pose),
+           'geometry_msgs/PoseStamped': lambda message: numbers(message.pose)}
 
 
 @dataclasses.dataclass
@@ -81,14 +89,8 @@ def smoothed(poses, neighbours=9):
 
 def read(path, topic):
     """The poses of a topic. Throws ExperimentError if it has none, or if the bag cannot be read."""
-    try:
-        rows, message = read_rows(path, topic)
-    except rosbag.ROSBagException as error:
-        raise ExperimentError(f'{path} cannot be read ({error}); if it was not closed, repair it '
-                              'with rosbag reindex') from error
-    rows = np.array(rows).reshape(-1, 8)
-    rows = rows[np.isfinite(rows).all(axis=1) & (np.linalg.norm(rows[:, 4:], axis=1) > 0.5)]
-    rows = rows[np.unique(rows[:, 0], return_index=True)[1]]
+    rows, message = read_rows(path, topic, POSE_OF, 'poses')
+    rows = rows[np.linalg.norm(rows[:, 4:], axis=1) > 0.5]
     if len(rows) < 2:
         raise ExperimentError(f'{topic} in {path} has fewer than two poses at different times; '
                               'record it while the body is tracked')
@@ -96,17 +98,27 @@ def read(path, topic):
                  message.header.frame_id, getattr(message, 'child_frame_id', '') or topic.strip('/'))
 
 
-def read_rows(path, topic):
-    """Stamps, positions and quaternions of a topic, and its last message."""
+def read_rows(path, topic, numbers_of, what):
+    """Stamps [s], ascending, with the finite numbers of a topic, and its last message.
+
+    numbers_of: by type, a function of a message. what: the topic has, for messages.
+    """
     rows, message = [], None
-    with rosbag.Bag(path) as bag:
-        types = {name: info.msg_type for name, info in bag.get_type_and_topic_info().topics.items()}
-        if types.get(topic) not in POSE_OF:
-            known = ', '.join(sorted(name for name in types if types[name] in POSE_OF)) or 'none'
-            raise ExperimentError(f'{path} has no poses on {topic}. Topics with poses: {known}')
-        for _, message, _ in bag.read_messages(topics=[topic]):
-            pose = POSE_OF[types[topic]](message)
-            position, turn = pose.position, pose.orientation
-            rows.append((message.header.stamp.to_sec(), position.x, position.y, position.z,
-                         turn.x, turn.y, turn.z, turn.w))
-    return rows, message
+    try:
+        with rosbag.Bag(path) as bag:
+            topics = bag.get_type_and_topic_info().topics
+            usable = {name: info.msg_type for name, info in topics.items()
+                      if info.msg_type in numbers_of}
+            if topic not in usable:
+                raise ExperimentError(f'{path} has no {what} on {topic}. Topics with {what}: '
+                                      + (', '.join(sorted(usable)) or 'none'))
+            for _, message, _ in bag.read_messages(topics=[topic]):
+                rows.append((message.header.stamp.to_sec(), *numbers_of[usable[topic]](message)))
+    except rosbag.ROSBagException as error:
+        raise ExperimentError(f'{path} cannot be read ({error}); if it was not closed, repair it '
+                              'with rosbag reindex') from error
+    if not rows:
+        raise ExperimentError(f'{topic} in {path} has fewer than two {what}; record it again')
+    rows = np.array(rows)
+    rows = rows[np.isfinite(rows).all(axis=1)]
+    return rows[np.unique(rows[:, 0], return_index=True)[1]], message

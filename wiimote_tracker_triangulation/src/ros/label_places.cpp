@@ -14,7 +14,7 @@ bool writePlaces(const std::string& file, const LedLabels::Places& places) {
   fs::create_directories(fs::absolute(file).parent_path(), error);
   std::ofstream out(fresh);
   for (const auto& [label, place] : places)
-    out << label << ' ' << place.x() << ' ' << place.y() << ' ' << place.z() << '\n';
+    out << label << ' ' << place.position.transpose() << '\n';
   out.close();
   if (!out)
     return false;
@@ -30,9 +30,9 @@ LedLabels::Places readPlaces(const std::string& file, std::chrono::seconds oldes
   std::ifstream in(file);
   LedLabels::Places places;
   std::string label;
-  Eigen::Vector3d place;
-  while (in >> label >> place.x() >> place.y() >> place.z())
-    places[label] = place;
+  Eigen::Vector3d position;
+  while (in >> label >> position.x() >> position.y() >> position.z())
+    places[label].position = position;
   return in.eof() ? places : LedLabels::Places();
 }
 

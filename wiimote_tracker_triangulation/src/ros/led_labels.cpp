@@ -2,18 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace wiimote_tracker {
 
 using identity::Identity;
 
-void LedLabels::update(const std::vector<tracking::TrackedLed>& leds,
+namespace {
+
+constexpr double kPlaceMemory = 10.0;  // [s]
+
+}  // namespace
+
+void LedLabels::update(double time,
+                       const std::vector<tracking::TrackedLed>& leds,
                        const identity::Identifier* identifier) {
-  for (const std::uint32_t id : forgotten_) {
-    places_.erase(of(id).name);
+  forgetOldPlaces(time);
+  for (const std::uint32_t id : forgotten_)
     given_.erase(id);
-  }
   forgotten_.swap(lost_);
   lost_.clear();
   for (const tracking::TrackedLed& led : leds) {
@@ -29,7 +36,15 @@ void LedLabels::update(const std::vector<tracking::TrackedLed>& leds,
       giveFreeLabel(led);
     const auto given = given_.find(led.id);
     if (given != given_.end() && std::isnan(given->second.confidence))
-      places_[given->second.name] = led.position;
+      places_[given->second.name] = {led.position, time};
+  }
+}
+
+void LedLabels::forgetOldPlaces(double time) {
+  for (auto place = places_.begin(); place != places_.end();) {
+    if (!place->second.time)
+      place->second.time = time;
+    place = time - *place->second.time > kPlaceMemory ? places_.erase(place) : std::next(place);
   }
 }
 
@@ -49,18 +64,16 @@ void LedLabels::giveFreeLabel(const tracking::TrackedLed& led) {
   for (const std::string& label : listed_) {
     if (isTaken(label))
       continue;
-    const auto place = expected_.find(label);
-    const double distance = place != expected_.end() ? (place->second - led.position).norm()
-                                                     : std::numeric_limits<double>::infinity();
+    const auto place = places_.find(label);
+    const double distance = place != places_.end() ? (place->second.position - led.position).norm()
+                                                   : std::numeric_limits<double>::infinity();
     if (!best || distance < least) {
       best = &label;
       least = distance;
     }
   }
-  if (!best)
-    return;
-  given_[led.id].name = *best;
-  expected_.erase(*best);
+  if (best)
+    given_[led.id].name = *best;
 }
 
 bool LedLabels::isTaken(const std::string& label) const {
@@ -83,9 +96,13 @@ void LedLabels::clear() {
   lost_.clear();
   for (const auto& given : given_)
     lost_.push_back(given.first);
-  places_.merge(expected_);  // of labels that did not return before this restart
-  expected_.swap(places_);
-  places_.clear();
+  expect(places_);
+}
+
+void LedLabels::expect(const Places& places) {
+  places_ = places;
+  for (auto& place : places_)
+    place.second.time.reset();
 }
 
 }  // namespace wiimote_tracker

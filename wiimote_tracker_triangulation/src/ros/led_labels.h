@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,37 +26,44 @@ struct LedLabel {
 
 /// Gives labels to tracks. A track that blinks gets the label of its code once it is identified.
 /// Any other confirmed track takes the first free label of a list and keeps it until it is lost;
-/// then the label goes to the oldest track without one, or to the next confirmed track. So the only
-/// LED of a room always has the first label. Only after a restart, LEDs get their former labels by
-/// place. A track without a label is called led_<id>.
+/// then the label goes to the oldest track without one, or to the next confirmed track. Of several
+/// free labels a track takes that of the LED which was nearest in the last 10 s; if none was, the
+/// first. A track without a label is called led_<id>.
 class LedLabels {
  public:
   explicit LedLabels(const std::vector<std::string>& labels) : listed_(labels) {}
 
   /// Call it with the LEDs of every snapshot.
+  /// @param time of the snapshot [s].
   /// @param identifier that has the same snapshot; null: no LED blinks. With it, only LEDs that do
   /// not blink take labels of the list.
-  void update(const std::vector<tracking::TrackedLed>& leds,
+  void update(double time,
+              const std::vector<tracking::TrackedLed>& leds,
               const identity::Identifier* identifier = nullptr);
 
   /// The label of an LED of the last snapshot, or of one that was lost there or by clear().
   LedLabel of(std::uint32_t id) const;
 
-  /// All tracks are lost, and all labels free; each returns to the LED that comes nearest.
+  /// All tracks are lost, and all labels free; time may begin anew.
   void clear();
 
-  /// Where the LEDs with labels of the list are [m], by label.
-  using Places = std::map<std::string, Eigen::Vector3d>;
+  struct Place {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< World [m].
+    std::optional<double> time;  ///< Of the last snapshot there [s]; none: the next one counts.
+  };
+  /// Where an LED with a label of the list is, or was in the last 10 s, by label.
+  using Places = std::map<std::string, Place>;
   const Places& places() const { return places_; }
 
-  /// Each label returns to the LED that comes nearest.
-  void expect(const Places& places) { expected_ = places; }
+  /// Places from another process, before the first update. Their times do not count.
+  void expect(const Places& places);
 
   /// The name of a track without a label.
   static std::string unlisted(std::uint32_t id) { return "led_" + std::to_string(id); }
 
  private:
   void takeIdentity(std::uint32_t id, const identity::Identifier& identifier);
+  void forgetOldPlaces(double time);
   void giveFreeLabel(const tracking::TrackedLed& led);
   bool isTaken(const std::string& label) const;
 
@@ -64,7 +72,6 @@ class LedLabels {
   std::vector<std::uint32_t> lost_;          // since the last update began
   std::vector<std::uint32_t> forgotten_;     // lost before that; their labels are free
   Places places_;
-  Places expected_;  // of labels that were not given since a restart
 };
 
 }  // namespace wiimote_tracker

@@ -211,7 +211,7 @@ void MessageTracker::takeSnapshot(const tracking::Snapshot& tracked) {
   statistics_.addSnapshot(tracked);
   if (identifier_)
     sightings_.add(rig_, tracked, identifier_.get());
-  labels_.update(tracked.leds, identifier_.get());
+  labels_.update(tracked.time, tracked.leds, identifier_.get());
   if (identifier_)
     findBodiesByLabels(tracked);
   const tracking::Snapshot& snapshot = sink_->onSnapshot(tracked);

@@ -61,7 +61,7 @@ CorrectedSnapshot someSnapshot(const Rig& rig, double time = 100.0) {
 
 TrackedPointArray messageOf(const CorrectedSnapshot& corrected, const Rig& rig) {
   LedLabels labels({"led"});
-  labels.update(corrected.snapshot.leds);
+  labels.update(corrected.snapshot.time, corrected.snapshot.leds);
   PointContext context;
   context.method = "track";
   context.rig_id = "0123";

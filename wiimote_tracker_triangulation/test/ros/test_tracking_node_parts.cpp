@@ -45,15 +45,17 @@ TrackedLed led(std::uint32_t id, TrackState state) {
   return led;
 }
 
+constexpr double kTime = 100.0;  // of snapshots [s]
+
 TEST(LedLabels, AreGivenInTheOrderOfConfirmation) {
   LedLabels labels({"left", "right"});
-  labels.update({led(0, TrackState::kTentative), led(1, TrackState::kTentative)});
+  labels.update(kTime, {led(0, TrackState::kTentative), led(1, TrackState::kTentative)});
   EXPECT_EQ("led_0", labels.of(0).name);
-  labels.update({led(0, TrackState::kTentative), led(1, TrackState::kTracked)});
+  labels.update(kTime, {led(0, TrackState::kTentative), led(1, TrackState::kTracked)});
   EXPECT_EQ("led_0", labels.of(0).name);
   EXPECT_EQ("left", labels.of(1).name);
-  labels.update(
-      {led(0, TrackState::kTracked), led(1, TrackState::kPredicted), led(2, TrackState::kTracked)});
+  labels.update(kTime, {led(0, TrackState::kTracked), led(1, TrackState::kPredicted),
+                        led(2, TrackState::kTracked)});
   EXPECT_EQ("right", labels.of(0).name);
   EXPECT_EQ("left", labels.of(1).name) << "kept while hidden";
   EXPECT_EQ("led_2", labels.of(2).name);
@@ -61,12 +63,12 @@ TEST(LedLabels, AreGivenInTheOrderOfConfirmation) {
 
 TEST(LedLabels, OfALostTrackGoToTheNextNewOne) {
   LedLabels labels({"led"});
-  labels.update({led(3, TrackState::kTracked)});
-  labels.update({led(3, TrackState::kLost)});
+  labels.update(kTime, {led(3, TrackState::kTracked)});
+  labels.update(kTime, {led(3, TrackState::kLost)});
   EXPECT_EQ("led", labels.of(3).name) << "in the message that says so";
-  labels.update({led(5, TrackState::kTentative)});
+  labels.update(kTime, {led(5, TrackState::kTentative)});
   EXPECT_EQ("led", labels.of(3).name) << "still known to what looks back one snapshot";
-  labels.update({led(5, TrackState::kTracked)});
+  labels.update(kTime, {led(5, TrackState::kTracked)});
   EXPECT_EQ("led", labels.of(5).name);
   EXPECT_EQ("led_3", labels.of(3).name);
 }
@@ -74,38 +76,56 @@ TEST(LedLabels, OfALostTrackGoToTheNextNewOne) {
 /// An LED that was hidden may be found again before its old track is given up.
 TEST(LedLabels, OfALostTrackGoToTheOldestThatHasNone) {
   LedLabels labels({"led"});
-  labels.update({led(3, TrackState::kPredicted), led(4, TrackState::kTentative)});
-  labels.update({led(2, TrackState::kTracked)});
-  labels.update(
-      {led(2, TrackState::kPredicted), led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
+  labels.update(kTime, {led(3, TrackState::kPredicted), led(4, TrackState::kTentative)});
+  labels.update(kTime, {led(2, TrackState::kTracked)});
+  labels.update(kTime, {led(2, TrackState::kPredicted), led(4, TrackState::kTracked),
+                        led(5, TrackState::kTracked)});
   EXPECT_EQ("led", labels.of(2).name);
   EXPECT_EQ("led_4", labels.of(4).name);
-  labels.update(
-      {led(2, TrackState::kLost), led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
+  labels.update(kTime, {led(2, TrackState::kLost), led(4, TrackState::kTracked),
+                        led(5, TrackState::kTracked)});
   EXPECT_EQ("led", labels.of(2).name);
   EXPECT_EQ("led_4", labels.of(4).name) << "no two of one name in one snapshot";
-  labels.update({led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
+  labels.update(kTime, {led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
   EXPECT_EQ("led", labels.of(4).name);
   EXPECT_EQ("led_5", labels.of(5).name);
 }
 
 TEST(LedLabels, AreAllFreeWhenTimeStartsAnew) {
   LedLabels labels({"a", "b"});
-  labels.update({led(0, TrackState::kTracked), led(1, TrackState::kTracked)});
+  labels.update(kTime, {led(0, TrackState::kTracked), led(1, TrackState::kTracked)});
   labels.clear();
   EXPECT_EQ("a", labels.of(0).name);
-  labels.update({led(2, TrackState::kTracked)});
+  labels.update(kTime, {led(2, TrackState::kTracked)});
   EXPECT_EQ("a", labels.of(2).name);
 }
 
+TrackedLed at(std::uint32_t id, double x, TrackState state = TrackState::kTracked) {
+  TrackedLed result = led(id, state);
+  result.position = {x, 0.0, 0.0};
+  return result;
+}
+
+/// Such as after a pause of this process.
+TEST(LedLabels, ReturnByPlaceWithin10Seconds) {
+  for (const double pause : {5.0, 11.0}) {
+    LedLabels labels({"a", "b", "c"});
+    labels.update(100.0, {at(0, 0.0), at(1, 1.0), at(2, 2.0)});
+    const TrackState lost = TrackState::kLost;
+    labels.update(100.1, {at(0, 0.0, lost), at(1, 1.0, lost), at(2, 2.0, lost)});
+    labels.update(100.1, {});
+    labels.update(100.0 + pause, {at(3, 2.2)});
+    labels.update(100.1 + pause, {at(3, 2.2), at(4, 0.8), at(5, 0.7)});
+    const bool by_place = pause < 10.0;
+    EXPECT_EQ(by_place ? "c" : "a", labels.of(3).name);
+    EXPECT_EQ("b", labels.of(4).name);
+    EXPECT_EQ(by_place ? "a" : "c", labels.of(5).name);
+  }
+}
+
 TEST(LedLabels, ReturnByPlaceAfterARestart) {
-  const auto at = [](std::uint32_t id, double x) {
-    TrackedLed result = led(id, TrackState::kTracked);
-    result.position = {x, 0.0, 0.0};
-    return result;
-  };
   LedLabels labels({"a", "b", "c", "d"});
-  labels.update({at(0, 0.0), at(1, 1.0), at(2, 2.0)});
+  labels.update(kTime, {at(0, 0.0), at(1, 1.0), at(2, 2.0)});
   const std::string file = testing::TempDir() + "label_places_" + std::to_string(::getpid());
   ASSERT_TRUE(writePlaces(file, labels.places()));
   labels.clear();
@@ -113,8 +133,8 @@ TEST(LedLabels, ReturnByPlaceAfterARestart) {
   LedLabels of_another_process({"a", "b", "c", "d"});
   of_another_process.expect(readPlaces(file, std::chrono::seconds(60)));
   for (LedLabels* restarted : {&labels, &of_another_process}) {
-    restarted->update({at(3, 2.3)});
-    restarted->update({at(3, 2.2), at(4, 1.3), at(5, 0.3), at(6, 0.3)});
+    restarted->update(kTime, {at(3, 2.3)});
+    restarted->update(kTime, {at(3, 2.2), at(4, 1.3), at(5, 0.3), at(6, 0.3)});
     EXPECT_EQ("c", restarted->of(3).name);
     EXPECT_EQ("b", restarted->of(4).name);
     EXPECT_EQ("a", restarted->of(5).name);
@@ -139,14 +159,14 @@ TEST(LedLabels, ComeFromBlinking) {
       identity::cyclicCodes({{"left", "01111111"}, {"right", "01010111"}}, 0.023, 0.001), {});
   LedLabels labels({"lamp"});
   const std::vector<TrackedLed> both = {led(0, TrackState::kTracked), led(1, TrackState::kTracked)};
-  labels.update(both, &identifier);
+  labels.update(kTime, both, &identifier);
   EXPECT_EQ("led_0", labels.of(0).name) << "it may yet turn out to blink";
   EXPECT_TRUE(std::isnan(labels.of(0).confidence));
 
   see(&identifier, 0, 100.0, true);
   see(&identifier, 1, 100.0, false);
   identifier.decide(102.0);
-  labels.update(both, &identifier);
+  labels.update(kTime, both, &identifier);
   EXPECT_EQ("lamp", labels.of(0).name) << "this one does not";
   EXPECT_TRUE(std::isnan(labels.of(0).confidence));
   EXPECT_EQ("left", labels.of(1).name);
@@ -154,10 +174,10 @@ TEST(LedLabels, ComeFromBlinking) {
   EXPECT_EQ(102.0, labels.of(1).since);
 
   // A label from blinking is kept in the dark, and in the message that reports the loss.
-  labels.update({led(1, TrackState::kPredicted)}, &identifier);
+  labels.update(kTime, {led(1, TrackState::kPredicted)}, &identifier);
   EXPECT_EQ("left", labels.of(1).name);
   identifier.forget(1);
-  labels.update({led(1, TrackState::kLost)}, &identifier);
+  labels.update(kTime, {led(1, TrackState::kLost)}, &identifier);
   EXPECT_EQ("left", labels.of(1).name);
 }
 
@@ -167,24 +187,24 @@ TEST(LedLabels, FollowTheEvidence) {
   LedLabels labels({"lamp"});
   see(&identifier, 0, 100.0, true);
   identifier.decide(102.0);
-  labels.update({led(0, TrackState::kTracked)}, &identifier);
+  labels.update(kTime, {led(0, TrackState::kTracked)}, &identifier);
   EXPECT_EQ("lamp", labels.of(0).name);
   see(&identifier, 0, 102.0, false);  // it has begun to blink
   see(&identifier, 1, 102.0, true);
   identifier.decide(104.0);
-  labels.update({led(0, TrackState::kTracked), led(1, TrackState::kTracked)}, &identifier);
+  labels.update(kTime, {led(0, TrackState::kTracked), led(1, TrackState::kTracked)}, &identifier);
   EXPECT_EQ("left", labels.of(0).name);
   EXPECT_EQ("lamp", labels.of(1).name) << "free again";
   see(&identifier, 0, 104.0, true);  // and stops
   identifier.decide(106.0);
-  labels.update({led(0, TrackState::kTracked), led(1, TrackState::kTracked)}, &identifier);
+  labels.update(kTime, {led(0, TrackState::kTracked), led(1, TrackState::kTracked)}, &identifier);
   EXPECT_EQ("led_0", labels.of(0).name);
   EXPECT_EQ("lamp", labels.of(1).name);
 }
 
 TEST(LedLabels, MayAllComeFromIds) {
   LedLabels labels({});
-  labels.update({led(7, TrackState::kTracked)});
+  labels.update(kTime, {led(7, TrackState::kTracked)});
   EXPECT_EQ("led_7", labels.of(7).name);
 }
 

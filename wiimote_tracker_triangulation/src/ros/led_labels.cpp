@@ -1,7 +1,6 @@
 #include "led_labels.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 
@@ -35,7 +34,7 @@ void LedLabels::update(double time,
     if (may_be_listed && led.state == tracking::TrackState::kTracked && given_.count(led.id) == 0)
       giveFreeLabel(led);
     const auto given = given_.find(led.id);
-    if (given != given_.end() && std::isnan(given->second.confidence))
+    if (given != given_.end() && !given->second.isIdentified())
       places_[given->second.name] = {led.position, time};
   }
 }
@@ -54,7 +53,7 @@ void LedLabels::takeIdentity(std::uint32_t id, const identity::Identifier& ident
   if (identity && identity->label)
     given_[id] = {identifier.codes().codes[*identity->label].label, identity->confidence,
                   identity->since};
-  else if (given != given_.end() && !std::isnan(given->second.confidence))
+  else if (given != given_.end() && given->second.isIdentified())
     given_.erase(given);
 }
 
@@ -96,10 +95,10 @@ void LedLabels::clear() {
   lost_.clear();
   for (const auto& given : given_)
     lost_.push_back(given.first);
-  expect(places_);
+  setFormerPlaces(places_);
 }
 
-void LedLabels::expect(const Places& places) {
+void LedLabels::setFormerPlaces(const Places& places) {
   places_ = places;
   for (auto& place : places_)
     place.second.time.reset();

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -22,6 +23,8 @@ struct LedLabel {
   /// NaN and 0 for other labels.
   double confidence = std::numeric_limits<double>::quiet_NaN();
   double since = 0.0;
+
+  bool isIdentified() const { return !std::isnan(confidence); }
 };
 
 /// Gives labels to tracks. A track that blinks gets the label of its code once it is identified.
@@ -56,7 +59,7 @@ class LedLabels {
   const Places& places() const { return places_; }
 
   /// Places from another process, before the first update. Their times do not count.
-  void expect(const Places& places);
+  void setFormerPlaces(const Places& places);
 
   /// The name of a track without a label.
   static std::string unlisted(std::uint32_t id) { return "led_" + std::to_string(id); }

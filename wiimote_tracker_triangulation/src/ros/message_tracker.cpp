@@ -167,7 +167,7 @@ void MessageTracker::findBodiesByLabels(const tracking::Snapshot& snapshot) {
   labelled_.clear();
   for (const tracking::TrackedLed& led : snapshot.leds) {
     const LedLabel label = labels_.of(led.id);
-    if (!std::isnan(label.confidence) && led.state == tracking::TrackState::kTracked)
+    if (label.isIdentified() && led.state == tracking::TrackState::kTracked)
       labelled_.push_back({label.name, led.position, led.position_covariance});
   }
   if (labelled_.size() >= 3)

@@ -40,7 +40,7 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
   if (parameters_.identity.codes)
     ROS_INFO("%s.", describeIdentity(parameters_).c_str());
   useBodies(parameters_.bodies.known);
-  tracker_.labels().expect(readPlaces(parameters_.label_places, kLongestRestart));
+  tracker_.labels().setFormerPlaces(readPlaces(parameters_.label_places, kLongestRestart));
   points_publisher_ = nh_.advertise<TrackedPointArray>("points", 100);
   markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 5);
   zone_publisher_ = nh_.advertise<wiimote_tracker_msgs::ZoneEvent>("zone_events", 100);

@@ -131,7 +131,7 @@ TEST(LedLabels, ReturnByPlaceAfterARestart) {
   labels.clear();
   labels.clear();
   LedLabels of_another_process({"a", "b", "c", "d"});
-  of_another_process.expect(readPlaces(file, std::chrono::seconds(60)));
+  of_another_process.setFormerPlaces(readPlaces(file, std::chrono::seconds(60)));
   for (LedLabels* restarted : {&labels, &of_another_process}) {
     restarted->update(kTime, {at(3, 2.3)});
     restarted->update(kTime, {at(3, 2.2), at(4, 1.3), at(5, 0.3), at(6, 0.3)});
@@ -161,14 +161,14 @@ TEST(LedLabels, ComeFromBlinking) {
   const std::vector<TrackedLed> both = {led(0, TrackState::kTracked), led(1, TrackState::kTracked)};
   labels.update(kTime, both, &identifier);
   EXPECT_EQ("led_0", labels.of(0).name) << "it may yet turn out to blink";
-  EXPECT_TRUE(std::isnan(labels.of(0).confidence));
+  EXPECT_FALSE(labels.of(0).isIdentified());
 
   see(&identifier, 0, 100.0, true);
   see(&identifier, 1, 100.0, false);
   identifier.decide(102.0);
   labels.update(kTime, both, &identifier);
   EXPECT_EQ("lamp", labels.of(0).name) << "this one does not";
-  EXPECT_TRUE(std::isnan(labels.of(0).confidence));
+  EXPECT_FALSE(labels.of(0).isIdentified());
   EXPECT_EQ("left", labels.of(1).name);
   EXPECT_GT(labels.of(1).confidence, 0.999);
   EXPECT_EQ(102.0, labels.of(1).since);

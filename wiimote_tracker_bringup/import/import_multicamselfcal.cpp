@@ -67,7 +67,7 @@ wiimote_tracker_msgs::IrBlobArray blobsOf(const geometry::Camera& camera,
   blobs.frame = frame;
   blobs.width = static_cast<std::uint32_t>(camera.intrinsics.width);
   blobs.height = static_cast<std::uint32_t>(camera.intrinsics.height);
-  blobs.max_blobs = 1;
+  blobs.max_blobs = 0;  // not limited, although the layout holds one spot of each image
   blobs.ir_mode = wiimote_tracker_msgs::IrBlobArray::IR_MODE_UNKNOWN;
   if (pixel) {
     wiimote_tracker_msgs::IrBlob blob;

@@ -1,10 +1,14 @@
 // Tracks a rigid body whose lights are labelled in every image.
 
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
+#include "wiimote_tracker_triangulation/body/pose_filter.h"
+#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <wiimote_tracker_msgs/argument_parser.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cstddef>
@@ -14,6 +18,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::import {
@@ -21,139 +26,189 @@ namespace {
 
 /// Longest time between two images that tell how the lights move [s].
 constexpr double kLongestStep = 0.05;
-/// The body is searched for anew after this many images that show it elsewhere.
+/// Age of the images that locate the body, as of single LEDs [s].
+constexpr double kTrackedTime = 0.05;
+/// Age at which the body is lost [s]. Labelled lights are found again at once.
+constexpr double kLostTime = 0.1;
+/// Greatest squared Mahalanobis distance of an image, the sum over its lights. It is wide, because
+/// the errors of a lens are not noise, and no other light can be mistaken for one of the body's.
+constexpr double kGate = 100.0;
+/// The body is searched for anew after this many images of a camera outside the gate.
 constexpr int kMostMisses = 2;
+/// Standard deviations of a pose to start from, which the images then correct [m, rad].
+constexpr double kStartPlace = 0.1;
+constexpr double kStartTurn = 0.5;
 
 struct Image {
   double time = -std::numeric_limits<double>::infinity();  // [s]
-  std::vector<Eigen::Vector2d> pixels;                     // in the order of the body's LEDs
+  std::vector<Eigen::Vector2d> pixels;                     // in the order of the body's lights
 };
 
 /// What a camera saw last, and before.
 struct View {
   Image last;
   Image before;
-  int misses = 0;  // images in a row that the tracked body does not explain
+  int misses = 0;  // images in a row outside the gate
 
-  void add(double time, const std::vector<Eigen::Vector2d>& pixels) {
-    std::swap(last, before);
-    last.time = time;
-    last.pixels = pixels;
+  bool tellsMotion(double time) const {
+    return last.time - before.time <= kLongestStep && time - last.time <= kLongestStep;
   }
 
-  /// An LED's pixel, moved on to another time; nothing if it is not known how the light moves.
-  std::optional<Eigen::Vector2d> pixelAt(double time, std::size_t led) const {
-    const double step = last.time - before.time;
-    if (step > kLongestStep || time - last.time > kLongestStep)
-      return std::nullopt;
-    const Eigen::Vector2d motion = last.pixels[led] - before.pixels[led];
-    return last.pixels[led] + (time - last.time) / step * motion;
+  Eigen::Vector2d pixelAt(double time, std::size_t light) const {
+    const double steps = (time - last.time) / (last.time - before.time);
+    return last.pixels[light] + steps * (last.pixels[light] - before.pixels[light]);
   }
 };
 
-/// The LEDs that two cameras see.
-std::vector<body::LabelledPoint> locate(const geometry::Rig& rig,
-                                        const std::vector<View>& views,
-                                        const body::Constellation& body,
-                                        double time,
-                                        double pixel_stddev) {
-  std::vector<body::LabelledPoint> points;
-  geometry::TriangulationOptions options;
-  options.pixel_stddev = pixel_stddev;
-  for (std::size_t led = 0; led < body.leds.size(); ++led) {
-    std::vector<geometry::Observation> observations;
-    for (std::size_t c = 0; c < views.size(); ++c) {
-      if (const auto pixel = views[c].pixelAt(time, led))
-        observations.push_back({&rig.cameras[c].camera, *pixel});
-    }
-    if (const auto point = geometry::triangulate(observations, options))
-      points.push_back({body.labels[led], point->position, point->covariance});
-  }
-  return points;
-}
+class LabelledBody {
+ public:
+  /// @param lights on the body [m].
+  LabelledBody(const geometry::Rig& rig,
+               const std::vector<Eigen::Vector3d>& lights,
+               double pixel_stddev)
+      : rig_(rig),
+        uncertainty_(rig),
+        lights_(lights),
+        pixel_stddev_(pixel_stddev),
+        views_(rig.cameras.size()) {}
 
-/// Whether each light is nearer to its own LED of the tracked body than to any other.
-bool isOwn(const body::BodyEstimate& body,
-           const geometry::Camera& camera,
-           const std::vector<Eigen::Vector2d>& pixels) {
-  for (std::size_t light = 0; light < pixels.size(); ++light) {
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t nearest = pixels.size();
-    for (std::size_t led = 0; led < body.leds.size(); ++led) {
-      const auto pixel = camera.project(body.leds[led].position);
-      if (pixel && (*pixel - pixels[light]).norm() < least) {
-        least = (*pixel - pixels[light]).norm();
-        nearest = led;
-      }
+  void add(std::size_t camera, const Image& image) {
+    View& view = views_[camera];
+    view.before = view.last;
+    view.last = image;
+    if (filter_) {
+      view.misses = follow(camera, image, kGate) ? 0 : view.misses + 1;
+      if (view.misses >= kMostMisses || image.time - filter_->time() > kLostTime)
+        filter_.reset();
     }
-    if (nearest != light)
+    if (!filter_)
+      start(image.time);
+  }
+
+  void print(double time, std::FILE* file) const {
+    if (!filter_)
+      return;
+    body::PoseFilter now = *filter_;
+    now.predict(time);
+    const Eigen::Vector3d place = now.state().position;
+    std::vector<std::size_t> cameras;
+    for (std::size_t c = 0; c < views_.size(); ++c) {
+      if (views_[c].last.time >= time - kTrackedTime && views_[c].misses == 0)
+        cameras.push_back(c);
+    }
+    Eigen::Matrix3d covariance = now.state().poseCovariance().topLeftCorner<3, 3>();
+    if (const auto more = uncertainty_.covarianceOf(place, cameras.data(), cameras.size()))
+      covariance += *more;
+    // One camera alone hardly tells how far away a small body is.
+    std::fprintf(file, "%.9f,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", time,
+                 cameras.size() >= 2 ? "tracked" : "predicted", place.x(), place.y(), place.z(),
+                 covariance(0, 0), covariance(0, 1), covariance(0, 2), covariance(1, 1),
+                 covariance(1, 2), covariance(2, 2));
+  }
+
+ private:
+  /// Updates the filter; false, without a change, if the image is outside the gate.
+  bool follow(std::size_t camera, const Image& image, double gate) {
+    body::PoseFilter next = *filter_;
+    next.predict(image.time);
+    double distance = 0.0;
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+      const auto light =
+          next.predictLed(rig_.rayCamera(rig_.cameras[camera]), lights_[i], pixel_stddev_);
+      if (!light)
+        return false;
+      const Eigen::Vector2d innovation = image.pixels[i] - light->pixel;
+      distance += innovation.dot(light->covariance.inverse() * innovation);
+      next.update(*light, image.pixels[i], pixel_stddev_);
+    }
+    if (!(distance < gate))
       return false;
+    filter_ = next;
+    return true;
   }
-  return true;
-}
 
-void print(const body::BodyEstimate& body, double time, bool tracked, std::FILE* file) {
-  const Eigen::Vector3d place = body.world_from_body.translation();
-  const Eigen::Matrix3d covariance = body.covariance.topLeftCorner<3, 3>();
-  std::fprintf(file, "%.9f,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", time,
-               tracked ? "tracked" : "predicted", place.x(), place.y(), place.z(), covariance(0, 0),
-               covariance(0, 1), covariance(0, 2), covariance(1, 1), covariance(1, 2),
-               covariance(2, 2));
-}
+  /// Starts where the lights of two cameras, moved on to one time, are, and repeats the images that
+  /// told so.
+  void start(double time) {
+    std::vector<std::size_t> cameras;
+    for (std::size_t c = 0; c < views_.size(); ++c) {
+      views_[c].misses = 0;
+      if (views_[c].tellsMotion(time))
+        cameras.push_back(c);
+    }
+    Eigen::Matrix3Xd on_body(3, lights_.size());
+    Eigen::Matrix3Xd in_world(3, lights_.size());
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+      std::vector<geometry::Observation> seen;
+      seen.reserve(cameras.size());
+      for (const std::size_t c : cameras)
+        seen.push_back({&rig_.cameras[c].camera, views_[c].pixelAt(time, i)});
+      const auto point = geometry::triangulate(seen, {});
+      if (!point)
+        return;
+      on_body.col(static_cast<Eigen::Index>(i)) = lights_[i];
+      in_world.col(static_cast<Eigen::Index>(i)) = point->position;
+    }
+    const Eigen::Isometry3d world_from_body(Eigen::umeyama(on_body, in_world, false));
+    std::vector<std::pair<std::size_t, const Image*>> images;
+    for (const std::size_t c : cameras) {
+      images.emplace_back(c, &views_[c].before);
+      images.emplace_back(c, &views_[c].last);
+    }
+    std::sort(images.begin(), images.end(),
+              [](auto& a, auto& b) { return a.second->time < b.second->time; });
+    body::PoseCovariance covariance = body::PoseCovariance::Zero();
+    covariance.diagonal().head<3>().setConstant(kStartPlace * kStartPlace);
+    covariance.diagonal().tail<3>().setConstant(kStartTurn * kStartTurn);
+    filter_.emplace(motion_, images.front().second->time, world_from_body, covariance);
+    const bool all_fit = std::all_of(images.begin(), images.end(), [&](auto& image) {
+      return follow(image.first, *image.second, std::numeric_limits<double>::infinity());
+    });
+    if (!all_fit)
+      filter_.reset();
+  }
 
-/// The body of a line: x, y, z of each LED [m].
-body::Constellation readBody(std::istream* input) {
-  body::Constellation body;
-  body.name = "body";
+  geometry::Rig rig_;
+  geometry::CalibrationUncertainty uncertainty_;
+  std::vector<Eigen::Vector3d> lights_;
+  double pixel_stddev_;
+  body::PoseFilterOptions motion_;
+  std::vector<View> views_;
+  std::optional<body::PoseFilter> filter_;  // at the last image within the gate
+};
+
+/// The lights of a line: x, y, z of each [m].
+std::vector<Eigen::Vector3d> readLights(std::istream* input) {
+  std::vector<Eigen::Vector3d> lights;
   std::string line;
   std::getline(*input, line);
   std::istringstream numbers(line);
-  for (Eigen::Vector3d led; numbers >> led.x() >> led.y() >> led.z();) {
-    body.labels.push_back(std::to_string(body.leds.size()));
-    body.leds.push_back(led);
-  }
-  return body;
+  for (Eigen::Vector3d light; numbers >> light.x() >> light.y() >> light.z();)
+    lights.push_back(light);
+  return lights;
 }
 
 int run(const std::string& rig_file,
         const std::string& images_file,
         const std::string& table,
-        const body::BodyTrackerOptions& options) {
+        double pixel_stddev) {
   const geometry::Rig rig = geometry::readRigFile(rig_file);
   std::ifstream input(images_file);
-  const body::Constellation body = readBody(&input);
-  body::BodyTracker tracker(rig, {body}, options);
-  std::vector<View> views(rig.cameras.size());
-  std::vector<Eigen::Vector2d> pixels(body.leds.size());
+  const std::vector<Eigen::Vector3d> lights = readLights(&input);
+  LabelledBody body(rig, lights, pixel_stddev);
   std::FILE* const output = std::fopen(table.c_str(), "w");
   if (!input || !output)
     throw Error(images_file + " cannot be read, or " + table + " not written");
   std::fputs("time [s],state,x [m],y [m],z [m],cov_xx,cov_xy,cov_xz,cov_yy,cov_yz,cov_zz\n",
              output);
   std::size_t camera;
-  double time;
-  while (input >> camera >> time && camera < views.size()) {
-    for (Eigen::Vector2d& pixel : pixels)
+  Image image;
+  image.pixels.resize(lights.size());
+  while (input >> camera >> image.time && camera < rig.cameras.size()) {
+    for (Eigen::Vector2d& pixel : image.pixels)
       input >> pixel.x() >> pixel.y();
-    views[camera].add(time, pixels);
-    tracker.add(camera, time, pixels);
-    const auto& found = tracker.bodies()[0];
-    if (found)
-      views[camera].misses =
-          isOwn(*found, rig.cameras[camera].camera, pixels) ? 0 : views[camera].misses + 1;
-    if (views[camera].misses >= kMostMisses) {
-      tracker.reset();
-      for (View& view : views)
-        view.misses = 0;
-    }
-    if (!found)
-      tracker.startFromLabels(locate(rig, views, body, time, options.pixel_stddev));
-    // One camera alone hardly tells how far away a small body is.
-    const bool tracked = std::count_if(views.begin(), views.end(), [&](const View& view) {
-                           return view.last.time >= time - options.tracked_time && !view.misses;
-                         }) >= 2;
-    if (tracker.bodies()[0])
-      print(*tracker.bodies()[0], time, tracked, output);
+    body.add(camera, image);
+    body.print(image.time, output);
   }
   std::fclose(output);
   if (!input.eof())
@@ -167,10 +222,7 @@ int run(const std::string& rig_file,
 int main(int argc, char** argv) {
   using namespace wiimote_tracker;
   std::string rig, images, table;
-  body::BodyTrackerOptions options;
-  options.merging_distance = 0.0;
-  options.tracked_time = 0.05;    // as of single LEDs
-  options.prediction_time = 0.1;  // labelled lights are found again at once
+  double pixel_stddev = 0.5;
   ArgumentParser parser(
       "track_labelled_body",
       "Tracks a body whose lights are told apart in every image, and writes its positions to TABLE "
@@ -179,6 +231,6 @@ int main(int argc, char** argv) {
   parser.positional("RIG", &rig);
   parser.positional("IMAGES", &images);
   parser.positional("TABLE", &table);
-  parser.option("--pixel-stddev PX", &options.pixel_stddev, 0.001, 100.0, "noise of a spot");
-  return parser.run(argc, argv, [&] { return import::run(rig, images, table, options); });
+  parser.option("--pixel-stddev PX", &pixel_stddev, 0.001, 100.0, "noise of a spot");
+  return parser.run(argc, argv, [&] { return import::run(rig, images, table, pixel_stddev); });
 }

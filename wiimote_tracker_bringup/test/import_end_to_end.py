@@ -141,6 +141,9 @@ class ImportEndToEnd(unittest.TestCase):
             figures = report['published']['camera_%d' % (c + 1)]
             self.assertLess(figures['median'], 2 * Room.NOISE)
             self.assertGreaterEqual(figures['inliers'], figures['observations'] - 2)
+        # At 10 m/s and more a track soon loses the light, and must not go on without it.
+        self.assertGreater(report['points_in_tracks'], 50)
+        self.assertLess(report['tracks']['all']['median'], 1.0)
 
     def test_solved_cameras_are_at_their_true_places(self):
         room = Room(self.folder)

@@ -15,8 +15,8 @@ sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
 
 from wiimote_tracker_evaluation import reprojection  # noqa: E402
 from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.foreign import (accuracy, flight as flights, lighthouse,  # noqa: E402
-                                                multicamselfcal, program)
+from wiimote_tracker_evaluation.foreign import (accuracy, body, flight as flights,  # noqa: E402
+                                                lighthouse, multicamselfcal, ordinary, program)
 from wiimote_tracker_evaluation.foreign.views import Truth  # noqa: E402
 
 NOISE = 1e-4  # [rad]
@@ -156,6 +156,23 @@ def test_a_simulated_flight_is_as_accurate_as_its_bound(flight, tmp_path, capsys
     # By the log, station 1 is later by the difference of the delays than it swept.
     assert figures['clock_offset_ms']['station_1'] == pytest.approx(
         -1e3 * (DELAYS[1] - DELAYS[0]), abs=0.2)
+
+
+class Hand(Flight):
+    """The same, at twice the speed."""
+
+    def center(self, times):
+        return super().center(2.0 * np.asarray(times))
+
+
+def test_a_body_in_a_hand_is_not_lost_between_images(tmp_path):
+    Hand().write(str(tmp_path), np.random.RandomState(3))
+    views = lighthouse.read(str(tmp_path))
+    rig = ordinary.calibrate(views, str(tmp_path))
+    figures, _, _ = flights.score(views, rig, body.track(views, rig, str(tmp_path)))
+    assert figures['tracked'] > 0.985
+    assert figures['rms_mm'] < 1.9
+    assert figures['coverage_95'] > 0.9
 
 
 def test_the_images_are_of_the_sweeps_own_times(flight):

@@ -3,20 +3,19 @@
 import argparse
 import dataclasses
 import json
-import os
 import sys
 from typing import List, Optional
 
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.faults import (
-    of_files, of_images, of_load, of_master, of_messages, of_processes, of_time)
+    of_files, of_images, of_load, of_master, of_messages, of_network, of_processes, of_time)
 from wiimote_tracker_evaluation.faults.room import Room
 from wiimote_tracker_evaluation.faults.row import Fault, Result, carry_out
 from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
 from wiimote_tracker_evaluation.processes import Processes
 
 FAULTS = [each for module in (of_processes, of_messages, of_files, of_images, of_time, of_load,
-                              of_master)
+                              of_network, of_master)
           for each in vars(module).values() if isinstance(each, Fault)]
 HEAD = '%-28s %-22s %-22s %-22s %9s  %s' % (
     'fault', 'before: Hz, mm', 'during', 'after', 'recovery', 'problems')
@@ -33,8 +32,7 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     parser.add_argument('--log', metavar='FILE', help="appends the nodes' output to this file")
     options = parser.parse_args(arguments)
     chosen = options.faults.split(',') if options.faults else [
-        fault.name for fault in FAULTS if (fault.quick or not options.quick)
-        and (os.geteuid() == 0 or not fault.needs_root)]
+        fault.name for fault in FAULTS if fault.quick or not options.quick]
     for name in chosen:
         if name not in names:
             parser.error(f"there is no fault {name!r}; choose from {', '.join(names)}")
@@ -103,6 +101,10 @@ def main(arguments: Optional[List[str]] = None) -> int:
         try:
             print(HEAD)
             for fault in options.chosen:
+                missing = fault.missing()
+                if missing:
+                    print(f'{fault.name:28} left out: {missing}')
+                    continue
                 results.append(matrix.run(fault))
                 print(line(results[-1]), flush=True)
         finally:

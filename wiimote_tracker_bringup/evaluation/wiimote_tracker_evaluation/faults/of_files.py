@@ -102,7 +102,7 @@ def fill(path):
             file.write(bytes(1024))
 
 
-@fault(needs_root=True)
+@fault(missing=lambda: '' if os.geteuid() == 0 else 'only root can make a small disk')
 def full_disk(room):
     """The rig is saved to a full disk, over an older file."""
     yield 0.0

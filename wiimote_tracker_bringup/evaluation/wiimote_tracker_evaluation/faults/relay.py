@@ -4,18 +4,12 @@ import random
 
 from wiimote_tracker_evaluation.faults.helper import Helper
 
-LATENCY = 0.0094  # as in simulated_rig.launch [s]
-
 
 class Relay:
     """Starts the camera's driver and the relay."""
 
     def __init__(self, room, camera):
-        room.start(['wiimote_tracker_driver/driver_node', '__name:=driver', f'__ns:=/{camera}',
-                    'ir_blobs:=ir_blobs_true', f'_camera_name:={camera}',
-                    f"_device:=virtual:{room.file('remotes')}/{camera}.sock",
-                    f"_camera_info_url:=file://{room.file('cameras')}/{camera}.yaml",
-                    f'_latency:={LATENCY}', '_realtime_priority:=0'])
+        room.start_driver(camera, 'ir_blobs:=ir_blobs_true')
         self._helper = Helper(_pass_on, camera)
 
     def change(self, clock_ahead=0.0, ghosts=0):

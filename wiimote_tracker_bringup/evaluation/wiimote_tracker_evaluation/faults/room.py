@@ -10,14 +10,16 @@ import time
 from wiimote_tracker_evaluation import rigs, scene, true_rig
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.faults import figures
+from wiimote_tracker_evaluation.faults.far_computer import FarComputer
 from wiimote_tracker_evaluation.faults.listener import Listener, joined
 from wiimote_tracker_evaluation.faults.relay import Relay
 from wiimote_tracker_evaluation.faults.rig_file import write_rig
 from wiimote_tracker_evaluation.processes import descendants, free_port
 from wiimote_tracker_evaluation.programs import find_program, package_file
 
-START = 90.0   # longest time until all LEDs are tracked, on a busy computer [s]
-SETTLED = 2.0  # that the LEDs must be tracked at the start [s]
+START = 90.0      # longest time until all LEDs are tracked, on a busy computer [s]
+SETTLED = 2.0     # that the LEDs must be tracked at the start [s]
+LATENCY = 0.0094  # as in simulated_rig.launch [s]
 
 # Each LED waves through its own part of the room; any two stay apart.
 LEDS = {name: {'position': [x, y, 1.0], 'size': 3.0,
@@ -30,8 +32,9 @@ LABELS = ('a', 'b', 'c')
 class Room:
     """A master, virtual remotes with three waving LEDs, and the whole tracker with the true rig."""
 
-    def __init__(self, processes, cameras=4, relayed=(), one_manager=False):
-        """relayed: cameras whose images pass a relay. processes: starts and ends everything."""
+    def __init__(self, processes, cameras=4, relayed=(), far=(), one_manager=False):
+        """relayed: cameras whose images pass a relay. far: cameras whose drivers run on another
+        computer. processes: starts and ends everything."""
         self._processes = processes
         self._one_manager = one_manager
         self.folder = tempfile.mkdtemp(prefix='wiimote_tracker_faults_')
@@ -42,17 +45,20 @@ class Room:
         rigs.write(self.file('room.yaml'), description)
         rigs.write(self.file('cameras.yaml'), {'cameras': {
             name: camera['identity'] for name, camera in description['cameras'].items()
-            if name not in relayed}})
+            if name not in relayed and name not in far}})
         write_rig(self.file('rig.yaml'), true_rig.true_rig(
             scene.read_scene(self.file('room.yaml')), rigs.identities(description)))
         self._port = free_port()
-        os.environ['ROS_MASTER_URI'] = f'http://localhost:{self._port}'
-        os.environ['ROS_HOSTNAME'] = 'localhost'
+        self.far = FarComputer() if far else None
+        os.environ['ROS_HOSTNAME'] = self.far.here if far else 'localhost'
+        os.environ['ROS_MASTER_URI'] = f"http://{os.environ['ROS_HOSTNAME']}:{self._port}"
         os.environ['ROS_HOME'] = self.folder
         self.listeners = []
         self.start_master()
         self.start_nodes()
         self.relays = [Relay(self, camera) for camera in relayed]
+        for camera in far:
+            self.start_driver(camera, prefix=self.far.prefix())
         self.listen()
 
     def file(self, name):
@@ -83,6 +89,8 @@ class Room:
         for helper in self.listeners + self.relays:
             helper.stop()
         self._processes.stop_all()
+        if self.far:
+            self.far.stop()
         shutil.rmtree(self.folder, ignore_errors=True)
 
     # --- What is measured
@@ -144,10 +152,19 @@ class Room:
         finally:
             os.kill(process, signal.SIGCONT)
 
-    def start(self, command):
+    def start(self, command, prefix=()):
         """Starts a program beside the nodes; it ends with the room. command: as find_program()
-        wants it, and arguments."""
-        return self._processes.start(command[0], [find_program(command[0])] + command[1:], self.log)
+        wants it, and arguments. prefix: a program that starts it, and arguments."""
+        return self._processes.start(
+            command[0], [*prefix, find_program(command[0])] + command[1:], self.log)
+
+    def start_driver(self, camera, *remappings, prefix=()):
+        """Starts the driver of a camera that is not in cameras.yaml."""
+        self.start(['wiimote_tracker_driver/driver_node', '__name:=driver', f'__ns:=/{camera}',
+                    *remappings, f'_camera_name:={camera}',
+                    f"_device:=virtual:{self.file('remotes')}/{camera}.sock",
+                    f"_camera_info_url:=file://{self.file('cameras')}/{camera}.yaml",
+                    f'_latency:={LATENCY}', '_realtime_priority:=0'], prefix)
 
     def end(self, process):
         """Ends a program before the room ends."""

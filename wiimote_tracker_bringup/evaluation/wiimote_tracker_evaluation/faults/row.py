@@ -20,8 +20,8 @@ class Fault:
     quick: also in the quick form. room: how the room differs (arguments of Room). ends: nodes that
     may end and start again; '*' for all. named: what some warning or error must contain; empty:
     none is needed. names_may_change: whether LEDs may get other names. wrong_allowed: wrong points
-    cannot be avoided. spends_room: no other fault can be tried in this room afterwards. needs_root:
-    only root can cause it; others leave it out.
+    cannot be avoided. spends_room: no other fault can be tried in this room afterwards. missing: says
+    why it cannot be caused here; empty: it can.
     """
 
     cause: Callable
@@ -32,7 +32,7 @@ class Fault:
     names_may_change: bool = False
     wrong_allowed: bool = False
     spends_room: bool = False
-    needs_root: bool = False
+    missing: Callable[[], str] = str
 
     @property
     def name(self):

@@ -510,6 +510,17 @@ def test_no_rig(tmp_path):
         tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
 
 
+def test_a_bag_of_another_version_is_refused_in_words(bag, tmp_path):
+    with rosbag.Bag(str(tmp_path / 'in.bag'), 'w') as old:
+        for topic, message, time in read(bag):
+            definition = message._full_text.replace('uint64 frame\n', '')
+            old.write(topic, message, time, connection_header={
+                'topic': topic, 'type': message._type, 'message_definition': definition,
+                'md5sum': '0' * 32 if topic.endswith('/ir_blobs') else message._md5sum})
+    sentence = refused(tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
+    assert 'another version of wiimote_tracker_msgs/IrBlobArray: convert' in sentence
+
+
 def test_no_images(tmp_path):
     write(tmp_path / 'in.bag', recorded()[:1])
     assert 'holds no images' in refused(tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')

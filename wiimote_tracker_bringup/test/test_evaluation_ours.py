@@ -260,3 +260,29 @@ def test_a_number_is_requested_until_it_is_valid():
     assert person.ask_number('How far?', 0.01, 100.0) == 2.5
     assert said.getvalue().count('How far?') == 4
     assert person.ask_number('How far?', 0.01, 100.0) is None
+
+
+# --- Arrivals of real remotes
+
+def test_exposures_and_clock_on_arrivals_that_were_polled(tmp_path):
+    random = np.random.RandomState(1)
+    poll, files, errors = 0.0056, [], []
+    for number in (1, 2):
+        phase = np.cumsum(1.2e-4 * random.randn(2500))
+        exposures = 0.003 * number + 0.010035 * np.arange(2500) + phase
+        kept = random.uniform(size=2500) > 0.03
+        sent = exposures[kept] + random.exponential(0.001, kept.sum())
+        arrivals = np.unique(np.round(1e3 * poll * np.ceil(sent / poll)))
+        files.append(str(tmp_path / f'remote_{number}.txt'))
+        np.savetxt(files[-1], arrivals, '%d')
+        last = np.searchsorted(sent, 1e-3 * arrivals + 0.0006) - 1
+        errors.append((1e-3 * arrivals - exposures[kept][last])[arrivals > arrivals[0] + 1e4])
+    printed = subprocess.run([programs.find_program('evaluate_arrivals'), RIG] + files, check=True,
+                             stdout=subprocess.PIPE, universal_newlines=True).stdout.splitlines()
+    for path, own in zip(files, errors):
+        found = [line for line in printed if line.startswith(f'{path}, arrivals')][0]
+        expected = 1e3 * np.std(own)
+        assert float(found.split('RMS ')[1].split()[0]) == pytest.approx(expected, rel=0.1)
+    ratios = [float(line.split(' mm, ')[1].split()[0]) for line in printed
+              if 'm/s, exposure clock' in line]
+    assert len(ratios) == 4 and ratios[0] < 1.15 and max(ratios) < 2.0

@@ -1,0 +1,212 @@
+// Errors of a moving LED with the exposure clock on recorded arrivals of real remotes.
+#include "recorded_exposures.h"
+#include "remote_camera.h"
+#include "room.h"
+
+#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
+
+#include <wiimote_tracker_msgs/argument_parser.h>
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::monte_carlo {
+namespace {
+
+constexpr double kLearning = 10.0;     // of the clocks, before the score [s]
+constexpr double kRadius = 0.75;       // the paper's circle [m]
+constexpr double kFar = 0.5;           // points farther off are not of the LED [m]
+constexpr double kInside = 7.814728;   // 95 % of chi squared, three degrees of freedom
+constexpr double kExactStddev = 1e-6;  // [s]
+
+/// Source of the stamps.
+enum Stamps { kExact, kClock, kArrivals };
+constexpr std::array<const char*, 3> kNames{"exact stamps", "exposure clock", "arrivals"};
+
+struct Frame {
+  std::size_t camera;
+  double exposure;               // [s]
+  double arrival;                // [s]
+  std::array<double, 3> stamp;   // by Stamps [s]
+  std::array<double, 3> stddev;  // [s]
+};
+
+/// @returns [s]. @throws Error.
+std::vector<double> readArrivals(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<double> arrivals;
+  for (double milliseconds; file >> milliseconds;)
+    arrivals.push_back(1e-3 * milliseconds);
+  if (!file.eof() || arrivals.size() < 2 || !std::is_sorted(arrivals.begin(), arrivals.end()))
+    throw Error(path + " must hold times in ms that increase, two or more");
+  return arrivals;
+}
+
+bool isScored(double time, const std::vector<Frame>& frames) {
+  return time > frames.front().arrival + kLearning;
+}
+
+/// Takes away the constant part of the stamps' errors, which a calibration finds, and prints the
+/// rest. Arrivals get its RMS as their standard deviation.
+void settle(Stamps stamps, const std::string& name, std::vector<Frame>* frames) {
+  std::vector<double> errors;
+  for (const Frame& frame : *frames) {
+    if (isScored(frame.arrival, *frames))
+      errors.push_back(frame.stamp[stamps] - frame.exposure);
+  }
+  if (errors.empty())
+    throw Error(name + " must be longer than 10 s");
+  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+  std::nth_element(errors.begin(), middle, errors.end());
+  const double offset = *middle;
+  double sum = 0.0, squares = 0.0, claimed = 0.0, inside = 0.0;
+  for (Frame& frame : *frames) {
+    frame.stamp[stamps] -= offset;
+    if (!isScored(frame.arrival, *frames))
+      continue;
+    const double error = std::abs(frame.stamp[stamps] - frame.exposure);
+    sum += error;
+    squares += error * error;
+    claimed += frame.stddev[stamps];
+    inside += error < 2.0 * frame.stddev[stamps];
+  }
+  const auto count = static_cast<double>(errors.size());
+  const double rms = std::sqrt(squares / count);
+  std::printf("%s, %s: mean error %.2f ms, RMS %.2f ms", name.c_str(), kNames[stamps],
+              1e3 * sum / count, 1e3 * rms);
+  if (stamps == kClock)
+    std::printf(", claimed %.2f ms, %.1f %% in 2 sd", 1e3 * claimed / count,
+                100.0 * inside / count);
+  std::puts("");
+  for (Frame& frame : *frames) {
+    if (stamps == kArrivals)
+      frame.stddev[stamps] = rms;
+  }
+}
+
+std::vector<Frame> framesOf(std::size_t camera, const std::string& path) {
+  const std::vector<double> arrivals = readArrivals(path);
+  const std::vector<double> exposures = recordedExposures(arrivals);
+  exposure_clock::ExposureClock clock;
+  std::vector<Frame> frames;
+  frames.reserve(arrivals.size());
+  for (std::size_t i = 0; i < arrivals.size(); ++i) {
+    const exposure_clock::Estimate estimate = clock.update(arrivals[i]);
+    frames.push_back({camera,
+                      exposures[i],
+                      arrivals[i],
+                      {exposures[i], estimate.exposure, arrivals[i]},
+                      {kExactStddev, estimate.stddev, 0.0}});
+  }
+  for (const Stamps stamps : {kClock, kArrivals})
+    settle(stamps, path, &frames);
+  return frames;
+}
+
+struct Score {
+  double squares = 0.0;  // [m^2]
+  double inside = 0.0;   // in the 95 % ellipsoid
+  double count = 0.0;
+};
+
+/// The LED on a circle, seen at the exposures and tracked by the stamps.
+Score follow(const simulation::Description& description,
+             const std::vector<Frame>& frames,
+             double speed,
+             Stamps stamps) {
+  const auto path = [&](double time) {
+    const double angle = speed / kRadius * time;
+    return Eigen::Vector3d(1.25 + kRadius * std::cos(angle), 1.25 + kRadius * std::sin(angle),
+                           0.95);
+  };
+  std::vector<simulation::VirtualCamera> optics;
+  std::vector<RemoteCamera> sensors;
+  for (const simulation::CameraDescription& camera : description.cameras) {
+    optics.emplace_back(camera.camera, description.pixel_noise,
+                        static_cast<std::uint32_t>(optics.size() + 1));
+    sensors.emplace_back("wii_3");
+  }
+  const auto estimator = tracking::makeEstimator(trueRig(description), {});
+  Score score;
+  tracking::CameraImage image;
+  for (const Frame& frame : frames) {
+    image.spots =
+        sensors[frame.camera].look(optics[frame.camera].sense({{path(frame.exposure), 3.0, 1.0}}));
+    image.arrival = frame.arrival;
+    image.stamp = frame.stamp[stamps];
+    image.stamp_stddev = frame.stddev[stamps];
+    estimator->add(frame.camera, image);
+    while (const tracking::Snapshot* snapshot = estimator->next()) {
+      if (!isScored(snapshot->time, frames))
+        continue;
+      const Eigen::Vector3d truth = path(snapshot->time);
+      for (const tracking::TrackedLed& led : snapshot->leds) {
+        const Eigen::Vector3d error = led.position - truth;
+        if (led.state != tracking::TrackState::kTracked || error.norm() > kFar)
+          continue;
+        score.squares += error.squaredNorm();
+        score.inside += error.dot(led.position_covariance.ldlt().solve(error)) < kInside;
+        ++score.count;
+      }
+    }
+  }
+  return score;
+}
+
+int run(const std::string& rig, const std::vector<std::string>& files) {
+  simulation::Description description = simulation::readDescription(rig);
+  if (files.size() < 2 || files.size() > description.cameras.size())
+    throw BadArguments("a file for each of the first cameras of the rig is needed, two or more");
+  description = withCameras(description, files.size());
+  std::vector<Frame> frames;
+  double end = std::numeric_limits<double>::infinity();
+  for (std::size_t camera = 0; camera < files.size(); ++camera) {
+    const std::vector<Frame> own = framesOf(camera, files[camera]);
+    frames.insert(frames.end(), own.begin(), own.end());
+    end = std::min(end, own.back().arrival);
+  }
+  frames.erase(std::remove_if(frames.begin(), frames.end(),
+                              [&](const Frame& frame) { return frame.arrival > end; }),
+               frames.end());
+  std::stable_sort(frames.begin(), frames.end(),
+                   [](const Frame& a, const Frame& b) { return a.arrival < b.arrival; });
+  for (const double speed : {0.5, 1.0, 2.0, 3.0}) {
+    double exact = 0.0;
+    for (const Stamps stamps : {kExact, kClock, kArrivals}) {
+      const Score score = follow(description, frames, speed, stamps);
+      const double rms = std::sqrt(score.squares / score.count);
+      exact = stamps == kExact ? rms : exact;
+      std::printf(
+          "%.1f m/s, %s: RMS %.2f mm, %.2f times that with exact stamps, %.1f %% in the "
+          "95 %% ellipsoid, %.0f points\n",
+          speed, kNames[stamps], 1e3 * rms, rms / exact, 100.0 * score.inside / score.count,
+          score.count);
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::monte_carlo
+
+int main(int argc, char** argv) {
+  using namespace wiimote_tracker;
+  std::string rig;
+  ArgumentParser::Words files;
+  ArgumentParser parser(
+      "evaluate_arrivals",
+      "Tracks a simulated LED by images that arrive as reports of real remotes did. RIG: a "
+      "description\nof a rig. FILE: arrivals of the reports of a remote [ms], in order, one file "
+      "for each camera.\nThe exposures are those of a smoother that knows the whole recording.");
+  parser.positional("RIG", &rig);
+  parser.positional("FILE...", &files);
+  return parser.run(argc, argv, [&] { return monte_carlo::run(rig, files); });
+}

@@ -1,21 +1,27 @@
 #include "soak_trial.h"
 
 #include "allocation_counter.h"
+#include "soak_stamps.h"
 #include "steady_remote.h"
 
 #include "wiimote/wiimote.h"
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 
 namespace wiimote_tracker {
 namespace {
 
-constexpr double kHour = 3600.0;  // [s]
-// Offset of disturbances from what the driver does every minute [s].
-constexpr double kPastTheHour = 17.3;
+// Offset of disturbances from what the driver does every minute [hours].
+constexpr double kPastTheHour = 17.3 / 3600.0;
+constexpr std::uint64_t kLifeOfBatteries = 40;  // [hours]
+constexpr double kChange = 0.25;                // of batteries [hours]
+constexpr std::uint8_t kFull = 0xc0;            // raw level
+constexpr double kSettling = 30.0;              // of the stamps in an epoch [s]
+constexpr double kLeapAfter = 8.0;              // [days]
 // After this time everything has happened once and all buffers have their size.
 constexpr std::uint64_t kWarmHours = 25;
 
@@ -27,56 +33,72 @@ double residentMemory() {
   return pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// The disturbance of each hour.
-void disturb(wiimote::SteadyRemote& remote, std::uint64_t hour) {
-  if (hour % 24 == 0)
-    remote.disconnect();
+/// The disturbance of each hour. @param length of an hour [s].
+void disturb(wiimote::SteadyRemote& remote, std::uint64_t hour, double length) {
+  const std::uint64_t age = hour % kLifeOfBatteries;
+  remote.battery = static_cast<std::uint8_t>(kFull - kFull * age / kLifeOfBatteries);
+  if (age == 0)
+    remote.disconnect(remote.now + kChange * length);
   else if (hour % 6 == 0)
     remote.powerCycle();
-  else
+  else if (hour % 6 == 3)
     remote.loseMode();
+  else
+    remote.disconnect();
 }
 
 }  // namespace
 
-Results runSoak(std::uint64_t reports) {
+Results runSoak(std::uint64_t reports, double length) {
   wiimote::SteadyRemote remote;
   wiimote::Wiimote wiimote(
       wiimote::Options(), [&] { return remote.open(); }, [&] { return remote.now; });
+  SoakStamps stamps(DriftingClock(24.0 * length, 24.0 * length * kLeapAfter),
+                    std::min(kSettling, length / 2.0));
   const auto begin = std::chrono::steady_clock::now();
   std::uint64_t images = 0;
   std::uint64_t hour = 0;
+  std::uint8_t lowest = kFull;
   double resident = 0.0;
   Allocations warm;
   while (remote.sent < reports) {
     remote.now += wiimote.idleTime();
-    images += wiimote.step(0.1).has_value();
-    if (remote.now < static_cast<double>(hour + 1) * kHour + kPastTheHour)
+    if (wiimote.step(0.1)) {
+      ++images;
+      stamps.add(remote.now, wiimote.link().clock_epoch);
+    }
+    if (remote.now < (static_cast<double>(hour + 1) + kPastTheHour) * length)
       continue;
     ++hour;
     if (hour == kWarmHours) {
       resident = residentMemory();
       warm = allocations();
     }
-    disturb(remote, hour);
+    if (wiimote.link().status)
+      lowest = std::min(lowest, wiimote.link().status->battery);
+    disturb(remote, hour, length);
   }
   const Allocations end = allocations();
   const double grown = residentMemory() - resident;
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const auto count = [](std::uint64_t n) { return static_cast<double>(n); };
-  return {{"reports", count(remote.sent), "1"},
-          {"images", count(images), "1"},
-          {"simulated_time", remote.now, "s"},
-          {"disturbances", count(hour), "1"},
-          {"restorations", count(wiimote.link().restorations), "1"},
-          {"clock_epochs", count(wiimote.link().clock_epoch), "1"},
-          {"time", seconds, "s"},
-          {"time_per_report", 1e9 * seconds / count(remote.sent), "ns"},
-          {"resident_memory_after_first_day", resident, "MB"},
-          {"resident_memory_growth_since_then", grown, "MB"},
-          {"allocations_since_then", count(end.made - warm.made), "1"},
-          {"allocations_not_freed_since_then", count(end.alive) - count(warm.alive), "1"}};
+  Results results{{"reports", count(remote.sent), "1"},
+                  {"images", count(images), "1"},
+                  {"simulated_time", remote.now, "s"},
+                  {"disturbances", count(hour), "1"},
+                  {"restorations", count(wiimote.link().restorations), "1"},
+                  {"clock_epochs", count(wiimote.link().clock_epoch), "1"},
+                  {"lowest_battery", count(lowest), "1"},
+                  {"time", seconds, "s"},
+                  {"time_per_report", 1e9 * seconds / count(remote.sent), "ns"},
+                  {"resident_memory_after_first_day", resident, "MB"},
+                  {"resident_memory_growth_since_then", grown, "MB"},
+                  {"allocations_since_then", count(end.made - warm.made), "1"},
+                  {"allocations_not_freed_since_then", count(end.alive) - count(warm.alive), "1"}};
+  const Results of_stamps = stamps.results();
+  results.insert(results.end(), of_stamps.begin(), of_stamps.end());
+  return results;
 }
 
 }  // namespace wiimote_tracker

@@ -1,6 +1,7 @@
 #include "steady_remote.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wiimote_tracker::wiimote {
 namespace {
@@ -28,6 +29,8 @@ class SteadyRemote::Transport : public transport::Transport {
 };
 
 std::unique_ptr<transport::Transport> SteadyRemote::open() {
+  if (now < away_until_)
+    throw transport::TransportError("the remote is away");
   connected_ = true;
   return std::make_unique<Transport>(this);
 }
@@ -52,7 +55,7 @@ bool SteadyRemote::read(Report& report, double timeout) {
     return false;
   }
   now = std::max(now, next_data_);
-  next_data_ = now + kPeriod;
+  next_data_ = afterNow();
   report = data();
   ++sent;
   return true;
@@ -63,11 +66,11 @@ void SteadyRemote::write(const Report& output) {
   switch (output.id()) {
     case 0x12:
       if (mode_ == 0)
-        next_data_ = now + kPeriod;
+        next_data_ = afterNow();
       mode_ = bytes[2];
       break;
     case 0x15:
-      say({0x20, 0, 0, 0x18, 0, 0, 0x60});
+      say({0x20, 0, 0, static_cast<std::uint8_t>(battery < 0x20 ? 0x19 : 0x18), 0, 0, battery});
       return;
     case 0x16:
       for (std::size_t i = 0; i < bytes[5]; ++i)
@@ -82,6 +85,10 @@ void SteadyRemote::write(const Report& output) {
   }
   if (bytes[1] & 0x02)
     say({0x22, 0, 0, output.id(), 0});
+}
+
+double SteadyRemote::afterNow() const {
+  return kPeriod * (std::floor(now / kPeriod + 1e-3) + 1.0);
 }
 
 void SteadyRemote::say(const Report& answer) {

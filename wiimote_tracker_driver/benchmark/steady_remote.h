@@ -15,8 +15,9 @@ namespace wiimote_tracker::wiimote {
 /// driver, not for testing it: it checks nothing.
 class SteadyRemote {
  public:
-  double now = 0.0;        ///< [s]
-  std::uint64_t sent = 0;  ///< Data reports.
+  double now = 0.0;             ///< [s]
+  std::uint64_t sent = 0;       ///< Data reports.
+  std::uint8_t battery = 0x60;  ///< Raw level, for the next status.
 
   std::unique_ptr<transport::Transport> open();
 
@@ -26,8 +27,11 @@ class SteadyRemote {
   /// Resets the remote as after switching on.
   void powerCycle();
 
-  /// The next read fails.
-  void disconnect() { connected_ = false; }
+  /// The next read fails, and so does open() until `until` [s].
+  void disconnect(double until = 0.0) {
+    connected_ = false;
+    away_until_ = until;
+  }
 
  private:
   class Transport;
@@ -38,8 +42,11 @@ class SteadyRemote {
   void say(const protocol::Report& answer);
   protocol::Report memory(const protocol::Report& request) const;
   protocol::Report data();
+  /// The camera's next exposure; its clock runs on without reports [s].
+  double afterNow() const;
 
   bool connected_ = true;
+  double away_until_ = 0.0;  // [s]
   std::uint8_t mode_ = 0;
   std::array<std::uint8_t, 256> registers_{};
   std::array<protocol::Report, 16> answers_{};  // a ring

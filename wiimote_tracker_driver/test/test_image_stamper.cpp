@@ -181,6 +181,19 @@ TEST_F(ImageStamperTest, SlowDriftOfTheClocksIsFollowed) {
   EXPECT_NEAR(kDelay + misreading_, (time.arrival - exposure(4999)).toSec(), 0.0002);
 }
 
+TEST_F(ImageStamperTest, ASmallStepIsPartOfTheStatedErrorUntilItIsFollowed) {
+  int n = 0;
+  while (n < 2000)
+    take(n++);
+  step_ = ros::Duration(0.004);
+  for (const int last = n + 1000; n < last; ++n) {
+    const ImageTime time = take(n);
+    EXPECT_EQ(0u, time.clock_epoch);
+    EXPECT_LT(std::abs((time.stamp - exposure(n)).toSec() - kDelay), 2.0 * time.stddev) << n;
+  }
+  EXPECT_LT(take(n).stddev, 0.001);
+}
+
 TEST_F(ImageStamperTest, ASetSystemClockIsANewEpoch) {
   for (const double step : {3600.0, -3600.0, -0.02}) {
     ImageTime before;

@@ -49,7 +49,7 @@ ImageTime ImageStamper::stamp(const ClockReading& now, std::uint32_t device_epoc
   // In simulated time the steady clock does not measure the age.
   if (options_.estimate && !now.simulated) {
     age += now.steady - estimate.exposure;
-    time.stddev = estimate.stddev;
+    time.stddev = std::hypot(estimate.stddev, deviation_);
   }
   time.stamp = subtract(time.arrival, age);
   if (any_image_)
@@ -75,6 +75,7 @@ void ImageStamper::beginEpoch(const ClockReading& now) {
   clock_.reset();
   steady_arrival_ = now.steady;
   ros_arrival_ = now.ros;
+  deviation_ = 0.0;
   last_stamp_ = ros::Time();
   epoch_frame_ = any_image_ ? frame_ + 1 : 0;
 }
@@ -82,11 +83,15 @@ void ImageStamper::beginEpoch(const ClockReading& now) {
 void ImageStamper::followRosClock(const ClockReading& now) {
   const double interval = now.steady - steady_arrival_;
   const double deviation = (now.ros - ros_arrival_).toSec() - interval;
-  if (now.simulated)
+  if (now.simulated) {
     ros_arrival_ = now.ros;
-  else
-    ros_arrival_ += ros::Duration(
-        interval + (now.uncertainty < kMaxClockUncertainty ? kDriftGain * deviation : 0.0));
+  } else {
+    ros_arrival_ += ros::Duration(interval);
+    if (now.uncertainty < kMaxClockUncertainty) {
+      ros_arrival_ += ros::Duration(kDriftGain * deviation);
+      deviation_ = (1.0 - kDriftGain) * deviation;
+    }
+  }
   steady_arrival_ = now.steady;
 }
 

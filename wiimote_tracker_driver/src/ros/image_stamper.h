@@ -23,8 +23,9 @@ struct ImageTime {
 
 /// Times of the images of one remote. Exposures are estimated on the steady clock and converted to
 /// ROS time by the offset of the two clocks. The offset follows the clocks' drift slowly, because a
-/// single reading is wrong when the thread is interrupted between the two clocks. A step of the
-/// system clock begins a new epoch, in which times may be earlier than before.
+/// single reading is wrong when the thread is interrupted between the two clocks; until then the
+/// deviation is part of the stated error. A step of the system clock begins a new epoch, in which
+/// times may be earlier than before.
 class ImageStamper {
  public:
   struct Options {
@@ -59,6 +60,7 @@ class ImageStamper {
   // Last arrival on both clocks.
   double steady_arrival_ = 0.0;
   ros::Time ros_arrival_;
+  double deviation_ = 0.0;  ///< Of ros_arrival_ from the clock, not yet followed [s].
   ros::Time last_stamp_;
   bool any_image_ = false;
   std::uint32_t device_epoch_ = 0;

@@ -21,7 +21,7 @@ namespace wiimote_tracker::tracking {
 class TimeWatch {
  public:
   static constexpr double kTolerance = 0.04;  ///< Between clocks that agree [s].
-  static constexpr double kJump = 1.0;        ///< Least jump back [s].
+  static constexpr double kJump = 0.1;        ///< Least jump back [s].
 
   explicit TimeWatch(std::size_t cameras);
 

@@ -114,6 +114,34 @@ TEST(Tracker, RestartsWhenABagStartsOver) {
   EXPECT_EQ((std::set<std::uint32_t>{2, 3}), idsIn(again.back(), TrackState::kTracked));
 }
 
+TEST(Tracker, AStepBackOfAllClocksNeverLeavesAnLedAtItsOldPlace) {
+  const Path led = circle({1.25, 1.25, 1.0}, 0.5, 1.5);
+  for (const double step : {0.3, 1.0}) {  // 1 s: a leap second
+    std::vector<SceneImage> images = imagesOf(paperRig(), {led}, {}, 1600);
+    Tracker tracker(paperRig(), exactOptions());
+    std::size_t tracked = 0;
+    for (SceneImage& image : images) {
+      if (image.true_time > 1002.0) {
+        image.image.stamp -= step;
+        image.image.arrival -= step;
+        ++image.image.clock_epoch;
+      }
+      tracker.add(image.camera, image.image);
+      while (const Snapshot* snapshot = tracker.next()) {
+        const Eigen::Vector3d truth = led(image.true_time);
+        for (const TrackedLed& each : snapshot->leds) {
+          if (each.state != TrackState::kTracked)
+            continue;
+          EXPECT_LT((each.position - truth).norm(), 0.1) << image.true_time;
+          ++tracked;
+        }
+      }
+    }
+    EXPECT_EQ(1u, tracker.counters().resets);
+    EXPECT_GT(tracked, 1450u);
+  }
+}
+
 TEST(Tracker, ACameraThatLagsOrRunsAheadDoesNotHarmTheOthers) {
   const std::vector<Path> leds = wanderers(4, 10);
   for (const double offset : {-1.5, 2.5}) {

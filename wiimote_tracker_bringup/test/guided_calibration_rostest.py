@@ -203,25 +203,25 @@ class GuidedCalibration(unittest.TestCase):
         self.led(on=True)
         program.type('next')
         program.expect('all 4 cameras see exactly one spot')
-        program.expect('next: .*SPACE starts with 2.5 m')
+        program.expect('next: .*SPACE: start with 2.5 m')
         program.type('next')
         refused = 0
         for number, place in enumerate(experiment.placed_corners(1), 1):
             program.expect(f'Put the LED on corner {number}')
             self.carry(place)
             refused += self.capture(program, number)
-        program.expect('SPACE begins the wave')
+        program.expect('SPACE: begin the wave')
         self.led(target=WAVE_MIDDLE, motion=SetLedRequest.WAVE, speed=WAVE_SPEED,
                  box=Vector3(*WAVE_BOX), path=1)
         program.type('next')
         program.expect('Wave through the whole volume')
         program.type(f'wait {DEADLINE:g}')
         program.type('next')
-        program.expect('next: SPACE solves')
+        program.expect('SPACE: solve')
         program.type('next')
         program.expect('next: Read the verdict')
         program.type('next')
-        program.expect('next|c checks the rig')
+        program.expect('The rig is calibrated')
         program.type('quit')
         took = program.expect('Calibrated and saved in')
         print(took)
@@ -279,7 +279,7 @@ class GuidedCalibration(unittest.TestCase):
     def correct_the_volume_and_recalibrate(self):
         """The other commands of a solved rig, as words."""
         program = Program()
-        program.expect('c checks the rig')
+        program.expect('The rig is calibrated')
         program.type('fit')
         program.expect('^refused: ')
         for number, place in enumerate(KNOWN_PLACES, 1):

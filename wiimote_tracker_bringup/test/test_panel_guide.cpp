@@ -1,11 +1,11 @@
-// What the Tracker panel asks for next, from the calibration node's messages.
+// What the Tracker panel shows of the calibration node's messages.
 
 #include "guide.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker::panel {
 namespace {
@@ -21,29 +21,9 @@ class NextStep : public testing::Test {
     guide_.onStatus(status_, now_);
     return guide_.advice(now_);
   }
-  void answered(Command command, bool good = true) {
+  void answered(Command command, const std::string& text = "done") {
     guide_.onRequest(command);
-    guide_.onAnswer(command, good, good ? "done" : "refused: the LED is hidden");
-  }
-  /// All four corners as one camera saw them.
-  void capture(const std::array<std::array<double, 2>, 4>& pixels) {
-    for (const auto& pixel : pixels) {
-      status_.cameras.resize(1);
-      status_.cameras[0].name = "a";
-      status_.cameras[0].sees_led = 1;
-      status_.cameras[0].x = pixel[0];
-      status_.cameras[0].y = pixel[1];
-      ++status_.corners_captured;
-      at(CalibrationStatus::READY);
-    }
-  }
-  void judge(std::uint8_t grade, int redo_corner = -1) {
-    status_.rig_id = "rig";
-    CalibrationVerdict verdict;
-    verdict.rig_id = "rig";
-    verdict.grade = grade;
-    verdict.redo_corner = redo_corner;
-    guide_.onVerdict(verdict);
+    guide_.onAnswer(command, text);
   }
 
   Guide guide_;
@@ -59,14 +39,33 @@ TEST_F(NextStep, WithoutANodeItSaysHowToStartIt) {
   EXPECT_TRUE(guide_.advice(now_).button.empty());
 }
 
-TEST_F(NextStep, MasksConnectionAndStartFollowEachOther) {
-  EXPECT_EQ(at(CalibrationStatus::IDLE).request.command, Command::kMasks);
-  answered(Command::kMasks, false);  // a step that was refused is asked for again
-  EXPECT_EQ(at(CalibrationStatus::IDLE).request.command, Command::kMasks);
-  answered(Command::kMasks);
-  EXPECT_EQ(at(CalibrationStatus::IDLE).request.command, Command::kConnection);
-  answered(Command::kConnection);
-  EXPECT_EQ(at(CalibrationStatus::IDLE).request.command, Command::kStart);
+TEST_F(NextStep, IsWhatTheNodeSays) {
+  status_.next_title = "Corner 3";
+  status_.next_sentence = "Put the LED on corner 3 again.";
+  status_.next_request = "capture_corner";
+  status_.next_label = "capture corner 3 again";
+  status_.next_corner = 2;
+  const Advice advice = at(CalibrationStatus::SOLVED);
+  EXPECT_EQ(advice.title, "Corner 3");
+  EXPECT_EQ(advice.sentence, "Put the LED on corner 3 again.");
+  EXPECT_EQ(advice.button, "Capture corner 3 again");
+  EXPECT_EQ(advice.request.command, Command::kCapture);
+  EXPECT_EQ(advice.request.corner, 2);
+}
+
+TEST_F(NextStep, HasNoButtonWhereThereIsNothingToRequest) {
+  for (const char* request : {"", "of_a_newer_node"}) {
+    status_.next_request = request;
+    status_.next_label = "do it";
+    EXPECT_TRUE(at(CalibrationStatus::READY).button.empty());
+  }
+}
+
+TEST_F(NextStep, TheWalkAndWhatIsMissingAreRemarks) {
+  status_.missing = {"wave higher"};
+  status_.walk = "the walk";
+  at(CalibrationStatus::WAVING);
+  EXPECT_EQ(guide_.remarks(), (std::vector<std::string>{"the walk", "wave higher"}));
 }
 
 TEST_F(NextStep, NothingCanBePressedUntilAnAnswerAndItsEffectAreKnown) {
@@ -74,7 +73,7 @@ TEST_F(NextStep, NothingCanBePressedUntilAnAnswerAndItsEffectAreKnown) {
   EXPECT_FALSE(guide_.isWaiting());
   guide_.onRequest(Command::kMasks);
   EXPECT_TRUE(guide_.isWaiting());
-  guide_.onAnswer(Command::kMasks, true, "done");
+  guide_.onAnswer(Command::kMasks, "done");
   EXPECT_TRUE(guide_.isWaiting());
   at(CalibrationStatus::IDLE);
   EXPECT_FALSE(guide_.isWaiting());
@@ -83,7 +82,7 @@ TEST_F(NextStep, NothingCanBePressedUntilAnAnswerAndItsEffectAreKnown) {
 TEST_F(NextStep, ARefusalStaysUntilTheNodeSaysSomethingNew) {
   status_.message = "ready";
   at(CalibrationStatus::READY);
-  answered(Command::kCapture, false);
+  answered(Command::kCapture, "refused: the LED is hidden");
   at(CalibrationStatus::READY);
   EXPECT_EQ(guide_.answer(), "refused: the LED is hidden");
   status_.message = "corner 1 captured";
@@ -91,46 +90,12 @@ TEST_F(NextStep, ARefusalStaysUntilTheNodeSaysSomethingNew) {
   EXPECT_EQ(guide_.answer(), "corner 1 captured");
 }
 
-TEST_F(NextStep, NamesTheCornerAndNeedsNoButtonWhenHandsAreFree) {
-  status_.corners_captured = 2;
-  EXPECT_EQ(at(CalibrationStatus::READY).title, "Corner 3");
-  EXPECT_EQ(guide_.advice(now_).request.command, Command::kCapture);
-  status_.hands_free = 1;
-  EXPECT_TRUE(at(CalibrationStatus::READY).button.empty());
-}
-
-TEST_F(NextStep, AWaveEndsWhenNothingIsMissing) {
-  status_.missing = {"wave higher"};
-  EXPECT_TRUE(at(CalibrationStatus::WAVING).button.empty());
-  EXPECT_EQ(guide_.remarks(), status_.missing);
-  status_.missing.clear();
-  EXPECT_EQ(at(CalibrationStatus::WAVING).request.command, Command::kStopWave);
-}
-
-TEST_F(NextStep, AfterARefusedWaveTheSquareAloneIsSolved) {
-  EXPECT_EQ(at(CalibrationStatus::COMPLETE).request.command, Command::kStartWave);
-  answered(Command::kStartWave, false);
-  EXPECT_EQ(at(CalibrationStatus::COMPLETE).request.command, Command::kSolve);
-}
-
-TEST_F(NextStep, CornersThatGoClockwiseInTheImageAreQuestioned) {
-  capture({{{100, 100}, {900, 100}, {900, 700}, {100, 700}}});  // y points down
-  EXPECT_EQ(at(CalibrationStatus::COMPLETE).title, "z is down");
-}
-
-TEST_F(NextStep, CounterClockwiseCornersAreNotQuestioned) {
-  capture({{{100, 700}, {900, 700}, {900, 100}, {100, 100}}});
-  EXPECT_EQ(at(CalibrationStatus::COMPLETE).title, "Wave");
-}
-
-TEST_F(NextStep, ABadCornerIsTakenAgainAndAGoodRigSaved) {
-  judge(CalibrationVerdict::REDO, 2);
-  EXPECT_EQ(at(CalibrationStatus::SOLVED).request.command, Command::kCapture);
-  EXPECT_EQ(guide_.advice(now_).request.corner, 2);
-  judge(CalibrationVerdict::REDO);
-  EXPECT_TRUE(at(CalibrationStatus::SOLVED).button.empty());
-  judge(CalibrationVerdict::GOOD);
-  EXPECT_EQ(at(CalibrationStatus::SOLVED).request.command, Command::kSave);
+TEST_F(NextStep, AVerdictIsThatOfTheRigInUse) {
+  CalibrationVerdict verdict;
+  verdict.rig_id = status_.rig_id = "rig";
+  guide_.onVerdict(verdict);
+  at(CalibrationStatus::SOLVED);
+  EXPECT_NE(guide_.verdict(), nullptr);
   status_.rig_id = "another";
   at(CalibrationStatus::SAVED);
   EXPECT_EQ(guide_.verdict(), nullptr);
@@ -141,7 +106,7 @@ TEST_F(NextStep, WhatIsCancelledRunsUntilItsOwnAnswer) {
   guide_.onRequest(Command::kSolve);
   answered(Command::kCancel);
   EXPECT_EQ(guide_.running(), Command::kSolve);
-  guide_.onAnswer(Command::kSolve, false, "cancelled");
+  guide_.onAnswer(Command::kSolve, "cancelled");
   EXPECT_EQ(guide_.running(), Command::kNone);
   EXPECT_EQ(guide_.answer(), "cancelled");
 }

@@ -3,6 +3,7 @@
 #include "node_fixture.h"
 
 #include <geometry_msgs/PolygonStamped.h>
+#include <std_msgs/String.h>
 #include <wiimote_tracker_msgs/CheckPlace.h>
 #include <wiimote_tracker_msgs/MeasureLength.h>
 
@@ -21,6 +22,12 @@ TEST_F(Node, RequestsWithoutARigAreRefusedWithAdvice) {
   EXPECT_SAYS(loaded.message, folder_);
   EXPECT_SAYS(capture().message, "start one first");
   EXPECT_SAYS(call<std_srvs::Trigger>("calibration/undo").message, "no captured corner");
+  EXPECT_EQ(status_->get()->next_request, "learn_masks");
+  const Latest<std_msgs::String> sound("calibration/sound");
+  EXPECT_TRUE(waitUntil([&] {
+    call<std_srvs::Trigger>("calibration/undo");
+    return sound.get() && sound.get()->data == "refused";
+  }));
 }
 
 TEST_F(Node, TheWorldAndTheSquareAreShownBeforeACalibration) {
@@ -34,6 +41,7 @@ TEST_F(Node, TheWorldAndTheSquareAreShownBeforeACalibration) {
 }
 
 TEST_F(Node, TheConnectionCheckNamesTheCamerasThatFail) {
+  call<std_srvs::Trigger>("calibration/cancel");  // a walk comes before the start
   putLed(kCorners[0]);
   wiimote_tracker_msgs::CheckConnection::Request request;
   request.duration = 0.3;
@@ -45,6 +53,9 @@ TEST_F(Node, TheConnectionCheckNamesTheCamerasThatFail) {
   EXPECT_EQ(response.cameras[1].identity, "00:1e:35:00:00:02");
   EXPECT_GT(response.cameras[1].rate, 10.0);
   EXPECT_TRUE(response.cameras[1].sees_led);
+  EXPECT_TRUE(waitUntil([] { return status_->get()->cameras[1].seen_with.size() == 3; }));
+  EXPECT_GT(status_->get()->cameras[1].seen_share, 0.0);
+  EXPECT_SAYS(status_->get()->walk, "the walk showed the LED to camera_1");
 
   cameras_->blind({"camera_3"});
   EXPECT_TRUE(waitUntil([&] {
@@ -86,6 +97,8 @@ TEST_F(Node, BadInputBetweenStepsLosesNothing) {
   ASSERT_EQ(result.cameras.size(), 4U);
   EXPECT_GE(result.cameras[0].samples.at(0), 20U);
   EXPECT_LT(result.cameras[0].spread.at(0), 1.0);
+  EXPECT_NEAR(result.cameras[0].corner_x.at(0), result.cameras[0].x, 2.0);
+  EXPECT_NEAR(result.cameras[0].corner_y.at(0), result.cameras[0].y, 2.0);
 
   // The LED moves while it is captured.
   putLed(kCorners[1]);

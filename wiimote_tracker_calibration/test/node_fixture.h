@@ -209,6 +209,7 @@ class Process {
     arguments.insert(arguments.begin(), {"rosrun", "wiimote_tracker_calibration",
                                          "calibration_node", "__ns:=" + name_space});
     std::vector<char*> pointers;
+    pointers.reserve(arguments.size() + 1);
     for (std::string& argument : arguments)
       pointers.push_back(&argument[0]);
     pointers.push_back(nullptr);

@@ -31,6 +31,7 @@ TEST(Parameters, TheFileSaysWhatTheDefaultsAre) {
   EXPECT_EQ(file.rig_file, none.rig_file);
   EXPECT_EQ(file.set_camera_info_timeout, none.set_camera_info_timeout);
   EXPECT_EQ(file.hands_free, none.hands_free);
+  EXPECT_EQ(file.sounds, none.sounds);
   EXPECT_EQ(file.button_remote, none.button_remote);
   EXPECT_EQ(file.masks.share, capture::MaskOptions().share);
   EXPECT_EQ(file.masks.margin, capture::MaskOptions().margin);

@@ -31,8 +31,9 @@ def camera(name='wiimote_1', **fields):
     return CalibrationCameraStatus(name=name, **values)
 
 
-def status(step, **fields):
-    values = dict(corners_needed=4, cameras=[camera()])
+def status(step, request='', label='', **fields):
+    values = dict(corners_needed=4, cameras=[camera()], next_sentence='Do this.',
+                  next_request=request, next_label=label, next_corner=-1)
     values.update(fields)
     return CalibrationStatus(step=step, **values)
 
@@ -48,23 +49,24 @@ def guide_at(*statuses, **options):
 # --- The screen
 
 def test_a_square_in_progress_looks_like_this():
-    places = [(100.0, 700.0), (900.0, 650.0)]
-    cameras = [[camera('wiimote_1', samples=[52], spread=[0.31], x=x, y=y),
-                camera('wiimote_2', samples=[0], spread=[NAN], connected=False, sees_led=False,
-                       problem='sends no images: look at its driver'),
-                camera('wiimote_3', samples=[1052], spread=[1.25], blobs=3, sees_led=False,
-                       masks=2, x=NAN, y=NAN)] for x, y in places]
-    for each in cameras[1]:
-        each.samples, each.spread = each.samples * 2, each.spread * 2
+    seen = dict(corner_x=[100.0, 900.0], corner_y=[700.0, 650.0])
+    cameras = [camera('wiimote_1', samples=[52, 52], spread=[0.31, 0.31], x=900.0, y=650.0, **seen),
+               camera('wiimote_2', samples=[0, 0], spread=[NAN, NAN], connected=False,
+                      sees_led=False, problem='sends no images: look at its driver',
+                      corner_x=[NAN, NAN], corner_y=[NAN, NAN]),
+               camera('wiimote_3', samples=[1052, 1052], spread=[1.25, 1.25], blobs=3,
+                      sees_led=False, masks=2, x=NAN, y=NAN)]
     guide = guide_at(
         status(CalibrationStatus.READY),
-        status(CalibrationStatus.READY, corners_captured=1, cameras=cameras[0]),
-        status(CalibrationStatus.READY, corners_captured=2, progress=0.5, rig_id='0123456789',
-               message='corner 2 captured by 2 cameras', cameras=cameras[1]))
+        status(CalibrationStatus.READY),
+        status(CalibrationStatus.READY, 'capture_corner', 'capture corner 3', corners_captured=2,
+               next_sentence='Put the LED on corner 3 (counter-clockwise seen from above puts z up).',
+               progress=0.5, rig_id='0123456789', message='corner 2 captured by 2 cameras',
+               cameras=cameras))
     assert screen.render(guide, 4.0) == [
         'CALIBRATION  corners        [########--------]  corners 2/4   rig 01234567  0:04',
-        'Put the LED on corner 3 (counter-clockwise seen from above puts z up). SPACE',
-        'captures it.',
+        'Put the LED on corner 3 (counter-clockwise seen from above puts z up). SPACE:',
+        'capture corner 3.',
         'wiimote_1           wiimote_2           wiimote_3',
         '+----------------+  +----------------+  +----------------+',
         '|                |  |                |  |                |',
@@ -97,7 +99,7 @@ def test_a_wave_fills_cells_and_says_what_is_missing():
         '|................|', '|................|', '|##............##|',
         '|........O.......|', '|................|', '|................|',
         '+----------------+', '100 Hz  1 spot', '', 'wave 4 %  234 px/s']
-    assert lines[1] == 'Wave through the whole volume, high and low, near and far.'
+    assert lines[1] == 'Do this.'
     assert lines[16:18] == ['- wave 9 s more',
                             '- wiimote_1 has seen nothing at the top: hold the LED higher']
     assert lines[21] == 'recording'
@@ -254,7 +256,7 @@ def test_a_silent_node_and_none_at_all_are_one_sentence_each():
     assert screen.render(Guide(0.0), 1.0)[1] == 'Looking for the calibration node.'
     assert 'No calibration node answers' in screen.render(Guide(0.0), 4.0)[1]
     guide = guide_at(status(CalibrationStatus.READY))
-    assert 'Put the LED on corner 1' in screen.render(guide, 2.9)[1]
+    assert 'Do this.' in screen.render(guide, 2.9)[1]
     assert 'has said nothing for 5 s' in screen.render(guide, 5.0)[1]
 
 
@@ -278,82 +280,52 @@ def test_bars_and_wrapping():
 
 # --- What is next
 
-def step_by_step():
-    """(what comes in, what SPACE then stands for): a whole calibration."""
-    s = CalibrationStatus
-    return [
-        (status(s.IDLE), 'masks'),
-        ('masks', 'connection'),
-        ('connection', 'start'),
-        ('start', None),
-        (status(s.READY), 'capture'),
-        (status(s.CAPTURING), None),
-        (status(s.READY, corners_captured=1), 'capture'),
-        (status(s.READY, corners_captured=2, hands_free=True), None),
-        (status(s.COMPLETE, corners_captured=4), 'wave'),
-        (status(s.WAVING, corners_captured=4, missing=['9 s more']), None),
-        (status(s.WAVING, corners_captured=4, wave_seconds=15.0), 'wave'),
-        (status(s.COMPLETE, corners_captured=4, wave_seconds=15.0), 'solve'),
-        (status(s.SOLVING, corners_captured=4, wave_seconds=15.0), None),
-        (status(s.SOLVED, corners_captured=4, rig_id='a'), 'save'),
-        (status(s.SAVED, corners_captured=4, rig_id='a'), None)]
+@pytest.mark.parametrize('wanted, word', [
+    ('learn_masks', 'masks'), ('check_connection', 'connection'), ('start', 'start'),
+    ('capture_corner', 'capture'), ('start_wave', 'wave'), ('stop_wave', 'wave'),
+    ('solve', 'solve'), ('save', 'save')])
+def test_space_requests_what_the_node_wants(wanted, word):
+    step = CalibrationStatus.WAVING if wanted == 'stop_wave' else CalibrationStatus.READY
+    guide = guide_at(status(step, wanted, 'do it'))
+    advice = guide.advice()
+    assert advice.word == word and advice.sentence.startswith('Do this. SPACE: do it')
+    command = commands.find(commands.RIG, word)
+    assert command.build(guide.status, advice.arguments).name == wanted
 
 
-def test_space_leads_through_a_whole_calibration():
-    guide = Guide(0.0)
-    for now, (event, expected) in enumerate(step_by_step()):
-        if isinstance(event, str):
-            guide.on_answer(event, True, 'done', float(now))
-        else:
-            guide.on_status(event, float(now))
-        if event != 'start':
-            assert guide.advice().word == expected, event
-            assert guide.advice().sentence
+def test_where_there_is_nothing_to_request_space_does_nothing():
+    for request in ('', 'of_a_newer_node'):
+        assert guide_at(status(CalibrationStatus.SAVED, request)).advice().word is None
+    wand = guide_at(status(CalibrationStatus.READY, 'start_wave', 'begin', corners_needed=0)).advice()
+    assert wand.word is None and wand.sentence == 'Do this. w asks for the length.'
 
 
-def test_what_fails_is_not_pressed_upon_the_person():
-    guide = guide_at(status(CalibrationStatus.IDLE))
-    guide.on_answer('masks', False, 'is not there', 1.0)
-    assert guide.advice().word == 'masks' and 'k goes on' in guide.advice().sentence
-    guide.on_answer('connection', False, 'wiimote_2 sees nothing', 2.0)
-    assert guide.advice().word == 'connection'
-    assert 'n goes on' in guide.advice().sentence
-    guide.on_status(status(CalibrationStatus.COMPLETE, corners_captured=4), 3.0)
-    guide.on_answer('wave', False, 'is not there', 4.0)
-    assert guide.advice().word == 'solve'
-
-
-@pytest.mark.parametrize('order, asks', [((0, 1, 2, 3), False), ((0, 3, 2, 1), True)])
-def test_clockwise_corners_are_questioned(order, asks):
-    places = [(100.0, 600.0), (900.0, 600.0), (900.0, 100.0), (100.0, 100.0)]
-    guide = Guide(0.0)
-    for number, place in enumerate((places[i] for i in order), 1):
-        step = CalibrationStatus.COMPLETE if number == 4 else CalibrationStatus.READY
-        guide.on_status(status(step, corners_captured=number,
-                               cameras=[camera(x=place[0], y=place[1])]), float(number))
-    assert ('z will point down' in guide.advice().sentence) == asks
-    assert guide.advice().word == 'wave'
+def test_space_starts_with_the_side_that_was_given():
+    start = status(CalibrationStatus.IDLE, 'start', 'start')
+    advice = guide_at(start, side=['2.5', '1']).advice()
+    assert advice.arguments == ['2.5', '1']
+    assert advice.sentence == 'Do this. SPACE: start with 2.5 x 1 m.'
+    assert guide_at(start).advice().sentence == 'Do this. SPACE: start; n asks for the side.'
 
 
 def test_a_bad_corner_is_to_be_taken_again():
-    guide = guide_at(status(CalibrationStatus.SOLVED, rig_id='a'))
-    guide.verdict = CalibrationVerdict(rig_id='a', grade=CalibrationVerdict.REDO, redo_corner=2)
+    guide = guide_at(status(CalibrationStatus.SOLVED, 'capture_corner', 'capture corner 3 again',
+                            next_corner=2))
     assert guide.advice().word == 'capture' and guide.advice().arguments == ['3']
-    guide.verdict.redo_corner = -1
-    assert guide.advice().word is None and 'verdict' in guide.advice().sentence
-    guide.verdict.rig_id = 'of another rig'
-    assert guide.advice().word == 'save'
 
 
-def test_the_bell_rings_for_what_was_achieved():
-    s = CalibrationStatus
-    guide = Guide(0.0)
-    rings = [guide.on_status(each, 0.0) for each in (
-        status(s.READY), status(s.CAPTURING), status(s.READY, corners_captured=1),
-        status(s.READY, corners_captured=1), status(s.READY, corners_captured=0),
-        status(s.WAVING, missing=['more']), status(s.WAVING), status(s.WAVING),
-        status(s.SOLVING), status(s.SOLVED))]
-    assert rings == [False, False, True, False, False, False, True, False, False, True]
+def test_the_bell_rings_for_every_sound():
+    node = FakeNode()
+    dialogue = dialogue_with(node, status(CalibrationStatus.READY))
+    assert not dialogue.take_events(1.0)
+    node.events.put(('sound', 'captured'))
+    node.events.put(('status', status(CalibrationStatus.READY)))
+    assert dialogue.take_events(2.0)
+
+
+def test_the_walk_is_shown():
+    guide = guide_at(status(CalibrationStatus.IDLE, walk='the walk showed the LED to a in 17 %'))
+    assert '- the walk showed the LED to a in 17 %' in screen.render(guide, 0.0)
 
 
 def test_it_says_how_long_it_took():
@@ -458,6 +430,9 @@ class FakeNode:
         self.called_off += 1
 
 
+CAPTURE = status(CalibrationStatus.READY, 'capture_corner', 'capture')
+
+
 def dialogue_with(node, *statuses):
     guide = Guide(0.0)
     for each in statuses:
@@ -469,7 +444,7 @@ def dialogue_with(node, *statuses):
 
 def test_one_request_at_a_time_but_it_can_be_called_off():
     node = FakeNode()
-    dialogue = dialogue_with(node, status(CalibrationStatus.READY))
+    dialogue = dialogue_with(node, CAPTURE)
     dialogue.next()
     assert [r.name for r in node.sent] == ['capture_corner']
     dialogue.command('s')
@@ -497,8 +472,8 @@ def test_space_waits_for_what_the_latest_answer_has_led_to():
     node.events.put(('status', status(CalibrationStatus.SAVED)))
     dialogue.take_events(2.0)
     assert not node.sent and not dialogue.is_busy()
-    assert 'c checks the rig' in dialogue.guide.answer
-    node.events.put(('status', status(CalibrationStatus.READY)))
+    assert dialogue.guide.answer == 'Do this.'
+    node.events.put(('status', CAPTURE))
     dialogue.take_events(3.0)
     dialogue.next()
     assert [r.name for r in node.sent] == ['capture_corner']

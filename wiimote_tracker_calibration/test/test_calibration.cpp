@@ -1,98 +1,9 @@
 // The workflow as a person goes through it, without ROS.
 
-#include "workflow/calibration.h"
-
-#include "session/solve_session.h"
-
-#include "simulated_square.h"
-
-#include <gtest/gtest.h>
+#include "workflow_fixture.h"
 
 namespace wiimote_tracker::workflow {
 namespace {
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
-
-class Workflow : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const auto poses = square::paperRig();
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      geometry::Camera camera;
-      camera.name = "camera_" + std::to_string(i + 1);
-      camera.world_from_camera = poses[i];
-      cameras_.push_back(camera);
-      names_.push_back(camera.name);
-      facts_[camera.name].identity = "00:00:00:00:00:0" + std::to_string(i);
-    }
-  }
-
-  /// Captures with the LED at a place that goes along with `speed` [m/s].
-  Reply capture(const Eigen::Vector3d& led,
-                std::optional<std::size_t> retake = std::nullopt,
-                double speed = 0.0) {
-    const Reply begun = calibration_.beginCapture(retake, now_);
-    if (!begun.success)
-      return begun;
-    const double start = now_;
-    for (; now_ < start + 20.0; now_ += 0.01) {
-      const Eigen::Vector3d place = led + (now_ - start) * speed * Eigen::Vector3d::UnitX();
-      for (const geometry::Camera& camera : cameras_)
-        calibration_.addImage({camera.name, now_, 0, {camera.project(place).value()}, {}});
-      calibration_.update(now_);
-      if (calibration_.square().outcome())
-        return *calibration_.square().outcome();
-    }
-    return {false, "never ended"};
-  }
-
-  void captureAll() {
-    ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
-    for (const Eigen::Vector3d& corner : kCorners)
-      ASSERT_TRUE(capture(corner).success);
-  }
-
-  Reply solve(double time) {
-    const Reply begun = calibration_.begin(Step::kSolving, "solving");
-    if (!begun.success)
-      return begun;
-    try {
-      session::Solution solution =
-          session::solveSession(calibration_.session(facts_, {}), session::SolveOptions());
-      solution.rig.solved_at = time;
-      const Reply reply = calibration_.takeSolution(solution.rig);
-      calibration_.end(reply);
-      return reply;
-    } catch (const geometry::Error& error) {
-      const Reply failed = {false, error.what()};
-      calibration_.end(failed);
-      return failed;
-    }
-  }
-
-  /// A smooth way through the volume, seen for `duration`; each camera at times of its own.
-  void wave(double duration, std::uint32_t epoch_of_first = 0) {
-    for (const double end = now_ + duration; now_ < end; now_ += 0.01) {
-      for (std::size_t i = 0; i < cameras_.size(); ++i) {
-        const double t = now_ + 0.002 * static_cast<double>(i);
-        const Eigen::Vector3d led(1.25 + 0.9 * std::sin(1.3 * t), 1.25 + 0.9 * std::cos(1.7 * t),
-                                  1.0 + 0.7 * std::sin(2.1 * t));
-        calibration_.addImage(
-            {names_[i], t, i == 0 ? epoch_of_first : 0U, {cameras_[i].project(led).value()}, {}});
-      }
-    }
-  }
-
-  const std::vector<Eigen::Vector3d> kCorners = {{0.0, 0.0, 0.0},
-                                                 {2.5, 0.0, 0.0},
-                                                 {2.5, 2.5, 0.0},
-                                                 {0.0, 2.5, 0.0}};
-  std::vector<geometry::Camera> cameras_;
-  std::vector<std::string> names_;
-  std::map<std::string, CameraFacts> facts_;
-  Calibration calibration_{CalibrationOptions()};
-  double now_ = 100.0;
-};
 
 TEST_F(Workflow, FourCornersMakeARig) {
   captureAll();

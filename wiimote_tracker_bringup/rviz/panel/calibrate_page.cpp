@@ -39,6 +39,17 @@ QLabel* wrappedLabel(const QString& name, QWidget* parent) {
   return label;
 }
 
+/// How right points are, and what to measure next to improve that; empty: not known.
+QString measurementWords(const wiimote_tracker_msgs::CalibrationVerdict& verdict) {
+  QString words;
+  if (verdict.expected_error > 0.0)
+    words +=
+        "\nPoints are right to within " + figure(1e3 * verdict.expected_error, 1) + " mm (RMS).";
+  if (!verdict.next_measurement.empty())
+    words += "\nBest to measure next: " + text(verdict.next_measurement);
+  return words;
+}
+
 /// @param none what 0 stands for
 QDoubleSpinBox* lengthBox(const QString& name, const QString& none, QWidget* parent) {
   auto* box = new QDoubleSpinBox(parent);
@@ -238,7 +249,7 @@ void CalibratePage::showVerdict(const wiimote_tracker_msgs::CalibrationVerdict* 
   shown_rig_ = rig;
   if (!verdict)
     return;
-  verdict_->setText(text(verdict->text));
+  verdict_->setText(text(verdict->text) + measurementWords(*verdict));
   table_->setRowCount(static_cast<int>(verdict->cameras.size()));
   for (int row = 0; row < table_->rowCount(); ++row) {
     const auto& camera = verdict->cameras[static_cast<std::size_t>(row)];

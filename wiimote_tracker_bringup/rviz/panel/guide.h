@@ -5,11 +5,8 @@
 #include <wiimote_tracker_msgs/CalibrationVerdict.h>
 
 #include <array>
-#include <map>
 #include <optional>
-#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::panel {
@@ -51,8 +48,8 @@ struct Advice {
   Request request;       ///< What the button asks for.
 };
 
-/// Where a person stands in the calibration, and what to do next; the program `calibrate` says the
-/// same in a terminal. Times are of one steady clock [s].
+/// Where a person stands in the calibration; the node says what to do next. Times are of one steady
+/// clock [s].
 class Guide {
  public:
   static constexpr double kSilentAfter = 3.0;  ///< The node's status comes twice a second [s].
@@ -61,7 +58,7 @@ class Guide {
   void onVerdict(const wiimote_tracker_msgs::CalibrationVerdict& verdict) { verdict_ = verdict; }
   void onRequest(Command command);
   void onProgress(const std::string& text, double share);
-  void onAnswer(Command command, bool good, const std::string& text);
+  void onAnswer(Command command, const std::string& text);
 
   Advice advice(double now) const;
 
@@ -84,15 +81,6 @@ class Guide {
 
  private:
   using Status = wiimote_tracker_msgs::CalibrationStatus;
-  using Places = std::map<std::string, std::pair<double, double>>;  // camera -> LED [px]
-
-  Advice beforeStart() const;
-  Advice nextCorner() const;
-  Advice waving() const;
-  Advice complete() const;
-  Advice solved() const;
-  bool tried(Command command, bool good) const { return tried_.count({command, good}) > 0; }
-  bool isClockwise() const;
 
   std::optional<Status> status_;
   std::optional<wiimote_tracker_msgs::CalibrationVerdict> verdict_;
@@ -101,8 +89,6 @@ class Guide {
   Command running_ = Command::kNone;
   std::string answer_, progress_text_;
   double progress_ = 0.0;
-  std::set<std::pair<Command, bool>> tried_;
-  std::vector<Places> corners_;  // as captured
 };
 
 }  // namespace wiimote_tracker::panel

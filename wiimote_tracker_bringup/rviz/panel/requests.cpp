@@ -52,13 +52,13 @@ void Requests::send(const Request& request) {
   threads_.emplace_back();
   const auto own = std::prev(threads_.end());
   *own = std::thread([this, request, own] {
-    Answer answer;
+    std::string answer;
     try {
       answer = perform(request);
     } catch (const std::exception& error) {
-      answer = {false, error.what()};
+      answer = error.what();
     }
-    report({own, request.command, answer.first, answer.second, 0.0});
+    report({own, request.command, answer, 0.0});
   });
 }
 
@@ -75,7 +75,7 @@ void Requests::poll() {
     }
     event.thread->join();
     threads_.erase(event.thread);
-    guide_->onAnswer(event.command, event.good, event.text);
+    guide_->onAnswer(event.command, event.text);
   }
 }
 
@@ -90,7 +90,7 @@ void Requests::report(const Event& event) {
 }
 
 template <class Service>
-Requests::Answer Requests::call(const std::string& name, Service service) {
+std::string Requests::call(const std::string& name, Service service) {
   const std::string full_name = "calibration/" + name;
   // A persistent client, since only such a one can be interrupted.
   ros::ServiceClient client = ros::NodeHandle().serviceClient<Service>(full_name, true);
@@ -98,18 +98,18 @@ Requests::Answer Requests::call(const std::string& name, Service service) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (must_end_)
-      return {false, ""};
+      return "";
     place = clients_.insert(clients_.end(), client);
   }
   const bool is_answered = client.call(service);
   const std::lock_guard<std::mutex> lock(mutex_);
   clients_.erase(place);
   if (!is_answered)
-    return {false, full_name + kNoAnswer};
-  return {service.response.success, service.response.message};
+    return full_name + kNoAnswer;
+  return service.response.message;
 }
 
-Requests::Answer Requests::perform(const Request& request) {
+std::string Requests::perform(const Request& request) {
   switch (request.command) {
     case Command::kMasks:
       return call("learn_masks", wiimote_tracker_msgs::LearnMasks());
@@ -160,12 +160,12 @@ Requests::Answer Requests::perform(const Request& request) {
     case Command::kNone:
       break;
   }
-  return {false, ""};
+  return "";
 }
 
-Requests::Answer Requests::captureCorner(const Request& request) {
+std::string Requests::captureCorner(const Request& request) {
   // The client's own waits follow ROS time, which may stand still.
-  const Answer no_answer(false, "calibration/capture_corner" + kNoAnswer);
+  const std::string no_answer = "calibration/capture_corner" + kNoAnswer;
   CaptureClient client("calibration/capture_corner", true);
   for (int looks = 0; !client.isServerConnected(); ++looks) {
     if (looks == kLooksForServer || mustEnd())
@@ -176,7 +176,7 @@ Requests::Answer Requests::captureCorner(const Request& request) {
   goal.retake = static_cast<std::uint8_t>(request.corner >= 0);
   goal.corner = static_cast<std::uint32_t>(std::max(request.corner, 0));
   client.sendGoal(goal, {}, {}, [this](const auto& feedback) {
-    report({threads_.end(), Command::kCapture, true, feedback->message, feedback->progress});
+    report({threads_.end(), Command::kCapture, feedback->message, feedback->progress});
   });
   while (!client.getState().isDone()) {
     std::this_thread::sleep_for(kLookPeriod);
@@ -187,8 +187,7 @@ Requests::Answer Requests::captureCorner(const Request& request) {
     if (must_end || !client.isServerConnected())
       return no_answer;
   }
-  const auto result = client.getResult();
-  return {result->success, result->message};
+  return client.getResult()->message;
 }
 
 }  // namespace wiimote_tracker::panel

@@ -10,7 +10,6 @@
 #include <mutex>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::panel {
@@ -33,16 +32,14 @@ class Requests {
   struct Event {
     std::list<std::thread>::iterator thread;  // that has answered; end(): none
     Command command;
-    bool good;
     std::string text;
     double progress;
   };
-  using Answer = std::pair<bool, std::string>;
-
-  Answer perform(const Request& request);
+  /// What the node said, or why it said nothing.
+  std::string perform(const Request& request);
   template <class Service>
-  Answer call(const std::string& name, Service service);
-  Answer captureCorner(const Request& request);
+  std::string call(const std::string& name, Service service);
+  std::string captureCorner(const Request& request);
   bool mustEnd();
   void report(const Event& event);
 

@@ -41,7 +41,7 @@ def render(guide: Guide, now: float, camera: str, rows: int = ROWS, columns: int
     cameras = guide.status.cameras if guide.status else []
     seen = [each for each in cameras if each.name == camera]
     if seen:
-        lines += panel(guide, seen[0], [])[1:-2]
+        lines += panel(guide, seen[0])[1:-2]
     elif guide.status:
         names = ', '.join(each.name for each in cameras) or 'none'
         lines.append(f'There is no camera {camera}; there are: {names}')

@@ -68,6 +68,8 @@ class Dialogue:
             return guide.on_status(values[0], now)
         if event == 'board':
             return guide.on_board(values[0])
+        if event == 'sound':
+            return True
         if event == 'feedback':
             return guide.on_feedback(*values)
         if event == 'answer':

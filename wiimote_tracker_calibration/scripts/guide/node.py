@@ -10,6 +10,7 @@ from typing import Any, Dict, Tuple
 
 import actionlib
 import rospy
+from std_msgs.msg import String
 from wiimote_tracker_msgs.msg import (BoardStatus, CalibrationStatus, CalibrationVerdict,
                                       CaptureCornerAction, CaptureCornerGoal, IrBlobArray,
                                       PrincipalPointTrace)
@@ -21,13 +22,13 @@ ACTION_TIMEOUT = 5.0    # [s] Longest search for the action's server.
 SHUTDOWN_PERIOD = 1.0   # [s] Between checks for a shutdown during a capture.
 
 TOPICS = (('status', 'status', CalibrationStatus), ('verdict', 'verdict', CalibrationVerdict),
-          ('board', 'board', BoardStatus), ('trace', 'principal_point_trace', PrincipalPointTrace))
+          ('board', 'board', BoardStatus), ('trace', 'principal_point_trace', PrincipalPointTrace),
+          ('sound', 'sound', String))
 
 
 class Node:
-    """events: a queue.Queue of ('status', message), ('verdict', message), ('board', message),
-    ('trace', message), ('image_size', camera, (width, height)), ('feedback', text, share) and
-    ('answer', word, good, text)."""
+    """events: a queue.Queue of (event, message) for the events of TOPICS, ('image_size', camera,
+    (width, height)), ('feedback', text, share) and ('answer', word, good, text)."""
 
     def __init__(self):
         self.events: queue.Queue = queue.Queue()

@@ -96,8 +96,7 @@ def panels(guide: Guide, page: int, columns: int) -> List[str]:
     shown = max(columns // PANEL, 1)
     pages = (len(cameras) + shown - 1) // shown
     first = page % pages * shown
-    drawn = [panel(guide, camera, [corner.get(camera.name) for corner in guide.corners])
-             for camera in cameras[first:first + shown]]
+    drawn = [panel(guide, camera) for camera in cameras[first:first + shown]]
     lines = [''.join(row.ljust(PANEL) for row in rows) for rows in zip(*drawn)]
     if pages > 1:
         last = min(first + shown, len(cameras))
@@ -105,12 +104,12 @@ def panels(guide: Guide, page: int, columns: int) -> List[str]:
     return lines
 
 
-def panel(guide: Guide, camera, corners: Sequence) -> List[str]:
+def panel(guide: Guide, camera) -> List[str]:
     """What one camera sees: its image with the captured corners (1 to 4), the LED now (O) and the
     cells that the wave has filled (##); its rate, and the samples of each corner or the wave."""
     border = '+' + '-' * CELL_COLUMNS * CELL + '+'
     lines = [fitted(camera.name, PANEL - 2), border]
-    lines += [f'|{"".join(row)}|' for row in picture(guide, camera, corners)] + [border]
+    lines += [f'|{"".join(row)}|' for row in picture(guide, camera)] + [border]
     if camera.connected:
         spots = (f'{camera.blobs}+{camera.masks} masked' if camera.masks else
                  f'{camera.blobs} spot{"" if camera.blobs == 1 else "s"}')
@@ -131,7 +130,7 @@ def row_of(name: str, values: List[str]) -> str:
     return (text if len(text) < PANEL else ' '.join(values))[:PANEL - 1]
 
 
-def picture(guide: Guide, camera, corners: Sequence) -> List[List[str]]:
+def picture(guide: Guide, camera) -> List[List[str]]:
     has_wave = len(camera.image_cells) == CELL_ROWS * CELL_COLUMNS
     rows = []
     for row in range(CELL_ROWS):
@@ -139,7 +138,8 @@ def picture(guide: Guide, camera, corners: Sequence) -> List[List[str]]:
         for column in range(CELL_COLUMNS):
             filled = has_wave and camera.image_cells[row * CELL_COLUMNS + column]
             rows[-1] += ['#' if filled else '.' if has_wave else ' '] * CELL
-    marks = [(place, str(number)) for number, place in enumerate(corners, 1) if place is not None]
+    marks = [(place, str(number))
+             for number, place in enumerate(zip(camera.corner_x, camera.corner_y), 1)]
     if camera.sees_led:
         marks.append(((camera.x, camera.y), 'O'))
     size = guide.image_sizes.get(camera.name)
@@ -154,7 +154,8 @@ def picture(guide: Guide, camera, corners: Sequence) -> List[List[str]]:
 
 def remarks(status, columns: int, room: int) -> List[str]:
     """What is missing, and the problems of each camera; the most urgent first."""
-    sentences = list(status.missing)
+    sentences = [status.walk] if status.walk else []
+    sentences += status.missing
     for kind in ('problem', 'health'):
         sentences += [f'{camera.name}: {getattr(camera, kind)}' for camera in status.cameras
                       if getattr(camera, kind)]

@@ -18,6 +18,8 @@ void addContribution(const workflow::Calibration& calibration, CalibrationCamera
     const bool seen = view != corner.end();
     status->samples.push_back(seen ? static_cast<std::uint32_t>(view->second.samples) : 0);
     status->spread.push_back(seen ? view->second.spread : kNan);
+    status->corner_x.push_back(seen ? view->second.pixel.x() : kNan);
+    status->corner_y.push_back(seen ? view->second.pixel.y() : kNan);
   }
   const auto& capture = calibration.square().capture();
   if (!capture)
@@ -81,7 +83,8 @@ std::vector<CalibrationCameraStatus> cameraStatus(const workflow::Calibration& c
   return result;
 }
 
-CalibrationStatus calibrationStatus(const workflow::Calibration& calibration) {
+CalibrationStatus calibrationStatus(const workflow::Calibration& calibration,
+                                    const session::Verdict& verdict) {
   static_assert(static_cast<int>(workflow::Step::kIdle) == CalibrationStatus::IDLE &&
                     static_cast<int>(workflow::Step::kReady) == CalibrationStatus::READY &&
                     static_cast<int>(workflow::Step::kCapturing) == CalibrationStatus::CAPTURING &&
@@ -96,6 +99,12 @@ CalibrationStatus calibrationStatus(const workflow::Calibration& calibration) {
   CalibrationStatus status;
   status.step = static_cast<std::uint8_t>(calibration.step());
   status.message = calibration.message();
+  const workflow::NextStep next = workflow::nextStep(calibration, verdict);
+  status.next_title = next.title;
+  status.next_sentence = next.sentence;
+  status.next_request = next.request;
+  status.next_label = next.label;
+  status.next_corner = next.corner ? static_cast<std::int32_t>(*next.corner) : -1;
   status.progress = calibration.progress();
   status.corners_captured = static_cast<std::uint32_t>(calibration.square().corners().size());
   status.square_sides = calibration.sides();

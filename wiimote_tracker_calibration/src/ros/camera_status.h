@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_CAMERA_STATUS_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_CAMERA_STATUS_H
 
-#include "workflow/calibration.h"
+#include "workflow/next_step.h"
 
 #include "camera_inputs.h"
 
@@ -21,8 +21,9 @@ std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> cameraStatus(
     double now,
     double window);
 
-/// Where the calibration stands, without header and cameras.
-wiimote_tracker_msgs::CalibrationStatus calibrationStatus(const workflow::Calibration& calibration);
+/// Where the calibration stands, without header and cameras. @param verdict of the rig in use.
+wiimote_tracker_msgs::CalibrationStatus calibrationStatus(const workflow::Calibration& calibration,
+                                                          const session::Verdict& verdict);
 
 }  // namespace wiimote_tracker
 

@@ -75,21 +75,27 @@ class CaptureServices {
       throw Refusal("the duration must be within 0 and 10 s");
     context_.inputs().discover();
     Lock lock(context_.mutex());
-    context_.waitUntil(&lock, NodeContext::now() + duration, [] { return false; });
-    const double now = NodeContext::now();
-    response->cameras = context_.cameraStatus(now, duration, lock);
-    if (response->cameras.empty())
-      throw Refusal("no camera is there: start the drivers");
-    std::vector<std::string> problems;
-    for (const auto& [name, input] : context_.inputs().cameras()) {
-      const std::string problem = input.monitor.view(now, duration).problem;
-      if (!problem.empty())
-        problems.push_back(name + " " + problem);
-    }
-    if (!problems.empty())
-      return {false, joined(problems, "; ")};
-    return {true,
-            "all " + std::to_string(response->cameras.size()) + " cameras see exactly one spot"};
+    return context_.answer(&lock, [&] {
+      context_.walk(lock).restart();
+      context_.waitUntil(&lock, NodeContext::now() + duration, [] { return false; });
+      const double now = NodeContext::now();
+      response->cameras = context_.cameraStatus(now, duration, lock);
+      if (response->cameras.empty())
+        throw Refusal("no camera is there: start the drivers");
+      std::vector<std::string> problems;
+      for (const auto& [name, input] : context_.inputs().cameras()) {
+        const std::string problem = input.monitor.view(now, duration).problem;
+        if (!problem.empty())
+          problems.push_back(name + " " + problem);
+      }
+      if (!problems.empty())
+        return Reply{false, joined(problems, "; ")};
+      context_.calibration(lock).preparation().connection_checked = true;
+      const std::string message =
+          "all " + std::to_string(response->cameras.size()) + " cameras see exactly one spot";
+      context_.show(message, lock);
+      return Reply{true, message};
+    });
   }
 
   Reply start(const wiimote_tracker_msgs::StartCalibration::Request& request,

@@ -92,6 +92,8 @@ class MaskServices {
     if (one_each)
       warnings.emplace_back(
           "every camera sees exactly one light: if that is the LED, switch it off and learn again");
+    // With other masks the cameras see something else.
+    context_.calibration(lock).preparation() = {true, false};
     return {true, "masked lights: " + joined(counts) + appendix(warnings) +
                       (context_.setMasks(masks, lock) ? kToBeSaved : "")};
   }

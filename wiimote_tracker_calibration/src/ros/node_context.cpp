@@ -6,6 +6,7 @@
 #include "square_frame.h"
 #include "verdict_messages.h"
 
+#include <std_msgs/String.h>
 #include <wiimote_tracker_msgs/CalibrationStatus.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
@@ -63,9 +64,15 @@ NodeContext::NodeContext(const ros::NodeHandle& nh, const Parameters& parameters
           nh_.advertise<wiimote_tracker_msgs::CalibrationVerdict>("calibration/verdict", 1, true)),
       square_publisher_(
           nh_.advertise<geometry_msgs::PolygonStamped>("calibration/square", 1, true)),
+      sound_publisher_(nh_.advertise<std_msgs::String>("calibration/sound", 10)),
       inputs_(nh_, parameters.cameras, parameters.button_remote, &mutex_, &changed_) {
   // Before a calibration, too, so that the world is a frame that others can show.
   transforms_.sendTransform(squareTransform(parameters.calibration));
+  inputs_.subscribeImages([this](const capture::Image& image, const Lock&) {
+    const CameraInput& camera = inputs_.cameras().at(image.camera);
+    if (calibration_.cameras().empty() && camera.width > 0 && camera.height > 0)
+      walk_.add(image, camera.width, camera.height);
+  });
 }
 
 double NodeContext::now() {
@@ -89,8 +96,10 @@ workflow::Reply NodeContext::run(const Job& job,
 
 workflow::Reply NodeContext::answer(Lock* lock, const std::function<workflow::Reply()>& work) {
   const workflow::Reply reply = replyOf(work);
-  if (!reply.success)
-    show(reply.message, *lock);
+  if (!reply.success) {
+    calibration_.shown(reply);
+    publishStatus(*lock);
+  }
   return reply;
 }
 
@@ -120,7 +129,7 @@ bool NodeContext::waitFor(double duration, workflow::Step step, Lock* lock) {
 }
 
 void NodeContext::show(const std::string& message, const Lock& lock) {
-  calibration_.note(message);
+  calibration_.shown({true, message});
   publishStatus(lock);
 }
 
@@ -203,17 +212,29 @@ NodeContext::cameraStatus(double now, double window, const Lock& lock) const {
     if (masks != inputs_.masks().end())
       camera.masks = static_cast<std::uint32_t>(masks->second.size());
     camera.health = health(camera.name, lock);
+    camera.seen_share = walk_.share(camera.name);
+    camera.seen_with = walk_.seenWith(camera.name);
   }
   return cameras;
 }
 
 void NodeContext::publishStatus(const Lock& lock) {
-  wiimote_tracker_msgs::CalibrationStatus status = calibrationStatus(calibration_);
+  wiimote_tracker_msgs::CalibrationStatus status = calibrationStatus(calibration_, verdict_);
   status.header.stamp = ros::Time::now();
   status.header.frame_id = parameters_.calibration.world_frame;
   status.cameras = cameraStatus(now(), 1.0, lock);
+  if (calibration_.cameras().empty())
+    status.walk = walk_.sentence();
   status_publisher_.publish(status);
   publishSquare(lock);
+  publishSound(lock);
+}
+
+void NodeContext::publishSound(const Lock&) {
+  std_msgs::String sound;
+  sound.data = sounds_.heard(calibration_);
+  if (parameters_.sounds && !sound.data.empty())
+    sound_publisher_.publish(sound);
 }
 
 void NodeContext::publishSquare(const Lock&) {

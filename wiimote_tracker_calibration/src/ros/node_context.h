@@ -1,9 +1,11 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H
 
+#include "capture/walk.h"
 #include "place/known_places.h"
 #include "session/verdict.h"
 #include "workflow/calibration.h"
+#include "workflow/sounds.h"
 
 #include "camera_inputs.h"
 #include "parameters.h"
@@ -96,6 +98,8 @@ class NodeContext {
   /// A unit may copy them, and change its own, such as a camera's intrinsics.
   Parameters& parameters(const Lock&) { return parameters_; }
   workflow::Calibration& calibration(const Lock&) { return calibration_; }
+  /// What the cameras see of a carried LED while no calibration is started.
+  capture::Walk& walk(const Lock&) { return walk_; }
   /// Measured with the current rig after useRig(); before that perhaps with another.
   place::KnownPlaces& knownPlaces(const Lock&) { return known_places_; }
 
@@ -143,6 +147,8 @@ class NodeContext {
   void publishStatus(const Lock& lock);
 
  private:
+  /// Publishes what has just happened, for the ears.
+  void publishSound(const Lock&);
   /// Publishes the square, when its sides have changed.
   void publishSquare(const Lock&);
 
@@ -151,6 +157,8 @@ class NodeContext {
   std::condition_variable changed_;
   Parameters parameters_;
   workflow::Calibration calibration_;
+  workflow::Sounds sounds_;
+  capture::Walk walk_;
   place::KnownPlaces known_places_;
   session::Verdict verdict_;  // of the current rig
   std::map<std::string, std::string> health_;
@@ -159,6 +167,7 @@ class NodeContext {
   ros::Publisher rig_publisher_;
   ros::Publisher verdict_publisher_;
   ros::Publisher square_publisher_;
+  ros::Publisher sound_publisher_;
   std::vector<double> square_sides_;  // as published
   tf2_ros::StaticTransformBroadcaster transforms_;
   CameraInputs inputs_;

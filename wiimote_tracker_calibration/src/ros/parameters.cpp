@@ -174,6 +174,7 @@ Parameters readParameters(ParameterReader reader) {
   reader.read("yaw", &calibration.yaw, -2.0 * M_PI, 2.0 * M_PI);
   readCapture(&reader, &calibration.capture);
   reader.read("hands_free", &parameters.hands_free);
+  reader.read("sounds", &parameters.sounds);
   readHandsFree(&reader, &calibration.hands_free);
   calibration.hands_free.minimum_cameras = calibration.capture.minimum_cameras;
   parameters.button_remote = reader.optional<std::string>("button_remote", "");

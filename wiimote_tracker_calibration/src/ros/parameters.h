@@ -34,6 +34,7 @@ struct Parameters {
   std::string file_folder;               ///< Of files that requests name; empty: that of rig_file.
   double set_camera_info_timeout = 3.0;  ///< [s]
   bool hands_free = false;
+  bool sounds = true;         ///< Publish calibration/sound.
   std::string button_remote;  ///< Namespace of a spare remote; empty: none.
   capture::MaskOptions masks;
   workflow::CalibrationOptions calibration;

@@ -255,7 +255,7 @@ void Calibration::end(const Reply& outcome) {
   just_solved_ = isBusyWith(Step::kSolving);
   busy_.reset();
   stopping_ = false;
-  message_ = outcome.message;
+  shown(outcome);
 }
 
 Reply Calibration::takeSolution(const geometry::Rig& rig) {
@@ -393,6 +393,7 @@ Reply Calibration::accept(const std::string& message) {
 
 Reply Calibration::shown(const Reply& reply) {
   message_ = reply.message;
+  refusals_ += reply.success ? 0 : 1;
   return reply;
 }
 

@@ -44,6 +44,12 @@ struct CalibrationOptions {
   std::string world_frame = "world";
 };
 
+/// What a person has done before the start.
+struct Preparation {
+  bool lights_learned = false;
+  bool connection_checked = false;
+};
+
 /// The calibration from start to a saved rig, step by step. A request that cannot be done now is
 /// refused with a reason, and changes nothing. While something takes time, and until it has stopped
 /// after a cancel, every request but cancel() is refused. Times [s] are of the clock that stamps
@@ -142,11 +148,16 @@ class Calibration {
   /// Notes that the rig was written to a file.
   void saved(const std::string& message);
 
-  /// Shows the reason of a failure outside of this class.
-  void note(const std::string& message) { message_ = message; }
+  /// Shows what happened outside of this class.
+  Reply shown(const Reply& reply);
+
+  Preparation& preparation() { return preparation_; }
+  const Preparation& preparation() const { return preparation_; }
 
   Step step() const { return busy_.value_or(step_); }
   const std::string& message() const { return message_; }
+  /// How often something was refused so far.
+  std::size_t refusals() const { return refusals_; }
   double progress() const;
   /// What is still missing before this can be solved, most urgent first; one sentence each.
   std::vector<std::string> missing() const;
@@ -167,7 +178,6 @@ class Calibration {
   Reply changed(const Reply& reply);
   Reply refuse(const std::string& message);
   Reply accept(const std::string& message);
-  Reply shown(const Reply& reply);
   /// The step between two requests, by what is captured.
   void updateStep() { step_ = captured_.isComplete() ? Step::kComplete : Step::kReady; }
 
@@ -178,6 +188,8 @@ class Calibration {
   bool just_solved_ = false;  // no request since the solver ended
   double progress_ = 0.0;     // of the running step, by setProgress()
   std::string message_ = "nothing started: start a calibration, or load a rig";
+  std::size_t refusals_ = 0;
+  Preparation preparation_;
   Captured captured_;
   bool hands_free_on_ = false;
   std::optional<capture::HandsFree> hands_free_;

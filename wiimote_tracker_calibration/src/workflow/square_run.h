@@ -41,6 +41,8 @@ class SquareRun {
 
   bool isComplete() const { return corners_.size() == kCorners; }
   const std::vector<capture::CapturedCorner>& corners() const { return corners_; }
+  /// Whether all four corners go round clockwise in some camera's image.
+  bool isClockwise() const;
   /// The corner that is being captured or was last, counted from 0.
   std::size_t currentCorner() const { return current_corner_; }
   /// The running capture, if any.
@@ -53,8 +55,6 @@ class SquareRun {
  private:
   void finish();
   void end(const Reply& outcome);
-  /// Whether the corners go round clockwise in some camera's image.
-  bool isClockwise() const;
   std::optional<std::size_t> cornerInSamePlace(const capture::CapturedCorner& corner) const;
 
   std::vector<std::string> cameras_;

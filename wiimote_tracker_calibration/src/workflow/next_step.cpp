@@ -1,0 +1,127 @@
+#include "workflow/next_step.h"
+
+#include <wiimote_tracker_msgs/text.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace wiimote_tracker::workflow {
+namespace {
+
+// Sides outside of these are more often a slip than a square [m].
+constexpr double kUsualShortest = 0.3;
+constexpr double kUsualLongest = 10.0;
+
+const std::array<const char*, SquareRun::kCorners> kCornerHints = {
+    "the world's origin", "along x", "counter-clockwise seen from above puts z up", "the last one"};
+
+std::string cornerName(std::size_t corner) {
+  return "corner " + std::to_string(corner + 1);
+}
+
+std::string cornerTitle(std::size_t corner) {
+  return "Corner " + std::to_string(corner + 1);
+}
+
+NextStep beforeStart(const Preparation& done) {
+  if (!done.lights_learned)
+    return {
+        "LED off",
+        "Switch the LED off or take it away: the lights of the room are learned, to ignore them.",
+        "learn_masks", "learn the lights", std::nullopt};
+  if (!done.connection_checked)
+    return {"LED on", "Switch the LED on and hold it up where all cameras see it.",
+            "check_connection", "check that they see it", std::nullopt};
+  return {
+      "Square",
+      "Walk through the volume with the LED to see what the cameras cover. Then measure the side "
+      "of the square on the floor.",
+      "start", "start", std::nullopt};
+}
+
+/// Asks back for sides that are hardly meant; empty for usual ones.
+std::string doubtAbout(const std::vector<double>& sides) {
+  const auto [shortest, longest] = std::minmax_element(sides.begin(), sides.end());
+  if (*shortest >= kUsualShortest && *longest <= kUsualLongest)
+    return "";
+  return format("The square is %g m x %g m: if that is wrong, start again. ", sides[0], sides[1]);
+}
+
+NextStep nextCorner(const Calibration& calibration) {
+  const std::vector<double> sides = calibration.sides();
+  if (sides.empty())
+    return {"Wand", "Take the wand and give its length to begin.", "start_wave", "begin the wave",
+            std::nullopt};
+  const std::size_t corner = calibration.square().corners().size();
+  const std::string doubt = corner == 0 ? doubtAbout(sides) : "";
+  const std::string place = cornerName(corner) + " (" + kCornerHints.at(corner) + ")";
+  if (calibration.isHandsFree())
+    return {cornerTitle(corner),
+            doubt + "Hold the LED still on " + place + " until it is captured.", "", "",
+            std::nullopt};
+  return {cornerTitle(corner), doubt + "Put the LED on " + place + ".", "capture_corner",
+          "capture " + cornerName(corner), std::nullopt};
+}
+
+NextStep waving(const WaveRecorder& wave) {
+  if (!wave.report().enough())
+    return {"Wave", "Wave through the whole volume, high and low, near and far.", "", "",
+            std::nullopt};
+  return {"Enough", "All cameras have seen enough.", "stop_wave", "end the wave", std::nullopt};
+}
+
+NextStep complete(const Calibration& calibration) {
+  if (calibration.wave() && calibration.wave()->report().seconds > 0.0)
+    return {"Solve", "All is captured.", "solve", "solve", std::nullopt};
+  if (calibration.square().isClockwise())
+    return {
+        "z is down",
+        "The corners go clockwise, so z will point down. Start again if you want z up, or go on "
+        "with the wave.",
+        "start_wave", "begin the wave", std::nullopt};
+  return {"Wave", "Take the LED in your hand to wave it, or solve from the square alone.",
+          "start_wave", "begin the wave", std::nullopt};
+}
+
+NextStep solved(const session::Verdict& verdict) {
+  if (verdict.grade != session::Grade::kRedo)
+    return {verdict.grade == session::Grade::kGood ? "Good" : "Usable",
+            "Read the verdict, then save.", "save", "save", std::nullopt};
+  if (!verdict.redo_corner)
+    return {"Again", "Do again what the verdict says, or save all the same.", "", "", std::nullopt};
+  const std::string name = cornerName(*verdict.redo_corner);
+  return {cornerTitle(*verdict.redo_corner),
+          "Put the LED on " + name + " again, or save all the same.", "capture_corner",
+          "capture " + name + " again", verdict.redo_corner};
+}
+
+}  // namespace
+
+NextStep nextStep(const Calibration& calibration, const session::Verdict& verdict) {
+  switch (calibration.step()) {
+    case Step::kIdle:
+      return beforeStart(calibration.preparation());
+    case Step::kReady:
+      return nextCorner(calibration);
+    case Step::kWaving:
+      return waving(*calibration.wave());
+    case Step::kComplete:
+      return complete(calibration);
+    case Step::kSolved:
+      return solved(verdict);
+    case Step::kSolving:
+      return {"Solving", "The cameras are solved.", "", "", std::nullopt};
+    case Step::kMasking:
+      return {"LED off", "Leave the LED off.", "", "", std::nullopt};
+    case Step::kCapturing:
+    case Step::kMeasuring:
+      return {"Hold still", "Keep the LED still.", "", "", std::nullopt};
+    case Step::kSaved:
+      break;
+  }
+  return {"Ready", "The rig is calibrated. To check it, put the LED on a place that you know.", "",
+          "", std::nullopt};
+}
+
+}  // namespace wiimote_tracker::workflow

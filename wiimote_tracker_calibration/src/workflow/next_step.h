@@ -1,0 +1,27 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_NEXT_STEP_H
+#define WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_NEXT_STEP_H
+
+#include "session/verdict.h"
+#include "workflow/calibration.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace wiimote_tracker::workflow {
+
+/// The one thing that a person is to do next. Fields as the next_... of CalibrationStatus.msg.
+struct NextStep {
+  std::string title;                  ///< In one or two words, to be read from afar.
+  std::string sentence;               ///< In full.
+  std::string request;                ///< That does it; empty: there is nothing to request.
+  std::string label;                  ///< Of a key or a button for it.
+  std::optional<std::size_t> corner;  ///< To be captured again, 0..3.
+};
+
+/// @param verdict of the rig in use, if there is one.
+NextStep nextStep(const Calibration& calibration, const session::Verdict& verdict);
+
+}  // namespace wiimote_tracker::workflow
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_NEXT_STEP_H

@@ -1,0 +1,103 @@
+// What a person is told to do next, and hears.
+
+#include "workflow/next_step.h"
+#include "workflow/sounds.h"
+
+#include "workflow_fixture.h"
+
+namespace wiimote_tracker::workflow {
+namespace {
+
+class NextStepTest : public Workflow {
+ protected:
+  NextStep next() const { return nextStep(calibration_, verdict_); }
+  session::Verdict verdict_;
+  Sounds sounds_;
+};
+
+TEST_F(NextStepTest, MasksConnectionAndStartFollowEachOther) {
+  EXPECT_EQ(next().request, "learn_masks");
+  calibration_.preparation().lights_learned = true;
+  EXPECT_EQ(next().request, "check_connection");
+  calibration_.preparation().connection_checked = true;
+  EXPECT_EQ(next().request, "start");
+  ASSERT_TRUE(calibration_.begin(Step::kMasking, "").success);
+  EXPECT_EQ(next().title, "LED off");
+  EXPECT_TRUE(next().request.empty());
+}
+
+TEST_F(NextStepTest, ItLeadsOverCornersAndWaveToASavedRig) {
+  ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
+  for (std::size_t i = 0; i < kCorners.size(); ++i) {
+    EXPECT_EQ(next().title, "Corner " + std::to_string(i + 1));
+    EXPECT_EQ(next().request, "capture_corner");
+    EXPECT_FALSE(next().corner);
+    ASSERT_TRUE(capture(kCorners[i]).success);
+    EXPECT_EQ(sounds_.heard(calibration_), "captured");
+  }
+  EXPECT_EQ(next().title, "Wave");
+  EXPECT_EQ(next().request, "start_wave");
+  ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
+  EXPECT_TRUE(next().request.empty());
+  EXPECT_EQ(sounds_.heard(calibration_), "");
+  wave(30.0);
+  EXPECT_EQ(next().request, "stop_wave");
+  EXPECT_EQ(sounds_.heard(calibration_), "enough");
+  EXPECT_EQ(sounds_.heard(calibration_), "");
+  ASSERT_TRUE(calibration_.endWave().success);
+  EXPECT_EQ(next().request, "solve");
+}
+
+TEST_F(NextStepTest, TheVerdictDecidesWhatFollowsTheSolver) {
+  captureAll();
+  ASSERT_TRUE(calibration_.begin(Step::kSolving, "solving").success);
+  EXPECT_EQ(next().title, "Solving");
+  sounds_.heard(calibration_);
+  calibration_.end(calibration_.takeSolution(geometry::Rig()));
+  EXPECT_EQ(sounds_.heard(calibration_), "solved");
+  verdict_.grade = session::Grade::kRedo;
+  EXPECT_TRUE(next().request.empty());
+  verdict_.redo_corner = 2;
+  EXPECT_EQ(next().request, "capture_corner");
+  EXPECT_EQ(next().corner, std::optional<std::size_t>(2));
+  verdict_.grade = session::Grade::kGood;
+  EXPECT_EQ(next().request, "save");
+  calibration_.saved("saved");
+  EXPECT_EQ(next().title, "Ready");
+  EXPECT_TRUE(next().request.empty());
+}
+
+TEST_F(NextStepTest, CornersThatGoClockwiseAreQuestioned) {
+  ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
+  for (const std::size_t corner : {0U, 3U, 2U, 1U})
+    ASSERT_TRUE(capture(kCorners[corner]).success);
+  EXPECT_EQ(next().title, "z is down");
+  EXPECT_EQ(next().request, "start_wave");
+}
+
+TEST_F(NextStepTest, HandsFreeAndWandNeedNoCapture) {
+  calibration_.setHandsFree(true);
+  ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
+  EXPECT_TRUE(next().request.empty());
+  ASSERT_TRUE(calibration_.startWithoutSquare(names_).success);
+  EXPECT_EQ(next().title, "Wand");
+}
+
+TEST_F(NextStepTest, SidesThatAreHardlyMeantAreQuestioned) {
+  for (const double side : {0.25, 12.0}) {
+    ASSERT_TRUE(calibration_.start(side, 2.5, names_).success);
+    EXPECT_SAYS(next().sentence, "if that is wrong, start again");
+  }
+  ASSERT_TRUE(calibration_.start(0.3, 10.0, names_).success);
+  EXPECT_EQ(next().sentence.find("wrong"), std::string::npos);
+}
+
+TEST_F(NextStepTest, ARefusalIsHeard) {
+  EXPECT_EQ(sounds_.heard(calibration_), "");
+  EXPECT_FALSE(calibration_.endWave().success);
+  EXPECT_EQ(sounds_.heard(calibration_), "refused");
+  EXPECT_EQ(sounds_.heard(calibration_), "");
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::workflow

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace wiimote_tracker {
@@ -26,7 +27,7 @@ TEST(CoverageDisplay, SaysWhatIsSeen) {
 }
 
 TEST(CoverageDisplay, ColoursCellsByAccuracy) {
-  const auto array = coverageMarkers("hall", kCells, 1.0);
+  const auto array = coverageMarkers("hall", kCells, 1.0, "so much");
   ASSERT_EQ(array.markers.size(), 2U);
   const visualization_msgs::Marker& cubes = array.markers[0];
   EXPECT_EQ(cubes.header.frame_id, "hall");
@@ -36,7 +37,27 @@ TEST(CoverageDisplay, ColoursCellsByAccuracy) {
   EXPECT_EQ(cubes.colors[1].r, 1.0f);  // yellow
   EXPECT_LT(cubes.colors[3].g, 0.3f);  // red
   EXPECT_GT(array.markers[1].pose.position.z, 3.5);
-  EXPECT_EQ(array.markers[1].text, sentenceOf(kCells));
+  EXPECT_EQ(array.markers[1].text, "so much");
+}
+
+TEST(CoverageDisplay, ColoursAWalkByTheCamerasThatSawIt) {
+  auto cells = kCells;
+  cells[2].cameras = 0;  // not walked through
+  const auto array = walkMarkers("hall", cells, 1.0, "so far");
+  const visualization_msgs::Marker& cubes = array.markers[0];
+  ASSERT_EQ(cubes.points.size(), 3U);
+  EXPECT_EQ(cubes.colors[0].r, 0.0f);  // green
+  EXPECT_EQ(cubes.colors[1].r, 1.0f);  // yellow
+  EXPECT_LT(cubes.colors[2].g, 0.3f);  // red
+  EXPECT_EQ(array.markers[1].text, "so far");
+}
+
+TEST(CoverageDisplay, SaysWhichWayToTurnACamera) {
+  constexpr double kDegree = M_PI / 180.0;
+  EXPECT_EQ(sentenceOf(geometry::CameraTurn{"b", -15.0 * kDegree, 10.0 * kDegree, 0.94}),
+            " b, turned by 15 degrees to the left and 10 degrees up, would make it 94 %.");
+  EXPECT_EQ(sentenceOf(geometry::CameraTurn{"b", 0.0, -5.0 * kDegree, 0.5}),
+            " b, turned by 5 degrees down, would make it 50 %.");
 }
 
 TEST(CoverageDisplay, TheVolumeIsBetweenTheFloorAndTheCameras) {

@@ -8,6 +8,7 @@
 #include <ros/node_handle.h>
 #include <visualization_msgs/MarkerArray.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
+#include <wiimote_tracker_msgs/TrackedPointArray.h>
 
 #include <optional>
 #include <string>
@@ -32,24 +33,48 @@ Eigen::AlignedBox3d volumeOf(const geometry::Rig& rig);
 /// (median)."
 std::string sentenceOf(const std::vector<geometry::CoverageCell>& cells);
 
+/// Such as " wiimote_3, turned by 15 degrees to the left and 10 degrees up, would make it 94 %."
+std::string sentenceOf(const geometry::CameraTurn& turn);
+
 /// A small cube in each cell: red where fewer than two cameras see it, else from green (points are
-/// known to 5 mm or better) to yellow (50 mm or worse); and the sentence above them.
+/// known to 5 mm or better) to yellow (50 mm or worse); and a sentence above them.
 visualization_msgs::MarkerArray coverageMarkers(const std::string& world_frame,
                                                 const std::vector<geometry::CoverageCell>& cells,
-                                                double cell_size);
+                                                double cell_size,
+                                                const std::string& sentence);
 
-/// Publishes the coverage of each new rig, latched.
+/// The same of a walk: a cube where the LED was, red where one camera saw it, yellow for two, green
+/// for more.
+visualization_msgs::MarkerArray walkMarkers(const std::string& world_frame,
+                                            const std::vector<geometry::CoverageCell>& walked,
+                                            double cell_size,
+                                            const std::string& sentence);
+
+/// Publishes, latched, the coverage of each new rig and where its cameras have seen an LED since.
 class CoverageDisplay {
  public:
   CoverageDisplay(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
 
  private:
   void onRig(const wiimote_tracker_msgs::RigCalibration& message);
+  void onPoints(const wiimote_tracker_msgs::TrackedPointArray& message);
+  void publishWalk();
 
   ros::NodeHandle nh_;
   CoverageParameters parameters_;
   ros::Publisher publisher_;
+  ros::Publisher walk_publisher_;
   ros::Subscriber subscriber_;
+  ros::Subscriber points_subscriber_;
+  ros::WallTimer timer_;
+
+  // Of the rig in use.
+  std::string rig_id_;
+  std::string world_frame_;
+  std::optional<geometry::CellGrid> grid_;
+  std::vector<geometry::CoverageCell> walked_;  // with the cameras that saw an LED there at once
+  std::string possible_;                        // what the walk can show at best, and a turn
+  bool walk_changed_ = false;
 };
 
 }  // namespace wiimote_tracker

@@ -74,3 +74,18 @@ def test_a_recording_has_all_results_and_is_written_where_the_user_stands(load):
                   '/bodies', '/wand/pose', '/gestures', '/tf', '/tf_static', '/diagnostics'):
         assert re.fullmatch(arguments[-1], topic), topic
     assert not re.fullmatch(arguments[-1], '/markers')
+
+
+@pytest.mark.parametrize('name', ['tracker.launch', 'calibrate.launch', 'triangulation.launch'])
+def test_nodes_that_are_respawned_know_it(load, name):
+    respawned = [node for node in load(name)[0].values()
+                 if node.respawn and node.type != 'master_watch']
+    assert respawned
+    for node in respawned:
+        assert ('WIIMOTE_TRACKER_RESPAWNS', '1') in node.env_args
+
+
+def test_a_replay_knows_bodies_and_codes(load):
+    parameters = load('replay.launch', 'bag:=x', 'bodies:=b.yaml', 'blink_codes:=c.yaml')[1]
+    assert parameters['/triangulation/bodies/file'] == 'b.yaml'
+    assert parameters['/triangulation/identity/codes'] == 'c.yaml'

@@ -1,15 +1,37 @@
 #ifndef WIIMOTE_TRACKER_MSGS_RUN_NODE_H
 #define WIIMOTE_TRACKER_MSGS_RUN_NODE_H
 
+#include "wiimote_tracker_msgs/parameter_reader.h"
+
 #include <ros/ros.h>
 
+#include <cstdlib>
 #include <exception>
 #include <string>
 
 namespace wiimote_tracker {
 
+/// Whether roslaunch starts this process again when it ends: launch files that respawn set the
+/// environment variable WIIMOTE_TRACKER_RESPAWNS.
+inline bool isRespawned() {
+  return std::getenv("WIIMOTE_TRACKER_RESPAWNS") != nullptr;
+}
+
+/// Says why a parameter was refused. Started again, this process would refuse it again, once a
+/// second: a respawned one therefore has to stay. @returns whether it has to.
+inline bool staysRefused(const ParameterError& error) {
+  if (!isRespawned()) {
+    ROS_FATAL("%s", error.what());
+    return false;
+  }
+  ROS_FATAL("%s; then start again, or: rosnode kill %s", error.what(),
+            ros::this_node::getName().c_str());
+  return true;
+}
+
 /// A node's main(): calls node(nh, private_nh), which returns when the node is to end. Without a
-/// master, or when an exception comes, it says so in one sentence. @returns the exit status.
+/// master, or when an exception comes, it says so in one sentence; after a refused parameter it
+/// waits for its end if it is respawned. @returns the exit status.
 template <typename Node>
 int runNode(int argc, char** argv, const std::string& name, const Node& node) {
   // Without a timeout init() waits forever for a master to set the parameters of the command line.
@@ -26,6 +48,10 @@ int runNode(int argc, char** argv, const std::string& name, const Node& node) {
   try {
     node(nh, ros::NodeHandle("~"));
     return 0;
+  } catch (const ParameterError& error) {
+    if (staysRefused(error))
+      ros::waitForShutdown();
+    return 1;
   } catch (const std::exception& e) {
     ROS_FATAL("%s", e.what());
     return 1;

@@ -3,7 +3,7 @@
 #include <nodelet/nodelet.h>
 #include <ros/callback_queue.h>
 #include <ros/spinner.h>
-#include <wiimote_tracker_msgs/parameter_reader.h>
+#include <wiimote_tracker_msgs/run_node.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <memory>
@@ -21,7 +21,8 @@ class TriangulationNodelet : public nodelet::Nodelet {
     try {
       triangulation_ = std::make_unique<Triangulation>(nh, private_nh);
     } catch (const ParameterError& e) {
-      NODELET_FATAL("%s", e.what());
+      if (staysRefused(e))
+        return;
       throw;  // the manager reports that it could not load
     }
     thread_.start();

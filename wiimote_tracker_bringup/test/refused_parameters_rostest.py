@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""A node whose parameters are refused ends, or waits where roslaunch would start it for ever."""
+
+import os
+import subprocess
+import sys
+import unittest
+
+import roslib.packages
+import rosnode
+import rospy
+import rostest
+
+NODES = {
+    'coverage': [roslib.packages.find_node('wiimote_tracker_triangulation', 'coverage_node')[0],
+                 '_cell_size:=-1'],
+    'triangulation': [roslib.packages.find_node('nodelet', 'nodelet')[0], 'standalone',
+                      'wiimote_tracker_triangulation/Triangulation', '_mode:=track'],
+}
+
+
+class RefusedParameters(unittest.TestCase):
+    def start(self, name, **environment):
+        process = subprocess.Popen(NODES[name] + ['__name:=' + name], stderr=subprocess.PIPE,
+                                   env=dict(os.environ, **environment), universal_newlines=True)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def test_it_ends(self):
+        for name in NODES:
+            process = self.start(name)
+            said = process.stderr.read()
+            self.assertNotEqual(process.wait(), 0)
+            self.assertIn('/' + name + '/', said)
+            self.assertNotIn('rosnode kill', said)
+
+    def test_a_respawned_one_waits(self):
+        for name in NODES:
+            process = self.start(name, WIIMOTE_TRACKER_RESPAWNS='1')
+            said = next(line for line in process.stderr if 'rosnode kill /' + name in line)
+            self.assertIn('/' + name + '/', said)
+            self.assertTrue(rosnode.rosnode_ping('/' + name, max_count=1))
+            self.assertIsNone(process.poll())
+            rosnode.kill_nodes(['/' + name])
+            process.wait()
+
+
+if __name__ == '__main__':
+    rospy.init_node('refused_parameters_rostest')
+    rostest.rosrun('wiimote_tracker_bringup', 'refused_parameters', RefusedParameters, sys.argv)

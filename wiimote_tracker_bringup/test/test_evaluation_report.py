@@ -1,6 +1,7 @@
 """The evaluation's framework: statistics compared with closed forms, report and files of test
 sections."""
 
+import base64
 import csv
 import html.parser
 import io
@@ -189,11 +190,14 @@ def test_the_page_is_self_contained(evaluate, tmp_path):
         if link.startswith('#'):
             assert link[1:] in reader.ids
         else:  # the tables; nothing is loaded from elsewhere
-            assert (tmp_path / 'out' / link).is_file()
+            assert link.startswith('data:text/csv;base64,')
+    tables = [base64.b64decode(link.split(',')[1]) for link in reader.links if ',' in link]
+    assert tables[0] == (tmp_path / 'out/first/places.csv').read_bytes()
     assert not re.search(r'url\((?!#)', page)
     text = ''.join(reader.text)
     for words in ('error [µm]', 'a curve', 'RMS | error', '<text>', 'It can be trusted.',
-                  'simulated, full stack', 'simulated, in process', '1 … 1.5'):
+                  'simulated, full stack', 'simulated, in process', '1 … 1.5', 'with version 0.',
+                  'Portable and Low-Cost 3D Tracking'):
         assert words in text
     plain = (tmp_path / 'out/report.md').read_text(encoding='utf-8')
     for words in ('It can be **trusted**.', '| P1 | 1.25 | 3 |', 'first/line.svg',

@@ -21,6 +21,12 @@ def package_file(path: str) -> str:
     return os.path.join(rospkg.RosPack().get_path('wiimote_tracker_bringup'), path)
 
 
+def version() -> str:
+    """Of this package."""
+    import rospkg
+    return rospkg.RosPack().get_manifest('wiimote_tracker_bringup').version
+
+
 def find_program(name: str) -> str:
     """Path of 'program', of this package, or of 'package/program'."""
     import roslib.packages

@@ -4,6 +4,7 @@ for each section."""
 import os
 import time
 
+from wiimote_tracker_evaluation import programs
 from wiimote_tracker_evaluation.page import data, html, markdown
 
 
@@ -16,6 +17,7 @@ class Report:
         self.runs = runs
         # --live can be rehearsed on virtual remotes.
         self.simulated = any(run.simulated for run in runs)
+        self.version = programs.version()
         self.seconds, self.date = seconds, time.strftime('%Y-%m-%d')
 
 

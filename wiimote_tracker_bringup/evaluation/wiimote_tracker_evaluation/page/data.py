@@ -1,6 +1,7 @@
 """Figures, tables and plots as files for other programs."""
 
 import csv
+import io
 import json
 
 import numpy as np
@@ -31,19 +32,21 @@ def write_section(run):
     """CSV of every table, SVG of every plot, and one MATLAB file."""
     for each in run.contents:
         if isinstance(each, Table):
-            write_csv(run.file(each.name + '.csv'), each)
+            with open(run.file(each.name + '.csv'), 'w', newline='', encoding='utf-8') as file:
+                file.write(csv_text(each))
         elif isinstance(each, Plot):
             with open(run.file(each.name + '.svg'), 'w', encoding='utf-8') as file:
                 file.write(each.svg)
     write_matlab(run.file(run.name + '.mat'), run)
 
 
-def write_csv(path, table):
+def csv_text(table):
     """The first line has the names with units, such as `error_mm`."""
-    with open(path, 'w', newline='', encoding='utf-8') as file:
-        writer = csv.writer(file, lineterminator='\n')
-        writer.writerow([name + ('_' + word(unit) if unit else '') for name, unit in table.columns])
-        writer.writerows(table.rows)
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator='\n')
+    writer.writerow([name + ('_' + word(unit) if unit else '') for name, unit in table.columns])
+    writer.writerows(table.rows)
+    return text.getvalue()
 
 
 def word(unit):

@@ -1,12 +1,14 @@
 """report.html: a single file with plots as SVG."""
 
+import base64
 import html as escaping
 import re
 
-from wiimote_tracker_evaluation.page import words
+from wiimote_tracker_evaluation.page import data, words
 from wiimote_tracker_evaluation.page.markdown import TITLE
 from wiimote_tracker_evaluation.section import Plot, Table, Text
 
+MOST_INLINE = 200000  # [bytes] of one table
 STYLE = '''
 :root { --ink: #1c2430; --soft: #5d6878; --line: #d9dee5; --accent: #1f5fa8; --bad: #a4262c; }
 * { box-sizing: border-box; }
@@ -108,8 +110,17 @@ def table(heads, rows, caption=''):
                                         for i, cell in enumerate(row)) for row in rows))
 
 
+def csv_link(run, content):
+    """With the data in it, so that the page can be mailed alone; a large table stays a file."""
+    name, text = content.name + '.csv', data.csv_text(content).encode()
+    if len(text) > MOST_INLINE:
+        return f'<a href="{run.name}/{name}">{name}</a>'
+    return (f'<a download="{name}" href="data:text/csv;base64,{base64.b64encode(text).decode()}">'
+            f'{name}</a>')
+
+
 def content_table(run, content):
-    link = f'<a href="{run.name}/{content.name}.csv">{content.name}.csv</a>'
+    link = csv_link(run, content)
     if not content.shown:
         return f"<p>{inline(content.caption or words.plain(content.name) + '.')} {len(content.rows)} rows: {link}</p>"
     return table([inline(words.with_unit(name, unit)) for name, unit in content.columns],

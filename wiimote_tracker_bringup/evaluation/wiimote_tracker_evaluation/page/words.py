@@ -65,6 +65,6 @@ def about(report):
         how = 'Measured on recordings by others'
     else:
         how = f'Simulated, rig `{report.rig}`'
-    return '%s, seed %d, %s of %s; took %s. %s' % (
+    return '%s, seed %d, %s of %s with version %s; took %s. %s' % (
         how, report.seed, 'quick run' if report.quick else 'full run',
-        report.date, duration(report.seconds), PAPER)
+        report.date, report.version, duration(report.seconds), PAPER)

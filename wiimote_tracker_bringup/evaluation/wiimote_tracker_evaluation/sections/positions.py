@@ -90,6 +90,10 @@ def explain(run, results):
         'LED are 5 mm per axis at the corners of the square (the paper\'s 1 cm is twice that), and '
         'up to 1 cm on the floor and 3 cm above it at the ten points. Pixels are integers with the '
         'description\'s noise; a point is the mean of 100 images.\n\n'
+        'The paper\'s cases (its section V.B): **C1** starts from one matrix for all cameras, K (2); '
+        '**C2** from a matrix for each camera, calibrated with 12 images of a board; **C3** is C1, '
+        '**C4** is C2, and **C5** is C2 with the principal point at (512, 384), each with the '
+        'principal points corrected in 14 rounds.\n\n'
         'The paper\'s calibration is repeated for both interpretations of its rays (`ray_model`): '
         'from the image centre (512, 384), whatever principal point was used for the poses, or as '
         'calibrated.' % results.sessions)

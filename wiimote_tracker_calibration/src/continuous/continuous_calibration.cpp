@@ -3,6 +3,8 @@
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/error.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -10,6 +12,8 @@
 namespace wiimote_tracker::continuous {
 
 namespace {
+
+constexpr double kDegrees = 180.0 / M_PI;  // in one radian
 
 using Drifts = std::vector<std::optional<health::Drift>>;
 
@@ -23,11 +27,10 @@ Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& ima
   return watch.drifts();
 }
 
-/// Whether the camera fits the others with the new rig, and no other contradicts it.
-bool allFit(const Drifts& drifts, std::size_t camera) {
-  return drifts[camera] && std::none_of(drifts.begin(), drifts.end(), [](const auto& drift) {
-           return drift && drift->ratio >= 1.0;
-         });
+/// Whether no camera contradicts the others.
+bool allFit(const Drifts& drifts) {
+  return std::none_of(drifts.begin(), drifts.end(),
+                      [](const auto& drift) { return drift && drift->ratio >= 1.0; });
 }
 
 /// Replaces what an earlier change has added to the verdict.
@@ -36,10 +39,46 @@ std::string verdictWith(const std::string& verdict, const std::string& change) {
   return verdict.substr(0, verdict.find(kSince)) + kSince + change;
 }
 
+Proposal proposalOf(Cause cause,
+                    const std::string& camera,
+                    const geometry::Rig& before,
+                    const geometry::Rig& rig,
+                    const std::string& message,
+                    const std::vector<capture::Image>& checked) {
+  Proposal proposal{cause, camera, rig, message};
+  proposal.rig.solved_at = checked.back().stamp;
+  proposal.rig.verdict = verdictWith(before.verdict, message);
+  return proposal;
+}
+
+double turnOf(const geometry::RigCamera& a, const geometry::RigCamera& b) {
+  return Eigen::AngleAxisd(a.camera.world_from_camera.linear().transpose() *
+                           b.camera.world_from_camera.linear())
+      .angle();
+}
+
+bool hasNewClock(const geometry::RigCamera& before, const geometry::RigCamera& now) {
+  return now.time_offset_rule != before.time_offset_rule ||
+         now.time_offset_epoch != before.time_offset_epoch;
+}
+
+/// What an adjustment has changed: "camera_1 turned by 0.03 degrees, camera_2 ...".
+std::string changesText(const geometry::Rig& before, const geometry::Rig& now) {
+  std::vector<std::string> changes;
+  for (std::size_t i = 0; i < now.cameras.size(); ++i) {
+    const geometry::RigCamera& camera = now.cameras[i];
+    changes.push_back(camera.camera.name + format(" turned by %.2f degrees",
+                                                  turnOf(before.cameras[i], camera) * kDegrees));
+    if (hasNewClock(before.cameras[i], camera))
+      changes.back() += format(" and has another clock, %.1f ms off", 1000.0 * camera.time_offset);
+  }
+  return joined(changes, ", ");
+}
+
 }  // namespace
 
 ContinuousCalibration::ContinuousCalibration(const geometry::Rig& rig, const Options& options)
-    : rig_(rig), options_(options), knock_(rig, options.knock), drift_(rig, options.drift) {}
+    : rig_(rig), options_(options), knock_(rig, options.knock), motion_(options.drift) {}
 
 std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) {
   const geometry::RigCamera* camera = rig_.find(image.camera);
@@ -48,31 +87,32 @@ std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) 
   const std::string& calibrated = camera->camera.identity;
   if (!calibrated.empty() && !image.identity.empty() && image.identity != calibrated)
     return std::nullopt;
-  const auto knocked = knock_.add(image);
-  const auto drifted = drift_.add(image);
+  const auto suspect = knock_.add(image);
+  const bool has_moved = motion_.add(image);
   std::optional<Proposal> proposal;
-  if (knocked)
-    proposal = solve(Cause::kKnock, *knocked);
-  if (drifted && !proposal)
-    proposal = solve(Cause::kDrift, *drifted);
+  // A camera that only reconnected keeps its place.
+  if (suspect && suspect->new_clock)
+    proposal = adjusted(suspect->images);
+  if (suspect && !proposal)
+    proposal = moved(*suspect);
+  if (has_moved && !proposal) {
+    proposal = adjusted(motion_.images());
+    has_drifted_ = proposal.has_value();
+  }
   return proposal;
 }
 
 void ContinuousCalibration::addAcceleration(const std::string& camera,
                                             const Eigen::Vector3d& specific_force) {
   knock_.addAcceleration(camera, specific_force);
-  drift_.addAcceleration(camera, specific_force);
 }
 
-std::optional<Proposal> ContinuousCalibration::solve(Cause cause, const Evidence& evidence) const {
-  if (evidence.to_check.empty())
-    return std::nullopt;
+std::optional<Proposal> ContinuousCalibration::moved(const Evidence& evidence) const {
+  const std::vector<capture::Image>& check = evidence.images.to_check;
   recalibrate::Request request;
   request.camera = evidence.camera;
-  request.images = evidence.to_solve;
+  request.images = evidence.images.to_solve;
   request.gravity = evidence.gravity;
-  if (cause == Cause::kDrift && !request.gravity)
-    request.gravity = rig_.find(evidence.camera)->gravity;
   recalibrate::Recalibration result;
   try {
     result = recalibrate::recalibrateCamera(rig_, request, options_.recalibrate);
@@ -82,26 +122,55 @@ std::optional<Proposal> ContinuousCalibration::solve(Cause cause, const Evidence
   if (result.moved > options_.farthest)
     return std::nullopt;
   const auto index = static_cast<std::size_t>(rig_.find(evidence.camera) - rig_.cameras.data());
-  const Drifts before = driftsOf(rig_, evidence.to_check, options_.accepted);
-  const Drifts after = driftsOf(result.rig, evidence.to_check, options_.accepted);
-  if (!before[index] || before[index]->ratio < 1.0 || !allFit(after, index))
+  const Drifts before = driftsOf(rig_, check, options_.accepted);
+  const Drifts after = driftsOf(result.rig, check, options_.accepted);
+  const bool was_off = evidence.new_clock || (before[index] && before[index]->ratio >= 1.0);
+  if (!was_off || !after[index] || !allFit(after))
     return std::nullopt;
-
-  Proposal proposal{cause, evidence.camera, result.rig, result.moved, result.turned, 0.0, 0.0, ""};
-  proposal.before = before[index]->bias.norm();
-  proposal.after = after[index]->bias.norm();
-  proposal.message =
-      evidence.camera +
+  const std::string message =
+      evidence.camera + (evidence.new_clock ? " reconnected with another clock and" : "") +
       format(
           " was turned by %.2f degrees and moved by %.1f mm (+- %.2f degrees, %.1f mm): with "
-          "its new pose its images are %.2f px off what the other cameras see, before %.2f px",
-          result.turned * 180.0 / M_PI, 1000.0 * result.moved,
-          result.rotation_stddev * 180.0 / M_PI, 1000.0 * result.position_stddev, proposal.after,
-          proposal.before);
-  geometry::Rig& rig = proposal.rig;
-  rig.solved_at = evidence.to_check.back().stamp;
-  rig.verdict = verdictWith(rig_.verdict, proposal.message);
-  return proposal;
+          "its new pose its images are %.2f px off what the other cameras see",
+          result.turned * kDegrees, 1000.0 * result.moved, result.rotation_stddev * kDegrees,
+          1000.0 * result.position_stddev, after[index]->bias.norm()) +
+      (before[index] && !evidence.new_clock ? format(", before %.2f px", before[index]->bias.norm())
+                                            : "");
+  return proposalOf(evidence.new_clock ? Cause::kReconnect : Cause::kKnock, evidence.camera, rig_,
+                    result.rig, message, check);
+}
+
+std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& images) const {
+  const auto rig = adjustRig(rig_, images.to_solve, options_.adjust);
+  if (!rig)
+    return std::nullopt;
+  const Drifts drifts = driftsOf(*rig, images.to_check, options_.accepted);
+  if (!allFit(drifts))
+    return std::nullopt;
+  std::size_t most = 0;
+  bool reconnected = false;
+  for (std::size_t i = 0; i < rig->cameras.size(); ++i) {
+    const bool has_new_clock = hasNewClock(rig_.cameras[i], rig->cameras[i]);
+    if (has_new_clock && !drifts[i])
+      return std::nullopt;
+    const bool turned_more =
+        turnOf(rig_.cameras[i], rig->cameras[i]) > turnOf(rig_.cameras[most], rig->cameras[most]);
+    if ((has_new_clock && !reconnected) || (!reconnected && turned_more))
+      most = i;
+    reconnected = reconnected || has_new_clock;
+  }
+  const auto before = misfitOf(rig_, images.to_check);
+  const auto after = misfitOf(*rig, images.to_check);
+  if (!after)
+    return std::nullopt;
+  const double gain = before ? *before * *before - *after * *after : 0.0;
+  if (!reconnected && gain < options_.gain * options_.gain)
+    return std::nullopt;
+  const std::string message = changesText(rig_, *rig) +
+                              format(": then the images fit together to %.2f px", *after) +
+                              (reconnected ? "" : format(", before to %.2f px", *before));
+  return proposalOf(reconnected ? Cause::kReconnect : Cause::kDrift, rig_.cameras[most].camera.name,
+                    rig_, *rig, message, images.to_check);
 }
 
 }  // namespace wiimote_tracker::continuous

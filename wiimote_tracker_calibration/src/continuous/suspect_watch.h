@@ -3,6 +3,7 @@
 
 #include "capture/image.h"
 #include "capture/rest_gravity.h"
+#include "continuous/motion_window.h"
 #include "health/alarm.h"
 #include "health/drift_watch.h"
 
@@ -11,33 +12,29 @@
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker::continuous {
 
-/// When a camera is off, and how much motion it takes to solve it. Motion is counted in samples of
-/// health::DriftWatch, at most 20 a second, in which the camera and two others see the LED.
+/// When a camera is off, and how much motion that it and two others see it takes to solve it.
 struct SuspectOptions {
   health::DriftOptions drift;
-  std::size_t to_solve = 0;  ///< Samples [> 0].
-  /// Later samples, which the solution does not use [>= 40: fewer are not judged, see meanOf() in
-  /// health/drift_residuals.h].
-  std::size_t to_check = 0;
+  MotionOptions motion;
 };
 
 /// What was seen since a camera is off.
 struct Evidence {
   std::string camera;
-  std::vector<capture::Image> to_solve;    ///< Of all cameras.
-  std::vector<capture::Image> to_check;    ///< Of all cameras, later.
+  bool new_clock = false;  ///< Its time offset is unknown since it reconnected.
+  MotionImages images;
   std::optional<Eigen::Vector3d> gravity;  ///< Of the camera at rest, optical frame [m/s^2].
 };
 
-/// Waits for a single camera to contradict all others, which agree; then collects images of motion.
-/// Nothing is collected while several cameras are off, while nothing moves, or with two cameras.
+/// Waits for a single camera to contradict all others, which agree, or to reconnect with a new
+/// clock; then collects images of motion. Nothing is collected while several cameras are off, while
+/// nothing moves, or with two cameras.
 class SuspectWatch {
  public:
   SuspectWatch(const geometry::Rig& rig, const SuspectOptions& options);
@@ -46,9 +43,9 @@ class SuspectWatch {
   /// @returns evidence, once there is enough, and again after more motion while the camera is off.
   std::optional<Evidence> add(const capture::Image& image);
 
-  /// Whether this camera alone is off.
+  /// Whether this camera alone is off or has a new clock.
   bool isSuspect(const std::string& camera) const {
-    return suspect_ && names_[*suspect_] == camera;
+    return suspect_ && rig_.cameras[*suspect_].camera.name == camera;
   }
 
   /// A reading of a camera's accelerometer, optical frame [m/s^2].
@@ -56,23 +53,16 @@ class SuspectWatch {
 
  private:
   void judge();
-  /// Forgets what was collected, and begins to collect for this camera.
-  void collectFor(std::optional<std::size_t> suspect);
-  /// Counts the newest sample, if the suspect takes part in it; begins again if time jumped back.
-  /// @returns whether there was such a sample shortly before this time [s].
-  bool countMotion(double time);
-  void forgetSurplus();
-  Evidence evidence() const;
+  /// The one camera with a new clock; without such cameras the one that contradicts the others.
+  std::optional<std::size_t> onlySuspect() const;
 
-  SuspectOptions options_;
-  std::vector<std::string> names_;
+  geometry::Rig rig_;
   health::DriftWatch watch_;
   std::vector<health::Alarm> alarms_;  // Per camera of the rig.
+  std::vector<bool> new_clocks_;       // Per camera of the rig: the offset is for another epoch.
   std::optional<std::size_t> suspect_;
   // Since there is a suspect:
-  std::deque<capture::Image> images_;  // While the LED moves.
-  std::deque<double> motion_;          // Times of the samples [s].
-  std::size_t unused_ = 0;             // Samples since the last evidence.
+  MotionWindow motion_;
   capture::RestGravity gravity_;
 };
 

@@ -112,7 +112,7 @@ class ContinuousServices {
     if (!continuous_ || inputs.empty())
       return;
     const auto proposal = context_.compute(&lock, [&] { return newestProposal(inputs); });
-    if (proposal_ && !continuous_->isSuspect(proposal_->camera))
+    if (proposal_ && !continuous_->isCurrent(*proposal_))
       forgetProposal(lock);
     const auto& rig = context_.rig(lock);
     if (!proposal || !rig || rig->id() != rig_id_ || !isCalibrated(lock))
@@ -122,7 +122,7 @@ class ContinuousServices {
     context_.setProposal(proposal->camera, proposal->message + kApply, lock);
     const bool applies =
         policy_ == ContinuousPolicy::kAll ||
-        (policy_ == ContinuousPolicy::kKnocked && proposal->cause == continuous::Cause::kKnock);
+        (policy_ == ContinuousPolicy::kKnocked && proposal->cause != continuous::Cause::kDrift);
     if (applies && rig_id_ != reverted_to_) {
       const Reply applied = applyProposal(&lock);
       ROS_WARN_STREAM(applied.message);

@@ -1,0 +1,244 @@
+#include "continuous/adjust_rig.h"
+
+#include "adjust/camera_blocks.h"
+#include "adjust/covariance.h"
+#include "adjust/interpolated_pixel.h"
+#include "adjust/joint_prior.h"
+#include "continuous/keyframes.h"
+
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace wiimote_tracker::continuous {
+
+namespace {
+
+using adjust::CameraBlocks;
+using geometry::firstParameter;
+using geometry::kParameters;
+using geometry::kPosition;
+using geometry::kRotation;
+using geometry::kTimeOffset;
+
+// Of the keyframes: first in px, then in standard deviations. An unknown clock needs the first.
+constexpr double kWideGates[] = {30.0, 10.0, 5.0};
+constexpr double kGate = 3.0;
+constexpr int kFinalRounds = 2;
+constexpr double kCheckGate = 10.0;  // of a check [px]
+constexpr double kLoss = 3.0;        // Errors beyond count less in the first rounds [px].
+constexpr double kPixel = 0.5;       // Standard deviation of a spot in the first rounds [px].
+constexpr int kSteps = 10;
+constexpr std::size_t kLeastKeyframes = 40;
+constexpr double kLeastExtent = 0.1;  // of the keyframes, standard deviation [m]
+// Least variance of a parameter: one that was held has none.
+constexpr double kHeldVariance = 1e-12;
+
+/// The rig with the drift since, and the clocks' latest epochs.
+geometry::Rig priorOf(const geometry::Rig& rig,
+                      const KeyframeSource& source,
+                      double time,
+                      const AdjustOptions& options) {
+  geometry::Rig prior = rig;
+  const double turn = std::min(
+      options.least_turn + options.turn_rate * std::abs(time - rig.solved_at), options.most_turn);
+  const double move = options.lever * turn;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    geometry::RigCamera& camera = prior.cameras[i];
+    const Eigen::Index first = firstParameter(i);
+    const Eigen::Index clock = first + kTimeOffset;
+    const auto epoch = source.epoch(i);
+    using geometry::TimeOffsetRule;
+    const bool known = camera.time_offset_rule == TimeOffsetRule::kAlways ||
+                       (camera.time_offset_rule == TimeOffsetRule::kOneEpoch &&
+                        (!epoch || camera.time_offset_epoch == *epoch));
+    Eigen::Matrix<double, kParameters, 1> variance;
+    variance.setConstant(kHeldVariance);
+    variance.segment<3>(kRotation).setConstant(turn * turn);
+    variance.segment<3>(kPosition).setConstant(move * move);
+    if (!known) {
+      camera.time_offset = 0.0;
+      camera.time_offset_rule = TimeOffsetRule::kOneEpoch;
+      camera.time_offset_epoch = epoch.value_or(0);
+      prior.covariance.row(clock).setZero();
+      prior.covariance.col(clock).setZero();
+    }
+    const double offset = known ? options.clock : options.epoch;
+    variance[kTimeOffset] = offset * offset;
+    prior.covariance.diagonal().segment<kParameters>(first) += variance;
+  }
+  return prior;
+}
+
+/// Whether there are enough, and they do not lie together.
+bool areSpread(const std::vector<Keyframe>& keyframes) {
+  if (keyframes.size() < kLeastKeyframes)
+    return false;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Keyframe& keyframe : keyframes)
+    mean += keyframe.point / static_cast<double>(keyframes.size());
+  double squared = 0.0;
+  for (const Keyframe& keyframe : keyframes)
+    squared += (keyframe.point - mean).squaredNorm();
+  return squared > kLeastExtent * kLeastExtent * static_cast<double>(keyframes.size());
+}
+
+/// The keyframes and the prior around the present values of the cameras' blocks.
+class RigProblem {
+ public:
+  RigProblem(const geometry::Rig& prior,
+             std::vector<Keyframe> keyframes,
+             double pixel_stddev,
+             double loss_scale,
+             std::vector<CameraBlocks>* cameras)
+      : keyframes_(std::move(keyframes)) {
+    for (Keyframe& keyframe : keyframes_) {
+      for (const View& view : keyframe.views) {
+        CameraBlocks& camera = (*cameras)[view.camera];
+        const auto pixel =
+            adjust::PixelError::of(prior.cameras[view.camera].camera, view.pixel, pixel_stddev);
+        const adjust::InterpolatedPixelError error{pixel, view.velocity, camera.time_offset};
+        problem_.AddResidualBlock(error.cost(), lossOf(loss_scale), camera.rotation.data(),
+                                  camera.position.data(), camera.lens.data(),
+                                  camera.distortion.data(), &camera.time_offset,
+                                  keyframe.point.data());
+      }
+    }
+    addPrior(prior, cameras);
+  }
+
+  /// Changes the cameras' blocks. @returns whether it could.
+  bool solve() {
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_SCHUR;
+    auto* const ordering = new ceres::ParameterBlockOrdering;
+    for (double* const block : blocks_)
+      ordering->AddElementToGroup(block, 1);
+    for (Keyframe& keyframe : keyframes_)
+      ordering->AddElementToGroup(keyframe.point.data(), 0);
+    options.linear_solver_ordering.reset(ordering);
+    options.max_num_iterations = kSteps;
+    options.num_threads = 1;  // the same bits on every run
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+    return summary.IsSolutionUsable();
+  }
+
+  std::optional<Eigen::MatrixXd> covariance() { return adjust::covarianceOf(&problem_, blocks_); }
+
+ private:
+  /// Cauchy's; none if the scale is infinite. The problem owns it.
+  static ceres::LossFunction* lossOf(double scale) {
+    return std::isfinite(scale) ? new ceres::CauchyLoss(scale) : nullptr;
+  }
+
+  void addPrior(const geometry::Rig& prior, std::vector<CameraBlocks>* cameras) {
+    Eigen::VectorXd mean(prior.covariance.rows());
+    std::vector<std::int32_t> sizes;
+    Eigen::Index first = 0;
+    for (std::size_t i = 0; i < cameras->size(); ++i) {
+      CameraBlocks start(prior.cameras[i].camera, prior.cameras[i].time_offset);
+      const std::vector<double*> starts = start.all();
+      const std::vector<double*> blocks = (*cameras)[i].all();
+      const std::int32_t kSizes[] = {adjust::kRotationSize, adjust::kPositionSize,
+                                     adjust::kLensSize, adjust::kDistortionSize, 1};
+      for (std::size_t k = 0; k < blocks.size(); ++k) {
+        mean.segment(first, kSizes[k]) = Eigen::Map<Eigen::VectorXd>(starts[k], kSizes[k]);
+        first += kSizes[k];
+        blocks_.push_back(blocks[k]);
+        sizes.push_back(kSizes[k]);
+      }
+    }
+    problem_.AddResidualBlock(new adjust::JointPrior(mean, prior.covariance, sizes), nullptr,
+                              blocks_);
+  }
+
+  std::vector<Keyframe> keyframes_;
+  std::vector<double*> blocks_;  // of all cameras, as in the rig's covariance
+  ceres::Problem problem_;
+};
+
+/// Alternates between keyframes and solutions.
+class Adjustment {
+ public:
+  Adjustment(const geometry::Rig& prior, const KeyframeSource& source)
+      : prior_(prior), source_(source), rig_(prior) {
+    for (const geometry::RigCamera& camera : prior.cameras)
+      cameras_.emplace_back(camera.camera, camera.time_offset);
+  }
+
+  std::optional<geometry::Rig> solve() {
+    for (const double gate : kWideGates) {
+      if (!round(gate, kPixel, kLoss / kPixel))
+        return std::nullopt;
+    }
+    for (int i = 0; i < kFinalRounds; ++i) {
+      const double stddev = misfitOf(source_.keyframes(rig_, kWideGates[2]));
+      if (!round(std::sqrt(2.0) * kGate * stddev, stddev, std::numeric_limits<double>::infinity()))
+        return std::nullopt;
+    }
+    return rig_;
+  }
+
+ private:
+  /// @returns whether there was enough to solve.
+  bool round(double gate, double pixel_stddev, double loss_scale) {
+    std::vector<Keyframe> keyframes = source_.keyframes(rig_, gate);
+    if (!areSpread(keyframes))
+      return false;
+    RigProblem problem(prior_, std::move(keyframes), pixel_stddev, loss_scale, &cameras_);
+    if (!problem.solve())
+      return false;
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+      rig_.cameras[i].camera = cameras_[i].cameraLike(rig_.cameras[i].camera);
+      rig_.cameras[i].time_offset = cameras_[i].time_offset;
+    }
+    if (std::isfinite(loss_scale))
+      return true;
+    const auto covariance = problem.covariance();
+    if (covariance)
+      rig_.covariance = *covariance;
+    return covariance.has_value();
+  }
+
+  const geometry::Rig& prior_;
+  const KeyframeSource& source_;
+  geometry::Rig rig_;
+  std::vector<CameraBlocks> cameras_;
+};
+
+}  // namespace
+
+std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,
+                                       const std::vector<capture::Image>& images,
+                                       const AdjustOptions& options) {
+  if (!geometry::hasCovariance(rig) || rig.ray_model != geometry::RayModel::kCalibrated ||
+      images.empty())
+    return std::nullopt;
+  const KeyframeSource source(rig, images);
+  const geometry::Rig prior = priorOf(rig, source, images.back().stamp, options);
+  auto adjusted = Adjustment(prior, source).solve();
+  for (std::size_t i = 0; adjusted && i < rig.cameras.size(); ++i) {
+    const Eigen::Index clock = firstParameter(i) + kTimeOffset;
+    adjusted->covariance(clock, clock) += options.clock * options.clock;
+  }
+  return adjusted;
+}
+
+std::optional<double> misfitOf(const geometry::Rig& rig,
+                               const std::vector<capture::Image>& images) {
+  const auto keyframes = KeyframeSource(rig, images).keyframes(rig, kCheckGate);
+  if (keyframes.size() < kLeastKeyframes)
+    return std::nullopt;
+  return misfitOf(keyframes);
+}
+
+}  // namespace wiimote_tracker::continuous

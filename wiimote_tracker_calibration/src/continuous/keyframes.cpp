@@ -1,0 +1,158 @@
+#include "continuous/keyframes.h"
+
+#include "../recalibrate/seen_path.h"
+
+#include <wiimote_tracker_triangulation/geometry/sight.h>
+#include <wiimote_tracker_triangulation/geometry/triangulate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace wiimote_tracker::continuous {
+
+namespace {
+
+constexpr double kPeriod = 0.05;      // [s]
+constexpr double kLongestGap = 0.05;  // that is interpolated [s]
+// A resting LED repeats the same rounding.
+constexpr double kLeastStep = 0.01;  // [m]
+constexpr std::size_t kLeastViews = 3;
+// A spot farther from the middle between those before and after is another light [px].
+constexpr double kLargestBend = 8.0;
+
+/// Triangulates the views. @returns whether they agree within the gate [px].
+bool locate(const std::vector<geometry::Sight>& sights, double gate, Keyframe* keyframe) {
+  const auto point = geometry::triangulate(sights.data(), sights.size(), {});
+  if (sights.size() < kLeastViews || !point || point->reprojection_error > gate)
+    return false;
+  keyframe->point = point->position;
+  keyframe->squared =
+      point->reprojection_error * point->reprojection_error * static_cast<double>(sights.size());
+  return true;
+}
+
+/// The same without the view that fits worst, if all do not agree.
+bool locateWithoutOutlier(const std::vector<geometry::Camera>& cameras,
+                          double gate,
+                          Keyframe* keyframe) {
+  std::vector<geometry::Sight> sights;
+  std::vector<View> views;
+  for (const View& view : keyframe->views) {
+    if (const auto sight = geometry::sightFromPixel(cameras[view.camera], view.pixel)) {
+      sights.push_back(*sight);
+      views.push_back(view);
+    }
+  }
+  keyframe->views = views;
+  if (locate(sights, gate, keyframe))
+    return true;
+  std::optional<std::size_t> outlier;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    std::vector<geometry::Sight> others = sights;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    Keyframe without;
+    if (!locate(others, gate, &without) || without.squared >= least)
+      continue;
+    least = without.squared;
+    outlier = i;
+    keyframe->point = without.point;
+    keyframe->squared = without.squared;
+  }
+  if (!outlier)
+    return false;
+  keyframe->views.erase(keyframe->views.begin() + static_cast<std::ptrdiff_t>(*outlier));
+  return true;
+}
+
+}  // namespace
+
+KeyframeSource::KeyframeSource(const geometry::Rig& rig, const std::vector<capture::Image>& images)
+    : tracks_(rig.cameras.size()) {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    Track& track = tracks_[i];
+    for (const capture::Image& image :
+         recalibrate::movingLights(images, rig.cameras[i].camera.name)) {
+      if (track.epoch != image.clock_epoch)
+        track.spots.clear();
+      track.epoch = image.clock_epoch;
+      if (image.spots.size() == 1 &&
+          (track.spots.empty() || image.stamp > track.spots.back().stamp))
+        track.spots.push_back({image.stamp, image.spots.front()});
+    }
+    removeOtherLights(&track.spots);
+  }
+}
+
+std::optional<std::uint32_t> KeyframeSource::epoch(std::size_t camera) const {
+  return tracks_[camera].epoch;
+}
+
+void KeyframeSource::removeOtherLights(std::vector<Spot>* spots) {
+  std::vector<Spot> smooth;
+  for (std::size_t i = 1; i + 1 < spots->size(); ++i) {
+    const Spot& before = (*spots)[i - 1];
+    const Spot& after = (*spots)[i + 1];
+    const Spot& spot = (*spots)[i];
+    const double share = (spot.stamp - before.stamp) / (after.stamp - before.stamp);
+    const Eigen::Vector2d middle = before.pixel + share * (after.pixel - before.pixel);
+    if (after.stamp - before.stamp < 2.0 * kLongestGap &&
+        (spot.pixel - middle).norm() < kLargestBend)
+      smooth.push_back(spot);
+  }
+  spots->swap(smooth);
+}
+
+std::optional<View> KeyframeSource::viewAt(std::size_t camera, double stamp) const {
+  const std::vector<Spot>& spots = tracks_[camera].spots;
+  const auto after =
+      std::lower_bound(spots.begin(), spots.end(), stamp,
+                       [](const Spot& spot, double value) { return spot.stamp < value; });
+  if (after == spots.end() || after == spots.begin())
+    return std::nullopt;
+  const auto before = after - 1;
+  const double gap = after->stamp - before->stamp;
+  if (gap > kLongestGap)
+    return std::nullopt;
+  const Eigen::Vector2d velocity = (after->pixel - before->pixel) / gap;
+  return View{camera, before->pixel + (stamp - before->stamp) * velocity, velocity};
+}
+
+std::vector<Keyframe> KeyframeSource::keyframes(const geometry::Rig& rig, double gate) const {
+  std::vector<geometry::Camera> cameras;
+  double begin = std::numeric_limits<double>::infinity();
+  double end = -begin;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    cameras.push_back(rig.rayCamera(rig.cameras[i]));
+    if (tracks_[i].spots.empty())
+      continue;
+    begin = std::min(begin, tracks_[i].spots.front().stamp);
+    end = std::max(end, tracks_[i].spots.back().stamp);
+  }
+  std::vector<Keyframe> keyframes;
+  for (double time = begin; time < end; time += kPeriod) {
+    Keyframe keyframe;
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      if (const auto view = viewAt(i, time - rig.cameras[i].time_offset))
+        keyframe.views.push_back(*view);
+    }
+    if (locateWithoutOutlier(cameras, gate, &keyframe) &&
+        (keyframes.empty() || (keyframe.point - keyframes.back().point).norm() > kLeastStep))
+      keyframes.push_back(std::move(keyframe));
+  }
+  return keyframes;
+}
+
+double misfitOf(const std::vector<Keyframe>& keyframes) {
+  double squared = 0.0;
+  double freedom = 0.0;
+  for (const Keyframe& keyframe : keyframes) {
+    squared += keyframe.squared;
+    freedom += 2.0 * static_cast<double>(keyframe.views.size()) - 3.0;
+  }
+  return std::sqrt(squared / std::max(1.0, freedom));
+}
+
+}  // namespace wiimote_tracker::continuous

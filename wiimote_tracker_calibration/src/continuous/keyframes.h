@@ -1,0 +1,67 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_KEYFRAMES_H
+#define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_KEYFRAMES_H
+
+#include "capture/image.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::continuous {
+
+/// The LED in one camera's image at some instant, interpolated between two images.
+struct View {
+  std::size_t camera;        ///< As the rig counts them.
+  Eigen::Vector2d pixel;     ///< [px]
+  Eigen::Vector2d velocity;  ///< [px/s]
+};
+
+/// The LED at one instant, as three cameras or more see it.
+struct Keyframe {
+  Eigen::Vector3d point;  ///< World [m].
+  std::vector<View> views;
+  double squared = 0.0;  ///< Sum of the squared residuals [px^2].
+};
+
+/// The images of a moving LED, and keyframes of them.
+class KeyframeSource {
+ public:
+  /// Uses images with exactly one spot, not counting lamps, and of each camera's latest epoch only.
+  KeyframeSource(const geometry::Rig& rig, const std::vector<capture::Image>& images);
+
+  /// Latest epoch of a camera's clock; nothing without an image of it.
+  std::optional<std::uint32_t> epoch(std::size_t camera) const;
+
+  /// At most 20 a second, in which the LED is somewhere else each time.
+  /// @param rig with the time offsets of these images.
+  /// @param gate largest root mean square of the residuals of a keyframe [px]. One view that
+  /// exceeds it is left out, if three others agree.
+  std::vector<Keyframe> keyframes(const geometry::Rig& rig, double gate) const;
+
+ private:
+  struct Spot {
+    double stamp;  // [s]
+    Eigen::Vector2d pixel;
+  };
+  struct Track {
+    std::optional<std::uint32_t> epoch;
+    std::vector<Spot> spots;
+  };
+
+  static void removeOtherLights(std::vector<Spot>* spots);
+  std::optional<View> viewAt(std::size_t camera, double stamp) const;
+
+  std::vector<Track> tracks_;  // Per camera of the rig.
+};
+
+/// Root mean square of the residuals per axis, corrected for the points that were fitted [px].
+double misfitOf(const std::vector<Keyframe>& keyframes);
+
+}  // namespace wiimote_tracker::continuous
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_KEYFRAMES_H

@@ -2,6 +2,7 @@
 // the node and the driver use from then on. Images come faster than real ones; all times are
 // theirs.
 #include "board_lenses.h"
+#include "expect_says.h"
 
 #include "intrinsics/board_sequence.h"
 
@@ -25,8 +26,6 @@ namespace {
 using wiimote_tracker_msgs::BoardStatus;
 using wiimote_tracker_msgs::IrBlobArray;
 using wiimote_tracker_msgs::SolveBoard;
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 constexpr double kPatience = 60.0;  // [s] far beyond what anything here takes
 constexpr double kPeriod = 0.01;    // of the images, by their stamps [s]

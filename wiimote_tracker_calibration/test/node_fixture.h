@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_NODE_FIXTURE_H
 #define WIIMOTE_TRACKER_CALIBRATION_TEST_NODE_FIXTURE_H
 
+#include "expect_says.h"
 #include "fake_cameras.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
@@ -41,8 +42,6 @@ namespace {
 using wiimote_tracker_msgs::CalibrationStatus;
 using wiimote_tracker_msgs::RigCalibration;
 using Client = actionlib::SimpleActionClient<wiimote_tracker_msgs::CaptureCornerAction>;
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 constexpr double kPatience = 30.0;  // [s] far beyond what anything here takes
 

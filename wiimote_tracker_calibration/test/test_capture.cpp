@@ -2,6 +2,8 @@
 #include "capture/corner_capture.h"
 #include "capture/rest_gravity.h"
 
+#include "expect_says.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,8 +12,6 @@
 
 namespace wiimote_tracker::capture {
 namespace {
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 using State = CornerCapture::State;
 using Source = std::function<Blobs(double)>;

@@ -1,6 +1,7 @@
 // A rig that corrects itself: a camera that was knocked or drifted comes back, and nothing else
 // moves it.
 
+#include "expect_says.h"
 #include "waved_led.h"
 
 #include "continuous/continuous_calibration.h"
@@ -19,8 +20,6 @@ namespace {
 
 using square::Random;
 using square::uniform;
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 constexpr double kDegree = M_PI / 180.0;
 

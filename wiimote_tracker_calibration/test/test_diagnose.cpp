@@ -1,4 +1,5 @@
 // Mistakes of a person who calibrates: each must be named, with its size.
+#include "expect_says.h"
 #include "simulated_square.h"
 #include "wave_trial.h"
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
@@ -14,8 +15,6 @@
 
 namespace wiimote_tracker::session {
 namespace {
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 /// The refusal, or else the verdict.
 std::string outcomeOf(const wave::Recording& recording, const SolveOptions& options) {

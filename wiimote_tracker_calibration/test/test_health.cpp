@@ -1,5 +1,6 @@
 // Whether cameras that were moved are noticed, and only these: over many simulated minutes.
 
+#include "expect_says.h"
 #include "waved_led.h"
 
 #include "health/alarm.h"
@@ -22,8 +23,6 @@ namespace {
 using square::normal;
 using square::Random;
 using square::uniform;
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 constexpr double kDegree = M_PI / 180.0;
 

@@ -3,6 +3,8 @@
 #include "session/error.h"
 #include "session/join_rigs.h"
 
+#include "expect_says.h"
+
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <gtest/gtest.h>
@@ -17,8 +19,6 @@
 
 namespace wiimote_tracker::session {
 namespace {
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 std::string joinRefusal(const std::function<void()>& action) {
   try {

@@ -1,14 +1,14 @@
 #include "capture/mask_learner.h"
 #include "capture/masks.h"
 
+#include "expect_says.h"
+
 #include <gtest/gtest.h>
 
 #include <random>
 
 namespace wiimote_tracker::capture {
 namespace {
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 Image image(const Blobs& spots) {
   return {"a", 0.0, 0, spots, {}};

@@ -1,5 +1,6 @@
 // A still LED measured with rigs whose errors are known.
 
+#include "expect_says.h"
 #include "simulated_rig.h"
 
 #include "place/check_place.h"
@@ -21,8 +22,6 @@ namespace {
 using square::normal;
 using square::Random;
 using square::uniform;
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 constexpr double kPixel = 0.2;
 

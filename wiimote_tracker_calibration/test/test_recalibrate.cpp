@@ -1,5 +1,6 @@
 // A camera that was moved or replaced, solved against the others from a waved LED.
 
+#include "expect_says.h"
 #include "waved_led.h"
 
 #include "recalibrate/error.h"
@@ -23,8 +24,6 @@ namespace {
 using square::normal;
 using square::Random;
 using square::uniform;
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 constexpr double kDegree = M_PI / 180.0;
 

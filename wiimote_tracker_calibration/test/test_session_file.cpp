@@ -3,6 +3,8 @@
 #include "session/error.h"
 #include "session/session_file.h"
 
+#include "expect_says.h"
+
 #include <wiimote_tracker_triangulation/geometry/atomic_file.h>
 
 #include <gtest/gtest.h>
@@ -48,8 +50,6 @@ class SessionFile : public ::testing::Test {
   std::filesystem::path folder_;
   std::string path_;
 };
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 const char* const kText = R"(# What was captured to calibrate a rig; units as in doc/session.md.
 format: wiimote_tracker_samples

@@ -1,6 +1,7 @@
 #include "square/error.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
+#include "expect_says.h"
 #include "simulated_square.h"
 
 #include <gtest/gtest.h>
@@ -31,8 +32,6 @@ std::string refusalOf(const SquareLayout& layout,
   }
   return "not refused";
 }
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 /// Four cameras around a 2.5 m square, exact.
 class FourCameras : public ::testing::Test {

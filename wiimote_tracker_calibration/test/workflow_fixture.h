@@ -4,6 +4,7 @@
 #include "session/solve_session.h"
 #include "workflow/calibration.h"
 
+#include "expect_says.h"
 #include "simulated_square.h"
 
 #include <gtest/gtest.h>
@@ -12,8 +13,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 namespace wiimote_tracker::workflow {
 

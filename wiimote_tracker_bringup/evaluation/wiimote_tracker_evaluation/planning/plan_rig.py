@@ -1,0 +1,130 @@
+"""plan_rig: where to put the cameras of a room, and how well a rig sees it."""
+
+import argparse
+import sys
+
+import numpy as np
+
+from wiimote_tracker_evaluation import bound, rigs, scene
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.experiment import NOMINAL_LENS
+from wiimote_tracker_evaluation.planning import picture, plan, prediction, search
+from wiimote_tracker_evaluation.programs import package_file
+
+ACROSS = 7  # points along an edge of the volume, of what is told
+
+
+def describe_cameras(positions, targets):
+    """Lines that tell a person where to stand and aim each camera."""
+    lines = ['camera        at x, y, z [m]          aims at x, y, z [m]     pan    tilt [degrees]']
+    for number, (position, target) in enumerate(zip(positions, targets), 1):
+        x, y, z = target - position
+        lines.append(f'wiimote_{number:<3d}' + '%8.2f%7.2f%7.2f  ' % tuple(position)
+                     + '%8.2f%7.2f%7.2f' % tuple(target) + '%8.0f%8.0f' % (
+                         np.degrees(np.arctan2(y, x)), np.degrees(np.arctan2(z, np.hypot(x, y)))))
+    return lines + ['pan: from the x axis towards y; tilt: above the horizon']
+
+
+def describe_sight(chosen, positions, targets):
+    """Lines on what the cameras see of the volume, and how accurately."""
+    points = chosen.grid(ACROSS)
+    seen = prediction.look(chosen, positions, targets, points)
+    known = seen.sees.sum(axis=0) >= 2
+    errors = 1e3 * np.sqrt(prediction.variances(prediction.information(chosen, seen, None))[known])
+    lines = ['  seen by two cameras or more: %.1f %%; by three: %.1f %%'
+             % (100 * known.mean(), 100 * (seen.sees.sum(axis=0) >= 3).mean())]
+    if not known.any():
+        return lines
+    angles = prediction.widest_angles(seen.sees, positions, points)[known]
+    return lines + [
+        '  angle between rays: %.0f degrees (median), %.0f (smallest)'
+        % (np.median(angles), angles.min()),
+        '  standard deviation by the pixels alone: %.1f mm (RMS), %.1f mm (largest)'
+        % (np.sqrt(np.mean(errors ** 2)), errors.max()),
+        '  ' + with_calibration(chosen, positions, targets, points[known])]
+
+
+def with_calibration(chosen, positions, targets, points):
+    """A line on the errors after a calibration by the square alone, the Cramér-Rao bound."""
+    cameras = [scene.Camera(f'wiimote_{number}', NOMINAL_LENS, frame, position, prediction.SIZE)
+               for number, (position, frame) in enumerate(
+                   zip(positions, np.moveaxis(prediction.axes(positions, targets), 1, 2)), 1)]
+    corners = chosen.corners()
+    for camera in cameras:
+        if not camera.sees(corners).all():
+            return (f'with a calibration: not told, since {camera.name} does not see all corners of '
+                    f'the square of {chosen.square:g} m')
+    noise = np.sqrt(max(0.0, chosen.pixel_stddev ** 2 - 1.0 / 12.0))  # without rounding
+    rig = scene.Scene(cameras, noise)
+    covariance = bound.Calibration(rig, corners, prediction.IMAGES, bound.Knowledge()).covariance
+    total = 0.0
+    for point in points:
+        by_cameras, own = bound.point_sensitivity(rig, covariance, point, 1)
+        total += np.trace(by_cameras @ covariance @ by_cameras.T + own)
+    return ('with a calibration by the square alone: %.1f mm (RMS)'
+            % (1e3 * np.sqrt(total / len(points))))
+
+
+def description(chosen, positions, targets):
+    """A rig for simulated_rig."""
+    example = rigs.read(package_file('simulation/paper_rig.yaml'))
+    like = next(iter(example['cameras'].values()))
+    focal_x, focal_y, center_x, center_y, k1 = map(float, NOMINAL_LENS)
+    lens = {'fx': focal_x, 'fy': focal_y, 'cx': center_x, 'cy': center_y,
+            'distortion': [k1, 0.0, 0.0, 0.0, 0.0]}
+    cameras = {f'wiimote_{number}': dict(
+        like, identity=f'00:1f:32:00:00:{number:02x}', intrinsics=dict(lens),
+        position=[round(float(v), 3) for v in position],
+        look_at=[round(float(v), 3) for v in target],
+        clock=dict(like['clock'], phase=round(0.0013 * number % 0.01, 4)))
+        for number, (position, target) in enumerate(zip(positions, targets), 1)}
+    return rigs.with_leds(dict(example, cameras=cameras), [chosen.corners().mean(axis=0)])
+
+
+def places_of(path):
+    """Positions and targets of a rig description."""
+    cameras = rigs.read(path)['cameras'].values()
+    return tuple(np.array([camera[key] for camera in cameras], dtype=float)
+                 for key in ('position', 'look_at'))
+
+
+def tell_progress(share):
+    if sys.stderr.isatty():
+        print(f'\r{share:4.0%}', end='\n' if share == 1.0 else '', file=sys.stderr)
+
+
+def run(arguments):
+    chosen = plan.read(arguments.plan)
+    if arguments.score:
+        places = places_of(arguments.score)
+        print(arguments.score)
+    else:
+        places = search.search(chosen, arguments.seed, arguments.generations,
+                               tell_progress)
+        print('\n'.join(describe_cameras(*places)))
+    print('\n'.join(describe_sight(chosen, *places)))
+    if arguments.output:
+        rigs.write(arguments.output, description(chosen, *places))
+    if arguments.plot:
+        picture.draw(chosen, *places, arguments.plot)
+
+
+def main(argv=None):
+    parser = argparse.ArgumentParser(
+        prog='plan_rig', description='Proposes where to put the cameras of a room and what to aim '
+        'them at, and tells how well they see it.')
+    parser.add_argument('plan', help='what the room needs and allows; see config/plan.yaml')
+    parser.add_argument('--score', metavar='RIG', help='of this rig description, nothing is searched')
+    parser.add_argument('--output', metavar='RIG', help='write a rig description for '
+                        'simulated_rig.launch')
+    parser.add_argument('--plot', metavar='FILE', help='write a map (.png, .svg, .pdf)')
+    parser.add_argument('--generations', type=int, default=500, metavar='N',
+                        help='of the search; more take longer (default: 500)')
+    parser.add_argument('--seed', type=int, default=1, metavar='N',
+                        help='the same gives the same result (default: 1)')
+    try:
+        run(parser.parse_args(argv))
+    except ImportError as error:
+        sys.exit(f'plan_rig: {error}; a picture needs matplotlib: apt install python3-matplotlib')
+    except (ExperimentError, KeyError, OSError, ValueError) as error:
+        sys.exit(f'plan_rig: {error}')

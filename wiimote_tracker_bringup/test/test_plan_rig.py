@@ -1,0 +1,136 @@
+"""plan_rig: its predictions against closed forms and the bound's own model, and its search."""
+
+import dataclasses
+import os
+import sys
+
+import numpy as np
+import pytest
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+sys.path.insert(0, os.path.join(HERE, '../evaluation'))
+
+from wiimote_tracker_evaluation import bound, scene  # noqa: E402
+from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
+from wiimote_tracker_evaluation.experiment import NOMINAL_LENS  # noqa: E402
+from wiimote_tracker_evaluation.planning import (  # noqa: E402
+    plan, plan_rig, prediction, search)
+
+EXAMPLE = os.path.join(HERE, '../config/plan.yaml')
+PAPER_RIG = os.path.join(HERE, '../simulation/paper_rig.yaml')
+ROOM = plan.Plan(2, (0, 0, 0, 2, 2, 2), ((-4, -4, 1, 6, -4, 2),), square=1.0)
+
+POSITIONS = np.array([[-3.0, -3.0, 2.0], [5.7, -3.2, 1.0], [1.0, 1.0, 6.0]])
+TARGETS = np.array([[1.0, 1.0, 1.0], [1.0, 0.5, 0.7], [1.0, 1.0, 0.0]])  # the last looks down
+
+
+def test_derivatives_are_those_of_the_bounds_camera_model():
+    points = ROOM.grid(3)
+    seen = prediction.look(ROOM, POSITIONS, TARGETS, points)
+    frames = prediction.axes(POSITIONS, TARGETS)
+    for n, position in enumerate(POSITIONS):
+        camera = scene.Camera('', NOMINAL_LENS, frames[n].T, position, prediction.SIZE)
+        for m, point in enumerate(points):
+            np.testing.assert_allclose(seen.by_point[n, m], bound.point_derivative(camera, point),
+                                       rtol=1e-6, atol=1e-5)
+            np.testing.assert_allclose(seen.by_camera[n, m], bound.camera_derivative(camera, point),
+                                       rtol=1e-6, atol=1e-5)
+    np.testing.assert_allclose(frames[2] @ frames[2].T, np.eye(3), atol=1e-12)
+
+
+def test_two_cameras_at_a_right_angle_know_a_point_as_the_closed_form_says():
+    point = np.array([[0.0, 0.0, 1.0]])
+    positions, targets = np.array([[-5.0, 0.0, 1.0], [0.0, -5.0, 1.0]]), point.repeat(2, axis=0)
+    seen = prediction.look(ROOM, positions, targets, point)
+    found = prediction.variances(prediction.information(ROOM, seen, None))[0]
+    # Each sees one horizontal direction alone, and both the height.
+    pixel = ROOM.pixel_stddev * 5.0 / NOMINAL_LENS[:2]
+    assert found == pytest.approx(2.0 * pixel[0] ** 2 + pixel[1] ** 2 / 2.0, rel=1e-3)
+    assert prediction.widest_angles(seen.sees, positions, point)[0] == pytest.approx(90.0)
+
+
+def test_one_camera_alone_and_none_leave_a_point_unknown():
+    points = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 50.0]])
+    seen = prediction.look(ROOM, np.array([[-5.0, 0.0, 1.0]]), points[:1], points)
+    alone, unseen = np.sqrt(prediction.variances(prediction.information(ROOM, seen, None)))
+    assert alone == pytest.approx(prediction.UNSEEN, rel=0.01)
+    assert unseen == pytest.approx(np.sqrt(3.0) * prediction.UNSEEN)
+
+
+def test_the_square_tells_a_camera_as_well_as_the_bound_says():
+    chosen = dataclasses.replace(ROOM, square=2.0, margin=0.0)
+    corners = prediction.look(chosen, POSITIONS[:1], TARGETS[:1], chosen.corners())
+    camera = scene.Camera('', NOMINAL_LENS, prediction.axes(POSITIONS, TARGETS)[0].T, POSITIONS[0],
+                          prediction.SIZE)
+    rig = scene.Scene([camera], np.sqrt(chosen.pixel_stddev ** 2 - 1.0 / 12.0))
+    expected = bound.Calibration(rig, chosen.corners(), prediction.IMAGES,
+                                 bound.Knowledge(corner=0.0)).covariance
+    found = prediction.calibration(chosen, corners)[0]
+    np.testing.assert_allclose(np.sqrt(np.diag(found)), np.sqrt(np.diag(expected)), rtol=0.02)
+
+
+@pytest.mark.parametrize('changes, sees', [
+    ({}, True),
+    ({'farthest': 4.9}, False),
+    ({'led_axis': (1.0, 0.0, 0.0), 'beam': 170.0}, False),
+    ({'led_axis': (-1.0, 0.0, 0.0), 'beam': 30.0}, True),
+    ({'obstacles': ((-3.0, -0.5, 0.0, -2.0, 0.5, 2.0),)}, False),
+    ({'obstacles': ((-3.0, 0.5, 0.0, -2.0, 1.5, 2.0),)}, True),
+    ({'obstacles': ((1.0, -0.5, 0.0, 2.0, 0.5, 2.0),)}, True),  # behind the LED
+])
+def test_what_hides_an_led(changes, sees):
+    point = np.array([[0.0, 0.0, 1.0]])
+    chosen = dataclasses.replace(ROOM, **changes)
+    assert prediction.look(chosen, np.array([[-5.0, 0.0, 1.0]]), point, point).sees[0, 0] == sees
+
+
+def test_the_margin_of_the_image_is_not_used():
+    edge = np.array([[0.0, 5.0 * 500.0 / NOMINAL_LENS[0], 1.0]])  # u = 35 px
+    for margin, sees in ((30.0, True), (40.0, False)):
+        seen = prediction.look(dataclasses.replace(ROOM, margin=margin),
+                               np.array([[-5.0, 0.0, 1.0]]), np.array([[0.0, 0.0, 1.0]]), edge)
+        assert seen.sees[0, 0] == sees
+
+
+def test_the_search_is_never_worse_than_the_greedy_one_and_repeats_itself():
+    points = ROOM.grid(search.ACROSS)
+    greedy = search.decode(ROOM, search.greedy(ROOM, np.random.RandomState(1)))
+    found, again = (search.search(ROOM, 1, 5) for _ in range(2))
+    assert prediction.cost(ROOM, *found, points) <= prediction.cost(ROOM, *greedy, points)
+    np.testing.assert_array_equal(found, again)
+    stand = np.array(ROOM.stands[0])
+    assert ((found[0] >= stand[:3]) & (found[0] <= stand[3:])).all()
+
+
+def test_a_proposal_is_a_rig_that_can_be_simulated_and_scored(tmp_path, capsys):
+    path = str(tmp_path / 'rig.yaml')
+    plan_rig.main([EXAMPLE, '--generations', '1', '--output', path])
+    proposed = capsys.readouterr().out
+    assert len(scene.read_scene(path).cameras) == 4
+    plan_rig.main([EXAMPLE, '--score', path])
+    told = capsys.readouterr().out.splitlines()[1:]
+    assert told == proposed.splitlines()[-len(told):]
+
+
+def test_the_papers_rig_sees_the_whole_cube(capsys):
+    plan_rig.main([EXAMPLE, '--score', PAPER_RIG])
+    told = capsys.readouterr().out
+    assert 'by two cameras or more: 100.0 %; by three: 100.0 %' in told
+    assert '2.6 mm (RMS)' in told
+
+
+@pytest.mark.parametrize('text, words', [
+    ('volume: [0, 0, 0, 1, 1, 1]', 'cameras is missing'),
+    ('cameras: 1\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, 1]]', 'cameras is 1, but must be from 2 to 64'),
+    ('camera: 2', 'camera is unknown; the keys are cameras, volume'),
+    ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 0]\nstands: [[0, 0, 0, 1, 1, 1]]', 'volume must have'),
+    ('cameras: 2\nvolume: [0, 0, 0, 1, 1]\nstands: [[0, 0, 0, 1, 1, 1]]', 'volume must be 6'),
+    ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: []', 'stands must be a list'),
+    ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, .nan]]', 'stands[0] must be'),
+    ('[', 'cannot be read')])
+def test_a_bad_plan_is_refused_in_words(tmp_path, text, words):
+    path = tmp_path / 'plan.yaml'
+    path.write_text(text)
+    with pytest.raises(ExperimentError) as raised:
+        plan.read(str(path))
+    assert words in str(raised.value)

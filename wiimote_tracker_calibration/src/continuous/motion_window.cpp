@@ -7,7 +7,7 @@ namespace wiimote_tracker::continuous {
 namespace {
 
 constexpr double kSamplePeriod = 0.05;  // [s]
-constexpr std::size_t kLeastViews = 3;
+constexpr std::size_t kLeastCameras = 3;
 constexpr double kLeastMotion = 2.0;  // Rounding alone does not move a spot as far [px].
 // Images are kept as long as the last sample is not older than this [s].
 constexpr double kLongestPause = 1.0;
@@ -46,7 +46,7 @@ void MotionWindow::count(const capture::Image& image, const std::string& needed)
   moved_.insert(image.camera);
   // One sample for each period: later cameras of it add nothing.
   const bool complete =
-      moved_.size() >= kLeastViews && (needed.empty() || moved_.count(needed) > 0);
+      moved_.size() >= kLeastCameras && (needed.empty() || moved_.count(needed) > 0);
   if (!complete || (!samples_.empty() && std::floor(samples_.back() / kSamplePeriod) == period))
     return;
   samples_.push_back(image.stamp);

@@ -115,6 +115,13 @@ TEST(ClockWander, RemotesPolledNearTheirPeriod) {
   EXPECT_GT(meanOverRemotes(RadioModel::Polling::kInTurn, 0.05).inside, 0.7);
 }
 
+// Arrivals as regular as those without any delay. Only their period of 10.000 ms, which is that of
+// the polls, tells that the phase is unknown.
+TEST(ClockWander, RemotesInSniffMode) {
+  EXPECT_GT(meanOverRemotes(RadioModel::Polling::kSniff, 0.0).inside, 0.95);
+  EXPECT_GT(meanOverRemotes(RadioModel::Polling::kSniff, 0.05).inside, 0.85);
+}
+
 // As after a start with wrong frame numbers: the clock is certain of a period that is 0.5 % short.
 TEST(ClockWander, AWrongPeriodIsMostlyLeftWithinFiveSeconds) {
   int in_time = 0;

@@ -16,6 +16,17 @@ constexpr double kBetter = 6.9;
 constexpr double kErrorMemory = 30.0;
 // Shortest time between two exposures [s].
 constexpr double kShortestStep = 1e-6;
+// In sniff mode a remote sends once in 16 slots of 0.625 ms [s]. The clocks of adapter and computer
+// differ by less than this share.
+constexpr double kSniffInterval = 0.010;
+constexpr double kClockTolerance = 1e-4;
+
+/// Whether this is the period of the adapter's polls. Then the arrivals do not tell when within a
+/// period the images were exposed.
+bool isOfPolls(double period) {
+  const double polls = std::round(period / kSniffInterval);
+  return std::abs(period - polls * kSniffInterval) < kClockTolerance * period;
+}
 
 }  // namespace
 
@@ -57,6 +68,10 @@ Estimate ExposureClock::update(double arrival) {
   }
   e.stddev = std::hypot(e.stddev, std::sqrt(error_variance_));
   e.clock_stddev = std::hypot(e.clock_stddev, std::sqrt(error_variance_));
+  if (const double period = leader_.statistics().period; isOfPolls(period)) {
+    e.stddev = std::hypot(e.stddev, period / std::sqrt(12.0));
+    e.clock_stddev = std::hypot(e.clock_stddev, period / std::sqrt(12.0));
+  }
   const double earliest = last_exposure_ + kShortestStep;
   if (arrival >= last_arrival_ && e.exposure < earliest) {
     e.stddev = std::hypot(e.stddev, earliest - e.exposure);

@@ -113,8 +113,8 @@ class LabelledBody {
     next.predict(image.time);
     double distance = 0.0;
     for (std::size_t i = 0; i < lights_.size(); ++i) {
-      const auto light =
-          next.predictLed(rig_.rayCamera(rig_.cameras[camera]), lights_[i], pixel_stddev_);
+      const auto light = body::predictLed(next.state(), rig_.rayCamera(rig_.cameras[camera]),
+                                          lights_[i], pixel_stddev_);
       if (!light)
         return false;
       const Eigen::Vector2d innovation = image.pixels[i] - light->pixel;

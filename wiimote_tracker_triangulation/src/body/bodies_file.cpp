@@ -7,6 +7,10 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
 #include <filesystem>
 
 namespace wiimote_tracker::body {
@@ -16,12 +20,48 @@ constexpr const char* kFormat = "wiimote_tracker_bodies";
 constexpr int kFormatVersion = 1;
 constexpr const char* kAdvice = "correct the file";
 
+ImuMount readImu(geometry::YamlMap map) {
+  ImuMount imu;
+  imu.topic = map.get<std::string>("topic");
+  const auto isOfName = [](char c) { return std::isalnum(c) || c == '_' || c == '/'; };
+  if (imu.topic.empty() || !std::all_of(imu.topic.begin(), imu.topic.end(), isOfName))
+    throw map.error("topic", "is not the name of a topic");
+  imu.body_from_imu.translation() = map.vector("translation");
+  const std::vector<double> q = map.numbers("quaternion_xyzw", 4);
+  const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
+  if (!(std::fabs(rotation.norm() - 1.0) < 0.01))
+    throw map.error("quaternion_xyzw", "has not the length 1");
+  imu.body_from_imu.linear() = rotation.normalized().toRotationMatrix();
+  imu.clock_offset = map.bounded("clock_offset", -1e9, 1e9, imu.clock_offset);
+  map.refuseUnknown();
+  return imu;
+}
+
+void writeImu(const ImuMount& imu, YAML::Emitter* out) {
+  const auto list = [out](const char* key, const auto& values) {
+    *out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const double value : values)
+      *out << exactNumber(value);
+    *out << YAML::EndSeq;
+  };
+  const Eigen::Vector3d& t = imu.body_from_imu.translation();
+  const Eigen::Quaterniond q(imu.body_from_imu.linear());
+  *out << YAML::Key << "imu" << YAML::Value << YAML::BeginMap;
+  *out << YAML::Key << "topic" << YAML::Value << YAML::DoubleQuoted << imu.topic;
+  list("translation", std::array<double, 3>{t.x(), t.y(), t.z()});
+  list("quaternion_xyzw", std::array<double, 4>{q.x(), q.y(), q.z(), q.w()});
+  *out << YAML::Key << "clock_offset" << YAML::Value << exactNumber(imu.clock_offset);
+  *out << YAML::EndMap;
+}
+
 Constellation readBody(geometry::YamlMap map) {
   Constellation body;
   body.name = map.get<std::string>("name");
   for (const std::vector<double>& led : map.rows("leds", 3, "x, y, z"))
     body.leds.emplace_back(led[0], led[1], led[2]);
   body.labels = map.get("labels", body.labels);
+  if (map.has("imu"))
+    body.imu = readImu(map.map("imu"));
   map.refuseUnknown();
   return body;
 }
@@ -80,6 +120,8 @@ void writeBodies(const std::string& file, const std::vector<Constellation>& bodi
         out << YAML::DoubleQuoted << label;
       out << YAML::EndSeq;
     }
+    if (body.imu)
+      writeImu(*body.imu, &out);
     out << YAML::EndMap;
   }
   out << YAML::EndSeq << YAML::EndMap;

@@ -71,6 +71,11 @@ void BodyFollower::take(std::size_t camera, tracking::CameraImage* image) {
   image->spots.resize(left);
 }
 
+void BodyFollower::addInertial(std::size_t body, const InertialSample& sample) {
+  if (tracker_)
+    tracker_->addInertial(body, sample);
+}
+
 void BodyFollower::startFromLabels(const std::vector<LabelledPoint>& points) {
   if (tracker_)
     tracker_->startFromLabels(points);

@@ -47,6 +47,9 @@ class BodyFollower {
   /// Tracks bodies in an image and removes their spots from it. Requires a rig.
   void take(std::size_t camera, tracking::CameraImage* image);
 
+  /// See BodyTracker.
+  void addInertial(std::size_t body, const InertialSample& sample);
+
   /// See BodyTracker. The points are of the newest snapshot's time.
   void startFromLabels(const std::vector<LabelledPoint>& points);
 

@@ -45,6 +45,8 @@ BodyTracker::BodyTracker(const geometry::Rig& rig,
   for (const Constellation& constellation : constellations) {
     constellation.check();
     has_clear_shape_.push_back(nearestSymmetry(constellation).residual >= kSymmetric);
+    const ImuMount imu = constellation.imu.value_or(ImuMount());
+    inertial_.emplace_back(Eigen::Vector3d(imu.body_from_imu.translation()));
   }
   for (const geometry::RigCamera& camera : rig_.cameras)
     cameras_.push_back(rig_.rayCamera(camera));
@@ -57,6 +59,9 @@ void BodyTracker::reset() {
   bodies_.assign(constellations_.size(), std::nullopt);
   images_.assign(cameras_.size(), {});
   history_.clear();
+  for (InertialSamples& samples : inertial_)
+    samples.clear();
+  inertial_change_ = std::numeric_limits<double>::infinity();
   time_ = -std::numeric_limits<double>::infinity();
   estimates_.assign(constellations_.size(), std::nullopt);
 }
@@ -65,16 +70,18 @@ bool BodyTracker::add(std::size_t camera, double time, const std::vector<Eigen::
   taken_.assign(pixels.size(), false);
   if (time < time_ - options_.history)
     return false;
-  // Undo the images that are later than this one; they are processed again below.
+  // Undo the images that are later than this one, or than which a sample of an IMU came later; they
+  // are processed again below.
   auto next = history_.end();
   const auto comesAfter = [&](const Entry& entry) {
     return entry.time != time ? entry.time > time : entry.camera > camera;
   };
-  while (next != history_.begin() && comesAfter(*std::prev(next))) {
-    --next;
-    std::swap(bodies_, next->bodies_before);
-    std::swap(images_[next->camera], next->image_before);
-  }
+  while (next != history_.begin() && comesAfter(*std::prev(next)))
+    undo(--next);
+  auto first = next;
+  while (first != history_.begin() && std::prev(first)->time > inertial_change_)
+    undo(--first);
+  inertial_change_ = std::numeric_limits<double>::infinity();
   if (spare_.empty())
     spare_.emplace_back();
   history_.splice(next, spare_, spare_.begin());
@@ -82,15 +89,25 @@ bool BodyTracker::add(std::size_t camera, double time, const std::vector<Eigen::
   entry->camera = camera;
   entry->time = time;
   entry->pixels = pixels;
-  take(entry);
-  std::swap(taken_, spots_taken_);
-  for (; next != history_.end(); ++next)
-    take(next);
+  for (auto each = first == next ? entry : first; each != history_.end(); ++each) {
+    take(each);
+    if (each == entry)
+      std::swap(taken_, spots_taken_);
+  }
   time_ = std::max(time_, time);
   while (history_.front().time < time_ - options_.history)
     spare_.splice(spare_.end(), history_, history_.begin());
   estimate();
   return true;
+}
+
+void BodyTracker::addInertial(std::size_t body, const InertialSample& sample) {
+  inertial_change_ = std::min(inertial_change_, inertial_[body].add(sample));
+}
+
+void BodyTracker::undo(std::list<Entry>::iterator entry) {
+  std::swap(bodies_, entry->bodies_before);
+  std::swap(images_[entry->camera], entry->image_before);
 }
 
 void BodyTracker::take(std::list<Entry>::iterator entry) {
@@ -106,8 +123,8 @@ void BodyTracker::follow(std::size_t camera,
                          const std::vector<Eigen::Vector2d>& pixels) {
   const geometry::Camera& view = cameras_[camera];
   const auto groupsOf = [&](std::size_t body) {
-    return LedGroups(bodies_[body]->filter, constellations_[body], view, options_.pixel_stddev,
-                     options_.merging_distance, options_.gate);
+    return LedGroups(bodies_[body]->filter.state(), constellations_[body], view,
+                     options_.pixel_stddev, options_.merging_distance, options_.gate);
   };
   association::SpotCosts costs;
   std::array<Column, association::kMaximumTracks> columns;
@@ -119,7 +136,7 @@ void BodyTracker::follow(std::size_t camera,
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!bodies_[b])
       continue;
-    bodies_[b]->filter.predict(time);
+    bodies_[b]->filter.predict(time, inertial_[b]);
     const LedGroups groups = groupsOf(b);
     for (std::size_t led = 0; led < constellations_[b].leds.size(); ++led) {
       if (costs.tracks == association::kMaximumTracks)
@@ -169,7 +186,7 @@ void BodyTracker::update(std::size_t index,
                          LastImage* image) {
   Body& body = *bodies_[index];
   const double residual = (pixel - group.prediction.pixel).norm();
-  body.filter.update(group.prediction, pixel, group.pixel_stddev);
+  body.filter.update(group.prediction, pixel, group.pixel_stddev, inertial_[index]);
   body.last_observed = image->time;
   for (std::size_t i = 0; i < group.count; ++i) {
     body.led_times[group.leds[i]] = image->time;
@@ -263,8 +280,8 @@ void BodyTracker::startFromLabels(const std::vector<LabelledPoint>& points) {
 }
 
 void BodyTracker::startAt(std::size_t body, const BodyPose& pose, double time) {
-  Body started{
-      PoseFilter(options_.motion, time, pose.world_from_body, pose.covariance), time, time, {}};
+  const PoseFilter filter(options_.motion, time, pose.world_from_body, pose.covariance);
+  Body started{BodyFilter(options_.motion, options_.inertial, filter), time, time, {}};
   if (bodies_[body])
     started.first_seen = bodies_[body]->first_seen;
   started.led_times.fill(-std::numeric_limits<double>::infinity());
@@ -278,13 +295,14 @@ void BodyTracker::estimate() {
       continue;
     }
     const Body& body = *bodies_[b];
-    PoseFilter filter = body.filter;
-    filter.predict(time_);
+    BodyFilter filter = body.filter;
+    filter.predict(time_, inertial_[b]);
     const PoseState& now = filter.state();
     if (!estimates_[b])
       estimates_[b].emplace();
     BodyEstimate& estimate = *estimates_[b];
     estimate.tracked = time_ - body.last_observed <= options_.tracked_time;
+    estimate.inertial = filter.isInertial();
     estimate.world_from_body = now.worldFromBody();
     estimate.covariance = now.covariance;
     estimate.velocity = now.velocity;

@@ -27,7 +27,7 @@ double LedGroup::cost(const Eigen::Vector2d& pixel, double gate) const {
          kFurtherLed * static_cast<double>(count - 1);
 }
 
-LedGroups::LedGroups(const PoseFilter& filter,
+LedGroups::LedGroups(const PoseState& state,
                      const Constellation& constellation,
                      const geometry::Camera& camera,
                      double pixel_stddev,
@@ -36,7 +36,7 @@ LedGroups::LedGroups(const PoseFilter& filter,
     : pixel_stddev_(pixel_stddev), gate_(gate) {
   const std::size_t leds = constellation.leds.size();
   for (std::size_t i = 0; i < leds; ++i) {
-    singles_[i] = filter.predictLed(camera, constellation.leds[i], pixel_stddev);
+    singles_[i] = predictLed(state, camera, constellation.leds[i], pixel_stddev);
     if (singles_[i] && !(singles_[i]->covariance.trace() < 2.0 * kWidest * kWidest))
       singles_[i].reset();
   }
@@ -49,20 +49,20 @@ LedGroups::LedGroups(const PoseFilter& filter,
       continue;
     std::array<std::size_t, kMaximumLeds> all{i};
     std::size_t count = 1;
-    add(filter, all, count);
+    add(state, all, count);
     for (std::size_t k = 0; k < leds; ++k) {
       if (k == i || !singles_[k] || !areNear(i, k))
         continue;
       all[count++] = k;
       if (k > i)
-        add(filter, {i, k}, 2);
+        add(state, {i, k}, 2);
     }
     if (count > 2)
-      add(filter, all, count);
+      add(state, all, count);
   }
 }
 
-void LedGroups::add(const PoseFilter& filter,
+void LedGroups::add(const PoseState& state,
                     const std::array<std::size_t, kMaximumLeds>& leds,
                     std::size_t count) {
   LedGroup& group = groups_[count_++];
@@ -85,7 +85,7 @@ void LedGroups::add(const PoseFilter& filter,
   for (std::size_t i = 0; i < count; ++i)
     farthest = std::max(farthest, (singles_[leds[i]]->pixel - mean.pixel).norm());
   group.pixel_stddev = std::hypot(pixel_stddev_, kPlaceBetween * 2.0 * farthest);
-  mean.covariance = mean.jacobian * filter.state().poseCovariance() * mean.jacobian.transpose();
+  mean.covariance = mean.jacobian * state.poseCovariance() * mean.jacobian.transpose();
   mean.covariance.diagonal().array() += group.pixel_stddev * group.pixel_stddev;
 }
 

@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_LED_GROUPS_H
 
 #include "wiimote_tracker_triangulation/body/constellation.h"
-#include "wiimote_tracker_triangulation/body/pose_filter.h"
+#include "wiimote_tracker_triangulation/body/led_prediction.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
 #include <Eigen/Core>
@@ -29,7 +29,7 @@ struct LedGroup {
 class LedGroups {
  public:
   /// @param merging_distance LEDs closer than this may merge into one spot [px].
-  LedGroups(const PoseFilter& filter,
+  LedGroups(const PoseState& state,
             const Constellation& constellation,
             const geometry::Camera& camera,
             double pixel_stddev,
@@ -46,7 +46,7 @@ class LedGroups {
                        const std::array<bool, kMaximumLeds>& has_spot) const;
 
  private:
-  void add(const PoseFilter& filter,
+  void add(const PoseState& state,
            const std::array<std::size_t, kMaximumLeds>& leds,
            std::size_t count);
 

@@ -1,7 +1,5 @@
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
 
-#include "wiimote_tracker_triangulation/geometry/so3.h"
-
 #include <cmath>
 
 namespace wiimote_tracker::body {
@@ -16,6 +14,14 @@ PoseFilter::PoseFilter(const PoseFilterOptions& options,
   mean_.covariance.topLeftCorner<6, 6>() = covariance;
   mean_.covariance.diagonal().segment<3>(6).setConstant(std::pow(options.initial_speed, 2));
   mean_.covariance.diagonal().tail<3>().setConstant(std::pow(options.initial_angular_speed, 2));
+  states_.fill(mean_);
+}
+
+PoseFilter::PoseFilter(const PoseFilterOptions& options, double time, const PoseState& start)
+    : options_(&options),
+      time_(time),
+      probabilities_(Weights::Constant(1.0 / kPoseModes)),
+      mean_(start) {
   states_.fill(mean_);
 }
 
@@ -66,26 +72,6 @@ PoseState PoseFilter::mixture(const Weights& weights) const {
     result.covariance += weights[i] * (states_[i].covariance + d * d.transpose());
   }
   return result;
-}
-
-std::optional<LedPrediction> PoseFilter::predictLed(const geometry::Camera& camera,
-                                                    const Eigen::Vector3d& led,
-                                                    double pixel_stddev) const {
-  const Eigen::Vector3d arm = mean_.rotation * led;
-  const Eigen::Vector3d point = mean_.position + arm;
-  LedPrediction prediction;
-  Eigen::Matrix<double, 2, 3> by_point;
-  const std::optional<Eigen::Vector2d> pixel = camera.project(point, &by_point);
-  if (!pixel)
-    return std::nullopt;
-  prediction.pixel = *pixel;
-  prediction.jacobian.leftCols<3>() = by_point;
-  prediction.jacobian.rightCols<3>() = -by_point * geometry::so3::skew(arm);
-  prediction.covariance =
-      prediction.jacobian * mean_.poseCovariance() * prediction.jacobian.transpose();
-  prediction.covariance.diagonal().array() += pixel_stddev * pixel_stddev;
-  prediction.depth = camera.world_from_camera.linear().col(2).dot(point - camera.center());
-  return prediction;
 }
 
 void PoseFilter::update(const LedPrediction& prediction,

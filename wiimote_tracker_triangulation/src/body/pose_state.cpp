@@ -1,10 +1,7 @@
 #include "wiimote_tracker_triangulation/body/pose_state.h"
 
+#include "pixel_update.h"
 #include "wiimote_tracker_triangulation/geometry/so3.h"
-
-#include <Eigen/LU>
-
-#include <cmath>
 
 namespace wiimote_tracker::body {
 namespace {
@@ -67,24 +64,10 @@ void PoseState::predict(double acceleration_density,
 double PoseState::update(const Eigen::Matrix<double, 2, 6>& jacobian,
                          const Eigen::Vector2d& innovation,
                          double pixel_stddev) {
-  const double variance = pixel_stddev * pixel_stddev;
-  const Eigen::Matrix<double, 12, 2> to_pixel = covariance.leftCols<6>() * jacobian.transpose();
-  Eigen::Matrix2d of_pixel = jacobian * to_pixel.topRows<6>();
-  of_pixel.diagonal().array() += variance;
-  const Eigen::Matrix2d information = of_pixel.inverse();
-  const Eigen::Matrix<double, 12, 2> gain = to_pixel * information;
-  move(gain * innovation);
-
-  // Joseph's form keeps the covariance positive definite: (I - K H) P (I - K H)' + K R K'.
-  MotionCovariance reduced = covariance;
-  reduced.noalias() -= gain * to_pixel.transpose();
-  const Eigen::Matrix<double, 12, 2> left = reduced.leftCols<6>() * jacobian.transpose();
-  covariance = reduced;
-  covariance.noalias() -= left * gain.transpose();
-  covariance.noalias() += variance * gain * gain.transpose();
-  const MotionCovariance symmetric = 0.5 * (covariance + covariance.transpose());
-  covariance = symmetric;
-  return innovation.dot(information * innovation) + std::log(of_pixel.determinant());
+  MotionVector step;
+  const double cost = updateByPixel(jacobian, innovation, pixel_stddev, &covariance, &step);
+  move(step);
+  return cost;
 }
 
 Eigen::Isometry3d PoseState::worldFromBody() const {

@@ -1,6 +1,7 @@
 #include "message_tracker.h"
 
 #include "bodies/body_message.h"
+#include "bodies/inertial_message.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
@@ -155,11 +156,37 @@ void MessageTracker::takeImage(const std::string& camera,
 
 void MessageTracker::setBodies(const std::vector<body::Constellation>& bodies) {
   bodies_.setBodies(bodies);
+  without_samples_.clear();
+}
+
+void MessageTracker::takeInertial(const std::string& body, const sensor_msgs::Imu& message) {
+  const std::vector<body::Constellation>& bodies = bodies_.constellations();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b].name != body || !bodies[b].imu)
+      continue;
+    if (const auto sample = inertialSample(message, *bodies[b].imu))
+      bodies_.addInertial(b, *sample);
+  }
 }
 
 void MessageTracker::publishBodies() {
-  if (const body::BodySnapshot* snapshot = bodies_.next())
-    sink_->onBodies(bodyMessage(*snapshot, bodies_.constellations(), rig_, rig_id_));
+  const body::BodySnapshot* snapshot = bodies_.next();
+  if (!snapshot)
+    return;
+  std::set<std::string> bridged;
+  for (std::size_t b = 0; b < snapshot->bodies.size(); ++b) {
+    const body::Constellation& constellation = bodies_.constellations()[b];
+    const std::optional<body::BodyEstimate>& body = snapshot->bodies[b];
+    if (!constellation.imu || !body)
+      continue;
+    if (body->inertial)
+      without_samples_.erase(constellation.name);
+    else if (body->tracked)
+      without_samples_.insert(constellation.name);
+    if (body->inertial && !body->tracked)
+      bridged.insert(constellation.name);
+  }
+  sink_->onBodies(bodyMessage(*snapshot, bodies_.constellations(), rig_, rig_id_), bridged);
 }
 
 /// Starts bodies whose LEDs are identified by blinking.

@@ -14,6 +14,7 @@
 #include "wiimote_tracker_triangulation/identity/snapshot_sightings.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
 
+#include <sensor_msgs/Imu.h>
 #include <std_msgs/Header.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
@@ -53,8 +54,10 @@ class MessageSink {
                         const std::vector<tracking::CameraView>& views) = 0;
 
   /// The rigid bodies at the time of an image, before the points of that image. Times increase
-  /// strictly too. Only while bodies are tracked.
-  virtual void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& /*bodies*/) {}
+  /// strictly too. Only while bodies are tracked. `bridged`: names of predicted bodies whose poses
+  /// are as those of tracked ones, by their IMUs.
+  virtual void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& /*bodies*/,
+                        const std::set<std::string>& /*bridged*/) {}
 
   virtual void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) = 0;
 
@@ -95,6 +98,12 @@ class MessageTracker {
   /// become LEDs. @throws Error; then the previous bodies stay.
   void setBodies(const std::vector<body::Constellation>& bodies);
 
+  /// A sample of the IMU of a body. One that cannot be used is ignored.
+  void takeInertial(const std::string& body, const sensor_msgs::Imu& message);
+
+  /// Tracked bodies whose IMU's samples are missing or do not fit the times of the images.
+  const std::set<std::string>& bodiesWithoutSamples() const { return without_samples_; }
+
   /// Asks for the points at a trigger's time. They follow as soon as the images reach it; the
   /// arrival of the trigger does not matter.
   void takeTrigger(const std_msgs::Header& trigger);
@@ -131,6 +140,7 @@ class MessageTracker {
   std::map<std::string, std::size_t> camera_index_;
   std::unique_ptr<tracking::Estimator> estimator_;  // null before the first rig
   body::BodyFollower bodies_;
+  std::set<std::string> without_samples_;
   VolumeCorrection correction_;
   std::unique_ptr<identity::Identifier> identifier_;  // null: no LED blinks
   identity::SnapshotSightings sightings_;

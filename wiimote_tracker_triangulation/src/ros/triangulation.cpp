@@ -18,7 +18,7 @@ using wiimote_tracker_msgs::TrackedPointArrayConstPtr;
 
 namespace {
 
-// Images of one camera that may wait: ten seconds of a Wii Remote.
+// Images of one camera that may wait: ten seconds of a Wii Remote. The same for samples of an IMU.
 constexpr std::uint32_t kImageQueue = 1000;
 
 // After a longer time LEDs may have gone anywhere.
@@ -119,6 +119,7 @@ bool Triangulation::isShed(const ros::Time& receipt) {
 
 void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
   tracker_.setBodies(bodies);
+  subscribeToImus(bodies);
   bodies_.setBodies(bodies);
   body_diagnostics_.setBodies(bodies);
   for (const std::string& sentence : ambiguities(bodies)) {
@@ -128,6 +129,18 @@ void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
   }
   if (!bodies.empty())
     ROS_INFO("%zu rigid bodies are tracked.", bodies.size());
+}
+
+void Triangulation::subscribeToImus(const std::vector<body::Constellation>& bodies) {
+  imu_subscribers_.clear();
+  for (const body::Constellation& body : bodies) {
+    if (!body.imu)
+      continue;
+    imu_subscribers_[body.name] = subscribe<sensor_msgs::Imu>(
+        nh_, body.imu->topic, kImageQueue, [this, name = body.name](const auto& event) {
+          tracker_.takeInertial(name, *event.getConstMessage());
+        });
+  }
 }
 
 void Triangulation::onPoints(const TrackedPointArrayConstPtr& points,
@@ -140,8 +153,9 @@ void Triangulation::onPoints(const TrackedPointArrayConstPtr& points,
     markers_publisher_.publish(markers_.build(*points, views));
 }
 
-void Triangulation::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
-  bodies_.publish(bodies);
+void Triangulation::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
+                             const std::set<std::string>& bridged) {
+  bodies_.publish(bodies, bridged);
   body_diagnostics_.addBodies(bodies);
   if (markers_publisher_.getNumSubscribers() > 0 &&
       body_markers_.isDue(bodies.header.stamp.toSec()))
@@ -169,6 +183,12 @@ void Triangulation::onTimer() {
   }
   if (const auto bodies = learning_.change())  // while no image comes
     useBodies(*bodies);
+  for (const std::string& body : tracker_.bodiesWithoutSamples()) {
+    ROS_WARN_THROTTLE(10.0,
+                      "No samples of the IMU of %s fit the times of the images: check that %s is "
+                      "published 25 times a second or more, and its clock_offset.",
+                      body.c_str(), imu_subscribers_[body].getTopic().c_str());
+  }
   keepPlaces();
   diagnostics_.update();
   body_diagnostics_.update();

@@ -40,10 +40,12 @@ class Triangulation : private MessageSink {
   void keepPlaces();
   void subscribeToCameras();
   void useBodies(const std::vector<body::Constellation>& bodies);
+  void subscribeToImus(const std::vector<body::Constellation>& bodies);
 
   void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
                 const std::vector<tracking::CameraView>& views) override;
-  void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) override;
+  void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
+                const std::set<std::string>& bridged) override;
   void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) override;
   void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& points) override;
   void onProblem(const std::string& sentence) override;
@@ -68,6 +70,7 @@ class Triangulation : private MessageSink {
   ros::Subscriber rig_subscriber_;
   ros::Subscriber trigger_subscriber_;
   std::map<std::string, ros::Subscriber> image_subscribers_;  // by camera
+  std::map<std::string, ros::Subscriber> imu_subscribers_;    // by body
   ros::WallTimer timer_;
 };
 

@@ -181,11 +181,20 @@ TEST(BodiesFile, ComesBackBitForBit) {
   Constellation other = fourLeds();
   other.name = "other";
   other.leds[0].x() = 1.0 / 3.0;
+  other.imu = ImuMount{"/imu/data", Isometry3d::Identity(), 1.0 / 7.0};
+  other.imu->body_from_imu.translation() = Vector3d(0.1, 0.2, 1.0 / 3.0);
+  other.imu->body_from_imu.linear() = Eigen::AngleAxisd(0.5, Vector3d::UnitX()).toRotationMatrix();
   writeBodies(file, {fourLeds(), other});
   const std::vector<Constellation> back = readBodies(file);
   ASSERT_EQ(back.size(), 2u);
   EXPECT_EQ(back[0].name, "four_leds");
   EXPECT_EQ(back[1].leds, other.leds);
+  EXPECT_FALSE(back[0].imu);
+  ASSERT_TRUE(back[1].imu);
+  EXPECT_EQ(back[1].imu->topic, "/imu/data");
+  EXPECT_EQ(back[1].imu->clock_offset, 1.0 / 7.0);
+  EXPECT_EQ(back[1].imu->body_from_imu.translation(), other.imu->body_from_imu.translation());
+  EXPECT_TRUE(back[1].imu->body_from_imu.isApprox(other.imu->body_from_imu, 1e-12));
   EXPECT_NO_THROW(writeBodies(file, {fourLeds(), fourLeds()}));
   EXPECT_THROW(readBodies(file), Error) << "two of one name";
 }
@@ -219,6 +228,11 @@ TEST(BodiesFile, DamagedOnesAreRefusedByName) {
   EXPECT_NE(messageFor(head + "  - {name: a, leds: [[1, 2, 3]], colour: red}\n").find("colour"),
             std::string::npos);
   EXPECT_NE(messageFor(head + "  - {name: a, leds: [[1, 2, 3]]}\n").find("3 to 8"),
+            std::string::npos);
+  const std::string imu = "  - name: a\n    leds: []\n    imu: {translation: [0, 0, 0], topic: ";
+  EXPECT_NE(messageFor(head + imu + "a, quaternion_xyzw: [0, 0, 0, 2]}\n").find("length 1"),
+            std::string::npos);
+  EXPECT_NE(messageFor(head + imu + "a b, quaternion_xyzw: [0, 0, 0, 1]}\n").find("a topic"),
             std::string::npos);
 }
 

@@ -42,7 +42,7 @@ TEST(CoverageParameters, ShippedFileHoldsTheDefaults) {
 TEST(Parameters, EveryNumberIsReadAndBounded) {
   ParameterReader defaults(readParameterTree(""));
   TrackingParameters::read(&defaults);
-  EXPECT_EQ(72u, defaults.ranges().size());
+  EXPECT_EQ(74u, defaults.ranges().size());
   for (const auto& [key, range] : defaults.ranges()) {
     ros::NodeHandle nh("~bounded");
     // Below every range, and an integer, as some parameters require.

@@ -2,9 +2,9 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_TRACKER_H
 
 #include "wiimote_tracker_triangulation/association/associate_views.h"
+#include "wiimote_tracker_triangulation/body/body_filter.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
 #include "wiimote_tracker_triangulation/body/match_points.h"
-#include "wiimote_tracker_triangulation/body/pose_filter.h"
 #include "wiimote_tracker_triangulation/body/solve_pose.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"
@@ -27,6 +27,7 @@ struct LedGroup;
 struct BodyTrackerOptions {
   double pixel_stddev = 0.5;  ///< Noise per coordinate of a spot [px, > 0].
   PoseFilterOptions motion;
+  InertialOptions inertial;  ///< Of bodies with an IMU.
 
   /// Gate: greatest squared Mahalanobis distance of a spot from an LED's prediction [1, > 0].
   double gate = 16.0;
@@ -65,7 +66,8 @@ struct LedEstimate {
 
 /// A body at the time of the newest image.
 struct BodyEstimate {
-  bool tracked = false;  ///< False: hidden, the pose is extrapolated.
+  bool tracked = false;   ///< False: hidden, the pose is extrapolated.
+  bool inertial = false;  ///< By an IMU, since the body was last seen.
   Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();  ///< [m]
 
   /// Order: position [m^2], rotation about the world axes [rad^2], velocity [m^2/s^2], angular
@@ -105,6 +107,10 @@ class BodyTracker {
   /// @returns false, and does nothing, if the image is too old.
   bool add(std::size_t camera, double time, const std::vector<Eigen::Vector2d>& pixels);
 
+  /// Adds a sample of the IMU of a body, whose constellation has one. A late sample changes the
+  /// estimates from the next image on.
+  void addInertial(std::size_t body, const InertialSample& sample);
+
   /// For each spot of the image added last: whether it was assigned to a body.
   const std::vector<bool>& taken() const { return taken_; }
 
@@ -124,7 +130,7 @@ class BodyTracker {
 
  private:
   struct Body {
-    PoseFilter filter;
+    BodyFilter filter;
     double first_seen;                           // [s]
     double last_observed;                        // [s]
     std::array<double, kMaximumLeds> led_times;  // when last seen [s]
@@ -148,6 +154,7 @@ class BodyTracker {
     LastImage image_before;  // of this camera
   };
 
+  void undo(std::list<Entry>::iterator entry);
   void take(std::list<Entry>::iterator entry);
   void follow(std::size_t camera, double time, const std::vector<Eigen::Vector2d>& pixels);
   void update(std::size_t index,
@@ -173,8 +180,11 @@ class BodyTracker {
   association::ViewAssociator associator_;
 
   std::vector<std::optional<Body>> bodies_;
-  std::vector<LastImage> images_;  // per camera
-  std::list<Entry> history_;       // sorted by time
+  std::vector<LastImage> images_;          // per camera
+  std::list<Entry> history_;               // sorted by time
+  std::vector<InertialSamples> inertial_;  // per body; empty without IMU
+  double inertial_change_ =
+      std::numeric_limits<double>::infinity();  // images after it are outdated
 
   double time_ = -std::numeric_limits<double>::infinity();
   std::vector<std::optional<BodyEstimate>> estimates_;

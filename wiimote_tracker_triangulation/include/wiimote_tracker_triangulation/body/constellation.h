@@ -2,15 +2,24 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_BODY_CONSTELLATION_H
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker::body {
 
 constexpr std::size_t kMaximumLeds = 8;  ///< Of one body.
+
+/// An IMU on a body.
+struct ImuMount {
+  std::string topic;  ///< sensor_msgs/Imu
+  Eigen::Isometry3d body_from_imu = Eigen::Isometry3d::Identity();
+  double clock_offset = 0.0;  ///< Added to its stamps gives the clock of the images [s].
+};
 
 /// The LEDs of a rigid body.
 struct Constellation {
@@ -19,6 +28,8 @@ struct Constellation {
 
   /// One per LED, if they blink, or empty. They identify the LEDs of a symmetric shape.
   std::vector<std::string> labels = {};
+
+  std::optional<ImuMount> imu = {};
 
   /// Label of an LED, or its number.
   std::string labelOf(std::size_t led) const;

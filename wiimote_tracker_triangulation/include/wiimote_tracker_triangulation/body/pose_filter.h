@@ -1,14 +1,13 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_FILTER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_FILTER_H
 
+#include "wiimote_tracker_triangulation/body/led_prediction.h"
 #include "wiimote_tracker_triangulation/body/pose_state.h"
-#include "wiimote_tracker_triangulation/geometry/camera.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <array>
-#include <optional>
 
 namespace wiimote_tracker::body {
 
@@ -31,14 +30,6 @@ struct PoseFilterOptions {
   double initial_angular_speed = 6.0;  ///< Initial standard deviation per axis [rad/s, > 0].
 };
 
-/// Predicted measurement of an LED of a body.
-struct LedPrediction {
-  Eigen::Vector2d pixel;                 ///< [px]
-  Eigen::Matrix2d covariance;            ///< Innovation covariance [px^2].
-  Eigen::Matrix<double, 2, 6> jacobian;  ///< d pixel / d (position, rotation) [px/m, px/rad].
-  double depth;                          ///< Along the optical axis [m].
-};
-
 /// A rigid body's pose, velocity and angular velocity in continuous time; each camera's spots
 /// update it at the time of their image. An interacting multiple model filter (Blom and Bar-Shalom
 /// 1988; Bar-Shalom, Li and Kirubarajan 2001, section 11.6.6) of extended Kalman filters, one for
@@ -52,15 +43,13 @@ class PoseFilter {
              const Eigen::Isometry3d& world_from_body,
              const PoseCovariance& covariance);
 
+  /// All modes start equally likely.
+  PoseFilter(const PoseFilterOptions& options, double time, const PoseState& start);
+
   double time() const { return time_; }  ///< [s]
 
   /// Predicts to a time [s]; does nothing unless it is after time().
   void predict(double time);
-
-  /// At time(). Nothing when the LED is behind the camera.
-  std::optional<LedPrediction> predictLed(const geometry::Camera& camera,
-                                          const Eigen::Vector3d& led,
-                                          double pixel_stddev) const;
 
   /// Updates with the pixel of an LED's spot at time(). The prediction must stem from the present
   /// state: every update changes it.

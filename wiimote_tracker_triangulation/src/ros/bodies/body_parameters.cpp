@@ -57,6 +57,9 @@ BodyParameters BodyParameters::read(ParameterReader* reader,
   reader->read("bodies/change_rate", &motion.change_rate, 0.001, 1000.0);
   reader->read("bodies/initial_speed", &motion.initial_speed, 0.001, 1000.0);
   reader->read("bodies/initial_angular_speed", &motion.initial_angular_speed, 0.001, 1000.0);
+  body::InertialOptions& imu = o.inertial;
+  reader->read("bodies/gyro_density", &imu.gyro_density, 0.00001, 1.0);
+  reader->read("bodies/accelerometer_density", &imu.accelerometer_density, 0.0001, 10.0);
   return p;
 }
 

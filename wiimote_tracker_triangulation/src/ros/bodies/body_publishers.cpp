@@ -28,12 +28,14 @@ void BodyPublishers::setBodies(const std::vector<body::Constellation>& bodies) {
   topics_ = std::move(topics);
 }
 
-void BodyPublishers::publish(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
+void BodyPublishers::publish(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
+                             const std::set<std::string>& bridged) {
   all_.publish(bodies);
   transforms_.clear();
   for (const wiimote_tracker_msgs::TrackedBody& body : bodies.bodies) {
     const auto topics = topics_.find(body.name);
-    if (topics == topics_.end() || !isPose(body, options_.publish_predicted))
+    const bool is_predicted_too = options_.publish_predicted || bridged.count(body.name) > 0;
+    if (topics == topics_.end() || !isPose(body, is_predicted_too))
       continue;
     topics->second.pose.publish(
         boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>(poseStamped(bodies, body)));

@@ -9,6 +9,7 @@
 #include <wiimote_tracker_msgs/TrackedBodyArray.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,9 @@ class BodyPublishers {
   /// Advertises the topics of these bodies.
   void setBodies(const std::vector<body::Constellation>& bodies);
 
-  void publish(const wiimote_tracker_msgs::TrackedBodyArray& bodies);
+  /// @param bridged names of bodies whose topics go on while they are predicted.
+  void publish(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
+               const std::set<std::string>& bridged);
 
  private:
   struct Topics {

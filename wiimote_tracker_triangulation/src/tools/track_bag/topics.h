@@ -22,6 +22,7 @@ class Topics {
   std::string triggeredPoints() const { return resolve("triggered_points"); }
   std::string zoneEvents() const { return resolve("zone_events"); }
   std::string bodies() const { return resolve("bodies"); }
+  std::string imu(const std::string& topic) const { return resolve(topic); }
   std::string pose(const std::string& body) const { return resolve(body + "/pose"); }
   std::string twist(const std::string& body) const { return resolve(body + "/twist"); }
   /// Of a body or an LED.

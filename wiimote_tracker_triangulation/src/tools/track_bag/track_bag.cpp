@@ -35,11 +35,16 @@ struct Arguments {
   bool smooth = false;
 };
 
-/// Feeds recorded rigs, triggers and images to the tracker.
+/// Feeds recorded rigs, triggers, images and samples of IMUs to the tracker.
 class Player {
  public:
   Player(const TrackingParameters& parameters, const Topics& topics, MessageSink* sink)
-      : tracker_(parameters, sink), topics_(topics), sink_(sink) {}
+      : tracker_(parameters, sink), topics_(topics), sink_(sink) {
+    for (const body::Constellation& body : parameters.bodies.known) {
+      if (body.imu)
+        imus_[topics_.imu(body.imu->topic)] = body.name;
+    }
+  }
 
   /// Reports a rig that cannot be used; the previous one stays.
   void play(const RigCalibration& rig) {
@@ -69,6 +74,9 @@ class Player {
         tracker_.takeImage(camera->second, *image);
         ++images_used_;
       }
+    } else if (const auto body = imus_.find(topic); body != imus_.end()) {
+      if (const auto imu = read<sensor_msgs::Imu>(message))
+        tracker_.takeInertial(body->second, *imu);
     }
   }
 
@@ -91,6 +99,7 @@ class Player {
   Topics topics_;
   MessageSink* sink_;
   std::map<std::string, std::string> cameras_;  // by image topic
+  std::map<std::string, std::string> imus_;     // bodies by their IMU's topic
   std::size_t images_used_ = 0;
   std::string refusal_;  // of the last rig that was refused
 };

@@ -1,0 +1,41 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_FILTER_H
+#define WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_FILTER_H
+
+#include "wiimote_tracker_triangulation/body/inertial_filter.h"
+#include "wiimote_tracker_triangulation/body/pose_filter.h"
+
+#include <variant>
+
+namespace wiimote_tracker::body {
+
+/// The filter of a body: an InertialFilter from when the body is seen while its IMU delivers, until
+/// the IMU pauses; else a PoseFilter. A value type; never allocates.
+class BodyFilter {
+ public:
+  /// @param motion, inertial not owned.
+  BodyFilter(const PoseFilterOptions& motion,
+             const InertialOptions& inertial,
+             const PoseFilter& start)
+      : motion_(&motion), inertial_(&inertial), filter_(start) {}
+
+  /// @param samples of the body's IMU; none without one.
+  void predict(double time, const InertialSamples& samples);
+
+  /// As PoseFilter::update.
+  void update(const LedPrediction& prediction,
+              const Eigen::Vector2d& pixel,
+              double pixel_stddev,
+              const InertialSamples& samples);
+
+  const PoseState& state() const;
+  bool isInertial() const { return std::holds_alternative<InertialFilter>(filter_); }
+
+ private:
+  const PoseFilterOptions* motion_;
+  const InertialOptions* inertial_;
+  std::variant<PoseFilter, InertialFilter> filter_;
+};
+
+}  // namespace wiimote_tracker::body
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_FILTER_H

@@ -1,0 +1,45 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_PIXEL_UPDATE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_PIXEL_UPDATE_H
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include <cmath>
+
+namespace wiimote_tracker::body {
+
+/// Kalman update by a pixel of a state whose first six values are position and rotation.
+/// @param jacobian d pixel / d (position, rotation) [px/m, px/rad]. @param innovation [px]
+/// @param step what to move the state by.
+/// @returns -2 log likelihood of the innovation, without its constant
+template <int kSize>
+double updateByPixel(const Eigen::Matrix<double, 2, 6>& jacobian,
+                     const Eigen::Vector2d& innovation,
+                     double pixel_stddev,
+                     Eigen::Matrix<double, kSize, kSize>* covariance,
+                     Eigen::Matrix<double, kSize, 1>* step) {
+  using Columns = Eigen::Matrix<double, kSize, 2>;
+  using Square = Eigen::Matrix<double, kSize, kSize>;
+  const double variance = pixel_stddev * pixel_stddev;
+  const Columns to_pixel = covariance->template leftCols<6>() * jacobian.transpose();
+  Eigen::Matrix2d of_pixel = jacobian * to_pixel.template topRows<6>();
+  of_pixel.diagonal().array() += variance;
+  const Eigen::Matrix2d information = of_pixel.inverse();
+  const Columns gain = to_pixel * information;
+  *step = gain * innovation;
+
+  // Joseph's form keeps the covariance positive definite: (I - K H) P (I - K H)' + K R K'.
+  Square reduced = *covariance;
+  reduced.noalias() -= gain * to_pixel.transpose();
+  const Columns left = reduced.template leftCols<6>() * jacobian.transpose();
+  *covariance = reduced;
+  covariance->noalias() -= left * gain.transpose();
+  covariance->noalias() += variance * gain * gain.transpose();
+  const Square symmetric = 0.5 * (*covariance + covariance->transpose());
+  *covariance = symmetric;
+  return innovation.dot(information * innovation) + std::log(of_pixel.determinant());
+}
+
+}  // namespace wiimote_tracker::body
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_PIXEL_UPDATE_H

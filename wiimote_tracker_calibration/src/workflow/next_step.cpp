@@ -16,7 +16,7 @@ constexpr double kUsualLongest = 10.0;
 const std::array<const char*, SquareRun::kCorners> kCornerHints = {
     "the world's origin", "along x", "counter-clockwise seen from above puts z up", "the last one"};
 
-std::string cornerName(std::size_t corner) {
+std::string nameOfCorner(std::size_t corner) {
   return "corner " + std::to_string(corner + 1);
 }
 
@@ -55,13 +55,13 @@ NextStep nextCorner(const Calibration& calibration) {
             std::nullopt};
   const std::size_t corner = calibration.square().corners().size();
   const std::string doubt = corner == 0 ? doubtAbout(sides) : "";
-  const std::string place = cornerName(corner) + " (" + kCornerHints.at(corner) + ")";
+  const std::string place = nameOfCorner(corner) + " (" + kCornerHints.at(corner) + ")";
   if (calibration.isHandsFree())
     return {cornerTitle(corner),
             doubt + "Hold the LED still on " + place + " until it is captured.", "", "",
             std::nullopt};
   return {cornerTitle(corner), doubt + "Put the LED on " + place + ".", "capture_corner",
-          "capture " + cornerName(corner), std::nullopt};
+          "capture " + nameOfCorner(corner), std::nullopt};
 }
 
 NextStep waving(const WaveRecorder& wave) {
@@ -90,7 +90,7 @@ NextStep solved(const session::Verdict& verdict) {
             "Read the verdict, then save.", "save", "save", std::nullopt};
   if (!verdict.redo_corner)
     return {"Again", "Do again what the verdict says, or save all the same.", "", "", std::nullopt};
-  const std::string name = cornerName(*verdict.redo_corner);
+  const std::string name = nameOfCorner(*verdict.redo_corner);
   return {cornerTitle(*verdict.redo_corner),
           "Put the LED on " + name + " again, or save all the same.", "capture_corner",
           "capture " + name + " again", verdict.redo_corner};

@@ -85,9 +85,9 @@ int run(const std::vector<BenchmarkSection>& sections,
 
 int main(int argc, char** argv) {
   const std::vector<BenchmarkSection> sections = {
-      poseSection(),     poseMethodsSection(), waveSection(),
-      waveTimeSection(), measureSection(),     paperSection(),
-      remapSection(),    continuousSection(),  knockSection()};
+      poseSection(),    poseMethodsSection(), waveSection(),  waveTimeSection(),
+      measureSection(), paperSection(),       remapSection(), continuousSection(),
+      knockSection(),   monthSection()};
   std::vector<std::string> names;
   names.reserve(sections.size());
   for (const BenchmarkSection& section : sections)

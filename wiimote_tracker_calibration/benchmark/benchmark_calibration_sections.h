@@ -49,6 +49,9 @@ BenchmarkSection remapSection();
 /// Eight hours with a rig that corrects itself.
 BenchmarkSection continuousSection();
 
+/// Thirty days of tracker and health watch.
+BenchmarkSection monthSection();
+
 /// How soon it brings back a camera that was knocked.
 BenchmarkSection knockSection();
 

@@ -41,6 +41,12 @@ class WavedLed {
     }
   }
 
+  /// Leaves out the images before a time [s].
+  void skipTo(double time) {
+    for (double& next : next_)
+      next += period_ * std::max(0.0, std::ceil((time - next) / period_));
+  }
+
  private:
   square::Random random_;
 

@@ -20,7 +20,7 @@ constexpr double kPastTheHour = 17.3 / 3600.0;
 constexpr std::uint64_t kLifeOfBatteries = 40;  // [hours]
 constexpr double kChange = 0.25;                // of batteries [hours]
 constexpr std::uint8_t kFull = 0xc0;            // raw level
-constexpr double kSettling = 30.0;              // of the stamps in an epoch [s]
+constexpr double kSettlingOfStamps = 30.0;      // of the stamps in an epoch [s]
 constexpr double kLeapAfter = 8.0;              // [days]
 // After this time everything has happened once and all buffers have their size.
 constexpr std::uint64_t kWarmHours = 25;
@@ -54,7 +54,7 @@ Results runSoak(std::uint64_t reports, double length) {
   wiimote::Wiimote wiimote(
       wiimote::Options(), [&] { return remote.open(); }, [&] { return remote.now; });
   SoakStamps stamps(DriftingClock(24.0 * length, 24.0 * length * kLeapAfter),
-                    std::min(kSettling, length / 2.0));
+                    std::min(kSettlingOfStamps, length / 2.0));
   const auto begin = std::chrono::steady_clock::now();
   std::uint64_t images = 0;
   std::uint64_t hour = 0;

@@ -36,7 +36,7 @@ DriftingClock::DriftingClock(double day, double leap_after)
       leap_(day * std::ceil(leap_after / day)) {}
 
 std::uint64_t DriftingClock::steps(double steady) const {
-  return static_cast<std::uint64_t>(steady / day_ + 0.5) + (steady >= leap_ ? 1 : 0);
+  return static_cast<std::uint64_t>(std::llround(steady / day_)) + (steady >= leap_ ? 1 : 0);
 }
 
 ros::Time DriftingClock::at(double steady) const {

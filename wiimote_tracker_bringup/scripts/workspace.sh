@@ -168,6 +168,32 @@ make_with_progress() {
   done
 }
 
+# configure_sanitized BUILD SANITIZERS: configures a second build of the workspace.
+# Left out of the checks (in CMakeLists.txt): null and alignment, which double the compile time; the
+# address sanitizer stops at a null access, and Eigen's assertions at misaligned memory.
+configure_sanitized() {
+  mkdir -p "$1"
+  cmake -S "$workspace/src" -B "$1" -DCATKIN_DEVEL_PREFIX="$workspace/devel_${1##*build_}" \
+    -DWIIMOTE_TRACKER_SANITIZE="$2" -DCATKIN_ENABLE_TESTING=ON \
+    -DCMAKE_DISABLE_FIND_PACKAGE_GMock=ON \
+    -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1 -gz" >"$1/cmake.log" ||
+    fail "the sanitizer build could not be configured; see $1/cmake.log"
+}
+
+# run_tests BUILD JOBS TESTS: runs the tests whose type and name begin so (a regular expression), and
+# builds what they still need. By CMake's inner makefile, since the outer one makes one target after
+# the other. A failure does not end the script: the callers read the result files.
+run_tests() {
+  local goals
+  mapfile -t goals < <(
+    grep -oE '^[^:[:space:]]*/run_tests_wiimote_tracker_[a-z]+_[a-z-]+_[^:/]+\.dir/all' "$1/CMakeFiles/Makefile2" |
+      grep -E "/run_tests_wiimote_tracker_[a-z]+_($3)" | sort -u)
+  [[ ${#goals[@]} -gt 0 ]] || fail "no test $3 was found in $workspace/src"
+  # Without a path to libraries of this or another build: catkin gives each test its own.
+  env -u LD_LIBRARY_PATH make -C "$1" -f CMakeFiles/Makefile2 -j"$2" --output-sync=target -k \
+    "${goals[@]}" || true
+}
+
 use_workspace() {
   set +u
   # shellcheck disable=SC1090,SC1091

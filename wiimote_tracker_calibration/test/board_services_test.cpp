@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 
 namespace wiimote_tracker {
@@ -43,8 +44,16 @@ class Bench {
           return true;
         });
     status_subscriber_ = nh_.subscribe<BoardStatus>(
-        "calibration/board", 100,
-        [this](const boost::shared_ptr<const BoardStatus>& message) { status_ = *message; });
+        "calibration/board", 100, [this](const boost::shared_ptr<const BoardStatus>& message) {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          status_ = *message;
+        });
+  }
+
+  /// The latest one.
+  BoardStatus status() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return status_;
   }
 
   /// A board at this pose, as the remote reports it: at most four spots, quantised, with noise; of
@@ -99,7 +108,7 @@ class Bench {
 
   /// Shows the board wherever it may be, until so many views are kept and none is missing.
   bool showUntilEnough() {
-    return repeatUntil([this] { return status_.views >= 12 && status_.missing.empty(); },
+    return repeatUntil([this] { return status().views >= 12 && status().missing.empty(); },
                        [this] { hold(intrinsics::randomPose(random_)); });
   }
 
@@ -136,8 +145,9 @@ class Bench {
   double stamp_ = 1000.0;
   ros::Publisher images_;
   ros::ServiceServer info_;
-  ros::Subscriber status_subscriber_;
+  mutable std::mutex mutex_;  // guards status_, which comes in another thread
   BoardStatus status_;
+  ros::Subscriber status_subscriber_;
   sensor_msgs::CameraInfo camera_info_;
 };
 
@@ -161,17 +171,17 @@ TEST(Board, ViewsAreCapturedAutomatically) {
   EXPECT_FALSE(g_bench->start("wiimote_1", -0.1).success);
   Eigen::Isometry3d near = Eigen::Isometry3d::Identity();
   near.translation() = Eigen::Vector3d(-0.15, -0.15, 0.8);
-  ASSERT_TRUE(
-      Bench::repeatUntil([] { return g_bench->status_.views == 1; }, [&] { g_bench->hold(near); }));
-  EXPECT_EQ(g_bench->status_.camera, "wiimote_1");
-  EXPECT_EQ(g_bench->status_.header.frame_id, "wiimote_1_optical_frame");
-  EXPECT_EQ(g_bench->status_.views_needed, 12U);
-  EXPECT_FALSE(g_bench->status_.missing.empty());
+  ASSERT_TRUE(Bench::repeatUntil([] { return g_bench->status().views == 1; },
+                                 [&] { g_bench->hold(near); }));
+  EXPECT_EQ(g_bench->status().camera, "wiimote_1");
+  EXPECT_EQ(g_bench->status().header.frame_id, "wiimote_1_optical_frame");
+  EXPECT_EQ(g_bench->status().views_needed, 12U);
+  EXPECT_FALSE(g_bench->status().missing.empty());
   // Held on, it adds nothing.
   ASSERT_TRUE(Bench::repeatUntil(
-      [] { return g_bench->status_.message.find("too much like") != std::string::npos; },
+      [] { return g_bench->status().message.find("too much like") != std::string::npos; },
       [&] { g_bench->hold(near); }));
-  EXPECT_EQ(g_bench->status_.views, 1U);
+  EXPECT_EQ(g_bench->status().views, 1U);
 
   const auto early = g_bench->solve(SolveBoard::Request::AUTOMATIC);
   EXPECT_FALSE(early.success);
@@ -183,9 +193,9 @@ TEST(Board, ViewsAreCapturedAutomatically) {
 
 TEST(Board, ALensComesFromTheViewsWithItsUncertainty) {
   ASSERT_TRUE(g_bench->showUntilEnough())
-      << g_bench->status_.views << " views; " << g_bench->status_.message;
+      << g_bench->status().views << " views; " << g_bench->status().message;
   for (const double bar :
-       {g_bench->status_.x, g_bench->status_.y, g_bench->status_.size, g_bench->status_.skew})
+       {g_bench->status().x, g_bench->status().y, g_bench->status().size, g_bench->status().skew})
     EXPECT_EQ(bar, 1.0);
   const auto solved = g_bench->solve(SolveBoard::Request::K1);
   ASSERT_TRUE(solved.success) << solved.message;
@@ -230,9 +240,9 @@ TEST(Board, CommitGivesTheLensToTheDriver) {
   EXPECT_SAYS(g_bench->trigger("commit").message, "but wiimote_1 offers no set_camera_info");
   EXPECT_TRUE(g_bench->trigger("cancel").success);
   EXPECT_FALSE(g_bench->trigger("commit").success);
-  ASSERT_TRUE(Bench::repeatUntil([] { return g_bench->status_.camera.empty(); },
+  ASSERT_TRUE(Bench::repeatUntil([] { return g_bench->status().camera.empty(); },
                                  [] { ros::WallDuration(0.01).sleep(); }));
-  EXPECT_EQ(g_bench->status_.views, 0U);
+  EXPECT_EQ(g_bench->status().views, 0U);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 # Build type, language, warnings and sanitizers of the package. Call it after find_package(catkin).
 macro(wiimote_tracker_package)
   option(WIIMOTE_TRACKER_WERROR "Treat compiler warnings as errors" OFF)
-  option(WIIMOTE_TRACKER_SANITIZE "Build with the address and undefined behaviour sanitizers" OFF)
+  set(WIIMOTE_TRACKER_SANITIZE "" CACHE STRING "Sanitizers: address,undefined or thread")
   if(NOT CMAKE_BUILD_TYPE)
     set(CMAKE_BUILD_TYPE RelWithDebInfo)
   endif()
@@ -22,10 +22,11 @@ macro(wiimote_tracker_package)
   if(WIIMOTE_TRACKER_SANITIZE)
     # The checks "null" and "alignment" double the compile time. The address sanitizer stops at a
     # null access, and an assertion of Eigen at misaligned memory.
-    add_compile_options(-fsanitize=address,undefined -fno-sanitize=null,alignment
+    add_compile_options(-fsanitize=${WIIMOTE_TRACKER_SANITIZE} -fno-sanitize=null,alignment
       -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
-    set(CMAKE_EXE_LINKER_FLAGS "${CMAKE_EXE_LINKER_FLAGS} -fsanitize=address,undefined")
-    set(CMAKE_SHARED_LINKER_FLAGS "${CMAKE_SHARED_LINKER_FLAGS} -fsanitize=address,undefined")
+    set(CMAKE_EXE_LINKER_FLAGS "${CMAKE_EXE_LINKER_FLAGS} -fsanitize=${WIIMOTE_TRACKER_SANITIZE}")
+    set(CMAKE_SHARED_LINKER_FLAGS
+      "${CMAKE_SHARED_LINKER_FLAGS} -fsanitize=${WIIMOTE_TRACKER_SANITIZE}")
   endif()
   wiimote_tracker_import_libraries()
 endmacro()

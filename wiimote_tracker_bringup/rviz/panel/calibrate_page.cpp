@@ -44,7 +44,7 @@ QString measurementWords(const wiimote_tracker_msgs::CalibrationVerdict& verdict
   QString words;
   if (verdict.expected_error > 0.0)
     words +=
-        "\nPoints are right to within " + figure(1e3 * verdict.expected_error, 1) + " mm (RMS).";
+        "\nExpected error of a point: " + figure(1e3 * verdict.expected_error, 1) + " mm (RMS).";
   if (!verdict.next_measurement.empty())
     words += "\nBest to measure next: " + text(verdict.next_measurement);
   return words;

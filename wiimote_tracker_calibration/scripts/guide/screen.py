@@ -201,7 +201,7 @@ def measurement_lines(guide: Guide, columns: int) -> List[str]:
     """What was measured last, and what to measure next."""
     lines = [guide.measured] if guide.measured else []
     if guide.verdict.expected_error > 0.0:
-        lines.append(f'Points are right to within {1e3 * guide.verdict.expected_error:.1f} mm (RMS).')
+        lines.append(f'Expected error of a point: {1e3 * guide.verdict.expected_error:.1f} mm (RMS).')
     if guide.verdict.next_measurement:
         lines.append(f'Next (keys d, a): {guide.verdict.next_measurement}')
     return [line for text in lines for line in wrapped(text, columns, 2)]

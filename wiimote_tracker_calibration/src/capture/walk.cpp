@@ -59,7 +59,7 @@ std::vector<std::string> Walk::seenWith(const std::string& camera) const {
 std::string Walk::sentence() const {
   std::vector<std::string> shares, pairs, alone;
   for (const auto& [name, view] : views_) {
-    shares.push_back(name + format(" in %.0f %%", 100.0 * share(name)));
+    shares.push_back(name + format(" %.0f %%", 100.0 * share(name)));
     const std::vector<std::string> others = seenWith(name);
     if (others.empty())
       alone.push_back(name);
@@ -77,11 +77,11 @@ std::string Walk::sentence() const {
     pairs.resize(kMostPairs);
     pairs.push_back(std::to_string(more) + " other pairs");
   }
-  return "the walk showed the LED to " + joined(shares) + " of the image" +
-         (pairs.empty() ? "" : "; together: " + joined(pairs)) +
+  return "share of the image in which the LED was seen: " + joined(shares) +
+         (pairs.empty() ? "" : "; seen together: " + joined(pairs)) +
          (alone.empty() ? ""
-                        : "; with no other camera: " + joined(alone) +
-                              ", to be turned towards what the others see");
+                        : "; seen by no other camera: what " + joined(alone) +
+                              " saw; turn it towards what the others see");
 }
 
 }  // namespace wiimote_tracker::capture

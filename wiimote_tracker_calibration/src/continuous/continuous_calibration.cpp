@@ -70,7 +70,7 @@ std::string changesText(const geometry::Rig& before, const geometry::Rig& now) {
     changes.push_back(camera.camera.name + format(" turned by %.2f degrees",
                                                   turnOf(before.cameras[i], camera) * kDegrees));
     if (hasNewClock(before.cameras[i], camera))
-      changes.back() += format(" and has another clock, %.1f ms off", 1000.0 * camera.time_offset);
+      changes.back() += format(" and has a new clock, %.1f ms off", 1000.0 * camera.time_offset);
   }
   return joined(changes, ", ");
 }
@@ -167,8 +167,8 @@ std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& imag
   if (!reconnected && gain < options_.gain * options_.gain)
     return std::nullopt;
   const std::string message = changesText(rig_, *rig) +
-                              format(": then the images fit together to %.2f px", *after) +
-                              (reconnected ? "" : format(", before to %.2f px", *before));
+                              format(". Corrected, the images agree to %.2f px", *after) +
+                              (reconnected ? "" : format(" (now %.2f px)", *before));
   return proposalOf(reconnected ? Cause::kReconnect : Cause::kDrift, rig_.cameras[most].camera.name,
                     rig_, *rig, message, images.to_check);
 }

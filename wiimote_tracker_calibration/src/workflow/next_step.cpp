@@ -111,7 +111,7 @@ NextStep nextStep(const Calibration& calibration, const session::Verdict& verdic
     case Step::kSolved:
       return solved(verdict);
     case Step::kSolving:
-      return {"Solving", "The cameras are solved.", "", "", std::nullopt};
+      return {"Solving", "Computing the cameras: wait.", "", "", std::nullopt};
     case Step::kMasking:
       return {"LED off", "Leave the LED off.", "", "", std::nullopt};
     case Step::kCapturing:

@@ -24,8 +24,10 @@ inline bool staysRefused(const ParameterError& error) {
     ROS_FATAL("%s", error.what());
     return false;
   }
-  ROS_FATAL("%s; then start again, or: rosnode kill %s", error.what(),
-            ros::this_node::getName().c_str());
+  ROS_FATAL(
+      "%s. Correct it, and start the launch file again; or correct it by rosparam, and: "
+      "rosnode kill %s",
+      error.what(), ros::this_node::getName().c_str());
   return true;
 }
 

@@ -39,6 +39,8 @@ def describe_sight(chosen, positions, targets):
     return lines + [
         '  angle between rays: %.0f degrees (median), %.0f (smallest)'
         % (np.median(angles), angles.min()),
+        '  standard deviation by the pixels alone: %.1f mm (RMS), %.1f mm (largest; 500 or more: '
+        'rays that hardly meet)' if errors.max() > 400.0 else
         '  standard deviation by the pixels alone: %.1f mm (RMS), %.1f mm (largest)'
         % (np.sqrt(np.mean(errors ** 2)), errors.max()),
         '  ' + with_calibration(chosen, positions, targets, points[known])]
@@ -83,9 +85,13 @@ def description(chosen, positions, targets):
 
 def places_of(path):
     """Positions and targets of a rig description."""
-    cameras = rigs.read(path)['cameras'].values()
-    return tuple(np.array([camera[key] for camera in cameras], dtype=float)
-                 for key in ('position', 'look_at'))
+    try:
+        cameras = rigs.read(path)['cameras'].values()
+        return tuple(np.array([camera[key] for camera in cameras], dtype=float)
+                     for key in ('position', 'look_at'))
+    except (AttributeError, KeyError, TypeError) as error:
+        raise ExperimentError(f'{path} is no rig description with position and look_at of each '
+                              'camera, such as simulation/paper_rig.yaml') from error
 
 
 def tell_progress(share):
@@ -114,7 +120,8 @@ def main(argv=None):
         prog='plan_rig', description='Proposes where to put the cameras of a room and what to aim '
         'them at, and tells how well they see it.')
     parser.add_argument('plan', help='what the room needs and allows; see config/plan.yaml')
-    parser.add_argument('--score', metavar='RIG', help='of this rig description, nothing is searched')
+    parser.add_argument('--score', metavar='DESCRIPTION', help='rate this rig description instead of '
+                        'searching')
     parser.add_argument('--output', metavar='RIG', help='write a rig description for '
                         'simulated_rig.launch')
     parser.add_argument('--plot', metavar='FILE', help='write a map (.png, .svg, .pdf)')
@@ -126,5 +133,5 @@ def main(argv=None):
         run(parser.parse_args(argv))
     except ImportError as error:
         sys.exit(f'plan_rig: {error}; a picture needs matplotlib: apt install python3-matplotlib')
-    except (ExperimentError, KeyError, OSError, ValueError) as error:
+    except (ExperimentError, OSError, ValueError) as error:
         sys.exit(f'plan_rig: {error}')

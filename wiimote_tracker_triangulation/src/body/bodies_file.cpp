@@ -23,8 +23,9 @@ constexpr const char* kAdvice = "correct the file";
 ImuMount readImu(geometry::YamlMap map) {
   ImuMount imu;
   imu.topic = map.get<std::string>("topic");
-  const auto isOfName = [](char c) { return std::isalnum(c) || c == '_' || c == '/'; };
-  if (imu.topic.empty() || !std::all_of(imu.topic.begin(), imu.topic.end(), isOfName))
+  const auto isOfName = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '/'; };
+  if (imu.topic.empty() || std::isdigit(static_cast<unsigned char>(imu.topic.front())) ||
+      imu.topic.front() == '_' || !std::all_of(imu.topic.begin(), imu.topic.end(), isOfName))
     throw map.error("topic", "is not the name of a topic");
   imu.body_from_imu.translation() = map.vector("translation");
   const std::vector<double> q = map.numbers("quaternion_xyzw", 4);

@@ -23,10 +23,23 @@ using wiimote_tracker_msgs::TrackedPointArray;
 // After a longer silence of all cameras, outputs at a fixed rate are skipped [s].
 constexpr double kLongestSilence = 0.5;
 
+// Of the world's z axis, with which the IMU of a body is used [rad].
+constexpr double kMostTilt = 10.0 * M_PI / 180.0;
+
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 bool isSame(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && a == b;
+}
+
+/// The angle between the world's z axis and up, by the cameras' accelerometers [rad]; 0: not known.
+double tiltOf(const geometry::Rig& rig) {
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  for (const geometry::RigCamera& camera : rig.cameras) {
+    if (camera.gravity)
+      up += (camera.camera.world_from_camera.linear() * *camera.gravity).normalized();
+  }
+  return std::atan2(up.head<2>().norm(), up.z());
 }
 
 /// @throws geometry::InvalidRigError: a frame of the rig has the name of an LED.
@@ -114,6 +127,7 @@ MessageTracker::RigChange MessageTracker::takeRig(
   }
   if (change.cameras) {
     bodies_.setRig(rig);
+    tilt_reported_ = false;
     computed_id_ = id;
     rig_id_ = message.id.empty() ? id : message.id;
     camera_index_.clear();
@@ -124,6 +138,7 @@ MessageTracker::RigChange MessageTracker::takeRig(
     statistics_.setRig(rig);
   }
   rig_ = rig;
+  tilt_ = tiltOf(rig);
   zones_.setZones(rig_.zones);
   change.correction = correction_.take(rig_);
   sink_->onRig(rig_);
@@ -164,9 +179,24 @@ void MessageTracker::takeInertial(const std::string& body, const sensor_msgs::Im
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].name != body || !bodies[b].imu)
       continue;
+    if (tilt_ > kMostTilt) {
+      reportTilt();
+      return;
+    }
     if (const auto sample = inertialSample(message, *bodies[b].imu))
       bodies_.addInertial(b, *sample);
   }
+}
+
+void MessageTracker::reportTilt() {
+  if (tilt_reported_)
+    return;
+  tilt_reported_ = true;
+  sink_->onProblem(
+      format("the world's z axis is %.0f degrees from up by the cameras' accelerometers, so the "
+             "IMUs of bodies are not used: calibrate with a level square, its corners taken "
+             "counter-clockwise",
+             tilt_ * 180.0 / M_PI));
 }
 
 void MessageTracker::publishBodies() {

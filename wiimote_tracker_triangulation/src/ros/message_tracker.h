@@ -98,7 +98,8 @@ class MessageTracker {
   /// become LEDs. @throws Error; then the previous bodies stay.
   void setBodies(const std::vector<body::Constellation>& bodies);
 
-  /// A sample of the IMU of a body. One that cannot be used is ignored.
+  /// A sample of the IMU of a body. One that cannot be used is ignored; so are all if the world's z
+  /// axis does not point up.
   void takeInertial(const std::string& body, const sensor_msgs::Imu& message);
 
   /// Tracked bodies whose IMU's samples are missing or do not fit the times of the images.
@@ -121,6 +122,7 @@ class MessageTracker {
                    const wiimote_tracker_msgs::IrBlobArray& message);
   void reportCamera(std::size_t camera);
   void restart();
+  void reportTilt();
   void publishBodies();
   void findBodiesByLabels(const tracking::Snapshot& snapshot);
   void takeSnapshot(const tracking::Snapshot& tracked);
@@ -141,6 +143,8 @@ class MessageTracker {
   std::unique_ptr<tracking::Estimator> estimator_;  // null before the first rig
   body::BodyFollower bodies_;
   std::set<std::string> without_samples_;
+  double tilt_ = 0.0;  // of the world's z axis [rad]
+  bool tilt_reported_ = false;
   VolumeCorrection correction_;
   std::unique_ptr<identity::Identifier> identifier_;  // null: no LED blinks
   identity::SnapshotSightings sightings_;

@@ -232,6 +232,8 @@ TEST(BodiesFile, DamagedOnesAreRefusedByName) {
   const std::string imu = "  - name: a\n    leds: []\n    imu: {translation: [0, 0, 0], topic: ";
   EXPECT_NE(messageFor(head + imu + "a, quaternion_xyzw: [0, 0, 0, 2]}\n").find("length 1"),
             std::string::npos);
+  EXPECT_NE(messageFor(head + imu + "1imu, quaternion_xyzw: [0, 0, 0, 1]}\n").find("a topic"),
+            std::string::npos);
   EXPECT_NE(messageFor(head + imu + "a b, quaternion_xyzw: [0, 0, 0, 1]}\n").find("a topic"),
             std::string::npos);
 }

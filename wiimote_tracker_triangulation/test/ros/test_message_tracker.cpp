@@ -516,5 +516,27 @@ TEST(Prediction, AtARateIsForTheTimesOfTheRate) {
   }
 }
 
+TEST(ImuOfABody, IsNotUsedIfZDoesNotPointUp) {
+  Heard heard;
+  MessageTracker tracker(TrackingParameters(), &heard);
+  body::Constellation wand{"wand", {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}}};
+  wand.imu = body::ImuMount{"/imu"};
+  tracker.setBodies({wand});
+  geometry::test::Random random(83);
+  Rig rig = geometry::test::randomRig(random, 3);
+  for (const double up : {1.0, -1.0}) {
+    for (geometry::RigCamera& camera : rig.cameras)
+      camera.gravity = camera.camera.world_from_camera.linear().transpose() *
+                       Vector3d(0.5, 0.0, up * 9.8);  // 3 degrees off, as accelerometers are
+    rig.cameras[0].camera.intrinsics.fx += 1.0;       // another rig
+    tracker.takeRig(toMessage(rig));
+    sensor_msgs::Imu sample;
+    sample.header.stamp = ros::Time(100.0);
+    tracker.takeInertial("wand", sample);
+    tracker.takeInertial("wand", sample);
+    EXPECT_EQ(up > 0.0 ? 0 : 1, heard.problemsWith("177 degrees from up"));
+  }
+}
+
 }  // namespace
 }  // namespace wiimote_tracker

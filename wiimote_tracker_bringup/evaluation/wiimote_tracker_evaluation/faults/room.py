@@ -54,12 +54,17 @@ class Room:
         os.environ['ROS_MASTER_URI'] = f"http://{os.environ['ROS_HOSTNAME']}:{self._port}"
         os.environ['ROS_HOME'] = self.folder
         self.listeners = []
-        self.start_master()
-        self.start_nodes()
-        self.relays = [Relay(self, camera) for camera in relayed]
-        for camera in far:
-            self.start_driver(camera, prefix=self.far.prefix())
-        self.listen()
+        self.relays = []
+        try:
+            self.start_master()
+            self.start_nodes()
+            self.relays += [Relay(self, camera) for camera in relayed]
+            for camera in far:
+                self.start_driver(camera, prefix=self.far.prefix())
+            self.listen()
+        except BaseException:
+            self.stop()
+            raise
 
     def file(self, name):
         return os.path.join(self.folder, name)

@@ -43,7 +43,7 @@ def main(argv=None):
                              source.read(arguments.bag, topic), arguments.largest_offset)
         print('\n'.join(describe(found)))
         mount.write(found, arguments.output)
-    except (ValueError, np.linalg.LinAlgError) as error:
+    except (ValueError, RuntimeError, np.linalg.LinAlgError) as error:
         sys.exit(f'body_to_base: no solution was found ({error}); record a minute with turns about '
                  'two axes')
     except (ExperimentError, OSError) as error:

@@ -22,6 +22,7 @@ STEP = 1e-4  # of the derivatives
 LEAST_ITERATIONS, MOST_ITERATIONS = 4, 30  # the first ones find the noise
 PROBES = 4
 CORRELATED = 0.25  # residuals of different intervals of this length are independent [s]
+LEAST_NOISE = 1e-6  # [rad, m], of what else would be exact
 LARGEST_STDDEV = 0.03  # of a translation that is told [m]
 
 
@@ -72,7 +73,7 @@ def solve(problem, state, names):
         if (iteration >= LEAST_ITERATIONS
                 and (np.abs(common[3:7]) < 0.05 * np.sqrt(np.diag(covariance)[3:])).all()):
             break
-        noise = noise * equations.noise_factors()
+        noise = np.maximum(noise * equations.noise_factors(), LEAST_NOISE)
     else:
         raise ExperimentError('no solution was found: do both topics belong to one robot?')
     stddev = np.sqrt(np.linalg.eigvalsh(covariance[3:6, 3:6])[-1])

@@ -175,6 +175,9 @@ void BodyLearning::learn(const LearnBody::Request& request, LearnBody::Response*
   response->symmetry = symmetry.residual;
   for (const Eigen::Vector3d& led : learned.constellation.leds)
     response->leds.push_back(pointOf(led));
+  const bool had_imu = std::any_of(bodies_.begin(), bodies_.end(), [&](const Constellation& body) {
+    return body.name == request.name && body.imu;
+  });
   std::vector<Constellation> bodies = without(request.name, bodies_);
   bodies.push_back(learned.constellation);
   body::writeBodies(file_, bodies);
@@ -183,6 +186,8 @@ void BodyLearning::learn(const LearnBody::Request& request, LearnBody::Response*
   response->message = "body '" + request.name + "' with " +
                       std::to_string(learned.constellation.leds.size()) + " LEDs is in " + file_ +
                       " and tracked from now on";
+  if (had_imu)
+    response->message += "; find its IMU again by body_to_base --imu, since its axes have changed";
   const std::vector<std::string> warnings = ambiguities({learned.constellation});
   if (!warnings.empty())
     response->message += "; but " + warnings.front();

@@ -5,6 +5,8 @@
 #include "waved_led.h"
 
 #include "continuous/continuous_calibration.h"
+#include "continuous/keyframes.h"
+#include "continuous/motion_window.h"
 
 #include <gtest/gtest.h>
 
@@ -122,6 +124,53 @@ TEST(Continuous, FindsSlowDrift) {
             0.5 * pixelDistance(rig.cameras[2].camera, truth));
 }
 
+TEST(Continuous, AReconnectAloneKeepsThePoses) {
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  WavedLed led(rig.cameras, 800);
+  led.truth[1].time_offset = -0.015;
+  ContinuousCalibration watch(rig, {});
+  std::optional<Proposal> proposal;
+  led.runUntil(40.0, [&](capture::Image image) {
+    if (image.camera == led.truth[1].camera.name)
+      image.clock_epoch = 8;
+    if (!proposal)
+      proposal = watch.add(image);
+  });
+  ASSERT_TRUE(proposal);
+  EXPECT_EQ(proposal->cause, Cause::kReconnect);
+  EXPECT_EQ(proposal->message.find("camera_2 has a new clock, -1"), 0U) << proposal->message;
+  EXPECT_NEAR(proposal->rig.cameras[1].time_offset, -0.015, 0.0005);
+  EXPECT_EQ(proposal->rig.cameras[1].time_offset_epoch, 8U);
+  EXPECT_EQ(proposal->rig.solved_at, rig.solved_at);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(proposal->rig.cameras[i].camera.world_from_camera.matrix(),
+              rig.cameras[i].camera.world_from_camera.matrix());
+}
+
+TEST(Continuous, ACameraWithoutATimeOffsetHasNotReconnected) {
+  Random random(9);
+  geometry::Rig rig = paperRigWith(wellCalibrated());
+  WavedLed led(drawTruth(rig, random), 900);
+  for (std::size_t i = 0; i < 4; ++i) {
+    rig.cameras[i].time_offset = std::nan("");
+    rig.cameras[i].time_offset_rule = geometry::TimeOffsetRule::kNone;
+    led.truth[i].time_offset = 0.0;
+  }
+  ContinuousCalibration watch(rig, {});
+  std::vector<capture::Image> images;
+  led.runUntil(45.0, [&](const capture::Image& image) {
+    EXPECT_FALSE(watch.add(image));
+    images.push_back(image);
+  });
+  const auto adjusted = adjustRig(rig, images, {});
+  ASSERT_TRUE(adjusted);
+  for (const geometry::RigCamera& camera : adjusted->cameras) {
+    EXPECT_EQ(camera.time_offset_rule, geometry::TimeOffsetRule::kNone);
+    EXPECT_TRUE(std::isnan(camera.time_offset));
+  }
+  EXPECT_LT(misfitOf(*adjusted, images).value(), misfitOf(rig, images).value());
+}
+
 TEST(Continuous, AdjustsAllCamerasAndTheirNewClocks) {
   Random random(7);
   const geometry::Rig rig = paperRigWith(wellCalibrated());
@@ -182,6 +231,67 @@ TEST(Continuous, ProposesNothingWithoutMotion) {
   // The motion of both times counts.
   led.still.reset();
   EXPECT_TRUE(proposalUntil(915.0, &led, &watch));
+}
+
+TEST(Continuous, JudgesTheMotionAfterAPause) {
+  // A knock is found after so many seconds of motion, with a long pause before the last 4.5, too.
+  const auto found = [](double pause_at) {
+    Random random(10);
+    const geometry::Rig rig = paperRigWith(wellCalibrated());
+    WavedLed led(drawTruth(rig, random), 1000);
+    led.truth[1] = turned(led.truth[1], 2.0 * kDegree, random);
+    Options options;
+    options.knock.motion = {140, 120};
+    ContinuousCalibration watch(rig, options);
+    double end = 0.0;
+    led.runUntil(40.0, [&](capture::Image image) {
+      if (image.stamp > WavedLed::kClock + pause_at)
+        image.stamp += 600.0;
+      if (end == 0.0 && watch.add(image))
+        end = image.stamp - WavedLed::kClock;
+    });
+    return end;
+  };
+  const double without = found(40.0);
+  ASSERT_GT(without, 10.0);
+  EXPECT_NEAR(found(without - 4.5), without + 600.0, 1.0);
+}
+
+TEST(Continuous, ForgetsMotionAfterAnHour) {
+  MotionWindow window({20, 10});
+  double step = 0.0;
+  // Three cameras see an LED that moves.
+  const auto isEnoughUntil = [&](double begin, double end) {
+    bool is_enough = false;
+    for (double time = begin; time < end; time += 0.025) {
+      step += 3.0;
+      for (const char* name : {"a", "b", "c"})
+        is_enough = window.add({name, time, 7, {Eigen::Vector2d(step, 0.0)}, {}}) || is_enough;
+    }
+    return is_enough;
+  };
+  EXPECT_FALSE(isEnoughUntil(0.0, 1.0));
+  EXPECT_FALSE(isEnoughUntil(4000.0, 4001.0));
+  EXPECT_TRUE(isEnoughUntil(4100.0, 4101.0));
+  // The clock is set.
+  EXPECT_FALSE(isEnoughUntil(1.7e9, 1.7e9 + 1.0));
+}
+
+TEST(Continuous, KeyframesSkipPauses) {
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  const auto keyframes = [&](double pause) {
+    WavedLed led(rig.cameras, 1100);
+    std::vector<capture::Image> images;
+    led.runUntil(4.0, [&](capture::Image image) {
+      if (image.stamp > WavedLed::kClock + 2.0)
+        image.stamp += pause;
+      images.push_back(image);
+    });
+    return KeyframeSource(rig, images).keyframes(rig, 5.0).size();
+  };
+  EXPECT_GT(keyframes(0.0), 40U);
+  // Steps of 0.05 s through ten years would take an hour.
+  EXPECT_NEAR(static_cast<double>(keyframes(3e8)), static_cast<double>(keyframes(0.0)), 4.0);
 }
 
 /// Another light than the LED, where it is at this time [s].

@@ -1,5 +1,6 @@
 #include "continuous/adjust_rig.h"
 
+#include "../recalibrate/seen_path.h"
 #include "adjust/camera_blocks.h"
 #include "adjust/covariance.h"
 #include "adjust/interpolated_pixel.h"
@@ -70,7 +71,7 @@ geometry::Rig priorOf(const geometry::Rig& rig,
       prior.covariance.row(clock).setZero();
       prior.covariance.col(clock).setZero();
     }
-    const double offset = known ? options.clock : options.epoch;
+    const double offset = known ? options.offset_stddev : options.new_offset_stddev;
     variance[kTimeOffset] = offset * offset;
     prior.covariance.diagonal().segment<kParameters>(first) += variance;
   }
@@ -181,7 +182,7 @@ class Adjustment {
         return std::nullopt;
     }
     for (int i = 0; i < kFinalRounds; ++i) {
-      const double stddev = misfitOf(source_.keyframes(rig_, kWideGates[2]));
+      const double stddev = rmsResidual(source_.keyframes(rig_, kWideGates[2]));
       if (!round(std::sqrt(2.0) * kGate * stddev, stddev, std::numeric_limits<double>::infinity()))
         return std::nullopt;
     }
@@ -228,17 +229,35 @@ std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,
   auto adjusted = Adjustment(prior, source).solve();
   for (std::size_t i = 0; adjusted && i < rig.cameras.size(); ++i) {
     const Eigen::Index clock = firstParameter(i) + kTimeOffset;
-    adjusted->covariance(clock, clock) += options.clock * options.clock;
+    adjusted->covariance(clock, clock) += options.offset_stddev * options.offset_stddev;
+    if (rig.cameras[i].time_offset_rule == geometry::TimeOffsetRule::kNone)
+      copyClock(rig, i, &*adjusted);
   }
   return adjusted;
 }
 
+void copyClock(const geometry::Rig& from, std::size_t camera, geometry::Rig* to) {
+  const geometry::RigCamera& source = from.cameras[camera];
+  to->cameras[camera].time_offset = source.time_offset;
+  to->cameras[camera].time_offset_rule = source.time_offset_rule;
+  to->cameras[camera].time_offset_epoch = source.time_offset_epoch;
+  const Eigen::Index clock = firstParameter(camera) + kTimeOffset;
+  to->covariance.row(clock).setZero();
+  to->covariance.col(clock).setZero();
+  to->covariance(clock, clock) = from.covariance(clock, clock);
+}
+
 std::optional<double> misfitOf(const geometry::Rig& rig,
                                const std::vector<capture::Image>& images) {
-  const auto keyframes = KeyframeSource(rig, images).keyframes(rig, kCheckGate);
+  const KeyframeSource source(rig, images);
+  geometry::Rig valid = rig;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
+    valid.cameras[i].time_offset =
+        recalibrate::timeOffset(rig.cameras[i], source.epoch(i).value_or(0)).value_or(0.0);
+  const auto keyframes = source.keyframes(valid, kCheckGate);
   if (keyframes.size() < kLeastKeyframes)
     return std::nullopt;
-  return misfitOf(keyframes);
+  return rmsResidual(keyframes);
 }
 
 }  // namespace wiimote_tracker::continuous

@@ -5,6 +5,7 @@
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -15,22 +16,27 @@ struct AdjustOptions {
   double least_turn = 0.0001;         ///< [rad, > 0]
   double turn_rate = 0.0005 / 3600.;  ///< Added with time [rad/s, >= 0].
   double most_turn = 0.002;           ///< [rad, >= least_turn]
-  double lever = 0.1;     ///< A camera that turns moves by this times the angle [m, > 0].
-  double clock = 0.0001;  ///< Error of the stamps that changes slowly [s, > 0].
-  double epoch = 0.02;    ///< Of the time offset in a new epoch, around 0 [s, > 0].
+  double lever = 0.1;               ///< A camera that turns moves by this times the angle [m, > 0].
+  double offset_stddev = 0.0001;    ///< Error of the stamps that changes slowly [s, > 0].
+  double new_offset_stddev = 0.02;  ///< Of the time offset in a new epoch, around 0 [s, > 0].
 };
 
 /// All cameras adjusted together to images of one moving LED: maximum a posteriori pose, lens and
 /// time offset, the prior being the rig with its joint covariance, and the drift since solved_at.
-/// Cameras turn more easily than they move, so that their places hold the world.
+/// Cameras turn more easily than they move, so that their places hold the world. A camera whose rig
+/// has no time offset keeps none: it is solved with one that is then forgotten.
 /// @returns the rig with its covariance, but without solved_at and verdict; nothing when the rig
 /// has no covariance, when three cameras agree on too few places, or when these lie together.
 std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,
                                        const std::vector<capture::Image>& images,
                                        const AdjustOptions& options);
 
-/// How well the images fit together: root mean square of the residuals per axis [px]. Nothing
-/// when three cameras agree on too few places.
+/// Copies a camera's time offset and its variance, without its correlations.
+void copyClock(const geometry::Rig& from, std::size_t camera, geometry::Rig* to);
+
+/// How well the images of each camera's latest epoch fit together, with the time offsets that hold
+/// then: root mean square of the residuals per axis [px]. Nothing when three cameras agree on too
+/// few places.
 std::optional<double> misfitOf(const geometry::Rig& rig, const std::vector<capture::Image>& images);
 
 }  // namespace wiimote_tracker::continuous

@@ -19,18 +19,21 @@ using Drifts = std::vector<std::optional<health::Drift>>;
 
 /// How far each camera of the rig is off in these images.
 Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& images, double limit) {
-  // The watch judges at the end of its window at the latest.
   const double duration = images.back().stamp - images.front().stamp;
   health::DriftWatch watch(rig, {limit, duration});
   for (const capture::Image& image : images)
     watch.add(image);
+  watch.judge();
   return watch.drifts();
 }
 
-/// Whether no camera contradicts the others.
+/// Whether at least three cameras were judged, and none contradicts the others.
 bool allFit(const Drifts& drifts) {
-  return std::none_of(drifts.begin(), drifts.end(),
-                      [](const auto& drift) { return drift && drift->ratio >= 1.0; });
+  const auto judged = std::count_if(drifts.begin(), drifts.end(),
+                                    [](const auto& drift) { return drift.has_value(); });
+  return judged >= 3 && std::none_of(drifts.begin(), drifts.end(), [](const auto& drift) {
+           return drift && drift->ratio >= 1.0;
+         });
 }
 
 /// Replaces what an earlier change has added to the verdict.
@@ -58,19 +61,41 @@ double turnOf(const geometry::RigCamera& a, const geometry::RigCamera& b) {
 }
 
 bool hasNewClock(const geometry::RigCamera& before, const geometry::RigCamera& now) {
-  return now.time_offset_rule != before.time_offset_rule ||
+  return before.time_offset_rule == geometry::TimeOffsetRule::kOneEpoch &&
          now.time_offset_epoch != before.time_offset_epoch;
+}
+
+/// Whether no camera has reconnected since the rig was solved.
+bool clocksHold(const geometry::Rig& rig, const std::vector<capture::Image>& images) {
+  return std::all_of(images.begin(), images.end(), [&](const capture::Image& image) {
+    const geometry::RigCamera* const camera = rig.find(image.camera);
+    return camera == nullptr || camera->time_offset_rule != geometry::TimeOffsetRule::kOneEpoch ||
+           camera->time_offset_epoch == image.clock_epoch;
+  });
+}
+
+/// The rig before an adjustment with the new clocks that it found.
+geometry::Rig withNewClocks(geometry::Rig before, const geometry::Rig& adjusted) {
+  for (std::size_t i = 0; i < before.cameras.size(); ++i) {
+    if (hasNewClock(before.cameras[i], adjusted.cameras[i]))
+      copyClock(adjusted, i, &before);
+  }
+  return before;
 }
 
 /// What an adjustment has changed: "camera_1 turned by 0.03 degrees, camera_2 ...".
 std::string changesText(const geometry::Rig& before, const geometry::Rig& now) {
   std::vector<std::string> changes;
   for (std::size_t i = 0; i < now.cameras.size(); ++i) {
+    const geometry::RigCamera& was = before.cameras[i];
     const geometry::RigCamera& camera = now.cameras[i];
-    changes.push_back(camera.camera.name + format(" turned by %.2f degrees",
-                                                  turnOf(before.cameras[i], camera) * kDegrees));
-    if (hasNewClock(before.cameras[i], camera))
-      changes.back() += format(" and has a new clock, %.1f ms off", 1000.0 * camera.time_offset);
+    std::vector<std::string> own;
+    if (camera.camera.world_from_camera.matrix() != was.camera.world_from_camera.matrix())
+      own.push_back(format(" turned by %.2f degrees", turnOf(was, camera) * kDegrees));
+    if (hasNewClock(was, camera))
+      own.push_back(format(" has a new clock, %.1f ms off", 1000.0 * camera.time_offset));
+    if (!own.empty())
+      changes.push_back(camera.camera.name + joined(own, " and"));
   }
   return joined(changes, ", ");
 }
@@ -141,9 +166,19 @@ std::optional<Proposal> ContinuousCalibration::moved(const Evidence& evidence) c
 }
 
 std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& images) const {
-  const auto rig = adjustRig(rig_, images.to_solve, options_.adjust);
-  if (!rig)
+  auto rig = adjustRig(rig_, images.to_solve, options_.adjust);
+  if (!rig || !clocksHold(*rig, images.to_check))
     return std::nullopt;
+  const geometry::Rig with_clocks = withNewClocks(rig_, *rig);
+  const auto before = misfitOf(with_clocks, images.to_check);
+  auto after = misfitOf(*rig, images.to_check);
+  if (!before || !after)
+    return std::nullopt;
+  const bool keeps_poses = *before * *before - *after * *after < options_.gain * options_.gain;
+  if (keeps_poses) {
+    rig = with_clocks;
+    after = before;
+  }
   const Drifts drifts = driftsOf(*rig, images.to_check, options_.accepted);
   if (!allFit(drifts))
     return std::nullopt;
@@ -159,18 +194,17 @@ std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& imag
       most = i;
     reconnected = reconnected || has_new_clock;
   }
-  const auto before = misfitOf(rig_, images.to_check);
-  const auto after = misfitOf(*rig, images.to_check);
-  if (!after)
-    return std::nullopt;
-  const double gain = before ? *before * *before - *after * *after : 0.0;
-  if (!reconnected && gain < options_.gain * options_.gain)
+  if (keeps_poses && !reconnected)
     return std::nullopt;
   const std::string message = changesText(rig_, *rig) +
                               format(". Corrected, the images agree to %.2f px", *after) +
                               (reconnected ? "" : format(" (now %.2f px)", *before));
-  return proposalOf(reconnected ? Cause::kReconnect : Cause::kDrift, rig_.cameras[most].camera.name,
-                    rig_, *rig, message, images.to_check);
+  Proposal proposal =
+      proposalOf(reconnected ? Cause::kReconnect : Cause::kDrift, rig_.cameras[most].camera.name,
+                 rig_, *rig, message, images.to_check);
+  if (keeps_poses)
+    proposal.rig.solved_at = rig_.solved_at;
+  return proposal;
 }
 
 }  // namespace wiimote_tracker::continuous

@@ -37,7 +37,7 @@ enum class Cause { kKnock, kReconnect, kDrift };
 struct Proposal {
   Cause cause;
   std::string camera;   ///< That has changed most.
-  geometry::Rig rig;    ///< As it was found; solved_at: its last image.
+  geometry::Rig rig;    ///< As it was found; solved_at: its last image, if poses changed.
   std::string message;  ///< One sentence: what has changed, and how well the images fit then.
 };
 

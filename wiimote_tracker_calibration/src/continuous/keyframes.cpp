@@ -120,6 +120,20 @@ std::optional<View> KeyframeSource::viewAt(std::size_t camera, double stamp) con
   return View{camera, before->pixel + (stamp - before->stamp) * velocity, velocity};
 }
 
+double KeyframeSource::nextSpot(const geometry::Rig& rig, double time) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const std::vector<Spot>& spots = tracks_[i].spots;
+    const double offset = rig.cameras[i].time_offset;
+    const auto after =
+        std::upper_bound(spots.begin(), spots.end(), time - offset,
+                         [](double value, const Spot& spot) { return value < spot.stamp; });
+    if (after != spots.end())
+      next = std::min(next, after->stamp + offset);
+  }
+  return next;
+}
+
 std::vector<Keyframe> KeyframeSource::keyframes(const geometry::Rig& rig, double gate) const {
   std::vector<geometry::Camera> cameras;
   double begin = std::numeric_limits<double>::infinity();
@@ -138,6 +152,8 @@ std::vector<Keyframe> KeyframeSource::keyframes(const geometry::Rig& rig, double
       if (const auto view = viewAt(i, time - rig.cameras[i].time_offset))
         keyframe.views.push_back(*view);
     }
+    if (keyframe.views.empty())  // A pause, or a step of the clock, may take years.
+      time = std::max(time, nextSpot(rig, time) - kPeriod);
     if (locateWithoutOutlier(cameras, gate, &keyframe) &&
         (keyframes.empty() || (keyframe.point - keyframes.back().point).norm() > kLeastStep))
       keyframes.push_back(std::move(keyframe));
@@ -145,7 +161,7 @@ std::vector<Keyframe> KeyframeSource::keyframes(const geometry::Rig& rig, double
   return keyframes;
 }
 
-double misfitOf(const std::vector<Keyframe>& keyframes) {
+double rmsResidual(const std::vector<Keyframe>& keyframes) {
   double squared = 0.0;
   double freedom = 0.0;
   for (const Keyframe& keyframe : keyframes) {

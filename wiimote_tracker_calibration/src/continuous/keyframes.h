@@ -55,12 +55,14 @@ class KeyframeSource {
 
   static void removeOtherLights(std::vector<Spot>* spots);
   std::optional<View> viewAt(std::size_t camera, double stamp) const;
+  /// When any camera sees its next spot after a time; infinite: never [s].
+  double nextSpot(const geometry::Rig& rig, double time) const;
 
   std::vector<Track> tracks_;  // Per camera of the rig.
 };
 
 /// Root mean square of the residuals per axis, corrected for the points that were fitted [px].
-double misfitOf(const std::vector<Keyframe>& keyframes);
+double rmsResidual(const std::vector<Keyframe>& keyframes);
 
 }  // namespace wiimote_tracker::continuous
 

@@ -11,6 +11,8 @@ constexpr std::size_t kLeastCameras = 3;
 constexpr double kLeastMotion = 2.0;  // Rounding alone does not move a spot as far [px].
 // Images are kept as long as the last sample is not older than this [s].
 constexpr double kLongestPause = 1.0;
+// Samples farther from the newest image are dropped: meanwhile cameras may have drifted [s].
+constexpr double kLongestSpan = 3600.0;
 
 }  // namespace
 
@@ -21,7 +23,8 @@ bool MotionWindow::add(const capture::Image& image, const std::string& needed) {
   if (samples_.empty() || image.stamp - samples_.back() > kLongestPause)
     return false;
   images_.push_back(image);
-  while (samples_.size() > options_.to_solve + options_.to_check)
+  while (samples_.size() > options_.to_solve + options_.to_check ||
+         samples_.front() < image.stamp - kLongestSpan)
     samples_.pop_front();
   while (images_.front().stamp < samples_.front() - kSamplePeriod)
     images_.pop_front();

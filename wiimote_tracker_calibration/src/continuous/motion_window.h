@@ -29,7 +29,7 @@ struct MotionImages {
   std::vector<capture::Image> to_check;  ///< Later ones.
 };
 
-/// Keeps the latest images while an LED moves.
+/// Keeps the latest images while an LED moves, for an hour at most.
 class MotionWindow {
  public:
   explicit MotionWindow(const MotionOptions& options) : options_(options) {}

@@ -50,6 +50,9 @@ class DriftWatch {
   /// @returns true when a new judgement is there.
   bool add(const capture::Image& image);
 
+  /// Judges the window now; add() does so twelve times in it.
+  void judge();
+
   /// Those of the window, in the order of their times.
   const std::deque<DriftSample>& samples() const { return samples_; }
 
@@ -70,7 +73,6 @@ class DriftWatch {
   };
   void sampleUntil(double time);
   void sampleAt(double time);
-  void judge();
   std::optional<Drift> driftOf(std::size_t camera, const std::vector<bool>& active) const;
   std::optional<Drift> driftOfPair(std::size_t a, std::size_t b) const;
   /// Removes the cameras that drifted, one after the other. @returns which ones remain.

@@ -191,14 +191,15 @@ class GuidedCalibration(unittest.TestCase):
         # Waits for the drivers with a separate program, which may fail.
         self.carry(experiment.CORNERS[0])
         starting = Program()
+        starting.expect('Switch the LED off.*k goes on without')
         self.wait_for_cameras(starting)
         starting.end()
 
         self.led('lamp', on=True)  # a lamp that was left on
         self.led(on=False)
         program = Program('--side', f'{experiment.SIDE:g}')
-        program.expect('Switch the LED off')
-        program.type('next')
+        program.expect('SPACE: start with 2.5 m')
+        program.type('masks')
         program.expect('Switch the LED on')
         self.led(on=True)
         program.type('next')

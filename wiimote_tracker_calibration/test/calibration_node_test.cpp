@@ -55,7 +55,7 @@ TEST_F(Node, TheConnectionCheckNamesTheCamerasThatFail) {
   EXPECT_TRUE(response.cameras[1].sees_led);
   EXPECT_TRUE(waitUntil([] { return status_->get()->cameras[1].seen_with.size() == 3; }));
   EXPECT_GT(status_->get()->cameras[1].seen_share, 0.0);
-  EXPECT_SAYS(status_->get()->walk, "the walk showed the LED to camera_1");
+  EXPECT_SAYS(status_->get()->walk, "the LED was seen: camera_1");
 
   cameras_->blind({"camera_3"});
   EXPECT_TRUE(waitUntil([&] {
@@ -315,6 +315,20 @@ TEST_F(Node, ADamagedRigAtStartDoesNotStopTheNode) {
   EXPECT_EQ(status.get()->step, CalibrationStatus::IDLE);
   EXPECT_SAYS(status.get()->message, "half.yaml");
   EXPECT_TRUE(status.get()->rig_id.empty());
+}
+
+TEST_F(Node, WithARigInUseTheConnectionCheckBeginsTheWalk) {
+  ASSERT_FALSE(status_->get()->rig_id.empty());  // from a test before
+  EXPECT_TRUE(waitUntil([] {
+    call<std_srvs::Trigger>("calibration/cancel");
+    return status_->get()->step == CalibrationStatus::IDLE;
+  }));
+  EXPECT_EQ(status_->get()->walk, "");
+  putLed(kCorners[0]);
+  wiimote_tracker_msgs::CheckConnection::Request request;
+  request.duration = 0.3;
+  call<wiimote_tracker_msgs::CheckConnection>("calibration/check_connection", request);
+  EXPECT_TRUE(waitUntil([] { return !status_->get()->walk.empty(); }));
 }
 
 /// Exit code and output of a node that is to end by itself.

@@ -8,6 +8,7 @@ import time
 
 import pytest
 from geometry_msgs.msg import Point
+from std_msgs.msg import String
 from wiimote_tracker_msgs import srv
 from wiimote_tracker_msgs.msg import (BoardStatus, CalibrationCameraStatus, CalibrationStatus,
                                       CalibrationVerdict, CameraVerdict, CaptureCornerGoal,
@@ -166,7 +167,7 @@ def test_the_verdict_says_what_to_measure_next_and_a_length_is_solved_at_once():
     lines = screen.render(dialogue.guide, 3.0, 'verdict')
     assert lines[4:8] == [
         'good', 'corner 1 to corner 3 is 3.5395 m by tape',
-        'Points are right to within 8.7 mm (RMS).',
+        'Expected error of a point: 8.7 mm (RMS).',
         'Next (keys d, a): measure from corner 2 to corner 4 by tape: 8.7 -> 6.1 mm']
 
 
@@ -314,18 +315,29 @@ def test_a_bad_corner_is_to_be_taken_again():
     assert guide.advice().word == 'capture' and guide.advice().arguments == ['3']
 
 
-def test_the_bell_rings_for_every_sound():
+@pytest.mark.parametrize('sound, rings', [
+    ('captured', 1), ('refused', 2), ('enough', 1), ('solved', 1)])
+def test_the_bell_rings_for_every_sound_and_twice_for_a_refusal(sound, rings):
     node = FakeNode()
     dialogue = dialogue_with(node, status(CalibrationStatus.READY))
-    assert not dialogue.take_events(1.0)
-    node.events.put(('sound', 'captured'))
+    assert dialogue.take_events(1.0) == 0
+    node.events.put(('sound', String(sound)))
     node.events.put(('status', status(CalibrationStatus.READY)))
-    assert dialogue.take_events(2.0)
+    assert dialogue.take_events(2.0) == rings
+
+
+@pytest.mark.parametrize('step, request_, key', [
+    ('IDLE', 'learn_masks', 'k'), ('COMPLETE', 'start_wave', 's'), ('SOLVED', '', 'v'),
+    ('SOLVED', 'capture_corner', 'v'), ('SAVED', '', 'c')])
+def test_the_key_of_another_way_on_is_named(step, request_, key):
+    sentence = guide_at(status(getattr(CalibrationStatus, step), request_, 'do it')).advice().sentence
+    assert f' {key} ' in sentence
+    assert commands.find(commands.RIG, key) is not None
 
 
 def test_the_walk_is_shown():
-    guide = guide_at(status(CalibrationStatus.IDLE, walk='the walk showed the LED to a in 17 %'))
-    assert '- the walk showed the LED to a in 17 %' in screen.render(guide, 0.0)
+    guide = guide_at(status(CalibrationStatus.IDLE, walk='the LED was seen: a 17 %'))
+    assert '- the LED was seen: a 17 %' in screen.render(guide, 0.0)
 
 
 def test_it_says_how_long_it_took():
@@ -472,7 +484,7 @@ def test_space_waits_for_what_the_latest_answer_has_led_to():
     node.events.put(('status', status(CalibrationStatus.SAVED)))
     dialogue.take_events(2.0)
     assert not node.sent and not dialogue.is_busy()
-    assert dialogue.guide.answer == 'Do this.'
+    assert dialogue.guide.answer == 'Do this. c checks it.'
     node.events.put(('status', CAPTURE))
     dialogue.take_events(3.0)
     dialogue.next()

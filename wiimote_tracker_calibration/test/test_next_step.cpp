@@ -26,6 +26,23 @@ TEST_F(NextStepTest, MasksConnectionAndStartFollowEachOther) {
   EXPECT_TRUE(next().request.empty());
 }
 
+TEST_F(NextStepTest, ACheckedConnectionGoesOnWithoutMasks) {
+  calibration_.preparation().connection_checked = true;
+  EXPECT_EQ(next().request, "start");
+}
+
+TEST_F(NextStepTest, LightsOfARigFileAreLearned) {
+  geometry::Rig rig;
+  rig.cameras.resize(1);
+  ASSERT_TRUE(calibration_.load(rig).success);
+  calibration_.cancel();
+  EXPECT_EQ(next().request, "learn_masks");
+  rig.cameras[0].masks = {{{1.0, 2.0}, 3.0}};
+  ASSERT_TRUE(calibration_.load(rig).success);
+  calibration_.cancel();
+  EXPECT_EQ(next().request, "check_connection");
+}
+
 TEST_F(NextStepTest, ItLeadsOverCornersAndWaveToASavedRig) {
   ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
   for (std::size_t i = 0; i < kCorners.size(); ++i) {
@@ -90,6 +107,13 @@ TEST_F(NextStepTest, SidesThatAreHardlyMeantAreQuestioned) {
   }
   ASSERT_TRUE(calibration_.start(0.3, 10.0, names_).success);
   EXPECT_EQ(next().sentence.find("wrong"), std::string::npos);
+}
+
+TEST_F(NextStepTest, ACornerTakenAgainIsHeard) {
+  captureAll();
+  EXPECT_EQ(sounds_.heard(calibration_), "captured");
+  ASSERT_TRUE(capture(kCorners[1], 1).success);
+  EXPECT_EQ(sounds_.heard(calibration_), "captured");
 }
 
 TEST_F(NextStepTest, ARefusalIsHeard) {

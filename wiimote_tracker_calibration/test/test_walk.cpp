@@ -22,9 +22,10 @@ class WalkTest : public testing::Test {
 TEST_F(WalkTest, SaysWhereEachCameraSawTheLedAndWhichSawItTogether) {
   EXPECT_EQ(walk_.sentence(), "");
   cross({"a", "b"}, 10.0);
-  EXPECT_EQ(walk_.sentence(),
-            "the walk showed the LED to a in 17 %, b in 17 % of the image; together: every two of "
-            "them");
+  EXPECT_EQ(
+      walk_.sentence(),
+      "share of the image in which the LED was seen: a 17 %, b 17 %; seen together: every two "
+      "of them");
   cross({"c"}, 20.0);
   EXPECT_DOUBLE_EQ(walk_.share("a"), 8.0 / 48.0);
   EXPECT_EQ(walk_.share("nobody"), 0.0);
@@ -33,8 +34,8 @@ TEST_F(WalkTest, SaysWhereEachCameraSawTheLedAndWhichSawItTogether) {
   EXPECT_TRUE(walk_.seenWith("c").empty());
   EXPECT_EQ(
       walk_.sentence(),
-      "the walk showed the LED to a in 17 %, b in 17 %, c in 17 % of the image; together: a + "
-      "b; with no other camera: c, to be turned towards what the others see");
+      "share of the image in which the LED was seen: a 17 %, b 17 %, c 17 %; seen together: a + b; "
+      "seen by no other camera: what c saw; turn it towards what the others see");
   walk_.restart();
   EXPECT_EQ(walk_.sentence(), "");
 }

@@ -50,17 +50,17 @@ class Dialogue:
         """Whether an answer or the next command is outstanding."""
         return bool(self.guide.running) or self._next_is_wanted
 
-    def take_events(self, now: float) -> bool:
-        """Reads what has come in. Returns whether a bell should ring."""
-        ring = False
+    def take_events(self, now: float) -> int:
+        """Reads what has come in. Returns how often a bell should ring."""
+        rings = 0
         while True:
             try:
                 event, *values = self.node.events.get_nowait()
             except queue.Empty:
                 break
-            ring = bool(self._take(event, values, now)) or ring
+            rings = max(rings, self._take(event, values, now) or 0)
         self._do_next()
-        return ring
+        return rings
 
     def _take(self, event: str, values: list, now: float):
         guide = self.guide
@@ -69,7 +69,7 @@ class Dialogue:
         if event == 'board':
             return guide.on_board(values[0])
         if event == 'sound':
-            return True
+            return 2 if values[0].data == 'refused' else 1
         if event == 'feedback':
             return guide.on_feedback(*values)
         if event == 'answer':

@@ -117,7 +117,7 @@ class Guide:
             return Advice('Waiting for the calibration node.')
         word = WORDS.get(status.next_request)
         if word is None:
-            return Advice(status.next_sentence)
+            return Advice(status.next_sentence + other_key(status))
         if word == 'wave' and status.corners_needed == 0 and not self.is_waving():
             return Advice(f'{status.next_sentence} w asks for the length.')
         arguments = [str(status.next_corner + 1)] if status.next_corner >= 0 else []
@@ -125,7 +125,7 @@ class Guide:
         if word == 'start':
             arguments = self._side
             label += f' with {" x ".join(arguments)} m' if arguments else '; n asks for the side'
-        return Advice(f'{status.next_sentence} SPACE: {label}.', word, arguments)
+        return Advice(f'{status.next_sentence} SPACE: {label}.{other_key(status)}', word, arguments)
 
     def is_waving(self) -> bool:
         return self.status is not None and self.status.step == self.status.WAVING
@@ -163,6 +163,18 @@ class Guide:
         complete = status.corners_needed and status.corners_captured >= status.corners_needed
         if complete and self._square_at is None and self._started_at is not None:
             self._square_at = now
+
+
+def other_key(status) -> str:
+    """The key of another way on, of which the sentence speaks too."""
+    request = status.next_request
+    if request == 'learn_masks':
+        return ' k goes on without.'
+    if status.step == status.COMPLETE and request == 'start_wave':
+        return ' s solves.'
+    if status.step == status.SOLVED and request != 'save':
+        return ' v saves.'
+    return ' c checks it.' if status.step == status.SAVED else ''
 
 
 def spoken(seconds: float) -> str:

@@ -7,7 +7,8 @@ from typing import Callable, Dict, List
 from .commands import Command
 from .dialogue import Dialogue
 
-PERIOD = 0.1  # [s] Between two drawings.
+PERIOD = 0.1         # [s] Between two drawings.
+BETWEEN_RINGS = 0.3  # [s] So that two are heard.
 ESCAPE, BACKSPACE, ENTER = (27,), (curses.KEY_BACKSPACE, 8, 127), (10, 13, curses.KEY_ENTER)
 
 
@@ -38,7 +39,9 @@ class Terminal:
             pass  # some terminals cannot hide the cursor
         window.timeout(int(1000 * PERIOD))
         while True:
-            if self._dialogue.take_events(time.monotonic()):
+            for ring in range(self._dialogue.take_events(time.monotonic())):
+                if ring > 0:
+                    time.sleep(BETWEEN_RINGS)
                 curses.beep()
             self._show(window)
             key = window.getch()

@@ -32,8 +32,9 @@ void Walk::add(const Image& image, int width, int height) {
   for (auto& [name, other] : views_) {
     if (name == image.camera || !(std::abs(image.stamp - other.last) < kSameTime))
       continue;
-    ++own.together[name];
-    ++other.together[image.camera];
+    if (own.together[name] < kEnough)
+      ++own.together[name];
+    other.together[image.camera] = own.together[name];
   }
 }
 

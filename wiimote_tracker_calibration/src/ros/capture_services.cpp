@@ -76,7 +76,7 @@ class CaptureServices {
     context_.inputs().discover();
     Lock lock(context_.mutex());
     return context_.answer(&lock, [&] {
-      context_.walk(lock).restart();
+      context_.beginWalk(lock);
       context_.waitUntil(&lock, NodeContext::now() + duration, [] { return false; });
       const double now = NodeContext::now();
       response->cameras = context_.cameraStatus(now, duration, lock);

@@ -70,7 +70,7 @@ NodeContext::NodeContext(const ros::NodeHandle& nh, const Parameters& parameters
   transforms_.sendTransform(squareTransform(parameters.calibration));
   inputs_.subscribeImages([this](const capture::Image& image, const Lock&) {
     const CameraInput& camera = inputs_.cameras().at(image.camera);
-    if (calibration_.cameras().empty() && camera.width > 0 && camera.height > 0)
+    if (isWalked() && camera.width > 0 && camera.height > 0)
       walk_.add(image, camera.width, camera.height);
   });
 }
@@ -174,8 +174,18 @@ void NodeContext::setRig(const geometry::Rig& rig, const std::string& message, c
   publishStatus(lock);
 }
 
+void NodeContext::beginWalk(const Lock&) {
+  walk_.restart();
+  walk_is_wanted_ = true;
+}
+
+bool NodeContext::isWalked() const {
+  return calibration_.cameras().empty() && (!calibration_.rig() || walk_is_wanted_);
+}
+
 void NodeContext::publishRig(const session::Verdict& verdict, const Lock&) {
   verdict_ = verdict;
+  walk_is_wanted_ = false;
   const geometry::Rig& rig = *calibration_.rig();
   // The transforms first: whoever receives the rig finds them.
   transforms_.sendTransform(staticTransforms(rig));
@@ -223,7 +233,7 @@ void NodeContext::publishStatus(const Lock& lock) {
   status.header.stamp = ros::Time::now();
   status.header.frame_id = parameters_.calibration.world_frame;
   status.cameras = cameraStatus(now(), 1.0, lock);
-  if (calibration_.cameras().empty())
+  if (isWalked())
     status.walk = walk_.sentence();
   status_publisher_.publish(status);
   publishSquare(lock);

@@ -98,8 +98,8 @@ class NodeContext {
   /// A unit may copy them, and change its own, such as a camera's intrinsics.
   Parameters& parameters(const Lock&) { return parameters_; }
   workflow::Calibration& calibration(const Lock&) { return calibration_; }
-  /// What the cameras see of a carried LED while no calibration is started.
-  capture::Walk& walk(const Lock&) { return walk_; }
+  /// Forgets what the cameras saw of a carried LED, and collects it also for the rig in use.
+  void beginWalk(const Lock&);
   /// Measured with the current rig after useRig(); before that perhaps with another.
   place::KnownPlaces& knownPlaces(const Lock&) { return known_places_; }
 
@@ -147,6 +147,8 @@ class NodeContext {
   void publishStatus(const Lock& lock);
 
  private:
+  /// A walk comes before the start. With a rig in use its LED is tracked instead.
+  bool isWalked() const;
   /// Publishes what has just happened, for the ears.
   void publishSound(const Lock&);
   /// Publishes the square, when its sides have changed.
@@ -159,6 +161,7 @@ class NodeContext {
   workflow::Calibration calibration_;
   workflow::Sounds sounds_;
   capture::Walk walk_;
+  bool walk_is_wanted_ = false;  // though there is a rig
   place::KnownPlaces known_places_;
   session::Verdict verdict_;  // of the current rig
   std::map<std::string, std::string> health_;

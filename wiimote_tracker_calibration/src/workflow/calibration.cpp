@@ -177,8 +177,10 @@ void Calibration::update(double now) {
     return;
   busy_.reset();
   updateStep();
-  if (captured_.square.outcome()->success)
+  if (captured_.square.outcome()->success) {
     dropLengthsTo(captured_.square.currentCorner(), &captured_);
+    ++captures_;
+  }
   shown(*captured_.square.outcome());
 }
 
@@ -277,6 +279,8 @@ Reply Calibration::restore(const session::Session& session) {
   if (!reply.success)
     return reply;
   updateStep();
+  for (const std::vector<geometry::ImageMask>& masks : session.masks)
+    preparation_.lights_learned |= !masks.empty();
   return accept("samples of " + std::to_string(captured_.cameras.size()) + " cameras with " +
                 std::to_string(captured_.square.corners().size()) + " corners" +
                 (captured_.wave ? " and a wave" : "") +
@@ -287,6 +291,8 @@ Reply Calibration::load(const geometry::Rig& rig) {
   if (busy_)
     return refuse(occupied());
   rig_ = rig;
+  for (const geometry::RigCamera& camera : rig.cameras)
+    preparation_.lights_learned |= !camera.masks.empty();
   if (captured_.cameras.empty() || step_ == Step::kSolved)
     step_ = Step::kSaved;
   return accept("rig " + rig.id() + " with " + std::to_string(rig.cameras.size()) +

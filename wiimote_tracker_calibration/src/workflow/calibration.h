@@ -158,6 +158,8 @@ class Calibration {
   const std::string& message() const { return message_; }
   /// How often something was refused so far.
   std::size_t refusals() const { return refusals_; }
+  /// How often a corner was captured so far, also again.
+  std::size_t captures() const { return captures_; }
   double progress() const;
   /// What is still missing before this can be solved, most urgent first; one sentence each.
   std::vector<std::string> missing() const;
@@ -189,6 +191,7 @@ class Calibration {
   double progress_ = 0.0;     // of the running step, by setProgress()
   std::string message_ = "nothing started: start a calibration, or load a rig";
   std::size_t refusals_ = 0;
+  std::size_t captures_ = 0;
   Preparation preparation_;
   Captured captured_;
   bool hands_free_on_ = false;

@@ -25,7 +25,7 @@ std::string cornerTitle(std::size_t corner) {
 }
 
 NextStep beforeStart(const Preparation& done) {
-  if (!done.lights_learned)
+  if (!done.lights_learned && !done.connection_checked)
     return {
         "LED off",
         "Switch the LED off or take it away: the lights of the room are learned, to ignore them.",

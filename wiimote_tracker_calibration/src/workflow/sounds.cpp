@@ -6,12 +6,12 @@ namespace wiimote_tracker::workflow {
 
 std::string Sounds::heard(const Calibration& calibration) {
   const Step step = calibration.step();
-  const State now = {calibration.refusals(), calibration.square().corners().size(),
+  const State now = {calibration.refusals(), calibration.captures(),
                      step == Step::kWaving && calibration.wave()->report().enough(), step};
   const State before = std::exchange(last_, now);
   if (now.refusals > before.refusals)
     return "refused";
-  if (now.corners > before.corners)
+  if (now.captures > before.captures)
     return "captured";
   if (now.enough && !before.enough)
     return "enough";

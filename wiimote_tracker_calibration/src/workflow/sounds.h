@@ -18,7 +18,7 @@ class Sounds {
  private:
   struct State {
     std::size_t refusals = 0;
-    std::size_t corners = 0;
+    std::size_t captures = 0;
     bool enough = false;
     Step step = Step::kIdle;
   };

@@ -252,6 +252,10 @@ geometry::Rig fromMessage(const RigCalibration& message) {
   return rig;
 }
 
+std::string idOf(const RigCalibration& message, const geometry::Rig& rig) {
+  return message.id.empty() ? rig.id() : message.id;
+}
+
 std::vector<geometry_msgs::TransformStamped> staticTransforms(const geometry::Rig& rig) {
   std::vector<geometry_msgs::TransformStamped> transforms;
   for (const geometry::RigCamera& rig_camera : rig.cameras) {

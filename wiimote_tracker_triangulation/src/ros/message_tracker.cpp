@@ -129,7 +129,7 @@ MessageTracker::RigChange MessageTracker::takeRig(
     bodies_.setRig(rig);
     tilt_reported_ = false;
     computed_id_ = id;
-    rig_id_ = message.id.empty() ? id : message.id;
+    rig_id_ = idOf(message, rig);
     camera_index_.clear();
     for (std::size_t i = 0; i < rig.cameras.size(); ++i)
       camera_index_[rig.cameras[i].camera.name] = i;

@@ -52,6 +52,51 @@ TEST(CoverageDisplay, ColoursAWalkByTheCamerasThatSawIt) {
   EXPECT_EQ(array.markers[1].text, "so far");
 }
 
+TEST(CoverageDisplay, AWalkThatHasNotBegunShowsNoCubes) {
+  const auto array = walkMarkers("hall", {{Vector3d::Zero(), 0, 0.01}}, 1.0, "so far");
+  EXPECT_EQ(array.markers[0].action, visualization_msgs::Marker::DELETE);
+}
+
+class CoverageWalk : public testing::Test {
+ protected:
+  void setRig(const std::string& id, double from) {
+    const geometry::CellGrid grid(
+        Eigen::AlignedBox3d(Vector3d::Constant(from), Vector3d::Constant(from + 2.0)), 1.0);
+    std::vector<CoverageCell> cells;
+    for (std::size_t i = 0; i < grid.count(); ++i)
+      cells.push_back({grid.center(i), 4, 0.01});
+    walked_.setRig(id, grid, cells);
+  }
+  bool see(const std::string& rig_id) {
+    wiimote_tracker_msgs::TrackedPointArray points;
+    points.rig_id = rig_id;
+    points.points.resize(1);
+    points.points[0].state = wiimote_tracker_msgs::TrackedPoint::TRACKED;
+    points.points[0].rays_used = 2;
+    points.points[0].position = pointOf(Vector3d(0.5, 0.5, 0.5));
+    return walked_.add(points);
+  }
+  WalkedCells walked_;
+};
+
+TEST_F(CoverageWalk, PointsWithoutARigAreIgnored) {
+  EXPECT_FALSE(see(""));
+  EXPECT_TRUE(walked_.cells().empty());
+}
+
+TEST_F(CoverageWalk, ACorrectionOfTheRigKeepsIt) {
+  setRig("a", 0.0);
+  EXPECT_FALSE(see("b"));
+  EXPECT_TRUE(see("a"));
+  EXPECT_EQ(walked_.cells()[0].cameras, 2U);
+  setRig("b", 0.001);
+  EXPECT_EQ(walked_.cells()[0].cameras, 2U);
+  EXPECT_EQ(walked_.cells()[1].cameras, 0U);
+  EXPECT_FALSE(see("b")) << "nothing new";
+  setRig("c", 0.1);
+  EXPECT_EQ(walked_.cells()[0].cameras, 0U);
+}
+
 TEST(CoverageDisplay, SaysWhichWayToTurnACamera) {
   constexpr double kDegree = M_PI / 180.0;
   EXPECT_EQ(sentenceOf(geometry::CameraTurn{"b", -15.0 * kDegree, 10.0 * kDegree, 0.94}),

@@ -6,6 +6,7 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 
+#include <string>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -16,6 +17,9 @@ wiimote_tracker_msgs::RigCalibration toMessage(const geometry::Rig& rig);
 /// Rig of a message. @throws geometry::InvalidRigError: unknown format_version or distortion model,
 /// values out of range or not finite. Error: a damaged correction of the volume.
 geometry::Rig fromMessage(const wiimote_tracker_msgs::RigCalibration& message);
+
+/// The id by which others name the rig of a message: its own, else the computed one.
+std::string idOf(const wiimote_tracker_msgs::RigCalibration& message, const geometry::Rig& rig);
 
 using geometry::opticalFrame;
 

@@ -4,6 +4,7 @@
 #include "../marker_parts.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <wiimote_tracker_msgs/text.h>
 
@@ -21,6 +22,7 @@ using visualization_msgs::Marker;
 constexpr double kGood = 0.005;      // green [m]
 constexpr double kBad = 0.05;        // yellow [m]
 constexpr double kCubeShare = 0.15;  // of a cell's size
+constexpr double kSamePlace = 0.02;  // [m]
 const ros::WallDuration kWalkPeriod(0.5);
 constexpr double kWalkLogPeriod = 30.0;  // [s]
 
@@ -55,6 +57,14 @@ Marker textAbove(const std::string& world_frame,
   text.pose.position =
       pointOf(Eigen::Vector3d(box.center().x(), box.center().y(), box.max().z() + height));
   return text;
+}
+
+/// Whether the cells are at the same places, but for what a correction of the rig moves.
+bool areSame(const std::vector<CoverageCell>& a, const std::vector<CoverageCell>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const CoverageCell& x, const CoverageCell& y) {
+                      return (x.center - y.center).norm() < kSamePlace;
+                    });
 }
 
 }  // namespace
@@ -141,8 +151,40 @@ visualization_msgs::MarkerArray walkMarkers(const std::string& world_frame,
                            : cell.cameras == 2 ? color(1.0f, 0.8f, 0.2f, 0.8f)
                                                : color(0.0f, 0.8f, 0.2f, 0.8f));
   }
+  if (cubes.points.empty())
+    cubes.action = Marker::DELETE;
   array.markers = {cubes, textAbove(world_frame, "walk", walked, 2.0 * cell_size, sentence)};
   return array;
+}
+
+void WalkedCells::setRig(const std::string& rig_id,
+                         const geometry::CellGrid& grid,
+                         const std::vector<CoverageCell>& cells) {
+  const bool keep = areSame(cells_, cells);
+  std::vector<CoverageCell> walked = cells;
+  for (std::size_t i = 0; i < walked.size(); ++i)
+    walked[i].cameras = keep ? cells_[i].cameras : 0;
+  cells_ = std::move(walked);
+  rig_id_ = rig_id;
+  grid_ = grid;
+}
+
+bool WalkedCells::add(const wiimote_tracker_msgs::TrackedPointArray& points) {
+  using wiimote_tracker_msgs::TrackedPoint;
+  if (!grid_ || points.rig_id != rig_id_)
+    return false;
+  bool changed = false;
+  for (const TrackedPoint& point : points.points) {
+    // With one camera the place is extrapolated, which is near enough for a cell.
+    if (point.state != TrackedPoint::TRACKED && point.state != TrackedPoint::PREDICTED)
+      continue;
+    const auto cell = grid_->cellAt(vectorOf(point.position));
+    if (!cell || cells_[*cell].cameras >= point.rays_used)
+      continue;
+    cells_[*cell].cameras = point.rays_used;
+    changed = true;
+  }
+  return changed;
 }
 
 CoverageDisplay::CoverageDisplay(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
@@ -163,19 +205,16 @@ void CoverageDisplay::onRig(const wiimote_tracker_msgs::RigCalibration& message)
     const geometry::Rig rig = fromMessage(message);
     const geometry::CellGrid grid(parameters_.volume.value_or(volumeOf(rig)),
                                   parameters_.cell_size);
-    std::vector<CoverageCell> cells = geometry::coverageOf(rig, grid, parameters_.pixel_stddev);
+    const std::vector<CoverageCell> cells =
+        geometry::coverageOf(rig, grid, parameters_.pixel_stddev);
     const auto turn = geometry::bestTurn(rig, grid);
     const std::string advice = turn ? sentenceOf(*turn) : "";
     const std::string sentence = sentenceOf(cells) + advice;
     publisher_.publish(coverageMarkers(rig.world_frame, cells, parameters_.cell_size, sentence));
     ROS_INFO_STREAM(sentence);
     possible_ = format("; %.0f %% is possible.", 100.0 * geometry::coveredShare(cells)) + advice;
-    for (CoverageCell& cell : cells)
-      cell.cameras = 0;
-    walked_ = std::move(cells);
-    rig_id_ = message.id;
+    walked_.setRig(idOf(message, rig), grid, cells);
     world_frame_ = rig.world_frame;
-    grid_ = grid;
     walk_changed_ = true;
   } catch (const geometry::Error& e) {
     ROS_ERROR("The rig on %s is not used: %s", subscriber_.getTopic().c_str(), e.what());
@@ -183,29 +222,17 @@ void CoverageDisplay::onRig(const wiimote_tracker_msgs::RigCalibration& message)
 }
 
 void CoverageDisplay::onPoints(const wiimote_tracker_msgs::TrackedPointArray& message) {
-  using wiimote_tracker_msgs::TrackedPoint;
-  if (message.rig_id != rig_id_)
-    return;
-  for (const TrackedPoint& point : message.points) {
-    // With one camera the place is extrapolated, which is near enough for a cell.
-    if (point.state != TrackedPoint::TRACKED && point.state != TrackedPoint::PREDICTED)
-      continue;
-    const auto cell =
-        grid_->cellAt(Eigen::Vector3d(point.position.x, point.position.y, point.position.z));
-    if (!cell || walked_[*cell].cameras >= point.rays_used)
-      continue;
-    walked_[*cell].cameras = point.rays_used;
-    walk_changed_ = true;
-  }
+  walk_changed_ = walked_.add(message) || walk_changed_;
 }
 
 void CoverageDisplay::publishWalk() {
   if (!std::exchange(walk_changed_, false))
     return;
   const std::string sentence = format("Two cameras or more saw the LED in %.0f %% of the volume",
-                                      100.0 * geometry::coveredShare(walked_)) +
+                                      100.0 * geometry::coveredShare(walked_.cells())) +
                                possible_;
-  walk_publisher_.publish(walkMarkers(world_frame_, walked_, parameters_.cell_size, sentence));
+  walk_publisher_.publish(
+      walkMarkers(world_frame_, walked_.cells(), parameters_.cell_size, sentence));
   ROS_INFO_STREAM_DELAYED_THROTTLE(kWalkLogPeriod, sentence);
 }
 

@@ -50,6 +50,27 @@ visualization_msgs::MarkerArray walkMarkers(const std::string& world_frame,
                                             double cell_size,
                                             const std::string& sentence);
 
+/// Where the cameras of the rig in use have seen an LED.
+class WalkedCells {
+ public:
+  /// @param cells of the grid. What was seen is kept if they are where those of the rig before
+  /// were, which a correction of the rig hardly changes.
+  void setRig(const std::string& rig_id,
+              const geometry::CellGrid& grid,
+              const std::vector<geometry::CoverageCell>& cells);
+
+  /// @returns whether this shows something new.
+  bool add(const wiimote_tracker_msgs::TrackedPointArray& points);
+
+  /// With the most cameras that saw an LED there at once.
+  const std::vector<geometry::CoverageCell>& cells() const { return cells_; }
+
+ private:
+  std::string rig_id_;
+  std::optional<geometry::CellGrid> grid_;
+  std::vector<geometry::CoverageCell> cells_;
+};
+
 /// Publishes, latched, the coverage of each new rig and where its cameras have seen an LED since.
 class CoverageDisplay {
  public:
@@ -69,11 +90,9 @@ class CoverageDisplay {
   ros::WallTimer timer_;
 
   // Of the rig in use.
-  std::string rig_id_;
   std::string world_frame_;
-  std::optional<geometry::CellGrid> grid_;
-  std::vector<geometry::CoverageCell> walked_;  // with the cameras that saw an LED there at once
-  std::string possible_;                        // what the walk can show at best, and a turn
+  WalkedCells walked_;
+  std::string possible_;  // what the walk can show at best, and a turn
   bool walk_changed_ = false;
 };
 

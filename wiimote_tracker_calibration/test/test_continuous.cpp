@@ -277,6 +277,20 @@ TEST(Continuous, ForgetsMotionAfterAnHour) {
   EXPECT_FALSE(isEnoughUntil(1.7e9, 1.7e9 + 1.0));
 }
 
+TEST(Continuous, ASlowLedTakesLittleMemory) {
+  MotionWindow window({20, 10});
+  // Images each 10 ms, a sample each half second.
+  bool is_enough = false;
+  for (int i = 0; i < 2000 && !is_enough; ++i) {
+    const int step = i / 50;
+    for (const char* name : {"a", "b", "c"})
+      is_enough = window.add({name, 0.01 * i, 7, {Eigen::Vector2d(2.0 * step, 0.0)}, {}});
+  }
+  ASSERT_TRUE(is_enough);
+  const MotionImages images = window.images();
+  EXPECT_NEAR(static_cast<double>(images.to_solve.size()), 20 * 3 * 20, 60.0);
+}
+
 TEST(Continuous, KeyframesSkipPauses) {
   const geometry::Rig rig = paperRigWith(wellCalibrated());
   const auto keyframes = [&](double pause) {

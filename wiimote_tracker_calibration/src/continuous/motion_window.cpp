@@ -1,5 +1,6 @@
 #include "continuous/motion_window.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace wiimote_tracker::continuous {
@@ -11,6 +12,8 @@ constexpr std::size_t kLeastCameras = 3;
 constexpr double kLeastMotion = 2.0;  // Rounding alone does not move a spot as far [px].
 // Images are kept as long as the last sample is not older than this [s].
 constexpr double kLongestPause = 1.0;
+// Of an LED that moves slowly, only images as close to a sample are kept [s].
+constexpr double kNear = 0.1;
 // Samples farther from the newest image are dropped: meanwhile cameras may have drifted [s].
 constexpr double kLongestSpan = 3600.0;
 
@@ -52,6 +55,13 @@ void MotionWindow::count(const capture::Image& image, const std::string& needed)
       moved_.size() >= kLeastCameras && (needed.empty() || moved_.count(needed) > 0);
   if (!complete || (!samples_.empty() && std::floor(samples_.back() / kSamplePeriod) == period))
     return;
+  const double last_sample = samples_.empty() ? image.stamp : samples_.back();
+  if (image.stamp - last_sample > 2.0 * kNear) {
+    const auto is_far = [&](const capture::Image& other) {
+      return other.stamp > last_sample + kNear && other.stamp < image.stamp - kNear;
+    };
+    images_.erase(std::remove_if(images_.begin(), images_.end(), is_far), images_.end());
+  }
   samples_.push_back(image.stamp);
   ++unused_;
 }

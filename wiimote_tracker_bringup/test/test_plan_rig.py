@@ -2,6 +2,7 @@
 
 import dataclasses
 import os
+import re
 import sys
 
 import numpy as np
@@ -55,6 +56,14 @@ def test_one_camera_alone_and_none_leave_a_point_unknown():
     alone, unseen = np.sqrt(prediction.variances(prediction.information(ROOM, seen, None)))
     assert alone == pytest.approx(prediction.UNSEEN, rel=0.01)
     assert unseen == pytest.approx(np.sqrt(3.0) * prediction.UNSEEN)
+
+
+def test_what_the_cameras_see_is_told_with_rays_that_cross_and_with_parallel_ones():
+    crossing = '\n'.join(plan_rig.describe_sight(ROOM, POSITIONS[:2], TARGETS[:2]))
+    assert re.search(r'pixels alone: [0-9.]+ mm \(RMS\), [0-9.]+ mm \(largest\)', crossing)
+    beside = POSITIONS[:1] + [[0.0, 0.0, 0.0], [0.001, 0.0, 0.0]]
+    parallel = '\n'.join(plan_rig.describe_sight(ROOM, beside, TARGETS[[0, 0]]))
+    assert re.search(r'alone: [0-9.]+ mm \(RMS\), [0-9.]+ mm \(largest; 500 or more: ', parallel)
 
 
 def test_the_square_tells_a_camera_as_well_as_the_bound_says():

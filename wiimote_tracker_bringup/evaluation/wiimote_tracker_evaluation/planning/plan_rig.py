@@ -39,10 +39,9 @@ def describe_sight(chosen, positions, targets):
     return lines + [
         '  angle between rays: %.0f degrees (median), %.0f (smallest)'
         % (np.median(angles), angles.min()),
-        '  standard deviation by the pixels alone: %.1f mm (RMS), %.1f mm (largest; 500 or more: '
-        'rays that hardly meet)' if errors.max() > 400.0 else
-        '  standard deviation by the pixels alone: %.1f mm (RMS), %.1f mm (largest)'
-        % (np.sqrt(np.mean(errors ** 2)), errors.max()),
+        '  standard deviation by the pixels alone: %.1f mm (RMS), %.1f mm (largest%s)'
+        % (np.sqrt(np.mean(errors ** 2)), errors.max(),
+           '; 500 or more: rays that hardly meet' if errors.max() > 400.0 else ''),
         '  ' + with_calibration(chosen, positions, targets, points[known])]
 
 

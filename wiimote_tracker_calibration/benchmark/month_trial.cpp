@@ -23,13 +23,7 @@ constexpr double kStep = 0.18;     // of an accelerometer's readings [m/s^2]
 constexpr double kSettling = 3.0;  // after the beginning of an hour's part [s]
 
 geometry::Rig monthRig() {
-  RigErrors errors;
-  errors.rotation = 4e-5;
-  errors.position = 2e-4;
-  errors.focal = 0.2;
-  errors.principal_point = 0.05;
-  errors.k1 = 5e-4;
-  geometry::Rig rig = paperRigWith(errors);
+  geometry::Rig rig = paperRigWith(calibratedByWave());
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     if (i != kUnknown)
       rig.cameras[i].time_offset_rule = geometry::TimeOffsetRule::kAlways;

@@ -39,6 +39,17 @@ inline RigErrors wellCalibrated() {
   return errors;
 }
 
+/// Of a rig whose images fit together to about 0.1 px.
+inline RigErrors calibratedByWave() {
+  RigErrors errors;
+  errors.rotation = 4e-5;
+  errors.position = 2e-4;
+  errors.focal = 0.2;
+  errors.principal_point = 0.05;
+  errors.k1 = 5e-4;
+  return errors;
+}
+
 /// The paper's cameras, known with these errors.
 inline geometry::Rig paperRigWith(const RigErrors& errors, std::size_t cameras = 4) {
   geometry::Rig rig;

@@ -26,17 +26,6 @@ using square::uniform;
 
 constexpr double kDegree = M_PI / 180.0;
 
-/// Of a rig whose images fit together to about 0.1 px.
-RigErrors calibratedByWave() {
-  RigErrors errors;
-  errors.rotation = 4e-5;
-  errors.position = 2e-4;
-  errors.focal = 0.2;
-  errors.principal_point = 0.05;
-  errors.k1 = 5e-4;
-  return errors;
-}
-
 /// Cameras whose drift reached the limit in the latest judgement.
 std::set<std::string> drifted(const geometry::Rig& rig, const DriftWatch& watch) {
   std::set<std::string> names;

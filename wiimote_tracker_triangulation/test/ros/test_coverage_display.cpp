@@ -1,5 +1,7 @@
 #include "geometry/random_rigs.h"
 #include "ros/coverage/coverage_display.h"
+#include "ros/coverage/coverage_markers.h"
+#include "ros/coverage/walked_cells.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>

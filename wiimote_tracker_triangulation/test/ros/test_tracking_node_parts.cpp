@@ -1,23 +1,15 @@
-// Parts of the node besides tracking: labels, bad images, clocks, lenses, statistics.
+// Parts of the node besides tracking and labels: bad images, clocks, lenses, statistics, load.
 #include "geometry/random_rigs.h"
 #include "ros/clock_watch.h"
 #include "ros/image_message.h"
-#include "ros/label_places.h"
-#include "ros/led_labels.h"
 #include "ros/lens_check.h"
 #include "ros/load_shedding.h"
 #include "ros/statistics.h"
-#include "wiimote_tracker_triangulation/identity/schemes.h"
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <limits>
 #include <string>
 
@@ -25,7 +17,6 @@ namespace wiimote_tracker {
 namespace {
 
 using geometry::Rig;
-using tracking::TrackedLed;
 using tracking::TrackState;
 using wiimote_tracker_msgs::IrBlob;
 using wiimote_tracker_msgs::IrBlobArray;
@@ -36,176 +27,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 Rig someRig(int cameras) {
   geometry::test::Random random(91);
   return geometry::test::randomRig(random, cameras);
-}
-
-TrackedLed led(std::uint32_t id, TrackState state) {
-  TrackedLed led;
-  led.id = id;
-  led.state = state;
-  return led;
-}
-
-constexpr double kTime = 100.0;  // of snapshots [s]
-
-TEST(LedLabels, AreGivenInTheOrderOfConfirmation) {
-  LedLabels labels({"left", "right"});
-  labels.update(kTime, {led(0, TrackState::kTentative), led(1, TrackState::kTentative)});
-  EXPECT_EQ("led_0", labels.of(0).name);
-  labels.update(kTime, {led(0, TrackState::kTentative), led(1, TrackState::kTracked)});
-  EXPECT_EQ("led_0", labels.of(0).name);
-  EXPECT_EQ("left", labels.of(1).name);
-  labels.update(kTime, {led(0, TrackState::kTracked), led(1, TrackState::kPredicted),
-                        led(2, TrackState::kTracked)});
-  EXPECT_EQ("right", labels.of(0).name);
-  EXPECT_EQ("left", labels.of(1).name) << "kept while hidden";
-  EXPECT_EQ("led_2", labels.of(2).name);
-}
-
-TEST(LedLabels, OfALostTrackGoToTheNextNewOne) {
-  LedLabels labels({"led"});
-  labels.update(kTime, {led(3, TrackState::kTracked)});
-  labels.update(kTime, {led(3, TrackState::kLost)});
-  EXPECT_EQ("led", labels.of(3).name) << "in the message that says so";
-  labels.update(kTime, {led(5, TrackState::kTentative)});
-  EXPECT_EQ("led", labels.of(3).name) << "still known to what looks back one snapshot";
-  labels.update(kTime, {led(5, TrackState::kTracked)});
-  EXPECT_EQ("led", labels.of(5).name);
-  EXPECT_EQ("led_3", labels.of(3).name);
-}
-
-/// An LED that was hidden may be found again before its old track is given up.
-TEST(LedLabels, OfALostTrackGoToTheOldestThatHasNone) {
-  LedLabels labels({"led"});
-  labels.update(kTime, {led(3, TrackState::kPredicted), led(4, TrackState::kTentative)});
-  labels.update(kTime, {led(2, TrackState::kTracked)});
-  labels.update(kTime, {led(2, TrackState::kPredicted), led(4, TrackState::kTracked),
-                        led(5, TrackState::kTracked)});
-  EXPECT_EQ("led", labels.of(2).name);
-  EXPECT_EQ("led_4", labels.of(4).name);
-  labels.update(kTime, {led(2, TrackState::kLost), led(4, TrackState::kTracked),
-                        led(5, TrackState::kTracked)});
-  EXPECT_EQ("led", labels.of(2).name);
-  EXPECT_EQ("led_4", labels.of(4).name) << "no two of one name in one snapshot";
-  labels.update(kTime, {led(4, TrackState::kTracked), led(5, TrackState::kTracked)});
-  EXPECT_EQ("led", labels.of(4).name);
-  EXPECT_EQ("led_5", labels.of(5).name);
-}
-
-TEST(LedLabels, AreAllFreeWhenTimeStartsAnew) {
-  LedLabels labels({"a", "b"});
-  labels.update(kTime, {led(0, TrackState::kTracked), led(1, TrackState::kTracked)});
-  labels.clear();
-  EXPECT_EQ("a", labels.of(0).name);
-  labels.update(kTime, {led(2, TrackState::kTracked)});
-  EXPECT_EQ("a", labels.of(2).name);
-}
-
-TrackedLed at(std::uint32_t id, double x, TrackState state = TrackState::kTracked) {
-  TrackedLed result = led(id, state);
-  result.position = {x, 0.0, 0.0};
-  return result;
-}
-
-/// Such as after a pause of this process.
-TEST(LedLabels, ReturnByPlaceWithin10Seconds) {
-  for (const double pause : {5.0, 11.0}) {
-    LedLabels labels({"a", "b", "c"});
-    labels.update(100.0, {at(0, 0.0), at(1, 1.0), at(2, 2.0)});
-    const TrackState lost = TrackState::kLost;
-    labels.update(100.1, {at(0, 0.0, lost), at(1, 1.0, lost), at(2, 2.0, lost)});
-    labels.update(100.1, {});
-    labels.update(100.0 + pause, {at(3, 2.2)});
-    labels.update(100.1 + pause, {at(3, 2.2), at(4, 0.8), at(5, 0.7)});
-    const bool by_place = pause < 10.0;
-    EXPECT_EQ(by_place ? "c" : "a", labels.of(3).name);
-    EXPECT_EQ("b", labels.of(4).name);
-    EXPECT_EQ(by_place ? "a" : "c", labels.of(5).name);
-  }
-}
-
-TEST(LedLabels, ReturnByPlaceAfterARestart) {
-  LedLabels labels({"a", "b", "c", "d"});
-  labels.update(kTime, {at(0, 0.0), at(1, 1.0), at(2, 2.0)});
-  const std::string file = testing::TempDir() + "label_places_" + std::to_string(::getpid());
-  ASSERT_TRUE(writePlaces(file, labels.places()));
-  labels.clear();
-  labels.clear();
-  LedLabels of_another_process({"a", "b", "c", "d"});
-  of_another_process.setFormerPlaces(readPlaces(file, std::chrono::seconds(60)));
-  for (LedLabels* restarted : {&labels, &of_another_process}) {
-    restarted->update(kTime, {at(3, 2.3)});
-    restarted->update(kTime, {at(3, 2.2), at(4, 1.3), at(5, 0.3), at(6, 0.3)});
-    EXPECT_EQ("c", restarted->of(3).name);
-    EXPECT_EQ("b", restarted->of(4).name);
-    EXPECT_EQ("a", restarted->of(5).name);
-    EXPECT_EQ("d", restarted->of(6).name) << "the first that was not in use";
-  }
-  EXPECT_TRUE(readPlaces(file, std::chrono::seconds(-1)).empty()) << "too old";
-  std::ofstream(file, std::ios::app) << "e 1.0 x";
-  EXPECT_TRUE(readPlaces(file, std::chrono::seconds(60)).empty()) << "damaged";
-  std::remove(file.c_str());
-}
-
-/// One camera sees LED `id` for 2 s from `start` on: blinking as word 0 of two, or steady.
-void see(identity::Identifier* identifier, std::uint32_t id, double start, bool steady) {
-  for (double time = start; time < start + 2.0; time += 0.01) {
-    const double phase = std::fmod((time - start) / 0.184, 1.0);
-    identifier->add(id, {0, time, 0.0, steady || phase >= 0.125});  // 01111111
-  }
-}
-
-TEST(LedLabels, ComeFromBlinking) {
-  identity::Identifier identifier(
-      identity::cyclicCodes({{"left", "01111111"}, {"right", "01010111"}}, 0.023, 0.001), {});
-  LedLabels labels({"lamp"});
-  const std::vector<TrackedLed> both = {led(0, TrackState::kTracked), led(1, TrackState::kTracked)};
-  labels.update(kTime, both, &identifier);
-  EXPECT_EQ("led_0", labels.of(0).name) << "it may yet turn out to blink";
-  EXPECT_FALSE(labels.of(0).isIdentified());
-
-  see(&identifier, 0, 100.0, true);
-  see(&identifier, 1, 100.0, false);
-  identifier.decide(102.0);
-  labels.update(kTime, both, &identifier);
-  EXPECT_EQ("lamp", labels.of(0).name) << "this one does not";
-  EXPECT_FALSE(labels.of(0).isIdentified());
-  EXPECT_EQ("left", labels.of(1).name);
-  EXPECT_GT(labels.of(1).confidence, 0.999);
-  EXPECT_EQ(102.0, labels.of(1).since);
-
-  // A label from blinking is kept in the dark, and in the message that reports the loss.
-  labels.update(kTime, {led(1, TrackState::kPredicted)}, &identifier);
-  EXPECT_EQ("left", labels.of(1).name);
-  identifier.forget(1);
-  labels.update(kTime, {led(1, TrackState::kLost)}, &identifier);
-  EXPECT_EQ("left", labels.of(1).name);
-}
-
-TEST(LedLabels, FollowTheEvidence) {
-  identity::Identifier identifier(
-      identity::cyclicCodes({{"left", "01111111"}, {"right", "01010111"}}, 0.023, 0.001), {});
-  LedLabels labels({"lamp"});
-  see(&identifier, 0, 100.0, true);
-  identifier.decide(102.0);
-  labels.update(kTime, {led(0, TrackState::kTracked)}, &identifier);
-  EXPECT_EQ("lamp", labels.of(0).name);
-  see(&identifier, 0, 102.0, false);  // it has begun to blink
-  see(&identifier, 1, 102.0, true);
-  identifier.decide(104.0);
-  labels.update(kTime, {led(0, TrackState::kTracked), led(1, TrackState::kTracked)}, &identifier);
-  EXPECT_EQ("left", labels.of(0).name);
-  EXPECT_EQ("lamp", labels.of(1).name) << "free again";
-  see(&identifier, 0, 104.0, true);  // and stops
-  identifier.decide(106.0);
-  labels.update(kTime, {led(0, TrackState::kTracked), led(1, TrackState::kTracked)}, &identifier);
-  EXPECT_EQ("led_0", labels.of(0).name);
-  EXPECT_EQ("lamp", labels.of(1).name);
-}
-
-TEST(LedLabels, MayAllComeFromIds) {
-  LedLabels labels({});
-  labels.update(kTime, {led(7, TrackState::kTracked)});
-  EXPECT_EQ("led_7", labels.of(7).name);
 }
 
 IrBlobArray goodImage(const geometry::Camera& camera) {
@@ -427,8 +248,12 @@ TEST(Statistics, CountsEachViewOnceWithoutMaskedSpots) {
   const Eigen::Vector3d place(0.1, 0.2, 0.3);
   tracking::Snapshot snapshot;
   snapshot.time = 100.0;
-  snapshot.leds = {led(5, TrackState::kTracked), led(6, TrackState::kPredicted)};
+  snapshot.leds.resize(2);
+  snapshot.leds[0].id = 5;
+  snapshot.leds[0].state = TrackState::kTracked;
   snapshot.leds[0].position = place;
+  snapshot.leds[1].id = 6;
+  snapshot.leds[1].state = TrackState::kPredicted;
   snapshot.views.resize(2);
   snapshot.views[0].time = 100.0;
   const Eigen::Vector2d pixel = *rig.cameras[0].camera.project(place);

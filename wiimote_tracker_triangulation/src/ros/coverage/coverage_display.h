@@ -1,18 +1,17 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_DISPLAY_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_DISPLAY_H
 
-#include "wiimote_tracker_triangulation/geometry/coverage.h"
+#include "walked_cells.h"
+#include "wiimote_tracker_triangulation/geometry/rig.h"
 
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
 #include <ros/node_handle.h>
-#include <visualization_msgs/MarkerArray.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace wiimote_tracker {
 
@@ -28,48 +27,6 @@ struct CoverageParameters {
 
 /// The box from the floor to the cameras [m].
 Eigen::AlignedBox3d volumeOf(const geometry::Rig& rig);
-
-/// Such as "86 % of the volume is seen by two cameras or more; points are known to 12 mm there
-/// (median)."
-std::string sentenceOf(const std::vector<geometry::CoverageCell>& cells);
-
-/// Such as " wiimote_3, turned by 15 degrees to the left and 10 degrees up, would make it 94 %."
-std::string sentenceOf(const geometry::CameraTurn& turn);
-
-/// A small cube in each cell: red where fewer than two cameras see it, else from green (points are
-/// known to 5 mm or better) to yellow (50 mm or worse); and a sentence above them.
-visualization_msgs::MarkerArray coverageMarkers(const std::string& world_frame,
-                                                const std::vector<geometry::CoverageCell>& cells,
-                                                double cell_size,
-                                                const std::string& sentence);
-
-/// The same of a walk: a cube where the LED was, red where one camera saw it, yellow for two, green
-/// for more.
-visualization_msgs::MarkerArray walkMarkers(const std::string& world_frame,
-                                            const std::vector<geometry::CoverageCell>& walked,
-                                            double cell_size,
-                                            const std::string& sentence);
-
-/// Where the cameras of the rig in use have seen an LED.
-class WalkedCells {
- public:
-  /// @param cells of the grid. What was seen is kept if they are where those of the rig before
-  /// were, which a correction of the rig hardly changes.
-  void setRig(const std::string& rig_id,
-              const geometry::CellGrid& grid,
-              const std::vector<geometry::CoverageCell>& cells);
-
-  /// @returns whether this shows something new.
-  bool add(const wiimote_tracker_msgs::TrackedPointArray& points);
-
-  /// With the most cameras that saw an LED there at once.
-  const std::vector<geometry::CoverageCell>& cells() const { return cells_; }
-
- private:
-  std::string rig_id_;
-  std::optional<geometry::CellGrid> grid_;
-  std::vector<geometry::CoverageCell> cells_;
-};
 
 /// Publishes, latched, the coverage of each new rig and where its cameras have seen an LED since.
 class CoverageDisplay {

@@ -1,0 +1,119 @@
+#include "coverage_markers.h"
+
+#include "../marker_parts.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
+
+#include <wiimote_tracker_msgs/text.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker {
+namespace {
+
+using geometry::CoverageCell;
+using markers::color;
+using visualization_msgs::Marker;
+
+constexpr double kGood = 0.005;      // green [m]
+constexpr double kBad = 0.05;        // yellow [m]
+constexpr double kCubeShare = 0.15;  // of a cell's size
+
+std_msgs::ColorRGBA colorOf(const CoverageCell& cell) {
+  if (std::isnan(cell.stddev))
+    return color(0.9f, 0.2f, 0.2f, 0.8f);
+  const double share = std::log(cell.stddev / kGood) / std::log(kBad / kGood);
+  return color(static_cast<float>(std::clamp(share, 0.0, 1.0)), 0.8f, 0.2f, 0.8f);
+}
+
+constexpr double kForEver = 0.0;  // lifetime of a marker
+
+Marker cubesOf(const std::string& world_frame, const std::string& ns, double size) {
+  Marker cubes = markers::marker(world_frame, 0.0, kForEver, ns, 0, Marker::CUBE_LIST);
+  cubes.scale.x = cubes.scale.y = cubes.scale.z = size;
+  return cubes;
+}
+
+/// @param height above the cells [m]
+Marker textAbove(const std::string& world_frame,
+                 const std::string& ns,
+                 const std::vector<CoverageCell>& cells,
+                 double height,
+                 const std::string& words) {
+  Marker text = markers::marker(world_frame, 0.0, kForEver, ns, 1, Marker::TEXT_VIEW_FACING);
+  text.scale.z = markers::kTextHeight;
+  text.color = color(1.0f, 1.0f, 1.0f, 1.0f);
+  text.text = words;
+  Eigen::AlignedBox3d box;
+  for (const CoverageCell& cell : cells)
+    box.extend(cell.center);
+  text.pose.position =
+      pointOf(Eigen::Vector3d(box.center().x(), box.center().y(), box.max().z() + height));
+  return text;
+}
+
+}  // namespace
+
+std::string sentenceOf(const std::vector<CoverageCell>& cells) {
+  std::vector<double> known;
+  for (const CoverageCell& cell : cells) {
+    if (!std::isnan(cell.stddev))
+      known.push_back(cell.stddev);
+  }
+  std::string text = format("%.0f %% of the volume is seen by two cameras or more",
+                            100.0 * geometry::coveredShare(cells));
+  if (known.empty())
+    return text + ".";
+  const auto median = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+  std::nth_element(known.begin(), median, known.end());
+  return text + format("; points are known to %.0f mm there (median).", 1e3 * *median);
+}
+
+std::string sentenceOf(const geometry::CameraTurn& turn) {
+  const auto words = [](double angle, const char* one_way, const char* other) {
+    return format("%.0f degrees %s", std::abs(angle) * 180.0 / M_PI, angle < 0.0 ? other : one_way);
+  };
+  std::vector<std::string> ways;
+  if (turn.right != 0.0)
+    ways.push_back(words(turn.right, "to the right", "to the left"));
+  if (turn.up != 0.0)
+    ways.push_back(words(turn.up, "up", "down"));
+  return " " + turn.camera + ", turned by " + joined(ways, " and ") +
+         format(", would make it %.0f %%.", 100.0 * turn.share);
+}
+
+visualization_msgs::MarkerArray coverageMarkers(const std::string& world_frame,
+                                                const std::vector<CoverageCell>& cells,
+                                                double cell_size,
+                                                const std::string& sentence) {
+  visualization_msgs::MarkerArray array;
+  Marker cubes = cubesOf(world_frame, "coverage", kCubeShare * cell_size);
+  for (const CoverageCell& cell : cells) {
+    cubes.points.push_back(pointOf(cell.center));
+    cubes.colors.push_back(colorOf(cell));
+  }
+  array.markers = {cubes, textAbove(world_frame, "coverage", cells, cell_size, sentence)};
+  return array;
+}
+
+visualization_msgs::MarkerArray walkMarkers(const std::string& world_frame,
+                                            const std::vector<CoverageCell>& walked,
+                                            double cell_size,
+                                            const std::string& sentence) {
+  visualization_msgs::MarkerArray array;
+  Marker cubes = cubesOf(world_frame, "walk", 2.0 * kCubeShare * cell_size);
+  for (const CoverageCell& cell : walked) {
+    if (cell.cameras == 0)
+      continue;
+    cubes.points.push_back(pointOf(cell.center));
+    cubes.colors.push_back(cell.cameras == 1   ? color(0.9f, 0.2f, 0.2f, 0.8f)
+                           : cell.cameras == 2 ? color(1.0f, 0.8f, 0.2f, 0.8f)
+                                               : color(0.0f, 0.8f, 0.2f, 0.8f));
+  }
+  if (cubes.points.empty())
+    cubes.action = Marker::DELETE;
+  array.markers = {cubes, textAbove(world_frame, "walk", walked, 2.0 * cell_size, sentence)};
+  return array;
+}
+
+}  // namespace wiimote_tracker

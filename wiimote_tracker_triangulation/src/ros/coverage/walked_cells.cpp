@@ -1,0 +1,55 @@
+#include "walked_cells.h"
+
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace wiimote_tracker {
+namespace {
+
+using geometry::CoverageCell;
+
+constexpr double kSamePlace = 0.02;  // [m]
+
+/// Whether the cells are at the same places, but for what a correction of the rig moves.
+bool areSame(const std::vector<CoverageCell>& a, const std::vector<CoverageCell>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const CoverageCell& x, const CoverageCell& y) {
+                      return (x.center - y.center).norm() < kSamePlace;
+                    });
+}
+
+}  // namespace
+
+void WalkedCells::setRig(const std::string& rig_id,
+                         const geometry::CellGrid& grid,
+                         const std::vector<CoverageCell>& cells) {
+  const bool keep = areSame(cells_, cells);
+  std::vector<CoverageCell> walked = cells;
+  for (std::size_t i = 0; i < walked.size(); ++i)
+    walked[i].cameras = keep ? cells_[i].cameras : 0;
+  cells_ = std::move(walked);
+  rig_id_ = rig_id;
+  grid_ = grid;
+}
+
+bool WalkedCells::add(const wiimote_tracker_msgs::TrackedPointArray& points) {
+  using wiimote_tracker_msgs::TrackedPoint;
+  if (!grid_ || points.rig_id != rig_id_)
+    return false;
+  bool changed = false;
+  for (const TrackedPoint& point : points.points) {
+    // With one camera the place is extrapolated, which is near enough for a cell.
+    if (point.state != TrackedPoint::TRACKED && point.state != TrackedPoint::PREDICTED)
+      continue;
+    const auto cell = grid_->cellAt(vectorOf(point.position));
+    if (!cell || cells_[*cell].cameras >= point.rays_used)
+      continue;
+    cells_[*cell].cameras = point.rays_used;
+    changed = true;
+  }
+  return changed;
+}
+
+}  // namespace wiimote_tracker

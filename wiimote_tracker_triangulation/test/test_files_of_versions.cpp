@@ -33,6 +33,12 @@ TEST(FilesOfVersion1, AreRead) {
   EXPECT_FALSE(identity::readBlinkCodes(kVersion1 / "blink_codes.yaml").codes.empty());
 }
 
+TEST(ExampleRig, IsRead) {
+  const geometry::Rig rig = geometry::readRigFile(EXAMPLE_RIG);
+  ASSERT_EQ(1u, rig.cameras.size());
+  EXPECT_EQ(Eigen::Vector3d(0.0, 0.0, 2.0), rig.cameras[0].camera.center());
+}
+
 struct Reader {
   const char* file;
   std::function<void(const std::string&)> read;

@@ -7,8 +7,8 @@ ROS is not built with the sanitizer, which therefore does not see all of its syn
 reports its reference counts and connections. A report counts if one of its accesses or locks is in
 our sources: if that is the innermost frame of a stack outside of the sanitizer and of templates of
 the standard library. Frames of ROS are not in the stacks, but for the innermost one. References to
-messages are counted by ROS, too, so their destruction does not count. The last line is "N reports, N about the tracker"; the exit status
-is 0 if none counts.
+messages are counted by ROS, too, so their destruction does not count. The last line is "N reports,
+N about the tracker"; the exit status is 0 if none counts.
 """
 
 import re

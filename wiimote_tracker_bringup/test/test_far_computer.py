@@ -37,28 +37,16 @@ def test_packets_are_carried_delayed_and_lost():
         assert (ready, there[0]) == (b'ready', far.there)
 
         far.change(delay=0.1)
-        near.sendto(b'before the change, perhaps', there)
-        near.recv(100)
         start = time.monotonic()
         near.sendto(b'delayed', there)
         assert near.recv(100) == b'delayed'
         assert time.monotonic() - start > 0.19
 
-        # What is sent until a packet of the next setting comes back tells when each took effect.
         far.change(cut=True)
-        for number in range(5):
-            near.sendto(b'cut %d' % number, there)
-            time.sleep(0.1)
+        near.sendto(b'cut', there)
         far.change()
-        received = []
-        near.settimeout(0.5)
-        while b'after' not in received:
-            near.sendto(b'after', there)
-            try:
-                received.append(near.recv(100))
-            except socket.timeout:
-                pass
-        assert b'cut 4' not in received
+        near.sendto(b'after', there)
+        assert near.recv(100) == b'after'
     finally:
         echo.kill()
         echo.wait()

@@ -10,7 +10,7 @@ import thread_reports  # noqa: E402
 
 LOCK = '    #0 pthread_mutex_lock ../src/libsanitizer/tsan.cpp:13 (libtsan.so.2+0x5)\n'
 STANDARD = '    #1 std::mutex::lock() /usr/include/c++/12/bits/std_mutex.h:100 (node+0x2)\n'
-OURS = '    #2 run /home/a/wiimote_tracker_driver/src/ros/driver.cpp:7 (node+0x3)\n'
+OURS = '    #2 run /clone/wiimote_tracker_driver/src/ros/driver.cpp:7 (node+0x3)\n'
 ROS = '    #1 ros::Connection::read() <null> (libroscpp.so.4d+0xa)\n'
 DELETE = ('    #0 operator delete(void*) ../src/libsanitizer/tsan.cpp:15 (libtsan.so.2+0x6)\n'
           '    #1 boost::detail::sp_counted_base::destroy() /usr/include/boost/a.hpp:99 (node+0x4)\n')

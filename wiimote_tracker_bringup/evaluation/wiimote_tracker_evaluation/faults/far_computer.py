@@ -66,8 +66,9 @@ class FarComputer:
         return ['ip', 'netns', 'exec', self._name, 'env', f'ROS_HOSTNAME={self.there}']
 
     def change(self, delay=0.0, cut=False):
-        """delay: of each packet, in both directions [s]. cut: packets are lost."""
+        """From its return on. delay: of each packet, in both directions [s]. cut: packets are lost."""
         self._pipe.send((delay, cut))
+        self._pipe.recv()
 
     def stop(self):
         self._cable.kill()
@@ -98,6 +99,7 @@ def _carry(ends, pipe):
         for source in select.select(ends + [pipe], [], [], patience)[0]:
             if source is pipe:
                 delay, cut = pipe.recv()
+                pipe.send(None)
                 continue
             packet = os.read(source, PACKET)
             if not cut:

@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, '../evaluation'))
@@ -15,7 +16,7 @@ from wiimote_tracker_evaluation import bound, scene  # noqa: E402
 from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
 from wiimote_tracker_evaluation.experiment import NOMINAL_LENS  # noqa: E402
 from wiimote_tracker_evaluation.planning import (  # noqa: E402
-    plan, plan_rig, prediction, search)
+    body, plan, plan_rig, prediction, search)
 
 EXAMPLE = os.path.join(HERE, '../config/plan.yaml')
 PAPER_RIG = os.path.join(HERE, '../simulation/paper_rig.yaml')
@@ -128,6 +129,50 @@ def test_the_papers_rig_sees_the_whole_cube(capsys):
     assert '2.6 mm (RMS)' in told
 
 
+LEDS = tuple((0.1 * np.cos(a), 0.1 * np.sin(a), 0.02 * n, np.cos(a), np.sin(a), 0.0)
+             for n, a in enumerate(np.radians([0.0, 50.0, 130.0, 180.0, 250.0, 300.0])))
+CARRIED = dataclasses.replace(ROOM, body=LEDS, beam=150.0)
+
+
+def test_a_bodys_covariance_is_that_of_its_pixels_by_numeric_derivatives():
+    point = np.array([[1.0, 1.0, 1.0]])
+    each, located = prediction.told(CARRIED, POSITIONS, TARGETS, point, None)
+    assert each.shape == (3, body.HEADINGS, 6, 6) and located.all()
+    levers = np.array(LEDS)[:, :3]
+    sees = prediction.look(CARRIED, POSITIONS, TARGETS, point + levers, np.array(LEDS)[:, 3:]).sees
+
+    def pixels(pose):
+        turn = Rotation.from_rotvec(pose[3:]).as_matrix()
+        places = point + pose[:3] + levers @ turn.T
+        cameras = [scene.Camera('', NOMINAL_LENS, frame.T, position, prediction.SIZE)
+                   for frame, position in zip(prediction.axes(POSITIONS, TARGETS), POSITIONS)]
+        return np.concatenate([camera.project(places)[seen].ravel()
+                               for camera, seen in zip(cameras, sees)])
+    steps = 1e-6 * np.eye(6)
+    derivative = np.array([(pixels(step) - pixels(-step)) / 2e-6 for step in steps])
+    expected = derivative @ derivative.T / CARRIED.pixel_stddev ** 2
+    scale = 1e-4 * np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
+    assert (np.abs(each.sum(axis=0)[0] - expected) < scale).all()
+
+
+def test_a_body_whose_leds_look_away_is_not_located():
+    alone = dataclasses.replace(CARRIED, body=tuple(led for led in LEDS if led[3] > 0.3),
+                                beam=200.0)
+    twice = [0, 0]  # two cameras at one place
+    _, located = prediction.told(alone, POSITIONS[twice], TARGETS[twice], TARGETS[:1], None)
+    assert not located[0] and located[3]
+
+
+def test_cameras_for_a_body_are_planned(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(search, 'CANDIDATES', 20)
+    path = tmp_path / 'plan.yaml'
+    with open(EXAMPLE) as example:
+        path.write_text(example.read().replace(
+            'body: []', f'body: {[list(map(float, led)) for led in LEDS]}'))
+    plan_rig.main([str(path), '--generations', '1'])
+    assert 'degrees (RMS)' in capsys.readouterr().out
+
+
 @pytest.mark.parametrize('text, words', [
     ('volume: [0, 0, 0, 1, 1, 1]', 'cameras is missing'),
     ('cameras: 1\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, 1]]', 'cameras is 1, but must be from 2 to 64'),
@@ -136,6 +181,8 @@ def test_the_papers_rig_sees_the_whole_cube(capsys):
     ('cameras: 2\nvolume: [0, 0, 0, 1, 1]\nstands: [[0, 0, 0, 1, 1, 1]]', 'volume must be 6'),
     ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: []', 'stands must be a list'),
     ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, .nan]]', 'stands[0] must be'),
+    ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, 1]]\nbody: [[0, 0, 0, 1, 0, 0]]',
+     'body must be a list of 3'),
     ('[', 'cannot be read')])
 def test_a_bad_plan_is_refused_in_words(tmp_path, text, words):
     path = tmp_path / 'plan.yaml'

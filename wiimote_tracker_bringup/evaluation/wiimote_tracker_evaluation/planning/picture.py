@@ -8,7 +8,7 @@ ACROSS = 40  # points along an edge
 
 
 def draw(chosen, positions, targets, path):
-    """Writes it. Grey: seen by fewer than two cameras."""
+    """Writes it. Grey: seen by fewer than two cameras, or a body that is not located in some heading."""
     import matplotlib
     matplotlib.use('Agg')
     from matplotlib import pyplot
@@ -35,6 +35,6 @@ def draw(chosen, positions, targets, path):
 def errors_at(chosen, positions, targets, x, y, height):
     """Standard deviations by the pixels alone [mm], by x and y; NaN: seen by fewer than two."""
     points = np.stack(np.meshgrid(x, y, [height], indexing='ij'), axis=-1).reshape(-1, 3)
-    seen = prediction.look(chosen, positions, targets, points)
-    errors = 1e3 * np.sqrt(prediction.variances(prediction.information(chosen, seen, None)))
-    return np.where(seen.sees.sum(axis=0) >= 2, errors, np.nan).reshape(len(x), len(y))
+    each, located = prediction.told(chosen, positions, targets, points, None)
+    errors = 1e3 * np.sqrt(prediction.variances(each))
+    return np.where(located, errors, np.nan).reshape(len(x), len(y), -1).mean(axis=-1)

@@ -13,18 +13,21 @@ Box = Tuple[float, float, float, float, float, float]  # two opposite corners, t
 
 @dataclasses.dataclass(frozen=True)
 class Plan:
-    """cameras: how many, 2 or more. volume: where LEDs will be. stands: where lenses may be.
-    obstacles: what hides LEDs. led_axis: direction in which an LED shines; beam: full angle in which
-    it is seen [degrees]. farthest: distance at which a camera sees the LED [m]. margin: of the image
-    that is not used, since nobody aims exactly [px]. pixel_stddev: of each pixel coordinate. hidden: the
-    probability that a person hides the LED from one of the cameras. square: side of the calibration
-    square, which all cameras are to see, on the floor in the volume's middle [m]."""
+    """cameras: how many, 2 or more. volume: where the LED, or the body's middle, will be. stands: where
+    lenses may be. obstacles: what hides LEDs. led_axis: direction in which an LED shines; beam: full
+    angle in which it is seen [degrees]. body: the LEDs of an upright rigid body that may be turned to
+    any side, instead of one LED: place on the body and direction of each. farthest: distance at which
+    a camera sees an LED [m]. margin: of the image that is not used, since nobody aims exactly [px].
+    pixel_stddev: of each pixel coordinate. hidden: the probability that a person hides the LED from
+    one of the cameras. square: side of the calibration square, which all cameras are to see, on the
+    floor in the volume's middle [m]."""
 
     cameras: int
     volume: Box
     stands: Tuple[Box, ...]
     obstacles: Tuple[Box, ...] = ()
     led_axis: Tuple[float, float, float] = (0.0, 0.0, 1.0)
+    body: Tuple[Box, ...] = ()
     beam: float = 360.0
     farthest: float = 10.0
     margin: float = 20.0
@@ -73,6 +76,12 @@ RANGES = {'cameras': (2, 64), 'beam': (1.0, 360.0), 'farthest': (0.1, 100.0), 'm
 
 
 def _value(path, name, value):
+    if name == 'body':
+        if not isinstance(value, list) or 0 < len(value) < 3:
+            raise ExperimentError(f'{path}: body must be a list of 3 LEDs or more [x, y, z, '
+                                  'direction x, y, z]')
+        return tuple(tuple(_numbers(path, f'{name}[{index}]', led, 6))
+                     for index, led in enumerate(value))
     if name in ('stands', 'obstacles'):
         if not isinstance(value, list) or (name == 'stands' and not value):
             raise ExperimentError(f'{path}: {name} must be a list of boxes [x, y, z, x, y, z]')

@@ -28,6 +28,8 @@ def describe_cameras(positions, targets):
 def describe_sight(chosen, positions, targets):
     """Lines on what the cameras see of the volume, and how accurately."""
     points = chosen.grid(ACROSS)
+    if chosen.body:
+        return describe_body(chosen, positions, targets, points)
     seen = prediction.look(chosen, positions, targets, points)
     known = seen.sees.sum(axis=0) >= 2
     errors = 1e3 * np.sqrt(prediction.variances(prediction.information(chosen, seen, None))[known])
@@ -43,6 +45,23 @@ def describe_sight(chosen, positions, targets):
         % (np.sqrt(np.mean(errors ** 2)), errors.max(),
            '; 500 or more: rays that hardly meet' if errors.max() > 400.0 else ''),
         '  ' + with_calibration(chosen, positions, targets, points[known])]
+
+
+def describe_body(chosen, positions, targets, points):
+    """The same of a body."""
+    each, located = prediction.told(chosen, positions, targets, points, None)
+    lines = ['  seen four times or more, by three LEDs or more: %.1f %% of places and headings'
+             % (100 * located.mean())]
+    if not located.any():
+        return lines
+    covariance = np.linalg.inv(each.sum(axis=0)[located] + prediction.guess(6))
+    place, turn = (np.sqrt(np.trace(covariance[:, part, part], axis1=1, axis2=2))
+                   for part in (slice(0, 3), slice(3, 6)))
+    return lines + [
+        '  standard deviation by the pixels alone: %.1f mm and %.2f degrees (RMS), %.1f mm and %.2f '
+        'degrees (largest)' % (1e3 * np.sqrt(np.mean(place ** 2)),
+                               np.degrees(np.sqrt(np.mean(turn ** 2))), 1e3 * place.max(),
+                               np.degrees(turn.max()))]
 
 
 def with_calibration(chosen, positions, targets, points):

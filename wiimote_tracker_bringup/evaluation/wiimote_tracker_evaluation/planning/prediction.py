@@ -6,6 +6,7 @@ import numpy as np
 
 from wiimote_tracker_evaluation import bound, scene
 from wiimote_tracker_evaluation.experiment import NOMINAL_LENS
+from wiimote_tracker_evaluation.planning import body
 
 SIZE = np.array([1024.0, 768.0])  # of the image [px]
 IMAGES = 100  # averaged at each corner of the square
@@ -15,8 +16,8 @@ PRIOR = np.diag([0.1] * 6 + [0.0] * 5)
 PRIOR[6:, 6:] = bound.lens_prior(scene.Camera('', NOMINAL_LENS, None, np.zeros(3), SIZE),
                                  bound.Knowledge())[0]
 
-# A place that no two cameras see is known this well, for comparisons [m].
-UNSEEN = 0.5
+# A place that no two cameras see is known this well, for comparisons [m]; an orientation [rad].
+UNSEEN, UNTURNED = 0.5, 1.0
 
 
 def axes(positions, targets):
@@ -39,7 +40,8 @@ class Look:
     by_camera: np.ndarray
 
 
-def look(plan, positions, targets, points) -> Look:
+def look(plan, positions, targets, points, directions=None) -> Look:
+    """directions: M x 3, in which the LEDs shine; None: the plan's led_axis."""
     frames = axes(positions, targets)
     away = points[None] - positions[:, None]
     right, down, depth = np.moveaxis(np.einsum('nij,nmj->nmi', frames, away), -1, 0)
@@ -52,7 +54,8 @@ def look(plan, positions, targets, points) -> Look:
     distance = np.linalg.norm(away, axis=-1)
     sees = ahead & inside & (distance <= plan.farthest)
     if plan.beam < 360.0:
-        along = -(away @ np.array(plan.led_axis)) / np.maximum(distance, 1e-9)
+        shines = np.array(plan.led_axis) if directions is None else directions
+        along = -(away * shines).sum(axis=-1) / np.maximum(distance, 1e-9)
         sees &= along >= np.cos(np.radians(plan.beam / 2.0)) - 1e-9
     for box in plan.obstacles:
         sees &= ~hidden(np.array(box), positions, away)
@@ -95,6 +98,29 @@ def information(plan, seen: Look, covariance):
     return np.swapaxes(seen.by_point, -1, -2) @ weighted * seen.sees[..., None, None]
 
 
+def look_at_square(plan, positions, targets) -> Look:
+    """At the LED on its corners, which is none of the body's."""
+    return look(dataclasses.replace(plan, beam=360.0) if plan.body else plan, positions, targets,
+                plan.corners())
+
+
+def told(plan, positions, targets, points, covariance):
+    """What each camera tells of each target, N x B x K x K, and whether it can be located, B. K is 3
+    for an LED at each of the points, seen by two cameras; 6 for a body's place and turn about the
+    world's axes, at each point in each heading, with four sightings of three LEDs. What a
+    calibration's errors do to LEDs that one camera sees is taken as independent."""
+    if not plan.body:
+        seen = look(plan, positions, targets, points)
+        return information(plan, seen, covariance), seen.sees.sum(axis=0) >= 2
+    places, directions, levers = body.lights(plan.body, points)
+    seen = look(plan, positions, targets, places.reshape(-1, 3), directions.reshape(-1, 3))
+    each = information(plan, seen, covariance).reshape((len(positions),) + places.shape + (3,))
+    by_pose = body.by_pose(levers)
+    sightings = seen.sees.sum(axis=0).reshape(places.shape[:2])
+    located = (sightings.sum(axis=1) >= 4) & ((sightings > 0).sum(axis=1) >= 3)
+    return (np.swapaxes(by_pose, -1, -2) @ each @ by_pose).sum(axis=2), located
+
+
 def trace_of_inverse(matrices):
     """Of symmetric 3 x 3 matrices, by their minors."""
     (a, b, c), (_, d, e), (_, _, f) = np.moveaxis(matrices, (-2, -1), (0, 1))
@@ -102,20 +128,34 @@ def trace_of_inverse(matrices):
     return sum(minors) / (a * minors[0] - b * (b * f - c * e) + c * (b * e - c * d))
 
 
+def guess(size):
+    """Of a target that nobody sees, as information."""
+    return np.diag(([UNSEEN ** -2] * 3 + [UNTURNED ** -2] * 3)[:size])
+
+
+def of_place(whole):
+    """Trace of the covariance of the place alone [m^2], from the information on it, and on the turn."""
+    if whole.shape[-1] == 3:
+        return trace_of_inverse(whole)
+    both = whole[..., :3, 3:]
+    return trace_of_inverse(
+        whole[..., :3, :3] - both @ np.linalg.solve(whole[..., 3:, 3:], np.swapaxes(both, -1, -2)))
+
+
 def variances(each):
-    """Of each point, with the information of all cameras: the covariance's trace [m^2]. About UNSEEN
+    """Of each place, with the information of all cameras: the covariance's trace [m^2]. About UNSEEN
     squared for what one camera or none sees."""
-    return trace_of_inverse(each.sum(axis=0) + np.eye(3) / UNSEEN ** 2)
+    return of_place(each.sum(axis=0) + guess(each.shape[-1]))
 
 
 def cost(plan, positions, targets, points):
     """RMS over the points of their expected standard deviation [m]. A corner of the square that a
     camera misses counts as a point that nobody sees."""
-    corners = look(plan, positions, targets, plan.corners())
-    each = information(plan, look(plan, positions, targets, points), calibration(plan, corners))
-    whole = each.sum(axis=0) + np.eye(3) / UNSEEN ** 2
-    expected = ((1.0 - plan.hidden) * trace_of_inverse(whole).mean()
-                + plan.hidden * trace_of_inverse(whole - each).mean())
+    corners = look_at_square(plan, positions, targets)
+    each, _ = told(plan, positions, targets, points, calibration(plan, corners))
+    whole = each.sum(axis=0) + guess(each.shape[-1])
+    expected = ((1.0 - plan.hidden) * of_place(whole).mean()
+                + plan.hidden * of_place(whole - each).mean())
     return float(np.sqrt(expected + (1.0 - corners.sees.mean()) * UNSEEN ** 2))
 
 

@@ -15,6 +15,11 @@ CANDIDATES = 500  # of the greedy search, for each camera
 POPULATION = 3    # of the evolution, for each number
 
 
+def across(plan):
+    """A body takes longer, for its LEDs and headings."""
+    return ACROSS - 1 if plan.body else ACROSS
+
+
 def decode(plan, numbers):
     """Positions and targets, each N x 3."""
     numbers = np.asarray(numbers).reshape(-1, PER_CAMERA)
@@ -27,7 +32,7 @@ def decode(plan, numbers):
 
 def greedy(plan, random):
     """Each camera where it helps most beside those before."""
-    points = plan.grid(ACROSS)
+    points = plan.grid(across(plan))
     chosen = np.zeros(0)
     for _ in range(plan.cameras):
         trials = [np.append(chosen, each) for each in random.random_sample((CANDIDATES, PER_CAMERA))]
@@ -38,7 +43,7 @@ def greedy(plan, random):
 def search(plan, seed, generations, tell=lambda share: None):
     """Positions and targets, each N x 3. seed: the same gives the same. tell: of the share done."""
     random = np.random.RandomState(seed)
-    points = plan.grid(ACROSS)
+    points = plan.grid(across(plan))
     first = greedy(plan, random)
     start = random.random_sample((POPULATION * len(first), len(first)))
     near = np.clip(first + 0.1 * random.standard_normal(start.shape), 0.0, 1.0)

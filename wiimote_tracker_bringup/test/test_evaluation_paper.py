@@ -36,7 +36,7 @@ def short(monkeypatch):
     """Drawing and resampling would take most of the time; other tests cover both."""
     monkeypatch.setattr(statistics, 'bootstrap',
                         functools.partial(statistics.bootstrap, resamples=50))
-    for name in ('cumulative_errors', 'cubes', 'correction'):
+    for name in ('cumulative_errors', 'cubes', 'correction', 'paper_cases'):
         monkeypatch.setattr(positions.plots, name, lambda *data: None)
     monkeypatch.setattr(circles, 'plot', lambda *data: None)
     monkeypatch.setattr(Run, 'plot', lambda *data: None)

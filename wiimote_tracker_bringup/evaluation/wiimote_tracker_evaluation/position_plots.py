@@ -1,9 +1,11 @@
 """Plots of the ten points: cumulative errors (Fig. 7 and 9), cubes (Fig. 8), convergence of the
 correction (Fig. 2)."""
 
+import matplotlib.patches
 import numpy as np
 
 from wiimote_tracker_evaluation import charts
+from wiimote_tracker_evaluation.experiment import NOMINAL_LENS
 from wiimote_tracker_evaluation.position_results import CASES, FOUR, OURS, TWO
 
 CASE_COLORS = dict(zip(CASES, (charts.RED, charts.ORANGE, charts.BLUE, charts.GREEN,
@@ -22,6 +24,29 @@ PAPER_MARKS = {
           (7.0, 1.0, 'C3 to C5\nto 7', 'left', -7)),
     FOUR: ((2.8, 1.0, 'paper: C3 to 2.8', 'right', -4), (4.8, 1.0, 'C5 below 4.8', 'right', -15),
            (8.5, 1.0, 'C4 to 8.5', 'left', -4))}
+
+
+CENTER = np.array([512.0, 384.0])  # of the image [px]
+BY_BOARD = CENTER + [(30.0, 25.0), (-38.0, 12.0), (14.0, -30.0), (-25.0, -20.0)]  # an example
+
+
+def paper_cases():
+    """Drawing that defines the paper's cases by the principal points that they use."""
+    common, center = NOMINAL_LENS[None, 2:4], CENTER[None]
+    figure, axes = charts.figure(1, 5, height=2.0, width=11.0)
+    for axis, case, words, points, corrected in zip(
+            axes, CASES, ('one matrix, K (2)', 'one per camera, by board', 'C1, corrected',
+                          'C2, corrected', 'C4 from the centre'),
+            (common, BY_BOARD, common, BY_BOARD, center), (False, False, True, True, True)):
+        axis.set_title(f'{case}: {words}', fontsize=TITLE_SIZE)
+        axis.plot(*CENTER, '+', color=charts.SOFT, markersize=12)
+        axis.plot(*points.T, 'o', color=CASE_COLORS[case], markersize=5)
+        if corrected:
+            axis.add_patch(matplotlib.patches.Circle(CENTER, 55.0, fill=False, linestyle=':',
+                                                     color=CASE_COLORS[case]))
+        axis.set(xlim=(392, 632), ylim=(464, 304), aspect='equal', xticks=[412, 512, 612],
+                 yticks=[334, 384, 434])
+    return figure
 
 
 def cumulative_errors(results, cameras, protocol):

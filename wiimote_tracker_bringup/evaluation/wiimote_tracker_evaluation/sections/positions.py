@@ -97,6 +97,10 @@ def explain(run, results):
         'The paper\'s calibration is repeated for both interpretations of its rays (`ray_model`): '
         'from the image centre (512, 384), whatever principal point was used for the poses, or as '
         'calibrated.' % results.sessions)
+    run.plot('the_cases', plots.paper_cases(), (
+        "The paper's cases by the principal points [px] with which they begin, in the middle of the "
+        'image (cross); those of a board are an example. Dotted circle: then corrected in 14 '
+        'rounds.'))
 
 
 # --- The paper

@@ -18,6 +18,7 @@ namespace {
 constexpr double kStartStddev = 0.5;  // of the position at which a filter starts [m]
 constexpr double kMisfit = 100.0;     // squared Mahalanobis distance of an observation
 constexpr std::size_t kChunk = 256;   // places
+constexpr double kTogether = 0.05;    // between sightings by two cameras that locate an LED [s]
 
 /// Updates with an observation at `time` in the filter's time. False if it does not fit.
 bool update(const Observation& observation, double time, MotionFilter* filter) {
@@ -155,7 +156,21 @@ class Smoother {
             next};
   }
 
+  /// The last observation up to a number shortly before which another camera saw the LED. One
+  /// camera alone does not tell how far away to start.
+  Number lastLocated(Number number) const {
+    for (; number >= 0; --number) {
+      const Observation& last = observations_[number];
+      for (Number i = number - 1; i >= 0 && last.time - observations_[i].time < kTogether; --i) {
+        if (observations_[i].camera != last.camera)
+          return number;
+      }
+    }
+    return number;
+  }
+
   Run startBackwards(Number next) {
+    next = lastLocated(next);
     last_ = next;
     const double time = next < 0 ? places_.front().time : observations_[next].time;
     const auto place =
@@ -205,7 +220,7 @@ class Smoother {
         const Observation& observation = observations_[backwards_.next--];
         if (update(observation, -observation.time, &backwards_.filter))
           continue;
-        last_ = backwards_.next;
+        last_ = lastLocated(backwards_.next);
         backwards_ = startAt(-observation.time, places_[i].position, last_);
       }
       backwards_.filter.predict(-time);

@@ -44,13 +44,14 @@ void SmoothedTracks::collect(std::size_t camera, const Snapshot& snapshot) {
   }
 }
 
-/// Whether another LED without a spot is so close that the spot may be of both.
+/// Whether another LED that is seen, but not here, is so close that the spot may be of both.
 bool SmoothedTracks::mayBeMerged(const tracking::SeenSpot& spot,
                                  std::size_t camera,
                                  const Snapshot& snapshot) const {
   const auto& spots = snapshot.views[camera].spots;
   return std::any_of(snapshot.leds.begin(), snapshot.leds.end(), [&](const TrackedLed& led) {
-    if (led.id == spot.led || led.state == TrackState::kLost || led.state == TrackState::kTentative)
+    if (led.id == spot.led || led.cameras.empty() || led.state == TrackState::kLost ||
+        led.state == TrackState::kTentative)
       return false;
     const auto pixel = cameras_.back()[camera].project(led.position);
     return pixel && (*pixel - spot.pixel).norm() < options_.merging_distance &&

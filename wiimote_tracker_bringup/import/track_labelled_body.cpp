@@ -44,6 +44,12 @@ struct Image {
   std::vector<Eigen::Vector2d> pixels;                     // in the order of the body's lights
 };
 
+template <typename Numbers>
+void printNumbers(const Numbers& numbers, std::FILE* file) {
+  for (Eigen::Index i = 0; i < numbers.size(); ++i)
+    std::fprintf(file, ",%.9g", numbers(i));
+}
+
 /// What a camera saw last, and before.
 struct View {
   Image last;
@@ -90,20 +96,21 @@ class LabelledBody {
       return;
     body::PoseFilter now = *filter_;
     now.predict(time);
-    const Eigen::Vector3d place = now.state().position;
+    const body::PoseState& state = now.state();
     std::vector<std::size_t> cameras;
     for (std::size_t c = 0; c < views_.size(); ++c) {
       if (views_[c].last.time >= time - kTrackedTime && views_[c].misses == 0)
         cameras.push_back(c);
     }
-    Eigen::Matrix3d covariance = now.state().poseCovariance().topLeftCorner<3, 3>();
-    if (const auto more = uncertainty_.covarianceOf(place, cameras.data(), cameras.size()))
-      covariance += *more;
+    body::PoseCovariance covariance = state.poseCovariance();
+    if (const auto more = uncertainty_.covarianceOf(state.position, cameras.data(), cameras.size()))
+      covariance.topLeftCorner<3, 3>() += *more;
     // One camera alone hardly tells how far away a small body is.
-    std::fprintf(file, "%.9f,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", time,
-                 cameras.size() >= 2 ? "tracked" : "predicted", place.x(), place.y(), place.z(),
-                 covariance(0, 0), covariance(0, 1), covariance(0, 2), covariance(1, 1),
-                 covariance(1, 2), covariance(2, 2));
+    std::fprintf(file, "%.9f,%s", time, cameras.size() >= 2 ? "tracked" : "predicted");
+    printNumbers(state.position, file);
+    printNumbers(state.rotation.coeffs(), file);
+    printNumbers(covariance, file);
+    std::fputc('\n', file);
   }
 
  private:
@@ -199,8 +206,10 @@ int run(const std::string& rig_file,
   std::FILE* const output = std::fopen(table.c_str(), "w");
   if (!input || !output)
     throw Error(images_file + " cannot be read, or " + table + " not written");
-  std::fputs("time [s],state,x [m],y [m],z [m],cov_xx,cov_xy,cov_xz,cov_yy,cov_yz,cov_zz\n",
-             output);
+  std::fputs("time [s],state,x [m],y [m],z [m],qx,qy,qz,qw", output);
+  for (int i = 0; i < 36; ++i)
+    std::fprintf(output, ",cov_%d", i);  // position [m], then rotation about the world axes [rad]
+  std::fputc('\n', output);
   std::size_t camera;
   Image image;
   image.pixels.resize(lights.size());
@@ -225,7 +234,7 @@ int main(int argc, char** argv) {
   double pixel_stddev = 0.5;
   ArgumentParser parser(
       "track_labelled_body",
-      "Tracks a body whose lights are told apart in every image, and writes its positions to TABLE "
+      "Tracks a body whose lights are told apart in every image, and writes its poses to TABLE "
       "(CSV).\nIMAGES: a line of x, y, z [m] of each light on the body, then lines of the camera's "
       "number, the\nexposure time [s], in order, and x and y [px] of each light.");
   parser.positional("RIG", &rig);

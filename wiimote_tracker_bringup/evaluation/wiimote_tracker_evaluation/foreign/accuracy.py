@@ -2,11 +2,13 @@
 
 The path is aligned on one half of the recording, every other tenth of it, and scored on the other
 half, both ways round: in time (offset and rate of the truth's clock) and in space (similarity, or
-rigid motion). The truth is of another place on the body than the middle of its lights. The
-alignment takes up this offset as far as the body does not turn; the rest counts as an error.
+rigid motion). The truth is of another place on the body than the middle of its lights. If the path
+has the body's rotations, this place is fitted, too. Otherwise the alignment takes it up as far as
+the body does not turn; the rest counts as an error.
 """
 
 import dataclasses
+from typing import Optional
 
 import numpy as np
 
@@ -59,38 +61,63 @@ def fit_space(points, true, kind):
     return fitted, used
 
 
-def fit(times, points, truth, kind):
-    """Clock and alignment of a path."""
-    def misfit(clock):
-        true, _ = truth_at(truth, clock(times))
-        fitted, _ = fit_space(points, true, kind)
-        return np.nanmedian(np.linalg.norm(fitted.apply(points) - true, axis=1))
-    steps = np.arange(-truth.tolerance, truth.tolerance + STEP, STEP)
-    clock = min((Clock(truth.rate, truth.offset + step) for step in steps), key=misfit)
-    middle = times.mean()
-    for _ in range(ROUNDS):
-        true, velocity = truth_at(truth, clock(times))
-        fitted, used = fit_space(points, true, kind)
-        error = (true - fitted.apply(points))[used]
-        speed = velocity[used]
-        design = np.concatenate(
-            [bound.alignment_basis(fitted.apply(points[used]) - true[used].mean(axis=0), kind),
-             -speed.reshape(-1, 1),
-             -(speed * (times[used] - middle)[:, None]).reshape(-1, 1)], axis=1)
-        shift, rate = np.linalg.lstsq(design, error.reshape(-1), rcond=None)[0][-2:]
-        clock = Clock(clock.rate + rate, clock.offset + shift - rate * middle)
-    true, _ = truth_at(truth, clock(times))
-    return clock, fit_space(points, true, kind)[0]
-
-
-
 @dataclasses.dataclass(eq=False)
 class Path:
-    """What was tracked: times n [s], positions n x 3 [m], covariances n x 3 x 3 [m^2]."""
+    """What was tracked: times n [s], positions n x 3 [m], covariances n x 3 x 3 [m^2]. If rotations
+    n x 3 x 3, body to world, are known: covariances n x 6 x 6 of position and rotation about the
+    world's axes [m, rad]."""
 
     times: np.ndarray
     positions: np.ndarray
     covariances: np.ndarray
+    rotations: Optional[np.ndarray] = None
+
+    def part(self, chosen):
+        rotations = None if self.rotations is None else self.rotations[chosen]
+        return Path(self.times[chosen], self.positions[chosen], self.covariances[chosen], rotations)
+
+    def of_place(self, place):
+        """The path of a place on the body [m]."""
+        if self.rotations is None:
+            return self
+        x, y, z = (self.rotations @ place).T
+        turn = np.zeros((len(x), 3, 6))
+        turn[:, :, :3] = np.eye(3)
+        turn[:, 0, 4], turn[:, 0, 5], turn[:, 1, 5] = z, -y, x
+        turn[:, 1, 3], turn[:, 2, 3], turn[:, 2, 4] = -z, y, -x
+        return Path(self.times, self.positions + np.stack([x, y, z], axis=1),
+                    turn @ self.covariances @ turn.transpose(0, 2, 1))
+
+
+def fit(path, truth, kind):
+    """Clock, alignment, and the truth's place on the body [m], which is 0 without rotations."""
+    times = path.times
+
+    def misfit(clock):
+        true, _ = truth_at(truth, clock(times))
+        fitted, _ = fit_space(path.positions, true, kind)
+        return np.nanmedian(np.linalg.norm(fitted.apply(path.positions) - true, axis=1))
+    steps = np.arange(-truth.tolerance, truth.tolerance + STEP, STEP)
+    clock = min((Clock(truth.rate, truth.offset + step) for step in steps), key=misfit)
+    middle, place = times.mean(), np.zeros(3)
+    for _ in range(ROUNDS):
+        true, velocity = truth_at(truth, clock(times))
+        points = path.of_place(place).positions
+        fitted, used = fit_space(points, true, kind)
+        error = (true - fitted.apply(points))[used]
+        speed = velocity[used]
+        columns = [bound.alignment_basis(fitted.apply(points[used]) - true[used].mean(axis=0), kind),
+                   -speed.reshape(-1, 1),
+                   -(speed * (times[used] - middle)[:, None]).reshape(-1, 1)]
+        if path.rotations is not None:
+            columns.append((fitted.scale * fitted.rotation @ path.rotations[used]).reshape(-1, 3))
+        step = np.linalg.lstsq(np.concatenate(columns, axis=1), error.reshape(-1), rcond=None)[0]
+        shift, rate = step[columns[0].shape[1]:][:2]
+        clock = Clock(clock.rate + rate, clock.offset + shift - rate * middle)
+        if path.rotations is not None:
+            place = place + step[-3:]
+    true, _ = truth_at(truth, clock(times))
+    return clock, fit_space(path.of_place(place).positions, true, kind)[0], place
 
 
 def score(path, truth, kind):
@@ -100,14 +127,14 @@ def score(path, truth, kind):
     times, errors, distances, scales = [], [], [], []
     for turn in (0, 1):
         fitted_to, scored = part == turn, part != turn
-        clock, fitted = fit(path.times[fitted_to], path.positions[fitted_to], truth, kind)
+        clock, fitted, place = fit(path.part(fitted_to), truth, kind)
         true, _ = truth_at(truth, clock(path.times[scored]))
         known = np.isfinite(true).all(axis=1)
-        error = fitted.apply(path.positions[scored][known]) - true[known]
+        found, true = path.part(scored).part(known).of_place(place), true[known]
+        error = fitted.apply(found.positions) - true
         inside = (error @ fitted.rotation / fitted.scale)[:, :, None]  # in the rig's world
-        covariances = path.covariances[scored][known]
-        distances.append((inside * np.linalg.solve(covariances, inside)).sum(axis=(1, 2)))
-        times.append(path.times[scored][known])
+        distances.append((inside * np.linalg.solve(found.covariances, inside)).sum(axis=(1, 2)))
+        times.append(found.times)
         errors.append(np.linalg.norm(error, axis=1))
         scales.append(fitted.scale)
     times, errors = np.concatenate(times), np.concatenate(errors)

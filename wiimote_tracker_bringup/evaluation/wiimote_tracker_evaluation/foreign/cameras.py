@@ -18,7 +18,6 @@ from wiimote_tracker_evaluation.foreign.views import Camera, Truth, Views
 START = 0.5  # [s]
 BEGIN = 1000.0  # of each camera's frame 0, so that all times are positive [s]
 KEYS = ('rate', 'width', 'height', 'fx', 'fy', 'cx', 'cy', 'distortion', 'rolling_shutter')
-CORNER = 2.0  # of the made-up square: the first poses are good, but the square may be small [px]
 ROUNDS = 20  # of the inversion of a lens
 
 
@@ -44,7 +43,7 @@ def read(folder: str) -> Views:
             raise ExperimentError(f'{path} has hardly any detection of {name}')
     truth = read_table(os.path.join(folder, 'truth.csv'), 4)
     return Views([camera_of(name, lenses[name], seen[name]) for name in lists], np.zeros((1, 3)),
-                 0.0, Truth(truth[:, 0], truth[:, 1:], 1.0, -BEGIN, START), CORNER)
+                 0.0, Truth(truth[:, 0], truth[:, 1:], 1.0, -BEGIN, START))
 
 
 def camera_of(name, lens, rows):

@@ -4,11 +4,13 @@ import numpy as np
 
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.foreign import accuracy, body, ordinary
+from wiimote_tracker_evaluation.foreign.rig import quaternion_matrix
 
 METHOD = ('The middle of the lights as one point: poses and clock offsets by self_calibrate and '
           'solve_samples, path by track_bag; aligned on every other tenth of the recording and '
-          'scored on the rest, both ways round. As a body: three lights or more are told apart, and '
-          'the pose of the body is tracked by track_labelled_body')
+          'scored on the rest, both ways round. Smoothed: by track_bag --smooth, from the first point '
+          'of each confirmed track. As a body: three lights or more are told apart, and the pose of '
+          'the body is tracked by track_labelled_body; the place of the truth on it is fitted, too')
 # Title, key, factor and unit.
 FIGURES = (('mean error', 'mean_mm', 1.0, 'mm'), ('RMS error', 'rms_mm', 1.0, 'mm'),
            ('median error', 'median_mm', 1.0, 'mm'), ('95th percentile', 'p95_mm', 1.0, 'mm'),
@@ -21,7 +23,7 @@ SAME_TIME = 1e-4  # of an image and its point [s]
 
 
 def path_of(views, rig, table):
-    """The tracked points, at the body's scale."""
+    """The tracked points, or poses, at the body's scale."""
     tracked = table['state'] == 'tracked'
     column = {name.split(' ')[0]: values for name, values in table.items()}
 
@@ -29,9 +31,15 @@ def path_of(views, rig, table):
         return np.stack([column[name][tracked].astype(float) for name in names], axis=1)
 
     times, positions = columns('time')[:, 0], columns('x', 'y', 'z')
+    scale = rig.scale(views, times)
+    if 'qw' in column:
+        rotations = np.array([quaternion_matrix(*row) for row in columns('qx', 'qy', 'qz', 'qw')])
+        covariances = columns(*(f'cov_{i}' for i in range(36))).reshape(-1, 6, 6)
+        units = np.array([scale, scale, scale, 1.0, 1.0, 1.0])
+        return accuracy.Path(times, scale * positions, units[:, None] * units * covariances,
+                             rotations)
     upper = columns('cov_xx', 'cov_xy', 'cov_xz', 'cov_yy', 'cov_yz', 'cov_zz')
     covariances = upper[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3)
-    scale = rig.scale(views, times)
     return accuracy.Path(times, scale * positions, scale ** 2 * covariances)
 
 
@@ -81,6 +89,7 @@ def evaluate(views, folder):
     """Figures; times and errors of the scored points [s, m] of the middle of the lights."""
     rig = ordinary.calibrate(views, folder)
     result, times, errors = score(views, rig, ordinary.track(views, rig, folder))
+    result['smoothed'] = score(views, rig, ordinary.track(views, rig, folder, smooth=True))[0]
     if len(views.shape) > 2:
         result['body'] = score(views, rig, body.track(views, rig, folder))[0]
     names = [camera.name for camera in views.cameras]
@@ -91,7 +100,8 @@ def evaluate(views, folder):
 
 def rows_of(result):
     """What is printed and reported: name, value."""
-    for way, figures in (('', result), ('as a body, ', result.get('body'))):
+    for way, figures in (('', result), ('smoothed, ', result['smoothed']),
+                         ('as a body, ', result.get('body'))):
         if not figures:
             continue
         yield from ((f'{way}{kind}: {name}', f'{own[key] * factor:.2f} {unit}'.strip())

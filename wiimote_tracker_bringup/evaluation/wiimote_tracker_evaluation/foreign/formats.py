@@ -29,7 +29,8 @@ class Outcome:
 
 def of_flight(views, folder):
     result, times, errors = flight.evaluate(views, folder)
-    scores = {'one point': result, 'body': result.get('body')}
+    scores = {'one point': result, 'one point, smoothed': result['smoothed'],
+              'body': result.get('body')}
     return Outcome(flight.METHOD, result, list(flight.rows_of(result)),
                    {what: figures for what, figures in scores.items() if figures},
                    'time [s]', times - times.min(), 'mm', 1e3 * errors)

@@ -30,6 +30,7 @@ LATENCY = 0.1
 # A camera's parameters in a rig's covariance, and those of its principal point.
 PER_CAMERA, PRINCIPAL_POINT = 16, [8, 9]
 ROUNDS = 200  # of the search for the made-up square
+CORNER = 2.0  # of it: the first poses are good, but the square may be small [px]
 BIRTH_WINDOW = 0.03  # of the tracker's default parameters [s]
 
 
@@ -51,7 +52,7 @@ def calibrate(views, folder, parts=None):
     side, corners = made_up_square(rotations[list(numbers)], positions[list(numbers)], path)
     write_samples(cameras, side, corners, samples)
     with open(parameters, 'w') as file:
-        yaml.safe_dump(dict(HELD, pixel_stddev=views.corner), file)
+        yaml.safe_dump(dict(HELD, pixel_stddev=CORNER), file)
     run('wiimote_tracker_calibration/solve_samples', samples, '--params', parameters, '--rig', rig)
     return Rig(rig)
 
@@ -148,8 +149,9 @@ def lenses_of(views, rig, folder):
     return path
 
 
-def track(views, rig, folder):
-    """What track_bag makes of the middle of the lights: the columns of its table."""
+def track(views, rig, folder, smooth=False):
+    """What track_bag makes of the middle of the lights: the columns of its table. smooth: with what
+    was seen later, and from the first point of each track that was confirmed later."""
     source, target, table, parameters = (os.path.join(folder, name) for name in (
         'blobs.bag', 'tracked.bag', 'points.csv', 'track.yaml'))
     write_bag(views, rig.offsets, source)
@@ -160,8 +162,13 @@ def track(views, rig, folder):
                                    'confirmation_hits': 2 * len(views.cameras)}}, file)
     run('wiimote_tracker_triangulation/track_bag', source, target,
         '--rig', lenses_of(views, rig, folder),
-        '--params', parameters, '--csv', table, '--results-only')
-    return programs.read_csv(table)
+        '--params', parameters, '--csv', table, '--results-only', *(['--smooth'] if smooth else []))
+    columns = programs.read_csv(table)
+    if smooth:
+        ids, states = columns['id'], columns['state']
+        known_later = (states == 'tentative') & np.isin(ids, ids[states == 'tracked'])
+        columns['state'] = np.where(known_later, 'tracked', states)
+    return columns
 
 
 def spot_speed(views):

@@ -66,4 +66,3 @@ class Views:
     shape: np.ndarray
     accuracy: float
     truth: Truth
-    corner: float = 20.0  # of a corner of the square that ordinary.calibrate() makes up [px]

@@ -105,10 +105,26 @@ void TimeWatch::vote() {
     cameras_[i].trusted = true;
     for (std::size_t j = 0; j < n; ++j) {
       const Pair* pair = i == j ? nullptr : activePair(i, j);
-      if (pair && !pair->agrees && votes_[j] >= votes_[i])
+      if (!pair || pair->agrees)
+        continue;
+      if (votes_[j] > votes_[i] || (votes_[j] == votes_[i] && !someAgreesWith(i, j)))
         cameras_[i].trusted = false;
     }
   }
+}
+
+/// Whether a camera agrees with both. Then these two are not of two groups: when a network becomes
+/// slow, its camera disagrees with one of the others first.
+bool TimeWatch::someAgreesWith(std::size_t a, std::size_t b) const {
+  for (std::size_t other = 0; other < cameras_.size(); ++other) {
+    if (other == a || other == b)
+      continue;
+    const Pair* with_a = activePair(a, other);
+    const Pair* with_b = activePair(b, other);
+    if (with_a && with_a->agrees && with_b && with_b->agrees)
+      return true;
+  }
+  return false;
 }
 
 /// Whether a camera's image is ahead of most others' and also of its own last one. (If only the

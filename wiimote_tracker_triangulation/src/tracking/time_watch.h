@@ -17,7 +17,7 @@ namespace wiimote_tracker::tracking {
 /// images only, and of a few whose clocks disagree. So two clocks agree if more than a quarter of
 /// the recent comparisons are within kTolerance. Images of a camera that come together after a
 /// pause count as one. The largest group of cameras that agree is trusted; none if two groups are
-/// equally large.
+/// equally large. Two that disagree but both agree with a third are not yet of two groups.
 class TimeWatch {
  public:
   static constexpr double kTolerance = 0.04;  ///< Between clocks that agree [s].
@@ -75,6 +75,7 @@ class TimeWatch {
   static void note(double arrival, Camera* camera);
   bool comparePairs(std::size_t camera, double arrival);
   void vote();
+  bool someAgreesWith(std::size_t a, std::size_t b) const;
   bool isOutlier(std::size_t camera, double arrival) const;
   bool hasJumpedBack(std::size_t camera) const;
 

@@ -262,6 +262,34 @@ TEST(TrackerClocks, DelayedImagesAreNoWrongClocks) {
   EXPECT_LT(tracker.counters().dropped, 80u);  // those older than the history
 }
 
+TEST(TrackerClocks, OnlyTheCameraWithASlowNetworkIsNamed) {
+  for (const std::size_t cameras : {3u, 4u, 5u}) {
+    const geometry::Rig rig = roomsRig(1, static_cast<int>(cameras));
+    SceneOptions options;
+    options.delay_jitter = 0.002;
+    std::vector<SceneImage> images = imagesOf(rig, {circle({0.0, 0.0, 1.0}, 0.5, 1.0)}, options,
+                                              800 * static_cast<int>(cameras));
+    for (SceneImage& image : images) {
+      const double arrival = image.image.arrival;
+      const bool is_slow = image.camera == 0 && arrival > 1002.0 && arrival < 1005.0;
+      image.true_time = arrival + (is_slow ? 0.2 : 0.0);  // of delivery
+    }
+    std::stable_sort(images.begin(), images.end(),
+                     [](auto& a, auto& b) { return a.true_time < b.true_time; });
+    Tracker tracker(rig, exactOptions());
+    bool was_named = false;
+    for (const SceneImage& image : images) {
+      tracker.add(image.camera, image.image);
+      was_named |= tracker.cameraFault(0).has_value();
+      for (std::size_t camera = 1; camera < cameras; ++camera)
+        ASSERT_FALSE(tracker.cameraFault(camera))
+            << "camera " << camera << " of " << cameras << " at " << image.true_time;
+    }
+    EXPECT_TRUE(was_named);
+    EXPECT_FALSE(tracker.cameraFault(0));
+  }
+}
+
 /// Two of four cameras' clocks are wrong for 4 s, and their processes pause now and then: images
 /// that waited come all at once.
 IdentityCheck withWrongClocksAndPauses(const std::vector<Path>& leds, double ahead, double pause) {

@@ -14,7 +14,8 @@ bool writePlaces(const std::string& file, const LedLabels::Places& places) {
   fs::create_directories(fs::absolute(file).parent_path(), error);
   std::ofstream out(fresh);
   for (const auto& [label, place] : places)
-    out << label << ' ' << place.position.transpose() << '\n';
+    out << label << ' ' << place.position.transpose() << ' ' << place.speed << ' ' << place.age
+        << ' ' << place.confidence << '\n';
   out.close();
   if (!out)
     return false;
@@ -25,14 +26,19 @@ bool writePlaces(const std::string& file, const LedLabels::Places& places) {
 LedLabels::Places readPlaces(const std::string& file, std::chrono::seconds oldest) {
   std::error_code error;
   const fs::file_time_type written = fs::last_write_time(file, error);
-  if (error || fs::file_time_type::clock::now() - written > oldest)
+  const std::chrono::duration<double> age = fs::file_time_type::clock::now() - written;
+  if (error || age > oldest)
     return {};
   std::ifstream in(file);
   LedLabels::Places places;
   std::string label;
-  Eigen::Vector3d position;
-  while (in >> label >> position.x() >> position.y() >> position.z())
-    places[label].position = position;
+  LedLabels::Place place;
+  Eigen::Vector3d& position = place.position;
+  while (in >> label >> position.x() >> position.y() >> position.z() >> place.speed >> place.age >>
+         place.confidence) {
+    place.age += age.count();
+    places[label] = place;
+  }
   return in.eof() ? places : LedLabels::Places();
 }
 

@@ -13,7 +13,8 @@ namespace wiimote_tracker {
 /// @returns whether it was written.
 bool writePlaces(const std::string& file, const LedLabels::Places& places);
 
-/// Reads such a file; nothing if there is none, or it is older than this or damaged.
+/// Reads such a file; nothing if there is none, or it is older than this or damaged. The places are
+/// older by the file's age.
 LedLabels::Places readPlaces(const std::string& file, std::chrono::seconds oldest);
 
 }  // namespace wiimote_tracker

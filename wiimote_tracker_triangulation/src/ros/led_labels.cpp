@@ -1,8 +1,7 @@
 #include "led_labels.h"
 
 #include <algorithm>
-#include <iterator>
-#include <limits>
+#include <cmath>
 
 namespace wiimote_tracker {
 
@@ -11,13 +10,28 @@ using identity::Identity;
 namespace {
 
 constexpr double kPlaceMemory = 10.0;  // [s]
+constexpr double kNear = 0.1;          // error of a place after no time [m]
+constexpr double kLeastSpeed = 0.3;    // of an LED out of sight, per axis [m/s]
+constexpr double kSteady = 2.0;        // for how long it goes on as before [s]
+constexpr double kAnywhere = 0.003;    // density of an LED that was carried off [1/m^3]
+
+/// Of an LED that moved since it was seen at a place, at random after a while [1/m^3].
+double densityAt(const Eigen::Vector3d& position, const LedLabels::Place& place) {
+  if (place.age > kPlaceMemory)
+    return kAnywhere;
+  const double way = (kLeastSpeed + place.speed / std::sqrt(3.0)) * place.age;
+  const double variance = kNear * kNear + way * way / (1.0 + place.age / kSteady);
+  return kAnywhere + std::exp(-0.5 * (position - place.position).squaredNorm() / variance) /
+                         std::pow(2.0 * M_PI * variance, 1.5);
+}
 
 }  // namespace
 
 void LedLabels::update(double time,
                        const std::vector<tracking::TrackedLed>& leds,
                        const identity::Identifier* identifier) {
-  forgetOldPlaces(time);
+  agePlaces(time);
+  doubtful_.clear();
   for (const std::uint32_t id : forgotten_)
     given_.erase(id);
   forgotten_.swap(lost_);
@@ -32,18 +46,23 @@ void LedLabels::update(double time,
     const Identity* identity = identifier ? identifier->identityOf(led.id) : nullptr;
     const bool may_be_listed = !identifier || (identity && identity->steady);
     if (may_be_listed && led.state == tracking::TrackState::kTracked && given_.count(led.id) == 0)
-      giveFreeLabel(led);
+      giveFreeLabel(time, led);
     const auto given = given_.find(led.id);
-    if (given != given_.end() && !given->second.isIdentified())
-      places_[given->second.name] = {led.position, time};
+    if (given == given_.end() || given->second.identified)
+      continue;
+    Place& place = places_[given->second.name];
+    place.position = led.position;
+    place.speed = led.velocity ? led.velocity->norm() : 0.0;
+    place.age = 0.0;
   }
 }
 
-void LedLabels::forgetOldPlaces(double time) {
-  for (auto place = places_.begin(); place != places_.end();) {
-    if (!place->second.time)
-      place->second.time = time;
-    place = time - *place->second.time > kPlaceMemory ? places_.erase(place) : std::next(place);
+void LedLabels::agePlaces(double time) {
+  const double passed = newest_ ? time - *newest_ : 0.0;
+  newest_ = time;
+  for (Places* places : {&places_, &former_}) {
+    for (auto& place : *places)
+      place.second.age += passed;
   }
 }
 
@@ -52,34 +71,61 @@ void LedLabels::takeIdentity(std::uint32_t id, const identity::Identifier& ident
   const auto given = given_.find(id);
   if (identity && identity->label)
     given_[id] = {identifier.codes().codes[*identity->label].label, identity->confidence,
-                  identity->since};
-  else if (given != given_.end() && given->second.isIdentified())
+                  identity->since, true};
+  else if (given != given_.end() && given->second.identified)
     given_.erase(given);
 }
 
-void LedLabels::giveFreeLabel(const tracking::TrackedLed& led) {
+/// A label that was given before goes to the LED with the probability that it is that LED's, among
+/// all labels that may be: free ones, and those given again that may be wrong.
+void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
   const std::string* best = nullptr;
-  double least = 0.0;
+  double greatest = 0.0;
+  double sum = 0.0;
+  int candidates = 0;
   for (const std::string& label : listed_) {
-    if (isTaken(label))
+    if (const LedLabel* holder = holderOf(label)) {
+      const auto former = former_.find(label);
+      if (former != former_.end() && holder->confidence < 1.0) {
+        sum += (1.0 - holder->confidence) * densityAt(led.position, former->second);
+        ++candidates;
+      }
       continue;
+    }
     const auto place = places_.find(label);
-    const double distance = place != places_.end() ? (place->second.position - led.position).norm()
-                                                   : std::numeric_limits<double>::infinity();
-    if (!best || distance < least) {
+    const double density = place != places_.end() ? densityAt(led.position, place->second) : 0.0;
+    sum += density;
+    candidates += density > 0.0;
+    if (!best || density > greatest) {
       best = &label;
-      least = distance;
+      greatest = density;
     }
   }
-  if (best)
-    given_[led.id].name = *best;
+  if (!best)
+    return;
+  LedLabel& given = given_[led.id];
+  given.name = *best;
+  if (greatest == 0.0)
+    return;
+  Place& place = places_[*best];
+  former_[*best] = place;
+  // Right if it was right and goes to the same LED, or was that of this one of the others.
+  const double same = greatest / sum;
+  place.confidence = place.confidence * same +
+                     (1.0 - place.confidence) * (1.0 - same) / std::max(1, candidates - 1);
+  given.confidence = place.confidence;
+  given.since = time;
+  if (given.confidence < kDoubtful)
+    doubtful_.push_back(*best);
 }
 
-bool LedLabels::isTaken(const std::string& label) const {
-  return std::any_of(given_.begin(), given_.end(), [&](const auto& given) {
-    return given.second.name == label &&
-           std::find(forgotten_.begin(), forgotten_.end(), given.first) == forgotten_.end();
-  });
+const LedLabel* LedLabels::holderOf(const std::string& label) const {
+  for (const auto& [id, given] : given_) {
+    if (given.name == label &&
+        std::find(forgotten_.begin(), forgotten_.end(), id) == forgotten_.end())
+      return &given;
+  }
+  return nullptr;
 }
 
 LedLabel LedLabels::of(std::uint32_t id) const {
@@ -95,13 +141,7 @@ void LedLabels::clear() {
   lost_.clear();
   for (const auto& given : given_)
     lost_.push_back(given.first);
-  setFormerPlaces(places_);
-}
-
-void LedLabels::setFormerPlaces(const Places& places) {
-  places_ = places;
-  for (auto& place : places_)
-    place.second.time.reset();
+  newest_.reset();
 }
 
 }  // namespace wiimote_tracker

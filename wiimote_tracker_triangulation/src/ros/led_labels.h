@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -19,19 +18,20 @@ namespace wiimote_tracker {
 struct LedLabel {
   std::string name;
 
-  /// For a label found by blinking: its probability [0..1] and the time since when it is given [s].
-  /// NaN and 0 for other labels.
+  /// For a label found by blinking, or given again: its probability [0..1] and the time since when
+  /// it is given [s]. NaN and 0 for other labels.
   double confidence = std::numeric_limits<double>::quiet_NaN();
   double since = 0.0;
 
-  bool isIdentified() const { return !std::isnan(confidence); }
+  bool identified = false;  ///< By blinking.
 };
 
 /// Gives labels to tracks. A track that blinks gets the label of its code once it is identified.
 /// Any other confirmed track takes the first free label of a list and keeps it until it is lost;
 /// then the label goes to the oldest track without one, or to the next confirmed track. Of several
-/// free labels a track takes that of the LED which was nearest in the last 10 s; if none was, the
-/// first. A track without a label is called led_<id>.
+/// free labels a track takes that of the LED which most probably is there, by the place and the
+/// time where it was seen last; after 10 s it may be anywhere, and the first free label is given. A
+/// track without a label is called led_<id>.
 class LedLabels {
  public:
   explicit LedLabels(const std::vector<std::string>& labels) : listed_(labels) {}
@@ -50,31 +50,43 @@ class LedLabels {
   /// All tracks are lost, and all labels free; time may begin anew.
   void clear();
 
+  /// Where the LED of a label is, or was when it was seen last.
   struct Place {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< World [m].
-    std::optional<double> time;  ///< Of the last snapshot there [s]; none: the next one counts.
+    double speed = 0.0;                                  ///< There [m/s].
+    double age = 0.0;         ///< From there to the newest snapshot, as far as is known [s].
+    double confidence = 1.0;  ///< That the LED there had the right label [0..1].
   };
-  /// Where an LED with a label of the list is, or was in the last 10 s, by label.
+  /// Of the labels of the list that were given, by label.
   using Places = std::map<std::string, Place>;
   const Places& places() const { return places_; }
 
-  /// Places from another process, before the first update. Their times do not count.
-  void setFormerPlaces(const Places& places);
+  /// Places from another process, before the first update.
+  void setFormerPlaces(const Places& places) { places_ = places; }
+
+  /// Probability below which a label is doubtful.
+  static constexpr double kDoubtful = 0.8;
+
+  /// Labels that are doubtful since the last update.
+  const std::vector<std::string>& doubtful() const { return doubtful_; }
 
   /// The name of a track without a label.
   static std::string unlisted(std::uint32_t id) { return "led_" + std::to_string(id); }
 
  private:
   void takeIdentity(std::uint32_t id, const identity::Identifier& identifier);
-  void forgetOldPlaces(double time);
-  void giveFreeLabel(const tracking::TrackedLed& led);
-  bool isTaken(const std::string& label) const;
+  void agePlaces(double time);
+  void giveFreeLabel(double time, const tracking::TrackedLed& led);
+  const LedLabel* holderOf(const std::string& label) const;
 
   std::vector<std::string> listed_;
   std::map<std::uint32_t, LedLabel> given_;  // by the track's id
   std::vector<std::uint32_t> lost_;          // since the last update began
   std::vector<std::uint32_t> forgotten_;     // lost before that; their labels are free
   Places places_;
+  Places former_;                 // of labels that were given again: where they were before
+  std::optional<double> newest_;  // snapshot [s]
+  std::vector<std::string> doubtful_;
 };
 
 }  // namespace wiimote_tracker

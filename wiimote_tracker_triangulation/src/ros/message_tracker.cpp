@@ -224,7 +224,7 @@ void MessageTracker::findBodiesByLabels(const tracking::Snapshot& snapshot) {
   labelled_.clear();
   for (const tracking::TrackedLed& led : snapshot.leds) {
     const LedLabel label = labels_.of(led.id);
-    if (label.isIdentified() && led.state == tracking::TrackState::kTracked)
+    if (label.identified && led.state == tracking::TrackState::kTracked)
       labelled_.push_back({label.name, led.position, led.position_covariance});
   }
   if (labelled_.size() >= 3)
@@ -269,6 +269,7 @@ void MessageTracker::takeSnapshot(const tracking::Snapshot& tracked) {
   if (identifier_)
     sightings_.add(rig_, tracked, identifier_.get());
   labels_.update(tracked.time, tracked.leds, identifier_.get());
+  reportDoubtfulLabels();
   if (identifier_)
     findBodiesByLabels(tracked);
   const tracking::Snapshot& snapshot = sink_->onSnapshot(tracked);
@@ -286,6 +287,14 @@ void MessageTracker::takeSnapshot(const tracking::Snapshot& tracked) {
     publishPredicted(std::max(snapshot.time, snapshot.latest_arrival));
   else
     publish(newest_);
+}
+
+void MessageTracker::reportDoubtfulLabels() {
+  for (const std::string& label : labels_.doubtful())
+    sink_->onProblem(format(
+        "the LED that is called %s again is the same one with a probability of only %.2f: let "
+        "LEDs blink by codes, or restart the tracker with each at its place",
+        label.c_str(), labels_.places().at(label).confidence));
 }
 
 void MessageTracker::publishZoneEvents(const tracking::Snapshot& snapshot) {

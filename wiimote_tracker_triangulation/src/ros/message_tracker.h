@@ -126,6 +126,7 @@ class MessageTracker {
   void publishBodies();
   void findBodiesByLabels(const tracking::Snapshot& snapshot);
   void takeSnapshot(const tracking::Snapshot& tracked);
+  void reportDoubtfulLabels();
   void publishZoneEvents(const tracking::Snapshot& snapshot);
   void answerTriggers();
   void publishTicksUntil(double now);

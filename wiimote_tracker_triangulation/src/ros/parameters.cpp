@@ -183,12 +183,19 @@ std::string methodWord(const tracking::EstimatorOptions& options) {
   return methodNames()[static_cast<std::size_t>(options.instant.triangulation.method)];
 }
 
-std::vector<std::string> TrackingParameters::allLabels() const {
-  std::vector<std::string> all = labels;
+std::vector<std::string> TrackingParameters::blinkingLabels() const {
+  std::vector<std::string> blinking;
   if (identity.codes) {
     for (const identity::BlinkCode& code : identity.codes->codes)
-      all.push_back(code.label);
+      blinking.push_back(code.label);
   }
+  return blinking;
+}
+
+std::vector<std::string> TrackingParameters::allLabels() const {
+  std::vector<std::string> all = labels;
+  for (const std::string& label : blinkingLabels())
+    all.push_back(label);
   return all;
 }
 

@@ -50,8 +50,8 @@ struct TrackingParameters {
   static TrackingParameters read(ParameterReader* reader);
   static TrackingParameters read(ParameterReader reader);
 
-  /// `labels`, and those of the blink codes.
-  std::vector<std::string> allLabels() const;
+  std::vector<std::string> blinkingLabels() const;  ///< Of the blink codes.
+  std::vector<std::string> allLabels() const;       ///< `labels`, and those of the blink codes.
 };
 
 /// With blink codes: the tracker's parameters that they change, in a sentence; else empty.

@@ -30,6 +30,15 @@ unsigned long long count(std::uint64_t n) {
   return n;
 }
 
+std::string doubtfulLabels(const LedLabels& labels) {
+  std::string names;
+  for (const auto& [label, place] : labels.places()) {
+    if (place.confidence < LedLabels::kDoubtful)
+      names += (names.empty() ? "" : ", ") + label;
+  }
+  return names;
+}
+
 }  // namespace
 
 TrackingDiagnostics::TrackingDiagnostics(const ros::NodeHandle& nh,
@@ -108,6 +117,7 @@ void TrackingDiagnostics::report(Status& status) {
   status.add("LEDs tracked", reported_.leds(TrackState::kTracked));
   status.add("LEDs predicted", reported_.leds(TrackState::kPredicted));
   status.add("LEDs tentative", reported_.leds(TrackState::kTentative));
+  status.add("LEDs with doubtful labels", doubtfulLabels(tracker_->labels()));
   status.addf("rate [Hz]", "%.1f", static_cast<double>(reported_.snapshots()) / period_);
   status.addf("latency p50 [ms]", "%.3f", 1e3 * reported_.latency(0.50));
   status.addf("latency p99 [ms]", "%.3f", 1e3 * reported_.latency(0.99));

@@ -21,8 +21,8 @@ namespace {
 // Images of one camera that may wait: ten seconds of a Wii Remote. The same for samples of an IMU.
 constexpr std::uint32_t kImageQueue = 1000;
 
-// After a longer time LEDs may have gone anywhere.
-constexpr std::chrono::seconds kLongestRestart{10};
+// After a longer time nobody expects the same labels.
+constexpr std::chrono::minutes kLongestRestart{10};
 
 }  // namespace
 
@@ -35,7 +35,11 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
       bodies_(nh, parameters_.output),
       body_markers_(parameters_.markers.rate),
       body_diagnostics_(nh, private_nh),
-      learning_(nh, parameters_.bodies.file, parameters_.bodies.known, parameters_.allLabels()),
+      learning_(nh,
+                parameters_.bodies.file,
+                parameters_.bodies.known,
+                parameters_.allLabels(),
+                parameters_.blinkingLabels()),
       diagnostics_(nh, private_nh, &tracker_, &shedding_, parameters_.clock_tolerance) {
   if (parameters_.identity.codes)
     ROS_INFO("%s.", describeIdentity(parameters_).c_str());

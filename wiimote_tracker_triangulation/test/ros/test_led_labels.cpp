@@ -7,9 +7,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -123,9 +125,67 @@ TEST(LedLabels, ReturnByPlaceAfterARestart) {
     EXPECT_EQ("d", restarted->of(6).name) << "the first that was not in use";
   }
   EXPECT_TRUE(readPlaces(file, std::chrono::seconds(-1)).empty()) << "too old";
+  namespace fs = std::filesystem;
+  fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::seconds(30));
+  EXPECT_NEAR(30.0, readPlaces(file, std::chrono::seconds(60)).at("a").age, 5.0);
   std::ofstream(file, std::ios::app) << "e 1.0 x";
   EXPECT_TRUE(readPlaces(file, std::chrono::seconds(60)).empty()) << "damaged";
   std::remove(file.c_str());
+}
+
+/// All LEDs are lost for a while; then they return, each 0.1 m beside its place.
+std::vector<LedLabel> afterLoss(const std::vector<double>& places, double pause) {
+  LedLabels labels({"a", "b", "c"});
+  std::vector<TrackedLed> leds;
+  for (const double x : places)
+    leds.push_back(at(static_cast<std::uint32_t>(leds.size()), x));
+  labels.update(kTime, leds);
+  for (TrackedLed& led : leds) {
+    EXPECT_TRUE(std::isnan(labels.of(led.id).confidence)) << "given for the first time";
+    led.state = TrackState::kLost;
+  }
+  labels.update(kTime, leds);
+  labels.update(kTime, {});
+  for (TrackedLed& led : leds)
+    led = at(led.id + 10, led.position.x() + 0.1);
+  labels.update(kTime + pause, leds);
+  std::vector<LedLabel> result;
+  for (const TrackedLed& led : leds) {
+    result.push_back(labels.of(led.id));
+    const auto& doubtful = labels.doubtful();
+    EXPECT_EQ(result.back().confidence < LedLabels::kDoubtful,
+              std::count(doubtful.begin(), doubtful.end(), result.back().name) == 1);
+  }
+  labels.update(kTime + pause, leds);
+  EXPECT_TRUE(labels.doubtful().empty()) << "said once";
+  return result;
+}
+
+TEST(LedLabels, StateTheirProbabilityWhenGivenAgain) {
+  for (const LedLabel& label : afterLoss({0.0, 1.5, 3.0}, 1.0)) {
+    EXPECT_GT(label.confidence, 0.95) << label.name << " returned to its place";
+    EXPECT_EQ(kTime + 1.0, label.since);
+  }
+  for (const LedLabel& label : afterLoss({0.0, 0.3, 0.6}, 2.0))
+    EXPECT_LT(label.confidence, LedLabels::kDoubtful) << label.name << " was near others";
+  for (const LedLabel& label : afterLoss({0.0, 1.5, 3.0}, 60.0))
+    EXPECT_NEAR(1.0 / 3.0, label.confidence, 0.12) << label.name << " may be anywhere";
+  EXPECT_EQ(1.0, afterLoss({0.0}, 60.0)[0].confidence) << "no other LED was lost";
+}
+
+TEST(LedLabels, StayDoubtfulWhenTheyAreGivenAgain) {
+  LedLabels labels({"a", "b"});
+  const TrackState lost = TrackState::kLost;
+  labels.update(100.0, {at(0, 0.0), at(1, 2.0)});
+  labels.update(100.0, {at(0, 0.0, lost), at(1, 2.0, lost)});
+  labels.update(160.0, {});
+  labels.update(160.0, {at(2, 0.0), at(3, 2.0)});
+  EXPECT_NEAR(0.5, labels.of(2).confidence, 0.01);
+  labels.update(160.0, {at(2, 0.0, lost), at(3, 2.0)});
+  labels.update(160.0, {at(3, 2.0)});
+  labels.update(160.1, {at(4, 0.0), at(3, 2.0)});
+  EXPECT_EQ("a", labels.of(4).name);
+  EXPECT_NEAR(0.5, labels.of(4).confidence, 0.1) << "it may still be b";
 }
 
 /// One camera sees LED `id` for 2 s from `start` on: blinking as word 0 of two, or steady.
@@ -143,14 +203,14 @@ TEST(LedLabels, ComeFromBlinking) {
   const std::vector<TrackedLed> both = {led(0, TrackState::kTracked), led(1, TrackState::kTracked)};
   labels.update(kTime, both, &identifier);
   EXPECT_EQ("led_0", labels.of(0).name) << "it may yet turn out to blink";
-  EXPECT_FALSE(labels.of(0).isIdentified());
+  EXPECT_FALSE(labels.of(0).identified);
 
   see(&identifier, 0, 100.0, true);
   see(&identifier, 1, 100.0, false);
   identifier.decide(102.0);
   labels.update(kTime, both, &identifier);
   EXPECT_EQ("lamp", labels.of(0).name) << "this one does not";
-  EXPECT_FALSE(labels.of(0).isIdentified());
+  EXPECT_FALSE(labels.of(0).identified);
   EXPECT_EQ("left", labels.of(1).name);
   EXPECT_GT(labels.of(1).confidence, 0.999);
   EXPECT_EQ(102.0, labels.of(1).since);

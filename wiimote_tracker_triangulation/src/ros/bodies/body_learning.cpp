@@ -53,8 +53,13 @@ std::vector<std::string> labelsOf(const std::vector<std::uint32_t>& ids,
 BodyLearning::BodyLearning(const ros::NodeHandle& nh,
                            const std::string& file,
                            const std::vector<Constellation>& bodies,
-                           const std::vector<std::string>& names)
-    : file_(file), names_(names), bodies_(bodies), spinner_(1, &queue_) {
+                           const std::vector<std::string>& names,
+                           const std::vector<std::string>& codes)
+    : file_(file),
+      names_(names),
+      codes_(codes.begin(), codes.end()),
+      bodies_(bodies),
+      spinner_(1, &queue_) {
   ros::NodeHandle handle(nh);
   handle.setCallbackQueue(&queue_);
   server_ = handle.advertiseService("learn_body", &BodyLearning::onRequest, this);
@@ -84,7 +89,7 @@ void BodyLearning::addPoints(const wiimote_tracker_msgs::TrackedPointArray& poin
       continue;
     instant.leds.push_back(
         {point.id, {point.position.x, point.position.y, point.position.z}, stddevOf(point)});
-    if (!std::isnan(point.label_confidence))
+    if (codes_.count(point.label) > 0)
       blinks_[point.id] = point.label;
   }
   instants_.push_back(instant);

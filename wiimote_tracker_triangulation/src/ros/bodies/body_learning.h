@@ -26,11 +26,12 @@ namespace wiimote_tracker {
 class BodyLearning {
  public:
   /// @param file for bodies; empty: the service refuses. @param bodies that are tracked.
-  /// @param names that a body must not have.
+  /// @param names that a body must not have. @param codes labels of LEDs that blink.
   BodyLearning(const ros::NodeHandle& nh,
                const std::string& file,
                const std::vector<body::Constellation>& bodies,
-               const std::vector<std::string>& names);
+               const std::vector<std::string>& names,
+               const std::vector<std::string>& codes);
   ~BodyLearning();
   BodyLearning(const BodyLearning&) = delete;
   BodyLearning& operator=(const BodyLearning&) = delete;
@@ -52,6 +53,7 @@ class BodyLearning {
 
   std::string file_;
   std::vector<std::string> names_;
+  std::set<std::string> codes_;
   std::vector<body::Constellation> bodies_;  // all known; only for the service's thread
 
   std::mutex mutex_;  // protects all below

@@ -11,6 +11,8 @@ from wiimote_tracker_evaluation.faults.row import fault
 STEP = 5         # of truncation [%]
 FLIPS = 100      # files with a few changed bytes
 SEED = 1
+LARGE = 100 << 20  # of a file [bytes]
+SAVES = 20
 PATIENCE = 30.0  # for the answer about one file [s]
 
 
@@ -45,16 +47,11 @@ def load_all(room, contents):
     return loaded, problems
 
 
-def rig_bytes(room):
-    with open(room.file('rig.yaml'), 'rb') as file:
-        return file.read()
-
-
 @fault(quick=True)
 def truncated_rig_files(room):
     """Rig files cut off at every 5 %."""
     yield 0.0
-    whole = rig_bytes(room)
+    whole = room.rig_bytes()
     loaded, problems = load_all(room, (
         (f'cut at {percent} %', whole[:len(whole) * percent // 100])
         for percent in range(0, 100, STEP)))
@@ -65,7 +62,7 @@ def truncated_rig_files(room):
 def changed_rig_files(room):
     """Rig files with random bytes changed; another digit is another rig, which cannot be told."""
     yield 0.0
-    whole, randomness = rig_bytes(room), random.Random(SEED)
+    whole, randomness = room.rig_bytes(), random.Random(SEED)
 
     def changed():
         content = bytearray(whole)
@@ -84,6 +81,48 @@ def answer_saves(pipe):
     while True:
         response = save(pipe.recv())
         pipe.send((response.success, response.message))
+
+
+@fault(quick=True)
+def files_that_are_no_rig(room):
+    """What is loaded is a pipe, a device, a folder, 100 MB, or was solved in the year 1969 or 3e10."""
+    yield 0.0
+    pipe, large = room.file('pipe.yaml'), room.file('large.yaml')
+    os.mkfifo(pipe)
+    whole = room.rig_bytes()
+    with open(large, 'wb') as file:
+        file.write(whole)
+        file.truncate(LARGE)
+    paths = [pipe, large, '/dev/zero', room.folder]
+    for number, time in enumerate((b'-1.0', b'5e9', b'1e18')):
+        paths.append(room.file(f'solved_{number}.yaml'))
+        with open(paths[-1], 'wb') as file:
+            file.write(whole.replace(b'solved_at: 0.0', b'solved_at: ' + time))
+    with Helper(answer_loads) as helper:
+        answers = {path: helper.ask(path, PATIENCE) for path in paths}
+    return [f'{path}: {sentence!r}' for path, (success, sentence) in answers.items()
+            if success or not sentence]
+
+
+@fault()
+def two_saves_at_once(room):
+    """Two programs save the rig to one file, 20 times each."""
+    yield 0.0
+    path = room.file('saved.yaml')
+    problems = []
+    with Helper(answer_saves) as one, Helper(answer_saves) as other:
+        for _ in range(SAVES):
+            for helper in (one, other):
+                helper.pipe.send(path)
+            for helper in (one, other):
+                success, sentence = helper.answer(PATIENCE)
+                if not success:
+                    problems.append(sentence)
+    with Helper(answer_loads) as helper:
+        problems += [f'{name} cannot be loaded' for name in sorted(os.listdir(room.folder))
+                     if name.startswith('saved') and not helper.ask(room.file(name), PATIENCE)[0]]
+        helper.ask(room.file('rig.yaml'), PATIENCE)
+    return problems
 
 
 @contextlib.contextmanager

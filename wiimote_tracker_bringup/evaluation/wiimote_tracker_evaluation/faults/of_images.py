@@ -33,6 +33,12 @@ def clock_behind_by_500_ms(room):
 
 
 @fault(room={'relayed': ONE}, named='wiimote_4')
+def clock_that_drifts(room):
+    """The clock of one camera's computer runs 0.1 % fast for 8 s, and is then set."""
+    yield from changed(room, drift=1e-3)
+
+
+@fault(room={'relayed': ONE}, named='wiimote_4')
 def ghosts_in_one_camera(room):
     """100 spots at random places in every image of one camera, for 8 s."""
     yield from changed(room, ghosts=100)

@@ -3,6 +3,8 @@
 import os
 import signal
 
+from wiimote_tracker_evaluation.faults.of_processes import STOPPED
+from wiimote_tracker_evaluation.faults.room import stopped
 from wiimote_tracker_evaluation.faults.row import fault
 
 PATIENCE = 60.0  # for nodes to end [s]
@@ -36,3 +38,24 @@ def kill_drivers(room):
     left = sorted(room.nodes())
     room.start_nodes()
     return [f"left behind: {', '.join(left)}"] if left else []
+
+
+@fault()
+def stop_roscore(room):
+    """SIGSTOP of the master for 5 s."""
+    with stopped(room.master.pid):
+        yield STOPPED
+
+
+@fault()
+def stop_roslaunch(room):
+    """SIGSTOP of roslaunch for 5 s."""
+    with stopped(room.launch.pid):
+        yield STOPPED
+
+
+@fault()
+def stop_drivers(room):
+    """SIGSTOP of the node that starts the drivers for 5 s."""
+    with room.stopped('/drivers'):
+        yield STOPPED

@@ -6,6 +6,7 @@ import threading
 import time
 
 from wiimote_tracker_evaluation.faults.helper import Helper, wait_for_subscribers
+from wiimote_tracker_evaluation.faults.of_processes import IN_ONE
 from wiimote_tracker_evaluation.faults.row import fault
 
 CAMERA = 'wiimote_4'
@@ -16,7 +17,7 @@ SLOW, STOPPED = 2.0, 5.0  # for how long subscribers are slow, and then do not r
 NAN = float('nan')
 
 
-def hostile_images():
+def unusable_images():
     """Images that cannot be used, each with one fault."""
     from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
 
@@ -33,7 +34,7 @@ def publish_hostile_images(pipe):
     import rospy
     from wiimote_tracker_msgs.msg import IrBlobArray
     publisher = rospy.Publisher(CAMERA + '/ir_blobs', IrBlobArray, queue_size=100)
-    messages = hostile_images()
+    messages = unusable_images()
     messages += [IrBlobArray(camera=CAMERA, width=7, height=0), IrBlobArray()]
     wait_for_subscribers(publisher)
     for _ in range(SENT):
@@ -50,12 +51,22 @@ def publish_hostile_images(pipe):
     signal.pause()
 
 
-@fault(quick=True, named=CAMERA)
-def hostile_images_of_a_camera(room):
-    """A second publisher of a camera: NaN, wrong sizes, 100,000 spots, years 1970 and 2106."""
+def hostile_images():
     with Helper(publish_hostile_images) as helper:
         helper.answer(60.0)
         yield 0.0
+
+
+@fault(quick=True, named=CAMERA)
+def hostile_images_of_a_camera(room):
+    """A second publisher of a camera: NaN, wrong sizes, 100,000 spots, years 1970 and 2106."""
+    yield from hostile_images()
+
+
+@fault(room=IN_ONE, named=CAMERA)
+def hostile_images_in_one_manager(room):
+    """The same, with drivers and tracker in one process."""
+    yield from hostile_images()
 
 
 def subscribe_slowly(pipe):
@@ -72,9 +83,8 @@ def subscribe_slowly(pipe):
     signal.pause()
 
 
-@fault()
-def slow_subscribers(room):
-    """Five subscribers that take 1 s a message, and then do not read at all for 5 s."""
+def do_not_read():
+    """Five subscribers that are slow and then do not read."""
     helpers = [Helper(subscribe_slowly) for _ in range(5)]
     try:
         for helper in helpers:
@@ -86,3 +96,15 @@ def slow_subscribers(room):
     finally:
         for helper in helpers:
             helper.stop()
+
+
+@fault()
+def slow_subscribers(room):
+    """Five subscribers that take 1 s a message, and then do not read at all for 5 s."""
+    yield from do_not_read()
+
+
+@fault(room=IN_ONE)
+def slow_subscribers_in_one_manager(room):
+    """The same, with drivers and tracker in one process."""
+    yield from do_not_read()

@@ -71,6 +71,13 @@ def kill_master_watch(room):
     yield 3.0
 
 
+@fault()
+def stop_master_watch(room):
+    """SIGSTOP of the node that watches the master for 5 s."""
+    with room.stopped(WATCH):
+        yield STOPPED
+
+
 IN_ONE = {'one_manager': True}
 ALL_IN_ONE = (MANAGER, TRACKER) + tuple(f'/wiimote_{number}/driver' for number in (1, 2, 3, 4))
 

@@ -12,10 +12,10 @@ class Relay:
         room.start_driver(camera, 'ir_blobs:=ir_blobs_true')
         self._helper = Helper(_pass_on, camera)
 
-    def change(self, clock_ahead=0.0, ghosts=0):
-        """clock_ahead: error of the camera's clock from now on [s]. ghosts: spots at random places
-        that each image gets."""
-        self._helper.pipe.send((clock_ahead, ghosts))
+    def change(self, clock_ahead=0.0, ghosts=0, drift=0.0):
+        """clock_ahead: error of the camera's clock from now on [s]; drift: by how much it grows
+        [s/s]. ghosts: spots at random places that each image gets."""
+        self._helper.pipe.send((clock_ahead, ghosts, drift))
 
     def stop(self):
         self._helper.stop()
@@ -25,17 +25,20 @@ def _pass_on(pipe, camera):
     import rospy
     from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
     publisher = rospy.Publisher(camera + '/ir_blobs', IrBlobArray, queue_size=100, tcp_nodelay=True)
-    state = [0.0, 0]
+    state = [0.0, 0, 0.0]
+    since = rospy.Time.now()
     randomness = random.Random(1)
 
     def pass_on(image):
-        clock_ahead, ghosts = state
-        image.header.stamp += rospy.Duration.from_sec(clock_ahead)
-        image.arrival += rospy.Duration.from_sec(clock_ahead)
+        clock_ahead, ghosts, drift = state
+        ahead = rospy.Duration.from_sec(clock_ahead + drift * (image.arrival - since).to_sec())
+        image.header.stamp += ahead
+        image.arrival += ahead
         image.blobs += [IrBlob(x=randomness.uniform(0.0, 1023.0), y=randomness.uniform(0.0, 767.0),
                                size=3.0, intensity=float('nan')) for _ in range(ghosts)]
         image.max_blobs += ghosts
         publisher.publish(image)
     rospy.Subscriber(camera + '/ir_blobs_true', IrBlobArray, pass_on, tcp_nodelay=True)
     while True:
-        state[:] = pipe.recv()
+        change, since = pipe.recv(), rospy.Time.now()
+        state[:] = change

@@ -27,20 +27,35 @@ LEDS = {name: {'position': [x, y, 1.0], 'size': 3.0,
         for name, x, y, path in (('one', 0.4, 0.4, 11), ('two', 2.1, 0.6, 12),
                                  ('three', 1.2, 2.1, 13))}
 LABELS = ('a', 'b', 'c')
+DARK = {f'dark_{number}': {'position': [0.3 + 0.6 * (number % 4), 0.3 + 0.6 * (number // 4),
+                                        0.5 + 0.1 * (5 * number % 13)],
+                           'size': 3.0, 'lit': False} for number in range(13)}
+
+
+@contextlib.contextmanager
+def stopped(process):
+    """Stops a process by SIGSTOP for a while. process: its id."""
+    os.kill(process, signal.SIGSTOP)
+    try:
+        yield
+    finally:
+        os.kill(process, signal.SIGCONT)
 
 
 class Room:
     """A master, virtual remotes with three waving LEDs, and the whole tracker with the true rig."""
 
-    def __init__(self, processes, cameras=4, relayed=(), far=(), one_manager=False):
+    def __init__(self, processes, cameras=4, relayed=(), far=(), one_manager=False, dark=False):
         """relayed: cameras whose images pass a relay. far: cameras whose drivers run on another
-        computer. processes: starts and ends everything."""
+        computer. dark: 13 more LEDs, which do not shine yet. processes: starts and ends
+        everything."""
         self._processes = processes
         self._one_manager = one_manager
+        self._dark = DARK if dark else {}
         self.folder = tempfile.mkdtemp(prefix='wiimote_tracker_faults_')
         self.log = os.path.join(self.folder, 'nodes.log')
         description = rigs.with_cameras(rigs.read(package_file('simulation/paper_rig.yaml')), cameras)
-        description = dict(rigs.with_leds(description, []), leds=LEDS, truth_rate=50.0)
+        description = dict(rigs.with_leds(description, []), leds=dict(LEDS, **self._dark), truth_rate=50.0)
         self.cameras = list(description['cameras'])
         rigs.write(self.file('room.yaml'), description)
         rigs.write(self.file('cameras.yaml'), {'cameras': {
@@ -69,6 +84,11 @@ class Room:
     def file(self, name):
         return os.path.join(self.folder, name)
 
+    def rig_bytes(self):
+        """Of the rig's file."""
+        with open(self.file('rig.yaml'), 'rb') as file:
+            return file.read()
+
     def start_master(self):
         import rosgraph
         self.master = self._processes.start(
@@ -88,7 +108,7 @@ class Room:
 
     def listen(self):
         """Starts one more listener: those before do not hear the nodes of a new master."""
-        self.listeners.append(Listener(list(LEDS)))
+        self.listeners.append(Listener([*LEDS, *self._dark]))
 
     def stop(self):
         for helper in self.listeners + self.relays:
@@ -147,15 +167,9 @@ class Room:
     def kill(self, node):
         os.kill(self.pid(node), signal.SIGKILL)
 
-    @contextlib.contextmanager
     def stopped(self, node):
         """Stops a node by SIGSTOP for a while."""
-        process = self.pid(node)
-        os.kill(process, signal.SIGSTOP)
-        try:
-            yield
-        finally:
-            os.kill(process, signal.SIGCONT)
+        return stopped(self.pid(node))
 
     def start(self, command, prefix=()):
         """Starts a program beside the nodes; it ends with the room. command: as find_program()

@@ -69,6 +69,7 @@ def fault(**how):
 def carry_out(chosen: Fault, room) -> Result:
     result = Result(chosen.name, chosen.what)
     nodes = room.nodes()
+    rig = room.rig_bytes()
     begin = time.time()
     time.sleep(BEFORE)
     result.before = room.figures(begin, begin + BEFORE)
@@ -88,6 +89,8 @@ def carry_out(chosen: Fault, room) -> Result:
         result.recovery = since - gone
         result.after = room.figures(end - AFTER, end)
     judge(chosen, result, room, start, end, nodes)
+    if room.rig_bytes() != rig:
+        result.problems.append('rig.yaml is another one')
     return result
 
 

@@ -22,7 +22,7 @@ using markers::kTextHeight;
 using visualization_msgs::Marker;
 using wiimote_tracker_msgs::TrackedPoint;
 
-constexpr double kPointDiameter = 0.06;    // [m]
+constexpr double kPointDiameter = 0.1;     // [m]
 constexpr double kBlobDiameter = 0.03;     // [m]
 constexpr double kRayLength = 10.0;        // of rays without a point [m]
 constexpr double kOldView = 0.2;           // older views are not drawn [s]
@@ -36,7 +36,7 @@ constexpr double kSigmas95 = 2.7955;
 std_msgs::ColorRGBA colorOf(tracking::SpotUse use) {
   switch (use) {
     case tracking::SpotUse::kAssigned:
-      return color(0.2f, 1.0f, 0.2f, 0.4f);
+      return color(0.1f, 0.8f, 0.2f, 0.5f);
     case tracking::SpotUse::kMasked:
       return color(0.5f, 0.5f, 0.5f, 0.4f);
     case tracking::SpotUse::kUnassigned:
@@ -135,7 +135,7 @@ void MarkerBuilder::addCamera(std::size_t index, bool has_images) {
 
   Marker frustum = marker("frustum", index, Marker::LINE_LIST);
   frustum.scale.x = kLineWidth;
-  frustum.color = has_images ? color(0.6f, 0.75f, 1.0f, 1.0f) : color(0.4f, 0.4f, 0.4f, 1.0f);
+  frustum.color = has_images ? color(0.35f, 0.6f, 1.0f, 1.0f) : color(0.4f, 0.4f, 0.4f, 1.0f);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     frustum.points.push_back(pointOf(camera.center()));
     frustum.points.push_back(pointOf(corners[i]));

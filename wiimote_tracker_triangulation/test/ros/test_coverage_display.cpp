@@ -29,7 +29,7 @@ TEST(CoverageDisplay, SaysWhatIsSeen) {
 }
 
 TEST(CoverageDisplay, ColoursCellsByAccuracy) {
-  const auto array = coverageMarkers("hall", kCells, 1.0, "so much");
+  const auto array = coverageMarkers("hall", kCells, 1.0, "so much; so well.");
   ASSERT_EQ(array.markers.size(), 2U);
   const visualization_msgs::Marker& cubes = array.markers[0];
   EXPECT_EQ(cubes.header.frame_id, "hall");
@@ -39,19 +39,20 @@ TEST(CoverageDisplay, ColoursCellsByAccuracy) {
   EXPECT_EQ(cubes.colors[1].r, 1.0f);  // yellow
   EXPECT_LT(cubes.colors[3].g, 0.3f);  // red
   EXPECT_GT(array.markers[1].pose.position.z, 3.5);
-  EXPECT_EQ(array.markers[1].text, "so much");
+  EXPECT_EQ(array.markers[1].text,
+            "so much;\nso well.\nRed: by fewer, green to yellow: 5 to 50 mm.");
 }
 
 TEST(CoverageDisplay, ColoursAWalkByTheCamerasThatSawIt) {
   auto cells = kCells;
   cells[2].cameras = 0;  // not walked through
-  const auto array = walkMarkers("hall", cells, 1.0, "so far");
+  const auto array = walkMarkers("hall", cells, 1.0, "so far.");
   const visualization_msgs::Marker& cubes = array.markers[0];
   ASSERT_EQ(cubes.points.size(), 3U);
   EXPECT_EQ(cubes.colors[0].r, 0.0f);  // green
   EXPECT_EQ(cubes.colors[1].r, 1.0f);  // yellow
   EXPECT_LT(cubes.colors[2].g, 0.3f);  // red
-  EXPECT_EQ(array.markers[1].text, "so far");
+  EXPECT_EQ(array.markers[1].text, "so far.\nRed: one camera, yellow: two, green: more.");
 }
 
 TEST(CoverageDisplay, AWalkThatHasNotBegunShowsNoCubes) {

@@ -34,6 +34,15 @@ Marker cubesOf(const std::string& world_frame, const std::string& ns, double siz
   return cubes;
 }
 
+/// A line for each sentence and clause.
+std::string inLines(std::string words) {
+  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+    if ((words[i] == '.' || words[i] == ';') && words[i + 1] == ' ')
+      words[i + 1] = '\n';
+  }
+  return words;
+}
+
 /// @param height above the cells [m]
 Marker textAbove(const std::string& world_frame,
                  const std::string& ns,
@@ -43,7 +52,7 @@ Marker textAbove(const std::string& world_frame,
   Marker text = markers::marker(world_frame, 0.0, kForEver, ns, 1, Marker::TEXT_VIEW_FACING);
   text.scale.z = markers::kTextHeight;
   text.color = color(1.0f, 1.0f, 1.0f, 1.0f);
-  text.text = words;
+  text.text = inLines(words);
   Eigen::AlignedBox3d box;
   for (const CoverageCell& cell : cells)
     box.extend(cell.center);
@@ -92,7 +101,8 @@ visualization_msgs::MarkerArray coverageMarkers(const std::string& world_frame,
     cubes.points.push_back(pointOf(cell.center));
     cubes.colors.push_back(colorOf(cell));
   }
-  array.markers = {cubes, textAbove(world_frame, "coverage", cells, cell_size, sentence)};
+  array.markers = {cubes, textAbove(world_frame, "coverage", cells, cell_size,
+                                    sentence + " Red: by fewer, green to yellow: 5 to 50 mm.")};
   return array;
 }
 
@@ -112,7 +122,8 @@ visualization_msgs::MarkerArray walkMarkers(const std::string& world_frame,
   }
   if (cubes.points.empty())
     cubes.action = Marker::DELETE;
-  array.markers = {cubes, textAbove(world_frame, "walk", walked, 2.0 * cell_size, sentence)};
+  array.markers = {cubes, textAbove(world_frame, "walk", walked, 2.0 * cell_size,
+                                    sentence + " Red: one camera, yellow: two, green: more.")};
   return array;
 }
 

@@ -7,8 +7,11 @@
 #include "tracker_widget.h"
 
 #include <QApplication>
+#include <QColor>
 #include <QDoubleSpinBox>
+#include <QImage>
 #include <QLabel>
+#include <QPalette>
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -20,7 +23,9 @@
 #include <rviz/panel.h>
 #include <pluginlib/class_loader.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <memory>
@@ -72,6 +77,41 @@ class Panel : public testing::Test {
   std::unique_ptr<TrackerWidget> widget_;
 };
 
+/// Of the lightest to the darkest pixel, as defined by WCAG 2 (there at least 4.5 for texts).
+double contrastOf(const QImage& image) {
+  double lightest = 0.0, darkest = 1.0;
+  for (int x = 0; x < image.width(); ++x) {
+    for (int y = 0; y < image.height(); ++y) {
+      const QColor color = image.pixelColor(x, y);
+      const auto linear = [](double v) {
+        return v <= 0.03928 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+      };
+      const double luminance = 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) +
+                               0.0722 * linear(color.blueF());
+      lightest = std::max(lightest, luminance);
+      darkest = std::min(darkest, luminance);
+    }
+  }
+  return (lightest + 0.05) / (darkest + 0.05);
+}
+
+TEST_F(Panel, CanBeReadOnDarkAndOnLightGround) {
+  open(1);
+  ASSERT_TRUE(waitFor([this] { return title() == "LED off"; }));
+  const QPalette usual = QApplication::palette();
+  for (const QColor& ground : {QColor(35, 38, 41), QColor(239, 240, 241)}) {
+    QApplication::setPalette(QPalette(ground));
+    QApplication::processEvents();
+    screenshot(QString("calibrate_on_") + (ground.lightness() < 128 ? "dark" : "light"));
+    for (const char* name : {"title", "sentence", "next", "square", "side"}) {
+      const auto* part = find<QWidget>(name);
+      const QRect area(part->mapTo(widget_.get(), QPoint(0, 0)), part->size());
+      EXPECT_GT(contrastOf(widget_->grab(area).toImage()), 4.5) << name;
+    }
+  }
+  QApplication::setPalette(usual);
+}
+
 TEST_F(Panel, CalibratesByPressingTheButtonThatItOffers) {
   ASSERT_TRUE(waitFor([this] { return camerasAre("4 cameras: 4 not calibrated"); }))
       << label("summary").toStdString();
@@ -96,6 +136,12 @@ TEST_F(Panel, CalibratesByPressingTheButtonThatItOffers) {
   EXPECT_EQ(find<QTableWidget>("table")->rowCount(), 4);
   EXPECT_FALSE(label("verdict").isEmpty());
   screenshot("calibrate_ready");
+  find<QDoubleSpinBox>("taped")->setValue(3.5355);
+  auto* take = find<QPushButton>("Take this length");
+  ASSERT_TRUE(waitFor([&] { return take->isEnabled(); }));
+  take->click();
+  EXPECT_TRUE(waitFor([this] { return label("answer").contains("3.5355 m by tape"); }))
+      << label("answer").toStdString();
   open(0);
   EXPECT_TRUE(waitFor([this] { return camerasAre("4 cameras: 4 fine"); }))
       << label("summary").toStdString();

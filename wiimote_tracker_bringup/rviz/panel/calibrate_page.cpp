@@ -5,6 +5,7 @@
 #include "square_drawing.h"
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QGridLayout>
 #include <QHeaderView>
@@ -84,6 +85,7 @@ CalibratePage::CalibratePage(QWidget* parent, std::function<void(const Request&)
   progress_->setRange(0, 100);
   layout->addWidget(answer_ = wrappedLabel("answer", content));
   layout->addWidget(square_ = new SquareDrawing(content));
+  square_->setObjectName("square");
   layout->addWidget(remarks_ = wrappedLabel("remarks", content));
   layout->addWidget(verdict_ = wrappedLabel("verdict", content));
   layout->addWidget(table_ = new QTableWidget(0, 6, content));
@@ -96,7 +98,9 @@ CalibratePage::CalibratePage(QWidget* parent, std::function<void(const Request&)
   table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   addLengths(layout);
   addButtons(layout);
-  addFileAndCheck(layout);
+  addFile(layout);
+  addPlace(layout);
+  addTape(layout);
   layout->addStretch();
 
   auto* scroll = new QScrollArea(this);
@@ -146,14 +150,19 @@ void CalibratePage::addButtons(QVBoxLayout* layout) {
   layout->addLayout(rows);
 }
 
-void CalibratePage::addFileAndCheck(QVBoxLayout* layout) {
+void CalibratePage::addFile(QVBoxLayout* layout) {
   auto* file = new QHBoxLayout;
   file->addWidget(path_ = new QLineEdit(this), 1);
   path_->setPlaceholderText("rig file: that of the node");
   file->addWidget(addButton("Save", Command::kSave));
   file->addWidget(addButton("Load", Command::kLoad));
   layout->addLayout(file);
-  auto* check = new QHBoxLayout;
+}
+
+/// To check the rig at a place that is known, or to solve with it.
+void CalibratePage::addPlace(QVBoxLayout* layout) {
+  auto* row = new QGridLayout;
+  row->addWidget(new QLabel("LED at", this), 0, 0);
   for (int i = 0; i < 3; ++i) {
     known_[i] = new QDoubleSpinBox(this);
     known_[i]->setRange(-100.0, 100.0);
@@ -161,10 +170,33 @@ void CalibratePage::addFileAndCheck(QVBoxLayout* layout) {
     known_[i]->setPrefix(QStringList({"x ", "y ", "z "})[i]);
     known_[i]->setToolTip("a place that you know, in the world [m]");
     known_[i]->setMinimumWidth(60);
-    check->addWidget(known_[i], 1);
+    row->addWidget(known_[i], 0, i + 1);
+    row->setColumnStretch(i + 1, 1);
   }
-  check->addWidget(addButton("Check the LED there", Command::kCheck));
-  layout->addLayout(check);
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(addButton("Check the LED there", Command::kCheck));
+  buttons->addWidget(addButton("Take it, to solve with", Command::kMeasurePlace));
+  row->addLayout(buttons, 1, 1, 1, 3);
+  layout->addLayout(row);
+}
+
+/// To solve with a length between two corners.
+void CalibratePage::addTape(QVBoxLayout* layout) {
+  auto* row = new QHBoxLayout;
+  row->addWidget(new QLabel("Corner", this));
+  for (int i = 0; i < 2; ++i) {
+    ends_[i] = new QComboBox(this);
+    ends_[i]->setObjectName(QStringList({"from", "to"})[i]);
+    ends_[i]->addItems({"1", "2", "3", "4"});
+    row->addWidget(ends_[i]);
+    row->addWidget(new QLabel(QStringList({"to", "is"})[i], this));
+  }
+  ends_[1]->setCurrentIndex(2);  // a diagonal
+  row->addWidget(taped_ = lengthBox("taped", "drop it", this), 1);
+  taped_->setMaximum(M_SQRT2 * kLongestSide);
+  taped_->setDecimals(4);
+  row->addWidget(addButton("Take this length", Command::kMeasureLength));
+  layout->addLayout(row);
 }
 
 void CalibratePage::sendCommand(Command command) {
@@ -181,6 +213,9 @@ void CalibratePage::sendFilled(Request request) {
   request.path = path().toStdString();
   for (std::size_t i = 0; i < 3; ++i)
     request.known[i] = known_[i]->value();
+  for (std::size_t i = 0; i < 2; ++i)
+    request.ends[i] = ends_[i]->currentIndex();
+  request.length = taped_->value();
   send_(request);
 }
 

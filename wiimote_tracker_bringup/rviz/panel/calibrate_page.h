@@ -9,6 +9,7 @@
 #include <vector>
 
 class QCheckBox;
+class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
 class QLineEdit;
@@ -40,7 +41,9 @@ class CalibratePage : public QWidget {
   QPushButton* addButton(const QString& text, Command command);
   void addLengths(QVBoxLayout* layout);
   void addButtons(QVBoxLayout* layout);
-  void addFileAndCheck(QVBoxLayout* layout);
+  void addFile(QVBoxLayout* layout);
+  void addPlace(QVBoxLayout* layout);
+  void addTape(QVBoxLayout* layout);
   void sendCommand(Command command);
   void sendFilled(Request request);
   void showWords(const Guide& guide, const Advice& advice);
@@ -55,6 +58,8 @@ class CalibratePage : public QWidget {
   SquareDrawing* square_;
   QDoubleSpinBox *side_, *wand_length_;
   QDoubleSpinBox* known_[3];
+  QComboBox* ends_[2];
+  QDoubleSpinBox* taped_;
   QCheckBox* hands_free_;
   QLineEdit* path_;
   QTableWidget* table_;

@@ -23,6 +23,8 @@ enum class Command {
   kStartWave,
   kStopWave,
   kSolve,
+  kMeasureLength,
+  kMeasurePlace,
   kSave,
   kLoad,
   kCheck,
@@ -37,7 +39,9 @@ struct Request {
   int corner = -1;                          ///< To take again, 0..3; -1: the next one.
   bool on = false;                          ///< For kHandsFree.
   std::string path;                         ///< To save to or to load from.
-  std::array<double, 3> known = {0, 0, 0};  ///< For kCheck: where the LED is, in the world [m].
+  std::array<double, 3> known = {0, 0, 0};  ///< Where the LED is, in the world [m].
+  std::array<int, 2> ends = {0, 0};         ///< Corners between which length was taped, 0..3.
+  double length = 0.0;                      ///< 0: drops that between these corners [m].
 };
 
 /// The one thing to do next.

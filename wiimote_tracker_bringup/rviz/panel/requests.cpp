@@ -8,6 +8,7 @@
 #include <wiimote_tracker_msgs/CheckPlace.h>
 #include <wiimote_tracker_msgs/LearnMasks.h>
 #include <wiimote_tracker_msgs/LoadRig.h>
+#include <wiimote_tracker_msgs/MeasureLength.h>
 #include <wiimote_tracker_msgs/SaveRig.h>
 #include <wiimote_tracker_msgs/SolveCalibration.h>
 #include <wiimote_tracker_msgs/StartCalibration.h>
@@ -25,6 +26,14 @@ using CaptureClient = actionlib::SimpleActionClient<wiimote_tracker_msgs::Captur
 constexpr auto kLookPeriod = std::chrono::milliseconds(100);
 constexpr int kLooksForServer = 50;  // for the action's server, at most
 const std::string kNoAnswer = " does not answer: check that the calibration node runs";
+
+wiimote_tracker_msgs::CheckPlace placeOf(const Request& request) {
+  wiimote_tracker_msgs::CheckPlace place;
+  place.request.known.x = request.known[0];
+  place.request.known.y = request.known[1];
+  place.request.known.z = request.known[2];
+  return place;
+}
 
 }  // namespace
 
@@ -138,6 +147,15 @@ std::string Requests::perform(const Request& request) {
       return call("stop_wave", std_srvs::Trigger());
     case Command::kSolve:
       return call("solve", wiimote_tracker_msgs::SolveCalibration());
+    case Command::kMeasurePlace:
+      return call("measure_place", placeOf(request));
+    case Command::kMeasureLength: {
+      wiimote_tracker_msgs::MeasureLength taped;
+      taped.request.from_corner = static_cast<std::uint32_t>(request.ends[0]);
+      taped.request.to_corner = static_cast<std::uint32_t>(request.ends[1]);
+      taped.request.length = request.length;
+      return call("measure_length", taped);
+    }
     case Command::kSave: {
       wiimote_tracker_msgs::SaveRig save;
       save.request.path = request.path;
@@ -148,13 +166,8 @@ std::string Requests::perform(const Request& request) {
       load.request.path = request.path;
       return call("load", load);
     }
-    case Command::kCheck: {
-      wiimote_tracker_msgs::CheckPlace check;
-      check.request.known.x = request.known[0];
-      check.request.known.y = request.known[1];
-      check.request.known.z = request.known[2];
-      return call("check", check);
-    }
+    case Command::kCheck:
+      return call("check", placeOf(request));
     case Command::kCancel:
       return call("cancel", std_srvs::Trigger());
     case Command::kNone:

@@ -67,7 +67,7 @@ void SquareDrawing::paintEvent(QPaintEvent*) {
     painter.setBrush(is_next ? kNext : is_done ? kDone : palette().color(QPalette::Window));
     const double radius = is_next ? 1.3 * kRadius : kRadius;
     painter.drawEllipse(corners[i], radius, radius);
-    painter.setPen(is_next || is_done ? QColor(Qt::white) : text);
+    painter.setPen(is_next || is_done ? QColor(Qt::black) : text);
     painter.drawText(
         QRectF(corners[i].x() - kRadius, corners[i].y() - kRadius, 2 * kRadius, 2 * kRadius),
         Qt::AlignCenter, QString::number(i + 1));

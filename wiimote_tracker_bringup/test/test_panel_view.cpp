@@ -101,7 +101,7 @@ TEST_F(View, ACameraThatStopsIsFrozenWithinASecond) {
   run(7.0, {"a"}, {});
   EXPECT_EQ(words("b"), "no images for 8 s: check battery and link");
   EXPECT_TRUE(std::isnan(camera("b").rate(now_)));
-  EXPECT_EQ(view_.summary(now_), "2 cameras: 1 without images, 1 fine");
+  EXPECT_EQ(view_.summary(now_), "2 cameras: 1 without images (b), 1 fine");
 }
 
 TEST_F(View, ACameraOfTheRigThatNeverSentIsShown) {

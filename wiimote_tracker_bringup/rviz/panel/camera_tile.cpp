@@ -84,30 +84,30 @@ void CameraTile::paintEvent(QPaintEvent*) {
                    painter.fontMetrics().elidedText(words_, Qt::ElideRight, line.width()));
 }
 
-/// Name on the left, rate and battery on the right.
+/// Name on the left, rate and battery on the right as far as there is room.
 void CameraTile::paintHeader(QPainter* painter) const {
   const QRect line(kMargin, kMargin - 2, width() - 2 * kMargin, lineHeight());
-  QString numbers;
-  const double rate = camera_->rate(now_);
-  if (std::isfinite(rate))
-    numbers = QString("%1 Hz").arg(rate, 0, 'f', 0);
-  if (std::isfinite(camera_->battery))
-    numbers += QString("%1%2 %")
-                   .arg(numbers.isEmpty() ? "" : "   ")
-                   .arg(100.0 * camera_->battery, 0, 'f', 0);
-  const bool is_low = camera_->battery < 0.2;  // as the driver warns
-  painter->setPen(is_low ? colorOf(CameraState::kLate) : kFaint);
-  painter->drawText(line, Qt::AlignVCenter | Qt::AlignRight, numbers);
+  const QString name = QString::fromStdString(camera_->name);
   const QFont normal = painter->font();
   QFont bold = normal;
   bold.setBold(true);
   painter->setFont(bold);
   painter->setPen(kText);
-  const int room = line.width() - painter->fontMetrics().horizontalAdvance(numbers) - kMargin;
   painter->drawText(line, Qt::AlignVCenter | Qt::AlignLeft,
-                    painter->fontMetrics().elidedText(QString::fromStdString(camera_->name),
-                                                      Qt::ElideRight, room));
+                    painter->fontMetrics().elidedText(name, Qt::ElideRight, line.width()));
+  const int room = line.width() - painter->fontMetrics().horizontalAdvance(name) - kMargin;
   painter->setFont(normal);
+  QStringList numbers;
+  const double rate = camera_->rate(now_);
+  if (std::isfinite(rate))
+    numbers << QString("%1 Hz").arg(rate, 0, 'f', 0);
+  if (std::isfinite(camera_->battery))
+    numbers << QString("%1 %").arg(100.0 * camera_->battery, 0, 'f', 0);
+  const bool is_low = camera_->battery < 0.2;  // as the driver warns
+  while (!numbers.isEmpty() && painter->fontMetrics().horizontalAdvance(numbers.join("   ")) > room)
+    is_low ? numbers.removeFirst() : numbers.removeLast();
+  painter->setPen(is_low ? colorOf(CameraState::kLate) : kFaint);
+  painter->drawText(line, Qt::AlignVCenter | Qt::AlignRight, numbers.join("   "));
 }
 
 void CameraTile::paintPicture(QPainter* painter) const {

@@ -4,6 +4,7 @@
 
 #include <QLabel>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -13,6 +14,8 @@ namespace {
 
 constexpr int kGap = 6;              // [px of the screen]
 constexpr int kNarrowestTile = 190;  // [px of the screen]
+constexpr std::size_t kFew = 8;      // cameras; more have smaller tiles
+constexpr int kNarrowestOfMany = 130;
 
 }  // namespace
 
@@ -49,8 +52,9 @@ void CamerasPage::resizeEvent(QResizeEvent*) {
 }
 
 void CamerasPage::arrange() {
-  const int width = scroll_->viewport()->width();
-  const int columns = std::max((width + kGap) / (kNarrowestTile + kGap), 1);
+  const int width = scroll_->width() - scroll_->verticalScrollBar()->sizeHint().width();
+  const int narrowest = tiles_.size() > kFew ? kNarrowestOfMany : kNarrowestTile;
+  const int columns = std::max((width + kGap) / (narrowest + kGap), 1);
   const int tile_width = (width + kGap) / columns - kGap;
   int top = 0, row_height = 0;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {

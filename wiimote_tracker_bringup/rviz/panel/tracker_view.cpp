@@ -1,5 +1,7 @@
 #include "tracker_view.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cctype>
 #include <map>
@@ -7,6 +9,8 @@
 
 namespace wiimote_tracker::panel {
 namespace {
+
+constexpr std::size_t kMostNamed = 3;
 
 /// wiimote_2 before wiimote_10: the name without the digits at its end, and their number.
 auto sortKey(const std::string& name) {
@@ -101,12 +105,17 @@ bool TrackerView::othersSee(const CameraView& camera, double now) const {
 std::string TrackerView::summary(double now) const {
   if (cameras_.empty())
     return "No camera is there: start the drivers.";
-  std::map<CameraState, int> counts;
+  std::map<CameraState, std::vector<std::string>> groups;
   for (const CameraView& camera : cameras_)
-    ++counts[stateOf(camera, now)];
+    groups[stateOf(camera, now)].push_back(camera.name);
   std::string text;
-  for (const auto& [state, number] : counts)
-    text += (text.empty() ? "" : ", ") + std::to_string(number) + " " + count(state);
+  for (const auto& [state, names] : groups) {
+    text += (text.empty() ? "" : ", ") + std::to_string(names.size()) + " " + count(state);
+    // Among many tiles nobody finds the one.
+    if (names.size() <= kMostNamed && names.size() < cameras_.size() &&
+        state != CameraState::kFine && state != CameraState::kNotCalibrated)
+      text += " (" + joined(names, ", ") + ")";
+  }
   return std::to_string(cameras_.size()) + (cameras_.size() == 1 ? " camera: " : " cameras: ") +
          text;
 }

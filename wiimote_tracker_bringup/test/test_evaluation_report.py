@@ -251,12 +251,16 @@ def test_only_the_chosen_sections_run_and_others_are_refused(evaluate, tmp_path,
     modules = [a_section('bad', a_failing_run), a_section('good', a_good_run)]
     assert evaluate(modules, '--sections', 'good') == 0
     (tmp_path / 'people' / 'anna').mkdir(parents=True)
+    calibrated = tmp_path / 'rig.yaml'
+    calibrated.write_text('format: 1\ncameras: {}\n')
     for wrong in (['--sections', 'nothing'], ['--rig', '/nowhere.yaml'], ['--seed', '-1'],
-                  ['--gestures', '/nowhere'], ['--gestures', str(tmp_path / 'people')]):
+                  ['--gestures', '/nowhere'], ['--gestures', str(tmp_path / 'people')],
+                  ['--rig', str(calibrated)]):
         with pytest.raises(SystemExit) as raised:
             evaluate(modules, *wrong)
         assert raised.value.code == 2
-    assert 'there is no section' in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert 'there is no section' in said and 'describes no simulated rig' in said
 
 
 def test_the_users_files_reach_the_sections(evaluate, tmp_path):

@@ -8,7 +8,7 @@ import time
 import traceback
 from typing import List, Optional
 
-from wiimote_tracker_evaluation import sections, stack
+from wiimote_tracker_evaluation import rigs, sections, stack
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
 from wiimote_tracker_evaluation.page import write_report
@@ -57,6 +57,9 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     options.sections = [name for name in names if name in chosen]
     if not os.path.isfile(options.rig):
         parser.error(f'there is no rig description {options.rig}')
+    if not options.live and 'seed' not in (rigs.read(options.rig) or {}):
+        parser.error(f'{options.rig} describes no simulated rig, as simulation/paper_rig.yaml does: a '
+                     'calibrated rig.yaml cannot be simulated')
     if options.led and not os.path.isfile(options.led):
         parser.error(f'there is no description of an LED {options.led}')
     if options.gestures and len(folders_in(options.gestures)) < 2:

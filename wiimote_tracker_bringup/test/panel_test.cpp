@@ -137,11 +137,12 @@ TEST_F(Panel, CalibratesByPressingTheButtonThatItOffers) {
   EXPECT_FALSE(label("verdict").isEmpty());
   screenshot("calibrate_ready");
   find<QDoubleSpinBox>("taped")->setValue(3.5355);
-  auto* take = find<QPushButton>("Take this length");
+  auto* take = find<QPushButton>("Take length");
   ASSERT_TRUE(waitFor([&] { return take->isEnabled(); }));
   take->click();
-  EXPECT_TRUE(waitFor([this] { return label("answer").contains("3.5355 m by tape"); }))
-      << label("answer").toStdString();
+  EXPECT_TRUE(waitFor([this] {
+    return label("answer").startsWith("corner 1 to corner 3 is 3.5355 m");
+  })) << label("answer").toStdString();
   open(0);
   EXPECT_TRUE(waitFor([this] { return camerasAre("4 cameras: 4 fine"); }))
       << label("summary").toStdString();

@@ -175,8 +175,8 @@ void CalibratePage::addPlace(QVBoxLayout* layout) {
   }
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(addButton("Check the LED there", Command::kCheck));
-  buttons->addWidget(addButton("Take it, to solve with", Command::kMeasurePlace));
-  row->addLayout(buttons, 1, 1, 1, 3);
+  buttons->addWidget(addButton("Solve with it, too", Command::kMeasurePlace));
+  row->addLayout(buttons, 1, 0, 1, 4);
   layout->addLayout(row);
 }
 
@@ -195,7 +195,7 @@ void CalibratePage::addTape(QVBoxLayout* layout) {
   row->addWidget(taped_ = lengthBox("taped", "drop it", this), 1);
   taped_->setMaximum(M_SQRT2 * kLongestSide);
   taped_->setDecimals(4);
-  row->addWidget(addButton("Take this length", Command::kMeasureLength));
+  row->addWidget(addButton("Take length", Command::kMeasureLength));
   layout->addLayout(row);
 }
 

@@ -35,7 +35,7 @@ void runSection(const BenchmarkSection& section, int runs, bool first_section, s
     std::printf("%-44s", row.name.c_str());
     for (const auto& [column, value] : row.figures)
       std::printf(" %10.4g", value);
-    std::printf("\n");
+    std::printf("  %s\n", row.note.c_str());
     std::fflush(stdout);
     if (json) {
       std::fprintf(json, "%s\n  {\"name\": \"%s\"", first ? "" : ",", row.name.c_str());
@@ -85,9 +85,9 @@ int run(const std::vector<BenchmarkSection>& sections,
 
 int main(int argc, char** argv) {
   const std::vector<BenchmarkSection> sections = {
-      poseSection(),    poseMethodsSection(), waveSection(),  waveTimeSection(),
-      measureSection(), paperSection(),       remapSection(), continuousSection(),
-      knockSection(),   monthSection()};
+      poseSection(),       poseMethodsSection(), waveSection(),  waveTimeSection(),
+      measureSection(),    mistakesSection(),    paperSection(), remapSection(),
+      continuousSection(), knockSection(),       monthSection()};
   std::vector<std::string> names;
   names.reserve(sections.size());
   for (const BenchmarkSection& section : sections)

@@ -12,6 +12,7 @@ namespace wiimote_tracker {
 struct BenchmarkRow {
   std::string name;
   std::vector<std::pair<std::string, double>> figures;
+  std::string note = {};  ///< In words, behind the figures; not in the JSON.
 };
 
 /// Takes a row as soon as it is known. All rows of a section have the same columns.
@@ -42,6 +43,9 @@ BenchmarkSection measureSection();
 
 /// The paper's procedure, with its principal point correction.
 BenchmarkSection paperSection();
+
+/// Mistakes of a person, and what is said of them.
+BenchmarkSection mistakesSection();
 
 /// Corrections of a deformed volume.
 BenchmarkSection remapSection();

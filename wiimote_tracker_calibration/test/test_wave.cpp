@@ -300,6 +300,38 @@ TEST(Wave, SlowErrorsOfTheStampsAreStatedInTheOffsets) {
   expectContains(refusalOf(simulateWave(scene, 1).recording, options), "the clock of camera_2");
 }
 
+TEST(Wave, ResidualsTellTheNoise) {
+  // The path of few images fits a good part of their noise.
+  WaveScene scene = shortScene();
+  const double noise = std::sqrt(scene.pixel * scene.pixel + 1.0 / 12.0);
+  for (const std::size_t cameras : {2, 3}) {
+    scene.camera_count = cameras;
+    double squared = 0.0;
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      const WaveSolution solution =
+          solveWave(simulateWave(scene, seed).recording, optionsFor(scene));
+      for (const geometry::RigCamera& camera : solution.rig.cameras) {
+        squared += 0.5 * std::pow(camera.residual_px, 2);
+        ++count;
+      }
+    }
+    EXPECT_NEAR(std::sqrt(squared / count), noise, 0.03 * noise) << cameras;
+  }
+}
+
+TEST(Wave, ApparentJumpOfAClockWithoutWhichNoImageFits) {
+  WaveScene scene = shortScene();
+  scene.quantized = false;
+  scene.camera_count = 2;
+  scene.rate = 30.0;
+  scene.duration = 20.0;
+  for (std::uint64_t seed = 30; seed <= 32; ++seed) {
+    const SimulatedWave wave = simulateWave(scene, seed);
+    EXPECT_NO_THROW(solveWave(wave.recording, optionsFor(scene))) << seed;
+  }
+}
+
 TEST(Wave, IsDeterministic) {
   WaveScene scene = shortScene();
   scene.camera_count = 2;

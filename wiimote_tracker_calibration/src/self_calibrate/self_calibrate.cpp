@@ -4,6 +4,7 @@
 #include "source.h"
 
 #include "wiimote_tracker_calibration/bundle/self_calibrate.h"
+#include "wiimote_tracker_calibration/bundle/statistics.h"
 #include "wiimote_tracker_calibration/import/comparison.h"
 #include "wiimote_tracker_calibration/import/number_table.h"
 
@@ -11,6 +12,7 @@
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -97,6 +99,9 @@ void writeJson(const Report& report, const std::string& path) {
 geometry::Rig rigOf(const Report& report) {
   const bundle::Reconstruction& reconstruction = report.solution.reconstruction;
   const std::vector<bundle::Statistics> errors = errorsOf(reconstruction);
+  // What is fitted to noise lessens the residuals, which are to tell it.
+  const double correction =
+      std::sqrt(2.0) * report.solution.pixel_stddev / bundle::statistics(reconstruction).rms;
   geometry::Rig rig;
   rig.world_frame = "world";
   rig.method = "self_calibrate";
@@ -104,8 +109,8 @@ geometry::Rig rigOf(const Report& report) {
   for (std::size_t i = 0; i < reconstruction.cameras.size(); ++i) {
     geometry::RigCamera camera;
     camera.camera = reconstruction.cameras[i];
-    camera.residual_px = errors[i].rms;
-    camera.residual_m = errors[i].rms_m;
+    camera.residual_px = correction * errors[i].rms;
+    camera.residual_m = correction * errors[i].rms_m;
     camera.observations = static_cast<std::uint32_t>(errors[i].observations);
     camera.inliers = static_cast<std::uint32_t>(errors[i].inliers);
     rig.cameras.push_back(camera);

@@ -101,8 +101,10 @@ class WaveProblem {
     options.apply_loss_function = false;
     double half_sum = 0.0;
     problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
-    return std::sqrt(2.0 * half_sum / std::max(1.0, freedom_));
+    return std::sqrt(2.0 * half_sum / freedom());
   }
+
+  double redundancy() const { return freedom() / (2.0 * static_cast<double>(matches_.size())); }
 
   /// Of the corners and the priors.
   double chiSquared() {
@@ -134,6 +136,8 @@ class WaveProblem {
   }
 
  private:
+  double freedom() const { return std::max(1.0, freedom_); }
+
   void addMatches(const std::vector<Match>& matches, double loss_scale) {
     // The problem owns it.
     ceres::LossFunction* const loss =
@@ -267,7 +271,8 @@ Refinement refine(const Recording& recording,
   WaveProblem problem(recording, options, matches, loss_scale, state);
   // A robust fit is only the start of a tighter one.
   const int iterations = problem.solve(std::isfinite(loss_scale) ? 1e-4 : 1e-9, keep_going);
-  return {iterations, problem.chiSquared(), problem.degreesOfFreedom(), problem.misfit()};
+  return {iterations, problem.chiSquared(), problem.degreesOfFreedom(), problem.misfit(),
+          problem.redundancy()};
 }
 
 Eigen::MatrixXd covarianceOf(const Recording& recording,

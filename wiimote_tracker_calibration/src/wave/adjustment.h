@@ -22,6 +22,8 @@ struct Refinement {
   /// Square root of the mean whitened squared residual of the matches, corrected for the parameters
   /// that were fitted: 1 when the matches' standard deviations are right.
   double misfit;
+  /// Residuals of the matches beyond the number of those parameters, as a share of all.
+  double redundancy;
 };
 
 /// Least squares over the matches, the corners, the wand and the priors

@@ -147,8 +147,10 @@ void checkClocks(const Recording& recording,
     corrected = recording;
     for (Frame& frame : corrected.cameras[camera].frames)
       frame.stamp -= frame.stamp > steps[camera].after ? steps[camera].size : 0.0;
-    refinement = refine(corrected, options, matchSpots(corrected, state, gate).matches, kInfinity,
-                        keep_going, &state);
+    const Matching matching = matchSpots(corrected, state, gate);
+    if (std::count(matching.found.begin(), matching.found.end(), 0) > 0)
+      return;  // not a step: the camera would fit nowhere
+    refinement = refine(corrected, options, matching.matches, kInfinity, keep_going, &state);
     steps = stepsOf(recording);
   }
   if (contradicts(refinement) || squared(stepsOf(corrected)) > kMostLeft * before)
@@ -199,6 +201,11 @@ WaveSolution fit(const Recording& recording,
   checkClocks(recording, options, {pixel_stddev, stamp, kGate}, keep_going, state);
   WaveSolution solution = solutionOf(recording, options, state, matching);
   solution.pixel_stddev = pixel_stddev;
+  // What is fitted to noise lessens the residuals, which are to tell it.
+  for (geometry::RigCamera& camera : solution.rig.cameras) {
+    camera.residual_px /= std::sqrt(refinement.redundancy);
+    camera.residual_m /= std::sqrt(refinement.redundancy);
+  }
   solution.iterations = iterations;
   solution.misfit = std::sqrt(refinement.chi_squared / std::max(1, refinement.degrees_of_freedom));
   solution.contradicts = contradicts(refinement);

@@ -185,7 +185,7 @@ double CameraGroup::clockReference() const {
 
 /// Corrects the cameras whose times differ from those of most, by the median of all errors.
 void CameraGroup::correctClocks() {
-  constexpr double kNoticeable = 0.002;  // [s]
+  constexpr double kNoticeable = 0.004;  // [s]
   constexpr double kResolution = 0.001;  // of clocks that were corrected before [s]
   constexpr double kAccurate = 0.0005;   // standard deviation [s]
   constexpr double kLargest = 0.06;      // [s]; larger ones do not fit at all

@@ -290,11 +290,13 @@ void MessageTracker::takeSnapshot(const tracking::Snapshot& tracked) {
 }
 
 void MessageTracker::reportDoubtfulLabels() {
+  std::string labels;
   for (const std::string& label : labels_.doubtful())
-    sink_->onProblem(format(
-        "the LED that is called %s again is the same one with a probability of only %.2f: let "
-        "LEDs blink by codes, or restart the tracker with each at its place",
-        label.c_str(), labels_.places().at(label).confidence));
+    labels += format("%s%s (%.2f)", labels.empty() ? "" : ", ", label.c_str(),
+                     labels_.places().at(label).confidence);
+  if (!labels.empty())
+    sink_->onProblem("labels were given again and may be wrong (probability of being right): " +
+                     labels + "; check which LED has which, or let LEDs blink by codes");
 }
 
 void MessageTracker::publishZoneEvents(const tracking::Snapshot& snapshot) {

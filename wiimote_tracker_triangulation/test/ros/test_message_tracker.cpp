@@ -434,6 +434,23 @@ TEST(Clocks, AnImageFromAnotherCenturyChangesNothing) {
   EXPECT_GT(studio.pointsOf("led", 1000.5).size(), 140u);
 }
 
+TEST(Labels, ThatMayBeWrongAreNamed) {
+  TrackingParameters parameters = parametersOf(Mode::kTracks);
+  parameters.labels = {"led", "second"};
+  Studio studio(parameters);
+  const Paths paths = {onCircle, besideCircle};
+  studio.film(1.0, paths);
+  studio.film(20.0, {});
+  EXPECT_EQ(0, studio.heard.problemsWith("given again"));
+  const double again = studio.now;
+  studio.film(1.0, paths);
+  EXPECT_GE(studio.heard.problemsWith("given again and may be wrong"), 1);
+  const auto points = studio.pointsOf("led", again);
+  ASSERT_FALSE(points.empty());
+  for (const auto& [time, point] : points)
+    EXPECT_NEAR(0.5, point.label_confidence, 0.1) << time;
+}
+
 TEST(Identity, BlinkingLedsKeepTheirLabelsThroughDarkness) {
   constexpr double kChip = 0.023;
   const std::vector<std::string> words = {"01011111", "01010101"};

@@ -1,7 +1,7 @@
 // The exact posterior behind a hard edge, and smoothed frame numbers, compared with brute force.
 
-#include "wiimote_tracker_driver/exposure_clock/frame_history.h"
-#include "wiimote_tracker_driver/exposure_clock/steady_edge.h"
+#include "exposure_clock/frame_history.h"
+#include "exposure_clock/steady_edge.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_driver/exposure_clock/clock_filter.h"
+#include "exposure_clock/clock_filter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
+#include "exposure_clock/clock_estimator.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,19 +33,23 @@ bool isOfPolls(double period) {
 }  // namespace
 
 ExposureClock::ExposureClock(const ExposureClockOptions& options)
-    : leader_(options),
-      challenger_(options),
+    : leader_(std::make_unique<ClockEstimator>(options)),
+      challenger_(std::make_unique<ClockEstimator>(options)),
       trial_begin_(-std::numeric_limits<double>::infinity()),
       leader_begin_(std::numeric_limits<double>::infinity()),
       last_arrival_(-std::numeric_limits<double>::infinity()),
       last_exposure_(last_arrival_) {}
 
+ExposureClock::~ExposureClock() = default;
+ExposureClock::ExposureClock(ExposureClock&&) noexcept = default;
+ExposureClock& ExposureClock::operator=(ExposureClock&&) noexcept = default;
+
 void ExposureClock::reset() {
-  *this = ExposureClock(leader_.options());
+  *this = ExposureClock(leader_->options());
 }
 
 Estimate ExposureClock::update(double arrival) {
-  Estimate e = leader_.update(arrival);
+  Estimate e = leader_->update(arrival);
   leader_begin_ = std::min(leader_begin_, arrival);
   if (arrival > last_arrival_)
     error_variance_ *= std::exp((last_arrival_ - arrival) / kErrorMemory);
@@ -52,14 +58,14 @@ Estimate ExposureClock::update(double arrival) {
     trial_begin_ = -std::numeric_limits<double>::infinity();
   const Estimate other = challenge(arrival);
   if (advantage_ > kBetter) {
-    const Statistics mine = statistics(), its = challenger_.statistics();
+    const Statistics mine = statistics(), its = challenger_->statistics();
     before_.dropped = mine.dropped - its.dropped;
     before_.reports = mine.reports - its.reports;
     before_.stale = mine.stale - its.stale;
     before_.restarts = mine.restarts + 1 - its.restarts;
     frame_offset_ = e.frame - other.frame;
     learnError(other.exposure - e.exposure, arrival);
-    leader_ = challenger_;
+    *leader_ = *challenger_;
     e.exposure = other.exposure;
     e.stddev = other.stddev;
     e.clock_stddev = other.clock_stddev;
@@ -68,7 +74,7 @@ Estimate ExposureClock::update(double arrival) {
   }
   e.stddev = std::hypot(e.stddev, std::sqrt(error_variance_));
   e.clock_stddev = std::hypot(e.clock_stddev, std::sqrt(error_variance_));
-  if (const double period = leader_.statistics().period; isOfPolls(period)) {
+  if (const double period = leader_->statistics().period; isOfPolls(period)) {
     e.stddev = std::hypot(e.stddev, period / std::sqrt(12.0));
     e.clock_stddev = std::hypot(e.clock_stddev, period / std::sqrt(12.0));
   }
@@ -90,18 +96,18 @@ void ExposureClock::learnError(double error, double arrival) {
 
 Estimate ExposureClock::challenge(double arrival) {
   if (arrival < last_arrival_ || arrival > trial_begin_ + kTrial) {
-    challenger_.reset();
+    challenger_->reset();
     trial_begin_ = arrival;
     advantage_ = 0.0;
   }
-  const Estimate estimate = challenger_.update(arrival);
+  const Estimate estimate = challenger_->update(arrival);
   if (arrival > trial_begin_ + kLearning)
-    advantage_ += challenger_.logEvidence() - leader_.logEvidence();
+    advantage_ += challenger_->logEvidence() - leader_->logEvidence();
   return estimate;
 }
 
 Statistics ExposureClock::statistics() const {
-  Statistics s = leader_.statistics();
+  Statistics s = leader_->statistics();
   s.dropped += before_.dropped;
   s.reports += before_.reports;
   s.stale += before_.stale;

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_driver/exposure_clock/frame_counter.h"
+#include "exposure_clock/frame_counter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_driver/exposure_clock/frame_history.h"
+#include "exposure_clock/frame_history.h"
 
 #include <algorithm>
 

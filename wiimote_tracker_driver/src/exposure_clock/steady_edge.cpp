@@ -1,4 +1,4 @@
-#include "wiimote_tracker_driver/exposure_clock/steady_edge.h"
+#include "exposure_clock/steady_edge.h"
 
 #include <algorithm>
 #include <cmath>

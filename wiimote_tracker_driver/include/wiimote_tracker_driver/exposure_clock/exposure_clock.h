@@ -1,11 +1,43 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_EXPOSURE_CLOCK_H
 #define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_EXPOSURE_CLOCK_H
 
-#include "wiimote_tracker_driver/exposure_clock/clock_estimator.h"
-
 #include <cstdint>
+#include <memory>
 
 namespace wiimote_tracker::exposure_clock {
+
+class ClockEstimator;
+
+struct ExposureClockOptions {
+  double period = 0.010035;  ///< nominal time between frames [s], > 0
+  double period_stddev =
+      2500e-6;  ///< its standard deviation, relative, > 0; three times this is the limit
+  double stale_age = 0.030;  ///< a report later than this is stale [s], > 0
+};
+
+/// Estimate from the arrivals up to one report. Exposure times are late by the constant part of the
+/// delay, which cannot be estimated.
+struct Estimate {
+  double exposure =
+      0.0;              ///< on the clock of the arrivals; later than that of the report before [s]
+  double stddev = 0.0;  ///< of exposure, including the uncertain frame number [s]
+  double clock_stddev = 0.0;  ///< of exposure, given the frame number [s]
+  std::int64_t frame = 0;  ///< most probable frame number; later reports may correct it downwards
+  int dropped = 0;         ///< frames lost between the previous report and this one, as known now
+  bool stale = false;      ///< arrived more than stale_age late, e.g. after a stall
+  bool restarted = false;  ///< the phase was lost, and is estimated anew from this report on
+};
+
+/// For diagnostics.
+struct Statistics {
+  double period = 0.0;         ///< [s]
+  double period_stddev = 0.0;  ///< [s]
+  double jitter = 0.0;         ///< standard deviation of the delays, without queues [s]
+  double hard_edge = 0.0;      ///< probability that the delays have a hard lower edge, 0..1
+  /// Frames lost since reset(), as far as known now, less reports of a frame that had one already.
+  std::int64_t dropped = 0;
+  std::uint64_t reports = 0, stale = 0, restarts = 0;  ///< since reset()
+};
 
 /// Exposure times of a periodic camera from the arrival times of its reports, which carry no
 /// counter and come late, in slots, in bursts or not at all. Causal; constant time and memory per
@@ -20,6 +52,9 @@ class ExposureClock {
  public:
   /// @throws std::invalid_argument when an option is out of range.
   explicit ExposureClock(const ExposureClockOptions& options = {});
+  ~ExposureClock();
+  ExposureClock(ExposureClock&&) noexcept;
+  ExposureClock& operator=(ExposureClock&&) noexcept;
 
   /// Takes a report's arrival [s], best on a steady clock. An arrival before the previous one by
   /// more than a millisecond restarts the clock. @throws std::invalid_argument when it is not
@@ -35,7 +70,7 @@ class ExposureClock {
   Estimate challenge(double arrival);
   void learnError(double error, double arrival);
 
-  ClockEstimator leader_, challenger_;
+  std::unique_ptr<ClockEstimator> leader_, challenger_;
   double trial_begin_;           ///< Of the challenger [s].
   double advantage_ = 0.0;       ///< Of the challenger: logarithm of a ratio of likelihoods.
   double leader_begin_;          ///< Arrival when it became the leader [s].

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FRAME_HISTORY_H
 #define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FRAME_HISTORY_H
 
-#include "wiimote_tracker_driver/exposure_clock/frame_counter.h"
+#include "exposure_clock/frame_counter.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STEADY_EDGE_H
 #define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STEADY_EDGE_H
 
-#include "wiimote_tracker_driver/exposure_clock/clock_filter.h"
+#include "exposure_clock/clock_filter.h"
 
 #include <array>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/geometry/coverage.h"
+#include "geometry/coverage.h"
 
 #include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"

@@ -1,6 +1,6 @@
+#include "geometry/coverage.h"
 #include "geometry/random_rigs.h"
 #include "geometry/uncertain_rigs.h"
-#include "wiimote_tracker_triangulation/geometry/coverage.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/point_sensitivity.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_MARKERS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_MARKERS_H
 
-#include "wiimote_tracker_triangulation/geometry/coverage.h"
+#include "geometry/coverage.h"
 
 #include <visualization_msgs/MarkerArray.h>
 

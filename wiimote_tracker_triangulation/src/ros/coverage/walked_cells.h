@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_WALKED_CELLS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_WALKED_CELLS_H
 
-#include "wiimote_tracker_triangulation/geometry/coverage.h"
+#include "geometry/coverage.h"
 
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 

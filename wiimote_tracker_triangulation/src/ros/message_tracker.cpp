@@ -203,20 +203,21 @@ void MessageTracker::publishBodies() {
   const body::BodySnapshot* snapshot = bodies_.next();
   if (!snapshot)
     return;
-  std::set<std::string> bridged;
+  bridged_.clear();
   for (std::size_t b = 0; b < snapshot->bodies.size(); ++b) {
     const body::Constellation& constellation = bodies_.constellations()[b];
     const std::optional<body::BodyEstimate>& body = snapshot->bodies[b];
-    if (!constellation.imu || !body)
+    if (!body)
+      continue;
+    bridged_.push_back(body->inertial && !body->tracked);
+    if (!constellation.imu)
       continue;
     if (body->inertial)
       without_samples_.erase(constellation.name);
     else if (body->tracked)
       without_samples_.insert(constellation.name);
-    if (body->inertial && !body->tracked)
-      bridged.insert(constellation.name);
   }
-  sink_->onBodies(bodyMessage(*snapshot, bodies_.constellations(), rig_, rig_id_), bridged);
+  sink_->onBodies(bodyMessage(*snapshot, bodies_.constellations(), rig_, rig_id_), bridged_);
 }
 
 /// Starts bodies whose LEDs are identified by blinking.

@@ -54,10 +54,10 @@ class MessageSink {
                         const std::vector<tracking::CameraView>& views) = 0;
 
   /// The rigid bodies at the time of an image, before the points of that image. Times increase
-  /// strictly too. Only while bodies are tracked. `bridged`: names of predicted bodies whose poses
-  /// are as those of tracked ones, by their IMUs.
+  /// strictly too. Only while bodies are tracked. `bridged`: for each, whether it is predicted by
+  /// its IMU, so that its pose is as that of a tracked one.
   virtual void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& /*bodies*/,
-                        const std::set<std::string>& /*bridged*/) {}
+                        const std::vector<bool>& /*bridged*/) {}
 
   virtual void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) = 0;
 
@@ -167,6 +167,7 @@ class MessageTracker {
 
   // Reused buffers.
   std::vector<body::LabelledPoint> labelled_;
+  std::vector<bool> bridged_;
   tracking::CameraImage image_;
   tracking::Snapshot predicted_;
   CorrectedSnapshot corrected_;

@@ -158,7 +158,7 @@ void Triangulation::onPoints(const TrackedPointArrayConstPtr& points,
 }
 
 void Triangulation::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
-                             const std::set<std::string>& bridged) {
+                             const std::vector<bool>& bridged) {
   bodies_.publish(bodies, bridged);
   body_diagnostics_.addBodies(bodies);
   if (markers_publisher_.getNumSubscribers() > 0 &&

@@ -45,7 +45,7 @@ class Triangulation : private MessageSink {
   void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
                 const std::vector<tracking::CameraView>& views) override;
   void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
-                const std::set<std::string>& bridged) override;
+                const std::vector<bool>& bridged) override;
   void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) override;
   void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& points) override;
   void onProblem(const std::string& sentence) override;

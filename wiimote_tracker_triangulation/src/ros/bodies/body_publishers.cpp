@@ -29,13 +29,13 @@ void BodyPublishers::setBodies(const std::vector<body::Constellation>& bodies) {
 }
 
 void BodyPublishers::publish(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
-                             const std::set<std::string>& bridged) {
+                             const std::vector<bool>& bridged) {
   all_.publish(bodies);
   transforms_.clear();
-  for (const wiimote_tracker_msgs::TrackedBody& body : bodies.bodies) {
+  for (std::size_t i = 0; i < bodies.bodies.size(); ++i) {
+    const wiimote_tracker_msgs::TrackedBody& body = bodies.bodies[i];
     const auto topics = topics_.find(body.name);
-    const bool is_predicted_too = options_.publish_predicted || bridged.count(body.name) > 0;
-    if (topics == topics_.end() || !isPose(body, is_predicted_too))
+    if (topics == topics_.end() || !isPose(body, options_.publish_predicted || bridged[i]))
       continue;
     topics->second.pose.publish(
         boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>(poseStamped(bodies, body)));

@@ -9,7 +9,6 @@
 #include <wiimote_tracker_msgs/TrackedBodyArray.h>
 
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -24,9 +23,9 @@ class BodyPublishers {
   /// Advertises the topics of these bodies.
   void setBodies(const std::vector<body::Constellation>& bodies);
 
-  /// @param bridged names of bodies whose topics go on while they are predicted.
+  /// @param bridged for each body, whether its topics go on while it is predicted.
   void publish(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
-               const std::set<std::string>& bridged);
+               const std::vector<bool>& bridged);
 
  private:
   struct Topics {

@@ -118,12 +118,13 @@ void Output::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& poi
 }
 
 void Output::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
-                      const std::set<std::string>& bridged) {
+                      const std::vector<bool>& bridged) {
   write(topics_.bodies(), now_, bodies);
   trajectories_.add(bodies);
   TFMessage transforms;
-  for (const wiimote_tracker_msgs::TrackedBody& body : bodies.bodies) {
-    if (!isPose(body, options_.publish_predicted || bridged.count(body.name) > 0))
+  for (std::size_t i = 0; i < bodies.bodies.size(); ++i) {
+    const wiimote_tracker_msgs::TrackedBody& body = bodies.bodies[i];
+    if (!isPose(body, options_.publish_predicted || bridged[i]))
       continue;
     write(topics_.pose(body.name), now_, poseStamped(bodies, body));
     write(topics_.twist(body.name), now_, twistStamped(bodies, body));

@@ -4,17 +4,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wiimote_tracker::body {
 namespace {
 
-// An LED whose predicted pixel has a larger standard deviation could be any spot [px]. A body
-// hidden for long must be found by its shape, not by an unrelated spot.
+// An LED whose predicted pixel has a larger standard deviation could be any spot, or the spot of
+// another LED of the body: a share of the distance to the nearest one, with which gates of four
+// standard deviations just touch, within limits [px]. A body hidden for longer must be found by its
+// shape.
+constexpr double kWidestShare = 1.0 / 8.0;
+constexpr double kLeastWidest = 2.0;
 constexpr double kWidest = 12.0;
 constexpr double kFurtherLed = 2.0;  // cost of each LED beyond the first
 // Of two merged LEDs, either has 1/4 to 3/4 of the brightness: the spot is distributed uniformly
 // over half of the distance between them, with a standard deviation of 1/sqrt(48) of that distance.
 constexpr double kPlaceBetween = 0.1443;
+
+/// [m]
+double distanceToNearest(const Constellation& constellation, std::size_t led) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < constellation.leds.size(); ++i) {
+    if (i != led)
+      nearest = std::min(nearest, (constellation.leds[i] - constellation.leds[led]).norm());
+  }
+  return nearest;
+}
+
+/// Whether no other LED of the body could be taken for this one.
+bool isCertain(const LedPrediction& led, double nearest, const geometry::Camera& camera) {
+  const double pixels = nearest * camera.intrinsics.fx / led.depth;
+  const double widest = std::clamp(kWidestShare * pixels, kLeastWidest, kWidest);
+  return led.covariance.trace() < 2.0 * widest * widest;
+}
 
 }  // namespace
 
@@ -37,7 +59,7 @@ LedGroups::LedGroups(const PoseState& state,
   const std::size_t leds = constellation.leds.size();
   for (std::size_t i = 0; i < leds; ++i) {
     singles_[i] = predictLed(state, camera, constellation.leds[i], pixel_stddev);
-    if (singles_[i] && !(singles_[i]->covariance.trace() < 2.0 * kWidest * kWidest))
+    if (singles_[i] && !isCertain(*singles_[i], distanceToNearest(constellation, i), camera))
       singles_[i].reset();
   }
   const auto areNear = [&](std::size_t a, std::size_t b) {

@@ -141,6 +141,23 @@ TEST(BodyTracker, FindsTheBodyAgainSoonAfterItWasHidden) {
   EXPECT_GE(occlusions, 8);
 }
 
+TEST(BodyTracker, IsNotTurnedWronglyAfterItWasHidden) {
+  tracking::test::SceneOptions options = halfAPixel();
+  options.hidden = [](std::size_t, std::size_t, double t) { return std::fmod(t, 1.0) > 0.9; };
+  FollowedBody follow(paperRig(), fourLeds(), shaken, options, 25);
+  int tracked = 0;
+  int wrong = 0;
+  for (int i = 0; i < 4 * 100 * 20; ++i) {
+    follow.step();
+    if (!follow.estimate() || !follow.estimate()->tracked)
+      continue;
+    ++tracked;
+    wrong += rotationError(follow.truth(), follow.estimate()->world_from_body).norm() > 0.35;
+  }
+  EXPECT_GT(tracked, 0.85 * 4 * 100 * 20);
+  EXPECT_LT(wrong, 0.01 * tracked);
+}
+
 TEST(BodyTracker, OneCameraIsEnoughForFourLeds) {
   tracking::test::SceneOptions options = halfAPixel();
   options.hidden = [](std::size_t camera, std::size_t, double t) {

@@ -6,9 +6,31 @@
 #include <cmath>
 
 namespace wiimote_tracker::body {
+namespace {
+
+/// Of a camera's time offset, with which images before and after it cannot be combined [s].
+constexpr double kOffsetJump = 0.05;
+
+double offsetOf(const geometry::RigCamera& camera) {
+  return camera.time_offset_rule == geometry::TimeOffsetRule::kNone ? 0.0 : camera.time_offset;
+}
+
+bool haveSameTimes(const geometry::Rig& before, const geometry::Rig& now) {
+  return std::all_of(now.cameras.begin(), now.cameras.end(), [&](const auto& camera) {
+    return std::all_of(before.cameras.begin(), before.cameras.end(), [&](const auto& other) {
+      return other.camera.name != camera.camera.name ||
+             std::abs(offsetOf(other) - offsetOf(camera)) < kOffsetJump;
+    });
+  });
+}
+
+}  // namespace
 
 void BodyFollower::setRig(const geometry::Rig& rig) {
-  useTracker(rig, constellations_);
+  if (tracker_ && haveSameTimes(rig_, rig))
+    tracker_->setRig(rig);
+  else
+    useTracker(rig, constellations_);
   rig_ = rig;
   time_watch_ = std::make_unique<tracking::TimeWatch>(rig_.cameras.size());
 }

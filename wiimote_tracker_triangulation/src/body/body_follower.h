@@ -34,8 +34,8 @@ class BodyFollower {
  public:
   explicit BodyFollower(const BodyTrackerOptions& options) : options_(options) {}
 
-  /// Bodies are searched anew. @throws geometry::InvalidRigError (see Rig::check); the previous rig
-  /// then stays.
+  /// See BodyTracker; where a time offset jumps, bodies are searched anew.
+  /// @throws geometry::InvalidRigError (see Rig::check); the previous rig then stays.
   void setRig(const geometry::Rig& rig);
 
   /// Sets the bodies to track; all are searched anew.

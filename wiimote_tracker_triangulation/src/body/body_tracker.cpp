@@ -15,6 +15,9 @@ namespace {
 /// LEDs move within the window, so rays miss each other by this multiple of the pixel noise.
 constexpr double kWindowNoise = 4.0;
 
+/// Images that may be computed again per new image, because samples of an IMU came later.
+constexpr std::size_t kRepeats = 16;
+
 /// Cost of a false detection: greater than that of any LED.
 constexpr double kGhostCost = 1e6;
 
@@ -35,24 +38,54 @@ association::AssociationOptions associationOptions(const BodyTrackerOptions& opt
 BodyTracker::BodyTracker(const geometry::Rig& rig,
                          const std::vector<Constellation>& constellations,
                          const BodyTrackerOptions& options)
-    : rig_(rig),
-      constellations_(constellations),
-      options_(options),
-      associator_(rig,
-                  association::sharedViews(rig, options.maximum_range),
-                  associationOptions(options)) {
-  rig.check();
+    : constellations_(constellations), options_(options) {
+  useRig(rig);
   for (const Constellation& constellation : constellations) {
     constellation.check();
     has_clear_shape_.push_back(nearestSymmetry(constellation).residual >= kSymmetric);
     const ImuMount imu = constellation.imu.value_or(ImuMount());
     inertial_.emplace_back(Eigen::Vector3d(imu.body_from_imu.translation()));
   }
+  reset();
+}
+
+void BodyTracker::useRig(const geometry::Rig& rig) {
+  rig.check();
+  rig_ = rig;
+  associator_.emplace(rig, association::sharedViews(rig, options_.maximum_range),
+                      associationOptions(options_));
+  cameras_.clear();
   for (const geometry::RigCamera& camera : rig_.cameras)
     cameras_.push_back(rig_.rayCamera(camera));
   sights_.resize(cameras_.size());
   views_.resize(cameras_.size());
-  reset();
+  images_.assign(cameras_.size(), {});
+}
+
+void BodyTracker::setRig(const geometry::Rig& rig) {
+  rig.check();
+  for (auto entry = history_.end(); entry != history_.begin();)
+    undo(--entry);
+  const std::vector<geometry::RigCamera> before = rig_.cameras;
+  useRig(rig);
+  for (auto entry = history_.begin(); entry != history_.end();) {
+    const auto next = std::next(entry);
+    const auto same = std::find_if(rig.cameras.begin(), rig.cameras.end(), [&](const auto& camera) {
+      return camera.camera.name == before[entry->camera].camera.name;
+    });
+    if (same == rig.cameras.end()) {
+      spare_.splice(spare_.end(), history_, entry);
+    } else {
+      entry->camera = static_cast<std::size_t>(same - rig.cameras.begin());
+      take(entry);
+    }
+    entry = next;
+  }
+  for (std::optional<Body>& body : bodies_) {
+    if (body && time_ - body->last_observed > options_.tracked_time)
+      body.reset();
+  }
+  estimate();
 }
 
 void BodyTracker::reset() {
@@ -70,18 +103,14 @@ bool BodyTracker::add(std::size_t camera, double time, const std::vector<Eigen::
   taken_.assign(pixels.size(), false);
   if (time < time_ - options_.history)
     return false;
-  // Undo the images that are later than this one, or than which a sample of an IMU came later; they
-  // are processed again below.
+  // Undo the images that are later than this one; they are processed again below.
   auto next = history_.end();
   const auto comesAfter = [&](const Entry& entry) {
     return entry.time != time ? entry.time > time : entry.camera > camera;
   };
   while (next != history_.begin() && comesAfter(*std::prev(next)))
     undo(--next);
-  auto first = next;
-  while (first != history_.begin() && std::prev(first)->time > inertial_change_)
-    undo(--first);
-  inertial_change_ = std::numeric_limits<double>::infinity();
+  const auto first = undoOutdated(next);
   if (spare_.empty())
     spare_.emplace_back();
   history_.splice(next, spare_, spare_.begin());
@@ -99,6 +128,22 @@ bool BodyTracker::add(std::size_t camera, double time, const std::vector<Eigen::
     spare_.splice(spare_.end(), history_, history_.begin());
   estimate();
   return true;
+}
+
+/// Undoes the images than which a sample of an IMU came later, before an image that is not done. If
+/// they are many, waits for more new images. @returns the first one not done
+std::list<BodyTracker::Entry>::iterator BodyTracker::undoOutdated(std::list<Entry>::iterator next) {
+  auto first = next;
+  std::size_t count = 0;
+  for (; first != history_.begin() && std::prev(first)->time > inertial_change_; ++count)
+    --first;
+  if (count > kRepeats * ++images_since_repeat_)
+    return next;
+  while (next != first)
+    undo(--next);
+  images_since_repeat_ = 0;
+  inertial_change_ = std::numeric_limits<double>::infinity();
+  return first;
 }
 
 void BodyTracker::addInertial(std::size_t body, const InertialSample& sample) {
@@ -222,7 +267,7 @@ void BodyTracker::find(double time) {
     views_[c].sights = sights_[c].data();
     views_[c].count = sights_[c].size();
   }
-  const association::Association& found = associator_.associate(views_);
+  const association::Association& found = associator_->associate(views_);
 
   points_.clear();
   for (const association::AssociatedPoint& point : found.points)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::body {
@@ -120,6 +121,60 @@ TEST_F(AtRest, MaskedSpotsAreNoBodys) {
   ASSERT_TRUE(follower_.next()->bodies[0]);
   ASSERT_EQ(left.spots.size(), 1u);
   EXPECT_EQ(left.spots[0].pixel, lamp);
+}
+
+TEST_F(AtRest, IsFollowedOnInANewRig) {
+  follower_.setRig(rig_);
+  show(40);
+  const double first_seen = follower_.next()->bodies[0]->first_seen;
+  std::swap(rig_.cameras[0], rig_.cameras[3]);
+  rig_.cameras[1].camera.world_from_camera.translate(Vector3d(0.002, 0.0, 0.0));
+  follower_.setRig(rig_);
+  show(1);
+  const BodySnapshot* snapshot = follower_.next();
+  ASSERT_TRUE(snapshot->bodies[0]);
+  EXPECT_TRUE(snapshot->lost.empty());
+  EXPECT_TRUE(snapshot->bodies[0]->tracked);
+  EXPECT_EQ(snapshot->bodies[0]->first_seen, first_seen);
+}
+
+TEST_F(AtRest, IsInTheWorldOfANewRigAtOnce) {
+  follower_.setRig(rig_);
+  show(60);
+  const Vector3d before = follower_.next()->bodies[0]->world_from_body.translation();
+  const Vector3d shift(1.0, 0.2, -0.3);
+  for (geometry::RigCamera& camera : rig_.cameras)
+    camera.camera.world_from_camera.pretranslate(shift);
+  for (Vector3d& point : points_)
+    point += shift;
+  follower_.setRig(rig_);
+  show(1);
+  const BodySnapshot* snapshot = follower_.next();
+  ASSERT_TRUE(snapshot->bodies[0]);
+  EXPECT_TRUE(snapshot->bodies[0]->tracked);
+  EXPECT_LT((snapshot->bodies[0]->world_from_body.translation() - before - shift).norm(), 0.001);
+}
+
+TEST_F(AtRest, IsFoundAnewWhenANewRigSetsTimeBack) {
+  follower_.setRig(rig_);
+  show(60);
+  for (geometry::RigCamera& camera : rig_.cameras) {
+    camera.time_offset = -5.0;
+    camera.time_offset_rule = geometry::TimeOffsetRule::kAlways;
+  }
+  follower_.setRig(rig_);
+  EXPECT_TRUE(show(40).spots.empty());
+}
+
+TEST_F(AtRest, IsLostInANewRigWhileItIsHidden) {
+  follower_.setRig(rig_);
+  show(60);
+  points_.clear();
+  show(100);
+  ASSERT_TRUE(follower_.next()->bodies[0]);
+  follower_.setRig(rig_);
+  show(1);
+  EXPECT_EQ(follower_.next()->lost.size(), 1u);
 }
 
 TEST_F(AtRest, StampsAreCorrectedByTheRigsOffsets) {

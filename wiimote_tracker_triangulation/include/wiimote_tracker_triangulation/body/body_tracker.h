@@ -102,6 +102,10 @@ class BodyTracker {
               const std::vector<Constellation>& constellations,
               const BodyTrackerOptions& options);
 
+  /// Computes the images that are kept (BodyTrackerOptions::history) again with another rig. Bodies
+  /// that are hidden in all of them are lost. @throws geometry::InvalidRigError (Rig::check).
+  void setRig(const geometry::Rig& rig);
+
   /// Adds the spots of a camera's image.
   /// @param time exposure [s]. @param pixels distorted, finite [px].
   /// @returns false, and does nothing, if the image is too old.
@@ -154,7 +158,9 @@ class BodyTracker {
     LastImage image_before;  // of this camera
   };
 
+  void useRig(const geometry::Rig& rig);
   void undo(std::list<Entry>::iterator entry);
+  std::list<Entry>::iterator undoOutdated(std::list<Entry>::iterator next);
   void take(std::list<Entry>::iterator entry);
   void follow(std::size_t camera, double time, const std::vector<Eigen::Vector2d>& pixels);
   void update(std::size_t index,
@@ -177,7 +183,7 @@ class BodyTracker {
   std::vector<Constellation> constellations_;
   std::vector<bool> has_clear_shape_;  // per constellation: not symmetric
   BodyTrackerOptions options_;
-  association::ViewAssociator associator_;
+  std::optional<association::ViewAssociator> associator_;  // always
 
   std::vector<std::optional<Body>> bodies_;
   std::vector<LastImage> images_;          // per camera
@@ -185,6 +191,7 @@ class BodyTracker {
   std::vector<InertialSamples> inertial_;  // per body; empty without IMU
   double inertial_change_ =
       std::numeric_limits<double>::infinity();  // images after it are outdated
+  std::size_t images_since_repeat_ = 0;         // of outdated images
 
   double time_ = -std::numeric_limits<double>::infinity();
   std::vector<std::optional<BodyEstimate>> estimates_;

@@ -35,7 +35,7 @@ TEST_F(WalkTest, SaysWhereEachCameraSawTheLedAndWhichSawItTogether) {
   EXPECT_EQ(
       walk_.sentence(),
       "share of the image in which the LED was seen: a 17 %, b 17 %, c 17 %; seen together: a + b; "
-      "seen by no other camera: what c saw; turn it towards what the others see");
+      "cameras that saw it alone: c; turn them towards what the others see");
   walk_.restart();
   EXPECT_EQ(walk_.sentence(), "");
 }

@@ -81,8 +81,8 @@ std::string Walk::sentence() const {
   return "share of the image in which the LED was seen: " + joined(shares) +
          (pairs.empty() ? "" : "; seen together: " + joined(pairs)) +
          (alone.empty() ? ""
-                        : "; seen by no other camera: what " + joined(alone) +
-                              " saw; turn it towards what the others see");
+                        : "; cameras that saw it alone: " + joined(alone) +
+                              "; turn them towards what the others see");
 }
 
 }  // namespace wiimote_tracker::capture

@@ -83,6 +83,28 @@ geometry::Rig withNewClocks(geometry::Rig before, const geometry::Rig& adjusted)
   return before;
 }
 
+bool newClocksAreJudged(const geometry::Rig& before,
+                        const geometry::Rig& now,
+                        const Drifts& drifts) {
+  for (std::size_t i = 0; i < now.cameras.size(); ++i) {
+    if (hasNewClock(before.cameras[i], now.cameras[i]) && !drifts[i])
+      return false;
+  }
+  return true;
+}
+
+/// The first camera with a new clock; without one that which turned most.
+std::size_t mostChanged(const geometry::Rig& before, const geometry::Rig& now) {
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < now.cameras.size(); ++i) {
+    if (hasNewClock(before.cameras[i], now.cameras[i]))
+      return i;
+    if (turnOf(before.cameras[i], now.cameras[i]) > turnOf(before.cameras[most], now.cameras[most]))
+      most = i;
+  }
+  return most;
+}
+
 /// What an adjustment has changed: "camera_1 turned by 0.03 degrees, camera_2 ...".
 std::string changesText(const geometry::Rig& before, const geometry::Rig& now) {
   std::vector<std::string> changes;
@@ -182,18 +204,10 @@ std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& imag
   const Drifts drifts = driftsOf(*rig, images.to_check, options_.accepted);
   if (!allFit(drifts))
     return std::nullopt;
-  std::size_t most = 0;
-  bool reconnected = false;
-  for (std::size_t i = 0; i < rig->cameras.size(); ++i) {
-    const bool has_new_clock = hasNewClock(rig_.cameras[i], rig->cameras[i]);
-    if (has_new_clock && !drifts[i])
-      return std::nullopt;
-    const bool turned_more =
-        turnOf(rig_.cameras[i], rig->cameras[i]) > turnOf(rig_.cameras[most], rig->cameras[most]);
-    if ((has_new_clock && !reconnected) || (!reconnected && turned_more))
-      most = i;
-    reconnected = reconnected || has_new_clock;
-  }
+  if (!newClocksAreJudged(rig_, *rig, drifts))
+    return std::nullopt;
+  const std::size_t most = mostChanged(rig_, *rig);
+  const bool reconnected = hasNewClock(rig_.cameras[most], rig->cameras[most]);
   if (keeps_poses && !reconnected)
     return std::nullopt;
   const std::string message = changesText(rig_, *rig) +

@@ -196,6 +196,22 @@ TEST(Continuous, AdjustsAllCamerasAndTheirNewClocks) {
   }
 }
 
+TEST(Continuous, ASolvedCameraIsAsUncertainAsTheDriftOfTheOthers) {
+  // Standard deviation of a knocked camera's rotation, hours after the rig was solved [rad].
+  const auto rotation = [](double hours) {
+    Random random(3);
+    geometry::Rig rig = paperRigWith(wellCalibrated());
+    rig.solved_at = WavedLed::kClock - 3600.0 * hours;
+    WavedLed led(drawTruth(rig, random), 300);
+    led.truth[0] = turned(led.truth[0], 2.0 * kDegree, random);
+    ContinuousCalibration watch(rig, {});
+    const Proposal proposal = proposalUntil(20.0, &led, &watch).value();
+    return std::sqrt(proposal.rig.covariance.topLeftCorner<3, 3>().trace());
+  };
+  // 0.5 mrad an hour about each axis; the other cameras count together.
+  EXPECT_GT(rotation(2.0), 0.0005 + rotation(0.0));
+}
+
 TEST(Continuous, IsAFunctionOfTheImages) {
   const auto run = [] {
     Random random(3);

@@ -47,10 +47,7 @@ geometry::Rig priorOf(const geometry::Rig& rig,
                       const KeyframeSource& source,
                       double time,
                       const AdjustOptions& options) {
-  geometry::Rig prior = rig;
-  const double turn = std::min(
-      options.least_turn + options.turn_rate * std::abs(time - rig.solved_at), options.most_turn);
-  const double move = options.lever * turn;
+  geometry::Rig prior = withDrift(rig, time, options);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     geometry::RigCamera& camera = prior.cameras[i];
     const Eigen::Index first = firstParameter(i);
@@ -60,10 +57,6 @@ geometry::Rig priorOf(const geometry::Rig& rig,
     const bool known = camera.time_offset_rule == TimeOffsetRule::kAlways ||
                        (camera.time_offset_rule == TimeOffsetRule::kOneEpoch &&
                         (!epoch || camera.time_offset_epoch == *epoch));
-    Eigen::Matrix<double, kParameters, 1> variance;
-    variance.setConstant(kHeldVariance);
-    variance.segment<3>(kRotation).setConstant(turn * turn);
-    variance.segment<3>(kPosition).setConstant(move * move);
     if (!known) {
       camera.time_offset = 0.0;
       camera.time_offset_rule = TimeOffsetRule::kOneEpoch;
@@ -72,8 +65,8 @@ geometry::Rig priorOf(const geometry::Rig& rig,
       prior.covariance.col(clock).setZero();
     }
     const double offset = known ? options.offset_stddev : options.new_offset_stddev;
-    variance[kTimeOffset] = offset * offset;
-    prior.covariance.diagonal().segment<kParameters>(first) += variance;
+    prior.covariance(clock, clock) += offset * offset;
+    prior.covariance.diagonal().segment<kTimeOffset>(first).array() += kHeldVariance;
   }
   return prior;
 }
@@ -217,6 +210,20 @@ class Adjustment {
 };
 
 }  // namespace
+
+geometry::Rig withDrift(geometry::Rig rig, double time, const AdjustOptions& options) {
+  if (!geometry::hasCovariance(rig))
+    return rig;
+  const double turn = std::min(
+      options.least_turn + options.turn_rate * std::abs(time - rig.solved_at), options.most_turn);
+  const double move = options.lever * turn;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    auto variance = rig.covariance.diagonal().segment<kParameters>(firstParameter(i));
+    variance.segment<3>(kRotation).array() += turn * turn;
+    variance.segment<3>(kPosition).array() += move * move;
+  }
+  return rig;
+}
 
 std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,
                                        const std::vector<capture::Image>& images,

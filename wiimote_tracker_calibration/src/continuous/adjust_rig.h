@@ -21,6 +21,9 @@ struct AdjustOptions {
   double new_offset_stddev = 0.02;  ///< Of the time offset in a new epoch, around 0 [s, > 0].
 };
 
+/// The rig with its covariance widened by what cameras may have done from solved_at to a time [s].
+geometry::Rig withDrift(geometry::Rig rig, double time, const AdjustOptions& options);
+
 /// All cameras adjusted together to images of one moving LED: maximum a posteriori pose, lens and
 /// time offset, the prior being the rig with its joint covariance, and the drift since solved_at.
 /// Cameras turn more easily than they move, so that their places hold the world. A camera whose rig

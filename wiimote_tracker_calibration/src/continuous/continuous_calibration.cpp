@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace wiimote_tracker::continuous {
@@ -174,6 +175,11 @@ std::optional<Proposal> ContinuousCalibration::moved(const Evidence& evidence) c
   const bool was_off = evidence.new_clock || (before[index] && before[index]->ratio >= 1.0);
   if (!was_off || !after[index] || !allFit(after))
     return std::nullopt;
+  // The same pose; its covariance includes the drift of the others, which the checks do not grant.
+  recalibrate::Options unchecked = options_.recalibrate;
+  unchecked.maximum_offset_stddev = std::numeric_limits<double>::infinity();
+  result = recalibrate::recalibrateCamera(withDrift(rig_, check.back().stamp, options_.adjust),
+                                          request, unchecked);
   const std::string message =
       evidence.camera + (evidence.new_clock ? " reconnected with another clock and" : "") +
       format(

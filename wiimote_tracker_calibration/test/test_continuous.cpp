@@ -324,6 +324,23 @@ TEST(Continuous, KeyframesSkipPauses) {
   EXPECT_NEAR(static_cast<double>(keyframes(3e8)), static_cast<double>(keyframes(0.0)), 4.0);
 }
 
+TEST(Continuous, KeyframesFollowCurves) {
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  WavedLed led(rig.cameras, 1300, 30.0);
+  std::vector<capture::Image> images;
+  led.runUntil(10.0, [&](capture::Image image) {
+    const geometry::RigCamera& camera = *rig.find(image.camera);
+    const double time = image.stamp - WavedLed::kClock + camera.time_offset;
+    image.spots.clear();
+    if (const auto pixel = camera.camera.project(led.path.position(time, 0)))
+      image.spots.push_back(*pixel);
+    images.push_back(image);
+  });
+  const auto keyframes = KeyframeSource(rig, images).keyframes(rig, 5.0);
+  EXPECT_GT(keyframes.size(), 100U);
+  EXPECT_LT(rmsResidual(keyframes), 0.005);  // Along chords 0.023.
+}
+
 /// Another light than the LED, where it is at this time [s].
 using Light = Eigen::Vector3d (*)(const wave::SimulatedPath& path, double time);
 

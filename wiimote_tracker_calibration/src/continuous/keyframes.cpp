@@ -116,8 +116,21 @@ std::optional<View> KeyframeSource::viewAt(std::size_t camera, double stamp) con
   const double gap = after->stamp - before->stamp;
   if (gap > kLongestGap)
     return std::nullopt;
+  const double time = stamp - before->stamp;
   const Eigen::Vector2d velocity = (after->pixel - before->pixel) / gap;
-  return View{camera, before->pixel + (stamp - before->stamp) * velocity, velocity};
+  View view{camera, before->pixel + time * velocity, velocity};
+  // A chord cuts the curve short, which would move the cameras.
+  if (before != spots.begin() && after + 1 != spots.end()) {
+    const Spot& first = *(before - 1);
+    const Spot& last = *(after + 1);
+    if (last.stamp - first.stamp < gap + 2.0 * kLongestGap) {
+      const Eigen::Vector2d bend = (last.pixel - after->pixel) / (last.stamp - after->stamp) -
+                                   (before->pixel - first.pixel) / (before->stamp - first.stamp);
+      view.pixel +=
+          bend / (last.stamp + after->stamp - before->stamp - first.stamp) * time * (time - gap);
+    }
+  }
+  return view;
 }
 
 double KeyframeSource::nextSpot(const geometry::Rig& rig, double time) const {

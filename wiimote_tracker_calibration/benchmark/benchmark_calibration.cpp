@@ -85,9 +85,10 @@ int run(const std::vector<BenchmarkSection>& sections,
 
 int main(int argc, char** argv) {
   const std::vector<BenchmarkSection> sections = {
-      poseSection(),       poseMethodsSection(), waveSection(),  waveTimeSection(),
-      measureSection(),    mistakesSection(),    paperSection(), remapSection(),
-      continuousSection(), knockSection(),       monthSection()};
+      poseSection(),       poseMethodsSection(), waveSection(),   waveTimeSection(),
+      measureSection(),    mistakesSection(),    paperSection(),  remapSection(),
+      continuousSection(), knockSection(),       misledSection(), restSection(),
+      monthSection()};
   std::vector<std::string> names;
   names.reserve(sections.size());
   for (const BenchmarkSection& section : sections)

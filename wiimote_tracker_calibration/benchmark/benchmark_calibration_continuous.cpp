@@ -1,6 +1,7 @@
 // A rig that corrects itself: eight hours of drift, knocks and reconnects, compressed to the
 // motion.
 #include "benchmark_calibration_sections.h"
+#include "changed_rig.h"
 #include "wave_trial.h"
 #include "waved_led.h"
 
@@ -47,37 +48,10 @@ void turn(geometry::RigCamera* camera, double angle, const Eigen::Vector3d& axis
       camera->camera.world_from_camera.linear() * Eigen::AngleAxisd(angle, axis).toRotationMatrix();
 }
 
-std::vector<geometry::Camera> camerasOf(const std::vector<geometry::RigCamera>& cameras) {
-  std::vector<geometry::Camera> result;
-  result.reserve(cameras.size());
-  for (const geometry::RigCamera& camera : cameras)
-    result.push_back(camera.camera);
-  return result;
-}
-
-/// Mean squared error of the points of the volume [m^2].
-double volumeError(const std::vector<geometry::RigCamera>& truth, const geometry::Rig& rig) {
-  const std::vector<geometry::Camera> cameras = camerasOf(truth);
-  const std::vector<Eigen::Vector3d> points = wave::cubePoints(cameras);
-  const Eigen::Matrix3Xd errors = wave::pointErrors(cameras, camerasOf(rig.cameras), points);
-  return errors.colwise().squaredNorm().mean();
-}
-
-/// RMS distance by which points of the volume that rest seem to move from one rig to another [m].
-double movement(const std::vector<geometry::RigCamera>& truth,
-                const geometry::Rig& from,
-                const geometry::Rig& to) {
-  const std::vector<geometry::Camera> cameras = camerasOf(truth);
-  const std::vector<Eigen::Vector3d> points = wave::cubePoints(cameras);
-  const Eigen::Matrix3Xd moved = wave::pointErrors(cameras, camerasOf(to.cameras), points) -
-                                 wave::pointErrors(cameras, camerasOf(from.cameras), points);
-  return std::sqrt(moved.colwise().squaredNorm().mean());
-}
-
-/// Cameras whose true pose lies in the 95 % region.
-void countCovered(const std::vector<geometry::RigCamera>& truth,
-                  const geometry::Rig& rig,
-                  wave::Share* covered) {
+/// NEES of the cameras' poses.
+std::vector<double> poseErrors(const std::vector<geometry::RigCamera>& truth,
+                               const geometry::Rig& rig) {
+  std::vector<double> result;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const geometry::Camera& estimate = rig.cameras[i].camera;
     const Eigen::AngleAxisd turned(truth[i].camera.world_from_camera.linear() *
@@ -86,17 +60,19 @@ void countCovered(const std::vector<geometry::RigCamera>& truth,
     error << turned.angle() * turned.axis(), truth[i].camera.center() - estimate.center();
     const Eigen::Index first = geometry::firstParameter(i);
     const Eigen::Matrix<double, 6, 6> covariance = rig.covariance.block<6, 6>(first, first);
-    covered->count(error.dot(covariance.ldlt().solve(error)) < kChiSquared);
+    result.push_back(error.dot(covariance.ldlt().solve(error)));
   }
+  return result;
 }
 
 /// What is known after an hour, over all runs.
 struct Hour {
   double kept = 0.0;       // Mean squared error of the volume with the first rig [m^2].
   double corrected = 0.0;  // With the rig that corrects itself [m^2].
-  wave::Share covered;
+  wave::Share covered;     // Poses in their 95 % region.
+  double nees = 0.0;       // Of all poses.
   int changes = 0;
-  double step = 0.0;  // Farthest that points at rest moved by an adjustment, RMS [m].
+  Movement step;  // Farthest that points at rest moved by an adjustment.
 };
 
 /// One day: `hours` has the state before it, then after each hour.
@@ -136,16 +112,21 @@ void addDay(std::uint64_t seed, std::array<Hour, kHours + 1>* hours) {
         const auto proposal = watch->add(image);
         if (!proposal)
           return;
-        if (proposal->cause == continuous::Cause::kDrift)
-          at.step = std::max(at.step, movement(led.truth, rig, proposal->rig));
+        if (proposal->cause == continuous::Cause::kDrift) {
+          const Movement step = movementOf(led.truth, rig, proposal->rig);
+          at.step = {std::max(at.step.all, step.all), std::max(at.step.apart, step.apart)};
+        }
         rig = proposal->rig;
         watch.emplace(rig, continuous::Options{});
         ++at.changes;
       });
     }
-    at.kept += volumeError(led.truth, first);
-    at.corrected += volumeError(led.truth, rig);
-    countCovered(led.truth, rig, &at.covered);
+    at.kept += std::pow(volumeError(led.truth, first), 2);
+    at.corrected += std::pow(volumeError(led.truth, rig), 2);
+    for (const double error : poseErrors(led.truth, rig)) {
+      at.covered.count(error < kChiSquared);
+      at.nees += error;
+    }
   }
 }
 
@@ -161,8 +142,10 @@ void runDays(int runs, const RowCallback& row) {
           {"all_mm", 1000.0 * std::sqrt(at.corrected / runs)},
           {"/ fresh", std::sqrt(at.corrected / fresh)},
           {"95%", 100.0 * at.covered.inside / at.covered.all},
+          {"NEES", at.nees / at.covered.all / 6.0},
           {"changes", static_cast<double>(at.changes) / runs},
-          {"step_mm", 1000.0 * at.step}}});
+          {"step_mm", 1000.0 * at.step.all},
+          {"apart_mm", 1000.0 * at.step.apart}}});
   }
 }
 
@@ -206,8 +189,9 @@ BenchmarkSection continuousSection() {
   return {"continuous",
           "eight hours, 0.5 px of drift an hour in each camera, three knocks, two reconnects; RMS "
           "error of the volume with the first rig and with the one that corrects itself, the "
-          "latter over that of a fresh calibration; poses in their 95 % region; changes per hour; "
-          "how far points at rest moved by an adjustment, the farthest",
+          "latter over that of a fresh calibration; poses in their 95 % region, NEES per "
+          "parameter; changes per hour; how far points at rest moved by an adjustment, the "
+          "farthest; the same without the motion of all together",
           runDays};
 }
 

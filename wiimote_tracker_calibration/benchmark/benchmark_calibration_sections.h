@@ -53,6 +53,12 @@ BenchmarkSection remapSection();
 /// Eight hours with a rig that corrects itself.
 BenchmarkSection continuousSection();
 
+/// Other lights, and masked cameras, that must not change a rig.
+BenchmarkSection misledSection();
+
+/// A day without motion.
+BenchmarkSection restSection();
+
 /// Thirty days of tracker and health watch.
 BenchmarkSection monthSection();
 

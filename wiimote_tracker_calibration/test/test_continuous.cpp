@@ -2,6 +2,7 @@
 // moves it.
 
 #include "expect_says.h"
+#include "misled_trial.h"
 #include "waved_led.h"
 
 #include "continuous/continuous_calibration.h"
@@ -13,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -247,6 +249,7 @@ TEST(Continuous, ProposesNothingWithoutMotion) {
   // The motion of both times counts.
   led.still.reset();
   EXPECT_TRUE(proposalUntil(915.0, &led, &watch));
+  EXPECT_EQ(changesAtRest(true, 2, 1) + changesAtRest(false, 2, 2), 0);
 }
 
 TEST(Continuous, JudgesTheMotionAfterAPause) {
@@ -382,6 +385,14 @@ TEST(Continuous, IsNotMisledByAnotherLight) {
         proposal = watch.add(image);
     });
     EXPECT_FALSE(proposal) << i << ": " << proposal->message;
+  }
+}
+
+TEST(Continuous, OtherLightsNeverMakeTheRigAMillimetreWorse) {
+  for (const Misled by :
+       {Misled::kMirror, Misled::kOtherLed, Misled::kCarried, Misled::kLamp, Misled::kMasked}) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed)
+      EXPECT_LT(runMisledTrial(by, seed).worse, 0.001) << static_cast<int>(by) << ' ' << seed;
   }
 }
 

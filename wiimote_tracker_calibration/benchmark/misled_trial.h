@@ -1,0 +1,32 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MISLED_TRIAL_H
+#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MISLED_TRIAL_H
+
+#include <cstdint>
+
+namespace wiimote_tracker {
+
+/// What one or two cameras see instead of the LED.
+enum class Misled {
+  kMirror,    ///< The LED in a wall or in the floor.
+  kOtherLed,  ///< Another one on its own way.
+  kCarried,   ///< Another one carried along, 0.25 to 0.6 m away.
+  kLamp,
+  kMasked,  ///< Nothing.
+};
+
+struct MisledTrial {
+  int changes = 0;     ///< Of the rig; all that were proposed are applied.
+  double worse = 0.0;  ///< RMS error of the volume afterwards less that before [m].
+};
+
+/// 45 s of tracking with a well calibrated rig of four cameras, of which one or two are misled all
+/// the time or in part of each 10 s.
+MisledTrial runMisledTrial(Misled by, std::uint64_t seed);
+
+/// Changes proposed in the first seconds of each of 24 hours, in which one LED rests, or none
+/// shines; 5 % of the images have a false detection.
+int changesAtRest(bool with_led, int seconds, std::uint64_t seed);
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MISLED_TRIAL_H

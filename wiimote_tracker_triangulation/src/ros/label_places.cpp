@@ -1,5 +1,7 @@
 #include "label_places.h"
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -26,8 +28,12 @@ bool writePlaces(const std::string& file, const LedLabels::Places& places) {
 LedLabels::Places readPlaces(const std::string& file, std::chrono::seconds oldest) {
   std::error_code error;
   const fs::file_time_type written = fs::last_write_time(file, error);
-  const std::chrono::duration<double> age = fs::file_time_type::clock::now() - written;
-  if (error || age > oldest)
+  if (error)
+    return {};
+  // Not in the future, where a clock that was set back leaves it.
+  const double age = std::max(
+      0.0, std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count());
+  if (age > oldest.count())
     return {};
   std::ifstream in(file);
   LedLabels::Places places;
@@ -36,7 +42,7 @@ LedLabels::Places readPlaces(const std::string& file, std::chrono::seconds oldes
   Eigen::Vector3d& position = place.position;
   while (in >> label >> position.x() >> position.y() >> position.z() >> place.speed >> place.age >>
          place.confidence) {
-    place.age += age.count();
+    place.age += age;
     places[label] = place;
   }
   return in.eof() ? places : LedLabels::Places();

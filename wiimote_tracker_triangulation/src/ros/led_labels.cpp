@@ -25,6 +25,12 @@ double densityAt(const Eigen::Vector3d& position, const LedLabels::Place& place)
                          std::pow(2.0 * M_PI * variance, 1.5);
 }
 
+/// Not if it was seen beside that LED.
+bool mayBeThatOf(const LedLabels::Place& place, std::uint32_t id) {
+  return std::find(place.tracked_with.begin(), place.tracked_with.end(), id) ==
+         place.tracked_with.end();
+}
+
 }  // namespace
 
 void LedLabels::update(double time,
@@ -36,6 +42,11 @@ void LedLabels::update(double time,
     given_.erase(id);
   forgotten_.swap(lost_);
   lost_.clear();
+  tracked_.clear();
+  for (const tracking::TrackedLed& led : leds) {
+    if (led.state == tracking::TrackState::kTracked)
+      tracked_.push_back(led.id);
+  }
   for (const tracking::TrackedLed& led : leds) {
     if (led.state == tracking::TrackState::kLost) {
       lost_.push_back(led.id);
@@ -48,12 +59,14 @@ void LedLabels::update(double time,
     if (may_be_listed && led.state == tracking::TrackState::kTracked && given_.count(led.id) == 0)
       giveFreeLabel(time, led);
     const auto given = given_.find(led.id);
-    if (given == given_.end() || given->second.identified)
+    if (given == given_.end() || given->second.identified ||
+        led.state != tracking::TrackState::kTracked)
       continue;
     Place& place = places_[given->second.name];
     place.position = led.position;
     place.speed = led.velocity ? led.velocity->norm() : 0.0;
     place.age = 0.0;
+    place.tracked_with = tracked_;
   }
 }
 
@@ -77,12 +90,14 @@ void LedLabels::takeIdentity(std::uint32_t id, const identity::Identifier& ident
 }
 
 /// A label that was given before goes to the LED with the probability that it is that LED's, among
-/// all labels that may be: free ones, and those given again that may be wrong.
+/// all that it may be: those of free labels, those of labels given again that may be wrong, and,
+/// while a label was never given, a new one.
 void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
   const std::string* best = nullptr;
   double greatest = 0.0;
   double sum = 0.0;
   int candidates = 0;
+  bool may_be_new = false;
   for (const std::string& label : listed_) {
     if (const LedLabel* holder = holderOf(label)) {
       const auto former = former_.find(label);
@@ -93,7 +108,10 @@ void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
       continue;
     }
     const auto place = places_.find(label);
-    const double density = place != places_.end() ? densityAt(led.position, place->second) : 0.0;
+    may_be_new = may_be_new || place == places_.end();
+    const double density = place != places_.end() && mayBeThatOf(place->second, led.id)
+                               ? densityAt(led.position, place->second)
+                               : 0.0;
     sum += density;
     candidates += density > 0.0;
     if (!best || density > greatest) {
@@ -105,17 +123,23 @@ void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
     return;
   LedLabel& given = given_[led.id];
   given.name = *best;
-  if (greatest == 0.0)
+  const auto found = places_.find(*best);
+  if (found == places_.end())
     return;
-  Place& place = places_[*best];
+  if (may_be_new) {
+    sum += kAnywhere;
+    ++candidates;
+  }
+  Place& place = found->second;
   former_[*best] = place;
   // Right if it was right and goes to the same LED, or was that of this one of the others.
-  const double same = greatest / sum;
+  const double same = sum > 0.0 ? greatest / sum : 0.0;
+  const bool was_doubtful = place.confidence < kDoubtful;
   place.confidence = place.confidence * same +
                      (1.0 - place.confidence) * (1.0 - same) / std::max(1, candidates - 1);
   given.confidence = place.confidence;
   given.since = time;
-  if (given.confidence < kDoubtful)
+  if (given.confidence < kDoubtful && !was_doubtful)
     doubtful_.push_back(*best);
 }
 

@@ -50,12 +50,13 @@ class LedLabels {
   /// All tracks are lost, and all labels free; time may begin anew.
   void clear();
 
-  /// Where the LED of a label is, or was when it was seen last.
+  /// Where the LED of a label was when it was tracked last.
   struct Place {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< World [m].
     double speed = 0.0;                                  ///< There [m/s].
     double age = 0.0;         ///< From there to the newest snapshot, as far as is known [s].
     double confidence = 1.0;  ///< That the LED there had the right label [0..1].
+    std::vector<std::uint32_t> tracked_with;  ///< Ids of all LEDs that were tracked then.
   };
   /// Of the labels of the list that were given, by label.
   using Places = std::map<std::string, Place>;
@@ -67,7 +68,7 @@ class LedLabels {
   /// Probability below which a label is doubtful.
   static constexpr double kDoubtful = 0.8;
 
-  /// Labels that are doubtful since the last update.
+  /// Labels that became doubtful by the last update.
   const std::vector<std::string>& doubtful() const { return doubtful_; }
 
   /// The name of a track without a label.
@@ -81,6 +82,7 @@ class LedLabels {
 
   std::vector<std::string> listed_;
   std::map<std::uint32_t, LedLabel> given_;  // by the track's id
+  std::vector<std::uint32_t> tracked_;       // in the last update
   std::vector<std::uint32_t> lost_;          // since the last update began
   std::vector<std::uint32_t> forgotten_;     // lost before that; their labels are free
   Places places_;

@@ -220,8 +220,7 @@ class Smoother {
         const Observation& observation = observations_[backwards_.next--];
         if (update(observation, -observation.time, &backwards_.filter))
           continue;
-        last_ = lastLocated(backwards_.next);
-        backwards_ = startAt(-observation.time, places_[i].position, last_);
+        backwards_ = startBackwards(backwards_.next);
       }
       backwards_.filter.predict(-time);
       const Modes& before = forwards[i - chunk.first].modes();

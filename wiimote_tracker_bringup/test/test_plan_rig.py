@@ -20,6 +20,7 @@ from wiimote_tracker_evaluation.planning import (  # noqa: E402
 
 EXAMPLE = os.path.join(HERE, '../config/plan.yaml')
 PAPER_RIG = os.path.join(HERE, '../simulation/paper_rig.yaml')
+ROOM_TEXT = 'cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, 1]]\n'
 ROOM = plan.Plan(2, (0, 0, 0, 2, 2, 2), ((-4, -4, 1, 6, -4, 2),), square=1.0)
 
 POSITIONS = np.array([[-3.0, -3.0, 2.0], [5.7, -3.2, 1.0], [1.0, 1.0, 6.0]])
@@ -168,7 +169,8 @@ def test_cameras_for_a_body_are_planned(tmp_path, capsys, monkeypatch):
     path = tmp_path / 'plan.yaml'
     with open(EXAMPLE) as example:
         path.write_text(example.read().replace(
-            'body: []', f'body: {[list(map(float, led)) for led in LEDS]}'))
+            'body: []', f'body: {[list(map(float, led)) for led in LEDS]}').replace(
+                'beam: 360', 'beam: 150'))
     plan_rig.main([str(path), '--generations', '1'])
     assert 'degrees (RMS)' in capsys.readouterr().out
 
@@ -183,6 +185,9 @@ def test_cameras_for_a_body_are_planned(tmp_path, capsys, monkeypatch):
     ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, .nan]]', 'stands[0] must be'),
     ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, 1]]\nbody: [[0, 0, 0, 1, 0, 0]]',
      'body must be a list of 3'),
+    (ROOM_TEXT + 'beam: 90\nbody: [[0, 0, 0, 1, 0, 0], [0, 1, 0, 1, 0, 0], [0, 0, 1, 0, 0, 0]]',
+     r'body[2] must have a direction'),
+    (ROOM_TEXT + 'body: [[0, 0, 0, 1, 0, 0], [0, 1, 0, 1, 0, 0], [0, 0, 1, 0, 0, 1]]', 'give beam'),
     ('[', 'cannot be read')])
 def test_a_bad_plan_is_refused_in_words(tmp_path, text, words):
     path = tmp_path / 'plan.yaml'

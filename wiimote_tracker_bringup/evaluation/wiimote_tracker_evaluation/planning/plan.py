@@ -9,6 +9,7 @@ import yaml
 from wiimote_tracker_evaluation.errors import ExperimentError
 
 Box = Tuple[float, float, float, float, float, float]  # two opposite corners, the lesser one first [m]
+Light = Tuple[float, float, float, float, float, float]  # an LED on a body: place [m], direction
 
 
 @dataclasses.dataclass(frozen=True)
@@ -27,7 +28,7 @@ class Plan:
     stands: Tuple[Box, ...]
     obstacles: Tuple[Box, ...] = ()
     led_axis: Tuple[float, float, float] = (0.0, 0.0, 1.0)
-    body: Tuple[Box, ...] = ()
+    body: Tuple[Light, ...] = ()
     beam: float = 360.0
     farthest: float = 10.0
     margin: float = 20.0
@@ -67,7 +68,11 @@ def read(path: str) -> Plan:
                if field.default is dataclasses.MISSING and name not in content]
     if missing:
         raise ExperimentError(f'{path}: {missing[0]} is missing')
-    return Plan(**{name: _value(path, name, value) for name, value in content.items()})
+    plan = Plan(**{name: _value(path, name, value) for name, value in content.items()})
+    if plan.body and plan.beam == 360.0:
+        raise ExperimentError(f'{path}: with a body give beam, since cameras behind the body do not '
+                              'see its LEDs')
+    return plan
 
 
 RANGES = {'cameras': (2, 64), 'beam': (1.0, 360.0), 'farthest': (0.1, 100.0), 'margin': (0.0, 300.0),
@@ -80,8 +85,7 @@ def _value(path, name, value):
         if not isinstance(value, list) or 0 < len(value) < 3:
             raise ExperimentError(f'{path}: body must be a list of 3 LEDs or more [x, y, z, '
                                   'direction x, y, z]')
-        return tuple(tuple(_numbers(path, f'{name}[{index}]', led, 6))
-                     for index, led in enumerate(value))
+        return tuple(_light(path, f'{name}[{index}]', led) for index, led in enumerate(value))
     if name in ('stands', 'obstacles'):
         if not isinstance(value, list) or (name == 'stands' and not value):
             raise ExperimentError(f'{path}: {name} must be a list of boxes [x, y, z, x, y, z]')
@@ -92,15 +96,23 @@ def _value(path, name, value):
             raise ExperimentError(f'{path}: {name} must have a length, width and height above 0')
         return box
     if name == 'led_axis':
-        axis = _numbers(path, name, value, 3)
-        if not np.linalg.norm(axis) > 0.0:
-            raise ExperimentError(f'{path}: {name} must not be 0')
-        return tuple(axis / np.linalg.norm(axis))
+        return _direction(path, name, _numbers(path, name, value, 3))
     low, high = RANGES[name]
     if (isinstance(value, bool) or not isinstance(value, int if name == 'cameras' else (int, float))
             or not low <= value <= high):
         raise ExperimentError(f'{path}: {name} is {value}, but must be from {low:g} to {high:g}')
     return value
+
+
+def _direction(path, name, value):
+    if not np.linalg.norm(value) > 0.0:
+        raise ExperimentError(f'{path}: {name} must have a direction that is not 0')
+    return tuple(value / np.linalg.norm(value))
+
+
+def _light(path, name, value):
+    numbers = _numbers(path, name, value, 6)
+    return tuple(numbers[:3]) + _direction(path, name, numbers[3:])
 
 
 def _box(path, name, value):

@@ -57,7 +57,7 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     options.sections = [name for name in names if name in chosen]
     if not os.path.isfile(options.rig):
         parser.error(f'there is no rig description {options.rig}')
-    if not options.live and 'seed' not in (rigs.read(options.rig) or {}):
+    if not options.live and not rigs.is_description(options.rig):
         parser.error(f'{options.rig} describes no simulated rig, as simulation/paper_rig.yaml does: a '
                      'calibrated rig.yaml cannot be simulated')
     if options.led and not os.path.isfile(options.led):

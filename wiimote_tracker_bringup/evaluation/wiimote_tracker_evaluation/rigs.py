@@ -16,6 +16,15 @@ def read(path: str) -> Dict:
         return yaml.safe_load(file)
 
 
+def is_description(path: str) -> bool:
+    """Whether this is a file that describes a simulated rig."""
+    try:
+        content = read(path)
+    except (OSError, yaml.YAMLError):
+        return False
+    return isinstance(content, dict) and 'seed' in content
+
+
 def write(path: str, description: Dict) -> None:
     with open(path, 'w') as file:
         yaml.safe_dump(description, file, sort_keys=False)

@@ -17,10 +17,19 @@
 namespace wiimote_tracker::panel {
 namespace {
 
-constexpr float kDark = 0.35f;  // share of a text's brightness on a light background
+constexpr float kDark = 0.35f;  // share of a text's brightness on a light ground
 
 bool isLight(const Ogre::ColourValue& color) {
   return color.r + color.g + color.b > 1.5f;
+}
+
+/// The colour, darker on a light ground and brighter on a dark one where it would not be seen.
+Ogre::ColourValue readable(const Ogre::ColourValue& color, const Ogre::ColourValue& ground) {
+  if (isLight(color) != isLight(ground))
+    return color;
+  const float factor = isLight(ground) ? kDark : 1.0f / kDark;
+  const auto changed = [&](float part) { return std::min(factor * part, 1.0f); };
+  return {changed(color.r), changed(color.g), changed(color.b), color.a};
 }
 
 /// Height of a pixel at a place in the world [m]; 0 behind the camera.
@@ -33,8 +42,8 @@ float pixelAt(const Ogre::Vector3& place, const Ogre::Camera& camera, const Ogre
 
 }  // namespace
 
-/// Markers whose texts are as high as those of the window at any distance, and dark on a light
-/// background.
+/// Markers whose texts are as high as those of the window at any distance, dark on a light ground
+/// and light on a dark one.
 class ReadableMarkers : public rviz::MarkerArrayDisplay {
  public:
   void update(float wall_dt, float ros_dt) override {
@@ -56,10 +65,9 @@ class ReadableMarkers : public rviz::MarkerArrayDisplay {
         node->setScale(scale, scale, scale);
       // Not across what it names.
       text->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_ABOVE);
-      const Ogre::ColourValue color = text->getColor();
-      if (isLight(view.getBackgroundColour()) && isLight(color))
-        text->setColor(
-            Ogre::ColourValue(kDark * color.r, kDark * color.g, kDark * color.b, color.a));
+      const Ogre::ColourValue color = readable(text->getColor(), view.getBackgroundColour());
+      if (color != text->getColor())
+        text->setColor(color);
     }
     for (unsigned short i = 0; i < node->numChildren(); ++i)
       fitTexts(static_cast<Ogre::SceneNode*>(node->getChild(i)), camera, view);

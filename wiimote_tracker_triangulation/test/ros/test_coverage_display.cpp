@@ -40,7 +40,7 @@ TEST(CoverageDisplay, ColoursCellsByAccuracy) {
   EXPECT_LT(cubes.colors[3].g, 0.3f);  // red
   EXPECT_GT(array.markers[1].pose.position.z, 3.5);
   EXPECT_EQ(array.markers[1].text,
-            "so much;\nso well.\nRed: by fewer, green to yellow: 5 to 50 mm.");
+            "so much;\nso well.\nRed: seen by fewer than two.\nGreen to yellow: 5 to 50 mm.");
 }
 
 TEST(CoverageDisplay, ColoursAWalkByTheCamerasThatSawIt) {

@@ -102,7 +102,7 @@ visualization_msgs::MarkerArray coverageMarkers(const std::string& world_frame,
     cubes.colors.push_back(colorOf(cell));
   }
   array.markers = {cubes, textAbove(world_frame, "coverage", cells, cell_size,
-                                    sentence + " Red: by fewer, green to yellow: 5 to 50 mm.")};
+                                    sentence + " Red: seen by fewer than two. Green to yellow: 5 to 50 mm.")};
   return array;
 }
 

@@ -8,8 +8,8 @@ void ClockOffset::add(const Eigen::Vector2d& velocity,
                       const Eigen::Vector2d& forward,
                       const Eigen::Vector2d& residual,
                       double correction) {
-  // Spots; then all sums are halved, so that older ones count less: 5 to 10 s of one LED, in which
-  // a clock that drifts by 100 ppm changes by less than 1 ms.
+  // Spots of all LEDs; then all sums are halved, so that older ones count less: 5 to 10 s of one
+  // LED, in which a clock that drifts by 100 ppm changes by less than 1 ms, and less time of several.
   constexpr double kMost = 1000.0;
   if (count_ >= kMost) {
     for (double* sum : {&count_, &squared_velocity_, &squared_forward_, &squared_residual_,

@@ -54,7 +54,7 @@ def answer_lights(pipe):
 # A camera shows four of them, so that an LED may be lost to the cameras.
 @fault(room={'dark': True}, names_may_change=True)
 def sixteen_leds(room):
-    """13 more LEDs for 8 s; a camera shows the four nearest."""
+    """13 more LEDs for 8 s; a camera shows the four brightest."""
     with Helper(answer_lights) as helper:
         problems = [] if all(helper.ask(True)) else ['not all LEDs shone']
         yield LAST

@@ -63,4 +63,4 @@ def tell(run, title, outcome):
                f'{title}', headline=True)
     if 'tracked' in outcome.result:
         run.figure(f'{name}_tracked', 100.0 * outcome.result['tracked'], '%', len(in_order),
-                   note=f'tracked while in sight, {title}', headline=True)
+                   note=f'tracked while in sight, {title}')

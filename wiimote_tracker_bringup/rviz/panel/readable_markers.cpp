@@ -29,7 +29,7 @@ Ogre::ColourValue readable(const Ogre::ColourValue& color, const Ogre::ColourVal
     return color;
   const float factor = isLight(ground) ? kDark : 1.0f / kDark;
   const auto changed = [&](float part) { return std::min(factor * part, 1.0f); };
-  return {changed(color.r), changed(color.g), changed(color.b), color.a};
+  return Ogre::ColourValue(changed(color.r), changed(color.g), changed(color.b), color.a);
 }
 
 /// Height of a pixel at a place in the world [m]; 0 behind the camera.

@@ -9,7 +9,7 @@ void ClockOffset::add(const Eigen::Vector2d& velocity,
                       const Eigen::Vector2d& residual,
                       double correction) {
   // Spots of all LEDs; then all sums are halved, so that older ones count less: 5 to 10 s of one
-  // LED, in which a clock that drifts by 100 ppm changes by less than 1 ms, and less time of several.
+  // LED, less of several. A clock that drifts by 100 ppm changes by less than 1 ms in that time.
   constexpr double kMost = 1000.0;
   if (count_ >= kMost) {
     for (double* sum : {&count_, &squared_velocity_, &squared_forward_, &squared_residual_,

@@ -123,6 +123,16 @@ TEST(CornerCapture, AMovedLedIsRefused) {
   EXPECT_LT(capture.progress(), 1.0);
 }
 
+TEST(CornerCapture, ASpreadJustOverTheLimitIsToldFromIt) {
+  CornerCapture capture({"a", "b"}, CornerCaptureOptions(), 0.0);
+  // Ten spots, each 1.426 px beside their mean: spread 1.426 sqrt(10 / 9) = 1.503 px.
+  double side = 1.426;
+  const Source shaken = [&side](double) { return one(100.0 + (side = -side), 100.0); };
+  feed(&capture, {{"a", shaken}, {"b", still(300, 200, 2)}}, 0.0, 9.0);
+  ASSERT_EQ(capture.state(), State::kRefused);
+  EXPECT_SAYS(capture.message(), "spread over 1.503 px, at most 1.500 px are allowed");
+}
+
 TEST(CornerCapture, ASlowDriftWithinTheSpreadIsRefused) {
   CornerCaptureOptions options;
   CornerCapture capture({"a", "b"}, options, 0.0);

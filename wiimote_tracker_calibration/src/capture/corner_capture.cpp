@@ -16,7 +16,7 @@ constexpr double kHold = 0.5;  // [s]
 constexpr std::size_t kSamplesToJudge = 10;
 
 std::string pixels(double value) {
-  return format("%.3g px", value);
+  return format("%.3f px", value);
 }
 
 }  // namespace

@@ -100,8 +100,9 @@ geometry::Rig rigOf(const Report& report) {
   const bundle::Reconstruction& reconstruction = report.solution.reconstruction;
   const std::vector<bundle::Statistics> errors = errorsOf(reconstruction);
   // What is fitted to noise lessens the residuals, which are to tell it.
+  const double rms = bundle::statistics(reconstruction).rms;
   const double correction =
-      std::sqrt(2.0) * report.solution.pixel_stddev / bundle::statistics(reconstruction).rms;
+      rms > 0.0 ? std::sqrt(2.0) * report.solution.pixel_stddev / rms : 1.0;
   geometry::Rig rig;
   rig.world_frame = "world";
   rig.method = "self_calibrate";

@@ -101,10 +101,12 @@ class WaveProblem {
     options.apply_loss_function = false;
     double half_sum = 0.0;
     problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
-    return std::sqrt(2.0 * half_sum / freedom());
+    return std::sqrt(2.0 * half_sum / std::max(1.0, freedom_));
   }
 
-  double redundancy() const { return freedom() / (2.0 * static_cast<double>(matches_.size())); }
+  double redundancy() const {
+    return freedom_ < 1.0 ? 1.0 : freedom_ / (2.0 * static_cast<double>(matches_.size()));
+  }
 
   /// Of the corners and the priors.
   double chiSquared() {
@@ -136,8 +138,6 @@ class WaveProblem {
   }
 
  private:
-  double freedom() const { return std::max(1.0, freedom_); }
-
   void addMatches(const std::vector<Match>& matches, double loss_scale) {
     // The problem owns it.
     ceres::LossFunction* const loss =

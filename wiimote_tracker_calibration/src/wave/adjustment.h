@@ -22,7 +22,9 @@ struct Refinement {
   /// Square root of the mean whitened squared residual of the matches, corrected for the parameters
   /// that were fitted: 1 when the matches' standard deviations are right.
   double misfit;
-  /// Residuals of the matches beyond the number of those parameters, as a share of all.
+  /// Residuals of the matches beyond the number of those parameters, as a share of all. 1 where
+  /// there are none: the prior of the accelerations then determines a part of the path, which is
+  /// not counted.
   double redundancy;
 };
 

@@ -1,0 +1,147 @@
+// What a wave is refused for, and the cause that the refusal names.
+#include "wave_trial.h"
+#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
+
+#include "expect_says.h"
+#include "wave_scenes.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace wiimote_tracker::wave {
+namespace {
+
+TEST(WaveRefuses, NothingThatGivesScale) {
+  WaveScene scene;
+  scene.square = false;
+  const SimulatedWave wave = simulateWave(scene, 1);
+  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "the scale is not determined");
+}
+
+TEST(WaveRefuses, OneCamera) {
+  WaveScene scene;
+  scene.camera_count = 1;
+  EXPECT_SAYS(refusalOf(simulateWave(scene, 1).recording, optionsFor(scene)),
+                 "one camera alone");
+}
+
+TEST(WaveRefuses, TooFewImages) {
+  WaveScene scene;
+  SimulatedWave wave = simulateWave(scene, 1);
+  wave.recording.cameras[2].frames.resize(60);
+  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "camera_3 saw the LED in");
+}
+
+TEST(WaveRefuses, ShortRecording) {
+  WaveScene scene;
+  scene.duration = 1.8;
+  EXPECT_SAYS(refusalOf(simulateWave(scene, 1).recording, optionsFor(scene)), "15 s or more");
+}
+
+TEST(WaveRefuses, CamerasThatShareNothing) {
+  WaveScene scene;
+  SimulatedWave wave = simulateWave(scene, 1);
+  wave.recording.cameras[3].sightings.corners = {};
+  for (Frame& frame : wave.recording.cameras[3].frames)
+    frame.stamp += 60.0;
+  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)),
+                 "camera_4 and the other cameras hardly ever saw the LED at the same time");
+}
+
+TEST(WaveRefuses, SlowLed) {
+  WaveScene scene;
+  std::mt19937_64 random(1);
+  SimulatedPath path(0.0, random);
+  path.pace = 0.06;
+  path.reach *= 0.6;
+  scene.duration = 30.0;
+  scene.rate = 40.0;
+  const SimulatedWave wave = simulateWave(scene, path, random);
+  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "wave faster");
+}
+
+TEST(WaveRefuses, LedInAPlaneOrOnALine) {
+  WaveScene scene = shortScene();
+  std::mt19937_64 random(1);
+  SimulatedPath path(0.0, random);
+  path.reach.y() = 0.002;
+  EXPECT_SAYS(refusalOf(simulateWave(scene, path, random).recording, optionsFor(scene)),
+                 "in a plane only");
+  path.reach.z() = 0.002;
+  EXPECT_SAYS(refusalOf(simulateWave(scene, path, random).recording, optionsFor(scene)),
+                 "along a line only");
+}
+
+TEST(WaveRefuses, MirroredImage) {
+  WaveScene scene = shortScene();
+  SimulatedWave wave = simulateWave(scene, 1);
+  const auto mirror = [](Eigen::Vector2d* pixel) { pixel->x() = 1023.0 - pixel->x(); };
+  CameraRecording& camera = wave.recording.cameras[1];
+  for (Frame& frame : camera.frames)
+    std::for_each(frame.spots.begin(), frame.spots.end(), [&](auto& spot) { mirror(&spot); });
+  // The square was captured before: only the wave is mirrored.
+  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "mirrored");
+  for (auto& corner : camera.sightings.corners)
+    mirror(&*corner);
+  EXPECT_NE(refusalOf(wave.recording, optionsFor(scene)), "not refused");
+  camera.sightings.corners = {};
+  EXPECT_NE(refusalOf(wave.recording, optionsFor(scene)), "not refused");
+}
+
+TEST(WaveRefuses, CameraThatWasMovedAfterTheSquare) {
+  WaveScene scene;
+  SimulatedWave wave = simulateWave(scene, 1);
+  WaveScene moved = scene;
+  moved.cameras = scene.poses();
+  moved.cameras[2].linear() = moved.cameras[2].linear() *
+                              Eigen::AngleAxisd(0.06, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  const SimulatedWave after = simulateWave(moved, 1);
+  wave.recording.cameras[2].frames = after.recording.cameras[2].frames;
+  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "camera_3");
+}
+
+TEST(WaveRefuses, LensThatCannotBe) {
+  WaveScene scene = shortScene();
+  scene.rate = 100.0;
+  scene.square = false;
+  scene.camera_count = 2;
+  scene.length = 0.5;
+  scene.uncertainty.focal = 0.005;
+  SimulatedWave wave = simulateWave(scene, 1);
+  for (CameraRecording& camera : wave.recording.cameras) {
+    camera.sightings.intrinsics.fx *= 1.08;
+    camera.sightings.intrinsics.fy *= 1.08;
+  }
+  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)),
+                 "no lens near its starting intrinsics");
+}
+
+TEST(WaveRefuses, ValuesOutOfRange) {
+  WaveScene scene;
+  SimulatedWave wave = simulateWave(scene, 1);
+  WaveOptions options = optionsFor(scene);
+  options.knot_spacing = 0.2;
+  EXPECT_SAYS(refusalOf(wave.recording, options), "knot_spacing");
+  options = optionsFor(scene);
+  options.pixel = std::nan("");
+  EXPECT_SAYS(refusalOf(wave.recording, options), "pixel");
+  options = optionsFor(scene);
+  wave.recording.wand = Wand{-0.5};
+  EXPECT_SAYS(refusalOf(wave.recording, options), "wand.length");
+  wave.recording.wand.reset();
+  wave.recording.cameras[1].frames[10].stamp = wave.recording.cameras[1].frames[9].stamp;
+  EXPECT_SAYS(refusalOf(wave.recording, options), "camera_2");
+  wave = simulateWave(scene, 1);
+  wave.recording.cameras[1].frames.back().stamp += 1e6;
+  EXPECT_SAYS(refusalOf(wave.recording, options), "same clock");
+  wave = simulateWave(scene, 1);
+  wave.recording.cameras[1].sightings.name = "camera_1";
+  EXPECT_SAYS(refusalOf(wave.recording, options), "rename one");
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::wave

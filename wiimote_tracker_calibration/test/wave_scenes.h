@@ -1,0 +1,34 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_WAVE_SCENES_H
+#define WIIMOTE_TRACKER_CALIBRATION_TEST_WAVE_SCENES_H
+
+#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
+
+#include "wiimote_tracker_calibration/wave/solve_wave.h"
+
+#include <wiimote_tracker_triangulation/geometry/error.h>
+
+#include <string>
+
+namespace wiimote_tracker::wave {
+
+/// As much data as most tests need; a quarter of the work of the default.
+inline WaveScene shortScene() {
+  WaveScene scene;
+  scene.duration = 8.0;
+  scene.rate = 60.0;
+  return scene;
+}
+
+/// What solving says when it refuses.
+inline std::string refusalOf(const Recording& recording, const WaveOptions& options) {
+  try {
+    solveWave(recording, options);
+  } catch (const geometry::Error& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+}  // namespace wiimote_tracker::wave
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_WAVE_SCENES_H

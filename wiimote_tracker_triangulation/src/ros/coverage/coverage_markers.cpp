@@ -101,8 +101,9 @@ visualization_msgs::MarkerArray coverageMarkers(const std::string& world_frame,
     cubes.points.push_back(pointOf(cell.center));
     cubes.colors.push_back(colorOf(cell));
   }
-  array.markers = {cubes, textAbove(world_frame, "coverage", cells, cell_size,
-                                    sentence + " Red: seen by fewer than two. Green to yellow: 5 to 50 mm.")};
+  array.markers = {
+      cubes, textAbove(world_frame, "coverage", cells, cell_size,
+                       sentence + " Red: seen by fewer than two. Green to yellow: 5 to 50 mm.")};
   return array;
 }
 

@@ -5,8 +5,8 @@
 #include "expect_says.h"
 #include "wave_scenes.h"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,7 @@ TEST(WaveRefuses, NothingThatGivesScale) {
 TEST(WaveRefuses, OneCamera) {
   WaveScene scene;
   scene.camera_count = 1;
-  EXPECT_SAYS(refusalOf(simulateWave(scene, 1).recording, optionsFor(scene)),
-                 "one camera alone");
+  EXPECT_SAYS(refusalOf(simulateWave(scene, 1).recording, optionsFor(scene)), "one camera alone");
 }
 
 TEST(WaveRefuses, TooFewImages) {
@@ -49,7 +48,7 @@ TEST(WaveRefuses, CamerasThatShareNothing) {
   for (Frame& frame : wave.recording.cameras[3].frames)
     frame.stamp += 60.0;
   EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)),
-                 "camera_4 and the other cameras hardly ever saw the LED at the same time");
+              "camera_4 and the other cameras hardly ever saw the LED at the same time");
 }
 
 TEST(WaveRefuses, SlowLed) {
@@ -70,10 +69,10 @@ TEST(WaveRefuses, LedInAPlaneOrOnALine) {
   SimulatedPath path(0.0, random);
   path.reach.y() = 0.002;
   EXPECT_SAYS(refusalOf(simulateWave(scene, path, random).recording, optionsFor(scene)),
-                 "in a plane only");
+              "in a plane only");
   path.reach.z() = 0.002;
   EXPECT_SAYS(refusalOf(simulateWave(scene, path, random).recording, optionsFor(scene)),
-                 "along a line only");
+              "along a line only");
 }
 
 TEST(WaveRefuses, MirroredImage) {
@@ -116,8 +115,7 @@ TEST(WaveRefuses, LensThatCannotBe) {
     camera.sightings.intrinsics.fx *= 1.08;
     camera.sightings.intrinsics.fy *= 1.08;
   }
-  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)),
-                 "no lens near its starting intrinsics");
+  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "no lens near its starting intrinsics");
 }
 
 TEST(WaveRefuses, ValuesOutOfRange) {

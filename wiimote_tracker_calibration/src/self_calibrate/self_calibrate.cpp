@@ -101,8 +101,7 @@ geometry::Rig rigOf(const Report& report) {
   const std::vector<bundle::Statistics> errors = errorsOf(reconstruction);
   // What is fitted to noise lessens the residuals, which are to tell it.
   const double rms = bundle::statistics(reconstruction).rms;
-  const double correction =
-      rms > 0.0 ? std::sqrt(2.0) * report.solution.pixel_stddev / rms : 1.0;
+  const double correction = rms > 0.0 ? std::sqrt(2.0) * report.solution.pixel_stddev / rms : 1.0;
   geometry::Rig rig;
   rig.world_frame = "world";
   rig.method = "self_calibrate";

@@ -16,8 +16,8 @@ namespace wiimote_tracker::session {
 enum class Grade { kGood = 0, kUsable = 1, kRedo = 2 };
 
 /// How well one camera was calibrated. Fields as in CameraVerdict.msg: standard deviations are 0
-/// where held fixed, NaN is unknown. The residuals of a wave and of self_calibrate are corrected for
-/// the parameters that were fitted.
+/// where held fixed, NaN is unknown. The residuals of a wave and of self_calibrate are corrected
+/// for the parameters that were fitted.
 struct CameraVerdict {
   std::string name;
   double residual_px = 0.0;             ///< RMS over both axes together [px].

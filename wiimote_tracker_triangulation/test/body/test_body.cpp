@@ -144,7 +144,7 @@ TEST(BodyTracker, FindsTheBodyAgainSoonAfterItWasHidden) {
 TEST(BodyTracker, IsNotTurnedWronglyAfterItWasHidden) {
   tracking::test::SceneOptions options = halfAPixel();
   options.hidden = [](std::size_t, std::size_t, double t) { return std::fmod(t, 1.0) > 0.9; };
-  FollowedBody follow(paperRig(), fourLeds(), shaken, options, 25);
+  FollowedBody follow(paperRig(), fourLeds(), test::shaken, options, 25);
   int tracked = 0;
   int wrong = 0;
   for (int i = 0; i < 4 * 100 * 20; ++i) {

@@ -4,7 +4,6 @@
 #include "association/shared_views.h"
 #include "led_groups.h"
 #include "pose_from_labels.h"
-#include "pose_uncertainty.h"
 
 #include <algorithm>
 #include <cmath>
@@ -222,6 +221,32 @@ void BodyTracker::follow(std::size_t camera,
     if (const LedGroup* group = groups.best(column->led, pixels[s], has_spot))
       update(column->body, *group, pixels[s], view, &image);
   }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b] && isSeen(b, image))
+      bodies_[b]->last_observed = time;
+  }
+}
+
+/// Whether an image shows the body. One spot alone could be any light, unless the newest images of
+/// all cameras show three of the body's LEDs.
+bool BodyTracker::isSeen(std::size_t body, const LastImage& image) const {
+  std::array<bool, kMaximumLeds> seen{};
+  const auto countSpots = [&](const LastImage& shown) {
+    int spots = 0;
+    for (const BodySpot& spot : shown.taken) {
+      if (spot.body != body || spot.is_further)
+        continue;
+      seen[spot.led] = true;
+      ++spots;
+    }
+    return spots;
+  };
+  const int spots = countSpots(image);
+  for (const LastImage& other : images_) {
+    if (image.time - other.time <= options_.tracked_time)
+      countSpots(other);
+  }
+  return spots > 1 || (spots == 1 && std::count(seen.begin(), seen.end(), true) > 2);
 }
 
 void BodyTracker::update(std::size_t index,
@@ -232,11 +257,10 @@ void BodyTracker::update(std::size_t index,
   Body& body = *bodies_[index];
   const double residual = (pixel - group.prediction.pixel).norm();
   body.filter.update(group.prediction, pixel, group.pixel_stddev, inertial_[index]);
-  body.last_observed = image->time;
   for (std::size_t i = 0; i < group.count; ++i) {
     body.led_times[group.leds[i]] = image->time;
-    image->taken.push_back(
-        {index, group.leds[i], residual, residual * group.prediction.depth / camera.intrinsics.fx});
+    image->taken.push_back({index, group.leds[i], i > 0, residual,
+                            residual * group.prediction.depth / camera.intrinsics.fx});
   }
 }
 
@@ -331,59 +355,6 @@ void BodyTracker::startAt(std::size_t body, const BodyPose& pose, double time) {
     started.first_seen = bodies_[body]->first_seen;
   started.led_times.fill(-std::numeric_limits<double>::infinity());
   bodies_[body] = started;
-}
-
-void BodyTracker::estimate() {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!bodies_[b]) {
-      estimates_[b].reset();
-      continue;
-    }
-    const Body& body = *bodies_[b];
-    BodyFilter filter = body.filter;
-    filter.predict(time_, inertial_[b]);
-    const PoseState& now = filter.state();
-    if (!estimates_[b])
-      estimates_[b].emplace();
-    BodyEstimate& estimate = *estimates_[b];
-    estimate.tracked = time_ - body.last_observed <= options_.tracked_time;
-    estimate.inertial = filter.isInertial();
-    estimate.world_from_body = now.worldFromBody();
-    estimate.covariance = now.covariance;
-    estimate.velocity = now.velocity;
-    estimate.angular_velocity = now.angular_velocity;
-    estimate.first_seen = body.first_seen;
-    estimate.last_observed = body.last_observed;
-    estimateLeds(b, &estimate);
-    if (const auto calibration = calibrationCovariance(rig_, constellations_[b], estimate))
-      estimate.covariance.topLeftCorner<6, 6>() += *calibration;
-  }
-}
-
-void BodyTracker::estimateLeds(std::size_t body, BodyEstimate* estimate) const {
-  const Constellation& constellation = constellations_[body];
-  estimate->leds.resize(constellation.leds.size());
-  for (std::size_t i = 0; i < constellation.leds.size(); ++i) {
-    LedEstimate& led = estimate->leds[i];
-    led.position = estimate->world_from_body * constellation.leds[i];
-    led.last_observed = bodies_[body]->led_times[i];
-    led.cameras.clear();
-    led.residual = led.deviation = std::numeric_limits<double>::quiet_NaN();
-  }
-  for (std::size_t c = 0; c < images_.size(); ++c) {
-    if (time_ - images_[c].time > options_.tracked_time)
-      continue;
-    for (const BodySpot& spot : images_[c].taken) {
-      LedEstimate& led = estimate->leds[spot.led];
-      if (spot.body != body || images_[c].time > led.last_observed)
-        continue;
-      led.cameras.push_back(c);
-      if (images_[c].time == led.last_observed) {
-        led.residual = spot.residual;
-        led.deviation = spot.deviation;
-      }
-    }
-  }
 }
 
 }  // namespace wiimote_tracker::body

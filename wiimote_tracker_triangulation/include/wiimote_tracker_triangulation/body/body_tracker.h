@@ -142,6 +142,7 @@ class BodyTracker {
   struct BodySpot {
     std::size_t body;
     std::size_t led;
+    bool is_further;   // merged with the one before
     double residual;   // [px]
     double deviation;  // [m]
   };
@@ -168,6 +169,7 @@ class BodyTracker {
               const Eigen::Vector2d& pixel,
               const geometry::Camera& camera,
               LastImage* image);
+  bool isSeen(std::size_t body, const LastImage& image) const;
   void dropLost(double time);
   void find(double time);
   bool start(std::size_t body,

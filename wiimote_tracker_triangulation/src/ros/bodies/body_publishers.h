@@ -23,7 +23,7 @@ class BodyPublishers {
   /// Advertises the topics of these bodies.
   void setBodies(const std::vector<body::Constellation>& bodies);
 
-  /// @param bridged for each body, whether its topics go on while it is predicted.
+  /// @param bridged for each body of the message, whether its topics go on while it is predicted.
   void publish(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
                const std::vector<bool>& bridged);
 

@@ -1,0 +1,111 @@
+"""What track_bag refuses: in one sentence, with status 1, and without an output bag."""
+
+import resource
+import signal
+
+import rosbag
+
+from program import arrays, read, recorded, refused, run, track, write
+
+
+def test_no_rig(tmp_path):
+    write(tmp_path / 'in.bag', recorded()[1:])
+    assert 'holds no rig: name a saved one with --rig' in refused(
+        tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
+
+
+def test_a_bag_of_another_version_is_refused_in_words(bag, tmp_path):
+    with rosbag.Bag(str(tmp_path / 'in.bag'), 'w') as old:
+        for topic, message, time in read(bag):
+            definition = message._full_text.replace('uint64 frame\n', '')
+            old.write(topic, message, time, connection_header={
+                'topic': topic, 'type': message._type, 'message_definition': definition,
+                'md5sum': '0' * 32 if topic.endswith('/ir_blobs') else message._md5sum})
+    sentence = refused(tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
+    assert 'another version of wiimote_tracker_msgs/IrBlobArray: convert' in sentence
+
+
+def test_no_images(tmp_path):
+    write(tmp_path / 'in.bag', recorded()[:1])
+    assert 'holds no images' in refused(tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
+
+
+def test_no_such_file_and_no_bag(tmp_path):
+    assert 'name a bag' in refused(tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
+    (tmp_path / 'in.bag').write_text('not a bag')
+    assert 'cannot be read as a bag' in refused(tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
+
+
+def test_a_recording_that_was_cut_off(bag, tmp_path):
+    content = bytearray(bag.read_bytes())
+    # As while recording: the header does not say yet where the index is.
+    start = content.index(b'index_pos=') + len(b'index_pos=')
+    content[start:start + 8] = bytes(8)
+    (tmp_path / 'cut.bag').write_bytes(content)
+    assert 'repair it with rosbag reindex' in refused(tmp_path, tmp_path / 'cut.bag',
+                                                      tmp_path / 'out.bag')
+
+
+def test_the_same_file_twice(bag, tmp_path):
+    before = bag.read_bytes()
+    assert 'write to another one' in refused(tmp_path, bag, bag)
+    (tmp_path / 'link.bag').symlink_to(bag)
+    assert 'write to another one' in refused(tmp_path, bag, tmp_path / 'link.bag')
+    assert bag.read_bytes() == before
+
+
+def test_rigs_of_two_trackers(tmp_path):
+    write(tmp_path / 'in.bag', [('/%s%s' % (room, t), m, s) for room in ('a', 'b')
+                                for t, m, s in recorded()])
+    assert 'say whose with --namespace' in refused(tmp_path, tmp_path / 'in.bag',
+                                                   tmp_path / 'out.bag')
+    track(tmp_path / 'in.bag', tmp_path / 'out.bag', '--namespace', 'b')
+    assert len(arrays(tmp_path / 'out.bag', '/b/points')) > 300
+    assert len(arrays(tmp_path / 'out.bag', '/a/points')) == 0
+
+
+def test_an_unusable_rig(tmp_path):
+    entries = recorded()
+    entries[0][1].cameras[0].fx = -1.0
+    write(tmp_path / 'in.bag', entries)
+    assert 'no rig can be used' in refused(tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
+
+
+def test_a_rig_of_other_cameras(tmp_path):
+    write(tmp_path / 'in.bag', [(t.replace('camera', 'foreign'), m, s) for t, m, s in recorded()])
+    assert 'no image is of a camera of the rig' in refused(tmp_path, tmp_path / 'in.bag',
+                                                           tmp_path / 'out.bag')
+
+
+def test_parameters_that_the_node_would_refuse(bag, tmp_path):
+    for text, words in [('lables: [led]\n', 'unknown parameter'), ('mode: guess\n', 'one of'),
+                        ('zones: {hysteresis: -1}\n', 'zones/hysteresis is -1'),
+                        ('a: [\n', 'cannot be read as YAML'), ('mode:\n', 'without a value')]:
+        (tmp_path / 'p.yaml').write_text(text)
+        errors = refused(tmp_path, bag, tmp_path / 'out.bag', '--params', tmp_path / 'p.yaml')
+        assert words in errors and 'p.yaml' in errors
+    assert 'none.yaml' in refused(tmp_path, bag, tmp_path / 'out.bag', '--params', 'none.yaml')
+
+
+def test_a_disk_that_is_full(bag, tmp_path):
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (200000, 200000))
+    for threads in (1, 3):
+        errors = refused(tmp_path, bag, tmp_path / 'out.bag', '--threads', threads,
+                         preexec_fn=limit, restore_signals=False)
+        assert 'make room there' in errors
+
+
+def test_a_folder_that_cannot_be_created(bag, tmp_path):
+    (tmp_path / 'file').write_text('')
+    assert 'choose another place' in refused(tmp_path, bag, tmp_path / 'file' / 'out.bag')
+
+
+def test_usage():
+    for arguments in [(), ('a.bag',), ('a.bag', 'b.bag', 'c.bag'), ('a.bag', 'b.bag', '--mode'),
+                      ('a.bag', 'b.bag', '--threads', '0'), ('a.bag', 'b.bag', '--fast')]:
+        status, _, errors = run(*arguments)
+        assert status == 2 and 'usage: track_bag' in errors
+    status, output, _ = run('--help')
+    assert status == 0 and 'usage: track_bag' in output

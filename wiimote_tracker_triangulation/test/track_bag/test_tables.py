@@ -1,0 +1,93 @@
+"""The tables that track_bag writes hold what its bag holds."""
+
+import csv
+import struct
+
+import numpy as np
+import pytest
+
+from program import read, recorded, run, track, write
+from recording import trigger
+
+
+def csv_rows(path):
+    with open(str(path), newline='') as stream:
+        return list(csv.DictReader(stream))
+
+
+def expected_rows(out):
+    """(stamp [ns], triggered, point) in the order of the bag."""
+    rows = []
+    for topic, array, _ in read(out, '/points', '/triggered_points'):
+        rows += [(array.header.stamp.to_nsec(), topic == '/triggered_points', p)
+                 for p in array.points]
+    return rows
+
+
+def same(a, b):
+    """Bit for bit, but for the kind of NaN."""
+    return struct.pack('<d', a) == struct.pack('<d', b) or (a != a and b != b)
+
+
+def test_csv_holds_exactly_what_the_bag_holds(tmp_path):
+    write(tmp_path / 'in.bag', recorded() + [('/trigger', trigger(1.0), 1.02)])
+    track(tmp_path / 'in.bag', tmp_path / 'out.bag', '--csv', tmp_path / 'out.csv')
+    rows = csv_rows(tmp_path / 'out.csv')
+    expected = expected_rows(tmp_path / 'out.bag')
+    assert len(rows) == len(expected) > 300
+    # A trigger's row may stand before or after the others of the same image.
+    key = lambda r: (r[0], r[1], r[2].id)
+    rows.sort(key=lambda r: (int(r['time [s]'].replace('.', '')), r['triggered'] == '1',
+                             int(r['id'])))
+    assert [r['triggered'] for r in rows].count('1') == 1
+    states = ['tentative', 'tracked', 'predicted', 'lost']
+    for row, (stamp, triggered, point) in zip(rows, sorted(expected, key=key)):
+        assert int(row['time [s]'].replace('.', '')) == stamp
+        assert (row['triggered'] == '1') == triggered
+        assert (int(row['id']), row['label'], row['state']) == \
+            (point.id, point.label, states[point.state])
+        assert same(float(row['label_confidence']), point.label_confidence)
+        assert row['label_since [s]'] == 'nan'
+        for axis in 'xyz':
+            assert same(float(row['%s [m]' % axis]), getattr(point.position, axis))
+            assert same(float(row['v%s [m/s]' % axis]), getattr(point.velocity, axis))
+        assert same(float(row['cov_xz [m^2]']), point.position_covariance[2])
+        assert same(float(row['vcov_yz [m^2/s^2]']), point.velocity_covariance[5])
+        assert same(float(row['residual [px]']), point.residual)
+        assert same(float(row['age [s]']), point.age)
+
+
+def test_matlab_file_holds_exactly_what_the_bag_holds(tmp_path):
+    io = pytest.importorskip('scipy.io')
+    write(tmp_path / 'in.bag', recorded() + [('/trigger', trigger(1.0), 1.02)])
+    status, _, errors = run(tmp_path / 'in.bag', tmp_path / 'out.bag', '--mat', tmp_path / 'out.mat')
+    if 'built without matio' in errors:
+        pytest.skip('built without matio')
+    assert status == 0, errors
+    found = io.loadmat(str(tmp_path / 'out.mat'))
+    key = lambda r: (r[0], r[1], r[2].id)
+    expected = sorted(expected_rows(tmp_path / 'out.bag'), key=key)
+    order = sorted(range(len(expected)),
+                   key=lambda i: (found['stamp'][i, 0], found['triggered'][i, 0],
+                                  found['id'][i, 0]))
+    assert found['position'].shape == (len(expected), 3)
+    labels = [found['labels'][i, 0][0] for i in range(len(found['labels']))]
+    states = [found['states'][i, 0][0] for i in range(len(found['states']))]
+    words = ['tentative', 'tracked', 'predicted', 'lost']
+    for i, (stamp, triggered, point) in zip(order, expected):
+        assert found['stamp'][i, 0] == stamp
+        assert abs(found['time'][i, 0] - 1e-9 * stamp) < 1e-6
+        assert found['triggered'][i, 0] == triggered
+        assert found['id'][i, 0] == point.id
+        assert labels[found['label'][i, 0] - 1] == point.label
+        assert states[found['state'][i, 0] - 1] == words[point.state]
+        assert same(found['label_confidence'][i, 0], point.label_confidence)
+        assert found['label_since'][i, 0] == point.label_since.to_nsec()
+        for axis, name in enumerate('xyz'):
+            assert same(found['position'][i, axis], getattr(point.position, name))
+            assert same(found['velocity'][i, axis], getattr(point.velocity, name))
+        covariance = np.array(point.position_covariance).reshape(3, 3)
+        assert np.array_equal(found['position_covariance'][:, :, i], covariance)
+        assert found['rays_used'][i, 0] == point.rays_used
+        assert same(found['residual'][i, 0], point.residual)
+        assert found['last_observed'][i, 0] == point.last_observed.to_nsec()

@@ -1,0 +1,67 @@
+"""What calibrate says is next, what SPACE requests, and how long all took."""
+
+import pytest
+from wiimote_tracker_msgs.msg import CalibrationStatus
+
+from fakes import guide_at, status
+from guide import commands
+from guide.guide import Guide
+
+
+@pytest.mark.parametrize('wanted, word', [
+    ('learn_masks', 'masks'), ('check_connection', 'connection'), ('start', 'start'),
+    ('capture_corner', 'capture'), ('start_wave', 'wave'), ('stop_wave', 'wave'),
+    ('solve', 'solve'), ('save', 'save')])
+def test_space_requests_what_the_node_wants(wanted, word):
+    step = CalibrationStatus.WAVING if wanted == 'stop_wave' else CalibrationStatus.READY
+    guide = guide_at(status(step, wanted, 'do it'))
+    advice = guide.advice()
+    assert advice.word == word and advice.sentence.startswith('Do this. SPACE: do it')
+    command = commands.find(commands.RIG, word)
+    assert command.build(guide.status, advice.arguments).name == wanted
+
+
+def test_where_there_is_nothing_to_request_space_does_nothing():
+    for request in ('', 'of_a_newer_node'):
+        assert guide_at(status(CalibrationStatus.SAVED, request)).advice().word is None
+    wand = guide_at(status(CalibrationStatus.READY, 'start_wave', 'begin', corners_needed=0)).advice()
+    assert wand.word is None and wand.sentence == 'Do this. w asks for the length.'
+
+
+def test_space_starts_with_the_side_that_was_given():
+    start = status(CalibrationStatus.IDLE, 'start', 'start')
+    advice = guide_at(start, side=['2.5', '1']).advice()
+    assert advice.arguments == ['2.5', '1']
+    assert advice.sentence == 'Do this. SPACE: start with 2.5 x 1 m.'
+    assert guide_at(start).advice().sentence == 'Do this. SPACE: start; n asks for the side.'
+
+
+def test_a_bad_corner_is_to_be_taken_again():
+    guide = guide_at(status(CalibrationStatus.SOLVED, 'capture_corner', 'capture corner 3 again',
+                            next_corner=2))
+    assert guide.advice().word == 'capture' and guide.advice().arguments == ['3']
+
+
+@pytest.mark.parametrize('step, request_, key', [
+    ('IDLE', 'learn_masks', 'k'), ('COMPLETE', 'start_wave', 's'), ('SOLVED', '', 'v'),
+    ('SOLVED', 'capture_corner', 'v'), ('SAVED', '', 'c')])
+def test_the_key_of_another_way_on_is_named(step, request_, key):
+    sentence = guide_at(status(getattr(CalibrationStatus, step), request_, 'do it')).advice().sentence
+    assert f' {key} ' in sentence
+    assert commands.find(commands.RIG, key) is not None
+
+
+def test_it_says_how_long_it_took():
+    guide = Guide(100.0)
+    assert guide.took(160.4) == 'Nothing was calibrated and saved; this took 1 min 0 s.'
+    guide.on_status(status(CalibrationStatus.READY, corners_captured=3), 160.4)
+    assert guide.took(160.4).endswith('The node keeps 3 corners: calibrate goes on with them.')
+    guide.on_answer('start', True, '', 110.0)
+    guide.on_status(status(CalibrationStatus.READY, corners_captured=3), 120.0)
+    guide.on_status(status(CalibrationStatus.COMPLETE, corners_captured=4), 150.0)
+    guide.on_status(status(CalibrationStatus.SOLVED, corners_captured=4), 170.0)
+    assert guide.elapsed(171.0) == 61.0
+    guide.on_answer('save', True, '', 180.0)
+    guide.on_answer('check', True, '', 200.0)
+    assert guide.elapsed(999.0) == 70.0
+    assert guide.took(999.0) == 'Calibrated and saved in 1 min 10 s, 40 s of it for the square.'

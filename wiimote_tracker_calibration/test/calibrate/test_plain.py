@@ -1,0 +1,76 @@
+"""The words of a script, carried out one after the other."""
+
+import io
+import time
+
+from wiimote_tracker_msgs.msg import CalibrationStatus
+
+from fakes import FakeNode, dialogue_with, status
+from guide import commands
+from guide.dialogue import Dialogue
+from guide.guide import Guide
+from guide.plain import Plain
+
+
+def plain(text, node, *statuses):
+    """Exit count of failures and all that was said."""
+    said = []
+    dialogue = dialogue_with(node, *statuses)
+    face = Plain(dialogue, said.append, io.StringIO(text))
+    dialogue.guide.on_status(statuses[-1], time.monotonic())
+    face.run()
+    return face.failures, said
+
+
+def test_plain_words_are_carried_out_one_after_the_other():
+    node = FakeNode({})
+    failures, said = plain('undo # a remark\n\nstart 2.5\nquit\nsolve\n', node,
+                           status(CalibrationStatus.READY, message='ready'))
+    assert [r.name for r in node.sent] == ['undo', 'start']
+    assert failures == 0
+    assert 'undo done' in said and 'start done' in said
+    assert any('ready' in line for line in said)
+
+
+def test_plain_counts_what_was_refused_and_what_was_not_understood():
+    node = FakeNode({'solve': (False, 'only 2 of 4 corners are captured')})
+    failures, said = plain('solve\ncheck here\nfoo\nwait 0\n', node,
+                           status(CalibrationStatus.READY, missing=['corner 3']))
+    assert failures == 4
+    assert 'refused: only 2 of 4 corners are captured' in said
+    assert 'waited for 0 s; corner 3' in said
+
+
+def test_plain_next_without_a_node_fails_and_does_not_hang():
+    said = []
+    guide = Guide(-10.0)
+    face = Plain(Dialogue(guide, FakeNode(), commands.RIG, guide.advice), said.append,
+                 io.StringIO('next\n'))
+    face.run()
+    assert face.failures == 1
+    assert 'Waiting for the calibration node.' in said
+
+
+def test_plain_waits_until_nothing_is_missing():
+    node = FakeNode({})
+    dialogue = dialogue_with(node, status(CalibrationStatus.WAVING, missing=['3 s']))
+    said = []
+
+    def say(text):
+        said.append(text)
+        if text == 'missing: 1 s':
+            node.events.put(('status', status(CalibrationStatus.WAVING, message='enough')))
+
+    # After an answer, one status may be from before it.
+    node.events.put(('answer', 'wave', True, 'recording'))
+    node.events.put(('status', status(CalibrationStatus.COMPLETE)))
+    face = Plain(dialogue, say, io.StringIO('wait 30\nsolve\n'))
+
+    def tell_more(text, say=say):
+        say(text)
+        if text == 'recording':
+            node.events.put(('status', status(CalibrationStatus.WAVING, missing=['1 s'])))
+    face._say = tell_more
+    face.run()
+    assert face.failures == 0
+    assert said.index('missing: 1 s') < said.index('  0 %  enough') < said.index('solve done')

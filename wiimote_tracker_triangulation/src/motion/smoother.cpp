@@ -121,7 +121,7 @@ class Smoother {
       : options_(options),
         observations_(observations),
         places_(places),
-        backwards_(startBackwards(static_cast<Number>(observations.size()) - 1)) {}
+        backwards_(start(static_cast<Number>(observations.size()) - 1, kBackwards)) {}
 
   std::vector<KinematicState> run() {
     std::vector<KinematicState> states(places_.size());
@@ -130,8 +130,8 @@ class Smoother {
     for (auto chunk = chunks_.rbegin(); chunk != chunks_.rend(); ++chunk) {
       smooth(*chunk, end, &states);
       end = chunk->first;
-      if (chunk->is_new)  // without the observation that did not fit
-        backwards_ = startBackwards(chunk->forwards.next - 2);
+      if (chunk->misfit)
+        backwards_ = start(*chunk->misfit - 1, kBackwards);
     }
     return states;
   }
@@ -139,43 +139,53 @@ class Smoother {
  private:
   using Number = std::ptrdiff_t;
 
-  /// A filter and the number of its next observation.
+  enum Direction : Number { kBackwards = -1, kForwards = 1 };
+
+  /// A filter, in its own direction of time, and the numbers of its first and next observation.
   struct Run {
     MotionFilter filter;
+    Number first;
     Number next;
+
+    bool hasSeen() const { return next != first; }
   };
   struct Chunk {
-    std::size_t first;  // place
-    Run forwards;       // before that place
-    bool is_new;        // the filter has just been started
+    std::size_t first;             // place
+    Run forwards;                  // before that place
+    std::optional<Number> misfit;  // the observation at which it started anew
   };
 
-  Run startAt(double time, const Eigen::Vector3d& position, Number next) const {
-    return {MotionFilter(options_, time, position,
-                         kStartStddev * kStartStddev * Eigen::Matrix3d::Identity()),
-            next};
+  bool exists(Number number) const {
+    return number >= 0 && number < static_cast<Number>(observations_.size());
   }
 
-  /// The last observation up to a number shortly before which another camera saw the LED. One
-  /// camera alone does not tell how far away to start.
-  Number lastLocated(Number number) const {
-    for (; number >= 0; --number) {
-      const Observation& last = observations_[number];
-      for (Number i = number - 1; i >= 0 && last.time - observations_[i].time < kTogether; --i) {
-        if (observations_[i].camera != last.camera)
+  /// The first observation from a number on soon after which, in the direction, another camera saw
+  /// the LED. One camera alone does not tell how far away to start.
+  Number located(Number number, Direction direction) const {
+    for (; exists(number); number += direction) {
+      const Observation& first = observations_[number];
+      for (Number i = number + direction; exists(i); i += direction) {
+        if (std::abs(observations_[i].time - first.time) >= kTogether)
+          break;
+        if (observations_[i].camera != first.camera)
           return number;
       }
     }
     return number;
   }
 
-  Run startBackwards(Number next) {
-    next = lastLocated(next);
-    last_ = next;
-    const double time = next < 0 ? places_.front().time : observations_[next].time;
+  MotionFilter filterAt(const Place& place, double time) const {
+    return {options_, time, place.position,
+            kStartStddev * kStartStddev * Eigen::Matrix3d::Identity()};
+  }
+
+  Run start(Number number, Direction direction) const {
+    number = located(number, direction);
+    const Place& end = direction == kForwards ? places_.back() : places_.front();
+    const double time = exists(number) ? observations_[number].time : end.time;
     const auto place =
         std::find_if(places_.begin(), places_.end() - 1, [&](auto& p) { return p.time >= time; });
-    return startAt(-time, place->position, next);
+    return {filterAt(*place, direction * time), number, number};
   }
 
   /// Filters up to a time. False at an observation that does not fit, which is then the next one.
@@ -192,27 +202,25 @@ class Smoother {
   }
 
   void filterForwards() {
-    double start = places_.front().time;
-    if (!observations_.empty())
-      start = std::min(start, observations_.front().time);
-    Run run = startAt(start, places_.front().position, 0);
-    chunks_.push_back({0, run, true});
+    Run run = start(0, kForwards);
+    chunks_.push_back({0, run, std::nullopt});
     for (std::size_t i = 0; i < places_.size(); ++i) {
       if (i == chunks_.back().first + kChunk)
-        chunks_.push_back({i, run, false});
+        chunks_.push_back({i, run, std::nullopt});
       while (!advance(places_[i].time, &run)) {
-        run = startAt(observations_[run.next].time, places_[i].position, run.next + 1);
-        chunks_.push_back({i, run, true});
+        const Number misfit = run.next;
+        run = start(misfit + 1, kForwards);
+        chunks_.push_back({i, run, misfit});
       }
     }
   }
 
   void smooth(const Chunk& chunk, std::size_t end, std::vector<KinematicState>* states) {
     Run run = chunk.forwards;
-    std::vector<MotionFilter> forwards;
+    std::vector<Run> forwards;
     for (std::size_t i = chunk.first; i < end; ++i) {
       advance(places_[i].time, &run);
-      forwards.push_back(run.filter);
+      forwards.push_back(run);
     }
     for (std::size_t i = end; i-- > chunk.first;) {
       const double time = places_[i].time;
@@ -220,21 +228,28 @@ class Smoother {
         const Observation& observation = observations_[backwards_.next--];
         if (update(observation, -observation.time, &backwards_.filter))
           continue;
-        backwards_ = startBackwards(backwards_.next);
+        backwards_ = start(backwards_.next, kBackwards);
       }
       backwards_.filter.predict(-time);
-      const Modes& before = forwards[i - chunk.first].modes();
-      (*states)[i] = backwards_.next < last_ ? combine(options_, before, backwards_.filter.modes())
-                                             : momentsOf(before);
+      (*states)[i] = stateAt(places_[i], forwards[i - chunk.first]);
     }
+  }
+
+  KinematicState stateAt(const Place& place, const Run& forwards) const {
+    const Modes& before = forwards.filter.modes();
+    const Modes& after = backwards_.filter.modes();
+    if (forwards.hasSeen() && backwards_.hasSeen())
+      return combine(options_, before, after);
+    if (backwards_.hasSeen())
+      return reversed(momentsOf(after));
+    return momentsOf(forwards.hasSeen() ? before : filterAt(place, place.time).modes());
   }
 
   const MotionOptions& options_;
   const std::vector<Observation>& observations_;
   const std::vector<Place>& places_;
   std::vector<Chunk> chunks_;
-  Number last_;    // first observation of the backward filter
-  Run backwards_;  // in negative time
+  Run backwards_;
 };
 
 }  // namespace

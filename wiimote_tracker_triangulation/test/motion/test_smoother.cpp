@@ -228,6 +228,36 @@ TEST(Smoother, IsHonestWhereOneCameraSawTheLedLast) {
   }
 }
 
+TEST(Smoother, StartsAnewWithinWhatOneCameraSaw) {
+  const std::vector<Camera> cameras = test::ring();
+  constexpr double kInterval = 0.033, kAlone = 1.0, kTogetherAgain = 1.6, kNoise = 0.08;
+  Random random(26);
+  for (int run = 0; run < 20; ++run) {
+    const int wrong = 64 + 2 * (run % 10);  // image with another light
+    const Path path =
+        tracking::test::shaken(random, Vector3d::Zero(), 1.0 + run % 3, 10.0 + run % 30);
+    std::vector<Observation> observations;
+    std::vector<Place> places;
+    for (int i = 0; i <= 160; ++i) {
+      const double time = 0.5 * kInterval * i;
+      if (time > kAlone && time < kTogetherAgain && i % 2 == 1)
+        continue;
+      const Camera& camera = cameras[i % 2];
+      Eigen::Vector2d pixel = *camera.project(path(time));
+      pixel += kNoise * Eigen::Vector2d(random.gaussian(), random.gaussian());
+      if (i == wrong)
+        pixel += Eigen::Vector2d(200.0, 100.0);
+      observations.push_back({time, &camera, pixel, {kNoise, 0.0005}});
+      places.push_back({time, path(time) + Vector3d(0.02, -0.01, 0.03)});
+    }
+    const std::vector<KinematicState> states = smooth(MotionOptions(), observations, places);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Vector3d error = states[i].position() - path(places[i].time);
+      EXPECT_LT(squaredDistance(error, states[i]), 21.1) << run << " " << places[i].time;
+    }
+  }
+}
+
 TEST(Smoother, TakesPlacesWithoutObservations) {
   EXPECT_TRUE(smooth(MotionOptions(), {}, {}).empty());
   const auto states = smooth(MotionOptions(), {}, {{1.0, {0.1, 0.2, 0.3}}});

@@ -3,6 +3,8 @@
 import numpy as np
 import yaml
 
+DISTANCE = 3.0  # of a light from cameras in a room [m]
+
 
 class Rig:
     """rotations k x 3 x 3, camera to world; positions k x 3 [m]; offsets k, exposure time minus
@@ -39,11 +41,12 @@ class Rig:
         return points
 
     def scale(self, views, times):
-        """By which lengths are too short, by the distances between the lights of the body; 1 for
-        one light."""
-        if len(views.shape) == 1:
-            return 1.0
+        """By which lengths are too short, by the distances between the lights of the body. One light
+        has no scale: it is DISTANCE from the cameras, because the tracker expects motions in m/s^2.
+        """
         points = self.intersections(views, times)
+        if len(views.shape) == 1:
+            return DISTANCE / float(np.nanmedian(np.linalg.norm(points - self.positions, axis=2)))
         pairs = [(i, j) for j in range(len(views.shape)) for i in range(j)]
         ratios = [np.linalg.norm(views.shape[i] - views.shape[j]) /
                   np.linalg.norm(points[:, i] - points[:, j], axis=1) for i, j in pairs]

@@ -148,6 +148,23 @@ TEST_F(DriverTest, StampsFollowTheExposuresNotTheArrivals) {
   EXPECT_LT(median(stamp_errors), -0.010);
 }
 
+// Nobody sees the images at first.
+TEST_F(DriverTest, ALateSubscriberFindsTheClockInStep) {
+  Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  ASSERT_TRUE(eventually([&] {
+    return values(driverStatus(diagnostics))["Exposure clock"] == "in step" &&
+           remote->server.connected();
+  }));
+  Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
+  ASSERT_TRUE(eventually([&] { return blobs.messages.size() >= 20; }));
+  const IrBlobArray& first = blobs.messages.front();
+  EXPECT_LT(first.stamp_stddev, 0.3 * Remote::kPeriod);
+  EXPECT_LT(std::abs((first.arrival - first.header.stamp).toSec() - 0.02), Remote::kPeriod)
+      << "parameter latency";
+  for (std::size_t i = 1; i < blobs.messages.size(); ++i)
+    EXPECT_GT(blobs.messages[i].header.stamp, blobs.messages[i - 1].header.stamp);
+}
+
 TEST_F(DriverTest, StampsIncreaseAndImagesAreCounted) {
   const ros::Time before = ros::Time::now();
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");

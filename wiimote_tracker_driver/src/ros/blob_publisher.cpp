@@ -1,7 +1,5 @@
 #include "blob_publisher.h"
 
-#include <wiimote_tracker_msgs/IrBlobArray.h>
-
 #include <limits>
 
 namespace wiimote_tracker::driver {
@@ -52,14 +50,13 @@ wiimote_tracker_msgs::IrBlob irBlob(const protocol::IrSpot& spot,
 BlobPublisher::BlobPublisher(ros::NodeHandle& nh,
                              const std::string& camera,
                              const std::string& frame_id)
-    : camera_(camera), frame_id_(frame_id), publisher_(nh.advertise<IrBlobArray>("ir_blobs", 20)) {}
+    : camera_(camera), frame_id_(frame_id), topic_(nh, "ir_blobs") {}
 
 void BlobPublisher::publish(const protocol::DataReport& image,
                             const ImageTime& time,
                             const std::string& identity) {
-  if (publisher_.getNumSubscribers() == 0)
+  if (!topic_.subscribed())
     return;
-  // Nodelets share the message, so each image needs its own.
   const auto message = boost::make_shared<IrBlobArray>();
   message->header.stamp = time.stamp;
   message->header.frame_id = frame_id_;
@@ -78,7 +75,7 @@ void BlobPublisher::publish(const protocol::DataReport& image,
     if (image.spots[slot].seen)
       message->blobs.push_back(irBlob(image.spots[slot], image.ir_format, slot));
   }
-  publisher_.publish(message);
+  topic_.publish(message);
 }
 
 }  // namespace wiimote_tracker::driver

@@ -2,11 +2,11 @@
 #define WIIMOTE_TRACKER_DRIVER_ROS_BLOB_PUBLISHER_H
 
 #include "image_stamper.h"
+#include "image_topic.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
-#include <wiimote_tracker_msgs/IrBlob.h>
+#include <wiimote_tracker_msgs/IrBlobArray.h>
 
 #include <cstddef>
 #include <string>
@@ -24,6 +24,7 @@ class BlobPublisher {
  public:
   BlobPublisher(ros::NodeHandle& nh, const std::string& camera, const std::string& frame_id);
 
+  bool subscribed() const { return topic_.subscribed(); }
   /// `identity`: of the remote that sent the image.
   void publish(const protocol::DataReport& image,
                const ImageTime& time,
@@ -32,7 +33,7 @@ class BlobPublisher {
  private:
   const std::string camera_;
   const std::string frame_id_;
-  ros::Publisher publisher_;
+  const ImageTopic<wiimote_tracker_msgs::IrBlobArray> topic_;
 };
 
 }  // namespace wiimote_tracker::driver

@@ -11,19 +11,18 @@ CameraInfoPublisher::CameraInfoPublisher(const ros::NodeHandle& nh,
                                          const std::string& frame_id,
                                          const std::string& url,
                                          const std::string& url_parameter)
-    : nh_(nh), frame_id_(frame_id), manager_(nh, camera) {
+    : nh_(nh), frame_id_(frame_id), manager_(nh, camera), topic_(nh_, "camera_info") {
   if (!manager_.validateURL(url))
     throw ParameterError(url_parameter + " is '" + url +
                          "', but must be empty or a URL such as file:///path/to/camera.yaml or "
                          "package://name/camera.yaml");
   // Reports errors of the file now rather than at the first image.
   manager_.loadCameraInfo(url);
-  publisher_ = nh_.advertise<sensor_msgs::CameraInfo>("camera_info", 20);
   factory_ = nh_.advertise<sensor_msgs::CameraInfo>("factory/camera_info", 1, true);
 }
 
 void CameraInfoPublisher::publish(const ros::Time& stamp) {
-  if (publisher_.getNumSubscribers() == 0)
+  if (!topic_.subscribed())
     return;
   const auto message = boost::make_shared<sensor_msgs::CameraInfo>(manager_.getCameraInfo());
   message->header.stamp = stamp;
@@ -32,7 +31,7 @@ void CameraInfoPublisher::publish(const ros::Time& stamp) {
     message->width = protocol::kSensorWidth;
     message->height = protocol::kSensorHeight;
   }
-  publisher_.publish(message);
+  topic_.publish(message);
 }
 
 void CameraInfoPublisher::publishFactory(const std::optional<protocol::IrCalibration>& calibration,

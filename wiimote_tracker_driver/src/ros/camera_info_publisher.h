@@ -1,11 +1,13 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_ROS_CAMERA_INFO_PUBLISHER_H
 #define WIIMOTE_TRACKER_DRIVER_ROS_CAMERA_INFO_PUBLISHER_H
 
+#include "image_topic.h"
 #include "protocol/ir_calibration.h"
 
 #include <camera_info_manager/camera_info_manager.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
+#include <sensor_msgs/CameraInfo.h>
 
 #include <optional>
 #include <string>
@@ -24,6 +26,7 @@ class CameraInfoPublisher {
                       const std::string& url,
                       const std::string& url_parameter);
 
+  bool subscribed() const { return topic_.subscribed(); }
   void publish(const ros::Time& stamp);
 
   /// Publishes the factory's principal point as cx and cy, with a focal length of 0 (unknown).
@@ -35,7 +38,7 @@ class CameraInfoPublisher {
   ros::NodeHandle nh_;
   const std::string frame_id_;
   camera_info_manager::CameraInfoManager manager_;
-  ros::Publisher publisher_;
+  const ImageTopic<sensor_msgs::CameraInfo> topic_;
   ros::Publisher factory_;
 };
 

@@ -21,7 +21,10 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
+#include <array>
+#include <atomic>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -70,6 +73,12 @@ class Driver {
   JoyPublisher joy_;
   LinkLog log_;
   std::uint64_t seen_changes_ = 0;  // of wiimote_.linkChanges()
+  struct Arrival {
+    ClockReading clocks;
+    std::uint32_t epoch;
+  };
+  std::array<Arrival, 10> arrivals_;  // not stamped yet
+  std::size_t waiting_ = 0;           // number of them
 
   std::mutex mutex_;  // guards the members below
   wiimote::Link link_;
@@ -77,7 +86,7 @@ class Driver {
   double stamp_stddev_;
   wiimote::StreamStatistics statistics_;
   std::string reader_priority_;
-  bool stop_ = false;
+  std::atomic<bool> stop_{false};  // set under mutex_
 
   // For callbacks.
   LiveSettings settings_;

@@ -1,7 +1,6 @@
 #include "imu_publisher.h"
 
 #include <geometry_msgs/TransformStamped.h>
-#include <sensor_msgs/Imu.h>
 
 #include <cmath>
 #include <cstddef>
@@ -17,16 +16,14 @@ ImuPublisher::ImuPublisher(ros::NodeHandle& nh,
                            const std::string& optical_frame,
                            const std::string& imu_frame,
                            double stddev)
-    : frame_id_(imu_frame),
-      variance_(stddev * stddev),
-      publisher_(nh.advertise<sensor_msgs::Imu>("imu/data_raw", 20)) {
+    : frame_id_(imu_frame), variance_(stddev * stddev), topic_(nh, "imu/data_raw") {
   publishTransform(optical_frame);
 }
 
 void ImuPublisher::publish(const std::array<int, 3>& raw,
                            const protocol::AccelerometerCalibration& calibration,
                            const ros::Time& stamp) {
-  if (publisher_.getNumSubscribers() == 0)
+  if (!topic_.subscribed())
     return;
   const std::array<double, 3> g = calibration.toG(raw);
   const auto message = boost::make_shared<sensor_msgs::Imu>();
@@ -39,7 +36,7 @@ void ImuPublisher::publish(const std::array<int, 3>& raw,
   message->linear_acceleration.z = kStandardGravity * g[2];
   for (const std::size_t diagonal : {0u, 4u, 8u})
     message->linear_acceleration_covariance[diagonal] = variance_;
-  publisher_.publish(message);
+  topic_.publish(message);
 }
 
 void ImuPublisher::publishTransform(const std::string& optical_frame) {

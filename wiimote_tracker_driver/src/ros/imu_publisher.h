@@ -1,10 +1,11 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_ROS_IMU_PUBLISHER_H
 #define WIIMOTE_TRACKER_DRIVER_ROS_IMU_PUBLISHER_H
 
+#include "image_topic.h"
 #include "protocol/accelerometer.h"
 
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
+#include <sensor_msgs/Imu.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <array>
@@ -21,6 +22,7 @@ class ImuPublisher {
                const std::string& imu_frame,
                double stddev);
 
+  bool subscribed() const { return topic_.subscribed(); }
   /// `raw`: x, y, z of the remote's converter.
   void publish(const std::array<int, 3>& raw,
                const protocol::AccelerometerCalibration& calibration,
@@ -31,7 +33,7 @@ class ImuPublisher {
 
   const std::string frame_id_;
   const double variance_;  // [m^2/s^4]
-  ros::Publisher publisher_;
+  const ImageTopic<sensor_msgs::Imu> topic_;
   tf2_ros::StaticTransformBroadcaster transform_;
 };
 

@@ -35,7 +35,8 @@ class JoyPublisher {
  public:
   JoyPublisher(ros::NodeHandle& nh, const std::string& frame_id);
 
-  /// `buttons`: as protocol::decodeButtons().
+  /// Whether these are not the ones published last. `buttons`: as protocol::decodeButtons().
+  bool changed(std::uint16_t buttons) const { return published_ != buttons; }
   void publish(std::uint16_t buttons, const ros::Time& stamp);
 
   /// Publishes all buttons as released, when the remote has disconnected.

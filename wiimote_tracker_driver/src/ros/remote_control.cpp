@@ -8,20 +8,25 @@ RemoteControl::RemoteControl(std::uint8_t leds, double rumble_max)
 void RemoteControl::setSensitivity(const protocol::IrSensitivity& sensitivity) {
   const std::lock_guard<std::mutex> lock(mutex_);
   sensitivity_ = sensitivity;
+  changed_ = true;
 }
 
 void RemoteControl::setLeds(std::uint8_t leds, std::uint8_t mask) {
   const std::lock_guard<std::mutex> lock(mutex_);
   leds_ = static_cast<std::uint8_t>((leds_ & ~mask) | (leds & mask));
   leds_changed_ = true;
+  changed_ = true;
 }
 
 void RemoteControl::setRumble(bool on) {
   const std::lock_guard<std::mutex> lock(mutex_);
   rumble_ = on && rumble_max_ > 0.0;
+  changed_ = true;
 }
 
 void RemoteControl::apply(wiimote::Wiimote& wiimote, double now) {
+  if (!changed_.exchange(false) && !rumble_end_)
+    return;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (sensitivity_)
     wiimote.setSensitivity(*sensitivity_);

@@ -3,6 +3,7 @@
 
 #include "wiimote/wiimote.h"
 
+#include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -23,12 +24,14 @@ class RemoteControl {
 
   void setRumble(bool on);
 
-  /// Applies the requests to the remote. `now` [s]: any clock that never goes back.
+  /// Applies the requests to the remote; always in one thread. `now` [s]: any clock that never goes
+  /// back.
   void apply(wiimote::Wiimote& wiimote, double now);
 
  private:
   const double rumble_max_;
-  std::mutex mutex_;  // guards the members below
+  std::atomic<bool> changed_{false};
+  std::mutex mutex_;  // guards the members below, but for rumble_end_
   std::optional<protocol::IrSensitivity> sensitivity_;
   std::uint8_t leds_;
   bool leds_changed_ = false;

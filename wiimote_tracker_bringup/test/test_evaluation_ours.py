@@ -283,6 +283,7 @@ def test_exposures_and_clock_on_arrivals_that_were_polled(tmp_path):
         found = [line for line in printed if line.startswith(f'{path}, arrivals')][0]
         expected = 1e3 * np.std(own)
         assert float(found.split('RMS ')[1].split()[0]) == pytest.approx(expected, rel=0.1)
-    ratios = [float(line.split(' mm, ')[1].split()[0]) for line in printed
-              if 'm/s, exposure clock' in line]
-    assert len(ratios) == 4 and ratios[0] < 1.15 and max(ratios) < 2.0
+    clock, grid = ([float(line.split(' mm, ')[1].split()[0]) for line in printed
+                    if f'm/s, {stamps}' in line] for stamps in ('exposure clock', 'grid filter'))
+    assert len(clock) == 4 and clock[0] < 1.15 and max(clock) < 2.0
+    assert len(grid) == 4 and max(grid) < 1.2

@@ -1,4 +1,5 @@
 // Errors of a moving LED with the exposure clock on recorded arrivals of real remotes.
+#include "grid_filter.h"
 #include "recorded_exposures.h"
 #include "remote_camera.h"
 #include "room.h"
@@ -28,15 +29,16 @@ constexpr double kInside = 7.814728;   // 95 % of chi squared, three degrees of 
 constexpr double kExactStddev = 1e-6;  // [s]
 
 /// Source of the stamps.
-enum Stamps { kExact, kClock, kArrivals };
-constexpr std::array<const char*, 3> kNames{"exact stamps", "exposure clock", "arrivals"};
+enum Stamps { kExact, kClock, kGrid, kArrivals };
+constexpr std::array<const char*, 4> kNames{"exact stamps", "exposure clock", "grid filter",
+                                            "arrivals"};
 
 struct Frame {
   std::size_t camera;
   double exposure;               // [s]
   double arrival;                // [s]
-  std::array<double, 3> stamp;   // by Stamps [s]
-  std::array<double, 3> stddev;  // [s]
+  std::array<double, 4> stamp;   // by Stamps [s]
+  std::array<double, 4> stddev;  // [s]
 };
 
 /// @returns [s]. @throws Error.
@@ -82,7 +84,7 @@ void settle(Stamps stamps, const std::string& name, std::vector<Frame>* frames) 
   const double rms = std::sqrt(squares / count);
   std::printf("%s, %s: mean error %.2f ms, RMS %.2f ms", name.c_str(), kNames[stamps],
               1e3 * sum / count, 1e3 * rms);
-  if (stamps == kClock)
+  if (stamps != kArrivals)
     std::printf(", claimed %.2f ms, %.1f %% in 2 sd", 1e3 * claimed / count,
                 100.0 * inside / count);
   std::puts("");
@@ -92,9 +94,19 @@ void settle(Stamps stamps, const std::string& name, std::vector<Frame>* frames) 
   }
 }
 
+/// Mean time between frames [s].
+double periodOf(const std::vector<double>& exposures) {
+  constexpr double kNominal = 0.010035;  // [s]
+  double frames = 0.0;
+  for (std::size_t i = 1; i < exposures.size(); ++i)
+    frames += std::round((exposures[i] - exposures[i - 1]) / kNominal);
+  return (exposures.back() - exposures.front()) / frames;
+}
+
 std::vector<Frame> framesOf(std::size_t camera, const std::string& path) {
   const std::vector<double> arrivals = readArrivals(path);
   const std::vector<double> exposures = recordedExposures(arrivals);
+  const std::vector<GridStamp> grid = gridStamps(arrivals, periodOf(exposures));
   exposure_clock::ExposureClock clock;
   std::vector<Frame> frames;
   frames.reserve(arrivals.size());
@@ -103,10 +115,10 @@ std::vector<Frame> framesOf(std::size_t camera, const std::string& path) {
     frames.push_back({camera,
                       exposures[i],
                       arrivals[i],
-                      {exposures[i], estimate.exposure, arrivals[i]},
-                      {kExactStddev, estimate.stddev, 0.0}});
+                      {exposures[i], estimate.exposure, grid[i].exposure, arrivals[i]},
+                      {kExactStddev, estimate.stddev, grid[i].stddev, 0.0}});
   }
-  for (const Stamps stamps : {kClock, kArrivals})
+  for (const Stamps stamps : {kClock, kGrid, kArrivals})
     settle(stamps, path, &frames);
   return frames;
 }
@@ -180,7 +192,7 @@ int run(const std::string& rig, const std::vector<std::string>& files) {
                    [](const Frame& a, const Frame& b) { return a.arrival < b.arrival; });
   for (const double speed : {0.5, 1.0, 2.0, 3.0}) {
     double exact = 0.0;
-    for (const Stamps stamps : {kExact, kClock, kArrivals}) {
+    for (const Stamps stamps : {kExact, kClock, kGrid, kArrivals}) {
       const Score score = follow(description, frames, speed, stamps);
       const double rms = std::sqrt(score.squares / score.count);
       exact = stamps == kExact ? rms : exact;
@@ -205,7 +217,8 @@ int main(int argc, char** argv) {
       "evaluate_arrivals",
       "Tracks a simulated LED by images that arrive as reports of real remotes did. RIG: a "
       "description\nof a rig. FILE: arrivals of the reports of a remote [ms], in order, one file "
-      "for each camera.\nThe exposures are those of a smoother that knows the whole recording.");
+      "for each camera.\nThe exposures are those of a smoother that knows the whole recording. The "
+      "grid filter is\ntold how such remotes behave: what an exposure clock can reach.");
   parser.positional("RIG", &rig);
   parser.positional("FILE...", &files);
   return parser.run(argc, argv, [&] { return monte_carlo::run(rig, files); });

@@ -4,6 +4,7 @@
 #include "association/shared_views.h"
 #include "led_groups.h"
 #include "pose_from_labels.h"
+#include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,17 @@ struct Column {
   std::size_t body;
   std::size_t led;
 };
+
+/// Whether all rays meet, but for the light's motion between the images.
+bool areOfOneLight(const std::vector<geometry::Sight>& sights) {
+  constexpr double kGreatestMiss = 0.02;  // [m]
+  geometry::TriangulationOptions options;
+  options.method = geometry::TriangulationMethod::kLeastSquares;
+  const auto light = geometry::triangulate(sights.data(), sights.size(), options);
+  return light && std::all_of(sights.begin(), sights.end(), [&](const geometry::Sight& sight) {
+           return sight.direction.cross(light->position - sight.origin).norm() < kGreatestMiss;
+         });
+}
 
 association::AssociationOptions associationOptions(const BodyTrackerOptions& options) {
   association::AssociationOptions result;
@@ -228,25 +240,28 @@ void BodyTracker::follow(std::size_t camera,
 }
 
 /// Whether an image shows the body. One spot alone could be any light, unless the newest images of
-/// all cameras show three of the body's LEDs.
-bool BodyTracker::isSeen(std::size_t body, const LastImage& image) const {
+/// all cameras show three of the body's LEDs, at different places.
+bool BodyTracker::isSeen(std::size_t body, const LastImage& image) {
+  const auto isItsSpot = [body](const BodySpot& spot) {
+    return spot.body == body && !spot.is_further;
+  };
+  const auto spots = std::count_if(image.taken.begin(), image.taken.end(), isItsSpot);
+  if (spots != 1)
+    return spots > 1;
   std::array<bool, kMaximumLeds> seen{};
-  const auto countSpots = [&](const LastImage& shown) {
-    int spots = 0;
-    for (const BodySpot& spot : shown.taken) {
-      if (spot.body != body || spot.is_further)
+  body_sights_.clear();
+  for (std::size_t c = 0; c < images_.size(); ++c) {
+    if (image.time - images_[c].time > options_.tracked_time)
+      continue;
+    for (const BodySpot& spot : images_[c].taken) {
+      if (!isItsSpot(spot))
         continue;
       seen[spot.led] = true;
-      ++spots;
+      if (const auto sight = geometry::sightFromPixel(cameras_[c], spot.pixel))
+        body_sights_.push_back(*sight);
     }
-    return spots;
-  };
-  const int spots = countSpots(image);
-  for (const LastImage& other : images_) {
-    if (image.time - other.time <= options_.tracked_time)
-      countSpots(other);
   }
-  return spots > 1 || (spots == 1 && std::count(seen.begin(), seen.end(), true) > 2);
+  return std::count(seen.begin(), seen.end(), true) > 2 && !areOfOneLight(body_sights_);
 }
 
 void BodyTracker::update(std::size_t index,
@@ -259,7 +274,7 @@ void BodyTracker::update(std::size_t index,
   body.filter.update(group.prediction, pixel, group.pixel_stddev, inertial_[index]);
   for (std::size_t i = 0; i < group.count; ++i) {
     body.led_times[group.leds[i]] = image->time;
-    image->taken.push_back({index, group.leds[i], i > 0, residual,
+    image->taken.push_back({index, group.leds[i], i > 0, pixel, residual,
                             residual * group.prediction.depth / camera.intrinsics.fx});
   }
 }

@@ -142,7 +142,8 @@ class BodyTracker {
   struct BodySpot {
     std::size_t body;
     std::size_t led;
-    bool is_further;   // merged with the one before
+    bool is_further;  // merged with the one before
+    Eigen::Vector2d pixel;
     double residual;   // [px]
     double deviation;  // [m]
   };
@@ -169,7 +170,7 @@ class BodyTracker {
               const Eigen::Vector2d& pixel,
               const geometry::Camera& camera,
               LastImage* image);
-  bool isSeen(std::size_t body, const LastImage& image) const;
+  bool isSeen(std::size_t body, const LastImage& image);
   void dropLost(double time);
   void find(double time);
   bool start(std::size_t body,
@@ -202,6 +203,7 @@ class BodyTracker {
   // Reused buffers.
   std::list<Entry> spare_;
   std::vector<bool> spots_taken_;
+  std::vector<geometry::Sight> body_sights_;
   std::vector<std::vector<geometry::Sight>> sights_;
   std::vector<association::View> views_;
   std::vector<MeasuredPoint> points_;

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The simulated hand calibrates the rig, walks about, and goes where a person's calibration wants."""
+"""The simulated hand calibrates the rig, walks about, and goes where a person's calibration wants.
+Bodies are dark meanwhile, and move on."""
 
 import sys
 import unittest
@@ -7,7 +8,9 @@ import unittest
 import numpy as np
 import rospy
 import rostest
-from geometry_msgs.msg import PointStamped
+from geometry_msgs.msg import PointStamped, PoseStamped
+from std_srvs.srv import Trigger
+from wiimote_tracker_msgs.msg import IrBlobArray
 from wiimote_tracker_msgs.srv import StartCalibration
 
 DEADLINE = 60.0  # [s]
@@ -42,6 +45,18 @@ class SimulatedHand(unittest.TestCase):
             side_x=2.5, side_y=0.0, cameras=[])
         self.assertTrue(started.success, started.message)
         self.wait(lambda: np.allclose(position(truths[-1]), 0.0), 'the LED at the first corner')
+        images = []
+        rospy.Subscriber('wiimote_1/ir_blobs', IrBlobArray, lambda m: images.append(len(m.blobs)))
+        self.wait(lambda: len(images) > 20, 'images')
+        self.assertLess(max(images[10:]), 2, 'the LEDs of the body are lit')  # less those on their way
+
+        self.assertTrue(rospy.ServiceProxy('calibration/cancel', Trigger)().success)
+        self.wait(lambda: images[-1] > 1, 'the LEDs of the body')
+        places = []
+        rospy.Subscriber('simulation/truth/wand', PoseStamped,
+                         lambda m: places.append([m.pose.position.x, m.pose.position.y]))
+        self.wait(lambda: places and np.linalg.norm(np.subtract(places[-1], places[0])) > 0.05,
+                  'the body to move on')
 
 
 if __name__ == '__main__':

@@ -183,7 +183,7 @@ def test_another_remote_than_the_wanted_one_is_left_alone(computer):
     (FOUND + PAIR + SILENCE, 'refused to pair (no answer)'),
     (FOUND + '> pair %s\nDevice %s not available\n' % (A, A) + SILENCE, 'gone to sleep'),
     (FOUND + PAIR + 'Request PIN code\n? [agent] Enter PIN code:\n' + SILENCE,
-     'press the red SYNC button'),
+     'the remote refused the PIN'),
     (FOUND + PAIR + PAIRED + '> scan off\n> trust %s\n' % A + SILENCE, 'bluetoothctl trust'),
     (FOUND + PAIR + PAIRED + TRUST + CONNECT
      + 'Failed to connect: org.bluez.Error.Failed br-connection-create-socket\n' + SILENCE,

@@ -29,6 +29,12 @@ PluggedRemote::~PluggedRemote() {
   thread_.join();
 }
 
+void PluggedRemote::mute() {
+  virtual_wiimote::Faults faults;
+  faults.lost_answers = faults.lost_data = 1.0;
+  device_.setFaults(faults);
+}
+
 void PluggedRemote::run() {
   virtual_wiimote::Senses senses;
   auto next = std::chrono::steady_clock::now();

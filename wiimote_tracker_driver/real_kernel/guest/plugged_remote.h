@@ -31,6 +31,8 @@ class PluggedRemote {
 
   void unplug() { device_.setPresent(false); }
   void plug() { device_.setPresent(true); }
+  /// From now on it answers nothing and sends nothing.
+  void mute();
   void setNunchuk(bool plugged) { device_.setNunchuk(plugged); }
 
   const std::string& address() const { return address_; }

@@ -29,10 +29,7 @@ RunningDriver::RunningDriver(const std::string& device,
     : record_(scene),
       totals_(totals),
       options_(options),
-      wiimote_(
-          withSession(options),
-          [name = transport::parseDeviceName(device)] { return transport::open(name); },
-          now),
+      wiimote_(withSession(options), transport::opener(transport::parseDeviceName(device)), now),
       thread_([this] { run(); }) {}
 
 RunningDriver::~RunningDriver() {

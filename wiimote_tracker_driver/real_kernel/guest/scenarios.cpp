@@ -5,6 +5,7 @@
 #include "clients.h"
 #include "clock.h"
 #include "kernel.h"
+#include "mute_remote.h"
 #include "recovery.h"
 #include "streaming.h"
 #include "transport/transport.h"
@@ -481,6 +482,7 @@ const std::vector<Scenario>& scenarios() {
       {"rebind", rebind},
       {"taken", taken},
       {"non_root", nonRoot},
+      {"mute_remote", muteRemote},
       {"pair", pairScenario, "bluetooth"},
       {"pair_refused", pairRefused, "bluetooth"},
       {"two_adapters", twoAdapters, "bluetooth"},

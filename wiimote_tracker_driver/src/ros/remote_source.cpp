@@ -11,22 +11,16 @@ namespace {
 
 class LiveRemote : public RemoteSource {
  public:
-  explicit LiveRemote(const transport::DeviceName& name) : name_(name) {}
+  explicit LiveRemote(const transport::DeviceName& name) : open_(transport::opener(name)) {}
 
-  // A remote that was given up is the last to be tried again.
-  std::unique_ptr<transport::Transport> open() override {
-    auto transport = transport::open(name_, last_);
-    last_ = transport->description();
-    return transport;
-  }
+  std::unique_ptr<transport::Transport> open() override { return open_(); }
   double now() const override { return steadyNow(); }
   ClockReading readClocks() const override { return driver::readClocks(); }
   bool pass(double) override { return false; }
   bool recorded() const override { return false; }
 
  private:
-  const transport::DeviceName name_;
-  std::string last_;
+  const std::function<std::unique_ptr<transport::Transport>()> open_;
 };
 
 // Both clocks show the recording's time, so that stamps do not depend on replay and speed.

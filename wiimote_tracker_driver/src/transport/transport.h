@@ -5,6 +5,7 @@
 
 #include <wiimote_tracker_msgs/error.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -71,6 +72,9 @@ DeviceName parseDeviceName(const std::string& text);
 /// because it was opened before and did not work. @throws NoSuchDevice, PermissionDenied,
 /// DeviceTaken, TransportError.
 std::unique_ptr<Transport> open(const DeviceName& name, const std::string& last = "");
+
+/// Opens the remote at each call; with kAny, the one of the call before is the last to be tried.
+std::function<std::unique_ptr<Transport>()> opener(const DeviceName& name);
 
 }  // namespace wiimote_tracker::transport
 

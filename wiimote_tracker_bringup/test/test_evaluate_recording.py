@@ -16,8 +16,9 @@ sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
 
 from wiimote_tracker_evaluation import reprojection  # noqa: E402
 from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.foreign import (accuracy, body, flight as flights,  # noqa: E402
-                                                lighthouse, multicamselfcal, ordinary, program)
+from wiimote_tracker_evaluation.foreign import (accuracy, body, disturbed,  # noqa: E402
+                                                flight as flights, lighthouse, multicamselfcal,
+                                                ordinary, program)
 from wiimote_tracker_evaluation.foreign.views import Truth  # noqa: E402
 
 NOISE = 1e-4  # [rad]
@@ -256,6 +257,21 @@ def test_real_pixels_that_were_held_out(tmp_path):
     assert figures['all']['observations'] == figures['all']['inliers'] == len(errors) == 429
     assert figures['all']['median'] < 0.35, 'noise of the pixels: 0.2 px'
     assert figures['all']['p95'] < 1.2
+
+
+def test_the_motion_brings_a_disturbed_camera_back(tmp_path):
+    recording = str(tmp_path / 'motion.bag')
+    ordinary.run('import_multicamselfcal', os.path.join(HERE, 'data', 'flydra_motion'), recording)
+    result = disturbed.evaluate(recording, str(tmp_path))
+    for name in ('cam1_0', 'cam4_0', 'cam5_0'):
+        own = result[name]
+        assert own['after_s'] < 30.0
+        assert own['turned_deg'] < 0.2
+        assert own['moved_mm'] < 4.0
+        assert abs(own['clock_ms']) < 0.2
+        assert own['points_after_mm'] < min(0.2, 0.5 * own['points_before_mm'])
+    # These two see the light within too small a place.
+    assert result['cam2_0']['after_s'] is None and result['cam3_0']['after_s'] is None
 
 
 def test_gaps_are_counted_while_in_sight_only():

@@ -8,8 +8,8 @@ from typing import Callable, Dict, List, Tuple
 import numpy as np
 
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.foreign import (cameras, flight, lighthouse, multicamselfcal,
-                                                time_maps)
+from wiimote_tracker_evaluation.foreign import (cameras, disturbed, flight, lighthouse,
+                                                multicamselfcal, time_maps)
 
 
 @dataclasses.dataclass(eq=False)
@@ -57,7 +57,10 @@ def of_synchronised(source, folder):
     rows = [(name, 'median {median:.3f}, mean {mean:.3f}, RMS {rms:.3f}, p95 {p95:.3f} px, '
              '{inliers} of {observations} within 5 px'.format(**figures))
             for name, figures in result.items()]
-    return Outcome(multicamselfcal.METHOD, {'held_out': result}, rows, {'pixels': result['all']},
+    corrected = disturbed.evaluate(multicamselfcal.whole(folder), folder)
+    rows += disturbed.rows_of(corrected)
+    return Outcome(f'{multicamselfcal.METHOD}. {disturbed.METHOD}',
+                   {'held_out': result, 'disturbed': corrected}, rows, {'pixels': result['all']},
                    'frame', np.array([frame for frame, _ in errors]), 'px',
                    np.array(list(errors.values())))
 

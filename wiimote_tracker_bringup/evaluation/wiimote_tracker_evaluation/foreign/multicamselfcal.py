@@ -22,14 +22,18 @@ BLOCK = 10  # frames
 ROUNDS, STEP = 10, 1e-6
 
 
+def whole(folder):
+    """The bag of the recording that evaluate() makes."""
+    return os.path.join(folder, 'whole.bag')
+
+
 def evaluate(source, folder):
     """{camera: figures()} of predictions [px], and their errors [px] by frame."""
-    whole = os.path.join(folder, 'whole.bag')
-    run('import_multicamselfcal', source, whole)
+    run('import_multicamselfcal', source, whole(folder))
     errors = {}
     for half in (0, 1):
         fitted = os.path.join(folder, f'half_{half}.bag')
-        held_out = split(whole, fitted, half)
+        held_out = split(whole(folder), fitted, half)
         rig = os.path.join(folder, f'half_{half}.yaml')
         run('wiimote_tracker_calibration/self_calibrate', fitted, '--rig', rig)
         cameras = cameras_of(rig)

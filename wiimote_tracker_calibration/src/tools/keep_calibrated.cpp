@@ -1,0 +1,95 @@
+// keep_calibrated: continuous calibration over a recording, without the node.
+
+#include "continuous/continuous_calibration.h"
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <wiimote_tracker_msgs/IrBlobArray.h>
+#include <wiimote_tracker_msgs/RigCalibration.h>
+#include <wiimote_tracker_msgs/argument_parser.h>
+#include <wiimote_tracker_triangulation/geometry/error.h>
+#include <wiimote_tracker_triangulation/geometry/rig_file.h>
+#include <wiimote_tracker_triangulation/ros/conversions.h>
+
+#include <cstdio>
+#include <optional>
+#include <string>
+
+namespace {
+
+using namespace wiimote_tracker;
+
+capture::Image imageOf(const wiimote_tracker_msgs::IrBlobArray& message) {
+  capture::Image image;
+  image.camera = message.camera;
+  image.identity = message.identity;
+  image.stamp = message.header.stamp.toSec();
+  image.clock_epoch = message.clock_epoch;
+  for (const wiimote_tracker_msgs::IrBlob& blob : message.blobs)
+    image.spots.emplace_back(blob.x, blob.y);
+  capture::removeImpossible(message.width, message.height, &image.spots);
+  return image;
+}
+
+/// The rig in use, and what corrects it. Every proposal is applied, as by the policy `all`.
+class KeptRig {
+ public:
+  void use(const geometry::Rig& rig) {
+    rig_ = rig;
+    continuous_.emplace(rig, continuous::Options{});
+  }
+
+  void add(const capture::Image& image) {
+    if (!continuous_)
+      return;
+    if (const auto proposal = continuous_->add(image)) {
+      std::printf("%.3f: %s\n", image.stamp, proposal->message.c_str());
+      use(proposal->rig);
+    }
+  }
+
+  const std::optional<geometry::Rig>& rig() const { return rig_; }
+
+ private:
+  std::optional<geometry::Rig> rig_;
+  std::optional<continuous::ContinuousCalibration> continuous_;
+};
+
+/// @param rig empty: that of the bag.
+void keep(const std::string& path, const std::string& rig, const std::string& target) {
+  KeptRig kept;
+  if (!rig.empty())
+    kept.use(geometry::readRigFile(rig));
+  try {
+    rosbag::Bag bag(path);
+    rosbag::View view(bag);
+    for (const rosbag::MessageInstance& message : view) {
+      const auto recorded = message.instantiate<wiimote_tracker_msgs::RigCalibration>();
+      if (recorded && message.getTopic() == "/calibration/rig" && !kept.rig())
+        kept.use(fromMessage(*recorded));
+      if (const auto image = message.instantiate<wiimote_tracker_msgs::IrBlobArray>())
+        kept.add(imageOf(*image));
+    }
+  } catch (const rosbag::BagException& error) {
+    throw geometry::Error(path + " cannot be read as a bag: " + error.what());
+  }
+  if (!kept.rig())
+    throw geometry::Error(path + " holds no /calibration/rig: name a rig file with --rig");
+  geometry::writeRigFile(*kept.rig(), target);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string bag, rig, target;
+  ArgumentParser parser("keep_calibrated",
+                        "Corrects a rig by the images of BAG as continuous calibration does, "
+                        "applies and prints every change, and writes the rig to OUT.yaml.");
+  parser.positional("BAG", &bag);
+  parser.positional("OUT.yaml", &target);
+  parser.option("--rig FILE", &rig, "start with this rig (default: the bag's first)");
+  return parser.run(argc, argv, [&] {
+    keep(bag, rig, target);
+    return 0;
+  });
+}

@@ -1,22 +1,12 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_BENCHMARK_CALIBRATION_SECTIONS_H
 #define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_BENCHMARK_CALIBRATION_SECTIONS_H
 
+#include <wiimote_tracker_msgs/benchmark_tables.h>
+
 #include <functional>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace wiimote_tracker {
-
-/// One line of a section's table: what was simulated, and the figures, by their column's name.
-struct BenchmarkRow {
-  std::string name;
-  std::vector<std::pair<std::string, double>> figures;
-  std::string note = {};  ///< In words, behind the figures; not in the JSON.
-};
-
-/// Takes a row as soon as it is known. All rows of a section have the same columns.
-using RowCallback = std::function<void(const BenchmarkRow&)>;
 
 /// A part of the benchmark, in a file of its own.
 struct BenchmarkSection {

@@ -3,21 +3,12 @@
 
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
+#include <wiimote_tracker_msgs/benchmark_tables.h>
+
 #include <functional>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace wiimote_tracker {
-
-/// One row of a section's table: what was simulated, and each column's name and figure.
-struct BenchmarkRow {
-  std::string name;
-  std::vector<std::pair<std::string, double>> figures;
-};
-
-/// Called with each row when it is ready. A row with other columns starts a new table.
-using RowCallback = std::function<void(const BenchmarkRow&)>;
 
 struct BenchmarkSettings {
   int runs = 20;       ///< At least 1; each section says how much one run is.

@@ -2,17 +2,17 @@
 // Cramer-Rao bound, normalised error squared (3 when the covariance is consistent), time per point.
 #include "triangulation_methods.h"
 
-#include <wiimote_tracker_msgs/argument_parser.h>
-#include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_msgs/benchmark_tables.h>
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
+#include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace wiimote_tracker;
@@ -23,19 +23,10 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kTimedPoints = 1000;
 constexpr int kRepetitions = 21;  // of each method, taken in turn against drift
 
-struct Row {
-  std::string method;
-  std::size_t views;
-  double rms_over_bound;
-  double nees;         // NaN: the method has no covariance
-  double nanoseconds;  // per point, median
-};
-
-/// RMS over the bound and NEES.
-void score(const TriangulationScene& scene,
-           const TriangulationMethodUnderTest& method,
-           const TriangulationOutput& output,
-           Row* row) {
+/// RMS over the bound, and NEES; NaN for a method without covariance.
+std::pair<double, double> errors(const TriangulationScene& scene,
+                                 const TriangulationMethodUnderTest& method,
+                                 const TriangulationOutput& output) {
   double squared = 0.0;
   double nees = 0.0;
   for (std::size_t i = 0; i < scene.truth.size(); ++i) {
@@ -48,8 +39,7 @@ void score(const TriangulationScene& scene,
       nees += error.dot(output.covariances[i].ldlt().solve(error));
   }
   const auto count = static_cast<double>(scene.truth.size());
-  row->rms_over_bound = std::sqrt(squared / count) / scene.bound;
-  row->nees = method.has_covariance ? nees / count : kNaN;
+  return {std::sqrt(squared / count) / scene.bound, method.has_covariance ? nees / count : kNaN};
 }
 
 double secondsOf(const std::function<void(TriangulationOutput*)>& run,
@@ -73,7 +63,7 @@ TriangulationOutput roomFor(const TriangulationScene& scene) {
   return output;
 }
 
-std::vector<Row> measure(const TriangulationScene& scene) {
+std::vector<BenchmarkRow> measure(const TriangulationScene& scene) {
   std::vector<TriangulationMethodUnderTest> methods = ourMethods();
   if (scene.cameras.size() == 2) {
     for (const TriangulationMethodUnderTest& peer : peerMethods())
@@ -82,12 +72,14 @@ std::vector<Row> measure(const TriangulationScene& scene) {
   TriangulationOutput output = roomFor(scene);
   const TriangulationScene part = firstPoints(scene);
   TriangulationOutput part_output = roomFor(part);
-  std::vector<Row> rows;
+  std::vector<BenchmarkRow> rows;
   std::vector<std::function<void(TriangulationOutput*)>> timed;
   for (const TriangulationMethodUnderTest& method : methods) {
-    rows.push_back({method.name, scene.cameras.size(), kNaN, kNaN, kNaN});
     method.prepare(scene)(&output);
-    score(scene, method, output, &rows.back());
+    const auto [rms_over_bound, nees] = errors(scene, method, output);
+    rows.push_back(
+        {scene.name + " cameras, " + method.name,
+         {{"bound [mm]", 1e3 * scene.bound}, {"RMS / bound", rms_over_bound}, {"NEES", nees}}});
     timed.push_back(method.prepare(part));
   }
   std::vector<std::vector<double>> seconds(methods.size());
@@ -97,83 +89,10 @@ std::vector<Row> measure(const TriangulationScene& scene) {
   }
   for (std::size_t m = 0; m < methods.size(); ++m) {
     std::sort(seconds[m].begin(), seconds[m].end());
-    rows[m].nanoseconds =
-        1e9 * seconds[m][kRepetitions / 2] / static_cast<double>(part.truth.size());
+    rows[m].figures.emplace_back(
+        "ns / point", 1e9 * seconds[m][kRepetitions / 2] / static_cast<double>(part.truth.size()));
   }
   return rows;
-}
-
-/// With all digits; JSON has no NaN.
-std::string jsonNumber(double value) {
-  const std::string text = format("%.9g", value);
-  return std::isfinite(value) ? text : "null";
-}
-
-void print(const TriangulationScene& scene, const std::vector<Row>& rows) {
-  std::printf("\n%s cameras, bound %.3f mm\n", scene.name.c_str(), 1e3 * scene.bound);
-  std::printf("  %-34s %12s %8s %10s\n", "", "RMS / bound", "NEES", "ns / point");
-  for (const Row& row : rows) {
-    std::printf("  %-34s %12.4f ", row.method.c_str(), row.rms_over_bound);
-    if (std::isfinite(row.nees))
-      std::printf("%8.3f", row.nees);
-    else
-      std::printf("%8s", "-");
-    std::printf(" %10.0f\n", row.nanoseconds);
-  }
-  std::fflush(stdout);
-}
-
-void write(const TriangulationScene& scene,
-           const std::vector<Row>& rows,
-           bool first,
-           std::FILE* json) {
-  std::fprintf(json, "%s\n \"%s\": [", first ? "" : ",", scene.name.c_str());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::fprintf(json,
-                 "%s\n  {\"method\": \"%s\", \"views\": %zu, \"bound_m\": %s, "
-                 "\"rms_over_bound\": %s, \"nees\": %s, \"ns_per_point\": %s}",
-                 i == 0 ? "" : ",", rows[i].method.c_str(), rows[i].views,
-                 jsonNumber(scene.bound).c_str(), jsonNumber(rows[i].rms_over_bound).c_str(),
-                 jsonNumber(rows[i].nees).c_str(), jsonNumber(rows[i].nanoseconds).c_str());
-  }
-  std::fprintf(json, "\n ]");
-}
-
-/// @param path of the JSON; empty: none. @returns the exit status.
-int run(int points, unsigned seed, const std::string& path) {
-  std::FILE* json = path.empty() ? nullptr : std::fopen(path.c_str(), "w");
-  if (!path.empty() && !json) {
-    std::perror(path.c_str());
-    return 1;
-  }
-
-  std::printf(
-      "Simulated: %d points, %.1f px of noise, lenses without distortion, seed %u.\n"
-      "Time: median of %d runs over %zu points, methods in turn, from rays that are ready unless "
-      "it "
-      "says\nfrom pixels. Ours give the covariance, the others the point only; a plain midpoint of "
-      "two rays, as\nOpenGV's, is the fastest that there is.\n",
-      points, kBenchmarkPixelStddev, seed, kRepetitions, kTimedPoints);
-  bool first = true;
-  if (json)
-    std::fprintf(json, "{");
-  for (const auto make : {paperScene, ringScene}) {
-    for (const int cameras : {2, 3, 4, 8}) {
-      const TriangulationScene scene = make(cameras, points, seed);
-      const std::vector<Row> rows = measure(scene);
-      print(scene, rows);
-      if (json)
-        write(scene, rows, first, json);
-      first = false;
-    }
-  }
-  if (json)
-    std::fprintf(json, "\n}\n");
-  if (json && std::fclose(json) != 0) {
-    std::perror(path.c_str());
-    return 1;
-  }
-  return 0;
 }
 
 }  // namespace
@@ -181,11 +100,29 @@ int run(int points, unsigned seed, const std::string& path) {
 int main(int argc, char** argv) {
   int points = 100000;
   unsigned seed = 1;
-  std::string path;
+  BenchmarkTables tables;
   ArgumentParser parser("benchmark_triangulation",
                         "Errors of triangulated points beside the bound, and the time they take.");
   parser.option("--points N", &points, 100, 1000000000, "points per row");
   parser.option("--seed N", &seed, 0, 4294967295, "of the random numbers");
-  parser.option("--json FILE", &path, "write the tables to this file, too");
-  return parser.run(argc, argv, [&] { return run(points, seed, path); });
+  tables.addOptions(&parser);
+  return parser.run(argc, argv, [&] {
+    tables.begin(
+        "triangulation",
+        format("Simulated: %d points, %.1f px of noise, lenses without distortion. Time: median of "
+               "%d runs over %zu points, methods in turn, from rays that are ready unless it says "
+               "from pixels. Ours give the covariance, the others the point only; a plain midpoint "
+               "of two rays, as OpenGV's, is the fastest that there is.",
+               points, kBenchmarkPixelStddev, kRepetitions, kTimedPoints),
+        format("rosrun wiimote_tracker_triangulation benchmark_triangulation --points %d --seed %u",
+               points, seed));
+    for (const auto make : {paperScene, ringScene}) {
+      for (const int cameras : {2, 3, 4, 8}) {
+        for (const BenchmarkRow& row : measure(make(cameras, points, seed)))
+          tables.add(row);
+      }
+    }
+    tables.write();
+    return 0;
+  });
 }

@@ -201,14 +201,14 @@ BenchmarkSection poseSection() {
   return {
       "pose",
       "the pose of a square from its four corners in one image: sides 0.5 to 2.5 m, ranges 4 "
-      "to 8 m, pixel noise 0.5 px; 1000 poses per session.\n"
-      "judged: poses whose bound (Cramer-Rao) of the rotation is at most 1.5 degrees and whose "
-      "other branch is absent or less probable by 80 in chi^2. whitened: sqrt(NEES / 6) of "
-      "these, at the bound; 1 is the bound itself.\n"
-      "Against a multi-start maximum-likelihood solution: worst excess of the cost [chi^2]; "
-      "poses of which the other branch is the better one, here and there; poses with two "
-      "branches, here and there, and those whose second, within 80 in chi^2, was missed. Processor "
-      "time per pose, both branches [us].",
+      "to 8 m, 0.5 px of noise; 1000 poses per session. judged: poses whose Cramer-Rao bound of "
+      "the "
+      "rotation is at most 1.5 degrees and whose other branch is absent or worse by 80 in chi^2; "
+      "whitened: their RMS error over the bound. Beside a maximum-likelihood solution from many "
+      "starts: worst excess of the cost [chi^2]; poses of which the other branch is the better "
+      "one, "
+      "here and there; poses with two branches, here and there; second branches within 80 in chi^2 "
+      "that were missed. Processor time per pose [us].",
       runTilts};
 }
 

@@ -207,14 +207,13 @@ int main(int argc, char** argv) {
   return runBenchmark(
       "benchmark_bodies",
       {{"accuracy",
-        "Poses at the newest image of cameras that are not synchronised, 0.5 px, 10 s a run; "
-        "beside the Cramer-Rao bound of one image by each camera. Right: within 20 degrees.",
+        "Poses at the newest image, the paper's cameras, unsynchronised, 0.5 px, bodies of 0.1 m "
+        "radius, "
+        "10 s per run; beside the Cramer-Rao bound of one image by each camera. known: share of "
+        "the "
+        "time with a pose; right: within 20 degrees.",
         runAccuracy},
-       {"hidden", "The same with LEDs hidden, or lights that lie close together one spot.",
-        runHidden},
-       {"recovery",
-        "From when the light comes back after 0.8 s in which all LEDs were hidden until there is a "
-        "pose again.",
-        runRecovery}},
+       {"hidden", "The same with LEDs hidden, or spots that merge.", runHidden},
+       {"recovery", "Time to the first pose after all LEDs were hidden for 0.8 s.", runRecovery}},
       static_cast<int>(others.size()), others.data());
 }

@@ -21,9 +21,9 @@ using identity::test::simulateBlinking;
 constexpr int kRunsPerRun = 50;  // simulated runs for each of --runs
 
 const char* const kColumns =
-    " wrong %: of the runs, in which the likeliest label of an LED is not its own; given wrong %: "
-    "in which a label was given (as probable as a decision needs) that is not its own; none yet %: "
-    "in which no wrong label was given, but an LED has none.";
+    " wrong %: runs in which the likeliest label of an LED is wrong; given wrong %: runs in which "
+    "a "
+    "label was given that is wrong; none yet %: runs in which an LED has no label yet.";
 
 /// Counts of runs.
 struct Score {
@@ -302,15 +302,15 @@ void runCyclic(const BenchmarkSettings& settings, const RowCallback& row) {
 }  // namespace
 
 BenchmarkSection paperSection() {
-  return {"paper",
-          std::string("Four LEDs, 90/60/40/20 %, two periods after the first image; the period is "
-                      "looked for within 110 and 500 ms. 5 % of detections dropped, 1 % of "
-                      "sightings flipped, cameras not synchronised. 50 runs per --runs.") +
-              kColumns +
-              " counting %: wrong by the share of images that show it, nearest to its label's. "
-              "period known, and all blink, phase too: none yet when these are told beforehand; "
-              "with all of them it is the exact posterior, as good as the sightings allow.",
-          runPaper};
+  return {
+      "paper",
+      std::string("Four LEDs, lit for 90, 60, 40, 20 % of a period, two periods after the first "
+                  "image; the period is searched within 110 and 500 ms. 5 % missed detections, "
+                  "1 % of sightings flipped, cameras not synchronised. 50 runs per --runs.") +
+          kColumns +
+          " counting %: wrong by the share of images that show an LED. period known; all blink, "
+          "phase too: none yet % when these are told beforehand.",
+      runPaper};
 }
 
 BenchmarkSection someInViewSection() {
@@ -319,17 +319,17 @@ BenchmarkSection someInViewSection() {
 }
 
 BenchmarkSection periodsSection() {
-  return {"periods",
-          std::string("The same as the first, over the period; it is looked for within 40 and 250 "
-                      "ms.") +
-              kColumns,
-          runPeriods};
+  return {
+      "periods",
+      std::string("The same over the period, which is searched within 40 and 250 ms.") + kColumns,
+      runPeriods};
 }
 
 BenchmarkSection cyclicSection() {
   return {"cyclic",
-          std::string("One LED with a cyclic code, so many ms after the first image; 1 % of "
-                      "sightings flipped. 1000 runs per --runs.") +
+          std::string(
+              "One LED with a cyclic code, chips of 23 ms, this long after the first image; 1 % "
+              "of sightings flipped. 1000 runs per --runs.") +
               kColumns,
           runCyclic};
 }

@@ -164,13 +164,14 @@ void runAssociation(const BenchmarkSettings& settings, const RowCallback& row) {
 }  // namespace
 
 BenchmarkSection associationSection() {
-  return {"association",
-          "four identical LEDs at random in the paper's cube, noise of 0.5 px, single frames of at "
-          "most four spots; identical: share of frames in which the same points are found as by "
-          "looking at all possibilities (all spots seen: at all permutations; else at all "
-          "divisions into points and ghosts); right: all points that two cameras see, and no "
-          "other; us: per frame, from sights (the lens undone), mean and longest",
-          runAssociation};
+  return {
+      "association",
+      "four identical LEDs at random places in the paper's cube, 0.5 px of noise, single frames of "
+      "at "
+      "most four spots. identical: share of frames with the same points as an exhaustive search; "
+      "right: share with all points that two cameras see, and no other; us: processor time per "
+      "frame from rays.",
+      runAssociation};
 }
 
 }  // namespace wiimote_tracker

@@ -344,14 +344,16 @@ void runFilter(const BenchmarkSettings& settings, const RowCallback& row) {
 }  // namespace
 
 BenchmarkSection filterSection() {
-  return {"filter",
-          "one LED seen by four cameras in turn every 2.5 ms, 0.5 px of noise. (a) truth of the "
-          "filter's own single mode and (b) truth that changes between rest (1 to 3 s) and motion "
-          "(1 to 2 s, acceleration of 2 m/s^2 with an autocorrelation time of 0.2 s), compared "
-          "with the posterior Cramer-Rao bound, which knows the mode; (c) compared with the "
-          "constant-velocity or constant-acceleration filter whose noise suits the row best. NEES: "
-          "3 when the covariance is right.",
-          runFilter};
+  return {
+      "filter",
+      "one LED seen by four cameras in turn every 2.5 ms, 0.5 px of noise. (a) motion drawn from "
+      "the "
+      "filter's only mode and (b) motion that changes between rest (1 to 3 s) and moving (1 to 2 "
+      "s, acceleration of 2 m/s^2 with an autocorrelation time of 0.2 s), beside the posterior "
+      "Cramer-Rao bound, which knows the mode; (c) beside the constant-velocity or "
+      "constant-acceleration filter whose noise suits the row best. NEES: 3 where the covariance "
+      "is right.",
+      runFilter};
 }
 
 }  // namespace wiimote_tracker

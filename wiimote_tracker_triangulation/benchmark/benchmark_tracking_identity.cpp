@@ -167,16 +167,18 @@ void runIdentity(const BenchmarkSettings& settings, const RowCallback& row) {
 }  // namespace
 
 BenchmarkSection identitySection() {
-  return {"identity",
-          "four LEDs in the paper's rig, 10 % missed detections, a false detection in every image, "
-          "spots merge below 8 px, 10000 images per run.\n"
-          "Identity swaps; LEDs that got a new track; LEDs in snapshots without a confirmed track "
-          "within 0.1 m, and in the last snapshot; tracks in snapshots without an LED within 0.1 "
-          "m; RMS error [mm]; late images.\n"
-          "Then two LEDs whose spots merge in all views, 20 meetings per run: identity swaps of a "
-          "smoothing maximum-likelihood oracle, of this oracle with the tracker's filters, and of "
-          "the tracker; LEDs that got a new track; errors of the tracker over those of the oracle.",
-          runIdentity};
+  return {
+      "identity",
+      "four LEDs in the paper's rig, 10 % missed detections, a false detection in every image, "
+      "spots merge below 8 px, 10000 images per run.\n"
+      "Identity swaps; LEDs with a new track id; LEDs in snapshots without a confirmed track "
+      "within 0.1 m, and in the last snapshot; tracks in snapshots without an LED within 0.1 "
+      "m; RMS error [mm]; late images.\n"
+      "Then two LEDs whose spots merge in all views, 20 meetings per run: identity swaps of an "
+      "oracle that knows the motion model and which spots belong together and uses later images, "
+      "of this oracle with the tracker's filters, and of the tracker; LEDs with a new track id; "
+      "swaps of the tracker over those of the oracle.",
+      runIdentity};
 }
 
 }  // namespace wiimote_tracker

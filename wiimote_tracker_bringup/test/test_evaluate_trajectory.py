@@ -1,5 +1,6 @@
 """evaluate_trajectory: errors in closed form, and a bag."""
 
+import dataclasses
 import json
 import os
 import sys
@@ -97,6 +98,16 @@ def test_clocks_and_gaps():
         comparison.compare(truth.shifted(100.0), truth)
     with pytest.raises(ExperimentError, match='not on one line'):
         comparison.compare(along(), along())
+
+
+def test_a_body_that_rests_does_not_tell_the_alignment():
+    random, truth = np.random.default_rng(4), around(speed=0.0)
+    estimate = dataclasses.replace(truth, positions=truth.positions
+                                   + random.normal(0.0, 1e-3, truth.positions.shape))
+    truth.positions[:] += random.normal(0.0, 1e-6, truth.positions.shape)
+    with pytest.raises(ExperimentError, match='too short to align.*--alignment absolute'):
+        comparison.compare(estimate, truth)
+    assert comparison.compare(estimate, truth, 'absolute').errors['ATE [deg]'].max() < 1e-6
 
 
 def write(bag, topic, poses):

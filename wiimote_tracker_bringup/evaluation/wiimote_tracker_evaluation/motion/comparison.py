@@ -49,12 +49,25 @@ def compare(estimate, truth, kind='rigid', interval=1.0, longest_gap=0.05):
     aligned = dataclasses.replace(estimate, positions=fitted.apply(estimate.positions),
                                   rotations=Rotation.from_matrix(fitted.rotation)
                                   * estimate.rotations)
+    if kind != 'absolute':
+        check_alignment(aligned.positions, truth.positions)
     first, last = intervals(estimate.times, interval, longest_gap)
     shift, turn = relative_errors(aligned, truth, first, last)
     errors = {'ATE [m]': np.linalg.norm(aligned.positions - truth.positions, axis=1),
               'ATE [deg]': degrees(truth.rotations.inv() * aligned.rotations),
               f'RPE of {interval:g} s [m]': shift, f'RPE of {interval:g} s [deg]': turn}
     return Comparison(truth, aligned, fitted.scale, errors, estimate.times[first])
+
+
+def check_alignment(aligned, truth):
+    """Throws ExperimentError where the path, across its longest extent, is shorter than the errors:
+    any turn about that direction would fit as well. n x 3 [m]."""
+    extent = np.linalg.svd(truth - truth.mean(axis=0), compute_uv=False)[1] / np.sqrt(len(truth))
+    error = alignment.rms(aligned - truth)
+    if extent < error:
+        raise ExperimentError(
+            f'the true path is too straight or too short to align: its width is {1e3 * extent:.1f} mm, '
+            f'errors are {1e3 * error:.1f} mm (RMS); move about, or use --alignment absolute')
 
 
 def intervals(times, interval, tolerance):

@@ -1,5 +1,6 @@
 #include "paper_procedure.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <cmath>
@@ -69,7 +70,7 @@ double meanError(const geometry::Rig& rig,
       observations.push_back({&cameras[i], pixels[p][i]});
     const auto measured = geometry::triangulate(observations, options);
     if (!measured)
-      throw CorrectionError("a point of the simulated session cannot be measured");
+      throw Error("a point of the simulated session cannot be measured");
     sum += (measured->position - points[p]).norm();
   }
   return sum / static_cast<double>(points.size());

@@ -7,6 +7,8 @@
 #include "session/clock_lag.h"
 #include "session/solve_session.h"
 
+#include <wiimote_tracker_msgs/error.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +25,7 @@ std::string outcomeOf(const wave::Recording& recording, const SolveOptions& opti
   session.masks.resize(recording.cameras.size());
   try {
     return solveSession(session, options).rig.verdict;
-  } catch (const geometry::Error& error) {
+  } catch (const Error& error) {
     return error.what();
   }
 }

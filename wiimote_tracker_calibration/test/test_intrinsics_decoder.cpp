@@ -1,6 +1,7 @@
 #include "intrinsics/board_decoder.h"
 #include "intrinsics/board_sequence.h"
-#include "intrinsics/error.h"
+
+#include <wiimote_tracker_msgs/error.h>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -249,7 +250,7 @@ TEST(BoardDecoder, SaysWhatItWaitsFor) {
 TEST(BoardDecoder, RefusesOptionsOutOfRange) {
   DecoderOptions options;
   options.minimum_separation = options.radius;
-  EXPECT_THROW(BoardDecoder{options}, IntrinsicsError);
+  EXPECT_THROW(BoardDecoder{options}, Error);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 #include "board_lenses.h"
 
-#include "intrinsics/error.h"
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
+
+#include <wiimote_tracker_msgs/error.h>
 
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
@@ -86,7 +87,7 @@ Eigen::MatrixXd cramerRaoBound(const geometry::Intrinsics& camera,
 std::string refusal(const Samples& samples, const SolverOptions& options = SolverOptions()) {
   try {
     solveIntrinsics(samples, options);
-  } catch (const IntrinsicsError& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return "was not refused";

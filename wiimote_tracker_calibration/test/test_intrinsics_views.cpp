@@ -1,8 +1,9 @@
 #include "board_lenses.h"
 
-#include "intrinsics/error.h"
 #include "intrinsics/view_collector.h"
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
+
+#include <wiimote_tracker_msgs/error.h>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Two rigs in one world, drawn round a known truth from known covariances.
 
-#include "session/error.h"
 #include "session/join_rigs.h"
 
 #include "expect_says.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ namespace {
 std::string joinRefusal(const std::function<void()>& action) {
   try {
     action();
-  } catch (const SessionError& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return "not refused";

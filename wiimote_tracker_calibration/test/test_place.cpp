@@ -5,9 +5,10 @@
 
 #include "place/check_place.h"
 #include "place/chi_squared.h"
-#include "place/error.h"
 #include "place/known_places.h"
 #include "place/measure_place.h"
+
+#include <wiimote_tracker_msgs/error.h>
 
 #include <gtest/gtest.h>
 
@@ -45,7 +46,7 @@ capture::CapturedCorner seen(const std::vector<geometry::RigCamera>& truth,
 std::string refusal(const geometry::Rig& rig, const capture::CapturedCorner& corner) {
   try {
     measurePlace(rig, corner, kPixel);
-  } catch (const PlaceError& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return "";
@@ -204,9 +205,9 @@ TEST(CheckPlace, StatesErrorAndExpectedError) {
   EXPECT_FALSE(place.calibration_known);
   EXPECT_SAYS(checkPlace(place, wrong, 0.0).message, "only the pixels");
 
-  EXPECT_THROW(checkPlace(place, led, -1.0), PlaceError);
+  EXPECT_THROW(checkPlace(place, led, -1.0), Error);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(checkPlace(place, {nan, 0.0, 0.0}, 0.0), PlaceError);
+  EXPECT_THROW(checkPlace(place, {nan, 0.0, 0.0}, 0.0), Error);
 }
 
 // A correction that moves all points up by 50 mm; one of another calibration does nothing.
@@ -246,7 +247,7 @@ TEST(MeasurePlace, RefusesWhatDoesNotDetermineAPoint) {
   twice.cameras[1].camera.world_from_camera = twice.cameras[0].camera.world_from_camera;
   EXPECT_SAYS(refusal(twice, {{"camera_1", all.at("camera_1")}, {"camera_2", all.at("camera_1")}}),
               "parallel");
-  EXPECT_THROW(measurePlace(rig, all, 0.0), PlaceError);
+  EXPECT_THROW(measurePlace(rig, all, 0.0), Error);
 }
 
 TEST(KnownPlaces, BelongToOneCalibration) {

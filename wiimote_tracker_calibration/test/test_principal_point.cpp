@@ -238,7 +238,7 @@ TEST(PrincipalPoint, TheTableNamesTheCamerasAndHasALinePerRound) {
 TEST(PrincipalPoint, WhatCannotBeDoneIsRefused) {
   auto cameras = exactSightings({}, layout().corners(true));
   const auto refused = [&](const CorrectionOptions& options) {
-    EXPECT_THROW(correctPrincipalPoints(layout(), cameras, options), CorrectionError);
+    EXPECT_THROW(correctPrincipalPoints(layout(), cameras, options), Error);
   };
   CorrectionOptions options;
   options.rounds = -1;

@@ -3,8 +3,9 @@
 #include "expect_says.h"
 #include "waved_led.h"
 
-#include "recalibrate/error.h"
 #include "recalibrate/recalibrate_camera.h"
+
+#include <wiimote_tracker_msgs/error.h>
 
 #include <gtest/gtest.h>
 
@@ -72,7 +73,7 @@ Eigen::Matrix<double, 7, 7> covarianceOf(const geometry::Rig& rig, std::size_t c
 std::string refusal(const geometry::Rig& rig, const Request& request, const Options& options = {}) {
   try {
     recalibrateCamera(rig, request, options);
-  } catch (const RecalibrateError& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return "";

@@ -4,13 +4,13 @@
 #include "wave_trial.h"
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
-#include "session/error.h"
 #include "session/judge.h"
 #include "session/session_file.h"
 #include "session/solve_session.h"
 #include "square/error.h"
 #include "wave/error.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ namespace {
 std::string refusalOf(const std::function<void()>& action) {
   try {
     action();
-  } catch (const geometry::Error& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return "not refused";

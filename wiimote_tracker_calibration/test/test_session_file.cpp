@@ -1,10 +1,10 @@
 // The file of what was captured: every number comes back, and damage is refused.
 
-#include "session/error.h"
 #include "session/session_file.h"
 
 #include "expect_says.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/atomic_file.h>
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ class SessionFile : public ::testing::Test {
   std::string refusal() {
     try {
       readSessionFile(path_);
-    } catch (const geometry::Error& error) {
+    } catch (const Error& error) {
       return error.what();
     }
     return "not refused";
@@ -250,7 +250,7 @@ TEST_F(SessionFile, KeepsKnownPlaces) {
   EXPECT_FALSE(read.cameras[0].sightings.places[0]);
   expectSameVector(*read.cameras[0].sightings.places[1], Eigen::Vector2d(5.0, 6.25));
   session.recording.square->places.pop_back();
-  EXPECT_THROW(writeSessionFile(session, path_), SessionError);
+  EXPECT_THROW(writeSessionFile(session, path_), Error);
 }
 
 TEST_F(SessionFile, KeepsLengthsByTape) {
@@ -316,7 +316,7 @@ TEST_F(SessionFile, KeepsWhatWasThereBefore) {
   writeSessionFile(session, path_);
   EXPECT_EQ(geometry::readFile(path_ + ".bak"), kText);
   session.recording.cameras[0].frames[0].spots[0].x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(writeSessionFile(session, path_), SessionError);
+  EXPECT_THROW(writeSessionFile(session, path_), Error);
   EXPECT_EQ(readSessionFile(path_).recording.square->side_x, 3.0);
 }
 
@@ -343,7 +343,7 @@ TEST_F(SessionFile, DamageIsRefusedOrHarmless) {
     try {
       // What can be read can be written.
       writeSessionFile(readSessionFile(path_), path_ + ".again");
-    } catch (const geometry::Error& error) {
+    } catch (const Error& error) {
       ++refused;
       EXPECT_GT(std::strlen(error.what()), 20U);
     }

@@ -115,7 +115,7 @@ TEST_F(ThrownErrors, BecomeRefusalsAndTheNextRequestWorks) {
       {"bad matrix",
        [] { throw cv::Exception(cv::Error::StsBadArg, "bad matrix", "solve", "file", 1); }},
       {"an unexpected error", [] { throw 7; }},
-      {"no solution", [] { throw geometry::Error("no solution"); }},
+      {"no solution", [] { throw Error("no solution"); }},
   };
   for (const Case& each : cases()) {
     for (const auto& [part, fault] : faults) {

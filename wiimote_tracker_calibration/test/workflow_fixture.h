@@ -7,6 +7,8 @@
 #include "expect_says.h"
 #include "simulated_square.h"
 
+#include <wiimote_tracker_msgs/error.h>
+
 #include <gtest/gtest.h>
 
 #include <map>
@@ -67,7 +69,7 @@ class Workflow : public ::testing::Test {
       const Reply reply = calibration_.takeSolution(solution.rig);
       calibration_.end(reply);
       return reply;
-    } catch (const geometry::Error& error) {
+    } catch (const Error& error) {
       const Reply failed = {false, error.what()};
       calibration_.end(failed);
       return failed;

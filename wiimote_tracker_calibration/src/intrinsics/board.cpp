@@ -1,6 +1,6 @@
 #include "wiimote_tracker_calibration/intrinsics/board.h"
 
-#include "intrinsics/error.h"
+#include <wiimote_tracker_msgs/error.h>
 
 #include <cmath>
 
@@ -13,7 +13,7 @@ Eigen::Vector3d Board::position(int led) const {
 void Board::check() const {
   for (const double spacing : {column_spacing, row_spacing}) {
     if (!(std::isfinite(spacing) && spacing > 0.0))
-      throw IntrinsicsError("the board's spacings must be above 0 m: measure them");
+      throw Error("the board's spacings must be above 0 m: measure them");
   }
 }
 

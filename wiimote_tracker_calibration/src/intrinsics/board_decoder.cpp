@@ -1,8 +1,8 @@
 #include "intrinsics/board_decoder.h"
 
 #include "intrinsics/board_sequence.h"
-#include "intrinsics/error.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
@@ -188,7 +188,7 @@ BoardDecoder::BoardDecoder(const DecoderOptions& options) : options_(options) {
         options.minimum_separation > 2.0 * options.radius && options.motion_limit > 0.0 &&
         options.minimum_explained >= 0.0 && options.minimum_explained <= 1.0 &&
         options.longest_gap > 0.0))
-    throw IntrinsicsError("an option of the board decoder is out of range: see DecoderOptions");
+    throw Error("an option of the board decoder is out of range: see DecoderOptions");
 }
 
 void BoardDecoder::add(double time, const std::vector<Eigen::Vector2d>& spots) {

@@ -33,7 +33,7 @@ struct BoardReading {
 /// out of view, and ignores lights that do not follow the sequence.
 class BoardDecoder {
  public:
-  /// @throws IntrinsicsError: options out of range.
+  /// @throws Error: options out of range.
   explicit BoardDecoder(const DecoderOptions& options);
 
   /// One image, also an empty one. Time [s] is that of the exposure. Images are sorted; a

@@ -16,7 +16,7 @@ namespace wiimote_tracker::intrinsics {
 /// board was held still and the view differs from those kept.
 class BoardRun {
  public:
-  /// @throws IntrinsicsError: board, image size or options out of range.
+  /// @throws Error: board, image size or options out of range.
   BoardRun(const Board& board, int width, int height, const CollectorOptions& options);
 
   /// One image, as BoardDecoder::add. @returns whether message() or the views changed.

@@ -1,7 +1,7 @@
 // Fits a lens with cv::calibrateCamera or cv::fisheye::calibrate.
 #include "lens_fit.h"
 
-#include "intrinsics/error.h"
+#include <wiimote_tracker_msgs/error.h>
 
 #include <opencv2/calib3d.hpp>
 
@@ -131,7 +131,7 @@ Fit firstFit(const Points& points, bool equidistant, double focal_length) {
       best = fit;
   }
   if (!best.ok())
-    throw IntrinsicsError(
+    throw Error(
         "the views fit no camera: check the board's spacings, and show it again "
         "from at least 12 different sides");
   return fitFrom(best, LensModel::kNoDistortion, points, kPrecise);

@@ -37,7 +37,7 @@ struct Fit {
 };
 
 /// Fits a lens without distortion, or an equidistant one without coefficients, from several focal
-/// lengths: a wide-angle lens in front shortens them. @throws IntrinsicsError: nothing fits.
+/// lengths: a wide-angle lens in front shortens them. @throws Error: nothing fits.
 Fit firstFit(const Points& points, bool equidistant, double focal_length);
 
 /// The model with the least reprojection error, from a fit of the same kind.

@@ -1,9 +1,9 @@
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
 
-#include "intrinsics/error.h"
 #include "lens_fit.h"
 #include "view_geometry.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/Cholesky>
@@ -86,15 +86,15 @@ std::optional<Eigen::MatrixXd> unitCovariance(const Fit& fit,
 void checkInput(const Samples& samples, const SolverOptions& options) {
   samples.board.check();
   if (samples.width < 1 || samples.height < 1)
-    throw IntrinsicsError("the image size must be above 0 px: check the camera's driver");
+    throw Error("the image size must be above 0 px: check the camera's driver");
   if (!(options.minimum_views >= 3 && options.start_focal_length > 0.0 &&
         options.maximum_focal_stddev > 0.0 && options.maximum_pixel_stddev > 0.0 &&
         options.maximum_aspect_error > 0.0))
-    throw IntrinsicsError("an option of the intrinsics solver is out of range: see SolverOptions");
+    throw Error("an option of the intrinsics solver is out of range: see SolverOptions");
   const std::size_t needed = static_cast<std::size_t>(options.minimum_views);
   if (samples.views.size() < needed)
-    throw IntrinsicsError(std::to_string(samples.views.size()) + " views of the board, at least " +
-                          std::to_string(needed) + " are needed: show it from more sides");
+    throw Error(std::to_string(samples.views.size()) + " views of the board, at least " +
+                std::to_string(needed) + " are needed: show it from more sides");
 }
 
 void checkPlaces(const Samples& samples) {
@@ -109,7 +109,7 @@ void checkPlaces(const Samples& samples) {
     bottom = std::max(bottom, geometry.center().y());
   }
   if (std::max(right - left, bottom - top) < kSmallestTravel * samples.width)
-    throw IntrinsicsError(
+    throw Error(
         "all views show the board at one place of the image: show it in the "
         "corners of the image too");
 }
@@ -125,7 +125,7 @@ void checkTilts(const Fit& fit) {
       most = std::max(most, std::acos(std::clamp(a.dot(b), -1.0, 1.0)));
   }
   if (most < kSmallestTilt)
-    throw IntrinsicsError(
+    throw Error(
         "all views show the board from its front or under one tilt, which leaves "
         "the focal length open: tilt it by 30 to 45 degrees, to all sides");
 }
@@ -193,7 +193,7 @@ Fit chooseModel(const Points& points, const SolverOptions& options, IntrinsicsSo
                     return !other.holds && other.reprojection_error < kMuchBetter * chosen.error;
                   });
   if (!chosen.ok() || is_makeshift)
-    throw IntrinsicsError(
+    throw Error(
         "the lens model does not hold over the whole image: show the board in "
         "all corners of the image, or choose a simpler model, or equidistant for a wide-angle "
         "lens");
@@ -207,12 +207,12 @@ Fit fitEquidistant(const Points& points,
   checkTilts(first);
   const Fit fit = refined(first, LensModel::kEquidistant, points);
   if (!fit.ok())
-    throw IntrinsicsError(
+    throw Error(
         "the views fit no equidistant lens: check the board's spacings, show it in all corners of "
         "the image, or choose another model");
   solution->candidates.push_back(candidateOf(fit, points));
   if (!solution->candidates.back().holds)
-    throw IntrinsicsError(
+    throw Error(
         "the equidistant lens does not hold over the whole image: show the board in all corners of "
         "the image, or choose another model");
   return fit;
@@ -238,20 +238,19 @@ IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& 
   solution.pixel_stddev =
       chosen.error * std::sqrt(static_cast<double>(points.count) / degrees_of_freedom);
   if (!(solution.pixel_stddev <= options.maximum_pixel_stddev))
-    throw IntrinsicsError("the views do not fit the board (" +
-                          std::to_string(solution.pixel_stddev) +
-                          " px): check its spacings, that it is flat and that it was held still");
+    throw Error("the views do not fit the board (" + std::to_string(solution.pixel_stddev) +
+                " px): check its spacings, that it is flat and that it was held still");
 
   const auto covariance = unitCovariance(chosen, points, &solution.view_errors);
   const double f = solution.intrinsics.fx;
   const double variance = solution.pixel_stddev * solution.pixel_stddev;
   if (!covariance ||
       !(std::sqrt(variance * (*covariance)(0, 0)) <= options.maximum_focal_stddev * f))
-    throw IntrinsicsError(
+    throw Error(
         "the views leave the focal length too uncertain: show the board nearer, "
         "and tilted by 30 to 45 degrees to all sides");
   if (!(std::abs(f / solution.intrinsics.fy - 1.0) <= options.maximum_aspect_error))
-    throw IntrinsicsError(
+    throw Error(
         "the focal lengths along x and y differ by more than a camera's do: the "
         "board's column and row spacing must be as measured");
   solution.covariance.topLeftCorner(parameters, parameters) = variance * *covariance;

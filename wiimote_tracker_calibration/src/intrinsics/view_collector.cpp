@@ -1,7 +1,8 @@
 #include "intrinsics/view_collector.h"
 
-#include "intrinsics/error.h"
 #include "view_geometry.h"
+
+#include <wiimote_tracker_msgs/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,10 +42,10 @@ ViewCollector::ViewCollector(const Board& board,
     : samples_{board, width, height, {}}, options_(options) {
   board.check();
   if (width < 1 || height < 1)
-    throw IntrinsicsError("the image size must be above 0 px: check the camera's driver");
+    throw Error("the image size must be above 0 px: check the camera's driver");
   if (!(options.minimum_views > 0 && options.minimum_difference >= 0.0 &&
         options.minimum_difference <= 4.0))
-    throw IntrinsicsError("an option of the collector is out of range: see CollectorOptions");
+    throw Error("an option of the collector is out of range: see CollectorOptions");
 }
 
 std::string ViewCollector::add(const BoardView& view) {
@@ -59,7 +60,7 @@ std::string ViewCollector::add(const BoardView& view) {
     parameters[kSize] =
         unit(size / std::sqrt(static_cast<double>(samples_.width) * samples_.height));
     parameters[kSkew] = unit(2.0 * geometry.skew());
-  } catch (const IntrinsicsError& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   for (const Parameters& kept : parameters_) {

@@ -30,7 +30,7 @@ struct Coverage {
 /// Keeps those views of the board that differ from all kept before.
 class ViewCollector {
  public:
-  /// @throws IntrinsicsError: board, image size or options out of range.
+  /// @throws Error: board, image size or options out of range.
   ViewCollector(const Board& board, int width, int height, const CollectorOptions& options);
 
   /// Keeps the view, or says why not.

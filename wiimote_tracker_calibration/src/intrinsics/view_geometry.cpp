@@ -1,6 +1,6 @@
 #include "view_geometry.h"
 
-#include "intrinsics/error.h"
+#include <wiimote_tracker_msgs/error.h>
 
 #include <Eigen/LU>
 #include <opencv2/calib3d.hpp>
@@ -69,21 +69,20 @@ ViewGeometry viewGeometry(const Board& board, const BoardView& view, const std::
     if (!pixel)
       continue;
     if (!pixel->allFinite())
-      throw IntrinsicsError(name + " has a pixel that is not a number: leave it out");
+      throw Error(name + " has a pixel that is not a number: leave it out");
     const Eigen::Vector3d p = board.position(led);
     plane.emplace_back(p.x(), p.y());
     image.emplace_back(pixel->x(), pixel->y());
   }
   if (plane.size() < 6)
-    throw IntrinsicsError(name +
-                          " shows fewer than 6 LEDs: bring more of the board into the image");
+    throw Error(name + " shows fewer than 6 LEDs: bring more of the board into the image");
   cv::Mat homography;
   if (!areInLine(plane) && !areInLine(image))
     homography = cv::findHomography(plane, image);
   if (homography.empty())
-    throw IntrinsicsError(name +
-                          " shows LEDs of one line only: bring more of the board into the "
-                          "image, and do not look along it");
+    throw Error(name +
+                " shows LEDs of one line only: bring more of the board into the "
+                "image, and do not look along it");
 
   ViewGeometry geometry;
   constexpr std::array<int, 4> kCorners = {0, 3, 15, 12};
@@ -105,13 +104,13 @@ ViewGeometry viewGeometry(const Board& board, const BoardView& view, const std::
 void checkOrder(const ViewGeometry& geometry, const std::string& name) {
   const double misfit = geometry.misfit / std::max(geometry.size(), 1.0);
   if (!(misfit < kLargestMisfit))
-    throw IntrinsicsError(name +
-                          " is no 4 x 4 grid: check that each LED of the board is where its "
-                          "number says, and that the board is flat");
+    throw Error(name +
+                " is no 4 x 4 grid: check that each LED of the board is where its "
+                "number says, and that the board is flat");
   if (geometry.mirrored)
-    throw IntrinsicsError(name +
-                          " is mirrored: LED 0 must be at the top left and LED 3 at the top "
-                          "right of the board's front; correct its wiring");
+    throw Error(name +
+                " is mirrored: LED 0 must be at the top left and LED 3 at the top "
+                "right of the board's front; correct its wiring");
 }
 
 }  // namespace wiimote_tracker::intrinsics

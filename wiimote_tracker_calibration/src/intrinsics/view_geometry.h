@@ -21,11 +21,11 @@ struct ViewGeometry {
   double skew() const;  ///< How far the angle at LED 3 is from a right one [rad].
 };
 
-/// @throws IntrinsicsError: fewer than six LEDs, pixels not finite, or all in one line. The
+/// @throws Error: fewer than six LEDs, pixels not finite, or all in one line. The
 /// sentence begins with `name`.
 ViewGeometry viewGeometry(const Board& board, const BoardView& view, const std::string& name);
 
-/// @throws IntrinsicsError: the LEDs are no grid, or mirrored: wrong wiring or numbers.
+/// @throws Error: the LEDs are no grid, or mirrored: wrong wiring or numbers.
 void checkOrder(const ViewGeometry& geometry, const std::string& name);
 
 }  // namespace wiimote_tracker::intrinsics

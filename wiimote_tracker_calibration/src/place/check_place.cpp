@@ -1,8 +1,8 @@
 #include "place/check_place.h"
 
 #include "place/chi_squared.h"
-#include "place/error.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/Cholesky>
@@ -44,9 +44,9 @@ PlaceCheck checkPlace(const MeasuredPlace& measured,
                       const Eigen::Vector3d& known,
                       double known_stddev) {
   if (!known.allFinite())
-    throw PlaceError("the known place is not finite: give x, y and z in metres");
+    throw Error("the known place is not finite: give x, y and z in metres");
   if (!(known_stddev >= 0.0) || !std::isfinite(known_stddev))
-    throw PlaceError("known_stddev must be 0 or above: give it in metres");
+    throw Error("known_stddev must be 0 or above: give it in metres");
   const Eigen::Vector3d difference = measured.position - known;
   const Eigen::Matrix3d covariance =
       measured.covariance + known_stddev * known_stddev * Eigen::Matrix3d::Identity();

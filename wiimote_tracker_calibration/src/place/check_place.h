@@ -18,7 +18,7 @@ struct PlaceCheck {
 };
 
 /// @param known where the LED is, world [m]. @param known_stddev of that, per axis [m, >= 0].
-/// @throws PlaceError: values out of range or not finite.
+/// @throws Error: values out of range or not finite.
 PlaceCheck checkPlace(const MeasuredPlace& measured,
                       const Eigen::Vector3d& known,
                       double known_stddev);

@@ -1,8 +1,8 @@
 #include "place/measure_place.h"
 
 #include "place/chi_squared.h"
-#include "place/error.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
@@ -116,7 +116,7 @@ MeasuredPlace measurePlace(const geometry::Rig& rig,
                            const capture::CapturedCorner& seen,
                            double pixel_stddev) {
   if (!(pixel_stddev > 0.0))
-    throw PlaceError("pixel_stddev must be above 0: correct it");
+    throw Error("pixel_stddev must be above 0: correct it");
   std::vector<View> views;
   std::vector<std::string> seeing;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
@@ -128,14 +128,14 @@ MeasuredPlace measurePlace(const geometry::Rig& rig,
   }
   const std::string names = joined(seeing);
   if (views.size() < 2)
-    throw PlaceError("the LED was seen by " +
-                     (names.empty() ? "no camera of the rig" : names + " alone") +
-                     ", but two are needed: put it where two calibrated cameras see it");
+    throw Error("the LED was seen by " +
+                (names.empty() ? "no camera of the rig" : names + " alone") +
+                ", but two are needed: put it where two calibrated cameras see it");
   const auto measurement = measure(rig, views, pixel_stddev);
   if (!measurement)
-    throw PlaceError("the rays of " + names +
-                     " do not determine a point: they are nearly parallel, or meet behind a "
-                     "camera; check that they see the same LED, and calibrate again if they do");
+    throw Error("the rays of " + names +
+                " do not determine a point: they are nearly parallel, or meet behind a "
+                "camera; check that they see the same LED, and calibrate again if they do");
 
   MeasuredPlace place;
   place.position = measurement->position;

@@ -37,7 +37,7 @@ struct MeasuredPlace {
 /// tracker does, without the correction of the volume.
 /// @param seen cameras that the rig does not know are left out.
 /// @param pixel_stddev of an averaged spot, per axis [px, > 0].
-/// @throws PlaceError: fewer than two cameras, or rays that do not determine a point.
+/// @throws Error: fewer than two cameras, or rays that do not determine a point.
 MeasuredPlace measurePlace(const geometry::Rig& rig,
                            const capture::CapturedCorner& seen,
                            double pixel_stddev);

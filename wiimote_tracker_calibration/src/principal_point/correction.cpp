@@ -128,14 +128,14 @@ std::vector<std::string> warningsOf(const CorrectionOptions& options,
 
 void CorrectionOptions::check() const {
   if (rounds < 0 || rounds > 1000)
-    throw CorrectionError("rounds is " + std::to_string(rounds) + ": choose 0 to 1000");
+    throw Error("rounds is " + std::to_string(rounds) + ": choose 0 to 1000");
   if (!std::isfinite(limit) || limit < 0.0)
-    throw CorrectionError("limit is " + std::to_string(limit) + " m: choose 0 or more");
+    throw Error("limit is " + std::to_string(limit) + " m: choose 0 or more");
   if (!(std::abs(step) <= 1.0) || step == 0.0)
-    throw CorrectionError("step is " + std::to_string(step) + ": choose -1 to 1, but not 0");
+    throw Error("step is " + std::to_string(step) + ": choose -1 to 1, but not 0");
   if (!std::isnan(virtual_hfov) && !(virtual_hfov > 0.0 && virtual_hfov < M_PI))
-    throw CorrectionError("virtual_hfov is " + std::to_string(virtual_hfov) +
-                          " rad: choose a value between 0 and pi, or NaN for none");
+    throw Error("virtual_hfov is " + std::to_string(virtual_hfov) +
+                " rad: choose a value between 0 and pi, or NaN for none");
 }
 
 CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
@@ -152,7 +152,7 @@ CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
     result.trace.cameras.push_back(camera.name);
   std::optional<Round> round = evaluate(solution.rig, sightings, ideal, options);
   if (!round)
-    throw CorrectionError(
+    throw Error(
         "the rays of the cameras do not meet at the corners: place the cameras so that they look "
         "at the square from different sides, and check the starting intrinsics");
   result.trace.rounds.push_back(*round);

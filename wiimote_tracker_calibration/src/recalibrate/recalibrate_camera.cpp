@@ -3,8 +3,7 @@
 #include "resection.h"
 #include "seen_path.h"
 
-#include "recalibrate/error.h"
-
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
 
@@ -52,22 +51,21 @@ std::size_t indexOf(const geometry::Rig& rig, const std::string& name) {
   std::vector<std::string> names;
   for (const geometry::RigCamera& camera : rig.cameras)
     names.push_back(camera.camera.name);
-  throw RecalibrateError("the rig has no camera '" + name + "': name one of " + joined(names));
+  throw Error("the rig has no camera '" + name + "': name one of " + joined(names));
 }
 
 void checkInput(const geometry::Rig& rig, const Request& request, const Options& options) {
   rig.check();
   options.uncertainty.check();
   if (!(options.pixel > 0.0) || !(options.stamp >= 0.0) || !(options.maximum_offset_stddev > 0.0))
-    throw RecalibrateError(
-        "pixel and maximum_offset_stddev must be above 0, stamp at least 0: correct them");
+    throw Error("pixel and maximum_offset_stddev must be above 0, stamp at least 0: correct them");
   if (rig.ray_model != geometry::RayModel::kCalibrated)
-    throw RecalibrateError(
+    throw Error(
         "the rig's rays are built through the image centre, which does not fit its cameras: "
         "calibrate all of it again");
   for (const capture::Image& image : request.images) {
     if (!std::isfinite(image.stamp))
-      throw RecalibrateError("an image of " + image.camera + " has no time: correct its stamp");
+      throw Error("an image of " + image.camera + " has no time: correct its stamp");
   }
 }
 
@@ -105,27 +103,27 @@ void checkOthers(const geometry::Rig& rig, const SeenPath& path) {
     return;
   const std::string seeing =
       path.cameras().empty() ? "none" : rig.cameras[path.cameras().front()].camera.name + " alone";
-  throw RecalibrateError("of the other cameras " + seeing +
-                         " saw the LED as its only moving light, but two are needed: wave where "
-                         "they see it, and switch off other lights");
+  throw Error("of the other cameras " + seeing +
+              " saw the LED as its only moving light, but two are needed: wave where "
+              "they see it, and switch off other lights");
 }
 
 void checkFit(const Fit& fit) {
   const std::string& name = fit.camera.name;
   const auto found = fit.matches.size();
   if (fit.contradictory > found)
-    throw RecalibrateError(
+    throw Error(
         "the other cameras contradict each other most of the time: they see different lights, or "
         "another one was moved; see that only the LED shines, or calibrate all of them again");
   if (static_cast<double>(found) < kMinimumInlierRatio * static_cast<double>(fit.expected))
-    throw RecalibrateError(
+    throw Error(
         format("only %zu of %zu images of %s fit to what the others saw: it moved while the LED "
                "was waved, or sees another light; fix that and wave again",
                found, fit.expected, name.c_str()));
   if (fit.pixel_stddev > kLargestNoise)
-    throw RecalibrateError("the images of " + name + " are " + format("%.1f px", fit.pixel_stddev) +
-                           " off what the others saw: its starting intrinsics are wrong, or the "
-                           "others were moved too; calibrate all of them again");
+    throw Error("the images of " + name + " are " + format("%.1f px", fit.pixel_stddev) +
+                " off what the others saw: its starting intrinsics are wrong, or the "
+                "others were moved too; calibrate all of them again");
 
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Match& match : fit.matches)
@@ -138,10 +136,10 @@ void checkFit(const Fit& fit) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
   const Eigen::Vector3d extent = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   if (extent[2] < kMinimumExtent)
-    throw RecalibrateError("the LED moved by " + format("%.2f m", extent[2]) +
-                           " only: wave it through the whole volume");
+    throw Error("the LED moved by " + format("%.2f m", extent[2]) +
+                " only: wave it through the whole volume");
   if (extent[0] < kMinimumFlatness * extent[2])
-    throw RecalibrateError(
+    throw Error(
         "the LED stayed on a line or in a plane: wave it through the whole volume, up and down "
         "and near and far");
 }
@@ -246,15 +244,14 @@ void checkCertainty(const Fit& fit,
                     const Options& options) {
   const std::string& name = fit.camera.name;
   if (result.offset_stddev > options.maximum_offset_stddev)
-    throw RecalibrateError(
+    throw Error(
         "the time offset of " + name +
         format(" would be known to %.2f ms only, but %.2f ms are needed: wave longer and faster",
                1000.0 * result.offset_stddev, 1000.0 * options.maximum_offset_stddev));
   const double error = imageError(fit, covariance);
   if (error > kLargestImageError)
-    throw RecalibrateError("where " + name + " sees a point would be known to " +
-                           format("%.1f px", error) +
-                           " only: wave longer, through the whole volume that it sees");
+    throw Error("where " + name + " sees a point would be known to " + format("%.1f px", error) +
+                " only: wave longer, through the whole volume that it sees");
 }
 
 /// The camera as it is now.

@@ -51,7 +51,7 @@ struct Recalibration {
 /// by Levenberg-Marquardt. The LED's positions are triangulated from the others, interpolated to
 /// the camera's times. The prior of the lens is the rig's lens with its covariance, or the
 /// request's for another device. False detections are left out by gating.
-/// @throws RecalibrateError: the rig lacks the camera, or fewer than two others saw the LED; too
+/// @throws Error: the rig lacks the camera, or fewer than two others saw the LED; too
 /// few common images; an LED that hardly moved, or in a plane only; contradictory images; a result
 /// that is too uncertain; a rig with RayModel::kImageCenter; values out of range.
 Recalibration recalibrateCamera(const geometry::Rig& rig,

@@ -4,9 +4,10 @@
 #include "adjust/moving_pixel.h"
 #include "adjust/prior.h"
 #include "bundle/start.h"
-#include "recalibrate/error.h"
 #include "square/lens_prior.h"
 #include "wiimote_tracker_calibration/bundle/error.h"
+
+#include <wiimote_tracker_msgs/error.h>
 
 #include <ceres/ceres.h>
 #include <ceres/normal_prior.h>
@@ -91,7 +92,7 @@ Pose firstPose(const SeenPath& path,
       best = pose;
   }
   if (!best)
-    throw RecalibrateError(
+    throw Error(
         "no place of " + start.name +
         " explains what it saw: check that it sees the same LED as the others and no other light, "
         "that it stays where it is, and wave again");
@@ -160,10 +161,10 @@ void matchSpots(const SeenPath& path,
       fit->matches.push_back(*match);
   }
   if (fit->matches.size() < kMinimumMatches)
-    throw RecalibrateError(fit->camera.name + " and two other cameras saw the LED together in " +
-                           std::to_string(fit->matches.size()) + " images only, but " +
-                           std::to_string(kMinimumMatches) +
-                           " are needed: wave longer, where all of them see it");
+    throw Error(fit->camera.name + " and two other cameras saw the LED together in " +
+                std::to_string(fit->matches.size()) + " images only, but " +
+                std::to_string(kMinimumMatches) +
+                " are needed: wave longer, where all of them see it");
 }
 
 /// The matches of a fit and the prior as a problem of Ceres.
@@ -270,9 +271,9 @@ Fit resect(const SeenPath& path,
 ParameterMatrix covarianceOf(const Fit& fit, const Prior& prior) {
   const auto covariance = ResectionProblem(fit, prior).covariance();
   if (!covariance)
-    throw RecalibrateError("what " + fit.camera.name +
-                           " saw does not determine where it is: wave the LED through the whole "
-                           "volume");
+    throw Error("what " + fit.camera.name +
+                " saw does not determine where it is: wave the LED through the whole "
+                "volume");
   return *covariance;
 }
 

@@ -57,7 +57,7 @@ std::optional<geometry::Projection> projectionOf(const geometry::Camera& camera,
                                                  const PathPoint& point);
 
 /// Maximum a posteriori pose, lens and time offset. @param images of this camera, ascending.
-/// @throws RecalibrateError: too few images in common with the others, or no pose explains them.
+/// @throws Error: too few images in common with the others, or no pose explains them.
 Fit resect(const SeenPath& path,
            const std::vector<capture::Image>& images,
            const geometry::Camera& start,
@@ -65,7 +65,7 @@ Fit resect(const SeenPath& path,
            const Options& options);
 
 /// Covariance of the camera's parameters, the others and the stamps' slow errors being exact.
-/// @throws RecalibrateError: the matches leave a parameter open.
+/// @throws Error: the matches leave a parameter open.
 ParameterMatrix covarianceOf(const Fit& fit, const Prior& prior);
 
 }  // namespace wiimote_tracker::recalibrate

@@ -1,13 +1,13 @@
 #include "units.h"
 
 #include "intrinsics/board_run.h"
-#include "intrinsics/error.h"
 #include "rig_storage.h"
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
 
 #include <wiimote_tracker_msgs/BoardStatus.h>
 #include <wiimote_tracker_msgs/SolveBoard.h>
 #include <wiimote_tracker_msgs/StartBoard.h>
+#include <wiimote_tracker_msgs/error.h>
 
 #include <cmath>
 #include <optional>
@@ -24,7 +24,7 @@ namespace {
 
 const char kNothingStarted[] = "no lens is being calibrated: call board/start with a camera first";
 
-/// @throws intrinsics::IntrinsicsError: unknown number.
+/// @throws Error: unknown number.
 std::optional<intrinsics::LensModel> lensModel(std::uint8_t model) {
   using intrinsics::LensModel;
   switch (model) {
@@ -41,8 +41,7 @@ std::optional<intrinsics::LensModel> lensModel(std::uint8_t model) {
     case SolveBoard::Request::EQUIDISTANT:
       return LensModel::kEquidistant;
     default:
-      throw intrinsics::IntrinsicsError("there is no lens model " + std::to_string(model) +
-                                        ": choose one of SolveBoard");
+      throw Error("there is no lens model " + std::to_string(model) + ": choose one of SolveBoard");
   }
 }
 

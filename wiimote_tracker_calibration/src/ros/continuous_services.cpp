@@ -192,7 +192,7 @@ class ContinuousServices {
                              dateOf(NodeContext::now()) + "_" + rig.id() + ".yaml";
     try {
       context_.compute(lock, [&] { geometry::writeRigFile(rig, path); });
-    } catch (const geometry::Error& error) {
+    } catch (const Error& error) {
       return std::string("there is no file of it: ") + error.what();
     }
     return "kept in " + path;

@@ -32,7 +32,7 @@ bool knownCameras(session::Session session,
       camera = solved->camera;
     }
     return true;
-  } catch (const geometry::Error&) {
+  } catch (const Error&) {
     return false;  // The wave can still determine the poses.
   }
 }

@@ -1,7 +1,6 @@
 #include "frame_lines.h"
 
-#include "session/error.h"
-
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
@@ -89,8 +88,8 @@ std::string Lines::next() {
 }
 
 void Lines::refuse(const std::string& what) const {
-  throw SessionError(where_ + ": line " + std::to_string(number_) + " " + what +
-                     "; restore the file from its backup or capture again");
+  throw Error(where_ + ": line " + std::to_string(number_) + " " + what +
+              "; restore the file from its backup or capture again");
 }
 
 }  // namespace wiimote_tracker::session

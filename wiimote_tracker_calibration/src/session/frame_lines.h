@@ -18,14 +18,14 @@ class Lines {
   /// @param text outlives this; @param begin where to start in it; @param where names the file.
   Lines(const std::string& text, std::size_t begin, const std::string& where);
 
-  /// @throws SessionError naming the line: the next line is different.
+  /// @throws Error naming the line: the next line is different.
   void expect(const std::string& line);
 
   /// Reads what appendFrames() wrote.
-  /// @throws SessionError naming the line: the next `count` lines are not frames.
+  /// @throws Error naming the line: the next `count` lines are not frames.
   std::vector<wave::Frame> frames(std::size_t count);
 
-  /// @throws SessionError: there are more lines.
+  /// @throws Error: there are more lines.
   void expectEnd();
 
  private:

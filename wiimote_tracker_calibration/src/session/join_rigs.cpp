@@ -1,9 +1,9 @@
 #include "session/join_rigs.h"
 
 #include "rig_motion.h"
-#include "session/error.h"
 #include "square/usable_cameras.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
@@ -108,33 +108,32 @@ void checkRigs(const geometry::Rig& first, const geometry::Rig& second) {
   first.check();
   second.check();
   if (first.id() == second.id())
-    throw SessionError("both are the same rig, " + first.id() +
-                       ": name the rig file of the other room");
+    throw Error("both are the same rig, " + first.id() + ": name the rig file of the other room");
   if (std::all_of(second.cameras.begin(), second.cameras.end(),
                   [&](const geometry::RigCamera& c) { return first.find(c.camera.name); }))
-    throw SessionError(
+    throw Error(
         "all cameras of the second rig are in the first one already: there is nothing to join");
   for (const geometry::Rig* rig : {&first, &second}) {
     if (!geometry::hasCovariance(*rig))
-      throw SessionError(std::string("the ") + (rig == &first ? "first" : "second") +
-                         " rig does not say how certain its cameras are: calibrate it again");
+      throw Error(std::string("the ") + (rig == &first ? "first" : "second") +
+                  " rig does not say how certain its cameras are: calibrate it again");
   }
   if (first.ray_model != second.ray_model)
-    throw SessionError(
+    throw Error(
         "the rigs build their rays by different models: calibrate both with the same ray_model");
   for (const geometry::RigCamera& camera : second.cameras) {
     const std::string& identity = camera.camera.identity;
     const geometry::RigCamera* same = first.find(camera.camera.name);
     if (same && !identity.empty() && !same->camera.identity.empty() &&
         identity != same->camera.identity)
-      throw SessionError(camera.camera.name + " is another device in the second rig (" + identity +
-                         ") than in the first (" + same->camera.identity +
-                         "): give it another name, or calibrate again with the same device");
+      throw Error(camera.camera.name + " is another device in the second rig (" + identity +
+                  ") than in the first (" + same->camera.identity +
+                  "): give it another name, or calibrate again with the same device");
     for (const geometry::RigCamera& other : first.cameras) {
       if (!same && !identity.empty() && identity == other.camera.identity)
-        throw SessionError("the device " + identity + " is called " + camera.camera.name +
-                           " in the second rig, but " + other.camera.name +
-                           " in the first: give it one name and calibrate again");
+        throw Error("the device " + identity + " is called " + camera.camera.name +
+                    " in the second rig, but " + other.camera.name +
+                    " in the first: give it one name and calibrate again");
     }
   }
 }
@@ -145,10 +144,10 @@ void checkGravity(const geometry::RigCamera& first, const geometry::RigCamera& s
   const double angle =
       std::atan2(first.gravity->cross(*second.gravity).norm(), first.gravity->dot(*second.gravity));
   if (angle > kTurned)
-    throw SessionError(first.camera.name + " was turned by " +
-                       format("%.1f degrees", angle * 180.0 / M_PI) +
-                       " between both calibrations, by its accelerometer: calibrate one of "
-                       "the rooms again");
+    throw Error(first.camera.name + " was turned by " +
+                format("%.1f degrees", angle * 180.0 / M_PI) +
+                " between both calibrations, by its accelerometer: calibrate one of "
+                "the rooms again");
 }
 
 JoinedRigs finish(const geometry::Rig& first,
@@ -183,27 +182,26 @@ Eigen::MatrixXd poseByParameters(const geometry::Rig& rig, std::size_t camera) {
   return derivative;
 }
 
-/// @throws SessionError: too few places, values out of range, or all on one line.
+/// @throws Error: too few places, values out of range, or all on one line.
 void checkPlaces(const std::vector<CommonPlace>& places) {
   if (places.size() < 3)
-    throw SessionError(
-        std::to_string(places.size()) +
-        " common places do not determine the pose between the rigs: measure three or "
-        "more, not on one line");
+    throw Error(std::to_string(places.size()) +
+                " common places do not determine the pose between the rigs: measure three or "
+                "more, not on one line");
   Eigen::Matrix3Xd points(3, places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     const CommonPlace& place = places[i];
     if (!place.in_first.allFinite() || !place.in_second.allFinite() ||
         !(std::isfinite(place.stddev) && place.stddev > 0.0))
-      throw SessionError("place " + std::to_string(i + 1) +
-                         " is not finite, or its standard deviation not above 0: correct it");
+      throw Error("place " + std::to_string(i + 1) +
+                  " is not finite, or its standard deviation not above 0: correct it");
     points.col(static_cast<Eigen::Index>(i)) = place.in_second;
   }
   const Eigen::Matrix3Xd centered = points.colwise() - points.rowwise().mean();
   const Eigen::Vector3d extent =
       Eigen::JacobiSVD<Eigen::MatrixXd>(centered.transpose()).singularValues();
   if (!(extent[1] > kThinnest * extent[0]))
-    throw SessionError("the common places are on one line: measure one beside it, too");
+    throw Error("the common places are on one line: measure one beside it, too");
 }
 
 /// The motion that brings the places of the second world nearest to those of the first.
@@ -235,7 +233,7 @@ JoinedRigs joinRigs(const geometry::Rig& first, const geometry::Rig& second) {
     }
   }
   if (names.empty())
-    throw SessionError(
+    throw Error(
         "the rigs share no camera: calibrate the second room together with a camera of the first "
         "that stays where it is, or measure three known places or more of the first world with the "
         "second rig");
@@ -243,14 +241,14 @@ JoinedRigs joinRigs(const geometry::Rig& first, const geometry::Rig& second) {
   const RigMotion motion = fitMotion(first, second, shared, start);
   if (motion.contradicts()) {
     if (names.size() == 2)
-      throw SessionError(names[0] + " and " + names[1] +
-                         " do not stand to each other in the second rig as in the first: one of "
-                         "them was moved in between, or calibrated badly; calibrate one of the "
-                         "rooms anew");
-    throw SessionError(names[oddOneOut(first, second, shared, start)] +
-                       " does not stand to the other shared cameras in the second rig as in the "
-                       "first: it was moved in between, or was calibrated badly; calibrate one of "
-                       "the rooms again");
+      throw Error(names[0] + " and " + names[1] +
+                  " do not stand to each other in the second rig as in the first: one of "
+                  "them was moved in between, or calibrated badly; calibrate one of the "
+                  "rooms anew");
+    throw Error(names[oddOneOut(first, second, shared, start)] +
+                " does not stand to the other shared cameras in the second rig as in the "
+                "first: it was moved in between, or was calibrated badly; calibrate one of "
+                "the rooms again");
   }
   JoinedRigs result = finish(first, second, motion, square::listOf(names));
   result.shared = names;
@@ -267,8 +265,8 @@ JoinedRigs joinRigs(const geometry::Rig& first,
     const auto derivative = geometry::pointByParameters(
         second, place.in_second, geometry::camerasSeeing(second, place.in_second));
     if (!derivative)
-      throw SessionError("no two cameras of the second rig look at place " +
-                         std::to_string(shared.size() + 1) + ": measure places that they see");
+      throw Error("no two cameras of the second rig look at place " +
+                  std::to_string(shared.size() + 1) + ": measure places that they see");
     shared.push_back({Eigen::Isometry3d(Eigen::Translation3d(place.in_first)),
                       Eigen::Isometry3d(Eigen::Translation3d(place.in_second)),
                       Eigen::MatrixXd::Zero(3, first.covariance.cols()), *derivative,
@@ -278,12 +276,12 @@ JoinedRigs joinRigs(const geometry::Rig& first,
   const RigMotion motion = fitMotion(first, second, shared, start);
   if (motion.contradicts()) {
     if (places.size() == 3)
-      throw SessionError(
+      throw Error(
           "the three common places do not lie to one another in the second rig as in the first: "
           "measure them again, and a fourth");
-    throw SessionError("place " + std::to_string(oddOneOut(first, second, shared, start) + 1) +
-                       " does not lie to the other common places in the second rig as in the "
-                       "first: measure it again");
+    throw Error("place " + std::to_string(oddOneOut(first, second, shared, start) + 1) +
+                " does not lie to the other common places in the second rig as in the "
+                "first: measure it again");
   }
   return finish(first, second, motion, std::to_string(places.size()) + " common places");
 }

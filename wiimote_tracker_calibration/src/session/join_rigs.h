@@ -26,7 +26,7 @@ struct JoinedRigs {
 /// weighted by their covariances in both rigs. A shared camera must not have moved in between, and
 /// stays as it is in the first rig. The joint covariance is to first order, both rigs being
 /// independent.
-/// @throws SessionError: no shared camera; one that contradicts (chi-squared test, 99.9 %), was
+/// @throws Error: no shared camera; one that contradicts (chi-squared test, 99.9 %), was
 /// moved or is another device; a rig without covariance; different ray models.
 JoinedRigs joinRigs(const geometry::Rig& first, const geometry::Rig& second);
 
@@ -38,7 +38,7 @@ struct CommonPlace {
 };
 
 /// The same with three or more common places, not on a line, for rigs without a shared camera.
-/// @throws SessionError as above; it names the contradicting place, counted from 1.
+/// @throws Error as above; it names the contradicting place, counted from 1.
 JoinedRigs joinRigs(const geometry::Rig& first,
                     const geometry::Rig& second,
                     const std::vector<CommonPlace>& places);

@@ -4,8 +4,8 @@
 #include "rig_motion.h"
 
 #include "place/chi_squared.h"
-#include "session/error.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Cholesky>
@@ -112,8 +112,7 @@ RigMotion fitMotion(const geometry::Rig& first,
     motion.degrees_of_freedom = static_cast<int>(conditions.residual.size()) - 6;
     const Eigen::Matrix<double, 6, 1> step = gain * conditions.residual;
     if (!step.allFinite())
-      throw SessionError(
-          "what the rigs share does not determine the pose between them: share more");
+      throw Error("what the rigs share does not determine the pose between them: share more");
     if (step.norm() < 1e-10 || iteration == 20)
       return motion;
     motion.first_from_second.linear() =

@@ -36,7 +36,7 @@ struct RigMotion {
 };
 
 /// Generalised least squares, weighted by the covariances of both rigs.
-/// @throws SessionError: what they share leaves the motion open.
+/// @throws Error: what they share leaves the motion open.
 RigMotion fitMotion(const geometry::Rig& first,
                     const geometry::Rig& second,
                     const std::vector<Shared>& shared,

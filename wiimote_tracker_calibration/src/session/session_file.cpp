@@ -1,9 +1,9 @@
 #include "session/session_file.h"
 
 #include "frame_lines.h"
-#include "session/error.h"
 #include "session_yaml.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/atomic_file.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ constexpr const char* kEndLine = "...";
 
 void require(bool condition, const std::string& what) {
   if (!condition)
-    throw SessionError(what + "; correct it or capture again");
+    throw Error(what + "; correct it or capture again");
 }
 
 void checkCamera(const wave::CameraRecording& camera,
@@ -91,9 +91,9 @@ Session readSessionFile(const std::string& path) {
   const std::string text = geometry::readFile(path, kLargestFile);
   const std::size_t head_end = text.find(std::string("\n") + kFramesLine + "\n");
   if (head_end == std::string::npos)
-    throw SessionError(path +
-                       " is cut off, or holds no samples of a calibration; restore it from its "
-                       "backup, or choose a file that save_samples wrote");
+    throw Error(path +
+                " is cut off, or holds no samples of a calibration; restore it from its "
+                "backup, or choose a file that save_samples wrote");
   SessionHead head = headFromYaml(text.substr(0, head_end + 1), path);
   Lines lines(text, head_end + 1, path);
   lines.expect(kFramesLine);
@@ -106,7 +106,7 @@ Session readSessionFile(const std::string& path) {
   try {
     check(head.session);
   } catch (const geometry::Error& error) {
-    throw SessionError(path + ": " + error.what());
+    throw Error(path + ": " + error.what());
   }
   return head.session;
 }

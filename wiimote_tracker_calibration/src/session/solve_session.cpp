@@ -2,9 +2,10 @@
 
 #include "diagnose.h"
 #include "judge.h"
-#include "session/error.h"
 #include "square/error.h"
 #include "wave/error.h"
+
+#include <wiimote_tracker_msgs/error.h>
 
 #include <algorithm>
 #include <utility>
@@ -142,14 +143,14 @@ Solution solveSession(const Session& session,
                       const SolveOptions& options,
                       const wave::ProgressCallback& progress) {
   if (session.masks.size() != session.recording.cameras.size())
-    throw SessionError("the session has masks for another number of cameras: capture again");
+    throw Error("the session has masks for another number of cameras: capture again");
   wave::Recording recording = session.recording;
   for (wave::CameraRecording& camera : recording.cameras) {
     if (!options.use_gravity)
       camera.sightings.gravity.reset();
   }
   if (!recording.hasFrames() && !recording.square)
-    throw SessionError(
+    throw Error(
         "nothing was captured: capture the corners of a square, or wave a wand of known length");
   Solved solved = solveOrDiagnose(recording, options, progress);
 

@@ -38,8 +38,8 @@ struct Solution {
 
 /// Solves a session with wave::solveWave() if it has a wave or a wand, else from its square with
 /// the method of the options. The same session and options give the same solution, bit for bit.
-/// @throws square::SquareError, wave::WaveError, principal_point::CorrectionError as these solvers
-/// do; SessionError: neither square nor wave. wave::Cancelled: `progress` asked to stop.
+/// @throws Error as these solvers do, or: neither square nor wave. wave::Cancelled: `progress`
+/// asked to stop.
 Solution solveSession(const Session& session,
                       const SolveOptions& options,
                       const wave::ProgressCallback& progress = nullptr);

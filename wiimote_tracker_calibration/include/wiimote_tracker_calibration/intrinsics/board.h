@@ -23,7 +23,7 @@ struct Board {
   /// Place of an LED in the board frame [m].
   Eigen::Vector3d position(int led) const;
 
-  /// @throws IntrinsicsError: a spacing is not above 0.
+  /// @throws Error: a spacing is not above 0.
   void check() const;
 };
 

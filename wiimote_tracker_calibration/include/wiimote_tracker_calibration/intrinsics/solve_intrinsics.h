@@ -65,7 +65,7 @@ struct IntrinsicsSolution {
 /// Focal lengths, principal point and distortion from views of the board (Zhang 2000), by OpenCV
 /// (cv::calibrateCamera; cv::fisheye for kEquidistant). Takes some tenths of a second. The scale of
 /// the board's spacings does not matter, their ratio does. Deterministic.
-/// @throws IntrinsicsError: too few views; a view with too few LEDs, in one line, mirrored or not a
+/// @throws Error: too few views; a view with too few LEDs, in one line, mirrored or not a
 /// grid; the board never moved in the image or never tilted; views that do not fit the board;
 /// spacings that make fx and fy differ; a focal length less certain than the options ask for; no
 /// model that holds over the image; values out of range.

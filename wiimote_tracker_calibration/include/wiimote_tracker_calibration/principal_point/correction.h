@@ -6,7 +6,6 @@
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
 
-#include <wiimote_tracker_triangulation/geometry/error.h>
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
@@ -16,11 +15,6 @@
 #include <vector>
 
 namespace wiimote_tracker::principal_point {
-
-/// The correction cannot be started. what() is one sentence: why, and what to do.
-struct CorrectionError : geometry::Error {
-  using Error::Error;
-};
 
 enum class Points {
   kOrigin,      ///< The first corner (the paper, section IV.C).
@@ -41,7 +35,7 @@ struct CorrectionOptions {
   square::Uncertainty uncertainty;
   double branch_odds = 100.0;  ///< As in square::SolveOptions.
 
-  /// @throws CorrectionError naming the value that is out of range.
+  /// @throws Error naming the value that is out of range.
   void check() const;
 };
 
@@ -89,7 +83,7 @@ using RoundCallback = std::function<bool(int rounds_done, const Trace& trace)>;
 ///
 /// The points are triangulated from the pixels that the cameras were solved from. A round takes
 /// some hundredths of a second.
-/// @throws CorrectionError: an option is out of range; the points cannot be measured at all.
+/// @throws Error: an option is out of range; the points cannot be measured at all.
 /// square::SquareError: as solveSquare(), before the first step; later that ends in
 /// Outcome::kLost.
 CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,

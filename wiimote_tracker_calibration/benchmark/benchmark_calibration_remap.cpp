@@ -1,7 +1,7 @@
 #include "benchmark_calibration_sections.h"
-#include "wiimote_tracker_calibration/remap/error.h"
 #include "wiimote_tracker_calibration/remap/fit.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/remap/correction.h>
 
 #include <cmath>

@@ -1,9 +1,9 @@
 // Corrections of the volume: recovered exactly, chosen honestly, never used silently where they do
 // not hold. All simulated.
 
-#include "wiimote_tracker_calibration/remap/error.h"
 #include "wiimote_tracker_calibration/remap/fit.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/remap/correction.h>
 #include <wiimote_tracker_triangulation/remap/model_math.h>
 
@@ -369,19 +369,6 @@ TEST(Remap, AWrongPointIsNamed) {
   const FitResult result = fitRemap(points, kRig);
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_NE(result.warnings[0].find("known point 17"), std::string::npos);
-}
-
-TEST(Remap, ProgressGrowsAndCanStopIt) {
-  Random random(15);
-  const std::vector<KnownPoint> points = deformed(grid(random), affine);
-  double last = 0.0;
-  fitRemap(points, kRig, {}, [&](double fraction) {
-    EXPECT_GT(fraction, last);
-    last = fraction;
-    return true;
-  });
-  EXPECT_DOUBLE_EQ(last, 1.0);
-  EXPECT_THROW(fitRemap(points, kRig, {}, [](double) { return false; }), Cancelled);
 }
 
 }  // namespace

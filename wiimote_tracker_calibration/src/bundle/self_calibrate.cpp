@@ -112,8 +112,8 @@ class Search {
   double maximumError() const { return options_.bundle.maximum_error; }
 
   void report(const char* step, double fraction) const {
-    if (progress_ && !progress_(step, fraction))
-      throw Cancelled("stopped before the cameras were solved");
+    if (progress_)
+      progress_(step, fraction);
   }
 
   /// Keeps the best start of each focal length.
@@ -299,8 +299,8 @@ SelfCalibration solveOnce(const Reconstruction& all,
     refuseUnexplained(result.reconstruction, options.bundle);
     ambiguous = search.isAmbiguous();
   }
-  if (progress && !progress("leaving out false detections", 0.9))
-    throw Cancelled("stopped before the cameras were solved");
+  if (progress)
+    progress("leaving out false detections", 0.9);
   refine(options, &result.reconstruction);
   judgeLenses(options, ambiguous, &result);
   return result;
@@ -324,8 +324,6 @@ SelfCalibration selfCalibrate(const std::vector<geometry::Camera>& cameras,
   SelfCalibration result;
   try {
     result = solveOnce(all, options, progress);
-  } catch (const Cancelled&) {
-    throw;
   } catch (const BundleError& error) {
     // It only matters whether it works: fewer points and starts are enough.
     SelfCalibrationOptions quick = options;
@@ -335,8 +333,6 @@ SelfCalibration selfCalibrate(const std::vector<geometry::Camera>& cameras,
       try {
         solveOnce(changed, quick, progress);
         return true;
-      } catch (const Cancelled&) {
-        throw;
       } catch (const BundleError&) {
         return false;
       }

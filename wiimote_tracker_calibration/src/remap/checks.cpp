@@ -1,6 +1,6 @@
 #include "checks.h"
 
-#include "wiimote_tracker_calibration/remap/error.h"
+#include <wiimote_tracker_msgs/error.h>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>

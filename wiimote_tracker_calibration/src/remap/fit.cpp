@@ -2,8 +2,8 @@
 
 #include "checks.h"
 #include "fit_model.h"
-#include "wiimote_tracker_calibration/remap/error.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/remap/convex_hull.h>
 #include <wiimote_tracker_triangulation/remap/model_math.h>
@@ -109,9 +109,7 @@ std::optional<std::size_t> choose(const std::vector<std::optional<Candidate>>& c
 
 /// RMS error of points that took part neither in the fit nor in the choice (nested
 /// cross-validation).
-double nestedError(const std::vector<KnownPoint>& points,
-                   const std::vector<Model>& models,
-                   const ProgressCallback& progress) {
+double nestedError(const std::vector<KnownPoint>& points, const std::vector<Model>& models) {
   const std::size_t folds = std::min(points.size(), kMostFolds);
   std::vector<double> errors;
   for (std::size_t fold = 0; fold < folds; ++fold) {
@@ -127,8 +125,6 @@ double nestedError(const std::vector<KnownPoint>& points,
     for (const KnownPoint& point : held_out)
       errors.push_back(chosen ? errorOf(candidates[*chosen]->remap, point)
                               : (point.measured - point.known).norm());
-    if (progress && !progress(static_cast<double>(fold + 1) / static_cast<double>(folds)))
-      throw Cancelled("the fit of the correction of the volume was stopped: start it again");
   }
   return rms(errors);
 }
@@ -159,8 +155,7 @@ bool reachInside(const std::vector<Eigen::Vector3d>& support) {
 
 FitResult fitRemap(const std::vector<KnownPoint>& points,
                    const std::string& rig_id,
-                   const FitOptions& options,
-                   const ProgressCallback& progress) {
+                   const FitOptions& options) {
   checkPoints(points, rig_id);
   if (options.models.empty())
     throw Error("no model of a correction of the volume is allowed: allow at least one");
@@ -205,7 +200,7 @@ FitResult fitRemap(const std::vector<KnownPoint>& points,
     result.warnings.push_back(
         "no known point lies inside the others, so that nothing is known of the error there: "
         "measure some inside the volume");
-  result.expected_error = nestedError(points, usable, progress);
+  result.expected_error = nestedError(points, usable);
   return result;
 }
 

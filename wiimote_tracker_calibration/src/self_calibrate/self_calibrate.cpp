@@ -52,13 +52,12 @@ void check(const Arguments& arguments) {
 /// Prints the progress to the standard error output, at most once a second.
 class ProgressLine {
  public:
-  bool operator()(const std::string& step, double fraction) {
+  void operator()(const std::string& step, double fraction) {
     const auto now = std::chrono::steady_clock::now();
     if (now - shown_ > std::chrono::seconds(1)) {
       shown_ = now;
       std::fprintf(stderr, "%3.0f %% %s\n", 100.0 * fraction, step.c_str());
     }
-    return true;
   }
 
  private:

@@ -10,11 +10,6 @@ struct BundleError : Error {
   using Error::Error;
 };
 
-/// The progress callback asked to stop.
-struct Cancelled : BundleError {
-  using BundleError::BundleError;
-};
-
 }  // namespace wiimote_tracker::bundle
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_BUNDLE_ERROR_H

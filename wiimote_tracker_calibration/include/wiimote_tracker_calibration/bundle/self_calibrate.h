@@ -46,8 +46,8 @@ struct SelfCalibration {
   std::size_t agreeing = 0;  ///< Of these, those that reached the solution returned.
 };
 
-/// Called during the work with the present step and the progress, 0 to 1. @returns false to stop.
-using ProgressCallback = std::function<bool(const std::string& step, double fraction)>;
+/// Called during the work with the present step and the progress, 0 to 1.
+using ProgressCallback = std::function<void(const std::string& step, double fraction)>;
 
 /// Estimates cameras, lenses and points from the observations alone. Of `cameras` it uses names and
 /// image sizes, and the intrinsics if these are given. The result is determined up to a similarity,
@@ -62,7 +62,7 @@ using ProgressCallback = std::function<bool(const std::string& step, double frac
 ///
 /// @throws BundleError as solve(), and: one camera's image is mirrored; the given intrinsics of two
 /// cameras are exchanged; the light moved on a line or in a plane only, or all cameras stand in one
-/// place; no solution fits; Cancelled: the callback returned false.
+/// place; no solution fits.
 SelfCalibration selfCalibrate(const std::vector<geometry::Camera>& cameras,
                               const std::vector<Observation>& observations,
                               std::size_t point_count,

@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,21 +46,16 @@ struct FitResult {
   std::vector<std::string> warnings;    ///< One sentence each.
 };
 
-/// @param fraction done, 0 to 1, growing.
-/// @returns false to stop.
-using ProgressCallback = std::function<bool(double fraction)>;
-
 /// Fits each model, and chooses by leave-one-out cross-validation: the simplest, unless one with
 /// more parameters predicts left out points better by more than the standard error of the
 /// difference of their squared errors. The smoothing of a thin plate is chosen in the same way.
 /// Takes milliseconds for tens of points, seconds for hundreds.
 /// @throws Error: fewer than 6 or more than 500 points, points on one line or in one plane,
 /// twice in one place, not finite; mirrored; no rig id; no model determined by the points, or none
-/// better than no correction. Cancelled.
+/// better than no correction.
 FitResult fitRemap(const std::vector<KnownPoint>& points,
                    const std::string& rig_id,
-                   const FitOptions& options = {},
-                   const ProgressCallback& progress = {});
+                   const FitOptions& options = {});
 
 /// A text table of the models.
 std::string table(const FitResult& result);

@@ -3,6 +3,7 @@
 #include "wiimote_tracker_calibration/bundle/similarity.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/error.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
@@ -270,7 +271,8 @@ WaveTrial runWaveTrial(const WaveScene& scene, std::uint64_t seed, bool with_pos
     trial.offset_errors.push_back(solution.rig.cameras[i].time_offset - wave.offsets[i]);
     const Eigen::Index at = 12 * static_cast<Eigen::Index>(i) + 11;
     trial.offset_bounds.push_back(std::sqrt(bound.covariance(at, at)));
-    trial.offset_stddevs.push_back(solution.cameras[i].offset_stddev);
+    const Eigen::Index clock = geometry::firstParameter(i) + geometry::kTimeOffset;
+    trial.offset_stddevs.push_back(std::sqrt(solution.rig.covariance(clock, clock)));
   }
   std::vector<geometry::Camera> truth = wave.cameras;
   if (!scene.square) {

@@ -44,7 +44,7 @@ Solved solveFromWave(const wave::Recording& recording,
   if (recording.square)
     solved.findings.joint = {std::move(solution.joint_covariance),
                              options.square.uncertainty.pixel};
-  if (solution.gauge == wave::Gauge::kFirstCamera)
+  else
     solved.findings.shape_error = solution.expected_shape_error;
   if (options.correct_principal_points)
     solved.rig.verdict +=

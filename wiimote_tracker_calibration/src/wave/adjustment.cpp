@@ -67,8 +67,7 @@ class WaveProblem {
   }
 
   /// @param tolerance relative change of the sum of squares at which it ends.
-  /// @returns the number of iterations.
-  int solve(double tolerance, const std::function<bool()>& keep_going) {
+  void solve(double tolerance, const std::function<bool()>& keep_going) {
     KeepGoing callback(keep_going);
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
@@ -92,7 +91,6 @@ class WaveProblem {
       state_.cameras[i] = cameras_[i].cameraLike(state_.cameras[i]);
       state_.offsets[i] = cameras_[i].time_offset;
     }
-    return static_cast<int>(summary.iterations.size()) - 1;
   }
 
   double misfit() {
@@ -270,9 +268,8 @@ Refinement refine(const Recording& recording,
                   State* state) {
   WaveProblem problem(recording, options, matches, loss_scale, state);
   // A robust fit is only the start of a tighter one.
-  const int iterations = problem.solve(std::isfinite(loss_scale) ? 1e-4 : 1e-9, keep_going);
-  return {iterations, problem.chiSquared(), problem.degreesOfFreedom(), problem.misfit(),
-          problem.redundancy()};
+  problem.solve(std::isfinite(loss_scale) ? 1e-4 : 1e-9, keep_going);
+  return {problem.chiSquared(), problem.degreesOfFreedom(), problem.misfit(), problem.redundancy()};
 }
 
 Eigen::MatrixXd covarianceOf(const Recording& recording,

@@ -15,7 +15,6 @@ namespace wiimote_tracker::wave {
 
 /// How a refinement went.
 struct Refinement {
-  int iterations;
   /// Chi-squared of the corners and of the priors, and its degrees of freedom.
   double chi_squared;
   int degrees_of_freedom;

@@ -5,6 +5,7 @@
 #include "wave/error.h"
 
 #include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 
 #include <Eigen/LU>
 
@@ -142,6 +143,12 @@ void checkMatching(const Recording& recording, const Matching& matching) {
 
 namespace {
 
+/// Of a camera's time offset [s].
+double offsetStddev(const geometry::Rig& rig, std::size_t camera) {
+  const Eigen::Index k = geometry::firstParameter(camera) + geometry::kTimeOffset;
+  return std::sqrt(rig.covariance(k, k));
+}
+
 void checkCorners(const square::Uncertainty& uncertainty, WaveSolution* solution) {
   double farthest = 0.0;  // in standard deviations
   for (std::size_t c = 0; c < solution->corner_offsets.size(); ++c)
@@ -195,8 +202,7 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
   for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
     const geometry::RigCamera& camera = solution->rig.cameras[i];
     const std::string& name = camera.camera.name;
-    if (camera.gravity &&
-        (solution->gauge == Gauge::kSquare || recording.cameras.front().sightings.gravity)) {
+    if (camera.gravity && (recording.square || recording.cameras.front().sightings.gravity)) {
       const Eigen::Vector3d measured =
           camera.camera.world_from_camera.linear() * camera.gravity->normalized();
       const double tilt = std::atan2(up.cross(measured).norm(), up.dot(measured));
@@ -207,7 +213,7 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
             " against its accelerometer: its image is mirrored or turned, it was "
             "moved, or the floor is not level");
     }
-    const double stddev = solution->cameras[i].offset_stddev;
+    const double stddev = offsetStddev(solution->rig, i);
     if (stddev > options.maximum_offset_stddev)
       throw WaveError("the clock of " + name + " is known to " + format("%.2f ms", 1e3 * stddev) +
                       " only, not to " + format("%.2f ms", 1e3 * options.maximum_offset_stddev) +
@@ -230,11 +236,11 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
 std::string verdictOf(const Recording& recording, const WaveSolution& solution) {
   double worst_px = 0.0;
   double worst_offset = 0.0;
-  for (std::size_t i = 0; i < solution.cameras.size(); ++i) {
+  for (std::size_t i = 0; i < solution.rig.cameras.size(); ++i) {
     worst_px = std::max(worst_px, solution.rig.cameras[i].residual_px);
-    worst_offset = std::max(worst_offset, solution.cameras[i].offset_stddev);
+    worst_offset = std::max(worst_offset, offsetStddev(solution.rig, i));
   }
-  std::string text = std::to_string(solution.cameras.size()) + " cameras solved from " +
+  std::string text = std::to_string(solution.rig.cameras.size()) + " cameras solved from " +
                      format("%.0f s", solution.seconds_seen) + " of " +
                      (recording.wand ? "a wand" : "a wave") +
                      (recording.square ? " and the square" : "") + "; residuals at most " +

@@ -73,23 +73,6 @@ geometry::RigCamera rigCamera(const CameraRecording& recording,
   return result;
 }
 
-CameraReport cameraReport(const Eigen::MatrixXd& covariance,
-                          std::size_t index,
-                          const Matching& matching) {
-  const auto stddev = [&](Eigen::Index parameter) {
-    const Eigen::Index k = geometry::firstParameter(index) + parameter;
-    return std::sqrt(covariance(k, k));
-  };
-  CameraReport report;
-  report.inlier_share =
-      static_cast<double>(matching.found[index]) / static_cast<double>(matching.expected[index]);
-  report.focal_stddev = stddev(geometry::kLens);
-  report.principal_point_stddev =
-      std::max(stddev(geometry::kLens + 2), stddev(geometry::kLens + 3));
-  report.offset_stddev = stddev(geometry::kTimeOffset);
-  return report;
-}
-
 /// @param covariances of the corners' displacements, 2 rows each.
 void describeSquare(const Recording& recording,
                     const WaveOptions& options,
@@ -149,7 +132,6 @@ WaveSolution solutionOf(const Recording& recording,
                         const State& state,
                         const Matching& matching) {
   WaveSolution solution;
-  solution.gauge = recording.square ? Gauge::kSquare : Gauge::kFirstCamera;
   solution.z_up = state.z_up;
   solution.wand_length = state.wand_length;
   solution.corner_offsets.fill(Eigen::Vector3d::Zero());
@@ -162,10 +144,8 @@ WaveSolution solutionOf(const Recording& recording,
   rig.covariance = joint.topLeftCorner(cameras, cameras);
   addWander(options, solution.seconds_seen, &rig.covariance);
   solution.joint_covariance = joint;
-  for (std::size_t i = 0; i < state.cameras.size(); ++i) {
+  for (std::size_t i = 0; i < state.cameras.size(); ++i)
     rig.cameras.push_back(rigCamera(recording.cameras[i], state, i, matching));
-    solution.cameras.push_back(cameraReport(rig.covariance, i, matching));
-  }
   if (recording.square)
     describeSquare(recording, options, state, joint.bottomRightCorner(8, 8), &solution);
   const std::vector<Eigen::Vector3d> points = thinned(solution.path);

@@ -9,7 +9,7 @@
 
 namespace wiimote_tracker::wave {
 
-/// The solution of an adjusted state with its covariance; without noise, iterations, warnings and
+/// The solution of an adjusted state with its covariance; without noise, warnings and
 /// verdict. @param matching that the state was adjusted to.
 /// @throws WaveError: some parameter is not determined.
 WaveSolution solutionOf(const Recording& recording,

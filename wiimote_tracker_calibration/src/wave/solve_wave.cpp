@@ -175,7 +175,6 @@ WaveSolution fit(const Recording& recording,
     fraction += 0.05 * (1.0 - fraction);
     return reporter->keepGoing(kStep, fraction);
   };
-  int iterations = 0;
   Matching matching;
   Refinement refinement{};
   // One round; returns the misfit.
@@ -183,7 +182,6 @@ WaveSolution fit(const Recording& recording,
     matching = matchSpots(recording, state, gate);
     checkMatching(recording, matching);
     refinement = refine(recording, options, matching.matches, loss_scale, keep_going, &state);
-    iterations += refinement.iterations;
     return refinement.misfit;
   };
   const double stamp = std::hypot(options.stamp, options.wander);
@@ -206,7 +204,6 @@ WaveSolution fit(const Recording& recording,
     camera.residual_px /= std::sqrt(refinement.redundancy);
     camera.residual_m /= std::sqrt(refinement.redundancy);
   }
-  solution.iterations = iterations;
   solution.misfit = std::sqrt(refinement.chi_squared / std::max(1, refinement.degrees_of_freedom));
   solution.contradicts = contradicts(refinement);
   return solution;

@@ -28,32 +28,16 @@ struct WaveOptions {
   double maximum_offset_stddev = 0.0005;  ///< A result less certain of an offset is refused [s].
 };
 
-/// Definition of the world frame, relative to which the covariance is.
-enum class Gauge {
-  kSquare,       ///< The square, as uncertain as its placement.
-  kFirstCamera,  ///< The first camera, exact: origin in it; its accelerometer's up is z. Without
-                 ///< accelerometer its optical frame is the world.
-};
-
-/// Quality of one camera, beside its geometry::RigCamera.
-struct CameraReport {
-  double inlier_share = 0.0;   ///< Inliers among its images with spots, while others saw the LED.
-  double offset_stddev = 0.0;  ///< Of the time offset [s]; 0: the reference.
-  double focal_stddev = 0.0;   ///< Of fx [px].
-  double principal_point_stddev = 0.0;  ///< The larger of both axes [px].
-};
-
 /// A solved recording.
 struct WaveSolution {
   /// Poses, intrinsics, time offsets, residuals, joint covariance, verdict; in the order of the
-  /// recording; without solved_at and world_frame. exposure time = stamp + time offset.
+  /// recording; without solved_at and world_frame. exposure time = stamp + time offset. Without a
+  /// square the first camera is the origin, exact; its accelerometer's up is z. Without
+  /// accelerometer its optical frame is the world.
   geometry::Rig rig;
-  Gauge gauge = Gauge::kSquare;
   bool z_up = true;
-  std::vector<CameraReport> cameras;  ///< In the same order.
-  std::size_t reference = 0;          ///< The camera whose time offset was set to 0.
-  double pixel_stddev = 0.0;          ///< Of a moving spot, per axis, as estimated [px].
-  square::Corners corner_offsets{};   ///< Displacement from the layout, as estimated [m].
+  double pixel_stddev = 0.0;         ///< Of a moving spot, per axis, as estimated [px].
+  square::Corners corner_offsets{};  ///< Displacement from the layout, as estimated [m].
   /// Of the rig's parameters, without the slow errors of the clocks, then of the corners' offsets
   /// (2 each), if there is a square.
   Eigen::MatrixXd joint_covariance;
@@ -68,7 +52,6 @@ struct WaveSolution {
   double expected_error = 0.0;
   /// Same after the best rigid motion: independent of the world frame.
   double expected_shape_error = 0.0;
-  int iterations = 0;
   /// Ratio of the residuals of corners and priors to those expected, and whether that is
   /// significant (99.9 %).
   double misfit = 0.0;

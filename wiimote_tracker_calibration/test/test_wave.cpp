@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <vector>
 
 namespace wiimote_tracker::wave {
@@ -238,6 +240,24 @@ TEST(Wave, LampsReflectionsAndWrongSpotsAreLeftOut) {
       EXPECT_GT(camera.inliers, 0.85 * camera.observations);
       EXPECT_LT(camera.inliers, 0.95 * camera.observations);
     }
+  }
+}
+
+TEST(Wave, FewImagesOfTwoCamerasAreNotTakenForNoise) {
+  // They are hardly more than the parameters of the path.
+  WaveScene scene;
+  scene.camera_count = 2;
+  scene.duration = 20.0;
+  scene.pixel = 0.5;
+  scene.quantized = false;
+  // Seeds with which the cameras expose at nearly the same times.
+  const std::map<double, std::uint64_t> seeds = {{15.0, 2}, {16.0, 2}, {17.0, 1}, {18.0, 4}};
+  for (const auto& [rate, seed] : seeds) {
+    scene.rate = rate;
+    const SimulatedWave wave = simulateWave(scene, seed);
+    const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+    EXPECT_LT(solution.pixel_stddev, 0.6) << rate;
+    EXPECT_LT(errorOf(scene, wave, solution).similarity, 0.02) << rate;
   }
 }
 

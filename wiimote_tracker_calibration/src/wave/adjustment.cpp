@@ -28,6 +28,9 @@ namespace {
 // Of the distance between the paths of a wand's LEDs [m]: far below what cameras resolve.
 constexpr double kStickStddev = 0.0002;
 
+// Least share of the residuals beyond the number of parameters that tells the noise.
+constexpr double kLeastRedundancy = 0.1;
+
 /// Asks before each iteration whether to go on.
 class KeepGoing : public ceres::IterationCallback {
  public:
@@ -99,12 +102,11 @@ class WaveProblem {
     options.apply_loss_function = false;
     double half_sum = 0.0;
     problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
-    return std::sqrt(2.0 * half_sum / std::max(1.0, freedom_));
+    const double rms = std::sqrt(2.0 * half_sum / residuals());
+    return isRedundant() ? rms / std::sqrt(redundancy()) : std::max(1.0, rms);
   }
 
-  double redundancy() const {
-    return freedom_ < 1.0 ? 1.0 : freedom_ / (2.0 * static_cast<double>(matches_.size()));
-  }
+  double redundancy() const { return isRedundant() ? freedom_ / residuals() : 1.0; }
 
   /// Of the corners and the priors.
   double chiSquared() {
@@ -136,6 +138,9 @@ class WaveProblem {
   }
 
  private:
+  double residuals() const { return 2.0 * static_cast<double>(matches_.size()); }
+  bool isRedundant() const { return freedom_ > kLeastRedundancy * residuals(); }
+
   void addMatches(const std::vector<Match>& matches, double loss_scale) {
     // The problem owns it.
     ceres::LossFunction* const loss =
@@ -158,8 +163,7 @@ class WaveProblem {
     }
     const auto controls = std::count(fitted.begin(), fitted.end(), true);
     const int per_camera = adjust::kRotationSize + adjust::kPositionSize + adjust::kLensSize + 1;
-    freedom_ = 2.0 * static_cast<double>(matches.size()) -
-               static_cast<double>(3 * path.leds() * controls) -
+    freedom_ = residuals() - static_cast<double>(3 * path.leds() * controls) -
                static_cast<double>(per_camera) * static_cast<double>(cameras_.size());
   }
 

@@ -3,6 +3,8 @@
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
+#include <ceres/problem.h>
+
 #include <Eigen/Core>
 
 #include <array>
@@ -27,6 +29,17 @@ struct CameraBlocks {
   /// The blocks in the order of a rig's covariance.
   std::vector<double*> all() {
     return {rotation.data(), position.data(), lens.data(), distortion.data(), &time_offset};
+  }
+
+  /// Adds a residual of the first four blocks and of some others to a problem.
+  /// @param loss null: none. The problem owns it.
+  template <typename... Others>
+  ceres::ResidualBlockId addTo(ceres::Problem* problem,
+                               ceres::CostFunction* cost,
+                               ceres::LossFunction* loss,
+                               Others*... others) {
+    return problem->AddResidualBlock(cost, loss, rotation.data(), position.data(), lens.data(),
+                                     distortion.data(), others...);
   }
 
   Eigen::Matrix3d world_from_start;  ///< Rotation that `rotation` starts from; not estimated.

@@ -99,10 +99,8 @@ class RigProblem {
         const auto pixel =
             adjust::PixelError::of(prior.cameras[view.camera].camera, view.pixel, pixel_stddev);
         const adjust::InterpolatedPixelError error{pixel, view.velocity, camera.time_offset};
-        problem_.AddResidualBlock(error.cost(), lossOf(loss_scale), camera.rotation.data(),
-                                  camera.position.data(), camera.lens.data(),
-                                  camera.distortion.data(), &camera.time_offset,
-                                  keyframe.point.data());
+        camera.addTo(&problem_, error.cost(), lossOf(loss_scale), &camera.time_offset,
+                     keyframe.point.data());
       }
     }
     addPrior(prior, cameras);

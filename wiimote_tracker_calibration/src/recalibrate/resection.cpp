@@ -177,9 +177,7 @@ class ResectionProblem {
       // Until the next association the LED moves with constant velocity.
       const adjust::MovingPixelError error{pixel, match.point.position, match.point.velocity,
                                            fit.time_offset};
-      matches_.push_back(problem_.AddResidualBlock(
-          error.cost(), nullptr, blocks_.rotation.data(), blocks_.position.data(),
-          blocks_.lens.data(), blocks_.distortion.data(), &blocks_.time_offset));
+      matches_.push_back(blocks_.addTo(&problem_, error.cost(), nullptr, &blocks_.time_offset));
     }
     problem_.SetParameterBlockConstant(blocks_.distortion.data());
     problem_.AddResidualBlock(adjust::Prior<1>{{prior.time_offset}, {kOffsetStddev}}.cost(),

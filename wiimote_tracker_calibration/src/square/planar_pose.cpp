@@ -97,9 +97,8 @@ std::optional<PlanarPose> refined(geometry::Camera camera, const SeenCorners& se
   std::vector<Eigen::Vector3d> places = seen.places;
   ceres::Problem problem;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    problem.AddResidualBlock(adjust::PixelError::of(camera, seen.pixels[i], 1.0).cost(), nullptr,
-                             blocks.rotation.data(), blocks.position.data(), blocks.lens.data(),
-                             blocks.distortion.data(), places[i].data());
+    blocks.addTo(&problem, adjust::PixelError::of(camera, seen.pixels[i], 1.0).cost(), nullptr,
+                 places[i].data());
     problem.SetParameterBlockConstant(places[i].data());
   }
   problem.SetParameterBlockConstant(blocks.lens.data());

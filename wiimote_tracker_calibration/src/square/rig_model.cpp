@@ -3,14 +3,11 @@
 #include "square/error.h"
 
 #include "adjust/camera_blocks.h"
-#include "adjust/corner_pixel.h"
 #include "adjust/covariance.h"
 #include "adjust/gravity.h"
 #include "adjust/jacobian.h"
-#include "adjust/prior.h"
-#include "adjust/taped_length.h"
 #include "square/lens_prior.h"
-#include "square/place_sightings.h"
+#include "square/square_terms.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 
@@ -58,27 +55,14 @@ class RigModel::Problem {
   Problem(const RigModel& model, const RigState& state) : model_(model), state_(state) {
     for (const geometry::Camera& camera : state.cameras)
       cameras_.emplace_back(camera);
-    for (std::size_t c = 0; c < 4; ++c) {
-      const Eigen::Vector3d offset = state.corners[c] - model.nominal_corners_[c];
-      corners_[c] = {offset.x(), offset.y()};
-    }
+    for (std::size_t c = 0; c < 4; ++c)
+      corners_[c] = (state.corners[c] - model.nominal_corners_[c]).head<2>();
     addSharedOffset(model.uncertainty_, shared_offset_.data(), &problem_);
+    pixels_ = addSquare(model.layout_, model.nominal_corners_, model.sightings_, model.uncertainty_,
+                        &cameras_, &square_, &problem_)
+                  .corner_pixels;
     for (std::size_t i = 0; i < cameras_.size(); ++i)
       addCamera(i);
-    for (std::size_t c = 0; c < 4; ++c) {
-      const double stddev = model.uncertainty_.placementOf(c);
-      problem_.AddResidualBlock(adjust::Prior<2>{{0.0, 0.0}, {stddev, stddev}}.cost(), nullptr,
-                                corners_[c].data());
-    }
-    addPlaces(model.layout_, model.sightings_, model.uncertainty_.pixel, &cameras_, &places_,
-              &problem_);
-    for (const TapedLength& taped : model.layout_.lengths) {
-      const Eigen::Vector3d nominal =
-          model.nominal_corners_[taped.to] - model.nominal_corners_[taped.from];
-      problem_.AddResidualBlock(
-          adjust::TapedLengthError{nominal.head<2>(), taped.length, taped.stddev}.cost(), nullptr,
-          corners_[taped.from].data(), corners_[taped.to].data());
-    }
   }
 
   /// @returns the cost (sum of squares) and the state there; nothing when the start is unusable.
@@ -103,7 +87,7 @@ class RigModel::Problem {
       state->cameras[i] = cameras_[i].cameraLike(state_.cameras[i]);
     for (std::size_t c = 0; c < 4; ++c)
       state->corners[c] =
-          model_.nominal_corners_[c] + Eigen::Vector3d(corners_[c][0], corners_[c][1], 0.0);
+          model_.nominal_corners_[c] + Eigen::Vector3d(corners_[c].x(), corners_[c].y(), 0.0);
     return 2.0 * summary.final_cost;
   }
 
@@ -150,16 +134,6 @@ class RigModel::Problem {
     const geometry::Camera& camera = state_.cameras[i];
     const CameraSightings& sightings = model_.sightings_[i];
     const Uncertainty& uncertainty = model_.uncertainty_;
-    pixels_.emplace_back();
-    for (std::size_t c = 0; c < 4; ++c) {
-      if (!sightings.corners[c])
-        continue;
-      const auto pixel = adjust::PixelError::of(camera, *sightings.corners[c], uncertainty.pixel);
-      pixels_.back().push_back(problem_.AddResidualBlock(
-          adjust::CornerPixelError{pixel, model_.nominal_corners_[c]}.cost(), nullptr,
-          blocks.rotation.data(), blocks.position.data(), blocks.lens.data(),
-          blocks.distortion.data(), corners_[c].data()));
-    }
     problem_.SetParameterBlockConstant(blocks.distortion.data());
     problem_.AddParameterBlock(&blocks.time_offset, 1);
     problem_.SetParameterBlockConstant(&blocks.time_offset);
@@ -177,9 +151,9 @@ class RigModel::Problem {
   const RigState state_;
   ceres::Problem problem_;
   std::vector<adjust::CameraBlocks> cameras_;
-  std::array<double, 2> shared_offset_{};         // of the principal points [px]
-  std::array<std::array<double, 2>, 4> corners_;  // displacements [m]
-  PlaceBlocks places_;
+  std::array<double, 2> shared_offset_{};   // of the principal points [px]
+  std::array<Eigen::Vector2d, 4> corners_;  // displacements [m]
+  SquareBlocks square_{&corners_, {}};
   std::vector<std::vector<ceres::ResidualBlockId>> pixels_;  // per camera
   std::vector<ceres::ResidualBlockId> lens_priors_;
 };
@@ -218,10 +192,10 @@ std::optional<double> RigModel::refineAll(RigState* state, Precision precision) 
 
 int RigModel::degreesOfFreedom() const {
   int result = static_cast<int>(layout_.lengths.size()) - (uncertainty_.unknown_corner ? 2 : 0);
-  result += 2 * placeSightings(sightings_);
   // Pixel coordinates, and six parameters of the pose; every other parameter has its prior.
   for (const CameraSightings& sightings : sightings_)
-    result += 2 * static_cast<int>(sightings.cornersSeen()) - 6 + (sightings.gravity ? 2 : 0);
+    result += 2 * static_cast<int>(sightings.cornersSeen() + sightings.placesSeen()) - 6 +
+              (sightings.gravity ? 2 : 0);
   return result;
 }
 

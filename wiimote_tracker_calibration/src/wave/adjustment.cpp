@@ -1,15 +1,13 @@
 #include "adjustment.h"
 
 #include "adjust/camera_blocks.h"
-#include "adjust/corner_pixel.h"
 #include "adjust/covariance.h"
 #include "adjust/path_acceleration.h"
 #include "adjust/path_pixel.h"
 #include "adjust/prior.h"
-#include "adjust/taped_length.h"
 #include "adjust/wand_length.h"
 #include "square/lens_prior.h"
-#include "square/place_sightings.h"
+#include "square/square_terms.h"
 #include "wave/error.h"
 
 #include <ceres/ceres.h>
@@ -52,7 +50,10 @@ class WaveProblem {
               const std::vector<Match>& matches,
               double loss_scale,
               State* state)
-      : recording_(recording), options_(options), state_(*state) {
+      : recording_(recording),
+        options_(options),
+        state_(*state),
+        square_{&state->corner_offsets, {}} {
     for (std::size_t i = 0; i < state->cameras.size(); ++i)
       cameras_.emplace_back(state->cameras[i], state->offsets[i]);
     addMatches(matches, loss_scale);
@@ -65,7 +66,7 @@ class WaveProblem {
     for (std::size_t i = 0; i < cameras_.size(); ++i)
       addCamera(i);
     if (recording.square)
-      addCorners(recording.square->corners(state->z_up));
+      addSquare();
     holdGauge();
   }
 
@@ -118,10 +119,14 @@ class WaveProblem {
   }
 
   /// Of chiSquared(): the matches determine everything but the world frame, its scale, and the
-  /// shared offset, which has as many residuals of its own.
+  /// shared offset and the known places, which have as many residuals of their own.
   int degreesOfFreedom() const {
-    return prior_residuals_ - (recording_.square ? 7 : 0) -
-           (options_.uncertainty.unknown_corner ? 2 : 0);
+    int count = options_.uncertainty.unknown_corner ? -2 : 0;
+    for (const ceres::ResidualBlockId prior : priors_)
+      count += problem_.GetCostFunctionForResidualBlock(prior)->num_residuals();
+    if (recording_.square)
+      count -= 7 + 3 * static_cast<int>(square_.places.size());
+    return options_.uncertainty.shared_principal_point > 0.0 ? count - 2 : count;
   }
 
   std::optional<Eigen::MatrixXd> covariance() {
@@ -151,11 +156,11 @@ class WaveProblem {
       adjust::CameraBlocks& camera = cameras_[match.camera];
       const adjust::PixelError pixel{match.pixel, match.whitening, camera.world_from_start,
                                      state_.cameras[match.camera].intrinsics.distortion_model};
-      matches_.push_back(problem_.AddResidualBlock(
+      matches_.push_back(camera.addTo(
+          &problem_,
           new adjust::PathPixelError(pixel, match.stamp - path.timeOf(match.interval),
                                      path.spacing()),
-          loss, camera.rotation.data(), camera.position.data(), camera.lens.data(),
-          camera.distortion.data(), &camera.time_offset, path.control(match.interval, match.led),
+          loss, &camera.time_offset, path.control(match.interval, match.led),
           path.control(match.interval + 1, match.led), path.control(match.interval + 2, match.led),
           path.control(match.interval + 3, match.led)));
       for (Eigen::Index k = 0; k < 4; ++k)
@@ -191,14 +196,12 @@ class WaveProblem {
                                 &state_.wand_length);
       freedom_ += 1.0;
     }
-    addPrior(adjust::Prior<1>{{recording_.wand->length}, {recording_.wand->stddev}}.cost(),
-             &state_.wand_length);
+    addPrior(recording_.wand->length, recording_.wand->stddev, &state_.wand_length);
   }
 
-  template <typename... Blocks>
-  void addPrior(ceres::CostFunction* cost, Blocks*... blocks) {
-    prior_residuals_ += cost->num_residuals();
-    priors_.push_back(problem_.AddResidualBlock(cost, nullptr, blocks...));
+  void addPrior(double mean, double stddev, double* value) {
+    priors_.push_back(
+        problem_.AddResidualBlock(adjust::Prior<1>{{mean}, {stddev}}.cost(), nullptr, value));
   }
 
   /// Priors of a camera.
@@ -207,37 +210,18 @@ class WaveProblem {
     const geometry::Intrinsics& start = recording_.cameras[i].sightings.intrinsics;
     priors_.push_back(square::addLensPrior(start, options_.uncertainty, camera.lens.data(),
                                            shared_offset_.data(), &problem_));
-    prior_residuals_ += adjust::kLensSize;
-    addPrior(adjust::Prior<1>{{0.0}, {options_.offset}}.cost(), &camera.time_offset);
+    addPrior(0.0, options_.offset, &camera.time_offset);
     problem_.SetParameterBlockConstant(camera.distortion.data());
   }
 
-  void addCorners(const square::Corners& nominal) {
-    const square::Uncertainty& stated = options_.uncertainty;
-    for (std::size_t c = 0; c < nominal.size(); ++c) {
-      double* const offset = state_.corner_offsets[c].data();
-      const double placement = stated.placementOf(c);
-      addPrior(adjust::Prior<2>{{0.0, 0.0}, {placement, placement}}.cost(), offset);
-      for (std::size_t i = 0; i < cameras_.size(); ++i) {
-        const auto& seen = recording_.cameras[i].sightings.corners[c];
-        if (!seen)
-          continue;
-        adjust::CameraBlocks& camera = cameras_[i];
-        const auto pixel = adjust::PixelError::of(state_.cameras[i], *seen, stated.pixel);
-        addPrior(adjust::CornerPixelError{pixel, nominal[c]}.cost(), camera.rotation.data(),
-                 camera.position.data(), camera.lens.data(), camera.distortion.data(), offset);
-      }
-    }
-    const std::vector<square::CameraSightings> sightings = recording_.sightings();
-    for (const ceres::ResidualBlockId residual : square::addPlaces(
-             *recording_.square, sightings, stated.pixel, &cameras_, &places_, &problem_))
-      priors_.push_back(residual);
-    prior_residuals_ += 2 * square::placeSightings(sightings);
-    for (const square::TapedLength& taped : recording_.square->lengths)
-      addPrior(adjust::TapedLengthError{(nominal[taped.to] - nominal[taped.from]).head<2>(),
-                                        taped.length, taped.stddev}
-                   .cost(),
-               state_.corner_offsets[taped.from].data(), state_.corner_offsets[taped.to].data());
+  void addSquare() {
+    const square::SquareLayout& layout = *recording_.square;
+    const square::SquareResiduals added =
+        square::addSquare(layout, layout.corners(state_.z_up), recording_.sightings(),
+                          options_.uncertainty, &cameras_, &square_, &problem_);
+    priors_.insert(priors_.end(), added.others.begin(), added.others.end());
+    for (const auto& of_camera : added.corner_pixels)
+      priors_.insert(priors_.end(), of_camera.begin(), of_camera.end());
   }
 
   /// All clocks could be shifted together with the path, and without square all cameras moved.
@@ -254,11 +238,10 @@ class WaveProblem {
   State& state_;
   std::vector<adjust::CameraBlocks> cameras_;
   std::array<double, 2> shared_offset_{};  // of the principal points [px]
-  square::PlaceBlocks places_;
+  square::SquareBlocks square_;
   ceres::Problem problem_;
   std::vector<ceres::ResidualBlockId> matches_;
   std::vector<ceres::ResidualBlockId> priors_;  // and corners and places
-  int prior_residuals_ = 0;
   double freedom_ = 0.0;  // residuals of the matches beyond the number of parameters
 };
 

@@ -23,10 +23,15 @@ struct CameraSightings {
   std::vector<std::optional<Eigen::Vector2d>> places;     ///< The same of SquareLayout::places.
   std::optional<Eigen::Vector3d> gravity;  ///< Specific force at rest, optical frame [m/s^2].
 
-  /// How many of the corners it saw.
-  std::size_t cornersSeen() const {
+  /// How many of the corners, and of the known places, it saw.
+  std::size_t cornersSeen() const { return seen(corners); }
+  std::size_t placesSeen() const { return seen(places); }
+
+ private:
+  template <typename Pixels>
+  static std::size_t seen(const Pixels& pixels) {
     return static_cast<std::size_t>(
-        std::count_if(corners.begin(), corners.end(), [](const auto& c) { return c.has_value(); }));
+        std::count_if(pixels.begin(), pixels.end(), [](const auto& p) { return p.has_value(); }));
   }
 };
 

@@ -1,0 +1,86 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_SQUARE_TERMS_H
+#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SQUARE_TERMS_H
+
+#include "adjust/camera_blocks.h"
+#include "adjust/corner_pixel.h"
+#include "adjust/pixel.h"
+#include "adjust/prior.h"
+#include "adjust/taped_length.h"
+#include "wiimote_tracker_calibration/square/rig_model.h"
+#include "wiimote_tracker_calibration/square/sightings.h"
+#include "wiimote_tracker_calibration/square/square_layout.h"
+
+#include <ceres/problem.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace wiimote_tracker::square {
+
+/// Where the LED was; must outlive the problem.
+struct SquareBlocks {
+  std::array<Eigen::Vector2d, 4>* corners;    ///< Displacements from the layout [m].
+  std::vector<std::array<double, 3>> places;  ///< Known places [m].
+};
+
+/// Residuals of a square.
+struct SquareResiduals {
+  std::vector<std::vector<ceres::ResidualBlockId>> corner_pixels;  ///< Per camera.
+  std::vector<ceres::ResidualBlockId> others;  ///< Priors of corners and places, and what else
+                                               ///< was measured of them.
+};
+
+/// Adds a square to a problem: where cameras saw its corners and known places, how exactly the LED
+/// lay there, and the taped lengths. @param cameras in the order of the sightings.
+inline SquareResiduals addSquare(const SquareLayout& layout,
+                                 const Corners& nominal,
+                                 const std::vector<CameraSightings>& sightings,
+                                 const Uncertainty& stated,
+                                 std::vector<adjust::CameraBlocks>* cameras,
+                                 SquareBlocks* blocks,
+                                 ceres::Problem* problem) {
+  SquareResiduals residuals{std::vector<std::vector<ceres::ResidualBlockId>>(cameras->size()), {}};
+  const auto pixelError = [&](std::size_t camera, const Eigen::Vector2d& pixel) {
+    return adjust::PixelError{pixel, Eigen::Matrix2d::Identity() / stated.pixel,
+                              (*cameras)[camera].world_from_start,
+                              sightings[camera].intrinsics.distortion_model};
+  };
+  for (std::size_t c = 0; c < nominal.size(); ++c) {
+    double* const corner = (*blocks->corners)[c].data();
+    const double stddev = stated.placementOf(c);
+    residuals.others.push_back(problem->AddResidualBlock(
+        adjust::Prior<2>{{0.0, 0.0}, {stddev, stddev}}.cost(), nullptr, corner));
+    for (std::size_t i = 0; i < sightings.size(); ++i) {
+      if (const auto& seen = sightings[i].corners[c])
+        residuals.corner_pixels[i].push_back((*cameras)[i].addTo(
+            problem, adjust::CornerPixelError{pixelError(i, *seen), nominal[c]}.cost(), nullptr,
+            corner));
+    }
+  }
+  blocks->places.resize(layout.places.size());
+  for (std::size_t p = 0; p < layout.places.size(); ++p) {
+    const KnownPlace& known = layout.places[p];
+    std::array<double, 3>& place = blocks->places[p];
+    place = {known.position.x(), known.position.y(), known.position.z()};
+    residuals.others.push_back(problem->AddResidualBlock(
+        adjust::Prior<3>{place, {known.stddev, known.stddev, known.stddev}}.cost(), nullptr,
+        place.data()));
+    for (std::size_t i = 0; i < sightings.size(); ++i) {
+      if (p < sightings[i].places.size() && sightings[i].places[p])
+        residuals.others.push_back((*cameras)[i].addTo(
+            problem, pixelError(i, *sightings[i].places[p]).cost(), nullptr, place.data()));
+    }
+  }
+  for (const TapedLength& taped : layout.lengths)
+    residuals.others.push_back(problem->AddResidualBlock(
+        adjust::TapedLengthError{(nominal[taped.to] - nominal[taped.from]).head<2>(), taped.length,
+                                 taped.stddev}
+            .cost(),
+        nullptr, (*blocks->corners)[taped.from].data(), (*blocks->corners)[taped.to].data()));
+  return residuals;
+}
+
+}  // namespace wiimote_tracker::square
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_SQUARE_TERMS_H

@@ -1,7 +1,8 @@
 #include "camera_yaml.h"
 #include "geometry/rotation.h"
-#include "rig_yaml.h"
+#include "rig_words.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/geometry/rig_file.h"
 
 #include <cmath>
 #include <limits>
@@ -104,8 +105,8 @@ remap::Remap readRemap(YamlMap map) {
 
 }  // namespace
 
-Rig rigFromYaml(const std::string& text, const std::string& where) {
-  YamlMap map = YamlMap::parse(text, where, "restore the file from its backup or calibrate again");
+Rig readRigFile(const std::string& path) {
+  YamlMap map = YamlMap::load(path, "restore the file from its backup or calibrate again");
   map.checkFormat(kRigFormat, kRigFormatVersion);
   if (map.get<std::string>("complete") != "true")
     throw map.error("complete", "is not true: the file was cut off");
@@ -134,7 +135,7 @@ Rig rigFromYaml(const std::string& text, const std::string& where) {
   try {
     rig.check();
   } catch (const Error& e) {
-    throw InvalidRigError(where + ": " + e.what());
+    throw InvalidRigError(path + ": " + e.what());
   }
   return rig;
 }

@@ -1,6 +1,8 @@
 #include "camera_yaml.h"
 #include "geometry/rotation.h"
-#include "rig_yaml.h"
+#include "rig_words.h"
+#include "wiimote_tracker_triangulation/geometry/atomic_file.h"
+#include "wiimote_tracker_triangulation/geometry/rig_file.h"
 
 #include <ctime>
 
@@ -107,7 +109,8 @@ std::string dateOf(double seconds) {
 
 }  // namespace
 
-std::string yamlFromRig(const Rig& rig) {
+void writeRigFile(const Rig& rig, const std::string& path) {
+  rig.check();
   YAML::Emitter out;
   out << YAML::BeginMap;
   out << YAML::Key << "format" << YAML::Value << kRigFormat;
@@ -149,7 +152,7 @@ std::string yamlFromRig(const Rig& rig) {
   // The last key: without it, the file was cut off.
   out << YAML::Key << "complete" << YAML::Value << true;
   out << YAML::EndMap;
-  return std::string(out.c_str()) + "\n";
+  writeFileAtomically(path, std::string(out.c_str()) + "\n");
 }
 
 }  // namespace wiimote_tracker::geometry

@@ -5,8 +5,8 @@ namespace wiimote_tracker {
 CalibrationNode::CalibrationNode(const ros::NodeHandle& nh, const Parameters& parameters)
     : context_(nh, parameters),
       units_({fileServices(&context_), captureServices(&context_), waveServices(&context_),
-              maskServices(&context_), measureServices(&context_), solveServices(&context_),
-              boardServices(&context_), placeServices(&context_), recalibrateServices(&context_),
+              maskServices(&context_), solveServices(&context_), boardServices(&context_),
+              placeServices(&context_), recalibrateServices(&context_),
               continuousServices(&context_), healthMonitor(&context_)}) {
   context_.inputs().start();
   status_timer_ =

@@ -5,6 +5,7 @@
 #include <std_srvs/SetBool.h>
 #include <wiimote_tracker_msgs/CaptureCornerAction.h>
 #include <wiimote_tracker_msgs/CheckConnection.h>
+#include <wiimote_tracker_msgs/MeasureLength.h>
 #include <wiimote_tracker_msgs/StartCalibration.h>
 #include <wiimote_tracker_msgs/text.h>
 
@@ -43,6 +44,7 @@ class CaptureServices {
     ros::NodeHandle& nh = context_.nh();
     services_ = {advertise(nh, "calibration/check_connection", &Self::checkConnection, this),
                  advertise(nh, "calibration/start", &Self::start, this),
+                 advertise(nh, "calibration/measure_length", &Self::measureLength, this),
                  advertise(nh, "calibration/hands_free", &Self::handsFree, this),
                  advertise(nh, "calibration/undo", &Self::undo, this),
                  advertise(nh, "calibration/cancel", &Self::cancel, this)};
@@ -121,6 +123,21 @@ class CaptureServices {
       context_.publishStatus(lock);
       return reply;
     });
+  }
+
+  Reply measureLength(const wiimote_tracker_msgs::MeasureLength::Request& request,
+                      wiimote_tracker_msgs::MeasureLength::Response*) {
+    square::TapedLength taped;
+    taped.from = request.from_corner;
+    taped.to = request.to_corner;
+    taped.length = request.length;
+    if (request.stddev != 0.0)
+      taped.stddev = request.stddev;
+    const Lock lock(context_.mutex());
+    const Reply reply = context_.calibration(lock).measureLength(
+        taped, context_.parameters(lock).solve.square.uncertainty.placement);
+    context_.publishStatus(lock);
+    return reply;
   }
 
   Reply handsFree(const std_srvs::SetBool::Request& request, std_srvs::SetBool::Response*) {

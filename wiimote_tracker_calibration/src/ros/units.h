@@ -15,8 +15,8 @@ using Unit = std::shared_ptr<void>;
 /// rig with another room's).
 Unit fileServices(NodeContext* context);
 
-/// The square: check_connection, start, capture_corner, hands_free, undo, cancel; and button A of a
-/// hand-held remote, which captures.
+/// The square: check_connection, start, capture_corner, measure_length, hands_free, undo, cancel;
+/// and button A of a hand-held remote, which captures.
 Unit captureServices(NodeContext* context);
 
 /// The wave: start_wave, stop_wave.
@@ -24,9 +24,6 @@ Unit waveServices(NodeContext* context);
 
 /// Lights that are not the LED: learn_masks, clear_masks.
 Unit maskServices(NodeContext* context);
-
-/// What a person measures for the solver: measure_length.
-Unit measureServices(NodeContext* context);
 
 /// From what was captured to a rig and its verdict: solve; topic principal_point_trace.
 Unit solveServices(NodeContext* context);

@@ -2,9 +2,8 @@
 // the node and the driver use from then on. Images come faster than real ones; all times are
 // theirs.
 #include "board_lenses.h"
+#include "board_table.h"
 #include "expect_says.h"
-
-#include "intrinsics/board_sequence.h"
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -68,9 +67,7 @@ class Bench {
     image.width = 1024;
     image.height = 768;
     image.max_blobs = 4;
-    for (int led = 0; led < intrinsics::kBoardLeds; ++led) {
-      if (!intrinsics::sequence::isLit(led, stamp_))
-        continue;
+    for (const int led : intrinsics::litAt(stamp_)) {
       const Eigen::Vector2d pixel =
           intrinsics::projected(truth, camera_from_board, intrinsics::Board(), led);
       wiimote_tracker_msgs::IrBlob blob;

@@ -1,3 +1,4 @@
+#include "board_table.h"
 #include "intrinsics/board_decoder.h"
 #include "intrinsics/board_sequence.h"
 
@@ -7,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -16,33 +16,6 @@
 
 namespace wiimote_tracker::intrinsics {
 namespace {
-
-/// The timing table of doc/board.md, written down once more: start of a flash [ms], its LEDs.
-struct TableLine {
-  int start;
-  std::array<int, 4> leds;
-};
-constexpr std::array<TableLine, 8> kTable = {{
-    {0, {0, 1, 2, 3}},
-    {60, {4, 5, 6, 7}},
-    {120, {8, 9, 10, 11}},
-    {180, {12, 13, 14, 15}},
-    {240, {0, 4, 8, 12}},
-    {480, {1, 5, 9, 13}},
-    {720, {2, 6, 10, 14}},
-    {960, {3, 7, 11, 15}},
-}};
-constexpr int kCycleMs = 1980;
-constexpr int kFlashMs = 40;
-
-std::vector<int> litAt(double seconds) {
-  double ms = std::fmod(1e3 * seconds, kCycleMs);
-  for (const TableLine& line : kTable) {
-    if (ms >= line.start && ms < line.start + kFlashMs)
-      return {line.leds.begin(), line.leds.end()};
-  }
-  return {};
-}
 
 /// A camera that looks at a board: where the LEDs are in its image, and what it gets wrong.
 struct Scene {
@@ -110,12 +83,17 @@ int correctLeds(const Scene& scene, const BoardReading& reading) {
 }
 
 TEST(BoardSequence, IsThatOfTheTable) {
-  for (int ms = 0; ms < 2 * kCycleMs; ++ms) {
-    const double time = 1e-3 * ms + 0.0005;
-    const std::vector<int> lit = litAt(time);
-    for (int led = 0; led < kBoardLeds; ++led)
-      EXPECT_EQ(sequence::isLit(led, time), std::count(lit.begin(), lit.end(), led) == 1)
-          << "LED " << led << " at " << ms << " ms";
+  const int step = static_cast<int>(std::lround(1e3 * sequence::kStep));  // [ms]
+  EXPECT_EQ(step * sequence::kSteps, kCycleMs);
+  for (int led = 0; led < kBoardLeds; ++led) {
+    std::vector<int> flashes;
+    for (const TableLine& line : kTable) {
+      if (std::count(line.leds.begin(), line.leds.end(), led) == 1)
+        flashes.push_back(line.start);
+    }
+    EXPECT_EQ(flashes, (std::vector<int>{step * sequence::rowStep(led / kBoardColumns),
+                                         step * sequence::columnStep(led % kBoardColumns)}))
+        << "LED " << led;
   }
 }
 

@@ -9,9 +9,8 @@ namespace wiimote_tracker::intrinsics {
 /// LED takes 4 + 4 c - r steps, from 1 to 16 and different for each LED, and from there to its
 /// row's next flash 17 to 32. So each LED can be identified alone.
 namespace sequence {
-constexpr double kStep = 0.060;   ///< [s]
-constexpr double kFlash = 0.040;  ///< How long a flash lasts [s].
-constexpr int kSteps = 33;        ///< Of one cycle.
+constexpr double kStep = 0.060;  ///< [s]
+constexpr int kSteps = 33;       ///< Of one cycle.
 constexpr double kCycle = kSteps * kStep;
 constexpr int rowStep(int row) {
   return row;
@@ -19,9 +18,6 @@ constexpr int rowStep(int row) {
 constexpr int columnStep(int column) {
   return 4 + 4 * column;
 }
-
-/// Whether an LED is lit at this time since the start of a cycle [s, >= 0].
-bool isLit(int led, double time);
 }  // namespace sequence
 
 }  // namespace wiimote_tracker::intrinsics

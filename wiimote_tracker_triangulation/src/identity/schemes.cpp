@@ -137,17 +137,6 @@ BlinkCodes cyclicCodes(const std::vector<CyclicLed>& leds, double chip, double t
   return codes;
 }
 
-std::size_t rotationDistance(const std::string& one, const std::string& other) {
-  std::size_t least = one.size();
-  for (std::size_t shift = 0; shift < one.size(); ++shift) {
-    std::size_t differing = 0;
-    for (std::size_t i = 0; i < one.size(); ++i)
-      differing += one[i] != other[(i + shift) % other.size()];
-    least = std::min(least, differing);
-  }
-  return least;
-}
-
 std::vector<std::string> chooseWords(std::size_t count, const WordRules& rules) {
   for (std::size_t length = 3; length <= std::min(rules.longest_word, kLongestWord); ++length) {
     const std::vector<Bits> candidates = usableWords(length, rules.longest_dark);

@@ -33,12 +33,9 @@ struct CyclicLed {
 /// @throws Error, for example for words of different length or equal up to rotation.
 BlinkCodes cyclicCodes(const std::vector<CyclicLed>& leds, double chip, double tolerance);
 
-/// Least Hamming distance of two words of equal length over all rotations.
-std::size_t rotationDistance(const std::string& one, const std::string& other);
-
 struct WordRules {
   std::size_t longest_dark = 1;   ///< Most dark chips in a row [1..].
-  std::size_t distance = 2;       ///< Least rotationDistance() of two words [1..].
+  std::size_t distance = 2;       ///< Least Hamming distance of two words, however rotated [1..].
   std::size_t longest_word = 20;  ///< Chips [3..20].
 };
 

@@ -288,7 +288,7 @@ def test_recordings_by_others_are_marked_as_measured(tmp_path):
     page = (tmp_path / 'out/report.md').read_text(encoding='utf-8')
     assert 'Measured on recordings by others' in page and 'Simulated' not in page
     table = results_table.written(README, content)
-    assert '| median error of predicted pixels, ' in table and '| measured |' in table
+    assert '|median error of predicted pixels, ' in table and '|measured|' in table
     assert 'evaluate --sections recordings' in table
     # A folder without recordings is a failure that says so.
     assert evaluation.evaluate(evaluation.parse(run + [str(tmp_path)] + chosen)) == 1
@@ -373,7 +373,7 @@ def test_table_is_written_between_its_marks_and_agrees_with_itself():
     content = content_of(9.1234, [8.0, 10.0])
     text = results_table.written(README, content)
     assert text.startswith('Before.\n') and text.endswith('\nAfter.\n') and 'old' not in text
-    assert '| rms | 9.12 mm | 8 … 10 | simulated, in process |' in text
+    assert '|rms|9.12 mm|8 … 10|simulated, in process|' in text
     assert results_table.written(text, content) == text
     assert results_table.disagreements(text, content) == ([], [])
 

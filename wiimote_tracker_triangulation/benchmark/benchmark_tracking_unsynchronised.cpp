@@ -97,8 +97,6 @@ void track(const std::vector<SceneImage>& images, const Path& path, Mode mode, E
 
 void runUnsynchronised(const BenchmarkSettings& settings, const RowCallback& row) {
   const Stamping stampings[] = {{"exact stamps", 0.0, 0.0, false},
-                                {"stamps off by 0.02 ms", 1.4e-5, 1.4e-5, false},
-                                {"stamps off by 0.1 ms", 7e-5, 7e-5, false},
                                 {"stamps off by 0.2 ms", 1.4e-4, 1.4e-4, false},
                                 {"arrival stamps, 2.4 ms of jitter", 0.0, 0.0, true}};
   for (const double speed : {1.0, 2.0, 3.0}) {

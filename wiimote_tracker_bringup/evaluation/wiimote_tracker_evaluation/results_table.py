@@ -50,8 +50,8 @@ def origin(content: Dict) -> str:
 
 def lines(content: Dict) -> List[str]:
     """The table in Markdown."""
-    return (['| | value | 95 % interval | how |', '|---|---|---|---|'] + [
-        '| ' + ' | '.join(cells(entry)) + ' |' for entry in headlines(content)] + [
+    return (['||value|95 % interval|how|', '|---|---|---|---|'] + [
+        '|' + '|'.join(cells(entry)) + '|' for entry in headlines(content)] + [
         '', origin(content)])
 
 

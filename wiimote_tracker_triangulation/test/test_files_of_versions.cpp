@@ -80,7 +80,7 @@ TEST(FilesOfALaterVersion, AreRefusedInWords) {
 }
 
 TEST(DamagedFiles, AreReadOrRefusedInWords) {  // rig.yaml: see test_rig_file.cpp
-  constexpr int kChanges = 300;
+  constexpr int kChanges = 2000;
   std::mt19937_64 random(1);
   for (const Reader& reader : kReaders) {
     if (reader.file == std::string("rig.yaml"))

@@ -9,7 +9,7 @@ from wiimote_tracker_evaluation.faults.helper import Helper
 from wiimote_tracker_evaluation.faults.row import fault
 
 STEP = 5         # of truncation [%]
-FLIPS = 100      # files with a few changed bytes
+FLIPS = 2000     # files with a few changed bytes
 SEED = 1
 LARGE = 100 << 20  # of a file [bytes]
 SAVES = 20

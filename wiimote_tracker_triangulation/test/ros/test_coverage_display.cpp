@@ -5,6 +5,7 @@
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
 
 #include <cmath>
 #include <limits>
@@ -29,17 +30,36 @@ TEST(CoverageDisplay, SaysWhatIsSeen) {
 }
 
 TEST(CoverageDisplay, ColoursCellsByAccuracy) {
+  const sensor_msgs::PointCloud2 cloud = coverageCloud("hall", kCells);
+  EXPECT_EQ(cloud.header.frame_id, "hall");
+  ASSERT_EQ(cloud.width * cloud.height, kCells.size());
+  // By the convention of rviz and PCL: 0xRRGGBB in the bits of a float.
+  sensor_msgs::PointCloud2ConstIterator<std::uint32_t> color(cloud, "rgb");
+  EXPECT_EQ(*color, 0x00cc33U);        // green
+  EXPECT_EQ(*(color + 1), 0xffcc33U);  // yellow
+  EXPECT_EQ(*(color + 3), 0xe63333U);  // red
+}
+
+TEST(CoverageDisplay, StatesTheNumbersOfEachCell) {
+  const sensor_msgs::PointCloud2 cloud = coverageCloud("hall", kCells);
+  sensor_msgs::PointCloud2ConstIterator<float> place(cloud, "x"), cameras(cloud, "cameras"),
+      stddev(cloud, "stddev");
+  for (const CoverageCell& cell : kCells) {
+    EXPECT_EQ(Eigen::Map<const Eigen::Vector3f>(&*place), cell.center.cast<float>());
+    EXPECT_EQ(*cameras, static_cast<float>(cell.cameras));
+    EXPECT_EQ(std::isnan(*stddev), std::isnan(cell.stddev));
+    if (!std::isnan(cell.stddev)) {
+      EXPECT_EQ(*stddev, static_cast<float>(cell.stddev));
+    }
+    ++place, ++cameras, ++stddev;
+  }
+}
+
+TEST(CoverageDisplay, ExplainsTheColours) {
   const auto array = coverageMarkers("hall", kCells, 1.0, "so much; so well.");
-  ASSERT_EQ(array.markers.size(), 2U);
-  const visualization_msgs::Marker& cubes = array.markers[0];
-  EXPECT_EQ(cubes.header.frame_id, "hall");
-  ASSERT_EQ(cubes.points.size(), kCells.size());
-  ASSERT_EQ(cubes.colors.size(), kCells.size());
-  EXPECT_EQ(cubes.colors[0].r, 0.0f);  // green
-  EXPECT_EQ(cubes.colors[1].r, 1.0f);  // yellow
-  EXPECT_LT(cubes.colors[3].g, 0.3f);  // red
-  EXPECT_GT(array.markers[1].pose.position.z, 3.5);
-  EXPECT_EQ(array.markers[1].text,
+  ASSERT_EQ(array.markers.size(), 1U);
+  EXPECT_GT(array.markers[0].pose.position.z, 3.5);
+  EXPECT_EQ(array.markers[0].text,
             "so much;\nso well.\nRed: seen by fewer than two.\nGreen to yellow: 5 to 50 mm.");
 }
 

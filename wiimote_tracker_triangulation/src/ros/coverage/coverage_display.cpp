@@ -49,6 +49,7 @@ CoverageDisplay::CoverageDisplay(const ros::NodeHandle& nh, const ros::NodeHandl
   ParameterReader reader(private_nh);
   parameters_ = CoverageParameters::read(&reader);
   publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("coverage", 1, true);
+  cells_publisher_ = nh_.advertise<sensor_msgs::PointCloud2>("coverage/cells", 1, true);
   walk_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("coverage/walk", 1, true);
   subscriber_ = subscribe<wiimote_tracker_msgs::RigCalibration>(
       nh_, "calibration/rig", 1, [this](const auto& event) { onRig(*event.getConstMessage()); });
@@ -67,6 +68,7 @@ void CoverageDisplay::onRig(const wiimote_tracker_msgs::RigCalibration& message)
     const auto turn = geometry::bestTurn(rig, grid);
     const std::string advice = turn ? sentenceOf(*turn) : "";
     const std::string sentence = sentenceOf(cells) + advice;
+    cells_publisher_.publish(coverageCloud(rig.world_frame, cells));
     publisher_.publish(coverageMarkers(rig.world_frame, cells, parameters_.cell_size, sentence));
     ROS_INFO_STREAM(sentence);
     possible_ = format("; %.0f %% is possible.", 100.0 * geometry::coveredShare(cells)) + advice;

@@ -41,6 +41,7 @@ class CoverageDisplay {
   ros::NodeHandle nh_;
   CoverageParameters parameters_;
   ros::Publisher publisher_;
+  ros::Publisher cells_publisher_;
   ros::Publisher walk_publisher_;
   ros::Subscriber subscriber_;
   ros::Subscriber points_subscriber_;

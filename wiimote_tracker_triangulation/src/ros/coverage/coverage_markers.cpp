@@ -3,10 +3,13 @@
 #include "../marker_parts.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
+#include <sensor_msgs/point_cloud2_iterator.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace wiimote_tracker {
 namespace {
@@ -15,24 +18,19 @@ using geometry::CoverageCell;
 using markers::color;
 using visualization_msgs::Marker;
 
-constexpr double kGood = 0.005;      // green [m]
-constexpr double kBad = 0.05;        // yellow [m]
-constexpr double kCubeShare = 0.15;  // of a cell's size
+constexpr double kGood = 0.005;     // green [m]
+constexpr double kBad = 0.05;       // yellow [m]
+constexpr double kCubeShare = 0.3;  // of a cell's size
 
-std_msgs::ColorRGBA colorOf(const CoverageCell& cell) {
+/// Red, green, blue.
+std::array<std::uint8_t, 3> colorOf(const CoverageCell& cell) {
   if (std::isnan(cell.stddev))
-    return color(0.9f, 0.2f, 0.2f, 0.8f);
+    return {230, 51, 51};
   const double share = std::log(cell.stddev / kGood) / std::log(kBad / kGood);
-  return color(static_cast<float>(std::clamp(share, 0.0, 1.0)), 0.8f, 0.2f, 0.8f);
+  return {static_cast<std::uint8_t>(255.0 * std::clamp(share, 0.0, 1.0)), 204, 51};
 }
 
 constexpr double kForEver = 0.0;  // lifetime of a marker
-
-Marker cubesOf(const std::string& world_frame, const std::string& ns, double size) {
-  Marker cubes = markers::marker(world_frame, 0.0, kForEver, ns, 0, Marker::CUBE_LIST);
-  cubes.scale.x = cubes.scale.y = cubes.scale.z = size;
-  return cubes;
-}
 
 /// A line for each sentence and clause.
 std::string inLines(std::string words) {
@@ -91,19 +89,39 @@ std::string sentenceOf(const geometry::CameraTurn& turn) {
          format(", would make it %.0f %%.", 100.0 * turn.share);
 }
 
+sensor_msgs::PointCloud2 coverageCloud(const std::string& world_frame,
+                                       const std::vector<CoverageCell>& cells) {
+  using sensor_msgs::PointField;
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header.frame_id = world_frame;
+  sensor_msgs::PointCloud2Modifier modifier(cloud);
+  modifier.setPointCloud2Fields(6, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1,
+                                PointField::FLOAT32, "rgb", 1, PointField::FLOAT32, "cameras", 1,
+                                PointField::FLOAT32, "stddev", 1, PointField::FLOAT32);
+  modifier.resize(cells.size());
+  sensor_msgs::PointCloud2Iterator<float> x(cloud, "x"), cameras(cloud, "cameras");
+  sensor_msgs::PointCloud2Iterator<std::uint8_t> blue(cloud, "rgb");
+  for (const CoverageCell& cell : cells) {
+    const auto color = colorOf(cell);
+    for (int i = 0; i < 3; ++i) {
+      x[i] = static_cast<float>(cell.center[i]);
+      blue[2 - i] = color[static_cast<std::size_t>(i)];
+    }
+    cameras[0] = static_cast<float>(cell.cameras);
+    cameras[1] = static_cast<float>(cell.stddev);
+    ++x, ++cameras, ++blue;
+  }
+  return cloud;
+}
+
 visualization_msgs::MarkerArray coverageMarkers(const std::string& world_frame,
                                                 const std::vector<CoverageCell>& cells,
                                                 double cell_size,
                                                 const std::string& sentence) {
   visualization_msgs::MarkerArray array;
-  Marker cubes = cubesOf(world_frame, "coverage", kCubeShare * cell_size);
-  for (const CoverageCell& cell : cells) {
-    cubes.points.push_back(pointOf(cell.center));
-    cubes.colors.push_back(colorOf(cell));
-  }
   array.markers = {
-      cubes, textAbove(world_frame, "coverage", cells, cell_size,
-                       sentence + " Red: seen by fewer than two. Green to yellow: 5 to 50 mm.")};
+      textAbove(world_frame, "coverage", cells, cell_size,
+                sentence + " Red: seen by fewer than two. Green to yellow: 5 to 50 mm.")};
   return array;
 }
 
@@ -112,7 +130,8 @@ visualization_msgs::MarkerArray walkMarkers(const std::string& world_frame,
                                             double cell_size,
                                             const std::string& sentence) {
   visualization_msgs::MarkerArray array;
-  Marker cubes = cubesOf(world_frame, "walk", 2.0 * kCubeShare * cell_size);
+  Marker cubes = markers::marker(world_frame, 0.0, kForEver, "walk", 0, Marker::CUBE_LIST);
+  cubes.scale.x = cubes.scale.y = cubes.scale.z = kCubeShare * cell_size;
   for (const CoverageCell& cell : walked) {
     if (cell.cameras == 0)
       continue;

@@ -1,0 +1,13 @@
+#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_COVERAGE_LAYER_H
+#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_COVERAGE_LAYER_H
+
+#include <sensor_msgs/PointCloud2.h>
+
+namespace wiimote_tracker::panel {
+
+/// The points of the horizontal layer that is nearest to a height [m].
+sensor_msgs::PointCloud2 layerAt(const sensor_msgs::PointCloud2& cells, float height);
+
+}  // namespace wiimote_tracker::panel
+
+#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_COVERAGE_LAYER_H

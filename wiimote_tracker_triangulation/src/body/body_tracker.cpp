@@ -3,7 +3,6 @@
 #include "association/assign_spots.h"
 #include "association/shared_views.h"
 #include "led_groups.h"
-#include "pose_from_labels.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <algorithm>
@@ -68,6 +67,7 @@ void BodyTracker::useRig(const geometry::Rig& rig) {
   cameras_.clear();
   for (const geometry::RigCamera& camera : rig_.cameras)
     cameras_.push_back(rig_.rayCamera(camera));
+  candidates_.resize(cameras_.size());
   sights_.resize(cameras_.size());
   views_.resize(cameras_.size());
   images_.assign(cameras_.size(), {});
@@ -287,19 +287,49 @@ void BodyTracker::dropLost(double time) {
   }
 }
 
+/// LEDs of which two cameras show a spot within the search's window.
+std::size_t BodyTracker::countSeenLeds(std::size_t body, double time) const {
+  std::array<int, kMaximumLeds> cameras{};
+  for (const LastImage& image : images_) {
+    for (const BodySpot& spot : image.taken)
+      cameras[spot.led] += spot.body == body && time - image.time <= options_.window;
+  }
+  return static_cast<std::size_t>(
+      std::count_if(cameras.begin(), cameras.end(), [](int count) { return count > 1; }));
+}
+
+/// LEDs that a match needs for a body to be started there. A hidden body may reappear far from its
+/// prediction. A body that was started with LEDs exchanged stays tracked by the LEDs that fit by
+/// chance: another pose then shows at least two more. None: the body cannot be started.
+std::optional<std::size_t> BodyTracker::neededLeds(std::size_t body, double time) const {
+  if (!has_clear_shape_[body])
+    return std::nullopt;
+  if (!bodies_[body] || time - bodies_[body]->last_observed > options_.tracked_time)
+    return options_.match.minimum_seen;
+  const std::size_t needed = countSeenLeds(body, time) + 2;
+  if (needed > constellations_[body].leds.size())
+    return std::nullopt;
+  return std::max(needed, options_.match.minimum_seen);
+}
+
 void BodyTracker::find(double time) {
-  // A hidden body may reappear far from its prediction.
-  const auto isTracked = [&](const std::optional<Body>& body) {
-    return body && time - body->last_observed <= options_.tracked_time;
-  };
-  if (std::all_of(bodies_.begin(), bodies_.end(), isTracked))
+  needed_leds_.clear();
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    needed_leds_.push_back(neededLeds(b, time));
+  if (std::none_of(needed_leds_.begin(), needed_leds_.end(),
+                   [](const auto& needed) { return needed.has_value(); }))
     return;
   for (std::size_t c = 0; c < cameras_.size(); ++c) {
     const LastImage& image = images_[c];
+    candidates_[c] = image.free;
+    for (const BodySpot& spot : image.taken) {
+      if (needed_leds_[spot.body] && !spot.is_further)
+        candidates_[c].push_back(spot.pixel);
+    }
     sights_[c].clear();
     views_[c].watching = time - image.time <= options_.window;
     views_[c].full = true;  // no cost for a missed LED: the body may hide it
-    for (const Eigen::Vector2d& pixel : image.free) {
+    for (const Eigen::Vector2d& pixel : candidates_[c]) {
       if (views_[c].watching)
         sights_[c].push_back(*geometry::sightFromPixel(cameras_[c], pixel));
     }
@@ -315,9 +345,11 @@ void BodyTracker::find(double time) {
                                   options_.window_motion),
                        false});
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (isTracked(bodies_[b]) || !has_clear_shape_[b])
+    if (!needed_leds_[b])
       continue;
-    const std::optional<Match> match = matchPoints(constellations_[b], points_, options_.match);
+    MatchOptions options = options_.match;
+    options.minimum_seen = *needed_leds_[b];
+    const std::optional<Match> match = matchPoints(constellations_[b], points_, options);
     if (!match || match->margin < options_.minimum_margin || !start(b, *match, found, time))
       continue;
     for (const int p : match->point_of_led) {
@@ -340,7 +372,7 @@ bool BodyTracker::start(std::size_t body,
     for (std::size_t i = 0; i < point.spot_count; ++i) {
       const association::SpotReference& spot = found.spots[point.first_spot + i];
       observations_.push_back({&cameras_[spot.view], constellations_[body].leds[led],
-                               images_[spot.view].free[spot.spot]});
+                               candidates_[spot.view][spot.spot]});
     }
   }
   // Motion within the window counts as noise; later images determine the velocity.
@@ -351,16 +383,6 @@ bool BodyTracker::start(std::size_t body,
     return false;
   startAt(body, *solved, time);
   return true;
-}
-
-void BodyTracker::startFromLabels(const std::vector<LabelledPoint>& points) {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (bodies_[b] || constellations_[b].labels.empty())
-      continue;
-    if (const auto pose = poseFromLabels(constellations_[b], points))
-      startAt(b, *pose, time_);
-  }
-  estimate();
 }
 
 void BodyTracker::startAt(std::size_t body, const BodyPose& pose, double time) {

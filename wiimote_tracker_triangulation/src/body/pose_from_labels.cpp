@@ -1,6 +1,7 @@
 #include "pose_from_labels.h"
 
 #include "body/align.h"
+#include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/geometry/so3.h"
 
 #include <Eigen/Cholesky>
@@ -53,6 +54,16 @@ std::optional<BodyPose> poseFromLabels(const Constellation& constellation,
   if (factor.info() != Eigen::Success || factor.rcond() < 1e-12)
     return std::nullopt;
   return BodyPose{alignment.world_from_body, factor.solve(PoseCovariance::Identity())};
+}
+
+void BodyTracker::startFromLabels(const std::vector<LabelledPoint>& points) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b] || constellations_[b].labels.empty())
+      continue;
+    if (const auto pose = poseFromLabels(constellations_[b], points))
+      startAt(b, *pose, time_);
+  }
+  estimate();
 }
 
 }  // namespace wiimote_tracker::body

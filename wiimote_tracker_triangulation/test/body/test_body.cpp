@@ -141,29 +141,6 @@ TEST(BodyTracker, FindsTheBodyAgainSoonAfterItWasHidden) {
   EXPECT_GE(occlusions, 8);
 }
 
-/// Hidden for the last 0.1 s of each second. Where it came back turned wrongly, it mostly stays so
-/// until it is hidden again.
-TEST(BodyTracker, IsSeldomTurnedWronglyAfterItWasHidden) {
-  tracking::test::SceneOptions options = halfAPixel();
-  options.hidden = [](std::size_t, std::size_t, double t) { return std::fmod(t, 1.0) > 0.9; };
-  int images = 0;
-  int tracked = 0;
-  int wrong = 0;
-  for (unsigned seed = 25; seed < 33; ++seed) {
-    FollowedBody follow(paperRig(), fourLeds(), test::shaken, options, seed);
-    for (int i = 0; i < 4 * 100 * 20; ++i) {
-      follow.step();
-      ++images;
-      if (!follow.estimate() || !follow.estimate()->tracked)
-        continue;
-      ++tracked;
-      wrong += rotationError(follow.truth(), follow.estimate()->world_from_body).norm() > 0.35;
-    }
-  }
-  EXPECT_GT(tracked, 0.85 * images);
-  EXPECT_LT(wrong, 0.05 * tracked);  // 0.014
-}
-
 TEST(BodyTracker, OneCameraIsEnoughForFourLeds) {
   tracking::test::SceneOptions options = halfAPixel();
   options.hidden = [](std::size_t camera, std::size_t, double t) {

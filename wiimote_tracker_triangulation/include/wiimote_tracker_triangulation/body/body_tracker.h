@@ -172,6 +172,8 @@ class BodyTracker {
               LastImage* image);
   bool isSeen(std::size_t body, const LastImage& image);
   void dropLost(double time);
+  std::size_t countSeenLeds(std::size_t body, double time) const;
+  std::optional<std::size_t> neededLeds(std::size_t body, double time) const;
   void find(double time);
   bool start(std::size_t body,
              const Match& match,
@@ -204,6 +206,8 @@ class BodyTracker {
   std::list<Entry> spare_;
   std::vector<bool> spots_taken_;
   std::vector<geometry::Sight> body_sights_;
+  std::vector<std::optional<std::size_t>> needed_leds_;   // per body
+  std::vector<std::vector<Eigen::Vector2d>> candidates_;  // spots to search, per camera [px]
   std::vector<std::vector<geometry::Sight>> sights_;
   std::vector<association::View> views_;
   std::vector<MeasuredPoint> points_;

@@ -227,4 +227,13 @@ std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& imag
   return proposal;
 }
 
+geometry::Rig appliedRig(const geometry::Rig& proposed, const geometry::Rig& before) {
+  geometry::Rig rig = proposed;
+  rig.zones = before.zones;
+  rig.remap = before.remap;
+  if (rig.remap && rig.remap->rig_id == before.id())
+    rig.remap->rig_id = rig.id();
+  return rig;
+}
+
 }  // namespace wiimote_tracker::continuous

@@ -74,6 +74,10 @@ class ContinuousCalibration {
   bool has_drifted_ = false;  // The latest adjustment was proposed.
 };
 
+/// The proposed rig with what has no part in its id, and may have changed meanwhile: that of the
+/// rig before. A correction of the volume belongs to the world, which the other cameras hold.
+geometry::Rig appliedRig(const geometry::Rig& proposed, const geometry::Rig& before);
+
 }  // namespace wiimote_tracker::continuous
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_CONTINUOUS_CALIBRATION_H

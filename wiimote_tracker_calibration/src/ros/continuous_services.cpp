@@ -33,17 +33,6 @@ std::string dateOf(double time) {
   return text;
 }
 
-/// The proposed rig with what has no part in its id, and may have changed meanwhile. A correction
-/// of the volume belongs to the world, which the other cameras hold.
-geometry::Rig proposedRig(const geometry::Rig& proposed, const geometry::Rig& before) {
-  geometry::Rig rig = proposed;
-  rig.zones = before.zones;
-  rig.remap = before.remap;
-  if (rig.remap && rig.remap->rig_id == before.id())
-    rig.remap->rig_id = rig.id();
-  return rig;
-}
-
 class ContinuousServices {
  public:
   explicit ContinuousServices(NodeContext* context)
@@ -175,7 +164,7 @@ class ContinuousServices {
     const geometry::Rig before = context_.existingRig("to change", *lock);
     context_.requireSameRig(rig_id_, *lock);
     const std::string message = proposal_->message;
-    const geometry::Rig rig = proposedRig(proposal_->rig, before);
+    const geometry::Rig rig = continuous::appliedRig(proposal_->rig, before);
     forgetProposal(*lock);
     changes_.push_back({rig.id(), before});
     if (changes_.size() > kMostChanges)

@@ -44,7 +44,7 @@ class KeptRig {
       return;
     if (const auto proposal = continuous_->add(image)) {
       std::printf("%.3f: %s\n", image.stamp, proposal->message.c_str());
-      use(proposal->rig);
+      use(continuous::appliedRig(proposal->rig, *rig_));
     }
   }
 

@@ -21,6 +21,12 @@ class CoverageCells : public rviz::PointCloud2Display {
       connect(property, &rviz::Property::changed, this, [this] { showCells(); });
   }
 
+  /// For another topic or frame, and when it is switched off.
+  void reset() override {
+    cells_.reset();
+    rviz::PointCloud2Display::reset();
+  }
+
  protected:
   void processMessage(const sensor_msgs::PointCloud2ConstPtr& cells) override {
     cells_ = cells;

@@ -14,6 +14,10 @@ constexpr float kSameHeight = 0.001f;  // [m]
 }  // namespace
 
 sensor_msgs::PointCloud2 layerAt(const sensor_msgs::PointCloud2& cells, float height) {
+  const bool has_heights = std::any_of(cells.fields.begin(), cells.fields.end(),
+                                       [](const auto& field) { return field.name == "z"; });
+  if (!has_heights || cells.point_step == 0)
+    return {};
   using Heights = sensor_msgs::PointCloud2ConstIterator<float>;
   float nearest = std::numeric_limits<float>::infinity();
   for (Heights z(cells, "z"); z != z.end(); ++z) {

@@ -13,7 +13,8 @@ constexpr double kMean = 0.005;         // delay before the poll [s]
 constexpr double kJitter = 0.0014;      // its standard deviation [s]
 constexpr double kPoll = 0.0056;        // between polls [s]
 constexpr double kResolution = 1e-3;    // of the recorded times [s]
-constexpr double kHeldUp = 0.02;        // share of reports that were, and mean time of that [s]
+constexpr double kHeldUpShare = 0.02;   // of the reports
+constexpr double kHeldUpTime = 0.02;    // mean [s]
 constexpr double kWalk = 0.0019;        // of the phase after 1 s [s]
 constexpr double kLost = 0.05;          // probability of a lost frame, ...
 constexpr double kNextLost = 0.2;       // ... and after one
@@ -63,11 +64,11 @@ Density delays() {
   normalise(density);
   Density queue(kCells);
   for (std::size_t i = 0; i < kCells; ++i)
-    queue[i] = std::exp(-static_cast<double>(i) * kCell / kHeldUp);
+    queue[i] = std::exp(-static_cast<double>(i) * kCell / kHeldUpTime);
   Density held_up = convolve(density, queue, 0);
   normalise(held_up);
   for (std::size_t i = 0; i < kCells; ++i)
-    density[i] = (1.0 - kHeldUp) * density[i] + kHeldUp * held_up[i];
+    density[i] = (1.0 - kHeldUpShare) * density[i] + kHeldUpShare * held_up[i];
   return density;
 }
 

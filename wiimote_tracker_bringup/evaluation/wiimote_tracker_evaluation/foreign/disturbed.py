@@ -128,8 +128,9 @@ def points_of(source, folder, *options):
 
 
 def rms_error(points, truth):
-    return alignment.rms(np.array([points[number] - truth[number]
-                                   for number in points.keys() & truth.keys()]))
+    """NaN without common points."""
+    errors = [points[number] - truth[number] for number in points.keys() & truth.keys()]
+    return alignment.rms(np.array(errors)) if errors else float('nan')
 
 
 def rows_of(result):

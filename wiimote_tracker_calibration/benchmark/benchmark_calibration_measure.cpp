@@ -85,7 +85,7 @@ void runMeasure(int runs, const RowCallback& row) {
 BenchmarkSection measureSection() {
   return {
       "measure",
-      "four cameras, square alone, then what the verdict advises to measure. RMS error [mm] at the "
+      "what the verdict advises to measure. RMS error [mm] at the "
       "verdict's places: expected, true, expected after the best rigid motion; share of lengths "
       "by tape among the next measurements; RMS after them, expected and true, over the promised.",
       runMeasure};

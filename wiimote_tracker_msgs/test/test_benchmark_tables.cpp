@@ -100,7 +100,7 @@ TEST_F(BenchmarkTablesTest, ArePrintedWithAHeadForEachSetOfColumns) {
 
 TEST_F(BenchmarkTablesTest, RefuseADocumentThatCannotBeReadOrHasHalfOfTheMarks) {
   EXPECT_EQ(1, run(testing::TempDir() + "no/such/file.md"));
-  EXPECT_NE(std::string::npos, refusal_.find("no/such/file.md cannot be read"));
+  EXPECT_NE(std::string::npos, refusal_.find("no/such/file.md cannot be written"));
   for (const char* half :
        {"<!-- speed: begin -->\n", "<!-- speed: end -->\n<!-- speed: begin -->\n"}) {
     std::ofstream(document_) << half;

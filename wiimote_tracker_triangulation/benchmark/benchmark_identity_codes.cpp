@@ -335,9 +335,9 @@ BenchmarkSection periodsSection() {
 
 BenchmarkSection cyclicSection() {
   return {"cyclic",
-          std::string(
-              "One LED with a cyclic code, chips of 23 ms, this long after the first image; 1 % "
-              "of sightings flipped. 1000 runs per --runs.") +
+          std::string("One LED with a cyclic code, chips of 23 ms, this long after the first "
+                      "image; 1 apart: words may differ in one chip; 1 % "
+                      "of sightings flipped. 1000 runs per --runs.") +
               kColumns,
           runCyclic};
 }

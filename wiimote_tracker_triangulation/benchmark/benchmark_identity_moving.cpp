@@ -170,8 +170,8 @@ BenchmarkSection movingSection() {
           "four LEDs in the paper's rig, tracked; 0.3 px, 5 % missed detections, a false detection "
           "in 2 "
           "% of the images; 1 s per --runs. Shares of LEDs times snapshots with a track within 10 "
-          "cm, with a label, with another LED's label; mean time from a track's first image to its "
-          "label; tracks in all (4 at best); RMS error.",
+          "cm; tracks in all (4 at best); RMS error; shares with a label, with another LED's "
+          "label; mean time from a track's first image to its label. steady: no LED blinks.",
           runMoving};
 }
 

@@ -350,8 +350,8 @@ BenchmarkSection filterSection() {
       "the "
       "filter's only mode and (b) motion that changes between rest (1 to 3 s) and moving (1 to 2 "
       "s, acceleration of 2 m/s^2 with an autocorrelation time of 0.2 s), beside the posterior "
-      "Cramer-Rao bound, which knows the mode; (c) beside the constant-velocity or "
-      "constant-acceleration filter whose noise suits the row best. NEES: 3 where the covariance "
+      "Cramer-Rao bound, which knows the mode; (c) bound: the constant-velocity or -acceleration "
+      "filter whose noise suits the row best. NEES: 3 where the covariance "
       "is right.",
       runFilter};
 }

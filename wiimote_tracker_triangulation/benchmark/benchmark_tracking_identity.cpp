@@ -175,9 +175,10 @@ BenchmarkSection identitySection() {
       "within 0.1 m, and in the last snapshot; tracks in snapshots without an LED within 0.1 "
       "m; RMS error [mm]; late images.\n"
       "Then two LEDs whose spots merge in all views, 20 meetings per run: identity swaps of an "
-      "oracle that knows the motion model and which spots belong together and uses later images, "
+      "oracle that knows motion model and spots, and later images, "
       "of this oracle with the tracker's filters, and of the tracker; LEDs with a new track id; "
-      "swaps of the tracker over those of the oracle.",
+      "left_out: never merged in all views, or not tracked; ratio: the tracker's swaps and new ids "
+      "over the oracle's.",
       runIdentity};
 }
 

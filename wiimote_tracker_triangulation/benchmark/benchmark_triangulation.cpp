@@ -111,8 +111,8 @@ int main(int argc, char** argv) {
         "triangulation",
         format("Simulated: %d points, %.1f px of noise, lenses without distortion. Time: median of "
                "%d runs over %zu points, methods in turn, from rays that are ready unless it says "
-               "from pixels. Ours give the covariance, the others the point only; a plain midpoint "
-               "of two rays, as OpenGV's, is the fastest that there is.",
+               "from pixels. Ours give the covariance, the others the point only. ring: cameras on "
+               "a circle.",
                points, kBenchmarkPixelStddev, kRepetitions, kTimedPoints),
         format("rosrun wiimote_tracker_triangulation benchmark_triangulation --points %d --seed %u",
                points, seed));

@@ -42,7 +42,12 @@ class BenchmarkTables {
 
   /// Rows that follow belong to this section. @param explanation of its columns, for people.
   /// @param command with which the section can be measured again.
+  /// @throws FileError: a file cannot be written later.
   void begin(const std::string& name, const std::string& explanation, const std::string& command) {
+    for (const std::string& path : {json_, document_}) {
+      if (!path.empty() && !std::ofstream(path, std::ios::app))
+        throw FileError(path + " cannot be written: choose another file");
+    }
     sections_.push_back({name, explanation, command, {}});
     std::printf("\n%s: %s\n", name.c_str(), explanation.c_str());
   }
@@ -66,8 +71,6 @@ class BenchmarkTables {
     if (document_.empty())
       return;
     std::ifstream file(document_);
-    if (!file)
-      throw FileError(document_ + " cannot be read: --document needs an existing file");
     std::stringstream text;
     text << file.rdbuf();
     writeFile(document_, withTables(text.str()));

@@ -7,6 +7,7 @@
 #include <climits>
 #include <cmath>
 #include <cstddef>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,13 @@ class ParameterTree {
     return find(key, &found) && convert(found, value);
   }
 
-  /// Sets a value of the highest level.
-  void set(const std::string& key, const std::string& value) { values_[key] = value; }
+  void set(const std::string& key, const std::string& value) {
+    Value* place = &values_;
+    std::istringstream levels(key);
+    for (std::string level; std::getline(levels, level, '/');)
+      place = &(*place)[level];
+    *place = value;
+  }
 
   /// Full names of all values.
   std::vector<std::string> fullNames() const {

@@ -11,6 +11,7 @@ import yaml
 import c3d
 import recording
 from recording import images, rig, seconds_of, time_of
+from wiimote_tracker_msgs.msg import TrackedBody, TrackedBodyArray
 
 PROGRAM = os.environ['TRACK_BAG']
 RATE = 60.0
@@ -92,6 +93,37 @@ def test_trc(files):
     assert np.allclose([float(row[1]) for row in rows], np.arange(len(rows)) / RATE, atol=1e-6)
     positions = np.array([[float(cell) if cell else np.nan for cell in row[2:]] for row in rows])
     check(labels, positions.reshape(len(rows), -1, 3), start_of(files))
+
+
+BODY = np.array([[0.05, 0.09, 0.07], [-0.02, 0.02, -0.05], [-0.07, -0.07, 0.03], [0.06, -0.05, -0.05]])
+
+
+def test_tum_of_a_body(tmp_path):
+    """Without --bodies its LEDs are single ones, and the user is told."""
+    with rosbag.Bag(str(tmp_path / 'in.bag'), 'w') as bag:
+        bag.write('/calibration/rig', rig(), time_of(-0.1))
+        bag.write('/bodies', TrackedBodyArray(bodies=[TrackedBody(name='wand')]), time_of(0.0))
+        for image in images(1.0, [lambda t, led=led: recording.walk(t) + led for led in BODY]):
+            bag.write('/%s/ir_blobs' % image.camera, image, image.arrival)
+    (tmp_path / 'bodies.yaml').write_text(yaml.safe_dump({
+        'format': 'wiimote_tracker_bodies', 'version': 1,
+        'bodies': [{'name': 'wand', 'leds': BODY.tolist()}]}))
+
+    def track(*arguments):
+        return subprocess.run([PROGRAM, 'in.bag', 'out.bag', '--tum', 'poses', *arguments],
+                              cwd=str(tmp_path), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                              universal_newlines=True)
+
+    assert "had a body 'wand'" in track().stderr
+    assert not (tmp_path / 'poses').exists()
+    assert 'no file other.yaml' in track('--bodies', 'other.yaml').stderr
+    assert track('--bodies', 'bodies.yaml').stderr == ''
+    rows = np.loadtxt(tmp_path / 'poses' / 'wand.tum')[20:]
+    times = rows[:, 0] - recording.START
+    assert len(rows) > 300 and times[-1] > 0.9
+    errors = rows[:, 1:4] - np.array([recording.walk(t) for t in times])
+    assert np.sqrt((errors ** 2).sum(axis=1).mean()) < 0.003
+    assert np.abs(rows[:, 4:7]).max() < 0.05 and rows[:, 7].min() > 0.99
 
 
 def test_an_empty_recording_gives_empty_files(tmp_path):

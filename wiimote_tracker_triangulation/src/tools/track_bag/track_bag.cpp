@@ -30,6 +30,7 @@ struct Arguments {
   std::string mode;        // empty: as the parameters say
   std::string parameters;  // file; empty: the defaults
   std::string rig;         // file; empty: as recorded
+  std::string bodies;      // file; empty: as the parameters say
   std::string name_space;  // empty: that of the rig
   bool results_only = false;
   bool smooth = false;
@@ -108,6 +109,11 @@ TrackingParameters parametersOf(const Arguments& arguments) {
   ParameterTree tree = readParameterTree(arguments.parameters);
   if (!arguments.mode.empty())
     tree.set("mode", arguments.mode);
+  if (!arguments.bodies.empty()) {
+    if (!std::filesystem::exists(arguments.bodies))
+      throw BagError("there is no file " + arguments.bodies);
+    tree.set("bodies/file", arguments.bodies);
+  }
   return TrackingParameters::read(ParameterReader(tree));
 }
 
@@ -120,6 +126,11 @@ void leaveOutEarlierResults(const Recording& recording,
   for (const std::string& label : parameters.allLabels())
     labels.insert(label);
   std::set<std::string> bodies = recording.bodies(topics.bodies());
+  if (parameters.bodies.known.empty() && !bodies.empty())
+    std::fprintf(stderr,
+                 "The recorded tracker had a body '%s', whose LEDs are single ones now: name the "
+                 "file of bodies with --bodies.\n",
+                 bodies.begin()->c_str());
   for (const body::Constellation& body : parameters.bodies.known)
     bodies.insert(body.name);
   output->leaveOut(labels, bodies);
@@ -235,6 +246,8 @@ int main(int argc, char** argv) {
   parser.option("--params FILE", &arguments.parameters,
                 "YAML with the node's parameters; default: those of config/triangulation.yaml");
   parser.option("--rig FILE", &arguments.rig, "rig.yaml to use instead of the rigs in the bag");
+  parser.option("--bodies FILE", &arguments.bodies,
+                "rigid bodies to track, instead of the parameters' bodies/file");
   measurements::TableFiles& tables = arguments.output.tables;
   parser.option("--csv FILE", &tables.csv, "also write the points as CSV");
   parser.option("--mat FILE", &tables.matlab, "also write the points as a MATLAB file");

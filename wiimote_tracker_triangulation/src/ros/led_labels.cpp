@@ -15,11 +15,20 @@ constexpr double kLeastSpeed = 0.3;    // of an LED out of sight, per axis [m/s]
 constexpr double kSteady = 2.0;        // for how long it goes on as before [s]
 constexpr double kAnywhere = 0.003;    // density of an LED that was carried off [1/m^3]
 
+/// Of the fastest LED where it was seen last [m/s]. Any other may be as fast since: one that paused
+/// when it was seen last must not count as the one that most probably stayed.
+double greatestSpeed(const LedLabels::Places& places) {
+  double greatest = 0.0;
+  for (const auto& [label, place] : places)
+    greatest = std::max(greatest, place.speed);
+  return greatest;
+}
+
 /// Of an LED that moved since it was seen at a place, at random after a while [1/m^3].
-double densityAt(const Eigen::Vector3d& position, const LedLabels::Place& place) {
+double densityAt(const Eigen::Vector3d& position, const LedLabels::Place& place, double speed) {
   if (place.age > kPlaceMemory)
     return kAnywhere;
-  const double way = (kLeastSpeed + place.speed / std::sqrt(3.0)) * place.age;
+  const double way = (kLeastSpeed + speed / std::sqrt(3.0)) * place.age;
   const double variance = kNear * kNear + way * way / (1.0 + place.age / kSteady);
   return kAnywhere + std::exp(-0.5 * (position - place.position).squaredNorm() / variance) /
                          std::pow(2.0 * M_PI * variance, 1.5);
@@ -93,6 +102,7 @@ void LedLabels::takeIdentity(std::uint32_t id, const identity::Identifier& ident
 /// all that it may be: those of free labels, those of labels given again that may be wrong, and,
 /// while a label was never given, a new one.
 void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
+  const double speed = greatestSpeed(places_);
   const std::string* best = nullptr;
   double greatest = 0.0;
   double sum = 0.0;
@@ -102,7 +112,7 @@ void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
     if (const LedLabel* holder = holderOf(label)) {
       const auto former = former_.find(label);
       if (former != former_.end() && holder->confidence < 1.0) {
-        sum += (1.0 - holder->confidence) * densityAt(led.position, former->second);
+        sum += (1.0 - holder->confidence) * densityAt(led.position, former->second, speed);
         ++candidates;
       }
       continue;
@@ -110,7 +120,7 @@ void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
     const auto place = places_.find(label);
     may_be_new = may_be_new || place == places_.end();
     const double density = place != places_.end() && mayBeThatOf(place->second, led.id)
-                               ? densityAt(led.position, place->second)
+                               ? densityAt(led.position, place->second, speed)
                                : 0.0;
     sum += density;
     candidates += density > 0.0;

@@ -107,6 +107,24 @@ TEST(LedLabels, ReturnByPlaceWithin10Seconds) {
   }
 }
 
+/// One that paused when it was seen last may move as fast as the other since.
+TEST(LedLabels, ReturnToTheNearerPlaceWhateverTheSpeedThere) {
+  LedLabels labels({"pauses", "moves"});
+  TrackedLed pauses = led(1, TrackState::kTracked);
+  TrackedLed moves = led(2, TrackState::kTracked);
+  pauses.position = {0.0, 0.0, 1.0};
+  pauses.velocity = Eigen::Vector3d::Zero();
+  moves.position = {2.0, 0.0, 1.0};
+  moves.velocity = Eigen::Vector3d(0.5, 0.0, 0.0);
+  labels.update(kTime, {pauses, moves});
+  labels.update(kTime + 0.5, {led(1, TrackState::kLost), led(2, TrackState::kLost)});
+  labels.update(kTime + 5.0, {});
+  TrackedLed again = led(3, TrackState::kTracked);
+  again.position = {1.5, 0.0, 1.0};
+  labels.update(kTime + 5.0, {again});
+  EXPECT_EQ("moves", labels.of(3).name);
+}
+
 TEST(LedLabels, ReturnByPlaceAfterARestart) {
   LedLabels labels({"a", "b", "c", "d"});
   labels.update(kTime, {at(0, 0.0), at(1, 1.0), at(2, 2.0)});

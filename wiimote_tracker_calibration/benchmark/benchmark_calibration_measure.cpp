@@ -83,12 +83,11 @@ void runMeasure(int runs, const RowCallback& row) {
 }  // namespace
 
 BenchmarkSection measureSection() {
-  return {
-      "measure",
-      "what the verdict advises to measure. RMS error [mm] at the "
-      "verdict's places: expected, true, expected after the best rigid motion; share of lengths "
-      "by tape among the next measurements; RMS after them, expected and true, over the promised.",
-      runMeasure};
+  return {"measure",
+          "what the verdict advises to measure. RMS error [mm] at the verdict's places: expected, "
+          "true, expected after the best rigid motion; share of lengths by tape among the next "
+          "measurements; RMS after them, expected and true, over the promised.",
+          runMeasure};
 }
 
 }  // namespace wiimote_tracker

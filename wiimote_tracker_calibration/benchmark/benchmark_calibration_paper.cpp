@@ -80,13 +80,12 @@ void runPaper(int runs, const RowCallback& row) {
 BenchmarkSection paperSection() {
   return {
       "paper",
-      "the paper's procedure: each camera solved alone from the square with K (2), true "
-      "principal points 512, 384 +- 5 px, focal lengths +- 1 %, corners +- 5 mm. Mean error of "
-      "the paper's ten points [cm]: before the principal point correction, after 14 rounds, in "
-      "the worst session; error of the origin after it [cm]; farthest that a principal point was "
-      "moved [px]; sessions in which the correction lost the rig; refused sessions. The paper "
-      "reports, for two cameras, 15-50 before and 0-7 after; for four, 2.8 (C3), 8.5 (C4) and "
-      "below 4.8 (C5) after.",
+      "the paper's procedure: each camera solved alone from the square with K (2), true principal "
+      "points 512, 384 +- 5 px, focal lengths +- 1 %, corners +- 5 mm. Mean error of the paper's "
+      "ten points [cm]: before the principal point correction, after 14 rounds, in the worst "
+      "session; error of the origin after it [cm]; farthest that a principal point was moved [px]; "
+      "sessions in which the correction lost the rig; refused sessions. The paper reports, for two "
+      "cameras, 15-50 before and 0-7 after; for four, 2.8 (C3), 8.5 (C4) and below 4.8 (C5) after.",
       runPaper};
 }
 

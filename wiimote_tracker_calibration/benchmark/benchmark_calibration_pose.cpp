@@ -198,26 +198,22 @@ void runMethods(int runs, const RowCallback& row) {
 }  // namespace
 
 BenchmarkSection poseSection() {
-  return {
-      "pose",
-      "the pose of a square from its four corners in one image: sides 0.5 to 2.5 m, ranges 4 "
-      "to 8 m, 0.5 px of noise; 1000 poses per session. judged: poses whose Cramer-Rao bound of "
-      "the "
-      "rotation is at most 1.5 degrees and whose other branch is absent or worse by 80 in chi^2; "
-      "whitened: their RMS error over the bound. Beside a maximum-likelihood solution from many "
-      "starts: worst excess of the cost [chi^2]; poses of which the other branch is the better "
-      "one, "
-      "here and there; poses with two branches, here and there; second branches within 80 in chi^2 "
-      "that were missed. Processor time per pose [us].",
-      runTilts};
+  return {"pose",
+          "the pose of a square from its four corners in one image: sides 0.5 to 2.5 m, ranges 4 "
+          "to 8 m, 0.5 px of noise; 1000 poses per session. judged: poses whose Cramer-Rao bound "
+          "of the rotation is at most 1.5 degrees and whose other branch is absent or worse by 80 "
+          "in chi^2; whitened: their RMS error over the bound. Beside a maximum-likelihood "
+          "solution from many starts: worst excess of the cost [chi^2]; poses of which the other "
+          "branch is the better one, here and there; poses with two branches, here and there; "
+          "second branches within 80 in chi^2 that were missed. Processor time per pose [us].",
+          runTilts};
 }
 
 BenchmarkSection poseMethodsSection() {
   return {"pose_methods",
           "the same square by OpenCV's methods, tilts 0 to 75 degrees, in turns.\n"
           "Processor time per pose [us]; whitened error of the judged poses, 1 is the bound; poses "
-          "on the "
-          "wrong branch; poses without a solution.",
+          "on the wrong branch; poses without a solution.",
           runMethods};
 }
 

@@ -102,10 +102,9 @@ void runRemap(int runs, const RowCallback& row) {
 BenchmarkSection remapSection() {
   return {"remap",
           "a deformed cube of 2.5 m, corrected from known points on a grid, known to 5 mm and "
-          "measured to "
-          "2 mm per axis. RMS error of 200 other points inside [mm]: before, after; the stated "
-          "expected error, which includes that of the known points [mm]; how often each model was "
-          "chosen; refused sessions.",
+          "measured to 2 mm per axis. RMS error of 200 other points inside [mm]: before, after; "
+          "the stated expected error, which includes that of the known points [mm]; how often each "
+          "model was chosen; refused sessions.",
           runRemap};
 }
 

@@ -159,9 +159,9 @@ void runTime(int runs, const RowCallback& row) {
 BenchmarkSection waveSection() {
   return {
       "wave",
-      "the paper's rig and cube; lenses off by 4 % and 20 px, k1 by 0.02, corners by 5 mm, "
-      "clocks by up to 10 ms; 15 s at 1.3 m/s, whole pixels, 5 % of the spots wrong. RMS error of "
-      "the volume's points [mm]: absolute, after a rigid motion, after a similarity, and over the "
+      "the paper's rig and cube; lenses off by 4 % and 20 px, k1 by 0.02, corners by 5 mm, clocks "
+      "by up to 10 ms; 15 s at 1.3 m/s, whole pixels, 5 % of the spots wrong. RMS error of the "
+      "volume's points [mm]: absolute, after a rigid motion, after a similarity, and over the "
       "Cramer-Rao bound (bd); time offsets [ms]: RMS, over the bound, as stated, worst; 95 % "
       "intervals of parameters and ellipsoids of points that hold the truth [%]; worst mean error "
       "of the wand's length [%]; RMS of single measurements, aligned on 500 others [mm]: solved, "

@@ -123,7 +123,8 @@ TEST(ClockWander, RemotesInSniffMode) {
 }
 
 // As after a start with wrong frame numbers: the clock is certain of a period that is 0.5 % short.
-// Begun at other times within a trial, it was 12 of 40.
+// The clock tries other periods one after the other. When the change falls elsewhere within such a
+// trial, fewer are left in time: 12 of 40.
 TEST(ClockWander, AWrongPeriodIsMostlyLeftWithinFiveSeconds) {
   int in_time = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {

@@ -208,10 +208,8 @@ int main(int argc, char** argv) {
       "benchmark_bodies",
       {{"accuracy",
         "Poses at the newest image, the paper's cameras, unsynchronised, 0.5 px, bodies of 0.1 m "
-        "radius, "
-        "10 s per run; beside the Cramer-Rao bound of one image by each camera. known: share of "
-        "the "
-        "time with a pose; right: within 20 degrees.",
+        "radius, 10 s per run; beside the Cramer-Rao bound of one image by each camera. known: "
+        "share of the time with a pose; right: within 20 degrees.",
         runAccuracy},
        {"hidden", "The same with LEDs hidden, or spots that merge.", runHidden},
        {"recovery", "Time to the first pose after all LEDs were hidden for 0.8 s.", runRecovery}},

@@ -22,8 +22,7 @@ constexpr int kRunsPerRun = 50;  // simulated runs for each of --runs
 
 const char* const kColumns =
     " wrong %: runs in which the likeliest label of an LED is wrong; given wrong %: runs in which "
-    "a "
-    "label was given that is wrong; none yet %: runs in which an LED has no label yet.";
+    "a label was given that is wrong; none yet %: runs in which an LED has no label yet.";
 
 /// Counts of runs.
 struct Score {
@@ -313,8 +312,8 @@ BenchmarkSection paperSection() {
   return {
       "paper",
       std::string("Four LEDs, lit for 90, 60, 40, 20 % of a period, two periods after the first "
-                  "image; the period is searched within 110 and 500 ms. 5 % missed detections, "
-                  "1 % of sightings flipped, cameras not synchronised. 50 runs per --runs.") +
+                  "image; the period is searched within 110 and 500 ms. 5 % missed detections, 1 % "
+                  "of sightings flipped, cameras not synchronised. 50 runs per --runs.") +
           kColumns +
           " counting %: wrong by the share of images that show an LED. period known; all blink, "
           "phase too: none yet % when these are told beforehand.",
@@ -334,12 +333,13 @@ BenchmarkSection periodsSection() {
 }
 
 BenchmarkSection cyclicSection() {
-  return {"cyclic",
-          std::string("One LED with a cyclic code, chips of 23 ms, this long after the first "
-                      "image; 1 apart: words may differ in one chip; 1 % "
-                      "of sightings flipped. 1000 runs per --runs.") +
-              kColumns,
-          runCyclic};
+  return {
+      "cyclic",
+      std::string(
+          "One LED with a cyclic code, chips of 23 ms, this long after the first image; 1 apart: "
+          "words may differ in one chip; 1 % of sightings flipped. 1000 runs per --runs.") +
+          kColumns,
+      runCyclic};
 }
 
 }  // namespace wiimote_tracker

@@ -168,10 +168,9 @@ void runMoving(const BenchmarkSettings& settings, const RowCallback& row) {
 BenchmarkSection movingSection() {
   return {"moving",
           "four LEDs in the paper's rig, tracked; 0.3 px, 5 % missed detections, a false detection "
-          "in 2 "
-          "% of the images; 1 s per --runs. Shares of LEDs times snapshots with a track within 10 "
-          "cm; tracks in all (4 at best); RMS error; shares with a label, with another LED's "
-          "label; mean time from a track's first image to its label. steady: no LED blinks.",
+          "in 2 % of the images; 1 s per --runs. Shares of LEDs times snapshots with a track "
+          "within 10 cm; tracks in all (4 at best); RMS error; shares with a label, with another "
+          "LED's label; mean time from a track's first image to its label. steady: no LED blinks.",
           runMoving};
 }
 

@@ -164,14 +164,12 @@ void runAssociation(const BenchmarkSettings& settings, const RowCallback& row) {
 }  // namespace
 
 BenchmarkSection associationSection() {
-  return {
-      "association",
-      "four identical LEDs at random places in the paper's cube, 0.5 px of noise, single frames of "
-      "at "
-      "most four spots. identical: share of frames with the same points as an exhaustive search; "
-      "right: share with all points that two cameras see, and no other; proven: optimal; us, "
-      "us_worst: processor time per frame, mean and longest.",
-      runAssociation};
+  return {"association",
+          "four identical LEDs at random places in the paper's cube, 0.5 px of noise, single "
+          "frames of at most four spots. identical: share of frames with the same points as an "
+          "exhaustive search; right: share with all points that two cameras see, and no other; "
+          "proven: optimal; us, us_worst: processor time per frame, mean and longest.",
+          runAssociation};
 }
 
 }  // namespace wiimote_tracker

@@ -347,12 +347,10 @@ BenchmarkSection filterSection() {
   return {
       "filter",
       "one LED seen by four cameras in turn every 2.5 ms, 0.5 px of noise. (a) motion drawn from "
-      "the "
-      "filter's only mode and (b) motion that changes between rest (1 to 3 s) and moving (1 to 2 "
-      "s, acceleration of 2 m/s^2 with an autocorrelation time of 0.2 s), beside the posterior "
+      "the filter's only mode and (b) motion that changes between rest (1 to 3 s) and moving (1 to "
+      "2 s, acceleration of 2 m/s^2 with an autocorrelation time of 0.2 s), beside the posterior "
       "Cramer-Rao bound, which knows the mode; (c) bound: the constant-velocity or -acceleration "
-      "filter whose noise suits the row best. NEES: 3 where the covariance "
-      "is right.",
+      "filter whose noise suits the row best. NEES: 3 where the covariance is right.",
       runFilter};
 }
 

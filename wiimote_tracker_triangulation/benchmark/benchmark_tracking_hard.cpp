@@ -168,13 +168,12 @@ void runHard(const BenchmarkSettings& settings, const RowCallback& row) {
 }  // namespace
 
 BenchmarkSection hardSection() {
-  return {
-      "hard",
-      "random motion (five sine waves per axis) of this RMS speed and acceleration, unsynchronised "
-      "cameras (period 10 ms), exact stamps, 0.5 px of noise: tracks; tracks with one mode that "
-      "suits the row; the paper's method, whose points are up to 10 ms older; ratio of the "
-      "tracks' RMS to that of the paper's method; smoothed tracks.",
-      runHard};
+  return {"hard",
+          "random motion (five sine waves per axis) of this RMS speed and acceleration, "
+          "unsynchronised cameras (period 10 ms), exact stamps, 0.5 px of noise: tracks; tracks "
+          "with one mode that suits the row; the paper's method, whose points are up to 10 ms "
+          "older; ratio of the tracks' RMS to that of the paper's method; smoothed tracks.",
+          runHard};
 }
 
 }  // namespace wiimote_tracker

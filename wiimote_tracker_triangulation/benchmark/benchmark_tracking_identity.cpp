@@ -167,19 +167,17 @@ void runIdentity(const BenchmarkSettings& settings, const RowCallback& row) {
 }  // namespace
 
 BenchmarkSection identitySection() {
-  return {
-      "identity",
-      "four LEDs in the paper's rig, 10 % missed detections, a false detection in every image, "
-      "spots merge below 8 px, 10000 images per run.\n"
-      "Identity swaps; LEDs with a new track id; LEDs in snapshots without a confirmed track "
-      "within 0.1 m, and in the last snapshot; tracks in snapshots without an LED within 0.1 "
-      "m; RMS error [mm]; late images.\n"
-      "Then two LEDs whose spots merge in all views, 20 meetings per run: identity swaps of an "
-      "oracle that knows motion model and spots, and later images, "
-      "of this oracle with the tracker's filters, and of the tracker; LEDs with a new track id; "
-      "left_out: never merged in all views, or not tracked; ratio: the tracker's swaps and new ids "
-      "over the oracle's.",
-      runIdentity};
+  return {"identity",
+          "four LEDs in the paper's rig, 10 % missed detections, a false detection in every image, "
+          "spots merge below 8 px, 10000 images per run.\n"
+          "Identity swaps; LEDs with a new track id; LEDs in snapshots without a confirmed track "
+          "within 0.1 m, and in the last snapshot; tracks in snapshots without an LED within 0.1 "
+          "m; RMS error [mm]; late images.\n"
+          "Then two LEDs whose spots merge in all views, 20 meetings per run: identity swaps of an "
+          "oracle that knows motion model and spots, and later images, of this oracle with the "
+          "tracker's filters, and of the tracker; LEDs with a new track id; left_out: never merged "
+          "in all views, or not tracked; ratio: the tracker's swaps and new ids over the oracle's.",
+          runIdentity};
 }
 
 }  // namespace wiimote_tracker

@@ -16,8 +16,8 @@ constexpr double kResolution = 1e-3;    // of the recorded times [s]
 constexpr double kHeldUpShare = 0.02;   // of the reports
 constexpr double kHeldUpTime = 0.02;    // mean [s]
 constexpr double kWalk = 0.0019;        // of the phase after 1 s [s]
-constexpr double kLost = 0.05;          // probability of a lost frame, ...
-constexpr double kNextLost = 0.2;       // ... and after one
+constexpr double kLost = 0.05;          // probability that a frame is lost
+constexpr double kNextLost = 0.2;       // the same, if the one before was lost
 constexpr int kMostFrames = 12;         // from one report to the next
 constexpr double kUnexplained = 1e-12;  // of each cell, as after long gaps
 
@@ -52,7 +52,8 @@ Density bell(double mean, double stddev, std::size_t cells) {
   return density;
 }
 
-/// Of the delay of a report: bell, wait for the poll, rounding; some are held up as well.
+/// Density of a report's delay: Gaussian, plus the wait for the poll, plus rounding; some reports
+/// are held up as well.
 Density delays() {
   const auto box = [](double width) {
     const double cells = std::round(width / kCell);
@@ -116,7 +117,7 @@ std::vector<GridStamp> gridStamps(const std::vector<double>& arrivals, double pe
       mean += delay[i] * x;
       square += delay[i] * x * x;
     }
-    stamps.push_back({arrivals[n] - mean, std::sqrt(square - mean * mean)});
+    stamps.push_back({arrivals[n] - mean, std::sqrt(std::max(0.0, square - mean * mean))});
   }
   return stamps;
 }

@@ -19,12 +19,12 @@ struct Refinement {
   double chi_squared;
   int degrees_of_freedom;
   /// Square root of the mean whitened squared residual of the matches, corrected for the parameters
-  /// that were fitted: 1 when the matches' standard deviations are right. 1 also where redundancy
-  /// is not known, unless it is more even without that correction.
+  /// that were fitted: 1 when the matches' standard deviations are right. Where the redundancy is
+  /// not known, without this correction, and at least 1.
   double misfit;
-  /// Residuals of the matches beyond the number of those parameters, as a share of all. 1, not
-  /// known, where it is below 0.1: the prior of the accelerations then determines a good part of
-  /// the path, which is not counted.
+  /// Residuals of the matches beyond the number of those parameters, as a share of all. Below 0.1
+  /// it is not known and stated as 1: the prior of the accelerations, which is not counted, then
+  /// determines a good part of the path.
   double redundancy;
 };
 

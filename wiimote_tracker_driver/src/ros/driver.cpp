@@ -199,8 +199,8 @@ std::unique_ptr<transport::Transport> Driver::open() {
   return recording::record(std::move(transport), recorder_, [this] { return source_->now(); });
 }
 
-// Stamps that nobody needs are computed several at a time, which takes half the time: only the
-// first finds the clock's code and state out of the processor's caches.
+// Stamps that nobody needs are computed ten at a time. That takes half the time, since the clock's
+// code and state then stay in the processor's caches.
 void Driver::publishImage(const protocol::DataReport& image) {
   const wiimote::Link& link = wiimote_.link();
   arrivals_[waiting_++] = {source_->readClocks(), link.clock_epoch};

@@ -42,7 +42,7 @@ class BenchmarkTables {
 
   /// Rows that follow belong to this section. @param explanation of its columns, for people.
   /// @param command with which the section can be measured again.
-  /// @throws FileError: a file cannot be written later.
+  /// @throws FileError: a file of the options cannot be written.
   void begin(const std::string& name, const std::string& explanation, const std::string& command) {
     for (const std::string& path : {json_, document_}) {
       if (!path.empty() && !std::ofstream(path, std::ios::app))

@@ -159,8 +159,8 @@ class Smoother {
     return number >= 0 && number < static_cast<Number>(observations_.size());
   }
 
-  /// The first observation from a number on soon after which, in the direction, another camera saw
-  /// the LED. One camera alone does not tell how far away to start.
+  /// The first observation, from a number on in the direction, that another camera's soon follows:
+  /// one camera alone does not tell how far away to start.
   Number located(Number number, Direction direction) const {
     for (; exists(number); number += direction) {
       const Observation& first = observations_[number];

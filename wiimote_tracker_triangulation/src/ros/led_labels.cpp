@@ -15,8 +15,8 @@ constexpr double kLeastSpeed = 0.3;    // of an LED out of sight, per axis [m/s]
 constexpr double kSteady = 2.0;        // for how long it goes on as before [s]
 constexpr double kAnywhere = 0.003;    // density of an LED that was carried off [1/m^3]
 
-/// Of the fastest LED where it was seen last [m/s]. Any other may be as fast since: one that paused
-/// when it was seen last must not count as the one that most probably stayed.
+/// Speed of the fastest LED when it was seen last [m/s]. It is used for all LEDs, since one that
+/// paused when it was seen last may have moved on.
 double greatestSpeed(const LedLabels::Places& places) {
   double greatest = 0.0;
   for (const auto& [label, place] : places)

@@ -1,4 +1,4 @@
-// A body that was taken to be turned wrongly, with LEDs exchanged, is found again.
+// Wrong orientations of a body, in which two of its LEDs are exchanged.
 #include "body/body_scene.h"
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 
@@ -13,9 +13,8 @@ namespace {
 using Eigen::Vector3d;
 using test::Motion;
 
-/// Hidden for the last 0.1 s of each second. Where it came back turned wrongly, it mostly stays so
-/// until it is hidden again.
-TEST(TurnedBody, IsSeldomSoAfterItWasHidden) {
+/// It is hidden for the last 0.1 s of each second.
+TEST(TurnedBody, IsRareAfterABodyWasHidden) {
   tracking::test::SceneOptions options;
   options.pixel_noise = 0.5;
   options.hidden = [](std::size_t, std::size_t, double t) { return std::fmod(t, 1.0) > 0.9; };
@@ -39,7 +38,7 @@ TEST(TurnedBody, IsSeldomSoAfterItWasHidden) {
   EXPECT_LT(wrong, 0.05 * tracked);  // 0.014
 }
 
-/// Each seed starts it anew; beside it moves another LED.
+/// A new body is found with each seed, while another LED moves beside it.
 TEST(TurnedBody, IsFoundAgain) {
   constexpr double kBegin = 1000.5;  // [s]
   tracking::test::SceneOptions options;

@@ -107,7 +107,7 @@ TEST(LedLabels, ReturnByPlaceWithin10Seconds) {
   }
 }
 
-/// One that paused when it was seen last may move as fast as the other since.
+/// An LED that paused when it was seen last may have moved on.
 TEST(LedLabels, ReturnToTheNearerPlaceWhateverTheSpeedThere) {
   LedLabels labels({"pauses", "moves"});
   TrackedLed pauses = led(1, TrackState::kTracked);

@@ -96,8 +96,22 @@ def test_clocks_and_gaps():
     assert np.abs(used - 1010.0).min() > 1.0 and len(used) >= len(hole.times) - 1
     with pytest.raises(ExperimentError, match='fewer than three'):
         comparison.compare(truth.shifted(100.0), truth)
-    with pytest.raises(ExperimentError, match='not on one line'):
-        comparison.compare(along(), along())
+
+
+def test_a_straight_path_tells_all_but_the_turn_about_it():
+    random, truth = np.random.default_rng(3), along(turning=0.2)
+    noise = random.normal(0.0, 1e-3, truth.positions.shape)
+    for offsets, error in ((noise, np.sqrt(3.0) * 1e-3), (0.0 * noise, 0.0)):
+        estimate = moved(dataclasses.replace(truth, positions=truth.positions + offsets),
+                         Rotation.from_rotvec([0.3, -0.5, 2.0]), [4.0, -1.0, 7.0])
+        compared = comparison.compare(estimate, truth)
+        figures = compared.figures()
+        assert figures['ATE [m]']['rmse'] == pytest.approx(error, rel=0.05, abs=1e-9)
+        assert figures['RPE of 1 s [m]']['rmse'] == pytest.approx(np.sqrt(2.0) * error, rel=0.05,
+                                                                  abs=1e-9)
+        assert figures['RPE of 1 s [deg]']['max'] < 1e-5 and 'ATE [deg]' not in figures
+        assert 'ATE [deg] is left out' in list(evaluate_trajectory.table(figures))[-1]
+    assert 'ATE [deg]' in comparison.compare(truth, truth, 'absolute').figures()
 
 
 def test_a_body_that_rests_does_not_tell_the_alignment():
@@ -106,6 +120,9 @@ def test_a_body_that_rests_does_not_tell_the_alignment():
                                    + random.normal(0.0, 1e-3, truth.positions.shape))
     truth.positions[:] += random.normal(0.0, 1e-6, truth.positions.shape)
     with pytest.raises(ExperimentError, match='too short to align.*--alignment absolute'):
+        comparison.compare(estimate, truth)
+    truth.positions[:] = estimate.positions[:] = truth.positions[0]
+    with pytest.raises(ExperimentError, match='too short to align'):
         comparison.compare(estimate, truth)
     assert comparison.compare(estimate, truth, 'absolute').errors['ATE [deg]'].max() < 1e-6
 

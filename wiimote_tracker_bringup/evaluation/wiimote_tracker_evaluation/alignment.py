@@ -16,11 +16,12 @@ class Alignment:
         return self.scale * np.asarray(points) @ self.rotation.T + self.translation
 
 
-def fit(source: np.ndarray, target: np.ndarray, with_scale: bool) -> Alignment:
+def fit(source: np.ndarray, target: np.ndarray, with_scale: bool, line: bool = False) -> Alignment:
     """Least-squares alignment: minimises the sum of |aligned source - target|^2.
 
     source, target: N x 3, three or more points not on one line, else ValueError.
     with_scale: similarity; otherwise rigid (scale 1). Never a reflection.
+    line: also of points on one line, where any of the rotations about it is found.
     """
     source = np.asarray(source, dtype=float)
     target = np.asarray(target, dtype=float)
@@ -31,7 +32,7 @@ def fit(source: np.ndarray, target: np.ndarray, with_scale: bool) -> Alignment:
     source_mean, target_mean = source.mean(axis=0), target.mean(axis=0)
     a, b = source - source_mean, target - target_mean
     u, singular, vt = np.linalg.svd(b.T @ a)
-    if len(source) < 3 or singular[1] <= 1e-12 * max(singular[0], 1e-300):
+    if len(source) < 3 or not line and singular[1] <= 1e-12 * max(singular[0], 1e-300):
         raise ValueError('an alignment needs three points or more that are not on one line')
     signs = np.array([1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(vt))])
     rotation = u @ np.diag(signs) @ vt
@@ -48,8 +49,8 @@ def rms(difference: np.ndarray) -> float:
 KINDS = ('absolute', 'rigid', 'similarity')
 
 
-def fit_kind(kind: str, source: np.ndarray, target: np.ndarray) -> Alignment:
-    """Alignment of one of KINDS."""
+def fit_kind(kind: str, source: np.ndarray, target: np.ndarray, line: bool = False) -> Alignment:
+    """Alignment of one of KINDS; line as in fit."""
     if kind == 'absolute':
         return Alignment()
-    return fit(source, target, with_scale=kind == 'similarity')
+    return fit(source, target, kind == 'similarity', line)

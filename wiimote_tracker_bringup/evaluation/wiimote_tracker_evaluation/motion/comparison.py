@@ -20,16 +20,18 @@ STATISTICS = (('rmse', lambda e: np.sqrt((e ** 2).mean())), ('mean', np.mean),
 @dataclasses.dataclass
 class Comparison:
     """truth, estimate: Poses at the same times, the estimate aligned. errors: names, with units, to
-    arrays; scale: of the alignment; rpe_times: of the beginnings of the intervals [s]."""
+    arrays; scale: of the alignment; rpe_times: of the beginnings of the intervals [s]; left_out: which
+    error is missing and why, in words, or empty."""
 
     truth: object
     estimate: object
     scale: float
     errors: dict
     rpe_times: np.ndarray
+    left_out: str = ''
 
     def figures(self):
-        return {'poses': len(self.truth.times), 'scale': self.scale,
+        return {'poses': len(self.truth.times), 'scale': self.scale, 'left_out': self.left_out,
                 **{name: {statistic: float(of(values)) for statistic, of in STATISTICS}
                    for name, values in self.errors.items()}}
 
@@ -42,32 +44,35 @@ def compare(estimate, truth, kind='rigid', interval=1.0, longest_gap=0.05):
         raise ExperimentError('fewer than three estimated poses lie between true poses; check the '
                               'clocks, --offset and --gap')
     truth = truth.at(estimate.times)
-    try:
-        fitted = alignment.fit_kind(kind, estimate.positions, truth.positions)
-    except ValueError as error:
-        raise ExperimentError(f'{error}; use --alignment absolute') from error
+    fitted = alignment.fit_kind(kind, estimate.positions, truth.positions, line=True)
     aligned = dataclasses.replace(estimate, positions=fitted.apply(estimate.positions),
                                   rotations=Rotation.from_matrix(fitted.rotation)
                                   * estimate.rotations)
-    if kind != 'absolute':
-        check_alignment(aligned.positions, truth.positions)
     first, last = intervals(estimate.times, interval, longest_gap)
     shift, turn = relative_errors(aligned, truth, first, last)
     errors = {'ATE [m]': np.linalg.norm(aligned.positions - truth.positions, axis=1),
               'ATE [deg]': degrees(truth.rotations.inv() * aligned.rotations),
               f'RPE of {interval:g} s [m]': shift, f'RPE of {interval:g} s [deg]': turn}
-    return Comparison(truth, aligned, fitted.scale, errors, estimate.times[first])
+    left_out = '' if kind == 'absolute' else missing_angle(aligned.positions, truth.positions)
+    if left_out:
+        del errors['ATE [deg]']  # the others do not depend on the turn about the path
+    return Comparison(truth, aligned, fitted.scale, errors, estimate.times[first], left_out)
 
 
-def check_alignment(aligned, truth):
-    """Throws ExperimentError where the path, across its longest extent, is shorter than the errors:
-    any turn about that direction would fit as well. n x 3 [m]."""
-    extent = np.linalg.svd(truth - truth.mean(axis=0), compute_uv=False)[1] / np.sqrt(len(truth))
+def missing_angle(aligned, truth):
+    """Why the alignment does not tell the turn about the path, in words, or empty: its width is less
+    than the errors. n x 3 [m]. Throws ExperimentError where its length is, too."""
+    extents = np.linalg.svd(truth - truth.mean(axis=0), compute_uv=False) / np.sqrt(len(truth))
     error = alignment.rms(aligned - truth)
-    if extent < error:
+    if extents[0] < max(error, 1e-6):
         raise ExperimentError(
-            f'the true path is too straight or too short to align: its width is {1e3 * extent:.1f} mm, '
-            f'errors are {1e3 * error:.1f} mm (RMS); move about, or use --alignment absolute')
+            f'the true path is too short to align: its length is {1e3 * extents[0]:.1f} mm, errors are '
+            f'{1e3 * error:.1f} mm (RMS); move about, or use --alignment absolute')
+    if extents[1] > max(error, 1e-9 * extents[0]):
+        return ''
+    return (f'ATE [deg] is left out: the width of the true path is {1e3 * extents[1]:.1f} mm, errors are '
+            f'{1e3 * error:.1f} mm (RMS), so the turn about the path cannot be told; move about, or use '
+            '--alignment absolute')
 
 
 def intervals(times, interval, tolerance):

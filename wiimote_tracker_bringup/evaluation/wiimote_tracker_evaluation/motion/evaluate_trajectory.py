@@ -19,6 +19,8 @@ def table(figures):
         if isinstance(values, dict):
             yield f'{name:18}' + ''.join(f'{values[each]:10.4f}' for each in names)
     yield f'{figures["poses"]} poses, scale {figures["scale"]:.4f}'
+    if figures['left_out']:
+        yield figures['left_out']
 
 
 def draw(compared, file):

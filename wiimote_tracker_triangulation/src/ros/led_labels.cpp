@@ -79,12 +79,13 @@ void LedLabels::update(double time,
   }
 }
 
+/// Time that comes twice, as when images that waited jump back, counts once.
 void LedLabels::agePlaces(double time) {
   const double passed = newest_ ? time - *newest_ : 0.0;
   newest_ = time;
   for (Places* places : {&places_, &former_}) {
     for (auto& place : *places)
-      place.second.age += passed;
+      place.second.age = std::max(0.0, place.second.age + passed);
   }
 }
 
@@ -175,7 +176,6 @@ void LedLabels::clear() {
   lost_.clear();
   for (const auto& given : given_)
     lost_.push_back(given.first);
-  newest_.reset();
 }
 
 }  // namespace wiimote_tracker

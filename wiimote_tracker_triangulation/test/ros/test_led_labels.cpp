@@ -125,6 +125,23 @@ TEST(LedLabels, ReturnToTheNearerPlaceWhateverTheSpeedThere) {
   EXPECT_EQ("moves", labels.of(3).name);
 }
 
+/// After a pause of this process the images that waited come camera by camera, each from the first
+/// on: time jumps back several times, but only 5 s have passed.
+TEST(LedLabels, ReturnByPlaceWhereTimeJumpsBackAgainAndAgain) {
+  LedLabels labels({"a", "b", "c"});
+  labels.update(100.0, {at(0, 0.0), at(1, 1.5), at(2, 3.0)});
+  for (int camera = 0; camera < 4; ++camera) {
+    if (camera > 0)
+      labels.clear();
+    labels.update(101.0, {});
+    labels.update(105.0, {});
+  }
+  labels.update(105.0, {at(3, 2.6), at(4, 1.2), at(5, 0.4)});
+  EXPECT_EQ("c", labels.of(3).name);
+  EXPECT_EQ("b", labels.of(4).name);
+  EXPECT_EQ("a", labels.of(5).name);
+}
+
 TEST(LedLabels, ReturnByPlaceAfterARestart) {
   LedLabels labels({"a", "b", "c", "d"});
   labels.update(kTime, {at(0, 0.0), at(1, 1.0), at(2, 2.0)});

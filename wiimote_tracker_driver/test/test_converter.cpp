@@ -1,0 +1,165 @@
+// A converter (DolphinBar) shows four remotes, most of them empty slots: device "" finds the real
+// ones. In place of the kernel, this program has hidapi's functions, four slots, and fake time.
+#include "fake_remote.h"
+#include "transport/transport.h"
+#include "wiimote/wiimote.h"
+
+#include <gtest/gtest.h>
+#include <hidapi/hidapi.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::wiimote {
+namespace {
+
+enum class Slot { kSilent, kRefusesWrites, kRemote };
+
+struct Converter {
+  double now = 100.0;
+  std::array<Slot, 4> slots{};
+  std::array<FakeRemote, 4> remotes;
+  std::array<std::string, 4> paths;  // real files, since they are locked
+  std::vector<std::size_t> opened;   // slots, in this order
+} bar;
+
+}  // namespace
+}  // namespace wiimote_tracker::wiimote
+
+using wiimote_tracker::wiimote::bar;
+using wiimote_tracker::wiimote::Slot;
+
+struct hid_device_ {
+  std::size_t slot;
+};
+
+hid_device_info* hid_enumerate(unsigned short, unsigned short) {
+  static std::array<hid_device_info, 4> list;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    list[i] = hid_device_info();
+    list[i].path = bar.paths[i].data();
+    list[i].product_id = 0x0306;
+    list[i].next = i + 1 < list.size() ? &list[i + 1] : nullptr;
+  }
+  return list.data();
+}
+
+void hid_free_enumeration(hid_device_info*) {}
+
+hid_device* hid_open_path(const char* path) {
+  const auto at = std::find(bar.paths.begin(), bar.paths.end(), path);
+  const auto slot = static_cast<std::size_t>(at - bar.paths.begin());
+  bar.opened.push_back(slot);
+  return new hid_device_{slot};
+}
+
+void hid_close(hid_device* device) {
+  delete device;
+}
+
+int hid_write(hid_device* device, const unsigned char* data, std::size_t size) {
+  if (bar.slots[device->slot] == Slot::kRefusesWrites) {
+    errno = EPIPE;  // as hidraw does for an empty slot
+    return -1;
+  }
+  wiimote_tracker::protocol::Report report;
+  std::copy(data, data + size, report.bytes.begin());
+  report.size = size;
+  wiimote_tracker::wiimote::FakeRemote& remote = bar.remotes[device->slot];
+  remote.now = bar.now;
+  if (bar.slots[device->slot] == Slot::kRemote)
+    remote.receive(report);
+  return static_cast<int>(size);
+}
+
+int hid_read_timeout(hid_device* device, unsigned char* data, std::size_t, int timeout) {
+  wiimote_tracker::wiimote::FakeRemote& remote = bar.remotes[device->slot];
+  wiimote_tracker::protocol::Report report;
+  remote.now = bar.now;
+  const bool came = bar.slots[device->slot] == Slot::kRemote && remote.take(report, 1e-3 * timeout);
+  bar.now = came ? remote.now : bar.now + 1e-3 * timeout;
+  std::copy_n(report.bytes.begin(), report.size, data);
+  return came ? static_cast<int>(report.size) : 0;
+}
+
+namespace wiimote_tracker::wiimote {
+namespace {
+
+/// A driver with device "".
+Wiimote anyRemote() {
+  return {Options(), transport::opener(transport::parseDeviceName("")), [] { return bar.now; }};
+}
+
+class AConverter : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_NE(nullptr, ::mkdtemp(directory_));
+    bar = Converter();
+    for (std::size_t i = 0; i < bar.paths.size(); ++i) {
+      bar.paths[i] = directory_ + ("/hidraw" + std::to_string(i));
+      std::ofstream(bar.paths[i]) << "";
+    }
+  }
+  void TearDown() override {
+    for (const std::string& path : bar.paths)
+      ::unlink(path.c_str());
+    ::rmdir(directory_);
+  }
+
+  /// Runs the drivers in turn. @returns the images of each.
+  static std::vector<int> run(const std::vector<Wiimote*>& drivers, double duration) {
+    std::vector<int> images(drivers.size());
+    for (const double end = bar.now + duration; bar.now < end; bar.now += 0.001) {
+      for (std::size_t i = 0; i < drivers.size(); ++i)
+        images[i] += drivers[i]->step(0.01) ? 1 : 0;
+    }
+    return images;
+  }
+
+  char directory_[32] = "/tmp/test_converter_XXXXXX";
+};
+
+TEST_F(AConverter, SlotsThatRefuseWritesArePassed) {
+  bar.slots = {Slot::kRefusesWrites, Slot::kRefusesWrites, Slot::kRefusesWrites, Slot::kRemote};
+  Wiimote driver = anyRemote();
+  EXPECT_GT(run({&driver}, 3.0)[0], 50);
+  EXPECT_EQ((std::vector<std::size_t>{0, 1, 2, 3}), bar.opened);
+  EXPECT_EQ(bar.paths[3], driver.link().description);
+}
+
+TEST_F(AConverter, SilentSlotsArePassed) {
+  bar.slots = {Slot::kSilent, Slot::kSilent, Slot::kRemote, Slot::kSilent};
+  Wiimote driver = anyRemote();
+  EXPECT_GT(run({&driver}, 8.0)[0], 50);
+  EXPECT_EQ((std::vector<std::size_t>{0, 1, 2}), bar.opened);
+}
+
+TEST_F(AConverter, RemoteThatMovesToAnotherSlotIsFound) {
+  bar.slots = {Slot::kSilent, Slot::kRemote, Slot::kSilent, Slot::kSilent};
+  Wiimote driver = anyRemote();
+  EXPECT_GT(run({&driver}, 5.0)[0], 50);
+  bar.slots = {Slot::kRemote, Slot::kSilent, Slot::kSilent, Slot::kSilent};
+  EXPECT_GT(run({&driver}, 20.0)[0], 50);
+  EXPECT_EQ(bar.paths[0], driver.link().description);
+  EXPECT_EQ(1U, driver.link().clock_epoch);
+}
+
+TEST_F(AConverter, TwoDriversFindTwoRemotes) {
+  bar.slots = {Slot::kSilent, Slot::kRefusesWrites, Slot::kRemote, Slot::kRemote};
+  Wiimote first = anyRemote(), second = anyRemote();
+  const std::vector<int> images = run({&first, &second}, 15.0);
+  EXPECT_GT(images[0], 50);
+  EXPECT_GT(images[1], 50);
+  EXPECT_NE(first.link().description, second.link().description);
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::wiimote

@@ -1,5 +1,7 @@
 #include "association/shared_views.h"
 
+#include "wiimote_tracker_triangulation/geometry/sight.h"
+
 #include <algorithm>
 
 namespace wiimote_tracker::association {
@@ -16,11 +18,11 @@ std::vector<Eigen::Vector3d> pointsInView(const geometry::Camera& camera, double
     for (int column = 0; column <= kColumns; ++column) {
       const Eigen::Vector2d pixel((camera.intrinsics.width - 1.0) * column / kColumns,
                                   (camera.intrinsics.height - 1.0) * row / kRows);
-      const auto ray = geometry::rayFromPixel(camera, pixel);
-      if (!ray)
+      const auto sight = geometry::sightFromPixel(camera, pixel);
+      if (!sight)
         continue;
       for (double distance = range; distance >= std::min(kNearest, range); distance /= kGrowth)
-        points.push_back(ray->origin + distance * ray->direction);
+        points.push_back(sight->origin + distance * sight->direction);
     }
   }
   return points;

@@ -131,31 +131,6 @@ bool Camera::sees(const Eigen::Vector3d& point) const {
          pixel->y() <= intrinsics.height - 1;
 }
 
-std::optional<Ray> rayFromPixel(const Camera& camera, const Vector2& pixel) {
-  return rayFromPixel(camera, pixel, nullptr);
-}
-
-std::optional<Ray> rayFromPixel(const Camera& camera,
-                                const Vector2& pixel,
-                                Eigen::Matrix<double, 3, 2>* jacobian) {
-  const std::optional<Vector2> n = camera.intrinsics.normalizedFromPixel(pixel);
-  if (!n)
-    return std::nullopt;
-  const Eigen::Matrix3d world_from_camera = camera.world_from_camera.linear();
-  const double length = std::sqrt(n->squaredNorm() + 1.0);
-  const Eigen::Vector3d direction(n->x() / length, n->y() / length, 1.0 / length);
-  if (jacobian) {
-    Matrix2 pixel_by_normalized;
-    camera.intrinsics.pixelFromNormalized(*n, &pixel_by_normalized);
-    Eigen::Matrix<double, 3, 2> direction_by_normalized =
-        -direction * direction.head<2>().transpose();
-    direction_by_normalized.topRows<2>() += Matrix2::Identity();
-    *jacobian =
-        world_from_camera * direction_by_normalized * pixel_by_normalized.inverse() / length;
-  }
-  return Ray{camera.center(), world_from_camera * direction};
-}
-
 Eigen::Isometry3d lookAt(const Eigen::Vector3d& position,
                          const Eigen::Vector3d& target,
                          const Eigen::Vector3d& up) {

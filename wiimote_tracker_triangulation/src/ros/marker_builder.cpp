@@ -1,6 +1,7 @@
 #include "marker_builder.h"
 
 #include "marker_parts.h"
+#include "wiimote_tracker_triangulation/geometry/sight.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -192,8 +193,8 @@ void MarkerBuilder::addView(std::size_t index,
   rays.color = color(1.0f, 1.0f, 1.0f, 1.0f);
   const bool is_new = view.time && std::abs(time_ - *view.time) < kOldView;
   for (const tracking::SeenSpot& spot : is_new ? view.spots : std::vector<tracking::SeenSpot>()) {
-    const auto ray = geometry::rayFromPixel(camera, spot.pixel);
-    if (!ray)
+    const auto sight = geometry::sightFromPixel(camera, spot.pixel);
+    if (!sight)
       continue;
     blobs.points.push_back(
         pointOf(onImagePlane(camera, spot.pixel, options_.image_plane_distance)));
@@ -208,7 +209,7 @@ void MarkerBuilder::addView(std::size_t index,
                               ? (vectorOf(led->position) - camera.center()).norm()
                               : kRayLength;
     rays.points.push_back(pointOf(camera.center()));
-    rays.points.push_back(pointOf(camera.center() + length * ray->direction));
+    rays.points.push_back(pointOf(camera.center() + length * sight->direction));
     rays.colors.insert(rays.colors.end(), 2, colorOf(spot.use));
   }
   add(blobs);

@@ -3,6 +3,7 @@
 #include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/geometry/sight.h"
 
 #include <gtest/gtest.h>
 
@@ -80,8 +81,8 @@ TEST(Camera, DerivativesAreThoseOfFiniteDifferences) {
     Eigen::Matrix<double, 2, 3> by_point;
     const auto pixel = camera.project(point, &by_point);
     ASSERT_TRUE(pixel);
-    Eigen::Matrix<double, 3, 2> direction_by_pixel;
-    ASSERT_TRUE(rayFromPixel(camera, *pixel, &direction_by_pixel));
+    const auto sight = sightFromPixel(camera, *pixel);
+    ASSERT_TRUE(sight);
     constexpr double kStep = 1e-5;
     for (int a = 0; a < 3; ++a) {
       const Vector3d step = kStep * Vector3d::Unit(a);
@@ -91,10 +92,10 @@ TEST(Camera, DerivativesAreThoseOfFiniteDifferences) {
     }
     for (int a = 0; a < 2; ++a) {
       const Vector2d step = 0.01 * Vector2d::Unit(a);
-      const Vector3d slope = (rayFromPixel(camera, *pixel + step)->direction -
-                              rayFromPixel(camera, *pixel - step)->direction) /
+      const Vector3d slope = (sightFromPixel(camera, *pixel + step)->direction -
+                              sightFromPixel(camera, *pixel - step)->direction) /
                              0.02;
-      EXPECT_LT((slope - direction_by_pixel.col(a)).norm(), 1e-9);
+      EXPECT_LT((slope - sight->directionByPixel().col(a)).norm(), 1e-9);
     }
   }
 }
@@ -104,11 +105,11 @@ TEST(Camera, RayPassesThroughThePoint) {
   for (int i = 0; i < 100; ++i) {
     const Camera camera = test::randomRig(random, 1).cameras[0].camera;
     const Vector3d point = random.inBox(1.0);
-    const auto ray = rayFromPixel(camera, *camera.project(point));
-    ASSERT_TRUE(ray);
-    EXPECT_NEAR(ray->direction.norm(), 1.0, 1e-14);
-    EXPECT_GT(ray->direction.dot(point - ray->origin), 0.0);
-    EXPECT_LT(ray->direction.cross(point - ray->origin).norm(), 1e-11);
+    const auto sight = sightFromPixel(camera, *camera.project(point));
+    ASSERT_TRUE(sight);
+    EXPECT_NEAR(sight->direction.norm(), 1.0, 1e-14);
+    EXPECT_GT(sight->direction.dot(point - sight->origin), 0.0);
+    EXPECT_LT(sight->direction.cross(point - sight->origin).norm(), 1e-11);
   }
 }
 
@@ -156,7 +157,7 @@ TEST(Camera, RefusesPixelsThatAreNoNumbers) {
   const Intrinsics intrinsics;
   EXPECT_FALSE(intrinsics.normalizedFromPixel({kNaN, 0.0}));
   EXPECT_FALSE(intrinsics.normalizedFromPixel({0.0, std::numeric_limits<double>::infinity()}));
-  EXPECT_FALSE(rayFromPixel(Camera(), {0.0, kNaN}));
+  EXPECT_FALSE(sightFromPixel(Camera(), {0.0, kNaN}));
 }
 
 TEST(Camera, ImageSizeIsData) {

@@ -2,6 +2,7 @@
 #include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/geometry/sight.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <gtest/gtest.h>
@@ -91,8 +92,8 @@ TEST(Fisheye, DerivativesAreThoseOfFiniteDifferences) {
     Eigen::Matrix<double, 2, 3> by_point;
     const auto pixel = camera.project(point, &by_point);
     ASSERT_TRUE(pixel);
-    Eigen::Matrix<double, 3, 2> direction_by_pixel;
-    ASSERT_TRUE(rayFromPixel(camera, *pixel, &direction_by_pixel));
+    const auto sight = sightFromPixel(camera, *pixel);
+    ASSERT_TRUE(sight);
     constexpr double kStep = 1e-5;
     for (int a = 0; a < 3; ++a) {
       const Vector3d step = kStep * Vector3d::Unit(a);
@@ -102,10 +103,10 @@ TEST(Fisheye, DerivativesAreThoseOfFiniteDifferences) {
     }
     for (int a = 0; a < 2; ++a) {
       const Vector2d step = 0.01 * Vector2d::Unit(a);
-      const Vector3d slope = (rayFromPixel(camera, *pixel + step)->direction -
-                              rayFromPixel(camera, *pixel - step)->direction) /
+      const Vector3d slope = (sightFromPixel(camera, *pixel + step)->direction -
+                              sightFromPixel(camera, *pixel - step)->direction) /
                              0.02;
-      EXPECT_LT((slope - direction_by_pixel.col(a)).norm(), 1e-9);
+      EXPECT_LT((slope - sight->directionByPixel().col(a)).norm(), 1e-9);
     }
   }
   // On the axis, where radii have no direction.

@@ -80,20 +80,6 @@ struct Camera {
   bool sees(const Eigen::Vector3d& point) const;
 };
 
-/// Half line in the world.
-struct Ray {
-  Eigen::Vector3d origin;     ///< Optical centre [m].
-  Eigen::Vector3d direction;  ///< Unit length, into the scene.
-};
-
-/// Ray of a pixel. Nothing when the pixel has none (see Intrinsics::normalizedFromPixel).
-std::optional<Ray> rayFromPixel(const Camera& camera, const Eigen::Vector2d& pixel);
-
-/// Same, with the 3x2 derivative d direction / d pixel [1/px].
-std::optional<Ray> rayFromPixel(const Camera& camera,
-                                const Eigen::Vector2d& pixel,
-                                Eigen::Matrix<double, 3, 2>* jacobian);
-
 /// World-from-camera rotation and position of a camera at `position` [m] whose optical axis passes
 /// through `target` [m], image x axis horizontal. `up` need not be a unit vector.
 /// @throws InvalidRigError when the optical axis would be parallel to `up`.

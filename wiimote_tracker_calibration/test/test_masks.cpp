@@ -32,7 +32,7 @@ TEST(MaskLearner, StillAndFlickeringLampsAreMaskedWithAllTheirPlaces) {
   EXPECT_TRUE(learned.problem.empty()) << learned.problem;
   ASSERT_EQ(learned.masks.size(), 2U);
   for (const Eigen::Vector2d& spot : all)
-    EXPECT_TRUE(isMasked(learned.masks, spot));
+    EXPECT_TRUE(geometry::isMasked(learned.masks, spot));
   for (const geometry::ImageMask& mask : learned.masks) {
     EXPECT_GT(mask.radius, 8.0);
     EXPECT_LT(mask.radius, 20.0);

@@ -14,9 +14,6 @@ namespace wiimote_tracker::capture {
 /// Regions of the image to ignore, by the name of the camera.
 using Masks = std::map<std::string, std::vector<geometry::ImageMask>>;
 
-/// Whether the pixel lies in one of the regions.
-bool isMasked(const std::vector<geometry::ImageMask>& masks, const Eigen::Vector2d& pixel);
-
 /// Moves the spots that lie in a region of this image's camera from `spots` to `masked`.
 void applyMasks(const Masks& masks, Image* image);
 

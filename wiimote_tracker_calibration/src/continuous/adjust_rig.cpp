@@ -53,13 +53,10 @@ geometry::Rig priorOf(const geometry::Rig& rig,
     const Eigen::Index first = firstParameter(i);
     const Eigen::Index clock = first + kTimeOffset;
     const auto epoch = source.epoch(i);
-    using geometry::TimeOffsetRule;
-    const bool known = camera.time_offset_rule == TimeOffsetRule::kAlways ||
-                       (camera.time_offset_rule == TimeOffsetRule::kOneEpoch &&
-                        (!epoch || camera.time_offset_epoch == *epoch));
+    const bool known = camera.timeOffsetIn(epoch.value_or(camera.time_offset_epoch)).has_value();
     if (!known) {
       camera.time_offset = 0.0;
-      camera.time_offset_rule = TimeOffsetRule::kOneEpoch;
+      camera.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
       camera.time_offset_epoch = epoch.value_or(0);
       prior.covariance.row(clock).setZero();
       prior.covariance.col(clock).setZero();
@@ -258,7 +255,7 @@ std::optional<double> misfitOf(const geometry::Rig& rig,
   geometry::Rig valid = rig;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
     valid.cameras[i].time_offset =
-        recalibrate::timeOffset(rig.cameras[i], source.epoch(i).value_or(0)).value_or(0.0);
+        rig.cameras[i].timeOffsetIn(source.epoch(i).value_or(0)).value_or(0.0);
   const auto keyframes = source.keyframes(valid, kCheckGate);
   if (keyframes.size() < kLeastKeyframes)
     return std::nullopt;

@@ -61,24 +61,18 @@ double turnOf(const geometry::RigCamera& a, const geometry::RigCamera& b) {
       .angle();
 }
 
-bool hasNewClock(const geometry::RigCamera& before, const geometry::RigCamera& now) {
-  return before.time_offset_rule == geometry::TimeOffsetRule::kOneEpoch &&
-         now.time_offset_epoch != before.time_offset_epoch;
-}
-
 /// Whether no camera has reconnected since the rig was solved.
 bool clocksHold(const geometry::Rig& rig, const std::vector<capture::Image>& images) {
   return std::all_of(images.begin(), images.end(), [&](const capture::Image& image) {
     const geometry::RigCamera* const camera = rig.find(image.camera);
-    return camera == nullptr || camera->time_offset_rule != geometry::TimeOffsetRule::kOneEpoch ||
-           camera->time_offset_epoch == image.clock_epoch;
+    return camera == nullptr || !camera->hasNewClock(image.clock_epoch);
   });
 }
 
 /// The rig before an adjustment with the new clocks that it found.
 geometry::Rig withNewClocks(geometry::Rig before, const geometry::Rig& adjusted) {
   for (std::size_t i = 0; i < before.cameras.size(); ++i) {
-    if (hasNewClock(before.cameras[i], adjusted.cameras[i]))
+    if (before.cameras[i].hasNewClock(adjusted.cameras[i].time_offset_epoch))
       copyClock(adjusted, i, &before);
   }
   return before;
@@ -88,7 +82,7 @@ bool newClocksAreJudged(const geometry::Rig& before,
                         const geometry::Rig& now,
                         const Drifts& drifts) {
   for (std::size_t i = 0; i < now.cameras.size(); ++i) {
-    if (hasNewClock(before.cameras[i], now.cameras[i]) && !drifts[i])
+    if (before.cameras[i].hasNewClock(now.cameras[i].time_offset_epoch) && !drifts[i])
       return false;
   }
   return true;
@@ -98,7 +92,7 @@ bool newClocksAreJudged(const geometry::Rig& before,
 std::size_t mostChanged(const geometry::Rig& before, const geometry::Rig& now) {
   std::size_t most = 0;
   for (std::size_t i = 0; i < now.cameras.size(); ++i) {
-    if (hasNewClock(before.cameras[i], now.cameras[i]))
+    if (before.cameras[i].hasNewClock(now.cameras[i].time_offset_epoch))
       return i;
     if (turnOf(before.cameras[i], now.cameras[i]) > turnOf(before.cameras[most], now.cameras[most]))
       most = i;
@@ -115,7 +109,7 @@ std::string changesText(const geometry::Rig& before, const geometry::Rig& now) {
     std::vector<std::string> own;
     if (camera.camera.world_from_camera.matrix() != was.camera.world_from_camera.matrix())
       own.push_back(format(" turned by %.2f degrees", turnOf(was, camera) * kDegrees));
-    if (hasNewClock(was, camera))
+    if (was.hasNewClock(camera.time_offset_epoch))
       own.push_back(format(" has a new clock, %.1f ms off", 1000.0 * camera.time_offset));
     if (!own.empty())
       changes.push_back(camera.camera.name + joined(own, " and"));
@@ -213,7 +207,7 @@ std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& imag
   if (!newClocksAreJudged(rig_, *rig, drifts))
     return std::nullopt;
   const std::size_t most = mostChanged(rig_, *rig);
-  const bool reconnected = hasNewClock(rig_.cameras[most], rig->cameras[most]);
+  const bool reconnected = rig_.cameras[most].hasNewClock(rig->cameras[most].time_offset_epoch);
   if (keeps_poses && !reconnected)
     return std::nullopt;
   const std::string message = changesText(rig_, *rig) +

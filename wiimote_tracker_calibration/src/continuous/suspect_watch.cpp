@@ -14,8 +14,7 @@ std::optional<Evidence> SuspectWatch::add(const capture::Image& image) {
   if (camera == nullptr)
     return std::nullopt;
   new_clocks_[static_cast<std::size_t>(camera - rig_.cameras.data())] =
-      camera->time_offset_rule == geometry::TimeOffsetRule::kOneEpoch &&
-      camera->time_offset_epoch != image.clock_epoch;
+      camera->hasNewClock(image.clock_epoch);
   if (watch_.add(image))
     judge();
   if (!suspect_)

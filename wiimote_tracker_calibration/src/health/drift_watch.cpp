@@ -41,12 +41,10 @@ bool DriftWatch::add(const capture::Image& image) {
     return false;
   const geometry::RigCamera& calibrated =
       rig_.cameras[static_cast<std::size_t>(found - cameras_.begin())];
-  using geometry::TimeOffsetRule;
-  found->clock_known = calibrated.time_offset_rule == TimeOffsetRule::kAlways ||
-                       (calibrated.time_offset_rule == TimeOffsetRule::kOneEpoch &&
-                        calibrated.time_offset_epoch == image.clock_epoch);
+  const auto time_offset = calibrated.timeOffsetIn(image.clock_epoch);
+  found->clock_known = time_offset.has_value();
   Frame frame;
-  frame.time = image.stamp + (found->clock_known ? calibrated.time_offset : 0.0);
+  frame.time = image.stamp + time_offset.value_or(0.0);
   if (image.spots.size() == 1)
     frame.pixel = image.spots.front();
   if (!std::isfinite(frame.time))

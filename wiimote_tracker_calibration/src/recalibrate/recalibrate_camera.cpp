@@ -91,7 +91,7 @@ Prior priorOf(const geometry::Rig& rig,
   for (const capture::Image& image : request.images) {
     if (same && image.camera == request.camera) {
       // A start value; the offset is estimated again.
-      prior.time_offset = timeOffset(calibrated, image.clock_epoch).value_or(0.0);
+      prior.time_offset = calibrated.timeOffsetIn(image.clock_epoch).value_or(0.0);
       break;
     }
   }

@@ -24,15 +24,6 @@ constexpr double kLargestSpread = 0.02;
 
 }  // namespace
 
-std::optional<double> timeOffset(const geometry::RigCamera& camera, std::uint32_t clock_epoch) {
-  using geometry::TimeOffsetRule;
-  if (camera.time_offset_rule == TimeOffsetRule::kAlways ||
-      (camera.time_offset_rule == TimeOffsetRule::kOneEpoch &&
-       camera.time_offset_epoch == clock_epoch))
-    return camera.time_offset;
-  return std::nullopt;
-}
-
 std::vector<capture::Image> movingLights(const std::vector<capture::Image>& images,
                                          const std::string& camera) {
   std::vector<capture::Image> own;
@@ -58,7 +49,7 @@ SeenPath::SeenPath(const geometry::Rig& rig,
     track.rays = rig.rayCamera(camera);
     if (camera.camera.name != without) {
       for (const capture::Image& image : movingLights(images, camera.camera.name)) {
-        const auto offset = timeOffset(camera, image.clock_epoch);
+        const auto offset = camera.timeOffsetIn(image.clock_epoch);
         track.clock_known = offset.has_value();
         const double time = image.stamp + offset.value_or(0.0);
         if (image.spots.size() == 1 && (track.spots.empty() || time > track.spots.back().time))

@@ -63,9 +63,6 @@ class SeenPath {
   std::vector<std::size_t> seeing_;
 };
 
-/// Time offset of a camera for images of one epoch [s]; nothing when it is not known.
-std::optional<double> timeOffset(const geometry::RigCamera& camera, std::uint32_t clock_epoch);
-
 /// The images of one camera, without spots that stay in one place (lamps).
 std::vector<capture::Image> movingLights(const std::vector<capture::Image>& images,
                                          const std::string& camera);

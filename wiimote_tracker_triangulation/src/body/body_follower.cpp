@@ -1,7 +1,5 @@
 #include "body/body_follower.h"
 
-#include "geometry/image_rules.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -52,7 +50,7 @@ void BodyFollower::useTracker(const geometry::Rig& rig,
 
 void BodyFollower::take(std::size_t camera, tracking::CameraImage* image) {
   const geometry::RigCamera& calibration = rig_.cameras[camera];
-  const double offset = geometry::timeOffset(calibration, image->clock_epoch);
+  const double offset = calibration.timeOffsetIn(image->clock_epoch).value_or(0.0);
   const double time = image->stamp + offset;
   if (!tracker_ || !std::isfinite(time) || !std::isfinite(image->arrival))
     return;
@@ -70,7 +68,7 @@ void BodyFollower::take(std::size_t camera, tracking::CameraImage* image) {
   pixels_.clear();
   spots_.clear();
   for (std::size_t i = 0; i < image->spots.size(); ++i) {
-    if (geometry::isMasked(calibration, image->spots[i].pixel))
+    if (geometry::isMasked(calibration.masks, image->spots[i].pixel))
       continue;
     pixels_.push_back(image->spots[i].pixel);
     spots_.push_back(i);

@@ -1,7 +1,5 @@
 #include "synchronizer.h"
 
-#include "geometry/image_rules.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -86,13 +84,13 @@ void Synchronizer::begin(double arrival) {
 
 void Synchronizer::readFrame(const geometry::RigCamera& camera,
                              const tracking::CameraImage& image) {
-  frame_.time = image.stamp + geometry::timeOffset(camera, image.clock_epoch);
+  frame_.time = image.stamp + camera.timeOffsetIn(image.clock_epoch).value_or(0.0);
   frame_.arrival = image.arrival;
   frame_.is_full = image.spots.size() >= image.maximum_spots;
   frame_.spots.clear();
   frame_.masked.clear();
   for (const tracking::Spot& spot : image.spots) {
-    if (geometry::isMasked(camera, spot.pixel)) {
+    if (geometry::isMasked(camera.masks, spot.pixel)) {
       frame_.masked.push_back(spot.pixel);
     } else {
       frame_.spots.emplace_back();

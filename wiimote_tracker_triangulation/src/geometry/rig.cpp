@@ -49,6 +49,18 @@ void checkCamera(const RigCamera& rig_camera) {
 
 }  // namespace
 
+bool isMasked(const std::vector<ImageMask>& masks, const Eigen::Vector2d& pixel) {
+  return std::any_of(masks.begin(), masks.end(), [&](const ImageMask& mask) {
+    return (pixel - mask.center).norm() <= mask.radius;
+  });
+}
+
+std::optional<double> RigCamera::timeOffsetIn(std::uint32_t clock_epoch) const {
+  if (time_offset_rule == TimeOffsetRule::kNone || hasNewClock(clock_epoch))
+    return std::nullopt;
+  return time_offset;
+}
+
 const RigCamera* Rig::find(const std::string& name) const {
   const auto it = std::find_if(cameras.begin(), cameras.end(),
                                [&](const RigCamera& c) { return c.camera.name == name; });

@@ -1,7 +1,5 @@
 #include "wiimote_tracker_triangulation/identity/snapshot_sightings.h"
 
-#include "geometry/image_rules.h"
-
 namespace wiimote_tracker::identity {
 
 using tracking::CameraView;
@@ -49,7 +47,7 @@ std::optional<bool> SnapshotSightings::isSeen(const geometry::RigCamera& camera,
   const double border = options_.merging_distance;
   if (!pixel || pixel->x() < border || pixel->x() > image.width - 1 - border ||
       pixel->y() < border || pixel->y() > image.height - 1 - border ||
-      geometry::isMasked(camera, *pixel))
+      geometry::isMasked(camera.masks, *pixel))
     return std::nullopt;
   for (const tracking::SeenSpot& spot : view.spots) {
     if ((spot.pixel - *pixel).squaredNorm() < border * border)

@@ -1,7 +1,5 @@
 #include "group_camera.h"
 
-#include "geometry/image_rules.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -28,8 +26,8 @@ double squaredCosineOfView(const geometry::Intrinsics& lens) {
 
 GroupCamera::GroupCamera(const geometry::Rig& rig, std::size_t index)
     : index_(index),
-      calibration_(rig.cameras[index]),
-      for_rays_(rig.rayCamera(calibration_)),
+      masks_(rig.cameras[index].masks),
+      for_rays_(rig.rayCamera(rig.cameras[index])),
       squared_cosine_(squaredCosineOfView(for_rays_.intrinsics)) {}
 
 double GroupCamera::imageArea() const {
@@ -60,10 +58,6 @@ bool GroupCamera::isInImage(const Eigen::Vector2d& pixel, double margin) const {
   const geometry::Intrinsics& lens = for_rays_.intrinsics;
   return pixel.x() >= -margin && pixel.x() <= lens.width - 1 + margin && pixel.y() >= -margin &&
          pixel.y() <= lens.height - 1 + margin;
-}
-
-bool GroupCamera::isMasked(const Eigen::Vector2d& pixel) const {
-  return geometry::isMasked(calibration_, pixel);
 }
 
 }  // namespace wiimote_tracker::tracking

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <vector>
 
 namespace wiimote_tracker::tracking {
 
@@ -27,11 +28,11 @@ class GroupCamera {
   RayOffset rayOffset(const Eigen::Vector3d& led, const Eigen::Vector2d& residual) const;
 
   bool isInImage(const Eigen::Vector2d& pixel, double margin) const;
-  bool isMasked(const Eigen::Vector2d& pixel) const;
+  bool isMasked(const Eigen::Vector2d& pixel) const { return geometry::isMasked(masks_, pixel); }
 
  private:
   std::size_t index_;
-  geometry::RigCamera calibration_;
+  std::vector<geometry::ImageMask> masks_;
   geometry::Camera for_rays_;
   double squared_cosine_;  // of the cone around the view; 0: no limit
 };

@@ -2,7 +2,6 @@
 
 #include "association/shared_views.h"
 #include "camera_group.h"
-#include "geometry/image_rules.h"
 #include "ids.h"
 #include "snapshot_writer.h"
 #include "tracking/time_watch.h"
@@ -81,10 +80,11 @@ void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& be
 }
 
 void Tracker::add(std::size_t camera, const CameraImage& image) {
-  const double offset = geometry::timeOffset(rig_.cameras.at(camera), image.clock_epoch);
+  const geometry::RigCamera& calibration = rig_.cameras.at(camera);
+  const double offset = calibration.timeOffsetIn(image.clock_epoch).value_or(0.0);
   const Place& place = places_[camera];
   CameraGroup& group = *groups_[place.group];
-  const bool offset_known = geometry::isTimeOffsetKnown(rig_.cameras[camera], image.clock_epoch);
+  const bool offset_known = !calibration.hasNewClock(image.clock_epoch);
   const ClockOffset::Estimate clock = group.clock(place.member, image.clock_epoch, offset_known);
   const double time = image.stamp + offset - clock.offset;
   if (!std::isfinite(time) || !std::isfinite(image.arrival)) {
@@ -143,7 +143,7 @@ void Tracker::store(std::size_t camera, const CameraImage& image) {
       const Eigen::Vector2d& pixel = spot.pixel;
       const bool usable = pixel.x() >= -0.5 && pixel.x() <= lens.width - 0.5 && pixel.y() >= -0.5 &&
                           pixel.y() <= lens.height - 0.5;
-      if (usable && geometry::isMasked(calibration, pixel) == masked &&
+      if (usable && geometry::isMasked(calibration.masks, pixel) == masked &&
           image_->total_count < image_->pixels.size())
         image_->pixels[image_->total_count++] = pixel;
     }

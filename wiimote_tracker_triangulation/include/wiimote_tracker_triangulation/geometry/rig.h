@@ -23,6 +23,9 @@ struct ImageMask {
   double radius;           ///< [px, > 0]
 };
 
+/// Whether light at this pixel is to be ignored.
+bool isMasked(const std::vector<ImageMask>& masks, const Eigen::Vector2d& pixel);
+
 /// A named box of the world.
 struct Zone {
   std::string name;
@@ -43,6 +46,15 @@ struct RigCamera {
   double residual_m = std::numeric_limits<double>::quiet_NaN();
   std::uint32_t observations = 0;
   std::uint32_t inliers = 0;
+
+  /// What to add to the stamps of images while its clock is in this epoch [s]; nothing where that
+  /// is not known.
+  std::optional<double> timeOffsetIn(std::uint32_t clock_epoch) const;
+
+  /// Whether its time offset was calibrated for another epoch of its clock.
+  bool hasNewClock(std::uint32_t clock_epoch) const {
+    return time_offset_rule == TimeOffsetRule::kOneEpoch && time_offset_epoch != clock_epoch;
+  }
 };
 
 /// All cameras of a rig, calibrated together. Fields as in RigCalibration.msg.

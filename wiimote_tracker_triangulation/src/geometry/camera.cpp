@@ -54,10 +54,6 @@ std::size_t coefficientCount(DistortionModel model) {
   return model == DistortionModel::kEquidistant ? 4 : 5;
 }
 
-Vector2 Intrinsics::pixelFromNormalized(const Vector2& normalized) const {
-  return pixelFromNormalized(normalized, nullptr);
-}
-
 Vector2 Intrinsics::pixelFromNormalized(const Vector2& normalized, Matrix2* jacobian) const {
   const Vector2 distorted = distortion_model == DistortionModel::kEquidistant
                                 ? equidistant::distort(distortion, normalized, jacobian)
@@ -95,10 +91,6 @@ void Intrinsics::check() const {
     require(std::isfinite(k), "every distortion coefficient must be finite", k);
   if (distortion_model == DistortionModel::kEquidistant)
     require(distortion[4] == 0.0, "an equidistant lens has no fifth coefficient", distortion[4]);
-}
-
-std::optional<Vector2> Camera::project(const Eigen::Vector3d& point) const {
-  return project(point, nullptr);
 }
 
 std::optional<Vector2> Camera::project(const Eigen::Vector3d& point,

@@ -196,45 +196,24 @@ void MotionFilter::inflateUnobservedDepth(const geometry::Camera& camera) {
                           accelerationVariance(*options_, i));
 }
 
-Vector3d MotionFilter::position() const {
+/// Mean over the modes of three values of the state. @param first index of them
+Vector3d MotionFilter::mean(int first) const {
   Vector3d mean = Vector3d::Zero();
   for (const Mode& mode : modes_)
-    mean += mode.probability * mode.state.position();
+    mean += mode.probability * mode.state.mean.segment<3>(first);
   return mean;
 }
 
-Matrix3d MotionFilter::positionCovariance() const {
-  const Vector3d mean = position();
+/// Their covariance.
+Matrix3d MotionFilter::covariance(int first) const {
+  const Vector3d mean = this->mean(first);
   Matrix3d result = Matrix3d::Zero();
   for (const Mode& mode : modes_) {
-    const Vector3d d = mode.state.position() - mean;
-    result += mode.probability * (mode.state.positionCovariance() + d * d.transpose());
+    const Vector3d d = mode.state.mean.segment<3>(first) - mean;
+    result +=
+        mode.probability * (mode.state.covariance.block<3, 3>(first, first) + d * d.transpose());
   }
   return result;
-}
-
-Vector3d MotionFilter::velocity() const {
-  Vector3d mean = Vector3d::Zero();
-  for (const Mode& mode : modes_)
-    mean += mode.probability * mode.state.velocity();
-  return mean;
-}
-
-Matrix3d MotionFilter::velocityCovariance() const {
-  const Vector3d mean = velocity();
-  Matrix3d result = Matrix3d::Zero();
-  for (const Mode& mode : modes_) {
-    const Vector3d d = mode.state.velocity() - mean;
-    result += mode.probability * (mode.state.velocityCovariance() + d * d.transpose());
-  }
-  return result;
-}
-
-double MotionFilter::restProbability() const {
-  double sum = 0.0;
-  for (int i = 0; i < kRestModes; ++i)
-    sum += modes_[i].probability;
-  return sum;
 }
 
 }  // namespace wiimote_tracker::motion

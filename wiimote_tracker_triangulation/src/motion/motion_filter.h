@@ -51,15 +51,12 @@ class MotionFilter {
               const Eigen::Vector2d& pixel);
 
   // Mean and covariance of the mixture of all modes.
-  Eigen::Vector3d position() const;            ///< World [m].
-  Eigen::Matrix3d positionCovariance() const;  ///< [m^2]
-  Eigen::Vector3d velocity() const;            ///< World [m/s].
-  Eigen::Matrix3d velocityCovariance() const;  ///< [m^2/s^2]
+  Eigen::Vector3d position() const { return mean(0); }                  ///< World [m].
+  Eigen::Matrix3d positionCovariance() const { return covariance(0); }  ///< [m^2]
+  Eigen::Vector3d velocity() const { return mean(3); }                  ///< World [m/s].
+  Eigen::Matrix3d velocityCovariance() const { return covariance(3); }  ///< [m^2/s^2]
 
   const Modes& modes() const { return modes_; }
-
-  /// Probability of the modes at rest [0..1].
-  double restProbability() const;
 
  private:
   bool linearize(const geometry::Camera& camera,
@@ -70,6 +67,8 @@ class MotionFilter {
                 const Eigen::Vector2d& pixel) const;
   void apply(const PixelPrediction& prediction, const Eigen::Vector2d& pixel);
   void inflateUnobservedDepth(const geometry::Camera& camera);
+  Eigen::Vector3d mean(int first) const;
+  Eigen::Matrix3d covariance(int first) const;
 
   const MotionOptions* options_;
   double time_;

@@ -38,11 +38,9 @@ struct Intrinsics {
   DistortionModel distortion_model = DistortionModel::kPlumbBob;
 
   /// Pixel of a point on the normalised image plane (x/z, y/z) [1].
-  Eigen::Vector2d pixelFromNormalized(const Eigen::Vector2d& normalized) const;
-
-  /// Same, with the 2x2 derivative d pixel / d normalized.
+  /// @param jacobian receives d pixel / d normalized, when it is not null.
   Eigen::Vector2d pixelFromNormalized(const Eigen::Vector2d& normalized,
-                                      Eigen::Matrix2d* jacobian) const;
+                                      Eigen::Matrix2d* jacobian = nullptr) const;
 
   /// Inverse of pixelFromNormalized (Newton's method), exact to 1e-12. Nothing for NaN, and where
   /// the model is not invertible: both models are polynomials that are one to one only up to the
@@ -69,12 +67,9 @@ struct Camera {
 
   /// Pixel of a world point [m]. Nothing when the point is not in front of the camera, or so far
   /// off its axis that the lens model does not hold (Intrinsics::isBeforeFold). The pixel may lie
-  /// outside the image.
-  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const;
-
-  /// Same, with the 2x3 derivative d pixel / d point [px/m].
+  /// outside the image. @param jacobian receives d pixel / d point [px/m], when it is not null.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point,
-                                         Eigen::Matrix<double, 2, 3>* jacobian) const;
+                                         Eigen::Matrix<double, 2, 3>* jacobian = nullptr) const;
 
   /// Whether the point is in front of the camera and its pixel inside the image.
   bool sees(const Eigen::Vector3d& point) const;

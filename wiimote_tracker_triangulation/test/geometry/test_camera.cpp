@@ -1,5 +1,6 @@
 // The camera model, compared with OpenCV's, and the limits of its validity.
 #include "opencv_camera.h"
+#include "expect_derivatives.h"
 #include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
@@ -77,26 +78,7 @@ TEST(Camera, DerivativesAreThoseOfFiniteDifferences) {
   Random random(4);
   for (int i = 0; i < 50; ++i) {
     const Camera camera = test::randomRig(random, 1).cameras[0].camera;
-    const Vector3d point = random.inBox(1.0);
-    Eigen::Matrix<double, 2, 3> by_point;
-    const auto pixel = camera.project(point, &by_point);
-    ASSERT_TRUE(pixel);
-    const auto sight = sightFromPixel(camera, *pixel);
-    ASSERT_TRUE(sight);
-    constexpr double kStep = 1e-5;
-    for (int a = 0; a < 3; ++a) {
-      const Vector3d step = kStep * Vector3d::Unit(a);
-      const Vector2d slope =
-          (*camera.project(point + step) - *camera.project(point - step)) / (2.0 * kStep);
-      EXPECT_LT((slope - by_point.col(a)).norm(), 1e-4);
-    }
-    for (int a = 0; a < 2; ++a) {
-      const Vector2d step = 0.01 * Vector2d::Unit(a);
-      const Vector3d slope = (sightFromPixel(camera, *pixel + step)->direction -
-                              sightFromPixel(camera, *pixel - step)->direction) /
-                             0.02;
-      EXPECT_LT((slope - sight->directionByPixel().col(a)).norm(), 1e-9);
-    }
+    test::expectDerivatives(camera, random.inBox(1.0));
   }
 }
 

@@ -1,6 +1,6 @@
 // The camera model, compared with OpenCV's, and the limits of its validity.
-#include "opencv_camera.h"
 #include "expect_derivatives.h"
+#include "opencv_camera.h"
 #include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"

@@ -340,6 +340,24 @@ TEST(Wave, ApparentJumpOfAClockWithoutWhichNoImageFits) {
   }
 }
 
+TEST(Wave, MisfitIsOneWhereTheErrorsAreStatedRightly) {
+  // The expectation is exact for small errors: corners and lenses are fitted, too.
+  WaveScene scene = shortScene();
+  scene.quantized = false;
+  scene.wrong_share = 0.0;
+  for (const std::size_t cameras : {2, 4}) {
+    scene.camera_count = cameras;
+    WaveOptions options = optionsFor(scene);
+    options.offset = scene.offset * std::sqrt(2.0 / 3.0);  // of differences of uniform offsets
+    const int kSeeds = 20;
+    double squared = 0.0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed)
+      squared += std::pow(solveWave(simulateWave(scene, seed).recording, options).misfit, 2);
+    // At least seven degrees of freedom: three standard deviations are allowed.
+    EXPECT_NEAR(squared / kSeeds, 1.0, 0.36) << cameras;
+  }
+}
+
 TEST(Wave, IsDeterministic) {
   WaveScene scene = shortScene();
   scene.camera_count = 2;

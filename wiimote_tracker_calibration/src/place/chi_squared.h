@@ -12,7 +12,7 @@ constexpr double kThreeNines = 3.0902;  ///< 99.9 %
 /// Quantile of the chi-squared distribution (Wilson and Hilferty 1931). For the probabilities above
 /// it is within 3 % with one degree of freedom, 1 % with two, and better with more.
 /// @param normal_quantile of the same probability.
-inline double chiSquaredQuantile(int degrees_of_freedom, double normal_quantile) {
+inline double chiSquaredQuantile(double degrees_of_freedom, double normal_quantile) {
   const double spread = 2.0 / (9.0 * degrees_of_freedom);
   return degrees_of_freedom * std::pow(1.0 - spread + normal_quantile * std::sqrt(spread), 3);
 }

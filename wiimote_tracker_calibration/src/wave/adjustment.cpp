@@ -2,6 +2,7 @@
 
 #include "adjust/camera_blocks.h"
 #include "adjust/covariance.h"
+#include "adjust/degrees_of_freedom.h"
 #include "adjust/path_acceleration.h"
 #include "adjust/path_pixel.h"
 #include "adjust/prior.h"
@@ -28,6 +29,8 @@ constexpr double kStickStddev = 0.0002;
 
 // Least share of the residuals beyond the number of parameters that tells the noise.
 constexpr double kLeastRedundancy = 0.1;
+
+constexpr double kNoLoss = std::numeric_limits<double>::infinity();
 
 /// Asks before each iteration whether to go on.
 class KeepGoing : public ceres::IterationCallback {
@@ -103,30 +106,20 @@ class WaveProblem {
     options.apply_loss_function = false;
     double half_sum = 0.0;
     problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
-    const double rms = std::sqrt(2.0 * half_sum / residuals());
-    return isRedundant() ? rms / std::sqrt(redundancy()) : std::max(1.0, rms);
+    return std::sqrt(2.0 * half_sum / residuals() / redundancy().value_or(1.0));
   }
 
-  double redundancy() const { return isRedundant() ? freedom_ / residuals() : 1.0; }
+  std::optional<double> redundancy() const {
+    const double share = freedom_ / residuals();
+    return share > kLeastRedundancy ? std::optional(share) : std::nullopt;
+  }
 
-  /// Of the corners and the priors.
-  double chiSquared() {
+  Agreement agreement() {
     ceres::Problem::EvaluateOptions options;
     options.residual_blocks = priors_;
     double half_sum = 0.0;
     problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
-    return 2.0 * half_sum;
-  }
-
-  /// Of chiSquared(): the matches determine everything but the world frame, its scale, and the
-  /// shared offset and the known places, which have as many residuals of their own.
-  int degreesOfFreedom() const {
-    int count = options_.uncertainty.unknown_corner ? -2 : 0;
-    for (const ceres::ResidualBlockId prior : priors_)
-      count += problem_.GetCostFunctionForResidualBlock(prior)->num_residuals();
-    if (recording_.square)
-      count -= 7 + 3 * static_cast<int>(square_.places.size());
-    return options_.uncertainty.shared_principal_point > 0.0 ? count - 2 : count;
+    return {2.0 * half_sum, adjust::degreesOfFreedom(&problem_, priors_)};
   }
 
   std::optional<Eigen::MatrixXd> covariance() {
@@ -144,7 +137,6 @@ class WaveProblem {
 
  private:
   double residuals() const { return 2.0 * static_cast<double>(matches_.size()); }
-  bool isRedundant() const { return freedom_ > kLeastRedundancy * residuals(); }
 
   void addMatches(const std::vector<Match>& matches, double loss_scale) {
     // The problem owns it.
@@ -256,14 +248,20 @@ Refinement refine(const Recording& recording,
   WaveProblem problem(recording, options, matches, loss_scale, state);
   // A robust fit is only the start of a tighter one.
   problem.solve(std::isfinite(loss_scale) ? 1e-4 : 1e-9, keep_going);
-  return {problem.chiSquared(), problem.degreesOfFreedom(), problem.misfit(), problem.redundancy()};
+  return {problem.redundancy(), problem.misfit()};
+}
+
+Agreement agreementOf(const Recording& recording,
+                      const WaveOptions& options,
+                      const std::vector<Match>& matches,
+                      State solution) {
+  return WaveProblem(recording, options, matches, kNoLoss, &solution).agreement();
 }
 
 Eigen::MatrixXd covarianceOf(const Recording& recording,
                              const WaveOptions& options,
                              const std::vector<Match>& matches,
                              State solution) {
-  const double kNoLoss = std::numeric_limits<double>::infinity();
   const auto covariance = WaveProblem(recording, options, matches, kNoLoss, &solution).covariance();
   if (!covariance)
     throw WaveError(

@@ -9,23 +9,26 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::wave {
 
 /// How a refinement went.
 struct Refinement {
-  /// Chi-squared of the corners and of the priors, and its degrees of freedom.
-  double chi_squared;
-  int degrees_of_freedom;
-  /// Square root of the mean whitened squared residual of the matches, corrected for the parameters
-  /// that were fitted: 1 when the matches' standard deviations are right. Where the redundancy is
-  /// not known, without this correction, and at least 1.
+  /// Residuals of the matches beyond the number of parameters that were fitted, as a share of all.
+  /// Nothing below 0.1: the prior of the accelerations, which is not counted, then determines a
+  /// good part of the path.
+  std::optional<double> redundancy;
+  /// Square root of the mean whitened squared residual of the matches over the redundancy, if that
+  /// is known: then 1 when the matches' standard deviations are right.
   double misfit;
-  /// Residuals of the matches beyond the number of those parameters, as a share of all. Below 0.1
-  /// it is not known and stated as 1: the prior of the accelerations, which is not counted, then
-  /// determines a good part of the path.
-  double redundancy;
+};
+
+/// How well corners, wand and priors agree with a solution of plain least squares.
+struct Agreement {
+  double chi_squared;
+  double degrees_of_freedom;  ///< Expectation of chi_squared.
 };
 
 /// Least squares over the matches, the corners, the wand and the priors
@@ -40,6 +43,11 @@ Refinement refine(const Recording& recording,
                   double loss_scale,
                   const std::function<bool()>& keep_going,
                   State* state);
+
+Agreement agreementOf(const Recording& recording,
+                      const WaveOptions& options,
+                      const std::vector<Match>& matches,
+                      State solution);
 
 /// Joint covariance at a solution of plain least squares: of the cameras, in the order of
 /// geometry::Rig::covariance, then of the corners (2 each), if there are any.

@@ -110,10 +110,9 @@ bool sameSpots(const std::vector<Match>& a, const std::vector<Match>& b) {
          });
 }
 
-bool contradicts(const Refinement& refinement) {
-  return refinement.degrees_of_freedom > 0 &&
-         refinement.chi_squared >
-             place::chiSquaredQuantile(refinement.degrees_of_freedom, place::kThreeNines);
+bool contradicts(const Agreement& agreement) {
+  return agreement.chi_squared >
+         place::chiSquaredQuantile(std::max(1.0, agreement.degrees_of_freedom), place::kThreeNines);
 }
 
 /// @throws WaveError: a clock jumped, and without the jump everything fits better.
@@ -142,7 +141,7 @@ void checkClocks(const Recording& recording,
     return;
   // The path follows the jump in part; without it, the path shows all of it.
   Recording corrected;
-  Refinement refinement{};
+  Agreement agreement{};
   for (int round = 0; round < kJumpRounds; ++round) {
     corrected = recording;
     for (Frame& frame : corrected.cameras[camera].frames)
@@ -150,10 +149,11 @@ void checkClocks(const Recording& recording,
     const Matching matching = matchSpots(corrected, state, gate);
     if (std::count(matching.found.begin(), matching.found.end(), 0) > 0)
       return;  // not a step: the camera would fit nowhere
-    refinement = refine(corrected, options, matching.matches, kInfinity, keep_going, &state);
+    refine(corrected, options, matching.matches, kInfinity, keep_going, &state);
+    agreement = agreementOf(corrected, options, matching.matches, state);
     steps = stepsOf(recording);
   }
-  if (contradicts(refinement) || squared(stepsOf(corrected)) > kMostLeft * before)
+  if (contradicts(agreement) || squared(stepsOf(corrected)) > kMostLeft * before)
     return;
   const bool two = recording.cameras.size() == 2;
   throw WaveError("the clock of " + recording.cameras[two ? 0 : camera].sightings.name +
@@ -182,7 +182,8 @@ WaveSolution fit(const Recording& recording,
     matching = matchSpots(recording, state, gate);
     checkMatching(recording, matching);
     refinement = refine(recording, options, matching.matches, loss_scale, keep_going, &state);
-    return refinement.misfit;
+    // Without redundancy it is no reason to expect less noise.
+    return refinement.redundancy ? refinement.misfit : std::max(1.0, refinement.misfit);
   };
   const double stamp = std::hypot(options.stamp, options.wander);
   for (std::size_t round = 0; round < std::size(kWideGates); ++round)
@@ -201,11 +202,12 @@ WaveSolution fit(const Recording& recording,
   solution.pixel_stddev = pixel_stddev;
   // What is fitted to noise lessens the residuals, which are to tell it.
   for (geometry::RigCamera& camera : solution.rig.cameras) {
-    camera.residual_px /= std::sqrt(refinement.redundancy);
-    camera.residual_m /= std::sqrt(refinement.redundancy);
+    camera.residual_px /= std::sqrt(refinement.redundancy.value_or(1.0));
+    camera.residual_m /= std::sqrt(refinement.redundancy.value_or(1.0));
   }
-  solution.misfit = std::sqrt(refinement.chi_squared / std::max(1, refinement.degrees_of_freedom));
-  solution.contradicts = contradicts(refinement);
+  const Agreement agreement = agreementOf(recording, options, matching.matches, state);
+  solution.misfit = std::sqrt(agreement.chi_squared / std::max(1.0, agreement.degrees_of_freedom));
+  solution.contradicts = contradicts(agreement);
   return solution;
 }
 

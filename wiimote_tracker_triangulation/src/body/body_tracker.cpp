@@ -2,6 +2,7 @@
 
 #include "association/assign_spots.h"
 #include "association/shared_views.h"
+#include "geometry/learnt_noise.h"
 #include "led_groups.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
@@ -178,9 +179,12 @@ void BodyTracker::follow(std::size_t camera,
                          double time,
                          const std::vector<Eigen::Vector2d>& pixels) {
   const geometry::Camera& view = cameras_[camera];
+  const double noise = options_.learnt_noise
+                           ? geometry::learntNoise(rig_.cameras[camera], options_.pixel_stddev)
+                           : options_.pixel_stddev;
   const auto groupsOf = [&](std::size_t body) {
-    return LedGroups(bodies_[body]->filter.state(), constellations_[body], view,
-                     options_.pixel_stddev, options_.merging_distance, options_.gate);
+    return LedGroups(bodies_[body]->filter.state(), constellations_[body], view, noise,
+                     options_.merging_distance, options_.gate);
   };
   association::SpotCosts costs;
   std::array<Column, association::kMaximumTracks> columns;

@@ -227,6 +227,7 @@ TrackingParameters TrackingParameters::read(ParameterReader* reader) {
       reader->choice("mode", tracks ? "tracks" : "instant", {"tracks", "instant"});
   estimator.mode = mode == "tracks" ? tracking::Mode::kTracks : tracking::Mode::kInstant;
   reader->read("pixel_stddev", &estimator.tracks.pixel_stddev, 0.001, 100.0);
+  reader->read("learnt_noise", &estimator.tracks.learnt_noise);
   estimator.instant.triangulation.pixel_stddev = estimator.tracks.pixel_stddev;
   readTracks(reader, &estimator.tracks);
   readMotion(reader, &estimator.tracks.motion);

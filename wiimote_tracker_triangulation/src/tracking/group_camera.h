@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H
 
+#include "geometry/learnt_noise.h"
 #include "ray_agreement.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
@@ -18,6 +19,11 @@ class GroupCamera {
 
   const geometry::Camera& forRays() const { return for_rays_; }
   std::size_t index() const { return index_; }  // in the rig
+
+  /// Of a pixel coordinate [px]. @param otherwise if its calibration does not tell it
+  double learntNoise(double otherwise) const {
+    return geometry::learntNoise(calibration_, otherwise);
+  }
 
   double imageArea() const;  ///< [px^2]
 

@@ -196,6 +196,41 @@ TEST(Tracker, TheCovarianceContainsTheCalibrations) {
   EXPECT_EQ(known.velocity_covariance, led.velocity_covariance);
 }
 
+/// Mean NEES per dimension of an LED that wanders, in cameras of this noise, which they learnt
+/// [px].
+double neesWith(double noise, bool learnt_noise) {
+  geometry::Rig rig = paperRig();
+  for (geometry::RigCamera& camera : rig.cameras) {
+    camera.residual_px = std::sqrt(2.0) * noise;
+    camera.inliers = 1000;
+  }
+  SceneOptions scene;
+  scene.pixel_noise = noise;
+  TrackerOptions options;
+  options.stamp_stddev = 0.0;
+  options.learnt_noise = learnt_noise;
+  const std::vector<Path> leds = wanderers(1, 4);
+  Tracker tracker(rig, options);
+  double sum = 0.0;
+  int count = 0;
+  for (const Snapshot& snapshot : track(&tracker, imagesOf(rig, leds, scene, 8000))) {
+    if (snapshot.leds.size() != 1 || snapshot.leds[0].state != TrackState::kTracked)
+      continue;
+    const TrackedLed& led = snapshot.leds[0];
+    const Eigen::Vector3d error = led.position - leds[0](snapshot.time);
+    sum += error.dot(led.position_covariance.ldlt().solve(error)) / 3.0;
+    ++count;
+  }
+  EXPECT_GT(count, 7000);
+  return sum / count;
+}
+
+TEST(Tracker, CovarianceFollowsTheNoiseThatCamerasLearnt) {
+  EXPECT_NEAR(neesWith(0.15, true), 1.0, 0.2);
+  EXPECT_LT(neesWith(0.15, false), 0.5);
+  EXPECT_NEAR(neesWith(0.5, true), neesWith(0.5, false), 1e-6);
+}
+
 TEST(Tracker, MakeEstimatorMakesBothKinds) {
   EstimatorOptions options;
   EXPECT_TRUE(dynamic_cast<Tracker*>(makeEstimator(paperRig(), options).get()));

@@ -1,5 +1,7 @@
 #include "smoothed_tracks.h"
 
+#include "geometry/learnt_noise.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -11,8 +13,12 @@ using tracking::TrackState;
 
 void SmoothedTracks::onRig(const geometry::Rig& rig) {
   cameras_.emplace_back();
-  for (const geometry::RigCamera& camera : rig.cameras)
+  noises_.clear();
+  for (const geometry::RigCamera& camera : rig.cameras) {
     cameras_.back().push_back(rig.rayCamera(camera));
+    noises_.push_back(options_.learnt_noise ? geometry::learntNoise(camera, options_.pixel_stddev)
+                                            : options_.pixel_stddev);
+  }
   newest_.resize(rig.cameras.size(), -std::numeric_limits<double>::infinity());
 }
 
@@ -37,10 +43,8 @@ void SmoothedTracks::collect(std::size_t camera, const Snapshot& snapshot) {
   for (const tracking::SeenSpot& spot : view.spots) {
     if (spot.use != tracking::SpotUse::kAssigned || mayBeMerged(spot, camera, snapshot))
       continue;
-    tracks_[spot.led].observations.push_back({*view.time,
-                                              &cameras_.back()[camera],
-                                              spot.pixel,
-                                              {options_.pixel_stddev, view.stamp_stddev}});
+    tracks_[spot.led].observations.push_back(
+        {*view.time, &cameras_.back()[camera], spot.pixel, {noises_[camera], view.stamp_stddev}});
   }
 }
 

@@ -55,6 +55,7 @@ class SmoothedTracks : public MessageSink {
 
   tracking::TrackerOptions options_;
   std::deque<std::vector<geometry::Camera>> cameras_;  // of each rig; observations refer to them
+  std::vector<double> noises_;                         // of a pixel coordinate, per camera [px]
   std::vector<double> newest_;             // image of each camera that was collected [s]
   std::map<std::uint32_t, Track> tracks_;  // by id
   std::optional<geometry::CalibrationUncertainty> uncertainty_;

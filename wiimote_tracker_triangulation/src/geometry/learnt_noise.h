@@ -1,0 +1,23 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_LEARNT_NOISE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_LEARNT_NOISE_H
+
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::geometry {
+
+/// Standard deviation of a pixel coordinate [px], 0.1 to 2: from the residual that the camera was
+/// calibrated with, which tells it if many moving spots were used; else `otherwise`. The four still
+/// corners of a square do not tell it.
+inline double learntNoise(const RigCamera& camera, double otherwise) {
+  constexpr std::uint32_t kMany = 100;
+  if (camera.inliers < kMany || !std::isfinite(camera.residual_px))
+    return otherwise;
+  return std::clamp(camera.residual_px / std::sqrt(2.0), 0.1, 2.0);
+}
+
+}  // namespace wiimote_tracker::geometry
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_LEARNT_NOISE_H

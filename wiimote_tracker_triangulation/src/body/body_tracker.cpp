@@ -179,9 +179,8 @@ void BodyTracker::follow(std::size_t camera,
                          double time,
                          const std::vector<Eigen::Vector2d>& pixels) {
   const geometry::Camera& view = cameras_[camera];
-  const double noise = options_.learnt_noise
-                           ? geometry::learntNoise(rig_.cameras[camera], options_.pixel_stddev)
-                           : options_.pixel_stddev;
+  const std::optional<double> learnt = geometry::learntNoise(rig_.cameras[camera]);
+  const double noise = options_.learnt_noise && learnt ? *learnt : options_.pixel_stddev;
   const auto groupsOf = [&](std::size_t body) {
     return LedGroups(bodies_[body]->filter.state(), constellations_[body], view, noise,
                      options_.merging_distance, options_.gate);

@@ -5,16 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 
 namespace wiimote_tracker::geometry {
 
 /// Standard deviation of a pixel coordinate [px], 0.1 to 2: from the residual that the camera was
-/// calibrated with, which tells it if many moving spots were used; else `otherwise`. The four still
+/// calibrated with, which tells it if many moving spots were used; else nothing. The four still
 /// corners of a square do not tell it.
-inline double learntNoise(const RigCamera& camera, double otherwise) {
+inline std::optional<double> learntNoise(const RigCamera& camera) {
   constexpr std::uint32_t kMany = 100;
   if (camera.inliers < kMany || !std::isfinite(camera.residual_px))
-    return otherwise;
+    return std::nullopt;
   return std::clamp(camera.residual_px / std::sqrt(2.0), 0.1, 2.0);
 }
 

@@ -1,5 +1,7 @@
 #include "group_camera.h"
 
+#include "geometry/learnt_noise.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,6 +28,7 @@ double squaredCosineOfView(const geometry::Intrinsics& lens) {
 
 GroupCamera::GroupCamera(const geometry::Rig& rig, std::size_t index)
     : index_(index),
+      learnt_noise_(geometry::learntNoise(rig.cameras[index])),
       masks_(rig.cameras[index].masks),
       for_rays_(rig.rayCamera(rig.cameras[index])),
       squared_cosine_(squaredCosineOfView(for_rays_.intrinsics)) {}

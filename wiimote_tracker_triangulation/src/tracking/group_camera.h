@@ -1,13 +1,13 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H
 
-#include "geometry/learnt_noise.h"
 #include "ray_agreement.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
@@ -20,10 +20,8 @@ class GroupCamera {
   const geometry::Camera& forRays() const { return for_rays_; }
   std::size_t index() const { return index_; }  // in the rig
 
-  /// Of a pixel coordinate [px]. @param otherwise if its calibration does not tell it
-  double learntNoise(double otherwise) const {
-    return geometry::learntNoise(calibration_, otherwise);
-  }
+  /// See learnt_noise.h [px].
+  std::optional<double> learntNoise() const { return learnt_noise_; }
 
   double imageArea() const;  ///< [px^2]
 
@@ -38,6 +36,7 @@ class GroupCamera {
 
  private:
   std::size_t index_;
+  std::optional<double> learnt_noise_;
   std::vector<geometry::ImageMask> masks_;
   geometry::Camera for_rays_;
   double squared_cosine_;  // of the cone around the view; 0: no limit

@@ -170,6 +170,36 @@ TEST_F(Node, ACaptureCanBePreemptedAndCancelled) {
   EXPECT_TRUE(waitForStep(CalibrationStatus::IDLE));
 }
 
+/// actionlib then throws, or refuses all goals up to that year.
+TEST_F(Node, ACaptureIsPossibleAfterACancellationFromTheYear2106) {
+  ros::NodeHandle nh;
+  const ros::Publisher cancel =
+      nh.advertise<actionlib_msgs::GoalID>("calibration/capture_corner/cancel", 10);
+  ASSERT_TRUE(waitUntil([&] { return cancel.getNumSubscribers() > 0; }));
+  ASSERT_TRUE(start(2.5).success);
+  for (const char* id : {"", "unknown"}) {
+    cameras_->blind({"camera_1", "camera_2", "camera_3", "camera_4"});
+    capture_->sendGoal(wiimote_tracker_msgs::CaptureCornerGoal());
+    EXPECT_TRUE(waitForStep(CalibrationStatus::CAPTURING));
+    actionlib_msgs::GoalID late;
+    late.id = id;
+    late.stamp = ros::TIME_MAX;
+    cancel.publish(late);
+    EXPECT_TRUE(waitForStep(CalibrationStatus::READY)) << "the run goes on";
+    cameras_->blind({});
+    putLed(kCorners[0]);
+    EXPECT_TRUE(waitUntil([&] {
+      capture_->sendGoal(wiimote_tracker_msgs::CaptureCornerGoal());
+      capture_->waitForResult(ros::Duration(5.0));
+      return status_->get()->corners_captured == 1;
+    }));
+    EXPECT_TRUE(call<std_srvs::Trigger>("calibration/undo").success);
+    EXPECT_TRUE(waitUntil([] { return status_->get()->corners_captured == 0; }));
+  }
+  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/cancel").success);
+  EXPECT_TRUE(waitForStep(CalibrationStatus::IDLE));
+}
+
 TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
   captureAll();
   EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));

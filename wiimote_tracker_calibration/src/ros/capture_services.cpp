@@ -7,9 +7,12 @@
 #include <wiimote_tracker_msgs/CheckConnection.h>
 #include <wiimote_tracker_msgs/MeasureLength.h>
 #include <wiimote_tracker_msgs/StartCalibration.h>
+#include <wiimote_tracker_msgs/log_exceptions.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -21,7 +24,9 @@ namespace {
 
 constexpr double kFeedbackPeriod = 0.1;  // [s]
 constexpr double kForEver = std::numeric_limits<double>::infinity();
-constexpr std::size_t kButtonA = 2;  // in the driver's joy messages
+const char kCaptureCorner[] = "calibration/capture_corner";
+constexpr double kLatestStamp = 3600.0;  // of a goal or cancellation, from now [s]
+constexpr std::size_t kButtonA = 2;      // in the driver's joy messages
 
 /// Ends a running capture when it leaves scope.
 struct EndOfCapture {
@@ -31,15 +36,7 @@ struct EndOfCapture {
 
 class CaptureServices {
  public:
-  explicit CaptureServices(NodeContext* context)
-      : context_(*context),
-        capture_server_(
-            context->nh(),
-            "calibration/capture_corner",
-            [this](const wiimote_tracker_msgs::CaptureCornerGoalConstPtr& goal) {
-              captureCorner(goal);
-            },
-            false) {
+  explicit CaptureServices(NodeContext* context) : context_(*context) {
     using Self = CaptureServices;
     ros::NodeHandle& nh = context_.nh();
     services_ = {advertise(nh, "calibration/check_connection", &Self::checkConnection, this),
@@ -63,7 +60,14 @@ class CaptureServices {
           parameters.button_remote + "/joy", 10, [this](const sensor_msgs::JoyConstPtr& message) {
             runCallback("capturing by the button", [&] { onJoy(*message); });
           });
-    capture_server_.start();
+    startCaptureServer();
+    using wiimote_tracker_msgs::CaptureCornerActionGoal;
+    stamps_ = {nh.subscribe<CaptureCornerActionGoal>(
+                   std::string(kCaptureCorner) + "/goal", 50,
+                   [this](const auto& goal) { checkStamp(goal->goal_id.stamp); }),
+               nh.subscribe<actionlib_msgs::GoalID>(
+                   std::string(kCaptureCorner) + "/cancel", 50,
+                   [this](const auto& goal) { checkStamp(goal->stamp); })};
   }
 
  private:
@@ -165,6 +169,37 @@ class CaptureServices {
     return reply;
   }
 
+  void startCaptureServer() {
+    capture_server_.reset();
+    capture_server_ = std::make_unique<Capture>(
+        context_.nh(), kCaptureCorner,
+        [this](const wiimote_tracker_msgs::CaptureCornerGoalConstPtr& goal) {
+          captureCorner(goal);
+        },
+        false);
+    capture_server_->start();
+  }
+
+  /// actionlib's server refuses all goals up to the stamp of a cancellation, and throws again and
+  /// again after a stamp in 2106.
+  void checkStamp(const ros::Time& stamp) {
+    if (stamp.toSec() < ros::Time::now().toSec() + kLatestStamp)
+      return;
+    ROS_WARN_THROTTLE(
+        10.0,
+        "a request to %s is stamped %.0f s in the future: its server starts anew; set the "
+        "clock of whoever sent it",
+        kCaptureCorner, stamp.toSec() - ros::Time::now().toSec());
+    {
+      const Lock lock(context_.mutex());
+      context_.calibration(lock).abandonCapture("its server starts anew");
+    }
+    context_.notify();
+    const std::lock_guard<std::mutex> lock(restart_mutex_);
+    capture_server_->shutdown();
+    startCaptureServer();
+  }
+
   void captureCorner(const wiimote_tracker_msgs::CaptureCornerGoalConstPtr& goal) {
     wiimote_tracker_msgs::CaptureCornerResult result;
     const Reply reply = replyOf([&] {
@@ -182,12 +217,14 @@ class CaptureServices {
     });
     result.success = reply.success;
     result.message = reply.message;
-    if (result.success)
-      capture_server_.setSucceeded(result, result.message);
-    else if (capture_server_.isPreemptRequested())
-      capture_server_.setPreempted(result, result.message);
-    else
-      capture_server_.setAborted(result, result.message);
+    logExceptions(kCaptureCorner, [&] {
+      if (result.success)
+        capture_server_->setSucceeded(result, result.message);
+      else if (capture_server_->isPreemptRequested())
+        capture_server_->setPreempted(result, result.message);
+      else
+        capture_server_->setAborted(result, result.message);
+    });
   }
 
   void onJoy(const sensor_msgs::Joy& message) {
@@ -225,7 +262,7 @@ class CaptureServices {
     const bool over = context_.waitUntil(lock, kForEver, [&] {
       const double now = NodeContext::now();
       calibration.update(now - NodeContext::kUnderWay);
-      if (calibration.square().outcome() || capture_server_.isPreemptRequested())
+      if (calibration.square().outcome() || capture_server_->isPreemptRequested())
         return true;
       if (now >= next_feedback) {
         next_feedback = now + kFeedbackPeriod;
@@ -234,7 +271,7 @@ class CaptureServices {
         feedback.progress = calibration.progress();
         feedback.message = calibration.square().capture()->message();
         feedback.cameras = context_.cameraStatus(now, 1.0, *lock);
-        capture_server_.publishFeedback(feedback);
+        capture_server_->publishFeedback(feedback);
       }
       return false;
     });
@@ -245,7 +282,9 @@ class CaptureServices {
 
   NodeContext& context_;
   std::vector<ros::ServiceServer> services_;
-  Capture capture_server_;
+  std::mutex restart_mutex_;
+  std::unique_ptr<Capture> capture_server_;
+  std::vector<ros::Subscriber> stamps_;
   // The first message is latched: a button that it shows was pressed earlier.
   bool button_was_pressed_ = true;
   ros::Subscriber button_;

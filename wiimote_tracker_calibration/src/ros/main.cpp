@@ -7,7 +7,6 @@ int main(int argc, char** argv) {
   return runNode(argc, argv, "calibration", [](const auto& nh, const auto& private_nh) {
     CalibrationNode node(nh, readParameters(ParameterReader(private_nh)));
     // Services take their time, and cancel must get through meanwhile.
-    ros::MultiThreadedSpinner spinner(8);
-    spinner.spin();
+    spin(8);
   });
 }

@@ -5,6 +5,6 @@
 int main(int argc, char** argv) {
   return wiimote_tracker::runNode(argc, argv, "driver", [](const auto& nh, const auto& private_nh) {
     const wiimote_tracker::driver::Driver driver(nh, private_nh);
-    ros::spin();
+    wiimote_tracker::spin();
   });
 }

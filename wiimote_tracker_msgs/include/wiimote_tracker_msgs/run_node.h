@@ -1,13 +1,18 @@
 #ifndef WIIMOTE_TRACKER_MSGS_RUN_NODE_H
 #define WIIMOTE_TRACKER_MSGS_RUN_NODE_H
 
+#include "wiimote_tracker_msgs/log_exceptions.h"
 #include "wiimote_tracker_msgs/parameter_reader.h"
 
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include <cstddef>
 #include <cstdlib>
 #include <exception>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace wiimote_tracker {
 
@@ -29,6 +34,23 @@ inline bool staysRefused(const ParameterError& error) {
       "rosnode kill %s",
       error.what(), ros::this_node::getName().c_str());
   return true;
+}
+
+/// Handles callbacks until the node ends, as ros::spin() does, but logs what they throw. Ours catch
+/// their exceptions; those of libraries, such as actionlib's, do not.
+/// @param threads that handle callbacks at the same time.
+inline void spin(std::size_t threads = 1) {
+  const auto handle = [] {
+    while (ros::ok())
+      logExceptions(ros::this_node::getName(),
+                    [] { ros::getGlobalCallbackQueue()->callOne(ros::WallDuration(0.1)); });
+  };
+  std::vector<std::thread> others;
+  while (others.size() + 1 < threads)
+    others.emplace_back(handle);
+  handle();
+  for (std::thread& other : others)
+    other.join();
 }
 
 /// A node's main(): calls node(nh, private_nh), which returns when the node is to end. Without a

@@ -6,6 +6,6 @@ int main(int argc, char** argv) {
   return wiimote_tracker::runNode(argc, argv, "triangulation",
                                   [](const auto& nh, const auto& private_nh) {
                                     wiimote_tracker::Triangulation triangulation(nh, private_nh);
-                                    ros::spin();
+                                    wiimote_tracker::spin();
                                   });
 }

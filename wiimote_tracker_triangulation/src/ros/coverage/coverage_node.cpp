@@ -6,6 +6,6 @@ int main(int argc, char** argv) {
   return wiimote_tracker::runNode(argc, argv, "coverage",
                                   [](const auto& nh, const auto& private_nh) {
                                     wiimote_tracker::CoverageDisplay display(nh, private_nh);
-                                    ros::spin();
+                                    wiimote_tracker::spin();
                                   });
 }

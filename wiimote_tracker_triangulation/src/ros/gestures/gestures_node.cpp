@@ -6,6 +6,6 @@ int main(int argc, char** argv) {
   return wiimote_tracker::runNode(argc, argv, "gestures",
                                   [](const auto& nh, const auto& private_nh) {
                                     wiimote_tracker::Gestures gestures(nh, private_nh);
-                                    ros::spin();
+                                    wiimote_tracker::spin();
                                   });
 }

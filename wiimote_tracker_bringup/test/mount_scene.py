@@ -48,6 +48,17 @@ def tracked(random, duration, **motion):
                  'world', 'robot')
 
 
+def miscalibrated(random, poses, size=(0.003, 0.002)):
+    """With errors that are a smooth function of the pose, as those of calibrated cameras, of these
+    standard deviations [rad, m]."""
+    features = np.hstack([poses.positions / 0.5, poses.rotations.as_matrix().reshape(-1, 9)])
+    waves = np.cos(features @ random.normal(0.0, 0.7, (12, 60)) + random.uniform(0.0, 6.3, 60))
+    errors = waves @ random.normal(0.0, 1.0 / np.sqrt(30.0), (60, 6))
+    return Poses(poses.times, poses.positions + size[1] * errors[:, 3:],
+                 Rotation.from_rotvec(size[0] * errors[:, :3]) * poses.rotations,
+                 poses.parent, poses.child)
+
+
 def imu_samples(random, duration, interval=0.02, **motion):
     """Samples by the IMU's own clock."""
     t = np.arange(-0.3, duration + 0.3, interval)

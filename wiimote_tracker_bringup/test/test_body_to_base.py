@@ -92,6 +92,16 @@ def test_poses_whose_errors_are_correlated(monkeypatch):
     assert np.abs(error[3:6]).max() < 0.006 and abs(error[6]) < 0.002
 
 
+def test_poses_whose_errors_last():
+    """As those of the calibration: they come back with the pose, so that no mean is without them."""
+    random = np.random.default_rng(9)
+    _, errors, normalised = check(
+        hand_eye.solve, lambda: (mount_scene.miscalibrated(random, mount_scene.tracked(random, 30.0)),
+                                 mount_scene.odometry(random, 30.0, drift=0.001)), 1.0, 12)
+    assert 0.5 < normalised < 1.5
+    assert np.abs(errors[:, 3:6]).max() < 0.006
+
+
 REFUSED = [({'tilt': 0.02}, 'about one axis only'), ({'tilt': 0.02, 'turn': 0.01}, 'turn it more'),
            ({'duration': 8.0}, 'less than 10 s')]
 

@@ -24,7 +24,8 @@ def solve(body, base, largest_offset=2.0):
 class Problem:
     """Of mount_solver. States: pose of the base in the world at each of times."""
 
-    noise = 1e-3, 1e-3, 0.01, 0.002  # drift [rad, m / sqrt(s)], the body's rotation, position
+    # Drift [rad, m / sqrt(s)], the body's rotation and position, their slow errors.
+    noise = 1e-3, 1e-3, 0.01, 0.002, *mount_solver.SLOW_NOISE
 
     def __init__(self, body, base):
         self.body, self.base = body, base
@@ -34,7 +35,7 @@ class Problem:
         self.rows = np.minimum(((body.times - body.times[0]) / INTERVAL).astype(int), number - 1)
 
     def place(self, _):
-        return self.steps, self.steps, self.rows, self.rows
+        return self.steps, self.steps, self.rows, self.rows, self.steps, self.steps
 
     @functools.lru_cache(maxsize=1)
     def base_at(self, offset):
@@ -45,7 +46,8 @@ class Problem:
     def start(self, rotation, offset):
         body = self.body.at(np.minimum(self.times, self.body.times[-1]))
         return mount_solver.State(rotation, np.array([0.0, 0.0, 0.0, offset]),
-                                  body.rotations * rotation, body.positions)
+                                  body.rotations * rotation,
+                                  np.hstack([np.zeros((len(self.times), 6)), body.positions]))
 
     def residuals(self, before, after):
         states, poses = self.base_at(before.vector[3])
@@ -54,9 +56,10 @@ class Problem:
             """States where the odometry comes to."""
             back = before.rotations[first] * states.rotations[first].inv()
             return (back * ends.rotations,
-                    before.vectors[first] + back.apply(ends.positions - states.positions[first]))
+                    before.vectors[first, 6:] + back.apply(ends.positions - states.positions[first]))
 
         turned, there = moved(self.steps, states.chosen(slice(1, None)))
         return ((turned * after.rotations[1:].inv()).as_rotvec() / np.sqrt(INTERVAL),
-                (there - after.vectors[1:]) / np.sqrt(INTERVAL),
-                *before.body_residuals(*moved(self.rows, poses), self.body))
+                (there - after.vectors[1:, 6:]) / np.sqrt(INTERVAL),
+                *before.body_residuals(*moved(self.rows, poses), self.body, self.rows),
+                *before.slow_residuals(after, INTERVAL))

@@ -65,7 +65,8 @@ class Problem:
     """Of mount_solver. States: orientation, velocity and position of the IMU in the world, at the
     middles between samples, which are constant from one state to the next."""
 
-    noise = 1e-3, 0.01, 0.01, 0.002  # [rad/s, m/s^2 / sqrt(Hz)], the body's rotation, position
+    # [rad/s, m/s^2 / sqrt(Hz)], the body's rotation and position, their slow errors.
+    noise = 1e-3, 0.01, 0.01, 0.002, *mount_solver.SLOW_NOISE
 
     def __init__(self, body, imu, offset):
         self.body, self.offset = body, offset
@@ -84,11 +85,12 @@ class Problem:
     def place(self, state):
         rows = np.searchsorted(self.times, self.times_of_poses(state)) - 1
         self.rows = np.clip(rows, 0, self.steps[-1])
-        return self.steps, self.steps, self.rows, self.rows
+        return self.steps, self.steps, self.rows, self.rows, self.steps, self.steps
 
     def start(self, rotation):
         body = self.body.at(np.clip(self.times, *self.body.times[[0, -1]]))
-        vectors = np.hstack([np.gradient(body.positions, self.times, axis=0), body.positions])
+        vectors = np.hstack([np.zeros((len(self.times), 6)),
+                             np.gradient(body.positions, self.times, axis=0), body.positions])
         return mount_solver.State(rotation, np.r_[0.0, 0.0, 0.0, self.offset, np.zeros(6)],
                                   body.rotations * rotation, vectors)
 
@@ -100,19 +102,20 @@ class Problem:
             rate, rotations = self.rates[first] - rate_bias, before.rotations[first]
             middle = rotations * Rotation.from_rotvec(0.5 * duration * rate)
             gained = duration * (middle.apply(self.forces[first] - force_bias) + GRAVITY)
-            velocities, positions = np.split(before.vectors[first], 2, axis=1)
+            velocities, positions = np.split(before.vectors[first, 6:], 2, axis=1)
             return (rotations * Rotation.from_rotvec(duration * rate), velocities + gained,
                     positions + duration * (velocities + 0.5 * gained))
 
         h = self.durations
         turned, velocities, positions = moved(self.steps, h)
-        faster, further = np.split(np.hstack([velocities, positions]) - after.vectors[1:], 2, axis=1)
+        faster, further = np.split(np.hstack([velocities, positions]) - after.vectors[1:, 6:], 2, axis=1)
         # White noise of a step: the position is known from the velocity to h^3 / 12.
         moves = np.hstack([faster / np.sqrt(h), (further - 0.5 * h * faster) * np.sqrt(12.0 / h ** 3)])
         since = self.times_of_poses(before) - self.times[self.rows]
         turns, _, places = moved(self.rows, since[:, None])
         return ((turned * after.rotations[1:].inv()).as_rotvec() / np.sqrt(h), moves,
-                *before.body_residuals(turns, places, self.body))
+                *before.body_residuals(turns, places, self.body, self.rows),
+                *before.slow_residuals(after, h))
 
 
 def numbers(message):

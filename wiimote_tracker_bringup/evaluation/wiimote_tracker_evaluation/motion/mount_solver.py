@@ -1,7 +1,8 @@
 """Where a base sits on a body: maximum likelihood over the path of the base and what is constant.
 
 The path is a chain of states. Each residual depends on the constants, a state and the next one:
-motions of the base between two states (odometry or an IMU), poses of the body. Gauss-Newton on the
+motions of the base between two states (odometry or an IMU), poses of the body, whose errors are
+partly white and partly slow. Gauss-Newton on the
 sparse normal equations. The noise of each group of residuals is estimated along with the rest: its
 variance is the sum of squares over its redundancy (W. Foerstner, "Ein Verfahren zur Schaetzung von
 Varianz- und Kovarianzkomponenten", 1979), found by random probes (M. F. Hutchinson, Communications
@@ -19,17 +20,20 @@ from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.motion.mount import Mount
 
 STEP = 1e-4  # of the derivatives
-LEAST_ITERATIONS, MOST_ITERATIONS = 4, 30  # the first ones find the noise
+LEAST_ITERATIONS, MOST_ITERATIONS = 6, 30  # the first ones find the noise
 PROBES = 4
 CORRELATED = 0.25  # residuals of different intervals of this length are independent [s]
 LEAST_NOISE = 1e-6  # [rad, m], of what else would be exact
 LARGEST_STDDEV = 0.03  # of a translation that is told [m]
+SLOW = 1.0  # autocorrelation time of the slow errors of the body's poses [s]
+SLOW_NOISE = 5e-4, 5e-4  # a first guess of their standard deviations [rad, m]
 
 
 @dataclasses.dataclass
 class State:
     """rotation: body_from_base. vector: translation [m], clock offset [s], what else is constant.
-    rotations, vectors: of the chain, the base in the world; vectors end with its position [m]."""
+    rotations, vectors: of the chain, the base in the world; vectors begin with the slow errors of
+    the body's rotation [rad] and position [m], and end with the base's position [m]."""
 
     rotation: Rotation
     vector: np.ndarray
@@ -50,11 +54,20 @@ class State:
                 vectors=self.vectors + local[..., 3:])
         return result
 
-    def body_residuals(self, rotations, positions, body):
-        """Rotations [rad] and positions [m], n x 3: base's poses in the world against body's."""
+    def body_residuals(self, rotations, positions, body, first):
+        """Rotations [rad] and positions [m], n x 3: base's poses in the world against body's. first:
+        the number of the state before each."""
         turned = rotations * self.rotation.inv()
-        return ((turned * body.rotations.inv()).as_rotvec(),
-                positions - turned.apply(self.vector[:3]) - body.positions)
+        slow_turn, slow_shift = np.split(self.vectors[first, :6], 2, axis=1)
+        return ((turned * body.rotations.inv()).as_rotvec() + slow_turn,
+                positions - turned.apply(self.vector[:3]) - body.positions + slow_shift)
+
+    def slow_residuals(self, after, durations):
+        """How the slow errors change from each state to the next: a first-order Gauss-Markov process.
+        durations: n x 1 [s]."""
+        decay = np.exp(-durations / SLOW)
+        change = (after.vectors[1:, :6] - decay * self.vectors[:-1, :6]) / np.sqrt(1.0 - decay ** 2)
+        return np.split(change, 2, axis=1)
 
 
 def solve(problem, state, names):
@@ -68,7 +81,7 @@ def solve(problem, state, names):
     for iteration in range(MOST_ITERATIONS):
         equations = Equations(problem, state, noise)
         common, local = equations.step()
-        covariance = equations.covariance()[:7, :7]
+        covariance = (equations.covariance() + equations.lasting_covariance(noise))[:7, :7]
         state = state.moved(common, local)
         if (iteration >= LEAST_ITERATIONS
                 and (np.abs(common[3:7]) < 0.05 * np.sqrt(np.diag(covariance)[3:])).all()):
@@ -103,6 +116,7 @@ class Equations:
     """Linear equations at a state, each divided by its noise; those of the chain are eliminated."""
 
     def __init__(self, problem, state, noise):
+        self.problem = problem
         firsts, self.size = problem.place(state), 3 + state.vectors.shape[1]
         self.rest = np.concatenate([values.ravel() / deviation for values, deviation
                                     in zip(problem.residuals(state, state), noise)])
@@ -152,6 +166,22 @@ class Equations:
         scale = np.sqrt(np.maximum(self.variation(self.rest) / expected, 1.0))
         return scale[:, None] * self.inverse * scale
 
+    def lasting_covariance(self, noise):
+        """Of the constants, from errors of the body's poses that are the same whenever it comes back,
+        as those of the calibration: as large as the slow ones, linear in place and orientation."""
+        body = self.problem.body
+        features = np.hstack([body.positions, body.rotations.as_matrix().reshape(-1, 9)])
+        features -= features.mean(axis=0)
+        features /= np.sqrt((features ** 2).sum() / len(features))  # together 1 (RMS)
+        changes = []
+        for group, size in zip((2, 3), noise[4:]):
+            rows = np.flatnonzero(self.group == group).reshape(-1, 3)
+            for axis in range(3):
+                weights = self.left[rows[:, axis]].T @ features * (size / noise[group])
+                changes.append(self.inverse @ weights)
+        changes = np.hstack(changes)
+        return changes @ changes.T
+
     def variation(self, values):
         """Sum of squares, over intervals, of what an interval changes each constant by."""
         changes = self.sums @ (self.left @ self.inverse * self.without_all(values[:, None]))
@@ -167,4 +197,7 @@ class Equations:
             probes = inside[:, None] * random.choice([-1.0, 1.0], (len(rest), PROBES))
             redundancy = np.mean(np.sum(probes * self.without_all(probes), axis=0))
             factors.append(np.sqrt((rest[inside] ** 2).sum() / max(redundancy, 1.0)))
+        # Where there are no slow errors, theirs would fall to zero slowly.
+        slow = np.array(factors[4:])
+        factors[4:] = np.where(slow < 1.0, slow ** 4, slow)
         return np.clip(factors, 0.2, 5.0)

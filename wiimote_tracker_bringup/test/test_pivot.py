@@ -2,11 +2,13 @@
 
 import os
 import sys
+import types
 
 import numpy as np
 import pytest
 import rospy
 from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Joy
 from scipy.spatial.transform import Rotation
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -112,6 +114,30 @@ def test_probe_saves_points(tmp_path):
     assert time == pytest.approx(1030.96)
     assert np.linalg.norm(row[:3] - PLACE) < 0.006 and 0.001 < row[3] < 0.01
     assert file.read_text().startswith('time [s],x [m]')
+
+
+def test_points_are_taken_at_rest_once_a_place(tmp_path):
+    random, file = np.random.default_rng(7), tmp_path / 'points.csv'
+    measuring = probe.Probe(TIP, 10.0, str(file))
+    _, rotations, covariances = noisy(random, tilt=0.001, number=100)
+    steps = np.clip((np.arange(100) - 40.0) / 20.0, 0.0, 1.0)  # rests for 2 s, moves for 1 s, rests
+    places = PLACE + np.outer(steps, [0.3, 0.0, 0.0]) - rotations.apply(TIP)
+    for message in messages(places, rotations, covariances):
+        measuring.add(message)
+        if measuring.rests_elsewhere():
+            measuring.save_point()
+    points = np.loadtxt(file, delimiter=',', skiprows=1)[:, 1:4]
+    assert np.abs(points - [PLACE, PLACE + [0.3, 0.0, 0.0]]).max() < 0.02 and len(points) == 2
+
+
+def test_the_button_saves_once_when_pressed():
+    node, saved = object.__new__(probe.Node), []
+    node.probe = types.SimpleNamespace(save_point=lambda: saved.append(1) or 'saved')
+    node.pressed = True
+    for a in (1, 0, 1, 1, 0, 1):  # held down at the start: an old message
+        node.on_joy(Joy(buttons=[0, 0, a]))
+    node.on_joy(Joy())
+    assert len(saved) == 2
 
 
 def test_pose_of_the_tip():

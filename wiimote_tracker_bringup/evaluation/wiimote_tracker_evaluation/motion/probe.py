@@ -9,6 +9,7 @@ import numpy as np
 import rospy
 from geometry_msgs.msg import PointStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Joy
 from scipy.spatial.transform import Rotation
 from std_srvs.srv import Trigger, TriggerResponse
 
@@ -17,6 +18,8 @@ from wiimote_tracker_evaluation.motion import pivot
 
 INTERVAL = 0.05  # of the poses of a pivot, whose errors are then nearly independent [s]
 REST = 0.5  # of which a saved point is the mean [s]
+BUTTON = 2  # index in joy: A of a Wii Remote
+AWAY = 0.05  # from the last point, where a tip at rest is another one [m]
 HEADER = 'time [s],x [m],y [m],z [m],stddev_x [m],stddev_y [m],stddev_z [m]\n'
 
 
@@ -37,6 +40,7 @@ class Probe:
         self.tip, self.tip_covariance = np.array(tip, dtype=float), np.zeros((3, 3))
         self.duration, self.file = duration, os.path.expanduser(file)
         self.messages = collections.deque()  # of the newest `duration`
+        self.saved = np.full(3, np.inf)  # the last point [m]
 
     def add(self, message):
         if self.messages and message.header.stamp < self.messages[-1].header.stamp:
@@ -95,11 +99,24 @@ class Probe:
         if spread > 3.0 * np.linalg.norm(stddevs):
             raise ExperimentError(f'the tip moved by {1e3 * spread:.0f} mm (RMS) in the last '
                                   f'{REST:g} s; hold it still')
-        row = [messages[-1].header.stamp.to_sec(), *points.mean(axis=0), *stddevs]
+        self.saved = points.mean(axis=0)
+        row = [messages[-1].header.stamp.to_sec(), *self.saved, *stddevs]
         is_new = not os.path.exists(self.file)
         with open(self.file, 'a') as file:
             file.write((HEADER if is_new else '') + ','.join(f'{value:.6f}' for value in row) + '\n')
         return f'{self.file}: ' + ', '.join(f'{value:.4f}' for value in row[1:4])
+
+
+    def rests_elsewhere(self):
+        """Whether the tip has been held still for REST, away from the last point."""
+        messages = self.newest(REST)
+        times = [message.header.stamp.to_sec() for message in messages]
+        if times[-1] - times[0] < 0.9 * REST or np.diff(times).max() > 0.2 * REST:
+            return False
+        points, covariances = self.points(messages)
+        stddev = np.sqrt(np.trace(covariances.mean(axis=0)))
+        return (np.sqrt(points.var(axis=0).sum()) < stddev
+                and np.linalg.norm(points.mean(axis=0) - self.saved) > AWAY)
 
 
 def read_tip():
@@ -116,7 +133,8 @@ def read_tip():
 
 
 class Node:
-    """Publishes <body>/tip and <body>/tip_pose. Services: ~pivot, ~save_point."""
+    """Publishes <body>/tip and <body>/tip_pose. Services: ~pivot, ~save_point. Saves a point when
+    button A of joy is pressed and, with ~at_rest, when the tip is held still elsewhere."""
 
     def __init__(self):
         body = rospy.get_param('~body')
@@ -126,6 +144,10 @@ class Node:
         self.pose = rospy.Publisher(f'{body}/tip_pose', PoseWithCovarianceStamped, queue_size=10)
         rospy.Subscriber(f'{body}/odometry', Odometry, self.on_odometry, queue_size=100,
                          tcp_nodelay=True)
+        self.pressed = True  # joy is latched
+        rospy.Subscriber('joy', Joy, self.on_joy, queue_size=10)
+        if rospy.get_param('~at_rest', False):
+            rospy.Timer(rospy.Duration(0.1), self.on_timer)
         rospy.Service('~pivot', Trigger, self.on_pivot)
         rospy.Service('~save_point', Trigger, lambda request: self.answer(self.probe.save_point))
 
@@ -138,6 +160,20 @@ class Node:
     def on_pivot(self, _):
         rospy.sleep(self.probe.duration)
         return self.answer(self.probe.pivot)
+
+    def on_joy(self, message):
+        pressed = len(message.buttons) > BUTTON and bool(message.buttons[BUTTON])
+        if pressed and not self.pressed:
+            self.log(self.answer(self.probe.save_point))
+        self.pressed = pressed
+
+    def on_timer(self, _):
+        if self.probe.messages and self.probe.rests_elsewhere():
+            self.log(self.answer(self.probe.save_point))
+
+    @staticmethod
+    def log(answer):
+        (rospy.loginfo if answer.success else rospy.logwarn)(answer.message)
 
     @staticmethod
     def answer(action):

@@ -295,6 +295,33 @@ def test_recordings_by_others_are_marked_as_measured(tmp_path):
     assert 'has no recording' in (tmp_path / 'out/report.md').read_text(encoding='utf-8')
 
 
+def test_the_fault_matrix_is_a_table_of_the_report(tmp_path):
+    part = dict.fromkeys(('error_95', 'age', 'names', 'cameras'), None)
+    results = [
+        {'name': 'kill_driver', 'what': 'kill -9 of a driver', 'before': dict(part, rate=254.0, error=0.0012),
+         'during': dict(part, rate=0.0, error=None), 'after': dict(part, rate=235.0, error=0.0011),
+         'recovery': 1.4, 'problems': []},
+        {'name': 'lost', 'what': 'all lost', 'before': None, 'during': None, 'after': None,
+         'recovery': None, 'problems': ['not normal again']}]
+    path = tmp_path / 'faults.json'
+    path.write_text(json.dumps(results))
+    run = ['--rig', PAPER_RIG, '--output', str(tmp_path / 'out')]
+    assert 'faults' not in evaluation.parse(run).sections
+    run += ['--sections', 'faults']
+    with pytest.raises(SystemExit):
+        evaluation.parse(run)
+    run += ['--faults', str(path)]
+    assert evaluation.evaluate(evaluation.parse(run)) == 0
+    page = (tmp_path / 'out/report.md').read_text(encoding='utf-8')
+    rows = [[cell.strip() for cell in line.strip('|').split('|')] for line in page.splitlines()
+            if line.startswith('|')]
+    assert ['kill -9 of a driver', '254', '1.2', '0', '', '235', '1.1', '1.4', 'none'] in rows
+    assert ['all lost'] + 7 * [''] + ['not normal again'] in rows
+    path.write_text('[{}]')
+    assert evaluation.evaluate(evaluation.parse(run)) == 1
+    assert 'is not what fault_matrix' in (tmp_path / 'out/report.md').read_text(encoding='utf-8')
+
+
 def test_a_second_run_removes_the_results_of_the_first(evaluate, tmp_path):
     assert evaluate([a_section('first', a_good_run)]) == 0
     stale = tmp_path / 'out/first/stale.csv'

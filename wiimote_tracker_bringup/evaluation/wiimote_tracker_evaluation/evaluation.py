@@ -39,6 +39,8 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     parser.add_argument('--recordings', metavar='DIR',
                         help='recordings that others made, a folder each, for the section '
                              'recordings')
+    parser.add_argument('--faults', metavar='FILE',
+                        help='what fault_matrix --json wrote, for the section faults')
     parser.add_argument('--sections', metavar='A,B',
                         help=f"only these of: {', '.join(names)}")
     parser.add_argument('--quick', action='store_true', help='fewer repetitions; takes minutes')
@@ -50,7 +52,7 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     options = parser.parse_args(arguments)
     options.rig = options.rig or package_file('simulation/paper_rig.yaml')
     chosen = options.sections.split(',') if options.sections else [
-        name for name in names if name != 'recordings' or options.recordings]
+        name for name in names if getattr(options, name, True)]
     for name in chosen:
         if name not in names:
             parser.error(f"there is no section {name!r}; choose from {', '.join(names)}")
@@ -67,6 +69,8 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
                      "recognised by the others' drawings")
     if 'recordings' in chosen and not options.recordings:
         parser.error('the section recordings needs --recordings DIR')
+    if 'faults' in chosen and not options.faults:
+        parser.error('the section faults needs --faults FILE')
     if options.recordings and not os.path.isdir(options.recordings):
         parser.error(f'there is no folder {options.recordings}')
     if not 0 <= options.seed < 2 ** 31:
@@ -121,7 +125,7 @@ def evaluate(options: argparse.Namespace) -> int:
             run = Run(module.NAME, module.TITLE, options.rig,
                       os.path.join(options.output, module.NAME), options.quick, options.seed,
                       not options.live, progress.within, options.led, options.gestures,
-                      options.recordings)
+                      options.recordings, options.faults)
             runs.append(run)
             run.failure = 'It was interrupted.'
             progress.begin(module.NAME, module.TITLE)

@@ -62,18 +62,19 @@ class Run:
     quick: shorter. seed: of all random numbers. rig: path of the rig's description. folder: for own
     files, and those of table() and plot(). simulated: False if a person uses a real rig. led: path
     of the description of the user's own LED, or None. gestures: folder of the user's own
-    recordings, or None. recordings: folder of recordings by others, or None.
+    recordings, or None. recordings: folder of recordings by others, or None. faults: what
+    fault_matrix --json wrote, or None.
     """
 
     SHOWN_ROWS = 40  # longer tables are linked in the report
 
     def __init__(self, name, title, rig, folder, quick=False, seed=1, simulated=True,
                  on_progress=lambda done, of, what: None, led=None, gestures=None,
-                 recordings=None):
+                 recordings=None, faults=None):
         self.name, self.title = name, title
         self.quick, self.seed, self.rig, self.folder = quick, seed, rig, folder
         self.simulated, self.led = simulated, led
-        self.gestures, self.recordings = gestures, recordings
+        self.gestures, self.recordings, self.faults = gestures, recordings, faults
         self.contents = []   # Text, Plot, Table, in order
         self.figures = []
         self.summaries = []  # sentences for the head of the report

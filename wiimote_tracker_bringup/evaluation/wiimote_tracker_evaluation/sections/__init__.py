@@ -8,7 +8,7 @@ from typing import List
 # Name, and approximate duration on two cores [s]: quick, full.
 SECTIONS = (('distance', 2, 5), ('latency', 40, 150), ('identification', 10, 100),
             ('positions', 20, 210), ('circles', 10, 40), ('ours', 20, 190), ('cost', 35, 280),
-            ('recordings', 60, 60))
+            ('recordings', 60, 60), ('faults', 1, 1))
 
 
 def names() -> List[str]:

@@ -1,0 +1,35 @@
+"""Faults that fault_matrix caused: what was published before, during and after each."""
+
+import json
+
+from wiimote_tracker_evaluation.errors import ExperimentError
+
+NAME = 'faults'
+TITLE = 'Faults'
+
+TIMES = ('before', 'during', 'after')
+
+
+def run(run):
+    try:
+        with open(run.faults) as file:
+            results = json.load(file)
+        rows = [row(result) for result in results]
+    except (OSError, ValueError, KeyError, TypeError):
+        raise ExperimentError(f'{run.faults} is not what fault_matrix --json writes')
+    survived = sum(not result['problems'] for result in results)
+    run.table('faults', [('fault', '')] + [
+        (f'{name}_{time}', unit) for time in TIMES for name, unit in (('rate', '1/s'), ('error', 'mm'))
+    ] + [('recovery', 's'), ('problems', '')], rows,
+        'Points a second and LED, and their median error; during: until all was normal again; '
+        'recovery: from the end of the cause until then.', shown=True)
+    run.figure('survived', survived, '', len(results), note=f'faults survived, of {len(results)}',
+               end_to_end=True)
+
+
+def row(result):
+    figures = []
+    for time in TIMES:
+        part = result[time] or {'rate': None, 'error': None}
+        figures += [part['rate'], None if part['error'] is None else 1e3 * part['error']]
+    return [result['what'], *figures, result['recovery'], '; '.join(result['problems']) or 'none']

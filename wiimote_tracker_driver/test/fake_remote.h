@@ -117,7 +117,7 @@ class FakeRemote {
       case 0x16: {
         const bool good = (b[1] & 4) != 0 && b[2] == 0xb0 && camera;
         for (int i = 0; good && i < b[5]; ++i)
-          registers[address + i] = b[static_cast<std::size_t>(6 + i)];
+          registers[address + i] = b[6 + static_cast<std::size_t>(i)];
         say({0x22, 0, 0, 0x16, static_cast<std::uint8_t>(good ? 0 : 7)}, kDelay);
         return;
       }
@@ -194,7 +194,7 @@ class FakeRemote {
       report.bytes[3] = 0xf7;
     } else if (register_space) {
       for (int i = 0; i < size; ++i)
-        report.bytes[static_cast<std::size_t>(6 + i)] = registers[address + i];
+        report.bytes[6 + static_cast<std::size_t>(i)] = registers[address + i];
     } else {
       const auto answer = [&](const auto& source) {
         std::copy(source.begin(), source.end(), report.bytes.begin() + 6);

@@ -9,9 +9,10 @@
 namespace wiimote_tracker::exposure_clock {
 namespace {
 
-// A challenger has this long [s], of which it learns without being compared for so long [s].
-constexpr double kTrial = 5.0;
-constexpr double kLearning = 2.0;
+// A challenger learns for so long without being compared, and begins anew when it is not ahead
+// after so long [s].
+constexpr double kLearning = 0.5;
+constexpr double kTrial = 3.0;
 // Logarithm of the likelihood ratio at which it becomes the leader: 1000 to 1.
 constexpr double kBetter = 6.9;
 // Time over which the errors of replaced leaders are averaged [s].
@@ -55,7 +56,7 @@ Estimate ExposureClock::update(double arrival) {
     error_variance_ *= std::exp((last_arrival_ - arrival) / kErrorMemory);
   e.frame += frame_offset_;
   if (e.restarted)
-    trial_begin_ = -std::numeric_limits<double>::infinity();
+    endTrial();
   const Estimate other = challenge(arrival);
   if (advantage_ > kBetter) {
     const Statistics mine = statistics(), its = challenger_->statistics();
@@ -70,7 +71,7 @@ Estimate ExposureClock::update(double arrival) {
     e.stddev = other.stddev;
     e.clock_stddev = other.clock_stddev;
     e.restarted = true;
-    trial_begin_ = -std::numeric_limits<double>::infinity();
+    endTrial();
   }
   e.stddev = std::hypot(e.stddev, std::sqrt(error_variance_));
   e.clock_stddev = std::hypot(e.clock_stddev, std::sqrt(error_variance_));
@@ -94,8 +95,14 @@ void ExposureClock::learnError(double error, double arrival) {
   leader_begin_ = arrival;
 }
 
+void ExposureClock::endTrial() {
+  trial_begin_ = -std::numeric_limits<double>::infinity();
+  advantage_ = 0.0;
+}
+
 Estimate ExposureClock::challenge(double arrival) {
-  if (arrival < last_arrival_ || arrival > trial_begin_ + kTrial) {
+  const bool behind = arrival > trial_begin_ + kTrial && advantage_ <= 0.0;
+  if (arrival < last_arrival_ || behind) {
     challenger_->reset();
     trial_begin_ = arrival;
     advantage_ = 0.0;

@@ -43,9 +43,10 @@ struct Statistics {
 /// counter and come late, in slots, in bursts or not at all. Causal; constant time and memory per
 /// report.
 ///
-/// A second estimator begins anew every few seconds. It replaces the first when it predicts the
-/// arrivals better, which means that the first has a wrong period, or that it took slow changes of
-/// the delays (as where polls beat with the camera) for the camera's own. A replaced estimator's
+/// A second estimator begins anew every few seconds, unless it is ahead (a sequential test by the
+/// ratio of likelihoods: Wald, Ann. Math. Stat. 16, 1945). It replaces the first when it predicts
+/// the arrivals better, which means that the first has a wrong period, or that it took slow changes
+/// of the delays (as where polls beat with the camera) for the camera's own. A replaced estimator's
 /// error grew from none to its distance from the new one, so its mean square is a third of the
 /// distance's; the average of that over the last half minute is added to the stated variances.
 class ExposureClock {
@@ -68,6 +69,7 @@ class ExposureClock {
 
  private:
   Estimate challenge(double arrival);
+  void endTrial();
   void learnError(double error, double arrival);
 
   std::unique_ptr<ClockEstimator> leader_, challenger_;

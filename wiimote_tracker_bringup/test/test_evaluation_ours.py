@@ -2,6 +2,7 @@
 that are computed here, and the parts of live measurements are tested."""
 
 import io
+import json
 import os
 import subprocess
 import sys
@@ -277,13 +278,12 @@ def test_exposures_and_clock_on_arrivals_that_were_polled(tmp_path):
         np.savetxt(files[-1], arrivals, '%d')
         last = np.searchsorted(sent, 1e-3 * arrivals + 0.0006) - 1
         errors.append((1e-3 * arrivals - exposures[kept][last])[arrivals > arrivals[0] + 1e4])
-    printed = subprocess.run([programs.find_program('evaluate_arrivals'), RIG] + files, check=True,
-                             stdout=subprocess.PIPE, universal_newlines=True).stdout.splitlines()
-    for path, own in zip(files, errors):
-        found = [line for line in printed if line.startswith(f'{path}, arrivals')][0]
-        expected = 1e3 * np.std(own)
-        assert float(found.split('RMS ')[1].split()[0]) == pytest.approx(expected, rel=0.1)
-    clock, grid = ([float(line.split(' mm, ')[1].split()[0]) for line in printed
-                    if f'm/s, {stamps}' in line] for stamps in ('exposure clock', 'grid filter'))
+    subprocess.run([programs.find_program('evaluate_arrivals'), RIG] + files
+                   + ['--json', tmp_path / 'table.json'], check=True)
+    table = json.loads((tmp_path / 'table.json').read_text())['arrivals remote_1']
+    found = [row['RMS_ms'] for row in table if row['name'].endswith(' arrivals')]
+    assert found == pytest.approx([1e3 * np.std(own) for own in errors], rel=0.1)
+    clock, grid = ([row[column] for row in table if column in row]
+                   for column in ('clock/exact', 'grid/exact'))
     assert len(clock) == 4 and clock[0] < 1.15 and max(clock) < 2.0
     assert len(grid) == 4 and max(grid) < 1.2

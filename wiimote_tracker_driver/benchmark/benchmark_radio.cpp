@@ -3,14 +3,14 @@
 #include "shared_radio.h"
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
-#include <wiimote_tracker_msgs/argument_parser.h>
+#include <wiimote_tracker_msgs/benchmark_tables.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
+using namespace wiimote_tracker;
 using namespace wiimote_tracker::exposure_clock;
 
 namespace {
@@ -71,16 +71,18 @@ Row judge(const RadioModel& model, double duration) {
   return row;
 }
 
-int run(double duration) {
-  std::printf(
-      "Simulated: %.0f s, without the first %.0f s.\n\n"
-      "| remotes | polled | packets lost [%%] | images/s | images lost [%%] | delay [ms] | 99 %% "
-      "[ms] | exposure time: error [ms] | in 2 sd [%%] |\n|---|---|---|---|---|---|---|---|---|\n",
-      duration, kSettling);
+constexpr char kExplanation[] =
+    "slots of basic rate: the adapter polls a remote in a slot of 0.625 ms, which answers in the "
+    "next one; what is lost is sent again at the next poll. Polled at random, in turn, or in sniff "
+    "mode, in which a remote listens once in 10 ms (1 to 7 remotes); share of packets lost. "
+    "images/s: of the remote with the fewest; lost: share of all images; delay from the exposure, "
+    "and that which 99 % stay below; error of the exposure times less its median (RMS), wrong "
+    "frame numbers included; in_2sd: errors within two stddev. Without the first 10 s.";
+
+void addRows(double duration, BenchmarkTables* tables) {
   using Polling = RadioModel::Polling;
-  const std::vector<std::pair<Polling, const char*>> kPollings{{Polling::kAtRandom, "at random"},
-                                                               {Polling::kInTurn, "in turn"},
-                                                               {Polling::kSniff, "sniff, 10 ms"}};
+  const std::vector<std::pair<Polling, const char*>> kPollings{
+      {Polling::kAtRandom, "random"}, {Polling::kInTurn, "turn"}, {Polling::kSniff, "sniff"}};
   for (const auto& [polling, name] : kPollings) {
     for (const int remotes : {1, 4, 7}) {
       if (polling == Polling::kSniff && remotes > 1)
@@ -91,22 +93,32 @@ int run(double duration) {
         model.loss = loss;
         model.polling = polling;
         const Row row = judge(model, duration);
-        std::printf("| %s | %s | %.0f | %.1f | %.1f | %.1f | %.1f | %.2f | %.1f |\n",
-                    polling == Polling::kSniff ? "1 to 7" : std::to_string(remotes).c_str(), name,
-                    100.0 * loss, row.rate, 100.0 * row.lost, 1e3 * row.mean_delay,
-                    1e3 * row.longest_delay, 1e3 * row.error, 100.0 * row.covered);
+        tables->add({format("%d, %s, %g %%", remotes, name, 100.0 * loss),
+                     {{"images/s", row.rate},
+                      {"lost%", 100.0 * row.lost},
+                      {"delay_ms", 1e3 * row.mean_delay},
+                      {"99%_ms", 1e3 * row.longest_delay},
+                      {"error_ms", 1e3 * row.error},
+                      {"in_2sd%", 100.0 * row.covered}}});
       }
     }
   }
-  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   double duration = 130.0;
-  wiimote_tracker::ArgumentParser parser(
-      "benchmark_radio", "Rates, delays and exposure times of remotes at one Bluetooth adapter.");
+  BenchmarkTables tables;
+  ArgumentParser parser("benchmark_radio",
+                        "Rates, delays and exposure times of remotes at one Bluetooth adapter.");
+  tables.addOptions(&parser);
   parser.option("--seconds S", &duration, 2.0 * kSettling, 1e5, "simulated time per row [s]");
-  return parser.run(argc, argv, [&] { return run(duration); });
+  return parser.run(argc, argv, [&] {
+    tables.begin("radio", kExplanation,
+                 format("rosrun wiimote_tracker_driver benchmark_radio --seconds %g", duration));
+    addRows(duration, &tables);
+    tables.write();
+    return 0;
+  });
 }

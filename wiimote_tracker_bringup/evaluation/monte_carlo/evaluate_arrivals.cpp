@@ -6,14 +6,13 @@
 
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
-#include <wiimote_tracker_msgs/argument_parser.h>
+#include <wiimote_tracker_msgs/benchmark_tables.h>
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -30,8 +29,11 @@ constexpr double kExactStddev = 1e-6;  // [s]
 
 /// Source of the stamps.
 enum Stamps { kExact, kClock, kGrid, kArrivals };
-constexpr std::array<const char*, 4> kNames{"exact stamps", "exposure clock", "grid filter",
-                                            "arrivals"};
+constexpr std::array<const char*, 4> kNames{"exact", "clock", "grid", "arrivals"};
+
+constexpr char kExplanation[] =
+    "errors of stamps against a smoother of the phase [ms] by source of the stamps, stated_ms as "
+    "their deviation; then RMS errors of the LED [mm].";
 
 struct Frame {
   std::size_t camera;
@@ -56,9 +58,9 @@ bool isScored(double time, const std::vector<Frame>& frames) {
   return time > frames.front().arrival + kLearning;
 }
 
-/// Takes away the constant part of the stamps' errors, which a calibration finds, and prints the
+/// Takes away the constant part of the stamps' errors, which a calibration finds. @returns the
 /// rest. Arrivals get its RMS as their standard deviation.
-void settle(Stamps stamps, const std::string& name, std::vector<Frame>* frames) {
+BenchmarkRow settle(Stamps stamps, const std::string& name, std::vector<Frame>* frames) {
   std::vector<double> errors;
   for (const Frame& frame : *frames) {
     if (isScored(frame.arrival, *frames))
@@ -82,16 +84,17 @@ void settle(Stamps stamps, const std::string& name, std::vector<Frame>* frames) 
   }
   const auto count = static_cast<double>(errors.size());
   const double rms = std::sqrt(squares / count);
-  std::printf("%s, %s: mean error %.2f ms, RMS %.2f ms", name.c_str(), kNames[stamps],
-              1e3 * sum / count, 1e3 * rms);
-  if (stamps != kArrivals)
-    std::printf(", claimed %.2f ms, %.1f %% in 2 sd", 1e3 * claimed / count,
-                100.0 * inside / count);
-  std::puts("");
   for (Frame& frame : *frames) {
     if (stamps == kArrivals)
       frame.stddev[stamps] = rms;
   }
+  const bool states = stamps != kArrivals;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  return {name + " " + kNames[stamps],
+          {{"mean_ms", 1e3 * sum / count},
+           {"RMS_ms", 1e3 * rms},
+           {"stated_ms", states ? 1e3 * claimed / count : none},
+           {"in_2sd%", states ? 100.0 * inside / count : none}}};
 }
 
 /// Mean time between frames [s].
@@ -103,7 +106,17 @@ double periodOf(const std::vector<double>& exposures) {
   return (exposures.back() - exposures.front()) / frames;
 }
 
-std::vector<Frame> framesOf(std::size_t camera, const std::string& path) {
+std::string fileOf(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+/// "shuffle01_wm1" of "/tmp/shuffle01_wm1.txt".
+std::string nameOf(const std::string& path) {
+  const std::string file = fileOf(path);
+  return file.substr(0, file.find('.'));
+}
+
+std::vector<Frame> framesOf(std::size_t camera, const std::string& path, const RowCallback& row) {
   const std::vector<double> arrivals = readArrivals(path);
   const std::vector<double> exposures = recordedExposures(arrivals);
   const std::vector<GridStamp> grid = gridStamps(arrivals, periodOf(exposures));
@@ -119,7 +132,7 @@ std::vector<Frame> framesOf(std::size_t camera, const std::string& path) {
                       {kExactStddev, estimate.stddev, grid[i].stddev, 0.0}});
   }
   for (const Stamps stamps : {kClock, kGrid, kArrivals})
-    settle(stamps, path, &frames);
+    row(settle(stamps, nameOf(path), &frames));
   return frames;
 }
 
@@ -127,6 +140,8 @@ struct Score {
   double squares = 0.0;  // [m^2]
   double inside = 0.0;   // in the 95 % ellipsoid
   double count = 0.0;
+
+  double rms() const { return std::sqrt(squares / count); }  // [m]
 };
 
 /// The LED on a circle, seen at the exposures and tracked by the stamps.
@@ -173,15 +188,20 @@ Score follow(const simulation::Description& description,
   return score;
 }
 
-int run(const std::string& rig, const std::vector<std::string>& files) {
+void run(const std::string& rig, const std::vector<std::string>& files, BenchmarkTables* tables) {
   simulation::Description description = simulation::readDescription(rig);
   if (files.size() < 2 || files.size() > description.cameras.size())
     throw BadArguments("a file for each of the first cameras of the rig is needed, two or more");
   description = withCameras(description, files.size());
+  std::string command = "rosrun wiimote_tracker_bringup evaluate_arrivals " + fileOf(rig);
+  for (const std::string& file : files)
+    command += " " + fileOf(file);
+  tables->begin("arrivals " + nameOf(files[0]), kExplanation, command);
+  const RowCallback row = [&](const BenchmarkRow& next) { tables->add(next); };
   std::vector<Frame> frames;
   double end = std::numeric_limits<double>::infinity();
   for (std::size_t camera = 0; camera < files.size(); ++camera) {
-    const std::vector<Frame> own = framesOf(camera, files[camera]);
+    const std::vector<Frame> own = framesOf(camera, files[camera], row);
     frames.insert(frames.end(), own.begin(), own.end());
     end = std::min(end, own.back().arrival);
   }
@@ -191,19 +211,19 @@ int run(const std::string& rig, const std::vector<std::string>& files) {
   std::stable_sort(frames.begin(), frames.end(),
                    [](const Frame& a, const Frame& b) { return a.arrival < b.arrival; });
   for (const double speed : {0.5, 1.0, 2.0, 3.0}) {
-    double exact = 0.0;
-    for (const Stamps stamps : {kExact, kClock, kGrid, kArrivals}) {
-      const Score score = follow(description, frames, speed, stamps);
-      const double rms = std::sqrt(score.squares / score.count);
-      exact = stamps == kExact ? rms : exact;
-      std::printf(
-          "%.1f m/s, %s: RMS %.2f mm, %.2f times that with exact stamps, %.1f %% in the "
-          "95 %% ellipsoid, %.0f points\n",
-          speed, kNames[stamps], 1e3 * rms, rms / exact, 100.0 * score.inside / score.count,
-          score.count);
-    }
+    std::array<Score, 4> scores;
+    for (const Stamps stamps : {kExact, kClock, kGrid, kArrivals})
+      scores[stamps] = follow(description, frames, speed, stamps);
+    const double exact = scores[kExact].rms();
+    row({format("%g m/s", speed),
+         {{"exact", 1e3 * exact},
+          {"clock", 1e3 * scores[kClock].rms()},
+          {"grid", 1e3 * scores[kGrid].rms()},
+          {"arrivals", 1e3 * scores[kArrivals].rms()},
+          {"clock/exact", scores[kClock].rms() / exact},
+          {"grid/exact", scores[kGrid].rms() / exact},
+          {"clock_in_95%", 100.0 * scores[kClock].inside / scores[kClock].count}}});
   }
-  return 0;
 }
 
 }  // namespace
@@ -217,9 +237,14 @@ int main(int argc, char** argv) {
       "evaluate_arrivals",
       "Tracks a simulated LED by images that arrive as reports of real remotes did. RIG: a "
       "description\nof a rig. FILE: arrivals of the reports of a remote [ms], in order, one file "
-      "for each camera.\nThe exposures are those of a smoother that knows the whole recording. The "
-      "grid filter is\ntold how such remotes behave: what an exposure clock can reach.");
+      "for each camera.\nThe exposures are those of a smoother that knows the whole recording.");
+  BenchmarkTables tables;
+  tables.addOptions(&parser);
   parser.positional("RIG", &rig);
   parser.positional("FILE...", &files);
-  return parser.run(argc, argv, [&] { return monte_carlo::run(rig, files); });
+  return parser.run(argc, argv, [&] {
+    monte_carlo::run(rig, files, &tables);
+    tables.write();
+    return 0;
+  });
 }

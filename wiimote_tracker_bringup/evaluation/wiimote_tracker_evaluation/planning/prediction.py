@@ -148,6 +148,17 @@ def variances(each):
     return of_place(each.sum(axis=0) + guess(each.shape[-1]))
 
 
+def at_points(plan, positions, targets, points):
+    """For each point the number of cameras that see a target there, and its standard deviation after
+    a calibration by the square [m], NaN where it is not located. Of a body: in its worst heading."""
+    covariance = calibration(plan, look_at_square(plan, positions, targets))
+    each, located = told(plan, positions, targets, points, covariance)
+    cameras = (np.trace(each, axis1=-2, axis2=-1) > 0.0).sum(axis=0)
+    stddev = np.where(located, np.sqrt(variances(each)), np.nan)
+    return (cameras.reshape(len(points), -1).min(axis=1),
+            stddev.reshape(len(points), -1).max(axis=1))
+
+
 def cost(plan, positions, targets, points):
     """RMS over the points of their expected standard deviation [m]. A corner of the square that a
     camera misses counts as a point that nobody sees."""

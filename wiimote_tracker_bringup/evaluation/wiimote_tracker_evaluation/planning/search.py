@@ -40,6 +40,11 @@ def greedy(plan, random):
     return chosen
 
 
+def proposal(plan):
+    """A quick one: positions and targets, each N x 3."""
+    return decode(plan, greedy(plan, np.random.RandomState(1)))
+
+
 def search(plan, seed, generations, tell=lambda share: None):
     """Positions and targets, each N x 3. seed: the same gives the same. tell: of the share done."""
     random = np.random.RandomState(seed)

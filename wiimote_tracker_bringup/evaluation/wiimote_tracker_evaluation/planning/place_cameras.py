@@ -1,0 +1,119 @@
+"""place_cameras: drag the cameras of a plan in rviz and see at once what they see.
+
+Parameters: ~plan [string]: file, as of plan_rig. ~description [string]: the rig description to begin
+with; empty: a quick proposal. ~output [string]: the rig description that Save writes.
+"""
+
+import dataclasses
+import textwrap
+import threading
+
+import numpy as np
+import rospy
+from interactive_markers.interactive_marker_server import InteractiveMarkerServer
+from sensor_msgs.msg import PointCloud2
+from std_msgs.msg import ColorRGBA
+from std_srvs.srv import Trigger, TriggerResponse
+from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
+from wiimote_tracker_evaluation import rigs
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.planning import (
+    cells, handles, plan, plan_rig, prediction, search)
+
+CORNERS = ('lower corner', 'upper corner')  # of the volume
+LEAST_EDGE = 0.1  # of the volume [m]
+WIDTH = 60  # of the summary's lines, in letters
+
+
+class PlaceCameras:
+    def __init__(self, chosen, positions, targets, output):
+        self._plan, self._positions, self._targets = chosen, positions, targets
+        self._output = output
+        self._lock = threading.Lock()
+        self._cells = rospy.Publisher('coverage/cells', PointCloud2, queue_size=1, latch=True)
+        self._summary = rospy.Publisher('coverage', MarkerArray, queue_size=1, latch=True)
+        self._room = rospy.Publisher('plan/room', MarkerArray, queue_size=1, latch=True)
+        self._server = InteractiveMarkerServer('plan')
+        self._names = [f'wiimote_{number}' for number in range(1, len(positions) + 1)]
+        for name, position, target in zip(self._names, positions, targets):
+            self._server.insert(handles.camera(name, position, target), self._on_feedback)
+        for name, corner in zip(CORNERS, np.reshape(chosen.volume, (2, 3))):
+            self._server.insert(handles.corner(name, corner), self._on_feedback)
+        self._server.applyChanges()
+        self._show()
+        rospy.Service('plan/save', Trigger, lambda _: self._save())
+
+    def _on_feedback(self, feedback):
+        if feedback.event_type == InteractiveMarkerFeedback.MENU_SELECT:
+            answer = self._save()
+            (rospy.loginfo if answer.success else rospy.logerr)('%s', answer.message)
+        elif feedback.event_type == InteractiveMarkerFeedback.MOUSE_UP:
+            with self._lock:
+                self._move(feedback.marker_name, feedback.pose)
+                self._show()
+
+    def _move(self, name, pose):
+        position, direction = handles.place_of(pose)
+        if name in CORNERS:
+            corners = np.reshape(self._plan.volume, (2, 3)).copy()
+            corners[CORNERS.index(name)] = position
+            if (corners[1] - corners[0] >= LEAST_EDGE).all():
+                self._plan = dataclasses.replace(self._plan, volume=tuple(corners.ravel()))
+            for each, corner in zip(CORNERS, np.reshape(self._plan.volume, (2, 3))):
+                self._server.setPose(each, handles.corner(each, corner).pose)
+        else:
+            camera = self._names.index(name)
+            distance = np.linalg.norm(self._targets[camera] - self._positions[camera])
+            self._positions[camera] = position
+            self._targets[camera] = position + distance * direction
+            # Without the roll that rounding brings.
+            self._server.setPose(name, handles.pose_of(position, self._targets[camera]))
+        self._server.applyChanges()
+
+    def _show(self):
+        """The cells come first: the summary takes two seconds."""
+        self._room.publish([
+            handles.box_lines(box, number, color) for number, (box, color) in enumerate(
+                [(self._plan.volume, ColorRGBA(0.9, 0.6, 0.2, 1.0))]
+                + [(stand, ColorRGBA(0.5, 0.5, 0.6, 0.6)) for stand in self._plan.stands]
+                + [(obstacle, ColorRGBA(0.9, 0.2, 0.2, 1.0)) for obstacle in self._plan.obstacles])])
+        points = self._plan.grid(plan_rig.ACROSS)
+        self._cells.publish(cells.cloud(handles.FRAME, points, *prediction.at_points(
+            self._plan, self._positions, self._targets, points)))
+        lines = plan_rig.describe_sight(self._plan, self._positions, self._targets)
+        self._summary.publish([self._text('\n'.join(
+            textwrap.fill(line.strip(), WIDTH) for line in lines))])
+
+    def _text(self, words):
+        corners = np.reshape(self._plan.volume, (2, 3))
+        text = Marker(type=Marker.TEXT_VIEW_FACING, text=words, color=ColorRGBA(1.0, 1.0, 1.0, 1.0))
+        text.header.frame_id = handles.FRAME
+        text.scale.z = 0.1
+        text.pose.orientation.w = 1.0
+        (text.pose.position.x, text.pose.position.y), text.pose.position.z = (
+            corners[:, :2].mean(axis=0), corners[1, 2] + 0.6)
+        return text
+
+    def _save(self):
+        with self._lock:
+            description = plan_rig.description(self._plan, self._positions, self._targets)
+            volume = [round(float(v), 3) for v in self._plan.volume]
+        try:
+            rigs.write(self._output, description)
+        except OSError as error:
+            return TriggerResponse(False, f'not saved: {error}')
+        return TriggerResponse(True, f'saved to {self._output}; its volume is {volume}')
+
+
+def main():
+    rospy.init_node('place_cameras')
+    try:
+        chosen = plan.read(rospy.get_param('~plan'))
+        description = rospy.get_param('~description', '')
+        PlaceCameras(chosen, *(plan_rig.places_of(description) if description
+                               else search.proposal(chosen)), rospy.get_param('~output'))
+    except (ExperimentError, OSError, ValueError) as error:
+        rospy.logfatal('%s', error)
+        return 1
+    rospy.spin()
+    return 0

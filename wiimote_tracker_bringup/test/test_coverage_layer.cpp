@@ -51,6 +51,14 @@ TEST(CoverageLayer, OutsideOfTheVolumeIsTheLastOne) {
   EXPECT_EQ(valuesOf(layerAt(cells(), 7.0f), "x"), (std::vector<float>{2.0f, 5.0f}));
 }
 
+TEST(CoverageLayer, CellsAreAsLargeAsTheLeastDistanceOfNeighbours) {
+  EXPECT_FLOAT_EQ(cellSizeOf(cells()), 0.5f);  // in height; 1 m along x, one y
+  auto alone = cells();
+  sensor_msgs::PointCloud2Modifier(alone).resize(1);
+  EXPECT_TRUE(std::isinf(cellSizeOf(alone)));
+  EXPECT_TRUE(std::isinf(cellSizeOf(sensor_msgs::PointCloud2())));
+}
+
 TEST(CoverageLayer, OfNothingIsEmpty) {
   auto nothing = cells();
   sensor_msgs::PointCloud2Modifier(nothing).resize(0);

@@ -6,7 +6,14 @@
 #include <boost/make_shared.hpp>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <cmath>
+
 namespace wiimote_tracker::panel {
+namespace {
+
+constexpr float kBoxShare = 0.16f;  // of a cell's size
+
+}  // namespace
 
 /// Cells of the volume, all or one horizontal layer. What is selected has its numbers in rviz's
 /// panel Selection.
@@ -30,6 +37,7 @@ class CoverageCells : public rviz::PointCloud2Display {
  protected:
   void processMessage(const sensor_msgs::PointCloud2ConstPtr& cells) override {
     cells_ = cells;
+    fitBoxes(cellSizeOf(*cells));
     showCells();
   }
 
@@ -43,7 +51,16 @@ class CoverageCells : public rviz::PointCloud2Display {
                          : cells_);
   }
 
+  /// A size that somebody sets is kept until there are cells of another size.
+  void fitBoxes(float cell_size) {
+    if (cell_size == cell_size_ || !std::isfinite(cell_size))
+      return;
+    cell_size_ = cell_size;
+    subProp("Size (m)")->setValue(kBoxShare * cell_size);
+  }
+
   sensor_msgs::PointCloud2ConstPtr cells_;
+  float cell_size_ = 0.0f;  // [m]
   rviz::BoolProperty slice_;
   rviz::FloatProperty height_;
 };

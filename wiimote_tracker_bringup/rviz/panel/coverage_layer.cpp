@@ -5,30 +5,54 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace wiimote_tracker::panel {
 namespace {
 
-constexpr float kSameHeight = 0.001f;  // [m]
+constexpr float kSamePlace = 0.001f;  // [m]
+
+using Coordinates = sensor_msgs::PointCloud2ConstIterator<float>;
+
+bool has(const sensor_msgs::PointCloud2& cells, const char* name) {
+  return cells.point_step > 0 && std::any_of(cells.fields.begin(), cells.fields.end(),
+                                             [&](const auto& field) { return field.name == name; });
+}
 
 }  // namespace
 
+float cellSizeOf(const sensor_msgs::PointCloud2& cells) {
+  float size = std::numeric_limits<float>::infinity();
+  for (const char* axis : {"x", "y", "z"}) {
+    std::vector<float> places;
+    if (has(cells, axis)) {
+      for (Coordinates place(cells, axis); place != place.end(); ++place) {
+        if (std::isfinite(*place))
+          places.push_back(*place);
+      }
+    }
+    std::sort(places.begin(), places.end());
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      if (places[i] - places[i - 1] > kSamePlace)
+        size = std::min(size, places[i] - places[i - 1]);
+    }
+  }
+  return size;
+}
+
 sensor_msgs::PointCloud2 layerAt(const sensor_msgs::PointCloud2& cells, float height) {
-  const bool has_heights = std::any_of(cells.fields.begin(), cells.fields.end(),
-                                       [](const auto& field) { return field.name == "z"; });
-  if (!has_heights || cells.point_step == 0)
+  if (!has(cells, "z"))
     return {};
-  using Heights = sensor_msgs::PointCloud2ConstIterator<float>;
   float nearest = std::numeric_limits<float>::infinity();
-  for (Heights z(cells, "z"); z != z.end(); ++z) {
+  for (Coordinates z(cells, "z"); z != z.end(); ++z) {
     if (std::abs(*z - height) < std::abs(nearest - height))
       nearest = *z;
   }
   sensor_msgs::PointCloud2 layer = cells;
   layer.data.clear();
   auto point = cells.data.begin();
-  for (Heights z(cells, "z"); z != z.end(); ++z, point += cells.point_step) {
-    if (std::abs(*z - nearest) < kSameHeight)
+  for (Coordinates z(cells, "z"); z != z.end(); ++z, point += cells.point_step) {
+    if (std::abs(*z - nearest) < kSamePlace)
       layer.data.insert(layer.data.end(), point, point + cells.point_step);
   }
   layer.height = 1;

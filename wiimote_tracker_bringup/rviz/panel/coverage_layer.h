@@ -5,6 +5,9 @@
 
 namespace wiimote_tracker::panel {
 
+/// Least distance of neighbours along an axis [m]; infinity: none.
+float cellSizeOf(const sensor_msgs::PointCloud2& cells);
+
 /// The points of the horizontal layer that is nearest to a height [m].
 sensor_msgs::PointCloud2 layerAt(const sensor_msgs::PointCloud2& cells, float height);
 

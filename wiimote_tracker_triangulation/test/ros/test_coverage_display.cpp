@@ -63,6 +63,15 @@ TEST(CoverageDisplay, ExplainsTheColours) {
             "so much;\nso well.\nRed: seen by fewer than two.\nGreen to yellow: 5 to 50 mm.");
 }
 
+TEST(CoverageDisplay, BreaksLongSentencesBetweenWords) {
+  const auto array = coverageMarkers(
+      "hall", kCells, 1.0,
+      "wiimote_3, turned by 15 degrees to the left and 10 degrees up, would make it 94 %.");
+  EXPECT_EQ(array.markers[0].text,
+            "wiimote_3, turned by 15 degrees to the left and 10\ndegrees up, would make it 94 %.\n"
+            "Red: seen by fewer than two.\nGreen to yellow: 5 to 50 mm.");
+}
+
 TEST(CoverageDisplay, ColoursAWalkByTheCamerasThatSawIt) {
   auto cells = kCells;
   cells[2].cameras = 0;  // not walked through

@@ -32,11 +32,19 @@ std::array<std::uint8_t, 3> colorOf(const CoverageCell& cell) {
 
 constexpr double kForEver = 0.0;  // lifetime of a marker
 
-/// A line for each sentence and clause.
+constexpr std::size_t kLongestLine = 52;  // [letters]: fits between open docks of 1280 px
+
+/// A line for each sentence and clause, or several.
 std::string inLines(std::string words) {
-  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
-    if ((words[i] == '.' || words[i] == ';') && words[i + 1] == ' ')
-      words[i + 1] = '\n';
+  std::size_t begin = 0, blank = 0;  // of the line; the last in it
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    if (words[i] == ' ')
+      blank = i;
+    const bool is_over = words[i] == ' ' && (words[i - 1] == '.' || words[i - 1] == ';');
+    if (is_over || (i - begin >= kLongestLine && blank > begin)) {
+      words[blank] = '\n';
+      begin = blank + 1;
+    }
   }
   return words;
 }

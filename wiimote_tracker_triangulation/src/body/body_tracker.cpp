@@ -179,8 +179,8 @@ void BodyTracker::follow(std::size_t camera,
                          double time,
                          const std::vector<Eigen::Vector2d>& pixels) {
   const geometry::Camera& view = cameras_[camera];
-  const std::optional<double> learnt = geometry::learntNoise(rig_.cameras[camera]);
-  const double noise = options_.learnt_noise && learnt ? *learnt : options_.pixel_stddev;
+  const double noise =
+      geometry::pixelNoise(rig_.cameras[camera], options_.learnt_noise, options_.pixel_stddev);
   const auto groupsOf = [&](std::size_t body) {
     return LedGroups(bodies_[body]->filter.state(), constellations_[body], view, noise,
                      options_.merging_distance, options_.gate);

@@ -16,8 +16,8 @@ void ImageUpdate::apply(const GroupCamera& camera,
                         std::vector<CameraFit>* fits,
                         std::vector<Track>* tracks,
                         std::vector<MergedPair>* pairs) {
-  const std::optional<double> learnt = camera.learntNoise();
-  noise_.pixel_stddev = options_.learnt_noise && learnt ? *learnt : options_.pixel_stddev;
+  noise_.pixel_stddev = options_.learnt_noise ? camera.learntNoise().value_or(options_.pixel_stddev)
+                                              : options_.pixel_stddev;
   noise_.stamp_stddev = image.stamp_stddev;
   collectCandidates(camera, image, tracks);
   assign(camera, image, *tracks);

@@ -26,7 +26,7 @@ struct LedGroup;
 
 struct BodyTrackerOptions {
   double pixel_stddev = 0.5;  ///< Noise per coordinate of a spot [px, > 0].
-  bool learnt_noise = true;   ///< Of a camera whose calibration tells it: that instead.
+  bool learnt_noise = true;   ///< Updates use that of the calibration, if it tells it.
   PoseFilterOptions motion;
   InertialOptions inertial;  ///< Of bodies with an IMU.
 

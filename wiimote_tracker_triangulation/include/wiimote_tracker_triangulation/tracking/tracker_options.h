@@ -15,7 +15,7 @@ struct TrackerOptions {
 
   // Measurements.
   double pixel_stddev = 0.5;           ///< Measurement noise of a coordinate [px, 0.001..100].
-  bool learnt_noise = true;            ///< Of a camera whose calibration tells it: that instead.
+  bool learnt_noise = true;            ///< Updates use that of the calibration, if it tells it.
   double stamp_stddev = 0.0005;        ///< Of images without one of their own [s, 0..0.1].
   double detection_probability = 0.9;  ///< Of an LED in a camera's view [0.01..0.999].
   double ghost_rate = 0.5;             ///< Mean number of false detections per image [0.001..16].

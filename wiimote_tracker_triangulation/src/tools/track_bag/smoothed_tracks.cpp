@@ -16,8 +16,7 @@ void SmoothedTracks::onRig(const geometry::Rig& rig) {
   noises_.clear();
   for (const geometry::RigCamera& camera : rig.cameras) {
     cameras_.back().push_back(rig.rayCamera(camera));
-    const std::optional<double> learnt = geometry::learntNoise(camera);
-    noises_.push_back(options_.learnt_noise && learnt ? *learnt : options_.pixel_stddev);
+    noises_.push_back(geometry::pixelNoise(camera, options_.learnt_noise, options_.pixel_stddev));
   }
   newest_.resize(rig.cameras.size(), -std::numeric_limits<double>::infinity());
 }

@@ -16,8 +16,8 @@ bool writePlaces(const std::string& file, const LedLabels::Places& places) {
   fs::create_directories(fs::absolute(file).parent_path(), error);
   std::ofstream out(fresh);
   for (const auto& [label, place] : places)
-    out << label << ' ' << place.position.transpose() << ' ' << place.speed << ' ' << place.age
-        << ' ' << place.confidence << '\n';
+    out << label << ' ' << place.position.transpose() << ' ' << place.speed << ' '
+        << std::max(0.0, place.age) << ' ' << place.confidence << '\n';
   out.close();
   if (!out)
     return false;

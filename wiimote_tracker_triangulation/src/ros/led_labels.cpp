@@ -26,10 +26,11 @@ double greatestSpeed(const LedLabels::Places& places) {
 
 /// Of an LED that moved since it was seen at a place, at random after a while [1/m^3].
 double densityAt(const Eigen::Vector3d& position, const LedLabels::Place& place, double speed) {
-  if (place.age > kPlaceMemory)
+  const double age = std::max(0.0, place.age);
+  if (age > kPlaceMemory)
     return kAnywhere;
-  const double way = (kLeastSpeed + speed / std::sqrt(3.0)) * place.age;
-  const double variance = kNear * kNear + way * way / (1.0 + place.age / kSteady);
+  const double way = (kLeastSpeed + speed / std::sqrt(3.0)) * age;
+  const double variance = kNear * kNear + way * way / (1.0 + age / kSteady);
   return kAnywhere + std::exp(-0.5 * (position - place.position).squaredNorm() / variance) /
                          std::pow(2.0 * M_PI * variance, 1.5);
 }
@@ -79,13 +80,14 @@ void LedLabels::update(double time,
   }
 }
 
-/// Time that comes twice, as when images that waited jump back, counts once.
+/// Stamps that jump back, as those of images that waited, lower the ages: what is repeated counts
+/// once. Not by more than the memory, for clocks that are set back.
 void LedLabels::agePlaces(double time) {
   const double passed = newest_ ? time - *newest_ : 0.0;
   newest_ = time;
   for (Places* places : {&places_, &former_}) {
     for (auto& place : *places)
-      place.second.age = std::max(0.0, place.second.age + passed);
+      place.second.age = std::max(-kPlaceMemory, place.second.age + passed);
   }
 }
 

@@ -54,7 +54,7 @@ class LedLabels {
   struct Place {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< World [m].
     double speed = 0.0;                                  ///< There [m/s].
-    double age = 0.0;         ///< From there to the newest snapshot, as far as is known [s].
+    double age = 0.0;         ///< From there to the newest snapshot; below 0 after a jump back [s].
     double confidence = 1.0;  ///< That the LED there had the right label [0..1].
     std::vector<std::uint32_t> tracked_with;  ///< Ids of all LEDs that were tracked then.
   };

@@ -142,6 +142,22 @@ TEST(LedLabels, ReturnByPlaceWhereTimeJumpsBackAgainAndAgain) {
   EXPECT_EQ("a", labels.of(5).name);
 }
 
+/// What was seen within the time that is repeated is not older for it.
+TEST(LedLabels, ReturnByPlaceWhereRepeatedTimeHasSeenThem) {
+  LedLabels labels({"a", "b"});
+  labels.update(100.0, {at(0, 0.0), at(1, 2.0)});
+  labels.update(108.0, {at(0, 0.0), at(1, 2.0)});
+  for (int camera = 0; camera < 4; ++camera) {
+    labels.clear();
+    labels.update(101.0, {});
+    labels.update(109.0, {});
+  }
+  labels.update(109.0, {at(3, 1.8), at(4, 0.2)});
+  EXPECT_EQ("b", labels.of(3).name);
+  EXPECT_EQ("a", labels.of(4).name);
+  EXPECT_GT(labels.of(3).confidence, 0.9);
+}
+
 TEST(LedLabels, ReturnByPlaceAfterARestart) {
   LedLabels labels({"a", "b", "c", "d"});
   labels.update(kTime, {at(0, 0.0), at(1, 1.0), at(2, 2.0)});

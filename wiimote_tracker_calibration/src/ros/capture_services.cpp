@@ -10,6 +10,7 @@
 #include <wiimote_tracker_msgs/log_exceptions.h>
 #include <wiimote_tracker_msgs/text.h>
 
+#include <atomic>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -62,12 +63,12 @@ class CaptureServices {
           });
     startCaptureServer();
     using wiimote_tracker_msgs::CaptureCornerActionGoal;
-    stamps_ = {nh.subscribe<CaptureCornerActionGoal>(
-                   std::string(kCaptureCorner) + "/goal", 50,
-                   [this](const auto& goal) { checkStamp(goal->goal_id.stamp); }),
-               nh.subscribe<actionlib_msgs::GoalID>(
-                   std::string(kCaptureCorner) + "/cancel", 50,
-                   [this](const auto& goal) { checkStamp(goal->stamp); })};
+    stamps_ = {
+        nh.subscribe<CaptureCornerActionGoal>(
+            std::string(kCaptureCorner) + "/goal", 50,
+            [this](const auto& goal) { onRequest(goal->goal_id.stamp); }),
+        nh.subscribe<actionlib_msgs::GoalID>(std::string(kCaptureCorner) + "/cancel", 50,
+                                             [this](const auto& goal) { onRequest(goal->stamp); })};
   }
 
  private:
@@ -180,6 +181,10 @@ class CaptureServices {
     capture_server_->start();
   }
 
+  void onRequest(const ros::Time& stamp) {
+    runCallback("checking the stamp of a request", [&] { checkStamp(stamp); });
+  }
+
   /// actionlib's server refuses all goals up to the stamp of a cancellation, and throws again and
   /// again after a stamp in 2106.
   void checkStamp(const ros::Time& stamp) {
@@ -190,13 +195,15 @@ class CaptureServices {
         "a request to %s is stamped %.0f s in the future: its server starts anew; set the "
         "clock of whoever sent it",
         kCaptureCorner, stamp.toSec() - ros::Time::now().toSec());
+    const std::lock_guard<std::mutex> restart(restart_mutex_);
+    is_restarting_ = true;  // a capture that begins now ends at once
     {
       const Lock lock(context_.mutex());
       context_.calibration(lock).abandonCapture("its server starts anew");
     }
     context_.notify();
-    const std::lock_guard<std::mutex> lock(restart_mutex_);
     capture_server_->shutdown();
+    is_restarting_ = false;
     startCaptureServer();
   }
 
@@ -262,7 +269,7 @@ class CaptureServices {
     const bool over = context_.waitUntil(lock, kForEver, [&] {
       const double now = NodeContext::now();
       calibration.update(now - NodeContext::kUnderWay);
-      if (calibration.square().outcome() || capture_server_->isPreemptRequested())
+      if (calibration.square().outcome() || is_restarting_ || capture_server_->isPreemptRequested())
         return true;
       if (now >= next_feedback) {
         next_feedback = now + kFeedbackPeriod;
@@ -283,6 +290,7 @@ class CaptureServices {
   NodeContext& context_;
   std::vector<ros::ServiceServer> services_;
   std::mutex restart_mutex_;
+  std::atomic<bool> is_restarting_{false};
   std::unique_ptr<Capture> capture_server_;
   std::vector<ros::Subscriber> stamps_;
   // The first message is latched: a button that it shows was pressed earlier.

@@ -141,19 +141,19 @@ void checkClocks(const Recording& recording,
     return;
   // The path follows the jump in part; without it, the path shows all of it.
   Recording corrected;
-  Agreement agreement{};
+  Matching matching;
   for (int round = 0; round < kJumpRounds; ++round) {
     corrected = recording;
     for (Frame& frame : corrected.cameras[camera].frames)
       frame.stamp -= frame.stamp > steps[camera].after ? steps[camera].size : 0.0;
-    const Matching matching = matchSpots(corrected, state, gate);
+    matching = matchSpots(corrected, state, gate);
     if (std::count(matching.found.begin(), matching.found.end(), 0) > 0)
       return;  // not a step: the camera would fit nowhere
     refine(corrected, options, matching.matches, kInfinity, keep_going, &state);
-    agreement = agreementOf(corrected, options, matching.matches, state);
     steps = stepsOf(recording);
   }
-  if (contradicts(agreement) || squared(stepsOf(corrected)) > kMostLeft * before)
+  if (squared(stepsOf(corrected)) > kMostLeft * before ||
+      contradicts(agreementOf(corrected, options, matching.matches, state)))
     return;
   const bool two = recording.cameras.size() == 2;
   throw WaveError("the clock of " + recording.cameras[two ? 0 : camera].sightings.name +

@@ -125,6 +125,10 @@ def test_a_body_that_rests_does_not_tell_the_alignment():
     with pytest.raises(ExperimentError, match='too short to align'):
         comparison.compare(estimate, truth)
     assert comparison.compare(estimate, truth, 'absolute').errors['ATE [deg]'].max() < 1e-6
+    truth.positions[:] += np.linspace(0.0, 1.0, len(truth.times))[:, None]
+    for kind in ('rigid', 'similarity'):
+        with pytest.raises(ExperimentError, match='--alignment absolute'):
+            comparison.compare(estimate, truth, kind)
 
 
 def write(bag, topic, poses):

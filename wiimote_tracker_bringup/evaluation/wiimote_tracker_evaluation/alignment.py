@@ -31,6 +31,8 @@ def fit(source: np.ndarray, target: np.ndarray, with_scale: bool, line: bool = F
         raise ValueError('an alignment needs finite points')
     source_mean, target_mean = source.mean(axis=0), target.mean(axis=0)
     a, b = source - source_mean, target - target_mean
+    if with_scale and not (a ** 2).sum() > 0.0:
+        raise ValueError('all points to align are at one place')
     u, singular, vt = np.linalg.svd(b.T @ a)
     if len(source) < 3 or not line and singular[1] <= 1e-12 * max(singular[0], 1e-300):
         raise ValueError('an alignment needs three points or more that are not on one line')

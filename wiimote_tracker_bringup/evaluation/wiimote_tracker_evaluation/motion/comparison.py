@@ -44,7 +44,10 @@ def compare(estimate, truth, kind='rigid', interval=1.0, longest_gap=0.05):
         raise ExperimentError('fewer than three estimated poses lie between true poses; check the '
                               'clocks, --offset and --gap')
     truth = truth.at(estimate.times)
-    fitted = alignment.fit_kind(kind, estimate.positions, truth.positions, line=True)
+    try:
+        fitted = alignment.fit_kind(kind, estimate.positions, truth.positions, line=True)
+    except ValueError as error:
+        raise ExperimentError(f'{error}; use --alignment absolute') from error
     aligned = dataclasses.replace(estimate, positions=fitted.apply(estimate.positions),
                                   rotations=Rotation.from_matrix(fitted.rotation)
                                   * estimate.rotations)

@@ -4,6 +4,7 @@ import collections
 import copy
 import os
 import sys
+import threading
 
 import numpy as np
 import rospy
@@ -41,6 +42,7 @@ class Probe:
         self.duration, self.file = duration, os.path.expanduser(file)
         self.messages = collections.deque()  # of the newest `duration`
         self.saved = np.full(3, np.inf)  # the last point [m]
+        self.saving = threading.Lock()  # button, service and timer are threads of their own
 
     def add(self, message):
         if self.messages and message.header.stamp < self.messages[-1].header.stamp:
@@ -99,13 +101,15 @@ class Probe:
         if spread > 3.0 * np.linalg.norm(stddevs):
             raise ExperimentError(f'the tip moved by {1e3 * spread:.0f} mm (RMS) in the last '
                                   f'{REST:g} s; hold it still')
-        self.saved = points.mean(axis=0)
-        row = [messages[-1].header.stamp.to_sec(), *self.saved, *stddevs]
-        is_new = not os.path.exists(self.file)
-        with open(self.file, 'a') as file:
-            file.write((HEADER if is_new else '') + ','.join(f'{value:.6f}' for value in row) + '\n')
-        return f'{self.file}: ' + ', '.join(f'{value:.4f}' for value in row[1:4])
-
+        point = points.mean(axis=0)
+        row = [messages[-1].header.stamp.to_sec(), *point, *stddevs]
+        with self.saving:
+            is_new = not os.path.exists(self.file)
+            with open(self.file, 'a') as file:
+                file.write((HEADER if is_new else '') + ','.join(f'{value:.6f}' for value in row)
+                           + '\n')
+            self.saved = point
+        return f'{self.file}: ' + ', '.join(f'{value:.4f}' for value in point)
 
     def rests_elsewhere(self):
         """Whether the tip has been held still for REST, away from the last point."""
@@ -147,7 +151,7 @@ class Node:
         self.pressed = True  # joy is latched
         rospy.Subscriber('joy', Joy, self.on_joy, queue_size=10)
         if rospy.get_param('~at_rest', False):
-            rospy.Timer(rospy.Duration(0.1), self.on_timer)
+            rospy.Timer(rospy.Duration(0.1), self.on_timer, reset=True)
         rospy.Service('~pivot', Trigger, self.on_pivot)
         rospy.Service('~save_point', Trigger, lambda request: self.answer(self.probe.save_point))
 
@@ -168,7 +172,11 @@ class Node:
         self.pressed = pressed
 
     def on_timer(self, _):
-        if self.probe.messages and self.probe.rests_elsewhere():
+        try:
+            rests = bool(self.probe.messages) and self.probe.rests_elsewhere()
+        except (ExperimentError, ValueError):
+            return  # time jumped back, or a pose is invalid
+        if rests:
             self.log(self.answer(self.probe.save_point))
 
     @staticmethod

@@ -10,6 +10,7 @@ import threading
 
 import numpy as np
 import rospy
+import yaml
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
 from sensor_msgs.msg import PointCloud2
 from std_msgs.msg import ColorRGBA
@@ -39,8 +40,9 @@ class PlaceCameras:
             self._server.insert(handles.camera(name, position, target), self._on_feedback)
         for name, corner in zip(CORNERS, np.reshape(chosen.volume, (2, 3))):
             self._server.insert(handles.corner(name, corner), self._on_feedback)
-        self._server.applyChanges()
-        self._show()
+        with self._lock:
+            self._server.applyChanges()
+            self._show()
         rospy.Service('plan/save', Trigger, lambda _: self._save())
 
     def _on_feedback(self, feedback):
@@ -102,7 +104,8 @@ class PlaceCameras:
             rigs.write(self._output, description)
         except OSError as error:
             return TriggerResponse(False, f'not saved: {error}')
-        return TriggerResponse(True, f'saved to {self._output}; its volume is {volume}')
+        return TriggerResponse(True, f'saved to {self._output}; the plan file is unchanged, the volume '
+                               f'here is {volume}')
 
 
 def main():
@@ -112,7 +115,10 @@ def main():
         description = rospy.get_param('~description', '')
         PlaceCameras(chosen, *(plan_rig.places_of(description) if description
                                else search.proposal(chosen)), rospy.get_param('~output'))
-    except (ExperimentError, OSError, ValueError) as error:
+    except KeyError as error:
+        rospy.logfatal('the parameter %s is missing: use plan.launch', error)
+        return 1
+    except (ExperimentError, OSError, ValueError, yaml.YAMLError) as error:
         rospy.logfatal('%s', error)
         return 1
     rospy.spin()

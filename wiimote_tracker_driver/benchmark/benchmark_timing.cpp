@@ -90,8 +90,9 @@ int main(int argc, char** argv) {
                 "of the random numbers");
   return parser.run(argc, argv, [&] {
     tables.begin("timing", kExplanation,
-                 format("rosrun wiimote_tracker_driver benchmark_timing --sessions %d --seconds %g",
-                        sessions, duration));
+                 format("rosrun wiimote_tracker_driver benchmark_timing --sessions %d --seconds %g "
+                        "--seed %llu",
+                        sessions, duration, static_cast<unsigned long long>(seed)));
     for (const Row& row : rows())
       tables.add(tableRow(row.name, runTiming(row.link, duration, sessions, true, seed)));
     tables.write();

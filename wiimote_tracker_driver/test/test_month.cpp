@@ -1,4 +1,4 @@
-// Ten days whose hours are short; benchmark_driver --sections soak runs whole ones.
+// Ten days whose hours are short; benchmark_driver --section soak runs whole ones.
 #include "soak_trial.h"
 
 #include <gtest/gtest.h>

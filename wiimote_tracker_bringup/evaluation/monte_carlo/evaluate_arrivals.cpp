@@ -32,8 +32,10 @@ enum Stamps { kExact, kClock, kGrid, kArrivals };
 constexpr std::array<const char*, 4> kNames{"exact", "clock", "grid", "arrivals"};
 
 constexpr char kExplanation[] =
-    "errors of stamps against a smoother of the phase [ms] by source of the stamps, stated_ms as "
-    "their deviation; then RMS errors of the LED [mm].";
+    "Errors of the stamps [ms] against a smoother that knows the whole recording. clock: the "
+    "exposure clock; grid: Bayes' rule, told how such remotes behave; arrivals: the "
+    "arrival as stamp; in_2sd: errors within two stated deviations. Then RMS errors of a "
+    "tracked LED [mm]; clock_in_95%: points within their ellipsoids.";
 
 struct Frame {
   std::size_t camera;
@@ -193,7 +195,7 @@ void run(const std::string& rig, const std::vector<std::string>& files, Benchmar
   if (files.size() < 2 || files.size() > description.cameras.size())
     throw BadArguments("a file for each of the first cameras of the rig is needed, two or more");
   description = withCameras(description, files.size());
-  std::string command = "rosrun wiimote_tracker_bringup evaluate_arrivals " + fileOf(rig);
+  std::string command = "rosrun wiimote_tracker_bringup evaluate_arrivals " + rig;
   for (const std::string& file : files)
     command += " " + fileOf(file);
   tables->begin("arrivals " + nameOf(files[0]), kExplanation, command);

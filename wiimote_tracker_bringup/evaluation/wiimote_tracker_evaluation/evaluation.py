@@ -52,7 +52,8 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     options = parser.parse_args(arguments)
     options.rig = options.rig or package_file('simulation/paper_rig.yaml')
     chosen = options.sections.split(',') if options.sections else [
-        name for name in names if getattr(options, name, True)]
+        name for name in names
+        if name not in ('recordings', 'faults') or getattr(options, name)]
     for name in chosen:
         if name not in names:
             parser.error(f"there is no section {name!r}; choose from {', '.join(names)}")

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <string>
 
 using namespace wiimote_tracker;
@@ -44,24 +45,30 @@ double value(const Results& results, const std::string& name) {
   return 0.0;
 }
 
+struct Section {
+  const char* explanation;
+  std::string arguments;  // of the command line
+  std::function<Results()> run;
+};
+
+Section sectionOf(const Options& o) {
+  if (o.section == "load")
+    return {kLoad, format(" --remotes %d --seconds %g", o.remotes, o.seconds),
+            [&o] { return runLoad(o.remotes, o.seconds); }};
+  if (o.section == "cost")
+    return {kCost, format(" --seconds %g", o.seconds), [&o] { return runCost(o.seconds); }};
+  return {kSoak,
+          format(" --reports %llu --hour %g", static_cast<unsigned long long>(o.reports), o.hour),
+          [&o] { return runSoak(o.reports, o.hour); }};
+}
+
 int run(const Options& options, BenchmarkTables* tables) {
-  const bool soak = options.section == "soak";
-  const bool load = options.section == "load";
-  const std::string arguments =
-      soak   ? format(" --reports %llu --hour %g", static_cast<unsigned long long>(options.reports),
-                      options.hour)
-      : load ? format(" --remotes %d --seconds %g", options.remotes, options.seconds)
-             : format(" --seconds %g", options.seconds);
-  tables->begin(
-      options.section,
-      soak   ? kSoak
-      : load ? kLoad
-             : kCost,
-      "rosrun wiimote_tracker_driver benchmark_driver --section " + options.section + arguments);
+  const Section section = sectionOf(options);
+  tables->begin(options.section, section.explanation,
+                "rosrun wiimote_tracker_driver benchmark_driver --section " + options.section +
+                    section.arguments);
   // Load and cost fork while this process has one thread.
-  const Results results = soak   ? runSoak(options.reports, options.hour)
-                          : load ? runLoad(options.remotes, options.seconds)
-                                 : runCost(options.seconds);
+  const Results results = section.run();
   for (const Result& result : results)
     tables->add({result.name, {{"value", result.value}}, result.unit});
   tables->write();

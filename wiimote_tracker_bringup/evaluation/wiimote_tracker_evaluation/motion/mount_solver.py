@@ -2,11 +2,10 @@
 
 The path is a chain of states. Each residual depends on the constants, a state and the next one:
 motions of the base between two states (odometry or an IMU), poses of the body, whose errors are
-partly white and partly slow. Gauss-Newton on the
-sparse normal equations. The noise of each group of residuals is estimated along with the rest: its
-variance is the sum of squares over its redundancy (W. Foerstner, "Ein Verfahren zur Schaetzung von
-Varianz- und Kovarianzkomponenten", 1979), found by random probes (M. F. Hutchinson, Communications
-in Statistics 19(2), 1990).
+partly white and partly slow. Gauss-Newton on the sparse normal equations. The noise of each group
+of residuals is estimated along with the rest: its variance is the sum of squares over its
+redundancy (W. Foerstner, "Ein Verfahren zur Schaetzung von Varianz- und Kovarianzkomponenten",
+1979), found by random probes (M. F. Hutchinson, Communications in Statistics 19(2), 1990).
 """
 
 import dataclasses

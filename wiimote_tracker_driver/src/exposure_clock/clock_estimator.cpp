@@ -119,6 +119,12 @@ void ClockEstimator::reset() {
   *this = ClockEstimator(options_);
 }
 
+void ClockEstimator::copyLinkFrom(const ClockEstimator& other) {
+  stall_probability_ = other.stall_probability_;
+  sample_count_ = other.sample_count_;
+  counter_.copyLossesFrom(other.counter_);
+}
+
 const ClockFilter& ClockEstimator::best() const {
   return filters_[static_cast<std::size_t>(std::max_element(weights_.begin(), weights_.end()) -
                                            weights_.begin())];

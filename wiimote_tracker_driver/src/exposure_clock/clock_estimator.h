@@ -31,6 +31,8 @@ class ClockEstimator {
 
   /// Forgets everything: a new epoch.
   void reset();
+  /// Copies what is known about stalls and losses of the link.
+  void copyLinkFrom(const ClockEstimator& other);
 
   const ExposureClockOptions& options() const { return options_; }
   Statistics statistics() const;

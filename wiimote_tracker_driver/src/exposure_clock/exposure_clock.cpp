@@ -9,10 +9,11 @@
 namespace wiimote_tracker::exposure_clock {
 namespace {
 
-// A challenger learns for so long without being compared, and begins anew when it is not ahead
-// after so long [s].
-constexpr double kLearning = 0.5;
-constexpr double kTrial = 3.0;
+// A challenger learns for so long without being compared [s].
+constexpr double kLearning = 0.3;
+// It begins anew when its likelihood, relative to the leader's, has not doubled for so long [s].
+constexpr double kTrial = 2.0;
+const double kProgress = std::log(2.0);
 // Logarithm of the likelihood ratio at which it becomes the leader: 1000 to 1.
 constexpr double kBetter = 6.9;
 // Time over which the errors of replaced leaders are averaged [s].
@@ -36,9 +37,9 @@ bool isOfPolls(double period) {
 ExposureClock::ExposureClock(const ExposureClockOptions& options)
     : leader_(std::make_unique<ClockEstimator>(options)),
       challenger_(std::make_unique<ClockEstimator>(options)),
-      trial_begin_(-std::numeric_limits<double>::infinity()),
+      progress_(-std::numeric_limits<double>::infinity()),
       leader_begin_(std::numeric_limits<double>::infinity()),
-      last_arrival_(-std::numeric_limits<double>::infinity()),
+      last_arrival_(progress_),
       last_exposure_(last_arrival_) {}
 
 ExposureClock::~ExposureClock() = default;
@@ -96,20 +97,24 @@ void ExposureClock::learnError(double error, double arrival) {
 }
 
 void ExposureClock::endTrial() {
-  trial_begin_ = -std::numeric_limits<double>::infinity();
+  progress_ = -std::numeric_limits<double>::infinity();
   advantage_ = 0.0;
 }
 
 Estimate ExposureClock::challenge(double arrival) {
-  const bool behind = arrival > trial_begin_ + kTrial && advantage_ <= 0.0;
-  if (arrival < last_arrival_ || behind) {
+  if (arrival < last_arrival_ || arrival > progress_ + kTrial) {
     challenger_->reset();
-    trial_begin_ = arrival;
-    advantage_ = 0.0;
+    challenger_->copyLinkFrom(*leader_);
+    trial_begin_ = progress_ = arrival;
+    advantage_ = best_advantage_ = 0.0;
   }
   const Estimate estimate = challenger_->update(arrival);
   if (arrival > trial_begin_ + kLearning)
     advantage_ += challenger_->logEvidence() - leader_->logEvidence();
+  if (advantage_ > best_advantage_ + kProgress) {
+    best_advantage_ = advantage_;
+    progress_ = arrival;
+  }
   return estimate;
 }
 

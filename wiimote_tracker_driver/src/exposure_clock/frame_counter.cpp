@@ -35,6 +35,11 @@ void FrameCounter::learn(std::int64_t frames) {
   loss_probability_ = std::max(loss_probability_, kMinLossProbability);
 }
 
+void FrameCounter::copyLossesFrom(const FrameCounter& other) {
+  loss_probability_ = other.loss_probability_;
+  sample_count_ = other.sample_count_;
+}
+
 void FrameCounter::start(std::int64_t frame) {
   first_ = frame;
   size_ = 1;

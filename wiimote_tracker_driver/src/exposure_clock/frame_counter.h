@@ -18,6 +18,7 @@ class FrameCounter {
   double transition(std::int64_t frames) const;
   /// Updates the loss probability: a report was `frames` frames after the one before.
   void learn(std::int64_t frames);
+  void copyLossesFrom(const FrameCounter& other);
 
   /// The latest report is certainly this frame.
   void start(std::int64_t frame);

@@ -43,12 +43,13 @@ struct Statistics {
 /// counter and come late, in slots, in bursts or not at all. Causal; constant time and memory per
 /// report.
 ///
-/// A second estimator begins anew every few seconds, unless it is ahead (a sequential test by the
-/// ratio of likelihoods: Wald, Ann. Math. Stat. 16, 1945). It replaces the first when it predicts
-/// the arrivals better, which means that the first has a wrong period, or that it took slow changes
-/// of the delays (as where polls beat with the camera) for the camera's own. A replaced estimator's
-/// error grew from none to its distance from the new one, so its mean square is a third of the
-/// distance's; the average of that over the last half minute is added to the stated variances.
+/// A second estimator begins anew when it has not got ahead for a while (a sequential test by the
+/// ratio of likelihoods: Wald, Ann. Math. Stat. 16, 1945); from the first it takes only how often
+/// images are lost or held up. It replaces the first when it predicts the arrivals better, which
+/// means that the first has a wrong period, or that it took slow changes of the delays (as where
+/// polls beat with the camera) for the camera's own. A replaced estimator's error grew from none to
+/// its distance from the new one, so its mean square is a third of the distance's; the average of
+/// that over the last half minute is added to the stated variances.
 class ExposureClock {
  public:
   /// @throws std::invalid_argument when an option is out of range.
@@ -73,8 +74,10 @@ class ExposureClock {
   void learnError(double error, double arrival);
 
   std::unique_ptr<ClockEstimator> leader_, challenger_;
-  double trial_begin_;           ///< Of the challenger [s].
-  double advantage_ = 0.0;       ///< Of the challenger: logarithm of a ratio of likelihoods.
+  double trial_begin_ = 0.0;     ///< Of the challenger [s].
+  double advantage_ = 0.0;       ///< Of the challenger: logarithm of a ratio of likelihoods,
+  double best_advantage_ = 0.0;  ///< its greatest value, in steps,
+  double progress_;              ///< and when it reached that [s].
   double leader_begin_;          ///< Arrival when it became the leader [s].
   double error_variance_ = 0.0;  ///< Average over replaced leaders and time since [s^2].
   double last_arrival_, last_exposure_;

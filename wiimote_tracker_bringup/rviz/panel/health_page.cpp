@@ -38,7 +38,7 @@ QIcon iconOf(std::uint8_t level) {
 HealthPage::HealthPage(QWidget* parent) : QWidget(parent), tree_(new QTreeWidget(this)) {
   tree_->setObjectName("health");
   tree_->setHeaderLabels({"part", "state"});
-  tree_->header()->resizeSection(0, 190);
+  tree_->header()->resizeSection(0, 220);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(tree_);
@@ -51,18 +51,20 @@ void HealthPage::show(const HealthView& health, double now) {
   std::set<QString> unfolded;
   for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
     if (tree_->topLevelItem(i)->isExpanded())
-      unfolded.insert(tree_->topLevelItem(i)->text(0));
+      unfolded.insert(tree_->topLevelItem(i)->toolTip(0));
   }
   tree_->clear();
   for (const DiagnosticStatus& part : health.parts(now)) {
+    const QString name = QString::fromStdString(part.name);
     auto* item = new QTreeWidgetItem(
-        tree_, {QString::fromStdString(part.name), QString::fromStdString(part.message)});
+        tree_, {name.mid(name.indexOf(": ") + 1).trimmed(), QString::fromStdString(part.message)});
     item->setIcon(0, iconOf(part.level));
+    item->setToolTip(0, name);  // with the node
     item->setToolTip(1, item->text(1));
     for (const auto& value : part.values)
       new QTreeWidgetItem(item,
                           {QString::fromStdString(value.key), QString::fromStdString(value.value)});
-    item->setExpanded(unfolded.count(item->text(0)) > 0);
+    item->setExpanded(unfolded.count(name) > 0);
   }
 }
 

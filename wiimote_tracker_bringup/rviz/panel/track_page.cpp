@@ -57,6 +57,11 @@ QTableWidget* TrackPage::addTable(const QString& name, const QString& seen_by, Q
   table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table->horizontalHeader()->setStretchLastSection(true);
   table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  // All columns fit into a panel beside the scene.
+  QFont font = table->font();
+  font.setPointSizeF(0.85 * font.pointSizeF());
+  table->setFont(font);
+  table->horizontalHeader()->setFont(font);
   return table;
 }
 

@@ -6,7 +6,10 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace wiimote_tracker::measurements {
@@ -31,28 +34,22 @@ struct FreeVariable {
 };
 using Variable = std::unique_ptr<matvar_t, FreeVariable>;
 
-template <typename T>
-struct MatlabType;
-template <>
-struct MatlabType<double> {
-  static constexpr matio_classes kClass = MAT_C_DOUBLE;
-  static constexpr matio_types kType = MAT_T_DOUBLE;
+struct Type {
+  matio_classes in_memory;
+  matio_types in_file;
 };
-template <>
-struct MatlabType<std::int64_t> {
-  static constexpr matio_classes kClass = MAT_C_INT64;
-  static constexpr matio_types kType = MAT_T_INT64;
-};
-template <>
-struct MatlabType<std::uint32_t> {
-  static constexpr matio_classes kClass = MAT_C_UINT32;
-  static constexpr matio_types kType = MAT_T_UINT32;
-};
-template <>
-struct MatlabType<std::uint8_t> {
-  static constexpr matio_classes kClass = MAT_C_UINT8;
-  static constexpr matio_types kType = MAT_T_UINT8;
-};
+Type typeOf(double) {
+  return {MAT_C_DOUBLE, MAT_T_DOUBLE};
+}
+Type typeOf(std::int64_t) {
+  return {MAT_C_INT64, MAT_T_INT64};
+}
+Type typeOf(std::uint32_t) {
+  return {MAT_C_UINT32, MAT_T_UINT32};
+}
+Type typeOf(std::uint8_t) {
+  return {MAT_C_UINT8, MAT_T_UINT8};
+}
 
 Variable text(const char* name, const std::string& words) {
   std::array<std::size_t, 2> size{words.empty() ? 0u : 1u, words.size()};
@@ -89,30 +86,35 @@ class Words {
 
 class MatlabWriter : public Writer {
  public:
-  explicit MatlabWriter(const std::string& path) : path_(path) { createPart(path_); }
+  explicit MatlabWriter(const std::string& path) : path_(path) {
+    createPart(path_);
+    addColumn<double>("time",
+                      [](const Measurement& m) { return 1e-9 * static_cast<double>(m.stamp); });
+    addColumn<std::int64_t>("stamp", &Measurement::stamp);
+    addColumn<std::uint8_t>("triggered", &Measurement::triggered, MAT_F_LOGICAL);
+    addColumn<std::uint32_t>("id", &Measurement::id);
+    addWords("label", &Measurement::label);
+    addColumn<double>("label_confidence", &Measurement::label_confidence);
+    addColumn<std::int64_t>("label_since", &Measurement::label_since);
+    addWords("state", &Measurement::state);
+    addMatrices("position", &Measurement::position);
+    addMatrices("velocity", &Measurement::velocity);
+    addMatrices("position_covariance", &Measurement::position_covariance);
+    addMatrices("velocity_covariance", &Measurement::velocity_covariance);
+    addColumn<std::uint32_t>("rays_used", &Measurement::rays_used);
+    addColumn<std::uint32_t>("rays_possible", &Measurement::rays_possible);
+    addColumn<double>("residual", &Measurement::residual);
+    addColumn<std::int64_t>("last_observed", &Measurement::last_observed);
+    addColumn<double>("age", &Measurement::age);
+    addColumn<std::uint8_t>("remapped", &Measurement::remapped, MAT_F_LOGICAL);
+    addWords("frame", &Measurement::frame);
+    addWords("rig_id", &Measurement::rig_id);
+    addWords("method", &Measurement::method);
+  }
 
-  void add(const Measurement& m) override {
-    time_.push_back(1e-9 * static_cast<double>(m.stamp));
-    stamp_.push_back(m.stamp);
-    triggered_.push_back(m.triggered);
-    id_.push_back(m.id);
-    label_.add(m.label);
-    label_confidence_.push_back(m.label_confidence);
-    label_since_.push_back(m.label_since);
-    state_.add(m.state);
-    append(m.position, &position_);
-    append(m.velocity, &velocity_);
-    append(m.position_covariance, &position_covariance_);
-    append(m.velocity_covariance, &velocity_covariance_);
-    rays_used_.push_back(m.rays_used);
-    rays_possible_.push_back(m.rays_possible);
-    residual_.push_back(m.residual);
-    last_observed_.push_back(m.last_observed);
-    age_.push_back(m.age);
-    remapped_.push_back(m.remapped);
-    frame_.add(m.frame);
-    rig_id_.add(m.rig_id);
-    method_.add(m.method);
+  void add(const Measurement& measurement) override {
+    for (const Column& column : columns_)
+      column.add(measurement);
   }
 
   void finish() override {
@@ -120,27 +122,8 @@ class MatlabWriter : public Writer {
     if (!file_)
       failToWrite(path_, errno);
     write(text("readme", kReadme));
-    writeColumn("time", time_);
-    writeColumn("stamp", stamp_);
-    writeColumn("triggered", triggered_, MAT_F_LOGICAL);
-    writeColumn("id", id_);
-    writeWords("label", label_);
-    writeColumn("label_confidence", label_confidence_);
-    writeColumn("label_since", label_since_);
-    writeWords("state", state_);
-    writeVectors("position", position_);
-    writeVectors("velocity", velocity_);
-    writeMatrices("position_covariance", position_covariance_);
-    writeMatrices("velocity_covariance", velocity_covariance_);
-    writeColumn("rays_used", rays_used_);
-    writeColumn("rays_possible", rays_possible_);
-    writeColumn("residual", residual_);
-    writeColumn("last_observed", last_observed_);
-    writeColumn("age", age_);
-    writeColumn("remapped", remapped_, MAT_F_LOGICAL);
-    writeWords("frame", frame_);
-    writeWords("rig_id", rig_id_);
-    writeWords("method", method_);
+    for (const Column& column : columns_)
+      column.write();
     if (Mat_Close(file_.release()) != 0)
       failToWrite(path_, errno);
     finishPart(path_);
@@ -151,9 +134,51 @@ class MatlabWriter : public Writer {
     void operator()(mat_t* file) const { Mat_Close(file); }
   };
 
+  /// One field of all measurements.
+  struct Column {
+    std::function<void(const Measurement&)> add;
+    std::function<void()> write;
+  };
+
+  template <typename T, typename Field>
+  void addColumn(const char* name, Field field, int flags = 0) {
+    const auto values = std::make_shared<std::vector<T>>();
+    columns_.push_back({[=](const Measurement& m) { values->push_back(std::invoke(field, m)); },
+                        [=] {
+                          writeArray(name, {values->size(), 1}, *values, flags);
+                        }});
+  }
+
+  void addWords(const std::string& name, std::string Measurement::*field) {
+    const auto words = std::make_shared<Words>();
+    columns_.push_back({[=](const Measurement& m) { words->add(m.*field); },
+                        [=] {
+                          const auto& rows = words->rows();
+                          writeArray(name.c_str(), {rows.size(), 1}, rows, 0);
+                          write(words->table(name + "s"));
+                        }});
+  }
+
+  /// Vectors: rows x 3; matrices: 3 x 3 x rows.
   template <typename Matrix>
-  static void append(const Matrix& m, std::vector<double>* values) {
-    values->insert(values->end(), m.data(), m.data() + m.size());
+  void addMatrices(const char* name, Matrix Measurement::*field) {
+    const auto values = std::make_shared<std::vector<double>>();
+    const auto add = [=](const Measurement& m) {
+      values->insert(values->end(), (m.*field).data(), (m.*field).data() + (m.*field).size());
+    };
+    const auto write = [=] {
+      const std::size_t rows = values->size() / Matrix::SizeAtCompileTime;
+      if (Matrix::ColsAtCompileTime == 1) {
+        const Eigen::MatrixX3d columns =
+            Eigen::Map<const Eigen::Matrix3Xd>(values->data(), 3, static_cast<Eigen::Index>(rows))
+                .transpose();
+        values->assign(columns.data(), columns.data() + columns.size());
+        writeArray(name, {rows, 3}, *values, 0);
+      } else {
+        writeArray(name, {3, 3, rows}, *values, 0);
+      }
+    };
+    columns_.push_back({add, write});
   }
 
   void write(const Variable& variable) {
@@ -166,59 +191,15 @@ class MatlabWriter : public Writer {
   void writeArray(const char* name,
                   std::vector<std::size_t> size,
                   const std::vector<T>& values,
-                  int flags = 0) {
-    write(Variable(Mat_VarCreate(name, MatlabType<T>::kClass, MatlabType<T>::kType,
-                                 static_cast<int>(size.size()), size.data(),
-                                 const_cast<T*>(values.data()), flags)));
-  }
-
-  template <typename T>
-  void writeColumn(const char* name, const std::vector<T>& values, int flags = 0) {
-    writeArray(name, {values.size(), 1}, values, flags);
-  }
-
-  void writeWords(const std::string& name, const Words& words) {
-    writeColumn(name.c_str(), words.rows());
-    write(words.table(name + "s"));
-  }
-
-  void writeVectors(const char* name, const std::vector<double>& values) {
-    const std::size_t rows = values.size() / 3;
-    std::vector<double> columns(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-      columns[i % 3 * rows + i / 3] = values[i];
-    writeArray(name, {rows, 3}, columns);
-  }
-
-  void writeMatrices(const char* name, const std::vector<double>& values) {
-    writeArray(name, {3, 3, values.size() / 9}, values);
+                  int flags) {
+    const Type type = typeOf(T());
+    write(Variable(Mat_VarCreate(name, type.in_memory, type.in_file, static_cast<int>(size.size()),
+                                 size.data(), const_cast<T*>(values.data()), flags)));
   }
 
   std::string path_;
   std::unique_ptr<mat_t, CloseFile> file_;
-
-  // One entry per row.
-  std::vector<double> time_;
-  std::vector<std::int64_t> stamp_;
-  std::vector<std::uint8_t> triggered_;
-  std::vector<std::uint32_t> id_;
-  Words label_;
-  std::vector<double> label_confidence_;
-  std::vector<std::int64_t> label_since_;
-  Words state_;
-  std::vector<double> position_;  // three per row
-  std::vector<double> velocity_;
-  std::vector<double> position_covariance_;  // nine per row
-  std::vector<double> velocity_covariance_;
-  std::vector<std::uint32_t> rays_used_;
-  std::vector<std::uint32_t> rays_possible_;
-  std::vector<double> residual_;
-  std::vector<std::int64_t> last_observed_;
-  std::vector<double> age_;
-  std::vector<std::uint8_t> remapped_;
-  Words frame_;
-  Words rig_id_;
-  Words method_;
+  std::vector<Column> columns_;
 };
 
 }  // namespace

@@ -35,6 +35,11 @@ struct DataReport {
   std::size_t slots;     ///< Spots in this report.
 };
 
+/// Whether it is one of the two reports of which full spots need both.
+inline bool isHalf(const DataReport& layout) {
+  return layout.format == Format::kFull;
+}
+
 const std::array<DataReport, 10> kDataReports{{{0x30, 3, false, Format::kNone, 0, 0},
                                                {0x31, 6, true, Format::kNone, 0, 0},
                                                {0x32, 11, false, Format::kNone, 0, 0},

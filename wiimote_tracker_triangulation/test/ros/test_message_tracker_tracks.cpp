@@ -1,0 +1,172 @@
+// What mode tracks adds in the code that node and track_bag share: messages in, messages out.
+#include "ros/studio.h"
+#include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
+#include "wiimote_tracker_triangulation/identity/schemes.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Cholesky>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+namespace {
+
+using namespace studio;
+
+/// Whether the 95 % ellipsoid holds the truth.
+template <typename Covariance>
+bool isInEllipsoid(const Vector3d& error, const Covariance& row_major) {
+  const Eigen::Map<const Eigen::Matrix3d> covariance(row_major.data());
+  return error.dot(covariance.ldlt().solve(error)) < 7.815;
+}
+
+TEST(Clocks, ACameraWithAnotherClockIsNamedOnceAndLeftOut) {
+  Studio studio(parametersOf(Mode::kTracks));
+  studio.spoil = [&](std::size_t camera, IrBlobArray* image) {
+    const ros::Duration ahead(camera == 2 ? 0.5 : 0.0);
+    image->header.stamp += ahead;
+    image->arrival += ahead;
+  };
+  studio.film(1.0, {onCircle});
+  EXPECT_EQ(1, studio.heard.problemsWith("the clock of the computer of camera_2 is 0.5"));
+  EXPECT_NE(std::string::npos, studio.tracker.statistics().camera(2).problem.find("chrony"));
+  studio.expectNear("led", 1000.3, onCircle);
+  EXPECT_GT(studio.pointsOf("led", 1000.3).size(), 130u);
+}
+
+TEST(Clocks, AnImageFromAnotherCenturyChangesNothing) {
+  Studio studio(parametersOf(Mode::kTracks));
+  studio.film(0.5, {onCircle});
+  IrBlobArray image = studio.image(0, studio.now, {onCircle});
+  image.header.stamp = image.arrival = ros::TIME_MAX;
+  studio.tracker.takeImage("camera_0", image);
+  studio.film(0.5, {onCircle});
+  studio.expectNear("led", 1000.3, onCircle);
+  EXPECT_GT(studio.pointsOf("led", 1000.5).size(), 140u);
+}
+
+TEST(Labels, ThatMayBeWrongAreNamed) {
+  TrackingParameters parameters = parametersOf(Mode::kTracks);
+  parameters.labels = {"led", "second"};
+  Studio studio(parameters);
+  const Paths paths = {onCircle, besideCircle};
+  studio.film(1.0, paths);
+  studio.film(20.0, {});
+  EXPECT_EQ(0, studio.heard.problemsWith("given again"));
+  const double again = studio.now;
+  studio.film(1.0, paths);
+  EXPECT_GE(studio.heard.problemsWith("given again and may be wrong"), 1);
+  const auto points = studio.pointsOf("led", again);
+  ASSERT_FALSE(points.empty());
+  for (const auto& [time, point] : points)
+    EXPECT_NEAR(0.5, point.label_confidence, 0.1) << time;
+}
+
+TEST(Identity, BlinkingLedsKeepTheirLabelsThroughDarkness) {
+  constexpr double kChip = 0.023;
+  const std::vector<std::string> words = {"01011111", "01010101"};
+  TrackingParameters parameters = parametersOf(Mode::kTracks);
+  parameters.labels = {"lamp"};
+  parameters.identity.codes =
+      identity::cyclicCodes({{"left", words[0]}, {"right", words[1]}}, kChip, 0.01);
+  parameters.estimator.tracks =
+      identity::forBlinking(*parameters.identity.codes, parameters.estimator.tracks);
+  Studio studio(parameters);
+  const auto chip = [&](double time) {
+    return static_cast<std::size_t>((time - 999.0) / kChip) % words[0].size();
+  };
+  studio.is_dark = [&](std::size_t led, double time) {
+    return led < words.size() && words[led][chip(time)] == '0';
+  };
+  const auto lamp = [](double t) { return Vector3d(0.3 * std::sin(t), -0.1, 0.4); };
+  const Paths paths = {onCircle, besideCircle, lamp};
+  studio.film(3.0, paths);
+
+  const std::vector<std::string> names = {"left", "right", "lamp"};
+  for (std::size_t led = 0; led < names.size(); ++led) {
+    const auto points = studio.pointsOf(names[led], 1001.0);
+    ASSERT_GT(points.size(), 500u) << names[led];
+    const TrackedPoint& first = points.front().second;
+    double longest_unseen = 0.0;
+    std::size_t inside = 0;
+    for (const auto& [time, point] : points) {
+      const Vector3d position(point.position.x, point.position.y, point.position.z);
+      const Vector3d error = position - paths[led](time);
+      ASSERT_LT(error.norm(), 10.0 * kNear) << names[led] << " at " << time;
+      inside += isInEllipsoid(error, point.position_covariance);
+      EXPECT_EQ(first.id, point.id);
+      EXPECT_EQ(first.label_since, point.label_since);
+      const double unseen = time - point.last_observed.toSec();
+      longest_unseen = std::max(longest_unseen, unseen);
+      // Darkness shorter than tracked_time leaves it tracked.
+      EXPECT_EQ(TrackedPoint::TRACKED, point.state) << names[led] << " at " << time;
+      EXPECT_GE(point.rays_used, 2u);
+    }
+    EXPECT_GT(static_cast<double>(inside), 0.9 * static_cast<double>(points.size())) << names[led];
+    if (led < words.size()) {
+      EXPECT_GT(first.label_confidence, 0.999);
+      EXPECT_LT(first.label_since.toSec(), 1001.0);
+      EXPECT_GT(longest_unseen, 0.8 * kChip) << "it is dark for so long";
+    } else {
+      EXPECT_TRUE(std::isnan(first.label_confidence));
+      EXPECT_TRUE(first.label_since.isZero());
+    }
+  }
+  EXPECT_TRUE(studio.heard.problems.empty());
+}
+
+TEST(Prediction, IsForTheArrivalOfTheNewestImage) {
+  TrackingParameters parameters;
+  parameters.output.predict_to_now = true;
+  Studio studio(parameters);
+  studio.film(1.0, {onCircle});
+  studio.expectNear("led", 1000.5, onCircle);
+  for (const auto& array : studio.heard.arrays)
+    ASSERT_NEAR(array->latest_arrival.toSec(), array->header.stamp.toSec(), 1e-6);
+}
+
+TEST(Prediction, AtARateIsForTheTimesOfTheRate) {
+  TrackingParameters parameters;
+  parameters.output.on_update = false;
+  parameters.output.rate = 250.0;
+  parameters.output.predict_to_now = true;
+  Studio studio(parameters);
+  studio.film(1.0, {onCircle});
+  studio.expectNear("led", 1000.5, onCircle);
+  const auto points = studio.pointsOf("led", 1000.5);
+  ASSERT_GT(points.size(), 100u);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double tick = points[i].first * 250.0;
+    ASSERT_NEAR(std::round(tick), tick, 1e-3);
+    if (i > 0) {
+      ASSERT_NEAR(0.004, points[i].first - points[i - 1].first, 1e-6) << "none is left out";
+    }
+  }
+}
+
+TEST(ImuOfABody, IsNotUsedIfZDoesNotPointUp) {
+  Heard heard;
+  MessageTracker tracker(TrackingParameters(), &heard);
+  body::Constellation wand{"wand", {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}}};
+  wand.imu = body::ImuMount{"/imu"};
+  tracker.setBodies({wand});
+  geometry::test::Random random(83);
+  Rig rig = geometry::test::randomRig(random, 3);
+  for (const double up : {1.0, -1.0}) {
+    for (geometry::RigCamera& camera : rig.cameras)
+      camera.gravity = camera.camera.world_from_camera.linear().transpose() *
+                       Vector3d(0.5, 0.0, up * 9.8);  // 3 degrees off, as accelerometers are
+    rig.cameras[0].camera.intrinsics.fx += 1.0;       // another rig
+    tracker.takeRig(toMessage(rig));
+    sensor_msgs::Imu sample;
+    sample.header.stamp = ros::Time(100.0);
+    tracker.takeInertial("wand", sample);
+    tracker.takeInertial("wand", sample);
+    EXPECT_EQ(up > 0.0 ? 0 : 1, heard.problemsWith("177 degrees from up"));
+  }
+}
+
+}  // namespace
+}  // namespace wiimote_tracker

@@ -101,4 +101,8 @@ void Checks::recoversFrom(const std::string& name, const RunningDriver& driver, 
   check(name, recovery.time <= kLongestRecovery, describe(recovery, driver));
 }
 
+std::string count(std::size_t number, const std::string& things) {
+  return std::to_string(number) + " " + things;
+}
+
 }  // namespace wiimote_tracker::real_kernel

@@ -3,6 +3,7 @@
 
 #include "running_driver.h"
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -43,6 +44,9 @@ class Checks {
 
 /// "0.123 s"
 std::string seconds(double value);
+
+/// "123 things"
+std::string count(std::size_t number, const std::string& things);
 
 }  // namespace wiimote_tracker::real_kernel
 

@@ -1,0 +1,157 @@
+#include "kernel_use.h"
+
+#include "clock.h"
+#include "kernel.h"
+#include "recovery.h"
+#include "streaming.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::real_kernel {
+namespace {
+
+using Bytes = PluggedRemote::Bytes;
+using State = wiimote::Link::State;
+
+/// The kernel's report after each status while no program uses its input devices.
+Bytes kernelsMode() {
+  return {0x12, 0x00, 0x30};
+}
+
+/// Holds a file open.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path)
+      : fd_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+    if (fd_ < 0)
+      throw std::runtime_error("cannot open '" + path + "'");
+  }
+  ~OpenFile() { ::close(fd_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+ private:
+  int fd_;
+};
+
+}  // namespace
+
+void battery(Checks& checks) {
+  Streaming streaming(checks);
+  const std::string file = batteryFileOf(kAddress);
+  const double begin = now();
+  checks.recovers(
+      "battery read", streaming.driver, [&] { readLine(file); }, 20);
+  const std::vector<PluggedRemote::Output> outputs = streaming.remote.outputs(begin);
+  const auto resets = static_cast<std::size_t>(std::count_if(
+      outputs.begin(), outputs.end(),
+      [](const PluggedRemote::Output& output) { return output.report == kernelsMode(); }));
+  checks.check("each time the kernel set its own mode", resets >= 20, count(resets, "times"));
+  checks.recovers("battery read ten times in a row", streaming.driver, [&] {
+    for (int i = 0; i < 10; ++i) {
+      readLine(file);
+      sleepFor(0.003 * i);
+    }
+  });
+}
+
+void evdev(Checks& checks) {
+  Streaming streaming(checks);
+  for (const char* name :
+       {"Nintendo Wii Remote IR", "Nintendo Wii Remote Accelerometer", "Nintendo Wii Remote"}) {
+    const std::string node = inputNodeOf(kAddress, name);
+    const std::string thing = std::string("input device ") + name;
+    std::unique_ptr<OpenFile> file;
+    const double begin = now();
+    checks.recovers(thing + " opened", streaming.driver,
+                    [&] { file = std::make_unique<OpenFile>(node); });
+    checks.recovers(thing + " closed", streaming.driver, [&] { file.reset(); });
+    if (std::string(name) == "Nintendo Wii Remote IR") {
+      checks.check("the kernel had taken the camera",
+                   streaming.remote.got({0x12, 0x00, 0x36}, begin) &&
+                       streaming.remote.got({0x13, 0x00}, begin));
+    }
+  }
+  checks.recovers(
+      "all input devices opened and closed", streaming.driver,
+      [] {
+        for (const std::string& node : inputNodes())
+          OpenFile file(node);
+      },
+      20);
+}
+
+void extension(Checks& checks) {
+  Streaming streaming(checks);
+  bool plugged = false;
+  const auto toggle = [&] { streaming.remote.setNunchuk(plugged = !plugged); };
+  const double begin = now();
+  checks.recovers("Nunchuk plugged in", streaming.driver, toggle);
+  checks.check("the kernel had taken it",
+               streaming.remote.got({0x16, 0x04, 0xa4, 0x00, 0xfb}, begin) &&
+                   !inputNodeOf(kAddress, "Nintendo Wii Remote Nunchuk").empty(),
+               inputNodeOf(kAddress, "Nintendo Wii Remote Nunchuk"));
+  checks.recovers("Nunchuk pulled out and plugged in", streaming.driver, toggle, 20);
+  streaming.remote.unplug();
+  streaming.remote.setNunchuk(true);
+  sleepFor(0.3);
+  checks.recovers("plugged in with a Nunchuk", streaming.driver, [&] { streaming.remote.plug(); });
+}
+
+void otherFormats(Checks& checks) {
+  for (const auto format : {protocol::IrFormat::kBasic, protocol::IrFormat::kFull}) {
+    wiimote::SessionOptions options;
+    options.ir_format = format;
+    Streaming streaming(checks, options);
+    const std::string name = format == protocol::IrFormat::kBasic ? "basic" : "full";
+    constexpr double kDuration = 10.0;
+    const double begin = now();
+    sleepFor(kDuration);
+    const double end = now();
+    const std::vector<double> images = streaming.driver.images();
+    const auto in_time = static_cast<std::size_t>(std::count_if(
+        images.begin(), images.end(), [&](double t) { return t >= begin && t <= end; }));
+    const double wanted = kDuration * streaming.driver.recoveryRate();
+    checks.check(name + " format: 10 s at nine tenths of its rate or more",
+                 static_cast<double>(in_time) >= wanted, count(in_time, "images"));
+    checks.check(name + " format: no pause of 0.1 s or more",
+                 longestPause(images, begin, end) < 0.1,
+                 "longest " + seconds(longestPause(images, begin, end)));
+    const std::string file = batteryFileOf(kAddress);
+    checks.recovers(
+        name + " format: battery read", streaming.driver, [&] { readLine(file); }, 10);
+    std::unique_ptr<OpenFile> node;
+    const std::string ir = inputNodeOf(kAddress, "Nintendo Wii Remote IR");
+    checks.recovers(name + " format: input device of the camera opened", streaming.driver,
+                    [&] { node = std::make_unique<OpenFile>(ir); });
+    checks.recovers(name + " format: and closed", streaming.driver, [&] { node.reset(); });
+  }
+}
+
+void leds(Checks& checks) {
+  Streaming streaming(checks);
+  const std::string file = ledFileOf(kAddress, 3);
+  const double begin = now();
+  checks.recovers("LED switched by the kernel", streaming.driver, [&] { writeText(file, "1"); });
+  checks.check("the kernel had switched it", streaming.remote.got({0x11, 0x50}, begin));
+}
+
+void rebind(Checks& checks) {
+  Streaming streaming(checks);
+  const std::string name = hidNameOf(kAddress);
+  writeText("/sys/bus/hid/drivers/wiimote/unbind", name);
+  const bool searches = streaming.driver.waitForState(State::kSearching, 1.0);
+  checks.check("the kernel's driver unbound: the driver searches", searches,
+               streaming.driver.link().error);
+  checks.recovers("the kernel's driver bound again", streaming.driver,
+                  [&] { writeText("/sys/bus/hid/drivers/wiimote/bind", name); });
+}
+
+}  // namespace wiimote_tracker::real_kernel

@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
@@ -53,7 +54,7 @@ def test_no_small_change_of_the_alignment_fits_better(with_scale):
     best = alignment.fit(source, target, with_scale)
 
     def cost(change):
-        changed = alignment.Alignment(bound.rotation_of(change[:3]) @ best.rotation,
+        changed = alignment.Alignment(Rotation.from_rotvec(change[:3]).as_matrix() @ best.rotation,
                                       best.translation + change[3:6], best.scale + change[6])
         return ((changed.apply(source) - target) ** 2).sum()
     for axis in range(7 if with_scale else 6):

@@ -12,6 +12,7 @@ import dataclasses
 from typing import Optional
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_evaluation import scene as scene_module
 from wiimote_tracker_evaluation.alignment import KINDS
@@ -35,23 +36,10 @@ class Knowledge:
     corner: float = 0.005
 
 
-def rotation_of(vector: np.ndarray) -> np.ndarray:
-    """Rotation matrix of a rotation vector (Rodrigues)."""
-    angle = np.linalg.norm(vector)
-    if angle < 1e-12:
-        return np.eye(3) + skew(vector)
-    axis = skew(vector / angle)
-    return np.eye(3) + np.sin(angle) * axis + (1.0 - np.cos(angle)) * axis @ axis
-
-
-def skew(v: np.ndarray) -> np.ndarray:
-    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
-
-
 def moved(camera, change, points):
     """Pixels of the points in a camera whose 11 parameters are changed by `change`."""
     return scene_module.project(camera.parameters + change[6:],
-                                rotation_of(change[:3]) @ camera.rotation,
+                                Rotation.from_rotvec(change[:3]).as_matrix() @ camera.rotation,
                                 camera.position + change[3:6], points)
 
 
@@ -172,7 +160,7 @@ def alignment_basis(points: np.ndarray, kind: str) -> np.ndarray:
         return np.zeros((3 * len(points), 0))
     blocks = []
     for point in points:
-        columns = [np.eye(3), -skew(point)]
+        columns = [np.eye(3), np.cross(point, np.eye(3))]
         if kind == 'similarity':
             columns.append(point[:, None])
         blocks.append(np.concatenate(columns, axis=1))

@@ -1,18 +1,7 @@
 """The true rig, for experiments that do not test calibration."""
 
-import numpy as np
+from scipy.spatial.transform import Rotation
 from wiimote_tracker_msgs.msg import CameraCalibration, RigCalibration
-
-
-def quaternion(rotation: np.ndarray) -> np.ndarray:
-    """x, y, z, w of a rotation matrix."""
-    # Eigenvector of the largest eigenvalue of a symmetric matrix (Bar-Itzhack 2000).
-    (xx, yx, zx), (xy, yy, zy), (xz, yz, zz) = rotation.T
-    k = np.array([[xx - yy - zz, xy + yx, xz + zx, zy - yz],
-                  [xy + yx, yy - xx - zz, yz + zy, xz - zx],
-                  [xz + zx, yz + zy, zz - xx - yy, yx - xy],
-                  [zy - yz, xz - zx, yx - xy, xx + yy + zz]]) / 3.0
-    return np.linalg.eigh(k)[1][:, -1]
 
 
 def true_rig(scene, identities):
@@ -30,6 +19,7 @@ def true_rig(scene, identities):
             time_offset=float('nan'), residual_px=float('nan'), residual_m=float('nan'))
         position, orientation = message.world_from_camera.position, message.world_from_camera.orientation
         position.x, position.y, position.z = camera.position
-        orientation.x, orientation.y, orientation.z, orientation.w = quaternion(camera.rotation)
+        orientation.x, orientation.y, orientation.z, orientation.w = Rotation.from_matrix(
+            camera.rotation).as_quat()
         rig.cameras.append(message)
     return rig

@@ -396,5 +396,11 @@ TEST(Continuous, OtherLightsNeverMakeTheRigAMillimetreWorse) {
   }
 }
 
+// Most images show another LED 0.35 m from the first, in two cameras or in one.
+TEST(Continuous, AnotherLedCarriedAlongIsNotTakenForDrift) {
+  for (const std::uint64_t seed : {63, 136, 147})
+    EXPECT_EQ(runMisledTrial(Misled::kCarried, seed).changes, 0) << seed;
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::continuous

@@ -29,7 +29,8 @@ geometry::Rig withDrift(geometry::Rig rig, double time, const AdjustOptions& opt
 /// Cameras turn more easily than they move, so that their places hold the world. A camera whose rig
 /// has no time offset keeps none: it is solved with one that is then forgotten.
 /// @returns the rig with its covariance, but without solved_at and verdict; nothing when the rig
-/// has no covariance, when three cameras agree on too few places, or when these lie together.
+/// has no covariance, when three cameras agree on too few places, when these lie together, or when a
+/// camera would change by more than ten standard deviations of the prior.
 std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,
                                        const std::vector<capture::Image>& images,
                                        const AdjustOptions& options);

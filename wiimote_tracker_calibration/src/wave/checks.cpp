@@ -169,6 +169,53 @@ void checkCorners(const square::Uncertainty& uncertainty, WaveSolution* solution
                                  ": check the sides of the square and capture that corner again");
 }
 
+/// @throws WaveContradiction: a lens is far from its starting intrinsics.
+void checkLenses(const Recording& recording, const WaveOptions& options, const geometry::Rig& rig) {
+  double worst = kLensLimit;
+  std::string worst_camera;
+  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
+    const square::CameraSightings& start = recording.cameras[i].sightings;
+    const double deviation = square::lensPrior(start.intrinsics, options.uncertainty)
+                                 .deviation(rig.cameras[i].camera.intrinsics);
+    if (deviation > worst) {
+      worst = deviation;
+      worst_camera = start.name;
+    }
+  }
+  if (!worst_camera.empty())
+    throw WaveContradiction("no lens near its starting intrinsics explains what " + worst_camera +
+                            " saw: check them, that its image is not mirrored or turned, and that "
+                            "the spots were the LED");
+}
+
+/// Of a camera, by its number.
+/// @throws WaveContradiction: its accelerometer contradicts its pose. WaveError: its clock is not
+/// known well enough.
+void checkGravityAndClock(const Recording& recording,
+                          const WaveOptions& options,
+                          const WaveSolution& solution,
+                          std::size_t i) {
+  const geometry::RigCamera& camera = solution.rig.cameras[i];
+  const std::string& name = camera.camera.name;
+  if (camera.gravity && (recording.square || recording.cameras.front().sightings.gravity)) {
+    const Eigen::Vector3d up(0.0, 0.0, solution.z_up ? 1.0 : -1.0);
+    const Eigen::Vector3d measured =
+        camera.camera.world_from_camera.linear() * camera.gravity->normalized();
+    const double tilt = std::atan2(up.cross(measured).norm(), up.dot(measured));
+    if (tilt > kGravityLimit * options.uncertainty.gravity)
+      throw WaveContradiction("the world as " + name + " sees it is tilted by " +
+                              format("%.0f degrees", tilt * 180.0 / M_PI) +
+                              " against its accelerometer: its image is mirrored or turned, it was "
+                              "moved, or the floor is not level");
+  }
+  const double stddev = offsetStddev(solution.rig, i);
+  if (stddev > options.maximum_offset_stddev)
+    throw WaveError("the clock of " + name + " is known to " + format("%.2f ms", 1e3 * stddev) +
+                    " only, not to " + format("%.2f ms", 1e3 * options.maximum_offset_stddev) +
+                    ": wave faster than the " + format("%.1f m/s", solution.median_speed) +
+                    " it was, and longer where it sees the LED");
+}
+
 }  // namespace
 
 void checkSolution(const Recording& recording, const WaveOptions& options, WaveSolution* solution) {
@@ -183,43 +230,9 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
         "the cameras disagree by " + format("%.1f px", solution->pixel_stddev) +
         ", far more than the stated " + format("%.1f px", options.pixel) +
         ": check that no camera was moved and that their times are of one clock");
-  double worst = kLensLimit;
-  std::string worst_camera;
-  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
-    const square::CameraSightings& start = recording.cameras[i].sightings;
-    const double deviation = square::lensPrior(start.intrinsics, options.uncertainty)
-                                 .deviation(solution->rig.cameras[i].camera.intrinsics);
-    if (deviation > worst) {
-      worst = deviation;
-      worst_camera = start.name;
-    }
-  }
-  if (!worst_camera.empty())
-    throw WaveContradiction("no lens near its starting intrinsics explains what " + worst_camera +
-                            " saw: check them, that its image is not mirrored or turned, and that "
-                            "the spots were the LED");
-  const Eigen::Vector3d up(0.0, 0.0, solution->z_up ? 1.0 : -1.0);
-  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
-    const geometry::RigCamera& camera = solution->rig.cameras[i];
-    const std::string& name = camera.camera.name;
-    if (camera.gravity && (recording.square || recording.cameras.front().sightings.gravity)) {
-      const Eigen::Vector3d measured =
-          camera.camera.world_from_camera.linear() * camera.gravity->normalized();
-      const double tilt = std::atan2(up.cross(measured).norm(), up.dot(measured));
-      if (tilt > kGravityLimit * options.uncertainty.gravity)
-        throw WaveContradiction(
-            "the world as " + name + " sees it is tilted by " +
-            format("%.0f degrees", tilt * 180.0 / M_PI) +
-            " against its accelerometer: its image is mirrored or turned, it was "
-            "moved, or the floor is not level");
-    }
-    const double stddev = offsetStddev(solution->rig, i);
-    if (stddev > options.maximum_offset_stddev)
-      throw WaveError("the clock of " + name + " is known to " + format("%.2f ms", 1e3 * stddev) +
-                      " only, not to " + format("%.2f ms", 1e3 * options.maximum_offset_stddev) +
-                      ": wave faster than the " + format("%.1f m/s", solution->median_speed) +
-                      " it was, and longer where it sees the LED");
-  }
+  checkLenses(recording, options, solution->rig);
+  for (std::size_t i = 0; i < recording.cameras.size(); ++i)
+    checkGravityAndClock(recording, options, *solution, i);
   if (recording.square) {
     if (!solution->z_up)
       solution->warnings.emplace_back(square::kZDown);

@@ -1,4 +1,5 @@
 // The running node or nodelet: a rig, blobs and triggers in; points, TF, markers and events out.
+// More than 400 lines, because each test continues where the one before ended.
 #include "ros/triangulation_bench.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
@@ -45,8 +46,6 @@ void expectOnPath(const TrackedPointArray& array, std::size_t rays) {
   EXPECT_EQ(rays, point.cameras.size());
   EXPECT_LT(point.residual, 0.5);
 }
-
-// In this order: each test continues where the one before ended.
 
 TEST(Triangulation, AdvisesWithoutARig) {
   EXPECT_TRUE(g_bench->waitForLog("calibrate, or load a saved rig"));

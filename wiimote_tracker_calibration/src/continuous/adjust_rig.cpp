@@ -6,6 +6,7 @@
 #include "adjust/interpolated_pixel.h"
 #include "adjust/joint_prior.h"
 #include "continuous/keyframes.h"
+#include "place/chi_squared.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 
@@ -41,8 +42,7 @@ constexpr double kPixel = 0.5;       // Standard deviation of a spot in the firs
 constexpr int kSteps = 10;
 constexpr std::size_t kLeastKeyframes = 40;
 constexpr double kLeastExtent = 0.1;  // of the keyframes, standard deviation [m]
-// A camera that drifts changes by at most this many standard deviations of the prior.
-constexpr double kMostDrift = 10.0;
+constexpr Eigen::Index kPose = 6;     // Parameters of a pose: rotation, position.
 // Least variance of a parameter: one that was held has none.
 constexpr double kHeldVariance = 1e-12;
 
@@ -83,24 +83,6 @@ bool areSpread(const std::vector<Keyframe>& keyframes) {
   for (const Keyframe& keyframe : keyframes)
     squared += (keyframe.point - mean).squaredNorm();
   return squared > kLeastExtent * kLeastExtent * static_cast<double>(keyframes.size());
-}
-
-/// Whether a camera turned or moved farther than by drift: then some cameras follow another light.
-bool isBeyondDrift(const geometry::Rig& prior, const geometry::Rig& adjusted) {
-  for (std::size_t i = 0; i < prior.cameras.size(); ++i) {
-    const geometry::Camera& from = prior.cameras[i].camera;
-    const geometry::Camera& to = adjusted.cameras[i].camera;
-    const Eigen::AngleAxisd turn(to.world_from_camera.linear() *
-                                 from.world_from_camera.linear().transpose());
-    Eigen::Matrix<double, 6, 1> change;
-    change.segment<3>(kRotation) = turn.angle() * turn.axis();
-    change.segment<3>(kPosition) = to.center() - from.center();
-    const Eigen::Index first = firstParameter(i);
-    const Eigen::Matrix<double, 6, 6> covariance = prior.covariance.block<6, 6>(first, first);
-    if (change.dot(covariance.ldlt().solve(change)) > kMostDrift * kMostDrift)
-      return true;
-  }
-  return false;
 }
 
 /// The keyframes and the prior around the present values of the cameras' blocks.
@@ -242,6 +224,31 @@ geometry::Rig withDrift(geometry::Rig rig, double time, const AdjustOptions& opt
   return rig;
 }
 
+bool isWithinDrift(const geometry::Rig& rig,
+                   const geometry::Rig& adjusted,
+                   const AdjustOptions& options) {
+  AdjustOptions most = options;
+  most.least_turn = options.most_turn;
+  const Eigen::MatrixXd all = withDrift(rig, rig.solved_at, most).covariance;
+  const auto cameras = static_cast<Eigen::Index>(rig.cameras.size());
+  Eigen::VectorXd change(kPose * cameras);
+  Eigen::MatrixXd covariance(kPose * cameras, kPose * cameras);
+  for (Eigen::Index i = 0; i < cameras; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const geometry::Camera& from = rig.cameras[index].camera;
+    const geometry::Camera& to = adjusted.cameras[index].camera;
+    const Eigen::AngleAxisd turn(to.world_from_camera.linear() *
+                                 from.world_from_camera.linear().transpose());
+    change.segment<kPose>(kPose * i) << turn.angle() * turn.axis(), to.center() - from.center();
+    for (Eigen::Index k = 0; k < cameras; ++k) {
+      covariance.block<kPose, kPose>(kPose * i, kPose * k) = all.block<kPose, kPose>(
+          firstParameter(index), firstParameter(static_cast<std::size_t>(k)));
+    }
+  }
+  return change.dot(covariance.ldlt().solve(change)) <
+         place::chiSquaredQuantile(static_cast<double>(change.size()), place::kThreeNines);
+}
+
 std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,
                                        const std::vector<capture::Image>& images,
                                        const AdjustOptions& options) {
@@ -251,8 +258,6 @@ std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,
   const KeyframeSource source(rig, images);
   const geometry::Rig prior = priorOf(rig, source, images.back().stamp, options);
   auto adjusted = Adjustment(prior, source).solve();
-  if (adjusted && isBeyondDrift(prior, *adjusted))
-    return std::nullopt;
   for (std::size_t i = 0; adjusted && i < rig.cameras.size(); ++i) {
     const Eigen::Index clock = firstParameter(i) + kTimeOffset;
     adjusted->covariance(clock, clock) += options.offset_stddev * options.offset_stddev;

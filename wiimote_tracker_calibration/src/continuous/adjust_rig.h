@@ -24,13 +24,18 @@ struct AdjustOptions {
 /// The rig with its covariance widened by what cameras may have done from solved_at to a time [s].
 geometry::Rig withDrift(geometry::Rig rig, double time, const AdjustOptions& options);
 
+/// Whether the cameras' poses differ by no more than the rig's covariance and the most that cameras
+/// drift explain: chi-squared of all poses together, 99.9 %.
+bool isWithinDrift(const geometry::Rig& rig,
+                   const geometry::Rig& adjusted,
+                   const AdjustOptions& options);
+
 /// All cameras adjusted together to images of one moving LED: maximum a posteriori pose, lens and
 /// time offset, the prior being the rig with its joint covariance, and the drift since solved_at.
 /// Cameras turn more easily than they move, so that their places hold the world. A camera whose rig
 /// has no time offset keeps none: it is solved with one that is then forgotten.
 /// @returns the rig with its covariance, but without solved_at and verdict; nothing when the rig
-/// has no covariance, when three cameras agree on too few places, when these lie together, or when a
-/// camera would change by more than ten standard deviations of the prior.
+/// has no covariance, when three cameras agree on too few places, or when these lie together.
 std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,
                                        const std::vector<capture::Image>& images,
                                        const AdjustOptions& options);

@@ -189,7 +189,8 @@ std::optional<Proposal> ContinuousCalibration::moved(const Evidence& evidence) c
 
 std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& images) const {
   auto rig = adjustRig(rig_, images.to_solve, options_.adjust);
-  if (!rig || !clocksHold(*rig, images.to_check))
+  // Another light carried along can fit, with all cameras turned farther than they drift.
+  if (!rig || !clocksHold(*rig, images.to_check) || !isWithinDrift(rig_, *rig, options_.adjust))
     return std::nullopt;
   const geometry::Rig with_clocks = withNewClocks(rig_, *rig);
   const auto before = misfitOf(with_clocks, images.to_check);

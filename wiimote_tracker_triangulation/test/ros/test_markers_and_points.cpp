@@ -391,6 +391,17 @@ TEST(Markers, ALabelKeepsItsColourOnAnotherTrack) {
   EXPECT_EQ(find(before, "point", 0).color, find(after, "point", 7).color);
 }
 
+TEST(Markers, AskWhetherADoubtfulLabelIsRight) {
+  const Rig rig = threeCameras();
+  MarkerBuilder builder({});
+  builder.setRig(rig);
+  auto points = messageOf(someSnapshot(rig), rig);
+  points.points[0].label_confidence = 0.9f;
+  EXPECT_EQ("led", find(builder.build(points, {}), "label", 0).text);
+  points.points[0].label_confidence = 0.7f;
+  EXPECT_EQ("led?", find(builder.build(points, {}), "label", 0).text);
+}
+
 TEST(Markers, DrawTheHeightAboveTheSquare) {
   Rig rig = threeCameras();
   rig.square_sides.clear();

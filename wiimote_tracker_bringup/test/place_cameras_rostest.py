@@ -2,6 +2,7 @@
 """Cameras and volume of a plan are dragged as rviz does it; the coverage follows, and Save writes a rig."""
 
 import os
+import subprocess
 import sys
 import unittest
 
@@ -50,6 +51,16 @@ class PlaceCameras(unittest.TestCase):
         return np.array(list(point_cloud2.read_points(
             self.clouds[-1], ('x', 'y', 'z', 'cameras', 'stddev'))))
 
+    def can_be_simulated(self, description):
+        rig = subprocess.Popen([
+            'rosrun', 'wiimote_tracker_bringup', 'simulated_rig', '_description:=' + description,
+            f'_socket_directory:={description}.sockets'])
+        try:
+            rospy.wait_for_service('simulation/set_led', DEADLINE)
+        finally:
+            rig.terminate()
+            rig.wait()
+
     def test_what_is_dragged_is_shown_and_saved(self):
         output = rospy.get_param('~output')
         before = self.cells()
@@ -92,10 +103,14 @@ class PlaceCameras(unittest.TestCase):
             np.testing.assert_allclose(saved['wiimote_1'][key],
                                        np.add(paper['wiimote_1'][key], [-0.5, 0.0, 0.0]), atol=2e-3)
             np.testing.assert_allclose(saved['wiimote_3'][key], paper['wiimote_3'][key], atol=1e-3)
+        for name in paper:
+            self.assertEqual(saved[name]['intrinsics'], paper[name]['intrinsics'])
         forth = np.subtract(paper['wiimote_2']['look_at'], paper['wiimote_2']['position'])
         np.testing.assert_allclose(
             np.subtract(saved['wiimote_2']['look_at'], saved['wiimote_2']['position']),
             forth * [-1.0, -1.0, 1.0], atol=2e-3)
+
+        self.can_be_simulated(output)
 
         os.remove(output)
         self.feedback.publish(client_id='rviz', marker_name='wiimote_3', menu_entry_id=1,

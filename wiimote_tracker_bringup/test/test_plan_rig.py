@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, '../evaluation'))
 
-from wiimote_tracker_evaluation import bound, scene  # noqa: E402
+from wiimote_tracker_evaluation import bound, rigs, scene  # noqa: E402
 from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
 from wiimote_tracker_evaluation.experiment import NOMINAL_LENS  # noqa: E402
 from wiimote_tracker_evaluation.planning import (  # noqa: E402
@@ -61,10 +61,10 @@ def test_one_camera_alone_and_none_leave_a_point_unknown():
 
 
 def test_what_the_cameras_see_is_told_with_rays_that_cross_and_with_parallel_ones():
-    crossing = '\n'.join(plan_rig.describe_sight(ROOM, POSITIONS[:2], TARGETS[:2]))
+    crossing = '\n'.join(plan_rig.describe_sight(ROOM, 'ab', POSITIONS[:2], TARGETS[:2]))
     assert re.search(r'pixels alone: [0-9.]+ mm \(RMS\), [0-9.]+ mm \(largest\)', crossing)
     beside = POSITIONS[:1] + [[0.0, 0.0, 0.0], [0.001, 0.0, 0.0]]
-    parallel = '\n'.join(plan_rig.describe_sight(ROOM, beside, TARGETS[[0, 0]]))
+    parallel = '\n'.join(plan_rig.describe_sight(ROOM, 'ab', beside, TARGETS[[0, 0]]))
     assert re.search(r'alone: [0-9.]+ mm \(RMS\), [0-9.]+ mm \(largest; 500 or more: ', parallel)
 
 
@@ -121,6 +121,26 @@ def test_a_proposal_is_a_rig_that_can_be_simulated_and_scored(tmp_path, capsys):
     plan_rig.main([EXAMPLE, '--score', path])
     told = capsys.readouterr().out.splitlines()[1:]
     assert told == proposed.splitlines()[-len(told):]
+
+
+def test_a_rig_that_is_moved_keeps_all_else_in_another_folder(tmp_path, capsys):
+    room = tmp_path / 'room'
+    room.mkdir()
+    rig = rigs.read(PAPER_RIG)
+    rig['cameras'] = dict(zip(['door', 'window', 'desk', 'wall'], rig['cameras'].values()))
+    rig['leds']['led']['blink'] = {'codes': 'codes.yaml', 'label': 'led'}
+    rigs.write(str(room / 'rig.yaml'), rig)
+    loaded = plan_rig.read_rig(str(room / 'rig.yaml'))
+    rigs.write(str(tmp_path / 'saved.yaml'), rigs.placed(loaded, np.ones((4, 3)), np.eye(4, 3)))
+    saved = rigs.read(str(tmp_path / 'saved.yaml'))
+    rig['leds']['led']['blink']['codes'] = str(room / 'codes.yaml')
+    for drawing in rig['drawings'].values():
+        drawing['file'] = str(room / drawing['file'])
+    for camera, target in zip(rig['cameras'].values(), np.eye(4, 3)):
+        camera.update(position=[1.0, 1.0, 1.0], look_at=list(target))
+    assert saved == rig
+    plan_rig.main([EXAMPLE, '--score', str(tmp_path / 'saved.yaml')])
+    assert 'since door does not see all corners' in capsys.readouterr().out
 
 
 def test_the_papers_rig_sees_the_whole_cube(capsys):

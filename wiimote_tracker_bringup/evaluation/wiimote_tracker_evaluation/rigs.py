@@ -1,6 +1,8 @@
 """Descriptions of simulated rigs derived from another one."""
 
+import copy
 import math
+import os
 from typing import Dict
 
 import numpy as np
@@ -28,6 +30,26 @@ def is_description(path: str) -> bool:
 def write(path: str, description: Dict) -> None:
     with open(path, 'w') as file:
         yaml.safe_dump(description, file, sort_keys=False)
+
+
+def with_absolute_files(description: Dict, folder: str) -> Dict:
+    """The rig that was read in this folder, so that it can be written to any other one."""
+    changed = copy.deepcopy(description)
+    named = [(drawing, 'file') for drawing in changed.get('drawings', {}).values()]
+    named += [(led['blink'], 'codes') for led in changed.get('leds', {}).values()
+              if 'codes' in led.get('blink', {})]
+    for entry, key in named:
+        entry[key] = os.path.join(os.path.abspath(folder), entry[key])
+    return changed
+
+
+def placed(description: Dict, positions, targets) -> Dict:
+    """The rig with its cameras at these positions, aimed at these targets [m], to 1 mm."""
+    return dict(description, cameras={
+        name: dict(camera, position=np.round(position, 3).tolist(),
+                   look_at=np.round(target, 3).tolist())
+        for (name, camera), position, target in zip(
+            description['cameras'].items(), positions, targets)})
 
 
 def identities(description: Dict) -> Dict[str, str]:

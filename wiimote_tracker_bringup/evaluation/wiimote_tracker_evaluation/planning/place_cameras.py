@@ -27,16 +27,15 @@ WIDTH = 60  # of the summary's lines, in letters
 
 
 class PlaceCameras:
-    def __init__(self, chosen, positions, targets, output):
-        self._plan, self._positions, self._targets = chosen, positions, targets
-        self._output = output
+    def __init__(self, chosen, rig, output):
+        self._plan, self._rig, self._output = chosen, rig, output
+        self._names, self._positions, self._targets = plan_rig.places_of(rig)
         self._lock = threading.Lock()
         self._cells = rospy.Publisher('coverage/cells', PointCloud2, queue_size=1, latch=True)
         self._summary = rospy.Publisher('coverage', MarkerArray, queue_size=1, latch=True)
         self._room = rospy.Publisher('plan/room', MarkerArray, queue_size=1, latch=True)
         self._server = InteractiveMarkerServer('plan')
-        self._names = [f'wiimote_{number}' for number in range(1, len(positions) + 1)]
-        for name, position, target in zip(self._names, positions, targets):
+        for name, position, target in zip(self._names, self._positions, self._targets):
             self._server.insert(handles.camera(name, position, target), self._on_feedback)
         for name, corner in zip(CORNERS, np.reshape(chosen.volume, (2, 3))):
             self._server.insert(handles.corner(name, corner), self._on_feedback)
@@ -82,7 +81,8 @@ class PlaceCameras:
         points = self._plan.grid(plan_rig.ACROSS)
         self._cells.publish(cells.cloud(handles.FRAME, points, *prediction.at_points(
             self._plan, self._positions, self._targets, points)))
-        lines = plan_rig.describe_sight(self._plan, self._positions, self._targets)
+        lines = plan_rig.describe_sight(self._plan, self._names, self._positions,
+                                        self._targets)
         self._summary.publish([self._text('\n'.join(
             textwrap.fill(line.strip(), WIDTH) for line in lines))])
 
@@ -98,7 +98,7 @@ class PlaceCameras:
 
     def _save(self):
         with self._lock:
-            description = plan_rig.description(self._plan, self._positions, self._targets)
+            description = rigs.placed(self._rig, self._positions, self._targets)
             volume = [round(float(v), 3) for v in self._plan.volume]
         try:
             rigs.write(self._output, description)
@@ -113,8 +113,9 @@ def main():
     try:
         chosen = plan.read(rospy.get_param('~plan'))
         description = rospy.get_param('~description', '')
-        PlaceCameras(chosen, *(plan_rig.places_of(description) if description
-                               else search.proposal(chosen)), rospy.get_param('~output'))
+        rig = (plan_rig.read_rig(description) if description
+               else plan_rig.description(chosen, *search.proposal(chosen)))
+        PlaceCameras(chosen, rig, rospy.get_param('~output'))
     except KeyError as error:
         rospy.logfatal('the parameter %s is missing: use plan.launch', error)
         return 1

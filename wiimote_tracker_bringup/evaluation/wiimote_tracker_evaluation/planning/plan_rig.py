@@ -1,6 +1,7 @@
 """plan_rig: where to put the cameras of a room, and how well a rig sees it."""
 
 import argparse
+import os
 import sys
 
 import numpy as np
@@ -25,7 +26,7 @@ def describe_cameras(positions, targets):
     return lines + ['pan: from the x axis towards y; tilt: above the horizon']
 
 
-def describe_sight(chosen, positions, targets):
+def describe_sight(chosen, names, positions, targets):
     """Lines on what the cameras see of the volume, and how accurately."""
     points = chosen.grid(ACROSS)
     if chosen.body:
@@ -44,7 +45,7 @@ def describe_sight(chosen, positions, targets):
         '  standard deviation by the pixels alone: %.1f mm (RMS), %.1f mm (largest%s)'
         % (np.sqrt(np.mean(errors ** 2)), errors.max(),
            '; 500 or more: rays that hardly meet' if errors.max() > 400.0 else ''),
-        '  ' + with_calibration(chosen, positions, targets, points[known])]
+        '  ' + with_calibration(chosen, names, positions, targets, points[known])]
 
 
 def describe_body(chosen, positions, targets, points):
@@ -64,11 +65,11 @@ def describe_body(chosen, positions, targets, points):
                                np.degrees(turn.max()))]
 
 
-def with_calibration(chosen, positions, targets, points):
+def with_calibration(chosen, names, positions, targets, points):
     """A line on the errors after a calibration by the square alone, the Cramér-Rao bound."""
-    cameras = [scene.Camera(f'wiimote_{number}', NOMINAL_LENS, frame, position, prediction.SIZE)
-               for number, (position, frame) in enumerate(
-                   zip(positions, np.moveaxis(prediction.axes(positions, targets), 1, 2)), 1)]
+    frames = np.moveaxis(prediction.axes(positions, targets), 1, 2)
+    cameras = [scene.Camera(name, NOMINAL_LENS, frame, position, prediction.SIZE)
+               for name, frame, position in zip(names, frames, positions)]
     corners = chosen.corners()
     for camera in cameras:
         if not camera.sees(corners).all():
@@ -94,22 +95,29 @@ def description(chosen, positions, targets):
             'distortion': [k1, 0.0, 0.0, 0.0, 0.0]}
     cameras = {f'wiimote_{number}': dict(
         like, identity=f'00:1f:32:00:00:{number:02x}', intrinsics=dict(lens),
-        position=[round(float(v), 3) for v in position],
-        look_at=[round(float(v), 3) for v in target],
         clock=dict(like['clock'], phase=round(0.0013 * number % 0.01, 4)))
-        for number, (position, target) in enumerate(zip(positions, targets), 1)}
-    return rigs.with_leds(dict(example, cameras=cameras), [chosen.corners().mean(axis=0)])
+        for number in range(1, len(positions) + 1)}
+    return rigs.placed(
+        rigs.with_leds(dict(example, cameras=cameras), [chosen.corners().mean(axis=0)]),
+        positions, targets)
 
 
-def places_of(path):
-    """Positions and targets of a rig description."""
+def read_rig(path):
+    """A rig description that can be written to another folder."""
     try:
-        cameras = rigs.read(path)['cameras'].values()
-        return tuple(np.array([camera[key] for camera in cameras], dtype=float)
-                     for key in ('position', 'look_at'))
+        rig = rigs.with_absolute_files(rigs.read(path), os.path.dirname(path))
+        places_of(rig)
+        return rig
     except (AttributeError, KeyError, TypeError) as error:
         raise ExperimentError(f'{path} is no rig description with position and look_at of each '
                               'camera, such as simulation/paper_rig.yaml') from error
+
+
+def places_of(rig):
+    """Names, positions and targets of the cameras of a rig description."""
+    return (list(rig['cameras']),) + tuple(
+        np.array([camera[key] for camera in rig['cameras'].values()], dtype=float)
+        for key in ('position', 'look_at'))
 
 
 def tell_progress(share):
@@ -120,17 +128,19 @@ def tell_progress(share):
 def run(arguments):
     chosen = plan.read(arguments.plan)
     if arguments.score:
-        places = places_of(arguments.score)
+        rig = read_rig(arguments.score)
         print(arguments.score)
     else:
         places = search.search(chosen, arguments.seed, arguments.generations,
                                tell_progress)
         print('\n'.join(describe_cameras(*places)))
-    print('\n'.join(describe_sight(chosen, *places)))
+        rig = description(chosen, *places)
+    names, positions, targets = places_of(rig)
+    print('\n'.join(describe_sight(chosen, names, positions, targets)))
     if arguments.output:
-        rigs.write(arguments.output, description(chosen, *places))
+        rigs.write(arguments.output, rig)
     if arguments.plot:
-        picture.draw(chosen, *places, arguments.plot)
+        picture.draw(chosen, positions, targets, arguments.plot)
 
 
 def main(argv=None):

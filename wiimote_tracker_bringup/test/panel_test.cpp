@@ -4,12 +4,12 @@
 #include "big_words.h"
 #include "calibrate_page.h"
 #include "camera_tile.h"
+#include "contrast.h"
 #include "tracker_widget.h"
 
 #include <QApplication>
 #include <QColor>
 #include <QDoubleSpinBox>
-#include <QImage>
 #include <QLabel>
 #include <QPalette>
 #include <QPushButton>
@@ -23,9 +23,7 @@
 #include <rviz/panel.h>
 #include <pluginlib/class_loader.hpp>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <memory>
@@ -76,24 +74,6 @@ class Panel : public testing::Test {
 
   std::unique_ptr<TrackerWidget> widget_;
 };
-
-/// Of the lightest to the darkest pixel, as defined by WCAG 2 (there at least 4.5 for texts).
-double contrastOf(const QImage& image) {
-  double lightest = 0.0, darkest = 1.0;
-  for (int x = 0; x < image.width(); ++x) {
-    for (int y = 0; y < image.height(); ++y) {
-      const QColor color = image.pixelColor(x, y);
-      const auto linear = [](double v) {
-        return v <= 0.03928 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-      };
-      const double luminance = 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) +
-                               0.0722 * linear(color.blueF());
-      lightest = std::max(lightest, luminance);
-      darkest = std::min(darkest, luminance);
-    }
-  }
-  return (lightest + 0.05) / (darkest + 0.05);
-}
 
 TEST_F(Panel, CanBeReadOnDarkAndOnLightGround) {
   open(1);

@@ -21,6 +21,7 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rviz/panel.h>
+#include <wiimote_tracker_msgs/SetLed.h>
 #include <pluginlib/class_loader.hpp>
 
 #include <chrono>
@@ -63,6 +64,23 @@ class Panel : public testing::Test {
   QString title() const { return static_cast<BigWords*>(find<QWidget>("title"))->text(); }
   void open(int page) { widget_->pages()->setCurrentIndex(page); }
   bool camerasAre(const QString& summary) const { return label("summary") == summary; }
+
+  /// Distance that the panel states between the LED, as measured, and a known place [mm].
+  double check(double x, double y, double z) const {
+    find<QDoubleSpinBox>("x")->setValue(x);
+    find<QDoubleSpinBox>("y")->setValue(y);
+    find<QDoubleSpinBox>("z")->setValue(z);
+    auto* button = find<QPushButton>("Check the LED there");
+    const QString before = label("answer");
+    EXPECT_TRUE(waitFor([&] {
+      if (label("answer") != before && label("answer").startsWith("measured "))
+        return true;
+      if (button->isEnabled())
+        button->click();
+      return false;
+    })) << label("answer").toStdString();
+    return label("answer").section(' ', 1, 1).toDouble();
+  }
 
   void screenshot(const QString& name) const {
     const char* folder = std::getenv("WIIMOTE_TRACKER_SCREENSHOTS");
@@ -136,6 +154,18 @@ TEST_F(Panel, CalibratesByPressingTheButtonThatItOffers) {
   open(3);
   EXPECT_TRUE(waitFor([this] { return find<QTreeWidget>("health")->topLevelItemCount() > 4; }));
   screenshot("health");
+  open(1);
+  wiimote_tracker_msgs::SetLed rest;
+  rest.request.led = "led";
+  rest.request.on = 1;
+  rest.request.motion = rest.request.LINE;
+  rest.request.target.x = rest.request.target.z = 1.0;
+  rest.request.target.y = 1.5;
+  ASSERT_TRUE(ros::service::call("simulation/set_led", rest));
+  constexpr double kThreeSigma = 30.0;  // of this calibration [mm]
+  EXPECT_LT(check(1.0, 1.5, 1.0), kThreeSigma);
+  EXPECT_NEAR(check(1.0, 1.5, 1.2), 200.0, kThreeSigma);
+  screenshot("calibrate_place");
 }
 
 TEST_F(Panel, EndsWhileARequestRuns) {

@@ -165,6 +165,7 @@ void CalibratePage::addPlace(QVBoxLayout* layout) {
   row->addWidget(new QLabel("LED at", this), 0, 0);
   for (int i = 0; i < 3; ++i) {
     known_[i] = new QDoubleSpinBox(this);
+    known_[i]->setObjectName(QStringList({"x", "y", "z"})[i]);
     known_[i]->setRange(-100.0, 100.0);
     known_[i]->setDecimals(3);
     known_[i]->setPrefix(QStringList({"x ", "y ", "z "})[i]);

@@ -5,6 +5,7 @@ import re
 import shlex
 
 import pytest
+import roslaunch.arg_dump
 import roslaunch.config
 
 LAUNCH = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../launch')
@@ -21,6 +22,11 @@ def load(monkeypatch):
         return ({node.name: node for node in config.nodes},
                 {name: parameter.value for name, parameter in config.params.items()})
     return load
+
+
+@pytest.mark.parametrize('name', sorted(n for n in os.listdir(LAUNCH) if n.endswith('.launch')))
+def test_roslaunch_lists_the_arguments(name):
+    roslaunch.arg_dump.get_args([os.path.join(LAUNCH, name)])
 
 
 @pytest.mark.parametrize('given, found', [

@@ -160,4 +160,22 @@ std::string describe(const Constellation& constellation, const Symmetry& symmetr
               : "; orientations may be confused: move an LED, or have them blink");
 }
 
+std::optional<std::string> describeMergingLeds(const Constellation& constellation) {
+  std::optional<std::string> sentence;
+  double nearest = kMerging;
+  for (std::size_t i = 0; i < constellation.leds.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const double distance = (constellation.leds[i] - constellation.leds[k]).norm();
+      if (distance >= nearest)
+        continue;
+      nearest = distance;
+      sentence = "body '" + constellation.name + "' has LEDs " + constellation.labelOf(k) +
+                 " and " + constellation.labelOf(i) + " only " + format("%.1f mm", 1e3 * distance) +
+                 " apart: their spots merge, so that it is not found or turned wrongly; move them "
+                 "4 cm or more apart";
+    }
+  }
+  return sentence;
+}
+
 }  // namespace wiimote_tracker::body

@@ -126,7 +126,7 @@ void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
   subscribeToImus(bodies);
   bodies_.setBodies(bodies);
   body_diagnostics_.setBodies(bodies);
-  for (const std::string& sentence : ambiguities(bodies)) {
+  for (const std::string& sentence : shapeWarnings(bodies)) {
     // Learning a body sets all others again.
     if (warned_of_.insert(sentence).second)
       ROS_WARN("%s.", sentence.c_str());

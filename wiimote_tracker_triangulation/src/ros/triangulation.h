@@ -61,7 +61,7 @@ class Triangulation : private MessageSink {
   BodyLearning learning_;
   LoadShedding shedding_;
   TrackingDiagnostics diagnostics_;
-  std::set<std::string> warned_of_;  // bodies that may be confused: sentences
+  std::set<std::string> warned_of_;  // sentences about shapes of bodies
 
   ros::Publisher points_publisher_;
   ros::Publisher markers_publisher_;

@@ -88,6 +88,18 @@ TEST(Constellation, TheNearestSymmetryIsTheLeastOfAllPermutations) {
   }
 }
 
+TEST(Constellation, NamesTheNearestLedsWhoseSpotsMerge) {
+  EXPECT_FALSE(describeMergingLeds(fourLeds()));
+  Constellation body = fourLeds();
+  body.leds[3] = body.leds[1] + Vector3d(0.0, 0.025, 0.0);
+  const auto sentence = describeMergingLeds(body);
+  ASSERT_TRUE(sentence);
+  EXPECT_NE(sentence->find("'four_leds' has LEDs 1 and 3 only 25.0 mm apart"), std::string::npos);
+  body.labels = {"a", "b", "c", "d"};
+  body.leds[2] = body.leds[0] + Vector3d(0.015, 0.0, 0.0);
+  EXPECT_NE(describeMergingLeds(body)->find("LEDs a and c only 15.0 mm"), std::string::npos);
+}
+
 TEST(Constellation, SymmetricOnesNeedLabels) {
   Constellation square{"square", {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}};
   EXPECT_NE(messageOf(square).find("looks the same within 0.0 mm"), std::string::npos);

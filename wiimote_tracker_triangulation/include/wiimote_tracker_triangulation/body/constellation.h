@@ -61,6 +61,13 @@ constexpr double kNearlySymmetric = 0.015;
 /// A sentence for the user: which LEDs would be confused, and what to do.
 std::string describe(const Constellation& constellation, const Symmetry& symmetry);
 
+/// Distance of two LEDs [m] below which their spots often merge, some metres from the camera.
+constexpr double kMerging = 0.03;
+
+/// A sentence for the user about the two LEDs that are nearest to each other, or nothing if they
+/// are kMerging apart.
+std::optional<std::string> describeMergingLeds(const Constellation& constellation);
+
 }  // namespace wiimote_tracker::body
 
 #endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_CONSTELLATION_H

@@ -33,8 +33,9 @@ void BodyDiagnostics::setBodies(const std::vector<body::Constellation>& bodies) 
   statuses_.clear();
   seen_.clear();
   for (const body::Constellation& body : bodies) {
-    const std::vector<std::string> warnings = ambiguities({body});
-    const std::string warning = warnings.empty() ? "" : warnings.front();
+    std::string warning;
+    for (const std::string& sentence : shapeWarnings({body}))
+      warning += (warning.empty() ? "" : "; ") + sentence;
     statuses_.push_back("body " + body.name);
     seen_[body.name].leds.resize(body.leds.size());
     updater_.add(statuses_.back(), [=](diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -193,9 +193,8 @@ void BodyLearning::learn(const LearnBody::Request& request, LearnBody::Response*
                       " and tracked from now on";
   if (had_imu)
     response->message += "; find its IMU again by body_to_base --imu, since its axes have changed";
-  const std::vector<std::string> warnings = ambiguities({learned.constellation});
-  if (!warnings.empty())
-    response->message += "; but " + warnings.front();
+  for (const std::string& warning : shapeWarnings({learned.constellation}))
+    response->message += "; but " + warning;
 }
 
 /// Gives the bodies to the tracker's thread.

@@ -64,12 +64,14 @@ BodyParameters BodyParameters::read(ParameterReader* reader,
   return p;
 }
 
-std::vector<std::string> ambiguities(const std::vector<body::Constellation>& bodies) {
+std::vector<std::string> shapeWarnings(const std::vector<body::Constellation>& bodies) {
   std::vector<std::string> sentences;
   for (const body::Constellation& body : bodies) {
     const body::Symmetry symmetry = body::nearestSymmetry(body);
     if (symmetry.residual < body::kNearlySymmetric && body.labels.empty())
       sentences.push_back(body::describe(body, symmetry));
+    if (const auto merging = body::describeMergingLeds(body))
+      sentences.push_back(*merging);
   }
   return sentences;
 }

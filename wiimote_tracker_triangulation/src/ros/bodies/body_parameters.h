@@ -26,8 +26,8 @@ struct BodyParameters {
                              const std::vector<std::string>& labels);
 };
 
-/// One warning per body that is nearly symmetric.
-std::vector<std::string> ambiguities(const std::vector<body::Constellation>& bodies);
+/// What is wrong with bodies that are nearly symmetric, or have LEDs close together.
+std::vector<std::string> shapeWarnings(const std::vector<body::Constellation>& bodies);
 
 }  // namespace wiimote_tracker
 

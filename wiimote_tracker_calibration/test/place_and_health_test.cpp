@@ -328,6 +328,30 @@ TEST_F(CalibratedNode, BringsBackAKnockedCamera) {
   std::filesystem::remove_all(folder);
 }
 
+TEST_F(CalibratedNode, ApproachesARigWithANewClock) {
+  geometry::Rig rig = trueRig();
+  rig.cameras[2].time_offset = 0.01;
+  rig.cameras[2].time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
+  rig.cameras[2].time_offset_epoch = 5;
+  load(rig);
+  cameras_->waveLed(true);
+  ASSERT_TRUE(
+      waitUntil([] { return health("camera_3").find("continuous/apply") != std::string::npos; }));
+  const auto reply = call<std_srvs::Trigger>("calibration/continuous/apply");
+  ASSERT_TRUE(reply.success) << reply.message;
+  EXPECT_SAYS(reply.message,
+              "approached in steps of 0.2 mm, one in 30 s: camera_3 has a new clock");
+  Latest<RigCalibration> published("calibration/rig");
+  ASSERT_TRUE(waitUntil([&] { return published.get() && published.get()->id != rig.id(); }));
+  const geometry::Rig result = fromMessage(*published.get());
+  EXPECT_EQ(result.cameras[2].time_offset_epoch, 0U);
+  EXPECT_NEAR(result.cameras[2].time_offset, 0.0, 0.0005);
+  // Back, once.
+  ASSERT_TRUE(call<std_srvs::Trigger>("calibration/continuous/revert").success);
+  EXPECT_TRUE(waitUntil([&] { return published.get()->id == rig.id(); }));
+  EXPECT_FALSE(call<std_srvs::Trigger>("calibration/continuous/revert").success);
+}
+
 }  // namespace
 }  // namespace wiimote_tracker
 

@@ -170,7 +170,7 @@ TEST(Continuous, ACameraWithoutATimeOffsetHasNotReconnected) {
     EXPECT_EQ(camera.time_offset_rule, geometry::TimeOffsetRule::kNone);
     EXPECT_TRUE(std::isnan(camera.time_offset));
   }
-  EXPECT_LT(misfitOf(*adjusted, images).value(), misfitOf(rig, images).value());
+  EXPECT_LT(fitOf(*adjusted, images).value().misfit, fitOf(rig, images).value().misfit);
 }
 
 TEST(Continuous, AdjustsAllCamerasAndTheirNewClocks) {

@@ -278,8 +278,7 @@ void copyClock(const geometry::Rig& from, std::size_t camera, geometry::Rig* to)
   to->covariance(clock, clock) = from.covariance(clock, clock);
 }
 
-std::optional<double> misfitOf(const geometry::Rig& rig,
-                               const std::vector<capture::Image>& images) {
+std::optional<Fit> fitOf(const geometry::Rig& rig, const std::vector<capture::Image>& images) {
   const KeyframeSource source(rig, images);
   geometry::Rig valid = rig;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
@@ -288,7 +287,10 @@ std::optional<double> misfitOf(const geometry::Rig& rig,
   const auto keyframes = source.keyframes(valid, kCheckGate);
   if (keyframes.size() < kLeastKeyframes)
     return std::nullopt;
-  return rmsResidual(keyframes);
+  Fit fit{rmsResidual(keyframes), {}};
+  for (const Keyframe& keyframe : keyframes)
+    fit.places.push_back(keyframe.point);
+  return fit;
 }
 
 }  // namespace wiimote_tracker::continuous

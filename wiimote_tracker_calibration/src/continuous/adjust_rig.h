@@ -5,6 +5,8 @@
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -43,10 +45,15 @@ std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,
 /// Copies a camera's time offset and its variance, without its correlations.
 void copyClock(const geometry::Rig& from, std::size_t camera, geometry::Rig* to);
 
-/// How well the images of each camera's latest epoch fit together, with the time offsets that hold
-/// then: root mean square of the residuals per axis [px]. Nothing when three cameras agree on too
-/// few places.
-std::optional<double> misfitOf(const geometry::Rig& rig, const std::vector<capture::Image>& images);
+/// How well images fit together.
+struct Fit {
+  double misfit;                        ///< Root mean square of the residuals per axis [px].
+  std::vector<Eigen::Vector3d> places;  ///< Where the LED was, world [m].
+};
+
+/// The fit of the images of each camera's latest epoch, with the time offsets that hold then.
+/// Nothing when three cameras agree on too few places.
+std::optional<Fit> fitOf(const geometry::Rig& rig, const std::vector<capture::Image>& images);
 
 }  // namespace wiimote_tracker::continuous
 

@@ -49,7 +49,7 @@ Proposal proposalOf(Cause cause,
                     const geometry::Rig& rig,
                     const std::string& message,
                     const std::vector<capture::Image>& checked) {
-  Proposal proposal{cause, camera, rig, message};
+  Proposal proposal{cause, camera, rig, message, {}};
   proposal.rig.solved_at = checked.back().stamp;
   proposal.rig.verdict = verdictWith(before.verdict, message);
   return proposal;
@@ -193,11 +193,12 @@ std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& imag
   if (!rig || !clocksHold(*rig, images.to_check) || !isWithinDrift(rig_, *rig, options_.adjust))
     return std::nullopt;
   const geometry::Rig with_clocks = withNewClocks(rig_, *rig);
-  const auto before = misfitOf(with_clocks, images.to_check);
-  auto after = misfitOf(*rig, images.to_check);
+  const auto before = fitOf(with_clocks, images.to_check);
+  auto after = fitOf(*rig, images.to_check);
   if (!before || !after)
     return std::nullopt;
-  const bool keeps_poses = *before * *before - *after * *after < options_.gain * options_.gain;
+  const double gain = before->misfit * before->misfit - after->misfit * after->misfit;
+  const bool keeps_poses = gain < options_.gain * options_.gain;
   if (keeps_poses) {
     rig = with_clocks;
     after = before;
@@ -212,11 +213,12 @@ std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& imag
   if (keeps_poses && !reconnected)
     return std::nullopt;
   const std::string message = changesText(rig_, *rig) +
-                              format(". Corrected, the images agree to %.2f px", *after) +
-                              (reconnected ? "" : format(" (now %.2f px)", *before));
+                              format(". Corrected, the images agree to %.2f px", after->misfit) +
+                              (reconnected ? "" : format(" (now %.2f px)", before->misfit));
   Proposal proposal =
       proposalOf(reconnected ? Cause::kReconnect : Cause::kDrift, rig_.cameras[most].camera.name,
                  rig_, *rig, message, images.to_check);
+  proposal.places = after->places;
   if (keeps_poses)
     proposal.rig.solved_at = rig_.solved_at;
   return proposal;

@@ -13,6 +13,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker::continuous {
 
@@ -39,6 +40,9 @@ struct Proposal {
   std::string camera;   ///< That has changed most.
   geometry::Rig rig;    ///< As it was found; solved_at: its last image, if poses changed.
   std::string message;  ///< One sentence: what has changed, and how well the images fit then.
+  /// Where the LED was, world [m]: places that should not jump. Empty if one camera was knocked,
+  /// since the others hold the world.
+  std::vector<Eigen::Vector3d> places;
 };
 
 /// Corrects a rig from ordinary tracking of one LED. A camera that no longer fits the others is

@@ -1,10 +1,12 @@
 #include "units.h"
 
+#include "continuous/approach.h"
 #include "continuous/continuous_calibration.h"
 
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 
+#include <algorithm>
 #include <ctime>
 #include <optional>
 #include <string>
@@ -22,6 +24,9 @@ constexpr double kUpdatePeriod = 0.5;       // [s]
 constexpr std::size_t kMostInputs = 20000;  // that wait: a minute of four cameras
 constexpr std::size_t kMostChanges = 100;   // that can be reverted
 const char kApply[] = "; call calibration/continuous/apply to use it";
+const std::string kSteps = format("in steps of %.1f mm, one in %.0f s",
+                                  1000.0 * continuous::Approach::kLongestStep,
+                                  continuous::Approach::kPeriod);
 
 /// A date as part of a file's name.
 std::string dateOf(double time) {
@@ -100,11 +105,13 @@ class ContinuousServices {
     useRig(lock);
     if (!continuous_ || inputs.empty())
       return;
+    if (approach_ && isCalibrated(lock))
+      stepTowardsGoal(inputs, lock);
     const auto proposal = context_.compute(&lock, [&] { return newestProposal(inputs); });
     if (proposal_ && !continuous_->isCurrent(*proposal_))
       forgetProposal(lock);
-    const auto& rig = context_.rig(lock);
-    if (!proposal || !rig || rig->id() != rig_id_ || !isCalibrated(lock))
+    if (!proposal || idInUse(lock) != in_use_ || !isCalibrated(lock) ||
+        (approach_ && approach_->goal().id() != watched_))
       return;
     const bool is_news = !proposal_ || proposal_->camera != proposal->camera;
     proposal_ = proposal;
@@ -112,7 +119,7 @@ class ContinuousServices {
     const bool applies =
         policy_ == ContinuousPolicy::kAll ||
         (policy_ == ContinuousPolicy::kKnocked && proposal->cause != continuous::Cause::kDrift);
-    if (applies && rig_id_ != reverted_to_) {
+    if (applies && in_use_ != reverted_to_) {
       const Reply applied = applyProposal(&lock);
       ROS_WARN_STREAM(applied.message);
     } else if (is_news) {
@@ -120,17 +127,43 @@ class ContinuousServices {
     }
   }
 
-  /// Watches the rig in use from now on.
-  void useRig(const Lock& lock) {
+  /// Empty: there is none.
+  std::string idInUse(const Lock& lock) const {
     const auto& rig = context_.rig(lock);
-    const std::string id = rig ? rig->id() : "";
-    if (id == rig_id_)
+    return rig ? rig->id() : "";
+  }
+
+  /// Watches the rig in use from now on, or the one that it approaches.
+  void useRig(const Lock& lock) {
+    if (idInUse(lock) != in_use_)
+      approach_.reset();  // Someone has replaced it.
+    in_use_ = idInUse(lock);
+    const std::string id = approach_ ? approach_->goal().id() : in_use_;
+    if (id == watched_)
       return;
-    rig_id_ = id;
+    watched_ = id;
     continuous_.reset();
     forgetProposal(lock);
-    if (rig)
-      continuous_.emplace(*rig, options_);
+    if (const auto& rig = context_.rig(lock))
+      continuous_.emplace(approach_ ? approach_->goal() : *rig, options_);
+  }
+
+  void stepTowardsGoal(const std::vector<Input>& inputs, const Lock& lock) {
+    double newest = 0.0;  // [s]
+    for (const Input& input : inputs)
+      newest = std::max(newest, input.image.stamp);
+    const geometry::Rig before = *context_.rig(lock);
+    const auto next = approach_->step(before, newest);
+    if (!next)
+      return;
+    const geometry::Rig rig = continuous::appliedRig(*next, before);
+    in_use_ = changes_.back().id = rig.id();
+    const bool is_reached = approach_->isReached();
+    if (is_reached)
+      approach_.reset();
+    context_.setRig(
+        rig, is_reached ? "the adjusted rig is in use" : "the adjusted rig is approached " + kSteps,
+        lock);
   }
 
   void forgetProposal(const Lock& lock) {
@@ -162,19 +195,24 @@ class ContinuousServices {
           "nothing is proposed: a camera that no longer fits the others is solved while "
           "one LED moves where it and two others see it");
     const geometry::Rig before = context_.existingRig("to change", *lock);
-    context_.requireSameRig(rig_id_, *lock);
-    const std::string message = proposal_->message;
-    const geometry::Rig rig = continuous::appliedRig(proposal_->rig, before);
+    context_.requireSameRig(in_use_, *lock);
+    const continuous::Proposal proposal = *proposal_;
+    const geometry::Rig rig = continuous::appliedRig(proposal.rig, before);
     forgetProposal(*lock);
-    changes_.push_back({rig.id(), before});
+    const bool at_once = proposal.places.empty();
+    changes_.push_back({at_once ? rig.id() : before.id(), before});
     if (changes_.size() > kMostChanges)
       changes_.erase(changes_.begin());
-    context_.setRig(rig, message, *lock);
-    return {true, "in use: " + message + "; " + keepVersion(rig, lock) +
+    if (at_once)
+      context_.setRig(rig, proposal.message, *lock);
+    else
+      approach_.emplace(rig, proposal.places);
+    return {true, (at_once ? "in use: " : "approached " + kSteps + ": ") + proposal.message + "; " +
+                      keepVersion(rig, lock) +
                       "; calibration/continuous/revert goes back, and save keeps it"};
   }
 
-  /// Writes the rig beside the rig file. @returns where, or why not.
+  /// Writes a rig beside the rig file. @returns where, or why not.
   std::string keepVersion(const geometry::Rig& rig, Lock* lock) {
     const std::string& rig_file = context_.parameters(*lock).rig_file;
     const std::string path = rig_file.substr(0, rig_file.rfind('/') + 1) + "versions/" +
@@ -215,7 +253,9 @@ class ContinuousServices {
   ContinuousPolicy policy_;
   continuous::Options options_;
   std::vector<Input> inputs_;                                    // Since the last update.
-  std::string rig_id_;                                           // Of the rig that is watched.
+  std::string in_use_;                                           // Id of the rig in use.
+  std::optional<continuous::Approach> approach_;                 // From the rig in use to another.
+  std::string watched_;                                          // Id of the rig that is watched.
   std::optional<continuous::ContinuousCalibration> continuous_;  // Nothing without a rig.
   std::optional<continuous::Proposal> proposal_;                 // For the rig that is watched.
   std::vector<Change> changes_;

@@ -71,8 +71,8 @@ class View {
     panel_.setBackgroundColor(Ogre::ColourValue(brightness, brightness, brightness));
   }
 
-  /// The picture of texts that were not there before.
-  QImage show(float brightness) {
+  /// The picture of texts that were not there before. @param together both are at the left one's
+  QImage show(float brightness, bool together = false) {
     visualization_msgs::MarkerArray clear;
     clear.markers.resize(1);
     clear.markers[0].action = visualization_msgs::Marker::DELETEALL;
@@ -80,9 +80,12 @@ class View {
     pictureWhen([](const QImage& image) {
       return drawnIn(half(image, 0)).isNull() && drawnIn(half(image, 1)).isNull();
     });
-    publisher_.publish(texts(brightness));
-    return pictureWhen([](const QImage& image) {
-      return !drawnIn(half(image, 0)).isNull() && !drawnIn(half(image, 1)).isNull();
+    visualization_msgs::MarkerArray array = texts(brightness);
+    if (together)
+      array.markers[1].pose = array.markers[0].pose;
+    publisher_.publish(array);
+    return pictureWhen([together](const QImage& image) {
+      return !drawnIn(half(image, 0)).isNull() && drawnIn(half(image, 1)).isNull() == together;
     });
   }
 
@@ -151,6 +154,13 @@ TEST_F(Texts, AreAsHighAsTheWindowsFarAndNearAboveWhatTheyName) {
     EXPECT_LT(text.height(), 1.1 * line);
     EXPECT_LE(text.bottom(), image.height() / 4);
   }
+}
+
+TEST_F(Texts, DoNotCoverEachOther) {
+  const QRect both = drawnIn(half(view_->show(1.0f, true), 0));
+  const int line = QFontMetrics(QApplication::font()).height();
+  EXPECT_GT(both.height(), 1.5 * line);
+  EXPECT_LT(both.height(), 2.1 * line);
 }
 
 TEST_F(Texts, CanBeReadOnDarkAndOnLightGround) {

@@ -1,5 +1,6 @@
 #include <QFontMetrics>
 #include <QGuiApplication>
+#include <QRectF>
 
 #include <OgreCamera.h>
 #include <OgreSceneNode.h>
@@ -13,6 +14,8 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 namespace wiimote_tracker::panel {
 namespace {
@@ -32,51 +35,88 @@ Ogre::ColourValue readable(const Ogre::ColourValue& color, const Ogre::ColourVal
   return Ogre::ColourValue(changed(color.r), changed(color.g), changed(color.b), color.a);
 }
 
-/// Height of a pixel at a place in the world [m]; 0 behind the camera.
-float pixelAt(const Ogre::Vector3& place, const Ogre::Camera& camera, const Ogre::Viewport& view) {
+/// Where a place in the world is seen in the view.
+struct Seen {
+  QPointF point;            // from the middle of the view, y upwards [px]
+  float pixel_size = 0.0f;  // height of a pixel there [m]
+};
+
+/// Nothing behind the camera.
+std::optional<Seen> seenAt(const Ogre::Vector3& place,
+                           const Ogre::Camera& camera,
+                           const Ogre::Viewport& view) {
   const Ogre::Matrix4& projection = camera.getProjectionMatrix();
-  const Ogre::Vector4 seen = camera.getViewMatrix() * Ogre::Vector4(place);
-  const float depth = (projection * seen).w;  // 1 where there is no perspective
-  return std::max(2.0f * depth / (projection[1][1] * view.getActualHeight()), 0.0f);
+  const Ogre::Vector4 clip = projection * (camera.getViewMatrix() * Ogre::Vector4(place));
+  if (clip.w <= 0.0f)  // 1 where there is no perspective
+    return std::nullopt;
+  const float half_width = 0.5f * view.getActualWidth();
+  const float half_height = 0.5f * view.getActualHeight();
+  return Seen{{half_width * clip.x / clip.w, half_height * clip.y / clip.w},
+              clip.w / (projection[1][1] * half_height)};
+}
+
+/// The box, moved up to where it covers none of the others [px, y upwards].
+QRectF clearOf(const std::vector<QRectF>& others, QRectF box) {
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const QRectF& other : others) {
+      if (!other.intersects(box))
+        continue;
+      box.moveTop(other.bottom());
+      moved = true;
+    }
+  }
+  return box;
+}
+
+void addTexts(Ogre::SceneNode* node, std::vector<rviz::MovableText*>* texts) {
+  for (unsigned short i = 0; i < node->numAttachedObjects(); ++i) {
+    if (auto* text = dynamic_cast<rviz::MovableText*>(node->getAttachedObject(i)))
+      texts->push_back(text);
+  }
+  for (unsigned short i = 0; i < node->numChildren(); ++i)
+    addTexts(static_cast<Ogre::SceneNode*>(node->getChild(i)), texts);
 }
 
 }  // namespace
 
 /// Markers whose texts are as high as those of the window at any distance, dark on a light ground
-/// and light on a dark one.
+/// and light on a dark one. Where one would cover another, it stands above it.
 class ReadableMarkers : public rviz::MarkerArrayDisplay {
  public:
   void update(float wall_dt, float ros_dt) override {
     rviz::MarkerArrayDisplay::update(wall_dt, ros_dt);
     const rviz::ViewController* view = context_->getViewManager()->getCurrent();
     if (view && view->getCamera()->getViewport())
-      fitTexts(scene_node_, *view->getCamera(), *view->getCamera()->getViewport());
+      fitTexts(*view->getCamera(), *view->getCamera()->getViewport());
   }
 
  private:
-  void fitTexts(Ogre::SceneNode* node, const Ogre::Camera& camera, const Ogre::Viewport& view) {
-    for (unsigned short i = 0; i < node->numAttachedObjects(); ++i) {
-      auto* text = dynamic_cast<rviz::MovableText*>(node->getAttachedObject(i));
-      if (!text)
+  void fitTexts(const Ogre::Camera& camera, const Ogre::Viewport& view) {
+    const QFontMetrics font(QGuiApplication::font());
+    const double ratio = qGuiApp->devicePixelRatio();  // pixels of the view per one of the window
+    std::vector<rviz::MovableText*> texts;
+    addTexts(scene_node_, &texts);
+    std::vector<QRectF> drawn;
+    for (rviz::MovableText* text : texts) {
+      Ogre::SceneNode* const node = text->getParentSceneNode();
+      const std::optional<Seen> seen = seenAt(node->_getDerivedPosition(), camera, view);
+      if (!seen)
         continue;
-      const float height = textHeight() * pixelAt(node->_getDerivedPosition(), camera, view);
-      const float scale = height / text->getCharacterHeight();
-      if (scale > 0.0f)
-        node->setScale(scale, scale, scale);
+      const auto line = static_cast<float>(ratio * font.height());
+      const float scale = line * seen->pixel_size / text->getCharacterHeight();
+      node->setScale(scale, scale, scale);
       // Not across what it names.
       text->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_ABOVE);
+      const QSizeF size = ratio * QSizeF(font.size(0, text->getCaption().c_str()));
+      const QPointF left(seen->point - QPointF(0.5 * size.width(), 0.0));
+      drawn.push_back(clearOf(drawn, QRectF(left, size)));
+      const auto rise = static_cast<float>(drawn.back().top() - left.y());
+      text->setLocalTranslation(Ogre::Vector3(0.0f, rise * seen->pixel_size, 0.0f));
       const Ogre::ColourValue color = readable(text->getColor(), view.getBackgroundColour());
       if (color != text->getColor())
         text->setColor(color);
     }
-    for (unsigned short i = 0; i < node->numChildren(); ++i)
-      fitTexts(static_cast<Ogre::SceneNode*>(node->getChild(i)), camera, view);
-  }
-
-  /// Of a line in the window [px of the view].
-  static float textHeight() {
-    return static_cast<float>(QFontMetrics(QGuiApplication::font()).height() *
-                              qGuiApp->devicePixelRatio());
   }
 };
 

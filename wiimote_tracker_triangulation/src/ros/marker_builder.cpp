@@ -24,7 +24,7 @@ using markers::kTextHeight;
 using visualization_msgs::Marker;
 using wiimote_tracker_msgs::TrackedPoint;
 
-constexpr double kPointDiameter = 0.1;     // [m]
+constexpr double kPointDiameter = 0.14;    // [m]
 constexpr double kBlobDiameter = 0.03;     // [m]
 constexpr double kRayLength = 10.0;        // of rays without a point [m]
 constexpr double kOldView = 0.2;           // older views are not drawn [s]
@@ -32,6 +32,8 @@ constexpr double kNoImages = 0.7;          // without a newer view, a camera cou
 constexpr double kLedLifetime = 0.5;       // when the tracker stops [s]
 constexpr double kCameraLifetime = 1.0;    // when the tracker stops [s]
 constexpr std::size_t kMostLabels = 1000;  // whose colours are kept
+// Width, height and length of a Wii Remote, twice as large to be seen in a room [m].
+const Vector3d kHousing(0.07, 0.06, 0.3);
 // Square root of the 95 % quantile of the chi-squared distribution with three degrees of freedom.
 constexpr double kSigmas95 = 2.7955;
 
@@ -119,7 +121,8 @@ visualization_msgs::MarkerArray MarkerBuilder::build(
 }
 
 Marker MarkerBuilder::marker(const std::string& ns, std::size_t id, int type) const {
-  const bool is_camera = ns == "camera" || ns == "frustum" || ns == "image_plane" || ns == "mask";
+  const bool is_camera =
+      ns == "camera" || ns == "housing" || ns == "frustum" || ns == "image_plane" || ns == "mask";
   const double lifetime = std::max(is_camera ? kCameraLifetime : kLedLifetime, 3.0 / options_.rate);
   return markers::marker(rig_.world_frame, time_, lifetime, ns, id, type);
 }
@@ -134,6 +137,14 @@ void MarkerBuilder::addCamera(std::size_t index, bool has_images) {
   name.scale.z = kTextHeight;
   name.color = has_images ? color(1.0f, 1.0f, 1.0f, 1.0f) : color(0.55f, 0.55f, 0.55f, 1.0f);
   array_.markers.push_back(name);
+
+  Marker housing = marker("housing", index, Marker::CUBE);
+  housing.pose.position =
+      pointOf(camera.world_from_camera * Vector3d(0.0, 0.0, -0.5 * kHousing.z()));
+  setRotation(Eigen::Quaterniond(camera.world_from_camera.rotation()), &housing.pose.orientation);
+  setScale(kHousing, &housing);
+  housing.color = name.color;
+  array_.markers.push_back(housing);
 
   Marker frustum = marker("frustum", index, Marker::LINE_LIST);
   frustum.scale.x = kLineWidth;
@@ -257,11 +268,16 @@ void MarkerBuilder::addLed(const TrackedPoint& led) {
   Marker height = marker("height", led.id, Marker::LINE_LIST);
   height.scale.x = kLineWidth;
   height.color = colorOfLed(led.label, 0.3f * alpha);
+  Marker shadow = marker("shadow", led.id, Marker::SPHERE_LIST);
+  setScale({kPointDiameter, kPointDiameter, kLineWidth}, &shadow);
+  shadow.color = height.color;
   if (hasFloor()) {
     height.points.resize(2, led.position);
     height.points[1].z = 0.0;
+    shadow.points = {height.points[1]};
   }
   add(height);
+  add(shadow);
 
   if (led.state != TrackedPoint::TENTATIVE) {
     Trail& trail = trails_[led.id];
@@ -285,7 +301,7 @@ std_msgs::ColorRGBA MarkerBuilder::colorOfLed(const std::string& label, float al
 }
 
 void MarkerBuilder::removeLed(std::uint32_t id) {
-  for (const char* ns : {"point", "covariance", "height", "label"}) {
+  for (const char* ns : {"point", "covariance", "height", "shadow", "label"}) {
     array_.markers.push_back(marker(ns, id, Marker::SPHERE));
     array_.markers.back().action = Marker::DELETE;
   }

@@ -24,11 +24,11 @@ struct MarkerOptions {
 };
 
 /// Markers for rviz of a rig, its cameras' spots, and the LEDs, in the world frame. Namespaces:
-/// camera, frustum, image_plane, mask, blob, ray (one id per camera, in the order of the rig);
-/// point, covariance (95 % ellipsoid), height (a line to the floor), label, trail (one per LED,
-/// with its id). Spots and rays are green when they belong to an LED, orange when they do not, and
-/// grey when masked. A camera without images is grey and says so. A doubtful label ends with "?". A
-/// label keeps its colour, up to 1000 labels.
+/// camera (its name), housing, frustum, image_plane, mask, blob, ray (one id per camera, in the
+/// order of the rig); point, covariance (95 % ellipsoid), height (a line to the floor), shadow (on
+/// the floor), label, trail (one per LED, with its id). Spots and rays are green when they belong
+/// to an LED, orange when they do not, and grey when masked. A camera without images is grey and
+/// says so. A doubtful label ends with "?". A label keeps its colour, up to 1000 labels.
 class MarkerBuilder {
  public:
   explicit MarkerBuilder(const MarkerOptions& options) : options_(options) {}

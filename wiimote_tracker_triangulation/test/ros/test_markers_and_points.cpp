@@ -230,6 +230,13 @@ TEST(Markers, ShowWhereTheCamerasLook) {
     }
     EXPECT_EQ(16u, find(array, "frustum", i).points.size());
     EXPECT_EQ(camera.name, find(array, "camera", i).text);
+    // The housing lies behind the lens, along the optical axis.
+    const Marker housing = find(array, "housing", i);
+    const Vector3d in_camera = camera.world_from_camera.inverse() * vectorOf(housing.pose.position);
+    EXPECT_LT((in_camera - Vector3d(0.0, 0.0, -0.5 * housing.scale.z)).norm(), 1e-12);
+    const auto& q = housing.pose.orientation;
+    EXPECT_TRUE((Eigen::Quaterniond(q.w, q.x, q.y, q.z) * Vector3d::UnitZ())
+                    .isApprox(camera.world_from_camera.linear().col(2), 1e-12));
   }
 }
 
@@ -292,7 +299,7 @@ TEST(Markers, ALostPointIsRemovedAndTheTrailFades) {
   for (tracking::CameraView& view : lost.snapshot.views)
     view.spots.clear();
   array = draw(&builder, lost, rig);
-  for (const std::string ns : {"point", "covariance", "height", "label"})
+  for (const std::string ns : {"point", "covariance", "height", "shadow", "label"})
     EXPECT_EQ(Marker::DELETE, find(array, ns, 0).action) << ns;
   for (int i = 0; i < 3; ++i)
     EXPECT_EQ(Marker::DELETE, find(array, "ray", i).action);
@@ -402,17 +409,21 @@ TEST(Markers, AskWhetherADoubtfulLabelIsRight) {
   EXPECT_EQ("led?", find(builder.build(points, {}), "label", 0).text);
 }
 
-TEST(Markers, DrawTheHeightAboveTheSquare) {
+TEST(Markers, DrawTheHeightAboveTheSquareAndAShadowOnIt) {
   Rig rig = threeCameras();
   rig.square_sides.clear();
   MarkerBuilder builder({});
   builder.setRig(rig);
-  EXPECT_EQ(Marker::DELETE, find(draw(&builder, someSnapshot(rig), rig), "height", 0).action);
+  for (const char* ns : {"height", "shadow"})
+    EXPECT_EQ(Marker::DELETE, find(draw(&builder, someSnapshot(rig), rig), ns, 0).action);
   rig.square_sides = {2.0, 3.0};
   builder.setRig(rig);
-  const Marker height = find(draw(&builder, someSnapshot(rig), rig), "height", 0);
+  const MarkerArray array = draw(&builder, someSnapshot(rig), rig);
+  const Vector3d below(kLed.x(), kLed.y(), 0.0);
+  const Marker height = find(array, "height", 0);
   EXPECT_EQ(kLed, vectorOf(height.points.at(0)));
-  EXPECT_EQ(Vector3d(kLed.x(), kLed.y(), 0.0), vectorOf(height.points.at(1)));
+  EXPECT_EQ(below, vectorOf(height.points.at(1)));
+  EXPECT_EQ(below, vectorOf(find(array, "shadow", 0).points.at(0)));
 }
 
 TEST(Markers, ComeAtTheirRateAndStartOverWithTime) {

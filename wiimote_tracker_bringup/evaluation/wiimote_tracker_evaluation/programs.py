@@ -78,12 +78,6 @@ def last_line(path: str) -> str:
     return lines[-1] if lines else 'it said nothing'
 
 
-def session_parts(sessions, parts=4):
-    """Divides sessions between programs that take --first and --sessions: (first, number) each."""
-    edges = [sessions * part // parts for part in range(parts + 1)]
-    return [(first, end - first) for first, end in zip(edges[:-1], edges[1:]) if end > first]
-
-
 def read_csv(path: str) -> Dict[str, np.ndarray]:
     """A table with names in its first line, as arrays by name: numbers if all are, else strings."""
     import csv

@@ -9,9 +9,11 @@ import io
 import math
 import os
 import re
-from typing import Iterable, List, Optional, Sequence, Tuple
+from typing import Callable, Iterable, List, Optional, Sequence, Tuple
 
-from wiimote_tracker_evaluation import programs
+import numpy as np
+
+from wiimote_tracker_evaluation import programs, statistics
 
 
 @dataclasses.dataclass(eq=False)
@@ -128,6 +130,25 @@ class Run:
             None if interval is None else (float(interval[0]), float(interval[1])),
             note, bool(end_to_end), bool(headline),
             self.simulated if simulated is None else bool(simulated)))
+
+    def estimate(self, name: str, units, statistic: Callable, unit: str, note: str = '',
+                 **more) -> Tuple[float, Tuple[float, float]]:
+        """A figure with its interval: statistic(all values of the units), as statistics.bootstrap()
+        takes them. Returns both. more: as of figure(); samples: default the number of units."""
+        value = statistic(np.concatenate([np.atleast_1d(values) for values in units]))
+        interval = statistics.bootstrap(units, statistic, self.seed)
+        self.figure(name, value, unit, more.pop('samples', len(units)), interval, note, **more)
+        return float(value), interval
+
+    def share(self, name: str, successes: int, trials: int, note: str = '',
+              **more) -> Tuple[float, Tuple[float, float]]:
+        """A figure with its interval: the probability of a success [%]. Returns both. more: as of
+        figure()."""
+        value = 100.0 * successes / trials
+        low, high = statistics.wilson(successes, trials)
+        interval = 100.0 * low, 100.0 * high
+        self.figure(name, value, '%', trials, interval, note, **more)
+        return value, interval
 
     def table(self, name: str, columns: Sequence[Tuple[str, str]], rows: Iterable,
               caption: str = '', shown: Optional[bool] = None) -> None:

@@ -61,9 +61,8 @@ def tell(run, radius, path):
             % ((radius,) + tuple(centre) + (speed,)))
     for name, values, note in (('radial', radial, 'Radial error, RMS'),
                                ('height', height, 'Error across the circle\'s plane, RMS')):
-        run.figure('live_' + name, 1e3 * statistics.rms(values), 'mm', len(values),
-                   statistics.bootstrap(statistics.blocks(1e3 * values, BLOCKS), statistics.rms,
-                                        run.seed), note, end_to_end=True)
+        run.estimate('live_' + name, statistics.blocks(1e3 * values, BLOCKS), statistics.rms, 'mm',
+                     note, samples=len(values), end_to_end=True)
     run.figure('live_speed', speed, 'm/s', len(positions), note='Speed on the circle',
                end_to_end=True)
     run.table('points', [('stamp', 's'), ('x', 'm'), ('y', 'm'), ('z', 'm'), ('radial_error', 'mm'),

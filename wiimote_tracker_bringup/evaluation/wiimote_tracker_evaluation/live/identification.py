@@ -4,7 +4,6 @@ import time
 
 import numpy as np
 
-from wiimote_tracker_evaluation import statistics
 from wiimote_tracker_evaluation.live.dialogue import SKIP
 from wiimote_tracker_evaluation.live.listener import with_listener
 
@@ -75,13 +74,10 @@ def tell(run, labels, rows):
     if not rows:
         return
     good = [row[2] for row in rows if row[1]]
-    low, high = statistics.wilson(len(good), len(rows))
-    run.figure('live_success', 100.0 * len(good) / len(rows), '%', len(rows),
-               (100.0 * low, 100.0 * high), 'Tries in which all LEDs got their labels',
-               end_to_end=True)
+    run.share('live_success', len(good), len(rows), 'Tries in which all LEDs got their labels',
+              end_to_end=True)
     if len(good) > 1:
-        run.figure('live_time', np.median(good), 's', len(good),
-                   statistics.bootstrap(good, np.median, run.seed),
-                   'Time until all have their labels, median', end_to_end=True)
+        run.estimate('live_time', good, np.median, 's', 'Time until all have their labels, median',
+                     end_to_end=True)
         run.summary(f'Identification: {len(good)} of {len(rows)} tries, {np.median(good):.2f} s '
                     '(median).')

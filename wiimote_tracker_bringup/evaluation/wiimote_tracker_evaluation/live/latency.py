@@ -4,7 +4,7 @@ import time
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, statistics
+from wiimote_tracker_evaluation import charts
 from wiimote_tracker_evaluation.live.circles import errors_of, path_of
 from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
 from wiimote_tracker_evaluation.live.listener import Listener
@@ -93,9 +93,7 @@ def tell(run, counter, positions):
         'point lies behind the position that the tracker later estimates for that time; the angle '
         'between them times the period is the latency, as in Fig. 6.'
         % (len(laps) - 1, period))
-    run.figure('live_mean', np.mean(late), 'ms', len(late),
-               statistics.bootstrap(late, np.mean, run.seed), 'Latency by the angle, mean',
-               end_to_end=True)
+    run.estimate('live_mean', late, np.mean, 'ms', 'Latency by the angle, mean', end_to_end=True)
     run.figure('live_least', np.min(late), 'ms', len(late), note='Least latency', end_to_end=True)
     run.figure('live_most', np.max(late), 'ms', len(late), note='Greatest latency', end_to_end=True)
     run.table('laps', [('lap', ''), ('time', 's'), ('latency', 'ms')],

@@ -48,9 +48,8 @@ def tell(run, rows, of):
         run.say('Fewer than two places were measured: there are no figures.')
         return
     errors = np.array([row[7] for row in rows])
-    run.figure('live_rms', statistics.rms(errors), 'mm', len(errors),
-               statistics.bootstrap(errors, statistics.rms, run.seed), 'RMS error over the points',
-               end_to_end=True)
+    run.estimate('live_rms', errors, statistics.rms, 'mm', 'RMS error over the points',
+                 end_to_end=True)
     run.figure('live_largest', np.max(errors), 'mm', len(errors),
                note='Largest error over the points', end_to_end=True)
     figure, axes = charts.figure()

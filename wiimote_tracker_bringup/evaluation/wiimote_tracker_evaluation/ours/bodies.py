@@ -3,7 +3,7 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.ours.columns import keep, per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.sessions import keep, per_session, read_shared, shared, where
 
 PROGRAM = 'evaluate_bodies'
 SMALL, LARGE = 1.5, 3.0
@@ -51,17 +51,12 @@ def tell(run):
             units = per_session(table, column, chosen)
             if len(units) < 2:
                 continue
-            run.figure('body_%s_%d_cameras' % (name, count), statistics.rms(np.concatenate(units)),
-                       unit, len(units),
-                       statistics.bootstrap(units, statistics.rms, run.seed),
-                       'RMS error of a body\'s %s at 1 m/s and 2 rad/s, %d cameras' % (name, count))
+            run.estimate(f'body_{name}_{count}_cameras', units, statistics.rms, unit,
+                         f'RMS error of a body\'s {name} at 1 m/s and 2 rad/s, {count} cameras')
         for size, word in ((SMALL, 'small'), (LARGE, 'large')):
             chosen = where(table, cameras=count, led_size=size)
-            wrong = int((chosen & ~right).sum())
-            low, high = statistics.wilson(wrong, int(chosen.sum()))
-            run.figure('body_wrong_%s_spots_%d_cameras' % (word, count), 100.0 * wrong / chosen.sum(),
-                       '%', int(chosen.sum()), (100.0 * low, 100.0 * high),
-                       'Sessions with a wrong pose, %s spots, %d cameras' % (word, count))
+            run.share(f'body_wrong_{word}_spots_{count}_cameras', int((chosen & ~right).sum()),
+                      int(chosen.sum()), f'Sessions with a wrong pose, {word} spots, {count} cameras')
     keep(run, PROGRAM, table, 'A moving body with four LEDs.')
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, scene, statistics
-from wiimote_tracker_evaluation.ours.columns import keep, per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.sessions import keep, per_session, read_shared, shared, where
 
 PROGRAM = 'evaluate_cameras'
 METHODS = (('most_likely', 'single points, most likely', charts.BLUE),
@@ -41,10 +41,8 @@ def tell(run):
     run.plot('cameras', figure, 'RMS error by the number of exactly known cameras.')
     for count in (2, 4, 8):
         for method, label, _ in METHODS:
-            units = units_of(table, count, method)
-            run.figure('%s_%d_cameras' % (method, count), statistics.rms(np.concatenate(units)), 'mm',
-                       len(units), statistics.bootstrap(units, statistics.rms, run.seed),
-                       'RMS error with %d cameras, %s' % (count, label))
+            run.estimate(f'{method}_{count}_cameras', units_of(table, count, method), statistics.rms,
+                         'mm', f'RMS error with {count} cameras, {label}')
         run.figure('bound_%d_cameras' % count, bounds[counts.index(count)], 'mm', 1,
                    note='Cramér-Rao bound of single points with %d cameras' % count)
     keep(run, PROGRAM, table, 'Errors with two to eight cameras.')

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, programs, statistics
+from wiimote_tracker_evaluation import charts, programs
 
 PROGRAM, EXAMPLES = 'evaluate_gestures', 2
 
@@ -41,9 +41,7 @@ def tell(run):
     for name, count, words in (
             ('right', right, note),
             ('rejected', result['rejected'], 'Of the same drawings, rejected as no gesture at all')):
-        low, high = statistics.wilson(count, tested)
-        run.figure('gestures_' + name, 100.0 * count / tested, '%', tested,
-                   (100.0 * low, 100.0 * high), words, simulated=not run.gestures)
+        run.share('gestures_' + name, count, tested, words, simulated=not run.gestures)
 
 
 def recognised(run):

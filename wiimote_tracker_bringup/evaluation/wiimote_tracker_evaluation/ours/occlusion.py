@@ -3,7 +3,7 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.ours.columns import keep, per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.sessions import keep, per_session, read_shared, shared, where
 
 PROGRAM = 'evaluate_occlusion'
 METHODS = (('tracks', 'tracks, predicted points too', charts.BLUE),
@@ -54,9 +54,7 @@ def tell(run):
                     ('inside_share', 'inside', '%', 100.0, 'Points in their 95 % ellipsoid')):
                 units = [factor * values for values in per_session(table, column, chosen)]
                 statistic = statistics.rms if column == 'rms_mm' else np.mean
-                run.figure('occlusion_%s_%s_%d_cameras' % (name, method, count),
-                           statistic(np.concatenate(units)), unit, len(units),
-                           statistics.bootstrap(units, statistic, run.seed),
-                           '%s, each of %d cameras blind %d %% of the time, %s' % (
-                               note, count, 100 * HIDDEN, label))
+                run.estimate(f'occlusion_{name}_{method}_{count}_cameras', units, statistic, unit,
+                             '%s, each of %d cameras blind %d %% of the time, %s' % (
+                                 note, count, 100 * HIDDEN, label))
     keep(run, PROGRAM, table, 'An LED with random occlusions.')

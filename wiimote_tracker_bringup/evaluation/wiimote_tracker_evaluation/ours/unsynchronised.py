@@ -1,7 +1,7 @@
 """Unsynchronised cameras, and the benefit of estimated exposure times."""
 
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.ours.columns import keep, per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.sessions import keep, per_session, read_shared, shared, where
 
 PROGRAM = 'evaluate_unsynchronised'
 METHODS = (('exact', 'tracks', 'exact times (nobody has them)', charts.SOFT),
@@ -44,11 +44,9 @@ def tell(run):
     run.plot('unsynchronised', figure, 'RMS error by the LED\'s speed.')
     values = {}
     for stamps, method, label, _ in METHODS:
-        units = units_of(table, SPEED, 'own', stamps, method)
-        values[stamps, method] = statistics.rms([value for unit in units for value in unit])
-        run.figure(f'unsynchronised_{method}_{stamps}', values[stamps, method], 'mm', len(units),
-                   statistics.bootstrap(units, statistics.rms, run.seed),
-                   f'RMS error at {SPEED:g} m/s, own clocks, {label}')
+        values[stamps, method], _ = run.estimate(
+            f'unsynchronised_{method}_{stamps}', units_of(table, SPEED, 'own', stamps, method),
+            statistics.rms, 'mm', f'RMS error at {SPEED:g} m/s, own clocks, {label}')
     run.summary('**Cameras that are not synchronised**, simulated: at %g m/s %.1f mm RMS with estimated '
                 'exposures (%.1f mm were they exact), %.1f mm with arrivals, %.1f mm when the latest '
                 'spots are intersected.' % (

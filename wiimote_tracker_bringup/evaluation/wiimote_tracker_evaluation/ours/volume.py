@@ -3,7 +3,7 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.ours.columns import keep, per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.sessions import keep, per_session, read_shared, shared, where
 
 PROGRAM = 'evaluate_map'
 METHODS = (('square', 'the square alone'), ('wave', 'square and waved LED'))
@@ -51,14 +51,11 @@ def tell(run):
     for method, label in METHODS:
         chosen = where(table, method=method)
         for column, word in (('error_mm', 'measured'), ('predicted_mm', 'predicted')):
-            units = per_session(table, column, chosen)
-            run.figure(f'volume_{method}_{word}', statistics.rms(np.concatenate(units)), 'mm',
-                       len(units), statistics.bootstrap(units, statistics.rms, run.seed),
-                       f'RMS error over the cube, {label}, {word}')
-        units = per_session(table, 'normalised_squared_error', chosen)
-        run.figure(f'volume_{method}_consistency', np.mean(np.concatenate(units)), '', len(units),
-                   statistics.bootstrap(units, np.mean, run.seed),
-                   f'Normalised squared error (1: the prediction is true), {label}')
+            run.estimate(f'volume_{method}_{word}', per_session(table, column, chosen), statistics.rms,
+                         'mm', f'RMS error over the cube, {label}, {word}')
+        run.estimate(f'volume_{method}_consistency',
+                     per_session(table, 'normalised_squared_error', chosen), np.mean, '',
+                     f'Normalised squared error (1: the prediction is true), {label}')
     keep(run, PROGRAM, table, 'Errors at 27 places after a calibration.')
 
 

@@ -1,16 +1,15 @@
 """The paper's three circles (section V.B) at constant speed, with unsynchronised cameras."""
 
-import os
-
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, programs, statistics
+from wiimote_tracker_evaluation import charts, programs, sessions, statistics
 from wiimote_tracker_evaluation.live import circles as with_a_person
 
 NAME = 'circles'
 TITLE = 'Circles'
 live = with_a_person.live
 
+PROGRAM = 'evaluate_circles'
 QUICK, FULL = 6, 24  # sessions each with two and with four cameras
 SETS = ((2, 'two'), (4, 'four'))
 METHODS = (
@@ -24,21 +23,10 @@ PAPER_LIMIT = 0.03  # the paper's accuracy, static and moving [m]
 
 
 def run(run):
-    tell(run, simulate(run, QUICK if run.quick else FULL))
-
-
-def simulate(run, sessions):
-    """All points of the sessions, as arrays by name."""
-    parts = [(run.file('laps_%d.csv' % first), first, number)
-             for first, number in programs.session_parts(sessions)]
-    run.compute([['evaluate_circles', '--rig', run.rig, '--output', path, '--seed', run.seed,
-                  '--sessions', number, '--first', first] for path, first, number in parts],
-                '%d sessions with two cameras, and with four' % sessions, 0.0, 0.9)
-    tables = []
-    for path, _, _ in parts:  # repeated in the section's own table
-        tables.append(programs.read_csv(path))
-        os.remove(path)
-    return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
+    number = QUICK if run.quick else FULL
+    run.compute(sessions.shared(run, PROGRAM, number, 4),
+                f'{number} sessions with two cameras, and with four', 0.0, 0.9)
+    tell(run, sessions.read_shared(run, PROGRAM))
 
 
 def tell(run, laps):
@@ -82,14 +70,11 @@ def errors_of(laps, chosen, which):
 def row_of(run, laps, chosen, words, method, explained, speed):
     row = [words, explained, speed, len(np.unique(laps['session'][chosen]))]
     for which in ('radial', 'height'):
-        units = errors_of(laps, chosen, which + '_error')
-        value = statistics.rms(np.concatenate(units))
-        interval = statistics.bootstrap(units, statistics.rms, run.seed)
-        run.figure(f"{words}_{method}_{which}_{('%g' % speed).replace('.', '_')}", value,
-                   'mm', len(units), interval, f'RMS {which} error on the circles at {speed:g} '
-                                               f'm/s, {explained}, {words} '
-                   'Wiimotes',
-                   headline=method == 'wand_tracks' and speed == 1.0)
+        value, interval = run.estimate(
+            f"{words}_{method}_{which}_{('%g' % speed).replace('.', '_')}",
+            errors_of(laps, chosen, which + '_error'), statistics.rms, 'mm',
+            f'RMS {which} error on the circles at {speed:g} m/s, {explained}, {words} Wiimotes',
+            headline=method == 'wand_tracks' and speed == 1.0)
         row += [value, '%.3g to %.3g' % interval]
     return row + [100.0 * np.isnan(laps['measured_x'][chosen]).mean()]
 

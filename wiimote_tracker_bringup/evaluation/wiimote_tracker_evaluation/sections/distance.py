@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, experiment, programs, statistics
+from wiimote_tracker_evaluation import charts, experiment, programs
 from wiimote_tracker_evaluation.light import SENSITIVITIES, detection_distance, read_led
 from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.scene import read_scene
@@ -75,14 +75,12 @@ def tell_law(run, carried):
             chosen = (carried['session'] == session) & (carried['sensitivity'] == level)
             slopes.append(np.polyfit(np.log(carried['brightness'][chosen]),
                                      np.log(carried['last_seen_m'][chosen]), 1)[0])
-    run.figure('power_of_current', np.mean(slopes), '', len(slopes),
-               statistics.bootstrap(slopes, seed=run.seed),
-               'Power of the current with which the distance grows (1/2 by the inverse square law)')
+    run.estimate('power_of_current', slopes, np.mean, '',
+                 'Power of the current with which the distance grows (1/2 by the inverse square law)')
     late = carried['stopped_at_m'] - carried['last_seen_m']
     units = [late[carried['session'] == session] for session in np.unique(carried['session'])]
-    run.figure('added_by_time_limit', np.mean(late), 'm', len(units),
-               statistics.bootstrap(units, seed=run.seed),
-               f'What the time limit of 0.5 s adds to the distance at {SPEED:.2f} m/s')
+    run.estimate('added_by_time_limit', units, np.mean, 'm',
+                 f'What the time limit of 0.5 s adds to the distance at {SPEED:.2f} m/s')
 
 
 def tell_corners(run, led):

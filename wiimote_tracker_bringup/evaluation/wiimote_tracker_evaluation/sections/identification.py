@@ -1,16 +1,15 @@
 """Identification of four blinking LEDs: the paper's scheme, and cyclic codes."""
 
-import os
-
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, programs, statistics
+from wiimote_tracker_evaluation import charts, programs, sessions, statistics
 from wiimote_tracker_evaluation.live import identification as with_a_person
 
 NAME = 'identification'
 TITLE = 'Identification by blinking'
 live = with_a_person.live
 
+PROGRAM = 'evaluate_identification'
 QUICK, FULL = 6, 100                             # tries with each scheme, length and set of cameras
 LEDS = 4
 DURATION = 4.0                                   # of one try of evaluate_identification [s]
@@ -21,16 +20,9 @@ SHOWN_PERIOD, SHOWN_CHIP = 150.0, 23.0           # of the figures [ms]
 
 
 def run(run):
-    commands, tables = [], []
-    for first, number in programs.session_parts(QUICK if run.quick else FULL, 10):
-        tables.append(run.file('tries_%d.csv' % first))
-        commands.append(['evaluate_identification', '--rig', run.rig, '--output', tables[-1],
-                         '--seed', run.seed, '--sessions', number, '--first', first])
-    run.compute(commands, 'letting LEDs blink', 0.0, 0.95)
-    parts = [programs.read_csv(table) for table in tables]
-    tries = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    for table in tables:
-        os.remove(table)
+    run.compute(sessions.shared(run, PROGRAM, QUICK if run.quick else FULL, 10),
+                'letting LEDs blink', 0.0, 0.95)
+    tries = sessions.read_shared(run, PROGRAM)
     tell(run, tries)
     run.table('tries', [UNITS.get(name, (name, '')) for name in tries], programs.table_rows(tries),
               'Every try.', shown=False)
@@ -127,22 +119,18 @@ def figures(run, cameras, lines):
                            note='Shortest %s from which on at least %.0f %% of the tries succeed, %s, '
                            '%d cameras' % (word, 100.0 * ENOUGH, title, count))
             at = line.at(SHOWN_PERIOD if scheme == 'paper' else SHOWN_CHIP)
-            low, high = line.intervals()[at]
-            run.figure(f'success_{tag}', 100.0 * line.shares()[at], '%', line.tries[at],
-                       (100.0 * low, 100.0 * high), 'Success with a %s of %g ms, %s, %d cameras' % (
-                           word, line.lengths[at], title, count),
-                       headline=scheme == 'paper' and count == max(cameras))
-            seconds = line.seconds[at]
-            if len(seconds) > 1:
-                run.figure(f'time_{tag}', np.median(seconds), 's', len(seconds),
-                           statistics.bootstrap(seconds, np.median, run.seed),
-                           'Time until all four LEDs have their labels, %s of %g ms, %s, %d cameras, '
-                           'median' % (word, line.lengths[at], title, count))
+            run.share(f'success_{tag}', line.right[at], line.tries[at],
+                      'Success with a %s of %g ms, %s, %d cameras' % (
+                          word, line.lengths[at], title, count),
+                      headline=scheme == 'paper' and count == max(cameras))
+            if len(line.seconds[at]) > 1:
+                run.estimate(f'time_{tag}', line.seconds[at], np.median, 's',
+                             'Time until all four LEDs have their labels, %s of %g ms, %s, %d '
+                             'cameras, median' % (word, line.lengths[at], title, count))
     wrong = sum(line.wrong for line in lines.values())
     of = sum(sum(line.tries) for line in lines.values())
-    low, high = statistics.wilson(wrong, of)
-    run.figure('wrong_label_ever', 100.0 * wrong / of, '%', of, (100.0 * low, 100.0 * high),
-               'Tries in which an LED was ever given the label of another, of all lengths')
+    run.share('wrong_label_ever', wrong, of,
+              'Tries in which an LED was ever given the label of another, of all lengths')
     best = lines['paper', max(cameras)]
     if best.shortest() is not None and len(best.seconds[best.at(SHOWN_PERIOD)]):
         run.summary('**Identification**, simulated: the paper\'s scheme identifies four LEDs in at '

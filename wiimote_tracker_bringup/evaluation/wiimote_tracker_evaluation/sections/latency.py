@@ -171,10 +171,9 @@ def fig6(run, results):
         for values, kind, note in (
                 (late, 'counter', 'from the x axis, as in Fig. 6'),
                 (fair, 'answer', "from the trigger's answer")):
-            run.figure(f'{name}_by_{kind}_ms', np.mean(values), 'ms', len(values),
-                       statistics.bootstrap(values, np.mean, run.seed),
-                       f'latency by the angle {note}, mean, {title}', end_to_end=True,
-                       headline=kind == 'counter')
+            run.estimate(f'{name}_by_{kind}_ms', values, np.mean, 'ms',
+                         f'latency by the angle {note}, mean, {title}', end_to_end=True,
+                         headline=kind == 'counter')
         rows.append((title, len(late), np.mean(late), np.min(late), np.max(late), np.mean(fair),
                      1e3 * np.nanmean(measured.answer) * PERIOD / (2.0 * np.pi)))
     run.table('laps_counter', [

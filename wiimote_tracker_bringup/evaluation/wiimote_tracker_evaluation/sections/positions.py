@@ -10,6 +10,7 @@ from wiimote_tracker_evaluation import position_plots as plots
 from wiimote_tracker_evaluation import programs, statistics
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.position_results import CASES, FACING, FOUR, OURS, TWO, Results
+from wiimote_tracker_evaluation.sessions import parts_of
 from wiimote_tracker_evaluation.live import positions as with_a_person
 
 NAME = 'positions'
@@ -30,7 +31,7 @@ def run(run):
 def simulate(run, sessions):
     """Results of this number of sessions."""
     commands, folders = [], []
-    for first, number in programs.session_parts(sessions):
+    for first, number in parts_of(sessions, 4):
         folders.append(run.file('sessions_%d' % first))
         os.makedirs(folders[-1])
         commands.append(['evaluate_positions', '--rig', run.rig, '--output', folders[-1],
@@ -135,10 +136,9 @@ def compare(run, results):
 
 def details(run, results):
     worst, of = claims.worst_is_fourth_corner(results, 'image_center')
-    low, high = statistics.wilson(worst, of)
-    run.figure('two_C4_worst_at_fourth_corner', 100.0 * worst / of, '%', of,
-               (100.0 * low, 100.0 * high), 'sessions with two cameras whose largest error of C4 is '
-               'at the edge of the missing camera 4; 20 % by chance')
+    at_fourth, (low, high) = run.share(
+        'two_C4_worst_at_fourth_corner', worst, of, 'sessions with two cameras whose largest error of '
+        'C4 is at the edge of the missing camera 4; 20 % by chance')
     point, interval, number = claims.farthest_principal_point(results, 'image_center')
     run.figure('corrected_principal_point_off', point, 'px', number, interval,
                '95 % of the corrected principal points (ray_model image_center) are within this of '
@@ -150,9 +150,8 @@ def details(run, results):
     for values, name, note in zip(claims.form_of_cube(results, 'image_center'), ('off', 'form'), (
             'corners of C2\'s cube, two Wiimotes, rays from the image centre',
             'the same after a rigid alignment')):
-        cube.append(1e3 * statistics.rms(values))
-        run.figure('two_C2_cube_' + name, cube[-1], 'mm', len(values), statistics.bootstrap(
-            1e3 * values, statistics.rms, run.seed), 'RMS error of the ' + note)
+        cube.append(run.estimate('two_C2_cube_' + name, 1e3 * values, statistics.rms, 'mm',
+                                 'RMS error of the ' + note)[0])
     return (
         '- *Without the correction the cube is shifted, and keeps its form with slight deformations*: '
         'the corners of C2 with two Wiimotes and rays from the image centre are %.0f mm off (RMS), '
@@ -164,7 +163,7 @@ def details(run, results):
         '- *12 views of the board leave principal points uncertain by ±40 px*: ours err by %.0f px '
         '(three standard deviations; the 16 LEDs are at known places and the board is tilted by 18 to '
         '45°, which a hand-held board may not have been).'
-        % (cube[0], cube[1], 100.0 * worst / of, 100.0 * low, 100.0 * high, point, board))
+        % (cube[0], cube[1], at_fourth, low, high, point, board))
 
 
 def conclusion(results, agreeing, of):
@@ -195,14 +194,12 @@ def cases(run, results):
             for model, explained in MODELS:
                 group = results.group(cameras, case, model)
                 errors = 1e3 * group.from_nominal()
-                interval = statistics.bootstrap(errors, statistics.rms, run.seed)
                 row += [statistics.rms(errors), errors.max()]
                 if cameras != FACING:
-                    run.figure(f'{words}_{case}_{model}', row[-2], 'mm', len(errors),
-                               interval, f'RMS error of the ten points, paper\'s {case}, {words} '
-                                         f'Wiimotes, {explained}, '
-                               'placement included',
-                               headline=case == 'C3' and model == 'image_center')
+                    run.estimate(f'{words}_{case}_{model}', errors, statistics.rms, 'mm',
+                                 f'RMS error of the ten points, paper\'s {case}, {words} Wiimotes, '
+                                 f'{explained}, placement included',
+                                 headline=case == 'C3' and model == 'image_center')
             row.append(group.unsolved())
             rows.append(row)
     run.table('cases', [('wiimotes', ''), ('case', ''), ('image_center_rms', 'mm'),
@@ -226,14 +223,12 @@ def ours(run, results):
     for cameras, words in SETS:
         for method in ('square', 'square_remapped', 'wave', 'wand'):
             group = results.group(cameras, method)
-            errors = 1e3 * group.from_truth()
-            interval = statistics.bootstrap(errors, statistics.rms, run.seed)
-            rms = statistics.rms(errors)
-            row = [words, WORDS[method], rms, '%.1f to %.1f' % interval]
             what = f'{WORDS[method]}, {words} Wiimotes'
             name = f'{words}_{method}'
-            run.figure(name, rms, 'mm', len(errors), interval, 'RMS error of the ten points, ' + what,
-                       headline=method != 'square_remapped')
+            rms, interval = run.estimate(name, 1e3 * group.from_truth(), statistics.rms, 'mm',
+                                         'RMS error of the ten points, ' + what,
+                                         headline=method != 'square_remapped')
+            row = [words, WORDS[method], rms, '%.1f to %.1f' % interval]
             if method in OURS:
                 row += beside_bound(run, results, cameras, method, name, what)
             else:
@@ -266,15 +261,12 @@ def beside_bound(run, results, cameras, method, name, what):
 
     def ratio(values):
         return np.sqrt(values[:, 0].sum() / values[:, 1].sum())
-    over = ratio(pairs.reshape(-1, 2))
-    over_interval = statistics.bootstrap(pairs, ratio, run.seed)
-    run.figure(name + '_over_bound', over, '', len(pairs), over_interval,
-               'RMS error over the Cramér-Rao bound, ' + what)
-    normalised = group.normalised() / 3.0
-    interval = statistics.bootstrap(normalised, np.mean, run.seed)
-    run.figure(name + '_stated', normalised.mean(), '', len(normalised), interval,
-               'squared error over what the covariance foretells (1 when honest), ' + what)
-    return [1e3 * np.sqrt(least.mean()), over, '%.2f to %.2f' % over_interval, normalised.mean(),
+    over, over_interval = run.estimate(name + '_over_bound', pairs, ratio, '',
+                                       'RMS error over the Cramér-Rao bound, ' + what)
+    stated, interval = run.estimate(
+        name + '_stated', group.normalised() / 3.0, np.mean, '',
+        'squared error over what the covariance foretells (1 when honest), ' + what)
+    return [1e3 * np.sqrt(least.mean()), over, '%.2f to %.2f' % over_interval, stated,
             '%.2f to %.2f' % interval]
 
 
@@ -283,9 +275,9 @@ def remap(run, results):
     for cameras, words in SETS:
         before = 1e3 * results.group(cameras, 'C1', 'image_center').from_truth()
         after = 1e3 * results.group(cameras, 'C1_remapped', 'image_center').from_truth()
-        run.figure(words + '_C1_image_center_remapped', statistics.rms(after), 'mm', len(after),
-                   statistics.bootstrap(after, statistics.rms, run.seed), 'RMS error of C1, rays from '
-                   'the image centre, after a correction of the volume from 27 known places')
+        run.estimate(words + '_C1_image_center_remapped', after, statistics.rms, 'mm', 'RMS error of '
+                     'C1, rays from the image centre, after a correction of the volume from 27 known '
+                     'places')
         sentences.append(f'with {words} Wiimotes from {statistics.rms(before):.0f} to '
                          f'{statistics.rms(after):.0f} mm')
     square = results.group(FOUR, 'square').measured

@@ -57,10 +57,9 @@ def tell(run, title, outcome):
     run.plot('errors_of_' + name, program.drawing(outcome), f'Errors of {title}.')
     statistic, word = (np.mean, 'mean') if outcome.unit == 'mm' else (np.median, 'median')
     in_order = outcome.errors[np.argsort(outcome.places, kind='stable')]
-    run.figure(f'{name}_{word}', statistic(in_order), outcome.unit, len(in_order),
-               statistics.bootstrap(statistics.blocks(in_order, PARTS), statistic, run.seed),
-               f'{word} error of {"the path" if outcome.unit == "mm" else "predicted pixels"}, '
-               f'{title}', headline=True)
+    run.estimate(f'{name}_{word}', statistics.blocks(in_order, PARTS), statistic, outcome.unit,
+                 f'{word} error of {"the path" if outcome.unit == "mm" else "predicted pixels"}, '
+                 f'{title}', samples=len(in_order), headline=True)
     if 'tracked' in outcome.result:
         run.figure(f'{name}_tracked', 100.0 * outcome.result['tracked'], '%', len(in_order),
                    note=f'tracked while in sight, {title}')

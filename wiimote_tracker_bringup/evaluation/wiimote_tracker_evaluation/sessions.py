@@ -1,4 +1,4 @@
-"""Long tables of measurements, by column."""
+"""Programs that simulate sessions, and the long tables that they write, by column."""
 
 import glob
 import os
@@ -11,26 +11,26 @@ UNITS = {'_mm': 'mm', '_m': 'm', '_m_per_s': 'm/s', '_rad_per_s': 'rad/s', '_deg
          '_s': 's'}
 
 
-def shared(run, program, sessions, *options):
-    """Commands that share the sessions of a program between two processes; see read_shared."""
-    first = (sessions + 1) // 2
-    return [[program, '--rig', run.rig, '--output', part_file(run, program, part), '--seed', run.seed,
-             '--sessions', number, '--first', begin] + list(options)
-            for part, (begin, number) in enumerate(((0, first), (first, sessions - first))) if number]
+def parts_of(sessions, parts):
+    """Divides sessions between programs that take --first and --sessions: (first, number) each."""
+    edges = [sessions * part // parts for part in range(parts + 1)]
+    return [(first, end - first) for first, end in zip(edges[:-1], edges[1:]) if end > first]
 
 
-def part_file(run, program, part):
-    return run.file('%s_%d.csv' % (program, part))
+def shared(run, program, sessions, parts=2):
+    """Commands that share the sessions of a program between processes; see read_shared."""
+    return [[program, '--rig', run.rig, '--output', run.file(f'{program}_{first}.csv'), '--seed',
+             run.seed, '--sessions', number, '--first', first]
+            for first, number in parts_of(sessions, parts)]
 
 
 def read_shared(run, program):
-    """Their tables joined, by column."""
-    paths = sorted(glob.glob(run.file(program + '_*.csv')))
-    parts = [programs.read_csv(path) for path in paths]
-    columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    for path in paths:
+    """Their tables joined in order, by column."""
+    paths = sorted(glob.glob(run.file(program + '_*.csv')), key=lambda path: (len(path), path))
+    tables = [programs.read_csv(path) for path in paths]
+    for path in paths:  # repeated in a table of the section
         os.remove(path)
-    return columns
+    return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
 
 
 def keep(run, program, columns, caption):

@@ -11,9 +11,11 @@ import dataclasses
 from typing import Optional
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_evaluation import alignment, bound
 from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.motion import pivot
 
 # Longest time between two samples of the truth to interpolate between [s].
 LONGEST_GAP = 0.02
@@ -63,14 +65,14 @@ def fit_space(points, true, kind):
 
 @dataclasses.dataclass(eq=False)
 class Path:
-    """What was tracked: times n [s], positions n x 3 [m], covariances n x 3 x 3 [m^2]. If rotations
-    n x 3 x 3, body to world, are known: covariances n x 6 x 6 of position and rotation about the
-    world's axes [m, rad]."""
+    """What was tracked: times n [s], positions n x 3 [m], covariances n x 3 x 3 [m^2]. If rotations,
+    n, body to world, are known: covariances n x 6 x 6 of position and rotation about the world's
+    axes [m, rad]."""
 
     times: np.ndarray
     positions: np.ndarray
     covariances: np.ndarray
-    rotations: Optional[np.ndarray] = None
+    rotations: Optional[Rotation] = None
 
     def part(self, chosen):
         rotations = None if self.rotations is None else self.rotations[chosen]
@@ -80,13 +82,8 @@ class Path:
         """The path of a place on the body [m]."""
         if self.rotations is None:
             return self
-        x, y, z = (self.rotations @ place).T
-        turn = np.zeros((len(x), 3, 6))
-        turn[:, :, :3] = np.eye(3)
-        turn[:, 0, 4], turn[:, 0, 5], turn[:, 1, 5] = z, -y, x
-        turn[:, 1, 3], turn[:, 2, 3], turn[:, 2, 4] = -z, y, -x
-        return Path(self.times, self.positions + np.stack([x, y, z], axis=1),
-                    turn @ self.covariances @ turn.transpose(0, 2, 1))
+        return Path(self.times, self.positions + self.rotations.apply(place),
+                    pivot.covariance_at(place, self.rotations, self.covariances))
 
 
 def fit(path, truth, kind):
@@ -110,7 +107,8 @@ def fit(path, truth, kind):
                    -speed.reshape(-1, 1),
                    -(speed * (times[used] - middle)[:, None]).reshape(-1, 1)]
         if path.rotations is not None:
-            columns.append((fitted.scale * fitted.rotation @ path.rotations[used]).reshape(-1, 3))
+            columns.append((fitted.scale * fitted.rotation
+                            @ path.rotations[used].as_matrix()).reshape(-1, 3))
         step = np.linalg.lstsq(np.concatenate(columns, axis=1), error.reshape(-1), rcond=None)[0]
         shift, rate = step[columns[0].shape[1]:][:2]
         clock = Clock(clock.rate + rate, clock.offset + shift - rate * middle)

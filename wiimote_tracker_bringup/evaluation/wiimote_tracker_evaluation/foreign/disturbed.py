@@ -13,10 +13,10 @@ import numpy as np
 import rosbag
 import rospy
 import yaml
+from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation import alignment, programs, reprojection
+from wiimote_tracker_evaluation import alignment, programs
 from wiimote_tracker_evaluation.foreign.ordinary import run
-from wiimote_tracker_evaluation.foreign.rig import quaternion_matrix
 
 METHOD = ('Each camera in turn is turned by 2 degrees and its clock set 5 ms off, and keep_calibrated '
           'corrects the rig from the recording, played to and fro')
@@ -75,13 +75,13 @@ def figures(known, number, played, folder):
         content = yaml.safe_load(file)
     found = content['cameras'][camera.name]
     pose, true = found['extrinsics']['transform'], known.cameras[number].world_from_camera
-    left = reprojection.rotation_matrix(true.orientation).T @ quaternion_matrix(
-        *(pose['rotation'][axis] for axis in 'xyzw'))
+    left = rotation_of(true.orientation).inv() * Rotation.from_quat(
+        [pose['rotation'][axis] for axis in 'xyzw'])
     moved = [pose['translation'][axis] - getattr(true.position, axis) for axis in 'xyz']
     truth, during = (points_of(path, folder) for path in files[:2])
     after = points_of(files[2], folder, '--rig', corrected)
     changed = found['time_offset'] != LATE
-    return {'turned_deg': float(np.degrees(np.arccos(min(1.0, 0.5 * (np.trace(left) - 1.0))))),
+    return {'turned_deg': float(np.degrees(left.magnitude())),
             'moved_mm': float(1e3 * np.linalg.norm(moved)), 'clock_ms': 1e3 * found['time_offset'],
             'points_before_mm': 1e3 * rms_error(during, truth),
             'points_after_mm': 1e3 * rms_error(after, truth),
@@ -90,11 +90,12 @@ def figures(known, number, played, folder):
 
 def turn(orientation, axis):
     """By TURN about an axis of the camera."""
-    x, y, z = np.sin(0.5 * TURN) * axis / np.linalg.norm(axis)
-    w = np.cos(0.5 * TURN)
-    a, b, c, d = orientation.x, orientation.y, orientation.z, orientation.w
-    orientation.x, orientation.y = d * x + a * w + b * z - c * y, d * y - a * z + b * w + c * x
-    orientation.z, orientation.w = d * z + a * y - b * x + c * w, d * w - a * x - b * y - c * z
+    turned = rotation_of(orientation) * Rotation.from_rotvec(TURN * axis / np.linalg.norm(axis))
+    orientation.x, orientation.y, orientation.z, orientation.w = turned.as_quat()
+
+
+def rotation_of(orientation):
+    return Rotation.from_quat([orientation.x, orientation.y, orientation.z, orientation.w])
 
 
 def write_bag(rig, played, path):

@@ -1,10 +1,10 @@
 """A flight with a truth: calibrated, tracked and scored."""
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.foreign import accuracy, body, ordinary
-from wiimote_tracker_evaluation.foreign.rig import quaternion_matrix
 
 METHOD = ('The middle of the lights as one point: poses and clock offsets by self_calibrate and '
           'solve_samples, path by track_bag; aligned on every other tenth of the recording and '
@@ -33,7 +33,7 @@ def path_of(views, rig, table):
     times, positions = columns('time')[:, 0], columns('x', 'y', 'z')
     scale = rig.scale(views, times)
     if 'qw' in column:
-        rotations = np.array([quaternion_matrix(*row) for row in columns('qx', 'qy', 'qz', 'qw')])
+        rotations = Rotation.from_quat(columns('qx', 'qy', 'qz', 'qw'))
         covariances = columns(*(f'cov_{i}' for i in range(36))).reshape(-1, 6, 6)
         units = np.array([scale, scale, scale, 1.0, 1.0, 1.0])
         return accuracy.Path(times, scale * positions, units[:, None] * units * covariances,

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 import rosbag
 import yaml
+from scipy.optimize import least_squares
 
 from wiimote_tracker_evaluation import reprojection
 from wiimote_tracker_evaluation.errors import ExperimentError
@@ -18,8 +19,6 @@ from wiimote_tracker_evaluation.foreign.ordinary import run
 METHOD = ('Lenses and poses by self_calibrate from every other ten frames; the rest are held out, '
           'both ways round; a pixel is predicted from the point that the other cameras see')
 BLOCK = 10  # frames
-# Of the search for a point: of rounds, and of a derivative's step in the rig's unit, about its size.
-ROUNDS, STEP = 10, 1e-6
 
 
 def whole(folder):
@@ -93,11 +92,7 @@ def prediction_error(cameras, pixels, name):
     def residuals(point):
         return np.concatenate([behind_is_far(reprojection.project(camera, point)) - pixel
                                for camera, pixel in others])
-    point = crossing(others)
-    for _ in range(ROUNDS):  # Gauss-Newton
-        error = residuals(point)
-        slope = np.array([residuals(point + step) - error for step in STEP * np.eye(3)]).T / STEP
-        point = point - np.linalg.lstsq(slope, error, rcond=None)[0]
+    point = least_squares(residuals, crossing(others), method='lm').x
     return float(np.linalg.norm(behind_is_far(reprojection.project(cameras[name], point)) -
                                 pixels[name]))
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import yaml
+from scipy.spatial.transform import Rotation
 
 DISTANCE = 3.0  # of a light from cameras in a room [m]
 
@@ -15,8 +16,8 @@ class Rig:
             cameras = list(yaml.safe_load(file)['cameras'].values())
         self.path = path
         poses = [camera['extrinsics']['transform'] for camera in cameras]
-        self.rotations = np.array([quaternion_matrix(*(pose['rotation'][axis] for axis in 'xyzw'))
-                                   for pose in poses])
+        self.rotations = Rotation.from_quat([[pose['rotation'][axis] for axis in 'xyzw']
+                                             for pose in poses]).as_matrix()
         self.positions = np.array([[pose['translation'][axis] for axis in 'xyz'] for pose in poses])
         self.offsets = np.nan_to_num([camera['time_offset'] for camera in cameras])
         self.residuals = np.array([camera['residual_px'] for camera in cameras])
@@ -51,9 +52,3 @@ class Rig:
         ratios = [np.linalg.norm(views.shape[i] - views.shape[j]) /
                   np.linalg.norm(points[:, i] - points[:, j], axis=1) for i, j in pairs]
         return float(np.nanmedian(ratios))
-
-
-def quaternion_matrix(x, y, z, w):
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])

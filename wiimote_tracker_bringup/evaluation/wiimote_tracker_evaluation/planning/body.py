@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from wiimote_tracker_evaluation.motion.pivot import skew
+
 HEADINGS = 4  # to which the body is turned about z
 
 
@@ -23,7 +25,5 @@ def lights(leds, points):
 def by_pose(levers):
     """B x L x 3 x 6: derivatives of the LEDs' places by the body's place and its turn about the
     world's axes."""
-    x, y, z = np.moveaxis(levers, -1, 0)
-    zero = np.zeros_like(x)
-    by_turn = np.stack([zero, z, -y, -z, zero, x, y, -x, zero], axis=-1).reshape(x.shape + (3, 3))
+    by_turn = -skew(levers.reshape(-1, 3)).reshape(levers.shape + (3,))
     return np.concatenate([np.broadcast_to(np.eye(3), by_turn.shape), by_turn], axis=-1)

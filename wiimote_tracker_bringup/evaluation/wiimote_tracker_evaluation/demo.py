@@ -2,16 +2,15 @@
 
 import argparse
 import os
-import shutil
 import sys
-import tempfile
 import time
 
-from wiimote_tracker_evaluation import bound, experiment, scene as scene_module
+from wiimote_tracker_evaluation import bound, experiment, scene as scene_module, stack
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
-from wiimote_tracker_evaluation.processes import ProcessEnded, Processes, free_port
+from wiimote_tracker_evaluation.processes import ProcessEnded
 from wiimote_tracker_evaluation.programs import package_file
+from wiimote_tracker_evaluation.terminal import Terminal
 
 LED = 'led'
 CORNER_SEED, ALIGNMENT_SEED = 1, 2
@@ -25,34 +24,19 @@ RECORDED = (r'(.*)/ir_blobs|(.*)/camera_info|(.*)/imu/data_raw|(.*)/calibration/
             r'/points|/%s/point|/simulation/truth/(.*)|/tf|/tf_static|/diagnostics' % LED)
 
 
-class Progress:
-    """Steps on the terminal, with a status line below them that is overwritten."""
+class Progress(Terminal):
+    """Numbered steps, with a status below."""
 
     def __init__(self, steps):
+        super().__init__()
         self._steps = steps
         self._step = 0
         self._start = time.monotonic()
-        self._live = sys.stdout.isatty()
-        self._pending = False
 
     def step(self, text):
         self._step += 1
         self.line('[%d/%d, %3.0f s] %s' % (self._step, self._steps,
                                             time.monotonic() - self._start, text))
-
-    def line(self, text):
-        if self._pending:
-            sys.stdout.write('\r\033[K')
-            self._pending = False
-        print(text)
-        sys.stdout.flush()
-
-    def passing(self, text):
-        """A status text that need not be kept."""
-        if self._live:
-            sys.stdout.write('\r\033[K    ' + text[:100])
-            sys.stdout.flush()
-            self._pending = True
 
 
 def prepare_output(folder, cameras):
@@ -77,58 +61,41 @@ def has_display():
 
 
 class Demo:
-    """One run. All processes that it starts have ended when run() returns or raises."""
+    """One run. All processes that it starts have ended when run() returns or raises. It returns a
+    sentence on the results."""
 
     def __init__(self, output, mode):
         self._output = output
         self._mode = mode
         self._progress = Progress(8)
-        self._processes = Processes()
         self._scene = scene_module.read_scene(package_file('simulation/paper_rig.yaml'))
         prepare_output(output, [camera.name for camera in self._scene.cameras])
 
     def run(self):
-        scratch = tempfile.mkdtemp(prefix='wiimote_tracker_demo_')
         try:
-            self._launch(scratch)
+            self._launch()
             segments, samples = self._experiment()
-            self._finish(segments, samples)
+            return self._finish(segments, samples)
         finally:
-            self._processes.stop_all()
-            shutil.rmtree(scratch, ignore_errors=True)
+            stack.stop_all()
 
-    def _file(self, name):
+    def file(self, name):
+        """Path of a file in the output folder."""
         return os.path.join(self._output, name)
 
-    def _launch(self, scratch):
+    def _launch(self):
         """Starts a separate master, the simulated rig, the tracker, and the recorder."""
-        import rosgraph
-        import rospy
         self._progress.step('Starting four virtual Wii Remotes, drivers, calibration, tracker')
         self._progress.line('Starting rviz.' if has_display() else
                             'No display: instead of rviz there will be a film, tracks.gif.')
-        port = free_port()
-        os.environ['ROS_MASTER_URI'] = f'http://localhost:{port}'
-        os.environ['ROS_HOME'] = scratch
-        log = self._file('nodes.log')
-        self._processes.start('roslaunch', [
-            'roslaunch', f'--port={port}', 'wiimote_tracker_bringup', 'simulated_rig.launch',
-            'socket_directory:=' + os.path.join(scratch, 'remotes'),
-            'camera_info_directory:=' + os.path.join(scratch, 'cameras'),
-            'rig_file:=' + self._file('rig.yaml'), f'side_length:={experiment.SIDE:g}',
-            'labels:=' + LED, 'mode:=' + self._mode, 'hand:=false',
-            'rviz:=%s' % ('true' if has_display() else 'false')], log)
-        deadline = time.monotonic() + 30.0
-        while not rosgraph.is_master_online():
-            self._processes.check()
-            if time.monotonic() > deadline:
-                raise ExperimentError('no ROS master within 30 s; see ' + log)
-            time.sleep(0.05)
-        rospy.init_node('demo', disable_signals=True)
+        stack.launch(self, 'launch/simulated_rig.launch', socket_directory='{folder}/remotes',
+                     camera_info_directory='{folder}/cameras', rig_file=self.file('rig.yaml'),
+                     side_length=experiment.SIDE, labels=LED, mode=self._mode, hand='false',
+                     rviz=str(has_display()).lower())
         # Not "rosbag record", a wrapper that can end before the bag is closed.
-        self._recorder = self._processes.start('rosbag', [
+        self._recorder = stack.start(self, [
             'rosrun', 'rosbag', 'record', '--quiet', '--tcpnodelay', '--buffsize=0', '--regex', RECORDED,
-            '--output-name=' + self._file('demo.bag')], log)
+            '--output-name=' + self.file('demo.bag')])
 
     def _experiment(self):
         """The LED's tour. Returns the measured segments, and the number of images used per
@@ -137,7 +104,7 @@ class Demo:
         from wiimote_tracker_evaluation.conductor import Conductor
         from wiimote_tracker_evaluation.recording import LiveRecorder
         progress = self._progress
-        conductor = Conductor(LED, LiveRecorder(LED), self._processes.check, progress.passing)
+        conductor = Conductor(LED, LiveRecorder(LED), stack.check, progress.passing)
 
         progress.step('Connection check')
         conductor.wait_for_cameras([camera.name for camera in self._scene.cameras])
@@ -203,36 +170,33 @@ class Demo:
     def _finish(self, segments, corner_samples):
         from wiimote_tracker_evaluation import animation, recording, report, scoring
         self._progress.step('Closing the bag, computing the results')
-        self._processes.stop(self._recorder)
-        if not os.path.exists(self._file('demo.bag')):
-            raise ExperimentError('rosbag left no demo.bag; see ' + self._file('nodes.log'))
-        recorded = recording.read_bag(self._file('demo.bag'), LED)
+        stack.end(self._recorder)
+        if not os.path.exists(self.file('demo.bag')):
+            raise ExperimentError('rosbag left no demo.bag; see ' + self.file('nodes.log'))
+        recorded = recording.read_bag(self.file('demo.bag'), LED)
         try:
             score = scoring.score(recorded, segments)
         except ValueError as error:
-            raise ExperimentError(f"{error}; see {self._file('nodes.log')}")
+            raise ExperimentError(f"{error}; see {self.file('nodes.log')}")
         bounds = bound.position_bounds(
             self._scene, experiment.CORNERS, experiment.TEST_POINTS,
             experiment.alignment_points(ALIGNMENT_SEED), corner_samples,
             TEST_DWELL * CAMERA_RATE, ALIGNMENT_DWELL * CAMERA_RATE,
             deviation=bound.deviation_of(self._scene, experiment.NOMINAL_LENS, experiment.CORNERS,
                                          experiment.placed_corners(CORNER_SEED)))
-        report.write_summary(self._file('summary.json'), self._mode, score, bounds)
-        report.write_csv(self._file('points.csv'), recorded, segments)
-        report.draw_tracks(self._file('tracks.png'), recorded, segments, score)
+        report.write_summary(self.file('summary.json'), self._mode, score, bounds)
+        report.write_csv(self.file('points.csv'), recorded, segments)
+        report.draw_tracks(self.file('tracks.png'), recorded, segments, score)
         files = 'summary.json, rig.yaml, demo.bag, points.csv, tracks.png'
         if not has_display():
-            animation.draw(self._file('tracks.gif'), self._scene, recorded, segments)
+            animation.draw(self.file('tracks.gif'), self._scene, recorded, segments)
             files += ', tracks.gif'
 
         self._progress.step('Results')
         for line in [''] + report.table(score, bounds) + ['']:
             self._progress.line(line)
         self._progress.line(f'In {self._output}: {files}')
-        self._sentence = report.sentence(self._mode, score)
-
-    def last_line(self):
-        return self._sentence
+        return report.sentence(self._mode, score)
 
 
 def main(arguments=None):
@@ -245,9 +209,7 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     raise_when_interrupted()
     try:
-        demo = Demo(os.path.abspath(options.output), options.mode)
-        demo.run()
-        print(demo.last_line())
+        print(Demo(os.path.abspath(options.output), options.mode).run())
         return 0
     except Interrupted:
         print('\nInterrupted; all started processes have ended.', file=sys.stderr)

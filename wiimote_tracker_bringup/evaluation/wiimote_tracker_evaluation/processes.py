@@ -8,6 +8,8 @@ import subprocess
 import time
 from typing import List, Sequence
 
+from wiimote_tracker_evaluation.errors import ExperimentError
+
 PR_SET_PDEATHSIG = 1
 PR_SET_CHILD_SUBREAPER = 36
 
@@ -67,6 +69,19 @@ class Processes:
                 preexec_fn=lambda: prctl(PR_SET_PDEATHSIG, signal.SIGTERM))
         self._started.append((name, process, output))
         return process
+
+    def start_master(self, port: int, output: str, patience: float = 30.0) -> subprocess.Popen:
+        """Starts a ROS master, that of ROS_MASTER_URI, and waits until it answers.
+        @raise ExperimentError: it does not within patience [s]."""
+        import rosgraph
+        master = self.start('rosmaster', ['rosmaster', '--core', '-p', str(port)], output)
+        deadline = time.monotonic() + patience
+        while not rosgraph.is_master_online():
+            self.check()
+            if time.monotonic() > deadline:
+                raise ExperimentError(f'no ROS master within {patience:.0f} s; see {output}')
+            time.sleep(0.02)
+        return master
 
     def check(self) -> None:
         """@raise ProcessEnded: a started process has ended."""

@@ -1,22 +1,21 @@
 """Progress of the evaluation and its remaining time."""
 
-import sys
 import time
+
+from wiimote_tracker_evaluation.terminal import Terminal
 
 QUIET_PERIOD = 15.0  # interval of lines without a terminal [s]
 
 
-class Progress:
-    """One line per section, with a status line below on a terminal."""
+class Progress(Terminal):
+    """One line per section, with a status below."""
 
     def __init__(self, expected, output=None, now=time.monotonic):
         """expected: name and approximate duration [s] of every section."""
+        super().__init__(output)
         self._expected = list(expected)
-        self._output = output or sys.stdout
         self._now = now
-        self._live = self._output.isatty()
         self._number = -1
-        self._pending = False
         self._begin = self._said = now()
         self._share = 0.0
 
@@ -31,23 +30,13 @@ class Progress:
         """The present section has finished `done` of `of` parts."""
         self._share = min(max(float(done) / of, 0.0), 1.0) if of else 0.0
         text = f'{100.0 * self._share:3.0f} %  {remaining_text(self.remaining()):<12} {what}'
-        if self._live:
-            self._output.write('\r\033[K      ' + text[:100])
-            self._output.flush()
-            self._pending = True
-        elif self._now() - self._said >= QUIET_PERIOD:
+        self.passing(text)
+        if not self.live and self._now() - self._said >= QUIET_PERIOD:
             self._said = self._now()
             self.line('      ' + text)
 
     def end(self, text: str) -> None:
         self.line(f'      {text} after {self._now() - self._begin:.0f} s')
-
-    def line(self, text: str) -> None:
-        if self._pending:
-            self._output.write('\r\033[K')
-            self._pending = False
-        self._output.write(text + '\n')
-        self._output.flush()
 
     def remaining(self) -> float:
         """Of all sections [s]: at first as expected, increasingly as observed."""

@@ -8,13 +8,9 @@ import os
 import re
 import shutil
 import tempfile
-import time
 
-from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.processes import Processes, free_port
 from wiimote_tracker_evaluation.programs import package_file
-
-MASTER_DEADLINE = 30.0  # [s]
 
 _processes = None
 _scratch = None
@@ -26,20 +22,13 @@ def master(log):
     global _processes, _scratch
     if _processes is not None:
         return
-    import rosgraph
     _processes = Processes()
     _scratch = tempfile.mkdtemp(prefix='wiimote_tracker_evaluation_')
     port = free_port()
     os.environ['ROS_MASTER_URI'] = f'http://localhost:{port}'
     os.environ['ROS_HOSTNAME'] = 'localhost'
     os.environ['ROS_HOME'] = _scratch
-    _processes.start('rosmaster', ['rosmaster', '--core', '-p', str(port)], log)
-    deadline = time.monotonic() + MASTER_DEADLINE
-    while not rosgraph.is_master_online():
-        check()
-        if time.monotonic() > deadline:
-            raise ExperimentError(f'no ROS master within {MASTER_DEADLINE:.0f} s; see {log}')
-        time.sleep(0.02)
+    _processes.start_master(port, log)
     import rospy  # reads the master's address at import
     rospy.init_node('evaluation', disable_signals=True)
 

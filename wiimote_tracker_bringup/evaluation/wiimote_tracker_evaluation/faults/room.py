@@ -90,14 +90,7 @@ class Room:
             return file.read()
 
     def start_master(self):
-        import rosgraph
-        self.master = self._processes.start(
-            'rosmaster', ['rosmaster', '--core', '-p', str(self._port)], self.log)
-        deadline = time.monotonic() + START
-        while not rosgraph.is_master_online():
-            if time.monotonic() > deadline:
-                raise ExperimentError(f'no ROS master within {START:.0f} s; see {self.log}')
-            time.sleep(0.05)
+        self.master = self._processes.start_master(self._port, self.log, START)
 
     def start_nodes(self):
         """Starts all nodes, as a user does."""

@@ -14,7 +14,7 @@ BLOCKS = 10                  # independent parts of the measurement
 @with_listener
 def live(run, listener, dialogue):
     listener.wait_for_points()
-    dialogue.tell('Move one LED on a horizontal circle at constant speed: on a turntable, or an '
+    dialogue.line('Move one LED on a horizontal circle at constant speed: on a turntable, or an '
                   'arm of a motor.')
     radius = dialogue.ask_number('Its radius in metres, when it moves (Enter: skip this):',
                                  0.05, 10.0)

@@ -37,7 +37,7 @@ class Watch:
 
 @with_listener
 def live(run, _, dialogue):
-    dialogue.tell('Take one remote; hold it towards the LED, in small circles all the time, and walk '
+    dialogue.line('Take one remote; hold it towards the LED, in small circles all the time, and walk '
                   'slowly backwards until you hear a beep. Then measure the distance.')
     camera = dialogue.ask('Name of that camera, such as wiimote_1 (Enter: skip this):')
     if not camera:
@@ -56,7 +56,7 @@ def live(run, _, dialogue):
 
 def one_walk(dialogue, camera):
     """The distance measured by the person [m], or None."""
-    dialogue.tell('      Start near the LED and walk (s and Enter: skip this one).')
+    dialogue.line('      Start near the LED and walk (s and Enter: skip this one).')
     watch = Watch(camera)
     try:
         while not watch.is_over():

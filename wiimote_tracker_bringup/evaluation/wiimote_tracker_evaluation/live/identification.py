@@ -13,7 +13,7 @@ LABEL_TIMEOUT = 10.0  # for labels, after the LEDs are seen [s]
 
 @with_listener
 def live(run, listener, dialogue):
-    dialogue.tell('The tracker needs the codes of your LEDs (argument blink_codes of its launch '
+    dialogue.line('The tracker needs the codes of your LEDs (argument blink_codes of its launch '
                   'file).')
     names = dialogue.ask('Labels of the LEDs, separated by commas (Enter: skip this):')
     labels = sorted(name.strip() for name in names.split(',') if name.strip())
@@ -23,11 +23,11 @@ def live(run, listener, dialogue):
     listener.wait_for_points()
     rows = []
     for number in range(QUICK_TRIES if run.quick else TRIES):
-        dialogue.tell('   %2d  Switch all LEDs off; then on.' % (number + 1))
+        dialogue.line('   %2d  Switch all LEDs off; then on.' % (number + 1))
         row = one_try(listener, dialogue, labels)
         if row is None:
             break
-        dialogue.tell('       ' + (f'all have their labels after {row[1]:.2f} s' if row[0] else
+        dialogue.line('       ' + (f'all have their labels after {row[1]:.2f} s' if row[0] else
                                    f'not all labels within {LABEL_TIMEOUT:.0f} s'))
         rows.append([number + 1, int(row[0]), row[1]])
     tell(run, labels, rows)

@@ -62,7 +62,7 @@ def live(run, dialogue=None):
 def measure(run, listener, counter, dialogue):
     wanted = QUICK_LAPS if run.quick else LAPS
     listener.wait_for_points()
-    dialogue.tell(
+    dialogue.line(
         'Move one LED on a horizontal circle at constant speed, and let a laps counter publish a '
         'std_msgs/Header on /trigger, stamped with the time, whenever the LED passes it. Waiting for '
         '%d laps (s and Enter: skip this).' % wanted)

@@ -18,18 +18,18 @@ def targets(side, up):
 def live(run, listener, dialogue):
     points = targets(listener.side(), listener.up())
     listener.wait_for_points()
-    dialogue.tell('Take one LED to ten places, one after the other, and hold it still until the next '
+    dialogue.line('Take one LED to ten places, one after the other, and hold it still until the next '
                   'one is named (s and Enter: skip it).')
     rows, before = [], None
     for number, target in enumerate(points):
-        dialogue.tell('   %2d  Put the LED at x = %.3f m, y = %.3f m, z = %.3f m.'
+        dialogue.line('   %2d  Put the LED at x = %.3f m, y = %.3f m, z = %.3f m.'
                       % ((number + 1,) + tuple(target)))
         place = listener.still(dialogue, before)
         if place is None:
             continue
         before = place.position
         error = float(np.linalg.norm(place.position - target))
-        dialogue.tell('       measured %.3f, %.3f, %.3f: %.1f cm off'
+        dialogue.line('       measured %.3f, %.3f, %.3f: %.1f cm off'
                       % (tuple(place.position) + (100.0 * error,)))
         rows.append([number + 1] + list(target) + list(1e3 * (place.position - target)) +
                     [1e3 * error, 1e3 * place.scatter, place.points])

@@ -17,7 +17,8 @@ from wiimote_tracker_evaluation.processes import Processes
 
 FAULTS = [each for module in (of_processes, of_messages, of_types, of_files, of_images, of_time,
                               of_load, of_network, of_master)
-          for each in vars(module).values() if isinstance(each, Fault)]
+          for each in [*vars(module).values(), *getattr(module, 'FAULTS', ())]
+          if isinstance(each, Fault)]
 HEAD = '%-28s %-22s %-22s %-22s %9s  %s' % (
     'fault', 'before: Hz, mm', 'during', 'after', 'recovery', 'problems')
 

@@ -3,7 +3,7 @@
 import os
 import signal
 
-from wiimote_tracker_evaluation.faults.of_processes import STOPPED
+from wiimote_tracker_evaluation.faults.of_processes import STOPPED, halted
 from wiimote_tracker_evaluation.faults.room import stopped
 from wiimote_tracker_evaluation.faults.row import fault
 
@@ -54,8 +54,4 @@ def stop_roslaunch(room):
         yield STOPPED
 
 
-@fault()
-def stop_drivers(room):
-    """SIGSTOP of the node that starts the drivers for 5 s."""
-    with room.stopped('/drivers'):
-        yield STOPPED
+stop_drivers = halted('drivers', 'the node that starts the drivers', '/drivers')

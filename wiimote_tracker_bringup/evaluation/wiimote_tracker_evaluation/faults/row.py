@@ -14,8 +14,9 @@ PATIENCE = 40.0  # for the recovery [s]
 
 @dataclasses.dataclass(frozen=True)
 class Fault:
-    """cause: a generator function of a room; it causes the fault, yields for how long it shall last
-    [s], and then takes the cause away. It may return a list of sentences: what went wrong.
+    """name: as on the command line; what: in words. cause: a generator function of a room; it causes
+    the fault, yields for how long it shall last [s], and then takes the cause away. It may return a
+    list of sentences: what went wrong.
 
     quick: also in the quick form. room: how the room differs (arguments of Room). ends: nodes that
     may end and start again; '*' for all. named: what some warning or error must contain; empty:
@@ -24,6 +25,8 @@ class Fault:
     why it cannot be caused here; empty: it can.
     """
 
+    name: str
+    what: str
     cause: Callable
     quick: bool = False
     room: Dict = dataclasses.field(default_factory=dict)
@@ -33,14 +36,6 @@ class Fault:
     wrong_allowed: bool = False
     spends_room: bool = False
     missing: Callable[[], str] = str
-
-    @property
-    def name(self):
-        return self.cause.__name__
-
-    @property
-    def what(self):
-        return self.cause.__doc__.strip().rstrip('.')
 
 
 @dataclasses.dataclass(eq=False)
@@ -62,8 +57,8 @@ class Result:
 
 
 def fault(**how):
-    """Turns a generator function into a Fault; how: its other fields."""
-    return lambda cause: Fault(cause, **how)
+    """Turns a generator function with a docstring into a Fault; how: its other fields."""
+    return lambda cause: Fault(cause.__name__, cause.__doc__.strip().rstrip('.'), cause, **how)
 
 
 def carry_out(chosen: Fault, room) -> Result:

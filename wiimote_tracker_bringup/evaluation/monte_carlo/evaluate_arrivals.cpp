@@ -1,5 +1,6 @@
 // Errors of a moving LED with the exposure clock on recorded arrivals of real remotes.
 #include "grid_filter.h"
+#include "paper/experiment.h"
 #include "recorded_exposures.h"
 #include "remote_camera.h"
 #include "room.h"
@@ -22,7 +23,6 @@ namespace wiimote_tracker::monte_carlo {
 namespace {
 
 constexpr double kLearning = 10.0;     // of the clocks, before the score [s]
-constexpr double kRadius = 0.75;       // the paper's circle [m]
 constexpr double kFar = 0.5;           // points farther off are not of the LED [m]
 constexpr double kInside = 7.814728;   // 95 % of chi squared, three degrees of freedom
 constexpr double kExactStddev = 1e-6;  // [s]
@@ -152,9 +152,7 @@ Score follow(const simulation::Description& description,
              double speed,
              Stamps stamps) {
   const auto path = [&](double time) {
-    const double angle = speed / kRadius * time;
-    return Eigen::Vector3d(1.25 + kRadius * std::cos(angle), 1.25 + kRadius * std::sin(angle),
-                           0.95);
+    return onCircle(kUpperCircle, speed / kCircleRadius * time);
   };
   std::vector<simulation::VirtualCamera> optics;
   std::vector<RemoteCamera> sensors;

@@ -1,4 +1,5 @@
 // Accuracy with two to eight exactly known cameras on a ring: single points, and a tracked LED.
+#include "paper/experiment.h"
 #include "program.h"
 #include "room.h"
 
@@ -76,15 +77,14 @@ void measurePoints(const simulation::Description& description,
   }
 }
 
-/// A tracked LED that moves in circles.
+/// A tracked LED on a circle of the paper.
 void measureTrack(const simulation::Description& description,
                   int session,
                   std::uint32_t seed,
                   Table* table) {
   const double phase = 1e-3 * (seed % 6283);
-  const Path path = [=](double time) {
-    const double angle = phase + time / 0.75;
-    return Eigen::Vector3d(1.25 + 0.75 * std::cos(angle), 1.25 + 0.75 * std::sin(angle), 0.95);
+  const Path path = [=](double time) {  // at 1 m/s
+    return onCircle(kUpperCircle, phase + time / kCircleRadius);
   };
   Room room(description, {path}, {}, seed);
   const std::vector<RoomImage> images = record(&room, kDuration);

@@ -1,4 +1,5 @@
 // Tracking of an LED that is occluded from each camera at random times.
+#include "paper/experiment.h"
 #include "program.h"
 #include "room.h"
 
@@ -131,9 +132,8 @@ void measure(const simulation::Description& all, const Session& session, Table* 
       for (std::size_t i = 0; i < description.cameras.size(); ++i)
         curtains.emplace_back(hidden_share, &random);
       const double phase = 2.0 * M_PI * (random() / 4294967296.0);
-      const Path path = [=](double time) {  // the paper's upper circle, 1 m/s
-        const double angle = phase + time / 0.75;
-        return Eigen::Vector3d(1.25 + 0.75 * std::cos(angle), 1.25 + 0.75 * std::sin(angle), 0.95);
+      const Path path = [=](double time) {  // at 1 m/s
+        return onCircle(kUpperCircle, phase + time / kCircleRadius);
       };
       RoomOptions options;
       options.hidden = [&](std::size_t camera, std::size_t, double time) {

@@ -1,4 +1,5 @@
 // Errors of a moving LED with unsynchronised cameras, and the benefit of estimated exposure times.
+#include "paper/experiment.h"
 #include "program.h"
 #include "room.h"
 
@@ -18,7 +19,6 @@ namespace {
 
 constexpr double kDuration = 8.0;     // of a session [s]
 constexpr double kSettled = 3.0;      // start of the score, when clocks and tracks have settled [s]
-constexpr double kRadius = 0.75;      // the paper's circle [m]
 constexpr double kNear = 0.5;         // points farther off are not of the LED [m]
 constexpr double kLongestKept = 0.1;  // greatest age of a spot in use [s]
 
@@ -35,14 +35,6 @@ struct Score {
     ++seen;
   }
 };
-
-Path circleOf(double speed, double phase) {
-  return [=](double time) {
-    const double angle = phase + speed / kRadius * time;
-    return Eigen::Vector3d(1.25 + kRadius * std::cos(angle), 1.25 + kRadius * std::sin(angle),
-                           0.95);
-  };
-}
 
 /// The tracker's two modes. @param lateness of the stamps [s].
 Score follow(const geometry::Rig& rig,
@@ -107,7 +99,10 @@ Score intersectLatest(const geometry::Rig& rig,
 void measure(const simulation::Description& description, const Session& session, Table* table) {
   const geometry::Rig rig = trueRig(description);
   for (const double speed : {0.5, 1.0, 2.0, 3.0}) {
-    const Path path = circleOf(speed, 1e-3 * (session.seed % 6283));
+    const double phase = 1e-3 * (session.seed % 6283);
+    const Path path = [=](double time) {
+      return onCircle(kUpperCircle, phase + speed / kCircleRadius * time);
+    };
     for (const bool synchronised : {false, true}) {
       for (const auto& [stamping, name] : {std::make_pair(Stamping::kExact, "exact"),
                                            std::make_pair(Stamping::kEstimated, "estimated"),

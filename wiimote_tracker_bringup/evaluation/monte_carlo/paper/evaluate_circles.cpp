@@ -93,9 +93,7 @@ class LapWriter {
   double duration() const { return 2.0 * M_PI * kCircleRadius / speed_; }
 
   Eigen::Vector3d position(double time) const {
-    const double angle = phase_ + speed_ / kCircleRadius * time;
-    return circleCenters()[circle_] +
-           kCircleRadius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+    return onCircle(circle_, phase_ + speed_ / kCircleRadius * time);
   }
 
   void follow(const Method& method, const std::vector<RoomImage>& images) const {

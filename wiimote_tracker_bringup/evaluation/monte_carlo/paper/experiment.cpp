@@ -1,5 +1,7 @@
 #include "experiment.h"
 
+#include <cmath>
+
 namespace wiimote_tracker::monte_carlo {
 
 std::vector<Eigen::Vector3d> tenPoints() {
@@ -18,6 +20,11 @@ std::vector<Eigen::Vector3d> tenPoints() {
 std::array<Eigen::Vector3d, 3> circleCenters() {
   return {Eigen::Vector3d(1.0, 1.0, 0.23), Eigen::Vector3d(1.5, 1.5, 0.23),
           Eigen::Vector3d(1.25, 1.25, 0.95)};
+}
+
+Eigen::Vector3d onCircle(std::size_t circle, double angle) {
+  return circleCenters()[circle] +
+         kCircleRadius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
 }
 
 Eigen::Vector3d placed(const Eigen::Vector3d& point, std::mt19937_64& random) {

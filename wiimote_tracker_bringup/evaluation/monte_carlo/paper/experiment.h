@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
 #include <random>
 #include <vector>
 
@@ -21,6 +22,11 @@ std::vector<Eigen::Vector3d> tenPoints();
 
 /// Centres of the three horizontal circles.
 std::array<Eigen::Vector3d, 3> circleCenters();
+
+constexpr std::size_t kUpperCircle = 2;  // of circleCenters()
+
+/// The position on a circle at an angle from the x axis [rad].
+Eigen::Vector3d onCircle(std::size_t circle, double angle);
 
 /// A random placement of the LED at a point: uniform in a disc of kFloorPlacement on the floor, or
 /// in a ball of kAirPlacement above it.

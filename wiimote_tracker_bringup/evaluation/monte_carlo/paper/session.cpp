@@ -49,11 +49,9 @@ std::vector<StillLed> whatMatters(const std::vector<StillLed>& points) {
   std::vector<StillLed> all = points;
   for (const StillLed& led : points)
     all.push_back({led.nominal, led.nominal, {}});
-  for (const Eigen::Vector3d& center : circleCenters()) {
+  for (std::size_t circle = 0; circle < circleCenters().size(); ++circle) {
     for (int i = 0; i < 36; ++i) {
-      const double angle = 2.0 * M_PI * i / 36.0;
-      const Eigen::Vector3d place =
-          center + kCircleRadius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+      const Eigen::Vector3d place = onCircle(circle, 2.0 * M_PI * i / 36.0);
       all.push_back({place, place, {}});
     }
   }

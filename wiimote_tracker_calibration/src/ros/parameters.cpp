@@ -1,23 +1,15 @@
 #include "parameters.h"
 
 #include <wiimote_tracker_msgs/parameter_reader.h>
+#include <wiimote_tracker_msgs/ros_home.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <set>
 
 namespace wiimote_tracker {
 
 namespace {
-
-std::string defaultRigFile() {
-  const char* ros_home = std::getenv("ROS_HOME");
-  if (ros_home != nullptr && *ros_home != '\0')
-    return std::string(ros_home) + "/wiimote_tracker/rig.yaml";
-  const char* home = std::getenv("HOME");
-  return std::string(home != nullptr ? home : "") + "/.ros/wiimote_tracker/rig.yaml";
-}
 
 void readCapture(ParameterReader* reader, capture::CornerCaptureOptions* options) {
   reader->read("minimum_samples", &options->minimum_samples, 10, 100000);
@@ -163,7 +155,7 @@ Parameters readParameters(ParameterReader reader) {
   parameters.second_side_length = reader.bounded("second_side_length", 0.0, 0.0, 20.0);
   parameters.rig_file = reader.optional<std::string>("rig_file", "");
   if (parameters.rig_file.empty())
-    parameters.rig_file = defaultRigFile();
+    parameters.rig_file = rosHome() + "/wiimote_tracker/rig.yaml";
   parameters.file_folder = reader.optional<std::string>("file_folder", "");
   reader.read("led_height", &calibration.led_height, 0.0, 1000.0);
   reader.read("world_frame", &calibration.world_frame);

@@ -8,6 +8,7 @@
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 
 #include <wiimote_tracker_msgs/argument_parser.h>
+#include <wiimote_tracker_msgs/ros_home.h>
 
 #include <time.h>
 #include <unistd.h>
@@ -228,14 +229,8 @@ int list(const Arguments& arguments) {
 }
 
 std::string cameraInfoFolder(const Arguments& arguments) {
-  if (!arguments.camera_info.empty())
-    return arguments.camera_info;
   // As in camera_info_manager.
-  const char* const ros_home = std::getenv("ROS_HOME");
-  const char* const home = std::getenv("HOME");
-  return (ros_home != nullptr ? std::string(ros_home)
-                              : std::string(home != nullptr ? home : "") + "/.ros") +
-         "/camera_info";
+  return arguments.camera_info.empty() ? rosHome() + "/camera_info" : arguments.camera_info;
 }
 
 std::string today() {

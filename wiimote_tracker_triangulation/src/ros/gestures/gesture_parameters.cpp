@@ -1,19 +1,8 @@
 #include "gesture_parameters.h"
 
-#include <cstdlib>
+#include <wiimote_tracker_msgs/ros_home.h>
 
 namespace wiimote_tracker {
-namespace {
-
-std::string defaultFile() {
-  const char* ros_home = std::getenv("ROS_HOME");
-  if (ros_home != nullptr && *ros_home != '\0')
-    return std::string(ros_home) + "/wiimote_tracker/gestures.yaml";
-  const char* home = std::getenv("HOME");
-  return std::string(home != nullptr ? home : "") + "/.ros/wiimote_tracker/gestures.yaml";
-}
-
-}  // namespace
 
 GestureParameters GestureParameters::read(ParameterReader reader) {
   return read(&reader);
@@ -23,7 +12,7 @@ GestureParameters GestureParameters::read(ParameterReader* reader) {
   GestureParameters p;
   reader->read("file", &p.file);
   if (p.file.empty())
-    p.file = defaultFile();
+    p.file = rosHome() + "/wiimote_tracker/gestures.yaml";
   reader->read("labels", &p.labels);
 
   const std::string boundary =

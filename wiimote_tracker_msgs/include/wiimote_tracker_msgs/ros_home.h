@@ -1,0 +1,20 @@
+#ifndef WIIMOTE_TRACKER_MSGS_ROS_HOME_H
+#define WIIMOTE_TRACKER_MSGS_ROS_HOME_H
+
+#include <cstdlib>
+#include <string>
+
+namespace wiimote_tracker {
+
+/// The folder of this user's files of ROS: ROS_HOME, else ~/.ros.
+inline std::string rosHome() {
+  const char* const ros_home = std::getenv("ROS_HOME");
+  if (ros_home != nullptr && *ros_home != '\0')
+    return ros_home;
+  const char* const home = std::getenv("HOME");
+  return std::string(home != nullptr ? home : "") + "/.ros";
+}
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_MSGS_ROS_HOME_H

@@ -60,7 +60,6 @@ class RigModel {
 
   const std::vector<CameraSightings>& sightings() const { return sightings_; }
   const Corners& nominalCorners() const { return nominal_corners_; }
-  bool zUp() const { return z_up_; }
 
   /// A model of one of the cameras alone.
   RigModel only(std::size_t camera) const;

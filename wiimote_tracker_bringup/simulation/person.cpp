@@ -5,7 +5,7 @@
 
 namespace wiimote_tracker::simulation {
 
-bool Pillar::hides(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+bool Cylinder::hides(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
   // Seen from above: the part of the segment in the circle, as parameters s in [0, 1]. With
   // a = (to - from), b = (from - foot): |b + s a|^2 <= radius^2.
   const Eigen::Vector2d a = (to - from).head<2>();
@@ -36,7 +36,7 @@ Eigen::Isometry3d Person::worldFromPerson(double time) const {
          Eigen::AngleAxisd(description_.turn_rate * time, Eigen::Vector3d::UnitZ());
 }
 
-Pillar Person::body(double time) const {
+Cylinder Person::body(double time) const {
   return {worldFromPerson(time).translation(), description_.radius, description_.height};
 }
 

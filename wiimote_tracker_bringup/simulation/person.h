@@ -9,7 +9,7 @@
 namespace wiimote_tracker::simulation {
 
 /// An upright opaque cylinder.
-struct Pillar {
+struct Cylinder {
   Eigen::Vector3d foot;  ///< Centre of the lower end, world [m].
   double radius;         ///< [m]
   double height;         ///< [m]
@@ -30,7 +30,7 @@ class Person {
   /// up.
   Eigen::Isometry3d worldFromPerson(double time) const;
 
-  Pillar body(double time) const;
+  Cylinder body(double time) const;
 
   LedMotion motion;  ///< On the floor; z is ignored.
   bool present;      ///< If absent, occludes nothing, and carried LEDs are not seen.

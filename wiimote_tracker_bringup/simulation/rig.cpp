@@ -152,12 +152,12 @@ void Rig::expose(std::size_t number) {
     if (person.present)
       bodies_.push_back(person.body(time));
   }
-  glints_.clear();
+  reflected_.clear();
   for (const ReflectionDescription& reflection : reflections_) {
     if (reflection.lit && reflection.camera == camera.name)
-      glints_.push_back({reflection.pixel, reflection.size, reflection.brightness});
+      reflected_.push_back({reflection.pixel, reflection.size, reflection.brightness});
   }
-  const Image image{camera.optics.sense(lamps_, bodies_, glints_), time};
+  const Image image{camera.optics.sense(lamps_, bodies_, reflected_), time};
   if (!camera.next.lost) {
     camera.travelling.push(image);
     push(camera.next.arrival, Event::kDelivery, number);

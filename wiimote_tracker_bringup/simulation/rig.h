@@ -123,9 +123,9 @@ class Rig {
   std::vector<RigidBody> rigid_bodies_;
   std::vector<ReflectionDescription> reflections_;
   std::optional<LedBoard> board_;
-  std::vector<Lamp> lamps_;  // reused, as are bodies_ and glints_
-  std::vector<Pillar> bodies_;
-  std::vector<Glint> glints_;
+  std::vector<Lamp> lamps_;  // reused, as are bodies_ and reflected_
+  std::vector<Cylinder> bodies_;
+  std::vector<ReflectedLight> reflected_;
   std::priority_queue<Event, std::vector<Event>, std::greater<Event>> events_;
   std::uint64_t event_count_ = 0;
 };

@@ -38,8 +38,8 @@ virtual_wiimote::Light VirtualCamera::lightAt(const Eigen::Vector2d& pixel,
 }
 
 virtual_wiimote::Senses VirtualCamera::sense(const std::vector<Lamp>& lamps,
-                                             const std::vector<Pillar>& bodies,
-                                             const std::vector<Glint>& glints) {
+                                             const std::vector<Cylinder>& bodies,
+                                             const std::vector<ReflectedLight>& reflections) {
   virtual_wiimote::Senses senses;
   senses.acceleration = {acceleration_.x(), acceleration_.y(), acceleration_.z()};
   std::normal_distribution<double> normal;
@@ -53,7 +53,7 @@ virtual_wiimote::Senses VirtualCamera::sense(const std::vector<Lamp>& lamps,
     // others.
     const Eigen::Vector2d noise = draw();
     const auto pixel = camera_.project(lamp.position);
-    if (!pixel || std::any_of(bodies.begin(), bodies.end(), [&](const Pillar& body) {
+    if (!pixel || std::any_of(bodies.begin(), bodies.end(), [&](const Cylinder& body) {
           return body.hides(camera_.center(), lamp.position);
         }))
       continue;
@@ -62,8 +62,9 @@ virtual_wiimote::Senses VirtualCamera::sense(const std::vector<Lamp>& lamps,
         lightAt(*pixel, noise, lamp.size,
                 lamp.size ? lamp.brightness : lamp.brightness / squared_distance));
   }
-  for (const Glint& glint : glints)
-    senses.lights.push_back(lightAt(glint.pixel, draw(), glint.size, glint.brightness));
+  for (const ReflectedLight& reflection : reflections)
+    senses.lights.push_back(
+        lightAt(reflection.pixel, draw(), reflection.size, reflection.brightness));
   return senses;
 }
 

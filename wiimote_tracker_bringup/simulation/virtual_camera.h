@@ -25,7 +25,7 @@ struct Lamp {
 };
 
 /// A lit reflection in one camera's image.
-struct Glint {
+struct ReflectedLight {
   Eigen::Vector2d pixel;       ///< v down [px].
   std::optional<double> size;  ///< As of a Lamp [0..15].
   double brightness;           ///< At the camera.
@@ -40,8 +40,8 @@ class VirtualCamera {
 
   /// The lights of visible lamps and of reflections, with noise; and gravity.
   virtual_wiimote::Senses sense(const std::vector<Lamp>& lamps,
-                                const std::vector<Pillar>& bodies = {},
-                                const std::vector<Glint>& glints = {});
+                                const std::vector<Cylinder>& bodies = {},
+                                const std::vector<ReflectedLight>& reflections = {});
 
  private:
   virtual_wiimote::Light lightAt(const Eigen::Vector2d& pixel,

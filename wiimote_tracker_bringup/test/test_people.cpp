@@ -30,43 +30,43 @@ class Random {
   std::mt19937 engine_{7};
 };
 
-TEST(Pillar, hides_points_behind_it) {
-  const Pillar pillar{Vector3d(1.0, 0.0, 0.0), 0.2, 1.8};
+TEST(Cylinder, hides_points_behind_it) {
+  const Cylinder cylinder{Vector3d(1.0, 0.0, 0.0), 0.2, 1.8};
   const Vector3d from(0.0, 0.0, 1.0);
-  EXPECT_TRUE(pillar.hides(from, Vector3d(2.0, 0.0, 1.0)));
-  EXPECT_TRUE(pillar.hides(from, Vector3d(2.0, 0.35, 1.0)));
-  EXPECT_FALSE(pillar.hides(from, Vector3d(2.0, 0.5, 1.0))) << "beside it";
-  EXPECT_FALSE(pillar.hides(from, Vector3d(0.7, 0.0, 1.0))) << "before it";
-  EXPECT_FALSE(pillar.hides(from, Vector3d(-2.0, 0.0, 1.0))) << "in the opposite direction";
-  EXPECT_FALSE(pillar.hides(Vector3d(0.0, 0.0, 2.0), Vector3d(2.0, 0.0, 2.0))) << "above it";
-  EXPECT_TRUE(pillar.hides(Vector3d(0.0, 0.0, 2.0), Vector3d(2.0, 0.0, 1.0))) << "down into it";
-  EXPECT_TRUE(pillar.hides(Vector3d(1.0, 0.0, 3.0), Vector3d(1.0, 0.0, 1.0))) << "from above";
-  EXPECT_FALSE(pillar.hides(Vector3d(1.3, 0.0, 3.0), Vector3d(1.3, 0.0, 0.0))) << "straight down";
+  EXPECT_TRUE(cylinder.hides(from, Vector3d(2.0, 0.0, 1.0)));
+  EXPECT_TRUE(cylinder.hides(from, Vector3d(2.0, 0.35, 1.0)));
+  EXPECT_FALSE(cylinder.hides(from, Vector3d(2.0, 0.5, 1.0))) << "beside it";
+  EXPECT_FALSE(cylinder.hides(from, Vector3d(0.7, 0.0, 1.0))) << "before it";
+  EXPECT_FALSE(cylinder.hides(from, Vector3d(-2.0, 0.0, 1.0))) << "in the opposite direction";
+  EXPECT_FALSE(cylinder.hides(Vector3d(0.0, 0.0, 2.0), Vector3d(2.0, 0.0, 2.0))) << "above it";
+  EXPECT_TRUE(cylinder.hides(Vector3d(0.0, 0.0, 2.0), Vector3d(2.0, 0.0, 1.0))) << "down into it";
+  EXPECT_TRUE(cylinder.hides(Vector3d(1.0, 0.0, 3.0), Vector3d(1.0, 0.0, 1.0))) << "from above";
+  EXPECT_FALSE(cylinder.hides(Vector3d(1.3, 0.0, 3.0), Vector3d(1.3, 0.0, 0.0))) << "straight down";
 }
 
-TEST(Pillar, agrees_with_steps_along_the_line) {
+TEST(Cylinder, agrees_with_steps_along_the_line) {
   Random random;
   const int steps = 2000;
   int hidden = 0;
   for (int i = 0; i < 2000; ++i) {
-    const Pillar pillar{random.place().cwiseProduct(Vector3d(1, 1, 0)), random(0.05, 0.5),
-                        random(0.5, 2.0)};
+    const Cylinder cylinder{random.place().cwiseProduct(Vector3d(1, 1, 0)), random(0.05, 0.5),
+                            random(0.5, 2.0)};
     const Vector3d from = random.place(), to = random.place();
     const auto inside = [&](double margin) {
       for (int s = 0; s <= steps; ++s) {
-        const Vector3d at = from + (to - from) * s / steps - pillar.foot;
-        if (at.head<2>().norm() <= pillar.radius + margin && at.z() >= -margin &&
-            at.z() <= pillar.height + margin)
+        const Vector3d at = from + (to - from) * s / steps - cylinder.foot;
+        if (at.head<2>().norm() <= cylinder.radius + margin && at.z() >= -margin &&
+            at.z() <= cylinder.height + margin)
           return true;
       }
       return false;
     };
     const double margin = 2.0 * (to - from).norm() / steps;
     if (inside(-margin)) {
-      EXPECT_TRUE(pillar.hides(from, to));
+      EXPECT_TRUE(cylinder.hides(from, to));
       ++hidden;
     } else if (!inside(margin)) {
-      EXPECT_FALSE(pillar.hides(from, to));
+      EXPECT_FALSE(cylinder.hides(from, to));
     }
   }
   EXPECT_GT(hidden, 150);

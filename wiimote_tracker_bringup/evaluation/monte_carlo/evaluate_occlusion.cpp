@@ -26,9 +26,9 @@ constexpr double kStep = 0.005;       // time step of the score [s]
 constexpr double kInside = 7.815;     // 95 % quantile of chi^2, three degrees of freedom
 
 /// Occlusions of the LED from one camera: visible and hidden times alternate, both exponential.
-class Curtain {
+class Occlusions {
  public:
-  Curtain(double hidden_share, std::mt19937* random) {
+  Occlusions(double hidden_share, std::mt19937* random) {
     const auto exponential = [&](double mean) {
       return -mean * std::log(((*random)() + 0.5) / 4294967296.0);
     };
@@ -41,7 +41,7 @@ class Curtain {
     }
   }
 
-  bool isShut(double time) const {
+  bool isHidden(double time) const {
     return (std::upper_bound(turns_.begin(), turns_.end(), time) - turns_.begin()) % 2 == 1;
   }
 
@@ -111,11 +111,12 @@ Score follow(const geometry::Rig& rig,
 }
 
 /// Share of the time in which at least two cameras see the LED, as triangulation requires.
-double shareOfTwoViews(const std::vector<Curtain>& curtains) {
+double shareOfTwoViews(const std::vector<Occlusions>& occlusions) {
   int seen = 0, all = 0;
   for (double time = kSettled; time < kDuration; time += kStep) {
-    const auto open = std::count_if(curtains.begin(), curtains.end(),
-                                    [&](const Curtain& curtain) { return !curtain.isShut(time); });
+    const auto open =
+        std::count_if(occlusions.begin(), occlusions.end(),
+                      [&](const Occlusions& camera) { return !camera.isHidden(time); });
     seen += open >= 2;
     ++all;
   }
@@ -128,16 +129,16 @@ void measure(const simulation::Description& all, const Session& session, Table* 
     const geometry::Rig rig = trueRig(description);
     for (const double hidden_share : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6}) {
       std::mt19937 random(session.seed);
-      std::vector<Curtain> curtains;
+      std::vector<Occlusions> occlusions;
       for (std::size_t i = 0; i < description.cameras.size(); ++i)
-        curtains.emplace_back(hidden_share, &random);
+        occlusions.emplace_back(hidden_share, &random);
       const double phase = 2.0 * M_PI * (random() / 4294967296.0);
       const Path path = [=](double time) {  // at 1 m/s
         return onCircle(kUpperCircle, phase + time / kCircleRadius);
       };
       RoomOptions options;
       options.hidden = [&](std::size_t camera, std::size_t, double time) {
-        return curtains[camera].isShut(time);
+        return occlusions[camera].isHidden(time);
       };
       Room room(description, {path}, options, session.seed);
       const std::vector<RoomImage> images = record(&room, kDuration);
@@ -146,8 +147,8 @@ void measure(const simulation::Description& all, const Session& session, Table* 
         const Score score = follow(rig, images, path, lateness, method);
         const double points = score.astray + score.published;
         *table << session.number << static_cast<int>(description.cameras.size()) << hidden_share
-               << method.name << score.covered / (kDuration - kSettled) << shareOfTwoViews(curtains)
-               << score.astray / points << score.inside / points
+               << method.name << score.covered / (kDuration - kSettled)
+               << shareOfTwoViews(occlusions) << score.astray / points << score.inside / points
                << 1e3 * std::sqrt(score.squared / score.published) << score.longest_gap
                << static_cast<int>(score.ids.size());
       }

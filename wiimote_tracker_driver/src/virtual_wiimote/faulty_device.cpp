@@ -49,7 +49,7 @@ void FaultyDevice::send(Bytes report) {
   const int copies = chance(faults_.duplicated) ? 2 : 1;
   if (answer && chance(faults_.late_answers)) {
     const std::uint64_t due = samples_ + 1 + below(static_cast<std::size_t>(faults_.late_by));
-    late_.insert(late_.end(), static_cast<std::size_t>(copies), {due, report});
+    delayed_.insert(delayed_.end(), static_cast<std::size_t>(copies), {due, report});
     return;
   }
   for (int i = 0; i < copies; ++i)
@@ -76,11 +76,12 @@ void FaultyDevice::releaseHeldBack() {
 }
 
 void FaultyDevice::releaseLate() {
-  const auto due = std::stable_partition(late_.begin(), late_.end(),
-                                         [this](const Late& l) { return l.due > samples_; });
-  const std::vector<Late> reports(due, late_.end());
-  late_.erase(due, late_.end());
-  for (const Late& report : reports)
+  const auto due =
+      std::stable_partition(delayed_.begin(), delayed_.end(),
+                            [this](const DelayedReport& report) { return report.due > samples_; });
+  const std::vector<DelayedReport> reports(due, delayed_.end());
+  delayed_.erase(due, delayed_.end());
+  for (const DelayedReport& report : reports)
     arrive(report.report);
 }
 
@@ -107,7 +108,7 @@ void FaultyDevice::goAwayOrComeBack() {
 
 void FaultyDevice::powerCycle() {
   device_.powerCycle();
-  late_.clear();
+  delayed_.clear();
   held_back_.clear();
   stall_end_ = 0;
   away_ = false;

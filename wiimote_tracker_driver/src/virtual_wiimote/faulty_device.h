@@ -44,7 +44,7 @@ class FaultyDevice {
   const Device& device() const { return device_; }
 
  private:
-  struct Late {
+  struct DelayedReport {
     std::uint64_t due;  // [samples]
     Bytes report;
   };
@@ -69,7 +69,7 @@ class FaultyDevice {
   std::uint64_t stall_end_ = 0;
   bool away_ = false;
   std::uint64_t came_or_went_ = 0;
-  std::vector<Late> late_;
+  std::vector<DelayedReport> delayed_;
   std::deque<Bytes> held_back_;
   std::vector<Bytes> arrived_;  // not yet handed to the host
 };

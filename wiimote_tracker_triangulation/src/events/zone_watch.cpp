@@ -10,16 +10,16 @@ namespace {
 using geometry::Zone;
 
 /// Part of a line segment that lies in a zone, as parameters on the segment [0..1].
-struct Stay {
+struct Overlap {
   double begin = 0.0;
   double end = 1.0;
 };
 
 /// Clips the segment to the slabs between opposite sides (Kay and Kajiya 1986).
-std::optional<Stay> stayOf(const Eigen::Vector3d& from,
-                           const Eigen::Vector3d& to,
-                           const Zone& zone) {
-  Stay stay;
+std::optional<Overlap> overlapOf(const Eigen::Vector3d& from,
+                                 const Eigen::Vector3d& to,
+                                 const Zone& zone) {
+  Overlap overlap;
   for (int axis = 0; axis < 3; ++axis) {
     const double step = to[axis] - from[axis];
     double begin = zone.minimum[axis] - from[axis];
@@ -31,12 +31,12 @@ std::optional<Stay> stayOf(const Eigen::Vector3d& from,
     }
     if (step < 0.0)
       std::swap(begin, end);
-    stay.begin = std::max(stay.begin, begin / step);
-    stay.end = std::min(stay.end, end / step);
+    overlap.begin = std::max(overlap.begin, begin / step);
+    overlap.end = std::min(overlap.end, end / step);
   }
-  if (stay.begin > stay.end)
+  if (overlap.begin > overlap.end)
     return std::nullopt;
-  return stay;
+  return overlap;
 }
 
 double distanceOutside(const Eigen::Vector3d& position, const Zone& zone) {
@@ -117,15 +117,15 @@ void ZoneWatch::step(const Eigen::Vector3d& to, Led* led) {
   const double duration = newest_ - began;
   for (std::size_t i = 0; i < zones_.size(); ++i) {
     Presence& presence = led->presences[i];
-    const std::optional<Stay> stay = stayOf(from, to, zones_[i]);
-    if (stay && !presence.inside) {
+    const std::optional<Overlap> overlap = overlapOf(from, to, zones_[i]);
+    if (overlap && !presence.inside) {
       presence.inside = true;
-      crossings_.push_back({zones_[i].name, led->id, true, began + stay->begin * duration,
-                            from + stay->begin * (to - from)});
+      crossings_.push_back({zones_[i].name, led->id, true, began + overlap->begin * duration,
+                            from + overlap->begin * (to - from)});
     }
-    if (stay) {
-      presence.crossed = began + stay->end * duration;
-      presence.crossed_at = from + stay->end * (to - from);
+    if (overlap) {
+      presence.crossed = began + overlap->end * duration;
+      presence.crossed_at = from + overlap->end * (to - from);
     }
     if (presence.inside && distanceOutside(to, zones_[i]) > options_.hysteresis) {
       presence.inside = false;

@@ -33,7 +33,7 @@ bool holds(const geometry::Zone& zone, const Eigen::Vector3d& p) {
 
 }  // namespace
 
-Gestures::Hand::Hand(const GestureParameters& parameters, const ButtonNews& button)
+Gestures::Hand::Hand(const GestureParameters& parameters, const ButtonTimes& button)
     : segmenter(parameters.segmenter), spotter(parameters.spotter) {
   if (button.pressed)
     segmenter.button(*button.pressed, true);

@@ -31,14 +31,14 @@ class Gestures {
 
  private:
   /// Times of the last press [s], and of the release after it.
-  struct ButtonNews {
+  struct ButtonTimes {
     std::optional<double> pressed;
     std::optional<double> released;
   };
 
   /// One LED that may draw.
   struct Hand {
-    Hand(const GestureParameters& parameters, const ButtonNews& button);
+    Hand(const GestureParameters& parameters, const ButtonTimes& button);
     std::string label;
     double last_seen = 0.0;  // [s]
     gesture::Segmenter segmenter;
@@ -76,7 +76,7 @@ class Gestures {
   std::string world_frame_;
   double time_ = 0.0;   // of the newest points [s]
   bool stray_ = false;  // the last points were ignored because of their time
-  ButtonNews button_;
+  ButtonTimes button_;
   std::optional<gesture::Example> wanted_;  // to be recorded; its path is still empty
 
   ros::Publisher events_publisher_;

@@ -36,15 +36,12 @@ struct Score {
   }
 };
 
-/// The tracker's two modes. @param lateness of the stamps [s].
+/// By tracks. @param lateness of the stamps [s].
 Score follow(const geometry::Rig& rig,
              const std::vector<RoomImage>& images,
              const Path& path,
-             double lateness,
-             tracking::Mode mode) {
-  tracking::EstimatorOptions options;
-  options.mode = mode;
-  const auto estimator = tracking::makeEstimator(rig, options);
+             double lateness) {
+  const auto estimator = tracking::makeEstimator(rig, {});
   Score score;
   for (const RoomImage& image : images) {
     estimator->add(image.camera, image.image);
@@ -120,8 +117,7 @@ void measure(const simulation::Description& description, const Session& session,
                  << static_cast<double>(score.seen) / score.instants << 1e3 * lateness
                  << score.instants;
         };
-        write("tracks", follow(rig, images, path, lateness, tracking::Mode::kTracks));
-        write("instants", follow(rig, images, path, lateness, tracking::Mode::kInstant));
+        write("tracks", follow(rig, images, path, lateness));
         if (stamping == Stamping::kExact)  // it does not use stamps
           write("latest", intersectLatest(rig, images, path));
       }

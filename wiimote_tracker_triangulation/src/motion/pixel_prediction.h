@@ -21,9 +21,6 @@ class PixelPrediction {
  public:
   const Eigen::Vector2d& pixel() const { return pixel_; }  ///< Mean [px].
 
-  /// d pixel / d position [px/m].
-  const Eigen::Matrix<double, 2, 3>& jacobian() const { return jacobian_; }
-
   /// Velocity of the mean [px/s].
   Eigen::Vector2d velocity() const { return jacobian_ * velocity_; }
 

@@ -22,13 +22,4 @@ void CameraFit::add(std::size_t shown, std::size_t missing, std::size_t unassign
                     : misfits_ >= limits_.least * limits_.memory && misfits_ > kRatio * fits_;
 }
 
-bool CameraFit::noteEpoch(std::uint32_t epoch, bool is_known, double correction) {
-  if (epoch == epoch_ && is_known == offset_known_ && correction == correction_)
-    return false;
-  epoch_ = epoch;
-  offset_known_ = is_known;
-  correction_ = correction;
-  return true;
-}
-
 }  // namespace wiimote_tracker::tracking

@@ -4,7 +4,6 @@
 #include "clock_offset.h"
 
 #include <cstddef>
-#include <cstdint>
 
 namespace wiimote_tracker::tracking {
 
@@ -35,14 +34,7 @@ class CameraFit {
   /// Of the newest image.
   std::size_t unassigned() const { return unassigned_; }
 
-  /// @param epoch of the newest image's clock. @param is_known whether the rig's time offset holds
-  /// in it. @param correction of a known one [s].
-  /// @returns whether any is another than before, so that the clock starts anew.
-  bool noteEpoch(std::uint32_t epoch, bool is_known, double correction);
-  std::uint32_t epoch() const { return epoch_; }
-  bool isOffsetKnown() const { return offset_known_; }
-
-  ClockOffset clock;  ///< In this epoch.
+  ClockOffset clock;  ///< Since the last correction of the clocks.
 
  private:
   Limits limits_;
@@ -52,9 +44,6 @@ class CameraFit {
   double complete_images_ = 10.0;  // the expected rate counts as ten
   std::size_t unassigned_ = 0;     // of the newest image
   bool misfit_ = false;
-  std::uint32_t epoch_ = 0;
-  bool offset_known_ = true;
-  double correction_ = 0.0;  // [s]
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -1,9 +1,7 @@
 #include "camera_group.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 namespace wiimote_tracker::tracking {
 namespace {
@@ -19,10 +17,6 @@ constexpr CameraFit::Limits kFitOfMany{40.0, 0.4, 0.7};
 // ends only when nearly all LEDs fit. It takes a larger share, because LEDs that only one of both
 // cameras sees look like misfits, too.
 constexpr CameraFit::Limits kFitOfTwo{30.0, 0.55, 0.1};
-
-constexpr double kOffsetStddev = 0.005;  // of a clock in an epoch that was not calibrated [s]
-
-constexpr std::size_t kMostClocks = 64;  // that are compared
 
 constexpr double kLeastInterval = 1e-4;  // between exposures of one camera [s]
 
@@ -60,12 +54,12 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
       members_(members),
       update_(options),
       initiation_(rigOf(rig, members), partnersOf(partners, members), options),
+      clocks_(members.size()),
       history_(kKeepInterval) {
   for (const std::size_t member : members_)
     cameras_.emplace_back(rig, member);
   state_.fits.resize(cameras_.size(),
                      CameraFit(options.ghost_rate, cameras_.size() > 2 ? kFitOfMany : kFitOfTwo));
-  clock_errors_.resize(cameras_.size());
   state_.unassigned.resize(cameras_.size());
 }
 
@@ -99,7 +93,8 @@ CameraGroup::Outcome CameraGroup::add(const StoredImage& image,
     step(images.at(i), ids, views);
   }
   history_.forgetBefore(images.back().time - options_.history);
-  correctClocks();
+  if (state_.clocks == clocks_.version())
+    clocks_.update(state_.fits);
   return is_late ? Outcome::kLate : Outcome::kAdded;
 }
 
@@ -122,6 +117,11 @@ std::optional<std::uint64_t> CameraGroup::mistimedBefore(std::uint64_t place,
 void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views) {
   const GroupCamera& camera = cameras_[image.camera];
   std::vector<Track>& tracks = state_.tracks;
+  if (image.clocks != state_.clocks) {
+    for (CameraFit& fit : state_.fits)
+      fit.clock = ClockOffset();
+    state_.clocks = image.clocks;
+  }
   update_.apply(camera, image, &state_.fits, &tracks, &state_.pairs);
   removeMergedPairs(image.time);
   show(image, views);
@@ -142,77 +142,6 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
                               [](const Track& track) { return track.isFinished(); }),
                tracks.end());
-}
-
-ClockOffset::Estimate CameraGroup::clock(std::size_t member,
-                                         std::uint32_t epoch,
-                                         bool offset_known) const {
-  if (offset_known)
-    return {clock_errors_[member], 0.0};
-  const CameraFit& fit = state_.fits[member];
-  if (fit.epoch() != epoch || fit.isOffsetKnown())
-    return {0.0, kOffsetStddev * kOffsetStddev};
-  ClockOffset::Estimate clock = fit.clock.estimate(kOffsetStddev, predictionLag());
-  clock.offset -= clockReference();
-  return clock;
-}
-
-/// How far the predictions lag behind the LEDs, as the cameras with known offsets see it [m]: less
-/// than a millimetre, because the modes at rest take part, but like an offset of a millisecond.
-double CameraGroup::predictionLag() const {
-  double products = 0.0;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    const CameraFit& fit = state_.fits[i];
-    if (!fit.isOffsetKnown() || fit.isMisfit() || clock_errors_[i] != 0.0)
-      continue;
-    products += fit.clock.forwardResidual();
-    squares += fit.clock.forwardSquared();
-  }
-  return squares > 0.0 ? products / squares : 0.0;
-}
-
-/// What the unknown offsets are relative to: the known ones, or the mean of all [s].
-double CameraGroup::clockReference() const {
-  double sum = 0.0;
-  for (const CameraFit& fit : state_.fits) {
-    if (fit.isOffsetKnown())
-      return 0.0;
-    sum += fit.clock.estimate(kOffsetStddev, 0.0).offset;
-  }
-  return sum / static_cast<double>(state_.fits.size());
-}
-
-/// Corrects the cameras whose times differ from those of most, by the median of all errors.
-void CameraGroup::correctClocks() {
-  constexpr double kNoticeable = 0.004;  // [s]
-  constexpr double kResolution = 0.001;  // of clocks that were corrected before [s]
-  constexpr double kAccurate = 0.0005;   // standard deviation [s]
-  constexpr double kLargest = 0.06;      // [s]; larger ones do not fit at all
-  constexpr double kUnknown = std::numeric_limits<double>::infinity();
-  std::array<double, kMostClocks> errors;
-  std::size_t count = 0;
-  const auto errorOf = [](const CameraFit& fit) -> std::optional<double> {
-    const ClockOffset::Estimate error = fit.clock.estimate(kUnknown, 0.0);
-    if (fit.isMisfit() || !fit.isOffsetKnown() || !(error.variance <= kAccurate * kAccurate))
-      return std::nullopt;
-    return error.offset;
-  };
-  for (const CameraFit& fit : state_.fits) {
-    const auto error = errorOf(fit);
-    if (error && count < errors.size())
-      errors[count++] = *error;
-  }
-  if (count < 3)
-    return;
-  const auto middle = errors.begin() + (count - 1) / 2;
-  std::nth_element(errors.begin(), middle, errors.begin() + count);
-  for (std::size_t i = 0; i < clock_errors_.size(); ++i) {
-    const auto error = errorOf(state_.fits[i]);
-    if (error && std::abs(*error - *middle - clock_errors_[i]) >=
-                     (clock_errors_[i] != 0.0 ? kResolution : kNoticeable))
-      clock_errors_[i] = std::clamp(*error - *middle, -kLargest, kLargest);
-  }
 }
 
 /// Removes pairs that are decided, and those whose tracks ended or were reacquired since.

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_GROUP_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_GROUP_H
 
+#include "camera_clocks.h"
 #include "camera_fit.h"
 #include "group_camera.h"
 #include "history.h"
@@ -46,13 +47,8 @@ class CameraGroup {
   /// Whether there are only two cameras, which do not fit each other: then no LED is located.
   bool isDoubtful() const;
 
-  /// By how much the times of a camera's images are too late; to be subtracted before add().
-  /// @param offset_known whether the rig's time offset holds in this epoch
-  ClockOffset::Estimate clock(std::size_t member, std::uint32_t epoch, bool offset_known) const;
-
-  /// By how much the times of a camera whose offset should be known are too late [s]; 0 unless it
-  /// is much.
-  double clockError(std::size_t member) const { return clock_errors_[member]; }
+  CameraClocks& clocks() { return clocks_; }
+  const CameraClocks& clocks() const { return clocks_; }
 
   const GroupCamera& camera(std::size_t member) const { return cameras_[member]; }
   const std::vector<std::size_t>& members() const { return members_; }
@@ -70,13 +66,11 @@ class CameraGroup {
     std::vector<MergedPair> pairs;
     std::vector<UnassignedSpots> unassigned;  // per camera
     std::vector<CameraFit> fits;              // per camera
+    std::uint32_t clocks = 0;                 // version of the corrections of their clocks
   };
 
   std::optional<std::uint64_t> mistimedBefore(std::uint64_t place, const StoredImage& image) const;
   void step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
-  double predictionLag() const;
-  double clockReference() const;
-  void correctClocks();
   void removeMergedPairs(double time);
   void collectUnassigned(const StoredImage& image);
   void show(const StoredImage& image, std::vector<CameraView>* views) const;
@@ -86,7 +80,7 @@ class CameraGroup {
   std::vector<GroupCamera> cameras_;
   ImageUpdate update_;
   TrackInitiation initiation_;
-  std::vector<double> clock_errors_;  // per camera [s]
+  CameraClocks clocks_;
   State state_;
   History<State> history_;
 };

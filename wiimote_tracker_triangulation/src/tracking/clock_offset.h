@@ -3,11 +3,13 @@
 
 #include <Eigen/Core>
 
+#include <optional>
+
 namespace wiimote_tracker::tracking {
 
 /// By how much the times of a camera's images are too late, from the motion of LEDs that other
-/// cameras locate: a recursive least-squares regression of the residuals on the velocities. Its
-/// intercept takes what a constant error of the calibration causes.
+/// cameras locate: a least-squares regression of the residuals on the velocities. Its intercept
+/// takes what a constant error of the calibration causes.
 class ClockOffset {
  public:
   struct Estimate {
@@ -15,34 +17,21 @@ class ClockOffset {
     double variance;  ///< [s^2]
   };
 
-  /// @param velocity with which an offset shows in the residual [px/s].
-  /// @param forward what 1 m along the LED's motion is in the image [px/m].
-  /// @param residual of the LED's spot [px].
-  /// @param correction that was subtracted from the image's time [s].
-  void add(const Eigen::Vector2d& velocity,
-           const Eigen::Vector2d& forward,
-           const Eigen::Vector2d& residual,
-           double correction);
+  /// @param velocity of an LED's spot [px/s]. @param residual of it [px].
+  void add(const Eigen::Vector2d& velocity, const Eigen::Vector2d& residual);
 
-  /// @param prior_stddev of the offset about 0 before any image [s, >= 0]; infinite: unknown.
-  /// @param lag of the predictions behind the LEDs [m].
-  Estimate estimate(double prior_stddev, double lag) const;
+  /// Nothing where nothing moved.
+  std::optional<Estimate> estimate() const;
 
-  // Their quotient is the lag if the offset is 0.
-  double forwardResidual() const { return forward_residual_; }
-  double forwardSquared() const { return squared_forward_; }
+  double count() const { return count_; }  ///< Of the spots.
 
  private:
   double count_ = 0.0;
   Eigen::Vector2d velocity_ = Eigen::Vector2d::Zero();  // sums
-  Eigen::Vector2d forward_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d residual_ = Eigen::Vector2d::Zero();
   double squared_velocity_ = 0.0;
-  double squared_forward_ = 0.0;
   double squared_residual_ = 0.0;
-  double velocity_forward_ = 0.0;
   double velocity_residual_ = 0.0;
-  double forward_residual_ = 0.0;
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -129,29 +129,15 @@ void ImageUpdate::measureClock(const StoredImage& image,
                                std::vector<CameraFit>* fits) const {
   constexpr double kLeastSpeed = 0.1;  // of an LED that tells about time [m/s]
   CameraFit& fit = (*fits)[image.camera];
-  // The tracks follow the spots of all cameras, so that the estimate of each clock depends on all.
-  if (fit.noteEpoch(image.clock_epoch, image.offset_known,
-                    image.offset_known ? image.clock_correction : 0.0)) {
-    for (CameraFit& each : *fits)
-      each.clock = ClockOffset();
-  }
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     const Candidate& candidate = candidates_[i];
     const Track& track = tracks[candidate.track];
     if (!candidate.in_view || !track.isConfirmed() || othersSeeing(image, track) < 2)
       continue;
-    const Eigen::Vector3d velocity = track.filter.velocity();
     const auto residual = residualOf(image, candidate);
-    if (!residual || !(velocity.norm() >= kLeastSpeed))
+    if (!residual || !(track.filter.velocity().norm() >= kLeastSpeed))
       continue;
-    const auto& jacobian = candidate.prediction.jacobian();
-    Eigen::Vector2d visible = candidate.prediction.velocity();
-    // The track follows the camera's own spots, too, and hides a part of the offset. (The error of
-    // an offset that should be known is corrected step by step.)
-    if (!image.offset_known)
-      visible -= jacobian *
-                 (track.leverageOf(image.camera, image.time - options_.birth_window) * velocity);
-    fit.clock.add(visible, jacobian * velocity.normalized(), *residual, image.clock_correction);
+    fit.clock.add(candidate.prediction.velocity(), *residual);
   }
 }
 

@@ -13,13 +13,11 @@ namespace wiimote_tracker::tracking {
 
 /// An image in the history, with as many spots as one assignment takes.
 struct StoredImage {
-  std::size_t camera = 0;     // in its group
-  double time = 0.0;          // of the exposure, in the rig's time [s]
-  double arrival = 0.0;       // [s]
-  double stamp_stddev = 0.0;  // with that of the clock's offset [s]
-  std::uint32_t clock_epoch = 0;
-  bool offset_known = true;       // whether the rig's time offset holds in this epoch
-  double clock_correction = 0.0;  // that was subtracted from the time [s]
+  std::size_t camera = 0;       // in its group
+  double time = 0.0;            // of the exposure, in the rig's time [s]
+  double arrival = 0.0;         // [s]
+  double stamp_stddev = 0.0;    // with that of the clock's offset [s]
+  std::uint32_t clocks = 0;     // version of the clocks' corrections in the time
   bool full = false;            // as many spots as the camera can report: more LEDs may be visible
   std::uint64_t number = 0;     // counts all images in the order of add()
   std::size_t spot_count = 0;   // usable spots, which come first

@@ -1,7 +1,5 @@
 #include "track.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 
@@ -233,25 +231,6 @@ std::size_t Track::othersSeeing(std::size_t camera, double since) const {
   return static_cast<std::size_t>(std::count_if(
       records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
       [&](const CameraRecord& record) { return record.camera != camera && record.hit >= since; }));
-}
-
-Eigen::Matrix3d Track::leverageOf(std::size_t camera, double since) const {
-  Eigen::Matrix3d total = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < record_count_; ++i) {
-    const RayOffset& ray = records_[i].ray;
-    if (records_[i].hit < since || ray.count == 0.0)
-      continue;
-    const Eigen::Matrix3d information =
-        (Eigen::Matrix3d::Identity() - ray.direction * ray.direction.transpose()) /
-        (ray.scale * ray.scale);
-    total += information;
-    if (records_[i].camera == camera)
-      own = information;
-  }
-  constexpr double kParallel = 1e-3;  // keeps it invertible if all rays are
-  total.diagonal().array() += kParallel * total.trace() + 1e-9;
-  return total.inverse() * own;
 }
 
 std::size_t Track::camerasShowing(double since) const {

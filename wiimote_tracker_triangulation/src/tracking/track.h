@@ -77,11 +77,6 @@ class Track {
   /// Other cameras that detected it at a time [s] or later.
   std::size_t othersSeeing(std::size_t camera, double since) const;
 
-  /// How far the position moves with a camera's spots, as a share of their displacement [m/m], by
-  /// the directions of all cameras that detected it at a time [s] or later. (The leverage of linear
-  /// regression.)
-  Eigen::Matrix3d leverageOf(std::size_t camera, double since) const;
-
   /// Cameras with a spot of this LED's own at a time [s] or later.
   std::size_t camerasShowing(double since) const;
 

@@ -85,7 +85,8 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
   const Place& place = places_[camera];
   CameraGroup& group = *groups_[place.group];
   const bool offset_known = !calibration.hasNewClock(image.clock_epoch);
-  const ClockOffset::Estimate clock = group.clock(place.member, image.clock_epoch, offset_known);
+  const ClockOffset::Estimate clock =
+      group.clocks().correctionOf(place.member, image.clock_epoch, offset_known);
   const double time = image.stamp + offset - clock.offset;
   if (!std::isfinite(time) || !std::isfinite(image.arrival)) {
     ++counters_.dropped;
@@ -106,9 +107,7 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
   store(camera, image);
   image_->time = time;
   image_->stamp_stddev = std::hypot(image_->stamp_stddev, std::sqrt(clock.variance));
-  image_->clock_epoch = image.clock_epoch;
-  image_->offset_known = offset_known;
-  image_->clock_correction = clock.offset;
+  image_->clocks = group.clocks().version();
   switch (group.add(*image_, ids_.get(), &views_)) {
     case CameraGroup::Outcome::kRepeated:
       ++counters_.repeated;
@@ -204,8 +203,8 @@ std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
   const CameraGroup& group = *groups_[place.group];
   if (group.isMisfit(place.member))
     return CameraFault{CameraFault::Kind::kMisfit, 0.0};
-  constexpr double kNoticeable = 0.002;  // [s]; what is left of a corrected clock is less
-  const double error = group.clockError(place.member);
+  constexpr double kNoticeable = 0.004;  // [s]
+  const double error = group.clocks().errorOf(place.member);
   if (std::abs(error) >= kNoticeable)
     return CameraFault{CameraFault::Kind::kCorrectedClock, error};
   return std::nullopt;

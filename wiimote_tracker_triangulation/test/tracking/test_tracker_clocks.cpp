@@ -106,6 +106,18 @@ TEST(TrackerClocks, ASmallErrorIsRecognisedByTheMotionAndCorrected) {
   }
 }
 
+TEST(TrackerClocks, AClockThatDriftsIsFollowed) {
+  const Rows right = rowsWith(paperRig(), 1.0, isRight);
+  const Rows with = rowsWith(
+      paperRig(), 1.0, [](std::size_t camera, std::size_t number) -> std::optional<double> {
+        return camera == 2 ? 5e-6 * static_cast<double>(number) : 0.0;  // 500 ppm
+      });
+  expectAsGoodAs(right, with, "drift");
+  ASSERT_TRUE(with.fault);
+  EXPECT_EQ(CameraFault::Kind::kCorrectedClock, with.fault->kind);
+  EXPECT_NEAR(0.005, with.fault->clock_ahead, 0.001);
+}
+
 TEST(TrackerClocks, AClockThatIsSetDoesNotHarmTheOthers) {
   const Rows without = rowsWith(paperRig(), 1.0, isRight);
   for (const double ahead : {-0.3, 0.1, 0.5}) {

@@ -1,0 +1,102 @@
+#include "camera_clocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace wiimote_tracker::tracking {
+namespace {
+
+constexpr double kUnknown = 0.005;  // standard deviation of an offset before any motion [s]
+constexpr double kChange = 0.0002;  // the same of its change between two updates [s]
+constexpr double kLargest = 0.06;   // [s]; larger ones do not fit at all
+
+// Smaller offsets of a clock that should be right may come from the calibration; half of it for one
+// that is corrected already [s].
+constexpr double kNoticeable = 0.001;
+
+constexpr double kSpots = 250.0;  // of a camera between two updates: 2.5 s of one LED
+
+double squared(double x) {
+  return x * x;
+}
+
+std::optional<ClockOffset::Estimate> remainderOf(const CameraFit& fit) {
+  return fit.isMisfit() ? std::nullopt : fit.clock.estimate();
+}
+
+}  // namespace
+
+ClockOffset::Estimate CameraClocks::correctionOf(std::size_t camera,
+                                                 std::uint32_t epoch,
+                                                 bool is_known) {
+  Clock& clock = clocks_[camera];
+  if (clock.epoch != epoch || clock.is_known != is_known) {
+    if (!clock.is_known || !is_known) {
+      clock.offset = {0.0, is_known ? 0.0 : squared(kUnknown)};
+      clock.is_used = !is_known;
+    }
+    clock.epoch = epoch;
+    clock.is_known = is_known;
+    ++version_;
+  }
+  return clock.correction();
+}
+
+double CameraClocks::errorOf(std::size_t camera) const {
+  const Clock& clock = clocks_[camera];
+  return clock.is_known ? clock.correction().offset : 0.0;
+}
+
+void CameraClocks::update(const std::vector<CameraFit>& fits) {
+  if (std::none_of(fits.begin(), fits.end(), [](auto& fit) { return fit.clock.count() >= kSpots; }))
+    return;
+  // All seem to be off where the predictions lag behind the LEDs.
+  const double common = medianOf([&](std::size_t i) -> std::optional<double> {
+    const auto remainder = remainderOf(fits[i]);
+    return remainder ? std::make_optional(remainder->offset) : std::nullopt;
+  });
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    const auto remainder = remainderOf(fits[i]);
+    if (!remainder)
+      continue;
+    ClockOffset::Estimate& offset = clocks_[i].offset;
+    const double seen = clocks_[i].correction().offset + remainder->offset - common;
+    const double innovation = seen - offset.offset;
+    double variance = offset.variance + squared(kChange);
+    if (squared(innovation) > 9.0 * (variance + remainder->variance))  // the clock was set
+      variance = squared(innovation);
+    const double gain = variance / (variance + remainder->variance);
+    offset.offset += gain * innovation;
+    offset.variance = (1.0 - gain) * variance;
+  }
+  const double middle =
+      medianOf([&](std::size_t i) { return std::make_optional(clocks_[i].offset.offset); });
+  for (Clock& clock : clocks_) {
+    clock.offset.offset = std::clamp(clock.offset.offset - middle, -kLargest, kLargest);
+    clock.is_used = !clock.is_known ||
+                    std::abs(clock.offset.offset) >= (clock.is_used ? 0.5 : 1.0) * kNoticeable;
+  }
+  ++version_;
+}
+
+/// The median of a value of each known clock, or of all if none is known [s]. @param value_of the
+/// camera at an index; nothing: left out
+template <typename ValueOf>
+double CameraClocks::medianOf(const ValueOf& value_of) {
+  const bool none_known =
+      std::none_of(clocks_.begin(), clocks_.end(), [](auto& clock) { return clock.is_known; });
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < clocks_.size(); ++i) {
+    const std::optional<double> value =
+        clocks_[i].is_known || none_known ? value_of(i) : std::nullopt;
+    if (value)
+      sorted_[count++] = *value;
+  }
+  if (count == 0)
+    return 0.0;
+  std::sort(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(count));
+  return 0.5 * (sorted_[(count - 1) / 2] + sorted_[count / 2]);
+}
+
+}  // namespace wiimote_tracker::tracking

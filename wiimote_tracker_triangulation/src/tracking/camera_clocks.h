@@ -1,0 +1,57 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_CLOCKS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_CLOCKS_H
+
+#include "camera_fit.h"
+#include "clock_offset.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace wiimote_tracker::tracking {
+
+/// By how much the times of the images of a group's cameras are too late. Each offset is a Kalman
+/// filter of what the motion shows after the correction so far: so a clock that drifts is followed,
+/// and what a camera's pull on the tracks hides of its offset shows in the next step.
+///
+/// Motion tells differences of clocks only: the median of the known ones is 0.
+class CameraClocks {
+ public:
+  explicit CameraClocks(std::size_t cameras) : clocks_(cameras), sorted_(cameras) {}
+
+  /// To be subtracted from the times of a camera's images; its variance is for their deviation.
+  /// @param is_known whether the rig's time offset holds in this epoch of the clock
+  ClockOffset::Estimate correctionOf(std::size_t camera, std::uint32_t epoch, bool is_known);
+
+  /// By how much the times of a camera with a known offset are too late [s]; 0 if it is little.
+  double errorOf(std::size_t camera) const;
+
+  /// Corrects the offsets once LEDs have moved enough since the last time.
+  /// @param fits of all cameras to images with the corrections so far
+  void update(const std::vector<CameraFit>& fits);
+
+  /// Changes with the corrections.
+  std::uint32_t version() const { return version_; }
+
+ private:
+  struct Clock {
+    std::uint32_t epoch = 0;
+    bool is_known = true;
+    bool is_used = false;  // the offset corrects the images: it is unknown or large
+    ClockOffset::Estimate offset{0.0, 0.0};
+    ClockOffset::Estimate correction() const {
+      return is_used ? offset : ClockOffset::Estimate{0.0, 0.0};
+    }
+  };
+
+  template <typename ValueOf>
+  double medianOf(const ValueOf& value_of);
+
+  std::vector<Clock> clocks_;   // per camera
+  std::vector<double> sorted_;  // [s]
+  std::uint32_t version_ = 0;
+};
+
+}  // namespace wiimote_tracker::tracking
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_CLOCKS_H

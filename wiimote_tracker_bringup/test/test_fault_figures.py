@@ -8,7 +8,7 @@ import numpy as np
 HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path.insert(0, os.path.join(HERE, '../evaluation'))
 
-from wiimote_tracker_evaluation.faults.figures import figures, normal_since  # noqa: E402
+from wiimote_tracker_evaluation.faults.figures import figures, is_tracked, normal_since  # noqa: E402
 from wiimote_tracker_evaluation.faults.listener import Window  # noqa: E402
 
 RATE = 100.0  # of the points [Hz]
@@ -42,6 +42,12 @@ def test_points_without_truth_do_not_count():
     truth = found.truth['one']
     found.truth['one'] = truth[(truth[:, 0] < 4.0) | (truth[:, 0] > 6.0)]
     assert abs(figures(found, 10.0).number - 800) < 5
+
+
+def test_a_room_is_not_tracked_while_a_camera_is_missing():
+    assert is_tracked(window(), 10.0, 1, ['left', 'right'])
+    assert not is_tracked(window(), 10.0, 1, ['left', 'right', 'late'])
+    assert not is_tracked(window(), 10.0, 2, ['left', 'right'])
 
 
 def test_normal_since_the_end_of_the_last_disturbance():

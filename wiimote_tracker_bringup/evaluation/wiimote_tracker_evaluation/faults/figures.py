@@ -13,6 +13,7 @@ CLAIMED = 5.0  # its own standard deviations
 PIECE = 0.25       # over which normality is judged [s]
 MOST_ERROR = 0.02  # of the middle point of a normal piece [m]
 MOST_AGE = 0.1     # more than before the fault [s]
+LEAST_POINTS = 20.0  # at the start, a second and LED
 LEAST_RATE = 0.5   # share of the rate before
 LONGEST_GAP = 0.3  # between two true positions [s]
 LEAST_SHARE = 0.1  # of the points, which a camera must have seen
@@ -92,6 +93,13 @@ def regular_cameras(window) -> List[str]:
     for names, count in zip(together, counts):
         share.update({name: count / len(window.cameras) for name in str(names).split()})
     return sorted(name for name in share if share[name] > LEAST_SHARE)
+
+
+def is_tracked(window, seconds, leds, cameras) -> bool:
+    """Whether so many LEDs are tracked, none wrongly, and each of the cameras has seen one."""
+    now = figures(window, seconds)
+    return (len(now.names) >= leds and now.rate >= LEAST_POINTS and not now.wrong
+            and set(' '.join(window.cameras).split()) >= set(cameras))
 
 
 def is_normal(window, seconds, before) -> bool:

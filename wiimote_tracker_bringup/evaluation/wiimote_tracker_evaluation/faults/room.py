@@ -120,16 +120,14 @@ class Room:
         return figures.figures(self.window(start, end), end - start)
 
     def wait_until_tracked(self):
-        """Waits until all LEDs are tracked."""
+        """Waits until all LEDs are tracked, by all cameras."""
         deadline = time.monotonic() + START
-        seen = None
-        while not seen or len(seen.names) < len(LEDS) or seen.rate < 20.0 or seen.wrong:
+        while not figures.is_tracked(self.window(time.time() - SETTLED, time.time()), SETTLED,
+                                     len(LEDS), self.cameras):
             if time.monotonic() > deadline:
-                raise ExperimentError(f'the LEDs are not tracked within {START:.0f} s; see '
-                                      f'{self.log}')
+                raise ExperimentError(f'the LEDs are not tracked by all cameras within '
+                                      f'{START:.0f} s; see {self.log}')
             time.sleep(SETTLED / 2.0)
-            now = time.time()
-            seen = self.figures(now - SETTLED, now)
 
     # --- Processes
 

@@ -233,16 +233,29 @@ WaveOptions optionsFor(const WaveScene& scene) {
   return options;
 }
 
+namespace {
+
+/// Without square and floor the cameras stand in the first, whose true place is known here.
+Eigen::Isometry3d trueFromSolved(const WaveScene& scene,
+                                 const SimulatedWave& wave,
+                                 const WaveSolution& solution) {
+  if (scene.square)
+    return Eigen::Isometry3d::Identity();
+  if (scene.rest > 0.0)
+    return scene.cubeFromFloor();
+  return wave.cameras.front().world_from_camera *
+         solution.rig.cameras.front().camera.world_from_camera.inverse();
+}
+
+}  // namespace
+
 std::vector<geometry::Camera> inTrueWorld(const WaveScene& scene,
                                           const SimulatedWave& wave,
                                           const WaveSolution& solution) {
   std::vector<geometry::Camera> cameras;
   for (const geometry::RigCamera& camera : solution.rig.cameras)
     cameras.push_back(camera.camera);
-  if (scene.square)
-    return cameras;
-  const Eigen::Isometry3d move =
-      wave.cameras.front().world_from_camera * cameras.front().world_from_camera.inverse();
+  const Eigen::Isometry3d move = trueFromSolved(scene, wave, solution);
   for (geometry::Camera& camera : cameras)
     camera.world_from_camera = move * camera.world_from_camera;
   return cameras;
@@ -274,13 +287,10 @@ WaveTrial runWaveTrial(const WaveScene& scene, std::uint64_t seed, bool with_pos
     const Eigen::Index clock = geometry::firstParameter(i) + geometry::kTimeOffset;
     trial.offset_stddevs.push_back(std::sqrt(solution.rig.covariance(clock, clock)));
   }
+  const Eigen::Isometry3d solved_from_true = trueFromSolved(scene, wave, solution).inverse();
   std::vector<geometry::Camera> truth = wave.cameras;
-  if (!scene.square) {
-    const Eigen::Isometry3d move = solution.rig.cameras.front().camera.world_from_camera *
-                                   truth.front().world_from_camera.inverse();
-    for (geometry::Camera& camera : truth)
-      camera.world_from_camera = move * camera.world_from_camera;
-  }
+  for (geometry::Camera& camera : truth)
+    camera.world_from_camera = solved_from_true * camera.world_from_camera;
   countCoverage(truth, wave, solution, &trial);
   if (scene.length > 0.0) {
     // Sticks of the wand's length in the cube, as the solved cameras measure them.

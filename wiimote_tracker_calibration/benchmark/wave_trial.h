@@ -57,8 +57,8 @@ Eigen::Matrix3Xd pointErrors(const std::vector<geometry::Camera>& truth,
 /// The options that fit to a scene.
 WaveOptions optionsFor(const WaveScene& scene);
 
-/// The cameras of a solution in the world of the truth: without square they stand in the first
-/// camera, whose true place is known here.
+/// The cameras of a solution in the world of the truth, the cube's: without square and floor they
+/// stand in the first camera, whose true place is known here.
 std::vector<geometry::Camera> inTrueWorld(const WaveScene& scene,
                                           const SimulatedWave& wave,
                                           const WaveSolution& solution);

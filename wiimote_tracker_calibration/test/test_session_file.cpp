@@ -214,6 +214,7 @@ void expectSameSession(const Session& a, const Session& b) {
   if (a.recording.wand) {
     expectSameSession(a.recording.wand->length, b.recording.wand->length);
     expectSameSession(a.recording.wand->stddev, b.recording.wand->stddev);
+    EXPECT_EQ(a.recording.wand->led_height, b.recording.wand->led_height);
   }
   ASSERT_EQ(a.recording.cameras.size(), b.recording.cameras.size());
   ASSERT_EQ(a.masks.size(), b.masks.size());
@@ -233,6 +234,15 @@ TEST_F(SessionFile, IsWhatTheDocumentationShows) {
   std::filesystem::remove(path_);
   writeSessionFile(expectedSession(), path_);
   EXPECT_EQ(geometry::readFile(path_), kText);
+}
+
+TEST_F(SessionFile, KeepsAWandOnTheFloor) {
+  Session session = expectedSession();
+  session.recording.wand->led_height = 0.03;
+  writeSessionFile(session, path_);
+  expectSameSession(readSessionFile(path_), session);
+  session.recording.wand->led_height = -0.03;
+  EXPECT_THROW(writeSessionFile(session, path_), Error);
 }
 
 TEST_F(SessionFile, KeepsKnownPlaces) {

@@ -5,6 +5,7 @@
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/atomic_file.h>
+#include <wiimote_tracker_triangulation/geometry/error.h>
 
 #include <cmath>
 #include <set>
@@ -56,9 +57,7 @@ void check(const Session& session) {
   if (recording.square)
     recording.square->check();
   if (recording.wand)
-    require(std::isfinite(recording.wand->length) && recording.wand->length > 0.0 &&
-                std::isfinite(recording.wand->stddev) && recording.wand->stddev > 0.0,
-            "the length of the wand, or its standard deviation, is not above 0");
+    recording.wand->check();
   require(session.masks.size() == recording.cameras.size(),
           "the masks are not of as many cameras as were captured");
   std::set<std::string> names;

@@ -89,6 +89,8 @@ void emitWand(const std::optional<wave::Wand>& wand, YAML::Emitter& out) {
   out << YAML::BeginMap;
   emitKey("length", wand->length, out);
   emitKey("stddev", wand->stddev, out);
+  if (wand->led_height)  // older programs refuse this key
+    emitKey("led_height", *wand->led_height, out);
   out << YAML::EndMap;
 }
 
@@ -186,6 +188,8 @@ wave::Wand readWand(YamlMap map) {
   wave::Wand wand;
   wand.length = map.get<double>("length");
   wand.stddev = map.get<double>("stddev");
+  if (map.has("led_height"))
+    wand.led_height = map.get<double>("led_height");
   map.refuseUnknown();
   return wand;
 }

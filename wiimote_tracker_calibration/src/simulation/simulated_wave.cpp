@@ -19,6 +19,7 @@ bool inImage(const geometry::Intrinsics& lens, const Eigen::Vector2d& pixel) {
   return pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() < lens.width && pixel.y() < lens.height;
 }
 
+constexpr double kLifting = 1.0;  // Hands hide a wand that is lifted [s].
 constexpr double kClock = 1.7e9;  // Stamps are as large as those of the system's clock.
 
 /// What one more camera sees of the LED's path. `reference`: offset of the first camera's clock
@@ -41,12 +42,15 @@ void recordWave(const WaveScene& scene,
   double wander = normal(random, scene.wander);
   const double period = (1.0 + normal(random, 1e-4)) / scene.rate;
   const double keep = std::exp(-period / 2.0);
-  for (double time = uniform(random, 0.0, period); time < scene.duration; time += period) {
+  const double begin = scene.rest > 0.0 ? -kLifting - scene.rest : 0.0;
+  for (double time = begin + uniform(random, 0.0, period); time < scene.duration; time += period) {
     wander = keep * wander + normal(random, scene.wander * std::sqrt(1.0 - keep * keep));
     Frame frame;
     frame.stamp = kClock + time - offset + wander + normal(random, scene.stamp);
-    for (int led = 0; led < leds; ++led) {
-      const auto pixel = camera.project(wave->path.position(time, led));
+    const bool rests = time < -kLifting;
+    for (int led = 0; led < leds && (rests || time >= 0.0); ++led) {
+      const auto pixel = camera.project(rests ? wave->floor[static_cast<std::size_t>(led)]
+                                              : wave->path.position(time, led));
       if (!pixel || !inImage(lens, *pixel))
         continue;
       if (uniform(random, 0.0, 1.0) < scene.wrong_share) {
@@ -55,6 +59,8 @@ void recordWave(const WaveScene& scene,
       }
       const Eigen::Vector2d noise(normal(random, scene.pixel), normal(random, scene.pixel));
       frame.spots.push_back(*pixel + noise);
+      if (rests)
+        continue;
       wave->views.push_back({index, led, kClock + time - reference, time});
     }
     if (scene.lamp)
@@ -129,6 +135,39 @@ std::vector<Eigen::Isometry3d> WaveScene::poses() const {
   return poses;
 }
 
+Eigen::Isometry3d WaveScene::cubeFromFloor() const {
+  const Eigen::Vector3d middle(1.25, 1.25, 0.0);
+  Eigen::Vector3d x = middle - poses().front().translation();
+  x = Eigen::Vector3d(x.x(), x.y(), 0.0).normalized();
+  Eigen::Isometry3d cube_from_floor = Eigen::Isometry3d::Identity();
+  cube_from_floor.linear() << x, Eigen::Vector3d::UnitZ().cross(x), Eigen::Vector3d::UnitZ();
+  cube_from_floor.translation() = middle;
+  return cube_from_floor;
+}
+
+namespace {
+
+/// Lays the wand on a floor that is not quite even.
+void layWand(const WaveScene& scene, std::mt19937_64& random, SimulatedWave* wave) {
+  const double rise = normal(random, scene.uncertainty.placement);
+  const double run = std::sqrt(scene.length * scene.length - rise * rise);
+  wave->floor = {scene.cubeFromFloor() * Eigen::Vector3d::Zero(),
+                 scene.cubeFromFloor() * Eigen::Vector3d(run, 0.0, rise)};
+  wave->recording.wand->led_height = 0.0;
+}
+
+/// What an accelerometer reads whose direction is off [m/s^2].
+Eigen::Vector3d readGravity(const geometry::Camera& camera,
+                            double stddev,
+                            std::mt19937_64& random) {
+  const Eigen::Vector3d error(normal(random, stddev), normal(random, stddev),
+                              normal(random, stddev));
+  const Eigen::Vector3d up = camera.world_from_camera.linear().row(2);
+  return 9.81 * (up + error - error.dot(up) * up).normalized();
+}
+
+}  // namespace
+
 SimulatedWave simulateWave(const WaveScene& scene, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   SimulatedPath path(scene.length, random);
@@ -136,7 +175,7 @@ SimulatedWave simulateWave(const WaveScene& scene, std::uint64_t seed) {
 }
 
 SimulatedWave simulateWave(const WaveScene& scene, SimulatedPath path, std::mt19937_64& random) {
-  SimulatedWave result{{}, {}, {}, path, {}, {}};
+  SimulatedWave result{{}, {}, {}, {}, path, {}, {}};
   if (scene.square) {
     square::SquareLayout layout;
     layout.side_x = scene.side;
@@ -151,6 +190,8 @@ SimulatedWave simulateWave(const WaveScene& scene, SimulatedPath path, std::mt19
   }
   if (scene.length > 0.0)
     result.recording.wand = Wand{scene.length};
+  if (scene.rest > 0.0)
+    layWand(scene, random, &result);
 
   const double offset_stddev = scene.uncertainty.shared_principal_point;
   const double shared_x = normal(random, offset_stddev);
@@ -177,6 +218,8 @@ SimulatedWave simulateWave(const WaveScene& scene, SimulatedPath path, std::mt19
           camera.project(result.corners[c]).value() +
           Eigen::Vector2d(normal(random, u.pixel), normal(random, u.pixel));
 
+    if (scene.rest > 0.0)
+      recording.sightings.gravity = readGravity(camera, u.gravity, random);
     const double offset = uniform(random, -scene.offset, scene.offset);
     reference = index == 0 ? offset : reference;
     result.offsets.push_back(offset - reference);

@@ -3,8 +3,10 @@
 #include "adjust/camera_blocks.h"
 #include "adjust/covariance.h"
 #include "adjust/degrees_of_freedom.h"
+#include "adjust/gravity.h"
 #include "adjust/path_acceleration.h"
 #include "adjust/path_pixel.h"
+#include "adjust/pixel.h"
 #include "adjust/prior.h"
 #include "adjust/wand_length.h"
 #include "square/lens_prior.h"
@@ -26,6 +28,11 @@ namespace {
 
 // Of the distance between the paths of a wand's LEDs [m]: far below what cameras resolve.
 constexpr double kStickStddev = 0.0002;
+
+// Of coordinates of the wand on the floor that define the world, far below what cameras resolve,
+// and of those that nothing tells but the images [m].
+constexpr double kExact = 1e-5;
+constexpr double kUnknown = 10.0;
 
 // Least share of the residuals beyond the number of parameters that tells the noise.
 constexpr double kLeastRedundancy = 0.1;
@@ -70,6 +77,8 @@ class WaveProblem {
       addCamera(i);
     if (recording.square)
       addSquare();
+    if (state->floor)
+      addFloor();
     holdGauge();
   }
 
@@ -119,7 +128,8 @@ class WaveProblem {
     options.residual_blocks = priors_;
     double half_sum = 0.0;
     problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
-    return {2.0 * half_sum, adjust::degreesOfFreedom(&problem_, priors_)};
+    // Two directions differ by two angles, in three residuals.
+    return {2.0 * half_sum, adjust::degreesOfFreedom(&problem_, priors_) - accelerometers_};
   }
 
   std::optional<Eigen::MatrixXd> covariance() {
@@ -216,10 +226,43 @@ class WaveProblem {
       priors_.insert(priors_.end(), of_camera.begin(), of_camera.end());
   }
 
-  /// All clocks could be shifted together with the path, and without square all cameras moved.
+  /// The wand at rest, whose LEDs define origin and x axis, and the accelerometers.
+  void addFloor() {
+    WandOnFloor& floor = *state_.floor;
+    const double height = *recording_.wand->led_height;
+    const std::array<adjust::Prior<3>, 2> places = {
+        {{{0.0, 0.0, height}, {kExact, kExact, kExact}},
+         {{state_.wand_length, 0.0, height}, {kUnknown, kExact, options_.uncertainty.placement}}}};
+    for (std::size_t led = 0; led < places.size(); ++led) {
+      priors_.push_back(
+          problem_.AddResidualBlock(places[led].cost(), nullptr, floor.leds[led].data()));
+      for (std::size_t i = 0; i < cameras_.size(); ++i) {
+        if (floor.spots[i])
+          priors_.push_back(
+              cameras_[i].addTo(&problem_,
+                                adjust::PixelError::of(state_.cameras[i], (*floor.spots[i])[led],
+                                                       options_.uncertainty.pixel)
+                                    .cost(),
+                                nullptr, floor.leds[led].data()));
+      }
+    }
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+      if (const auto& gravity = recording_.cameras[i].sightings.gravity) {
+        priors_.push_back(problem_.AddResidualBlock(
+            adjust::GravityError{gravity->normalized(), Eigen::Vector3d::UnitZ(),
+                                 cameras_[i].world_from_start, options_.uncertainty.gravity}
+                .cost(),
+            nullptr, cameras_[i].rotation.data()));
+        ++accelerometers_;
+      }
+    }
+  }
+
+  /// All clocks could be shifted together with the path, and without square or floor all cameras
+  /// moved.
   void holdGauge() {
     problem_.SetParameterBlockConstant(&cameras_.front().time_offset);
-    if (recording_.square)
+    if (recording_.square || state_.floor)
       return;
     problem_.SetParameterBlockConstant(cameras_.front().rotation.data());
     problem_.SetParameterBlockConstant(cameras_.front().position.data());
@@ -234,6 +277,7 @@ class WaveProblem {
   ceres::Problem problem_;
   std::vector<ceres::ResidualBlockId> matches_;
   std::vector<ceres::ResidualBlockId> priors_;  // and corners and places
+  int accelerometers_ = 0;
   double freedom_ = 0.0;  // residuals of the matches beyond the number of parameters
 };
 

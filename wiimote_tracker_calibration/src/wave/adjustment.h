@@ -25,13 +25,13 @@ struct Refinement {
   double misfit;
 };
 
-/// How well corners, wand and priors agree with a solution of plain least squares.
+/// How well corners, wand, floor and priors agree with a solution of plain least squares.
 struct Agreement {
   double chi_squared;
   double degrees_of_freedom;  ///< Expectation of chi_squared.
 };
 
-/// Least squares over the matches, the corners, the wand and the priors
+/// Least squares over the matches, the corners, the wand, the floor and the priors
 /// (Levenberg-Marquardt, in place).
 /// @param loss_scale the error beyond which a match counts less (Cauchy), in standard deviations;
 /// infinite: plain least squares.

@@ -35,6 +35,10 @@ constexpr double kRefuseDeviation = 10.0;
 constexpr double kLensLimit = 5.0;
 constexpr double kGravityLimit = 5.0;
 
+bool isOnFloor(const Recording& recording) {
+  return recording.wand && recording.wand->led_height;
+}
+
 void require(bool good, const char* name, double value, const char* range) {
   if (!good)
     throw WaveError(std::string(name) + " is " + format("%g", value) + ", but must be " + range +
@@ -82,6 +86,21 @@ void checkFrames(const CameraRecording& camera, bool wand) {
 
 }  // namespace
 
+void Wand::check() const {
+  const auto refuse = [](const char* name, double value, const char* range) {
+    throw WaveError(
+        format("wand.%s is %g m, but must be %s: measure between the middles of its "
+               "LEDs, in metres",
+               name, value, range));
+  };
+  if (!(length > 0.0) || !std::isfinite(length))
+    refuse("length", length, "above 0");
+  if (!(stddev > 0.0) || !std::isfinite(stddev))
+    refuse("stddev", stddev, "above 0");
+  if (led_height && (!(*led_height >= 0.0) || !std::isfinite(*led_height)))
+    refuse("led_height", *led_height, "0 or above");
+}
+
 void checkInput(const Recording& recording, const WaveOptions& options) {
   checkOptions(options);
   if (recording.cameras.size() < 2)
@@ -90,14 +109,14 @@ void checkInput(const Recording& recording, const WaveOptions& options) {
     throw WaveError(
         "the scale is not determined: capture the corners of a square, or wave a wand of "
         "known length");
+  if (recording.square && isOnFloor(recording))
+    throw WaveError(
+        "the square and the wand on the floor give one world each: drop the corners, or wave the "
+        "wand without laying it on the floor");
   if (recording.square)
     recording.square->check();
-  if (recording.wand) {
-    require(recording.wand->length > 0.0 && std::isfinite(recording.wand->length), "wand.length",
-            recording.wand->length, "above 0");
-    require(recording.wand->stddev > 0.0 && std::isfinite(recording.wand->stddev), "wand.stddev",
-            recording.wand->stddev, "above 0");
-  }
+  if (recording.wand)
+    recording.wand->check();
   std::set<std::string> names;
   double start = std::numeric_limits<double>::infinity();
   double end = -start;
@@ -197,7 +216,8 @@ void checkGravityAndClock(const Recording& recording,
                           std::size_t i) {
   const geometry::RigCamera& camera = solution.rig.cameras[i];
   const std::string& name = camera.camera.name;
-  if (camera.gravity && (recording.square || recording.cameras.front().sightings.gravity)) {
+  if (camera.gravity &&
+      (recording.square || isOnFloor(recording) || recording.cameras.front().sightings.gravity)) {
     const Eigen::Vector3d up(0.0, 0.0, solution.z_up ? 1.0 : -1.0);
     const Eigen::Vector3d measured =
         camera.camera.world_from_camera.linear() * camera.gravity->normalized();
@@ -246,6 +266,20 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
   }
 }
 
+namespace {
+
+/// The world's name, and how level it is if that is measured.
+std::string worldOf(const Recording& recording, const geometry::Rig& rig) {
+  if (recording.square)
+    return "the square's world";
+  if (!isOnFloor(recording))
+    return "the first camera's world";
+  const double tilt = std::sqrt(rig.covariance(0, 0) + rig.covariance(1, 1));
+  return format("the wand's world, level to %.1f degrees", tilt * 180.0 / M_PI);
+}
+
+}  // namespace
+
 std::string verdictOf(const Recording& recording, const WaveSolution& solution) {
   double worst_px = 0.0;
   double worst_offset = 0.0;
@@ -261,8 +295,8 @@ std::string verdictOf(const Recording& recording, const WaveSolution& solution) 
                      format("%.2f ms", 1e3 * worst_offset);
   if (std::isfinite(solution.expected_error))
     text += ", points expected within " + format("%.1f mm", 1e3 * solution.expected_error) +
-            " (RMS) in " + (recording.square ? "the square's world" : "the first camera's world") +
-            ", " + format("%.1f mm", 1e3 * solution.expected_shape_error) + " to one another";
+            " (RMS) in " + worldOf(recording, solution.rig) + ", " +
+            format("%.1f mm", 1e3 * solution.expected_shape_error) + " to one another";
   for (const std::string& warning : solution.warnings)
     text += "; warning: " + warning;
   return text;

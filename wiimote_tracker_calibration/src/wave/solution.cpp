@@ -146,6 +146,10 @@ WaveSolution solutionOf(const Recording& recording,
   solution.joint_covariance = joint;
   for (std::size_t i = 0; i < state.cameras.size(); ++i)
     rig.cameras.push_back(rigCamera(recording.cameras[i], state, i, matching));
+  if (state.floor) {
+    rig.method = "floor+wand";
+    rig.led_height = *recording.wand->led_height;
+  }
   if (recording.square)
     describeSquare(recording, options, state, joint.bottomRightCorner(8, 8), &solution);
   const std::vector<Eigen::Vector3d> points = thinned(solution.path);

@@ -9,6 +9,7 @@
 #include "start_path.h"
 #include "start_poses.h"
 #include "state.h"
+#include "wand_on_floor.h"
 
 #include "place/chi_squared.h"
 #include "wave/error.h"
@@ -74,10 +75,9 @@ class Reporter {
 
 /// The recording without lamps, and with stamps from its first image on: a time since 1970 has no
 /// digits left for the microseconds that an adjustment moves a clock by.
-Recording prepared(const Recording& input) {
-  Recording recording = input;
+Recording prepared(Recording recording) {
   double start = kInfinity;
-  for (const CameraRecording& camera : input.cameras)
+  for (const CameraRecording& camera : recording.cameras)
     start = std::min(start, camera.frames.front().stamp);
   for (CameraRecording& camera : recording.cameras) {
     camera.frames = movingSpots(camera.frames);
@@ -166,6 +166,7 @@ void checkClocks(const Recording& recording,
 /// Alternates matching and adjusting until neither changes.
 WaveSolution fit(const Recording& recording,
                  const WaveOptions& options,
+                 const FloorSpots& floor,
                  State state,
                  Reporter* reporter) {
   const char* const kStep = "adjusting cameras, clocks and path";
@@ -198,6 +199,10 @@ WaveSolution fit(const Recording& recording,
     pixel_stddev *= misfit;
   }
   checkClocks(recording, options, {pixel_stddev, stamp, kGate}, keep_going, state);
+  if (!floor.empty()) {
+    standOnFloor(recording, options, floor, &state);
+    refinement = refine(recording, options, matching.matches, kInfinity, keep_going, &state);
+  }
   WaveSolution solution = solutionOf(recording, options, state, matching);
   solution.pixel_stddev = pixel_stddev;
   // What is fitted to noise lessens the residuals, which are to tell it.
@@ -215,6 +220,7 @@ WaveSolution fit(const Recording& recording,
 WaveSolution solveFrom(StartPoses poses,
                        const Recording& recording,
                        const WaveOptions& options,
+                       const FloorSpots& floor,
                        Reporter* reporter) {
   reporter->report("following the LED", kStartDone);
   if (!recording.square)
@@ -227,7 +233,7 @@ WaveSolution solveFrom(StartPoses poses,
   state.corner_offsets.fill(Eigen::Vector2d::Zero());
   if (recording.wand)
     state.wand_length = recording.wand->length;
-  WaveSolution solution = fit(recording, options, std::move(state), reporter);
+  WaveSolution solution = fit(recording, options, floor, std::move(state), reporter);
   checkSolution(recording, options, &solution);
   solution.rig.verdict = verdictOf(recording, solution);
   return solution;
@@ -238,9 +244,11 @@ WaveSolution solveFrom(StartPoses poses,
 WaveSolution solveWave(const Recording& input,
                        const WaveOptions& options,
                        const ProgressCallback& progress) {
-  checkInput(input, options);
+  Recording waved = input;
+  const FloorSpots floor = takeFloor(&waved);
+  checkInput(waved, options);
   Reporter reporter(progress);
-  const Recording recording = prepared(input);
+  const Recording recording = prepared(std::move(waved));
   std::exception_ptr refusal;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     reporter.report("finding where the cameras stand", 0.0);
@@ -248,7 +256,7 @@ WaveSolution solveWave(const Recording& input,
     try {
       StartPoses poses = startPoses(recording, options, attempt);
       final = final || poses.from_square;
-      WaveSolution solution = solveFrom(std::move(poses), recording, options, &reporter);
+      WaveSolution solution = solveFrom(std::move(poses), recording, options, floor, &reporter);
       reporter.report("done", 1.0);
       return solution;
     } catch (const Cancelled&) {

@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_STATE_H
 
 #include "trajectory.h"
+#include "wand_rest.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
@@ -9,9 +10,19 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::wave {
+
+/// Where each camera saw the two LEDs of a wand at rest, distorted [px]; nothing: it did not.
+using FloorSpots = std::vector<std::optional<WandSpots>>;
+
+/// A wand that lay on the floor.
+struct WandOnFloor {
+  std::array<Eigen::Vector3d, 2> leds;  ///< World, that at the origin first [m].
+  FloorSpots spots;                     ///< Each in the order of the LEDs.
+};
 
 /// Everything that is estimated.
 struct State {
@@ -21,6 +32,7 @@ struct State {
   bool z_up = true;                               ///< As in SquareLayout::corners(); not estimated.
   std::array<Eigen::Vector2d, 4> corner_offsets;  ///< Displacements from the layout [m].
   double wand_length = 0.0;                       ///< [m]
+  std::optional<WandOnFloor> floor;               ///< If it gives the world.
 };
 
 /// A spot associated with an LED.

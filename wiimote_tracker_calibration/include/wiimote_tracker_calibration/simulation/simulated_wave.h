@@ -54,19 +54,26 @@ struct WaveScene {
   double stamp = 0.0;         ///< Independent error of each stamp [s].
   double wander = 0.0;        ///< Error of the stamps [s], correlated over 2 s.
   double rate = 100.0;        ///< Of the images [Hz].
+  /// For which a wand lies on the floor before it is lifted, hidden by hands for a second, and
+  /// waved [s]; 0: it does not. Then every camera has an accelerometer.
+  double rest = 0.0;
   /// Errors of lenses and corners are drawn from this.
   square::Uncertainty uncertainty = wide();
 
   /// Focal length off by 4 %, principal point of each camera by itself by 20 px.
   static square::Uncertainty wide();
   std::vector<Eigen::Isometry3d> poses() const;
+  /// The world of a wand that lies in the middle of the cube's floor and points away from the first
+  /// camera.
+  Eigen::Isometry3d cubeFromFloor() const;
 };
 
 /// A recording and the truth behind it.
 struct SimulatedWave {
   std::vector<geometry::Camera> cameras;
-  std::vector<double> offsets;  ///< Less the first camera's [s].
-  square::Corners corners{};    ///< Where the LED really was put [m].
+  std::vector<double> offsets;             ///< Less the first camera's [s].
+  square::Corners corners{};               ///< Where the LED really was put [m].
+  std::array<Eigen::Vector3d, 2> floor{};  ///< LEDs of the wand on the floor, the origin first [m].
   SimulatedPath path;
   /// Exposures at which a camera saw an LED where it was: for the bound.
   struct View {

@@ -30,6 +30,12 @@ struct CameraRecording {
 struct Wand {
   double length = 0.0;     ///< Between the LEDs [m, > 0].
   double stddev = 0.0002;  ///< Of the length as it was measured [m, > 0].
+  /// Of its LEDs above the floor, on which it lies still when the recording begins [m, >= 0];
+  /// nothing: it does not.
+  std::optional<double> led_height = {};
+
+  /// @throws WaveError naming the value that is out of range.
+  void check() const;
 };
 
 /// One calibration session.

@@ -32,8 +32,9 @@ struct WaveOptions {
 struct WaveSolution {
   /// Poses, intrinsics, time offsets, residuals, joint covariance, verdict; in the order of the
   /// recording; without solved_at and world_frame. exposure time = stamp + time offset. Without a
-  /// square the first camera is the origin, exact; its accelerometer's up is z. Without
-  /// accelerometer its optical frame is the world.
+  /// square, the LED of a wand on the floor that is nearer to the first camera lies at x = y = 0,
+  /// the other one at y = 0, both exact; z is up by all accelerometers. Without either, the first
+  /// camera is the origin, exact; its accelerometer's up is z, or its optical frame is the world.
   geometry::Rig rig;
   bool z_up = true;
   double pixel_stddev = 0.0;         ///< Of a moving spot, per axis, as estimated [px].
@@ -71,11 +72,14 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 /// One bundle adjustment over all that was recorded: poses, focal lengths, principal points, k1,
 /// time offsets (the first camera's is 0), placement of the corners, length of the wand, and the
 /// LED's path as a uniform cubic B-spline that each camera sees at its own times. Wrong spots are
-/// left out. Scale and world come from the square; without one, scale from the wand.
+/// left out. Scale and world come from the square; without one, scale from the wand, and the world
+/// from the wand on the floor if it lay there before.
 /// @throws WaveError: fewer than two cameras; cameras that share too little; neither square nor
 /// wand; an LED that hardly moved, or on a line or a plane only; images that contradict one another
 /// (mirrored, moved, other order of corners); a time offset less certain than the options ask for;
-/// values out of range. square::SquareError: the corners contradict the layout. Cancelled.
+/// a wand on the floor that moved, was not level, or of which two cameras did not see both LEDs; no
+/// accelerometer for it; values out of range. square::SquareError: the corners contradict the
+/// layout. Cancelled.
 WaveSolution solveWave(const Recording& recording,
                        const WaveOptions& options,
                        const ProgressCallback& progress = nullptr);

@@ -1,0 +1,28 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_WAND_ON_FLOOR_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_WAND_ON_FLOOR_H
+
+#include "state.h"
+
+#include "wiimote_tracker_calibration/wave/recording.h"
+#include "wiimote_tracker_calibration/wave/solve_wave.h"
+
+namespace wiimote_tracker::wave {
+
+/// Where the cameras saw a wand that lay on the floor before it was waved. The images until it was
+/// lifted are removed from the recording. Empty if it did not lie there.
+/// @throws WaveError: fewer than two cameras saw it, or none has an accelerometer.
+FloorSpots takeFloor(Recording* recording);
+
+/// Moves the state, known up to a rigid motion, into the world of the wand on the floor, which it
+/// adds: the LED nearer to the first camera lies at (0, 0, height), the other one on the x axis, z
+/// is the mean up of the accelerometers.
+/// @throws WaveError: the spots are not those of the wand, its ends are about as far from the first
+/// camera, or it was not level.
+void standOnFloor(const Recording& recording,
+                  const WaveOptions& options,
+                  const FloorSpots& spots,
+                  State* state);
+
+}  // namespace wiimote_tracker::wave
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_WAND_ON_FLOOR_H

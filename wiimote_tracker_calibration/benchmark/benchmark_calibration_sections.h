@@ -19,6 +19,9 @@ struct BenchmarkSection {
 /// The wave and the wand: errors beside the Fisher bound, coverage, positions.
 BenchmarkSection waveSection();
 
+/// The wand on the floor beside the square.
+BenchmarkSection floorSection();
+
 /// How long the wave takes to solve.
 BenchmarkSection waveTimeSection();
 

@@ -80,6 +80,46 @@ TEST_F(Beyond, AWaveIsRecordedWithItsCoverageAndSolvedWithTheSquare) {
   }
 }
 
+TEST_F(Beyond, AWandOnTheFloorTakesOneRequestToStartAndOneToSolve) {
+  const Eigen::Vector3d origin(1.0, 1.2, 0.0);
+  cameras_->putLed(origin);
+  cameras_->holdWand(true);
+  wiimote_tracker_msgs::StartCalibration::Request request;
+  request.side_x = 2.5;
+  request.wand_length = 0.5;
+  EXPECT_SAYS(call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request).message,
+              "replaces the square");
+  request.without_square = true;
+  request.wand_length = -0.5;
+  EXPECT_SAYS(call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request).message,
+              "wand.length");
+  request.wand_length = 0.5;
+  const auto started = call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request);
+  ASSERT_TRUE(started.success) << started.message;
+  EXPECT_SAYS(started.message, "leave the wand on the floor");
+  ASSERT_TRUE(waitUntil([] { return status_->get()->next_title == "Leave it"; }));
+  EXPECT_SAYS(status_->get()->next_sentence, "end nearer to camera_1");
+  EXPECT_SAYS(status_->get()->missing.front(), "leave it on the floor");
+  ASSERT_TRUE(waitUntil([] { return status_->get()->next_title == "Wave"; }))
+      << status_->get()->missing.front();
+  EXPECT_SAYS(status_->get()->message, "lift it, and wave it");
+  cameras_->waveLed(true);
+  ASSERT_TRUE(waitUntil([] { return status_->get()->next_request == "solve"; }))
+      << status_->get()->missing.front();
+  const auto solved = call<SolveCalibration>("calibration/solve");
+  ASSERT_TRUE(solved.success) << solved.message;
+  EXPECT_EQ(solved.rig.method, "floor+wand");
+  Eigen::Vector3d x = origin - cameras_->truth[0].center();
+  x = Eigen::Vector3d(x.x(), x.y(), 0.0).normalized();
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto& position = solved.rig.cameras[i].world_from_camera.position;
+    const Eigen::Vector3d from_origin = cameras_->truth[i].center() - origin;
+    const Eigen::Vector3d truth(x.dot(from_origin),
+                                x.x() * from_origin.y() - x.y() * from_origin.x(), from_origin.z());
+    EXPECT_LT((Eigen::Vector3d(position.x, position.y, position.z) - truth).norm(), 0.05) << i;
+  }
+}
+
 TEST_F(Beyond, LampsAreLearnedMaskedAndStoredInTheRig) {
   const Eigen::Vector3d lamp(0.4, 1.9, 1.4);
   cameras_->setLamps({lamp});

@@ -86,6 +86,12 @@ class FakeCameras {
     waves_ = waves;
     waved_at_ = 0.0;
   }
+  /// Adds an LED half a metre behind the other one, as seen from camera_1: the other end of a wand,
+  /// which turns while it is waved.
+  void holdWand(bool holds) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    holds_wand_ = holds;
+  }
   void switchLed(bool on) {
     const std::lock_guard<std::mutex> lock(mutex_);
     led_on_ = on;
@@ -157,6 +163,8 @@ class FakeCameras {
           std::vector<Eigen::Vector3d> lights = lamps_;
           if (led_on_ && blind_.count(truth[i].name) == 0)
             lights.push_back(led_);
+          if (holds_wand_)
+            lights.push_back(otherEnd(stamp.toSec()));
           for (const Eigen::Vector3d& light : lights) {
             const Eigen::Vector2d pixel = truth[i].project(light).value();
             wiimote_tracker_msgs::IrBlob blob;
@@ -170,6 +178,15 @@ class FakeCameras {
       }
       rate.sleep();
     }
+  }
+
+  Eigen::Vector3d otherEnd(double now) const {
+    Eigen::Vector3d away = led_ - truth[0].center();
+    away.z() = 0.0;
+    const double turn = waves_ ? 1.9 * (now - waved_at_) : 0.0;
+    return led_ +
+           0.5 * (Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) *
+                  Eigen::AngleAxisd(std::sin(turn), Eigen::Vector3d::UnitX()) * away.normalized());
   }
 
   void moveLed(double now) {
@@ -217,6 +234,7 @@ class FakeCameras {
   double led_speed_ = 0.0;
   bool led_on_ = true;
   bool waves_ = false;
+  bool holds_wand_ = false;
   double waved_at_ = 0.0;  // [s]; 0: not yet
   Eigen::Vector3d carried_from_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d carried_to_ = Eigen::Vector3d::Zero();

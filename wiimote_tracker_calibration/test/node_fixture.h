@@ -124,6 +124,7 @@ class Node : public ::testing::Test {
     cameras_->switchLed(true);
     cameras_->setLamps({});
     cameras_->waveLed(false);
+    cameras_->holdWand(false);
   }
 
   template <typename Service>

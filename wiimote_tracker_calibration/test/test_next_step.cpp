@@ -100,6 +100,34 @@ TEST_F(NextStepTest, HandsFreeAndWandNeedNoCapture) {
   EXPECT_EQ(next().title, "Wand");
 }
 
+TEST_F(NextStepTest, AWandOnTheFloorIsCapturedWavedAndSolved) {
+  wave::Wand wand;
+  wand.length = 0.5;
+  wand.led_height = 0.0;
+  ASSERT_TRUE(calibration_.startWithoutSquare(names_).success);
+  ASSERT_TRUE(calibration_.beginWave(cameras_, false, wand, now_).success);
+  EXPECT_EQ(next().title, "Leave it");
+  EXPECT_SAYS(next().sentence, "nearer to camera_1");
+  waveWand(1.5, false);
+  EXPECT_EQ(next().title, "Leave it");
+  EXPECT_SAYS(calibration_.missing().front(), "leave it on the floor");
+  EXPECT_EQ(sounds_.heard(calibration_), "");
+  waveWand(1.0, false);
+  EXPECT_EQ(next().title, "Wave");
+  EXPECT_EQ(sounds_.heard(calibration_), "captured");
+  EXPECT_SAYS(calibration_.begin(Step::kSolving, "solving").message, "a wave is being recorded");
+  waveWand(30.0, true);
+  EXPECT_EQ(next().request, "solve");
+  const session::Session session = calibration_.session(facts_, {});
+  EXPECT_EQ(session.recording.wand->led_height, 0.0);
+  EXPECT_TRUE(calibration_.begin(Step::kSolving, "solving").success);
+  EXPECT_EQ(calibration_.step(), Step::kSolving);
+  calibration_.end({false, "no solution"});
+  Calibration fresh{CalibrationOptions()};
+  ASSERT_TRUE(fresh.restore(session).success);
+  EXPECT_TRUE(fresh.missing().empty());
+}
+
 TEST_F(NextStepTest, SidesThatAreHardlyMeantAreQuestioned) {
   for (const double side : {0.25, 12.0}) {
     ASSERT_TRUE(calibration_.start(side, 2.5, names_).success);

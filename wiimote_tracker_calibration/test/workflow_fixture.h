@@ -89,6 +89,23 @@ class Workflow : public ::testing::Test {
     }
   }
 
+  /// A wand of 0.5 m that lies on the floor, or is waved.
+  void waveWand(double duration, bool waves) {
+    for (const double end = now_ + duration; now_ < end; now_ += 0.01) {
+      const double t = waves ? now_ : 0.0;
+      const Eigen::Vector3d led(1.25 + 0.9 * std::sin(1.3 * t), 1.25 + 0.9 * std::sin(1.7 * t),
+                                waves ? 1.0 + 0.7 * std::sin(2.1 * t) : 0.0);
+      const Eigen::Vector3d other = led + 0.5 * Eigen::Vector3d(std::cos(t), std::sin(t), 0.0);
+      for (std::size_t i = 0; i < cameras_.size(); ++i)
+        calibration_.addImage(
+            {names_[i],
+             now_,
+             0,
+             {cameras_[i].project(led).value(), cameras_[i].project(other).value()},
+             {}});
+    }
+  }
+
   const std::vector<Eigen::Vector3d> kCorners = {{0.0, 0.0, 0.0},
                                                  {2.5, 0.0, 0.0},
                                                  {2.5, 2.5, 0.0},

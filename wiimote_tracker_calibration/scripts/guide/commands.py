@@ -87,9 +87,13 @@ def with_path(name: str, type_: str):
 
 
 def start(status, arguments):
-    at_most(arguments, 2, 'one side or two in metres, or the word wand')
+    usage = 'one side or two in metres, or the word wand and its length if it lies on the floor'
     if arguments[:1] == ['wand']:
-        return request('start', 'StartCalibration', without_square=True)
+        at_most(arguments, 3, usage)
+        return request('start', 'StartCalibration', without_square=True,
+                       wand_length=optional_number(arguments, 1, 'the length of the wand'),
+                       wand_stddev=optional_number(arguments, 2, 'its standard deviation'))
+    at_most(arguments, 2, usage)
     return request('start', 'StartCalibration',
                    side_x=optional_number(arguments, 0, 'the side of the square'),
                    side_y=optional_number(arguments, 1, 'the second side'))
@@ -179,8 +183,9 @@ RIG = [
     Command('unmask', 'M', 'ignore no lights any more', trigger('clear_masks')),
     Command('connection', 'k', 'check that all cameras see the LED',
             for_seconds('check_connection', 'CheckConnection'), '[SECONDS]'),
-    Command('start', 'n', 'start a calibration', start, '[SIDE [SIDE_Y] | wand]',
-            'Side of the square [m], both of a rectangle, or wand; Enter: parameter'),
+    Command('start', 'n', 'start a calibration', start,
+            '[SIDE [SIDE_Y] | wand [LENGTH [STDDEV]]]',
+            'Side [m] of the square, or wand and its length [m]; Enter: parameter'),
     Command('capture', 't', 'capture the next corner, or one again', capture, '[CORNER]',
             'Corner to take again, 1 to 4; Enter: the next one'),
     Command('undo', 'u', 'drop the last corner', trigger('undo')),

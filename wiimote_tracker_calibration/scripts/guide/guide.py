@@ -25,9 +25,9 @@ class Advice:
 class Guide:
     """All that the screen is drawn from. Times [s] are of one steady clock."""
 
-    def __init__(self, now: float, side: Sequence[str] = ()):
-        """side: arguments of `start` that SPACE uses."""
-        self._side = list(side)
+    def __init__(self, now: float, start: Sequence[str] = ()):
+        """start: arguments of `start` that SPACE uses."""
+        self._start = list(start)
         self.began = now
         self.status = None
         self.status_at = None
@@ -122,9 +122,14 @@ class Guide:
             return Advice(f'{status.next_sentence} w asks for the length.')
         arguments = [str(status.next_corner + 1)] if status.next_corner >= 0 else []
         label = status.next_label
+        wand = self._start[:1] == ['wand']
+        if word == 'connection' and wand:  # two LEDs: the wand on the floor shows who sees them
+            return Advice('Switch the wand on and lay it on the floor. SPACE: start with it.',
+                          'start', self._start)
         if word == 'start':
-            arguments = self._side
-            label += f' with {" x ".join(arguments)} m' if arguments else '; n asks for the side'
+            arguments = self._start
+            label += (f' with the {" of ".join(arguments)} m' if wand else
+                      f' with {" x ".join(arguments)} m' if arguments else '; n asks for the side')
         return Advice(f'{status.next_sentence} SPACE: {label}.{other_key(status)}', word, arguments)
 
     def is_waving(self) -> bool:

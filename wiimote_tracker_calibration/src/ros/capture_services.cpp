@@ -1,5 +1,7 @@
 #include "units.h"
 
+#include "begin_wave.h"
+
 #include <actionlib/server/simple_action_server.h>
 #include <sensor_msgs/Joy.h>
 #include <std_srvs/SetBool.h>
@@ -14,6 +16,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +31,20 @@ constexpr double kForEver = std::numeric_limits<double>::infinity();
 const char kCaptureCorner[] = "calibration/capture_corner";
 constexpr double kLatestStamp = 3600.0;  // of a goal or cancellation, from now [s]
 constexpr std::size_t kButtonA = 2;      // in the driver's joy messages
+
+/// The wand that a run begins with. @throws Refusal, wave::WaveError: it cannot be one.
+std::optional<wave::Wand> wandOnFloor(
+    const wiimote_tracker_msgs::StartCalibration::Request& request,
+    const Parameters& parameters) {
+  std::optional<wave::Wand> wand = wandOf(request.wand_length, request.wand_stddev);
+  if (!wand)
+    return wand;
+  if (!request.without_square)
+    throw Refusal("a wand on the floor replaces the square: ask for without_square, too");
+  wand->led_height = parameters.calibration.led_height;
+  wand->check();
+  return wand;
+}
 
 /// Ends a running capture when it leaves scope.
 struct EndOfCapture {
@@ -120,11 +137,14 @@ class CaptureServices {
         throw Refusal(
             "the side of the square is 0: measure it, and give side_x in the request or set " +
             ros::this_node::getName() + "/side_length, in metres");
+      const std::optional<wave::Wand> wand = wandOnFloor(request, parameters);
       workflow::Calibration& calibration = context_.calibration(lock);
       const Reply reply = request.without_square ? calibration.startWithoutSquare(cameras)
                                                  : calibration.start(side_x, side_y, cameras);
       if (reply.success)
         context_.inputs().restartGravity();
+      if (reply.success && wand)
+        return beginWave(wand, &context_, &lock);
       context_.publishStatus(lock);
       return reply;
     });

@@ -7,7 +7,6 @@
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -16,10 +15,6 @@ namespace wiimote_tracker::workflow {
 namespace {
 
 constexpr double kLongestSide = 20.0;  // of a square that Wii Remotes see [m]
-
-std::string seconds(double value) {
-  return format("%.1f s", value);
-}
 
 std::set<std::string> uniqueNames(const std::vector<std::string>& names) {
   return {names.begin(), names.end()};
@@ -117,20 +112,19 @@ Reply Calibration::beginWave(const std::vector<geometry::Camera>& cameras,
     return refuse(occupied());
   if (captured_.cameras.empty())
     return refuse("no calibration is started: start one first");
-  if (wand && !(std::isfinite(wand->length) && wand->length > 0.0 && std::isfinite(wand->stddev) &&
-                wand->stddev > 0.0))
-    return refuse(
-        "the wand's length and its standard deviation must be greater than 0: measure "
-        "between the middles of its LEDs, in metres");
   if (!captured_.layout && !wand)
     return refuse("without a square one LED gives no scale: wave a wand, and give its length");
   try {
+    if (wand)
+      wand->check();
     captured_.wave.emplace(cameras, posed, wand, options_.coverage, now);
   } catch (const wave::WaveError& error) {
     return refuse(error.what());
   }
   busy_ = Step::kWaving;
   just_solved_ = false;
+  if (captured_.wave->needsFloor())
+    return accept("recording: leave the wand on the floor");
   return accept(std::string("recording: wave the ") + (wand ? "wand" : "LED") +
                 " through the whole volume, at all heights, at 0.5 m/s or faster");
 }
@@ -142,7 +136,7 @@ Reply Calibration::endWave() {
   updateStep();
   const wave::CoverageReport report = captured_.wave->report();
   std::string message =
-      "recorded " + seconds(report.seconds) + " in which two cameras or more saw it move";
+      format("recorded %.1f s", report.seconds) + " in which two cameras or more saw it move";
   if (!report.enough())
     return accept(message + "; still missing: " + report.missing.front());
   return accept(message + (step_ == Step::kComplete
@@ -157,8 +151,10 @@ void Calibration::addImage(const capture::Image& image) {
     if (first != image.identity)
       captured_.other_devices[image.camera] = image.identity;
   }
-  if (isBusyWith(Step::kWaving))
-    captured_.wave->add(image);
+  if (isBusyWith(Step::kWaving) && captured_.wave->add(image)) {
+    ++captures_;
+    accept("the wand on the floor is captured: lift it, and wave it through the whole volume");
+  }
   captured_.square.add(image);
   update(image.stamp);
   if (!hands_free_ || busy_ || captured_.square.isComplete())
@@ -233,6 +229,8 @@ Reply Calibration::cancel() {
 }
 
 Reply Calibration::begin(Step step, const std::string& message) {
+  if (step == Step::kSolving && isBusyWith(Step::kWaving) && captured_.wave->report().enough())
+    endWave();
   if (busy_)
     return refuse(occupied());
   if (step == Step::kSolving && !captured_.isComplete()) {

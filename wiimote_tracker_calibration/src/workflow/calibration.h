@@ -106,7 +106,8 @@ class Calibration {
   Reply cancel();
 
   /// Begins kSolving, kMasking or kMeasuring. The caller does the work and then calls end(), also
-  /// when it failed. Refused while another step is running, and kSolving without enough data.
+  /// when it failed. Refused while another step is running, and kSolving without enough data; a
+  /// wave that is enough is ended by kSolving.
   Reply begin(Step step, const std::string& message);
 
   /// Whether the step is running and was not cancelled.
@@ -158,7 +159,7 @@ class Calibration {
   const std::string& message() const { return message_; }
   /// How often something was refused so far.
   std::size_t refusals() const { return refusals_; }
-  /// How often a corner was captured so far, also again.
+  /// How often a corner was captured so far, also again, or a wand on the floor.
   std::size_t captures() const { return captures_; }
   double progress() const;
   /// What is still missing before this can be solved, most urgent first; one sentence each.

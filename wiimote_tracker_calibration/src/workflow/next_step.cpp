@@ -36,7 +36,7 @@ NextStep beforeStart(const Preparation& done) {
   return {
       "Square",
       "Walk through the volume with the LED to see what the cameras cover. Then measure the side "
-      "of the square on the floor.",
+      "of the square on the floor, or lay a wand of known length there.",
       "start", "start", std::nullopt};
 }
 
@@ -51,8 +51,9 @@ std::string doubtAbout(const std::vector<double>& sides) {
 NextStep nextCorner(const Calibration& calibration) {
   const std::vector<double> sides = calibration.sides();
   if (sides.empty())
-    return {"Wand", "Take the wand and give its length to begin.", "start_wave", "begin the wave",
-            std::nullopt};
+    return {"Wand",
+            "Take the wand and give its length to begin, or start again with it on the floor.",
+            "start_wave", "begin the wave", std::nullopt};
   const std::size_t corner = calibration.square().corners().size();
   const std::string doubt = corner == 0 ? doubtAbout(sides) : "";
   const std::string place = nameOfCorner(corner) + " (" + kCornerHints.at(corner) + ")";
@@ -64,11 +65,21 @@ NextStep nextCorner(const Calibration& calibration) {
           "capture " + nameOfCorner(corner), std::nullopt};
 }
 
-NextStep waving(const WaveRecorder& wave) {
+NextStep waving(const Calibration& calibration) {
+  const WaveRecorder& wave = *calibration.wave();
+  if (wave.needsFloor())
+    return {"Leave it",
+            "Leave the wand on the floor until it is captured. Its end nearer to " +
+                calibration.cameras().front() +
+                " is the world's origin, the other one lies on the x axis.",
+            "", "", std::nullopt};
   if (!wave.report().enough())
     return {"Wave", "Wave through the whole volume, high and low, near and far.", "", "",
             std::nullopt};
-  return {"Enough", "All cameras have seen enough.", "stop_wave", "end the wave", std::nullopt};
+  const char* const enough = "All cameras have seen enough.";
+  if (calibration.sides().empty())  // without a square nothing else is needed
+    return {"Enough", enough, "solve", "end the wave and solve", std::nullopt};
+  return {"Enough", enough, "stop_wave", "end the wave", std::nullopt};
 }
 
 NextStep complete(const Calibration& calibration) {
@@ -105,7 +116,7 @@ NextStep nextStep(const Calibration& calibration, const session::Verdict& verdic
     case Step::kReady:
       return nextCorner(calibration);
     case Step::kWaving:
-      return waving(*calibration.wave());
+      return waving(calibration);
     case Step::kComplete:
       return complete(calibration);
     case Step::kSolved:

@@ -1,5 +1,7 @@
 #include "workflow/wave_recorder.h"
 
+#include <algorithm>
+
 namespace wiimote_tracker::workflow {
 
 WaveRecorder::WaveRecorder(const std::vector<geometry::Camera>& cameras,
@@ -18,26 +20,35 @@ WaveRecorder::WaveRecorder(const std::vector<geometry::Camera>& cameras,
     index_[cameras[i].name] = i;
 }
 
-void WaveRecorder::add(const capture::Image& image) {
+bool WaveRecorder::add(const capture::Image& image) {
   const auto found = index_.find(image.camera);
   if (found == index_.end() || image.stamp < start_ || image.stamp > start_ + kLongest)
-    return;
+    return false;
   const std::size_t index = found->second;
   Track& track = tracks_[index];
   if (track.frames.empty()) {
     track.clock_epoch = image.clock_epoch;
   } else if (image.clock_epoch != track.clock_epoch) {
-    track = Track{image.clock_epoch, {}, true};
+    track = Track{image.clock_epoch, {}, {}, true};
     coverage_ = wave::Coverage(cameras_, posed_, wand_ ? 2 : 1, options_);
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       for (const wave::Frame& frame : tracks_[i].frames)
         coverage_.add(i, frame);
     }
   } else if (image.stamp <= track.frames.back().stamp) {
-    return;
+    return false;
   }
   track.frames.push_back({image.stamp, image.spots});
   coverage_.add(index, track.frames.back());
+  const bool needed_floor = needsFloor();
+  track.rest.add(track.frames.back());
+  return needed_floor && !needsFloor();
+}
+
+bool WaveRecorder::needsFloor() const {
+  return wand_ && wand_->led_height &&
+         std::count_if(tracks_.begin(), tracks_.end(),
+                       [](const Track& track) { return track.rest.spots().has_value(); }) < 2;
 }
 
 const WaveRecorder::Track* WaveRecorder::track(const std::string& camera) const {
@@ -47,6 +58,11 @@ const WaveRecorder::Track* WaveRecorder::track(const std::string& camera) const 
 
 wave::CoverageReport WaveRecorder::report() const {
   wave::CoverageReport report = coverage_.report();
+  if (needsFloor())
+    report.missing.insert(
+        report.missing.begin(),
+        "two cameras have not yet seen both LEDs of the wand, and no other light, "
+        "at rest for 2 s: leave it on the floor where they see it");
   if (report.enough())
     return report;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include "capture/image.h"
 #include "wave/coverage.h"
+#include "wave/wand_rest.h"
 #include "wiimote_tracker_calibration/wave/recording.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
@@ -26,6 +27,7 @@ class WaveRecorder {
   struct Track {
     std::uint32_t clock_epoch = 0;
     std::vector<wave::Frame> frames;
+    wave::WandRest rest;
     bool reconnected = false;  ///< Its clock started again; the earlier images were dropped.
   };
 
@@ -39,12 +41,15 @@ class WaveRecorder {
                double start);
 
   /// One image. Ignored for unknown cameras, and if it is not later than the camera's last one.
-  void add(const capture::Image& image);
+  /// @returns whether it was the last one that needsFloor() waited for.
+  bool add(const capture::Image& image);
 
   const std::optional<wave::Wand>& wand() const { return wand_; }
+  /// Whether the wand must still lie on the floor: two cameras have not seen it at rest.
+  bool needsFloor() const;
   /// Nothing for unknown cameras.
   const Track* track(const std::string& camera) const;
-  /// The coverage; what is missing names cameras that reconnected, too.
+  /// The coverage; what is missing names the wand on the floor and cameras that reconnected, too.
   wave::CoverageReport report() const;
   /// Shortest wave [s].
   double secondsNeeded() const { return options_.seconds; }

@@ -30,10 +30,23 @@ def test_where_there_is_nothing_to_request_space_does_nothing():
 
 def test_space_starts_with_the_side_that_was_given():
     start = status(CalibrationStatus.IDLE, 'start', 'start')
-    advice = guide_at(start, side=['2.5', '1']).advice()
+    advice = guide_at(start, start=['2.5', '1']).advice()
     assert advice.arguments == ['2.5', '1']
     assert advice.sentence == 'Do this. SPACE: start with 2.5 x 1 m.'
     assert guide_at(start).advice().sentence == 'Do this. SPACE: start; n asks for the side.'
+
+
+def test_space_starts_with_a_wand_that_lies_on_the_floor():
+    for wanted in ('check_connection', 'start'):
+        guide = guide_at(status(CalibrationStatus.IDLE, wanted, 'do it'), start=['wand', '0.5'])
+        advice = guide.advice()
+        assert (advice.word, advice.arguments) == ('start', ['wand', '0.5'])
+        assert 'SPACE' in advice.sentence
+        assert commands.find(commands.RIG, 'start').build(
+            guide.status, advice.arguments).fields['wand_length'] == 0.5
+    assert advice.sentence == 'Do this. SPACE: do it with the wand of 0.5 m.'
+    masks = guide_at(status(CalibrationStatus.IDLE, 'learn_masks', 'mask'), start=['wand', '0.5'])
+    assert masks.advice().word == 'masks'
 
 
 def test_a_bad_corner_is_to_be_taken_again():

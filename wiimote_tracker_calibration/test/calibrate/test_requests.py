@@ -15,7 +15,10 @@ def test_words_become_requests():
             ('masks', Request('learn_masks', 'LearnMasks', duration=0.0)),
             ('start', Request('start', 'StartCalibration', side_x=0.0, side_y=0.0)),
             ('start 2.5 1', Request('start', 'StartCalibration', side_x=2.5, side_y=1.0)),
-            ('start wand', Request('start', 'StartCalibration', without_square=True)),
+            ('start wand', Request('start', 'StartCalibration', without_square=True,
+                                   wand_length=0.0, wand_stddev=0.0)),
+            ('start wand 0.5 0.001', Request('start', 'StartCalibration', without_square=True,
+                                             wand_length=0.5, wand_stddev=0.001)),
             ('capture', Request('capture_corner', 'CaptureCorner')),
             ('t 3', Request('capture_corner', 'CaptureCorner', retake=True, corner=2)),
             ('hands_free', Request('hands_free', 'SetBool', data=False)),
@@ -46,7 +49,7 @@ def test_words_become_requests():
 
 @pytest.mark.parametrize('line', [
     'check', 'check 1 2', 'check 1 2 x', 'check nan 0 0', 'check 1 2 3 4 5', 'capture 0',
-    'capture 5', 'capture 1 2', 'start a', 'start 1 2 3', 'wave x', 'hands_free maybe', 'undo 1',
+    'capture 5', 'capture 1 2', 'start a', 'start 1 2 3', 'start wand x', 'start wand 1 2 3','wave x', 'hands_free maybe', 'undo 1',
     'recalibrate', 'recalibrate a b', 'masks soon', 'solve now', 'place 1 2', 'length 1 3',
     'length 1 13 2.5', 'length 0 1 2.5', 'length 1 2 x', 'length 1 2 2.5 0.001 9'])
 def test_words_that_make_no_sense_are_refused_with_what_would(line):

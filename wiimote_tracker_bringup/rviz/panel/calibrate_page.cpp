@@ -128,6 +128,9 @@ void CalibratePage::addLengths(QVBoxLayout* layout) {
   row->addWidget(side_ = lengthBox("side", "the node's parameter", this), 0, 1);
   row->addWidget(new QLabel("Wand", this), 1, 0);
   row->addWidget(wand_length_ = lengthBox("wand", "none, one LED", this), 1, 1);
+  without_square_ = new QCheckBox("No square: the wand lies on the floor first", this);
+  without_square_->setObjectName("without_square");
+  row->addWidget(without_square_, 2, 0, 1, 2);
   row->setColumnStretch(1, 1);
   layout->addLayout(row);
 }
@@ -209,7 +212,8 @@ void CalibratePage::sendCommand(Command command) {
 /// Adds what was typed.
 void CalibratePage::sendFilled(Request request) {
   request.side = side();
-  if (request.command == Command::kStartWave)
+  request.without_square = request.command == Command::kStart && without_square_->isChecked();
+  if (request.command == Command::kStartWave || request.without_square)
     request.wand_length = wandLength();
   request.path = path().toStdString();
   for (std::size_t i = 0; i < 3; ++i)

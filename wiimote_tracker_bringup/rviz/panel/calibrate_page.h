@@ -60,7 +60,7 @@ class CalibratePage : public QWidget {
   QDoubleSpinBox* known_[3];
   QComboBox* ends_[2];
   QDoubleSpinBox* taped_;
-  QCheckBox* hands_free_;
+  QCheckBox *without_square_, *hands_free_;
   QLineEdit* path_;
   QTableWidget* table_;
   QPushButton* cancel_;

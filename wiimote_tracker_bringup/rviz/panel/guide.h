@@ -35,6 +35,7 @@ enum class Command {
 struct Request {
   Command command = Command::kNone;
   double side = 0.0;                        ///< Of the square [m].
+  bool without_square = false;              ///< For kStart: the wand, if any, is on the floor.
   double wand_length = 0.0;                 ///< 0: one LED is waved [m].
   int corner = -1;                          ///< To take again, 0..3; -1: the next one.
   bool on = false;                          ///< For kHandsFree.

@@ -127,6 +127,8 @@ std::string Requests::perform(const Request& request) {
     case Command::kStart: {
       wiimote_tracker_msgs::StartCalibration start;
       start.request.side_x = request.side;
+      start.request.without_square = static_cast<std::uint8_t>(request.without_square);
+      start.request.wand_length = request.wand_length;
       return call("start", start);
     }
     case Command::kCapture:

@@ -1,142 +1,27 @@
 #include "session/join_rigs.h"
 
+#include "joined_rig.h"
 #include "rig_motion.h"
 #include "square/usable_cameras.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
-#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/SVD>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace wiimote_tracker::session {
 
 namespace {
 
 using geometry::firstParameter;
-using geometry::kParameters;
-using geometry::kPosition;
-using geometry::kRotation;
-using geometry::kTimeOffset;
 
 // A larger angle between the gravity readings of a shared camera means that it was moved [rad].
 constexpr double kTurned = 0.05;
 // Minimum width of the places relative to their length: on a line the rotation is not determined.
 constexpr double kThinnest = 0.05;
-
-/// Offset of the second rig's clock from the first's, from shared cameras with known time offsets.
-struct ClockShift {
-  double shift = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: not known.
-  Eigen::RowVectorXd by_errors;                             ///< As RigMotion::by_errors.
-};
-
-ClockShift clockShift(const geometry::Rig& first,
-                      const geometry::Rig& second,
-                      Eigen::Index error_count) {
-  ClockShift sum{0.0, Eigen::RowVectorXd::Zero(error_count)};
-  int count = 0;
-  for (std::size_t i = 0; i < first.cameras.size(); ++i) {
-    for (std::size_t j = 0; j < second.cameras.size(); ++j) {
-      const geometry::RigCamera& a = first.cameras[i];
-      const geometry::RigCamera& b = second.cameras[j];
-      const double shift = a.time_offset - b.time_offset;
-      if (a.camera.name != b.camera.name || !std::isfinite(shift) ||
-          a.time_offset_rule != b.time_offset_rule ||
-          a.time_offset_rule == geometry::TimeOffsetRule::kNone ||
-          (a.time_offset_rule == geometry::TimeOffsetRule::kOneEpoch &&
-           a.time_offset_epoch != b.time_offset_epoch))
-        continue;
-      ++count;
-      sum.shift += shift;
-      sum.by_errors[firstParameter(i) + kTimeOffset] += 1.0;
-      sum.by_errors[first.covariance.cols() + firstParameter(j) + kTimeOffset] -= 1.0;
-    }
-  }
-  if (count == 0)
-    return {};
-  return {sum.shift / count, sum.by_errors / count};
-}
-
-/// The first rig with the second's other cameras, moved into its world.
-geometry::Rig joinedRig(const geometry::Rig& first,
-                        const geometry::Rig& second,
-                        const RigMotion& motion) {
-  const Eigen::Isometry3d& moved = motion.first_from_second;
-  const Eigen::Index errors = motion.by_errors.cols();
-  const ClockShift clock = clockShift(first, second, errors);
-  geometry::Rig rig = first;
-  const Eigen::Index known = first.covariance.rows();
-  // The result's errors by those of both rigs and of what they share.
-  Eigen::MatrixXd by_errors = Eigen::MatrixXd::Zero(known + second.covariance.rows(), errors);
-  by_errors.topLeftCorner(known, known).setIdentity();
-  for (std::size_t j = 0; j < second.cameras.size(); ++j) {
-    if (first.find(second.cameras[j].camera.name))
-      continue;
-    geometry::RigCamera camera = second.cameras[j];
-    auto rows = by_errors.middleRows<kParameters>(firstParameter(rig.cameras.size()));
-    const Eigen::Index column = known + firstParameter(j);
-    rows.middleCols<kParameters>(column).setIdentity();
-    rows.block<3, 3>(kRotation, column + kRotation) = moved.linear();
-    rows.block<3, 3>(kPosition, column + kPosition) = moved.linear();
-    rows.topRows<6>() += motion.by_errors;
-    rows.middleRows<3>(kPosition) -= geometry::so3::skew(moved.linear() * camera.camera.center()) *
-                                     motion.by_errors.topRows<3>();
-    if (std::isnan(clock.shift)) {
-      rows.row(kTimeOffset).setZero();
-      camera.time_offset_rule = geometry::TimeOffsetRule::kNone;
-    } else {
-      rows.row(kTimeOffset) += clock.by_errors;
-    }
-    camera.time_offset += clock.shift;
-    Eigen::Isometry3d& pose = camera.camera.world_from_camera;
-    pose = moved * pose;
-    pose.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
-    rig.cameras.push_back(camera);
-  }
-  by_errors.conservativeResize(firstParameter(rig.cameras.size()), Eigen::NoChange);
-  const Eigen::MatrixXd covariance = by_errors * motion.error_covariance * by_errors.transpose();
-  rig.covariance = 0.5 * (covariance + covariance.transpose());
-  return rig;
-}
-
-void checkRigs(const geometry::Rig& first, const geometry::Rig& second) {
-  first.check();
-  second.check();
-  if (first.id() == second.id())
-    throw Error("both are the same rig, " + first.id() + ": name the rig file of the other room");
-  if (std::all_of(second.cameras.begin(), second.cameras.end(),
-                  [&](const geometry::RigCamera& c) { return first.find(c.camera.name); }))
-    throw Error(
-        "all cameras of the second rig are in the first one already: there is nothing to join");
-  for (const geometry::Rig* rig : {&first, &second}) {
-    if (!geometry::hasCovariance(*rig))
-      throw Error(std::string("the ") + (rig == &first ? "first" : "second") +
-                  " rig does not say how certain its cameras are: calibrate it again");
-  }
-  if (first.ray_model != second.ray_model)
-    throw Error(
-        "the rigs build their rays by different models: calibrate both with the same ray_model");
-  for (const geometry::RigCamera& camera : second.cameras) {
-    const std::string& identity = camera.camera.identity;
-    const geometry::RigCamera* same = first.find(camera.camera.name);
-    if (same && !identity.empty() && !same->camera.identity.empty() &&
-        identity != same->camera.identity)
-      throw Error(camera.camera.name + " is another device in the second rig (" + identity +
-                  ") than in the first (" + same->camera.identity +
-                  "): give it another name, or calibrate again with the same device");
-    for (const geometry::RigCamera& other : first.cameras) {
-      if (!same && !identity.empty() && identity == other.camera.identity)
-        throw Error("the device " + identity + " is called " + camera.camera.name +
-                    " in the second rig, but " + other.camera.name +
-                    " in the first: give it one name and calibrate again");
-    }
-  }
-}
 
 void checkGravity(const geometry::RigCamera& first, const geometry::RigCamera& second) {
   if (!first.gravity || !second.gravity)
@@ -158,7 +43,7 @@ JoinedRigs finish(const geometry::Rig& first,
   result.first_from_second = motion.first_from_second;
   result.chi_squared = motion.chi_squared;
   result.degrees_of_freedom = motion.degrees_of_freedom;
-  result.rig = joinedRig(first, second, motion);
+  result.rig = joinedRig(first, second, motion, clockShift(first, second));
   const std::size_t added = result.rig.cameras.size() - first.cameras.size();
   result.message = format("%zu %s joined to the %zu of the first rig over ", added,
                           added == 1 ? "camera" : "cameras", first.cameras.size()) +

@@ -1,6 +1,6 @@
 // A solver of its own: the weights turn with the motion that is estimated, and the covariance of
 // the joined rig needs the gain of every error, which the loop below has at hand. Six unknowns, and
-// three or six conditions for each thing shared, are solved in closed form a few times.
+// two, three or six conditions for each thing shared, are solved in closed form a few times.
 #include "rig_motion.h"
 
 #include "place/chi_squared.h"
@@ -20,6 +20,8 @@ namespace so3 = geometry::so3;
 
 // Smallest standard deviation [rad, m]: keeps covariances invertible if a parameter was held.
 constexpr double kLeastStddev = 1e-5;
+// Conditions of a shared vertical.
+constexpr Eigen::Index kVertical = 2;
 
 /// Linearised conditions: residual + by_motion * m + by_errors * e = 0, with the errors m of the
 /// motion and e, both as RigMotion counts them.
@@ -47,10 +49,19 @@ Conditions conditionsAt(const Eigen::Isometry3d& motion, const std::vector<Share
   for (const Shared& one : shared) {
     const Eigen::Index rows = one.by_second.rows();
     result.by_errors.block(row, 0, rows, first_size) = -one.by_first;
+    const Eigen::Isometry3d moved = motion * one.in_second;
+    if (rows == kVertical) {
+      const Eigen::Matrix<double, 2, 3> level = one.in_first.linear().leftCols<2>().transpose();
+      const Eigen::Vector3d up = moved.linear().col(2);
+      result.by_errors.block(row, first_size, rows, second_size) = one.by_second;
+      result.residual.segment<2>(row) = level * up;
+      result.by_motion.block<2, 3>(row, 0) = -level * so3::skew(up);
+      row += rows;
+      continue;
+    }
     for (Eigen::Index k = 0; k < rows; k += 3)
       result.by_errors.block(row + k, first_size, 3, second_size) =
           motion.linear() * one.by_second.middleRows<3>(k);
-    const Eigen::Isometry3d moved = motion * one.in_second;
     if (rows == 6) {
       result.residual.segment<3>(row) =
           so3::log(moved.linear() * one.in_first.linear().transpose());

@@ -11,14 +11,16 @@
 
 namespace wiimote_tracker::session {
 
-/// A camera or a place that two rigs share. Derivatives are by all
-/// parameters of a rig; their rows are the rotation, of a camera only, then the position.
+/// A camera, a place or the vertical that two rigs share. Derivatives are by all parameters of a
+/// rig. Their rows are: of a camera the rotation, then the position; of a place the position; of
+/// the vertical, which is the z axis of in_first and in_second, its components along the x and y
+/// axes of in_first.
 struct Shared {
   Eigen::Isometry3d in_first;   ///< [m]
   Eigen::Isometry3d in_second;  ///< [m]
   Eigen::MatrixXd by_first;
   Eigen::MatrixXd by_second;
-  double stddev = 0.0;  ///< Of in_second against in_first, without the rigs' covariances [m].
+  double stddev = 0.0;  ///< Of in_second against in_first, without the rigs' covariances [m; rad].
 };
 
 /// The motion between two rigs that fits best to what they share.

@@ -1,0 +1,36 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_JOINED_RIG_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_JOINED_RIG_H
+
+#include "session/rig_motion.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <Eigen/Core>
+
+#include <limits>
+
+namespace wiimote_tracker::session {
+
+/// @throws Error: both are the same rig, or the second adds no camera; a rig without covariance;
+/// different ray models; a camera or device that has two names.
+void checkRigs(const geometry::Rig& first, const geometry::Rig& second);
+
+/// Offset of the second rig's clock from the first's.
+struct ClockShift {
+  double shift = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: not known.
+  Eigen::RowVectorXd by_errors;  ///< By the errors of the parameters of both rigs.
+};
+
+/// From shared cameras with known time offsets.
+ClockShift clockShift(const geometry::Rig& first, const geometry::Rig& second);
+
+/// The first rig with the second's other cameras, moved into its world. The joint covariance is to
+/// first order.
+geometry::Rig joinedRig(const geometry::Rig& first,
+                        const geometry::Rig& second,
+                        const RigMotion& motion,
+                        const ClockShift& clock);
+
+}  // namespace wiimote_tracker::session
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_JOINED_RIG_H

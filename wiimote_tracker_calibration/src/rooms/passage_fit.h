@@ -1,0 +1,67 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGE_FIT_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGE_FIT_H
+
+#include "rooms/shared_places.h"
+#include "session/rig_motion.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::rooms {
+
+using PassageIndices = std::vector<std::size_t>;
+
+/// The least squares problem: which motion between two rooms fits best to passages.
+class PassageProblem {
+ public:
+  /// @param first, second not owned. @param vertical shared by both worlds, if any.
+  PassageProblem(const geometry::Rig& first,
+                 const geometry::Rig& second,
+                 const std::vector<SharedPlaces>& passages,
+                 const std::optional<session::Shared>& vertical)
+      : first_(first), second_(second), passages_(passages), vertical_(vertical) {}
+
+  std::size_t size() const { return passages_.size(); }
+
+  /// The motion that brings the places nearest to each other, all of the same weight.
+  /// @throws Error: all are on one line.
+  Eigen::Isometry3d start() const;
+
+  /// @param scatters errors of each passage over those of the model [1]
+  session::RigMotion fit(const PassageIndices& used,
+                         const Eigen::Isometry3d& start,
+                         const std::vector<double>& scatters) const;
+
+  /// All of the same scatter.
+  session::RigMotion fit(const PassageIndices& used,
+                         const Eigen::Isometry3d& start,
+                         double scatter) const {
+    return fit(used, start, std::vector<double>(size(), scatter));
+  }
+
+  /// Mean squared misfit of each passage over that of the model [1].
+  std::vector<double> misfits(const Eigen::Isometry3d& motion) const;
+
+ private:
+  const geometry::Rig& first_;
+  const geometry::Rig& second_;
+  std::vector<SharedPlaces> passages_;
+  std::optional<session::Shared> vertical_;
+};
+
+/// The motion that fits best.
+struct PassageFit {
+  session::RigMotion motion;
+  double scatter;       ///< Estimated errors of the passages over those of the model [1].
+  PassageIndices used;  ///< The passages that agree, at least two thirds.
+};
+
+/// @throws Error: the passages contradict one another, or leave the motion open.
+PassageFit fitPassages(const PassageProblem& problem);
+
+}  // namespace wiimote_tracker::rooms
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGE_FIT_H

@@ -1,0 +1,115 @@
+#include "rooms/passages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace wiimote_tracker::rooms {
+
+namespace {
+
+constexpr double kSpacing = 0.1;  // Of a thinned path; deviations are correlated for longer [s].
+
+/// The part of a track next to its end or beginning, in the order of time.
+Path partOf(const Path& track, bool end, double duration) {
+  Path part;
+  for (std::size_t i = 0; i < track.size(); ++i) {
+    const PathPoint& point = end ? track[track.size() - 1 - i] : track[i];
+    if (!part.empty()) {
+      if (std::abs(point.time - part.front().time) > duration)
+        break;
+      if (std::abs(point.time - part.back().time) < kSpacing)
+        continue;
+    }
+    part.push_back(point);
+  }
+  if (end)
+    std::reverse(part.begin(), part.end());
+  return part;
+}
+
+double durationOf(const Path& path) {
+  return path.empty() ? 0.0 : path.back().time - path.front().time;
+}
+
+/// A track that ends or begins while the LED moves.
+struct End {
+  double time;
+  bool in_first;
+  const Path* track;
+};
+
+bool isCarried(const Path& track, bool end, const PassageOptions& options) {
+  const Path part = partOf(track, end, options.shortest_part + kSpacing);
+  if (durationOf(part) < options.shortest_part)
+    return false;
+  const double length = (part.back().position - part.front().position).norm();
+  return length > options.slowest * durationOf(part);
+}
+
+std::vector<End> endsOf(const std::vector<Path>& first,
+                        const std::vector<Path>& second,
+                        bool end,
+                        const PassageOptions& options) {
+  std::vector<End> ends;
+  for (const std::vector<Path>* room : {&first, &second}) {
+    for (const Path& track : *room) {
+      if (isCarried(track, end, options))
+        ends.push_back({end ? track.back().time : track.front().time, room == &first, &track});
+    }
+  }
+  std::stable_sort(ends.begin(), ends.end(),
+                   [](const End& a, const End& b) { return a.time < b.time; });
+  return ends;
+}
+
+/// The longest part that is straight; empty: none.
+Path straightPart(const Path& track, bool end, const PassageOptions& options) {
+  for (double duration = options.part; duration >= options.shortest_part; duration -= 0.25) {
+    Path part = partOf(track, end, duration);
+    if (durationOf(part) >= options.shortest_part - kSpacing &&
+        crookednessOf(part, options.walk) <= options.most_crooked)
+      return part;
+  }
+  return {};
+}
+
+}  // namespace
+
+Passages findPassages(const std::vector<Path>& first,
+                      const std::vector<Path>& second,
+                      const PassageOptions& options) {
+  const std::vector<End> exits = endsOf(first, second, true, options);
+  const std::vector<End> entries = endsOf(first, second, false, options);
+  // An LED that was hidden within a room competes with those that change rooms.
+  const auto follows = [&](const End& entry, const End& exit) {
+    const double hidden = entry.time - exit.time;
+    return hidden > 0.0 && hidden <= options.longest;
+  };
+  Passages result;
+  for (const End& exit : exits) {
+    const auto entry = std::find_if(entries.begin(), entries.end(), [&](const End& other) {
+      return exit.in_first != other.in_first && follows(other, exit);
+    });
+    if (entry == entries.end())
+      continue;
+    const auto rivals = std::count_if(entries.begin(), entries.end(),
+                                      [&](const End& other) { return follows(other, exit); }) +
+                        std::count_if(exits.begin(), exits.end(),
+                                      [&](const End& other) { return follows(*entry, other); }) -
+                        2;
+    if (rivals > 0) {
+      ++result.crowded;
+      continue;
+    }
+    const Passage passage{exit.in_first, straightPart(*exit.track, true, options),
+                          straightPart(*entry->track, false, options)};
+    if (passage.before.empty() || passage.after.empty())
+      ++result.crooked;
+    else
+      result.passages.push_back(passage);
+  }
+  return result;
+}
+
+}  // namespace wiimote_tracker::rooms

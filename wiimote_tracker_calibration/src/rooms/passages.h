@@ -1,0 +1,45 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGES_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGES_H
+
+#include "rooms/walk.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace wiimote_tracker::rooms {
+
+/// Which ends of tracks are taken for an LED that is carried through the door.
+struct PassageOptions {
+  WalkModel walk;
+  double longest = 3.0;        ///< An LED is hidden for at most this long [s].
+  double part = 3.0;           ///< Of each track, next to the door, at most [s].
+  double shortest_part = 1.0;  ///< The same at least [s].
+  double slowest = 0.5;        ///< Speed [m/s].
+  double most_crooked = 1.7;   ///< RMS distance of a part from its line over that of the model [1].
+};
+
+/// An LED that went from one room to the other, in the order of time. Each path is in the world of
+/// its room, thinned, next to the door.
+struct Passage {
+  bool from_first;  ///< From the first room to the second.
+  Path before;
+  Path after;
+};
+
+struct Passages {
+  std::vector<Passage> passages;  ///< In the order of time.
+  std::size_t crowded =
+      0;  ///< Left out: several LEDs may have gone through the door at the same time.
+  std::size_t crooked = 0;  ///< Left out: not straight.
+};
+
+/// Pairs the end of a track in one room with the beginning of one in the other.
+/// @param first, second tracks in each room, points in the order of time; an LED that was not seen
+/// for a while has several.
+Passages findPassages(const std::vector<Path>& first,
+                      const std::vector<Path>& second,
+                      const PassageOptions& options);
+
+}  // namespace wiimote_tracker::rooms
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGES_H

@@ -1,0 +1,73 @@
+#include "rooms/shared_places.h"
+
+#include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace wiimote_tracker::rooms {
+
+namespace {
+
+constexpr std::size_t kFewestPoints = 5;
+
+/// A path in view of two cameras or more, and how its points move with the parameters of the rig.
+struct SensitivePath {
+  Path path;
+  std::vector<Eigen::MatrixXd> by_parameters;
+};
+
+SensitivePath sensitivePath(const geometry::Rig& rig, const Path& path, const WalkModel& model) {
+  const Eigen::Vector3d velocity = velocityOf(path, model);
+  SensitivePath result;
+  for (const PathPoint& point : path) {
+    if (const auto derivative = geometry::pointByParameters(
+            rig, point.position, geometry::camerasSeeing(rig, point.position), velocity)) {
+      result.path.push_back(point);
+      result.by_parameters.push_back(*derivative);
+    }
+  }
+  return result;
+}
+
+/// A place on the line through a path, and its derivative.
+struct Place {
+  Eigen::Isometry3d position;
+  Eigen::MatrixXd by_parameters;
+};
+
+Place placeOf(const SensitivePath& path, const Eigen::RowVectorXd& weights) {
+  const Eigen::Vector3d position = (weights * positionsOf(path.path)).transpose();
+  Eigen::MatrixXd sum = weights[0] * path.by_parameters[0];
+  for (std::size_t i = 1; i < path.by_parameters.size(); ++i)
+    sum += weights[static_cast<Eigen::Index>(i)] * path.by_parameters[i];
+  return {Eigen::Isometry3d(Eigen::Translation3d(position)), sum};
+}
+
+}  // namespace
+
+std::optional<SharedPlaces> sharedPlaces(const geometry::Rig& first,
+                                         const geometry::Rig& second,
+                                         const Passage& passage,
+                                         const WalkModel& model) {
+  const geometry::Rig& from = passage.from_first ? first : second;
+  const geometry::Rig& to = passage.from_first ? second : first;
+  const SensitivePath before = sensitivePath(from, passage.before, model);
+  const SensitivePath after = sensitivePath(to, passage.after, model);
+  if (before.path.size() < kFewestPoints || after.path.size() < kFewestPoints)
+    return std::nullopt;
+  const auto places = hiddenPlaces(before.path, after.path, model);
+  SharedPlaces result;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Place in_first = placeOf(before, places[i].before_weights);
+    Place in_second = placeOf(after, places[i].after_weights);
+    if (!passage.from_first)
+      std::swap(in_first, in_second);
+    result[i] = {in_first.position, in_second.position, in_first.by_parameters,
+                 in_second.by_parameters, places[i].stddev};
+  }
+  return result;
+}
+
+}  // namespace wiimote_tracker::rooms

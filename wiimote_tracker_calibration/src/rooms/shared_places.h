@@ -1,0 +1,26 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_SHARED_PLACES_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_SHARED_PLACES_H
+
+#include "rooms/passages.h"
+#include "session/rig_motion.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <array>
+#include <optional>
+
+namespace wiimote_tracker::rooms {
+
+/// The two hidden places of a passage, as both rigs measured them.
+using SharedPlaces = std::array<session::Shared, 2>;
+constexpr int kConditions = 6;  ///< Of a passage: the coordinates of both places.
+
+/// Nothing where hardly any point of a path is in view of two cameras of its rig.
+std::optional<SharedPlaces> sharedPlaces(const geometry::Rig& first,
+                                         const geometry::Rig& second,
+                                         const Passage& passage,
+                                         const WalkModel& model);
+
+}  // namespace wiimote_tracker::rooms
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_SHARED_PLACES_H

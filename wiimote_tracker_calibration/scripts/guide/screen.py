@@ -7,9 +7,9 @@ from .guide import Guide
 from .layout import bar, duration, figure, fitted, in_columns, padded, wrapped
 
 ROWS, COLUMNS = 24, 80          # the smallest window
-PANEL = 20                      # width of a camera's panel with its gap
 CELL_ROWS, CELL_COLUMNS = 6, 8  # as CalibrationCameraStatus.image_cells
-CELL = 2                        # characters per cell: they are twice as high as wide
+CELL = 2                        # columns of a cell in the smallest window; half as many rows
+GAP = 2                         # columns between two cameras
 KEYS = ['SPACE next  m masks  k connection  n new  t take corner  u undo  h hands-free',
         'w wave  s solve  v save  c check  i verdict  TAB cameras  ? all keys  q quit']
 VERDICT_ROW = '{:<14} {:>5} {:>5} {:>5}  {:>6} {:>6} {:>6} {:>6} {:>6} {:>6}'
@@ -45,7 +45,7 @@ def render(guide: Guide, now: float, view: str = 'cameras', page: int = 0, rows:
     elif view == 'trace':
         lines += padded(trace_lines(guide.trace), room - len(said)) + said
     else:
-        lines += camera_lines(guide, page, room - len(said), columns) + said
+        lines += camera_lines(guide, page, room - len(said), rows, columns) + said
     lines += prompt_lines(prompt, columns) if prompt is not None else KEYS
     return [fitted(line, columns) for line in lines]
 
@@ -80,64 +80,82 @@ def saying(guide: Guide, columns: int) -> List[str]:
 
 # --- Cameras
 
-def camera_lines(guide: Guide, page: int, room: int, columns: int) -> List[str]:
+def camera_lines(guide: Guide, page: int, room: int, rows: int, columns: int) -> List[str]:
     """The cameras, and the problems."""
     if guide.status is None:
         return [''] * room
-    lines = panels(guide, page, columns) + ['']
+    lines = panels(guide, page, rows, columns) + ['']
     return lines + padded(remarks(guide.status, columns, room - len(lines)), room - len(lines))
 
 
-def panels(guide: Guide, page: int, columns: int) -> List[str]:
+def panel_width(cell: int) -> int:
+    """Of a camera's picture with its border and the gap [columns]."""
+    return CELL_COLUMNS * cell + 2 + GAP
+
+
+def cell_width(cameras: int, rows: int, columns: int) -> int:
+    """The widest cell [columns] with which so many cameras fit side by side; half of the rows that
+    a window has beyond the smallest one are for larger pictures."""
+    widest = (columns // cameras - 2 - GAP) // CELL_COLUMNS
+    highest = CELL + (rows - ROWS) // CELL_ROWS
+    return max(min(widest, highest), CELL)
+
+
+def panels(guide: Guide, page: int, rows: int, columns: int) -> List[str]:
     """As many cameras side by side as fit."""
     cameras = guide.status.cameras
     if not cameras:
         return ['No camera is there yet: start the drivers.']
-    shown = max(columns // PANEL, 1)
+    shown = max(columns // panel_width(CELL), 1)
     pages = (len(cameras) + shown - 1) // shown
     first = page % pages * shown
-    drawn = [panel(guide, camera) for camera in cameras[first:first + shown]]
-    lines = [''.join(row.ljust(PANEL) for row in rows) for rows in zip(*drawn)]
+    cell = cell_width(min(shown, len(cameras)), rows, columns)
+    drawn = [panel(guide, camera, cell) for camera in cameras[first:first + shown]]
+    lines = [''.join(part.ljust(panel_width(cell)) for part in line) for line in zip(*drawn)]
     if pages > 1:
         last = min(first + shown, len(cameras))
         lines.append(f'cameras {first + 1} to {last} of {len(cameras)}; TAB shows others')
     return lines
 
 
-def panel(guide: Guide, camera) -> List[str]:
+def panel(guide: Guide, camera, cell: int = CELL) -> List[str]:
     """What one camera sees: its image with the captured corners (1 to 4), the LED now (O) and the
     cells that the wave has filled (##); its rate, and the samples of each corner or the wave."""
-    border = '+' + '-' * CELL_COLUMNS * CELL + '+'
-    lines = [fitted(camera.name, PANEL - 2), border]
-    lines += [f'|{"".join(row)}|' for row in picture(guide, camera)] + [border]
+    width = panel_width(cell) - 1
+    border = '+' + '-' * CELL_COLUMNS * cell + '+'
+    lines = [fitted(camera.name, width - 1), border]
+    lines += [f'|{"".join(row)}|' for row in picture(guide, camera, cell)] + [border]
     if camera.connected:
         spots = (f'{camera.blobs}+{camera.masks} masked' if camera.masks else
                  f'{camera.blobs} spot{"" if camera.blobs == 1 else "s"}')
-        lines.append(f'{figure(camera.rate, 0)} Hz  {spots}'[:PANEL - 1])
+        lines.append(f'{figure(camera.rate, 0)} Hz  {spots}'[:width])
     else:
         lines.append('no images')
-    lines.append(row_of('samples', [str(n) if n else '-' for n in camera.samples]))
+    lines.append(row_of('samples', [str(n) if n else '-' for n in camera.samples], width))
     if math.isnan(camera.image_coverage):
-        lines.append(row_of('spread', [figure(s, 1).lstrip('0') for s in camera.spread]))
+        lines.append(row_of('spread', [figure(s, 1).lstrip('0') for s in camera.spread], width))
     else:
         lines.append(f'wave {100.0 * camera.image_coverage:.0f} %  {figure(camera.speed, 0)} px/s')
     return lines
 
 
-def row_of(name: str, values: List[str]) -> str:
+def row_of(name: str, values: List[str], width: int) -> str:
     """Values per corner, with their name when there is room for it."""
     text = ' '.join([name] + values) if values else ''
-    return (text if len(text) < PANEL else ' '.join(values))[:PANEL - 1]
+    return (text if len(text) <= width else ' '.join(values))[:width]
 
 
-def picture(guide: Guide, camera) -> List[List[str]]:
+def picture(guide: Guide, camera, cell: int) -> List[List[str]]:
+    """Characters are twice as high as wide."""
+    height, width = CELL_ROWS * cell // 2, CELL_COLUMNS * cell
     has_wave = len(camera.image_cells) == CELL_ROWS * CELL_COLUMNS
     rows = []
-    for row in range(CELL_ROWS):
+    for row in range(height):
         rows.append([])
         for column in range(CELL_COLUMNS):
-            filled = has_wave and camera.image_cells[row * CELL_COLUMNS + column]
-            rows[-1] += ['#' if filled else '.' if has_wave else ' '] * CELL
+            filled = has_wave and camera.image_cells[row * CELL_ROWS // height * CELL_COLUMNS +
+                                                     column]
+            rows[-1] += ['#' if filled else '.' if has_wave else ' '] * cell
     marks = [(place, str(number))
              for number, place in enumerate(zip(camera.corner_x, camera.corner_y), 1)]
     if camera.sees_led:
@@ -145,10 +163,9 @@ def picture(guide: Guide, camera) -> List[List[str]]:
     size = guide.image_sizes.get(camera.name)
     for place, sign in marks if size else ():
         if all(math.isfinite(value) for value in place):
-            row = int(place[1] / size[1] * CELL_ROWS)
-            column = int(place[0] / size[0] * CELL_COLUMNS * CELL)
-            rows[min(max(row, 0), CELL_ROWS - 1)][
-                min(max(column, 0), CELL_COLUMNS * CELL - 1)] = sign
+            row = int(place[1] / size[1] * height)
+            column = int(place[0] / size[0] * width)
+            rows[min(max(row, 0), height - 1)][min(max(column, 0), width - 1)] = sign
     return rows
 
 

@@ -75,6 +75,20 @@ def test_the_picture_is_as_large_as_the_images_are():
     assert not any('O' in line for line in screen.render(guide, 1.0)[5:11])
 
 
+def test_a_large_window_has_large_pictures():
+    cells = [row == 5 and column == 7 for row in range(6) for column in range(8)]
+    cameras = [camera('wiimote_%d' % i, x=1023.0, y=0.0, image_cells=cells, image_coverage=0.02)
+               for i in range(1, 5)]
+    guide = guide_at(status(CalibrationStatus.WAVING, cameras=cameras, missing=['wave on']))
+    lines = screen.render(guide, 1.0, rows=40, columns=120)
+    pictures = [line for line in lines if line.startswith('|')]
+    assert [line[:26] for line in pictures] == (
+        ['|.......................O|'] + ['|........................|'] * 7 +
+        ['|.....................###|'])
+    assert all(line.count('|') == 8 for line in pictures)
+    assert '- wave on' in lines
+
+
 def test_the_answer_is_shown_beside_the_verdict_and_the_trace():
     guide = guide_at(status(CalibrationStatus.SAVED, message='saved to rig.yaml'))
     for view in ('verdict', 'trace'):

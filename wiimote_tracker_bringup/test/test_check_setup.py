@@ -115,6 +115,13 @@ def test_each_problem_gives_advice(check, situation, advice):
     assert advice in lines[-1], lines
 
 
+def test_a_list_that_is_not_there_is_to_be_written(tmp_path):
+    path = str(tmp_path / 'mine.yaml')
+    _, (_, is_fine, advice) = check_setup.read_cameras(path)
+    assert not is_fine
+    assert f'there is no {path}' in advice and f'list_wiimotes --write {path}' in advice
+
+
 def test_a_running_tracker_is_named(check):
     status, lines = check(master=[['/diagnostics', ['/door/driver', '/master_watch']]],
                           parameters={'/use_sim_time': False})

@@ -37,7 +37,7 @@ def render(guide: Guide, now: float, view: str = 'cameras', page: int = 0, rows:
     lines = [title(guide, now, columns)]
     lines += padded(wrapped(guide.silent(now) or guide.advice().sentence, columns, 2), 2)
     room = rows - len(lines) - len(KEYS)
-    said = saying(guide, columns)
+    said = saying(guide, columns, guide.verdict.text if view == 'verdict' and guide.verdict else '')
     if view == 'keys':
         lines += padded(key_lines(command_list, room), room)
     elif view == 'verdict':
@@ -68,14 +68,16 @@ def title(guide: Guide, now: float, columns: int) -> str:
     return left + right.rjust(columns - len(left))
 
 
-def saying(guide: Guide, columns: int) -> List[str]:
-    """The node's answer or message, or how far it is; at most three lines."""
+def saying(guide: Guide, columns: int, shown: str = '') -> List[str]:
+    """The node's answer or message unless it is shown already, or how far it is; at most three
+    lines."""
     if guide.running:
         text = guide.feedback or guide.running[-1] + ' ...'
         if guide.progress > 0.0:
             text = f'{bar(guide.progress, 20)} {text}'
         return wrapped(text, columns, 3)
-    return wrapped(guide.answer or (guide.status.message if guide.status else ''), columns, 3)
+    text = guide.answer or (guide.status.message if guide.status else '')
+    return wrapped(text, columns, 3) if text != shown else []
 
 
 # --- Cameras
@@ -210,7 +212,7 @@ def verdict_lines(guide: Guide, columns: int) -> List[str]:
         lines.append('A point will be right to within (standard deviation), at x, y, z in metres:')
         lines += in_columns([
             f'({at.x:.2f}, {at.y:.2f}, {at.z:.2f}) {figure(1e3 * sigma, 1)} mm'
-            for at, sigma in zip(verdict.predicted_at, verdict.predicted_stddev)], 3, 26)
+            for at, sigma in zip(verdict.predicted_at, verdict.predicted_stddev)], 3, 27)
     return lines
 
 
@@ -218,7 +220,8 @@ def measurement_lines(guide: Guide, columns: int) -> List[str]:
     """What was measured last, and what to measure next."""
     lines = [guide.measured] if guide.measured else []
     if guide.verdict.expected_error > 0.0:
-        lines.append(f'Expected error of a point: {1e3 * guide.verdict.expected_error:.1f} mm (RMS).')
+        lines.append('Expected error at the corners and above them: '
+                     f'{1e3 * guide.verdict.expected_error:.1f} mm (RMS).')
     if guide.verdict.next_measurement:
         lines.append(f'Next (keys d, a): {guide.verdict.next_measurement}')
     return [line for text in lines for line in wrapped(text, columns, 2)]

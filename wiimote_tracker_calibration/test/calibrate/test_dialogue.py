@@ -85,5 +85,5 @@ def test_the_verdict_says_what_to_measure_next_and_a_length_is_solved_at_once():
     lines = screen.render(dialogue.guide, 3.0, 'verdict')
     assert lines[4:8] == [
         'good', 'corner 1 to corner 3 is 3.5395 m by tape',
-        'Expected error of a point: 8.7 mm (RMS).',
+        'Expected error at the corners and above them: 8.7 mm (RMS).',
         'Next (keys d, a): measure from corner 2 to corner 4 by tape: 8.7 -> 6.1 mm']

@@ -95,6 +95,14 @@ def test_the_answer_is_shown_beside_the_verdict_and_the_trace():
         assert screen.render(guide, 1.0, view)[21] == 'saved to rig.yaml'
 
 
+def test_a_verdict_stands_on_its_page_once():
+    guide = guide_at(status(CalibrationStatus.SOLVED))
+    guide.verdict = CalibrationVerdict(text='Good: known to 3 mm.')
+    guide.answer = guide.verdict.text
+    for view in ('verdict', 'cameras'):
+        assert '\n'.join(screen.render(guide, 1.0, view)).count(guide.verdict.text) == 1
+
+
 def test_a_verdict_is_a_table():
     guide = guide_at(status(CalibrationStatus.SOLVED, rig_id='0123456789'))
     guide.verdict = CalibrationVerdict(
@@ -110,7 +118,7 @@ def test_a_verdict_is_a_table():
         'camera            px    mm     %      mm    deg   f px   c px     k1     ms',
         'wiimote_1       0.31   1.2    99     2.0  0.017    1.2    2.1      -   0.10',
         'A point will be right to within (standard deviation), at x, y, z in metres:',
-        '(0.00, 2.50, 0.00) 3.1 mm (0.00, 2.50, 2.50) - mm']
+        '(0.00, 2.50, 0.00) 3.1 mm  (0.00, 2.50, 2.50) - mm']
     guide.verdict.text = 'Usable. ' * 30
     guide.verdict.cameras *= 4
     guide.verdict.predicted_at = [Point(0, 0, z) for z in range(9)]

@@ -152,7 +152,7 @@ TEST_F(DriverTest, StampsFollowTheExposuresNotTheArrivals) {
 TEST_F(DriverTest, ALateSubscriberFindsTheClockInStep) {
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   ASSERT_TRUE(eventually([&] {
-    return values(driverStatus(diagnostics))["Exposure clock"] == "in step" &&
+    return values(driverStatus(diagnostics))["exposure clock"] == "in step" &&
            remote->server.connected();
   }));
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
@@ -330,7 +330,7 @@ TEST_F(DriverTest, BatteryIsPublishedWithAWarning) {
     return driverStatus(diagnostics).message.find("batteries are nearly empty") !=
            std::string::npos;
   }));
-  EXPECT_EQ("16", values(driverStatus(diagnostics))["Battery (raw)"]);
+  EXPECT_EQ("16", values(driverStatus(diagnostics))["battery (raw)"]);
   remote->server.setBattery(0xa0);
   EXPECT_TRUE(eventually([&] { return battery.last().percentage == 1.0f; }));
 }
@@ -406,20 +406,20 @@ TEST_F(DriverTest, DiagnosticsDescribeTheState) {
            status.level != diagnostic_msgs::DiagnosticStatus::ERROR;
   }));
   auto value = values(driverStatus(diagnostics));
-  EXPECT_EQ("streaming", value["Link"]);
-  EXPECT_EQ(0u, value["Device"].find("virtual:"));
-  EXPECT_EQ("none", value["Kernel driver"]);
-  EXPECT_EQ("160", value["Battery (raw)"]);
+  EXPECT_EQ("streaming", value["link"]);
+  EXPECT_EQ(0u, value["device"].find("virtual:"));
+  EXPECT_EQ("none", value["kernel driver"]);
+  EXPECT_EQ("160", value["battery (raw)"]);
   EXPECT_EQ("extended", value["IR mode"]);
   EXPECT_EQ("wii_5", value["IR sensitivity"]);
-  EXPECT_EQ("525.5, 413.2", value["Factory principal point [px]"]);
-  EXPECT_EQ(parameter("files") + "_1.wiirec", value["Recording"]);
-  EXPECT_GT(std::atof(value["Rate [Hz]"].c_str()), 1.0);
-  EXPECT_NEAR(10.035, std::atof(value["Period [ms]"].c_str()), 0.1);
+  EXPECT_EQ("525.5, 413.2", value["factory principal point [px]"]);
+  EXPECT_EQ(parameter("files") + "_1.wiirec", value["recording"]);
+  EXPECT_GT(std::atof(value["rate [Hz]"].c_str()), 1.0);
+  EXPECT_NEAR(10.035, std::atof(value["period [ms]"].c_str()), 0.1);
   for (const char* key :
-       {"Longest gap [ms]", "Gaps over 50 ms", "Reconnects", "Restorations", "Last restoration",
-        "Exposure clock", "Stamp standard deviation [ms]", "Jitter [ms]", "Dropped images",
-        "Stale images", "Steps of the system clock", "Reader priority"})
+       {"longest gap [ms]", "gaps over 50 ms", "reconnects", "restorations", "last restoration",
+        "exposure clock", "stamp standard deviation [ms]", "jitter [ms]", "dropped images",
+        "stale images", "steps of the system clock", "reader priority"})
     EXPECT_EQ(1u, value.count(key)) << key;
 }
 

@@ -37,11 +37,11 @@ TEST(DriverInOtherModes, FullModeHasIntensityAndBoundingBox) {
 
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   ASSERT_TRUE(eventually([&] {
-    return std::atof(values(driverStatus(diagnostics, "wiimote_2"))["Rate [Hz]"].c_str()) > 1.0;
+    return std::atof(values(driverStatus(diagnostics, "wiimote_2"))["rate [Hz]"].c_str()) > 1.0;
   }));
   auto value = values(driverStatus(diagnostics, "wiimote_2"));
   EXPECT_EQ("full", value["IR mode"]);
-  EXPECT_NEAR(20.07, std::atof(value["Period [ms]"].c_str()), 0.2);
+  EXPECT_NEAR(20.07, std::atof(value["period [ms]"].c_str()), 0.2);
 }
 
 TEST(DriverInOtherModes, BasicModeHasPositionsOnlyAndArrivalsCanBeStamps) {

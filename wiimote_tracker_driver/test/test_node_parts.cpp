@@ -241,8 +241,8 @@ TEST_F(DiagnosticsTest, RestorationsAreReportedOnce) {
   EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::WARN, status.level);
   EXPECT_NE(std::string::npos, status.message.find("the camera was switched off"));
   EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::OK, describe().level);
-  EXPECT_EQ("2", value("Restorations"));
-  EXPECT_EQ("the camera was switched off", value("Last restoration"));
+  EXPECT_EQ("2", value("restorations"));
+  EXPECT_EQ("the camera was switched off", value("last restoration"));
 }
 
 TEST_F(DiagnosticsTest, ProblemsAreInTheSummary) {
@@ -266,11 +266,11 @@ TEST_F(DiagnosticsTest, ProblemsAreInTheSummary) {
 }
 
 TEST_F(DiagnosticsTest, StateOfTheExposureClock) {
-  EXPECT_EQ("in step", value("Exposure clock"));
+  EXPECT_EQ("in step", value("exposure clock"));
   state_.stamp_stddev = 0.01;
-  EXPECT_EQ("learning", value("Exposure clock"));
+  EXPECT_EQ("learning", value("exposure clock"));
   state_.stamp_stddev = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ("off: stamps are arrivals less the latency", value("Exposure clock"));
+  EXPECT_EQ("off: stamps are arrivals less the latency", value("exposure clock"));
 }
 
 }  // namespace

@@ -47,34 +47,34 @@ const char* clockText(const DriverState& state) {
 }
 
 void addTiming(const DriverState& state, DiagnosticStatusWrapper& status) {
-  status.addf("Rate [Hz]", "%.1f", state.stream.rate);
-  status.addf("Longest gap [ms]", "%.0f", 1e3 * state.stream.longest_gap);
-  status.add("Gaps over 50 ms", state.stream.gaps);
-  status.add("Exposure clock", clockText(state));
-  status.addf("Stamp standard deviation [ms]", "%.3f", 1e3 * state.stamp_stddev);
-  status.addf("Period [ms]", "%.4f", 1e3 * state.clock.period);
-  status.addf("Period standard deviation [ms]", "%.4f", 1e3 * state.clock.period_stddev);
-  status.addf("Jitter [ms]", "%.2f", 1e3 * state.clock.jitter);
+  status.addf("rate [Hz]", "%.1f", state.stream.rate);
+  status.addf("longest gap [ms]", "%.0f", 1e3 * state.stream.longest_gap);
+  status.add("gaps over 50 ms", state.stream.gaps);
+  status.add("exposure clock", clockText(state));
+  status.addf("stamp standard deviation [ms]", "%.3f", 1e3 * state.stamp_stddev);
+  status.addf("period [ms]", "%.4f", 1e3 * state.clock.period);
+  status.addf("period standard deviation [ms]", "%.4f", 1e3 * state.clock.period_stddev);
+  status.addf("jitter [ms]", "%.2f", 1e3 * state.clock.jitter);
   // Duplicate reports can make it negative.
-  status.add("Dropped images", std::max<std::int64_t>(0, state.totals.dropped));
-  status.add("Stale images", state.totals.stale);
-  status.add("Steps of the system clock", state.totals.clock_steps);
+  status.add("dropped images", std::max<std::int64_t>(0, state.totals.dropped));
+  status.add("stale images", state.totals.stale);
+  status.add("steps of the system clock", state.totals.clock_steps);
 }
 
 void addRemote(const Link& link, DiagnosticStatusWrapper& status) {
-  status.add("Device", link.description);
-  status.add("Identity", link.identity);
-  status.add("Kernel driver", link.kernel_driver.empty() ? "none" : link.kernel_driver);
-  status.add("Reconnects", link.clock_epoch);
-  status.add("Restorations", link.restorations);
-  status.add("Last restoration", link.last_restoration.empty() ? "none" : link.last_restoration);
+  status.add("device", link.description);
+  status.add("identity", link.identity);
+  status.add("kernel driver", link.kernel_driver.empty() ? "none" : link.kernel_driver);
+  status.add("reconnects", link.clock_epoch);
+  status.add("restorations", link.restorations);
+  status.add("last restoration", link.last_restoration.empty() ? "none" : link.last_restoration);
   if (link.status) {
-    status.add("Battery (raw)", static_cast<int>(link.status->battery));
-    status.addf("Battery [%]", "%.0f", 100.0 * protocol::batteryCharge(link.status->battery));
+    status.add("battery (raw)", static_cast<int>(link.status->battery));
+    status.addf("battery [%]", "%.0f", 100.0 * protocol::batteryCharge(link.status->battery));
   }
   if (link.ir_calibration) {
     const auto centre = link.ir_calibration->centre();
-    status.addf("Factory principal point [px]", "%.1f, %.1f", centre[0],
+    status.addf("factory principal point [px]", "%.1f, %.1f", centre[0],
                 protocol::kSensorHeight - 1 - centre[1]);
   }
 }
@@ -88,13 +88,13 @@ LinkDiagnostics::LinkDiagnostics(protocol::IrFormat ir_format,
 
 void LinkDiagnostics::describe(const DriverState& state, DiagnosticStatusWrapper& status) {
   summarise(state, status);
-  status.add("Link", linkText(state.link.state));
+  status.add("link", linkText(state.link.state));
   addRemote(state.link, status);
   status.add("IR mode", irModeText(ir_format_));
   status.add("IR sensitivity", state.ir_sensitivity);
   addTiming(state, status);
-  status.add("Reader priority", state.reader_priority);
-  status.add("Recording", state.recording.empty() ? "none" : state.recording);
+  status.add("reader priority", state.reader_priority);
+  status.add("recording", state.recording.empty() ? "none" : state.recording);
 }
 
 void LinkDiagnostics::summarise(const DriverState& state, DiagnosticStatusWrapper& status) {

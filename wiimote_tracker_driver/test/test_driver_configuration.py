@@ -3,6 +3,7 @@
 import os
 import signal
 import subprocess
+import tempfile
 import threading
 import unittest
 
@@ -79,8 +80,11 @@ class DriverConfiguration(unittest.TestCase):
         self.assert_refused("unknown parameter /driver_g/other:", "__name:=driver_g", "_other:=1")
 
     def test_waits_for_its_remote_and_stops_at_once(self):
+        home = tempfile.TemporaryDirectory()  # without a calibration of the camera
+        self.addCleanup(home.cleanup)
         process = subprocess.Popen(
             COMMAND + ["__name:=driver_h", "_device:=00:00:00:00:00:01"],
+            env=dict(os.environ, ROS_HOME=home.name),
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         watchdog = threading.Timer(DEADLINE, process.kill)
         watchdog.start()
@@ -100,6 +104,7 @@ class DriverConfiguration(unittest.TestCase):
             process.wait()
         self.assertEqual(0, process.returncode, text)
         self.assertIn("namespace /", text)
+        self.assertNotIn("Camera calibration file", text, "a camera's first start is no fault")
 
 
 if __name__ == "__main__":

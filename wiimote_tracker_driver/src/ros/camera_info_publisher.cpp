@@ -4,20 +4,38 @@
 
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
+#include <filesystem>
+
 namespace wiimote_tracker::driver {
+namespace {
+
+/// Of camera_info_manager.
+constexpr const char* kDefaultUrl = "file://${ROS_HOME}/camera_info/${NAME}.yaml";
+
+/// Whether the URL names a file that is not there: the first `set_camera_info` will write it.
+bool isToBeWritten(const std::string& resolved_url) {
+  const std::string scheme = "file://";
+  return resolved_url.compare(0, scheme.size(), scheme) == 0 &&
+         !std::filesystem::exists(resolved_url.substr(scheme.size()));
+}
+
+}  // namespace
 
 CameraInfoPublisher::CameraInfoPublisher(const ros::NodeHandle& nh,
                                          const std::string& camera,
                                          const std::string& frame_id,
                                          const std::string& url,
                                          const std::string& url_parameter)
-    : nh_(nh), frame_id_(frame_id), manager_(nh, camera), topic_(nh_, "camera_info") {
+    : nh_(nh), frame_id_(frame_id), manager_(nh, camera, url), topic_(nh_, "camera_info") {
   if (!manager_.validateURL(url))
     throw ParameterError(url_parameter + " is '" + url +
                          "', but must be empty or a URL such as file:///path/to/camera.yaml or "
                          "package://name/camera.yaml");
-  // Reports errors of the file now rather than at the first image.
-  manager_.loadCameraInfo(url);
+  // Reports errors of the file now rather than at the first image, but not that there is none yet.
+  if (isToBeWritten(manager_.resolveURL(url.empty() ? kDefaultUrl : url, camera)))
+    manager_.setCameraInfo(sensor_msgs::CameraInfo());
+  else
+    manager_.getCameraInfo();
   factory_ = nh_.advertise<sensor_msgs::CameraInfo>("factory/camera_info", 1, true);
 }
 

@@ -111,8 +111,9 @@ TEST_F(Panel, CanBeReadOnDarkAndOnLightGround) {
 }
 
 TEST_F(Panel, CalibratesByPressingTheButtonThatItOffers) {
-  ASSERT_TRUE(waitFor([this] { return camerasAre("4 cameras: 4 not calibrated"); }))
-      << label("summary").toStdString();
+  ASSERT_TRUE(waitFor([this] {
+    return camerasAre("4 cameras: 4 not calibrated. Open the page Calibrate.");
+  })) << label("summary").toStdString();
   screenshot("cameras_before");
   open(1);
   find<QDoubleSpinBox>("side")->setValue(2.5);

@@ -68,6 +68,17 @@ TEST_F(NextStep, TheWalkAndWhatIsMissingAreRemarks) {
   EXPECT_EQ(guide_.remarks(), (std::vector<std::string>{"the walk", "wave higher"}));
 }
 
+TEST_F(NextStep, SpotsOfACameraAreNoProblemOnceThereIsARig) {
+  status_.cameras.resize(1);
+  status_.cameras[0].name = "a";
+  status_.cameras[0].problem = "sees 4 spots";
+  status_.cameras[0].health = "moved";
+  at(CalibrationStatus::READY);
+  EXPECT_EQ(guide_.remarks(), (std::vector<std::string>{"a: sees 4 spots", "a: moved"}));
+  at(CalibrationStatus::SAVED);
+  EXPECT_EQ(guide_.remarks(), std::vector<std::string>{"a: moved"});
+}
+
 TEST_F(NextStep, NothingCanBePressedUntilAnAnswerAndItsEffectAreKnown) {
   at(CalibrationStatus::IDLE);
   EXPECT_FALSE(guide_.isWaiting());
@@ -96,6 +107,8 @@ TEST_F(NextStep, AVerdictIsThatOfTheRigInUse) {
   guide_.onVerdict(verdict);
   at(CalibrationStatus::SOLVED);
   EXPECT_NE(guide_.verdict(), nullptr);
+  at(CalibrationStatus::WAVING);  // for the next rig
+  EXPECT_EQ(guide_.verdict(), nullptr);
   status_.rig_id = "another";
   at(CalibrationStatus::SAVED);
   EXPECT_EQ(guide_.verdict(), nullptr);

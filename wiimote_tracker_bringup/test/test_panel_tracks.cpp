@@ -59,6 +59,18 @@ TEST(Tracks, CountMessagesThatWereNotHandedOver) {
   EXPECT_EQ(view.summary(13.0), "1 LED, 270 points/s");
 }
 
+TEST(Tracks, ABodyWithoutSingleLedsIsTracked) {
+  TracksView view;
+  view.onPoints(points(1, TrackedPoint::LOST), 10.0);
+  wiimote_tracker_msgs::TrackedBodyArray bodies;
+  bodies.bodies.resize(1);
+  bodies.bodies[0].state = wiimote_tracker_msgs::TrackedBody::TRACKED;
+  view.onBodies(bodies, 10.0);
+  EXPECT_EQ(view.summary(10.0), "1 body");
+  view.onPoints(points(2, TrackedPoint::TRACKED), 10.0);
+  EXPECT_EQ(view.summary(10.0), "1 LED, 1 body");
+}
+
 TEST(Tracks, KeepTheLatestEvents) {
   TracksView view;
   wiimote_tracker_msgs::ZoneEvent zone;

@@ -75,6 +75,11 @@ TEST_F(View, SaysWhatToDoWithoutCameras) {
   EXPECT_EQ(view_.summary(now_), "No camera is there: start the drivers.");
 }
 
+TEST_F(View, SaysWhatToDoWithoutACalibration) {
+  run(0.1, {"a"}, {});
+  EXPECT_EQ(view_.summary(now_), "1 camera: 1 not calibrated. Open the page Calibrate.");
+}
+
 TEST_F(View, ACalibratedCameraWithImagesIsFine) {
   view_.onRig(rigOf({"a"}), now_);
   run(2.0, {"a"}, {});

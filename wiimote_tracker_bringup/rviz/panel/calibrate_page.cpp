@@ -7,6 +7,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QFontMetrics>
 #include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
@@ -26,6 +27,8 @@ namespace wiimote_tracker::panel {
 namespace {
 
 constexpr int kMostRemarks = 6;
+constexpr int kSentenceLines = 3;
+constexpr int kAdviceMargin = 9;       // around the advice [px of the screen]
 constexpr double kLongestSide = 20.0;  // [m]
 
 QString text(const std::string& words) {
@@ -44,8 +47,8 @@ QLabel* wrappedLabel(const QString& name, QWidget* parent) {
 QString measurementWords(const wiimote_tracker_msgs::CalibrationVerdict& verdict) {
   QString words;
   if (verdict.expected_error > 0.0)
-    words +=
-        "\nExpected error of a point: " + figure(1e3 * verdict.expected_error, 1) + " mm (RMS).";
+    words += "\nExpected error at the corners and above them: " +
+             figure(1e3 * verdict.expected_error, 1) + " mm (RMS).";
   if (!verdict.next_measurement.empty())
     words += "\nBest to measure next: " + text(verdict.next_measurement);
   return words;
@@ -68,34 +71,14 @@ QDoubleSpinBox* lengthBox(const QString& name, const QString& none, QWidget* par
 
 CalibratePage::CalibratePage(QWidget* parent, std::function<void(const Request&)> send)
     : QWidget(parent), send_(std::move(send)) {
+  addAdvice();
   auto* content = new QWidget;
   auto* layout = new QVBoxLayout(content);
-  layout->addWidget(title_ = new BigWords(content));
-  title_->setObjectName("title");
-  layout->addWidget(sentence_ = wrappedLabel("sentence", content));
-  QFont larger = font();
-  larger.setPointSizeF(1.25 * larger.pointSizeF());
-  sentence_->setFont(larger);
-  layout->addWidget(next_ = new QPushButton(content));
-  next_->setObjectName("next");
-  next_->setFont(larger);
-  next_->setMinimumHeight(44);
-  connect(next_, &QPushButton::clicked, this, [this] { sendFilled(advice_.request); });
-  layout->addWidget(progress_ = new QProgressBar(content));
-  progress_->setRange(0, 100);
-  layout->addWidget(answer_ = wrappedLabel("answer", content));
   layout->addWidget(square_ = new SquareDrawing(content));
   square_->setObjectName("square");
   layout->addWidget(remarks_ = wrappedLabel("remarks", content));
   layout->addWidget(verdict_ = wrappedLabel("verdict", content));
-  layout->addWidget(table_ = new QTableWidget(0, 6, content));
-  table_->setObjectName("table");
-  table_->setHorizontalHeaderLabels({"camera", "px", "mm", "fits %", "± mm", "± °"});
-  table_->verticalHeader()->hide();
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-  table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  addTable(layout);
   addLengths(layout);
   addButtons(layout);
   addFile(layout);
@@ -108,9 +91,35 @@ CalibratePage::CalibratePage(QWidget* parent, std::function<void(const Request&)
   scroll->setWidgetResizable(true);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setWidget(content);
-  auto* outer = new QVBoxLayout(this);
-  outer->setContentsMargins(0, 0, 0, 0);
-  outer->addWidget(scroll);
+  scroll->viewport()->setAutoFillBackground(false);  // the ground is the page's
+  content->setAutoFillBackground(false);
+  this->layout()->addWidget(scroll);
+}
+
+/// What to do next, which does not scroll.
+void CalibratePage::addAdvice() {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  auto* advice = new QVBoxLayout;
+  advice->setContentsMargins(kAdviceMargin, kAdviceMargin, kAdviceMargin, 0);
+  layout->addLayout(advice);
+  advice->addWidget(title_ = new BigWords(this));
+  title_->setObjectName("title");
+  advice->addWidget(sentence_ = wrappedLabel("sentence", this));
+  QFont larger = font();
+  larger.setPointSizeF(1.25 * larger.pointSizeF());
+  sentence_->setFont(larger);
+  sentence_->setAlignment(Qt::AlignTop);
+  // The button stays in its place.
+  sentence_->setMinimumHeight(kSentenceLines * QFontMetrics(larger).lineSpacing());
+  advice->addWidget(next_ = new QPushButton(this));
+  next_->setObjectName("next");
+  next_->setFont(larger);
+  next_->setMinimumHeight(44);
+  connect(next_, &QPushButton::clicked, this, [this] { sendFilled(advice_.request); });
+  advice->addWidget(progress_ = new QProgressBar(this));
+  progress_->setRange(0, 100);
+  advice->addWidget(answer_ = wrappedLabel("answer", this));
 }
 
 QPushButton* CalibratePage::addButton(const QString& words, Command command) {
@@ -122,10 +131,30 @@ QPushButton* CalibratePage::addButton(const QString& words, Command command) {
   return button;
 }
 
+/// Quality of each camera.
+void CalibratePage::addTable(QVBoxLayout* layout) {
+  layout->addWidget(table_ = new QTableWidget(0, 6, this));
+  table_->setObjectName("table");
+  table_->setHorizontalHeaderLabels({"camera", "px", "mm", "fits %", "± mm", "± °"});
+  const QStringList meanings = {"",
+                                "residual in the image [px]",
+                                "residual at the distance of the LED [mm]",
+                                "share of the spots that fit",
+                                "standard deviation of the camera's place",
+                                "standard deviation of the camera's orientation"};
+  for (int column = 0; column < meanings.size(); ++column)
+    table_->horizontalHeaderItem(column)->setToolTip(meanings[column]);
+  table_->verticalHeader()->hide();
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+}
+
 void CalibratePage::addLengths(QVBoxLayout* layout) {
   auto* row = new QGridLayout;
   row->addWidget(new QLabel("Side of the square", this), 0, 0);
-  row->addWidget(side_ = lengthBox("side", "the node's parameter", this), 0, 1);
+  row->addWidget(side_ = lengthBox("side", "parameter side_length", this), 0, 1);
   row->addWidget(new QLabel("Wand", this), 1, 0);
   row->addWidget(wand_length_ = lengthBox("wand", "none, one LED", this), 1, 1);
   without_square_ = new QCheckBox("No square: the wand lies on the floor first", this);
@@ -156,7 +185,7 @@ void CalibratePage::addButtons(QVBoxLayout* layout) {
 void CalibratePage::addFile(QVBoxLayout* layout) {
   auto* file = new QHBoxLayout;
   file->addWidget(path_ = new QLineEdit(this), 1);
-  path_->setPlaceholderText("rig file: that of the node");
+  path_->setPlaceholderText("parameter rig_file");
   file->addWidget(addButton("Save", Command::kSave));
   file->addWidget(addButton("Load", Command::kLoad));
   layout->addLayout(file);

@@ -39,6 +39,8 @@ class CalibratePage : public QWidget {
 
  private:
   QPushButton* addButton(const QString& text, Command command);
+  void addAdvice();
+  void addTable(QVBoxLayout* layout);
   void addLengths(QVBoxLayout* layout);
   void addButtons(QVBoxLayout* layout);
   void addFile(QVBoxLayout* layout);

@@ -26,6 +26,8 @@ CamerasPage::CamerasPage(QWidget* parent)
   scroll_->setFrameShape(QFrame::NoFrame);
   scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll_->setWidget(new QWidget);
+  scroll_->viewport()->setAutoFillBackground(false);  // the ground is the page's
+  scroll_->widget()->setAutoFillBackground(false);
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(summary_);
   layout->addWidget(scroll_, 1);

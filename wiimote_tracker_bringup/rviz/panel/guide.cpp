@@ -69,8 +69,11 @@ std::vector<std::string> Guide::remarks() const {
   if (!status_->walk.empty())
     result.push_back(status_->walk);
   result.insert(result.end(), status_->missing.begin(), status_->missing.end());
+  // Once there is a rig, a camera may see several LEDs, or none.
+  const bool is_calibrated =
+      status_->step == Status::SAVED || (status_->step == Status::IDLE && !status_->rig_id.empty());
   for (const auto& camera : status_->cameras) {
-    for (const std::string& text : {camera.problem, camera.health}) {
+    for (const std::string& text : {is_calibrated ? "" : camera.problem, camera.health}) {
       if (!text.empty())
         result.push_back(camera.name + ": " + text);
     }
@@ -85,7 +88,13 @@ bool Guide::isBusy() const {
 }
 
 const wiimote_tracker_msgs::CalibrationVerdict* Guide::verdict() const {
-  return verdict_ && status_ && verdict_->rig_id == status_->rig_id ? &*verdict_ : nullptr;
+  if (!verdict_ || !status_ || verdict_->rig_id != status_->rig_id)
+    return nullptr;
+  const std::uint8_t step = status_->step;
+  // Meanwhile a new rig is being calibrated.
+  const bool is_old = step == Status::READY || step == Status::CAPTURING ||
+                      step == Status::WAVING || step == Status::COMPLETE || step == Status::SOLVING;
+  return is_old ? nullptr : &*verdict_;
 }
 
 Advice Guide::advice(double now) const {

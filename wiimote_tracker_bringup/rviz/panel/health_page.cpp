@@ -38,7 +38,7 @@ QIcon iconOf(std::uint8_t level) {
 HealthPage::HealthPage(QWidget* parent) : QWidget(parent), tree_(new QTreeWidget(this)) {
   tree_->setObjectName("health");
   tree_->setHeaderLabels({"part", "state"});
-  tree_->header()->resizeSection(0, 220);
+  tree_->header()->resizeSection(0, 200);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(tree_);

@@ -117,7 +117,7 @@ std::string TrackerView::summary(double now) const {
       text += " (" + joined(names, ", ") + ")";
   }
   return std::to_string(cameras_.size()) + (cameras_.size() == 1 ? " camera: " : " cameras: ") +
-         text;
+         text + (rig_ ? "" : ". Open the page Calibrate.");
 }
 
 }  // namespace wiimote_tracker::panel

@@ -116,9 +116,13 @@ std::vector<TracksView::Row> TracksView::bodies(double now) const {
 std::string TracksView::summary(double now) const {
   if (now - points_at_ >= kStaleAfter)
     return "Nothing is tracked: calibrate, or check that the tracker runs.";
-  const std::size_t count = leds(now).size();
-  std::string text = count == 0 ? "No LED is seen by two cameras"
-                                : std::to_string(count) + (count == 1 ? " LED" : " LEDs");
+  const std::size_t count = leds(now).size(), body_count = bodies(now).size();
+  std::string text = std::to_string(count) + (count == 1 ? " LED" : " LEDs");
+  if (body_count > 0)
+    text = (count > 0 ? text + ", " : "") + std::to_string(body_count) +
+           (body_count == 1 ? " body" : " bodies");
+  else if (count == 0)
+    text = "No LED is seen by two cameras";
   const double duration = counts_.back().time - counts_.front().time;
   if (duration > 0.5 * kCountWindow)
     text += format(", %.0f points/s", (counts_.back().number - counts_.front().number) / duration);

@@ -175,7 +175,10 @@ def remarks(status, columns: int, room: int) -> List[str]:
     """What is missing, and the problems of each camera; the most urgent first."""
     sentences = [status.walk] if status.walk else []
     sentences += status.missing
-    for kind in ('problem', 'health'):
+    # Once there is a rig, a camera may see several LEDs, or none.
+    is_calibrated = (status.step == status.SAVED or
+                     status.step == status.IDLE and status.rig_id)
+    for kind in ('health',) if is_calibrated else ('problem', 'health'):
         sentences += [f'{camera.name}: {getattr(camera, kind)}' for camera in status.cameras
                       if getattr(camera, kind)]
     lines: List[str] = []

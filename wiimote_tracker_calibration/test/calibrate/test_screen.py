@@ -75,6 +75,14 @@ def test_the_picture_is_as_large_as_the_images_are():
     assert not any('O' in line for line in screen.render(guide, 1.0)[5:11])
 
 
+def test_spots_of_a_camera_are_no_problem_once_there_is_a_rig():
+    for step, shown in ((CalibrationStatus.READY, True), (CalibrationStatus.SAVED, False)):
+        guide = guide_at(status(step, cameras=[camera(problem='sees 4 spots', health='moved')]))
+        lines = screen.render(guide, 1.0)
+        assert ('- wiimote_1: sees 4 spots' in lines) == shown
+        assert '- wiimote_1: moved' in lines
+
+
 def test_a_large_window_has_large_pictures():
     cells = [row == 5 and column == 7 for row in range(6) for column in range(8)]
     cameras = [camera('wiimote_%d' % i, x=1023.0, y=0.0, image_cells=cells, image_coverage=0.02)

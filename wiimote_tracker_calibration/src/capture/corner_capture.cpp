@@ -135,7 +135,7 @@ bool CornerCapture::isComplete(const Camera& camera) const {
 std::string CornerCapture::movement(const StillSpot& spot) const {
   if (spot.samples() < kSamplesToJudge)
     return "";
-  const char* advice = "; keep the LED still and capture this corner again";
+  const char* advice = "; keep the LED still and try again";
   if (spot.spread() > options_.spread_limit)
     return "the LED moved, its spot is spread over " + pixels(spot.spread()) + ", at most " +
            pixels(options_.spread_limit) + " are allowed" + advice;

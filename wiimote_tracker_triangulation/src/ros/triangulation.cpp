@@ -181,8 +181,8 @@ void Triangulation::onProblem(const std::string& sentence) {
 void Triangulation::onTimer() {
   if (!tracker_.hasRig()) {
     ROS_WARN_THROTTLE(10.0,
-                      "Waiting for a rig on %s: start the calibration node and calibrate, or "
-                      "load a saved rig.",
+                      "Waiting for a calibrated rig on %s: run  rosrun "
+                      "wiimote_tracker_calibration calibrate  or open Calibrate in rviz.",
                       rig_subscriber_.getTopic().c_str());
   }
   if (const auto bodies = learning_.change())  // while no image comes

@@ -137,7 +137,11 @@ void writeRigFile(const Rig& rig, const std::string& path) {
   }
   out << YAML::EndMap;
 
-  out << YAML::Key << "zones" << YAML::Value << YAML::BeginSeq;
+  // Without zones, the file shows how one is written.
+  out << YAML::Key << "zones" << YAML::Value;
+  if (rig.zones.empty())
+    out << YAML::Flow;
+  out << YAML::BeginSeq;
   for (const Zone& zone : rig.zones) {
     out << YAML::BeginMap;
     emitText("name", zone.name, out);
@@ -146,6 +150,8 @@ void writeRigFile(const Rig& rig, const std::string& path) {
     out << YAML::EndMap;
   }
   out << YAML::EndSeq;
+  if (rig.zones.empty())
+    out << YAML::Comment("[m] such as [{name: hall, minimum: [0, 0, 0], maximum: [2, 3, 2.5]}]");
   emitMatrix("covariance", rig.covariance, out);
   if (rig.remap)
     emitRemap(*rig.remap, out);

@@ -229,6 +229,18 @@ TEST_F(RigFile, TheUnusedCoefficientOfAWideLensHasNoVariance) {
   EXPECT_THROW(writeRigFile(rig, path_), InvalidRigError);
 }
 
+TEST_F(RigFile, AFileWithoutZonesShowsHowOneIsWritten) {
+  Rig rig = fullRig();
+  rig.zones.clear();
+  write(rig);
+  EXPECT_TRUE(readRigFile(path_).zones.empty());
+  put(with("zones: []  # [m] such as [", "zones: ["));
+  const std::vector<Zone> zones = readRigFile(path_).zones;
+  ASSERT_EQ(1u, zones.size());
+  EXPECT_EQ("hall", zones[0].name);
+  EXPECT_EQ(Eigen::Vector3d(2.0, 3.0, 2.5), zones[0].maximum);
+}
+
 TEST_F(RigFile, ManyRandomRigsComeBackBitForBit) {
   Random random(42);
   for (int i = 0; i < 20; ++i) {

@@ -1,4 +1,4 @@
-// The texts of rviz's display Markers, in the pixels that rviz draws.
+// The texts and balls of rviz's display Markers, in the pixels that rviz draws.
 
 #include "contrast.h"
 
@@ -71,8 +71,30 @@ class View {
     panel_.setBackgroundColor(Ogre::ColourValue(brightness, brightness, brightness));
   }
 
-  /// The picture of texts that were not there before. @param together both are at the left one's
-  QImage show(float brightness, bool together = false) {
+  /// The picture of texts that were not there before.
+  QImage show(float brightness) { return show(texts(brightness)); }
+
+  /// The same of texts that are both at the place of the left one.
+  QImage showTogether() {
+    visualization_msgs::MarkerArray array = texts(1.0f);
+    array.markers[1].pose = array.markers[0].pose;
+    return show(array, true);
+  }
+
+  /// The same of two balls with a diameter of 1 cm.
+  QImage showBalls() {
+    visualization_msgs::MarkerArray balls = texts(1.0f);
+    balls.markers.resize(2);
+    for (visualization_msgs::Marker& ball : balls.markers) {
+      ball.type = visualization_msgs::Marker::SPHERE;
+      ball.scale.x = ball.scale.y = ball.scale.z = 0.01;
+    }
+    return show(balls);
+  }
+
+ private:
+  /// @param only_left nothing is in the right half
+  QImage show(const visualization_msgs::MarkerArray& markers, bool only_left = false) {
     visualization_msgs::MarkerArray clear;
     clear.markers.resize(1);
     clear.markers[0].action = visualization_msgs::Marker::DELETEALL;
@@ -80,16 +102,12 @@ class View {
     pictureWhen([](const QImage& image) {
       return drawnIn(half(image, 0)).isNull() && drawnIn(half(image, 1)).isNull();
     });
-    visualization_msgs::MarkerArray array = texts(brightness);
-    if (together)
-      array.markers[1].pose = array.markers[0].pose;
-    publisher_.publish(array);
-    return pictureWhen([together](const QImage& image) {
-      return !drawnIn(half(image, 0)).isNull() && drawnIn(half(image, 1)).isNull() == together;
+    publisher_.publish(markers);
+    return pictureWhen([only_left](const QImage& image) {
+      return !drawnIn(half(image, 0)).isNull() && drawnIn(half(image, 1)).isNull() == only_left;
     });
   }
 
- private:
   static visualization_msgs::MarkerArray texts(float brightness) {
     visualization_msgs::Marker text;
     text.header.frame_id = "world";
@@ -157,10 +175,17 @@ TEST_F(Texts, AreAsHighAsTheWindowsFarAndNearAboveWhatTheyName) {
 }
 
 TEST_F(Texts, DoNotCoverEachOther) {
-  const QRect both = drawnIn(half(view_->show(1.0f, true), 0));
+  const QRect both = drawnIn(half(view_->showTogether(), 0));
   const int line = QFontMetrics(QApplication::font()).height();
   EXPECT_GT(both.height(), 1.5 * line);
   EXPECT_LT(both.height(), 2.1 * line);
+}
+
+TEST_F(Texts, BallsFarAndNearAreSeenBesideThem) {
+  const int line = QFontMetrics(QApplication::font()).height();
+  const QImage image = view_->showBalls();
+  for (int number : {0, 1})
+    EXPECT_GT(drawnIn(half(image, number)).height(), 0.5 * line) << number;
 }
 
 TEST_F(Texts, CanBeReadOnDarkAndOnLightGround) {

@@ -3,6 +3,8 @@
 #include <QRectF>
 
 #include <OgreCamera.h>
+#include <OgreEntity.h>
+#include <OgreMesh.h>
 #include <OgreSceneNode.h>
 #include <OgreViewport.h>
 #include <rviz/default_plugin/marker_array_display.h>
@@ -14,13 +16,15 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
 namespace wiimote_tracker::panel {
 namespace {
 
-constexpr float kDark = 0.35f;  // share of a text's brightness on a light ground
+constexpr float kDark = 0.35f;         // share of a text's brightness on a light ground
+constexpr float kSmallestBall = 0.7f;  // share of a text's height
 
 bool isLight(const Ogre::ColourValue& color) {
   return color.r + color.g + color.b > 1.5f;
@@ -69,54 +73,83 @@ QRectF clearOf(const std::vector<QRectF>& others, QRectF box) {
   return box;
 }
 
-void addTexts(Ogre::SceneNode* node, std::vector<rviz::MovableText*>* texts) {
-  for (unsigned short i = 0; i < node->numAttachedObjects(); ++i) {
-    if (auto* text = dynamic_cast<rviz::MovableText*>(node->getAttachedObject(i)))
-      texts->push_back(text);
-  }
+bool isBall(const Ogre::Entity& shape, const Ogre::Vector3& size) {
+  const auto [least, most] = std::minmax({std::abs(size.x), std::abs(size.y), std::abs(size.z)});
+  return shape.getMesh()->getName() == "rviz_sphere.mesh" && most < 1.001f * least;
+}
+
+/// What is drawn at a node and below it.
+template <typename Function>
+void forEachObject(Ogre::SceneNode* node, const Function& function) {
+  for (unsigned short i = 0; i < node->numAttachedObjects(); ++i)
+    function(node->getAttachedObject(i));
   for (unsigned short i = 0; i < node->numChildren(); ++i)
-    addTexts(static_cast<Ogre::SceneNode*>(node->getChild(i)), texts);
+    forEachObject(static_cast<Ogre::SceneNode*>(node->getChild(i)), function);
 }
 
 }  // namespace
 
 /// Markers whose texts are as high as those of the window at any distance, dark on a light ground
-/// and light on a dark one. Where one would cover another, it stands above it.
+/// and light on a dark one. Where one would cover another, it stands above it. Balls, such as LEDs,
+/// are not much smaller; ellipsoids keep their size.
 class ReadableMarkers : public rviz::MarkerArrayDisplay {
  public:
   void update(float wall_dt, float ros_dt) override {
     rviz::MarkerArrayDisplay::update(wall_dt, ros_dt);
     const rviz::ViewController* view = context_->getViewManager()->getCurrent();
     if (view && view->getCamera()->getViewport())
-      fitTexts(*view->getCamera(), *view->getCamera()->getViewport());
+      fit(*view->getCamera(), *view->getCamera()->getViewport());
   }
 
  private:
-  void fitTexts(const Ogre::Camera& camera, const Ogre::Viewport& view) {
-    const QFontMetrics font(QGuiApplication::font());
-    const double ratio = qGuiApp->devicePixelRatio();  // pixels of the view per one of the window
-    std::vector<rviz::MovableText*> texts;
-    addTexts(scene_node_, &texts);
+  void fit(const Ogre::Camera& camera, const Ogre::Viewport& view) {
     std::vector<QRectF> drawn;
-    for (rviz::MovableText* text : texts) {
-      Ogre::SceneNode* const node = text->getParentSceneNode();
-      const std::optional<Seen> seen = seenAt(node->_getDerivedPosition(), camera, view);
+    forEachObject(scene_node_, [&](Ogre::MovableObject* object) {
+      const Ogre::Vector3 place = object->getParentSceneNode()->_getDerivedPosition();
+      const std::optional<Seen> seen = seenAt(place, camera, view);
       if (!seen)
-        continue;
-      const auto line = static_cast<float>(ratio * font.height());
-      const float scale = line * seen->pixel_size / text->getCharacterHeight();
-      node->setScale(scale, scale, scale);
-      // Not across what it names.
-      text->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_ABOVE);
-      const QSizeF size = ratio * QSizeF(font.size(0, text->getCaption().c_str()));
-      const QPointF left(seen->point - QPointF(0.5 * size.width(), 0.0));
-      drawn.push_back(clearOf(drawn, QRectF(left, size)));
-      const auto rise = static_cast<float>(drawn.back().top() - left.y());
-      text->setLocalTranslation(Ogre::Vector3(0.0f, rise * seen->pixel_size, 0.0f));
-      const Ogre::ColourValue color = readable(text->getColor(), view.getBackgroundColour());
-      if (color != text->getColor())
-        text->setColor(color);
-    }
+        return;
+      if (auto* text = dynamic_cast<rviz::MovableText*>(object))
+        fitText(*seen, view.getBackgroundColour(), text, &drawn);
+      else if (auto* shape = dynamic_cast<Ogre::Entity*>(object))
+        fitShape(*seen, *shape);
+    });
+  }
+
+  /// @param drawn where the texts before are [px], to which this one is added
+  static void fitText(const Seen& seen,
+                      const Ogre::ColourValue& ground,
+                      rviz::MovableText* text,
+                      std::vector<QRectF>* drawn) {
+    const float scale = lineHeight() * seen.pixel_size / text->getCharacterHeight();
+    text->getParentSceneNode()->setScale(scale, scale, scale);
+    // Not across what it names.
+    text->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_ABOVE);
+    const QSizeF size = qGuiApp->devicePixelRatio() *
+                        QSizeF(QFontMetrics(QGuiApplication::font())
+                                   .size(0, QString::fromStdString(text->getCaption())));
+    const QPointF left(seen.point - QPointF(0.5 * size.width(), 0.0));
+    drawn->push_back(clearOf(*drawn, QRectF(left, size)));
+    const auto rise = static_cast<float>(drawn->back().top() - left.y());
+    text->setLocalTranslation(Ogre::Vector3(0.0f, rise * seen.pixel_size, 0.0f));
+    const Ogre::ColourValue color = readable(text->getColor(), ground);
+    if (color != text->getColor())
+      text->setColor(color);
+  }
+
+  /// The next message gives the shape its own size again.
+  static void fitShape(const Seen& seen, const Ogre::Entity& shape) {
+    Ogre::SceneNode* const node = shape.getParentSceneNode()->getParentSceneNode();
+    const Ogre::Vector3 size = node->getScale();  // rviz turns it, so that one is negative
+    const float share = std::abs(size.x) / (kSmallestBall * lineHeight() * seen.pixel_size);
+    if (isBall(shape, size) && share < 1.0f)
+      node->setScale(size / share);
+  }
+
+  /// Of the window's text [px of the view].
+  static float lineHeight() {
+    return static_cast<float>(QFontMetrics(QGuiApplication::font()).height() *
+                              qGuiApp->devicePixelRatio());
   }
 };
 

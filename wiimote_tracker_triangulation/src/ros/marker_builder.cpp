@@ -24,7 +24,7 @@ using markers::kTextHeight;
 using visualization_msgs::Marker;
 using wiimote_tracker_msgs::TrackedPoint;
 
-constexpr double kPointDiameter = 0.14;    // [m]
+constexpr double kPointDiameter = 0.1;     // [m]
 constexpr double kBlobDiameter = 0.03;     // [m]
 constexpr double kRayLength = 10.0;        // of rays without a point [m]
 constexpr double kOldView = 0.2;           // older views are not drawn [s]

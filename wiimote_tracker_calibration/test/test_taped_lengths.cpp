@@ -48,7 +48,7 @@ class TapedLengths : public ::testing::Test {
   }
 
   wave::WaveScene scene_;
-  wave::SimulatedWave simulated_{{}, {}, {}, wave::SimulatedPath(0.0, random_), {}, {}};
+  wave::SimulatedWave simulated_{{}, {}, {}, {}, wave::SimulatedPath(0.0, random_), {}, {}};
   wave::Recording taped_;
 
  private:

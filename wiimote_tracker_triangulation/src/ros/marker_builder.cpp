@@ -236,12 +236,16 @@ void MarkerBuilder::add(Marker marker) {
 }
 
 void MarkerBuilder::addLed(const TrackedPoint& led) {
-  // Tentative and predicted LEDs are pale.
+  // Tentative and predicted LEDs are pale. The former are grey: most of them never get a label.
   const float alpha = led.state == TrackedPoint::TRACKED ? 1.0f : 0.4f;
+  const auto own_color = [&](float share) {
+    return led.state == TrackedPoint::TENTATIVE ? color(0.7f, 0.7f, 0.7f, share)
+                                                : colorOfLed(led.label, share);
+  };
   Marker point = marker("point", led.id, Marker::SPHERE);
   point.pose.position = led.position;
   setScale(Vector3d::Constant(kPointDiameter), &point);
-  point.color = colorOfLed(led.label, alpha);
+  point.color = own_color(alpha);
   array_.markers.push_back(point);
 
   Marker ellipsoid = marker("covariance", led.id, Marker::SPHERE);
@@ -262,12 +266,12 @@ void MarkerBuilder::addLed(const TrackedPoint& led) {
   label.pose.position = pointOf(vectorOf(led.position) + kTextHeight * Vector3d::UnitZ());
   label.text = led.label + (led.label_confidence < LedLabels::kDoubtful ? "?" : "");
   label.scale.z = kTextHeight;
-  label.color = colorOfLed(led.label, alpha);
+  label.color = own_color(alpha);
   array_.markers.push_back(label);
 
   Marker height = marker("height", led.id, Marker::LINE_LIST);
   height.scale.x = kLineWidth;
-  height.color = colorOfLed(led.label, 0.3f * alpha);
+  height.color = own_color(0.3f * alpha);
   Marker shadow = marker("shadow", led.id, Marker::SPHERE_LIST);
   setScale({kPointDiameter, kPointDiameter, kLineWidth}, &shadow);
   shadow.color = height.color;
@@ -281,7 +285,7 @@ void MarkerBuilder::addLed(const TrackedPoint& led) {
 
   if (led.state != TrackedPoint::TENTATIVE) {
     Trail& trail = trails_[led.id];
-    trail.color = colorOfLed(led.label, 0.8f);
+    trail.color = own_color(0.8f);
     trail.places.push_back({time_, led.position});
   }
 }

@@ -398,6 +398,25 @@ TEST(Markers, ALabelKeepsItsColourOnAnotherTrack) {
   EXPECT_EQ(find(before, "point", 0).color, find(after, "point", 7).color);
 }
 
+TEST(Markers, TentativeLedsUseUpNoColours) {
+  const Rig rig = threeCameras();
+  MarkerBuilder fresh({}), builder({});
+  fresh.setRig(rig);
+  builder.setRig(rig);
+  auto points = messageOf(someSnapshot(rig), rig);
+  points.points.resize(2, points.points[0]);
+  TrackedPoint& other = points.points[1];
+  other.id = 3;
+  other.label = "led_3";
+  other.state = TrackedPoint::TENTATIVE;
+  const auto grey = find(builder.build(points, {}), "point", 3).color;
+  EXPECT_EQ(grey.r, grey.b);
+  other.label = "other";
+  other.state = TrackedPoint::TRACKED;
+  EXPECT_EQ(find(fresh.build(points, {}), "point", 3).color,
+            find(builder.build(points, {}), "point", 3).color);
+}
+
 TEST(Markers, AskWhetherADoubtfulLabelIsRight) {
   const Rig rig = threeCameras();
   MarkerBuilder builder({});

@@ -25,6 +25,7 @@ namespace {
 
 constexpr float kDark = 0.35f;         // share of a text's brightness on a light ground
 constexpr float kSmallestBall = 0.7f;  // share of a text's height
+constexpr float kWidth = 1.25f;        // of rviz's letters, which are drawn wider than the window's
 
 bool isLight(const Ogre::ColourValue& color) {
   return color.r + color.g + color.b > 1.5f;
@@ -125,9 +126,10 @@ class ReadableMarkers : public rviz::MarkerArrayDisplay {
     text->getParentSceneNode()->setScale(scale, scale, scale);
     // Not across what it names.
     text->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_ABOVE);
-    const QSizeF size = qGuiApp->devicePixelRatio() *
-                        QSizeF(QFontMetrics(QGuiApplication::font())
-                                   .size(0, QString::fromStdString(text->getCaption())));
+    QSizeF size = qGuiApp->devicePixelRatio() *
+                  QSizeF(QFontMetrics(QGuiApplication::font())
+                             .size(0, QString::fromStdString(text->getCaption())));
+    size.rwidth() *= kWidth;
     const QPointF left(seen.point - QPointF(0.5 * size.width(), 0.0));
     drawn->push_back(clearOf(*drawn, QRectF(left, size)));
     const auto rise = static_cast<float>(drawn->back().top() - left.y());

@@ -135,10 +135,10 @@ TEST(Triangulation, PublishesMarkers) {
   std::set<std::string> kinds;
   for (const auto& marker : g_bench->markers_.back().markers)
     kinds.insert(marker.ns);
-  EXPECT_EQ((std::set<std::string>{"blob", "camera", "covariance", "frustum", "height",
-                                   "housing", "image_plane", "label", "mask", "point", "ray",
-                                   "shadow", "trail"}),
-            kinds);
+  EXPECT_EQ(
+      (std::set<std::string>{"blob", "camera", "covariance", "frustum", "height", "housing",
+                             "image_plane", "label", "mask", "point", "ray", "shadow", "trail"}),
+      kinds);
   // Throttled: 20 per second of the images' time.
   EXPECT_LT(static_cast<double>(g_bench->markers_.size()), 21.0 * (g_bench->now_ - 1000.0) + 1.0);
 }

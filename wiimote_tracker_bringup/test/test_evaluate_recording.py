@@ -218,7 +218,7 @@ def test_the_place_of_the_truth_on_a_turning_body_is_found():
     truth = Truth(times, center + turns.apply(PLACE), 1.0, 0.0, 0.1)
     path = accuracy.Path(times, center + noise[:, :3],
                          np.tile(np.diag(deviation ** 2), (len(times), 1, 1)),
-                         (Rotation.from_rotvec(noise[:, 3:]) * turns).as_matrix())
+                         Rotation.from_rotvec(noise[:, 3:]) * turns)
     _, _, place = accuracy.fit(path, truth, 'rigid')
     assert place == pytest.approx(PLACE, abs=0.0005)
     figures, _, _ = accuracy.score(path, truth, 'rigid')

@@ -48,7 +48,7 @@ void expectOnPath(const TrackedPointArray& array, std::size_t rays) {
 }
 
 TEST(Triangulation, AdvisesWithoutARig) {
-  EXPECT_TRUE(g_bench->waitForLog("calibrate, or load a saved rig"));
+  EXPECT_TRUE(g_bench->waitForLog("rosrun wiimote_tracker_calibration calibrate"));
 }
 
 TEST(Triangulation, RefusesABadRigWithOneSentence) {

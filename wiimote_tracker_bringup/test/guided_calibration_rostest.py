@@ -324,8 +324,10 @@ class GuidedCalibration(unittest.TestCase):
             if info.K[0] > 0.0:
                 break
         # The views are still stored: the same lens again, and one with the simulated lens's model.
+        # OpenCV's threads add up the views in any order, so the last digits differ.
         solve = rospy.ServiceProxy('calibration/board/solve', SolveBoard)
-        self.assertEqual(info.K, solve(SolveBoardRequest.AUTOMATIC).camera_info.K)
+        np.testing.assert_allclose(info.K, solve(SolveBoardRequest.AUTOMATIC).camera_info.K,
+                                   atol=1e-6)  # [px]
         lens = solve(SolveBoardRequest.K1)
         self.assertTrue(lens.success, lens.message)
         truth = self.scene.cameras[0].parameters

@@ -9,8 +9,8 @@
 #include "continuous/continuous_calibration.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -61,7 +61,7 @@ std::vector<double> poseErrors(const std::vector<geometry::RigCamera>& truth,
     error << turned.angle() * turned.axis(), truth[i].camera.center() - estimate.center();
     const Eigen::Index first = geometry::firstParameter(i);
     const Eigen::Matrix<double, 6, 6> covariance = rig.covariance.block<6, 6>(first, first);
-    result.push_back(error.dot(covariance.ldlt().solve(error)));
+    result.push_back(geometry::squaredMahalanobis(error, covariance));
   }
   return result;
 }

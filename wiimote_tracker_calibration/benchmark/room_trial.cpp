@@ -2,10 +2,9 @@
 
 #include "simulated_rig.h"
 
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
-
-#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <string>
@@ -186,7 +185,7 @@ double TwoRooms::nees(const rooms::JoinedRooms& joined) const {
       truth.translation() - pose.translation();
   const Eigen::Index at = geometry::firstParameter(index);
   const Eigen::Matrix<double, 6, 6> covariance = joined.rig.covariance.block<6, 6>(at, at);
-  return error.dot(covariance.ldlt().solve(error));
+  return geometry::squaredMahalanobis(error, covariance);
 }
 
 }  // namespace wiimote_tracker

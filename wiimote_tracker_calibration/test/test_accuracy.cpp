@@ -6,10 +6,10 @@
 
 #include "simulated_square.h"
 
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <gtest/gtest.h>
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <opencv2/calib3d.hpp>
 
@@ -144,7 +144,7 @@ double normalizedSquare(const Eigen::VectorXd& errors, const Eigen::MatrixXd& co
   const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
   const Eigen::VectorXd scaled = scale.asDiagonal() * errors;
-  return scaled.dot(correlation.ldlt().solve(scaled));
+  return geometry::squaredMahalanobis(scaled, correlation);
 }
 
 /// Mean normalised estimation error squared per dimension, of everything and of one camera's pose.

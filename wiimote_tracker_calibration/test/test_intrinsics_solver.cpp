@@ -3,6 +3,7 @@
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
 
 #include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
@@ -157,7 +158,7 @@ TEST(SolveIntrinsics, TwelveViewsReachTheStatedBound) {
     const Eigen::MatrixXd covariance = solution.covariance.topLeftCorner(kLens, kLens);
     squares += error.cwiseAbs2() / kRuns;
     reported += covariance.diagonal() / kRuns;
-    nees += error.dot(covariance.ldlt().solve(error)) / kRuns;
+    nees += geometry::squaredMahalanobis(error, covariance) / kRuns;
     variance += solution.pixel_stddev * solution.pixel_stddev / kRuns;
     EXPECT_TRUE((solution.covariance.bottomRightCorner(4, 4).isZero(0.0)));
   }
@@ -278,7 +279,7 @@ TEST(SolveIntrinsics, AFisheyeReachesTheStatedBound) {
     const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
     const Eigen::VectorXd whitened = scale.asDiagonal() * error;
     const Eigen::MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
-    nees += whitened.dot(correlation.ldlt().solve(whitened)) / kRuns;
+    nees += geometry::squaredMahalanobis(whitened, correlation) / kRuns;
     squares += error.cwiseAbs2() / kRuns;
     reported += covariance.diagonal() / kRuns;
     EXPECT_TRUE(solution.covariance.row(8).isZero(0.0));

@@ -5,6 +5,7 @@
 #include "expect_says.h"
 
 #include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <gtest/gtest.h>
@@ -120,7 +121,7 @@ double normalizedSquare(const geometry::Rig& rig, int begin) {
     for (Eigen::Index j = 0; j < cameras; ++j)
       covariance.block<6, 6>(6 * i, 6 * j) = rig.covariance.block<6, 6>(16 * i, 16 * j);
   }
-  return errors.dot(covariance.ldlt().solve(errors));
+  return geometry::squaredMahalanobis(errors, covariance);
 }
 
 class JoinRigs : public ::testing::Test {

@@ -6,10 +6,10 @@
 #include "recalibrate/recalibrate_camera.h"
 
 #include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -148,8 +148,8 @@ TEST(Recalibrate, HasTheStatedUncertainty) {
       const Recalibration result = recalibrateCamera(rig, request, options);
       const auto error = errorOf(result.rig.cameras[index], truth[index]);
       const auto covariance = covarianceOf(result.rig, index);
-      const double squared = error.dot(covariance.ldlt().solve(error));
-      pose += error.head<6>().dot(covariance.topLeftCorner<6, 6>().ldlt().solve(error.head<6>()));
+      const double squared = geometry::squaredMahalanobis(error, covariance);
+      pose += geometry::squaredMahalanobis(error.head<6>(), covariance.topLeftCorner<6, 6>());
       offset += error[6] * error[6] / covariance(6, 6);
       covered += squared <= 14.067;  // chi-squared, seven degrees of freedom, 95 %
       EXPECT_EQ(result.rig.cameras[index].camera.identity,

@@ -1,11 +1,12 @@
 #include "square/error.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
+
 #include "expect_says.h"
 #include "simulated_square.h"
 
 #include <gtest/gtest.h>
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -199,7 +200,7 @@ TEST(ThreeCornersWithErrors, AreKnownAsWellAsTheirCovarianceSays) {
     Eigen::Matrix<double, 6, 1> error;
     error << turn.angle() * turn.axis(), poses[2].translation() - estimate.translation();
     const Eigen::Matrix<double, 6, 6> covariance = rig.covariance.block<6, 6>(32, 32);
-    sum += error.dot(covariance.ldlt().solve(error));
+    sum += geometry::squaredMahalanobis(error, covariance);
     ++count;
   }
   ASSERT_GT(count, 80);

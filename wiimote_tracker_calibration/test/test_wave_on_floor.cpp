@@ -10,10 +10,10 @@
 #include "wiimote_tracker_calibration/wave/solve_wave.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include <array>
@@ -127,7 +127,7 @@ double poseNees(const WaveScene& scene, int seeds) {
         covariance.block<6, 6>(6 * i, 6 * j) = solution.rig.covariance.block<6, 6>(
             geometry::firstParameter(at), geometry::firstParameter(static_cast<std::size_t>(j)));
     }
-    sum += error.dot(covariance.ldlt().solve(error)) / (6.0 * static_cast<double>(kCameras));
+    sum += geometry::squaredMahalanobis(error, covariance) / (6.0 * static_cast<double>(kCameras));
   }
   return sum / seeds;
 }

@@ -8,7 +8,7 @@
 
 #include <wiimote_tracker_msgs/text.h>
 
-#include <Eigen/Cholesky>
+#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 
 #include <algorithm>
 #include <array>
@@ -44,7 +44,7 @@ struct Figures {
   int count = 0;
 
   void add(const Vector3d& error, const Matrix3d& covariance) {
-    const double squared_distance = error.dot(covariance.llt().solve(error));
+    const double squared_distance = geometry::squaredMahalanobis(error, covariance);
     squared += error.squaredNorm();
     nees += squared_distance;
     within += squared_distance < kWithin95;

@@ -3,11 +3,10 @@
 #include "motion/smoother.h"
 #include "tracking/paths.h"
 #include "tracking/scene.h"
+#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
 #include <wiimote_tracker_msgs/text.h>
-
-#include <Eigen/Cholesky>
 
 #include <array>
 #include <cmath>
@@ -33,7 +32,7 @@ struct HardErrors {
   int count = 0;
 
   void add(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance) {
-    const double distance = error.dot(covariance.llt().solve(error));
+    const double distance = geometry::squaredMahalanobis(error, covariance);
     squared += error.squaredNorm();
     nees += distance;
     inside += distance < 7.814727903;  // quantile of chi square with three degrees of freedom

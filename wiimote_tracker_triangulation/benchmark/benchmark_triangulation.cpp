@@ -4,7 +4,7 @@
 
 #include <wiimote_tracker_msgs/benchmark_tables.h>
 
-#include <Eigen/Cholesky>
+#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 
 #include <algorithm>
 #include <chrono>
@@ -36,7 +36,7 @@ std::pair<double, double> errors(const TriangulationScene& scene,
     const Eigen::Vector3d error = position - scene.truth[i];
     squared += error.squaredNorm();
     if (method.has_covariance)
-      nees += error.dot(output.covariances[i].ldlt().solve(error));
+      nees += geometry::squaredMahalanobis(error, output.covariances[i]);
   }
   const auto count = static_cast<double>(scene.truth.size());
   return {std::sqrt(squared / count) / scene.bound, method.has_covariance ? nees / count : kNaN};

@@ -1,8 +1,9 @@
 #include "certainty.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,6 @@ namespace {
 constexpr int kPoseSize = 6;
 constexpr int kLensSize = 9;
 constexpr double kGiven = 1e12;  // information of a parameter that is held
-constexpr double kOpen = 1e-13;  // eigenvalues below this share of the largest are rounding errors
 
 /// Weight of a squared residual by the Huber loss.
 double huberWeight(double error, double loss_scale) {
@@ -35,8 +35,7 @@ Eigen::MatrixXd similarityMotions(const std::vector<Eigen::Vector3d>& points) {
       rows.col(3 + axis) = Eigen::Vector3d::Unit(axis).cross(from_mean);
     rows.col(6) = from_mean;
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(motions);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(motions.rows(), motions.cols());
+  return geometry::orthonormalBasis(motions);
 }
 
 }  // namespace
@@ -75,7 +74,7 @@ Certainty::Certainty(const Reconstruction& reconstruction,
   else
     addLensPrior(reconstruction, options);
   fixWorld(reconstruction);
-  invert();
+  covariance_ = geometry::inverseOfInformation(information_);
 }
 
 /// Where the parameters of a camera stand, in the order of geometry/camera_parameters.h.
@@ -175,21 +174,6 @@ void Certainty::fixWorld(const Reconstruction& reconstruction) {
   block += kExact * block.norm() * along * along.transpose();
 }
 
-void Certainty::invert() {
-  const Eigen::VectorXd scale = information_.diagonal().cwiseSqrt();
-  if (!(scale.minCoeff() > 0.0))
-    return;
-  const Eigen::VectorXd inverse_scale = scale.cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      inverse_scale.asDiagonal() * information_ * inverse_scale.asDiagonal());
-  if (eigen.info() != Eigen::Success ||
-      !(eigen.eigenvalues().minCoeff() > kOpen * eigen.eigenvalues().maxCoeff()))
-    return;
-  const Eigen::MatrixXd root = inverse_scale.asDiagonal() * eigen.eigenvectors() *
-                               eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
-  covariance_ = root * root.transpose();
-}
-
 std::optional<Eigen::MatrixXd> Certainty::lensCovariance(std::size_t camera) const {
   if (!covariance_)
     return std::nullopt;
@@ -215,12 +199,12 @@ std::optional<double> Certainty::expectedShapeError() const {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Point& point = points_[i];
     const auto motion = motions.middleRows<3>(3 * static_cast<Eigen::Index>(i));
-    const Eigen::Matrix3d covariance =
-        point.covariance + point.by_parameters * *covariance_ * point.by_parameters.transpose();
-    sum += covariance.trace() - (motion.transpose() * point.covariance * motion).trace();
+    sum += point.covariance.trace() +
+           geometry::propagated(point.by_parameters, *covariance_).trace() -
+           (motion.transpose() * point.covariance * motion).trace();
     along += motion.transpose() * point.by_parameters;
   }
-  sum -= (along * *covariance_ * along.transpose()).trace();
+  sum -= geometry::propagated(along, *covariance_).trace();
   return std::sqrt(sum / static_cast<double>(points_.size()));
 }
 

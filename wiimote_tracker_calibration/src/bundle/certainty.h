@@ -48,7 +48,6 @@ class Certainty {
   void addObservations(const Reconstruction& reconstruction, const Options& options);
   void addLensPrior(const Reconstruction& reconstruction, const Options& options);
   void fixWorld(const Reconstruction& reconstruction);
-  void invert();
 
   const bool one_lens_;
   const std::size_t camera_count_;

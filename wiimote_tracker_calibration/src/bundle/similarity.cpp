@@ -2,7 +2,9 @@
 
 #include "wiimote_tracker_calibration/bundle/error.h"
 
-#include <Eigen/Dense>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
+
+#include <Eigen/Geometry>
 
 #include <cmath>
 
@@ -12,9 +14,8 @@ namespace {
 
 using Columns = Eigen::Map<const Eigen::Matrix3Xd>;
 
-bool onOneLine(const Columns& points) {
-  const Eigen::Matrix3Xd centered = points.colwise() - points.rowwise().mean();
-  const Eigen::Vector3d spread = centered.jacobiSvd().singularValues();
+bool onOneLine(const std::vector<Eigen::Vector3d>& points) {
+  const Eigen::Vector3d spread = geometry::spreadOf(points);
   return !(spread(1) > 1e-6 * spread(0));  // also true for NaN
 }
 
@@ -25,10 +26,10 @@ Similarity fitSimilarity(const std::vector<Eigen::Vector3d>& from,
   if (from.size() != to.size() || from.size() < 3)
     throw BundleError("an alignment needs three or more points, as many in both frames");
   const auto count = static_cast<Eigen::Index>(from.size());
+  if (onOneLine(from) || onOneLine(to))
+    throw BundleError("the points of an alignment must not lie on one line");
   const Columns from_columns(from.front().data(), 3, count);
   const Columns to_columns(to.front().data(), 3, count);
-  if (onOneLine(from_columns) || onOneLine(to_columns))
-    throw BundleError("the points of an alignment must not lie on one line");
   const Eigen::Matrix4d transform = Eigen::umeyama(from_columns, to_columns, true);
   Similarity similarity;
   similarity.scale = std::cbrt(transform.topLeftCorner<3, 3>().determinant());

@@ -3,7 +3,9 @@
 #include "adjust/opencv_pose.h"
 #include "wiimote_tracker_calibration/bundle/error.h"
 
-#include <Eigen/Dense>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
+
+#include <Eigen/Geometry>
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
@@ -22,11 +24,10 @@ constexpr double kStartTolerance = 4.0;
 
 /// Whether the points of an image cover more than a line.
 bool fillsAnArea(const std::vector<cv::Point2d>& points) {
-  Eigen::Matrix2Xd columns(2, static_cast<Eigen::Index>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i)
-    columns.col(static_cast<Eigen::Index>(i)) << points[i].x, points[i].y;
-  const Eigen::Matrix2Xd centered = columns.colwise() - columns.rowwise().mean();
-  const Eigen::Vector2d spread = centered.jacobiSvd().singularValues();
+  std::vector<Eigen::Vector3d> in_plane;
+  for (const cv::Point2d& point : points)
+    in_plane.emplace_back(point.x, point.y, 0.0);
+  const Eigen::Vector3d spread = geometry::spreadOf(in_plane);
   const double kThinnest = 0.02;  // width over length
   return spread(1) > kThinnest * spread(0);
 }

@@ -9,9 +9,9 @@
 #include "place/chi_squared.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <ceres/ceres.h>
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -245,7 +245,7 @@ bool isWithinDrift(const geometry::Rig& rig,
           firstParameter(index), firstParameter(static_cast<std::size_t>(k)));
     }
   }
-  return change.dot(covariance.ldlt().solve(change)) <
+  return geometry::squaredMahalanobis(change, covariance) <
          place::chiSquaredQuantile(static_cast<double>(change.size()), place::kThreeNines);
 }
 

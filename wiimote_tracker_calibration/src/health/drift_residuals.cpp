@@ -1,11 +1,11 @@
 #include "drift_residuals.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -74,9 +74,14 @@ Eigen::Vector4d acrossEpipolarLines(const std::vector<geometry::Sight>& sights,
     const geometry::Sight& sight = sights[static_cast<std::size_t>(i)];
     by_point.middleRows<2>(2 * i) = sight.pixel_by_offset / sight.depth(point);
   }
-  const Eigen::HouseholderQR<Eigen::Matrix<double, 4, 3>> qr(by_point);
-  const Eigen::Matrix4d q = qr.householderQ() * Eigen::Matrix4d::Identity();
-  const Eigen::Vector4d across = q.col(3);
+  // The cross product of three vectors in four dimensions: signed minors.
+  Eigen::Vector4d across;
+  for (Eigen::Index i = 0; i < 4; ++i) {
+    Eigen::Matrix3d minor;
+    minor << by_point.topRows(i), by_point.bottomRows(3 - i);
+    across[i] = (i % 2 == 0 ? 1.0 : -1.0) * minor.determinant();
+  }
+  across.normalize();
   const Eigen::Vector3d normal = (sights[1].origin - sights[0].origin).cross(sights[0].direction);
   const bool opposite = across.head<2>().dot(sights[0].pixel_by_offset * normal) < 0.0;
   return (opposite ? -1.0 : 1.0) * across;
@@ -188,12 +193,12 @@ std::optional<Drift> meanOf(const std::vector<Residual>& residuals,
       count += 1.0;
     }
     if (count > 0.0)
-      expected += mean * covariance * mean.transpose() / (count * count);
+      expected += geometry::propagated(mean / count, covariance);
   }
   const auto n = static_cast<Eigen::Index>(dimensions);
-  const Eigen::VectorXd bias = drift.bias.head(n);
-  const Eigen::MatrixXd known = expected.topLeftCorner(n, n);
-  const double distance = bias.dot(known.inverse() * bias);
+  const auto bias = drift.bias.head(n);
+  const auto known = expected.topLeftCorner(n, n);
+  const double distance = geometry::squaredMahalanobis(bias, known);
   drift.stddev = std::sqrt(known.trace());
   drift.ratio = std::min(bias.norm() / limit, std::sqrt(distance / kQuantile[dimensions - 1]));
   return drift;

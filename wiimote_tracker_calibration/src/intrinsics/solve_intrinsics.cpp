@@ -5,8 +5,8 @@
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
-#include <Eigen/Cholesky>
 #include <opencv2/calib3d.hpp>
 
 #include <algorithm>
@@ -70,17 +70,10 @@ std::optional<Eigen::MatrixXd> unitCovariance(const Fit& fit,
         std::sqrt(by.residuals.squaredNorm() / static_cast<double>(points.board[view].size())));
     const Eigen::MatrixXd cross = by.pose.transpose() * by.lens;
     const Eigen::MatrixXd poses = by.pose.transpose() * by.pose;
-    information += by.lens.transpose() * by.lens - cross.transpose() * poses.ldlt().solve(cross);
+    information +=
+        by.lens.transpose() * by.lens - cross.transpose() * geometry::solveSymmetric(poses, cross);
   }
-  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * information * scale.asDiagonal());
-  if (factor.info() != Eigen::Success)
-    return std::nullopt;
-  const Eigen::MatrixXd inverse =
-      scale.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(size, size)) * scale.asDiagonal();
-  if (!inverse.allFinite())
-    return std::nullopt;
-  return inverse;
+  return geometry::inverseOfInformation(information);
 }
 
 void checkInput(const Samples& samples, const SolverOptions& options) {

@@ -4,8 +4,7 @@
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
-
-#include <Eigen/Cholesky>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <cmath>
 
@@ -54,7 +53,7 @@ PlaceCheck checkPlace(const MeasuredPlace& measured,
   check.error = difference.norm();
   check.expected_stddev = std::sqrt(covariance.trace());
   check.consistent =
-      difference.dot(covariance.ldlt().solve(difference)) <= chiSquaredQuantile(3, kTwoNines);
+      geometry::squaredMahalanobis(difference, covariance) <= chiSquaredQuantile(3, kTwoNines);
   check.message =
       format(
           "measured %.1f mm from the known place, where %.1f mm (one standard deviation) are to "

@@ -5,12 +5,11 @@
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 #include <wiimote_tracker_triangulation/remap/correction.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <cstddef>
 #include <optional>
@@ -29,7 +28,7 @@ struct View {
 struct Measurement {
   Eigen::Vector3d position;
   Eigen::VectorXd residuals;      // Two per view [px].
-  Eigen::MatrixXd by_point;       // Derivatives of the pixels, two rows per view.
+  Eigen::MatrixX3d by_point;      // Derivatives of the pixels, two rows per view.
   Eigen::MatrixXd by_parameters;  // Of all cameras of the rig.
 };
 
@@ -74,23 +73,22 @@ Eigen::MatrixXd pixelCovariance(const geometry::Rig& rig,
   const Eigen::Index rows = measurement.residuals.size();
   Eigen::MatrixXd covariance = pixel_stddev * pixel_stddev * Eigen::MatrixXd::Identity(rows, rows);
   if (geometry::hasCovariance(rig))
-    covariance +=
-        measurement.by_parameters * rig.covariance * measurement.by_parameters.transpose();
+    covariance += geometry::propagated(measurement.by_parameters, rig.covariance);
   return covariance;
 }
 
-/// How far the rays miss each other: chi-squared of the part of the residuals that no point can
-/// explain, over its 99.9 % quantile.
+/// How far the rays miss each other: chi-squared of the residuals that the best point leaves
+/// (generalised least squares), over its 99.9 % quantile.
 double disagreement(const geometry::Rig& rig, const Measurement& measurement, double pixel_stddev) {
-  const Eigen::Index rows = measurement.residuals.size();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(measurement.by_point);
-  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, rows);
-  const Eigen::MatrixXd unexplained = q.rightCols(rows - 3).transpose();
-  const Eigen::VectorXd residuals = unexplained * measurement.residuals;
-  const Eigen::MatrixXd covariance =
-      unexplained * pixelCovariance(rig, measurement, pixel_stddev) * unexplained.transpose();
-  const double squared = residuals.dot(covariance.ldlt().solve(residuals));
-  return squared / chiSquaredQuantile(static_cast<int>(rows) - 3, kThreeNines);
+  const Eigen::MatrixXd covariance = pixelCovariance(rig, measurement, pixel_stddev);
+  const Eigen::MatrixX3d weighed = geometry::solveSymmetric(covariance, measurement.by_point);
+  const Eigen::Matrix3d information = measurement.by_point.transpose() * weighed;
+  const Eigen::Vector3d step =
+      information.inverse() * (weighed.transpose() * measurement.residuals);
+  const double squared =
+      geometry::squaredMahalanobis(measurement.residuals - measurement.by_point * step, covariance);
+  const auto rows = static_cast<int>(measurement.residuals.size());
+  return squared / chiSquaredQuantile(rows - 3, kThreeNines);
 }
 
 /// The cameras whose removal makes the others agree.
@@ -140,11 +138,8 @@ MeasuredPlace measurePlace(const geometry::Rig& rig,
   MeasuredPlace place;
   place.position = measurement->position;
   place.calibration_known = geometry::hasCovariance(rig);
-  const Eigen::MatrixXd gain =
-      (measurement->by_point.transpose() * measurement->by_point).inverse() *
-      measurement->by_point.transpose();
-  place.covariance = gain * pixelCovariance(rig, *measurement, pixel_stddev) * gain.transpose();
-  place.covariance = 0.5 * (place.covariance + place.covariance.transpose()).eval();
+  place.covariance = geometry::propagated(geometry::pseudoInverse(measurement->by_point),
+                                          pixelCovariance(rig, *measurement, pixel_stddev));
   for (std::size_t i = 0; i < views.size(); ++i)
     place.views.push_back({rig.cameras[views[i].camera].camera.name,
                            measurement->residuals.segment<2>(static_cast<Eigen::Index>(2 * i))});

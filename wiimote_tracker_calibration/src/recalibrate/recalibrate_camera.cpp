@@ -5,9 +5,9 @@
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -125,20 +125,14 @@ void checkFit(const Fit& fit) {
                 " off what the others saw: its starting intrinsics are wrong, or the "
                 "others were moved too; calibrate all of them again");
 
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> positions;
   for (const Match& match : fit.matches)
-    mean += match.point.position / static_cast<double>(found);
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Match& match : fit.matches) {
-    const Eigen::Vector3d d = match.point.position - mean;
-    scatter += d * d.transpose() / static_cast<double>(found);
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-  const Eigen::Vector3d extent = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  if (extent[2] < kMinimumExtent)
-    throw Error("the LED moved by " + format("%.2f m", extent[2]) +
+    positions.push_back(match.point.position);
+  const Eigen::Vector3d extent = geometry::spreadOf(positions);
+  if (extent[0] < kMinimumExtent)
+    throw Error("the LED moved by " + format("%.2f m", extent[0]) +
                 " only: wave it through the whole volume");
-  if (extent[0] < kMinimumFlatness * extent[2])
+  if (extent[2] < kMinimumFlatness * extent[0])
     throw Error(
         "the LED stayed on a line or in a plane: wave it through the whole volume, up and down "
         "and near and far");
@@ -215,8 +209,7 @@ ParameterMatrix updateCovariance(const SeenPath& path,
       others(k, k) += kUnknownOffset * kUnknownOffset;
     }
   }
-  own += by_rig * others * by_rig.transpose();
-  own = 0.5 * (own + own.transpose()).eval();
+  own += geometry::propagated(by_rig, others);
   const Eigen::MatrixXd common = by_rig * rig->covariance;
   const Eigen::Index first = firstParameter(index);
   rig->covariance.middleRows<kParameters>(first) = common;
@@ -232,7 +225,7 @@ double imageError(const Fit& fit, const ParameterMatrix& covariance) {
   for (const Match& match : fit.matches) {
     if (const auto expected = projectionOf(fit.camera, match.point)) {
       const geometry::ParameterJacobian& by_parameters = expected->by_parameters;
-      squared += (by_parameters * covariance * by_parameters.transpose()).trace();
+      squared += geometry::propagated(by_parameters, covariance).trace();
     }
   }
   return std::sqrt(squared / static_cast<double>(fit.matches.size()));

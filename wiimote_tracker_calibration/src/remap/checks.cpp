@@ -1,9 +1,9 @@
 #include "checks.h"
 
 #include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
 namespace wiimote_tracker::remap {
 
@@ -16,18 +16,8 @@ constexpr double kSamePlace = 0.001;
 // A standard deviation below this share of the largest means that the points are flat.
 constexpr double kFlat = 0.03;
 
-Eigen::MatrixXd centered(const std::vector<KnownPoint>& points, bool known) {
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(points.size()), 3);
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    const KnownPoint& point = points[static_cast<std::size_t>(i)];
-    rows.row(i) = (known ? point.known : point.measured).transpose();
-  }
-  const Eigen::RowVector3d mean = rows.colwise().mean();
-  return rows.rowwise() - mean;
-}
-
-void checkSpread(const Eigen::MatrixXd& rows, const std::string& which) {
-  const Eigen::VectorXd spread = Eigen::JacobiSVD<Eigen::MatrixXd>(rows).singularValues();
+void checkSpread(const std::vector<Eigen::Vector3d>& points, const std::string& which) {
+  const Eigen::Vector3d spread = geometry::spreadOf(points);
   if (spread[1] < kFlat * spread[0])
     throw Error("the " + which +
                 " points lie on one line: add points to its sides and at other heights");
@@ -60,11 +50,20 @@ void checkPoints(const std::vector<KnownPoint>& points, const std::string& rig_i
                     "there");
     }
   }
-  const Eigen::MatrixXd known = centered(points, true);
-  const Eigen::MatrixXd measured = centered(points, false);
+  std::vector<Eigen::Vector3d> known;
+  std::vector<Eigen::Vector3d> measured;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const KnownPoint& point : points) {
+    known.push_back(point.known);
+    measured.push_back(point.measured);
+    mean += point.measured / static_cast<double>(points.size());
+  }
   checkSpread(known, "known");
   checkSpread(measured, "measured");
-  if ((measured.transpose() * known).determinant() < 0.0)
+  Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
+  for (const KnownPoint& point : points)
+    correlation += (point.measured - mean) * point.known.transpose();
+  if (correlation.determinant() < 0.0)
     throw Error(
         "the measured points are the mirror image of the known ones: check the axes and the signs "
         "of the known places, and that none are exchanged");

@@ -6,9 +6,10 @@
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
 
-#include <Eigen/SVD>
+#include <Eigen/Geometry>
 
 #include <cmath>
 
@@ -73,18 +74,16 @@ void checkPlaces(const std::vector<CommonPlace>& places) {
     throw Error(std::to_string(places.size()) +
                 " common places do not determine the pose between the rigs: measure three or "
                 "more, not on one line");
-  Eigen::Matrix3Xd points(3, places.size());
+  std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const CommonPlace& place = places[i];
     if (!place.in_first.allFinite() || !place.in_second.allFinite() ||
         !(std::isfinite(place.stddev) && place.stddev > 0.0))
       throw Error("place " + std::to_string(i + 1) +
                   " is not finite, or its standard deviation not above 0: correct it");
-    points.col(static_cast<Eigen::Index>(i)) = place.in_second;
+    points.push_back(place.in_second);
   }
-  const Eigen::Matrix3Xd centered = points.colwise() - points.rowwise().mean();
-  const Eigen::Vector3d extent =
-      Eigen::JacobiSVD<Eigen::MatrixXd>(centered.transpose()).singularValues();
+  const Eigen::Vector3d extent = geometry::spreadOf(points);
   if (!(extent[1] > kThinnest * extent[0]))
     throw Error("the common places are on one line: measure one beside it, too");
 }

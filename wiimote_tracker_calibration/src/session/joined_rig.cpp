@@ -2,6 +2,7 @@
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <algorithm>
@@ -112,8 +113,7 @@ geometry::Rig joinedRig(const geometry::Rig& first,
     rig.cameras.push_back(camera);
   }
   by_errors.conservativeResize(firstParameter(rig.cameras.size()), Eigen::NoChange);
-  const Eigen::MatrixXd covariance = by_errors * motion.error_covariance * by_errors.transpose();
-  rig.covariance = 0.5 * (covariance + covariance.transpose());
+  rig.covariance = geometry::propagated(by_errors, motion.error_covariance);
   return rig;
 }
 

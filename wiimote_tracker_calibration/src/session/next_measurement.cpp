@@ -2,9 +2,8 @@
 
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
-
-#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <string>
@@ -117,8 +116,10 @@ std::optional<NextMeasurement> nextMeasurement(const geometry::Rig& rig,
     const Eigen::MatrixXd gain = joint.covariance * observation.slopes.transpose();
     const Eigen::MatrixXd innovation = observation.slopes * gain + observation.covariance;
     const Eigen::MatrixXd moved = slopes * gain;
-    return now -
-           innovation.ldlt().solve(moved.transpose()).cwiseProduct(moved.transpose()).sum() / count;
+    return now - geometry::solveSymmetric(innovation, moved.transpose())
+                         .cwiseProduct(moved.transpose())
+                         .sum() /
+                     count;
   };
   NextMeasurement best;
   double least = now;

@@ -6,9 +6,10 @@
 #include "place/chi_squared.h"
 
 #include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
 #include <limits>
 
@@ -113,13 +114,13 @@ RigMotion fitMotion(const geometry::Rig& first,
   motion.error_covariance = errorCovariance(first, second, shared);
   for (int iteration = 0;; ++iteration) {
     const Conditions conditions = conditionsAt(motion.first_from_second, shared);
-    const Eigen::LDLT<Eigen::MatrixXd> weight(conditions.by_errors * motion.error_covariance *
-                                              conditions.by_errors.transpose());
-    const Eigen::MatrixXd weighed = weight.solve(conditions.by_motion);
-    const Eigen::Matrix<double, 6, 6> information = conditions.by_motion.transpose() * weighed;
-    const Eigen::MatrixXd gain = -information.ldlt().solve(weighed.transpose());
+    const Eigen::MatrixXd covariance =
+        geometry::propagated(conditions.by_errors, motion.error_covariance);
+    const Eigen::MatrixXd weighed = geometry::solveSymmetric(covariance, conditions.by_motion);
+    const Eigen::MatrixXd gain =
+        -geometry::solveSymmetric(conditions.by_motion.transpose() * weighed, weighed.transpose());
     motion.by_errors = gain * conditions.by_errors;
-    motion.chi_squared = conditions.residual.dot(weight.solve(conditions.residual));
+    motion.chi_squared = geometry::squaredMahalanobis(conditions.residual, covariance);
     motion.degrees_of_freedom = static_cast<int>(conditions.residual.size()) - 6;
     const Eigen::Matrix<double, 6, 1> step = gain * conditions.residual;
     if (!step.allFinite())

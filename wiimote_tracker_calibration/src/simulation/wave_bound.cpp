@@ -1,12 +1,11 @@
 #include "wiimote_tracker_calibration/simulation/wave_bound.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
@@ -230,7 +229,7 @@ VolumeError rmsOf(const Eigen::MatrixXd& by_causes,
   };
   const auto aligned = [&](bool with_scale) {
     const Eigen::MatrixXd motions = motionsOf(points, with_scale);
-    return rms(by_causes - motions * motions.householderQr().solve(by_causes));
+    return rms(by_causes - motions * (geometry::pseudoInverse(motions) * by_causes));
   };
   return {rms(by_causes), aligned(false), aligned(true)};
 }
@@ -301,7 +300,8 @@ std::optional<Eigen::Matrix3d> pointBound(const std::vector<geometry::Camera>& c
   }
   const Eigen::MatrixXd noise = by_cameras * covariance * by_cameras.transpose() +
                                 pixel * pixel * Eigen::MatrixXd::Identity(rows, rows);
-  const Eigen::Matrix3d information = by_point.transpose() * noise.ldlt().solve(by_point).eval();
+  const Eigen::Matrix3d information =
+      by_point.transpose() * geometry::solveSymmetric(noise, by_point);
   return information.inverse().eval();
 }
 

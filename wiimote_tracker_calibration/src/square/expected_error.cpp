@@ -1,9 +1,8 @@
 #include "square/expected_error.h"
 
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +33,7 @@ double expectedError(const geometry::Rig& rig, const std::vector<Eigen::Vector3d
     if (!by_parameters)
       continue;
     ++count;
-    sum += (*by_parameters * rig.covariance * by_parameters->transpose()).trace();
+    sum += geometry::propagated(*by_parameters, rig.covariance).trace();
   }
   return count > 0 ? std::sqrt(sum / count) : kNan;
 }
@@ -55,8 +54,7 @@ double expectedShapeError(const geometry::Rig& rig, const std::vector<Eigen::Vec
   if (rows < 9)
     return kNan;
   const Eigen::MatrixXd all = errors.topRows(rows);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(motions.topRows(rows));
-  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(rows, 6);
+  const Eigen::MatrixXd basis = geometry::orthonormalBasis(motions.topRows(rows));
   const Eigen::MatrixXd shape = all - basis * (basis.transpose() * all);
   return std::sqrt((shape * rig.covariance).cwiseProduct(shape).sum() /
                    (static_cast<double>(rows) / 3.0));

@@ -10,12 +10,12 @@
 #include "square/square_terms.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <ceres/ceres.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <array>
 #include <cmath>
@@ -228,8 +228,7 @@ Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
   Eigen::MatrixXd by_errors = Eigen::MatrixXd::Zero(geometry::kParameters * cameras, errors);
   for (Eigen::Index i = 0; i < cameras; ++i) {
     const auto derivatives = problem.derivatives(static_cast<std::size_t>(i));
-    const Eigen::MatrixXd pose_by_pixels =
-        derivatives.pixels_by_pose.completeOrthogonalDecomposition().pseudoInverse();
+    const Eigen::MatrixXd pose_by_pixels = geometry::pseudoInverse(derivatives.pixels_by_pose);
     const Eigen::MatrixXd lens_by_error = derivatives.prior_by_lens.inverse();
     const Eigen::Index lens = kCorners + kShared + (kLens + kPixels) * i;
     auto rows = by_errors.middleRows(geometry::kParameters * i, geometry::kParameters);

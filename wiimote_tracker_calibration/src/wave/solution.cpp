@@ -5,8 +5,7 @@
 #include "square/expected_error.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
-
-#include <Eigen/Eigenvalues>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <algorithm>
 #include <cmath>
@@ -115,14 +114,7 @@ void describePath(const State& state, const Matching& matching, WaveSolution* so
   std::nth_element(speeds.begin(), middle, speeds.end());
   solution->median_speed = *middle;
 
-  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(solution->path.size()));
-  for (std::size_t i = 0; i < solution->path.size(); ++i)
-    points.col(static_cast<Eigen::Index>(i)) = solution->path[i];
-  const Eigen::Matrix3Xd centered = points.colwise() - points.rowwise().mean();
-  const Eigen::Matrix3d scatter =
-      centered * centered.transpose() / static_cast<double>(points.cols());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-  solution->extent = solver.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt();
+  solution->extent = geometry::spreadOf(solution->path);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "body/body_scene.h"
 
-#include <Eigen/Cholesky>
+#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
+
 #include <Eigen/LU>
 
 #include <cmath>
@@ -89,7 +90,7 @@ double normalisedError(const Isometry3d& truth,
   Eigen::Matrix<double, 6, 1> error;
   error.head<3>() = found.translation() - truth.translation();
   error.tail<3>() = rotationError(truth, found);
-  return error.dot(covariance.ldlt().solve(error));
+  return geometry::squaredMahalanobis(error, covariance);
 }
 
 PoseCovariance boundOf(const geometry::Rig& rig,
@@ -179,8 +180,8 @@ void BodyScore::add(const FollowedBody& followed) {
   velocity_ += rates.head<3>().squaredNorm();
   angular_velocity_ += rates.tail<3>().squaredNorm();
   nees_ += normalisedError(truth, found, followed.estimate()->covariance.topLeftCorner<6, 6>());
-  rates_nees_ +=
-      rates.dot(followed.estimate()->covariance.bottomRightCorner<6, 6>().ldlt().solve(rates));
+  rates_nees_ += geometry::squaredMahalanobis(
+      rates, followed.estimate()->covariance.bottomRightCorner<6, 6>());
 }
 
 double BodyScore::position() const {

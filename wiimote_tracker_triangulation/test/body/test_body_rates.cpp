@@ -1,6 +1,7 @@
 // Velocity and angular velocity of a followed body, compared with the posterior Cramer-Rao bound.
 #include "body/body_scene.h"
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
+#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
@@ -174,7 +175,7 @@ TEST_P(BodyRates, AreAtTheBoundOfTheSameScene) {
         squares[k] += error.segment<3>(3 * k).squaredNorm();
         bounds[k] += bound.covariance().diagonal().segment<3>(3 * k).sum();
       }
-      nees += error.dot(found->covariance.ldlt().solve(error)) / 12.0;
+      nees += geometry::squaredMahalanobis(error, found->covariance) / 12.0;
       judged += 1.0;
     }
   }

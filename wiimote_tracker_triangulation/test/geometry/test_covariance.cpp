@@ -3,6 +3,7 @@
 // written here, so it shares no code with the estimator.
 #include "opencv_camera.h"
 #include "random_rigs.h"
+#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <gtest/gtest.h>
@@ -114,7 +115,7 @@ Score score(TriangulationMethod method, unsigned seed, int cameras = 4) {
         return {};
       }
       const Vector3d error = point->position - truth;
-      nees += error.dot(point->covariance.ldlt().solve(error));
+      nees += geometry::squaredMahalanobis(error, point->covariance);
       squared_error += error.squaredNorm();
       claimed += point->covariance.trace();
     }

@@ -1,8 +1,10 @@
 #include "allocation_counter.h"
+
 #include "motion/filter_scene.h"
 #include "motion/known_mode.h"
 #include "motion/textbook_imm.h"
 #include "tracking/paths.h"
+#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
@@ -87,7 +89,7 @@ struct Accuracy {
   void add(const MotionFilter& filter, const Vector3d& truth, double squared_bound) {
     const Vector3d error = filter.position() - truth;
     squared += error.squaredNorm();
-    nees += error.dot(filter.positionCovariance().llt().solve(error));
+    nees += geometry::squaredMahalanobis(error, filter.positionCovariance());
     bound += squared_bound;
     ++count;
   }
@@ -231,7 +233,7 @@ TEST(MotionFilter, KeepsUpWithHardMotion) {
       const Vector3d error = filter.position() - truth;
       squared += error.squaredNorm();
       best += (ideal.position() - truth).squaredNorm();
-      inside += error.dot(filter.positionCovariance().llt().solve(error)) < 7.815;
+      inside += geometry::squaredMahalanobis(error, filter.positionCovariance()) < 7.815;
       ++count;
     }
   }
@@ -262,7 +264,7 @@ TEST(MotionFilter, GrowsUncertainInAGapAndFindsBack) {
       continue;  // its position is unknown
     const Vector3d truth = variedPath(end);
     const Vector3d error = filter.position() - truth;
-    EXPECT_LT(error.dot(filter.positionCovariance().llt().solve(error)), 16.3);  // 99.9 %
+    EXPECT_LT(geometry::squaredMahalanobis(error, filter.positionCovariance()), 16.3);  // 99.9 %
     for (int i = 0; i < 40; ++i)
       takeIn(&filter, end + kStep * i, cameras[i % 4], noisyPixel(cameras[i % 4], truth, random));
     EXPECT_LT((filter.position() - truth).norm(), 0.01) << gap;
@@ -292,7 +294,7 @@ TEST(MotionFilter, OneCameraAloneLeavesTheDistanceUncertain) {
       ASSERT_TRUE(takeIn(&filter, time, camera, noisyPixel(camera, path(time), random)));
       if (time > 1.0 + alone[next]) {
         const Vector3d error = filter.position() - path(time);
-        inside[next++] += error.dot(filter.positionCovariance().llt().solve(error)) < 7.815;
+        inside[next++] += geometry::squaredMahalanobis(error, filter.positionCovariance()) < 7.815;
       }
     }
   }
@@ -317,7 +319,7 @@ TEST(MotionFilter, IteratesFromAPoorStart) {
     ASSERT_TRUE(filter.update(cameras[i], *prediction, *cameras[i].project(truth)));
   }
   const Vector3d error = filter.position() - truth;
-  EXPECT_LT(error.dot(filter.positionCovariance().llt().solve(error)), 0.05);
+  EXPECT_LT(geometry::squaredMahalanobis(error, filter.positionCovariance()), 0.05);
 }
 
 TEST(MotionFilter, TheOrderOfImagesOfOneTimeMakesNoDifference) {

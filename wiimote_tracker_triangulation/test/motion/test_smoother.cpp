@@ -1,8 +1,10 @@
 #include "motion/filter_scene.h"
+
 #include "motion/motion_filter.h"
 #include "motion/smoother.h"
 #include "motion/textbook_imm.h"
 #include "tracking/paths.h"
+#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
@@ -48,7 +50,7 @@ std::vector<Place> placesOn(const Path& path, const std::vector<Observation>& ob
 }
 
 double squaredDistance(const Vector3d& error, const KinematicState& state) {
-  return error.dot(state.positionCovariance().llt().solve(error));
+  return geometry::squaredMahalanobis(error, state.positionCovariance());
 }
 
 /// Every state given all observations at once, without recursion: the states of a Singer model are

@@ -1,10 +1,10 @@
 // What mode tracks adds in the code that node and track_bag share: messages in, messages out.
 #include "ros/studio.h"
+#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 #include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 
 #include <gtest/gtest.h>
-#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <string>
@@ -19,7 +19,7 @@ using namespace studio;
 template <typename Covariance>
 bool isInEllipsoid(const Vector3d& error, const Covariance& row_major) {
   const Eigen::Map<const Eigen::Matrix3d> covariance(row_major.data());
-  return error.dot(covariance.ldlt().solve(error)) < 7.815;
+  return geometry::squaredMahalanobis(error, covariance) < 7.815;
 }
 
 TEST(Clocks, ACameraWithAnotherClockIsNamedOnceAndLeftOut) {

@@ -1,6 +1,7 @@
 // Track initiation, accuracy and reports.
 #include "tracking/tracker_runs.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
@@ -218,7 +219,7 @@ double neesWith(double noise, bool learnt_noise) {
       continue;
     const TrackedLed& led = snapshot.leds[0];
     const Eigen::Vector3d error = led.position - leds[0](snapshot.time);
-    sum += error.dot(led.position_covariance.ldlt().solve(error)) / 3.0;
+    sum += geometry::squaredMahalanobis(error, led.position_covariance) / 3.0;
     ++count;
   }
   EXPECT_GT(count, 7000);

@@ -35,38 +35,38 @@ KinematicState reversed(KinematicState state) {
   return state;
 }
 
-/// The product of two normal distributions of the first N components, divided by the prior of the
+/// The product of two normal distributions of the first components, divided by the prior of the
 /// acceleration, which both contain: normal about 0.
-/// @param prior variance of the acceleration; 0: it is no component
+/// @param size number of components: 3 (position), 6 (and velocity) or 9 (and acceleration)
+/// @param prior variance of the acceleration
 /// @returns logarithm of the overlap of the two, without factors that all modes share; nothing when
 /// the product is not normal
-template <int N>
 std::optional<double> multiply(const KinematicState& a,
                                const KinematicState& b,
+                               Eigen::Index size,
                                double prior,
                                KinematicState* product) {
-  using Matrix = Eigen::Matrix<double, N, N>;
-  using Vector = Eigen::Matrix<double, N, 1>;
-  const Matrix of_a = a.covariance.template topLeftCorner<N, N>();
-  const Matrix of_b = b.covariance.template topLeftCorner<N, N>();
-  const Eigen::LLT<Matrix> factors_a(of_a), factors_b(of_b), sum(of_a + of_b);
-  const Vector difference = b.mean.template head<N>() - a.mean.template head<N>();
-  Matrix information = factors_a.solve(Matrix::Identity()) + factors_b.solve(Matrix::Identity());
-  Vector right = factors_b.solve(difference);  // information times the product's mean from a's
-  if constexpr (N == 9) {
-    information.diagonal().template tail<3>().array() -= 1.0 / prior;
-    right.template tail<3>() += a.mean.template tail<3>() / prior;
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(size, size);
+  const Eigen::MatrixXd of_a = a.covariance.topLeftCorner(size, size);
+  const Eigen::MatrixXd of_b = b.covariance.topLeftCorner(size, size);
+  const Eigen::LLT<Eigen::MatrixXd> factors_a(of_a), factors_b(of_b), sum(of_a + of_b);
+  const Eigen::VectorXd difference = b.mean.head(size) - a.mean.head(size);
+  Eigen::MatrixXd information = factors_a.solve(identity) + factors_b.solve(identity);
+  Eigen::VectorXd right = factors_b.solve(difference);  // information times the mean from a's
+  if (size == 9) {
+    information.diagonal().tail<3>().array() -= 1.0 / prior;
+    right.tail<3>() += a.mean.tail<3>() / prior;
   }
-  const Eigen::LLT<Matrix> factors(information);
+  const Eigen::LLT<Eigen::MatrixXd> factors(information);
   if (factors_a.info() != Eigen::Success || factors_b.info() != Eigen::Success ||
       factors.info() != Eigen::Success)
     return std::nullopt;
   product->mean.setZero();
   product->covariance.setZero();
-  product->mean.template head<N>() = a.mean.template head<N>() + factors.solve(right);
-  product->covariance.template topLeftCorner<N, N>() = factors.solve(Matrix::Identity());
+  product->mean.head(size) = a.mean.head(size) + factors.solve(right);
+  product->covariance.topLeftCorner(size, size) = factors.solve(identity);
   return -0.5 * difference.dot(sum.solve(difference)) -
-         Matrix(sum.matrixL()).diagonal().array().log().sum();
+         sum.matrixLLT().diagonal().array().log().sum();
 }
 
 /// What two filters of opposite directions in time know together of the LED at one time.
@@ -88,9 +88,8 @@ KinematicState combine(const MotionOptions& options,
     const double known = b.covariance.diagonal().tail<3>().maxCoeff();
     const double prior = known < 1.01 * variance ? variance : 2.0 * known;
     KinematicState* product = &products[i].state;
-    const auto overlap = isAtRest(i)      ? multiply<3>(a, b, prior, product)
-                         : variance > 0.0 ? multiply<9>(a, b, prior, product)
-                                          : multiply<6>(a, b, prior, product);
+    const Eigen::Index size = isAtRest(i) ? 3 : variance > 0.0 ? 9 : 6;
+    const auto overlap = multiply(a, b, size, prior, product);
     if (!overlap)
       continue;
     // Divided by the densities of the priors, which both filters contain: of the mode, and of the

@@ -164,6 +164,7 @@ void CameraGroup::collectUnassigned(const StoredImage& image) {
   if (rest.count == 0)
     rest.since = image.time;
   rest.time = image.time;
+  rest.stamp_stddev = image.stamp_stddev;
   rest.full = image.full;
   rest.count = 0;
   for (std::size_t spot = 0; spot < image.spot_count; ++spot) {

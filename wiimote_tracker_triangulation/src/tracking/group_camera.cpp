@@ -33,6 +33,14 @@ GroupCamera::GroupCamera(const geometry::Rig& rig, std::size_t index)
       for_rays_(rig.rayCamera(rig.cameras[index])),
       squared_cosine_(squaredCosineOfView(for_rays_.intrinsics)) {}
 
+motion::PixelNoise GroupCamera::noise(const TrackerOptions& options, double stamp_stddev) const {
+  motion::PixelNoise result;
+  result.pixel_stddev =
+      options.learnt_noise ? learnt_noise_.value_or(options.pixel_stddev) : options.pixel_stddev;
+  result.stamp_stddev = stamp_stddev;
+  return result;
+}
+
 double GroupCamera::imageArea() const {
   return static_cast<double>(for_rays_.intrinsics.width) * for_rays_.intrinsics.height;
 }

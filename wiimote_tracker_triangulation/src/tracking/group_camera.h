@@ -1,8 +1,10 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H
 
+#include "motion/pixel_prediction.h"
 #include "ray_agreement.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <Eigen/Core>
 
@@ -20,8 +22,8 @@ class GroupCamera {
   const geometry::Camera& forRays() const { return for_rays_; }
   std::size_t index() const { return index_; }  // in the rig
 
-  /// See learnt_noise.h [px].
-  std::optional<double> learntNoise() const { return learnt_noise_; }
+  /// Of an image's pixels, as learnt_noise.h or the options tell it. @param stamp_stddev [s]
+  motion::PixelNoise noise(const TrackerOptions& options, double stamp_stddev) const;
 
   double imageArea() const;  ///< [px^2]
 
@@ -36,7 +38,7 @@ class GroupCamera {
 
  private:
   std::size_t index_;
-  std::optional<double> learnt_noise_;
+  std::optional<double> learnt_noise_;  // [px]
   std::vector<geometry::ImageMask> masks_;
   geometry::Camera for_rays_;
   double squared_cosine_;  // of the cone around the view; 0: no limit

@@ -16,9 +16,7 @@ void ImageUpdate::apply(const GroupCamera& camera,
                         std::vector<CameraFit>* fits,
                         std::vector<Track>* tracks,
                         std::vector<MergedPair>* pairs) {
-  noise_.pixel_stddev = options_.learnt_noise ? camera.learntNoise().value_or(options_.pixel_stddev)
-                                              : options_.pixel_stddev;
-  noise_.stamp_stddev = image.stamp_stddev;
+  noise_ = camera.noise(options_, image.stamp_stddev);
   collectCandidates(camera, image, tracks);
   assign(camera, image, *tracks);
   measureFit(image, *tracks, fits);

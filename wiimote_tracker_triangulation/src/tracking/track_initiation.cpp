@@ -65,8 +65,7 @@ void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
       return std::any_of(tracks->begin(), tracks->end(),
                          [&](const Track& track) { return track.id == candidate; });
     });
-    tracks->emplace_back(
-        motion::MotionFilter(*motion_, time, point.point.position, point.point.covariance), id);
+    tracks->emplace_back(filterOf(point, first, cameras, *unassigned), id);
     for (const auto* spot = first; spot != last; ++spot) {
       tracks->back().addInitialSpot(spot->view, (*unassigned)[spot->view].time,
                                     point.point.reprojection_error);
@@ -76,6 +75,30 @@ void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
   std::sort(used_.begin(), used_.end(), [](auto& a, auto& b) { return a.spot > b.spot; });
   for (const association::SpotReference& spot : used_)
     (*unassigned)[spot.view].remove(spot.spot);
+}
+
+/// Takes each spot at the time of its own image. Where the LED was before, and how fast, is hardly
+/// known: the images are not of one time, so the point serves to linearise only.
+motion::MotionFilter TrackInitiation::filterOf(const association::AssociatedPoint& point,
+                                               const association::SpotReference* spots,
+                                               const std::vector<GroupCamera>& cameras,
+                                               const std::vector<UnassignedSpots>& unassigned) {
+  constexpr double kVague = 100.0;  // times the point's covariance
+  by_time_.assign(spots, spots + point.spot_count);
+  std::sort(by_time_.begin(), by_time_.end(),
+            [&](auto& a, auto& b) { return unassigned[a.view].time < unassigned[b.view].time; });
+  motion::MotionFilter filter(*motion_, unassigned[by_time_.front().view].time,
+                              point.point.position, kVague * point.point.covariance);
+  for (const association::SpotReference& spot : by_time_) {
+    const UnassignedSpots& image = unassigned[spot.view];
+    const GroupCamera& camera = cameras[spot.view];
+    filter.predict(image.time);
+    const auto prediction =
+        filter.predictPixel(camera.forRays(), camera.noise(options_, image.stamp_stddev));
+    if (prediction)
+      filter.update(camera.forRays(), *prediction, image.pixels[spots_[spot.view][spot.spot]]);
+  }
+  return filter;
 }
 
 /// Not eligible is a track that has been seen beside the new one or by more cameras since; one that

@@ -21,9 +21,10 @@ namespace wiimote_tracker::tracking {
 
 /// The spots of a camera's newest image that are assigned to no track.
 struct UnassignedSpots {
-  double time = -1e300;  // [s]
-  double since = 0.0;    // first image of the latest ones that all have some [s]
-  bool full = false;     // StoredImage::full
+  double time = -1e300;       // [s]
+  double since = 0.0;         // first image of the latest ones that all have some [s]
+  double stamp_stddev = 0.0;  // StoredImage::stamp_stddev
+  bool full = false;          // StoredImage::full
   std::size_t count = 0;
   std::array<Eigen::Vector2d, association::kMaximumSpots> pixels;
   std::array<SpotKey, association::kMaximumSpots> keys;
@@ -66,6 +67,10 @@ class TrackInitiation {
                         const association::SpotReference* spots,
                         const std::vector<GroupCamera>& cameras,
                         const std::vector<UnassignedSpots>& unassigned) const;
+  motion::MotionFilter filterOf(const association::AssociatedPoint& point,
+                                const association::SpotReference* spots,
+                                const std::vector<GroupCamera>& cameras,
+                                const std::vector<UnassignedSpots>& unassigned);
   bool isAllowed(const association::AssociatedPoint& point) const;
 
   /// The ray of a spot, kept because spots are searched again with every image of the other
@@ -83,7 +88,8 @@ class TrackInitiation {
   std::vector<std::array<geometry::Sight, association::kMaximumSpots>> sights_;
   std::vector<std::array<std::size_t, association::kMaximumSpots>> spots_;  // of the sights
   std::vector<association::View> views_;
-  std::vector<SpotKey> initial_spots_;  // of one point
+  std::vector<SpotKey> initial_spots_;               // of one point
+  std::vector<association::SpotReference> by_time_;  // of one point
   std::vector<association::SpotReference> used_;
 };
 

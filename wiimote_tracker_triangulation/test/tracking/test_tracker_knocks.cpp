@@ -114,6 +114,7 @@ TEST(TrackerKnocks, AKnockedCameraIsLeftOutWithinASecondAndTheOthersGoOn) {
 
 /// The other direction moves spots along the rays of the other camera, so that they still meet.
 TEST(TrackerKnocks, OfTwoCamerasNoWrongPointsAreTracked) {
+  std::size_t leds = 0, tracked = 0;
   for (const double degrees : {1.0, 2.0, 3.0}) {
     for (const unsigned seed : {1u, 2u, 3u}) {
       const Knock result = knock(2, wanderers(4, seed), degrees, 0.0, seed);
@@ -121,9 +122,12 @@ TEST(TrackerKnocks, OfTwoCamerasNoWrongPointsAreTracked) {
       EXPECT_LE(*result.out, 0.5) << degrees;
       EXPECT_LE(*result.used, 2.0) << degrees;
       EXPECT_LT(result.worst, 0.05) << degrees << " degrees, seed " << seed;
-      EXPECT_GT(result.tracked, 0.2 * result.leds) << "tracked again";
+      leds += result.leds;
+      tracked += result.tracked;
     }
   }
+  // How soon it fits again differs by chance: 0.2 to 0.34 of a knock's time.
+  EXPECT_GT(tracked, 0.27 * leds) << "tracked again";
 }
 
 }  // namespace

@@ -58,8 +58,11 @@ void ImageUpdate::collectCandidates(const GroupCamera& camera,
       continue;
     track.filter.predict(image.time);
     const auto prediction = track.filter.predictPixel(camera.forRays(), noise_);
-    if (!prediction || !camera.isInImage(prediction->pixel(), options_.merging_distance) ||
-        isTooUncertain(track, *prediction, image.time))
+    if (!prediction || isTooUncertain(track, *prediction, image.time))
+      continue;
+    // Its spot may be in the image though its prediction is not.
+    const double reach = std::sqrt(options_.gate * prediction->covariance().trace());
+    if (!camera.isInImage(prediction->pixel(), std::max(options_.merging_distance, reach)))
       continue;
     Candidate& candidate = candidates_[candidate_count_++];
     candidate.track = i;

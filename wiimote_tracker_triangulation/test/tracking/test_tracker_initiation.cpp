@@ -6,6 +6,9 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <set>
 
 namespace wiimote_tracker::tracking::test {
 namespace {
@@ -46,6 +49,42 @@ TEST(TrackerInitiation, TheFirstPointsOfAMovingLedAreExact) {
   ASSERT_EQ(450, count);
   EXPECT_LT(std::sqrt(squares / count), 0.005);
   EXPECT_NEAR(0.95, static_cast<double>(inside) / count, 0.04);
+}
+
+/// Towards camera 0 and back, so that it leaves camera 1's image for half a period. The prediction
+/// by camera 0 alone goes on outwards.
+TEST(TrackerInitiation, AnLedThatTurnsBackIntoAnImageIsLocatedAtOnce) {
+  constexpr double kLeaves = 1001.0, kFrequency = 5.0;  // [s], [rad/s]
+  const geometry::Rig rig = pairOfCameras();
+  const geometry::Camera& alone = rig.cameras[0].camera;
+  const geometry::Camera& other = rig.cameras[1].camera;
+  const Eigen::Vector3d ray = (Eigen::Vector3d(1.25, 1.25, 1.0) - alone.center()).normalized();
+  double edge = 1.0;  // of the other's image [m]
+  while (!other.sees(alone.center() + edge * ray))
+    edge += 0.01;
+  for (const double amplitude : {0.2, 0.3}) {
+    const Path led = [&](double time) -> Eigen::Vector3d {
+      const double phase = kFrequency * (time - kLeaves);
+      return alone.center() + (edge - amplitude * std::sin(phase)) * ray +
+             0.5 * (time - kLeaves) * ray.unitOrthogonal();
+    };
+    Tracker tracker(rig, exactOptions());
+    double last_hidden = 0.0;
+    std::size_t predicted = 0;
+    for (const Snapshot& snapshot : track(&tracker, imagesOf(rig, {led}, SceneOptions(), 400))) {
+      if (snapshot.time < kLeaves)
+        continue;
+      if (!other.sees(led(snapshot.time)))
+        last_hidden = snapshot.time;
+      const bool is_tracked = idsIn(snapshot, TrackState::kTracked) == std::set<std::uint32_t>{0};
+      predicted += !is_tracked;
+      if (snapshot.time > last_hidden + 0.05) {
+        EXPECT_TRUE(is_tracked) << amplitude << " m, " << snapshot.time - last_hidden << " s";
+      }
+    }
+    EXPECT_GT(last_hidden, kLeaves + 0.4);
+    EXPECT_GT(predicted, 40u);
+  }
 }
 
 }  // namespace

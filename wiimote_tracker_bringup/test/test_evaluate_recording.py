@@ -9,6 +9,7 @@ import sys
 
 import numpy as np
 import pytest
+import rosbag
 from scipy.spatial.transform import Rotation
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -19,7 +20,7 @@ from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
 from wiimote_tracker_evaluation.foreign import (accuracy, body, disturbed,  # noqa: E402
                                                 flight as flights, lighthouse, multicamselfcal,
                                                 ordinary, program)
-from wiimote_tracker_evaluation.foreign.views import Truth  # noqa: E402
+from wiimote_tracker_evaluation.foreign.views import Camera, Truth, Views  # noqa: E402
 
 NOISE = 1e-4  # [rad]
 DELAYS = (0.0007, 0.0172)  # of the stations' logs beyond the end of both sweeps [s]
@@ -191,6 +192,20 @@ def test_the_images_are_of_the_sweeps_own_times(flight):
         error = camera.pixels - expected
         assert np.abs(error.mean(axis=(0, 1))).max() < 0.02
         assert error.std() < 1.2 * NOISE * camera.focal
+
+
+def test_a_camera_sends_images_also_when_it_sees_nothing(tmp_path):
+    seen = np.array([0.0, 0.1, 0.2, 0.5, 0.6, 0.8])  # 10 Hz, three images without the light
+    cameras = [Camera(name, 100, 100.0, seen + start, np.full((len(seen), 1, 2), 40.0))
+               for name, start in (('one', 5.0), ('other', 5.03))]
+    assert cameras[0].blank_times == pytest.approx([5.3, 5.4, 5.7])
+    path = str(tmp_path / 'blobs.bag')
+    ordinary.write_bag(Views(cameras, np.zeros((1, 3)), 0.0, None), [0.0, 0.0], path)
+    with rosbag.Bag(path) as bag:
+        images = [image for _, image, _ in bag.read_messages('/one/ir_blobs')]
+    assert [image.header.stamp.to_sec() for image in images] == pytest.approx(
+        5.0 + 0.1 * np.arange(9))
+    assert [len(image.blobs) for image in images] == [1, 1, 1, 0, 0, 1, 1, 0, 1]
 
 
 def test_coverage_and_nees_of_errors_as_stated():

@@ -6,6 +6,7 @@ four corners as the cameras of self_calibrate would see them, with so little wei
 fix what is open.
 """
 
+import itertools
 import os
 import subprocess
 
@@ -155,11 +156,12 @@ def track(views, rig, folder, smooth=False):
     source, target, table, parameters = (os.path.join(folder, name) for name in (
         'blobs.bag', 'tracked.bag', 'points.csv', 'track.yaml'))
     write_bag(views, rig.offsets, source)
-    # Each spot is known to be the body's: two of each camera, which tell its speed, confirm it.
+    # Each spot is known to be the body's: one of each camera starts a track, and another, which
+    # tells its speed, confirms it.
     with open(parameters, 'w') as file:
         yaml.safe_dump({'pixel_stddev': rig.pixel_stddev(),
                         'tracks': {'birth_pixel_stddev': BIRTH_WINDOW * spot_speed(views),
-                                   'confirmation_hits': 2 * len(views.cameras)}}, file)
+                                   'confirmation_hits': len(views.cameras)}}, file)
     run('wiimote_tracker_triangulation/track_bag', source, target,
         '--rig', lenses_of(views, rig, folder),
         '--params', parameters, '--csv', table, '--results-only', *(['--smooth'] if smooth else []))
@@ -182,20 +184,22 @@ def spot_speed(views):
 
 
 def write_bag(views, offsets, path):
-    """Blobs of the middle of the lights, in the order of their exposure times: each image arrives
-    LATENCY after it. offsets: exposure time minus stamp of each camera [s]."""
-    images = sorted((time + offset, number, i)
+    """Blobs of the middle of the lights, none in an image that does not show them all, in the order
+    of their exposure times: each image arrives LATENCY after it. offsets: exposure time minus stamp
+    of each camera [s]."""
+    nan = float('nan')
+    images = sorted((time + offset, time, number, center)
                     for number, (camera, offset) in enumerate(zip(views.cameras, offsets))
-                    for i, time in enumerate(camera.times))
-    centers, nan = [camera.centers for camera in views.cameras], float('nan')
+                    for time, center in itertools.chain(
+                        zip(camera.times.tolist(), camera.centers.tolist()),
+                        zip(camera.blank_times.tolist(), itertools.repeat([]))))
     with rosbag.Bag(path, 'w') as bag:
-        for exposure, number, i in images:
+        for i, (exposure, time, number, center) in enumerate(images):
             camera = views.cameras[number]
-            x, y = centers[number][i]
+            blobs = [IrBlob(x=center[0], y=center[1], size=nan, intensity=nan)] if center else []
             image = IrBlobArray(camera=camera.name, frame=i, width=camera.size, height=camera.size,
-                                max_blobs=1, stamp_stddev=nan,
-                                blobs=[IrBlob(x=x, y=y, size=nan, intensity=nan)])
-            image.header.stamp = rospy.Time.from_sec(camera.times[i])
+                                max_blobs=1, stamp_stddev=nan, blobs=blobs)
+            image.header.stamp = rospy.Time.from_sec(time)
             image.header.frame_id = camera.name + '_optical_frame'
             image.arrival = rospy.Time.from_sec(exposure + LATENCY)
             bag.write(f'/{camera.name}/ir_blobs', image, image.arrival)

@@ -35,6 +35,14 @@ class Camera:
         """Of the lights, n x 2 [px]: the point that is tracked."""
         return self.pixels.mean(axis=1)
 
+    @property
+    def blank_times(self) -> np.ndarray:
+        """Of the images between those, at the camera's rate, which do not show all lights [s]."""
+        steps = np.diff(self.times)
+        counts = np.round(steps / np.median(steps)).astype(int)
+        return np.concatenate([start + step * np.arange(1, count) / count for start, step, count
+                               in zip(self.times, steps, counts)])
+
     def pixels_at(self, times) -> np.ndarray:
         """m x lights x 2, interpolated; NaN in gaps."""
         after = np.clip(np.searchsorted(self.times, times), 1, len(self.times) - 1)

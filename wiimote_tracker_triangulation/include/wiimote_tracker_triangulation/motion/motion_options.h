@@ -33,7 +33,7 @@ struct MotionOptions {
                                 ///< rest [1/s, >= 0]; 0: without the modes at rest.
   double rise_rate = 2.4;       ///< From a moving mode to the more agile ones [1/s, >= 0].
   double settle_rate = 0.0008;  ///< From a moving mode to the less agile ones [1/s, >= 0].
-  double initial_speed = 1.0;   ///< Standard deviation of a new LED's velocity, per axis
+  double initial_speed = 2.0;   ///< Standard deviation of a new LED's velocity, per axis
                                 ///< [m/s, > 0].
 };
 

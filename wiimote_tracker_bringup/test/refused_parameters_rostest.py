@@ -14,8 +14,8 @@ import rostest
 NODES = {
     'coverage': [roslib.packages.find_node('wiimote_tracker_triangulation', 'coverage_node')[0],
                  '_cell_size:=-1'],
-    'triangulation': [roslib.packages.find_node('nodelet', 'nodelet')[0], 'standalone',
-                      'wiimote_tracker_triangulation/Triangulation', '_mode:=track'],
+    'triangulation': [roslib.packages.find_node('wiimote_tracker_triangulation',
+                                                'tracker_manager')[0], '_mode:=track'],
 }
 
 

@@ -18,6 +18,6 @@ def test_quick_faults_are_survived(tmp_path):
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True,
                           timeout=LIMIT)
     results = json.loads(path.read_text())
-    assert len(results) == 6, done.stdout
-    assert [result['problems'] for result in results] == 6 * [[]], done.stdout
+    assert len(results) == 8, done.stdout
+    assert [result['problems'] for result in results] == 8 * [[]], done.stdout
     assert done.returncode == 0, done.stdout

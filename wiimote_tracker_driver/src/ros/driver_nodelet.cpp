@@ -1,6 +1,7 @@
 #include "driver.h"
 
 #include <nodelet/nodelet.h>
+#include <wiimote_tracker_msgs/run_node.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <memory>
@@ -12,6 +13,9 @@ class DriverNodelet : public nodelet::Nodelet {
   void onInit() override {
     try {
       driver_ = std::make_unique<Driver>(getNodeHandle(), getPrivateNodeHandle());
+    } catch (const ParameterError& e) {
+      if (!staysRefused(e))
+        throw;
     } catch (const std::exception& e) {
       NODELET_FATAL("%s", e.what());
       throw;

@@ -28,7 +28,7 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog='fault_matrix', description='Causes faults on the simulated rig, and compares what the '
         'tracker publishes before, during and after each with the truth. Takes some minutes.')
-    parser.add_argument('--quick', action='store_true', help='few faults; takes a minute')
+    parser.add_argument('--quick', action='store_true', help='few faults; takes two minutes')
     parser.add_argument('--json', metavar='FILE', help='writes all figures to this file')
     parser.add_argument('--faults', metavar='A,B', help=f"only these of: {', '.join(names)}")
     parser.add_argument('--log', metavar='FILE', help="appends the nodes' output to this file")

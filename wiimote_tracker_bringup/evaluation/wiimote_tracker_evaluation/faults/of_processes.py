@@ -6,7 +6,6 @@ DRIVER, TRACKER, MANAGER = '/wiimote_4/driver', '/triangulation', '/manager'
 CALIBRATION, GESTURES, WATCH = '/calibration', '/gestures', '/master_watch'
 STOPPED = 5.0  # [s]
 IN_ONE = {'one_manager': True}
-ALL_IN_ONE = (MANAGER, TRACKER) + tuple(f'/wiimote_{number}/driver' for number in (1, 2, 3, 4))
 
 
 def killed(name, what, node, last=0.0, ends=None, **how):
@@ -38,7 +37,7 @@ FAULTS = (
     halted('gestures', 'the gestures node', GESTURES),
     killed('master_watch', 'the node that watches the master', WATCH, 3.0),
     halted('master_watch', 'the node that watches the master', WATCH),
-    killed('manager', 'the nodelet manager with tracker and drivers', MANAGER, room=IN_ONE,
-           ends=ALL_IN_ONE, names_may_change=True),
-    halted('manager', 'the nodelet manager with tracker and drivers', MANAGER, room=IN_ONE,
-           ends=ALL_IN_ONE, names_may_change=True))
+    killed('manager', 'the nodelet manager with tracker and drivers', MANAGER, quick=True,
+           room=IN_ONE),
+    halted('manager', 'the nodelet manager with tracker and drivers', MANAGER, quick=True,
+           room=IN_ONE, named='labels were given again'))

@@ -75,6 +75,8 @@ std::string lensMismatch(const sensor_msgs::CameraInfo& info, const geometry::Ca
 void LensCheck::setRig(const geometry::Rig& rig) {
   subscribers_.clear();
   problems_.clear();
+  if (rig.solved_at > begin_)
+    return;
   for (const geometry::RigCamera& rig_camera : rig.cameras) {
     const geometry::Camera& camera = rig_camera.camera;
     subscribers_[camera.name] = subscribe<sensor_msgs::CameraInfo>(

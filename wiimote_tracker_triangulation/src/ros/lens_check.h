@@ -21,7 +21,8 @@ class LensCheck {
  public:
   explicit LensCheck(const ros::NodeHandle& nh) : nh_(nh) {}
 
-  /// Compares with this rig from now on.
+  /// Compares with this rig from now on, unless it was solved since this object was made: then the
+  /// drivers get their lenses when it is saved.
   void setRig(const geometry::Rig& rig);
 
   /// Empty without a mismatch.
@@ -31,6 +32,7 @@ class LensCheck {
   void compare(const sensor_msgs::CameraInfo& info, const geometry::Camera& calibrated);
 
   ros::NodeHandle nh_;
+  double begin_ = ros::WallTime::now().toSec();
   std::map<std::string, ros::Subscriber> subscribers_;  // by camera
   std::map<std::string, std::string> problems_;         // by camera
 };

@@ -221,23 +221,28 @@ TEST(Triangulation, NamesImpossibleSpotsOnce) {
   ASSERT_TRUE(g_bench->waitForLog(words));
 }
 
-TEST(Triangulation, NamesALensThatContradictsTheRig) {
-  ros::Publisher publisher =
-      g_bench->nh_.advertise<sensor_msgs::CameraInfo>("camera_0/camera_info", 1, true);
-  const geometry::Intrinsics& lens = g_bench->rig_.cameras[0].camera.intrinsics;
+sensor_msgs::CameraInfo infoOf(const geometry::Intrinsics& lens) {
   sensor_msgs::CameraInfo info;
   info.width = static_cast<std::uint32_t>(lens.width);
   info.height = static_cast<std::uint32_t>(lens.height);
   info.distortion_model = "plumb_bob";
   info.D.assign(lens.distortion.begin(), lens.distortion.end());
-  info.K[0] = lens.fx + 50.0;
+  info.K[0] = lens.fx;
   info.K[2] = lens.cx;
   info.K[4] = lens.fy;
   info.K[5] = lens.cy;
-  publisher.publish(info);
+  return info;
+}
+
+TEST(Triangulation, NamesALensThatContradictsTheRig) {
+  ros::Publisher publisher =
+      g_bench->nh_.advertise<sensor_msgs::CameraInfo>("camera_0/camera_info", 1, true);
+  const sensor_msgs::CameraInfo right = infoOf(g_bench->rig_.cameras[0].camera.intrinsics);
+  sensor_msgs::CameraInfo wrong = right;
+  wrong.K[0] += 50.0;
+  publisher.publish(wrong);
   EXPECT_TRUE(warns("camera_0", "camera_info of camera_0 contradicts the rig"));
-  info.K[0] = lens.fx;
-  publisher.publish(info);
+  publisher.publish(right);
   EXPECT_TRUE(isWell("camera_0"));
 }
 
@@ -452,6 +457,19 @@ TEST(Triangulation, TakesANewRigAtOnce) {
   EXPECT_GE(found, kFewest);
   g_bench->rig_publisher_.publish(toMessage(g_bench->rig_));
   ASSERT_TRUE(g_bench->film(2.0, {0, 1, 2}));
+}
+
+TEST(Triangulation, SaysNothingOfALensWhoseRigIsToBeSaved) {
+  ros::Publisher publisher =
+      g_bench->nh_.advertise<sensor_msgs::CameraInfo>("camera_0/camera_info", 1, true);
+  sensor_msgs::CameraInfo info = infoOf(g_bench->rig_.cameras[0].camera.intrinsics);
+  info.K[0] += 50.0;
+  publisher.publish(info);
+  EXPECT_TRUE(warns("camera_0", "camera_info of camera_0 contradicts the rig"));
+  g_bench->rig_.solved_at = ros::WallTime::now().toSec();
+  g_bench->rig_.cameras[0].camera.world_from_camera.translation().x() += 1e-6;  // another rig
+  g_bench->rig_publisher_.publish(toMessage(g_bench->rig_));
+  EXPECT_TRUE(isWell("camera_0"));
 }
 
 TEST(Triangulation, IgnoresImagesOfAnotherSize) {

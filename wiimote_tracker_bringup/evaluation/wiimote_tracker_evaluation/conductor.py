@@ -14,6 +14,7 @@ from wiimote_tracker_msgs.srv import (CheckConnection, SaveRig, SetLed, SetLedRe
 from wiimote_tracker_evaluation.errors import ExperimentError
 
 SETTLE = 0.1  # between arrival of an LED and measurement [s]
+REST = 0.02   # spread of the points of an LED at rest within that time [m]
 CAPTURE_ATTEMPTS = 3
 
 
@@ -175,14 +176,21 @@ class Conductor:
     # --- Measuring
 
     def dwell(self, kind, name, place, speed, duration):
-        """Moves the LED to a place and leaves it there for a duration [s]."""
-        start = self.move(place, speed) + SETTLE
+        """Moves the LED to a place and leaves it there for a duration [s], from when its points are
+        at rest: a busy computer may stamp images of the motion too late."""
+        arrival = self.move(place, speed)
+        self.wait(lambda: self._rests(arrival), 30.0, 'points of an LED at rest')
+        start = self._recorder.newest_stamp
         return self._measure(Segment(kind, name, place, start, start + duration))
 
     def circle(self, name, center, radius, speed, duration):
         """Moves the LED on a circle for a duration [s]."""
         start = self.circle_from(center, radius, speed) + SETTLE
         return self._measure(Segment('circle', name, center, start, start + duration))
+
+    def _rests(self, arrival):
+        since = self._recorder.newest_stamp - SETTLE
+        return since >= arrival and self._recorder.spread(since) < REST
 
     def _measure(self, segment):
         self.wait(lambda: self._recorder.newest_stamp > segment.end,

@@ -1,5 +1,7 @@
 """Published and true positions as arrays; from a bag or live."""
 
+import itertools
+
 import numpy as np
 import rosbag
 import rospy
@@ -88,6 +90,12 @@ class LiveRecorder:
         self._ages.append((now - message.header.stamp).to_sec())
         if message.points:
             self.newest_stamp = message.header.stamp.to_sec()
+
+    def spread(self, start) -> float:
+        """Largest side of the box around the points since then [m]; infinite without points."""
+        newest = [row[1:4] for row in
+                  itertools.takewhile(lambda row: row[0] >= start, reversed(list(self._points)))]
+        return float(np.max(np.ptp(newest, axis=0))) if newest else np.inf
 
     def recording(self) -> Recording:
         return Recording(list(self._points), list(self._truths), list(self._latencies),

@@ -42,6 +42,8 @@ void ImageUpdate::apply(const GroupCamera& camera,
       updateTrack(camera, image, candidate, other ? &(*tracks)[other->track] : nullptr, &track);
     else if (is_merged || candidate.expected)
       track.miss(image.camera, image.time);
+    else if (candidate.in_view && image.full)
+      track.crowdOut(image.camera, image.time);
   }
 }
 

@@ -39,7 +39,7 @@ Track::Track(const motion::MotionFilter& start, std::uint32_t led_id)
       velocity_(Eigen::Vector3d::Zero()),
       position_time_(initiated_) {}
 
-CameraRecord& Track::recordOf(std::size_t camera, double time) {
+CameraRecord& Track::recordOf(std::size_t camera) {
   for (std::size_t i = 0; i < record_count_; ++i) {
     if (records_[i].camera == camera)
       return records_[i];
@@ -55,21 +55,24 @@ CameraRecord& Track::recordOf(std::size_t camera, double time) {
   CameraRecord& record = records_[index];
   record = CameraRecord();
   record.camera = camera;
-  record.time = time;
-  record.hit = record.own = -std::numeric_limits<double>::infinity();
+  record.time = record.full = record.hit = record.own = -std::numeric_limits<double>::infinity();
   return record;
 }
 
 void Track::miss(std::size_t camera, double time) {
-  CameraRecord& record = recordOf(camera, time);
+  CameraRecord& record = recordOf(camera);
   record.time = time;
   record.recent = record.recent << 1 & kRecentImages;
   ++misses_in_a_row_;
 }
 
+void Track::crowdOut(std::size_t camera, double time) {
+  recordOf(camera).full = time;
+}
+
 void Track::hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own) {
   const double time = filter.time();
-  CameraRecord& record = recordOf(camera, time);
+  CameraRecord& record = recordOf(camera);
   if (!record.recent)
     record.ray = RayOffset();
   record.time = time;
@@ -86,7 +89,7 @@ void Track::hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own
 }
 
 void Track::noteRay(std::size_t camera, const RayOffset& ray) {
-  recordOf(camera, filter.time()).ray.add(ray);
+  recordOf(camera).ray.add(ray);
 }
 
 void Track::noteOwnSpot() {
@@ -110,7 +113,7 @@ bool Track::isDuplicate() const {
 }
 
 void Track::addInitialSpot(std::size_t camera, double time, double residual) {
-  CameraRecord& record = recordOf(camera, time);
+  CameraRecord& record = recordOf(camera);
   record.time = record.hit = record.own = time;
   started_ = std::min(started_, time);
   ++initial_spots_;
@@ -152,6 +155,7 @@ void Track::updateStatus(double time, const TrackerOptions& options) {
     return;
   }
   const std::size_t supporting = supportingCameras(time, options);
+  const std::size_t in_view = camerasInView(time, options);
   const bool is_supported =
       supporting >= 2 &&
       static_cast<double>(supporting) >= options.minimum_support * static_cast<double>(possible);
@@ -160,7 +164,7 @@ void Track::updateStatus(double time, const TrackerOptions& options) {
                   squares <= static_cast<double>(seen_by) * limit * limit &&
                   (seen_by >= 3 || (is_supported && agreement_.areNowOne()));
   confirmed_ =
-      is_supported && hits_ >= options.confirmation_hits && !isDoubtful(supporting, possible);
+      is_supported && hits_ >= options.confirmation_hits && !isDoubtful(supporting, in_view);
   if (confirmed_)
     return;
   constexpr double kMaximumTentativeTime = 0.5;  // [s]
@@ -170,12 +174,22 @@ void Track::updateStatus(double time, const TrackerOptions& options) {
       unseen > patience || time - last_located_ > patience ||
       (unseen >= options.dark_time && misses_in_a_row_ >= 2 * std::max<std::size_t>(possible, 2)) ||
       (time - initiated_ > kMaximumTentativeTime + options.dark_time &&
-       !isDoubtful(supporting, possible));
+       !isDoubtful(supporting, in_view));
 }
 
-/// Whether only two cameras see it where others should, and these two may see different lights.
-bool Track::isDoubtful(std::size_t seen_by, std::size_t possible) const {
-  return seen_by == 2 && possible > 2 && !agreement_.areLikelyOne();
+/// Cameras that should show it, and those that show as many others as they can.
+std::size_t Track::camerasInView(double time, const TrackerOptions& options) const {
+  return static_cast<std::size_t>(
+      std::count_if(records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
+                    [&](const CameraRecord& record) {
+                      return std::max(record.time, record.full) >= time - options.tracked_time;
+                    }));
+}
+
+/// Whether only two cameras see it of more that have it in view, and these two may see different
+/// lights.
+bool Track::isDoubtful(std::size_t seen_by, std::size_t in_view) const {
+  return seen_by == 2 && in_view > 2 && !agreement_.areLikelyOne();
 }
 
 void Track::weighRays(double time, const TrackerOptions& options) {
@@ -277,7 +291,7 @@ void Track::report(double time,
   // Predicted: one camera alone does not measure the distance; the two cameras that see it may see
   // different lights; or no spot is near its prediction, as of a track that follows another light.
   const bool is_located = led->cameras.size() >= 2 &&
-                          !isDoubtful(led->cameras.size(), led->rays_possible) &&
+                          !isDoubtful(led->cameras.size(), camerasInView(time, options)) &&
                           led->residual <= 2.0 * options.birth_pixel_stddev;
   led->state = !confirmed_  ? TrackState::kTentative
                : is_located ? TrackState::kTracked

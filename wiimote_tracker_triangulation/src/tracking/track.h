@@ -18,6 +18,7 @@ namespace wiimote_tracker::tracking {
 struct CameraRecord {
   std::size_t camera = 0;         // in its group
   double time = 0.0;              // last image that should show the LED [s]
+  double full = 0.0;              // last image of its place in which no further spot fits [s]
   double hit = 0.0;               // last image with a spot of the LED [s]
   double own = 0.0;               // last image with a spot that was not assigned to another LED [s]
   double squared_residual = 0.0;  // of the last spot [px^2]
@@ -35,6 +36,9 @@ class Track {
 
   /// Missed detection: the camera should have shown the LED and did not.
   void miss(std::size_t camera, double time);
+
+  /// The camera has the LED in view, but shows as many others as it can.
+  void crowdOut(std::size_t camera, double time);
 
   /// The filter was updated with a camera's spot, at its present time. @param residual [px]
   /// @param is_own false: a merged spot that is assigned to another LED.
@@ -103,9 +107,10 @@ class Track {
   std::uint32_t id;
 
  private:
-  CameraRecord& recordOf(std::size_t camera, double time);
+  CameraRecord& recordOf(std::size_t camera);
   bool isDuplicate() const;
-  bool isDoubtful(std::size_t seen_by, std::size_t possible) const;
+  std::size_t camerasInView(double time, const TrackerOptions& options) const;
+  bool isDoubtful(std::size_t seen_by, std::size_t in_view) const;
   void weighRays(double time, const TrackerOptions& options);
   std::size_t supportingCameras(double time, const TrackerOptions& options) const;
 

@@ -72,6 +72,24 @@ TEST(TrackerPhantoms, AnLedThatTheOtherCamerasCannotSeeIsConfirmedAtOnce) {
   EXPECT_GE(rows.tracked, 4000u * 99 / 100);
 }
 
+// Each camera shows four of twelve: none contradicts where rays of two LEDs meet by chance.
+TEST(TrackerPhantoms, LedsThatCrowdEachOtherOutMakeFew) {
+  PhantomRows all;
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    geometry::test::Random random(seed);
+    std::vector<Path> leds;
+    for (int i = 0; i < 12; ++i) {
+      const Eigen::Vector3d place(0.5 + 0.5 * (i % 4), 0.6 + 0.6 * (i / 4), 1.0);
+      leds.push_back(wandering(random, place, 0.2, 0.5));
+    }
+    const PhantomRows rows = rowsOf(paperRig(), leds, leds, SceneOptions(), 4000, seed);
+    all.tracked += rows.tracked;
+    all.wrong += rows.wrong;
+  }
+  EXPECT_GT(all.tracked, 25000u);
+  EXPECT_LE(all.wrong, 0.05 * all.tracked) << all.tracked;
+}
+
 TEST(TrackerPhantoms, AHiddenLedIsNotFoundOnGhosts) {
   PhantomRows all;
   for (const unsigned seed : {1u, 2u, 3u}) {

@@ -30,7 +30,7 @@ struct CameraRecord {
 class Track {
  public:
   /// Most cameras with a record; if more see the LED, the latest ones.
-  static constexpr std::size_t kMaximumRecords = 12;
+  static constexpr std::size_t kMaximumRecords = 64;
 
   Track(const motion::MotionFilter& start, std::uint32_t led_id);
 

@@ -104,6 +104,29 @@ TEST(Tracker, MoreLightsThanACameraReports) {
   EXPECT_EQ(0u, check.renamed);
 }
 
+TEST(Tracker, FortyCamerasInOneRoom) {
+  const std::vector<Path> leds = {circle({0.4, 0.3, 1.0}, 0.3, 0.6),
+                                  circle({-0.4, -0.3, 1.1}, 0.3, 0.6)};
+  const geometry::Rig rig = roomsRig(1, 40);
+  SceneOptions options;
+  options.delay_jitter = 0.0024;
+  Tracker tracker(rig, exactOptions());
+  IdentityCheck check(leds);
+  std::size_t cameras = 40;
+  for (const Snapshot& snapshot : track(&tracker, imagesOf(rig, leds, options, 4000))) {
+    if (snapshot.time < 1000.3)
+      continue;
+    check.look(snapshot);
+    for (const TrackedLed& led : snapshot.leds)
+      cameras = std::min(cameras, led.cameras.size());
+  }
+  EXPECT_GT(check.snapshots, 300u);
+  EXPECT_EQ(0u, check.uncovered);
+  EXPECT_EQ(0u, check.false_tracks);
+  EXPECT_LT(check.rms(), 0.002);
+  EXPECT_GE(cameras, 35u);
+}
+
 TEST(Tracker, ANewRigTakesOverTheTracks) {
   const std::vector<Path> leds = wanderers(3, 12);
   const geometry::Rig rig = paperRig();

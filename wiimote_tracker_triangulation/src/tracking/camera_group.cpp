@@ -83,19 +83,26 @@ CameraGroup::Outcome CameraGroup::add(const StoredImage& image,
   }
   const auto mistimed = mistimedBefore(*place, image);
   const bool is_late = mistimed || *place < images.end();
-  const std::uint64_t start =
-      is_late ? history_.rollBack(mistimed.value_or(*place), &state_) : *place;
+  const std::uint64_t first = mistimed.value_or(*place);
+  if (first < next_step_)
+    next_step_ = history_.rollBack(first, &state_);
   if (mistimed)
     history_.remove(*mistimed);
   history_.insert(mistimed ? *place - 1 : *place, image);
-  for (std::uint64_t i = start; i < images.end(); ++i) {
-    history_.keep(i, state_);
-    step(images.at(i), ids, views);
-  }
+  if (is_late)
+    return Outcome::kLate;
+  update(ids, views);
   history_.forgetBefore(images.back().time - options_.history);
+  return Outcome::kAdded;
+}
+
+void CameraGroup::update(Ids* ids, std::vector<CameraView>* views) {
+  for (; next_step_ < history_.images().end(); ++next_step_) {
+    history_.keep(next_step_, state_);
+    step(history_.images().at(next_step_), ids, views);
+  }
   if (state_.clocks == clocks_.version())
     clocks_.update(state_.fits);
-  return is_late ? Outcome::kLate : Outcome::kAdded;
 }
 
 /// Finds an image of the same camera at nearly the same time. A busy computer delivers delayed
@@ -203,6 +210,7 @@ void CameraGroup::adopt(const Track& track) {
 
 void CameraGroup::clear() {
   history_.clear();
+  next_step_ = 0;
   state_.tracks.clear();
   state_.pairs.clear();
   std::fill(state_.unassigned.begin(), state_.unassigned.end(), UnassignedSpots());

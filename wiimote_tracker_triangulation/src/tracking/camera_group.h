@@ -36,9 +36,13 @@ class CameraGroup {
               const std::vector<std::vector<std::size_t>>& partners,
               const TrackerOptions& options);
 
+  /// Steps follow with the next image in order, or update(): a late image may come after others.
   /// @param image of the member image.camera.
   /// @param views one per camera of the rig; the use of the image's spots is written to its view.
   Outcome add(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
+
+  /// Carries out the steps of all images.
+  void update(Ids* ids, std::vector<CameraView>* views);
 
   /// Whether a camera's images do not fit the others'. With more than two cameras they are left
   /// out.
@@ -81,7 +85,8 @@ class CameraGroup {
   ImageUpdate update_;
   TrackInitiation initiation_;
   CameraClocks clocks_;
-  State state_;
+  State state_;  // before the image of index next_step_
+  std::uint64_t next_step_ = 0;
   History<State> history_;
 };
 

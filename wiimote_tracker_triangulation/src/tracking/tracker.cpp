@@ -39,6 +39,7 @@ void Tracker::setRig(const geometry::Rig& rig) {
     uncertainty_ = std::make_unique<geometry::CalibrationUncertainty>(rig_);
     return;
   }
+  updateGroups();
   const auto before = std::exchange(groups_, {});
   useRig(rig);
   takeOverTracks(before);
@@ -153,10 +154,16 @@ void Tracker::store(std::size_t camera, const CameraImage& image) {
   collect(true);
 }
 
+void Tracker::updateGroups() {
+  for (const auto& group : groups_)
+    group->update(ids_.get(), &views_);
+}
+
 const Snapshot* Tracker::next() {
   if (!(newest_time_ > last_output_ && newest_time_ >= last_output_ + options_.output_interval))
     return nullptr;
   last_output_ = newest_time_;
+  updateGroups();
   writer_->write(groups_, newest_time_, &snapshot_);
   for (TrackedLed& led : snapshot_.leds) {
     if (const auto covariance =
@@ -167,9 +174,10 @@ const Snapshot* Tracker::next() {
   return &snapshot_;
 }
 
-bool Tracker::predictTo(double time, Snapshot* snapshot) const {
+bool Tracker::predictTo(double time, Snapshot* snapshot) {
   if (newest_time_ == kNever || !(time >= newest_time_))
     return false;
+  updateGroups();
   snapshot->leds.resize(countTracks(groups_));
   writeLeds(groups_, time, options_, snapshot);
   for (TrackedLed& led : snapshot->leds) {

@@ -45,7 +45,7 @@ std::vector<Snapshot> track(Estimator* tracker, const std::vector<SceneImage>& i
   return snapshots;
 }
 
-Snapshot stateAt(const Tracker& tracker, double time) {
+Snapshot stateAt(Tracker& tracker, double time) {
   Snapshot snapshot;
   EXPECT_TRUE(tracker.predictTo(time, &snapshot));
   return snapshot;

@@ -28,7 +28,7 @@ std::vector<SceneImage> imagesOf(const geometry::Rig& rig,
 /// Adds images and returns all snapshots.
 std::vector<Snapshot> track(Estimator* tracker, const std::vector<SceneImage>& images);
 
-Snapshot stateAt(const Tracker& tracker, double time);
+Snapshot stateAt(Tracker& tracker, double time);
 
 /// Expects the same LEDs bit for bit, whatever their ids.
 void expectSameLeds(Snapshot a, Snapshot b);

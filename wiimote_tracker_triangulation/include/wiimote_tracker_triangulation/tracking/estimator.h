@@ -61,7 +61,7 @@ class Estimator {
   /// Predicts all LEDs to a time [s] not before the newest image, for output at a fixed rate.
   /// False, and nothing is written, when the estimator cannot predict, has seen no image or is past
   /// that time.
-  virtual bool predictTo(double /*time*/, Snapshot* /*snapshot*/) const { return false; }
+  virtual bool predictTo(double /*time*/, Snapshot* /*snapshot*/) { return false; }
 };
 
 }  // namespace wiimote_tracker::tracking

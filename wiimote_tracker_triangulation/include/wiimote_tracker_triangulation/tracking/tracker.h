@@ -23,7 +23,8 @@ struct StoredImage;
 
 /// Tracks LEDs in continuous time. Each image updates the tracks that its camera may see, at once
 /// and at the image's own time. A late image is inserted at its time and the steps after it are
-/// repeated. Cameras that share no view, as those of several rooms, are independent.
+/// repeated before the next snapshot. Cameras that share no view, as those of several rooms, are
+/// independent.
 ///
 /// An image newer than all others makes a snapshot of all LEDs at its time. The states are
 /// explained in doc/tracking.md; a lost LED is in one snapshot only. The covariance of a position
@@ -47,7 +48,7 @@ class Tracker : public Estimator {
   std::optional<CameraFault> cameraFault(std::size_t camera) const override;
 
   /// Without lost LEDs.
-  bool predictTo(double time, Snapshot* snapshot) const override;
+  bool predictTo(double time, Snapshot* snapshot) override;
 
  private:
   struct Place {
@@ -58,6 +59,7 @@ class Tracker : public Estimator {
   void useRig(const geometry::Rig& rig);
   void takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before);
   void store(std::size_t camera, const CameraImage& image);
+  void updateGroups();
   void describeImages(Snapshot* snapshot) const;
 
   TrackerOptions options_;

@@ -28,6 +28,21 @@ int bits(unsigned x) {
 
 }  // namespace
 
+CameraRecord& CameraRecords::of(std::size_t camera) {
+  CameraRecord* record =
+      std::find_if(begin(), end(), [&](auto& known) { return known.camera == camera; });
+  if (record != end())
+    return *record;
+  record = count_ < kMaximum
+               ? &records_[count_++]
+               : std::min_element(begin(), end(), [](auto& a, auto& b) { return a.time < b.time; });
+  *record = CameraRecord();
+  record->camera = camera;
+  record->time = record->full = record->hit = record->own =
+      -std::numeric_limits<double>::infinity();
+  return *record;
+}
+
 Track::Track(const motion::MotionFilter& start, std::uint32_t led_id)
     : filter(start),
       id(led_id),
@@ -39,40 +54,20 @@ Track::Track(const motion::MotionFilter& start, std::uint32_t led_id)
       velocity_(Eigen::Vector3d::Zero()),
       position_time_(initiated_) {}
 
-CameraRecord& Track::recordOf(std::size_t camera) {
-  for (std::size_t i = 0; i < record_count_; ++i) {
-    if (records_[i].camera == camera)
-      return records_[i];
-  }
-  std::size_t index = record_count_;
-  if (record_count_ < kMaximumRecords) {
-    ++record_count_;
-  } else {
-    const auto oldest = std::min_element(records_.begin(), records_.end(),
-                                         [](auto& a, auto& b) { return a.time < b.time; });
-    index = static_cast<std::size_t>(oldest - records_.begin());
-  }
-  CameraRecord& record = records_[index];
-  record = CameraRecord();
-  record.camera = camera;
-  record.time = record.full = record.hit = record.own = -std::numeric_limits<double>::infinity();
-  return record;
-}
-
 void Track::miss(std::size_t camera, double time) {
-  CameraRecord& record = recordOf(camera);
+  CameraRecord& record = records_.of(camera);
   record.time = time;
   record.recent = record.recent << 1 & kRecentImages;
   ++misses_in_a_row_;
 }
 
 void Track::crowdOut(std::size_t camera, double time) {
-  recordOf(camera).full = time;
+  records_.of(camera).full = time;
 }
 
 void Track::hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own) {
   const double time = filter.time();
-  CameraRecord& record = recordOf(camera);
+  CameraRecord& record = records_.of(camera);
   if (!record.recent)
     record.ray = RayOffset();
   record.time = time;
@@ -89,7 +84,7 @@ void Track::hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own
 }
 
 void Track::noteRay(std::size_t camera, const RayOffset& ray) {
-  recordOf(camera).ray.add(ray);
+  records_.of(camera).ray.add(ray);
 }
 
 void Track::noteOwnSpot() {
@@ -113,7 +108,7 @@ bool Track::isDuplicate() const {
 }
 
 void Track::addInitialSpot(std::size_t camera, double time, double residual) {
-  CameraRecord& record = recordOf(camera);
+  CameraRecord& record = records_.of(camera);
   record.time = record.hit = record.own = time;
   started_ = std::min(started_, time);
   ++initial_spots_;
@@ -135,12 +130,12 @@ void Track::updateStatus(double time, const TrackerOptions& options) {
   std::size_t seen_by = 0;
   std::size_t possible = 0;
   double squares = 0.0;  // residuals [px^2]
-  for (std::size_t i = 0; i < record_count_; ++i) {
-    possible += records_[i].time >= time - options.tracked_time;
-    if (records_[i].hit < time - options.tracked_time)
+  for (const CameraRecord& record : records_) {
+    possible += record.time >= time - options.tracked_time;
+    if (record.hit < time - options.tracked_time)
       continue;
     ++seen_by;
-    squares += records_[i].squared_residual;
+    squares += record.squared_residual;
   }
   if (seen_by >= 2)
     last_located_ = time;
@@ -180,10 +175,9 @@ void Track::updateStatus(double time, const TrackerOptions& options) {
 /// Cameras that should show it, and those that show as many others as they can.
 std::size_t Track::camerasInView(double time, const TrackerOptions& options) const {
   return static_cast<std::size_t>(
-      std::count_if(records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
-                    [&](const CameraRecord& record) {
-                      return std::max(record.time, record.full) >= time - options.tracked_time;
-                    }));
+      std::count_if(records_.begin(), records_.end(), [&](const CameraRecord& record) {
+        return std::max(record.time, record.full) >= time - options.tracked_time;
+      }));
 }
 
 /// Whether only two cameras see it of more that have it in view, and these two may see different
@@ -195,11 +189,11 @@ bool Track::isDoubtful(std::size_t seen_by, std::size_t in_view) const {
 void Track::weighRays(double time, const TrackerOptions& options) {
   std::array<const RayOffset*, 2> rays;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < record_count_; ++i) {
-    if (records_[i].hit < time - options.tracked_time)
+  for (const CameraRecord& record : records_) {
+    if (record.hit < time - options.tracked_time)
       continue;
     if (count < 2)
-      rays[count] = &records_[i].ray;
+      rays[count] = &record.ray;
     ++count;
   }
   if (count == 2 && rays[0]->count > 0.0 && rays[1]->count > 0.0)
@@ -213,10 +207,9 @@ void Track::weighRays(double time, const TrackerOptions& options) {
 /// Cameras that detected it in two of their last four images.
 std::size_t Track::supportingCameras(double time, const TrackerOptions& options) const {
   return static_cast<std::size_t>(
-      std::count_if(records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
-                    [&](const CameraRecord& record) {
-                      return record.time >= time - options.tracked_time && bits(record.recent) >= 2;
-                    }));
+      std::count_if(records_.begin(), records_.end(), [&](const CameraRecord& record) {
+        return record.time >= time - options.tracked_time && bits(record.recent) >= 2;
+      }));
 }
 
 Eigen::Vector3d Track::approximatePosition(double time) const {
@@ -224,11 +217,10 @@ Eigen::Vector3d Track::approximatePosition(double time) const {
 }
 
 bool Track::isShownBeside(const Track& other, double since) const {
-  for (std::size_t i = 0; i < record_count_; ++i) {
-    for (std::size_t j = 0; j < other.record_count_; ++j) {
-      const CameraRecord& record = records_[i];
-      if (record.camera == other.records_[j].camera && record.own == other.records_[j].own &&
-          record.own >= since && std::isfinite(record.own))
+  for (const CameraRecord& record : records_) {
+    for (const CameraRecord& others : other.records_) {
+      if (record.camera == others.camera && record.own == others.own && record.own >= since &&
+          std::isfinite(record.own))
         return true;
     }
   }
@@ -236,20 +228,20 @@ bool Track::isShownBeside(const Track& other, double since) const {
 }
 
 bool Track::wasMissedBy(std::size_t camera) const {
-  return std::any_of(
-      records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
-      [&](const CameraRecord& record) { return record.camera == camera && !(record.recent & 1); });
+  return std::any_of(records_.begin(), records_.end(), [&](const CameraRecord& record) {
+    return record.camera == camera && !(record.recent & 1);
+  });
 }
 
 std::size_t Track::othersSeeing(std::size_t camera, double since) const {
   return static_cast<std::size_t>(std::count_if(
-      records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
+      records_.begin(), records_.end(),
       [&](const CameraRecord& record) { return record.camera != camera && record.hit >= since; }));
 }
 
 std::size_t Track::camerasShowing(double since) const {
   return static_cast<std::size_t>(
-      std::count_if(records_.begin(), records_.begin() + static_cast<std::ptrdiff_t>(record_count_),
+      std::count_if(records_.begin(), records_.end(),
                     [&](const CameraRecord& record) { return record.own >= since; }));
 }
 
@@ -276,8 +268,7 @@ void Track::report(double time,
   led->cameras.clear();
   led->rays_possible = 0;
   double squares = 0.0;
-  for (std::size_t i = 0; i < record_count_; ++i) {
-    const CameraRecord& record = records_[i];
+  for (const CameraRecord& record : records_) {
     if (record.time < time - options.tracked_time)
       continue;
     ++led->rays_possible;

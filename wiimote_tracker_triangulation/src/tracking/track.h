@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -26,12 +27,36 @@ struct CameraRecord {
   unsigned recent = 0;            // one bit per image, the newest lowest: detected or missed
 };
 
+/// Records of at most kMaximum cameras. A copy takes as long as there are records.
+class CameraRecords {
+ public:
+  static constexpr std::size_t kMaximum = 64;
+
+  CameraRecords() = default;
+  CameraRecords(const CameraRecords& other) { *this = other; }
+  CameraRecords& operator=(const CameraRecords& other) {
+    count_ = other.count_;
+    std::copy(other.begin(), other.end(), begin());
+    return *this;
+  }
+
+  CameraRecord* begin() { return records_.data(); }
+  CameraRecord* end() { return records_.data() + count_; }
+  const CameraRecord* begin() const { return records_.data(); }
+  const CameraRecord* end() const { return records_.data() + count_; }
+  void clear() { count_ = 0; }
+
+  /// That of a camera: a new one if it has none, or the oldest if there are too many.
+  CameraRecord& of(std::size_t camera);
+
+ private:
+  std::array<CameraRecord, kMaximum> records_;
+  std::size_t count_ = 0;
+};
+
 /// The track of one LED, tentative or confirmed. A value type that never allocates.
 class Track {
  public:
-  /// Most cameras with a record; if more see the LED, the latest ones.
-  static constexpr std::size_t kMaximumRecords = 64;
-
   Track(const motion::MotionFilter& start, std::uint32_t led_id);
 
   /// Missed detection: the camera should have shown the LED and did not.
@@ -63,7 +88,7 @@ class Track {
   double startedAt() const { return started_; }  // first image, or first since continueAs() [s]
 
   /// Forgets the cameras' records, after a change of the rig.
-  void forgetCameras() { record_count_ = 0; }
+  void forgetCameras() { records_.clear(); }
 
   /// Confirms or finishes the track given the detections up to a time [s].
   void updateStatus(double time, const TrackerOptions& options);
@@ -107,7 +132,6 @@ class Track {
   std::uint32_t id;
 
  private:
-  CameraRecord& recordOf(std::size_t camera);
   bool isDuplicate() const;
   std::size_t camerasInView(double time, const TrackerOptions& options) const;
   bool isDoubtful(std::size_t seen_by, std::size_t in_view) const;
@@ -128,11 +152,10 @@ class Track {
   bool may_continue_ = false;
   bool confirmed_ = false;
   bool finished_ = false;
-  std::size_t record_count_ = 0;
   Eigen::Vector3d position_;  // at position_time_ [m]
   Eigen::Vector3d velocity_;  // [m/s]
   double position_time_;      // [s]
-  std::array<CameraRecord, kMaximumRecords> records_;
+  CameraRecords records_;
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -76,10 +76,9 @@ std::vector<Path> ledsIn(geometry::test::Random& random, const Eigen::Vector3d& 
 
 void runThroughput(const BenchmarkSettings& settings, const RowCallback& row) {
   geometry::test::Random random(settings.seed);
-  const std::vector<Path> leds = ledsIn(random, {1.25, 1.25, 1.0});
-  const auto add = [&](const char* name, const SceneOptions& options) {
-    const Timing timing =
-        timed(paperRig(), leds, options, trackerOptions(), settings.runs, settings.seed);
+  std::vector<Path> leds = ledsIn(random, {1.25, 1.25, 1.0});
+  const auto add = [&](const char* name, const SceneOptions& options, const geometry::Rig& rig) {
+    const Timing timing = timed(rig, leds, options, trackerOptions(), settings.runs, settings.seed);
     row({name,
          {{"images", timing.images},
           {"us/image", 1e6 * timing.seconds / timing.images},
@@ -88,13 +87,16 @@ void runThroughput(const BenchmarkSettings& settings, const RowCallback& row) {
           {"leds", timing.leds}}});
   };
   SceneOptions options = sceneOptions();
-  add("images in order", options);
+  add("images in order", options, paperRig());
   options.dropout = 0.1;
   options.ghosts = 1.0;
-  add("10 % dropouts, a ghost in each", options);
+  add("10 % dropouts, a ghost in each", options, paperRig());
   options = sceneOptions();
   options.delay_jitter = 0.0024;
-  add("delays of 2.4 ms jitter: late images", options);
+  add("delays of 2.4 ms jitter: late images", options, paperRig());
+  leds = ledsIn(random, {0.0, 0.0, 1.0});
+  add("these, 32 cameras around the LEDs", options, roomsRig(1, 32));
+  add("these, 64 cameras around the LEDs", options, roomsRig(1, 64));
 }
 
 void runScale(const BenchmarkSettings& settings, const RowCallback& row) {

@@ -48,7 +48,7 @@ class RayAgreement {
   void add(double evidence, double time);
 
   double log_odds_ = -9.0;  // of a new track: about 0.5 s of agreement
-  double latest_ = -1.0;     // evidence of a time constant
+  double latest_ = -1.0;    // evidence of a time constant
   double time_ = std::numeric_limits<double>::infinity();
 };
 

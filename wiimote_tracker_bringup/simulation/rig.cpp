@@ -120,14 +120,16 @@ Eigen::Vector3d Rig::positionOf(const Led& led, double time) const {
   const auto around = std::find_if(leds_.begin(), leds_.end(), [&](const Led& other) {
     return other.description.name == turns.around;
   });
+  const Eigen::Vector3d center = positionOf(*around, time);
+  if (center.z() <= 0.0)
+    return center + turns.distance * Eigen::Vector3d::UnitX();
   constexpr double kNod = 0.618;     // irrational, so that turns do not repeat
   constexpr double kSteepest = 1.0;  // [rad]
   const double azimuth = turns.rate * time;
   const double elevation = kSteepest * std::sin(kNod * azimuth);
-  return positionOf(*around, time) +
-         turns.distance * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
-                                          std::cos(elevation) * std::sin(azimuth),
-                                          std::sin(elevation));
+  return center + turns.distance * Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
+                                                   std::cos(elevation) * std::sin(azimuth),
+                                                   std::sin(elevation));
 }
 
 void Rig::push(double time, Event::Kind kind, std::size_t camera) {

@@ -10,8 +10,8 @@ import rospy
 import rostest
 from geometry_msgs.msg import PointStamped, PoseStamped
 from std_srvs.srv import Trigger
-from wiimote_tracker_msgs.msg import IrBlobArray
-from wiimote_tracker_msgs.srv import StartCalibration
+from wiimote_tracker_msgs.msg import CalibrationStatus, IrBlobArray
+from wiimote_tracker_msgs.srv import SolveCalibration, StartCalibration
 
 DEADLINE = 60.0  # [s]
 
@@ -57,6 +57,19 @@ class SimulatedHand(unittest.TestCase):
                          lambda m: places.append([m.pose.position.x, m.pose.position.y]))
         self.wait(lambda: places and np.linalg.norm(np.subtract(places[-1], places[0])) > 0.05,
                   'the body to move on')
+
+        statuses = []
+        rospy.Subscriber('calibration/status', CalibrationStatus, statuses.append)
+        started = rospy.ServiceProxy('calibration/start', StartCalibration)(
+            without_square=True, wand_length=0.5)
+        self.assertTrue(started.success, started.message)
+        self.wait(lambda: statuses and statuses[-1].next_request == 'solve',
+                  'a wand that was laid down and waved')
+        solved = rospy.ServiceProxy('calibration/solve', SolveCalibration)()
+        self.assertTrue(solved.success, solved.message)
+        self.assertEqual(solved.rig.method, 'floor+wand')
+        for camera in solved.rig.cameras:
+            self.assertAlmostEqual(camera.world_from_camera.position.z, 2.0, delta=0.15)
 
 
 if __name__ == '__main__':

@@ -375,6 +375,9 @@ TEST(Rig, the_other_end_of_a_wand_stays_at_its_distance_and_turns) {
     high = high.cwiseMax(wand);
   }
   EXPECT_GT((high - low).minCoeff(), 0.6) << "in 10 s it has pointed in all directions";
+  rig.findLed("led")->motion.line(10.0, Vector3d(1.0, 2.0, 0.0), 0.0);
+  rig.runUntil(11.0);
+  EXPECT_EQ(second.back(), Vector3d(1.4, 2.0, 0.0)) << "on the floor it lies along x";
 }
 
 TEST(LedBoard, lights_rows_then_columns_four_at_a_time) {

@@ -94,6 +94,10 @@ TEST_F(Beyond, AWandOnTheFloorTakesOneRequestToStartAndOneToSolve) {
   EXPECT_SAYS(call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request).message,
               "wand.length");
   request.wand_length = 0.5;
+  request.cameras = {"camera_2", "camera_3"};
+  EXPECT_SAYS(call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request).message,
+              "no camera has an accelerometer");
+  request.cameras.clear();
   const auto started = call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request);
   ASSERT_TRUE(started.success) << started.message;
   EXPECT_SAYS(started.message, "leave the wand on the floor");

@@ -213,5 +213,33 @@ TEST(WandOnFloor, AWandOnAStepOrOtherLightsAreRefused) {
   EXPECT_SAYS(refusalOf(scene, wave), "is not the wand of 0.50 m");
 }
 
+/// How often an adjustment was begun before a refusal with these words.
+int adjustmentsBefore(const std::string& words, const WaveScene& scene, const SimulatedWave& wave) {
+  int begun = 0;
+  std::string before;
+  try {
+    solveWave(wave.recording, optionsFor(scene), [&](const Progress& progress) {
+      begun += progress.step != before && progress.step.find("adjusting") == 0 ? 1 : 0;
+      before = progress.step;
+      return true;
+    });
+    ADD_FAILURE() << "not refused";
+  } catch (const geometry::Error& error) {
+    EXPECT_SAYS(std::string(error.what()), words);
+  }
+  return begun;
+}
+
+TEST(WandOnFloor, AMistakeIsToldBeforeTheAdjustmentASmallOneAfterIt) {
+  const WaveScene scene = floorScene();
+  SimulatedWave wave = simulateWave(scene, 8);
+  layAt(scene, {Eigen::Vector3d::Zero(), Eigen::Vector3d(0.48, 0.0, 0.14)}, &wave);
+  EXPECT_EQ(adjustmentsBefore("16 degrees from level", scene, wave), 0);
+  layAt(scene, {Eigen::Vector3d::Zero(), Eigen::Vector3d(1.2, 0.0, 0.0)}, &wave);
+  EXPECT_EQ(adjustmentsBefore("is not the wand of 0.50 m", scene, wave), 0);
+  layAt(scene, {Eigen::Vector3d::Zero(), Eigen::Vector3d(0.498, 0.0, 0.044)}, &wave);
+  EXPECT_EQ(adjustmentsBefore("5 degrees from level", scene, wave), 1);
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::wave

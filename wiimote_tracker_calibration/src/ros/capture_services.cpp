@@ -12,6 +12,7 @@
 #include <wiimote_tracker_msgs/log_exceptions.h>
 #include <wiimote_tracker_msgs/text.h>
 
+#include <algorithm>
 #include <atomic>
 #include <limits>
 #include <memory>
@@ -31,6 +32,8 @@ constexpr double kForEver = std::numeric_limits<double>::infinity();
 const char kCaptureCorner[] = "calibration/capture_corner";
 constexpr double kLatestStamp = 3600.0;  // of a goal or cancellation, from now [s]
 constexpr std::size_t kButtonA = 2;      // in the driver's joy messages
+// A connected remote reports its acceleration 100 times a second: enough readings take less [s].
+constexpr double kAccelerometerWait = 2.0;
 
 /// The wand that a run begins with. @throws Refusal, wave::WaveError: it cannot be one.
 std::optional<wave::Wand> wandOnFloor(
@@ -138,6 +141,8 @@ class CaptureServices {
             "the side of the square is 0: measure it, and give side_x in the request or set " +
             ros::this_node::getName() + "/side_length, in metres");
       const std::optional<wave::Wand> wand = wandOnFloor(request, parameters);
+      if (wand)
+        requireUp(cameras, &lock);
       workflow::Calibration& calibration = context_.calibration(lock);
       const Reply reply = request.without_square ? calibration.startWithoutSquare(cameras)
                                                  : calibration.start(side_x, side_y, cameras);
@@ -148,6 +153,19 @@ class CaptureServices {
       context_.publishStatus(lock);
       return reply;
     });
+  }
+
+  /// Waits for an accelerometer of a camera at rest. @throws Refusal: there is none.
+  void requireUp(const std::vector<std::string>& cameras, Lock* lock) {
+    const auto tells_up = [this](const std::string& name) {
+      return context_.inputs().cameras().at(name).gravity.mean().has_value();
+    };
+    const bool is_known = context_.parameters(*lock).solve.use_gravity &&
+                          context_.waitUntil(lock, NodeContext::now() + kAccelerometerWait, [&] {
+                            return std::any_of(cameras.begin(), cameras.end(), tells_up);
+                          });
+    if (!is_known)
+      throw Refusal(wave::Wand::kNoUp);
   }
 
   Reply measureLength(const wiimote_tracker_msgs::MeasureLength::Request& request,

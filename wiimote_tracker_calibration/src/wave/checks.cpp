@@ -238,6 +238,14 @@ void checkGravityAndClock(const Recording& recording,
 
 }  // namespace
 
+void checkNoise(const WaveOptions& options, double pixel_stddev) {
+  if (pixel_stddev > kRefuseRatio * options.pixel)
+    throw WaveContradiction(
+        "the cameras disagree by " + format("%.1f px", pixel_stddev) +
+        ", far more than the stated " + format("%.1f px", options.pixel) +
+        ": check that no camera was moved and that their times are of one clock");
+}
+
 void checkSolution(const Recording& recording, const WaveOptions& options, WaveSolution* solution) {
   const Eigen::Vector3d& extent = solution->extent;
   if (extent.y() < kThinnest * extent.x())
@@ -245,11 +253,6 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
   if (extent.z() < kThinnest * extent.x())
     throw WaveError("the LED was moved in a plane only, " + format("%.0f mm", 1e3 * extent.z()) +
                     " deep: wave it through the whole volume, also to the cameras and away");
-  if (solution->pixel_stddev > kRefuseRatio * options.pixel)
-    throw WaveContradiction(
-        "the cameras disagree by " + format("%.1f px", solution->pixel_stddev) +
-        ", far more than the stated " + format("%.1f px", options.pixel) +
-        ": check that no camera was moved and that their times are of one clock");
   checkLenses(recording, options, solution->rig);
   for (std::size_t i = 0; i < recording.cameras.size(); ++i)
     checkGravityAndClock(recording, options, *solution, i);

@@ -16,6 +16,10 @@ void checkInput(const Recording& recording, const WaveOptions& options);
 /// @throws WaveError: a camera most of whose spots contradict the others, or with too few.
 void checkMatching(const Recording& recording, const Matching& matching);
 
+/// @param pixel_stddev of a moving spot, as estimated [px]. @throws WaveContradiction: far more
+/// than the options'.
+void checkNoise(const WaveOptions& options, double pixel_stddev);
+
 /// Adds warnings to the solution. @throws WaveError: why it must not be used.
 void checkSolution(const Recording& recording, const WaveOptions& options, WaveSolution* solution);
 

@@ -15,6 +15,12 @@ struct WaveContradiction : WaveError {
   using WaveError::WaveError;
 };
 
+/// A wand that was laid down is not as it must be. The cameras agree, so another start of the
+/// adjustment would say the same.
+struct WandMislaid : WaveError {
+  using WaveError::WaveError;
+};
+
 /// The progress callback asked to stop.
 struct Cancelled : WaveError {
   using WaveError::WaveError;

@@ -199,6 +199,7 @@ WaveSolution fit(const Recording& recording,
     pixel_stddev *= misfit;
   }
   checkClocks(recording, options, {pixel_stddev, stamp, kGate}, keep_going, state);
+  checkNoise(options, pixel_stddev);
   if (!floor.empty()) {
     standOnFloor(recording, options, floor, &state);
     refinement = refine(recording, options, matching.matches, kInfinity, keep_going, &state);
@@ -233,6 +234,8 @@ WaveSolution solveFrom(StartPoses poses,
   state.corner_offsets.fill(Eigen::Vector2d::Zero());
   if (recording.wand)
     state.wand_length = recording.wand->length;
+  if (!floor.empty())
+    checkStart(recording, options, floor, state);
   WaveSolution solution = fit(recording, options, floor, std::move(state), reporter);
   checkSolution(recording, options, &solution);
   solution.rig.verdict = verdictOf(recording, solution);
@@ -260,6 +263,8 @@ WaveSolution solveWave(const Recording& input,
       reporter.report("done", 1.0);
       return solution;
     } catch (const Cancelled&) {
+      throw;
+    } catch (const WandMislaid&) {
       throw;
     } catch (const WaveError&) {
       // The refusal of the first attempt names the most likely cause.

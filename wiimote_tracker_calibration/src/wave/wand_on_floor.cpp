@@ -19,9 +19,14 @@ namespace wiimote_tracker::wave {
 namespace {
 
 const char kAgain[] = ", and begin again";
-// Largest error of a spot of the wand at rest [px], and of its length as a share of it.
-constexpr double kSpotLimit = 3.0;
-constexpr double kLengthLimit = 0.05;
+/// How far the wand may seem to be from what it must be.
+struct Limits {
+  double spot;    ///< Error of a spot at rest [px].
+  double length;  ///< Error of its length, as a share of it.
+  double tilt;    ///< From level, beyond what is uncertain [rad].
+};
+constexpr Limits kByStart = {9.0, 0.1, 0.1};
+constexpr Limits kBySolution = {3.0, 0.05, 0.0};
 // Least difference of its ends' distances from the first camera, as a share of its length: a person
 // sees which end is nearer.
 constexpr double kNearerShare = 0.2;
@@ -33,7 +38,7 @@ struct Measured {
   std::array<Eigen::Vector3d, 2> leds;
   double length = 0.0;    ///< [m]
   double error_px = 0.0;  ///< Larger of the LEDs' reprojection errors.
-  double misfit = 0.0;    ///< Larger of the errors, of spots and length, over its limit.
+  double misfit = 0.0;    ///< Larger of the errors, of spots and length, over kBySolution's limit.
 };
 
 /// Nothing where the spots have no common point.
@@ -54,8 +59,8 @@ std::optional<Measured> measure(const std::vector<geometry::Camera>& cameras,
     result.error_px = std::max(result.error_px, point->reprojection_error);
   }
   result.length = (result.leds[1] - result.leds[0]).norm();
-  result.misfit = std::max(result.error_px / kSpotLimit,
-                           std::abs(result.length - length) / (kLengthLimit * length));
+  result.misfit = std::max(result.error_px / kBySolution.spot,
+                           std::abs(result.length - length) / (kBySolution.length * length));
   return result;
 }
 
@@ -97,35 +102,64 @@ std::pair<Eigen::Vector3d, int> meanUp(const Recording& recording, const State& 
 
 void checkMeasured(const std::optional<Measured>& wand,
                    const geometry::Camera& first,
-                   double length) {
-  if (!wand || wand->misfit > 1.0)
-    throw WaveError(format("what the cameras saw at rest is not the wand of %.2f m", length) +
-                    (wand ? format(": its ends would be %.2f m apart, and %.0f px off",
-                                   wand->length, wand->error_px)
-                          : std::string()) +
-                    "; switch other lights off, lay both its LEDs where the cameras see them" +
-                    kAgain);
+                   double length,
+                   const Limits& limits) {
+  if (!wand || wand->error_px > limits.spot ||
+      std::abs(wand->length - length) > limits.length * length)
+    throw WandMislaid(format("what the cameras saw at rest is not the wand of %.2f m", length) +
+                      (wand ? format(": its ends would be %.2f m apart, and %.0f px off",
+                                     wand->length, wand->error_px)
+                            : std::string()) +
+                      "; switch other lights off, lay both its LEDs where the cameras see them" +
+                      kAgain);
   const double farther =
       (wand->leds[1] - first.center()).norm() - (wand->leds[0] - first.center()).norm();
   if (std::abs(farther) < kNearerShare * length)
-    throw WaveError("both ends of the wand were about as far from " + first.name +
-                    ", but the nearer one is the origin: turn the wand towards that camera" +
-                    kAgain);
+    throw WandMislaid("both ends of the wand were about as far from " + first.name +
+                      ", but the nearer one is the origin: turn the wand towards that camera" +
+                      kAgain);
 }
 
 void checkLevel(const Recording& recording,
                 const square::Uncertainty& uncertainty,
                 double rise,
-                int accelerometers) {
+                int accelerometers,
+                const Limits& limits) {
   const double limit =
+      limits.tilt +
       kLevelLimit * std::hypot(uncertainty.gravity / std::sqrt(static_cast<double>(accelerometers)),
                                uncertainty.placement / recording.wand->length);
   const double angle = std::asin(std::clamp(rise, -1.0, 1.0));
   if (std::abs(angle) > limit)
-    throw WaveError(format("by the accelerometers the wand lay %.0f degrees from level: lay both "
-                           "its LEDs on the floor",
-                           std::abs(angle) * 180.0 / M_PI) +
-                    kAgain);
+    throw WandMislaid(format("by the accelerometers the wand lay %.0f degrees from level: lay both "
+                             "its LEDs on the floor",
+                             std::abs(angle) * 180.0 / M_PI) +
+                      kAgain);
+}
+
+/// The wand, its end nearer to the first camera first, and where up is.
+std::pair<WandOnFloor, Eigen::Vector3d> findWand(const Recording& recording,
+                                                 const WaveOptions& options,
+                                                 const FloorSpots& spots,
+                                                 const State& state,
+                                                 const Limits& limits) {
+  const double length = state.wand_length;
+  WandOnFloor floor{{}, inOneOrder(state.cameras, spots, length)};
+  const geometry::Camera& first = state.cameras.front();
+  const auto wand = measure(state.cameras, floor.spots, length);
+  checkMeasured(wand, first, length, limits);
+  floor.leds = wand->leds;
+  if ((floor.leds[1] - first.center()).norm() < (floor.leds[0] - first.center()).norm()) {
+    std::swap(floor.leds[0], floor.leds[1]);
+    for (auto& pair : floor.spots) {
+      if (pair)
+        std::swap((*pair)[0], (*pair)[1]);
+    }
+  }
+  const auto [up, accelerometers] = meanUp(recording, state);
+  const Eigen::Vector3d along = (floor.leds[1] - floor.leds[0]).normalized();
+  checkLevel(recording, options.uncertainty, along.dot(up), accelerometers, limits);
+  return {floor, up};
 }
 
 void moveState(const Eigen::Isometry3d& to_from, State* state) {
@@ -165,9 +199,7 @@ FloorSpots takeFloor(Recording* recording) {
                     "it on the floor where two cameras see both" +
                     kAgain);
   if (!has_gravity)
-    throw WaveError(
-        "no camera has an accelerometer that tells where up is: capture a square, or wave the wand "
-        "without laying it on the floor");
+    throw WaveError(Wand::kNoUp);
   for (CameraRecording& camera : recording->cameras) {
     std::vector<Frame>& frames = camera.frames;
     frames.erase(frames.begin(),
@@ -177,27 +209,23 @@ FloorSpots takeFloor(Recording* recording) {
   return spots;
 }
 
+void checkStart(const Recording& recording,
+                const WaveOptions& options,
+                const FloorSpots& spots,
+                const State& state) {
+  try {
+    findWand(recording, options, spots, state, kByStart);
+  } catch (const WandMislaid& error) {
+    throw WaveError(error.what());  // another start may tell otherwise
+  }
+}
+
 void standOnFloor(const Recording& recording,
                   const WaveOptions& options,
                   const FloorSpots& spots,
                   State* state) {
-  const double length = state->wand_length;
-  WandOnFloor floor{{}, inOneOrder(state->cameras, spots, length)};
-  const geometry::Camera& first = state->cameras.front();
-  const auto wand = measure(state->cameras, floor.spots, length);
-  checkMeasured(wand, first, length);
-  floor.leds = wand->leds;
-  if ((floor.leds[1] - first.center()).norm() < (floor.leds[0] - first.center()).norm()) {
-    std::swap(floor.leds[0], floor.leds[1]);
-    for (auto& pair : floor.spots) {
-      if (pair)
-        std::swap((*pair)[0], (*pair)[1]);
-    }
-  }
-  const auto [up, accelerometers] = meanUp(recording, *state);
+  auto [floor, up] = findWand(recording, options, spots, *state, kBySolution);
   const Eigen::Vector3d along = (floor.leds[1] - floor.leds[0]).normalized();
-  checkLevel(recording, options.uncertainty, along.dot(up), accelerometers);
-
   const Eigen::Vector3d x = (along - along.dot(up) * up).normalized();
   Eigen::Isometry3d floor_from_state = Eigen::Isometry3d::Identity();
   floor_from_state.linear() << x.transpose(), up.cross(x).transpose(), up.transpose();

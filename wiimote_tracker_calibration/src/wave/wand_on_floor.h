@@ -13,11 +13,18 @@ namespace wiimote_tracker::wave {
 /// @throws WaveError: fewer than two cameras saw it, or none has an accelerometer.
 FloorSpots takeFloor(Recording* recording);
 
+/// Whether the wand is far from how it must lie, by rough cameras in metres, before the adjustment.
+/// @throws WaveError: see standOnFloor().
+void checkStart(const Recording& recording,
+                const WaveOptions& options,
+                const FloorSpots& spots,
+                const State& state);
+
 /// Moves the state, known up to a rigid motion, into the world of the wand on the floor, which it
 /// adds: the LED nearer to the first camera lies at (0, 0, height), the other one on the x axis, z
 /// is the mean up of the accelerometers.
-/// @throws WaveError: the spots are not those of the wand, its ends are about as far from the first
-/// camera, or it was not level.
+/// @throws WandMislaid: the spots are not those of the wand, its ends are about as far from the
+/// first camera, or it was not level. WaveContradiction: the accelerometers contradict one another.
 void standOnFloor(const Recording& recording,
                   const WaveOptions& options,
                   const FloorSpots& spots,

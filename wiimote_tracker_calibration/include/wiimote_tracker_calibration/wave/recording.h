@@ -34,6 +34,11 @@ struct Wand {
   /// nothing: it does not.
   std::optional<double> led_height = {};
 
+  /// Why one on the floor is refused, if no accelerometer is there or may be used.
+  static constexpr char kNoUp[] =
+      "no camera has an accelerometer that tells where up is: capture a square, or begin the wave "
+      "without laying the wand on the floor";
+
   /// @throws WaveError naming the value that is out of range.
   void check() const;
 };

@@ -1,6 +1,8 @@
 // The services and the watch that need a calibrated rig, with cameras that this test plays: the
 // rig that is loaded is not always the true one.
 
+#include "continuous/approach.h"
+
 #include "node_fixture.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
@@ -328,8 +330,10 @@ TEST_F(CalibratedNode, BringsBackAKnockedCamera) {
   std::filesystem::remove_all(folder);
 }
 
-TEST_F(CalibratedNode, FindsANewClock) {
+TEST_F(CalibratedNode, FindsANewClockAndApproachesTheAdjustedPoses) {
   geometry::Rig rig = trueRig();
+  Eigen::Isometry3d& pose = rig.cameras[1].camera.world_from_camera;
+  pose.linear() = pose.linear() * Eigen::AngleAxisd(0.001, Eigen::Vector3d::UnitY());
   rig.cameras[2].time_offset = 0.01;
   rig.cameras[2].time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
   rig.cameras[2].time_offset_epoch = 5;
@@ -339,10 +343,18 @@ TEST_F(CalibratedNode, FindsANewClock) {
       waitUntil([] { return health("camera_3").find("continuous/apply") != std::string::npos; }));
   const auto reply = call<std_srvs::Trigger>("calibration/continuous/apply");
   ASSERT_TRUE(reply.success) << reply.message;
+  EXPECT_SAYS(reply.message, "approached in steps of 0.2 mm");
   EXPECT_SAYS(reply.message, "camera_3");
   Latest<RigCalibration> published("calibration/rig");
   ASSERT_TRUE(waitUntil([&] { return published.get() && published.get()->id != rig.id(); }));
   const geometry::Rig result = fromMessage(*published.get());
+  // The first step towards it.
+  EXPECT_TRUE(waitUntil([] {
+    return status_->get()->message.find("the adjusted rig is approached") != std::string::npos;
+  }));
+  const std::vector<Eigen::Vector3d> middle = {{1.25, 1.25, 1.0}};
+  EXPECT_GT(continuous::movementOf(rig, result, middle), 0.00001);
+  EXPECT_LT(continuous::movementOf(rig, result, middle), 0.00022);
   EXPECT_EQ(result.cameras[2].time_offset_epoch, 0U);
   EXPECT_NEAR(result.cameras[2].time_offset, 0.0, 0.002);
   // Back, once.

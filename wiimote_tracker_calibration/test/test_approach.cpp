@@ -110,5 +110,28 @@ TEST(Approach, UsesNewClocksAtOnceAndStatesWhatIsLeft) {
   }
 }
 
+TEST(Approach, OnlyAKnockedCameraIsChangedAtOnce) {
+  Random random(3);
+  const geometry::Rig start = paperRigWith(wellCalibrated());
+  const geometry::Rig goal = changed(start, 0.001, random);
+  Approach approach(goal, cube());
+  const geometry::Rig before = *approach.step(start, 1000.0);
+  geometry::Rig other = goal;
+  other.cameras[1] = turned(other.cameras[1], 0.03, random);
+  geometry::Rig rig = approach.changeGoal(other, other.cameras[1].camera.name, before);
+  const auto pose = [](const geometry::Rig& of, std::size_t camera) {
+    return of.cameras[camera].camera.world_from_camera.matrix();
+  };
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_LT((pose(rig, i) - pose(i == 1 ? other : before, i)).norm(), 1e-9) << i;
+  EXPECT_FALSE(approach.step(rig, 1000.0 + 0.9 * Approach::kPeriod)) << "too early";
+  for (double stamp = 1030.0; !approach.isReached() && stamp < 4000.0; stamp += Approach::kPeriod) {
+    const geometry::Rig next = *approach.step(rig, stamp);
+    EXPECT_LE(movementOf(rig, next, cube()), 1.2 * Approach::kLongestStep);
+    rig = next;
+  }
+  EXPECT_EQ(rig.id(), other.id());
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::continuous

@@ -94,4 +94,17 @@ std::optional<geometry::Rig> Approach::step(const geometry::Rig& in_use, double 
   return is_reached_ ? goal_ : between(in_use, goal_, kLongestStep / way);
 }
 
+geometry::Rig Approach::changeGoal(const geometry::Rig& goal,
+                                   const std::string& knocked,
+                                   const geometry::Rig& in_use) {
+  goal_ = goal;
+  is_reached_ = false;
+  geometry::Rig from = in_use;
+  for (std::size_t i = 0; i < goal.cameras.size(); ++i) {
+    if (goal.cameras[i].camera.name == knocked)
+      from.cameras[i].camera = goal.cameras[i].camera;
+  }
+  return between(from, goal, 0.0);
+}
+
 }  // namespace wiimote_tracker::continuous

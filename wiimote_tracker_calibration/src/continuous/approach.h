@@ -7,6 +7,7 @@
 
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,13 @@ class Approach {
   /// @param in_use the rig that is replaced. @param stamp of the newest image [s].
   /// @returns the next rig: one at once, then one each period; the goal is the last.
   std::optional<geometry::Rig> step(const geometry::Rig& in_use, double stamp);
+
+  /// Goes on to another rig, of which one camera is used at once: it was knocked, and the others
+  /// hold the world.
+  /// @returns the next rig.
+  geometry::Rig changeGoal(const geometry::Rig& goal,
+                           const std::string& knocked,
+                           const geometry::Rig& in_use);
 
   const geometry::Rig& goal() const { return goal_; }
   bool isReached() const { return is_reached_; }

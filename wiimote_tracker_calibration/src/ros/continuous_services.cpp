@@ -200,16 +200,29 @@ class ContinuousServices {
     const geometry::Rig rig = continuous::appliedRig(proposal.rig, before);
     forgetProposal(*lock);
     const bool at_once = proposal.places.empty();
-    changes_.push_back({at_once ? rig.id() : before.id(), before});
+    changes_.push_back({before.id(), before});
     if (changes_.size() > kMostChanges)
       changes_.erase(changes_.begin());
     if (at_once)
-      context_.setRig(rig, proposal.message, *lock);
+      useAtOnce(rig, before, proposal, *lock);
     else
       approach_.emplace(rig, proposal.places);
     return {true, (at_once ? "in use: " : "approached " + kSteps + ": ") + proposal.message + "; " +
                       keepVersion(rig, lock) +
                       "; calibration/continuous/revert goes back, and save keeps it"};
+  }
+
+  /// A rig with one camera that was knocked. Of a rig that is approached only that camera is used.
+  void useAtOnce(const geometry::Rig& rig,
+                 const geometry::Rig& before,
+                 const continuous::Proposal& proposal,
+                 const Lock& lock) {
+    const geometry::Rig used =
+        approach_
+            ? continuous::appliedRig(approach_->changeGoal(rig, proposal.camera, before), before)
+            : rig;
+    in_use_ = changes_.back().id = used.id();
+    context_.setRig(used, proposal.message, lock);
   }
 
   /// Writes a rig beside the rig file. @returns where, or why not.

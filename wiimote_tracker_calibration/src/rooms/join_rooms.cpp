@@ -51,7 +51,8 @@ std::optional<session::Shared> sharedVertical(const geometry::Rig& first,
     return std::nullopt;
   return session::Shared{verticalOf(first, "first"), verticalOf(second, "second"),
                          Eigen::MatrixXd::Zero(2, first.covariance.cols()),
-                         Eigen::MatrixXd::Zero(2, second.covariance.cols()), slope};
+                         Eigen::MatrixXd::Zero(2, second.covariance.cols()),
+                         Eigen::Vector3d::Constant(slope)};
 }
 
 /// Standard deviations of a point of the second room [m] and of its rotation [rad].
@@ -144,7 +145,6 @@ JoinedRooms joinRooms(const geometry::Rig& first,
   JoinedRooms result;
   result.first_from_second = fit.motion.first_from_second;
   result.passages = fit.used.size();
-  result.scatter = fit.scatter;
   const Eigen::Index known = first.covariance.cols() + second.covariance.cols();
   const Eigen::Vector3d middle = middleOf(second);
   const Accuracy accuracy = accuracyOf(fit.motion, middle);

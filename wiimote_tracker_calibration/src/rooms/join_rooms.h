@@ -32,16 +32,15 @@ struct JoinedRooms {
   double position_stddev;               ///< Of the middle of the second room's cameras, in 3D [m].
   double rotation_stddev;               ///< About all axes together [rad].
   std::size_t passages;                 ///< That were used.
-  double scatter;       ///< Estimated errors of the passages over those of the WalkModel [1].
   std::string message;  ///< What was used and left out, the accuracy, what to do next.
 };
 
 /// Joins two rigs that share no view by an LED that was carried through the door between them. Both
 /// rigs' tracks have the same clock. On either side of the door the LED's path is a straight line
 /// at constant velocity, with deviations (WalkModel); both lines must agree. The scatter of the
-/// passages corrects the size of these deviations, for the weights and for the covariance, which
-/// includes those of both rigs and the slope, to first order. A passage that contradicts the others
-/// (99.9 %) is left out, at most a third of them.
+/// passages corrects the size of these deviations ahead, to the left and up, for the weights and
+/// for the covariance, which includes those of both rigs and the slope, to first order. A passage
+/// that contradicts the others (99.9 %) is left out, at most a third of them.
 /// @param first_tracks, second_tracks as of findPassages()
 /// @throws Error: no passage, passages that contradict one another or leave the motion open; rigs
 /// that cannot be joined (session::checkRigs) or share a camera; a world whose z axis is not

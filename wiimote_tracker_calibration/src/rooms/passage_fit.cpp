@@ -4,6 +4,7 @@
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -19,13 +20,21 @@ namespace {
 using session::RigMotion;
 using session::Shared;
 
-// The size of the model's deviations counts as if that many conditions had shown it.
+// The size of the model's deviations counts as if that many conditions of each axis had shown it.
 constexpr double kModelWeight = 4.0;
 // Nobody walks that many times less straight than the model.
 constexpr double kMostScatter = 3.0;
 // Minimum width of the places relative to their length: on a line the rotation is not determined.
 constexpr double kThinnest = 0.05;
 constexpr int kReweightings = 5;
+
+/// Of both rigs about a place, over the standard deviations of the model, along the axes in the
+/// first.
+Eigen::Vector3d misfitOf(const Shared& place, const Eigen::Isometry3d& motion) {
+  return (place.in_first.linear().transpose() *
+          (motion * place.in_second.translation() - place.in_first.translation()))
+      .cwiseQuotient(place.stddevs);
+}
 
 }  // namespace
 
@@ -55,11 +64,11 @@ Eigen::Isometry3d PassageProblem::start() const {
 
 RigMotion PassageProblem::fit(const PassageIndices& used,
                               const Eigen::Isometry3d& start,
-                              const std::vector<double>& scatters) const {
+                              const std::vector<Scatter>& scatters) const {
   std::vector<Shared> shared;
   for (const std::size_t i : used) {
     for (Shared place : passages_[i]) {
-      place.stddev *= scatters[i];
+      place.stddevs = place.stddevs.cwiseProduct(scatters[i]);
       shared.push_back(place);
     }
   }
@@ -73,30 +82,45 @@ std::vector<double> PassageProblem::misfits(const Eigen::Isometry3d& motion) con
   for (const SharedPlaces& passage : passages_) {
     double sum = 0.0;
     for (const Shared& place : passage)
-      sum += (motion * place.in_second.translation() - place.in_first.translation()).squaredNorm() /
-             (place.stddev * place.stddev);
+      sum += misfitOf(place, motion).squaredNorm();
     result.push_back(sum / kConditions);
   }
   return result;
 }
 
-namespace {
-
-/// Estimated variance of the passages' errors over that of the model.
-/// @param scatter of the passages that the motion was fitted with
-double varianceRatio(const RigMotion& motion, double scatter = 1.0) {
-  return (kModelWeight + scatter * scatter * motion.chi_squared) /
-         (kModelWeight + motion.degrees_of_freedom);
+Scatter PassageProblem::scatter(const PassageIndices& used, const RigMotion& motion) const {
+  const Eigen::Index count =
+      motion.by_errors.cols() - first_.covariance.cols() - second_.covariance.cols();
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> gain = motion.by_errors.rightCols(count);
+  Eigen::Array3d squared = Eigen::Array3d::Constant(kModelWeight);
+  Eigen::Array3d conditions = Eigen::Array3d::Constant(kModelWeight);
+  Eigen::Index row = 0;
+  for (const std::size_t i : used) {
+    for (const Shared& place : passages_[i]) {
+      squared += misfitOf(place, motion.first_from_second).array().square();
+      // A misfit is less than the error by what the motion follows of it.
+      Eigen::Matrix<double, 3, 6> by_motion;
+      by_motion << -geometry::so3::skew(motion.first_from_second.linear() *
+                                        place.in_second.translation()),
+          Eigen::Matrix3d::Identity();
+      const auto axes = place.in_first.linear();
+      conditions +=
+          1.0 + (axes.transpose() * by_motion * gain.middleCols<3>(row) * axes).diagonal().array();
+      row += 3;
+    }
+  }
+  return (squared / conditions).sqrt();
 }
 
+namespace {
+
 /// Whether the passage that `others` does without contradicts them: the F test of its misfit
-/// against their scatter at 99.9 % (E. Paulson, "An approximate normalization of the analysis of
-/// variance distribution", Ann. Math. Statist. 13(2), 1942).
+/// against their scatter, with which both were fitted, at 99.9 % (E. Paulson, "An approximate
+/// normalization of the analysis of variance distribution", Ann. Math. Statist. 13(2), 1942).
 bool contradicts(const RigMotion& all, const RigMotion& others) {
-  const double ratio =
-      std::max(0.0, all.chi_squared - others.chi_squared) / kConditions / varianceRatio(others);
+  const double ratio = std::max(0.0, all.chi_squared - others.chi_squared) / kConditions;
   const double a = 2.0 / 9.0 / kConditions;
-  const double b = 2.0 / 9.0 / (kModelWeight + others.degrees_of_freedom);
+  const double b = 2.0 / 9.0 / (3.0 * kModelWeight + others.degrees_of_freedom);
   const double root = std::cbrt(ratio);
   return ((1.0 - b) * root - (1.0 - a)) / std::sqrt(b * root * root + a) > place::kThreeNines;
 }
@@ -109,9 +133,9 @@ PassageIndices bestFirst(const PassageProblem& problem) {
   Eigen::Isometry3d motion = problem.start();
   std::vector<double> misfits = problem.misfits(motion);
   for (int i = 0; i < kReweightings; ++i) {
-    std::vector<double> scatters;
+    std::vector<Scatter> scatters;
     for (const double misfit : misfits)
-      scatters.push_back(std::sqrt(1.0 + misfit));
+      scatters.push_back(Scatter::Constant(std::sqrt(1.0 + misfit)));
     motion = problem.fit(order, motion, scatters).first_from_second;
     misfits = problem.misfits(motion);
   }
@@ -120,40 +144,41 @@ PassageIndices bestFirst(const PassageProblem& problem) {
   return order;
 }
 
-/// Two thirds of the passages, and the others as long as they do not contradict these.
-PassageFit fitAgreeing(const PassageProblem& problem) {
-  const std::size_t count = problem.size();
-  const PassageIndices order = bestFirst(problem);
-  PassageFit fit;
-  fit.used.assign(order.begin(), order.begin() + static_cast<std::ptrdiff_t>((2 * count + 2) / 3));
-  fit.motion = problem.fit(fit.used, problem.start(), 1.0);
-  while (fit.used.size() < count) {
-    PassageIndices more = fit.used;
-    more.push_back(order[more.size()]);
-    const RigMotion motion = problem.fit(more, fit.motion.first_from_second, 1.0);
-    if (contradicts(motion, fit.motion))
-      break;
-    fit.used = more;
-    fit.motion = motion;
+/// Fits passages with the scatter that they show: with it, the weights of rigs and slope against
+/// those of the passages change.
+PassageFit fitScattered(const PassageProblem& problem,
+                        const PassageIndices& used,
+                        const Eigen::Isometry3d& start) {
+  PassageFit fit{problem.fit(used, start, Scatter::Ones()), Scatter::Ones(), used};
+  for (int i = 0; i < kReweightings; ++i) {
+    fit.scatter = problem.scatter(used, fit.motion);
+    fit.motion = problem.fit(used, fit.motion.first_from_second, fit.scatter);
   }
-  fit.scatter = std::sqrt(varianceRatio(fit.motion));
-  if (fit.scatter > kMostScatter)
-    throw Error("the passages contradict one another, " + format("%.1f", fit.scatter) +
-                " times as much as those of somebody who walks straight: carry one LED alone, "
-                "straight and steadily, and record again");
   return fit;
 }
 
 }  // namespace
 
 PassageFit fitPassages(const PassageProblem& problem) {
-  PassageFit result = fitAgreeing(problem);
-  // With the scatter, the weights of rigs and slope against those of the passages change.
-  for (int i = 0; i < kReweightings; ++i) {
-    result.motion = problem.fit(result.used, result.motion.first_from_second, result.scatter);
-    result.scatter = std::sqrt(varianceRatio(result.motion, result.scatter));
+  const std::size_t count = problem.size();
+  const PassageIndices order = bestFirst(problem);
+  // Two thirds of the passages, and the others as long as they do not contradict these.
+  PassageIndices used(order.begin(),
+                      order.begin() + static_cast<std::ptrdiff_t>((2 * count + 2) / 3));
+  PassageFit fit = fitScattered(problem, used, problem.start());
+  while (used.size() < count) {
+    used.push_back(order[used.size()]);
+    const Eigen::Isometry3d& start = fit.motion.first_from_second;
+    if (contradicts(problem.fit(used, start, fit.scatter), fit.motion))
+      break;
+    fit = fitScattered(problem, used, start);
   }
-  return result;
+  const double most = fit.scatter.maxCoeff();
+  if (most > kMostScatter)
+    throw Error("the passages contradict one another, " + format("%.1f", most) +
+                " times as much as those of somebody who walks straight: carry one LED alone, "
+                "straight and steadily, and record again");
+  return fit;
 }
 
 }  // namespace wiimote_tracker::rooms

@@ -14,6 +14,9 @@ namespace wiimote_tracker::rooms {
 
 using PassageIndices = std::vector<std::size_t>;
 
+/// Errors of passages over those of the model, ahead, to the left and up [1].
+using Scatter = Eigen::Vector3d;
+
 /// The least squares problem: which motion between two rooms fits best to passages.
 class PassageProblem {
  public:
@@ -30,20 +33,23 @@ class PassageProblem {
   /// @throws Error: all are on one line.
   Eigen::Isometry3d start() const;
 
-  /// @param scatters errors of each passage over those of the model [1]
+  /// @param scatters of each passage
   session::RigMotion fit(const PassageIndices& used,
                          const Eigen::Isometry3d& start,
-                         const std::vector<double>& scatters) const;
+                         const std::vector<Scatter>& scatters) const;
 
   /// All of the same scatter.
   session::RigMotion fit(const PassageIndices& used,
                          const Eigen::Isometry3d& start,
-                         double scatter) const {
-    return fit(used, start, std::vector<double>(size(), scatter));
+                         const Scatter& scatter) const {
+    return fit(used, start, std::vector<Scatter>(size(), scatter));
   }
 
   /// Mean squared misfit of each passage over that of the model [1].
   std::vector<double> misfits(const Eigen::Isometry3d& motion) const;
+
+  /// That the passages show which the motion was fitted to, and the model.
+  Scatter scatter(const PassageIndices& used, const session::RigMotion& motion) const;
 
  private:
   const geometry::Rig& first_;
@@ -55,7 +61,7 @@ class PassageProblem {
 /// The motion that fits best.
 struct PassageFit {
   session::RigMotion motion;
-  double scatter;       ///< Estimated errors of the passages over those of the model [1].
+  Scatter scatter;
   PassageIndices used;  ///< The passages that agree, at least two thirds.
 };
 

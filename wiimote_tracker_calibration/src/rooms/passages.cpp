@@ -1,5 +1,7 @@
 #include "rooms/passages.h"
 
+#include "rooms/join_tracks.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -40,9 +42,9 @@ struct End {
 };
 
 bool isCarried(const Path& track, bool end, const PassageOptions& options) {
-  const Path part = partOf(track, end, options.shortest_part + kSpacing);
-  if (durationOf(part) < options.shortest_part)
+  if (durationOf(track) < options.shortest_part)
     return false;
+  const Path part = partOf(track, end, options.shortest_part);
   const double length = (part.back().position - part.front().position).norm();
   return length > options.slowest * durationOf(part);
 }
@@ -76,9 +78,11 @@ Path straightPart(const Path& track, bool end, const PassageOptions& options) {
 
 }  // namespace
 
-Passages findPassages(const std::vector<Path>& first,
-                      const std::vector<Path>& second,
+Passages findPassages(const std::vector<Path>& first_tracks,
+                      const std::vector<Path>& second_tracks,
                       const PassageOptions& options) {
+  const std::vector<Path> first = joinTracks(first_tracks);
+  const std::vector<Path> second = joinTracks(second_tracks);
   const std::vector<End> exits = endsOf(first, second, true, options);
   const std::vector<End> entries = endsOf(first, second, false, options);
   // An LED that was hidden within a room competes with those that change rooms.

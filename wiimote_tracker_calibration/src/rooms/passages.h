@@ -13,7 +13,7 @@ struct PassageOptions {
   WalkModel walk;
   double longest = 3.0;        ///< An LED is hidden for at most this long [s].
   double part = 3.0;           ///< Of each track, next to the door, at most [s].
-  double shortest_part = 1.0;  ///< The same at least [s].
+  double shortest_part = 0.7;  ///< The same at least [s].
   double slowest = 0.5;        ///< Speed [m/s].
   double most_crooked = 1.7;   ///< RMS distance of a part from its line over that of the model [1].
 };
@@ -34,10 +34,10 @@ struct Passages {
 };
 
 /// Pairs the end of a track in one room with the beginning of one in the other.
-/// @param first, second tracks in each room, points in the order of time; an LED that was not seen
-/// for a while has several.
-Passages findPassages(const std::vector<Path>& first,
-                      const std::vector<Path>& second,
+/// @param first_tracks, second_tracks in each room, points in the order of time; an LED may have
+/// several, also at the same time.
+Passages findPassages(const std::vector<Path>& first_tracks,
+                      const std::vector<Path>& second_tracks,
                       const PassageOptions& options);
 
 }  // namespace wiimote_tracker::rooms

@@ -33,7 +33,7 @@ SensitivePath sensitivePath(const geometry::Rig& rig, const Path& path, const Wa
 
 /// A place on the line through a path, and its derivative.
 struct Place {
-  Eigen::Isometry3d position;
+  Eigen::Vector3d position;
   Eigen::MatrixXd by_parameters;
 };
 
@@ -42,7 +42,16 @@ Place placeOf(const SensitivePath& path, const Eigen::RowVectorXd& weights) {
   Eigen::MatrixXd sum = weights[0] * path.by_parameters[0];
   for (std::size_t i = 1; i < path.by_parameters.size(); ++i)
     sum += weights[static_cast<Eigen::Index>(i)] * path.by_parameters[i];
-  return {Eigen::Isometry3d(Eigen::Translation3d(position)), sum};
+  return {position, sum};
+}
+
+/// Axes ahead, to the left and up of somebody who walks.
+Eigen::Matrix3d walkersAxes(const Eigen::Vector3d& velocity) {
+  Eigen::Matrix3d axes;
+  axes.col(0) = velocity.normalized();
+  axes.col(1) = Eigen::Vector3d::UnitZ().cross(velocity).normalized();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes;
 }
 
 }  // namespace
@@ -58,14 +67,18 @@ std::optional<SharedPlaces> sharedPlaces(const geometry::Rig& first,
   if (before.path.size() < kFewestPoints || after.path.size() < kFewestPoints)
     return std::nullopt;
   const auto places = hiddenPlaces(before.path, after.path, model);
+  const Eigen::Matrix3d axes =
+      walkersAxes(velocityOf(passage.from_first ? before.path : after.path, model));
   SharedPlaces result;
   for (std::size_t i = 0; i < places.size(); ++i) {
     Place in_first = placeOf(before, places[i].before_weights);
     Place in_second = placeOf(after, places[i].after_weights);
     if (!passage.from_first)
       std::swap(in_first, in_second);
-    result[i] = {in_first.position, in_second.position, in_first.by_parameters,
-                 in_second.by_parameters, places[i].stddev};
+    result[i] = {Eigen::Translation3d(in_first.position) * Eigen::Isometry3d(axes),
+                 Eigen::Isometry3d(Eigen::Translation3d(in_second.position)),
+                 in_first.by_parameters, in_second.by_parameters,
+                 Eigen::Vector3d::Constant(places[i].stddev)};
   }
   return result;
 }

@@ -11,7 +11,8 @@
 
 namespace wiimote_tracker::rooms {
 
-/// The two hidden places of a passage, as both rigs measured them.
+/// The two hidden places of a passage, as both rigs measured them. The axes in the first are ahead,
+/// left and up of the walker.
 using SharedPlaces = std::array<session::Shared, 2>;
 constexpr int kConditions = 6;  ///< Of a passage: the coordinates of both places.
 

@@ -3,22 +3,34 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 
 namespace wiimote_tracker::rooms {
 
 namespace {
 
-/// Covariance of the positions of one axis about the line.
-Eigen::MatrixXd covarianceOf(const Path& path, const WalkModel& model) {
+/// Integral over both times from 0 of the correlation exp(-|a - b| / decay) [s^2].
+double integratedTwice(double a, double b, double decay) {
+  const auto left = [decay](double time) { return std::exp(-std::abs(time) / decay); };
+  if (a * b < 0.0)
+    return -decay * decay * (1.0 - left(a)) * (1.0 - left(b));
+  return 2.0 * decay * std::min(std::abs(a), std::abs(b)) +
+         decay * decay * (left(a) + left(b) - left(a - b) - 1.0);
+}
+
+/// Covariance of the positions of one axis about the line that they had at `time`.
+Eigen::MatrixXd covarianceOf(const Path& path, double time, const WalkModel& model) {
   const auto size = static_cast<Eigen::Index>(path.size());
   Eigen::MatrixXd covariance(size, size);
   for (Eigen::Index i = 0; i < size; ++i) {
     const PathPoint& a = path[static_cast<std::size_t>(i)];
     for (Eigen::Index j = 0; j < size; ++j) {
-      const double apart = std::abs(a.time - path[static_cast<std::size_t>(j)].time);
+      const PathPoint& b = path[static_cast<std::size_t>(j)];
       covariance(i, j) =
-          model.deviation * model.deviation * std::exp(-apart / model.deviation_time);
+          model.wander * model.wander *
+              integratedTwice(a.time - time, b.time - time, model.wander_time) +
+          model.sway * model.sway * std::exp(-std::abs(a.time - b.time) / model.sway_time);
     }
     covariance(i, i) += a.variance;
   }
@@ -46,7 +58,7 @@ Eigen::Matrix<double, 2, Eigen::Dynamic> lineWeights(const Path& path,
                                                      double time,
                                                      const WalkModel& model) {
   const Eigen::MatrixX2d design = lineDesign(path, time);
-  const Eigen::MatrixX2d weighed = covarianceOf(path, model).ldlt().solve(design);
+  const Eigen::MatrixX2d weighed = covarianceOf(path, time, model).ldlt().solve(design);
   const Eigen::Matrix2d information = design.transpose() * weighed;
   return information.inverse() * weighed.transpose();
 }
@@ -59,7 +71,8 @@ double crookednessOf(const Path& path, const WalkModel& model) {
   const double time = path.front().time;
   const Eigen::MatrixXd line = lineDesign(path, time) * lineWeights(path, time, model);
   const Eigen::MatrixXd residual = Eigen::MatrixXd::Identity(line.rows(), line.cols()) - line;
-  const double expected = (residual * covarianceOf(path, model) * residual.transpose()).trace();
+  const double expected =
+      (residual * covarianceOf(path, time, model) * residual.transpose()).trace();
   return std::sqrt((residual * positionsOf(path)).squaredNorm() / (3.0 * expected));
 }
 
@@ -67,14 +80,22 @@ std::array<HiddenPlace, 2> hiddenPlaces(const Path& before,
                                         const Path& after,
                                         const WalkModel& model) {
   const double middle = 0.5 * (before.back().time + after.front().time);
-  const auto before_line = lineWeights(before, middle, model);
-  const auto after_line = lineWeights(after, middle, model);
   Path all = before;
   all.insert(all.end(), after.begin(), after.end());
-  Eigen::Matrix<double, 2, Eigen::Dynamic> difference(2, all.size());
-  difference << -before_line, after_line;
-  // Of the difference of both lines: position at the middle time, velocity.
-  const Eigen::Matrix2d covariance = difference * covarianceOf(all, model) * difference.transpose();
+  const auto first = static_cast<Eigen::Index>(before.size());
+  const auto second = static_cast<Eigen::Index>(after.size());
+  // Of the line before and of that after: position at the middle time, velocity.
+  Eigen::MatrixX4d design = Eigen::MatrixX4d::Zero(all.size(), 4);
+  design.topLeftCorner(first, 2) = lineDesign(before, middle);
+  design.bottomRightCorner(second, 2) = lineDesign(after, middle);
+  const Eigen::MatrixX4d weighed = covarianceOf(all, middle, model).ldlt().solve(design);
+  const Eigen::Matrix4d lines = (design.transpose() * weighed).inverse();
+  // The later line less the earlier one.
+  Eigen::Matrix<double, 2, 4> later_less_earlier;
+  later_less_earlier << -Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d covariance = later_less_earlier * lines * later_less_earlier.transpose();
+  const Eigen::Matrix<double, 2, Eigen::Dynamic> difference =
+      later_less_earlier * lines * weighed.transpose();
   // The position's error is independent of the velocity's at one time, and those at equal distances
   // before and after it of each other where the distance is the ratio of both.
   const double shift = -covariance(0, 1) / covariance(1, 1);
@@ -82,7 +103,8 @@ std::array<HiddenPlace, 2> hiddenPlaces(const Path& before,
   const double distance = std::sqrt(variance / covariance(1, 1));
   const auto placeAt = [&](double time) {
     const Eigen::RowVector2d at(1.0, time);
-    return HiddenPlace{at * before_line, at * after_line, std::sqrt(2.0 * variance)};
+    return HiddenPlace{-at * difference.leftCols(first), at * difference.rightCols(second),
+                       std::sqrt(2.0 * variance)};
   };
   return {placeAt(shift - distance), placeAt(shift + distance)};
 }

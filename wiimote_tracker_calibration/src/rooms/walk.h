@@ -9,11 +9,13 @@
 namespace wiimote_tracker::rooms {
 
 /// How somebody walks who carries an LED straight through a door: at constant velocity, with
-/// deviations in each axis (steps, sway of the hand, speed) that are a first-order Gauss-Markov
-/// process.
+/// deviations in each axis that are the sum of two first-order Gauss-Markov processes: in the
+/// velocity (heading, speed) and in the position (steps, sway of the hand).
 struct WalkModel {
-  double deviation = 0.04;      ///< Standard deviation, per axis [m, > 0].
-  double deviation_time = 0.7;  ///< Autocorrelation time of the deviations [s, > 0].
+  double wander = 0.04;      ///< Standard deviation of the velocity, per axis [m/s, > 0].
+  double wander_time = 1.0;  ///< Autocorrelation time of the velocity [s, > 0].
+  double sway = 0.02;        ///< Standard deviation of the position, per axis [m, > 0].
+  double sway_time = 0.5;    ///< Autocorrelation time of the position [s, > 0].
 };
 
 /// A point of an LED's track, in the world of its rig.
@@ -42,7 +44,8 @@ Eigen::Vector3d velocityOf(const Path& path, const WalkModel& model);
 double crookednessOf(const Path& path, const WalkModel& model);
 
 /// A place where the LED was while it was hidden, or nearly so, as the line on either side of the
-/// door has it.
+/// door has it. Both lines are estimated together, since deviations last longer than the door
+/// hides.
 struct HiddenPlace {
   Eigen::RowVectorXd before_weights;  ///< Times the positions before: the place by that line.
   Eigen::RowVectorXd after_weights;   ///< The same of those after.

@@ -154,7 +154,7 @@ JoinedRigs joinRigs(const geometry::Rig& first,
     shared.push_back({Eigen::Isometry3d(Eigen::Translation3d(place.in_first)),
                       Eigen::Isometry3d(Eigen::Translation3d(place.in_second)),
                       Eigen::MatrixXd::Zero(3, first.covariance.cols()), *derivative,
-                      place.stddev});
+                      Eigen::Vector3d::Constant(place.stddev)});
   }
   const Eigen::Isometry3d start = startOver(places);
   const RigMotion motion = fitMotion(first, second, shared, start);

@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <limits>
 
 namespace wiimote_tracker::session {
@@ -83,18 +84,24 @@ Eigen::MatrixXd errorCovariance(const geometry::Rig& first,
   const Eigen::Index first_size = first.covariance.rows();
   const Eigen::Index second_size = second.covariance.rows();
   const Eigen::Index count = conditionCount(shared);
-  Eigen::VectorXd variances(count);
-  Eigen::Index row = 0;
-  for (const Shared& one : shared) {
-    const Eigen::Index rows = one.by_second.rows();
-    variances.segment(row, rows).setConstant(kLeastStddev * kLeastStddev + one.stddev * one.stddev);
-    row += rows;
-  }
   const Eigen::Index size = first_size + second_size + count;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
   covariance.topLeftCorner(first_size, first_size) = first.covariance;
   covariance.block(first_size, first_size, second_size, second_size) = second.covariance;
-  covariance.diagonal().tail(count) = variances;
+  Eigen::Index row = first_size + second_size;
+  for (const Shared& one : shared) {
+    const Eigen::Index rows = one.by_second.rows();
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    if (rows != kVertical)
+      axes = one.in_first.linear();
+    const Eigen::Matrix3d each = axes * one.stddevs.cwiseAbs2().asDiagonal() * axes.transpose();
+    // Of a camera the rotation, then the position.
+    const Eigen::Index size_of_each = std::min<Eigen::Index>(rows, 3);
+    for (const Eigen::Index end = row + rows; row < end; row += size_of_each)
+      covariance.block(row, row, size_of_each, size_of_each) =
+          each.topLeftCorner(size_of_each, size_of_each);
+  }
+  covariance.diagonal().tail(count).array() += kLeastStddev * kLeastStddev;
   return covariance;
 }
 

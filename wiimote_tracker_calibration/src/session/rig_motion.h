@@ -20,7 +20,9 @@ struct Shared {
   Eigen::Isometry3d in_second;  ///< [m]
   Eigen::MatrixXd by_first;
   Eigen::MatrixXd by_second;
-  double stddev = 0.0;  ///< Of in_second against in_first, without the rigs' covariances [m; rad].
+  /// Of in_second against in_first, along the axes of in_first, without the rigs' covariances
+  /// [m; rad].
+  Eigen::Vector3d stddevs = Eigen::Vector3d::Zero();
 };
 
 /// The motion between two rigs that fits best to what they share.

@@ -27,6 +27,8 @@ using wiimote_tracker_msgs::TrackedPointArray;
 
 // Without a measurement for longer, a track ends [s].
 constexpr double kLongestGap = 0.3;
+// A point is measured if it is known to this: not while only one camera sees the LED [m].
+constexpr double kMeasured = 0.1;
 
 /// The tracks of one room: of each LED a new one wherever it was not seen.
 class RoomTracks {
@@ -34,7 +36,9 @@ class RoomTracks {
   /// @param source what numbers the LEDs
   void add(const std::string& source, const TrackedPointArray& points) {
     for (const TrackedPoint& point : points.points) {
-      if (point.state != TrackedPoint::TRACKED)
+      const auto& covariance = point.position_covariance;
+      const double variance = (covariance[0] + covariance[4] + covariance[8]) / 3.0;
+      if (point.state != TrackedPoint::TRACKED || !(variance <= kMeasured * kMeasured))
         continue;
       const double time = points.header.stamp.toSec();
       rooms::Path& track = open_[{source, point.id}];
@@ -42,11 +46,8 @@ class RoomTracks {
         closed_.push_back(track);
         track.clear();
       }
-      const auto& covariance = point.position_covariance;
       if (track.empty() || time > track.back().time)
-        track.push_back({time,
-                         {point.position.x, point.position.y, point.position.z},
-                         (covariance[0] + covariance[4] + covariance[8]) / 3.0});
+        track.push_back({time, {point.position.x, point.position.y, point.position.z}, variance});
     }
   }
 

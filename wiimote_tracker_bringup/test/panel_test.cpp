@@ -8,6 +8,7 @@
 #include "tracker_widget.h"
 
 #include <QApplication>
+#include <QCheckBox>
 #include <QColor>
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -167,6 +168,19 @@ TEST_F(Panel, CalibratesByPressingTheButtonThatItOffers) {
   EXPECT_LT(check(1.0, 1.5, 1.0), kThreeSigma);
   EXPECT_NEAR(check(1.0, 1.5, 1.2), 200.0, kThreeSigma);
   screenshot("calibrate_place");
+}
+
+TEST_F(Panel, AsksForTheWandOnTheFloor) {
+  open(1);
+  auto* again = find<QPushButton>("Start again");
+  ASSERT_TRUE(waitFor([&] { return again->isEnabled(); }));
+  find<QDoubleSpinBox>("wand")->setValue(0.5);
+  find<QCheckBox>("without_square")->click();
+  again->click();
+  EXPECT_TRUE(waitFor([this] { return title() == "Leave it"; }));
+  EXPECT_TRUE(waitFor([this] { return title() == "Wave"; })) << "captured where the hand laid it";
+  find<QPushButton>("Stop")->click();
+  EXPECT_TRUE(waitFor([this] { return title() == "Wand"; })) << title().toStdString();
 }
 
 TEST_F(Panel, EndsWhileARequestRuns) {

@@ -134,6 +134,7 @@ PassageIndices bestFirst(const PassageProblem& problem) {
   std::vector<double> misfits = problem.misfits(motion);
   for (int i = 0; i < kReweightings; ++i) {
     std::vector<Scatter> scatters;
+    scatters.reserve(misfits.size());
     for (const double misfit : misfits)
       scatters.push_back(Scatter::Constant(std::sqrt(1.0 + misfit)));
     motion = problem.fit(order, motion, scatters).first_from_second;

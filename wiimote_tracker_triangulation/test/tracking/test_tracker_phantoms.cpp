@@ -72,10 +72,11 @@ TEST(TrackerPhantoms, AnLedThatTheOtherCamerasCannotSeeIsConfirmedAtOnce) {
   EXPECT_GE(rows.tracked, 4000u * 99 / 100);
 }
 
-// Each camera shows four of twelve: none contradicts where rays of two LEDs meet by chance.
+// Each camera shows four of twelve: none contradicts where rays of two LEDs meet by chance. It is
+// 10 % where full cameras count as if they did not look there.
 TEST(TrackerPhantoms, LedsThatCrowdEachOtherOutMakeFew) {
   PhantomRows all;
-  for (const unsigned seed : {1u, 2u, 3u}) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
     geometry::test::Random random(seed);
     std::vector<Path> leds;
     for (int i = 0; i < 12; ++i) {
@@ -86,8 +87,8 @@ TEST(TrackerPhantoms, LedsThatCrowdEachOtherOutMakeFew) {
     all.tracked += rows.tracked;
     all.wrong += rows.wrong;
   }
-  EXPECT_GT(all.tracked, 25000u);
-  EXPECT_LE(all.wrong, 0.05 * all.tracked) << all.tracked;
+  EXPECT_GT(all.tracked, 95000u);
+  EXPECT_LE(all.wrong, 0.085 * all.tracked) << all.tracked;
 }
 
 TEST(TrackerPhantoms, AHiddenLedIsNotFoundOnGhosts) {

@@ -84,7 +84,7 @@ TEST(JoinRoomsProgram, JoinsRecordedRooms) {
   }
   result = rosrun(join + at("hall.bag") + " " + at("lab.bag"));
   ASSERT_EQ(result.first, 0) << result.second;
-  EXPECT_SAYS(result.second, "4 cameras joined to the 4 of the first rig by 5 passages");
+  EXPECT_SAYS(result.second, "4 cameras joined to the 4 of the first rig by 6 passages");
   const geometry::Rig joined = geometry::readRigFile(at("out.yaml"));
   for (const geometry::RigCamera& truth : rooms.trueCameras()) {
     const geometry::RigCamera* camera = joined.find(truth.camera.name);

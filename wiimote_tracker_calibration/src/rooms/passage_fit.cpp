@@ -4,9 +4,10 @@
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +44,7 @@ Eigen::Isometry3d PassageProblem::start() const {
   const Eigen::Index each = vertical_ ? 4 : 2;
   Eigen::Matrix3Xd to(3, each * count);
   Eigen::Matrix3Xd from(3, each * count);
+  std::vector<Eigen::Vector3d> places;
   for (Eigen::Index i = 0; i < to.cols(); ++i) {
     const Shared& place =
         passages_[static_cast<std::size_t>(i / each)][static_cast<std::size_t>(i % 2)];
@@ -52,10 +54,10 @@ Eigen::Isometry3d PassageProblem::start() const {
       to.col(i) += vertical_->in_first.linear().col(2);
       from.col(i) += vertical_->in_second.linear().col(2);
     }
+    places.emplace_back(from.col(i));
   }
-  const Eigen::Matrix3Xd centered = from.colwise() - from.rowwise().mean();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(centered * centered.transpose());
-  if (!(spread.eigenvalues()[1] > kThinnest * kThinnest * spread.eigenvalues()[2]))
+  const Eigen::Vector3d spread = geometry::spreadOf(places);
+  if (!(spread[1] > kThinnest * spread[0]))
     throw Error(
         "all passages are on one line, which leaves the tilt of one room against the other "
         "open: walk through the door in other directions, too");

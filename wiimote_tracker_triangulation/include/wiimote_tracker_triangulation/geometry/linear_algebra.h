@@ -24,8 +24,8 @@ double squaredMahalanobis(const AnyVector& error, const AnyMatrix& covariance);
 /// matrix^-1 * right. @param matrix n x n, symmetric, positive definite. @param right n x m.
 Eigen::MatrixXd solveSymmetric(const AnyMatrix& matrix, const AnyMatrix& right);
 
-/// The x that minimises |matrix x - right| for a right side of one column, by its pseudo-inverse.
-/// @param matrix n x m. @return m x n.
+/// Moore-Penrose pseudo-inverse. Times a vector b it is the shortest x that minimises
+/// |matrix x - b|. @param matrix n x m. @return m x n.
 Eigen::MatrixXd pseudoInverse(const AnyMatrix& matrix);
 
 /// Orthonormal columns that span what the given ones span. @param columns n x m, m <= n,

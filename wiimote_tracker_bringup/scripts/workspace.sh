@@ -124,9 +124,9 @@ install_missing_packages() {
 
 # --- Workspace
 
-# Jobs: one per processor, but no more than memory allows (1.5 GB for the largest compiler run).
+# Jobs: one per processor, but no more than memory allows (1.7 GB for the largest compiler run).
 jobs_that_fit() {
-  awk -v cpus="$(nproc)" '/^MemAvailable/ { n = int($2 / 1.5e6); print n < 1 ? 1 : n < cpus ? n : cpus }' /proc/meminfo
+  awk -v cpus="$(nproc)" '/^MemAvailable/ { n = int($2 / 1.7e6); print n < 1 ? 1 : n < cpus ? n : cpus }' /proc/meminfo
 }
 
 # Makes the workspace and locks it until the script ends.

@@ -291,11 +291,3 @@ TEST_F(Beyond, ABagGivesTheSameRigAsLiveImages) {
 
 }  // namespace
 }  // namespace wiimote_tracker
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "calibration_node_beyond_test");
-  ros::AsyncSpinner spinner(4);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

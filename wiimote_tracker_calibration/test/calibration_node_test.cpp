@@ -390,11 +390,3 @@ TEST_F(Node, BadParametersAndAMissingMasterEndItWithASentence) {
 
 }  // namespace
 }  // namespace wiimote_tracker
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "calibration_node_test");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

@@ -365,11 +365,3 @@ TEST_F(CalibratedNode, FindsANewClockAndApproachesTheAdjustedPoses) {
 
 }  // namespace
 }  // namespace wiimote_tracker
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "place_and_health_test");
-  ros::AsyncSpinner spinner(2);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

@@ -275,11 +275,3 @@ TEST_F(Rooms, WithoutASharedCameraAreJoinedOverKnownPlaces) {
 
 }  // namespace
 }  // namespace wiimote_tracker
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "samples_and_rooms_test");
-  ros::AsyncSpinner spinner(4);
-  spinner.start();
-  return RUN_ALL_TESTS();
-}

@@ -52,6 +52,20 @@ struct Case {
 
 class ThrownErrors : public Node {
  protected:
+  static void SetUpTestSuite() {
+    Parameters parameters;
+    parameters.calibration.capture.minimum_samples = 20;
+    parameters.calibration.capture.timeout = 3.0;
+    parameters.set_camera_info_timeout = 0.5;
+    ros::param::get("/calibration/rig_file", parameters.rig_file);
+    node = std::make_unique<CalibrationNode>(ros::NodeHandle(), parameters);
+    Node::SetUpTestSuite();
+  }
+  static void TearDownTestSuite() {
+    Node::TearDownTestSuite();
+    node.reset();
+  }
+
   static std::vector<Case> cases() {
     geometry_msgs::Point corner;
     corner.y = 2.5;
@@ -153,20 +167,3 @@ TEST_F(ThrownErrors, EndNoThreadThatImagesComeFrom) {
 
 }  // namespace
 }  // namespace wiimote_tracker
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "thrown_errors_test");
-  ros::AsyncSpinner spinner(8);
-  spinner.start();
-  wiimote_tracker::Parameters parameters;
-  parameters.calibration.capture.minimum_samples = 20;
-  parameters.calibration.capture.timeout = 3.0;
-  parameters.set_camera_info_timeout = 0.5;
-  ros::param::get("/calibration/rig_file", parameters.rig_file);
-  wiimote_tracker::node =
-      std::make_unique<wiimote_tracker::CalibrationNode>(ros::NodeHandle(), parameters);
-  const int result = RUN_ALL_TESTS();
-  wiimote_tracker::node.reset();
-  return result;
-}

@@ -173,6 +173,27 @@ TEST(Continuous, ACameraWithoutATimeOffsetHasNotReconnected) {
   EXPECT_LT(fitOf(*adjusted, images).value().misfit, fitOf(rig, images).value().misfit);
 }
 
+TEST(Continuous, TheMisfitOfASquareAloneIsNotTakenForDrift) {
+  constexpr double kSlower = 4.0;  // so that cameras without time offsets are judged
+  geometry::Rig rig = paperRigWith(RigErrors());
+  for (geometry::RigCamera& camera : rig.cameras) {
+    camera.time_offset = std::nan("");
+    camera.time_offset_rule = geometry::TimeOffsetRule::kNone;
+  }
+  Random random(3);
+  for (std::uint64_t seed = 300; seed < 304; ++seed) {
+    WavedLed led(drawTruth(rig, random), seed, 50.0 * kSlower);
+    for (geometry::RigCamera& camera : led.truth)
+      camera.time_offset = 0.0;
+    ContinuousCalibration watch(rig, {});
+    led.runUntil(60.0 / kSlower, [&](capture::Image image) {
+      image.stamp = WavedLed::kClock + kSlower * (image.stamp - WavedLed::kClock);
+      const auto proposal = watch.add(image);
+      EXPECT_FALSE(proposal) << proposal->message;
+    });
+  }
+}
+
 TEST(Continuous, AdjustsAllCamerasAndTheirNewClocks) {
   Random random(7);
   const geometry::Rig rig = paperRigWith(wellCalibrated());

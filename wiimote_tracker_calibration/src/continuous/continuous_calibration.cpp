@@ -37,6 +37,13 @@ bool allFit(const Drifts& drifts) {
          });
 }
 
+/// Whether the rig was solved from a square only.
+bool hasNoClocks(const geometry::Rig& rig) {
+  return std::all_of(rig.cameras.begin(), rig.cameras.end(), [](const geometry::RigCamera& camera) {
+    return camera.time_offset_rule == geometry::TimeOffsetRule::kNone;
+  });
+}
+
 /// Replaces what an earlier change has added to the verdict.
 std::string verdictWith(const std::string& verdict, const std::string& change) {
   const std::string kSince = "; since then ";
@@ -188,6 +195,10 @@ std::optional<Proposal> ContinuousCalibration::moved(const Evidence& evidence) c
 }
 
 std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& images) const {
+  // Four corners tell little of the lenses: other poses explain the images above the square better,
+  // though no camera has turned, and do not make points more accurate.
+  if (hasNoClocks(rig_))
+    return std::nullopt;
   auto rig = adjustRig(rig_, images.to_solve, options_.adjust);
   // Another light carried along can fit, with all cameras turned farther than they drift.
   if (!rig || !clocksHold(*rig, images.to_check) || !isWithinDrift(rig_, *rig, options_.adjust))

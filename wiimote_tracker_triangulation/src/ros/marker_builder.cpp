@@ -73,6 +73,19 @@ std::array<Vector3d, 4> imageCorners(const geometry::Camera& camera, double dist
 
 }  // namespace
 
+visualization_msgs::MarkerArray MarkerBuilder::buildWithoutRig(double time) const {
+  constexpr double kLifetime = 2.0;  // [s]
+  Marker text =
+      markers::marker(rig_.world_frame, time, kLifetime, "advice", 0, Marker::TEXT_VIEW_FACING);
+  text.pose.position = pointOf(kTextHeight * Vector3d::UnitZ());
+  text.text = "Not calibrated: open Calibrate";
+  text.scale.z = kTextHeight;
+  text.color = color(1.0f, 1.0f, 1.0f, 1.0f);
+  visualization_msgs::MarkerArray array;
+  array.markers.push_back(text);
+  return array;
+}
+
 void MarkerBuilder::setRig(const geometry::Rig& rig) {
   rig_ = rig;
   must_clear_ = true;

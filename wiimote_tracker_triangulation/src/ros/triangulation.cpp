@@ -184,6 +184,7 @@ void Triangulation::onTimer() {
                       "Waiting for a calibrated rig on %s: run  rosrun "
                       "wiimote_tracker_calibration calibrate  or open Calibrate in rviz.",
                       rig_subscriber_.getTopic().c_str());
+    markers_publisher_.publish(markers_.buildWithoutRig(ros::Time::now().toSec()));
   }
   if (const auto bodies = learning_.change())  // while no image comes
     useBodies(*bodies);

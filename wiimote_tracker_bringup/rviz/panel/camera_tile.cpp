@@ -72,16 +72,23 @@ void CameraTile::paintEvent(QPaintEvent*) {
     return;
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  const QColor color = colorOf(state_);
-  painter.setPen(QPen(color, 2));
+  painter.setPen(QPen(colorOf(state_), 2));
   painter.setBrush(kGround);
   painter.drawRoundedRect(rect().adjusted(1, 1, -1, -1), 5, 5);
   paintHeader(&painter);
   paintPicture(&painter);
-  painter.setPen(color);
-  const QRect line(kMargin, height() - kMargin - lineHeight(), width() - 2 * kMargin, lineHeight());
-  painter.drawText(line, Qt::AlignVCenter | Qt::AlignLeft,
-                   painter.fontMetrics().elidedText(words_, Qt::ElideRight, line.width()));
+  paintWords(&painter);
+}
+
+/// At the bottom; more than a line covers the picture's lower edge.
+void CameraTile::paintWords(QPainter* painter) const {
+  const QRect room = rect().adjusted(kMargin, kMargin, -kMargin, -kMargin);
+  constexpr int kLayout = Qt::AlignBottom | Qt::AlignLeft | Qt::TextWordWrap;
+  const QRect words = painter->boundingRect(room, kLayout, words_);
+  if (words.height() > lineHeight())
+    painter->fillRect(QRect(words.topLeft(), room.bottomRight()), kGround);
+  painter->setPen(colorOf(state_));
+  painter->drawText(room, kLayout, words_);
 }
 
 /// Name on the left, rate and battery on the right as far as there is room.

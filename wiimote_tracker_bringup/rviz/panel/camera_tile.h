@@ -34,6 +34,7 @@ class CameraTile : public QWidget {
   int lineHeight() const;
   QRectF pictureArea() const;
   void paintHeader(QPainter* painter) const;
+  void paintWords(QPainter* painter) const;
   void paintPicture(QPainter* painter) const;
   void paintCells(QPainter* painter, const QRectF& area) const;
   void paintSpots(QPainter* painter, const QRectF& area) const;

@@ -96,12 +96,13 @@ def solve(problem, state, names):
 
 
 def derivatives(problem, state):
-    """For each group: rows x values x constants, and rows x values x (both states), by central
+    """For each group: rows x values x constants, and rows x values x (both states), by forward
     differences."""
+    here = problem.residuals(state, state)
+
     def along(count, ends):
-        sides = [[problem.residuals(*ends(sign * step)) for sign in (1.0, -1.0)]
-                 for step in STEP * np.eye(count)]
-        return [np.stack([(up[group] - down[group]) / (2.0 * STEP) for up, down in sides], axis=2)
+        moved = [problem.residuals(*ends(step)) for step in STEP * np.eye(count)]
+        return [np.stack([(there[group] - here[group]) / STEP for there in moved], axis=2)
                 for group in range(len(problem.noise))]
 
     size = 3 + state.vectors.shape[1]

@@ -2,6 +2,7 @@
 
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
 #include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
+#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
@@ -143,8 +144,7 @@ class LabelledBody {
       if (views_[c].tellsMotion(time))
         cameras.push_back(c);
     }
-    Eigen::Matrix3Xd on_body(3, lights_.size());
-    Eigen::Matrix3Xd in_world(3, lights_.size());
+    std::vector<Eigen::Vector3d> in_world;
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       std::vector<geometry::Observation> seen;
       seen.reserve(cameras.size());
@@ -153,10 +153,9 @@ class LabelledBody {
       const auto point = geometry::triangulate(seen, {});
       if (!point)
         return;
-      on_body.col(static_cast<Eigen::Index>(i)) = lights_[i];
-      in_world.col(static_cast<Eigen::Index>(i)) = point->position;
+      in_world.push_back(point->position);
     }
-    const Eigen::Isometry3d world_from_body(Eigen::umeyama(on_body, in_world, false));
+    const Eigen::Isometry3d world_from_body = geometry::rigidAlignment(in_world, lights_);
     std::vector<std::pair<std::size_t, const Image*>> images;
     for (const std::size_t c : cameras) {
       images.emplace_back(c, &views_[c].before);

@@ -40,28 +40,25 @@ Eigen::Vector3d misfitOf(const Shared& place, const Eigen::Isometry3d& motion) {
 }  // namespace
 
 Eigen::Isometry3d PassageProblem::start() const {
-  const auto count = static_cast<Eigen::Index>(passages_.size());
-  const Eigen::Index each = vertical_ ? 4 : 2;
-  Eigen::Matrix3Xd to(3, each * count);
-  Eigen::Matrix3Xd from(3, each * count);
-  std::vector<Eigen::Vector3d> places;
-  for (Eigen::Index i = 0; i < to.cols(); ++i) {
-    const Shared& place =
-        passages_[static_cast<std::size_t>(i / each)][static_cast<std::size_t>(i % 2)];
-    to.col(i) = place.in_first.translation();
-    from.col(i) = place.in_second.translation();
-    if (i % each >= 2) {  // above the places
-      to.col(i) += vertical_->in_first.linear().col(2);
-      from.col(i) += vertical_->in_second.linear().col(2);
+  std::vector<Eigen::Vector3d> in_first;
+  std::vector<Eigen::Vector3d> in_second;
+  for (const auto& passage : passages_) {
+    for (const Shared& place : passage) {
+      in_first.emplace_back(place.in_first.translation());
+      in_second.emplace_back(place.in_second.translation());
+      if (!vertical_)
+        continue;
+      // A point above the place tells the tilt.
+      in_first.emplace_back(place.in_first.translation() + vertical_->in_first.linear().col(2));
+      in_second.emplace_back(place.in_second.translation() + vertical_->in_second.linear().col(2));
     }
-    places.emplace_back(from.col(i));
   }
-  const Eigen::Vector3d spread = geometry::spreadOf(places);
+  const Eigen::Vector3d spread = geometry::spreadOf(in_second);
   if (!(spread[1] > kThinnest * spread[0]))
     throw Error(
         "all passages are on one line, which leaves the tilt of one room against the other "
         "open: walk through the door in other directions, too");
-  return Eigen::Isometry3d(Eigen::umeyama(from, to, false));
+  return geometry::rigidAlignment(in_first, in_second);
 }
 
 RigMotion PassageProblem::fit(const PassageIndices& used,

@@ -90,13 +90,13 @@ void checkPlaces(const std::vector<CommonPlace>& places) {
 
 /// The motion that brings the places of the second world nearest to those of the first.
 Eigen::Isometry3d startOver(const std::vector<CommonPlace>& places) {
-  Eigen::Matrix3Xd from(3, places.size());
-  Eigen::Matrix3Xd to(3, places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    from.col(static_cast<Eigen::Index>(i)) = places[i].in_second;
-    to.col(static_cast<Eigen::Index>(i)) = places[i].in_first;
+  std::vector<Eigen::Vector3d> in_first;
+  std::vector<Eigen::Vector3d> in_second;
+  for (const CommonPlace& place : places) {
+    in_first.push_back(place.in_first);
+    in_second.push_back(place.in_second);
   }
-  return Eigen::Isometry3d(Eigen::umeyama(from, to, false));
+  return geometry::rigidAlignment(in_first, in_second);
 }
 
 }  // namespace

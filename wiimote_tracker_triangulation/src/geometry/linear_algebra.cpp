@@ -59,4 +59,12 @@ Eigen::Vector3d spreadOf(const std::vector<Eigen::Vector3d>& points) {
   return axes.eigenvalues().cwiseMax(0.0).cwiseSqrt().reverse();
 }
 
+Eigen::Isometry3d rigidAlignment(const std::vector<Eigen::Vector3d>& in_a,
+                                 const std::vector<Eigen::Vector3d>& in_b) {
+  using Columns = Eigen::Map<const Eigen::Matrix3Xd>;
+  const auto count = static_cast<Eigen::Index>(in_a.size());
+  return Eigen::Isometry3d(Eigen::umeyama(Columns(in_b.front().data(), 3, count),
+                                          Columns(in_a.front().data(), 3, count), false));
+}
+
 }  // namespace wiimote_tracker::geometry

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_LINEAR_ALGEBRA_H
 #define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_LINEAR_ALGEBRA_H
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <optional>
 #include <vector>
@@ -40,6 +40,13 @@ std::optional<Eigen::MatrixXd> inverseOfInformation(const AnyMatrix& information
 /// Standard deviations of points along their principal axes, the largest first [unit of the
 /// points]. NaN where a coordinate is not finite.
 Eigen::Vector3d spreadOf(const std::vector<Eigen::Vector3d>& points);
+
+/// The pose of frame b in frame a that brings points known in both nearest to each other (least
+/// squares; Umeyama 1991, without scale).
+/// @param in_a, in_b as many points in both, finite, three or more, not on one line; otherwise the
+/// rotation is arbitrary.
+Eigen::Isometry3d rigidAlignment(const std::vector<Eigen::Vector3d>& in_a,
+                                 const std::vector<Eigen::Vector3d>& in_b);
 
 }  // namespace wiimote_tracker::geometry
 

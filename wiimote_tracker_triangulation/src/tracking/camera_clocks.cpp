@@ -21,10 +21,6 @@ double squared(double x) {
   return x * x;
 }
 
-std::optional<ClockOffset::Estimate> remainderOf(const CameraFit& fit) {
-  return fit.isMisfit() ? std::nullopt : fit.clock.estimate();
-}
-
 }  // namespace
 
 ClockOffset::Estimate CameraClocks::correctionOf(std::size_t camera,
@@ -43,6 +39,12 @@ ClockOffset::Estimate CameraClocks::correctionOf(std::size_t camera,
   return clock.correction();
 }
 
+/// What is left of a camera's offset after the correction so far.
+std::optional<ClockOffset::Estimate> CameraClocks::remainderOf(std::size_t camera,
+                                                               const CameraFit& fit) const {
+  return fit.isMisfit() ? std::nullopt : fit.clock.estimate(turn_stddevs_[camera]);
+}
+
 double CameraClocks::errorOf(std::size_t camera) const {
   const Clock& clock = clocks_[camera];
   return clock.is_known ? clock.correction().offset : 0.0;
@@ -52,21 +54,29 @@ void CameraClocks::update(const std::vector<CameraFit>& fits) {
   if (std::none_of(fits.begin(), fits.end(), [](auto& fit) { return fit.clock.count() >= kSpots; }))
     return;
   // All seem to be off where the predictions lag behind the LEDs.
+  double variances = 0.0;
+  double count = 0.0;
   const double common = medianOf([&](std::size_t i) -> std::optional<double> {
-    const auto remainder = remainderOf(fits[i]);
-    return remainder ? std::make_optional(remainder->offset) : std::nullopt;
+    const auto remainder = remainderOf(i, fits[i]);
+    if (!remainder)
+      return std::nullopt;
+    variances += remainder->variance;
+    count += 1.0;
+    return remainder->offset;
   });
+  const double common_variance = count > 0.0 ? variances / (count * count) : 0.0;
   for (std::size_t i = 0; i < fits.size(); ++i) {
-    const auto remainder = remainderOf(fits[i]);
+    const auto remainder = remainderOf(i, fits[i]);
     if (!remainder)
       continue;
     ClockOffset::Estimate& offset = clocks_[i].offset;
     const double seen = clocks_[i].correction().offset + remainder->offset - common;
     const double innovation = seen - offset.offset;
+    const double seen_variance = remainder->variance + common_variance;
     double variance = offset.variance + squared(kChange);
-    if (squared(innovation) > 9.0 * (variance + remainder->variance))  // the clock was set
+    if (squared(innovation) > 9.0 * (variance + seen_variance))  // the clock was set
       variance = squared(innovation);
-    const double gain = variance / (variance + remainder->variance);
+    const double gain = variance / (variance + seen_variance);
     offset.offset += gain * innovation;
     offset.variance = (1.0 - gain) * variance;
   }

@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
@@ -17,7 +19,11 @@ namespace wiimote_tracker::tracking {
 /// Motion tells differences of clocks only: the median of the known ones is 0.
 class CameraClocks {
  public:
-  explicit CameraClocks(std::size_t cameras) : clocks_(cameras), sorted_(cameras) {}
+  /// @param turn_stddevs of each camera, see ClockOffset::estimate().
+  explicit CameraClocks(std::vector<double> turn_stddevs)
+      : turn_stddevs_(std::move(turn_stddevs)),
+        clocks_(turn_stddevs_.size()),
+        sorted_(turn_stddevs_.size()) {}
 
   /// To be subtracted from the times of a camera's images; its variance is for their deviation.
   /// @param is_known whether the rig's time offset holds in this epoch of the clock
@@ -47,8 +53,11 @@ class CameraClocks {
   template <typename ValueOf>
   double medianOf(const ValueOf& value_of);
 
-  std::vector<Clock> clocks_;   // per camera
-  std::vector<double> sorted_;  // [s]
+  std::optional<ClockOffset::Estimate> remainderOf(std::size_t camera, const CameraFit& fit) const;
+
+  std::vector<double> turn_stddevs_;  // per camera
+  std::vector<Clock> clocks_;         // the same
+  std::vector<double> sorted_;        // [s]
   std::uint32_t version_ = 0;
 };
 

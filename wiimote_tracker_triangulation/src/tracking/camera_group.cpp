@@ -1,5 +1,7 @@
 #include "camera_group.h"
 
+#include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -44,6 +46,24 @@ std::vector<std::vector<std::size_t>> partnersOf(
   return result;
 }
 
+/// How well the rig knows each member's turn about its optical axis [rad] and its focal length [1],
+/// the larger one; 0 without a covariance.
+std::vector<double> turnStddevs(const geometry::Rig& rig, const std::vector<std::size_t>& members) {
+  std::vector<double> result(members.size(), 0.0);
+  if (!geometry::hasCovariance(rig))
+    return result;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const geometry::Camera& camera = rig.cameras[members[i]].camera;
+    const Eigen::Index first = geometry::firstParameter(members[i]);
+    const Eigen::Index focal = first + geometry::kLens;
+    const Eigen::Vector3d axis = camera.world_from_camera.linear().col(2);
+    const Eigen::Matrix3d turn = rig.covariance.block<3, 3>(first, first);
+    const double stretch = rig.covariance(focal, focal) / std::pow(camera.intrinsics.fx, 2);
+    result[i] = std::sqrt(std::max(axis.dot(turn * axis), stretch));
+  }
+  return result;
+}
+
 }  // namespace
 
 CameraGroup::CameraGroup(const geometry::Rig& rig,
@@ -54,7 +74,7 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
       members_(members),
       update_(options),
       initiation_(rigOf(rig, members), partnersOf(partners, members), options),
-      clocks_(members.size()),
+      clocks_(turnStddevs(rig, members)),
       history_(kKeepInterval) {
   for (const std::size_t member : members_)
     cameras_.emplace_back(rig, member);

@@ -1,31 +1,73 @@
 #include "clock_offset.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 
 namespace wiimote_tracker::tracking {
+namespace {
 
-void ClockOffset::add(const Eigen::Vector2d& velocity, const Eigen::Vector2d& residual) {
-  count_ += 1.0;
-  velocity_ += velocity;
-  residual_ += residual;
-  squared_velocity_ += velocity.squaredNorm();
-  squared_residual_ += residual.squaredNorm();
-  velocity_residual_ += velocity.dot(residual);
+using Vector = std::complex<double>;
+
+Eigen::Vector2cd products(const Vector& pixel, const Vector& other) {
+  return {std::conj(pixel) * other, pixel * other};
 }
 
-std::optional<ClockOffset::Estimate> ClockOffset::estimate() const {
+}  // namespace
+
+void ClockOffset::add(const Eigen::Vector2d& pixel,
+                      const Eigen::Vector2d& velocity,
+                      const Eigen::Vector2d& residual) {
+  const Vector p(pixel.x(), pixel.y());
+  const Vector v(velocity.x(), velocity.y());
+  const Vector r(residual.x(), residual.y());
+  count_ += 1.0;
+  pixel_ += p;
+  velocity_ += v;
+  residual_ += r;
+  pixel_pixel_ += products(p, p);
+  pixel_velocity_ += products(p, v);
+  pixel_residual_ += products(p, r);
+  velocity_residual_ += velocity.dot(residual);
+  squared_velocity_ += velocity.squaredNorm();
+  squared_residual_ += residual.squaredNorm();
+}
+
+std::optional<ClockOffset::Estimate> ClockOffset::estimate(double turn_stddev) const {
   // The noise is as if so many further spots were off by 1 px per axis.
   constexpr double kAssumed = 10.0;
-  // residual = -offset * velocity + constant + noise, since a time that is too late predicts the
-  // LED too far along its motion: regression on the velocity, both less their means.
-  const double velocity_scatter = squared_velocity_ - velocity_.squaredNorm() / count_;
-  if (!(count_ > 0.0 && velocity_scatter > 0.0))
+  // What a linear map leaves of such an error, since nearer LEDs move farther, and may happen to go
+  // with the velocity.
+  constexpr double kNotLinear = 0.2;
+  if (!(count_ > 0.0))
     return std::nullopt;
-  const double covariation = velocity_residual_ - velocity_.dot(residual_) / count_;
-  const double unexplained = squared_residual_ - residual_.squaredNorm() / count_ -
+  // residual = -offset * velocity + c + a p + b conj(p) + noise, since a time that is too late
+  // predicts the LED too far along its motion. c is eliminated by means, then a and b, the general
+  // linear map of the plane. They are 0 with turn_stddev, in units of noise of 1 px.
+  const Products by_pixel = pixel_pixel_ - products(pixel_, pixel_) / count_;
+  const Products by_velocity = pixel_velocity_ - products(pixel_, velocity_) / count_;
+  const Products by_residual = pixel_residual_ - products(pixel_, residual_) / count_;
+  const double squared_turn = turn_stddev * turn_stddev;
+  Eigen::Matrix2cd normal;
+  normal << by_pixel[0], std::conj(by_pixel[1]), by_pixel[1], by_pixel[0];
+  const Eigen::Matrix2cd explained =
+      squared_turn * (Eigen::Matrix2cd::Identity() + squared_turn * normal).inverse();
+  const Eigen::Vector2cd of_velocity = explained * by_velocity;
+  const Eigen::Vector2cd of_residual = explained * by_residual;
+
+  const double velocity_scatter =
+      squared_velocity_ - std::norm(velocity_) / count_ - std::real(by_velocity.dot(of_velocity));
+  if (!(velocity_scatter > 0.0))
+    return std::nullopt;
+  const double covariation = velocity_residual_ -
+                             std::real(std::conj(velocity_) * residual_) / count_ -
+                             std::real(by_velocity.dot(of_residual));
+  const double unexplained = squared_residual_ - std::norm(residual_) / count_ -
+                             std::real(by_residual.dot(of_residual)) -
                              covariation * covariation / velocity_scatter;
   const double noise = (std::max(unexplained, 0.0) + 2.0 * kAssumed) / (2.0 * (count_ + kAssumed));
-  return Estimate{-covariation / velocity_scatter, noise / velocity_scatter};
+  const double not_linear = kNotLinear * kNotLinear * squared_turn * std::real(by_pixel[0]);
+  return Estimate{-covariation / velocity_scatter, (noise + not_linear) / velocity_scatter};
 }
 
 }  // namespace wiimote_tracker::tracking

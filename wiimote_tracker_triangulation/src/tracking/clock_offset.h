@@ -3,13 +3,15 @@
 
 #include <Eigen/Core>
 
+#include <complex>
 #include <optional>
 
 namespace wiimote_tracker::tracking {
 
 /// By how much the times of a camera's images are too late, from the motion of LEDs that other
-/// cameras locate: a least-squares regression of the residuals on the velocities. Its intercept
-/// takes what a constant error of the calibration causes.
+/// cameras locate: a least-squares regression of the residuals on the velocities. Errors of the
+/// calibration, which move, turn and stretch the image, are estimated beside it: an LED on a circle
+/// tells a turned camera and a wrong time hardly apart.
 class ClockOffset {
  public:
   struct Estimate {
@@ -17,21 +19,35 @@ class ClockOffset {
     double variance;  ///< [s^2]
   };
 
-  /// @param velocity of an LED's spot [px/s]. @param residual of it [px].
-  void add(const Eigen::Vector2d& velocity, const Eigen::Vector2d& residual);
+  /// @param pixel of an LED's spot, as predicted. @param velocity of it [px/s].
+  /// @param residual of it [px].
+  void add(const Eigen::Vector2d& pixel,
+           const Eigen::Vector2d& velocity,
+           const Eigen::Vector2d& residual);
 
   /// Nothing where nothing moved.
-  std::optional<Estimate> estimate() const;
+  /// @param turn_stddev how well the camera's turn about its axis [rad] and the stretch of its
+  /// image [1] are known.
+  std::optional<Estimate> estimate(double turn_stddev) const;
 
   double count() const { return count_; }  ///< Of the spots.
 
  private:
+  // A vector of the image as a complex number.
+  using Vector = std::complex<double>;
+  // Products with a pixel p: with its conjugate, and with p itself.
+  using Products = Eigen::Vector2cd;
+
   double count_ = 0.0;
-  Eigen::Vector2d velocity_ = Eigen::Vector2d::Zero();  // sums
-  Eigen::Vector2d residual_ = Eigen::Vector2d::Zero();
+  Vector pixel_;  // sums, as all below
+  Vector velocity_;
+  Vector residual_;
+  Products pixel_pixel_ = Products::Zero();
+  Products pixel_velocity_ = Products::Zero();
+  Products pixel_residual_ = Products::Zero();
+  double velocity_residual_ = 0.0;  // inner product
   double squared_velocity_ = 0.0;
   double squared_residual_ = 0.0;
-  double velocity_residual_ = 0.0;
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -140,7 +140,7 @@ void ImageUpdate::measureClock(const StoredImage& image,
     const auto residual = residualOf(image, candidate);
     if (!residual || !(track.filter.velocity().norm() >= kLeastSpeed))
       continue;
-    fit.clock.add(candidate.prediction.velocity(), *residual);
+    fit.clock.add(candidate.prediction.pixel(), candidate.prediction.velocity(), *residual);
   }
 }
 

@@ -106,6 +106,51 @@ TEST(TrackerClocks, ASmallErrorIsRecognisedByTheMotionAndCorrected) {
   }
 }
 
+/// The rig's cameras may be turned about their axes [rad, standard deviation].
+geometry::Rig withTurns(geometry::Rig rig, double stddev) {
+  const auto count = static_cast<Eigen::Index>(rig.cameras.size());
+  rig.covariance = Eigen::MatrixXd::Zero(16 * count, 16 * count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& pose = rig.cameras[static_cast<std::size_t>(i)].camera.world_from_camera;
+    const Eigen::Vector3d axis = pose.linear().col(2);
+    rig.covariance.block<3, 3>(16 * i, 16 * i) = stddev * stddev * axis * axis.transpose();
+  }
+  return rig;
+}
+
+TEST(TrackerClocks, ATurnedCameraThatAnLedCirclesBeforeHasNoWrongClock) {
+  constexpr double kTurn = 0.01;  // [rad], 10 ms of a circle of 0.5 m at 0.5 m/s
+  const geometry::Rig truth = paperRig();
+  for (const double turn : {-kTurn, kTurn}) {
+    geometry::Rig rig = withTurns(truth, kTurn);
+    rig.cameras[2].camera.world_from_camera.linear() *=
+        Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    for (const double speed : {-0.5, 0.3, 0.5}) {
+      Tracker tracker(rig, exactOptions());
+      const std::vector<Path> leds = {circle({1.25, 1.25, 1.0}, 0.5, speed)};
+      bool is_faulty = false;
+      for (const SceneImage& image : imagesOf(truth, leds, {}, 4000)) {
+        tracker.add(image.camera, image.image);
+        for (std::size_t camera = 0; camera < truth.cameras.size(); ++camera)
+          is_faulty = is_faulty || tracker.cameraFault(camera);
+      }
+      EXPECT_FALSE(is_faulty) << turn << " rad, " << speed << " m/s";
+    }
+  }
+}
+
+TEST(TrackerClocks, AWrongClockOfACoarseRigIsRecognised) {
+  for (const double ahead : {-0.03, 0.02}) {
+    const Rows rows = rowsWith(withTurns(paperRig(), 0.01), 1.0,
+                               [ahead](std::size_t camera, std::size_t) -> std::optional<double> {
+                                 return camera == 2 ? ahead : 0.0;
+                               });
+    ASSERT_TRUE(rows.fault) << ahead;
+    EXPECT_EQ(CameraFault::Kind::kCorrectedClock, rows.fault->kind);
+    EXPECT_NEAR(ahead, rows.fault->clock_ahead, 0.004);
+  }
+}
+
 TEST(TrackerClocks, AClockThatDriftsIsFollowed) {
   const Rows right = rowsWith(paperRig(), 1.0, isRight);
   const Rows with = rowsWith(

@@ -44,6 +44,10 @@ inline bool takeIn(MotionFilter* filter,
   return prediction && filter->update(camera, *prediction, pixel);
 }
 
+inline double restProbability(const MotionFilter& filter) {
+  return filter.modes()[kFixed].probability + filter.modes()[kSwaying].probability;
+}
+
 inline double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).norm() / b.norm();
 }

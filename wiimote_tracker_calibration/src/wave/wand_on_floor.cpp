@@ -12,6 +12,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <utility>
 
 namespace wiimote_tracker::wave {
@@ -100,54 +102,65 @@ std::pair<Eigen::Vector3d, int> meanUp(const Recording& recording, const State& 
   return {sum.normalized(), count};
 }
 
-void checkMeasured(const std::optional<Measured>& wand,
-                   const geometry::Camera& first,
-                   double length,
-                   const Limits& limits) {
+/// Why the spots are not those of the wand, or do not tell its ends apart.
+std::optional<std::string> whyNotTheWand(const std::optional<Measured>& wand,
+                                         const geometry::Camera& first,
+                                         double length,
+                                         const Limits& limits) {
   if (!wand || wand->error_px > limits.spot ||
       std::abs(wand->length - length) > limits.length * length)
-    throw WandMislaid(format("what the cameras saw at rest is not the wand of %.2f m", length) +
-                      (wand ? format(": its ends would be %.2f m apart, and %.0f px off",
-                                     wand->length, wand->error_px)
-                            : std::string()) +
-                      "; switch other lights off, lay both its LEDs where the cameras see them" +
-                      kAgain);
+    return format("what the cameras saw at rest is not the wand of %.2f m", length) +
+           (wand ? format(": its ends would be %.2f m apart, and %.0f px off", wand->length,
+                          wand->error_px)
+                 : std::string()) +
+           "; switch other lights off, lay both its LEDs where the cameras see them" + kAgain;
   const double farther =
       (wand->leds[1] - first.center()).norm() - (wand->leds[0] - first.center()).norm();
   if (std::abs(farther) < kNearerShare * length)
-    throw WandMislaid("both ends of the wand were about as far from " + first.name +
-                      ", but the nearer one is the origin: turn the wand towards that camera" +
-                      kAgain);
+    return "both ends of the wand were about as far from " + first.name +
+           ", but the nearer one is the origin: turn the wand towards that camera" + kAgain;
+  return std::nullopt;
 }
 
-void checkLevel(const Recording& recording,
-                const square::Uncertainty& uncertainty,
-                double rise,
-                int accelerometers,
-                const Limits& limits) {
+std::optional<std::string> whyNotLevel(const Recording& recording,
+                                       const square::Uncertainty& uncertainty,
+                                       double rise,
+                                       int accelerometers,
+                                       const Limits& limits) {
   const double limit =
       limits.tilt +
       kLevelLimit * std::hypot(uncertainty.gravity / std::sqrt(static_cast<double>(accelerometers)),
                                uncertainty.placement / recording.wand->length);
   const double angle = std::asin(std::clamp(rise, -1.0, 1.0));
-  if (std::abs(angle) > limit)
-    throw WandMislaid(format("by the accelerometers the wand lay %.0f degrees from level: lay both "
-                             "its LEDs on the floor",
-                             std::abs(angle) * 180.0 / M_PI) +
-                      kAgain);
+  if (std::abs(angle) <= limit)
+    return std::nullopt;
+  return format(
+             "by the accelerometers the wand lay %.0f degrees from level: lay both its LEDs on "
+             "the floor",
+             std::abs(angle) * 180.0 / M_PI) +
+         kAgain;
 }
 
-/// The wand, its end nearer to the first camera first, and where up is.
-std::pair<WandOnFloor, Eigen::Vector3d> findWand(const Recording& recording,
-                                                 const WaveOptions& options,
-                                                 const FloorSpots& spots,
-                                                 const State& state,
-                                                 const Limits& limits) {
+struct Found {
+  WandOnFloor floor;  // the end nearer to the first camera first
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  std::optional<std::string> mislaid;  // why it is not as it must be
+};
+
+Found findWand(const Recording& recording,
+               const WaveOptions& options,
+               const FloorSpots& spots,
+               const State& state,
+               const Limits& limits) {
   const double length = state.wand_length;
-  WandOnFloor floor{{}, inOneOrder(state.cameras, spots, length)};
+  Found found;
+  WandOnFloor& floor = found.floor;
+  floor.spots = inOneOrder(state.cameras, spots, length);
   const geometry::Camera& first = state.cameras.front();
   const auto wand = measure(state.cameras, floor.spots, length);
-  checkMeasured(wand, first, length, limits);
+  found.mislaid = whyNotTheWand(wand, first, length, limits);
+  if (found.mislaid)
+    return found;
   floor.leds = wand->leds;
   if ((floor.leds[1] - first.center()).norm() < (floor.leds[0] - first.center()).norm()) {
     std::swap(floor.leds[0], floor.leds[1]);
@@ -156,10 +169,12 @@ std::pair<WandOnFloor, Eigen::Vector3d> findWand(const Recording& recording,
         std::swap((*pair)[0], (*pair)[1]);
     }
   }
-  const auto [up, accelerometers] = meanUp(recording, state);
+  int accelerometers = 0;
+  std::tie(found.up, accelerometers) = meanUp(recording, state);
   const Eigen::Vector3d along = (floor.leds[1] - floor.leds[0]).normalized();
-  checkLevel(recording, options.uncertainty, along.dot(up), accelerometers, limits);
-  return {floor, up};
+  found.mislaid =
+      whyNotLevel(recording, options.uncertainty, along.dot(found.up), accelerometers, limits);
+  return found;
 }
 
 void moveState(const Eigen::Isometry3d& to_from, State* state) {
@@ -213,18 +228,20 @@ void checkStart(const Recording& recording,
                 const WaveOptions& options,
                 const FloorSpots& spots,
                 const State& state) {
-  try {
-    findWand(recording, options, spots, state, kByStart);
-  } catch (const WandMislaid& error) {
-    throw WaveError(error.what());  // another start may tell otherwise
-  }
+  const Found found = findWand(recording, options, spots, state, kByStart);
+  if (found.mislaid)
+    throw WaveError(*found.mislaid);  // another start may tell otherwise
 }
 
 void standOnFloor(const Recording& recording,
                   const WaveOptions& options,
                   const FloorSpots& spots,
                   State* state) {
-  auto [floor, up] = findWand(recording, options, spots, *state, kBySolution);
+  Found found = findWand(recording, options, spots, *state, kBySolution);
+  if (found.mislaid)
+    throw WandMislaid(*found.mislaid);
+  WandOnFloor& floor = found.floor;
+  const Eigen::Vector3d& up = found.up;
   const Eigen::Vector3d along = (floor.leds[1] - floor.leds[0]).normalized();
   const Eigen::Vector3d x = (along - along.dot(up) * up).normalized();
   Eigen::Isometry3d floor_from_state = Eigen::Isometry3d::Identity();

@@ -1,0 +1,129 @@
+// What stays of the rig and of what was captured when something fails, is cancelled or is loaded.
+
+#include "workflow_fixture.h"
+
+namespace wiimote_tracker::workflow {
+namespace {
+
+TEST_F(Workflow, AFailedSolveKeepsCornersAndRig) {
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  const std::string id = calibration_.rig()->id();
+  ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
+  for (const std::size_t c : {0, 1, 3, 2})
+    ASSERT_TRUE(capture(kCorners[c]).success);
+  const Reply crossing = solve(2.0);
+  EXPECT_FALSE(crossing.success);
+  EXPECT_SAYS(crossing.message, "out of order");
+  EXPECT_EQ(calibration_.step(), Step::kComplete);
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+  EXPECT_EQ(calibration_.rig()->id(), id);
+}
+
+TEST_F(Workflow, CancelStopsWhatGoesOnAndASecondOneDropsTheRun) {
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  ASSERT_TRUE(calibration_.start(1.0, 1.0, names_).success);
+  ASSERT_TRUE(capture(kCorners[0]).success);
+  ASSERT_TRUE(calibration_.beginCapture(std::nullopt, now_).success);
+  EXPECT_SAYS(calibration_.cancel().message, "corner 2 was not captured");
+  EXPECT_EQ(calibration_.step(), Step::kReady);
+  EXPECT_FALSE(calibration_.square().capture());
+  EXPECT_EQ(calibration_.square().corners().size(), 1U);
+  EXPECT_TRUE(calibration_.cancel().success);
+  EXPECT_EQ(calibration_.step(), Step::kIdle);
+  EXPECT_TRUE(calibration_.rig());
+  EXPECT_FALSE(calibration_.beginCapture(std::nullopt, now_).success);
+}
+
+TEST_F(Workflow, ACancelledWaveIsDroppedAndTheSquareStays) {
+  captureAll();
+  ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
+  wave(1.0);
+  EXPECT_SAYS(calibration_.cancel().message, "the corners stay");
+  EXPECT_EQ(calibration_.step(), Step::kComplete);
+  EXPECT_FALSE(calibration_.wave());
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+}
+
+TEST_F(Workflow, ACancelAfterTheSolverEndedDropsNothing) {
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  EXPECT_SAYS(calibration_.cancel().message, "nothing was dropped");
+  EXPECT_EQ(calibration_.step(), Step::kSolved);
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+  // The same when it failed.
+  ASSERT_TRUE(calibration_.begin(Step::kSolving, "solving").success);
+  calibration_.end({false, "no solution"});
+  EXPECT_SAYS(calibration_.cancel().message, "nothing was dropped");
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+  EXPECT_TRUE(calibration_.cancel().success);
+  EXPECT_EQ(calibration_.step(), Step::kIdle);
+  EXPECT_TRUE(calibration_.square().corners().empty());
+  // Once something else was done it is the run that is meant.
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  calibration_.saved("saved");
+  calibration_.cancel();
+  EXPECT_EQ(calibration_.step(), Step::kIdle);
+}
+
+TEST_F(Workflow, ALoadedRigDoesNotDisturbARun) {
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  const geometry::Rig rig = *calibration_.rig();
+  ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
+  ASSERT_TRUE(capture(kCorners[0]).success);
+  EXPECT_TRUE(calibration_.load(rig).success);
+  EXPECT_EQ(calibration_.step(), Step::kReady);
+  EXPECT_EQ(calibration_.square().corners().size(), 1U);
+
+  Calibration fresh{CalibrationOptions()};
+  EXPECT_TRUE(fresh.load(rig).success);
+  EXPECT_EQ(fresh.step(), Step::kSaved);
+}
+
+TEST_F(Workflow, ARigThatIsSolvedAgainKeepsTheZones) {
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  geometry::Rig named = *calibration_.rig();
+  EXPECT_TRUE(named.zones.empty());
+  named.zones = {{"hall", {0.0, 0.0, 0.0}, {2.5, 2.5, 2.5}}};
+  ASSERT_TRUE(calibration_.load(named).success);
+  captureAll();
+  const Reply reply = solve(2.0);
+  ASSERT_TRUE(reply.success) << reply.message;
+  EXPECT_NE(reply.message.find("zones"), std::string::npos) << reply.message;
+  EXPECT_EQ(calibration_.rig()->solved_at, 2.0);
+  ASSERT_EQ(calibration_.rig()->zones.size(), 1U);
+  EXPECT_EQ(calibration_.rig()->zones[0].name, "hall");
+
+  // Of another world they say nothing.
+  named.world_frame = "garden";
+  ASSERT_TRUE(calibration_.load(named).success);
+  captureAll();
+  ASSERT_TRUE(solve(3.0).success);
+  EXPECT_TRUE(calibration_.rig()->zones.empty());
+}
+
+TEST_F(Workflow, MasksGoIntoTheRigAndVoidNoCorrection) {
+  EXPECT_FALSE(calibration_.setMasks({{names_[0], {{{1.0, 2.0}, 3.0}}}})) << "no rig yet";
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  geometry::Rig corrected = *calibration_.rig();
+  corrected.remap.emplace();
+  corrected.remap->rig_id = corrected.id();
+  calibration_.setRig(corrected, "");
+  const capture::Masks masks = {{names_[1], {{{1.0, 2.0}, 3.0}}}};
+  EXPECT_TRUE(calibration_.setMasks(masks));
+  EXPECT_FALSE(calibration_.setMasks(masks)) << "nothing new";
+  const geometry::Rig& rig = *calibration_.rig();
+  EXPECT_EQ(rig.find(names_[1])->masks.size(), 1U);
+  EXPECT_NE(rig.id(), corrected.id());
+  EXPECT_EQ(rig.remap->rig_id, rig.id());
+  EXPECT_TRUE(calibration_.setMasks({}));
+  EXPECT_EQ(calibration_.rig()->id(), corrected.id());
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::workflow

@@ -59,7 +59,7 @@ std::vector<double> turnStddevs(const geometry::Rig& rig, const std::vector<std:
     const Eigen::Vector3d axis = camera.world_from_camera.linear().col(2);
     const Eigen::Matrix3d turn = rig.covariance.block<3, 3>(first, first);
     const double stretch = rig.covariance(focal, focal) / std::pow(camera.intrinsics.fx, 2);
-    result[i] = std::sqrt(std::max(axis.dot(turn * axis), stretch));
+    result[i] = std::sqrt(std::max({0.0, axis.dot(turn * axis), stretch}));
   }
   return result;
 }

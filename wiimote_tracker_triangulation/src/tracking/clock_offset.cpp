@@ -36,14 +36,14 @@ void ClockOffset::add(const Eigen::Vector2d& pixel,
 std::optional<ClockOffset::Estimate> ClockOffset::estimate(double turn_stddev) const {
   // The noise is as if so many further spots were off by 1 px per axis.
   constexpr double kAssumed = 10.0;
-  // What a linear map leaves of such an error, since nearer LEDs move farther, and may happen to go
-  // with the velocity.
+  // Share of a calibration's error that no linear map takes, since the image of a nearer LED moves
+  // farther. It may go with the velocity by chance.
   constexpr double kNotLinear = 0.2;
   if (!(count_ > 0.0))
     return std::nullopt;
   // residual = -offset * velocity + c + a p + b conj(p) + noise, since a time that is too late
   // predicts the LED too far along its motion. c is eliminated by means, then a and b, the general
-  // linear map of the plane. They are 0 with turn_stddev, in units of noise of 1 px.
+  // linear map of the plane, whose prior is 0 +- turn_stddev where the noise is 1 px.
   const Products by_pixel = pixel_pixel_ - products(pixel_, pixel_) / count_;
   const Products by_velocity = pixel_velocity_ - products(pixel_, velocity_) / count_;
   const Products by_residual = pixel_residual_ - products(pixel_, residual_) / count_;

@@ -37,9 +37,9 @@ bool allFit(const Drifts& drifts) {
          });
 }
 
-/// Whether the rig was solved from a square only.
-bool hasNoClocks(const geometry::Rig& rig) {
-  return std::all_of(rig.cameras.begin(), rig.cameras.end(), [](const geometry::RigCamera& camera) {
+/// Whether a camera has no time offset: it was solved from a square only.
+bool lacksClock(const geometry::Rig& rig) {
+  return std::any_of(rig.cameras.begin(), rig.cameras.end(), [](const geometry::RigCamera& camera) {
     return camera.time_offset_rule == geometry::TimeOffsetRule::kNone;
   });
 }
@@ -197,7 +197,7 @@ std::optional<Proposal> ContinuousCalibration::moved(const Evidence& evidence) c
 std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& images) const {
   // Four corners tell little of the lenses: other poses explain the images above the square better,
   // though no camera has turned, and do not make points more accurate.
-  if (hasNoClocks(rig_))
+  if (lacksClock(rig_))
     return std::nullopt;
   auto rig = adjustRig(rig_, images.to_solve, options_.adjust);
   // Another light carried along can fit, with all cameras turned farther than they drift.

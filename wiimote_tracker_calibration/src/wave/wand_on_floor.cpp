@@ -122,6 +122,7 @@ std::optional<std::string> whyNotTheWand(const std::optional<Measured>& wand,
   return std::nullopt;
 }
 
+/// Why the wand was not level, by the accelerometers.
 std::optional<std::string> whyNotLevel(const Recording& recording,
                                        const square::Uncertainty& uncertainty,
                                        double rise,
@@ -144,7 +145,7 @@ std::optional<std::string> whyNotLevel(const Recording& recording,
 struct Found {
   WandOnFloor floor;  // the end nearer to the first camera first
   Eigen::Vector3d up = Eigen::Vector3d::Zero();
-  std::optional<std::string> mislaid;  // why it is not as it must be
+  std::optional<std::string> mislaid;  // why it cannot be used
 };
 
 Found findWand(const Recording& recording,

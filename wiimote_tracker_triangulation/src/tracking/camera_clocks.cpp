@@ -60,7 +60,7 @@ void CameraClocks::update(const std::vector<CameraFit>& fits) {
     const auto remainder = remainderOf(i, fits[i]);
     if (!remainder)
       return std::nullopt;
-    variances += remainder->variance;
+    variances += remainder->variance + remainder->bias;
     count += 1.0;
     return remainder->offset;
   });
@@ -72,7 +72,9 @@ void CameraClocks::update(const std::vector<CameraFit>& fits) {
     ClockOffset::Estimate& offset = clocks_[i].offset;
     const double seen = clocks_[i].correction().offset + remainder->offset - common;
     const double innovation = seen - offset.offset;
-    const double seen_variance = remainder->variance + common_variance;
+    if (squared(innovation) <= 4.0 * remainder->bias)
+      continue;  // it may be the calibration's, which does not average out
+    const double seen_variance = remainder->variance + remainder->bias + common_variance;
     double variance = offset.variance + squared(kChange);
     if (squared(innovation) > 9.0 * (variance + seen_variance))  // the clock was set
       variance = squared(innovation);

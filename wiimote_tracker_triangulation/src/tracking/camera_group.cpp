@@ -46,8 +46,8 @@ std::vector<std::vector<std::size_t>> partnersOf(
   return result;
 }
 
-/// How well the rig knows each member's turn about its optical axis [rad] and its focal length [1],
-/// the larger one; 0 without a covariance.
+/// Standard deviation of each member's turn about its optical axis [rad] or of its focal length, as
+/// a share of it, the larger one; 0 without a covariance.
 std::vector<double> turnStddevs(const geometry::Rig& rig, const std::vector<std::size_t>& members) {
   std::vector<double> result(members.size(), 0.0);
   if (!geometry::hasCovariance(rig))

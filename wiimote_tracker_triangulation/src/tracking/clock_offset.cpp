@@ -67,7 +67,8 @@ std::optional<ClockOffset::Estimate> ClockOffset::estimate(double turn_stddev) c
                              covariation * covariation / velocity_scatter;
   const double noise = (std::max(unexplained, 0.0) + 2.0 * kAssumed) / (2.0 * (count_ + kAssumed));
   const double not_linear = kNotLinear * kNotLinear * squared_turn * std::real(by_pixel[0]);
-  return Estimate{-covariation / velocity_scatter, (noise + not_linear) / velocity_scatter};
+  return Estimate{-covariation / velocity_scatter, noise / velocity_scatter,
+                  not_linear / velocity_scatter};
 }
 
 }  // namespace wiimote_tracker::tracking

@@ -10,13 +10,14 @@ namespace wiimote_tracker::tracking {
 
 /// By how much the times of a camera's images are too late, from the motion of LEDs that other
 /// cameras locate: a least-squares regression of the residuals on the velocities. Errors of the
-/// calibration, which move, turn and stretch the image, are estimated beside it: an LED on a circle
-/// tells a turned camera and a wrong time hardly apart.
+/// calibration, which shift, turn and stretch the image, are estimated beside it: before an LED on
+/// a circle a turned camera looks like a wrong time.
 class ClockOffset {
  public:
   struct Estimate {
-    double offset;    ///< [s]
-    double variance;  ///< [s^2]
+    double offset;      ///< [s]
+    double variance;    ///< Of what differs from one estimate to the next [s^2].
+    double bias = 0.0;  ///< Variance of what the calibration may add to all of them [s^2].
   };
 
   /// @param pixel of an LED's spot, as predicted. @param velocity of it [px/s].

@@ -1,4 +1,5 @@
-// The driver as a node and as a nodelet, with a virtual remote on its socket.
+// The driver as a node and as a nodelet, with a virtual remote on its socket. More than 400 lines,
+// because all tests share one driver; the last ones unplug its remote and end it.
 #include "driver_helpers.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>

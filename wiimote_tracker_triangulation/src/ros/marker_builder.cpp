@@ -31,6 +31,7 @@ constexpr double kOldView = 0.2;           // older views are not drawn [s]
 constexpr double kNoImages = 0.7;          // without a newer view, a camera counts as silent [s]
 constexpr double kLedLifetime = 0.5;       // when the tracker stops [s]
 constexpr double kCameraLifetime = 1.0;    // when the tracker stops [s]
+constexpr double kAdviceLifetime = 2.0;    // the same [s]
 constexpr std::size_t kMostLabels = 1000;  // whose colours are kept
 // Width, height and length of a Wii Remote, twice as large to be seen in a room [m].
 const Vector3d kHousing(0.07, 0.06, 0.3);
@@ -74,9 +75,8 @@ std::array<Vector3d, 4> imageCorners(const geometry::Camera& camera, double dist
 }  // namespace
 
 visualization_msgs::MarkerArray MarkerBuilder::buildWithoutRig(double time) const {
-  constexpr double kLifetime = 2.0;  // [s]
-  Marker text =
-      markers::marker(rig_.world_frame, time, kLifetime, "advice", 0, Marker::TEXT_VIEW_FACING);
+  Marker text = markers::marker(rig_.world_frame, time, kAdviceLifetime, "advice", 0,
+                                Marker::TEXT_VIEW_FACING);
   text.pose.position = pointOf(kTextHeight * Vector3d::UnitZ());
   text.text = "Not calibrated: open Calibrate";
   text.scale.z = kTextHeight;

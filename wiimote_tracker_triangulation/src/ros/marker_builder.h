@@ -33,7 +33,7 @@ class MarkerBuilder {
  public:
   explicit MarkerBuilder(const MarkerOptions& options) : options_(options) {}
 
-  /// Until there is a rig: a text at the world's origin that says what to do, for 2 s.
+  /// Until there is a rig: a text at the world's origin that says what to do (namespace advice).
   visualization_msgs::MarkerArray buildWithoutRig(double time) const;
 
   /// Draws this rig from now on and deletes the markers of the previous one.

@@ -50,10 +50,8 @@ double CameraClocks::errorOf(std::size_t camera) const {
   return clock.is_known ? clock.correction().offset : 0.0;
 }
 
-void CameraClocks::update(const std::vector<CameraFit>& fits) {
-  if (std::none_of(fits.begin(), fits.end(), [](auto& fit) { return fit.clock.count() >= kSpots; }))
-    return;
-  // All seem to be off where the predictions lag behind the LEDs.
+/// By how much all cameras seem to be off, where the predictions lag behind the LEDs.
+ClockOffset::Estimate CameraClocks::commonRemainder(const std::vector<CameraFit>& fits) {
   double variances = 0.0;
   double count = 0.0;
   const double common = medianOf([&](std::size_t i) -> std::optional<double> {
@@ -64,17 +62,23 @@ void CameraClocks::update(const std::vector<CameraFit>& fits) {
     count += 1.0;
     return remainder->offset;
   });
-  const double common_variance = count > 0.0 ? variances / (count * count) : 0.0;
+  return {common, count > 0.0 ? variances / (count * count) : 0.0};
+}
+
+void CameraClocks::update(const std::vector<CameraFit>& fits) {
+  if (std::none_of(fits.begin(), fits.end(), [](auto& fit) { return fit.clock.count() >= kSpots; }))
+    return;
+  const ClockOffset::Estimate common = commonRemainder(fits);
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const auto remainder = remainderOf(i, fits[i]);
     if (!remainder)
       continue;
     ClockOffset::Estimate& offset = clocks_[i].offset;
-    const double seen = clocks_[i].correction().offset + remainder->offset - common;
+    const double seen = clocks_[i].correction().offset + remainder->offset - common.offset;
     const double innovation = seen - offset.offset;
     if (squared(innovation) <= 4.0 * remainder->bias)
       continue;  // it may be the calibration's, which does not average out
-    const double seen_variance = remainder->variance + remainder->bias + common_variance;
+    const double seen_variance = remainder->variance + remainder->bias + common.variance;
     double variance = offset.variance + squared(kChange);
     if (squared(innovation) > 9.0 * (variance + seen_variance))  // the clock was set
       variance = squared(innovation);

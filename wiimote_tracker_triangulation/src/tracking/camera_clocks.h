@@ -54,6 +54,7 @@ class CameraClocks {
   double medianOf(const ValueOf& value_of);
 
   std::optional<ClockOffset::Estimate> remainderOf(std::size_t camera, const CameraFit& fit) const;
+  ClockOffset::Estimate commonRemainder(const std::vector<CameraFit>& fits);
 
   std::vector<double> turn_stddevs_;  // per camera
   std::vector<Clock> clocks_;         // the same

@@ -7,9 +7,9 @@
 namespace wiimote_tracker::tracking {
 namespace {
 
-using Vector = std::complex<double>;
+using Complex = ClockOffset::Complex;
 
-Eigen::Vector2cd products(const Vector& pixel, const Vector& other) {
+Eigen::Vector2cd products(const Complex& pixel, const Complex& other) {
   return {std::conj(pixel) * other, pixel * other};
 }
 
@@ -18,9 +18,9 @@ Eigen::Vector2cd products(const Vector& pixel, const Vector& other) {
 void ClockOffset::add(const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& velocity,
                       const Eigen::Vector2d& residual) {
-  const Vector p(pixel.x(), pixel.y());
-  const Vector v(velocity.x(), velocity.y());
-  const Vector r(residual.x(), residual.y());
+  const Complex p(pixel.x(), pixel.y());
+  const Complex v(velocity.x(), velocity.y());
+  const Complex r(residual.x(), residual.y());
   count_ += 1.0;
   pixel_ += p;
   velocity_ += v;

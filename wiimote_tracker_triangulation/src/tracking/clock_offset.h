@@ -14,6 +14,8 @@ namespace wiimote_tracker::tracking {
 /// a circle a turned camera looks like a wrong time.
 class ClockOffset {
  public:
+  using Complex = std::complex<double>;  ///< A vector of the image.
+
   struct Estimate {
     double offset;      ///< [s]
     double variance;    ///< Of what differs from one estimate to the next [s^2].
@@ -34,15 +36,12 @@ class ClockOffset {
   double count() const { return count_; }  ///< Of the spots.
 
  private:
-  // A vector of the image as a complex number.
-  using Vector = std::complex<double>;
-  // Products with a pixel p: with its conjugate, and with p itself.
-  using Products = Eigen::Vector2cd;
+  using Products = Eigen::Vector2cd;  // conj(p) q and p q of a pixel p and a vector q
 
   double count_ = 0.0;
-  Vector pixel_;  // sums, as all below
-  Vector velocity_;
-  Vector residual_;
+  Complex pixel_;  // sums, as all below
+  Complex velocity_;
+  Complex residual_;
   Products pixel_pixel_ = Products::Zero();
   Products pixel_velocity_ = Products::Zero();
   Products pixel_residual_ = Products::Zero();

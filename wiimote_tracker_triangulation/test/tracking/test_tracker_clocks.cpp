@@ -1,6 +1,7 @@
 // Cameras whose clocks or calibrations, or the stamps of some images, are wrong do not harm the
 // others.
 #include "tracking/tracker_runs.h"
+#include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 
 #include <gtest/gtest.h>
 
@@ -109,11 +110,13 @@ TEST(TrackerClocks, ASmallErrorIsRecognisedByTheMotionAndCorrected) {
 /// The rig's cameras may be turned about their axes [rad, standard deviation].
 geometry::Rig withTurns(geometry::Rig rig, double stddev) {
   const auto count = static_cast<Eigen::Index>(rig.cameras.size());
-  rig.covariance = Eigen::MatrixXd::Zero(16 * count, 16 * count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& pose = rig.cameras[static_cast<std::size_t>(i)].camera.world_from_camera;
+  rig.covariance =
+      Eigen::MatrixXd::Zero(geometry::kParameters * count, geometry::kParameters * count);
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const auto& pose = rig.cameras[i].camera.world_from_camera;
+    const Eigen::Index turn = geometry::firstParameter(i) + geometry::kRotation;
     const Eigen::Vector3d axis = pose.linear().col(2);
-    rig.covariance.block<3, 3>(16 * i, 16 * i) = stddev * stddev * axis * axis.transpose();
+    rig.covariance.block<3, 3>(turn, turn) = stddev * stddev * axis * axis.transpose();
   }
   return rig;
 }

@@ -1,6 +1,8 @@
 # How the packages of the tracker are built. find_package(catkin ... wiimote_tracker_msgs) includes
 # this file; a package then calls wiimote_tracker_package() and uses the functions below it.
 
+set(WIIMOTE_TRACKER_CMAKE_DIR ${CMAKE_CURRENT_LIST_DIR})
+
 # Build type, language, warnings and sanitizers of the package. Call it after find_package(catkin).
 macro(wiimote_tracker_package)
   option(WIIMOTE_TRACKER_WERROR "Treat compiler warnings as errors" OFF)
@@ -20,9 +22,10 @@ macro(wiimote_tracker_package)
   set(CMAKE_CXX_STANDARD_REQUIRED ON)
   set(CMAKE_CXX_EXTENSIONS OFF)
   # Several sources in one compiler run: parsing Eigen and ROS takes more time than our own code.
-  option(WIIMOTE_TRACKER_UNITY "Compile the sources of a library in groups" ON)
+  option(WIIMOTE_TRACKER_UNITY "Compile in groups, with a precompiled header" ON)
   set(CMAKE_UNITY_BUILD ${WIIMOTE_TRACKER_UNITY})
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 12)
+  add_compile_options(-fPIC)  # in programs, too: they share the precompiled header
   add_compile_options(-Wall -Wextra -Wpedantic)
   if(WIIMOTE_TRACKER_WERROR)
     add_compile_options(-Werror)
@@ -35,6 +38,12 @@ macro(wiimote_tracker_package)
     set(CMAKE_EXE_LINKER_FLAGS "${CMAKE_EXE_LINKER_FLAGS} -fsanitize=${WIIMOTE_TRACKER_SANITIZE}")
     set(CMAKE_SHARED_LINKER_FLAGS
       "${CMAKE_SHARED_LINKER_FLAGS} -fsanitize=${WIIMOTE_TRACKER_SANITIZE}")
+  endif()
+  find_package(Eigen3 QUIET)
+  if(WIIMOTE_TRACKER_UNITY AND EIGEN3_FOUND AND NOT CMAKE_VERSION VERSION_LESS 3.16
+      AND NOT TARGET wiimote_tracker_precompiled)
+    add_subdirectory(${WIIMOTE_TRACKER_CMAKE_DIR}/precompiled
+      ${CMAKE_CURRENT_BINARY_DIR}/precompiled)
   endif()
   wiimote_tracker_import_libraries()
 endmacro()
@@ -59,6 +68,9 @@ macro(_wiimote_tracker_parse)
   set(sources ${ARG_UNPARSED_ARGUMENTS})
 endmacro()
 macro(_wiimote_tracker_link name)
+  if(TARGET wiimote_tracker_precompiled)
+    target_precompile_headers(${name} REUSE_FROM wiimote_tracker_precompiled)
+  endif()
   target_link_libraries(${name} ${ARG_LIBRARIES})
   if(ARG_ROS)
     add_dependencies(${name} ${catkin_EXPORTED_TARGETS})

@@ -43,6 +43,9 @@ BenchmarkSection mistakesSection();
 /// Corrections of a deformed volume.
 BenchmarkSection remapSection();
 
+/// Rooms that share no view, joined by an LED carried through the door.
+BenchmarkSection roomsSection();
+
 /// Eight hours with a rig that corrects itself.
 BenchmarkSection continuousSection();
 

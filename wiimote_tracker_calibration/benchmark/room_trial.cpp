@@ -188,4 +188,24 @@ double TwoRooms::nees(const rooms::JoinedRooms& joined) const {
   return geometry::squaredMahalanobis(error, covariance);
 }
 
+RoomErrors errorsOfRooms(int pairs,
+                         const std::function<void(TwoRooms*)>& carry,
+                         const rooms::JoinOptions& options,
+                         double slope) {
+  RoomErrors sum;
+  for (int pair = 0; pair < pairs; ++pair) {
+    TwoRooms trial(static_cast<std::uint64_t>(pair) + 100, slope);
+    carry(&trial);
+    const rooms::JoinedRooms joined = trial.join(options);
+    const Eigen::Matrix<double, 6, 1> error = trial.errorOf(joined);
+    sum.position += error.tail<3>().squaredNorm() / pairs;
+    sum.rotation += error.head<3>().squaredNorm() / pairs;
+    sum.stated_position += std::pow(joined.position_stddev, 2) / pairs;
+    sum.stated_rotation += std::pow(joined.rotation_stddev, 2) / pairs;
+    sum.nees += trial.nees(joined) / 6.0 / pairs;
+  }
+  return {std::sqrt(sum.position), std::sqrt(sum.rotation), std::sqrt(sum.stated_position),
+          std::sqrt(sum.stated_rotation), sum.nees};
+}
+
 }  // namespace wiimote_tracker

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <functional>
 #include <random>
 #include <vector>
 
@@ -69,6 +70,21 @@ class TwoRooms {
   Eigen::Isometry3d first_from_second_;
   double time_ = 1.7e9;  // [s]
 };
+
+/// RMS errors of joined rooms over many simulated pairs, beside those that are stated.
+struct RoomErrors {
+  double position = 0.0;         ///< [m]
+  double rotation = 0.0;         ///< [rad]
+  double stated_position = 0.0;  ///< [m]
+  double stated_rotation = 0.0;  ///< [rad]
+  double nees = 0.0;             ///< Mean per parameter: 1 if the covariance is right.
+};
+
+/// @param carry carries the LED through the door of a pair. @param slope see TwoRooms [rad]
+RoomErrors errorsOfRooms(int pairs,
+                         const std::function<void(TwoRooms*)>& carry,
+                         const rooms::JoinOptions& options = {},
+                         double slope = rooms::JoinOptions().slope);
 
 }  // namespace wiimote_tracker
 

@@ -47,60 +47,30 @@ void turnSecondWorld(const Eigen::Matrix3d& turn, TwoRooms* trial) {
   }
 }
 
-/// RMS errors, beside those that are stated, of many simulated pairs of rooms.
-struct Outcome {
-  double position = 0.0;         // [m]
-  double rotation = 0.0;         // [rad]
-  double stated_position = 0.0;  // [m]
-  double stated_rotation = 0.0;  // [rad]
-  double nees = 0.0;             // per parameter
-};
-
-/// @param slope of the second world [rad]
-template <typename Carry>
-Outcome outcomeOf(int runs,
-                  const Carry& carry,
-                  const JoinOptions& options = {},
-                  double slope = JoinOptions().slope) {
-  Outcome sum;
-  for (int run = 0; run < runs; ++run) {
-    TwoRooms trial(static_cast<std::uint64_t>(run) + 100, slope);
-    carry(&trial);
-    const JoinedRooms joined = trial.join(options);
-    const Eigen::Matrix<double, 6, 1> error = trial.errorOf(joined);
-    sum.position += error.tail<3>().squaredNorm() / runs;
-    sum.rotation += error.head<3>().squaredNorm() / runs;
-    sum.stated_position += std::pow(joined.position_stddev, 2) / runs;
-    sum.stated_rotation += std::pow(joined.rotation_stddev, 2) / runs;
-    sum.nees += trial.nees(joined) / 6.0 / runs;
-  }
-  return {std::sqrt(sum.position), std::sqrt(sum.rotation), std::sqrt(sum.stated_position),
-          std::sqrt(sum.stated_rotation), sum.nees};
-}
-
 TEST(JoinRooms, TiesTheRoomsAsWellAsStatedAndBetterWithEachPassage) {
   const std::map<int, double> largest = {{1, 0.16}, {4, 0.087}, {10, 0.056}, {16, 0.047}};  // [m]
   for (const auto& [passages, position] : largest) {
     const int times = passages;
-    const Outcome outcome = outcomeOf(30, [times](TwoRooms* trial) { trial->carryOften(times); });
-    EXPECT_LT(outcome.position, position) << passages;
-    EXPECT_NEAR(outcome.stated_position / outcome.position, 1.0, 0.3) << passages;
-    EXPECT_NEAR(outcome.stated_rotation / outcome.rotation, 1.0, 0.3) << passages;
-    EXPECT_NEAR(outcome.nees, 1.0, 0.3) << passages;
+    const RoomErrors errors =
+        errorsOfRooms(30, [times](TwoRooms* trial) { trial->carryOften(times); });
+    EXPECT_LT(errors.position, position) << passages;
+    EXPECT_NEAR(errors.stated_position / errors.position, 1.0, 0.3) << passages;
+    EXPECT_NEAR(errors.stated_rotation / errors.rotation, 1.0, 0.3) << passages;
+    EXPECT_NEAR(errors.nees, 1.0, 0.3) << passages;
     if (passages >= 16) {
-      EXPECT_LT(outcome.rotation, 0.55 * kDegree);
+      EXPECT_LT(errors.rotation, 0.55 * kDegree);
     }
   }
 }
 
 TEST(JoinRooms, StatesTheErrorsOfSomebodyWhoseHeadingWandersMore) {
-  const Outcome outcome = outcomeOf(30, [](TwoRooms* trial) {
+  const RoomErrors errors = errorsOfRooms(30, [](TwoRooms* trial) {
     CarriedLed led;
     led.heading = 3.0 * kDegree;
     trial->carryOften(10, led);
   });
-  EXPECT_NEAR(outcome.stated_rotation / outcome.rotation, 1.0, 0.2);
-  EXPECT_NEAR(outcome.stated_position / outcome.position, 1.0, 0.2);
+  EXPECT_NEAR(errors.stated_rotation / errors.rotation, 1.0, 0.2);
+  EXPECT_NEAR(errors.stated_position / errors.position, 1.0, 0.2);
 }
 
 TEST(JoinRooms, SaysHowManyMorePassagesAreNeeded) {
@@ -127,12 +97,12 @@ TEST(JoinRooms, WorldsWithoutALevelAreTiltedByThePassages) {
       camera.gravity.reset();
     trial->carryOften(10);
   };
-  const Outcome outcome = outcomeOf(20, carry, withSlope(kNotLevel), 20.0 * kDegree);
-  EXPECT_LT(outcome.rotation, 2.0 * kDegree);
+  const RoomErrors errors = errorsOfRooms(20, carry, withSlope(kNotLevel), 20.0 * kDegree);
+  EXPECT_LT(errors.rotation, 2.0 * kDegree);
   // Hands sway less upwards than sideways, so the tilt is better than stated.
-  EXPECT_GT(outcome.stated_rotation / outcome.rotation, 0.8);
-  EXPECT_LT(outcome.stated_rotation / outcome.rotation, 2.0);
-  EXPECT_LT(outcome.nees, 1.3);
+  EXPECT_GT(errors.stated_rotation / errors.rotation, 0.8);
+  EXPECT_LT(errors.stated_rotation / errors.rotation, 2.0);
+  EXPECT_LT(errors.nees, 1.3);
 }
 
 TEST(JoinRooms, OneLineLeavesTheTiltOpen) {

@@ -45,6 +45,7 @@ std_msgs::ColorRGBA colorOf(tracking::SpotUse use) {
     case tracking::SpotUse::kMasked:
       return color(0.5f, 0.5f, 0.5f, 0.4f);
     case tracking::SpotUse::kUnassigned:
+    case tracking::SpotUse::kStart:
       break;
   }
   return color(1.0f, 0.5f, 0.0f, 0.4f);

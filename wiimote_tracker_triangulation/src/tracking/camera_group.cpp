@@ -156,6 +156,7 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
   if (isMisfit(image.camera) && state_.fits.size() > 2)
     state_.unassigned[image.camera].count = 0;
   initiation_.apply(cameras_, image.camera, &state_.unassigned, &tracks, ids);
+  showStarts(views);
   for (Track& track : tracks) {
     const bool was_confirmed = track.isConfirmed();
     track.updateStatus(image.time, options_);
@@ -218,6 +219,18 @@ void CameraGroup::show(const StoredImage& image, std::vector<CameraView>* views)
       seen.use = SpotUse::kAssigned;
       seen.led = state_.tracks[static_cast<std::size_t>(update_.trackOfSpot()[spot])].id;
     }
+  }
+}
+
+/// Writes which spots began a track, also in the views of older images. A view of a newer image is
+/// left alone: the steps are being repeated, and its own one follows.
+void CameraGroup::showStarts(std::vector<CameraView>* views) const {
+  for (const StartSpot& start : initiation_.starts()) {
+    CameraView& view = (*views)[members_[start.camera]];
+    if (view.time != state_.unassigned[start.camera].time)
+      continue;
+    view.spots[start.spot].use = SpotUse::kStart;
+    view.spots[start.spot].led = start.led;
   }
 }
 

@@ -78,6 +78,7 @@ class CameraGroup {
   void removeMergedPairs(double time);
   void collectUnassigned(const StoredImage& image);
   void show(const StoredImage& image, std::vector<CameraView>* views) const;
+  void showStarts(std::vector<CameraView>* views) const;
 
   TrackerOptions options_;
   std::vector<std::size_t> members_;

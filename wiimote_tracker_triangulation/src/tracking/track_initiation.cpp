@@ -44,6 +44,7 @@ void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
                             std::vector<UnassignedSpots>* unassigned,
                             std::vector<Track>* tracks,
                             Ids* ids) {
+  starts_.clear();
   if (!collectViews(cameras, newest, *unassigned))
     return;
   const double time = (*unassigned)[newest].time;
@@ -67,8 +68,9 @@ void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
     });
     tracks->emplace_back(filterOf(point, first, cameras, *unassigned), id);
     for (const auto* spot = first; spot != last; ++spot) {
-      tracks->back().addInitialSpot(spot->view, (*unassigned)[spot->view].time,
-                                    point.point.reprojection_error);
+      const UnassignedSpots& image = (*unassigned)[spot->view];
+      tracks->back().addInitialSpot(spot->view, image.time, point.point.reprojection_error);
+      starts_.push_back({spot->view, image.keys[spots_[spot->view][spot->spot]].spot, id});
     }
   }
   // In descending order, so that the remaining indices stay valid.

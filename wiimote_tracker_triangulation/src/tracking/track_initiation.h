@@ -32,6 +32,13 @@ struct UnassignedSpots {
   void remove(std::size_t spot);
 };
 
+/// A spot that began a track.
+struct StartSpot {
+  std::size_t camera;
+  std::size_t spot;   // in the camera's image
+  std::uint32_t led;  // id of the track
+};
+
 /// Track initiation: starts a track where unassigned spots of several cameras form a point. Once it
 /// is ready, it may turn out to continue a track that lost its LED.
 class TrackInitiation {
@@ -49,6 +56,9 @@ class TrackInitiation {
              std::vector<UnassignedSpots>* unassigned,
              std::vector<Track>* tracks,
              Ids* ids);
+
+  /// Of the tracks that the last apply() started.
+  const std::vector<StartSpot>& starts() const { return starts_; }
 
   /// The most likely track of the LED of a track that is ready; null: it is a new LED.
   Track* formerTrackOf(const Track& found,
@@ -91,6 +101,7 @@ class TrackInitiation {
   std::vector<SpotKey> initial_spots_;               // of one point
   std::vector<association::SpotReference> by_time_;  // of one point
   std::vector<association::SpotReference> used_;
+  std::vector<StartSpot> starts_;
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -113,6 +113,31 @@ def test_smoothing_changes_positions_and_velocities_only(tmp_path):
     assert len(rows) == len(list(open(str(tmp_path / 'plain.csv')))) - 1
 
 
+def test_smoothing_uses_the_spots_that_began_a_track(tmp_path):
+    """Two cameras see the LED in two images each, every half second."""
+    entries = [entry for entry in recorded((fast,), 20.0)
+               if not any(name in entry[0] for name in recording.NAMES[2:])]
+    seen = set()
+    for _, image, _ in entries[1:]:
+        t = seconds_of(image.header.stamp)
+        if t % 0.5 < 0.02:
+            seen.add(round(t, 6))
+        else:
+            image.blobs = []
+    write(tmp_path / 'in.bag', entries)
+    (tmp_path / 'p.yaml').write_text(
+        'pixel_stddev: 0.2\ntracks: {stamp_stddev: 0.0, birth_pixel_stddev: 10.0, '
+        'confirmation_hits: 2, prediction_time: 0.1}\n')
+    track(tmp_path / 'in.bag', tmp_path / 'out.bag', '--params', tmp_path / 'p.yaml', '--smooth')
+    errors = []
+    for array in arrays(tmp_path / 'out.bag'):
+        t = round(seconds_of(array.header.stamp), 6)
+        errors += [np.linalg.norm(position(p.position) - fast(t)) for p in array.points
+                   if t in seen and p.state != TrackedPoint.LOST]
+    assert len(errors) > 120
+    assert np.sqrt(np.mean(np.square(errors))) < 0.003
+
+
 def test_only_tracks_at_the_times_of_images_are_smoothed(bag, tmp_path):
     for parameters in ('mode: instant', 'output: {predict_to_now: true}'):
         (tmp_path / 'p.yaml').write_text(parameters + '\n')

@@ -5,10 +5,12 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <set>
+#include <vector>
 
 namespace wiimote_tracker::tracking::test {
 namespace {
@@ -49,6 +51,27 @@ TEST(TrackerInitiation, TheFirstPointsOfAMovingLedAreExact) {
   ASSERT_EQ(450, count);
   EXPECT_LT(std::sqrt(squares / count), 0.005);
   EXPECT_NEAR(0.95, static_cast<double>(inside) / count, 0.04);
+}
+
+/// Those of the newest image and of the other camera's, which is older.
+TEST(TrackerInitiation, TheSpotsThatBeginATrackAreNamed) {
+  const geometry::Rig rig = pairOfCameras();
+  const Path led = straight({1.25, 1.25, 1.0}, {1.0, 0.5, 0.0}, 1000.4);
+  Tracker tracker(rig, exactOptions());
+  const std::vector<Snapshot> snapshots = track(&tracker, imagesOf(rig, {led}, SceneOptions(), 40));
+  const auto first = std::find_if(snapshots.begin(), snapshots.end(),
+                                  [](const Snapshot& s) { return !s.leds.empty(); });
+  ASSERT_NE(snapshots.end(), first);
+  ASSERT_NE(first->views[0].time, first->views[1].time);
+  for (const CameraView& view : first->views) {
+    ASSERT_EQ(1u, view.spots.size());
+    EXPECT_EQ(SpotUse::kStart, view.spots[0].use);
+    EXPECT_EQ(first->leds[0].id, view.spots[0].led);
+  }
+  for (auto later = first + 1; later != snapshots.end(); ++later) {
+    for (const CameraView& view : later->views)
+      EXPECT_EQ(*view.time > first->time ? SpotUse::kAssigned : SpotUse::kStart, view.spots[0].use);
+  }
 }
 
 /// Towards camera 0 and back, so that it leaves camera 1's image for half a period. The prediction

@@ -31,13 +31,13 @@ struct TrackedLed {
   double last_observed = 0.0;  ///< [s]
 };
 
-/// How one spot was used.
-enum class SpotUse { kUnassigned, kMasked, kAssigned };
+/// How one spot was used. kStart: it began an LED's track, together with spots of other cameras.
+enum class SpotUse { kUnassigned, kMasked, kAssigned, kStart };
 
 struct SeenSpot {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< Distorted [px].
   SpotUse use = SpotUse::kUnassigned;
-  std::uint32_t led = 0;  ///< Id of the LED it was assigned to.
+  std::uint32_t led = 0;  ///< Id of the LED it was assigned to, or whose track it began.
 };
 
 /// A camera's newest image.

@@ -8,6 +8,7 @@
 namespace wiimote_tracker {
 
 using tracking::Snapshot;
+using tracking::SpotUse;
 using tracking::TrackedLed;
 using tracking::TrackState;
 
@@ -24,10 +25,12 @@ void SmoothedTracks::onRig(const geometry::Rig& rig) {
 const Snapshot& SmoothedTracks::onSnapshot(const Snapshot& snapshot) {
   for (std::size_t camera = 0; camera < snapshot.views.size(); ++camera) {
     const std::optional<double>& time = snapshot.views[camera].time;
-    if (time && *time != newest_[camera]) {
-      newest_[camera] = *time;
-      collect(camera, snapshot);
-    }
+    if (!time)
+      continue;
+    collect(camera, SpotUse::kStart, snapshot);
+    if (*time != newest_[camera])
+      collect(camera, SpotUse::kAssigned, snapshot);
+    newest_[camera] = *time;
   }
   for (const TrackedLed& led : snapshot.leds) {
     if (led.state != TrackState::kLost)
@@ -36,14 +39,17 @@ const Snapshot& SmoothedTracks::onSnapshot(const Snapshot& snapshot) {
   return snapshot;
 }
 
-/// Adds the spots of a camera's newest image to their LEDs.
-void SmoothedTracks::collect(std::size_t camera, const Snapshot& snapshot) {
+/// Adds the spots of a camera's newest image that are used so to their LEDs. Those that began a
+/// track may be of an older image, and are added before the track has its first place.
+void SmoothedTracks::collect(std::size_t camera, SpotUse use, const Snapshot& snapshot) {
   const tracking::CameraView& view = snapshot.views[camera];
   for (const tracking::SeenSpot& spot : view.spots) {
-    if (spot.use != tracking::SpotUse::kAssigned || mayBeMerged(spot, camera, snapshot))
+    if (spot.use != use || mayBeMerged(spot, camera, snapshot))
       continue;
-    tracks_[spot.led].observations.push_back(
-        {*view.time, &cameras_.back()[camera], spot.pixel, {noises_[camera], view.stamp_stddev}});
+    Track& track = tracks_[spot.led];
+    if (use == SpotUse::kAssigned || track.places.empty())
+      track.observations.push_back(
+          {*view.time, &cameras_.back()[camera], spot.pixel, {noises_[camera], view.stamp_stddev}});
   }
 }
 
@@ -59,7 +65,7 @@ bool SmoothedTracks::mayBeMerged(const tracking::SeenSpot& spot,
     const auto pixel = cameras_.back()[camera].project(led.position);
     return pixel && (*pixel - spot.pixel).norm() < options_.merging_distance &&
            std::none_of(spots.begin(), spots.end(), [&](const tracking::SeenSpot& other) {
-             return other.use == tracking::SpotUse::kAssigned && other.led == led.id;
+             return other.use == SpotUse::kAssigned && other.led == led.id;
            });
   });
 }

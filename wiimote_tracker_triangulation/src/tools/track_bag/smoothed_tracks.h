@@ -48,7 +48,7 @@ class SmoothedTracks : public MessageSink {
     tracking::TrackedLed last;                   // that was smoothed
   };
 
-  void collect(std::size_t camera, const tracking::Snapshot& snapshot);
+  void collect(std::size_t camera, tracking::SpotUse use, const tracking::Snapshot& snapshot);
   bool mayBeMerged(const tracking::SeenSpot& spot,
                    std::size_t camera,
                    const tracking::Snapshot& snapshot) const;

@@ -194,6 +194,21 @@ def test_the_images_are_of_the_sweeps_own_times(flight):
         assert error.std() < 1.2 * NOISE * camera.focal
 
 
+def test_both_angles_are_of_one_time_though_the_body_accelerates():
+    def tangents(times):
+        t = times - 0.2
+        return np.stack([0.1 - 0.5 * t + 3.0 * t ** 2, 0.1 + 0.4 * t - 2.0 * t ** 2], axis=-1)
+    # In sight for eight turns, hidden, then for three.
+    begins = np.concatenate([np.arange(8), np.arange(11, 14)]) / 30.0
+    for sweep in (0, 1):
+        times = begins[:, None] + np.array([0.0, lighthouse.SWEEP])
+        measured = np.stack([tangents(times[:, k])[:, k] for k in (0, 1)], axis=-1)[:, None]
+        seen, pixels = lighthouse.images_of(times, measured, sweep)
+        assert seen.tolist() == times[:, sweep].tolist()
+        expected = 0.5 * (lighthouse.SIZE - 1) - lighthouse.FOCAL * tangents(seen)
+        assert pixels[:, 0] == pytest.approx(expected, abs=1e-9)
+
+
 def test_a_camera_sends_images_also_when_it_sees_nothing(tmp_path):
     seen = np.array([0.0, 0.1, 0.2, 0.5, 0.6, 0.8])  # 10 Hz, three images without the light
     cameras = [Camera(name, 100, 100.0, seen + start, np.full((len(seen), 1, 2), 40.0))

@@ -2,11 +2,12 @@
 
 A station sweeps the room with a horizontal and a vertical plane of light in turn. A sensor measures
 the angle of each plane when it passes. Both angles of a station are one pixel of a virtual camera,
-at the time of one sweep, to which the other is moved by its rate of change. A folder holds
-bearings.csv.gz (time_ms, station, sensor, sweep, angle_rad), mocap.csv.gz (time_s, position [m]) and
-markers_on_off.csv (time_ms of the truth's begin and end).
+at the time of one sweep, to which the other is moved by its rate of change and acceleration. A
+folder holds bearings.csv.gz (time_ms, station, sensor, sweep, angle_rad), mocap.csv.gz (time_s,
+position [m]) and markers_on_off.csv (time_ms of the truth's begin and end).
 """
 
+import functools
 import gzip
 import itertools
 import os
@@ -120,21 +121,31 @@ def nearest_sweeps(stations):
 def images_of(times, tangents, sweep):
     """Times n and pixels n x sensors x 2 at one of both sweeps."""
     other = 1 - sweep
-    wait = times[:, sweep] - times[:, other]
     moved = tangents.copy()
-    moved[:, :, other] += wait[:, None] * rates(times[:, other], tangents[:, :, other])
+    moved[:, :, other] = moved_to(times[:, sweep], times[:, other], tangents[:, :, other])
     # The station looks along x, y to the left, z up; a camera along z, x to the right, y down.
     pixels = 0.5 * (SIZE - 1) - FOCAL * moved
     inside = ((pixels >= 0.0) & (pixels <= SIZE - 1)).all(axis=(1, 2))
     return times[inside, sweep], pixels[inside]
 
 
-def rates(times, values):
-    """Rate of change at each time: the mean of those before and after; NaN without neighbours."""
+def moved_to(wanted, times, values):
+    """Values n x k of times n, moved to the times wanted, n, by the parabola through three
+    successive ones; by the line through two where no third is near; NaN without neighbours."""
     step = np.diff(times)
-    step = np.where(step < LONGEST_GAP, step, np.nan)
-    rate = np.diff(values, axis=0) / step[:, None]
-    missing = np.full((1, values.shape[1]), np.nan)
-    before, after = np.concatenate([missing, rate]), np.concatenate([rate, missing])
-    return 0.5 * (np.where(np.isnan(before), after, before) +
-                  np.where(np.isnan(after), before, after))
+    slope = np.diff(values, axis=0) / np.where(step < LONGEST_GAP, step, np.nan)[:, None]
+    bend = np.diff(slope, axis=0) / (times[2:] - times[:-2])[:, None]
+    missing = np.full((2, values.shape[1]), np.nan)
+    slope = np.concatenate([missing[1:], slope, missing[1:]])
+    bend = np.concatenate([missing, bend, missing])
+    before, after = slope[:-1], slope[1:]
+    neighbour = np.where(np.isnan(after), np.append(np.nan, times[:-1])[:, None],
+                         np.append(times[1:], np.nan)[:, None])
+    bend = first_known(bend[1:-1], bend[2:], bend[:-2], np.zeros_like(values))
+    return values + (wanted - times)[:, None] * (
+        first_known(after, before) + (wanted[:, None] - neighbour) * bend)
+
+
+def first_known(*choices):
+    """The first that is not NaN, element by element."""
+    return functools.reduce(lambda known, other: np.where(np.isnan(known), other, known), choices)

@@ -16,6 +16,7 @@ def restart_roscore(room):
     """kill -9 of the master; it is started again, and so is roslaunch."""
     os.kill(room.master.pid, signal.SIGKILL)
     yield GONE
+    room.end(room.master)
     room.start_master()
     room.start_nodes()
     room.listen()

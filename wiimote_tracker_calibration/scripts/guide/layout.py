@@ -39,10 +39,11 @@ def fitted(line: str, width: int) -> str:
     return ''.join(c if ' ' <= c <= '~' else '?' for c in line)[:width].rstrip()
 
 
-def in_columns(texts: Sequence[str], count: int, width: int) -> List[str]:
-    """So many columns, each filled from top to bottom."""
+def in_columns(texts: Sequence[str], count: int) -> List[str]:
+    """So many columns, each as wide as its widest text and filled from top to bottom."""
     rows = -(-len(texts) // count)
-    return [''.join(text.ljust(width) for text in texts[row::rows]).rstrip()
+    widths = [max(map(len, texts[first:first + rows])) for first in range(0, len(texts), rows)]
+    return [' '.join(text.ljust(width) for text, width in zip(texts[row::rows], widths)).rstrip()
             for row in range(rows)]
 
 

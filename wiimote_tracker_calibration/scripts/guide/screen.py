@@ -215,7 +215,7 @@ def verdict_lines(guide: Guide, columns: int) -> List[str]:
         lines.append('A point will be right to within (standard deviation), at x, y, z in metres:')
         lines += in_columns([
             f'({at.x:.2f}, {at.y:.2f}, {at.z:.2f}) {figure(1e3 * sigma, 1)} mm'
-            for at, sigma in zip(verdict.predicted_at, verdict.predicted_stddev)], 3, 27)
+            for at, sigma in zip(verdict.predicted_at, verdict.predicted_stddev)], 3)
     return lines
 
 
@@ -251,5 +251,5 @@ def key_lines(command_list: Sequence, room: int) -> List[str]:
     if room >= len(lines) + len(command_list):
         return lines + [f'{command.key:<3} {command.word:<13} {command.label}'
                         for command in command_list]
-    return lines + in_columns([f'{command.key:<3} {command.word} {command.arguments}'
-                               for command in command_list], 2, COLUMNS // 2)
+    return lines + in_columns([f'{command.key} {command.word} {command.arguments}'.rstrip()
+                               for command in command_list], 2)

@@ -126,7 +126,7 @@ def test_a_verdict_is_a_table():
         'camera            px    mm     %      mm    deg   f px   c px     k1     ms',
         'wiimote_1       0.31   1.2    99     2.0  0.017    1.2    2.1      -   0.10',
         'A point will be right to within (standard deviation), at x, y, z in metres:',
-        '(0.00, 2.50, 0.00) 3.1 mm  (0.00, 2.50, 2.50) - mm']
+        '(0.00, 2.50, 0.00) 3.1 mm (0.00, 2.50, 2.50) - mm']
     guide.verdict.text = 'Usable. ' * 30
     guide.verdict.cameras *= 4
     guide.verdict.predicted_at = [Point(0, 0, z) for z in range(9)]
@@ -217,7 +217,8 @@ def test_a_window_that_is_too_small_is_told_so():
 def test_all_keys_are_on_one_screen_and_no_two_are_alike():
     lines = screen.render(guide_at(status(0)), 0.0, 'keys', command_list=commands.RIG)
     for command in commands.RIG:
-        assert any('%-3s %s' % (command.key, command.word) in line for line in lines)
+        text = f'{command.key} {command.word} {command.arguments}'.rstrip()
+        assert any(f' {text} ' in f' {line} ' for line in lines), text
     for command_list in (commands.RIG, commands.board_commands('c')):
         taken = [c.key for c in command_list] + [c.word for c in command_list] + list(' qi?\t')
         assert len(taken) == len(set(taken))

@@ -30,7 +30,7 @@ class Listener:
         import rospy
         if not rosgraph.is_master_online():
             raise ExperimentError('there is no ROS master; start the tracker first: roslaunch '
-                                  'wiimote_tracker_bringup tracker.launch')
+                                  'wiimote_tracker_bringup tracker.launch cameras:=FILE')
         if not rospy.core.is_initialized():
             rospy.init_node('evaluation', anonymous=True, disable_signals=True)
         from wiimote_tracker_msgs.msg import RigCalibration, TrackedPointArray

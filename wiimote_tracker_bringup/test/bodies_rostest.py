@@ -55,7 +55,7 @@ class Bodies(LiveRigTest):
         cls.odometries, cls.statuses = [], []
         rospy.Subscriber('wand/odometry', Odometry, cls.odometries.append, queue_size=1000)
         rospy.Subscriber('/diagnostics', DiagnosticArray, lambda m: cls.statuses.extend(
-            s for s in m.status if s.name.endswith('body wand')))
+            s for s in m.status if s.name.endswith(('body wand', ': triangulation'))))
         rospy.wait_for_service('simulation/set_led', DEADLINE)
         cls.set_led = rospy.ServiceProxy('simulation/set_led', SetLed)
 
@@ -111,6 +111,8 @@ class Bodies(LiveRigTest):
         begin = self.bodies[-1].header.stamp.to_sec() + 2.0  # the drivers' clocks settle
         self.reach(begin + JUDGED)
         self.judge(self.seen_between(begin, begin + JUDGED), 0.98)
+        self.assertEqual([s.message for s in self.statuses if s.name.endswith('triangulation')][-1],
+                         'no LED is tracked singly')
 
         hidden = self.switch(LEDS[2:3], False) + 0.1
         self.reach(hidden + 1.0)

@@ -104,7 +104,7 @@ void TrackingDiagnostics::report(Status& status) {
   if (reported_.snapshots() == 0)
     status.summary(DiagnosticStatus::WARN, "no images: start the cameras' drivers");
   else if (reported_.leds(TrackState::kTracked) == 0)
-    status.summary(DiagnosticStatus::OK, "no LED is seen by two cameras");
+    status.summary(DiagnosticStatus::OK, "no LED is tracked singly");
   else
     status.summary(DiagnosticStatus::OK, "tracking");
   const VolumeCorrection& correction = tracker_->correction();

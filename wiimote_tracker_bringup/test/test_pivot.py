@@ -179,3 +179,11 @@ def test_probe_refuses_a_tip(tip, monkeypatch):
     monkeypatch.setattr(rospy, 'resolve_name', lambda name: '/probe/tip')
     with pytest.raises(ExperimentError, match='/probe/tip'):
         probe.read_tip()
+
+
+@pytest.mark.parametrize('given', [{}, {'~body': ''}, {'~body': 5}, {'~body': 'my wand'}])
+def test_probe_refuses_a_body(given, monkeypatch):
+    monkeypatch.setattr(rospy, 'get_param', lambda name, *default: given.get(name, *default))
+    monkeypatch.setattr(rospy, 'resolve_name', lambda name: '/probe/body')
+    with pytest.raises(ExperimentError, match='/probe/body.*_body:=wand'):
+        probe.Node()

@@ -7,6 +7,7 @@ import sys
 import threading
 
 import numpy as np
+import rosgraph
 import rospy
 from geometry_msgs.msg import PointStamped, PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
@@ -123,6 +124,15 @@ class Probe:
                 and np.linalg.norm(points.mean(axis=0) - self.saved) > AWAY)
 
 
+def read_body():
+    """The parameter ~body. Throws ExperimentError if it is no name."""
+    body = rospy.get_param('~body', '')
+    if not body or not isinstance(body, str) or not rosgraph.names.is_legal_name(body):
+        raise ExperimentError(f'{rospy.resolve_name("~body")} is {body!r}: give the name of the '
+                              'tracked body, such as _body:=wand')
+    return body
+
+
 def read_tip():
     """The parameter ~tip, 3 [m]. Throws ExperimentError if it is none."""
     value = rospy.get_param('~tip', [0.0, 0.0, 0.0])
@@ -141,7 +151,7 @@ class Node:
     button A of joy is pressed and, with ~at_rest, when the tip is held still elsewhere."""
 
     def __init__(self):
-        body = rospy.get_param('~body')
+        body = read_body()
         self.probe = Probe(read_tip(), rospy.get_param('~duration', 10.0),
                            rospy.get_param('~file', '~/probe_points.csv'))
         self.point = rospy.Publisher(f'{body}/tip', PointStamped, queue_size=10)

@@ -121,6 +121,7 @@ TEST(Continuous, FindsSlowDrift) {
   const auto proposal = proposalUntil(120.0, &led, &watch);
   ASSERT_TRUE(proposal);
   EXPECT_EQ(proposal->cause, Cause::kDrift);
+  EXPECT_SAYS(proposal->message, "drift, or errors of the calibration");
   EXPECT_EQ(proposal->camera, truth.name);
   EXPECT_LT(pixelDistance(proposal->rig.cameras[2].camera, truth),
             0.5 * pixelDistance(rig.cameras[2].camera, truth));

@@ -224,6 +224,7 @@ std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& imag
   if (keeps_poses && !reconnected)
     return std::nullopt;
   const std::string message = changesText(rig_, *rig) +
+                              (reconnected ? "" : ": drift, or errors of the calibration") +
                               format(". Corrected, the images agree to %.2f px", after->misfit) +
                               (reconnected ? "" : format(" (now %.2f px)", before->misfit));
   Proposal proposal =

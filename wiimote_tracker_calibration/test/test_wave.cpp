@@ -340,6 +340,21 @@ TEST(Wave, ApparentJumpOfAClockWithoutWhichNoImageFits) {
   }
 }
 
+TEST(Wave, ErrorsOfALensAreNoJumpOfAClock) {
+  WaveScene scene = shortScene();
+  scene.camera_count = 2;
+  scene.rate = 30.0;
+  scene.duration = 8.0;
+  scene.pixel = 0.1;
+  scene.quantized = false;
+  scene.wrong_share = 0.0;
+  scene.uncertainty.k1 = 0.15;
+  WaveOptions options = optionsFor(scene);
+  options.uncertainty.k1 = 1e-6;  // the solver cannot correct it
+  options.uncertainty.pixel = 2.0;
+  EXPECT_NO_THROW(solveWave(simulateWave(scene, 8).recording, options));
+}
+
 TEST(Wave, MisfitIsOneWhereTheErrorsAreStatedRightly) {
   // The expectation is exact for small errors: corners and lenses are fitted, too.
   WaveScene scene = shortScene();

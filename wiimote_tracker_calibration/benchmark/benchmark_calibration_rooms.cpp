@@ -16,7 +16,7 @@ void runRooms(int runs, const RowCallback& row) {
       led.heading = heading * kDegree;
       const RoomErrors errors =
           errorsOfRooms(runs, [&](TwoRooms* trial) { trial->carryOften(passages, led); });
-      row({format("%d passages, headings to %.1f degrees", passages, heading),
+      row({format("passages %d, headings %.1f", passages, heading),
            {{"cm", 1e2 * errors.position},
             {"stated cm", 1e2 * errors.stated_position},
             {"degrees", errors.rotation / kDegree},
@@ -29,12 +29,11 @@ void runRooms(int runs, const RowCallback& row) {
 }  // namespace
 
 BenchmarkSection roomsSection() {
-  return {
-      "rooms",
-      "two rooms joined by an LED that is carried through the door, hidden for 1 s; the heading "
-      "wanders by a standard deviation of so many degrees. RMS error at the cameras 4 m behind "
-      "the door, and the stated one; NEES per parameter.",
-      runRooms};
+  return {"rooms",
+          "two rooms joined by an LED carried through the door, hidden for 1 s; headings wander "
+          "(standard deviation [degrees]). RMS error at the cameras 4 m behind the door, and the "
+          "stated one; NEES per parameter.",
+          runRooms};
 }
 
 }  // namespace wiimote_tracker

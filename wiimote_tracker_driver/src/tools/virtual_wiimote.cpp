@@ -95,9 +95,14 @@ class Display {
   bool rumble_ = false;
 };
 
-void run(HostedDevice& remote, const Arguments& arguments, const Faults& faults) {
+/// @param name under which drivers open it; printed once the remote behaves as asked.
+void run(HostedDevice& remote,
+         const std::string& name,
+         const Arguments& arguments,
+         const Faults& faults) {
   using Clock = std::chrono::steady_clock;
   remote.setFaults(faults);
+  std::printf("a virtual Wii Remote, device %s\n", name.c_str());
   Display display;
   const Clock::time_point start = Clock::now();
   for (int i = 0; !stop; ++i) {
@@ -114,16 +119,14 @@ void runFor(const Arguments& arguments) {
   const Faults faults = faultsOf(arguments);
   if (!arguments.uhid) {
     Server server(arguments.socket, arguments.address, deviceOptions(arguments));
-    std::printf("a virtual Wii Remote, device virtual:%s\n", arguments.socket.c_str());
-    run(server, arguments, faults);
+    run(server, "virtual:" + arguments.socket, arguments, faults);
     return;
   }
   UhidDevice::Options options;
   options.device = deviceOptions(arguments);
   options.model = arguments.plus ? UhidDevice::Model::kRemotePlus : UhidDevice::Model::kRemote;
   UhidDevice device(arguments.address, options);
-  std::printf("a virtual Wii Remote, device %s\n", arguments.address.c_str());
-  run(device, arguments, faults);
+  run(device, arguments.address, arguments, faults);
 }
 
 }  // namespace

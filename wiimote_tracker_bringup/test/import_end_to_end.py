@@ -143,7 +143,14 @@ class ImportEndToEnd(unittest.TestCase):
             self.assertGreaterEqual(figures['inliers'], figures['observations'] - 2)
         # At 10 m/s and more a track soon loses the light, and must not go on without it.
         self.assertGreater(report['points_in_tracks'], 50)
-        self.assertLess(report['tracks']['all']['median'], 1.0)
+        tracks = report['tracks']['all']
+        self.assertLess(tracks['median'], 1.0)
+        # An instant has one to four observations.
+        outliers = tracks['observations'] - tracks['inliers']
+        instants = report['tracked_instants_with_an_outlier']
+        self.assertGreater(instants, 0)
+        self.assertLessEqual(instants, outliers)
+        self.assertGreaterEqual(Room.CAMERAS * instants, outliers)
 
     def test_solved_cameras_are_at_their_true_places(self):
         room = Room(self.folder)

@@ -63,6 +63,13 @@ def figures(distances, inlier_px=INLIER_PX):
             'mean': float(d.mean()), 'p95': float(np.percentile(d, 95))}
 
 
+def instants_with_an_outlier(rig, points, pixels, inlier_px=INLIER_PX):
+    """How many instants have an observation farther than inlier_px from its projected point."""
+    return sum(any(distance > inlier_px for own in errors(rig, {instant: point}, pixels).values()
+                   for distance in own)
+               for instant, point in points.items())
+
+
 def per_camera(rig, points, pixels, inlier_px=INLIER_PX):
     """figures() by camera name, and of all cameras as 'all'."""
     by_camera = errors(rig, points, pixels)

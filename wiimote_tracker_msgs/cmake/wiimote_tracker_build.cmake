@@ -26,6 +26,10 @@ macro(wiimote_tracker_package)
   set(CMAKE_UNITY_BUILD ${WIIMOTE_TRACKER_UNITY})
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 12)
   add_compile_options(-fPIC)  # in programs, too: they share the precompiled header
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # GCC looks for garbage above 128 MB, which the precompiled header almost fills.
+    add_compile_options(--param=ggc-min-heapsize=600000)  # kB
+  endif()
   add_compile_options(-Wall -Wextra -Wpedantic)
   if(WIIMOTE_TRACKER_WERROR)
     add_compile_options(-Werror)
@@ -111,7 +115,8 @@ function(wiimote_tracker_add_gtest name)
 endfunction()
 
 # wiimote_tracker_add_node_test(NAME LAUNCH SOURCE... [LIBRARIES LIBRARY...] [NODES TARGET...])
-# A gtest that the launch file starts together with these nodes of ours.
+# A gtest that the launch file starts together with these nodes of ours. The target
+# wiimote_tracker_node_tests builds all of them.
 function(wiimote_tracker_add_node_test name launch)
   cmake_parse_arguments(ARG "" "" "LIBRARIES;NODES" ${ARGN})
   add_rostest_gtest(${name} ${launch} ${ARG_UNPARSED_ARGUMENTS})
@@ -121,6 +126,10 @@ function(wiimote_tracker_add_node_test name launch)
   if(ARG_NODES)
     add_dependencies(${name} ${ARG_NODES})
   endif()
+  if(NOT TARGET wiimote_tracker_node_tests)
+    add_custom_target(wiimote_tracker_node_tests)
+  endif()
+  add_dependencies(wiimote_tracker_node_tests ${name})
 endfunction()
 
 # wiimote_tracker_add_pytest(NAME FILE [ENVIRONMENT VARIABLE=VALUE...] [DEPENDENCIES TARGET...])

@@ -233,18 +233,9 @@ Reply Calibration::begin(Step step, const std::string& message) {
     endWave();
   if (busy_)
     return refuse(occupied());
-  if (step == Step::kSolving && !captured_.isComplete()) {
-    if (captured_.layout || captured_.cameras.empty())
-      return refuse("only " + std::to_string(captured_.square.corners().size()) +
-                    " of 4 corners are captured: " +
-                    (captured_.layout ? "capture the others first" : "start a calibration first"));
-    return refuse("no wand was waved: record one first");
-  }
-  if (step == Step::kSolving && !captured_.other_devices.empty()) {
-    const auto& [name, device] = *captured_.other_devices.begin();
-    return refuse(name + " was first the device " + captured_.devices.at(name) + ", then " +
-                  device + ": check the addresses of the drivers, and start again");
-  }
+  if (const std::string reason = captured_.whyNotSolvable();
+      step == Step::kSolving && !reason.empty())
+    return refuse(reason);
   busy_ = step;
   just_solved_ = false;
   progress_ = 0.0;

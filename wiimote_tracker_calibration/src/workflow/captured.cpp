@@ -59,6 +59,21 @@ std::optional<WaveRecorder> waveOf(const wave::Recording& recording,
 
 }  // namespace
 
+std::string Captured::whyNotSolvable() const {
+  if (cameras.empty())
+    return "only 0 of 4 corners are captured: start a calibration first";
+  if (!isComplete() && layout)
+    return "only " + std::to_string(square.corners().size()) +
+           " of 4 corners are captured: capture the others first";
+  if (!isComplete())
+    return "no wand was waved: record one first";
+  if (other_devices.empty())
+    return "";
+  const auto& [name, device] = *other_devices.begin();
+  return name + " was first the device " + devices.at(name) + ", then " + device +
+         ": check the addresses of the drivers, and start again";
+}
+
 session::Session toSession(const Captured& captured,
                            const std::map<std::string, CameraFacts>& live,
                            const capture::Masks& masks) {

@@ -44,6 +44,8 @@ struct Captured {
   bool hasWand() const { return wave && wave->wand(); }
   /// Whether it can be solved: four corners, or without a square a wand.
   bool isComplete() const { return layout ? square.isComplete() : hasWand(); }
+  /// What it lacks for that, or contradicts itself in, and what to do; empty: it can be solved.
+  std::string whyNotSolvable() const;
 };
 
 /// @param live facts of the cameras now; not used for what comes from a samples file.

@@ -5,9 +5,12 @@
 #include "wiimote_tracker_msgs/parameter_reader.h"
 
 #include <ros/callback_queue.h>
+#include <ros/network.h>
 #include <ros/ros.h>
+#include <xmlrpcpp/XmlRpc.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <string>
@@ -34,6 +37,34 @@ inline bool staysRefused(const ParameterError& error) {
       "rosnode kill %s",
       error.what(), ros::this_node::getName().c_str());
   return true;
+}
+
+/// The process of a node that runs, such as "process 4711 on lab"; empty: it does not run, or does
+/// not answer within a second. The master alone cannot tell: it remembers those that were killed.
+/// @param node its full name
+inline std::string runningProcess(const std::string& node) {
+  using XmlRpc::XmlRpcDispatch;
+  using XmlRpc::XmlRpcValue;
+  XmlRpcValue request, answer, uri;
+  request[0] = request[1] = node;  // who asks, and for whom
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::master::execute("lookupNode", request, answer, uri, false) ||
+      !ros::network::splitURI(uri, host, port))
+    return "";
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  XmlRpcValue caller;
+  caller[0] = node;
+  if (!client.executeNonBlock("getPid", caller))
+    return "";
+  XmlRpcDispatch dispatch;
+  dispatch.addSource(&client, XmlRpcDispatch::WritableEvent | XmlRpcDispatch::Exception);
+  dispatch.work(1.0);
+  // The answer is a status, a sentence and the process.
+  if (!client.executeCheckDone(answer) || answer.getType() != XmlRpcValue::TypeArray ||
+      answer.size() != 3 || answer[2].getType() != XmlRpcValue::TypeInt)
+    return "";
+  return "process " + std::to_string(static_cast<int>(answer[2])) + " on " + host;
 }
 
 /// Handles callbacks until the node ends, as ros::spin() does, but logs what they throw. Ours catch
@@ -67,6 +98,10 @@ int runNode(int argc, char** argv, const std::string& name, const Node& node) {
               ros::master::getURI().c_str());
     return 1;
   }
+  const std::string other = runningProcess(ros::this_node::getName());
+  if (!other.empty())
+    ROS_WARN("%s runs already (%s): it ends, and this one takes its place.",
+             ros::this_node::getName().c_str(), other.c_str());
   // Lives longer than the catch block: with the last handle ROS shuts down and prints no more.
   const ros::NodeHandle nh;
   try {

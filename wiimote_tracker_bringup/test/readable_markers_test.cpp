@@ -1,12 +1,15 @@
-// The texts and balls of rviz's display Markers, in the pixels that rviz draws.
+// The texts and balls of rviz's display Markers, in the pixels that rviz draws, and the numbers of
+// its display Coverage.
 
 #include "contrast.h"
 
 #include <QApplication>
+#include <QCursor>
 #include <QFontMetrics>
 #include <QImage>
 #include <QTemporaryDir>
 #include <QThread>
+#include <QToolTip>
 
 #include <OgreRenderWindow.h>
 #include <gtest/gtest.h>
@@ -17,12 +20,16 @@
 #include <rviz/view_controller.h>
 #include <rviz/view_manager.h>
 #include <rviz/visualization_manager.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker::panel {
 namespace {
@@ -69,6 +76,27 @@ class View {
 
   void setGround(float brightness) {
     panel_.setBackgroundColor(Ogre::ColourValue(brightness, brightness, brightness));
+  }
+
+  /// Shows two cells behind each other in the middle of the view.
+  void showCells() {
+    manager_.createDisplay("wiimote_tracker/Coverage", "cells", true)
+        ->subProp("Topic")
+        ->setValue("cells");
+    cells_publisher_.publish(cells());
+  }
+
+  /// Moves the cursor there from the middle of the view [px] and waits until the words stand there.
+  bool says(const QPoint& place, const QString& words) {
+    QCursor::setPos(panel_.mapToGlobal(panel_.rect().center() + place));
+    const auto end = std::chrono::steady_clock::now() + kDeadline;
+    while (QToolTip::text() != words || QToolTip::isVisible() == words.isEmpty()) {
+      if (std::chrono::steady_clock::now() > end)
+        return false;
+      QApplication::processEvents();
+      QThread::msleep(10);
+    }
+    return true;
   }
 
   /// The picture of texts that were not there before.
@@ -131,6 +159,22 @@ class View {
     return array;
   }
 
+  static sensor_msgs::PointCloud2 cells() {
+    using sensor_msgs::PointField;
+    sensor_msgs::PointCloud2 cloud;
+    cloud.header.frame_id = "world";
+    sensor_msgs::PointCloud2Modifier modifier(cloud);
+    modifier.setPointCloud2Fields(5, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z",
+                                  1, PointField::FLOAT32, "cameras", 1, PointField::FLOAT32,
+                                  "stddev", 1, PointField::FLOAT32);
+    modifier.resize(2);
+    const std::vector<float> numbers = {-1.0f, 0.0f, 0.0f, 2.0f, 0.031f,  //
+                                        0.0f,  0.0f, 0.0f, 4.0f, 0.012f};
+    std::copy(numbers.begin(), numbers.end(),
+              &*sensor_msgs::PointCloud2Iterator<float>(cloud, "x"));
+    return cloud;
+  }
+
   QImage pictureWhen(const std::function<bool(const QImage&)>& condition) {
     const QString file = folder_.filePath("view.png");
     QImage image;
@@ -147,6 +191,7 @@ class View {
   const QTemporaryDir folder_;
   ros::NodeHandle node_;
   ros::Publisher publisher_ = node_.advertise<visualization_msgs::MarkerArray>("texts", 1, true);
+  ros::Publisher cells_publisher_ = node_.advertise<sensor_msgs::PointCloud2>("cells", 1, true);
   rviz::RenderPanel panel_;
   rviz::VisualizationManager manager_;
 };
@@ -195,6 +240,12 @@ TEST_F(Texts, CanBeReadOnDarkAndOnLightGround) {
       EXPECT_GT(contrastOf(half(view_->show(brightness), 0)), 4.5)
           << brightness << " on " << ground;
   }
+}
+
+TEST_F(Texts, TheForemostCellUnderTheCursorShowsItsNumbers) {
+  view_->showCells();
+  EXPECT_TRUE(view_->says({0, 0}, "4 cameras, 12 mm")) << QToolTip::text().toStdString();
+  EXPECT_TRUE(view_->says({100, 0}, "")) << QToolTip::text().toStdString();
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -14,8 +15,9 @@ sensor_msgs::PointCloud2 cells() {
   using sensor_msgs::PointField;
   sensor_msgs::PointCloud2 cloud;
   sensor_msgs::PointCloud2Modifier modifier(cloud);
-  modifier.setPointCloud2Fields(4, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1,
-                                PointField::FLOAT32, "stddev", 1, PointField::FLOAT32);
+  modifier.setPointCloud2Fields(5, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1,
+                                PointField::FLOAT32, "stddev", 1, PointField::FLOAT32, "cameras", 1,
+                                PointField::FLOAT32);
   modifier.resize(6);
   sensor_msgs::PointCloud2Iterator<float> x(cloud, "x");
   for (int i = 0; i < 6; ++i, ++x) {
@@ -24,6 +26,7 @@ sensor_msgs::PointCloud2 cells() {
     x[1] = 0.0f;
     x[2] = 0.25f + 0.5f * static_cast<float>(layer);
     x[3] = layer == 1 ? NAN : 0.5f * x[0];
+    x[4] = layer == 1 ? 1.0f : 3.0f;
   }
   return cloud;
 }
@@ -44,6 +47,19 @@ TEST(CoverageLayer, IsTheNearestToTheHeight) {
 
 TEST(CoverageLayer, KeepsTheNumbersOfItsCells) {
   EXPECT_EQ(valuesOf(layerAt(cells(), 1.25f), "stddev"), (std::vector<float>{1.0f, 2.5f}));
+}
+
+TEST(CoverageLayer, CellsHaveTheirPlaces) {
+  const auto places = placesOf(cells());
+  ASSERT_EQ(places.size(), 6U);
+  EXPECT_EQ(places[4], (std::array<float, 3>{4.0f, 0.0f, 0.75f}));
+  EXPECT_TRUE(placesOf(sensor_msgs::PointCloud2()).empty());
+}
+
+TEST(CoverageLayer, SaysHowManyCamerasSeeACellAndHowWell) {
+  EXPECT_EQ(numbersOf(cells(), 2), "3 cameras, 1000 mm");
+  EXPECT_EQ(numbersOf(cells(), 1), "1 camera");
+  EXPECT_EQ(numbersOf(sensor_msgs::PointCloud2(), 0), "");
 }
 
 TEST(CoverageLayer, OutsideOfTheVolumeIsTheLastOne) {

@@ -1,6 +1,7 @@
 #include "coverage_layer.h"
 
 #include <sensor_msgs/point_cloud2_iterator.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,26 @@ sensor_msgs::PointCloud2 layerAt(const sensor_msgs::PointCloud2& cells, float he
   layer.width = static_cast<std::uint32_t>(layer.data.size()) / cells.point_step;
   layer.row_step = layer.width * cells.point_step;
   return layer;
+}
+
+std::vector<std::array<float, 3>> placesOf(const sensor_msgs::PointCloud2& cells) {
+  std::vector<std::array<float, 3>> places;
+  if (!has(cells, "x") || !has(cells, "y") || !has(cells, "z"))
+    return places;
+  Coordinates x(cells, "x"), y(cells, "y"), z(cells, "z");
+  for (; x != x.end(); ++x, ++y, ++z)
+    places.push_back({*x, *y, *z});
+  return places;
+}
+
+std::string numbersOf(const sensor_msgs::PointCloud2& cells, std::size_t cell) {
+  if (!has(cells, "cameras") || !has(cells, "stddev"))
+    return "";
+  const auto index = static_cast<int>(cell);
+  const float cameras = *(Coordinates(cells, "cameras") + index);
+  const float stddev = *(Coordinates(cells, "stddev") + index);
+  return format(cameras == 1.0f ? "%.0f camera" : "%.0f cameras", cameras) +
+         (std::isfinite(stddev) ? format(", %.0f mm", 1e3 * stddev) : "");
 }
 
 }  // namespace wiimote_tracker::panel

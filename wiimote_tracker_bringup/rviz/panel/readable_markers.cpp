@@ -1,3 +1,5 @@
+#include "seen_at.h"
+
 #include <QFontMetrics>
 #include <QGuiApplication>
 #include <QRectF>
@@ -38,26 +40,6 @@ Ogre::ColourValue readable(const Ogre::ColourValue& color, const Ogre::ColourVal
   const float factor = isLight(ground) ? kDark : 1.0f / kDark;
   const auto changed = [&](float part) { return std::min(factor * part, 1.0f); };
   return Ogre::ColourValue(changed(color.r), changed(color.g), changed(color.b), color.a);
-}
-
-/// Where a place in the world is seen in the view.
-struct Seen {
-  QPointF point;            // from the middle of the view, y upwards [px]
-  float pixel_size = 0.0f;  // height of a pixel there [m]
-};
-
-/// Nothing behind the camera.
-std::optional<Seen> seenAt(const Ogre::Vector3& place,
-                           const Ogre::Camera& camera,
-                           const Ogre::Viewport& view) {
-  const Ogre::Matrix4& projection = camera.getProjectionMatrix();
-  const Ogre::Vector4 clip = projection * (camera.getViewMatrix() * Ogre::Vector4(place));
-  if (clip.w <= 0.0f)  // 1 where there is no perspective
-    return std::nullopt;
-  const float half_width = 0.5f * view.getActualWidth();
-  const float half_height = 0.5f * view.getActualHeight();
-  return Seen{{half_width * clip.x / clip.w, half_height * clip.y / clip.w},
-              clip.w / (projection[1][1] * half_height)};
 }
 
 /// The box, moved up to where it covers none of the others [px, y upwards].

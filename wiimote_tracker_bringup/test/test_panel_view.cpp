@@ -120,6 +120,7 @@ TEST_F(View, ACameraThatSeesNothingWhileOthersDoIsBlind) {
   view_.onRig(rigOf({"a", "b"}), now_);
   run(6.0, {"a"}, {"b"});
   EXPECT_EQ(state("b"), CameraState::kBlind);
+  EXPECT_EQ(view_.summary(now_), "2 cameras: 1 without spots (b), 1 fine");
   run(6.0, {}, {"a", "b"});  // the LED is off
   EXPECT_EQ(state("b"), CameraState::kFine);
 }

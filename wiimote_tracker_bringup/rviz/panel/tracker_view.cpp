@@ -31,7 +31,7 @@ const char* count(CameraState state) {
     case CameraState::kNotCalibrated:
       return "not calibrated";
     case CameraState::kBlind:
-      return "see no spot";
+      return "without spots";
     case CameraState::kFine:
       break;
   }

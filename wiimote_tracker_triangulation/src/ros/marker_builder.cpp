@@ -51,6 +51,18 @@ std_msgs::ColorRGBA colorOf(tracking::SpotUse use) {
   return color(1.0f, 0.5f, 0.0f, 0.4f);
 }
 
+/// Of a ray: the better the position of its LED is known, the clearer it is.
+float opacityOf(const TrackedPoint& led) {
+  constexpr double kGood = 0.005, kBad = 0.05;  // standard deviation [m]
+  constexpr double kClear = 0.6, kPale = 0.15;
+  const auto& c = led.position_covariance;
+  const double stddev = std::sqrt(c[0] + c[4] + c[8]);
+  if (!(stddev < kBad))  // or NaN
+    return kPale;
+  const double share = std::max(std::log(stddev / kGood) / std::log(kBad / kGood), 0.0);
+  return static_cast<float>(kClear + share * (kPale - kClear));
+}
+
 void setScale(const Vector3d& scale, Marker* marker) {
   setVector(scale, &marker->scale);
 }
@@ -231,12 +243,15 @@ void MarkerBuilder::addView(std::size_t index,
         std::find_if(points.points.begin(), points.points.end(), [&](const TrackedPoint& point) {
           return spot.use == tracking::SpotUse::kAssigned && point.id == spot.led;
         });
-    const double length = led != points.points.end()
-                              ? (vectorOf(led->position) - camera.center()).norm()
-                              : kRayLength;
+    double length = kRayLength;
+    std_msgs::ColorRGBA color = colorOf(spot.use);
+    if (led != points.points.end()) {
+      length = (vectorOf(led->position) - camera.center()).norm();
+      color.a = opacityOf(*led);
+    }
     rays.points.push_back(pointOf(camera.center()));
     rays.points.push_back(pointOf(camera.center() + length * sight->direction));
-    rays.colors.insert(rays.colors.end(), 2, colorOf(spot.use));
+    rays.colors.insert(rays.colors.end(), 2, color);
   }
   add(blobs);
   add(rays);

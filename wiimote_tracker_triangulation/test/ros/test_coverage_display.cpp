@@ -72,6 +72,23 @@ TEST(CoverageDisplay, BreaksLongSentencesBetweenWords) {
             "Red: seen by fewer than two.\nGreen to yellow: 5 to 50 mm.");
 }
 
+TEST(CoverageDisplay, DrawsTheTwelveEdgesOfTheVolume) {
+  const Eigen::AlignedBox3d volume(Vector3d(-1.0, 0.0, 0.5), Vector3d(1.0, 3.0, 4.5));
+  const visualization_msgs::Marker edges = volumeMarkers("hall", volume).markers.at(0);
+  EXPECT_EQ(edges.header.frame_id, "hall");
+  EXPECT_TRUE(edges.lifetime.isZero());
+  ASSERT_EQ(edges.points.size(), 24U);
+  Eigen::AlignedBox3d drawn;
+  Vector3d lengths = Vector3d::Zero();
+  for (std::size_t i = 0; i < 24; i += 2) {
+    drawn.extend(vectorOf(edges.points[i]));
+    lengths += (vectorOf(edges.points[i + 1]) - vectorOf(edges.points[i])).cwiseAbs();
+  }
+  drawn.extend(vectorOf(edges.points.back()));
+  EXPECT_TRUE(drawn.isApprox(volume));
+  EXPECT_TRUE(lengths.isApprox(4.0 * volume.sizes())) << lengths;
+}
+
 TEST(CoverageDisplay, ColoursAWalkByTheCamerasThatSawIt) {
   auto cells = kCells;
   cells[2].cameras = 0;  // not walked through

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
+#include <vector>
 
 namespace wiimote_tracker {
 namespace {
@@ -103,6 +105,23 @@ TEST(Markers, RaysGoFromTheCameraThroughItsBlobToThePoint) {
   EXPECT_EQ(Marker::DELETE, find(array, "ray", 2).action);
   EXPECT_EQ(Marker::DELETE, find(array, "blob", 2).action);
   EXPECT_LT((vectorOf(find(array, "point", 0).pose.position) - kLed).norm(), 1e-12);
+}
+
+TEST(Markers, RaysArePalerTheLessIsKnownOfTheirLed) {
+  const Rig rig = threeCameras();
+  CorrectedSnapshot corrected = someSnapshot(rig);
+  std::vector<float> opacities;
+  for (const double stddev : {0.001, 0.004, 0.02, 0.1, std::nan("")}) {
+    corrected.snapshot.leds[0].position_covariance =
+        stddev * stddev / 3.0 * Eigen::Matrix3d::Identity();
+    MarkerBuilder builder({});
+    builder.setRig(rig);
+    opacities.push_back(find(draw(&builder, corrected, rig), "ray", 0).colors.at(1).a);
+  }
+  EXPECT_EQ(opacities[0], opacities[1]);
+  EXPECT_GT(opacities[1], 1.5f * opacities[2]);
+  EXPECT_GT(opacities[2], 1.5f * opacities[3]);
+  EXPECT_EQ(opacities[3], opacities[4]);
 }
 
 TEST(Markers, EllipsoidHolds95Percent) {

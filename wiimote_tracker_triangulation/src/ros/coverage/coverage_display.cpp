@@ -50,6 +50,7 @@ CoverageDisplay::CoverageDisplay(const ros::NodeHandle& nh, const ros::NodeHandl
   parameters_ = CoverageParameters::read(&reader);
   publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("coverage", 1, true);
   cells_publisher_ = nh_.advertise<sensor_msgs::PointCloud2>("coverage/cells", 1, true);
+  volume_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("coverage/volume", 1, true);
   walk_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("coverage/walk", 1, true);
   subscriber_ = subscribe<wiimote_tracker_msgs::RigCalibration>(
       nh_, "calibration/rig", 1, [this](const auto& event) { onRig(*event.getConstMessage()); });
@@ -61,8 +62,8 @@ CoverageDisplay::CoverageDisplay(const ros::NodeHandle& nh, const ros::NodeHandl
 void CoverageDisplay::onRig(const wiimote_tracker_msgs::RigCalibration& message) {
   try {
     const geometry::Rig rig = fromMessage(message);
-    const geometry::CellGrid grid(parameters_.volume.value_or(volumeOf(rig)),
-                                  parameters_.cell_size);
+    const Eigen::AlignedBox3d volume = parameters_.volume.value_or(volumeOf(rig));
+    const geometry::CellGrid grid(volume, parameters_.cell_size);
     const std::vector<geometry::CoverageCell> cells =
         geometry::coverageOf(rig, grid, parameters_.pixel_stddev);
     const auto turn = geometry::bestTurn(rig, grid);
@@ -70,6 +71,7 @@ void CoverageDisplay::onRig(const wiimote_tracker_msgs::RigCalibration& message)
     const std::string sentence = sentenceOf(cells) + advice;
     cells_publisher_.publish(coverageCloud(rig.world_frame, cells));
     publisher_.publish(coverageMarkers(rig.world_frame, cells, parameters_.cell_size, sentence));
+    volume_publisher_.publish(volumeMarkers(rig.world_frame, volume));
     ROS_INFO_STREAM(sentence);
     possible_ = format("; %.0f %% is possible.", 100.0 * geometry::coveredShare(cells)) + advice;
     walked_.setRig(idOf(message, rig), grid, cells);

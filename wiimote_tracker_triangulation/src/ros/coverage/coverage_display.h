@@ -42,6 +42,7 @@ class CoverageDisplay {
   CoverageParameters parameters_;
   ros::Publisher publisher_;
   ros::Publisher cells_publisher_;
+  ros::Publisher volume_publisher_;
   ros::Publisher walk_publisher_;
   ros::Subscriber subscriber_;
   ros::Subscriber points_subscriber_;

@@ -133,6 +133,25 @@ visualization_msgs::MarkerArray coverageMarkers(const std::string& world_frame,
   return array;
 }
 
+visualization_msgs::MarkerArray volumeMarkers(const std::string& world_frame,
+                                              const Eigen::AlignedBox3d& volume) {
+  Marker edges = markers::marker(world_frame, 0.0, kForEver, "volume", 0, Marker::LINE_LIST);
+  edges.scale.x = markers::kLineWidth;
+  edges.color = color(0.6f, 0.65f, 0.75f, 0.5f);
+  const auto corner = [&](int bits) {  // one for each axis: whether at its upper end
+    return pointOf(volume.corner(static_cast<Eigen::AlignedBox3d::CornerType>(bits)));
+  };
+  for (int bits = 0; bits < 8; ++bits) {
+    for (const int axis : {1, 2, 4}) {
+      if ((bits & axis) == 0)
+        edges.points.insert(edges.points.end(), {corner(bits), corner(bits | axis)});
+    }
+  }
+  visualization_msgs::MarkerArray array;
+  array.markers = {edges};
+  return array;
+}
+
 visualization_msgs::MarkerArray walkMarkers(const std::string& world_frame,
                                             const std::vector<CoverageCell>& walked,
                                             double cell_size,

@@ -29,6 +29,10 @@ visualization_msgs::MarkerArray coverageMarkers(const std::string& world_frame,
                                                 double cell_size,
                                                 const std::string& sentence);
 
+/// The edges of the volume.
+visualization_msgs::MarkerArray volumeMarkers(const std::string& world_frame,
+                                              const Eigen::AlignedBox3d& volume);
+
 /// Sentence and cubes of a walk: a cube where the LED was, red where one camera saw it, yellow for
 /// two, green for more.
 visualization_msgs::MarkerArray walkMarkers(const std::string& world_frame,

@@ -113,6 +113,8 @@ def main():
     try:
         chosen = plan.read(rospy.get_param('~plan'))
         description = rospy.get_param('~description', '')
+        if not description:
+            rospy.loginfo('looking for places to begin with; rviz shows them then')
         rig = (plan_rig.read_rig(description) if description
                else plan_rig.description(chosen, *search.proposal(chosen)))
         PlaceCameras(chosen, rig, rospy.get_param('~output'))

@@ -208,7 +208,7 @@ void CalibratePage::addPlace(QVBoxLayout* layout) {
   }
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(addButton("Check the LED there", Command::kCheck));
-  buttons->addWidget(addButton("Solve with this place", Command::kMeasurePlace));
+  buttons->addWidget(addButton("Take this place", Command::kMeasurePlace));
   row->addLayout(buttons, 1, 0, 1, 4);
   layout->addLayout(row);
 }

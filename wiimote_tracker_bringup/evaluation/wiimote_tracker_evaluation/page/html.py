@@ -38,11 +38,11 @@ th, td { padding: .25rem .9rem .25rem 0; max-width: 24rem; }
 .n { text-align: right; }
 td.n { white-space: nowrap; }
 code { font-size: .9em; background: #f2f4f7; padding: 0 .2em; }
-@page { margin: 13mm 15mm; }
-@media print { html { font-size: 10px; } body { max-width: none; padding: 0; font-size: 9pt; line-height: 1.35; }
-  nav, #figures { display: none; } p, ul, figcaption, caption { max-width: none; } td, th { padding: .1rem .7rem .1rem 0; }
-  h2, h3 { break-after: avoid; } figure, tr { break-inside: avoid; } figure svg { max-height: 62mm; max-width: 100%; }
-  table { font-size: 7.5pt; line-height: 1.2; } a { color: inherit; } }
+@page { margin: 12mm 14mm; }
+@media print { html { font-size: 9px; } body { max-width: none; padding: 0; font-size: 8.6pt; line-height: 1.3; }
+  nav, #figures { display: none; } p, ul, figcaption, caption { max-width: none; } td, th { padding: .1rem .5rem .1rem 0; }
+  h2, h3 { break-after: avoid; } figure, tr { break-inside: avoid; } figure svg { max-height: 54mm; max-width: 100%; }
+  table { font-size: 7.2pt; line-height: 1.2; } a { color: inherit; } }
 '''
 
 

@@ -6,6 +6,7 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PointStamped.h>
+#include <gtest/gtest.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Log.h>
@@ -68,11 +69,12 @@ class Bench {
             }),
         nh_.subscribe<visualization_msgs::MarkerArray>(
             "markers", 1000, [this](const auto& m) { markers_.push_back(*m); }),
-        nh_.subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1000,
-                                                        [this](const auto& m) {
-                                                          for (const auto& status : m->status)
-                                                            diagnostics_.push_back(status);
-                                                        }),
+        nh_.subscribe<diagnostic_msgs::DiagnosticArray>(
+            "/diagnostics", 1000,
+            [this](const auto& m) {
+              EXPECT_FALSE(m->status.empty());
+              diagnostics_.insert(diagnostics_.end(), m->status.begin(), m->status.end());
+            }),
         nh_.subscribe<rosgraph_msgs::Log>("/rosout", 1000, [this](const auto& m) {
           if (m->name.find("steady") == std::string::npos)
             log_ += m->msg + "\n";

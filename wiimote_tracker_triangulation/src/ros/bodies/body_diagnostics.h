@@ -23,8 +23,11 @@ class BodyDiagnostics {
   void setBodies(const std::vector<body::Constellation>& bodies);
   void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies);
 
-  /// Publishes when due.
-  void update() { updater_.update(); }
+  /// Publishes when due, if there are bodies.
+  void update() {
+    if (!statuses_.empty())
+      updater_.update();
+  }
 
  private:
   /// Root mean square.

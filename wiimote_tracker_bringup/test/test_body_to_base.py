@@ -1,6 +1,7 @@
 """body_to_base on simulated motions: errors against the Cramer-Rao bound of the same motions."""
 
 import os
+import re
 import sys
 
 import numpy as np
@@ -139,7 +140,7 @@ def test_a_bag(tmp_path):
     assert (found.body, found.base) == ('robot', 'base_link')
 
 
-def test_a_bag_with_an_imu(tmp_path):
+def test_a_bag_with_an_imu(tmp_path, capsys):
     body, imu = with_imu(np.random.default_rng(8), interval=0.004)  # 250 Hz
     path, output = str(tmp_path / 'run.bag'), str(tmp_path / 'mount.yaml')
     with rosbag.Bag(path, 'w') as bag:
@@ -152,6 +153,10 @@ def test_a_bag_with_an_imu(tmp_path):
     found = mount.read(output)
     assert np.abs(error_of(found)).max() < 0.005
     assert (found.body, found.base) == ('robot', 'imu_link')
+    told = capsys.readouterr()
+    assert 'step' not in told.out
+    steps = re.findall(r'body_to_base: step (\d+) of 7 to 30: clock offset 3\d\.\d\d \+- ', told.err)
+    assert steps == [str(number + 1) for number in range(len(steps))] and len(steps) >= 7
     with pytest.raises(SystemExit, match='has no IMU samples on /imu'):
         body_to_base.main([path, '--body', '/robot/odometry', '--imu', '/imu'])
 

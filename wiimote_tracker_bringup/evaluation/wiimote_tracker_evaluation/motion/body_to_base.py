@@ -21,6 +21,10 @@ def describe(found):
     yield f'rosrun tf2_ros static_transform_publisher {found.transform()}'
 
 
+def report(sentence):
+    print(f'body_to_base: {sentence}', file=sys.stderr, flush=True)
+
+
 def main(argv=None):
     parser = argparse.ArgumentParser(
         prog='body_to_base', description='Finds where the base of a robot, or an IMU, sits on a '
@@ -39,8 +43,9 @@ def main(argv=None):
     try:
         solver, source, topic = ((hand_eye, poses, arguments.odom) if arguments.odom else
                                  (inertial, inertial, arguments.imu))
+        report(f'reads {arguments.bag}')
         found = solver.solve(poses.read(arguments.bag, arguments.body),
-                             source.read(arguments.bag, topic), arguments.largest_offset)
+                             source.read(arguments.bag, topic), arguments.largest_offset, report)
         print('\n'.join(describe(found)))
         mount.write(found, arguments.output)
     except (ValueError, RuntimeError, np.linalg.LinAlgError) as error:

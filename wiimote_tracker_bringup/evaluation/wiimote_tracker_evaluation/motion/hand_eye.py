@@ -14,11 +14,12 @@ from wiimote_tracker_evaluation.motion.poses import smoothed
 INTERVAL = 0.2  # in which the odometry hardly drifts [s]
 
 
-def solve(body, base, largest_offset=2.0):
-    """body, base: Poses of both. @returns Mount"""
+def solve(body, base, largest_offset=2.0, report=lambda sentence: None):
+    """body, base: Poses of both. report: see mount_solver. @returns Mount"""
     body, rotation, offset = mount_start.start(body, base, largest_offset)
     problem = Problem(body, smoothed(base))
-    return mount_solver.solve(problem, problem.start(rotation, offset), (body.child, base.child))
+    return mount_solver.solve(problem, problem.start(rotation, offset),
+                              (body.child, base.child), report)
 
 
 class Problem:

@@ -49,8 +49,8 @@ class Samples:
         return Poses(self.times, np.zeros_like(self.rates), Rotation.from_quat(quaternions))
 
 
-def solve(body, imu, largest_offset=2.0):
-    """body: Poses. imu: Samples. @returns Mount of the IMU"""
+def solve(body, imu, largest_offset=2.0, report=lambda sentence: None):
+    """body: Poses. imu: Samples. report: see mount_solver. @returns Mount of the IMU"""
     gap = np.diff(imu.times).max()
     if gap > mount_start.LONGEST_GAP:
         raise ExperimentError(f'the IMU says nothing for {gap:.2f} s; record again, or cut the bag '
@@ -58,7 +58,8 @@ def solve(body, imu, largest_offset=2.0):
     imu = imu.averaged()
     body, rotation, offset = mount_start.start(body, imu.rotations(), largest_offset)
     problem = Problem(body, imu, offset)
-    return mount_solver.solve(problem, problem.start(rotation), (body.child, imu.child))
+    return mount_solver.solve(problem, problem.start(rotation), (body.child, imu.child),
+                              report)
 
 
 class Problem:

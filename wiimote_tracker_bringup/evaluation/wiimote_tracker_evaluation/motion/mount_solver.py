@@ -69,8 +69,9 @@ class State:
         return np.split(change, 2, axis=1)
 
 
-def solve(problem, state, names):
-    """names: of the body and the base. @returns Mount. problem has
+def solve(problem, state, names, report):
+    """names: of the body and the base. report: is called with a sentence after each step, which can
+    take seconds. @returns Mount. problem has
 
     times: of the states [s]; noise: a first guess of each group's standard deviation;
     place(state): chooses and returns, for each group, the number of the first state of each row;
@@ -82,6 +83,8 @@ def solve(problem, state, names):
         common, local = equations.step()
         covariance = (equations.covariance() + equations.lasting_covariance(noise))[:7, :7]
         state = state.moved(common, local)
+        report(f'step {iteration + 1} of {LEAST_ITERATIONS + 1} to {MOST_ITERATIONS}: clock offset '
+               f'{1e3 * state.vector[3]:.2f} +- {1e3 * np.sqrt(covariance[6, 6]):.2f} ms')
         if (iteration >= LEAST_ITERATIONS
                 and (np.abs(common[3:7]) < 0.05 * np.sqrt(np.diag(covariance)[3:])).all()):
             break

@@ -4,7 +4,6 @@
 #include "association/shared_views.h"
 #include "geometry/learnt_noise.h"
 #include "led_groups.h"
-#include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,23 +19,6 @@ constexpr std::size_t kRepeats = 16;
 
 /// Cost of a false detection: greater than that of any LED.
 constexpr double kGhostCost = 1e6;
-
-/// LED and body of a column of the assignment.
-struct Column {
-  std::size_t body;
-  std::size_t led;
-};
-
-/// Whether all rays meet, but for the light's motion between the images.
-bool areOfOneLight(const std::vector<geometry::Sight>& sights) {
-  constexpr double kGreatestMiss = 0.02;  // [m]
-  geometry::TriangulationOptions options;
-  options.method = geometry::TriangulationMethod::kLeastSquares;
-  const auto light = geometry::triangulate(sights.data(), sights.size(), options);
-  return light && std::all_of(sights.begin(), sights.end(), [&](const geometry::Sight& sight) {
-           return sight.direction.cross(light->position - sight.origin).norm() < kGreatestMiss;
-         });
-}
 
 association::AssociationOptions associationOptions(const BodyTrackerOptions& options) {
   association::AssociationOptions result;
@@ -175,18 +157,17 @@ void BodyTracker::take(std::list<Entry>::iterator entry) {
   find(entry->time);
 }
 
-void BodyTracker::follow(std::size_t camera,
-                         double time,
-                         const std::vector<Eigen::Vector2d>& pixels) {
-  const geometry::Camera& view = cameras_[camera];
+LedGroups BodyTracker::groupsOf(std::size_t body, std::size_t camera) const {
   const double noise =
       geometry::pixelNoise(rig_.cameras[camera], options_.learnt_noise, options_.pixel_stddev);
-  const auto groupsOf = [&](std::size_t body) {
-    return LedGroups(bodies_[body]->filter.state(), constellations_[body], view, noise,
-                     options_.merging_distance, options_.gate);
-  };
+  return {bodies_[body]->filter.state(), constellations_[body], cameras_[camera], noise,
+          options_.merging_distance,     options_.gate};
+}
+
+/// Assigns spots of an image to LEDs of the bodies, which are predicted to its time: led_of_spot_.
+void BodyTracker::assign(std::size_t camera, const std::vector<Eigen::Vector2d>& pixels) {
   association::SpotCosts costs;
-  std::array<Column, association::kMaximumTracks> columns;
+  std::array<SpotLed, association::kMaximumTracks> columns;
   const std::size_t spots = std::min(pixels.size(), association::kMaximumSpots);
   // Which LEDs the body itself hides is unknown: a missed LED costs nothing, so that as many spots
   // as possible are assigned.
@@ -195,76 +176,60 @@ void BodyTracker::follow(std::size_t camera,
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!bodies_[b])
       continue;
-    bodies_[b]->filter.predict(time, inertial_[b]);
-    const LedGroups groups = groupsOf(b);
+    const LedGroups groups = groupsOf(b, camera);
     for (std::size_t led = 0; led < constellations_[b].leds.size(); ++led) {
       if (costs.tracks == association::kMaximumTracks)
         break;
-      for (std::size_t s = 0; s < spots; ++s) {
+      for (std::size_t s = 0; s < spots; ++s)
         costs.pair[s][costs.tracks] = groups.cost(led, pixels[s]);
-      }
       columns[costs.tracks++] = {b, led};
     }
   }
   const association::SpotAssignment assignment = association::assignSpots(costs);
+  led_of_spot_.assign(pixels.size(), std::nullopt);
+  for (std::size_t s = 0; s < spots; ++s) {
+    if (assignment.track_of_spot[s] != association::kFalseDetection)
+      led_of_spot_[s] = columns[static_cast<std::size_t>(assignment.track_of_spot[s])];
+  }
+}
 
+void BodyTracker::follow(std::size_t camera,
+                         double time,
+                         const std::vector<Eigen::Vector2d>& pixels) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (bodies_[b])
+      bodies_[b]->filter.predict(time, inertial_[b]);
+  }
+  assign(camera, pixels);
+  leaveToSearch(time);
+  const geometry::Camera& view = cameras_[camera];
   LastImage& image = images_[camera];
   image.time = time;
   image.taken.clear();
   image.free.clear();
   spots_taken_.assign(pixels.size(), false);
-  const auto columnOf = [&](std::size_t spot) -> const Column* {
-    const bool is_free =
-        spot >= spots || assignment.track_of_spot[spot] == association::kFalseDetection;
-    return is_free ? nullptr : &columns[static_cast<std::size_t>(assignment.track_of_spot[spot])];
-  };
   for (std::size_t s = 0; s < pixels.size(); ++s) {
-    const Column* column = columnOf(s);
-    if (!column) {
+    if (!led_of_spot_[s]) {
       if (geometry::sightFromPixel(view, pixels[s]))
         image.free.push_back(pixels[s]);
       continue;
     }
     spots_taken_[s] = true;
+    const SpotLed spot = *led_of_spot_[s];
     std::array<bool, kMaximumLeds> has_spot{};
-    for (std::size_t other = 0; other < spots; ++other) {
-      if (const Column* its = columnOf(other))
-        has_spot[its->led] = has_spot[its->led] || its->body == column->body;
+    for (const std::optional<SpotLed>& other : led_of_spot_) {
+      if (other && other->body == spot.body)
+        has_spot[other->led] = true;
     }
     // Each update moves the body, and with it the predictions of the remaining spots.
-    const LedGroups groups = groupsOf(column->body);
-    if (const LedGroup* group = groups.best(column->led, pixels[s], has_spot))
-      update(column->body, *group, pixels[s], view, &image);
+    const LedGroups groups = groupsOf(spot.body, camera);
+    if (const LedGroup* group = groups.best(spot.led, pixels[s], has_spot))
+      update(spot.body, *group, pixels[s], view, &image);
   }
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (bodies_[b] && isSeen(b, image))
       bodies_[b]->last_observed = time;
   }
-}
-
-/// Whether an image shows the body. One spot alone could be any light, unless the newest images of
-/// all cameras show three of the body's LEDs, at different places.
-bool BodyTracker::isSeen(std::size_t body, const LastImage& image) {
-  const auto isItsSpot = [body](const BodySpot& spot) {
-    return spot.body == body && !spot.is_further;
-  };
-  const auto spots = std::count_if(image.taken.begin(), image.taken.end(), isItsSpot);
-  if (spots != 1)
-    return spots > 1;
-  std::array<bool, kMaximumLeds> seen{};
-  body_sights_.clear();
-  for (std::size_t c = 0; c < images_.size(); ++c) {
-    if (image.time - images_[c].time > options_.tracked_time)
-      continue;
-    for (const BodySpot& spot : images_[c].taken) {
-      if (!isItsSpot(spot))
-        continue;
-      seen[spot.led] = true;
-      if (const auto sight = geometry::sightFromPixel(cameras_[c], spot.pixel))
-        body_sights_.push_back(*sight);
-    }
-  }
-  return std::count(seen.begin(), seen.end(), true) > 2 && !areOfOneLight(body_sights_);
 }
 
 void BodyTracker::update(std::size_t index,
@@ -274,10 +239,11 @@ void BodyTracker::update(std::size_t index,
                          LastImage* image) {
   Body& body = *bodies_[index];
   const double residual = (pixel - group.prediction.pixel).norm();
+  const double misfit = group.misfit(pixel);
   body.filter.update(group.prediction, pixel, group.pixel_stddev, inertial_[index]);
   for (std::size_t i = 0; i < group.count; ++i) {
     body.led_times[group.leds[i]] = image->time;
-    image->taken.push_back({index, group.leds[i], i > 0, pixel, residual,
+    image->taken.push_back({index, group.leds[i], i > 0, pixel, misfit, residual,
                             residual * group.prediction.depth / camera.intrinsics.fx});
   }
 }

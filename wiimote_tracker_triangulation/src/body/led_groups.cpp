@@ -40,9 +40,13 @@ bool isCertain(const LedPrediction& led, double nearest, const geometry::Camera&
 
 }  // namespace
 
-double LedGroup::cost(const Eigen::Vector2d& pixel, double gate) const {
+double LedGroup::misfit(const Eigen::Vector2d& pixel) const {
   const Eigen::Vector2d innovation = pixel - prediction.pixel;
-  const double squared = innovation.dot(prediction.covariance.inverse() * innovation);
+  return innovation.dot(prediction.covariance.inverse() * innovation);
+}
+
+double LedGroup::cost(const Eigen::Vector2d& pixel, double gate) const {
+  const double squared = misfit(pixel);
   if (!(squared < gate))
     return std::numeric_limits<double>::infinity();
   return squared + std::log(prediction.covariance.determinant()) +

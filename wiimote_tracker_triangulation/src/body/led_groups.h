@@ -20,8 +20,11 @@ struct LedGroup {
   LedPrediction prediction;   // of the mean of their pixels
   double pixel_stddev = 0.0;  // of the spot; greater for several LEDs of unknown brightness
 
+  /// Squared Mahalanobis distance of a spot.
+  double misfit(const Eigen::Vector2d& pixel) const;
+
   /// -2 log likelihood of a spot without its constant, plus a penalty for each further LED, since
-  /// merged spots are rarer; infinity outside the gate (squared Mahalanobis distance).
+  /// merged spots are rarer; infinity where its misfit is beyond the gate.
   double cost(const Eigen::Vector2d& pixel, double gate) const;
 };
 

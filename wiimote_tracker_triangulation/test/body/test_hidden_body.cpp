@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::body {
@@ -49,13 +48,13 @@ struct Hidings {
 };
 
 void hideFourTimes(const Motion& motion,
-                   const std::optional<OtherLed>& other,
+                   const std::vector<OtherLed>& others,
                    unsigned seed,
                    Hidings* hidings) {
   const Constellation body = test::fourLeds();
   std::vector<tracking::test::Path> paths = test::pathsOf(body, motion);
-  if (other)
-    paths.emplace_back(*other);
+  for (const OtherLed& other : others)
+    paths.emplace_back(other);
   tracking::test::SceneOptions options;
   options.pixel_noise = 0.5;
   options.hidden = [&](std::size_t, std::size_t led, double time) {
@@ -89,7 +88,7 @@ TEST(HiddenBody, IsSilent) {
   Hidings hidings;
   for (const Motion& motion : kMotions) {
     for (unsigned seed = 0; seed < 4; ++seed)
-      hideFourTimes(motion, std::nullopt, seed, &hidings);
+      hideFourTimes(motion, {}, seed, &hidings);
   }
   EXPECT_EQ(hidings.all, 64);
   EXPECT_EQ(hidings.late, 0);
@@ -104,12 +103,31 @@ TEST(HiddenBody, IsSilentWhileAnotherLedIsLitAtItsPlace) {
       for (unsigned seed = 0; seed < 4; ++seed) {
         const Vector3d offset = random.inBox(distance);
         for (const double velocity_factor : {0.0, 1.0})
-          hideFourTimes(motion, OtherLed{motion, seed, offset, velocity_factor}, seed, &hidings);
+          hideFourTimes(motion, {{motion, seed, offset, velocity_factor}}, seed, &hidings);
       }
     }
   }
   EXPECT_EQ(hidings.all, 384);
   EXPECT_EQ(hidings.late, 0);
+}
+
+/// Each up to 0.2 m along each axis from where another of its LEDs was. Some have by chance the
+/// distances of LEDs of the body.
+TEST(HiddenBody, IsMostlySilentWhileTwoOrThreeOtherLedsAreLitBesideIt) {
+  geometry::test::Random random(51);
+  Hidings hidings;
+  for (const Motion& motion : kMotions) {
+    for (const std::size_t count : {2, 3}) {
+      for (unsigned seed = 0; seed < 6; ++seed) {
+        std::vector<OtherLed> others;
+        for (std::size_t led = 0; led < count; ++led)
+          others.push_back({motion, led, random.inBox(0.2), seed % 2 == 0 ? 0.0 : 1.0});
+        hideFourTimes(motion, others, seed, &hidings);
+      }
+    }
+  }
+  EXPECT_EQ(hidings.all, 192);
+  EXPECT_LT(hidings.late, 20);
 }
 
 TEST(HiddenBody, IsNotHiddenWhileEachCameraSeesAnotherOfItsLeds) {

@@ -23,6 +23,7 @@
 namespace wiimote_tracker::body {
 
 struct LedGroup;
+class LedGroups;
 
 struct BodyTrackerOptions {
   double pixel_stddev = 0.5;  ///< Noise per coordinate of a spot [px, > 0].
@@ -140,11 +141,14 @@ class BodyTracker {
     double last_observed;                        // [s]
     std::array<double, kMaximumLeds> led_times;  // when last seen [s]
   };
-  struct BodySpot {
+  struct SpotLed {
     std::size_t body;
     std::size_t led;
+  };
+  struct BodySpot : SpotLed {
     bool is_further;  // merged with the one before
     Eigen::Vector2d pixel;
+    double misfit;     // squared Mahalanobis distance from the prediction [1]
     double residual;   // [px]
     double deviation;  // [m]
   };
@@ -171,6 +175,9 @@ class BodyTracker {
               const Eigen::Vector2d& pixel,
               const geometry::Camera& camera,
               LastImage* image);
+  LedGroups groupsOf(std::size_t body, std::size_t camera) const;
+  void assign(std::size_t camera, const std::vector<Eigen::Vector2d>& pixels);
+  void leaveToSearch(double time);
   bool isSeen(std::size_t body, const LastImage& image);
   void dropLost(double time);
   std::size_t countSeenLeds(std::size_t body, double time) const;
@@ -205,6 +212,7 @@ class BodyTracker {
 
   // Reused buffers.
   std::list<Entry> spare_;
+  std::vector<std::optional<SpotLed>> led_of_spot_;  // nothing: free
   std::vector<bool> spots_taken_;
   std::vector<geometry::Sight> body_sights_;
   std::vector<std::optional<std::size_t>> needed_leds_;   // per body

@@ -1,0 +1,74 @@
+// Whether BodyTracker sees a body, or other lights near its place.
+#include "wiimote_tracker_triangulation/body/body_tracker.h"
+#include "wiimote_tracker_triangulation/geometry/triangulate.h"
+
+#include <algorithm>
+#include <array>
+
+namespace wiimote_tracker::body {
+namespace {
+
+/// Whether all rays meet, but for the light's motion between the images.
+bool areOfOneLight(const std::vector<geometry::Sight>& sights) {
+  constexpr double kGreatestMiss = 0.02;  // [m]
+  geometry::TriangulationOptions options;
+  options.method = geometry::TriangulationMethod::kLeastSquares;
+  const auto light = geometry::triangulate(sights.data(), sights.size(), options);
+  return light && std::all_of(sights.begin(), sights.end(), [&](const geometry::Sight& sight) {
+           return sight.direction.cross(light->position - sight.origin).norm() < kGreatestMiss;
+         });
+}
+
+}  // namespace
+
+/// Frees the spots of bodies that have been hidden for longer than some images, where this image
+/// shows fewer than three of their LEDs: those could be of any lights near the prediction, and
+/// would pull the body to them. Such a body must be found by its shape, if that tells its pose,
+/// unless an IMU does.
+void BodyTracker::leaveToSearch(double time) {
+  constexpr auto kShape = 3;  // LEDs
+  const double longest = options_.tracked_time + options_.window;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const auto isItsSpot = [b](const std::optional<SpotLed>& led) { return led && led->body == b; };
+    if (bodies_[b] && has_clear_shape_[b] && !bodies_[b]->filter.isInertial() &&
+        time - bodies_[b]->last_observed > longest &&
+        std::count_if(led_of_spot_.begin(), led_of_spot_.end(), isItsSpot) < kShape)
+      std::replace_if(led_of_spot_.begin(), led_of_spot_.end(), isItsSpot, std::nullopt);
+  }
+}
+
+/// Whether an image shows the body. The newest images of all cameras must fit its prediction: other
+/// lights have another shape. One spot alone could be any light, unless those images show three of
+/// the body's LEDs, at different places.
+bool BodyTracker::isSeen(std::size_t body, const LastImage& image) {
+  constexpr double kGreatestMisfit = 2.5;  // mean over the coordinates; 1 in the mean for a body
+  const auto isItsSpot = [body](const BodySpot& spot) {
+    return spot.body == body && !spot.is_further;
+  };
+  const auto spots = std::count_if(image.taken.begin(), image.taken.end(), isItsSpot);
+  std::array<bool, kMaximumLeds> seen{};
+  double misfit = 0.0;
+  double coordinates = 0.0;
+  body_sights_.clear();
+  for (std::size_t c = 0; c < images_.size(); ++c) {
+    if (image.time - images_[c].time > options_.tracked_time)
+      continue;
+    for (const BodySpot& spot : images_[c].taken) {
+      if (!isItsSpot(spot))
+        continue;
+      seen[spot.led] = true;
+      misfit += spot.misfit;
+      coordinates += 2.0;
+      if (spots > 1)
+        continue;
+      if (const auto sight = geometry::sightFromPixel(cameras_[c], spot.pixel))
+        body_sights_.push_back(*sight);
+    }
+  }
+  if (spots == 0 || misfit > kGreatestMisfit * coordinates)
+    return false;
+  return spots > 1 ||
+         (std::count(seen.begin(), seen.end(), true) > 2 && !areOfOneLight(body_sights_));
+}
+
+}  // namespace wiimote_tracker::body

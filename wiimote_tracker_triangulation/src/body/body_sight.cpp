@@ -8,14 +8,13 @@
 namespace wiimote_tracker::body {
 namespace {
 
-/// Whether all rays meet, but for the light's motion between the images.
-bool areOfOneLight(const std::vector<geometry::Sight>& sights) {
-  constexpr double kGreatestMiss = 0.02;  // [m]
+/// Whether all rays meet. @param greatest_miss due to noise and the calibration [m]
+bool areOfOneLight(const std::vector<geometry::Sight>& sights, double greatest_miss) {
   geometry::TriangulationOptions options;
   options.method = geometry::TriangulationMethod::kLeastSquares;
   const auto light = geometry::triangulate(sights.data(), sights.size(), options);
   return light && std::all_of(sights.begin(), sights.end(), [&](const geometry::Sight& sight) {
-           return sight.direction.cross(light->position - sight.origin).norm() < kGreatestMiss;
+           return sight.direction.cross(light->position - sight.origin).norm() < greatest_miss;
          });
 }
 
@@ -39,8 +38,10 @@ void BodyTracker::leaveToSearch(double time) {
 
 /// Whether an image shows the body. The newest images of all cameras must fit its prediction: other
 /// lights have another shape. One spot alone could be any light, unless those images show three of
-/// the body's LEDs, at different places.
+/// the body's LEDs, at different places (compared as if all were taken now: the body moves).
 bool BodyTracker::isSeen(std::size_t body, const LastImage& image) {
+  constexpr double kGreatestMiss = 0.02;   // of a light's rays [m]
+  constexpr double kGreatestShare = 0.25;  // of the distance to the nearest LED
   constexpr double kGreatestMisfit = 2.5;  // mean over the coordinates; 1 in the mean for a body
   const auto isItsSpot = [body](const BodySpot& spot) {
     return spot.body == body && !spot.is_further;
@@ -49,6 +50,7 @@ bool BodyTracker::isSeen(std::size_t body, const LastImage& image) {
   std::array<bool, kMaximumLeds> seen{};
   double misfit = 0.0;
   double coordinates = 0.0;
+  double greatest_miss = kGreatestMiss;
   body_sights_.clear();
   for (std::size_t c = 0; c < images_.size(); ++c) {
     if (image.time - images_[c].time > options_.tracked_time)
@@ -61,14 +63,18 @@ bool BodyTracker::isSeen(std::size_t body, const LastImage& image) {
       coordinates += 2.0;
       if (spots > 1)
         continue;
-      if (const auto sight = geometry::sightFromPixel(cameras_[c], spot.pixel))
+      greatest_miss = std::min(
+          greatest_miss, kGreatestShare * distanceToNearest(constellations_[body].leds, spot.led));
+      if (auto sight = geometry::sightFromPixel(cameras_[c], spot.pixel)) {
+        sight->origin += (image.time - images_[c].time) * bodies_[body]->filter.state().velocity;
         body_sights_.push_back(*sight);
+      }
     }
   }
   if (spots == 0 || misfit > kGreatestMisfit * coordinates)
     return false;
-  return spots > 1 ||
-         (std::count(seen.begin(), seen.end(), true) > 2 && !areOfOneLight(body_sights_));
+  return spots > 1 || (std::count(seen.begin(), seen.end(), true) > 2 &&
+                       !areOfOneLight(body_sights_, greatest_miss));
 }
 
 }  // namespace wiimote_tracker::body

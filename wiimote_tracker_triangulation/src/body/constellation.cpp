@@ -160,6 +160,15 @@ std::string describe(const Constellation& constellation, const Symmetry& symmetr
               : "; orientations may be confused: move an LED, or have them blink");
 }
 
+double distanceToNearest(const std::vector<Eigen::Vector3d>& leds, std::size_t led) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < leds.size(); ++i) {
+    if (i != led)
+      nearest = std::min(nearest, (leds[i] - leds[led]).norm());
+  }
+  return nearest;
+}
+
 std::optional<std::string> describeMergingLeds(const Constellation& constellation) {
   std::optional<std::string> sentence;
   double nearest = kMerging;

@@ -21,16 +21,6 @@ constexpr double kFurtherLed = 2.0;  // cost of each LED beyond the first
 // over half of the distance between them, with a standard deviation of 1/sqrt(48) of that distance.
 constexpr double kPlaceBetween = 0.1443;
 
-/// [m]
-double distanceToNearest(const Constellation& constellation, std::size_t led) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < constellation.leds.size(); ++i) {
-    if (i != led)
-      nearest = std::min(nearest, (constellation.leds[i] - constellation.leds[led]).norm());
-  }
-  return nearest;
-}
-
 /// Whether no other LED of the body could be taken for this one.
 bool isCertain(const LedPrediction& led, double nearest, const geometry::Camera& camera) {
   const double pixels = nearest * camera.intrinsics.fx / led.depth;
@@ -63,7 +53,7 @@ LedGroups::LedGroups(const PoseState& state,
   const std::size_t leds = constellation.leds.size();
   for (std::size_t i = 0; i < leds; ++i) {
     singles_[i] = predictLed(state, camera, constellation.leds[i], pixel_stddev);
-    if (singles_[i] && !isCertain(*singles_[i], distanceToNearest(constellation, i), camera))
+    if (singles_[i] && !isCertain(*singles_[i], distanceToNearest(constellation.leds, i), camera))
       singles_[i].reset();
   }
   const auto areNear = [&](std::size_t a, std::size_t b) {

@@ -97,12 +97,7 @@ class MatchSearch {
   /// Whether all LEDs lie within half the distance to their nearest neighbour.
   bool isSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
     for (std::size_t i = 0; i < leds_.size(); ++i) {
-      double nearest = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < leds_.size(); ++k) {
-        if (k != i)
-          nearest = std::min(nearest, (leds_[i] - leds_[k]).norm());
-      }
-      if ((a * leds_[i] - b * leds_[i]).norm() > 0.5 * nearest)
+      if ((a * leds_[i] - b * leds_[i]).norm() > 0.5 * distanceToNearest(leds_, i))
         return false;
     }
     return true;

@@ -40,6 +40,9 @@ struct Constellation {
   void check() const;
 };
 
+/// From one LED to the nearest other one [m].
+double distanceToNearest(const std::vector<Eigen::Vector3d>& leds, std::size_t led);
+
 /// Nearest match of a body with itself after a rotation.
 struct Symmetry {
   /// LED i moves near the former position of LED permutation[i].

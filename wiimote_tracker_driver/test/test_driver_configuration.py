@@ -56,6 +56,8 @@ class DriverConfiguration(unittest.TestCase):
     def test_recordings(self):
         self.assert_refused("/driver_m/device: /nowhere/at_all.wiirec: cannot read the recording", "__name:=driver_m",
                             "_device:=replay:/nowhere/at_all.wiirec")
+        self.assert_refused("it was looked for in " + os.getcwd() + "; give an absolute path",
+                            "__name:=driver_q", "_device:=replay:at_all.wiirec")
         self.assert_refused("/driver_n/record: ", "__name:=driver_n",
                             "_record:=/nowhere/at_all.wiirec")
         self.assert_refused("/driver_p/replay_rate must be 0", "__name:=driver_p",

@@ -46,9 +46,15 @@ Remote remoteOf(const std::string& text) {
 
 std::ifstream openRecording(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw BadRecording("cannot read the recording (" + std::string(std::strerror(errno)) +
-                       "): correct its path");
+  if (!file) {
+    const std::string reason = std::strerror(errno);
+    const std::filesystem::path given(path);
+    const std::string advice = given.is_absolute() ? "correct its path"
+                                                   : "it was looked for in " +
+                                                         std::filesystem::current_path().string() +
+                                                         "; give an absolute path";
+    throw BadRecording("cannot read the recording (" + reason + "): " + advice);
+  }
   // A folder can be opened and then reads like an empty file.
   if (std::filesystem::is_directory(path))
     throw BadRecording("cannot read the recording (it is a folder): correct its path");

@@ -204,11 +204,13 @@ void MessageTracker::publishBodies() {
   if (!snapshot)
     return;
   bridged_.clear();
+  std::size_t tracked = 0;
   for (std::size_t b = 0; b < snapshot->bodies.size(); ++b) {
     const body::Constellation& constellation = bodies_.constellations()[b];
     const std::optional<body::BodyEstimate>& body = snapshot->bodies[b];
     if (!body)
       continue;
+    tracked += body->tracked ? 1 : 0;
     bridged_.push_back(body->inertial && !body->tracked);
     if (!constellation.imu)
       continue;
@@ -217,6 +219,7 @@ void MessageTracker::publishBodies() {
     else if (body->tracked)
       without_samples_.insert(constellation.name);
   }
+  statistics_.setBodies(tracked);
   sink_->onBodies(bodyMessage(*snapshot, bodies_.constellations(), rig_, rig_id_), bridged_);
 }
 

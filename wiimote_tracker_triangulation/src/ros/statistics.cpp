@@ -50,6 +50,17 @@ void Statistics::setRig(const geometry::Rig& rig) {
   clear();
 }
 
+std::string Statistics::describe() const {
+  if (leds(tracking::TrackState::kTracked) > 0)
+    return "tracking";
+  if (bodies_ > 0)
+    return "no LED is tracked singly";
+  const bool sees_any =
+      std::any_of(cameras_.begin(), cameras_.end(),
+                  [](const CameraStatistics& camera) { return camera.spots > 0; });
+  return sees_any ? "no LED is tracked" : "no LED is seen";
+}
+
 void Statistics::clear() {
   cameras_.assign(for_rays_.size(), CameraStatistics());
   snapshots_ = 0;

@@ -44,6 +44,7 @@ class Statistics {
   void addImage(std::size_t camera, const tracking::CameraImage& image, std::uint64_t frame);
   void addProblem(std::size_t camera, const std::string& problem);
   void addSnapshot(const tracking::Snapshot& snapshot);
+  void setBodies(std::size_t tracked) { bodies_ = tracked; }
   void addLatency(double latency);  ///< From the newest image's arrival to publication [s].
   void clear();
 
@@ -52,6 +53,9 @@ class Statistics {
 
   /// LEDs of the newest snapshot in a state.
   std::size_t leds(tracking::TrackState state) const;
+
+  /// What is tracked, or seen, in words.
+  std::string describe() const;
 
   /// Quantile of the latency [s], q in [0..1]; NaN without outputs.
   double latency(double q) const;
@@ -66,6 +70,7 @@ class Statistics {
   std::vector<std::optional<std::uint64_t>> frames_;  // of each camera's last image
   std::size_t snapshots_ = 0;
   std::array<std::size_t, 4> leds_{};  // by state
+  std::size_t bodies_ = 0;             // tracked
   std::vector<double> latencies_;
 };
 

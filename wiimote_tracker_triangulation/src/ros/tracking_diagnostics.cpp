@@ -103,10 +103,8 @@ void TrackingDiagnostics::report(Status& status) {
 
   if (reported_.snapshots() == 0)
     status.summary(DiagnosticStatus::WARN, "no images: start the cameras' drivers");
-  else if (reported_.leds(TrackState::kTracked) == 0)
-    status.summary(DiagnosticStatus::OK, "no LED is tracked singly");
   else
-    status.summary(DiagnosticStatus::OK, "tracking");
+    status.summary(DiagnosticStatus::OK, reported_.describe());
   const VolumeCorrection& correction = tracker_->correction();
   if (!correction.problem().empty())
     status.mergeSummary(DiagnosticStatus::WARN, correction.problem());

@@ -273,6 +273,27 @@ TEST(Statistics, CountsEachViewOnceWithoutMaskedSpots) {
   EXPECT_TRUE(std::isnan(statistics.camera(1).residual()));
 }
 
+TEST(Statistics, SayWhatIsTrackedOrSeen) {
+  Statistics statistics;
+  statistics.setRig(someRig(1));
+  tracking::Snapshot snapshot;
+  snapshot.time = 100.0;
+  snapshot.views.resize(1);
+  snapshot.views[0].time = 100.0;
+  statistics.addSnapshot(snapshot);
+  EXPECT_EQ("no LED is seen", statistics.describe());
+  statistics.setBodies(1);
+  EXPECT_EQ("no LED is tracked singly", statistics.describe());
+  statistics.setBodies(0);
+  snapshot.views[0].spots = {{{20.0, 10.0}, tracking::SpotUse::kUnassigned, 0}};
+  statistics.addSnapshot(snapshot);
+  EXPECT_EQ("no LED is tracked", statistics.describe());
+  snapshot.leds.resize(1);
+  snapshot.leds[0].state = TrackState::kTracked;
+  statistics.addSnapshot(snapshot);
+  EXPECT_EQ("tracking", statistics.describe());
+}
+
 TEST(Statistics, NameACameraThatSeesManyLights) {
   const auto lights = [](std::size_t spots, std::size_t assigned) {
     CameraStatistics statistics;

@@ -305,6 +305,12 @@ TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
   }
   EXPECT_FALSE(exists("/tmp/x.yaml"));
 
+  // Bytes that are no text are not repeated.
+  elsewhere.path = request.path = folder_ + "/\xff\xc3.yaml";
+  const std::string no_text = "the path is not UTF-8: choose another name for the file";
+  EXPECT_EQ(call<wiimote_tracker_msgs::SaveRig>("calibration/save", elsewhere).message, no_text);
+  EXPECT_EQ(call<wiimote_tracker_msgs::LoadRig>("calibration/load", request).message, no_text);
+
   const auto loaded = call<wiimote_tracker_msgs::LoadRig>("calibration/load");
   EXPECT_TRUE(loaded.success) << loaded.message;
   EXPECT_SAYS(loaded.message, solved.rig.id);

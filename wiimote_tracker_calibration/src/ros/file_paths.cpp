@@ -2,6 +2,8 @@
 
 #include "requests.h"
 
+#include <boost/locale/encoding_utf.hpp>
+
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
@@ -23,6 +25,9 @@ fs::path withoutLinks(const fs::path& path) {
 }  // namespace
 
 std::string permittedPath(const std::string& requested, const Parameters& parameters) {
+  // Answers repeat the path; those that are not UTF-8 cannot be read in Python.
+  if (boost::locale::conv::utf_to_utf<char>(requested) != requested)
+    throw Refusal("the path is not UTF-8: choose another name for the file");
   const std::string& limit = parameters.file_folder;
   const fs::path folder = withoutLinks(
       limit.empty() ? fs::absolute(parameters.rig_file).parent_path() : fs::path(limit));

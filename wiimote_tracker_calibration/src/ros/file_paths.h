@@ -9,7 +9,7 @@ namespace wiimote_tracker {
 
 /// The file of a request, since whoever reaches the master can send one. Links are followed.
 /// @param requested absolute, or relative to the node's working folder.
-/// @throws Refusal: it is not below Parameters::file_folder.
+/// @throws Refusal: it is not below Parameters::file_folder, or not UTF-8.
 std::string permittedPath(const std::string& requested, const Parameters& parameters);
 
 /// The rig file of a request. @param requested as above; empty: that of the parameter rig_file.

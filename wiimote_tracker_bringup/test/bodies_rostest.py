@@ -105,14 +105,16 @@ class Bodies(LiveRigTest):
         self.assertLess(np.median(squared), CHI_SQUARED_999)
         self.assertLess(np.degrees(np.sqrt(max(rotations))), 20.0, 'LEDs were confused')
 
+    def tracker_says(self):
+        return [s.message for s in self.statuses if s.name.endswith('triangulation')][-1]
+
     def test_pose(self):
         self.calibrate()
         self.wait(lambda: self.bodies and self.bodies[-1].bodies, 'the body')
         begin = self.bodies[-1].header.stamp.to_sec() + 2.0  # the drivers' clocks settle
         self.reach(begin + JUDGED)
         self.judge(self.seen_between(begin, begin + JUDGED), 0.98)
-        self.assertEqual([s.message for s in self.statuses if s.name.endswith('triangulation')][-1],
-                         'no LED is tracked singly')
+        self.assertEqual(self.tracker_says(), 'no LED is tracked singly')
 
         hidden = self.switch(LEDS[2:3], False) + 0.1
         self.reach(hidden + 1.0)
@@ -125,6 +127,7 @@ class Bodies(LiveRigTest):
         self.reach(dark + HIDDEN)
         self.assertLess(self.odometries[-1].header.stamp.to_sec(), dark + SILENT_AFTER)
         self.assertIsNone(self.seen_between(dark, dark + HIDDEN)[-1][1], 'it was lost')
+        self.wait(lambda: self.tracker_says() == 'no LED is seen', 'a sentence about the dark')
         states = collections.Counter(b.state for _, b in self.seen_between(dark, dark + HIDDEN) if b)
         self.assertEqual(states[TrackedBody.LOST], 1)
         light = self.switch(LEDS, True) + RECOVERY

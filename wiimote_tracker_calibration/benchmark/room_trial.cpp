@@ -76,7 +76,8 @@ rooms::Path carriedPath(bool from_first, const CarriedLed& led, square::Random& 
     const double direction = std::atan2(to.y(), to.x()) + heading.next(random);
     const Eigen::Vector2d forward(std::cos(direction), std::sin(direction));
     const Eigen::Vector2d left(-forward.y(), forward.x());
-    person += (led.speed + speed.next(random)) * kStep * forward;
+    const double share = std::abs(time) < 0.5 * led.hidden ? 1.0 - led.slowing : 1.0;
+    person += share * (led.speed + speed.next(random)) * kStep * forward;
     const Eigen::Vector2d held = person + 0.02 * std::sin(stride * time + phase.x()) * left +
                                  0.01 * std::sin(2.0 * stride * time + phase.y()) * forward;
     Eigen::Vector3d position(held.x(), held.y(),

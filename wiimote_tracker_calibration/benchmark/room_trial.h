@@ -23,6 +23,7 @@ struct CarriedLed {
   double speed = 1.25;                  ///< [m/s]
   double hidden = 1.0;                  ///< Duration, around the door [s].
   double heading = 1.5 * M_PI / 180.0;  ///< Standard deviation of the heading [rad].
+  double slowing = 0.0;                 ///< Share by which the walker is slower while hidden.
 };
 
 /// Two rooms with four cameras each on both sides of a door at the origin of the first world, each

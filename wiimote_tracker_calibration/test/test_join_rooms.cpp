@@ -35,6 +35,12 @@ JoinOptions withSlope(double slope) {
   return options;
 }
 
+JoinOptions ofSteadyWalkers() {
+  JoinOptions options;
+  options.passages.walk.slowing = 0.0;
+  return options;
+}
+
 constexpr double kNotLevel = std::numeric_limits<double>::infinity();
 
 /// Gives the second room another world.
@@ -51,8 +57,8 @@ TEST(JoinRooms, TiesTheRoomsAsWellAsStatedAndBetterWithEachPassage) {
   const std::map<int, double> largest = {{1, 0.16}, {4, 0.087}, {10, 0.056}, {16, 0.047}};  // [m]
   for (const auto& [passages, position] : largest) {
     const int times = passages;
-    const RoomErrors errors =
-        errorsOfRooms(30, [times](TwoRooms* trial) { trial->carryOften(times); });
+    const RoomErrors errors = errorsOfRooms(
+        30, [times](TwoRooms* trial) { trial->carryOften(times); }, ofSteadyWalkers());
     EXPECT_LT(errors.position, position) << passages;
     EXPECT_NEAR(errors.stated_position / errors.position, 1.0, 0.3) << passages;
     EXPECT_NEAR(errors.stated_rotation / errors.rotation, 1.0, 0.3) << passages;
@@ -71,6 +77,19 @@ TEST(JoinRooms, StatesTheErrorsOfSomebodyWhoseHeadingWandersMore) {
   });
   EXPECT_NEAR(errors.stated_rotation / errors.rotation, 1.0, 0.2);
   EXPECT_NEAR(errors.stated_position / errors.position, 1.0, 0.2);
+}
+
+TEST(JoinRooms, StatesTheErrorsOfSomebodyWhoSlowsDownAtTheDoor) {
+  for (const double slowing : {0.0, 0.05}) {
+    const RoomErrors errors = errorsOfRooms(20, [slowing](TwoRooms* trial) {
+      CarriedLed led;
+      led.slowing = slowing;
+      trial->carryOften(16, led);
+    });
+    EXPECT_LT(errors.position, 0.056) << slowing;
+    EXPECT_NEAR(errors.stated_position / errors.position, 1.0, 0.2) << slowing;
+    EXPECT_NEAR(errors.nees, 1.0, 0.3) << slowing;
+  }
 }
 
 TEST(JoinRooms, SaysHowManyMorePassagesAreNeeded) {

@@ -67,8 +67,11 @@ std::optional<SharedPlaces> sharedPlaces(const geometry::Rig& first,
   if (before.path.size() < kFewestPoints || after.path.size() < kFewestPoints)
     return std::nullopt;
   const auto places = hiddenPlaces(before.path, after.path, model);
-  const Eigen::Matrix3d axes =
-      walkersAxes(velocityOf(passage.from_first ? before.path : after.path, model));
+  const Eigen::Vector3d velocity = velocityOf(passage.from_first ? before.path : after.path, model);
+  const Eigen::Matrix3d axes = walkersAxes(velocity);
+  // Whoever slows down is farther back after the door, which is in the one room or in the other.
+  const double hidden = after.path.front().time - before.path.back().time;
+  const Eigen::Vector3d back = (passage.from_first ? -hidden : hidden) * model.slowing * velocity;
   SharedPlaces result;
   for (std::size_t i = 0; i < places.size(); ++i) {
     Place in_first = placeOf(before, places[i].before_weights);
@@ -77,8 +80,10 @@ std::optional<SharedPlaces> sharedPlaces(const geometry::Rig& first,
       std::swap(in_first, in_second);
     result[i] = {Eigen::Translation3d(in_first.position) * Eigen::Isometry3d(axes),
                  Eigen::Isometry3d(Eigen::Translation3d(in_second.position)),
-                 in_first.by_parameters, in_second.by_parameters,
-                 Eigen::Vector3d::Constant(places[i].stddev)};
+                 in_first.by_parameters,
+                 in_second.by_parameters,
+                 Eigen::Vector3d::Constant(places[i].stddev),
+                 back};
   }
   return result;
 }

@@ -16,6 +16,11 @@ struct WalkModel {
   double wander_time = 1.0;  ///< Autocorrelation time of the velocity [s, > 0].
   double sway = 0.02;        ///< Standard deviation of the position, per axis [m, > 0].
   double sway_time = 0.5;    ///< Autocorrelation time of the position [s, > 0].
+  /// Standard deviation of the share by which a walker is slower, or faster, while the LED is
+  /// hidden, in all passages alike [1, >= 0]. Assumed: people slow down the more, the narrower the
+  /// opening (K. Wilmut and A. L. Barnett, "Locomotor adjustments when navigating through
+  /// apertures", Hum. Mov. Sci. 29(2), 2010).
+  double slowing = 0.03;
 };
 
 /// A point of an LED's track, in the world of its rig.

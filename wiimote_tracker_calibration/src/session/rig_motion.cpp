@@ -89,8 +89,11 @@ Eigen::MatrixXd errorCovariance(const geometry::Rig& first,
   covariance.topLeftCorner(first_size, first_size) = first.covariance;
   covariance.block(first_size, first_size, second_size, second_size) = second.covariance;
   Eigen::Index row = first_size + second_size;
+  Eigen::VectorXd common = Eigen::VectorXd::Zero(size);
   for (const Shared& one : shared) {
     const Eigen::Index rows = one.by_second.rows();
+    if (rows == 3)
+      common.segment<3>(row) = one.common;
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
     if (rows != kVertical)
       axes = one.in_first.linear();
@@ -102,6 +105,7 @@ Eigen::MatrixXd errorCovariance(const geometry::Rig& first,
           each.topLeftCorner(size_of_each, size_of_each);
   }
   covariance.diagonal().tail(count).array() += kLeastStddev * kLeastStddev;
+  covariance += common * common.transpose();
   return covariance;
 }
 

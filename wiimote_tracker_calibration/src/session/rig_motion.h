@@ -23,6 +23,9 @@ struct Shared {
   /// Of in_second against in_first, along the axes of in_first, without the rigs' covariances
   /// [m; rad].
   Eigen::Vector3d stddevs = Eigen::Vector3d::Zero();
+  /// Standard deviation of an error that all places share: of in_second against in_first, along the
+  /// axes of the first world [m].
+  Eigen::Vector3d common = Eigen::Vector3d::Zero();
 };
 
 /// The motion between two rigs that fits best to what they share.

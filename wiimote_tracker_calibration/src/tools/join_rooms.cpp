@@ -119,6 +119,9 @@ int main(int argc, char** argv) {
   parser.option("--slope DEGREES", &slope, 0.01, 180.0,
                 "standard deviation of the angle between both worlds' z axes, about each "
                 "horizontal axis; 180: not level");
+  parser.option("--slowing SHARE", &options.passages.walk.slowing, 0.0, 0.5,
+                "standard deviation of the share by which a walker is slower while the LED is "
+                "hidden, in all passages alike; 0: nobody slows down at the door");
   return parser.run(argc, argv, [&] {
     options.slope = slope < 180.0 ? slope * M_PI / 180.0 : std::numeric_limits<double>::infinity();
     return join(first, second, target, bags, options);

@@ -144,13 +144,19 @@ function(wiimote_tracker_add_node_test name launch)
   add_dependencies(wiimote_tracker_node_tests ${name})
 endfunction()
 
-# wiimote_tracker_add_pytest(NAME FILE [ENVIRONMENT VARIABLE=VALUE...] [DEPENDENCIES TARGET...])
+# wiimote_tracker_add_pytest(NAME FILE [REAL_TIME] [ENVIRONMENT VARIABLE=VALUE...]
+#   [DEPENDENCIES TARGET...])
+# REAL_TIME: it starts nodes, or waits for other programs, so nothing may delay it for long.
 function(wiimote_tracker_add_pytest name file)
-  cmake_parse_arguments(ARG "" "" "ENVIRONMENT;DEPENDENCIES" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_TIME" "" "ENVIRONMENT;DEPENDENCIES" ${ARGN})
   get_filename_component(file ${file} ABSOLUTE)
+  set(type pytest)
+  if(ARG_REAL_TIME)
+    set(type pytest-real-time)
+  endif()
   set(results ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/pytest-${name}.xml)
   string(REPLACE ";" " " environment "${ARG_ENVIRONMENT}")
-  catkin_run_tests_target("pytest" ${name} pytest-${name}.xml
+  catkin_run_tests_target(${type} ${name} pytest-${name}.xml
     COMMAND "${CMAKE_COMMAND} -E env ${environment} ${PYTHON_EXECUTABLE} -m pytest -p no:cacheprovider ${file} --junit-xml=${results}"
     DEPENDENCIES ${ARG_DEPENDENCIES})
 endfunction()

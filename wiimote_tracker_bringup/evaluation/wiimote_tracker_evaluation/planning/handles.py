@@ -60,6 +60,15 @@ def box_lines(box, number, color) -> Marker:
     return lines
 
 
+def text(words, namespace, number, position) -> Marker:
+    """Words above a place; rviz's display Markers gives them a readable size."""
+    text = Marker(type=Marker.TEXT_VIEW_FACING, ns=namespace, id=number, text=words,
+                  pose=Pose(Point(*position), TO_AXIS['x']), color=ColorRGBA(1.0, 1.0, 1.0, 1.0))
+    text.header.frame_id = FRAME
+    text.scale.z = 0.1
+    return text
+
+
 def _handle(name, pose, controls):
     handle = InteractiveMarker(name=name, description=name, pose=pose, scale=1.0, controls=controls,
                                menu_entries=[MenuEntry(id=1, title='Save')])

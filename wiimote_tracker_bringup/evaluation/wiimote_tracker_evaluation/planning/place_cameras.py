@@ -15,7 +15,7 @@ from interactive_markers.interactive_marker_server import InteractiveMarkerServe
 from sensor_msgs.msg import PointCloud2
 from std_msgs.msg import ColorRGBA
 from std_srvs.srv import Trigger, TriggerResponse
-from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
+from visualization_msgs.msg import InteractiveMarkerFeedback, MarkerArray
 from wiimote_tracker_evaluation import rigs
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.planning import (
@@ -24,6 +24,8 @@ from wiimote_tracker_evaluation.planning import (
 CORNERS = ('lower corner', 'upper corner')  # of the volume
 LEAST_EDGE = 0.1  # of the volume [m]
 WIDTH = 60  # of the summary's lines, in letters
+NAME_ABOVE = np.array([0.0, 0.0, 0.6])  # its handle [m]
+SUMMARY_BEFORE = np.array([0.0, -3.0, 0.0])  # the volume, where no handle is [m]
 
 
 class PlaceCameras:
@@ -72,7 +74,7 @@ class PlaceCameras:
         self._server.applyChanges()
 
     def _show(self):
-        """The cells come first: the summary takes two seconds."""
+        """The summary comes last: it takes two seconds."""
         self._room.publish([
             handles.box_lines(box, number, color) for number, (box, color) in enumerate(
                 [(self._plan.volume, ColorRGBA(0.9, 0.6, 0.2, 1.0))]
@@ -81,20 +83,16 @@ class PlaceCameras:
         points = self._plan.grid(plan_rig.ACROSS)
         self._cells.publish(cells.cloud(handles.FRAME, points, *prediction.at_points(
             self._plan, self._positions, self._targets, points)))
+        lower, upper = np.reshape(self._plan.volume, (2, 3))
+        names = [handles.text(name, 'name', number, place + NAME_ABOVE)
+                 for number, (name, place) in enumerate(zip(
+                     [*self._names, *CORNERS], [*self._positions, lower, upper]))]
+        self._summary.publish(names)
         lines = plan_rig.describe_sight(self._plan, self._names, self._positions,
                                         self._targets)
-        self._summary.publish([self._text('\n'.join(
-            textwrap.fill(line.strip(), WIDTH) for line in lines))])
-
-    def _text(self, words):
-        corners = np.reshape(self._plan.volume, (2, 3))
-        text = Marker(type=Marker.TEXT_VIEW_FACING, text=words, color=ColorRGBA(1.0, 1.0, 1.0, 1.0))
-        text.header.frame_id = handles.FRAME
-        text.scale.z = 0.1
-        text.pose.orientation.w = 1.0
-        (text.pose.position.x, text.pose.position.y), text.pose.position.z = (
-            corners[:, :2].mean(axis=0), corners[1, 2] + 0.6)
-        return text
+        words = '\n'.join(textwrap.fill(line.strip(), WIDTH) for line in lines)
+        before = [(lower[0] + upper[0]) / 2, *lower[1:]] + SUMMARY_BEFORE
+        self._summary.publish([handles.text(words, 'summary', 0, before), *names])
 
     def _save(self):
         with self._lock:

@@ -30,6 +30,7 @@ constexpr double kRayLength = 10.0;        // of rays without a point [m]
 constexpr double kOldView = 0.2;           // older views are not drawn [s]
 constexpr double kNoImages = 0.7;          // without a newer view, a camera counts as silent [s]
 constexpr double kLedLifetime = 0.5;       // when the tracker stops [s]
+constexpr double kTrailFades = 0.4;        // of an LED that is lost [s]
 constexpr double kCameraLifetime = 1.0;    // when the tracker stops [s]
 constexpr double kAdviceLifetime = 2.0;    // the same [s]
 constexpr std::size_t kMostLabels = 1000;  // whose colours are kept
@@ -51,16 +52,14 @@ std_msgs::ColorRGBA colorOf(tracking::SpotUse use) {
   return color(1.0f, 0.5f, 0.0f, 0.4f);
 }
 
-/// Of a ray: the better the position of its LED is known, the clearer it is.
-float opacityOf(const TrackedPoint& led) {
+/// How well the position of an LED is known, from 0 to 1.
+float qualityOf(const TrackedPoint& led) {
   constexpr double kGood = 0.005, kBad = 0.05;  // standard deviation [m]
-  constexpr double kClear = 0.6, kPale = 0.15;
   const auto& c = led.position_covariance;
   const double stddev = std::sqrt(c[0] + c[4] + c[8]);
   if (!(stddev < kBad))  // or NaN
-    return kPale;
-  const double share = std::max(std::log(stddev / kGood) / std::log(kBad / kGood), 0.0);
-  return static_cast<float>(kClear + share * (kPale - kClear));
+    return 0.0f;
+  return static_cast<float>(std::min(std::log(kBad / stddev) / std::log(kBad / kGood), 1.0));
 }
 
 void setScale(const Vector3d& scale, Marker* marker) {
@@ -102,6 +101,7 @@ visualization_msgs::MarkerArray MarkerBuilder::buildWithoutRig(double time) cons
 void MarkerBuilder::setRig(const geometry::Rig& rig) {
   rig_ = rig;
   must_clear_ = true;
+  rays_.assign(rig.cameras.size(), 0);
   drawn_.clear();
   trails_.clear();
   time_ = -std::numeric_limits<double>::infinity();
@@ -218,7 +218,8 @@ void MarkerBuilder::addMasks(std::size_t index) {
   add(discs);
 }
 
-/// Spots and rays of one camera.
+/// Spots and rays of one camera. A ray to an LED is wider and clearer the better the LED's position
+/// is known.
 void MarkerBuilder::addView(std::size_t index,
                             const tracking::CameraView& view,
                             const wiimote_tracker_msgs::TrackedPointArray& points) {
@@ -226,9 +227,10 @@ void MarkerBuilder::addView(std::size_t index,
   Marker blobs = marker("blob", index, Marker::SPHERE_LIST);
   setScale(Vector3d::Constant(kBlobDiameter), &blobs);
   blobs.color = color(1.0f, 1.0f, 1.0f, 1.0f);
-  Marker rays = marker("ray", index, Marker::LINE_LIST);
-  rays.scale.x = kLineWidth;
-  rays.color = color(1.0f, 1.0f, 1.0f, 1.0f);
+  std::size_t rays = 0;
+  const auto nextRay = [&] {
+    return marker("ray", index + rig_.cameras.size() * rays++, Marker::LINE_LIST);
+  };
   const bool is_new = view.time && std::abs(time_ - *view.time) < kOldView;
   for (const tracking::SeenSpot& spot : is_new ? view.spots : std::vector<tracking::SeenSpot>()) {
     const auto sight = geometry::sightFromPixel(camera, spot.pixel);
@@ -244,17 +246,24 @@ void MarkerBuilder::addView(std::size_t index,
           return spot.use == tracking::SpotUse::kAssigned && point.id == spot.led;
         });
     double length = kRayLength;
-    std_msgs::ColorRGBA color = colorOf(spot.use);
+    Marker ray = nextRay();
+    ray.scale.x = kLineWidth;
+    ray.color = colorOf(spot.use);
     if (led != points.points.end()) {
       length = (vectorOf(led->position) - camera.center()).norm();
-      color.a = opacityOf(*led);
+      const float quality = qualityOf(*led);
+      ray.scale.x *= 0.5 + 1.5 * quality;
+      ray.color.a = 0.15f + 0.45f * quality;
     }
-    rays.points.push_back(pointOf(camera.center()));
-    rays.points.push_back(pointOf(camera.center() + length * sight->direction));
-    rays.colors.insert(rays.colors.end(), 2, color);
+    ray.points.push_back(pointOf(camera.center()));
+    ray.points.push_back(pointOf(camera.center() + length * sight->direction));
+    add(ray);
   }
   add(blobs);
-  add(rays);
+  const std::size_t drawn = rays;
+  while (rays < rays_[index])
+    add(nextRay());
+  rays_[index] = drawn;
 }
 
 /// Adds a marker that consists of points, or deletes it when it has none.
@@ -343,11 +352,15 @@ void MarkerBuilder::removeLed(std::uint32_t id) {
 void MarkerBuilder::addTrails() {
   for (auto trail = trails_.begin(); trail != trails_.end();) {
     std::deque<Place>& places = trail->second.places;
+    const double left = 1.0 - (time_ - places.back().time) / kTrailFades;
+    if (left <= 0.0)
+      places.clear();
     while (!places.empty() && places.front().time < time_ - options_.trail_duration)
       places.pop_front();
     Marker line = marker("trail", trail->first, Marker::LINE_STRIP);
     line.scale.x = kLineWidth;
     line.color = trail->second.color;
+    line.color.a *= static_cast<float>(left);
     for (const Place& place : places)
       line.points.push_back(place.position);
     if (line.points.size() < 2)

@@ -24,11 +24,11 @@ struct MarkerOptions {
 };
 
 /// Markers for rviz of a rig, its cameras' spots, and the LEDs, in the world frame. Namespaces:
-/// camera (its name), housing, frustum, image_plane, mask, blob, ray (one id per camera, in the
-/// order of the rig); point, covariance (95 % ellipsoid), height (a line to the floor), shadow (on
-/// the floor), label, trail (one per LED, with its id). Spots and rays are green when they belong
-/// to an LED, orange when they do not, and grey when masked. A camera without images is grey and
-/// says so. A doubtful label ends with "?". A label keeps its colour, up to 1000 labels.
+/// camera (its name), housing, frustum, image_plane, mask, blob (one id per camera, in the order of
+/// the rig); ray (one per spot); point, covariance (95 % ellipsoid), height (a line to the floor),
+/// shadow (on the floor), label, trail (one per LED, with its id). Spots and rays are green when
+/// they belong to an LED, orange when they do not, and grey when masked. A camera without images is
+/// grey and says so. A doubtful label ends with "?". A label keeps its colour, up to 1000 labels.
 class MarkerBuilder {
  public:
   explicit MarkerBuilder(const MarkerOptions& options) : options_(options) {}
@@ -43,7 +43,7 @@ class MarkerBuilder {
   bool isDue(double time) const;
 
   /// `views`: one per camera of the rig. Deletes the markers of LEDs that are lost or gone; their
-  /// trails fade.
+  /// trails fade within 0.5 s.
   visualization_msgs::MarkerArray build(const wiimote_tracker_msgs::TrackedPointArray& points,
                                         const std::vector<tracking::CameraView>& views);
 
@@ -75,6 +75,7 @@ class MarkerBuilder {
   geometry::Rig rig_;
   bool must_clear_ = false;
   double time_ = -std::numeric_limits<double>::infinity();
+  std::vector<std::size_t> rays_;              // how many are drawn, per camera
   std::set<std::uint32_t> drawn_;              // ids of LEDs
   std::map<std::uint32_t, Trail> trails_;      // by id
   std::map<std::string, std::size_t> labels_;  // in the order in which they came

@@ -11,11 +11,14 @@
 #include <QCheckBox>
 #include <QColor>
 #include <QDoubleSpinBox>
+#include <QFile>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPalette>
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTableWidget>
+#include <QTemporaryDir>
 #include <QThread>
 #include <QTreeWidget>
 
@@ -176,6 +179,21 @@ TEST_F(Panel, CalibratesByPressingTheButtonThatItOffers) {
   screenshot("calibrate_place");
   answerTo("Take this place", "place 1 at (1.000, 1.500, 1.000) m is captured by 4 cameras");
   EXPECT_TRUE(waitFor([this] { return title() == "Solve"; })) << title().toStdString();
+}
+
+TEST_F(Panel, NamesTheBagThatItRecords) {
+  open(2);
+  const QTemporaryDir folder;
+  find<QLineEdit>("path")->setText(folder.filePath("take"));
+  auto* record = find<QPushButton>("record");
+  record->click();
+  EXPECT_TRUE(waitFor([&] {
+    return label("recording").startsWith("Recording to " + folder.filePath("take_2"));
+  })) << label("recording").toStdString();
+  record->click();
+  EXPECT_TRUE(waitFor([&] { return label("recording").startsWith("Recorded to "); }));
+  EXPECT_TRUE(QFile::exists(label("recording").remove("Recorded to ")))
+      << label("recording").toStdString();
 }
 
 TEST_F(Panel, AsksForTheWandOnTheFloor) {

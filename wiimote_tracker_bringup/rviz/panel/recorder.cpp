@@ -1,5 +1,8 @@
 #include "recorder.h"
 
+#include <QDir>
+#include <QFileInfo>
+
 #include <signal.h>
 
 namespace wiimote_tracker::panel {
@@ -17,9 +20,12 @@ Recorder::~Recorder() {
 
 void Recorder::start(const QString& prefix) {
   is_wanted_ = true;
-  words_ = "Recording to " + prefix + "_DATE.bag";
+  words_ = "The recording starts.";
+  // The folder where roslaunch was called: nodes run elsewhere.
+  prefix_ = QDir(qEnvironmentVariable("PWD")).absoluteFilePath(prefix);
+  started_ = QDateTime::currentDateTime();
   process_.setProcessChannelMode(QProcess::ForwardedChannels);
-  process_.start("roslaunch", {"wiimote_tracker_bringup", "record.launch", "output:=" + prefix});
+  process_.start("roslaunch", {"wiimote_tracker_bringup", "record.launch", "output:=" + prefix_});
 }
 
 void Recorder::stop() {
@@ -28,12 +34,25 @@ void Recorder::stop() {
     ::kill(static_cast<pid_t>(process_.processId()), SIGINT);  // as Ctrl-C: the bag is closed
 }
 
+QString Recorder::bag() const {
+  const QFileInfo prefix(prefix_);
+  const QString bags = prefix.fileName() + "_*.bag", written = ".active";
+  const QFileInfoList newest_first =
+      prefix.dir().entryInfoList({bags, bags + written}, QDir::Files, QDir::Time);
+  if (newest_first.empty() || newest_first[0].lastModified() < started_)
+    return {};
+  return newest_first[0].filePath().remove(written);
+}
+
 QString Recorder::words() {
-  if (is_wanted_ && !isRunning()) {
+  if (isRunning()) {
+    if (!bag().isEmpty())
+      words_ = "Recording to " + bag();
+  } else if (is_wanted_) {
     is_wanted_ = false;
     words_ = "The recording has ended by itself: see the terminal in which rviz was started.";
-  } else if (!is_wanted_ && words_.startsWith("Recording")) {
-    words_.replace("Recording", "Recorded");
+  } else if (words_.startsWith("Recording")) {
+    words_ = "Recorded to " + bag();
   }
   return words_;
 }

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_RECORDER_H
 #define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_RECORDER_H
 
+#include <QDateTime>
 #include <QProcess>
 #include <QString>
 
@@ -17,11 +18,16 @@ class Recorder {
   void stop();
   bool isRunning() const { return process_.state() != QProcess::NotRunning; }
 
-  /// Where it records to, or how it ended.
+  /// The bag that it records to, or how it ended.
   QString words();
 
  private:
+  /// Path of the newest bag; empty: there is none yet.
+  QString bag() const;
+
   QProcess process_;
+  QString prefix_;  // absolute
+  QDateTime started_;
   QString words_;
   bool is_wanted_ = false;
 };

@@ -26,6 +26,8 @@ TrackPage::TrackPage(QWidget* parent)
   summary_->setObjectName("tracked");
   leds_->setObjectName("leds");
   record_->setObjectName("record");
+  path_->setObjectName("path");
+  recording_->setObjectName("recording");
   for (QLabel* label : {summary_, events_, recording_})
     label->setWordWrap(true);
   QFont larger = font();

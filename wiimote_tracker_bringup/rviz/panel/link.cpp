@@ -10,7 +10,21 @@ namespace {
 
 const std::string kImages = "/ir_blobs";
 constexpr auto kSearchPeriod = std::chrono::seconds(1);
+const std::string kForgotten =
+    "The ROS master was started again and does not know rviz: start rviz again, too.";
 constexpr std::uint32_t kEvents = 100;  // that wait for the next poll() at most
+
+/// What is wrong with the master, as in masterWords().
+std::string lookForMaster() {
+  XmlRpc::XmlRpcValue arguments, answer, address;
+  arguments[0] = arguments[1] = ros::this_node::getName();
+  if (ros::master::execute("lookupNode", arguments, answer, address, false))
+    return "";
+  if (answer.valid())  // "unknown node"
+    return kForgotten;
+  return "There is no ROS master at " + ros::master::getURI() +
+         ": connected nodes go on, but nothing can be requested. Start roscore, then all again.";
+}
 
 }  // namespace
 
@@ -43,17 +57,27 @@ void Link::poll() {
   queue_.callAvailable();
 }
 
+std::string Link::masterWords() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return master_words_;
+}
+
 void Link::run() {
   subscribeTracker();
+  std::string master_words;
   std::unique_lock<std::mutex> lock(mutex_);
   while (!must_end_) {
     lock.unlock();
+    // What is subscribed later makes rviz known, but not what it had subscribed before.
+    if (master_words != kForgotten)
+      master_words = lookForMaster();
     const auto cameras = findCameras();
     if (cameras) {
       for (const std::string& name : *cameras)
         subscribeCamera(name);
     }
     lock.lock();
+    master_words_ = master_words;
     if (cameras)
       cameras_ = cameras;
     changed_.wait_for(lock, kSearchPeriod, [this] { return must_end_; });

@@ -29,6 +29,9 @@ class Link {
   /// Hands over the newest messages. Called by the thread that owns the views.
   void poll();
 
+  /// What is wrong with the ROS master, in words; empty: nothing.
+  std::string masterWords();
+
   /// The time that the views are told [s].
   static double now();
 
@@ -51,6 +54,7 @@ class Link {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<std::set<std::string>> cameras_;  // found, not handed over yet
+  std::string master_words_;
   bool must_end_ = false;
   std::thread thread_;
 };

@@ -5,6 +5,7 @@
 #include "health_page.h"
 #include "track_page.h"
 
+#include <QLabel>
 #include <QTabWidget>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -18,6 +19,7 @@ constexpr int kRefreshPeriod = 66;  // [ms]
 
 TrackerWidget::TrackerWidget(QWidget* parent)
     : QWidget(parent),
+      master_(new QLabel(this)),
       pages_(new QTabWidget(this)),
       cameras_(new CamerasPage(pages_)),
       calibrate_(new CalibratePage(pages_, [this](const Request& r) { requests_.send(r); })),
@@ -29,7 +31,10 @@ TrackerWidget::TrackerWidget(QWidget* parent)
   pages_->addTab(health_, "Health");
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(master_);
   layout->addWidget(pages_);
+  master_->setWordWrap(true);
+  master_->hide();
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, &TrackerWidget::refresh);
   timer->start(kRefreshPeriod);
@@ -38,6 +43,8 @@ TrackerWidget::TrackerWidget(QWidget* parent)
 void TrackerWidget::refresh() {
   link_.poll();
   requests_.poll();
+  master_->setText(QString::fromStdString(link_.masterWords()));
+  master_->setVisible(!master_->text().isEmpty());
   const double now = Link::now();
   if (cameras_->isVisible())
     cameras_->show(views_.cameras, now);

@@ -7,6 +7,7 @@
 
 #include <QWidget>
 
+class QLabel;
 class QTabWidget;
 
 namespace wiimote_tracker::panel {
@@ -16,7 +17,8 @@ class CamerasPage;
 class HealthPage;
 class TrackPage;
 
-/// The panel without rviz: pages, and a timer that draws the one in front.
+/// The panel without rviz: pages, and a timer that draws the one in front. Above them it says what
+/// is wrong with the ROS master.
 class TrackerWidget : public QWidget {
  public:
   explicit TrackerWidget(QWidget* parent);
@@ -31,6 +33,7 @@ class TrackerWidget : public QWidget {
   Views views_;
   Link link_{&views_};
   Requests requests_{&views_.guide};
+  QLabel* master_;
   QTabWidget* pages_;
   CamerasPage* cameras_;
   CalibratePage* calibrate_;

@@ -335,12 +335,16 @@ TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
 
 TEST_F(Node, TheLastSavedRigIsLoadedAtStart) {
   ASSERT_TRUE(exists(folder_ + "/rig.yaml"));  // from the test before
-  const Process process("/stored", {"_rig_file:=" + folder_ + "/rig.yaml"});
+  const Process process("/stored", {"_rig_file:=" + folder_ + "/rig.yaml", "_origin_x:=1.0"});
   Latest<RigCalibration> rig("/stored/calibration/rig");
+  Latest<geometry_msgs::PolygonStamped> square("/stored/calibration/square");
   Latest<CalibrationStatus> status("/stored/calibration/status");
   ASSERT_TRUE(waitUntil([&] { return rig.get() && status.get(); }));
   EXPECT_EQ(rig.get()->id, geometry::readRigFile(folder_ + "/rig.yaml").id());
   EXPECT_EQ(status.get()->step, CalibrationStatus::SAVED);
+  ASSERT_TRUE(waitUntil([&] { return square.get() && !square.get()->polygon.points.empty(); }));
+  EXPECT_EQ(square.get()->header.frame_id, "world");
+  EXPECT_EQ(square.get()->polygon.points[0].x, 0.0f) << "where it was calibrated, with origin_x: 0";
 }
 
 TEST_F(Node, ADamagedRigAtStartDoesNotStopTheNode) {

@@ -112,25 +112,27 @@ TEST(Parameters, WhatThePaperDoesCanBeChosen) {
 }
 
 TEST(Parameters, TheSquareIsWhereTheSolverPutsIt) {
-  workflow::CalibrationOptions options;
-  options.origin = {1.0, 0.5};
-  options.yaw = 0.3;
   square::SquareLayout layout;
   layout.side_x = 2.5;
   layout.side_y = 2.0;
-  layout.origin = options.origin;
-  layout.yaw = options.yaw;
-  const Eigen::Isometry3d world_from_square = tf2::transformToEigen(squareTransform(options));
-  const auto outline = squareOutline(options, {2.5, 2.0});
-  EXPECT_EQ(outline.header.frame_id, squareTransform(options).child_frame_id);
+  layout.led_height = 0.1;
+  layout.origin = {1.0, 0.5};
+  layout.yaw = 0.3;
+  geometry::Rig rig;
+  layout.describeIn(&rig);
+  const auto outline = squareOutline("world", squareOf(rig));
+  EXPECT_EQ(outline.header.frame_id, "world");
+  const Eigen::Isometry3d world_from_square =
+      tf2::transformToEigen(squareTransform("world", layout));
+  const Eigen::Vector3d in_square[] = {{0, 0, 0}, {2.5, 0, 0}, {2.5, 2, 0}, {0, 2, 0}};
   for (std::size_t i = 0; i < 4; ++i) {
     const geometry_msgs::Point32& corner = outline.polygon.points.at(i);
-    EXPECT_LT((world_from_square * Eigen::Vector3d(corner.x, corner.y, corner.z) -
-               layout.corners(true)[i])
-                  .norm(),
-              1e-9);
+    const Eigen::Vector3d in_world(corner.x, corner.y, corner.z);
+    EXPECT_LT((world_from_square * in_square[i] - in_world).norm(), 1e-6);
+    EXPECT_LT((layout.corners(true)[i].head<2>() - in_world.head<2>()).norm(), 1e-6);
   }
-  EXPECT_TRUE(squareOutline(options, {}).polygon.points.empty());
+  rig.square_pose.reset();  // a file of an earlier version
+  EXPECT_TRUE(squareOutline("world", squareOf(rig)).polygon.points.empty());
 }
 
 TEST(Parameters, BadValuesAreRefusedByName) {

@@ -26,6 +26,7 @@ TEST(FilesOfVersion1, AreRead) {
   EXPECT_EQ("wiimote_1", rig.cameras[0].camera.name);
   EXPECT_EQ(1024, rig.cameras[0].camera.intrinsics.width);
   EXPECT_EQ(4 * 16, rig.covariance.rows());
+  EXPECT_FALSE(rig.square_pose) << "was not written then";
   EXPECT_EQ(1u, body::readBodies(kVersion1 / "bodies.yaml").size());
   const std::vector<gesture::Example> examples = gesture::readExamples(kVersion1 / "gestures.yaml");
   ASSERT_EQ(1u, examples.size());

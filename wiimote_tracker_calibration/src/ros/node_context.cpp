@@ -67,7 +67,10 @@ NodeContext::NodeContext(const ros::NodeHandle& nh, const Parameters& parameters
       sound_publisher_(nh_.advertise<std_msgs::String>("calibration/sound", 10)),
       inputs_(nh_, parameters.cameras, parameters.button_remote, &mutex_, &changed_) {
   // Before a calibration, too, so that the world is a frame that others can show.
-  transforms_.sendTransform(squareTransform(parameters.calibration));
+  square::SquareLayout square;
+  square.origin = parameters.calibration.origin;
+  square.yaw = parameters.calibration.yaw;
+  transforms_.sendTransform(squareTransform(parameters.calibration.world_frame, square));
   inputs_.subscribeImages([this](const capture::Image& image, const Lock&) {
     const CameraInput& camera = inputs_.cameras().at(image.camera);
     if (isWalked() && camera.width > 0 && camera.height > 0)
@@ -248,13 +251,17 @@ void NodeContext::publishSound(const Lock&) {
 }
 
 void NodeContext::publishSquare(const Lock&) {
-  std::vector<double> sides = calibration_.sides();
-  if (sides.empty() && calibration_.rig())
-    sides = calibration_.rig()->square_sides;
-  if (sides == square_sides_)
+  std::optional<square::SquareLayout> square = calibration_.layout();
+  if (!square && calibration_.rig())
+    square = squareOf(*calibration_.rig());
+  const std::string& world_frame = parameters_.calibration.world_frame;
+  const geometry_msgs::PolygonStamped outline = squareOutline(world_frame, square);
+  if (outline == outline_)
     return;
-  square_sides_ = sides;
-  square_publisher_.publish(squareOutline(parameters_.calibration, sides));
+  outline_ = outline;
+  square_publisher_.publish(outline);
+  if (square)
+    transforms_.sendTransform(squareTransform(world_frame, *square));
 }
 
 }  // namespace wiimote_tracker

@@ -11,6 +11,7 @@
 #include "parameters.h"
 #include "requests.h"
 
+#include <geometry_msgs/PolygonStamped.h>
 #include <ros/node_handle.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <wiimote_tracker_msgs/CalibrationCameraStatus.h>
@@ -171,7 +172,7 @@ class NodeContext {
   ros::Publisher verdict_publisher_;
   ros::Publisher square_publisher_;
   ros::Publisher sound_publisher_;
-  std::vector<double> square_sides_;  // as published
+  geometry_msgs::PolygonStamped outline_;  // of the square, as published
   tf2_ros::StaticTransformBroadcaster transforms_;
   CameraInputs inputs_;
 };

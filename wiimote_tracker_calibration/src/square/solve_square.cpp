@@ -220,8 +220,7 @@ SquareSolution solveSquare(const SquareLayout& layout,
   for (std::size_t c = 0; c < 4; ++c)
     solution.corner_offsets[c] = state.corners[c] - model.nominalCorners()[c];
 
-  rig.square_sides = {layout.side_x, layout.side_y};
-  rig.led_height = layout.led_height;
+  layout.describeIn(&rig);
   for (std::size_t i = 0; i < state.cameras.size(); ++i)
     rig.cameras.push_back(rigCamera(model, state, i));
   solution.expected_error = expectedError(rig, boxOver(model.nominalCorners(), solution.z_up));

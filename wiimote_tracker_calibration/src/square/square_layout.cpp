@@ -1,5 +1,6 @@
 #include "wiimote_tracker_calibration/square/square_layout.h"
 
+#include <wiimote_tracker_triangulation/geometry/rig.h>
 #include "square/error.h"
 
 #include <Eigen/Geometry>
@@ -59,6 +60,12 @@ Corners SquareLayout::corners(bool z_up) const {
     corners[i] = Eigen::Vector3d(in_world.x(), in_world.y(), z);
   }
   return corners;
+}
+
+void SquareLayout::describeIn(geometry::Rig* rig) const {
+  rig->square_sides = {side_x, side_y};
+  rig->square_pose = geometry::SquarePose{origin, yaw};
+  rig->led_height = led_height;
 }
 
 }  // namespace wiimote_tracker::square

@@ -80,8 +80,7 @@ void describeSquare(const Recording& recording,
                     WaveSolution* solution) {
   geometry::Rig& rig = solution->rig;
   rig.method = "square+" + rig.method;
-  rig.square_sides = {recording.square->side_x, recording.square->side_y};
-  rig.led_height = recording.square->led_height;
+  recording.square->describeIn(&rig);
   square::CornerEstimates corners;
   for (std::size_t c = 0; c < state.corner_offsets.size(); ++c) {
     const Eigen::Index row = 2 * static_cast<Eigen::Index>(c);

@@ -167,6 +167,8 @@ class Calibration {
   /// Empty when nothing is started.
   const std::vector<std::string>& cameras() const { return captured_.cameras; }
   const SquareRun& square() const { return captured_.square; }
+  /// Nothing when nothing is started, or without a square.
+  const std::optional<square::SquareLayout>& layout() const { return captured_.layout; }
   /// Along x, along y [m]; empty without a square.
   std::vector<double> sides() const;
   /// The wave that is being recorded, or was.

@@ -90,6 +90,8 @@ void Rig::check() const {
           "virtual_hfov must lie between 0 and pi rad");
   for (const double side : square_sides)
     require(std::isfinite(side) && side > 0.0, "every side of the square must be above 0 m");
+  require(!square_pose || (square_pose->origin.allFinite() && std::isfinite(square_pose->yaw)),
+          "the square's origin and yaw must be numbers");
 
   std::set<std::string> frames;
   for (const RigCamera& camera : cameras) {

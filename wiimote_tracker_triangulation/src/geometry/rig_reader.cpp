@@ -118,6 +118,10 @@ Rig readRigFile(const std::string& path) {
   rig.ray_model = readWord<RayModel>(map, "ray_model", kRayModelWords);
   rig.virtual_hfov = map.get<double>("virtual_hfov");
   rig.square_sides = map.numbers("square_sides");
+  if (map.has("square_origin")) {
+    const std::vector<double> origin = map.numbers("square_origin", 2);
+    rig.square_pose = SquarePose{{origin[0], origin[1]}, map.get<double>("square_yaw")};
+  }
   rig.led_height = map.get<double>("led_height");
   YamlMap cameras = map.map("cameras");
   for (const std::string& name : map.get<std::vector<std::string>>("camera_order"))

@@ -124,6 +124,10 @@ void writeRigFile(const Rig& rig, const std::string& path) {
       << kRayModelWords[static_cast<std::size_t>(rig.ray_model)];
   emitNumber("virtual_hfov", rig.virtual_hfov, out);
   emitNumbers("square_sides", rig.square_sides, out);
+  if (rig.square_pose) {
+    emitNumbers("square_origin", rig.square_pose->origin, out);
+    emitNumber("square_yaw", rig.square_pose->yaw, out);
+  }
   emitNumber("led_height", rig.led_height, out);
 
   out << YAML::Key << "camera_order" << YAML::Value << YAML::Flow << YAML::BeginSeq;

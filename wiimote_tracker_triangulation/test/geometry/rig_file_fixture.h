@@ -76,6 +76,7 @@ inline Rig fullRig(int cameras = 2) {
   rig.ray_model = RayModel::kImageCenter;
   rig.virtual_hfov = 41.0 * M_PI / 180.0;
   rig.square_sides = {2.5, 1.0 / 3.0};
+  rig.square_pose = SquarePose{{1.0 / 7.0, -0.5}, 0.3};
   rig.led_height = 0.1;
   rig.verdict = "gut genug für alle: 0.3 px";
   rig.zones = {{"hall", {0.1, 0.2, 0.3}, {1.0 / 7.0, 2.0, 3.0}}};

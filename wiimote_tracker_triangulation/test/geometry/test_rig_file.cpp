@@ -64,6 +64,11 @@ void expectSame(const Rig& a, const Rig& b) {
   EXPECT_EQ(a.ray_model, b.ray_model);
   EXPECT_TRUE(same(a.virtual_hfov, b.virtual_hfov) && same(a.led_height, b.led_height));
   EXPECT_EQ(a.square_sides, b.square_sides);
+  ASSERT_EQ(a.square_pose.has_value(), b.square_pose.has_value());
+  if (a.square_pose) {
+    EXPECT_EQ(a.square_pose->origin, b.square_pose->origin);
+    EXPECT_EQ(a.square_pose->yaw, b.square_pose->yaw);
+  }
   EXPECT_EQ(a.verdict, b.verdict);
   EXPECT_EQ(a.covariance, b.covariance);
   ASSERT_EQ(a.zones.size(), b.zones.size());

@@ -93,6 +93,9 @@ TEST(RigId, DoesNotChangeWithWhatMovesNoPoint) {
       [](Rig& r) {
         r.square_sides = {2.5, 2.5};
       },
+      [](Rig& r) {
+        r.square_pose = SquarePose{{1.0, 0.0}, 0.3};
+      },
       [](Rig& r) { r.cameras[0].residual_px = 0.3; },
       [](Rig& r) { r.cameras[0].gravity = Eigen::Vector3d(0.0, -9.8, 0.0); },
       [](Rig& r) { r.cameras[0].camera.intrinsics.distortion[1] = 0.0; },

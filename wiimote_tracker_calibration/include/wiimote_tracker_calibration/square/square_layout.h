@@ -7,6 +7,10 @@
 #include <cstddef>
 #include <vector>
 
+namespace wiimote_tracker::geometry {
+struct Rig;
+}
+
 namespace wiimote_tracker::square {
 
 /// World points of the four corners, in the order of capture [m].
@@ -55,6 +59,9 @@ struct SquareLayout {
   /// @param z_up the corners go round counter-clockwise seen from above. Otherwise z points down
   /// and the LED, still above the floor, has negative z.
   Corners corners(bool z_up) const;
+
+  /// Notes in the rig that it was calibrated with this square.
+  void describeIn(geometry::Rig* rig) const;
 };
 
 }  // namespace wiimote_tracker::square

@@ -33,6 +33,13 @@ struct Zone {
   Eigen::Vector3d maximum;  ///< [m]
 };
 
+/// Where the world lies in a calibration square, whose own axes are: origin at the first corner, x
+/// towards the second, y towards the fourth.
+struct SquarePose {
+  Eigen::Vector2d origin;  ///< World's origin in the square's axes [m].
+  double yaw;              ///< From the square's x axis to the world's x axis, about z [rad].
+};
+
 /// A camera of a rig and its calibration. Fields as in CameraCalibration.msg; NaN and empty mean
 /// unknown.
 struct RigCamera {
@@ -65,7 +72,8 @@ struct Rig {
   RayModel ray_model = RayModel::kCalibrated;
   double virtual_hfov = std::numeric_limits<double>::quiet_NaN();  ///< [rad]
   std::vector<double> square_sides;                                ///< Along x, along y [m].
-  double led_height = std::numeric_limits<double>::quiet_NaN();    ///< [m]
+  std::optional<SquarePose> square_pose;  ///< Only in files. Nothing: unknown, as in older ones.
+  double led_height = std::numeric_limits<double>::quiet_NaN();  ///< [m]
   std::vector<RigCamera> cameras;
 
   /// Order as in RigCalibration.msg, but 16 per camera whatever its lens: an equidistant one has

@@ -116,9 +116,8 @@ void ImageUpdate::measureFit(const StoredImage& image,
       continue;
     const bool has_spot = candidate.spot != kNone;
     const bool is_astray = has_spot && is_tested && !track.raysMeet();
-    // Beside an LED that has a spot it may be merged.
-    const bool is_absent = !has_spot && others >= (is_pair ? 1 : 2) &&
-                           !isBeside(candidate, options_.merging_distance, true);
+    const bool is_absent =
+        !has_spot && others >= (is_pair ? 1 : 2) && !mayBeMerged(image, candidate);
     shown += has_spot && !is_astray;
     missing += is_astray || is_absent;
     unassigned += is_astray;
@@ -144,14 +143,48 @@ void ImageUpdate::measureClock(const StoredImage& image,
   }
 }
 
-/// Whether another LED is within a distance [px]. @param has_spot only such LEDs count
-bool ImageUpdate::isBeside(const Candidate& candidate, double distance, bool has_spot) const {
-  return std::any_of(
-      candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(candidate_count_),
-      [&](const Candidate& other) {
-        return other.track != candidate.track && !(has_spot && other.spot == kNone) &&
-               (other.prediction.pixel() - candidate.prediction.pixel()).norm() < distance;
-      });
+/// Whether another LED is within a distance [px].
+bool ImageUpdate::isBeside(const Candidate& candidate, double distance) const {
+  const auto end = candidates_.begin() + static_cast<std::ptrdiff_t>(candidate_count_);
+  return std::any_of(candidates_.begin(), end, [&](const Candidate& other) {
+    return other.track != candidate.track && pixelsBetween(candidate, other) < distance;
+  });
+}
+
+/// Whether an LED without a spot may be merged with another one, which has a spot or has none, too.
+bool ImageUpdate::mayBeMerged(const StoredImage& image, const Candidate& candidate) const {
+  const auto end = candidates_.begin() + static_cast<std::ptrdiff_t>(candidate_count_);
+  return std::any_of(candidates_.begin(), end, [&](const Candidate& other) {
+    return other.track != candidate.track &&
+           pixelsBetween(candidate, other) < options_.merging_distance &&
+           (other.spot != kNone || spotBetween(image, candidate, other));
+  });
+}
+
+/// The unassigned spot that is nearest to a pixel, and nearer than this distance [px].
+std::optional<std::size_t> ImageUpdate::nearestUnassigned(const StoredImage& image,
+                                                          const Eigen::Vector2d& pixel,
+                                                          double distance) const {
+  std::optional<std::size_t> nearest;
+  for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
+    const double to_spot = (image.pixels[spot] - pixel).norm();
+    if (track_of_spot_[spot] == association::kFalseDetection && to_spot < distance) {
+      distance = to_spot;
+      nearest = spot;
+    }
+  }
+  return nearest;
+}
+
+/// An unassigned spot between two LEDs that have none is the merged spot of both, if they are close
+/// enough. It may be outside the gates of both.
+std::optional<std::size_t> ImageUpdate::spotBetween(const StoredImage& image,
+                                                    const Candidate& a,
+                                                    const Candidate& b) const {
+  if (pixelsBetween(a, b) >= options_.merging_distance)
+    return std::nullopt;
+  const Eigen::Vector2d middle = 0.5 * (a.prediction.pixel() + b.prediction.pixel());
+  return nearestUnassigned(image, middle, 0.5 * options_.merging_distance);
 }
 
 /// Of the LED's spot or, since an image of a wrong time shows it outside the gate, the nearest spot
@@ -160,18 +193,13 @@ bool ImageUpdate::isBeside(const Candidate& candidate, double distance, bool has
 std::optional<Eigen::Vector2d> ImageUpdate::residualOf(const StoredImage& image,
                                                        const Candidate& candidate) const {
   constexpr double kFarthest = 30.0;  // [px]
-  if (isBeside(candidate, std::max(kFarthest, options_.merging_distance), false))
+  if (isBeside(candidate, std::max(kFarthest, options_.merging_distance)))
     return std::nullopt;
-  if (candidate.spot != kNone)
-    return image.pixels[static_cast<std::size_t>(candidate.spot)] - candidate.prediction.pixel();
-  std::optional<Eigen::Vector2d> nearest;
-  for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
-    const Eigen::Vector2d residual = image.pixels[spot] - candidate.prediction.pixel();
-    if (track_of_spot_[spot] == association::kFalseDetection &&
-        residual.norm() < (nearest ? nearest->norm() : kFarthest))
-      nearest = residual;
-  }
-  return nearest;
+  const Eigen::Vector2d& predicted = candidate.prediction.pixel();
+  const auto spot = candidate.spot != kNone
+                        ? std::make_optional(static_cast<std::size_t>(candidate.spot))
+                        : nearestUnassigned(image, predicted, kFarthest);
+  return spot ? std::make_optional<Eigen::Vector2d>(image.pixels[*spot] - predicted) : std::nullopt;
 }
 
 /// Costs are negative log likelihoods. The density of a spot is that of its track's prediction, or
@@ -252,33 +280,19 @@ const ImageUpdate::Candidate* ImageUpdate::mergedWith(const StoredImage& image,
   return result;
 }
 
-/// An unassigned spot between two LEDs that have none and may merge is the merged spot of both. It
-/// may be outside the gates of both.
 void ImageUpdate::findMergedSpots(const StoredImage& image, const std::vector<Track>& tracks) {
   const auto isAlone = [&](const Candidate& candidate) {
     return candidate.spot == kNone && tracks[candidate.track].isConfirmed();
   };
   for (std::size_t i = 0; i < candidate_count_; ++i) {
     for (std::size_t j = i + 1; j < candidate_count_; ++j) {
-      Candidate& a = candidates_[i];
-      Candidate& b = candidates_[j];
-      if (!isAlone(a) || !isAlone(b))
+      Candidate &a = candidates_[i], &b = candidates_[j];
+      const auto spot = isAlone(a) && isAlone(b) ? spotBetween(image, a, b) : std::nullopt;
+      if (!spot)
         continue;
       const Eigen::Vector2d between = b.prediction.pixel() - a.prediction.pixel();
-      if (between.norm() >= options_.merging_distance)
-        continue;
-      const Eigen::Vector2d middle = a.prediction.pixel() + 0.5 * between;
-      std::optional<std::size_t> nearest;
-      double least = 0.5 * options_.merging_distance;
-      for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
-        const double distance = (image.pixels[spot] - middle).norm();
-        if (track_of_spot_[spot] == association::kFalseDetection && distance < least) {
-          least = distance;
-          nearest = spot;
-        }
-      }
-      if (nearest)
-        assignSpot(*nearest, (image.pixels[*nearest] - middle).dot(between) > 0.0 ? &b : &a);
+      const Eigen::Vector2d from_a = image.pixels[*spot] - a.prediction.pixel();
+      assignSpot(*spot, from_a.dot(between) > 0.5 * between.squaredNorm() ? &b : &a);
     }
   }
 }

@@ -48,6 +48,10 @@ class ImageUpdate {
   };
   static constexpr int kNone = -1;
 
+  static double pixelsBetween(const Candidate& a, const Candidate& b) {
+    return (a.prediction.pixel() - b.prediction.pixel()).norm();
+  }
+
   void collectCandidates(const GroupCamera& camera,
                          const StoredImage& image,
                          std::vector<Track>* tracks);
@@ -61,7 +65,14 @@ class ImageUpdate {
   void measureClock(const StoredImage& image,
                     const std::vector<Track>& tracks,
                     std::vector<CameraFit>* fits) const;
-  bool isBeside(const Candidate& candidate, double distance, bool has_spot) const;
+  bool isBeside(const Candidate& candidate, double distance) const;
+  bool mayBeMerged(const StoredImage& image, const Candidate& candidate) const;
+  std::optional<std::size_t> nearestUnassigned(const StoredImage& image,
+                                               const Eigen::Vector2d& pixel,
+                                               double distance) const;
+  std::optional<std::size_t> spotBetween(const StoredImage& image,
+                                         const Candidate& a,
+                                         const Candidate& b) const;
   std::optional<Eigen::Vector2d> residualOf(const StoredImage& image,
                                             const Candidate& candidate) const;
   void assign(const GroupCamera& camera,

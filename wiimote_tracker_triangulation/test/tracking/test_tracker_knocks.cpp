@@ -130,5 +130,44 @@ TEST(TrackerKnocks, OfTwoCamerasNoWrongPointsAreTracked) {
   EXPECT_GT(tracked, 0.27 * leds) << "tracked again";
 }
 
+/// Two LEDs come so close before one camera that they are one spot, outside the gates of both; a
+/// third is hidden from it. In the free slot it shows a reflection.
+TEST(TrackerKnocks, ACameraBeforeWhichLedsMergeIsNotLeftOut) {
+  const geometry::Rig rig = paperRig();
+  const geometry::Camera& camera = rig.cameras[kKnocked].camera;
+  const Eigen::Vector3d place(1.25, 1.25, 1.0);
+  const Eigen::Vector3d line_of_sight = (camera.center() - place).normalized();
+  const Eigen::Vector3d aside = camera.world_from_camera.linear().col(0);
+  const double pixel = (camera.center() - place).norm() / camera.intrinsics.fx;  // [m]
+  const Path approaching = [&](double time) {
+    const double pixels = 15.0 + 200.0 * std::max(0.0, 1.0 - (time - 1000.0) / 4.0);
+    return Eigen::Vector3d(place + 0.3 * line_of_sight + pixels * pixel * aside);
+  };
+  SceneOptions options;
+  options.merging_distance = 24.0;
+  options.hidden = [](std::size_t which, std::size_t led, double time) {
+    return which == kKnocked && led == 2 && time > 1004.0;
+  };
+  Scene scene(rig, {still(place), approaching, still({0.6, 0.8, 0.7}), still({1.9, 1.8, 1.4})},
+              options, 1);
+  Tracker tracker(rig, exactOptions());
+  std::size_t merged = 0;
+  for (double time = 0.0; time < 6.0;) {
+    const SceneImage& next = scene.next();
+    time = next.true_time - options.start;
+    CameraImage image = next.image;
+    if (next.camera == kKnocked && image.spots.size() < image.maximum_spots) {
+      merged += image.spots.size() == 2;
+      image.spots.emplace_back();
+      image.spots.back().pixel = {900.0, 700.0};
+    }
+    tracker.add(next.camera, image);
+    while (tracker.next()) {
+    }
+    ASSERT_FALSE(isMisfit(tracker, kKnocked)) << time;
+  }
+  EXPECT_GT(merged, 150u);
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::tracking::test

@@ -1,0 +1,68 @@
+// What the residuals of a wave say about the noise and about errors that are not as stated.
+#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
+#include "wiimote_tracker_calibration/wave/solve_wave.h"
+
+#include "wave_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace wiimote_tracker::wave {
+namespace {
+
+TEST(Wave, ResidualsTellTheNoise) {
+  // The path of few images fits a good part of their noise.
+  WaveScene scene = shortScene();
+  const double noise = std::sqrt(scene.pixel * scene.pixel + 1.0 / 12.0);
+  for (const std::size_t cameras : {2, 3}) {
+    scene.camera_count = cameras;
+    double squared = 0.0;
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      const WaveSolution solution =
+          solveWave(simulateWave(scene, seed).recording, optionsFor(scene));
+      for (const geometry::RigCamera& camera : solution.rig.cameras) {
+        squared += 0.5 * std::pow(camera.residual_px, 2);
+        ++count;
+      }
+    }
+    EXPECT_NEAR(std::sqrt(squared / count), noise, 0.03 * noise) << cameras;
+  }
+}
+
+TEST(Wave, ResidualsOfFewImagesAreNotEnlarged) {
+  // The path has more parameters than there are pixels.
+  WaveScene scene;
+  scene.camera_count = 2;
+  scene.rate = 15.0;
+  scene.duration = 30.0;
+  scene.pixel = 0.0;
+  scene.quantized = false;
+  scene.wrong_share = 0.0;
+  const WaveSolution solution = solveWave(simulateWave(scene, 1).recording, optionsFor(scene));
+  for (const geometry::RigCamera& camera : solution.rig.cameras)
+    EXPECT_LT(camera.residual_px, 0.05);
+}
+
+TEST(Wave, MisfitIsOneWhereTheErrorsAreStatedRightly) {
+  // The expectation is exact for small errors: corners and lenses are fitted, too.
+  WaveScene scene = shortScene();
+  scene.quantized = false;
+  scene.wrong_share = 0.0;
+  for (const std::size_t cameras : {2, 4}) {
+    scene.camera_count = cameras;
+    WaveOptions options = optionsFor(scene);
+    options.offset = scene.offset * std::sqrt(2.0 / 3.0);  // of differences of uniform offsets
+    const int kSeeds = 20;
+    double squared = 0.0;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed)
+      squared += std::pow(solveWave(simulateWave(scene, seed).recording, options).misfit, 2);
+    // At least seven degrees of freedom: three standard deviations are allowed.
+    EXPECT_NEAR(squared / kSeeds, 1.0, 0.36) << cameras;
+  }
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::wave

@@ -10,7 +10,7 @@ TITLE = 'Circles'
 live = with_a_person.live
 
 PROGRAM = 'evaluate_circles'
-QUICK, FULL = 6, 24  # sessions each with two and with four cameras
+QUICK, FULL = 3, 24  # sessions each with two and with four cameras
 SETS = ((2, 'two'), (4, 'four'))
 METHODS = (
     ('C3_image_center', "the paper's C3, rays from the image centre", charts.RED),

@@ -95,3 +95,16 @@ def test_a_replay_knows_bodies_and_codes(load):
     parameters = load('replay.launch', 'bag:=x', 'bodies:=b.yaml', 'blink_codes:=c.yaml')[1]
     assert parameters['/triangulation/bodies/file'] == 'b.yaml'
     assert parameters['/triangulation/identity/codes'] == 'c.yaml'
+
+
+@pytest.mark.parametrize('arguments', [[], ['one_manager:=true'], ['rviz:=true']])
+def test_the_demo_builds_what_its_launch_file_starts(load, arguments):
+    with open(os.path.join(LAUNCH, '../CMakeLists.txt'), encoding='utf-8') as file:
+        built = re.search(r'foreach\(target ([^)]*)\)', file.read()).group(1).split()
+    packages = os.path.join(LAUNCH, '../..')
+    started = {node.type for node in load('simulated_rig.launch', *arguments)[0].values()
+               if node.package.startswith('wiimote_tracker_')}
+    scripts = {name for package in os.listdir(packages) if package.startswith('wiimote_tracker_')
+               for _, _, names in os.walk(os.path.join(packages, package)) for name in names}
+    assert 'simulated_rig' in started
+    assert started - scripts <= set(built)

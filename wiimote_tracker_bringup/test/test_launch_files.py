@@ -36,6 +36,30 @@ def test_cameras_are_where_the_user_says(load, given, found):
     assert load('tracker.launch', 'cameras:=' + given)[1]['/drivers/file'] == found
 
 
+@pytest.mark.parametrize('name, given', [
+    ('tracker.launch', []), ('simulated_rig.launch', []), ('replay.launch', ['bag:=x'])])
+def test_a_file_of_parameters_wins(load, tmp_path, name, given):
+    file = tmp_path / 'my.yaml'
+    file.write_text('triangulation: {tracks: {gate: 9.0}, mode: instant}\n'
+                    'calibration: {continuous_policy: all, side_length: 3.0}\n'
+                    'drivers: {driver: {latency: 0.005}}\n')
+    before = load(name, *given)[1]
+    after = load(name, 'parameters:=' + str(file), *given)[1]
+    changed = {'/triangulation/tracks/gate': 9.0, '/triangulation/mode': 'instant'}
+    if name != 'replay.launch':
+        changed.update({'/calibration/continuous_policy': 'all', '/calibration/side_length': 3.0,
+                        '/drivers/driver/latency': 0.005})
+    assert {key: after[key] for key in changed} == changed
+    assert all(after[key] == value for key, value in before.items() if key not in changed)
+
+
+def test_parameters_are_where_the_user_says(load, monkeypatch, tmp_path):
+    (tmp_path / 'my lab.yaml').write_text('triangulation: {mode: instant}\n')
+    monkeypatch.setenv('PWD', str(tmp_path))
+    parameters = load('tracker.launch', 'parameters:=my lab.yaml')[1]
+    assert parameters['/triangulation/mode'] == 'instant'
+
+
 @pytest.mark.parametrize('given, found', [
     ('rec 1.bag', '/home/my lab/rec 1.bag'), ('/data/rec.bag', '/data/rec.bag'),
     ('5', '/home/my lab/5')])

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace wiimote_tracker::tracking {
@@ -117,7 +116,7 @@ void ImageUpdate::measureFit(const StoredImage& image,
     const bool has_spot = candidate.spot != kNone;
     const bool is_astray = has_spot && is_tested && !track.raysMeet();
     const bool is_absent =
-        !has_spot && others >= (is_pair ? 1 : 2) && !mayBeMerged(image, candidate);
+        !has_spot && others >= (is_pair ? 1 : 2) && !mayBeMerged(image, candidate, tracks);
     shown += has_spot && !is_astray;
     missing += is_astray || is_absent;
     unassigned += is_astray;
@@ -145,19 +144,21 @@ void ImageUpdate::measureClock(const StoredImage& image,
 
 /// Whether another LED is within a distance [px].
 bool ImageUpdate::isBeside(const Candidate& candidate, double distance) const {
-  const auto end = candidates_.begin() + static_cast<std::ptrdiff_t>(candidate_count_);
-  return std::any_of(candidates_.begin(), end, [&](const Candidate& other) {
+  return std::any_of(candidates_.data(), end(), [&](const Candidate& other) {
     return other.track != candidate.track && pixelsBetween(candidate, other) < distance;
   });
 }
 
 /// Whether an LED without a spot may be merged with another one, which has a spot or has none, too.
-bool ImageUpdate::mayBeMerged(const StoredImage& image, const Candidate& candidate) const {
-  const auto end = candidates_.begin() + static_cast<std::ptrdiff_t>(candidate_count_);
-  return std::any_of(candidates_.begin(), end, [&](const Candidate& other) {
+/// A tentative track without one may be of the LED itself.
+bool ImageUpdate::mayBeMerged(const StoredImage& image,
+                              const Candidate& candidate,
+                              const std::vector<Track>& tracks) const {
+  return std::any_of(candidates_.data(), end(), [&](const Candidate& other) {
     return other.track != candidate.track &&
            pixelsBetween(candidate, other) < options_.merging_distance &&
-           (other.spot != kNone || spotBetween(image, candidate, other));
+           (other.spot != kNone ||
+            (tracks[other.track].isConfirmed() && spotBetween(image, candidate, other)));
   });
 }
 
@@ -363,11 +364,10 @@ void ImageUpdate::assignSpot(std::size_t spot, Candidate* candidate) {
 }
 
 ImageUpdate::Candidate* ImageUpdate::find(const std::vector<Track>& tracks, std::uint32_t id) {
-  for (std::size_t i = 0; i < candidate_count_; ++i) {
-    if (tracks[candidates_[i].track].id == id)
-      return &candidates_[i];
-  }
-  return nullptr;
+  auto* const found =
+      std::find_if(candidates_.data(), candidates_.data() + candidate_count_,
+                   [&](auto& candidate) { return tracks[candidate.track].id == id; });
+  return found == end() ? nullptr : found;
 }
 
 /// A merged spot lies between its two LEDs, perhaps nearer to the brighter one. It moves both by

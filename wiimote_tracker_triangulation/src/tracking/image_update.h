@@ -52,6 +52,7 @@ class ImageUpdate {
     return (a.prediction.pixel() - b.prediction.pixel()).norm();
   }
 
+  const Candidate* end() const { return candidates_.data() + candidate_count_; }
   void collectCandidates(const GroupCamera& camera,
                          const StoredImage& image,
                          std::vector<Track>* tracks);
@@ -66,7 +67,9 @@ class ImageUpdate {
                     const std::vector<Track>& tracks,
                     std::vector<CameraFit>* fits) const;
   bool isBeside(const Candidate& candidate, double distance) const;
-  bool mayBeMerged(const StoredImage& image, const Candidate& candidate) const;
+  bool mayBeMerged(const StoredImage& image,
+                   const Candidate& candidate,
+                   const std::vector<Track>& tracks) const;
   std::optional<std::size_t> nearestUnassigned(const StoredImage& image,
                                                const Eigen::Vector2d& pixel,
                                                double distance) const;

@@ -20,8 +20,8 @@ using virtual_wiimote::Senses;
 TEST(AgainstVirtualWiimote, EverySensitivityShowsTheLight) {
   for (const std::string& name : protocol::irSensitivityNames()) {
     Options options;
-    options.session.sensitivity = *protocol::irSensitivity(name);
-    options.session.leds = 0x5;
+    options.sensitivity = *protocol::irSensitivity(name);
+    options.leds = 0x5;
     Driven driven(options);
     driven.remote.senses.lights = {{123, 456, 7, 1}};
     ASSERT_TRUE(driven.runToLight()) << name;
@@ -43,7 +43,7 @@ TEST(AgainstVirtualWiimote, EverySensitivityShowsTheLight) {
 
 Options withFormat(protocol::IrFormat format) {
   Options options;
-  options.session.ir_format = format;
+  options.ir_format = format;
   return options;
 }
 
@@ -106,7 +106,7 @@ virtual_wiimote::Light dim() {
 
 TEST(AgainstVirtualWiimote, SensitivityChangedInTheStreamShowsAtOnce) {
   Options options;
-  options.session.sensitivity = *protocol::irSensitivity("wii_1");
+  options.sensitivity = *protocol::irSensitivity("wii_1");
   Driven driven(options);
   driven.remote.senses.lights = {dim()};
   driven.run(1.0);
@@ -128,7 +128,7 @@ TEST(AgainstVirtualWiimote, SensitivityChangedInTheStreamShowsAtOnce) {
 /// Missing images in 100 s.
 int missing(double status_interval, bool kernel) {
   Options options;
-  options.session.status_interval = status_interval;
+  options.status_interval = status_interval;
   virtual_wiimote::Faults faults;
   faults.second_master = kernel;
   Driven driven(options, faults);

@@ -14,7 +14,7 @@ TEST(HostileRemote, EachReportCausesFewWritesAndEveryWaitEnds) {
   std::mt19937 random(11);
   int sessions = 0;
   for (int i = 0; i < 300; ++i) {
-    SessionOptions options;
+    Options options;
     options.ir_format =
         std::array<protocol::IrFormat, 3>{protocol::IrFormat::kBasic, protocol::IrFormat::kExtended,
                                           protocol::IrFormat::kFull}[random() % 3];

@@ -25,7 +25,7 @@ class NoAllocation : public testing::TestWithParam<protocol::IrFormat> {};
 TEST_P(NoAllocation, PerReportInAnHour) {
   SteadyRemote remote;
   Options options;
-  options.session.ir_format = GetParam();
+  options.ir_format = GetParam();
   Wiimote wiimote(
       options, [&] { return remote.open(); }, [&] { return remote.now; });
   while (wiimote.link().state != Link::State::kStreaming) {

@@ -67,8 +67,8 @@ TEST_F(Replays, EndsOnce) {
 TEST_F(Replays, OtherSettingsAreAnsweredAndGetTheRecordedImages) {
   const std::vector<Frame> recorded = recordSimulation(Faults(), 3.0);
   Options options;
-  options.session.leds = 0x8;
-  options.session.sensitivity = *protocol::irSensitivity("wii_1");
+  options.leds = 0x8;
+  options.sensitivity = *protocol::irSensitivity("wii_1");
   Replay replay(path_);
   expectSame(recorded, 50.0, play(replay, options));
   EXPECT_TRUE(contains(replay.notice(), "sensitivity")) << replay.notice();

@@ -239,7 +239,7 @@ TEST_F(WiimoteTest, ItStreamsWithoutEeprom) {
 
 Options optionsOf(protocol::IrFormat format) {
   Options options;
-  options.session.ir_format = format;
+  options.ir_format = format;
   return options;
 }
 
@@ -299,7 +299,7 @@ TEST_F(FullFormat, OtherReportIdsAreCorrected) {
 
 TEST(Format, MustBeChosen) {
   EXPECT_THROW(Session(
-                   optionsOf(protocol::IrFormat::kNone).session, [](const Report&) {}, 0.0),
+                   optionsOf(protocol::IrFormat::kNone), [](const Report&) {}, 0.0),
                std::invalid_argument);
 }
 

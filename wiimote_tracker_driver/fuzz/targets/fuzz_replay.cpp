@@ -65,7 +65,7 @@ bool readThrough(const std::string& bytes) {
 void play(const std::string& path) {
   recording::Replay replay(path);
   wiimote::Options options;
-  options.session.ir_format = replay.irFormat().value_or(protocol::IrFormat::kExtended);
+  options.ir_format = replay.irFormat().value_or(protocol::IrFormat::kExtended);
   wiimote::Wiimote wiimote(
       options, [&] { return replay.open(); }, [&] { return replay.now(); });
   for (int turn = 0; turn < kMostTurns && !replay.ended(); ++turn) {
@@ -73,7 +73,7 @@ void play(const std::string& path) {
     replay.pass(wiimote.idleTime());
     const auto image = wiimote.step(0.1);
     if (image)
-      requireImage(*image, options.session.ir_format);
+      requireImage(*image, options.ir_format);
     require(std::isfinite(replay.now()) && replay.now() >= before, "time does not go back");
   }
   require(replay.notice().size() < 1000, "a notice is some sentences");

@@ -190,7 +190,7 @@ class Trial {
   }
 
   Decisions& in_;
-  wiimote::SessionOptions options_;
+  wiimote::Options options_;
   std::array<std::uint8_t, 256> registers_{};
   double now_ = 0.0;
   int writes_ = 0;

@@ -174,8 +174,8 @@ std::unique_ptr<transport::Transport> HostileWorld::open() {
 
 wiimote::Options optionsOf(Decisions& in) {
   wiimote::Options options;
-  options.session.ir_format = in.irFormat();
-  options.session.sensitivity = in.sensitivity();
+  options.ir_format = in.irFormat();
+  options.sensitivity = in.sensitivity();
   return options;
 }
 
@@ -232,7 +232,7 @@ class WiimoteTrial {
     require(wiimote_.link().error.size() < kLongestError, "errors are one sentence");
     if (!image)
       return false;
-    requireImage(*image, options_.session.ir_format);
+    requireImage(*image, options_.ir_format);
     return std::any_of(image->spots.begin(), image->spots.end(),
                        [](const protocol::IrSpot& spot) { return spot.seen; });
   }

@@ -107,7 +107,7 @@ void extension(Checks& checks) {
 
 void otherFormats(Checks& checks) {
   for (const auto format : {protocol::IrFormat::kBasic, protocol::IrFormat::kFull}) {
-    wiimote::SessionOptions options;
+    wiimote::Options options;
     options.ir_format = format;
     Streaming streaming(checks, options);
     const std::string name = format == protocol::IrFormat::kBasic ? "basic" : "full";

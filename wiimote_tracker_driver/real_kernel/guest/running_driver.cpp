@@ -14,22 +14,16 @@ namespace {
 constexpr double kTurn = 0.05;           // [s] Longest wait between checks whether to stop.
 constexpr double kCommandTimeout = 5.0;  // [s]
 
-wiimote::Options withSession(const wiimote::SessionOptions& session) {
-  wiimote::Options options;
-  options.session = session;
-  return options;
-}
-
 }  // namespace
 
 RunningDriver::RunningDriver(const std::string& device,
                              const Scene& scene,
                              ImageTotals& totals,
-                             const wiimote::SessionOptions& options)
+                             const wiimote::Options& options)
     : record_(scene),
       totals_(totals),
       options_(options),
-      wiimote_(withSession(options), transport::opener(transport::parseDeviceName(device)), now),
+      wiimote_(options, transport::opener(transport::parseDeviceName(device)), now),
       thread_([this] { run(); }) {}
 
 RunningDriver::~RunningDriver() {

@@ -21,7 +21,7 @@ class RunningDriver {
   RunningDriver(const std::string& device,
                 const Scene& scene,
                 ImageTotals& totals,
-                const wiimote::SessionOptions& options = {});
+                const wiimote::Options& options = {});
   ~RunningDriver();
 
   /// Runs this in the driver's thread, and waits for it.
@@ -44,7 +44,7 @@ class RunningDriver {
 
   ImageRecord record_;
   ImageTotals& totals_;
-  const wiimote::SessionOptions options_;
+  const wiimote::Options options_;
   wiimote::Wiimote wiimote_;
 
   mutable std::mutex mutex_;  // guards the next three

@@ -20,7 +20,7 @@ constexpr double kTimeout = 5.0;
 
 /// A remote that the kernel has set up, and a driver that streams from it.
 struct Streaming {
-  explicit Streaming(Checks& checks, const wiimote::SessionOptions& options = {})
+  explicit Streaming(Checks& checks, const wiimote::Options& options = {})
       : remote(kAddress, scene), driver(kAddress, scene, checks.images, options) {
     if (!driver.waitForState(wiimote::Link::State::kStreaming, kTimeout))
       throw std::runtime_error("the driver does not stream: " + driver.link().error);

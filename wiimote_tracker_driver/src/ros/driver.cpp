@@ -25,13 +25,13 @@ constexpr double kUsersCheck = 10.0;  // [s]; takes milliseconds
 
 wiimote::Options wiimoteOptions(const DriverParameters& p, protocol::IrFormat ir_format) {
   wiimote::Options options;
-  options.session.leds = leds(p.leds, p.camera_name);
-  options.session.ir_format = ir_format;
-  options.session.sensitivity =
+  options.leds = leds(p.leds, p.camera_name);
+  options.ir_format = ir_format;
+  options.sensitivity =
       sensitivity(p.ir_sensitivity, p.ir_sensitivity_block1, p.ir_sensitivity_block2);
-  options.session.reply_timeout = p.reply_timeout;
-  options.session.silence_timeout = p.silence_timeout;
-  options.session.status_interval = p.status_interval;
+  options.reply_timeout = p.reply_timeout;
+  options.silence_timeout = p.silence_timeout;
+  options.status_interval = p.status_interval;
   return options;
 }
 

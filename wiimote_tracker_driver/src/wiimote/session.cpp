@@ -11,6 +11,8 @@ namespace {
 using protocol::Report;
 
 constexpr std::uint8_t kErrorBusy = 4;
+// Of a request, after which the remote is given up.
+constexpr int kAttempts = 5;
 // Pause before a read is repeated that the remote refused as busy [s]; doubles each time.
 constexpr double kBusyPause = 0.02;
 // Implausible images pass for this long after a check has found the camera as configured [s]: some
@@ -25,7 +27,7 @@ bool isDataReport(std::uint8_t id) {
 
 }  // namespace
 
-Session::Session(const SessionOptions& options, Write write, double now)
+Session::Session(const Options& options, Write write, double now)
     : options_(options),
       write_(std::move(write)),
       camera_(options.sensitivity, options.ir_format),
@@ -151,7 +153,7 @@ void Session::unanswered(double now) {
   const bool command = in<SetLeds>() || in<StartClock>() || in<StartLogic>();
   if (in<SetMode>() && mode_seen_) {
     answered(now);
-  } else if (command && (!acknowledges_ || attempts_ >= options_.attempts)) {
+  } else if (command && (!acknowledges_ || attempts_ >= kAttempts)) {
     acknowledges_ = false;
     answered(now);
   } else {
@@ -160,7 +162,7 @@ void Session::unanswered(double now) {
 }
 
 void Session::retry(const std::string& why, double now) {
-  if (attempts_ < options_.attempts) {
+  if (attempts_ < kAttempts) {
     send(now);
   } else if (in<ReadCamera>()) {
     checkFailed(nullptr, false, now);

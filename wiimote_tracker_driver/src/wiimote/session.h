@@ -5,7 +5,7 @@
 #include "wiimote/duplicate_filter.h"
 #include "wiimote/factory_calibration.h"
 #include "wiimote/image_assembler.h"
-#include "wiimote/session_options.h"
+#include "wiimote/options.h"
 #include "wiimote/stream_watch.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"
@@ -64,7 +64,7 @@ class Session {
 
   /// Sends the first request. `now` [s] here and below is any clock that never goes back.
   /// @throws std::invalid_argument when options.ir_format is kNone.
-  Session(const SessionOptions& options, Write write, double now);
+  Session(const Options& options, Write write, double now);
 
   /// The remote sent a report. @returns the image that it completes, of the camera as configured.
   /// @throws SessionError when the remote is to be given up.
@@ -176,7 +176,7 @@ class Session {
   /// Whether the camera's registers can be read back, as far as known.
   enum class Registers { kUnknown, kReadable, kUnreadable };
 
-  SessionOptions options_;
+  Options options_;
   Write write_;
   FactoryCalibration factory_;
   CameraConfiguration camera_;

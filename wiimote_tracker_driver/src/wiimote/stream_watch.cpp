@@ -15,6 +15,11 @@ constexpr double kSilenceEffect = 0.2;
 constexpr double kModeAfterStatus = 0.03;
 // A lost mode within this time after a status is due to the kernel's driver [s].
 constexpr double kStatusEffect = 0.2;
+// Time without a light after which the camera is checked [s].
+constexpr double kDarkCheck = 0.5;
+// Between two checks of the camera, each of a third of its registers [s]. A check costs one data
+// report: one image in 200.
+constexpr double kCheckInterval = 2.0;
 // A light that appears within this time after a check in the dark is due to that check [s].
 constexpr double kDarkCheckEffect = 0.1;
 // Longest pause between two such checks [s].
@@ -27,7 +32,7 @@ void StreamWatch::start(double now) {
   mode_checked_ = false;
   mode_due_ = kNever;
   lightSeen(now);
-  check_due_ = now + options_.check_interval;
+  check_due_ = now + kCheckInterval;
   status_due_ = now + options_.status_interval;
 }
 
@@ -37,7 +42,7 @@ void StreamWatch::alive(double now) {
 }
 
 void StreamWatch::lightSeen(double now) {
-  dark_pause_ = options_.dark_check;
+  dark_pause_ = kDarkCheck;
   dark_check_from_ = now + dark_pause_;
   dark_checked_ = false;
   dark_check_due_ = kNever;
@@ -100,7 +105,7 @@ StreamWatch::Task StreamWatch::take(double now) {
     return Task::kCheckControl;
   }
   if (checks_ && now >= check_due_) {
-    check_due_ = now + options_.check_interval;
+    check_due_ = now + kCheckInterval;
     return Task::kCheckNext;
   }
   if (now >= status_due_) {

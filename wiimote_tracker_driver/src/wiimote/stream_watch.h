@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_STREAM_WATCH_H
 #define WIIMOTE_TRACKER_DRIVER_WIIMOTE_STREAM_WATCH_H
 
-#include "wiimote/session_options.h"
+#include "wiimote/options.h"
 
 #include <limits>
 
@@ -15,14 +15,14 @@ class StreamWatch {
     kRestart,          ///< No image for silence_timeout.
     kSetModeAndCheck,  ///< No image for 0.1 s: the report mode may be lost, or the camera off.
     kSetMode,          ///< A status came: the kernel's driver may have reset the report mode.
-    kCheckInDark,      ///< No light for dark_check: the camera may be off. Without checks again
+    kCheckInDark,      ///< No light for 0.5 s: the camera may be off. Without checks again
                        ///< after pauses that double up to a minute.
     kCheckControl,     ///< After doubt().
     kCheckNext,        ///< The next periodic check of the camera's registers is due.
     kAskStatus,        ///< The next request for the battery level is due.
   };
 
-  explicit StreamWatch(const SessionOptions& options) : options_(options) {}
+  explicit StreamWatch(const Options& options) : options_(options) {}
 
   /// The camera is set up; images are expected from `now` [s] on.
   void start(double now);
@@ -77,7 +77,7 @@ class StreamWatch {
   double modeCheckDue() const;
   void lightSeen(double now);
 
-  SessionOptions options_;
+  Options options_;
   bool checks_ = true;
 
   double last_image_ = 0.0;

@@ -11,13 +11,16 @@ using protocol::DataReport;
 namespace {
 // The kernel's buffer of 63 reports holds this much of a stream [s].
 constexpr double kBufferedTime = 0.6;
+// Between two attempts to connect [s]; doubles with each failure.
+constexpr double kShortestPause = 0.25;
+constexpr double kLongestPause = 0.5;
 }  // namespace
 
 Wiimote::Wiimote(const Options& options, Open open, Clock clock)
     : options_(options),
       open_(std::move(open)),
       clock_(std::move(clock)),
-      retry_pause_(options.retry_min),
+      retry_pause_(kShortestPause),
       next_attempt_(clock_()) {}
 
 Wiimote::~Wiimote() {
@@ -62,8 +65,7 @@ void Wiimote::connect() {
   last_read_ = clock_();
   backlog_ = false;
   session_.emplace(
-      options_.session, [this](const protocol::Report& report) { transport_->write(report); },
-      clock_());
+      options_, [this](const protocol::Report& report) { transport_->write(report); }, clock_());
 }
 
 std::optional<DataReport> Wiimote::receive(double max_wait) {
@@ -86,7 +88,7 @@ std::optional<DataReport> Wiimote::receive(double max_wait) {
   }
   if (image) {
     had_image_ = true;
-    retry_pause_ = options_.retry_min;
+    retry_pause_ = kShortestPause;
     if (new_epoch_) {
       new_epoch_ = false;
       ++link_.clock_epoch;
@@ -131,19 +133,19 @@ void Wiimote::drop(const std::string& error) {
   link_.error = error;
   ++link_changes_;
   next_attempt_ = clock_() + retry_pause_;
-  retry_pause_ = std::min(2.0 * retry_pause_, options_.retry_max);
+  retry_pause_ = std::min(2.0 * retry_pause_, kLongestPause);
 }
 
 void Wiimote::setSensitivity(const protocol::IrSensitivity& sensitivity) {
-  if (sensitivity == options_.session.sensitivity)
+  if (sensitivity == options_.sensitivity)
     return;
-  options_.session.sensitivity = sensitivity;
+  options_.sensitivity = sensitivity;
   if (session_)
     orDrop([&] { session_->setSensitivity(sensitivity, clock_()); });
 }
 
 void Wiimote::setLeds(std::uint8_t leds) {
-  options_.session.leds = leds;
+  options_.leds = leds;
   if (session_)
     orDrop([&] { session_->setLeds(leds); });
 }

@@ -12,12 +12,6 @@
 
 namespace wiimote_tracker::wiimote {
 
-struct Options {
-  SessionOptions session;
-  double retry_min = 0.25;  ///< [s, > 0] Pause after the first failure; doubles with each further.
-  double retry_max = 0.5;   ///< [s, >= retry_min] Longest pause.
-};
-
 /// The state of the connection.
 struct Link {
   enum class State {

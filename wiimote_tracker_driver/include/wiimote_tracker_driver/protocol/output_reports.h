@@ -4,10 +4,9 @@
 #include "wiimote_tracker_driver/protocol/report.h"
 
 #include <cstdint>
-#include <initializer_list>
 
-/// Reports of the host. Each carries the state of the motor, and asks for an acknowledgement (0x22)
-/// where the remote does not send one anyway.
+/// Reports of the host. Each asks for an acknowledgement (0x22) where the remote does not send one
+/// anyway, and carries the state of the motor: here it is off, see kRumbleBit.
 namespace wiimote_tracker::protocol {
 
 constexpr std::uint8_t kRumbleId = 0x10;
@@ -19,7 +18,7 @@ constexpr std::uint8_t kWriteMemoryId = 0x16;
 constexpr std::uint8_t kReadMemoryId = 0x17;
 constexpr std::uint8_t kIrLogicId = 0x1a;
 
-/// Bit of the second byte of every output report: the motor runs.
+/// Bit of the second byte of every output report: the motor runs. Set it in each report meanwhile.
 constexpr std::uint8_t kRumbleBit = 0x01;
 
 enum class Space : std::uint8_t { kEeprom = 0x00, kRegisters = 0x04 };
@@ -28,26 +27,22 @@ enum class Space : std::uint8_t { kEeprom = 0x00, kRegisters = 0x04 };
 Report setRumble(bool rumble);
 
 /// Player LEDs 1..4 in bits 0..3.
-Report setLeds(std::uint8_t leds, bool rumble = false);
+Report setLeds(std::uint8_t leds);
 
 /// Selects the data report: `continuous` at every sample, else on changes only.
-Report setReportMode(std::uint8_t data_report_id, bool continuous, bool rumble = false);
+Report setReportMode(std::uint8_t data_report_id, bool continuous);
 
-Report setIrClock(bool on, bool rumble = false);
-Report setIrLogic(bool on, bool rumble = false);
+Report setIrClock(bool on);
+Report setIrLogic(bool on);
 
 /// Answered by a Status.
-Report requestStatus(bool rumble = false);
+Report requestStatus();
 
 /// Answered by MemoryPackets of up to 16 bytes.
-Report readMemory(Space space, std::uint32_t address, std::uint16_t size, bool rumble = false);
+Report readMemory(Space space, std::uint32_t address, std::uint16_t size);
 
 /// Answered by an Acknowledgement. `data`: 1..16 bytes. @throws std::invalid_argument otherwise.
-Report writeMemory(Space space,
-                   std::uint32_t address,
-                   const std::uint8_t* data,
-                   std::size_t size,
-                   bool rumble = false);
+Report writeMemory(Space space, std::uint32_t address, const std::uint8_t* data, std::size_t size);
 
 }  // namespace wiimote_tracker::protocol
 

@@ -1,5 +1,7 @@
 #include "reference_clocks.h"
 
+#include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -7,7 +9,6 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-constexpr double kNominalPeriod = 0.010035;
 constexpr double kPeriodTolerance = 500e-6;
 
 double kalman(const SimulatedSession& session, const LinkModel& link) {

@@ -17,6 +17,11 @@ constexpr double kWanders = 0.095e-3;
 constexpr double kWandersMuch = 0.32e-3;
 constexpr double kWandersAsRecorded = 1.58e-3;
 
+// Of the period, relative; it stays within three times this.
+constexpr double kPeriodStddev = 2500e-6;
+// A report later than this is stale [s].
+constexpr double kStaleAge = 0.030;
+
 struct ModelPrior {
   DelayModel model;
   double prior;
@@ -93,21 +98,19 @@ ClockEstimator::Arrival ClockEstimator::arrivalAfter(double before, double time)
   return {time, before, std::exp(-(time - before) / kServiceTime) / kServiceTime};
 }
 
-ClockEstimator::Bank ClockEstimator::makeBank(const ExposureClockOptions& options) {
-  if (!(options.period > 0.0 && options.period_stddev > 0.0 && options.stale_age > 0.0))
-    throw std::invalid_argument(
-        "ExposureClockOptions: period, period_stddev and stale_age must be above 0.");
+ClockEstimator::Bank ClockEstimator::makeBank(double period) {
+  if (!(period > 0.0))
+    throw std::invalid_argument("ExposureClock: the period must be above 0.");
   const auto make = [&](int i) {
-    return ClockFilter(kModelPriors[i].model, options.period,
-                       options.period * options.period_stddev);
+    return ClockFilter(kModelPriors[i].model, period, period * kPeriodStddev);
   };
   return {make(0), make(1), make(2), make(3), make(4), make(5), make(6), make(7), make(8), make(9)};
 }
 
-ClockEstimator::ClockEstimator(const ExposureClockOptions& options)
-    : options_(options),
-      filters_(makeBank(options)),
-      edge_(options.period, 3.0 * options.period * options.period_stddev),
+ClockEstimator::ClockEstimator(double period)
+    : period_(period),
+      filters_(makeBank(period)),
+      edge_(period, 3.0 * period * kPeriodStddev),
       stall_probability_(kInitialStallProbability) {
   static_assert(sizeof(kModelPriors) / sizeof(kModelPriors[0]) == kModels,
                 "one filter per candidate");
@@ -116,7 +119,7 @@ ClockEstimator::ClockEstimator(const ExposureClockOptions& options)
 }
 
 void ClockEstimator::reset() {
-  *this = ClockEstimator(options_);
+  *this = ClockEstimator(period_);
 }
 
 void ClockEstimator::copyLinkFrom(const ClockEstimator& other) {
@@ -137,7 +140,7 @@ Estimate ClockEstimator::update(double arrival) {
   if (!running_) {
     running_ = true;
     origin_ = arrival;
-    last_exposure_ = -options_.period;
+    last_exposure_ = -period_;
     return restart(0.0, 0);
   }
   const double gap = arrival - origin_ - last_arrival_;
@@ -151,7 +154,7 @@ Estimate ClockEstimator::update(double arrival) {
   arrival = last_arrival_ + std::max(0.0, gap);
   updateModels(arrival);
   if (unexplained_ >= kMaxUnexplained || uncertain_ >= kMaxUncertain) {
-    filters_ = makeBank(options_);
+    filters_ = makeBank(period_);
     Estimate e = restart(arrival, frame_ + 1);
     e.restarted = true;
     return e;
@@ -185,7 +188,7 @@ Estimate ClockEstimator::restart(double arrival, std::int64_t frame) {
   last_arrival_ = arrival;
   last_exposure_ = exposure;
   e.exposure = origin_ + exposure;
-  e.stddev = e.clock_stddev = options_.period + (exposure - arrival);
+  e.stddev = e.clock_stddev = period_ + (exposure - arrival);
   return e;
 }
 
@@ -335,10 +338,10 @@ Estimate ClockEstimator::estimate(double arrival) {
   e.exposure = origin_ + exposure;
   e.clock_stddev = std::sqrt(variance);
   e.stddev = std::sqrt(variance + number_variance);
-  uncertain_ = e.stddev > options_.period ? uncertain_ + 1 : 0;
+  uncertain_ = e.stddev > period_ ? uncertain_ + 1 : 0;
   e.frame = frame_;
   e.dropped = static_cast<int>(std::max<std::int64_t>(0, frame_ - previous - 1));
-  e.stale = arrival - time > options_.stale_age;
+  e.stale = arrival - time > kStaleAge;
   statistics_.dropped += frame_ - previous - 1;
   statistics_.stale += e.stale ? 1 : 0;
   last_arrival_ = arrival;

@@ -21,8 +21,9 @@ namespace wiimote_tracker::exposure_clock {
 /// computes it exactly after a few seconds.
 class ClockEstimator {
  public:
-  /// @throws std::invalid_argument when an option is out of range.
-  explicit ClockEstimator(const ExposureClockOptions& options = {});
+  /// @param period nominal time between frames [s]. @throws std::invalid_argument when it is not
+  /// above 0.
+  explicit ClockEstimator(double period);
 
   /// Takes a report's arrival [s], best on a steady clock. An arrival before the previous one by
   /// more than a millisecond restarts the clock. @throws std::invalid_argument when it is not
@@ -34,7 +35,7 @@ class ClockEstimator {
   /// Copies what is known about stalls and losses of the link.
   void copyLinkFrom(const ClockEstimator& other);
 
-  const ExposureClockOptions& options() const { return options_; }
+  double nominalPeriod() const { return period_; }
   Statistics statistics() const;
 
   /// Logarithm of the density [1/s] that was predicted for the latest arrival.
@@ -43,7 +44,7 @@ class ClockEstimator {
  private:
   static constexpr int kModels = 10;
   using Bank = std::array<ClockFilter, kModels>;
-  static Bank makeBank(const ExposureClockOptions& options);
+  static Bank makeBank(double period);
 
   Estimate restart(double arrival, std::int64_t frame);
   struct Arrival;
@@ -60,7 +61,7 @@ class ClockEstimator {
   Estimate estimate(double arrival);
   const ClockFilter& best() const;
 
-  ExposureClockOptions options_;
+  double period_;  // nominal [s]
   Bank filters_;
   FrameHistory history_;
   SteadyEdge edge_;  // exact state of the filter for a sharp edge and a steady clock

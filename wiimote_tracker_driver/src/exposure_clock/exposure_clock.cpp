@@ -34,9 +34,9 @@ bool isOfPolls(double period) {
 
 }  // namespace
 
-ExposureClock::ExposureClock(const ExposureClockOptions& options)
-    : leader_(std::make_unique<ClockEstimator>(options)),
-      challenger_(std::make_unique<ClockEstimator>(options)),
+ExposureClock::ExposureClock(double period)
+    : leader_(std::make_unique<ClockEstimator>(period)),
+      challenger_(std::make_unique<ClockEstimator>(period)),
       progress_(-std::numeric_limits<double>::infinity()),
       leader_begin_(std::numeric_limits<double>::infinity()),
       last_arrival_(progress_),
@@ -47,7 +47,7 @@ ExposureClock::ExposureClock(ExposureClock&&) noexcept = default;
 ExposureClock& ExposureClock::operator=(ExposureClock&&) noexcept = default;
 
 void ExposureClock::reset() {
-  *this = ExposureClock(leader_->options());
+  *this = ExposureClock(leader_->nominalPeriod());
 }
 
 Estimate ExposureClock::update(double arrival) {

@@ -16,12 +16,6 @@ constexpr double kDriftGain = 0.01;
 // Shortest time between two stamps.
 const ros::Duration kLeastStep(1e-6);
 
-exposure_clock::ExposureClockOptions clockOptions(double period) {
-  exposure_clock::ExposureClockOptions options;
-  options.period = period;
-  return options;
-}
-
 // ros::Time cannot be negative, and simulated time begins at 0.
 ros::Time subtract(const ros::Time& time, double seconds) {
   return time.toSec() > seconds ? time - ros::Duration(seconds) : time;
@@ -29,8 +23,7 @@ ros::Time subtract(const ros::Time& time, double seconds) {
 
 }  // namespace
 
-ImageStamper::ImageStamper(const Options& options)
-    : options_(options), clock_(clockOptions(options.period)) {}
+ImageStamper::ImageStamper(const Options& options) : options_(options), clock_(options.period) {}
 
 ImageTime ImageStamper::stamp(const ClockReading& now, std::uint32_t device_epoch) {
   const bool stepped = any_image_ && rosClockStepped(now);

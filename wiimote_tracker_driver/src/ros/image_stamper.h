@@ -31,7 +31,7 @@ class ImageStamper {
   struct Options {
     double latency = 0.0;  ///< Constant part of the delay, subtracted [s].
     bool estimate = true;  ///< Else stamps are arrivals less the latency.
-    double period = exposure_clock::ExposureClockOptions().period;  ///< Between images [s].
+    double period = exposure_clock::kNominalPeriod;  ///< Between images [s].
   };
 
   /// Sums since the beginning, over all epochs.

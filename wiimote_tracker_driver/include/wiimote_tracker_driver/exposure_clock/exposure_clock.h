@@ -8,12 +8,7 @@ namespace wiimote_tracker::exposure_clock {
 
 class ClockEstimator;
 
-struct ExposureClockOptions {
-  double period = 0.010035;  ///< nominal time between frames [s], > 0
-  double period_stddev =
-      2500e-6;  ///< its standard deviation, relative, > 0; three times this is the limit
-  double stale_age = 0.030;  ///< a report later than this is stale [s], > 0
-};
+constexpr double kNominalPeriod = 0.010035;  ///< between frames of a Wii Remote [s]
 
 /// Estimate from the arrivals up to one report. Exposure times are late by the constant part of the
 /// delay, which cannot be estimated.
@@ -24,7 +19,7 @@ struct Estimate {
   double clock_stddev = 0.0;  ///< of exposure, given the frame number [s]
   std::int64_t frame = 0;  ///< most probable frame number; later reports may correct it downwards
   int dropped = 0;         ///< frames lost between the previous report and this one, as known now
-  bool stale = false;      ///< arrived more than stale_age late, e.g. after a stall
+  bool stale = false;      ///< arrived more than 30 ms late, e.g. after a stall
   bool restarted = false;  ///< the phase was lost, and is estimated anew from this report on
 };
 
@@ -52,8 +47,9 @@ struct Statistics {
 /// that over the last half minute is added to the stated variances.
 class ExposureClock {
  public:
-  /// @throws std::invalid_argument when an option is out of range.
-  explicit ExposureClock(const ExposureClockOptions& options = {});
+  /// @param period nominal time between frames [s]. @throws std::invalid_argument when it is not
+  /// above 0.
+  explicit ExposureClock(double period = kNominalPeriod);
   ~ExposureClock();
   ExposureClock(ExposureClock&&) noexcept;
   ExposureClock& operator=(ExposureClock&&) noexcept;

@@ -24,10 +24,10 @@ TEST_POINTS = np.array(
 CIRCLE_CENTERS = np.array([(1.0, 1.0, 0.23), (1.5, 1.5, 0.23), (1.25, 1.25, 0.95)])
 
 
-def placed_corners(seed: int, stddev: float = CORNER_STDDEV) -> np.ndarray:
+def placed_corners(seed: int) -> np.ndarray:
     """Random placements of the LED at the corners: some millimetres off."""
     placed = CORNERS.copy()
-    placed[:, :2] += stddev * np.random.RandomState(seed).randn(4, 2)
+    placed[:, :2] += CORNER_STDDEV * np.random.RandomState(seed).randn(4, 2)
     return placed
 
 
@@ -36,8 +36,8 @@ def alignment_points(seed: int, number: int = 25) -> np.ndarray:
     return np.random.RandomState(seed).uniform(0.1, SIDE - 0.1, (number, 3))
 
 
-def circle_points(number: int = 90) -> np.ndarray:
-    """Points on the three circles; `number` on each."""
-    angle = np.linspace(0.0, 2.0 * np.pi, number, endpoint=False)
+def circle_points() -> np.ndarray:
+    """Points on the three circles; 90 on each."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 90, endpoint=False)
     ring = CIRCLE_RADIUS * np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1)
     return np.concatenate([center + ring for center in CIRCLE_CENTERS])

@@ -9,7 +9,7 @@ CONFIDENCE = 0.95
 NORMAL_QUANTILE = 1.959963984540054  # of CONFIDENCE, both sides
 
 
-def bootstrap(units, statistic=np.mean, seed=1, resamples=1000, confidence=CONFIDENCE):
+def bootstrap(units, statistic=np.mean, seed=1, resamples=1000):
     """Interval of statistic(all values) by resampling whole units (B. Efron, 1979): expanded
     percentile interval (T. Hesterberg, The American Statistician 69, 2015), as wide for few units
     as Student's. For fewer than six it is at most their range, and covers 1 - 2^(1 - units).
@@ -24,7 +24,7 @@ def bootstrap(units, statistic=np.mean, seed=1, resamples=1000, confidence=CONFI
     random = np.random.RandomState(seed)
     drawn = [statistic(np.concatenate([units[i] for i in random.randint(0, len(units), len(units))]))
              for _ in range(resamples)]
-    tail = 100.0 * expanded_tail(len(units), 0.5 * (1.0 - confidence))
+    tail = 100.0 * expanded_tail(len(units), 0.5 * (1.0 - CONFIDENCE))
     low, high = np.percentile(drawn, [tail, 100.0 - tail])
     return float(low), float(high)
 

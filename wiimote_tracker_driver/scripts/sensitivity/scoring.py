@@ -38,10 +38,10 @@ def score(name: str, images_without: List[Image], images_with: List[Image]) -> L
                  sum(sizes) / len(sizes) if sizes else math.nan)
 
 
-def recommend(levels: List[Level], steady: float = STEADY) -> Tuple[Optional[Level], str]:
+def recommend(levels: List[Level]) -> Tuple[Optional[Level], str]:
     """The recommended level and the reason; (None, reason) when none sees the LED steadily.
     levels: of those that show the LED equally large, the last is preferred."""
-    steady_ones = [level for level in levels if level.seen >= steady]
+    steady_ones = [level for level in levels if level.seen >= STEADY]
     if not steady_ones:
         best = max(levels, key=lambda level: level.seen)
         sentence = (f'no sensitivity sees the LED steadily; the best, {best.name}, sees it in '

@@ -8,12 +8,12 @@ STOPPED = 5.0  # [s]
 IN_ONE = {'one_manager': True}
 
 
-def killed(name, what, node, last=0.0, ends=None, **how):
+def killed(name, what, node, last=0.0, **how):
     """kill -9 of a node. last: until the points are judged [s]."""
     def cause(room):
         room.kill(node)
         yield last
-    return Fault('kill_' + name, f'kill -9 of {what}', cause, ends=ends or (node,), **how)
+    return Fault('kill_' + name, f'kill -9 of {what}', cause, ends=(node,), **how)
 
 
 def halted(name, what, node, **how):

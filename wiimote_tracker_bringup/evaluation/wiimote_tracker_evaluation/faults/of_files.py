@@ -16,14 +16,16 @@ SAVES = 20
 PATIENCE = 30.0  # for the answer about one file [s]
 
 
-def answer_loads(pipe):
-    """Loads each rig file whose path comes; answers whether it was loaded, and the sentence."""
+def answer_calls(pipe, verb):
+    """Loads or saves (verb: load, save) the rig file of each path that comes; answers whether that
+    was done, and the sentence."""
     import rospy
-    from wiimote_tracker_msgs.srv import LoadRig
-    rospy.wait_for_service('calibration/load', 30.0)
-    load = rospy.ServiceProxy('calibration/load', LoadRig)
+    from wiimote_tracker_msgs.srv import LoadRig, SaveRig
+    service = 'calibration/' + verb
+    rospy.wait_for_service(service, 30.0)
+    call = rospy.ServiceProxy(service, {'load': LoadRig, 'save': SaveRig}[verb])
     while True:
-        response = load(pipe.recv())
+        response = call(pipe.recv())
         pipe.send((response.success, response.message))
 
 
@@ -32,7 +34,7 @@ def load_all(room, contents):
     loaded, and what went wrong."""
     loaded, problems = [], []
     path = room.file('damaged.yaml')
-    with Helper(answer_loads) as helper:
+    with Helper(answer_calls, 'load') as helper:
         for name, content in contents:
             with open(path, 'wb') as file:
                 file.write(content)
@@ -72,17 +74,6 @@ def changed_rig_files(room):
     return load_all(room, ((f'change {number}', changed()) for number in range(FLIPS)))[1]
 
 
-def answer_saves(pipe):
-    """Saves the rig to each path that comes; answers whether it was saved, and the sentence."""
-    import rospy
-    from wiimote_tracker_msgs.srv import SaveRig
-    rospy.wait_for_service('calibration/save', 30.0)
-    save = rospy.ServiceProxy('calibration/save', SaveRig)
-    while True:
-        response = save(pipe.recv())
-        pipe.send((response.success, response.message))
-
-
 @fault(quick=True)
 def files_that_are_no_rig(room):
     """What is loaded is a pipe, a device, a folder, 100 MB, or was solved in the year 1969 or 3e10."""
@@ -98,7 +89,7 @@ def files_that_are_no_rig(room):
         paths.append(room.file(f'solved_{number}.yaml'))
         with open(paths[-1], 'wb') as file:
             file.write(whole.replace(b'solved_at: 0.0', b'solved_at: ' + time))
-    with Helper(answer_loads) as helper:
+    with Helper(answer_calls, 'load') as helper:
         answers = {path: helper.ask(path, PATIENCE) for path in paths}
     return [f'{path}: {sentence!r}' for path, (success, sentence) in answers.items()
             if success or not sentence]
@@ -110,7 +101,7 @@ def two_saves_at_once(room):
     yield 0.0
     path = room.file('saved.yaml')
     problems = []
-    with Helper(answer_saves) as one, Helper(answer_saves) as other:
+    with Helper(answer_calls, 'save') as one, Helper(answer_calls, 'save') as other:
         for _ in range(SAVES):
             for helper in (one, other):
                 helper.pipe.send(path)
@@ -118,7 +109,7 @@ def two_saves_at_once(room):
                 success, sentence = helper.answer(PATIENCE)
                 if not success:
                     problems.append(sentence)
-    with Helper(answer_loads) as helper:
+    with Helper(answer_calls, 'load') as helper:
         problems += [f'{name} cannot be loaded' for name in sorted(os.listdir(room.folder))
                      if name.startswith('saved') and not helper.ask(room.file(name), PATIENCE)[0]]
         helper.ask(room.file('rig.yaml'), PATIENCE)
@@ -148,7 +139,7 @@ def full_disk(room):
     folder = room.file('disk')
     path, filler = folder + '/rig.yaml', folder + '/filler'
     problems = []
-    with small_disk(folder), Helper(answer_saves) as helper:
+    with small_disk(folder), Helper(answer_calls, 'save') as helper:
         if not helper.ask(path, PATIENCE)[0]:
             problems.append('not saved before')
         with open(path, 'rb') as file:

@@ -6,8 +6,8 @@ import numpy as np
 
 from wiimote_tracker_evaluation import charts
 from wiimote_tracker_evaluation.live.circles import errors_of, path_of
-from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
-from wiimote_tracker_evaluation.live.listener import Listener
+from wiimote_tracker_evaluation.live.dialogue import SKIP
+from wiimote_tracker_evaluation.live.listener import with_listener
 
 LAPS, QUICK_LAPS = 40, 6
 PATIENCE = 15.0  # for the next lap [s]
@@ -48,15 +48,13 @@ class LapsCounter:
             subscriber.unregister()
 
 
-def live(run, dialogue=None):
-    listener, dialogue = Listener(), dialogue or Dialogue()
+@with_listener
+def live(run, listener, dialogue):
     counter = LapsCounter(listener)
     try:
-        run.simulated = listener.is_simulated()
         measure(run, listener, counter, dialogue)
     finally:
         counter.close()
-        listener.close()
 
 
 def measure(run, listener, counter, dialogue):

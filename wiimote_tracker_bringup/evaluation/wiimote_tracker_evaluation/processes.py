@@ -28,6 +28,15 @@ def prctl(option, value):
     ctypes.CDLL(None, use_errno=True).prctl(option, value, 0, 0, 0)
 
 
+def spawn(command: List[str], output: str) -> subprocess.Popen:
+    """Starts a command with its output in the file `output`, in a session of its own; it ends with
+    this process."""
+    with open(output, 'ab') as file:
+        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=file,
+                                stderr=subprocess.STDOUT, start_new_session=True,
+                                preexec_fn=lambda: prctl(PR_SET_PDEATHSIG, signal.SIGTERM))
+
+
 def descendants() -> List[int]:
     """Ids of all processes below this one, except zombies."""
     parent_of = {}
@@ -62,11 +71,7 @@ class Processes:
 
     def start(self, name: str, command: List[str], output: str) -> subprocess.Popen:
         """Starts a command with its output in the file `output`."""
-        with open(output, 'ab') as file:
-            process = subprocess.Popen(
-                command, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.STDOUT,
-                start_new_session=True,
-                preexec_fn=lambda: prctl(PR_SET_PDEATHSIG, signal.SIGTERM))
+        process = spawn(command, output)
         self._started.append((name, process, output))
         return process
 

@@ -3,14 +3,13 @@
 import collections
 import os
 import signal
-import subprocess
 import time
 from typing import Dict
 
 import numpy as np
 
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.processes import prctl, PR_SET_PDEATHSIG
+from wiimote_tracker_evaluation.processes import spawn
 
 AT_ONCE = 2
 
@@ -51,7 +50,7 @@ def run_programs(commands, log, progress=lambda done, of: None):
     try:
         while waiting or running:
             while waiting and len(running) < AT_ONCE:
-                running.append(start(waiting.popleft(), log))
+                running.append(spawn(waiting.popleft(), log))
             time.sleep(0.02)
             for process in [each for each in running if each.poll() is not None]:
                 running.remove(process)
@@ -63,13 +62,6 @@ def run_programs(commands, log, progress=lambda done, of: None):
         for process in running:
             process.send_signal(signal.SIGKILL)
             process.wait()
-
-
-def start(command, log):
-    with open(log, 'ab') as file:
-        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=file,
-                                stderr=subprocess.STDOUT, start_new_session=True,
-                                preexec_fn=lambda: prctl(PR_SET_PDEATHSIG, signal.SIGTERM))
 
 
 def last_line(path: str) -> str:
